@@ -1,0 +1,22 @@
+# One interface target carries what every target of ours is compiled with; nothing is set globally.
+add_library(ursula_options INTERFACE)
+add_library(ursula::options ALIAS ursula_options)
+target_include_directories(ursula_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_features(ursula_options INTERFACE cxx_std_17)
+target_compile_options(ursula_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+# GCC 12 warns of fixed-size Eigen and Boost.Multiprecision code that it inlines (PR 105562 and kin); false alarms.
+target_compile_options(ursula_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overread>)
+if(URSULA_WERROR)
+  target_compile_options(ursula_options INTERFACE -Werror)
+endif()
+if(URSULA_SANITIZE)
+  target_compile_options(ursula_options INTERFACE -fsanitize=${URSULA_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(ursula_options INTERFACE -fsanitize=${URSULA_SANITIZE})
+endif()
+
+# Headers of others, without our warnings.
+add_library(ursula_eigen INTERFACE)
+add_library(ursula::eigen ALIAS ursula_eigen)
+target_include_directories(ursula_eigen SYSTEM INTERFACE
+  $<TARGET_PROPERTY:Eigen3::Eigen,INTERFACE_INCLUDE_DIRECTORIES> ${Boost_INCLUDE_DIRS})
+target_compile_definitions(ursula_eigen INTERFACE EIGEN_NO_AUTOMATIC_RESIZING)

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace ursula {
+
+/// A parameter that no machine or motion can have. `place` is the dotted key of the scenario
+/// (`manipulator.leg[2].proximal.mass`, legs 1-based), `bound` says what was expected.
+class InvalidParameter : public std::invalid_argument {
+ public:
+  InvalidParameter(std::string place, std::string value, std::string bound)
+      : std::invalid_argument(place + ": " + value + ", expected " + bound),
+        place_(std::move(place)),
+        value_(std::move(value)),
+        bound_(std::move(bound)) {}
+
+  const std::string& place() const { return place_; }
+  const std::string& value() const { return value_; }
+  const std::string& bound() const { return bound_; }
+
+ private:
+  std::string place_, value_, bound_;
+};
+
+}  // namespace ursula

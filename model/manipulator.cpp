@@ -1,0 +1,103 @@
+#include "model/manipulator.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "model/errors.h"
+
+namespace ursula {
+namespace {
+
+std::string text(const Vector3d& v) { return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z()); }
+
+void requireFinite(const std::string& place, const Vector3d& v) {
+  if (!v.allFinite()) throw InvalidParameter(place, text(v), "finite numbers");
+}
+
+void requireFinite(const std::string& place, double value) {
+  if (!std::isfinite(value)) throw InvalidParameter(place, fmt::format("{}", value), "a finite number");
+}
+
+void requirePositive(const std::string& place, double value) {
+  requireFinite(place, value);
+  if (!(value > 0)) throw InvalidParameter(place, fmt::format("{}", value), "> 0");
+}
+
+void requireNotNegative(const std::string& place, double value) {
+  requireFinite(place, value);
+  if (!(value >= 0)) throw InvalidParameter(place, fmt::format("{}", value), ">= 0");
+}
+
+/// A mass distribution exists for a tensor exactly if its principal moments are positive and no one exceeds the sum of
+/// the other two (Wittenburg, Dynamics of Multibody Systems, 2nd ed., sect. 3.1); equality is a lamina.
+void requireInertia(const std::string& place, const Matrix3d& inertia) {
+  if (!inertia.allFinite()) throw InvalidParameter(place, "a non-finite entry", "finite numbers");
+  if (!(inertia - inertia.transpose()).isZero(0)) throw InvalidParameter(place, "not symmetric", "a symmetric tensor");
+  const Vector3d moments = Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
+  const std::string value = "principal moments " + text(moments);
+  // The eigenvalues are known to a few eps of the largest.
+  const double rounding = 16 * Eigen::NumTraits<double>::epsilon() * moments.cwiseAbs().maxCoeff();
+  if (!(moments(0) > 0)) throw InvalidParameter(place, value, "all principal moments > 0");
+  if (!(moments(2) <= moments(0) + moments(1) + rounding))
+    throw InvalidParameter(place, value,
+                           fmt::format("the largest principal moment <= the sum of the others, {}",
+                                       moments(0) + moments(1)));
+}
+
+void requireLink(const std::string& place, const Link& link) {
+  requirePositive(place + ".length", link.length);
+  requirePositive(place + ".mass", link.mass);
+  requireFinite(place + ".center_of_mass", link.center_of_mass);
+  requireInertia(place + ".inertia", link.inertia);
+}
+
+void requireFriction(const std::string& place, const JointFriction& friction) {
+  requireNotNegative(place + ".actuated", friction.actuated);
+  requireNotNegative(place + ".universal", friction.universal);
+  requireNotNegative(place + ".knee", friction.knee);
+}
+
+std::string legPlace(int i) { return fmt::format("manipulator.leg[{}]", i + 1); }
+
+void requireLeg(const std::string& place, const Leg& leg) {
+  requireFinite(place + ".base_point", leg.base_point);
+  requireFinite(place + ".base_axis", leg.base_axis);
+  if (!(leg.base_axis.stableNorm() > 0))
+    throw InvalidParameter(place + ".base_axis", text(leg.base_axis), "a vector that is not zero");
+  requireFinite(place + ".platform_point", leg.platform_point);
+  requireLink(place + ".proximal", leg.proximal);
+  requireLink(place + ".distal", leg.distal);
+  requireFriction(place + ".friction", leg.friction);
+  requireFriction(place + ".coulomb", leg.coulomb);
+  requirePositive(place + ".coulomb.smoothing_speed", leg.coulomb.smoothing_speed);
+}
+
+/// Two legs and the platform edge between them must span the base edge, and the other way round; whatever the pose.
+void requireSpan(const ManipulatorParameters& machine, int i, int j) {
+  const Leg& first = machine.legs[static_cast<std::size_t>(i)];
+  const Leg& second = machine.legs[static_cast<std::size_t>(j)];
+  const double base = (first.base_point - second.base_point).norm();
+  const double platform = (first.platform_point - second.platform_point).norm();
+  const double reach =
+      first.proximal.length + first.distal.length + second.proximal.length + second.distal.length;
+  const double gap = std::abs(base - platform);
+  if (!(reach >= gap))
+    throw InvalidParameter(legPlace(i), fmt::format("l + s of legs {} and {} together {} m", i + 1, j + 1, reach),
+                           fmt::format(">= {} m, by which their base and platform distances differ", gap));
+}
+
+}  // namespace
+
+Manipulator::Manipulator(const ManipulatorParameters& parameters) : parameters_(parameters) {
+  requireFinite("manipulator.gravity", parameters_.gravity);
+  requirePositive("manipulator.platform.mass", parameters_.platform.mass);
+  requireFinite("manipulator.platform.center_of_mass", parameters_.platform.center_of_mass);
+  requireInertia("manipulator.platform.inertia", parameters_.platform.inertia);
+  for (int i = 0; i < leg_count; ++i) requireLeg(legPlace(i), leg(i));
+  for (int i = 0; i < leg_count; ++i)
+    for (int j = i + 1; j < leg_count; ++j) requireSpan(parameters_, i, j);
+}
+
+}  // namespace ursula

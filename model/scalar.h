@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/multiprecision/eigen.hpp>
+
+namespace ursula {
+
+/// The 50-digit scalar of reference values: the same kernels in it separate rounding from modelling.
+using Real50 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
+
+constexpr int leg_count = 6;
+/// Two links a leg and the platform. Bodies are ordered as in (30a): proximal links, distal links, platform.
+constexpr int body_count = 2 * leg_count + 1;
+
+template <class S>
+using Vector3 = Eigen::Matrix<S, 3, 1>;
+template <class S>
+using Matrix3 = Eigen::Matrix<S, 3, 3>;
+/// Six-vectors are [ω; v] or [n; f], as in the paper.
+template <class S>
+using Vector6 = Eigen::Matrix<S, 6, 1>;
+template <class S>
+using Matrix6 = Eigen::Matrix<S, 6, 6>;
+
+using Vector3d = Vector3<double>;
+using Matrix3d = Matrix3<double>;
+using Vector6d = Vector6<double>;
+using Matrix6d = Matrix6<double>;
+
+}  // namespace ursula

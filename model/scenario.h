@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "model/manipulator.h"
+#include "model/trajectory.h"
+
+namespace ursula {
+
+/// `file:line:column: error: what, what was expected, did you mean …`
+class ScenarioError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+enum class Integrator { rkf78, rk_merson };
+
+/// `[simulation]`: every key has a default, recorded in the results.
+struct SimulationSettings {
+  int samples = 301;                         ///< instants judged and written, >= 2
+  Integrator integrator = Integrator::rkf78; ///< "rkf78" (Boost.Odeint) or "rk_merson" (Simbody)
+  double tolerance = 1e-14;                  ///< of the integrator, absolute and relative, in [1e-15, 1e-3]
+};
+
+/// `[acceptance]`: limits of the user's own, by check name; those not named are derived.
+struct AcceptanceLimit {
+  std::string check;
+  double limit = 0;
+};
+
+struct Scenario {
+  std::string name;
+  std::filesystem::path file;
+  std::string text;  ///< the file as read: its hash is part of the provenance
+  std::shared_ptr<const Manipulator> manipulator;
+  std::shared_ptr<const Trajectory> trajectory;
+  SimulationSettings simulation;
+  std::vector<AcceptanceLimit> acceptance;
+};
+
+/// Reads and checks a whole scenario. Throws ScenarioError; nothing is accepted that is not understood.
+Scenario readScenario(const std::filesystem::path& file);
+
+/// The same from text; `file` names it in errors and anchors relative paths.
+Scenario parseScenario(const std::string& text, const std::filesystem::path& file);
+
+}  // namespace ursula

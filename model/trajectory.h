@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "model/scalar.h"
+
+namespace ursula {
+
+/// Pose, twist and twist rate of the platform at one instant; all in B, SI.
+template <class S>
+struct Motion {
+  S t{0};
+  Vector3<S> p = Vector3<S>::Zero();          ///< position of P
+  Matrix3<S> Q = Matrix3<S>::Identity();      ///< orientation of M in B
+  Vector3<S> omega = Vector3<S>::Zero();      ///< angular velocity ω of (7)
+  Vector3<S> p_dot = Vector3<S>::Zero();      ///< velocity of P
+  Vector3<S> omega_dot = Vector3<S>::Zero();  ///< angular acceleration
+  Vector3<S> p_ddot = Vector3<S>::Zero();     ///< acceleration of P
+};
+
+/// A commanded motion of the platform: pose, twist and twist rate at t in [0, duration], twice continuously
+/// differentiable; ω and ω̇ are exact derivatives of the orientation given.
+class Trajectory {
+ public:
+  virtual ~Trajectory() = default;
+  virtual std::string kind() const = 0;
+  virtual double duration() const = 0;  ///< t_f, s
+  virtual Motion<double> at(double t) const = 0;
+  virtual Motion<Real50> at(const Real50& t) const = 0;
+};
+
+/// The helix of the Appendix, (49)–(55).
+struct HelixParameters {
+  double duration = 3.0;   ///< t_f, s
+  double radius = 0;       ///< a, m, > 0
+  double pitch = 0;        ///< b, m/rad, not 0
+  double start_angle = 0;  ///< β₀
+  double end_angle = 0;    ///< β_f
+  double phase = 0;        ///< ω
+  double height_phase = 0; ///< ω̄
+  double start_rate = 0, end_rate = 0;                  ///< β̇₀, β̇_f, rad/s
+  double start_acceleration = 0, end_acceleration = 0;  ///< β̈₀, β̈_f, rad/s²
+};
+
+/// Throws InvalidParameter (places `trajectory.…`).
+std::unique_ptr<Trajectory> makeHelix(const HelixParameters& parameters);
+
+}  // namespace ursula

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ursula {
+
+enum class Verdict { pass, fail, inconclusive };
+
+/// "pass", "fail" or "inconclusive".
+const char* name(Verdict verdict);
+
+/// One statement that was judged: accepted exactly if `value <= limit`, so that NaN never passes.
+struct Check {
+  std::string name;  ///< `group.what`, e.g. "torque.pointwise"
+  double value = 0;
+  double limit = 0;
+  std::string unit;
+  Verdict verdict = Verdict::fail;
+  std::string basis;  ///< where the limit comes from, in words and numbers
+  std::string why;    ///< what was found: which leg or body, when, how much
+};
+
+/// Accepts exactly if `value <= limit` and both are finite.
+Check judged(std::string name, double value, double limit, std::string unit, std::string basis, std::string why);
+
+/// A check that could not be made: a failure that says so.
+Check notMade(std::string name, std::string unit, std::string why);
+
+/// A check that cannot be judged here: inconclusive, with the reason.
+Check notJudgeable(std::string name, double value, double limit, std::string unit, std::string basis, std::string why);
+
+/// fail if any failed or there is none, else inconclusive if any was, else pass.
+Verdict overall(const std::vector<Check>& checks);
+
+/// Columns of equal length, named as in the CSV contract (`quantity_index_unit`).
+struct TimeSeries {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> columns;
+
+  void add(std::string column_name, std::vector<double> values);
+  /// nullptr where there is none.
+  const std::vector<double>* find(const std::string& column_name) const;
+  std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
+};
+
+/// What one scenario's validation found. Provenance keeps its order: (key, value as text).
+struct ValidationResult {
+  std::string scenario;
+  Verdict verdict = Verdict::fail;
+  std::vector<Check> checks;
+  std::vector<std::pair<std::string, std::string>> provenance;
+  /// Facts that are not judged: step counts, condition numbers, the dominant error, …
+  std::vector<std::pair<std::string, std::string>> findings;
+  TimeSeries timeseries;
+  /// Curves for the report beside the time series, each with columns of its own (work against precision, amplification, …).
+  std::vector<std::pair<std::string, TimeSeries>> curves;
+};
+
+}  // namespace ursula
