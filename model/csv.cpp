@@ -1,0 +1,130 @@
+#include "model/csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+
+#include "model/nearest.h"
+
+namespace ursula {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& file, int line, const std::string& what) {
+  throw CsvError(fmt::format("{}:{}: error: {}", file.string(), line, what));
+}
+
+std::string_view trimmed(std::string_view cell) {
+  const auto first = cell.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return cell.substr(first, cell.find_last_not_of(" \t") - first + 1);
+}
+
+std::vector<std::string_view> splitCells(std::string_view line) {
+  std::vector<std::string_view> cells;
+  for (;;) {
+    const auto comma = line.find(',');
+    cells.push_back(trimmed(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return cells;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+/// Lines without their ends (LF or CRLF), without a byte order mark and without blank lines at the end.
+std::vector<std::string_view> splitLines(std::string_view text) {
+  if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
+  std::vector<std::string_view> lines;
+  while (!text.empty()) {
+    const auto end = text.find('\n');
+    std::string_view line = text.substr(0, end);
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    lines.push_back(line);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  }
+  while (!lines.empty() && trimmed(lines.back()).empty()) lines.pop_back();
+  return lines;
+}
+
+void readHeader(std::string_view line, CsvTable& table) {
+  for (const std::string_view cell : splitCells(line)) {
+    const std::string name(cell);
+    if (name.empty()) fail(table.file, 1, "a column without a name, expected quantity_index_unit in each");
+    if (table.find(name)) fail(table.file, 1, "duplicate column '" + name + "', expected each name once");
+    table.names.push_back(name);
+    table.columns.emplace_back();
+  }
+}
+
+/// std::from_chars, since it knows no locale; a leading plus, which it refuses, is harmless.
+double readNumber(std::string_view cell, const CsvTable& table, int line, const std::string& column) {
+  std::string_view digits = cell;
+  if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error == std::errc() && end == digits.data() + digits.size() && std::isfinite(value)) return value;
+  const std::string shown = cell.empty() ? "an empty cell" : "'" + std::string(cell) + "'";
+  fail(table.file, line, fmt::format("{} in column '{}', expected a finite number", shown, column));
+}
+
+void readRow(std::string_view text, int line, CsvTable& table) {
+  const std::vector<std::string_view> cells = splitCells(text);
+  if (cells.size() != table.names.size())
+    fail(table.file, line,
+         fmt::format("{} cells, expected {}, one for each column of the header", cells.size(), table.names.size()));
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    table.columns[i].push_back(readNumber(cells[i], table, line, table.names[i]));
+  table.lines.push_back(line);
+}
+
+}  // namespace
+
+const std::vector<double>* CsvTable::find(const std::string& name) const {
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? nullptr : &columns[static_cast<std::size_t>(found - names.begin())];
+}
+
+const std::vector<double>& CsvTable::at(const std::string& name) const {
+  if (const std::vector<double>* column = find(name)) return *column;
+  fail(file, 1, "missing column '" + name + "', expected it in the header" + didYouMean(name, names));
+}
+
+std::string CsvTable::place(std::size_t row) const { return fmt::format("{}:{}", file.string(), lines.at(row)); }
+
+CsvTable parseCsv(const std::string& text, const std::filesystem::path& file) {
+  CsvTable table;
+  table.file = file;
+  const std::vector<std::string_view> lines = splitLines(text);
+  if (lines.empty()) fail(file, 1, "an empty file, expected a header line and rows of numbers");
+  readHeader(lines.front(), table);
+  for (std::size_t i = 1; i < lines.size(); ++i) readRow(lines[i], static_cast<int>(i) + 1, table);
+  if (table.lines.empty()) fail(file, 1, "no rows, expected at least one below the header");
+  return table;
+}
+
+CsvTable readCsv(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error)) fail(file, 1, "a folder, expected a CSV file");
+  std::ifstream in(file, std::ios::binary);
+  if (!in) fail(file, 1, "cannot be read, expected a CSV file");
+  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  return parseCsv(text, file);
+}
+
+std::string csvText(const std::vector<std::string>& names, const std::vector<std::vector<double>>& columns) {
+  if (names.empty() || names.size() != columns.size()) throw std::invalid_argument("csvText: one column for each name");
+  const std::size_t rows = columns.front().size();
+  for (const auto& column : columns)
+    if (column.size() != rows) throw std::invalid_argument("csvText: columns of unequal length");
+  fmt::memory_buffer out;
+  fmt::format_to(std::back_inserter(out), "{}\n", fmt::join(names, ","));
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      fmt::format_to(std::back_inserter(out), "{:.17g}{}", columns[i][row], i + 1 < columns.size() ? ',' : '\n');
+  return fmt::to_string(out);
+}
+
+}  // namespace ursula

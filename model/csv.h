@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace ursula {
+
+/// `file:line: error: what, what was expected`
+class CsvError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A CSV of numbers: one header line, then rows. Every column has as many finite numbers as there are rows.
+struct CsvTable {
+  std::filesystem::path file;
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> columns;  ///< one for each name
+  std::vector<int> lines;                    ///< 1-based line of each row in the file
+
+  /// The column of that name, or null where there is none.
+  const std::vector<double>* find(const std::string& name) const;
+  /// The same; throws CsvError naming the missing column, and the nearest of those that are there.
+  const std::vector<double>& at(const std::string& name) const;
+  std::size_t rows() const { return lines.size(); }
+  /// The place of a row for an error of the caller's own: `file:line`.
+  std::string place(std::size_t row) const;
+};
+
+/// Reads a comma-separated file; a byte order mark, CRLF and blanks around a cell are tolerated. Throws CsvError for an
+/// unreadable or empty file, unnamed or duplicate columns, missing or surplus cells and anything but finite numbers.
+CsvTable readCsv(const std::filesystem::path& file);
+
+/// The same from text; `file` names it in errors.
+CsvTable parseCsv(const std::string& text, const std::filesystem::path& file);
+
+/// One header line and the rows, numbers with 17 significant digits, so that reading them back gives the same doubles.
+/// Throws std::invalid_argument unless there is one column for each name and all are equally long.
+std::string csvText(const std::vector<std::string>& names, const std::vector<std::vector<double>>& columns);
+
+}  // namespace ursula

@@ -1,0 +1,141 @@
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "model/errors.h"
+#include "model/kernel_trajectory.h"
+#include "model/trajectory.h"
+
+namespace ursula {
+namespace {
+
+/// The helix's parameter and its first two rates at one instant.
+template <class S>
+struct HelixParameter {
+  S beta, rate, acceleration;
+};
+
+/// Coefficients aₖ t_fᵏ of the quintic in s = t / t_f: scaled so, no power of t_f can overflow or underflow.
+///   a₀ … a₅ from the values, rates and accelerations at both ends (paper, eq. 51)
+template <class S>
+std::array<S, 6> quinticCoefficients(const HelixParameters& helix) {
+  const S duration(helix.duration);
+  const S rise = S(helix.end_angle) - S(helix.start_angle);
+  const S rate_0 = S(helix.start_rate) * duration;
+  const S rate_f = S(helix.end_rate) * duration;
+  const S acceleration_0 = S(helix.start_acceleration) * duration * duration;
+  const S acceleration_f = S(helix.end_acceleration) * duration * duration;
+  return {S(helix.start_angle),
+          rate_0,
+          acceleration_0 / 2,
+          (20 * rise - (8 * rate_f + 12 * rate_0) - (3 * acceleration_0 - acceleration_f)) / 2,
+          (-30 * rise + (14 * rate_f + 16 * rate_0) + (3 * acceleration_0 - 2 * acceleration_f)) / 2,
+          (12 * rise - (6 * rate_f + 6 * rate_0) - (acceleration_0 - acceleration_f)) / 2};
+}
+
+template <class S>
+class HelixKernel {
+ public:
+  explicit HelixKernel(const HelixParameters& helix)
+      : duration_(helix.duration),
+        a_(helix.radius),
+        b_(helix.pitch),
+        phase_(helix.phase),
+        height_phase_(helix.height_phase),
+        coefficients_(quinticCoefficients<S>(helix)) {}
+
+  /// With c = cos(β + ω), s = sin(β + ω), and ' the derivative by β:
+  ///   p = [a c, a s, b (β + ω̄)]          (paper, eq. 49)
+  ///   ṗ = m β̇,  p̈ = m β̈ + n β̇²           (paper, eq. 52)
+  ///   e_t = m / √(a² + b²),  e_n = n / a  (paper, eq. 54)
+  ///   Q = [−e_b, e_n, e_t]                (paper, eq. 55)
+  /// and the Appendix's ω = β̇ e_z, ω̇ = β̈ e_z: the triad turns about e_z with β.
+  Motion<S> at(const S& t) const {
+    using std::cos;
+    using std::sin;
+    using std::sqrt;
+    const HelixParameter<S> helix = parameter(t);
+    const S c = cos(helix.beta + phase_);
+    const S s = sin(helix.beta + phase_);
+    const Vector3<S> m(-a_ * s, a_ * c, b_);
+    const Vector3<S> n(-a_ * c, -a_ * s, S(0));
+    const Vector3<S> e_t = m / sqrt(a_ * a_ + b_ * b_);
+    const Vector3<S> e_n(-c, -s, S(0));
+
+    Motion<S> motion;
+    motion.t = t;
+    motion.p = Vector3<S>(a_ * c, a_ * s, b_ * (helix.beta + height_phase_));
+    motion.p_dot = m * helix.rate;
+    motion.p_ddot = m * helix.acceleration + n * (helix.rate * helix.rate);
+    motion.Q.col(0) = -e_t.cross(e_n);
+    motion.Q.col(1) = e_n;
+    motion.Q.col(2) = e_t;
+    motion.omega.z() = helix.rate;
+    motion.omega_dot.z() = helix.acceleration;
+    return motion;
+  }
+
+ private:
+  /// β by Horner's rule (paper, eq. 50), and β̇, β̈ (paper, eq. 53).
+  HelixParameter<S> parameter(const S& t) const {
+    const S s = t / duration_;
+    S beta(0), rate(0), acceleration(0);
+    for (int k = 5; k >= 0; --k) {
+      const S& coefficient = coefficients_[static_cast<std::size_t>(k)];
+      beta = beta * s + coefficient;
+      if (k >= 1) rate = rate * s + k * coefficient;
+      if (k >= 2) acceleration = acceleration * s + k * (k - 1) * coefficient;
+    }
+    return {beta, rate / duration_, acceleration / (duration_ * duration_)};
+  }
+
+  S duration_, a_, b_, phase_, height_phase_;
+  std::array<S, 6> coefficients_;
+};
+
+void require(bool holds, const char* key, double value, const char* bound) {
+  if (!holds) throw InvalidParameter(std::string("trajectory.") + key, fmt::format("{}", value), bound);
+}
+
+void validate(const HelixParameters& helix) {
+  const std::pair<const char*, double> all[] = {{"duration", helix.duration},
+                                                {"radius", helix.radius},
+                                                {"pitch", helix.pitch},
+                                                {"start_angle", helix.start_angle},
+                                                {"end_angle", helix.end_angle},
+                                                {"phase", helix.phase},
+                                                {"height_phase", helix.height_phase},
+                                                {"start_rate", helix.start_rate},
+                                                {"end_rate", helix.end_rate},
+                                                {"start_acceleration", helix.start_acceleration},
+                                                {"end_acceleration", helix.end_acceleration}};
+  for (const auto& [key, value] : all) require(std::isfinite(value), key, value, "a finite number");
+  require(helix.duration > 0, "duration", helix.duration, "> 0");
+  require(helix.radius > 0, "radius", helix.radius, "> 0");
+  require(helix.pitch != 0, "pitch", helix.pitch, "not 0");
+}
+
+/// Finite parameters can still overflow, for instance t_f = 1e-200 s in β̈.
+void validateRange(const HelixParameters& helix, const HelixKernel<double>& kernel) {
+  for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    const Motion<double> motion = kernel.at(share * helix.duration);
+    const bool finite = motion.p.allFinite() && motion.Q.allFinite() && motion.p_dot.allFinite() &&
+                        motion.p_ddot.allFinite() && motion.omega_dot.allFinite();
+    require(finite, "duration", helix.duration, "a motion whose acceleration is finite");
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<Trajectory> makeHelix(const HelixParameters& parameters) {
+  validate(parameters);
+  HelixKernel<double> kernel(parameters);
+  validateRange(parameters, kernel);
+  return std::make_unique<KernelTrajectory<HelixKernel>>("helix", parameters.duration, std::move(kernel),
+                                                         HelixKernel<Real50>(parameters));
+}
+
+}  // namespace ursula
