@@ -1,0 +1,223 @@
+#!/usr/bin/env python3
+"""Holds the tree to what docs and design promise of it.
+
+    tools/check_structure.py [ROOT]          who includes whom; docs/equations.md against the tags in the code
+    tools/check_structure.py --tags [ROOT]   only lists which file carries the tag of which equation
+
+Exits with 0, or with 1 after one line `place: what is wrong` for each finding.
+"""
+
+import re
+import sys
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+import sources  # noqa: E402
+
+# Which folder may include from which.
+ALLOWED = {
+    "model": {"model"},
+    "nocsolver": {"nocsolver", "model"},
+    "validation": {"validation", "nocsolver", "model"},
+    "apps": {"apps", "validation", "nocsolver", "model"},
+    "tests": {"tests", "validation", "nocsolver", "model"},
+    "bench": {"bench", "tests", "validation", "nocsolver", "model"},
+}
+SIMBODY_HEADER = re.compile(r"(?i)^(simbody|simtk|simmath)|/(simbody|simtk|simmath)")
+SIMBODY_LOOP = re.compile(r"^model/simbody_loop[^/]*$")
+
+MAP = "docs/equations.md"
+TAGGED_FOLDERS = ("model", "nocsolver", "validation")
+LAST_EQUATION = 55
+PARTS = {2: "ab", 4: "abc", 11: "ab", 14: "ab", 15: "ab", 17: "ab", 19: "ab", 20: "ab", 30: "ab", 32: "ab",
+         39: "abc", 41: "abc", 42: "ab", 43: "abc", 46: "abc", 51: "abcd"}
+EQUATIONS = [f"{n}{part}" for n in range(1, LAST_EQUATION + 1) for part in PARTS.get(n, [""])]
+
+
+# --- who includes whom ------------------------------------------------------------------------------------------------
+
+def check_includes(root):
+    findings = []
+    for path in sources.files(root):
+        text = sources.read(root, path)
+        folder = path.split("/")[0]
+        for line, name, quoted in sources.includes(text):
+            place = f"{path}:{line}"
+            if quoted and not (root / name).is_file():
+                findings.append(f'{place}: "{name}" is no file of this project: name it from the root, or in <> if it is another\'s')
+            top = name.split("/")[0]
+            if top in sources.FOLDERS and top not in ALLOWED[folder]:
+                findings.append(f"{place}: {folder}/ may not include {top}/ ({name})")
+            if sources.is_internal(name) and sources.is_header(path) and not sources.is_internal(path):
+                findings.append(f"{place}: a header that others include may not include {name}, which is internal")
+        findings += check_roads(root, path)
+        if sources.is_header(path) and not sources.is_internal(path):
+            findings += check_no_simtk(path, text)
+    return findings
+
+
+def check_roads(root, path):
+    """The two roads meet nowhere, not through a third file either."""
+    findings = []
+    for name, chain in sources.reach(root, path).items():
+        via = " -> ".join(chain)
+        if path.startswith("nocsolver/") and (SIMBODY_HEADER.search(name) or SIMBODY_LOOP.match(name)):
+            findings.append(f"{path}: the solver may not see Simbody ({via})")
+        if SIMBODY_LOOP.match(path) and name.startswith("nocsolver/"):
+            findings.append(f"{path}: the Simbody loop may not see the solver ({via})")
+    return findings
+
+
+def check_no_simtk(path, text):
+    code = sources.code_only(text)
+    return [f"{path}:{number}: SimTK in a header that others include (only *_internal headers may)"
+            for number, line in enumerate(code.splitlines(), 1) if "SimTK" in line] + [
+            f"{path}:{line}: {name} in a header that others include (only *_internal headers may)"
+            for line, name, quoted in sources.includes(text) if not quoted and SIMBODY_HEADER.search(name)]
+
+
+def check_targets(root):
+    """What the CMake targets link, by folder."""
+    forbidden = {"nocsolver": re.compile(r"(?i)simbody|ursula::validation"),
+                 "model": re.compile(r"ursula[:_]+(nocsolver|validation)"),
+                 "validation": re.compile(r"(?i)ursula::apps|\$\{simbody_")}
+    findings = []
+    for folder, pattern in forbidden.items():
+        path = root / folder / "CMakeLists.txt"
+        if not path.is_file():
+            findings.append(f"{folder}/CMakeLists.txt: missing")
+            continue
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            found = pattern.search(line.split("#")[0])
+            if found:
+                findings.append(f"{folder}/CMakeLists.txt:{number}: {folder} may not link {found.group()}")
+    return findings
+
+
+# --- the equation map -------------------------------------------------------------------------------------------------
+
+def parse_equations(words):
+    """'15a' -> [15a]; '15' -> [15a, 15b]; '4a–c' -> [4a, 4b, 4c]; '22–24' -> [22, 23, 24]; a list with ', ' or ' and '.
+    None if it cannot be read or names an equation that the paper does not have."""
+    result = []
+    for item in re.split(r", and |, | and ", words):
+        match = re.fullmatch(r"\(?(\d+)([a-d]?)\)?(?:[–-]\(?(\d*)([a-d]?)\)?)?", item)
+        if not match:
+            return None
+        first, last = int(match[1]), int(match[3] or match[1])
+        from_part, to_part = match[2], match[4] or (match[2] if match[3] is None else "")
+        if match[3] == "" and not (match[2] and match[4]):
+            return None
+        found = [e for e in EQUATIONS if _in_range(e, first, from_part, last, to_part)]
+        if not found or f"{first}{from_part}" not in EQUATIONS and (from_part or first not in PARTS):
+            return None
+        result += found
+    return result
+
+
+def _in_range(equation, first, from_part, last, to_part):
+    number, part = int(equation.rstrip("abcd")), equation.lstrip("0123456789")
+    after = number > first or number == first and (not from_part or part >= from_part)
+    before = number < last or number == last and (not to_part or part <= to_part)
+    return after and before
+
+
+def tags_in_code(root):
+    """({equation: {file: line}}, findings)"""
+    tags, findings = {}, []
+    for path in sources.files(root, TAGGED_FOLDERS):
+        for number, line in enumerate(sources.read(root, path).splitlines(), 1):
+            for match in re.finditer(r"\(paper,?\s*(eqs?\b[^)]*|$)(\)[^()]*\))?\)?", line):
+                exact = re.match(r"\(paper, eqs?\. ((?:\([^()]*\)|[^()])+)\)", line[match.start():])
+                equations = parse_equations(exact[1]) if exact else None
+                if equations is None:
+                    findings.append(f"{path}:{number}: cannot read the tag {line[match.start():].strip()[:50]!r}: "
+                                    "write (paper, eq. 15a) or (paper, eqs. 4a–c, 13), on one line")
+                    continue
+                for equation in equations:
+                    tags.setdefault(equation, {}).setdefault(path, number)
+    return tags, findings
+
+
+def read_map(root):
+    """({equation: (line, code cell, test cell)}, findings)"""
+    rows, findings = {}, []
+    if not (root / MAP).is_file():
+        return rows, [f"{MAP}: missing"]
+    for number, line in enumerate(sources.read(root, MAP).splitlines(), 1):
+        if not re.match(r"\|\s*\(\d", line):
+            continue
+        cells = [c.strip() for c in re.split(r"(?<!\\)\|", line.strip())[1:-1]]
+        equation = cells[0].strip("()")
+        if len(cells) != 5 or cells[0] != f"({equation})" or not all(cells):
+            findings.append(f"{MAP}:{number}: five filled cells expected: | (15a) | what | code | test | deviation |")
+        elif equation not in EQUATIONS:
+            findings.append(f"{MAP}:{number}: the paper has no equation ({equation})")
+        elif equation in rows:
+            findings.append(f"{MAP}:{number}: ({equation}) has a row already, line {rows[equation][0]}")
+        else:
+            rows[equation] = (number, cells[2], cells[3])
+    findings += [f"{MAP}: no row for ({e})" for e in EQUATIONS if e not in rows]
+    return rows, findings
+
+
+def read_cell(root, place, cell, kind):
+    """({file}, findings) of a code or test cell: `path`: name, name; `path`: name. Or an em dash and why there is none."""
+    if cell.startswith("—"):
+        return set(), [] if len(cell) > 3 else [f"{place}: neither {kind} nor a reason: fill in, or write '— why not'"]
+    found, findings = set(), []
+    for entry in re.split(r"\s*;\s*|\s*<br>\s*", cell):
+        match = re.fullmatch(r"`([\w./-]+/[\w.-]+\.\w+)`(?::\s*(.+))?", entry)
+        if not match:
+            findings.append(f"{place}: cannot read {kind} {entry!r}: write `path/file`: name, name; `path/file`: name")
+            continue
+        path, names = match[1], match[2]
+        if not (root / path).is_file():
+            findings.append(f"{place}: there is no {path}")
+            continue
+        found.add(path)
+        if not names:
+            findings.append(f"{place}: name what in {path} it is")
+            continue
+        text = sources.read(root, path)
+        for name in re.split(r"\s*,\s*", names.replace("`", "")):
+            if not all(re.search(rf"\b{re.escape(part)}\b", text) for part in re.split(r"\.|::", name)):
+                findings.append(f"{place}: {path} does not have {name}")
+    return found, findings
+
+
+def check_equations(root):
+    tags, findings = tags_in_code(root)
+    rows, more = read_map(root)
+    findings += more
+    for equation, (number, code, test) in rows.items():
+        place = f"{MAP}:{number}: ({equation})"
+        mapped, more = read_cell(root, place, code, "code")
+        _, tests = read_cell(root, place, test, "test")
+        findings += more + tests
+        tagged = tags.get(equation, {})
+        findings += [f"{path}:{line}: tagged with ({equation}), but that row of {MAP} does not name this file"
+                     for path, line in tagged.items() if path not in mapped]
+        findings += [f"{place} names {path}, which carries no tag (paper, eq. {equation})"
+                     for path in sorted(mapped - set(tagged))]
+    return findings
+
+
+def main(arguments):
+    only_tags = "--tags" in arguments
+    places = [a for a in arguments if a != "--tags"]
+    root = Path(places[0] if places else Path(__file__).resolve().parent.parent)
+    if only_tags:
+        tags, findings = tags_in_code(root)
+        for equation in EQUATIONS:
+            print(f"({equation})", ", ".join(f"{p}:{n}" for p, n in tags.get(equation, {}).items()) or "—")
+    else:
+        findings = check_includes(root) + check_targets(root) + check_equations(root)
+    print(*findings, sep="\n", end="\n" if findings else "", file=sys.stderr)
+    if not findings and not only_tags:
+        print(f"structure: {len(sources.files(root))} files, {len(EQUATIONS)} equations, nothing amiss")
+    return 1 if findings else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

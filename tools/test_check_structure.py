@@ -1,0 +1,120 @@
+#!/usr/bin/env python3
+"""check_structure.py passes a sound tree and names each defect put into one."""
+
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import check_structure  # noqa: E402
+import sources  # noqa: E402
+
+
+def sound_tree():
+    rows = []
+    for equation in check_structure.EQUATIONS:
+        code, test = "— a definition", "— a definition"
+        if equation in ("15a", "15b"):
+            code, test = "`nocsolver/leg.cpp`: legRates", "`tests/leg_test.cpp`: Leg.Rates"
+        rows.append(f"| ({equation}) | what | {code} | {test} | none |")
+    return {
+        "model/CMakeLists.txt": "target_link_libraries(m ${Simbody_LIBRARIES})\n",
+        "nocsolver/CMakeLists.txt": "target_link_libraries(n ursula::model)  # never Simbody\n",
+        "validation/CMakeLists.txt": "target_link_libraries(v ursula::nocsolver ursula::simbody_loop)\n",
+        "model/machine.h": "#include <Eigen/Core>\n",
+        "model/simbody_loop.h": "// SimTK stays behind this header.\n",
+        "model/simbody_loop_internal.h": "#include <Simbody.h>\nSimTK::State s;\n",
+        "model/simbody_loop.cpp": '#include "model/simbody_loop_internal.h"\n#include "model/simbody_loop.h"\n',
+        "nocsolver/leg.h": '#include "model/machine.h"\n',
+        "nocsolver/leg.cpp": '#include "nocsolver/leg.h"\nvoid legRates();  // (paper, eqs. 15a–b)\n',
+        "validation/replay.cpp": '#include "model/simbody_loop.h"\n#include "nocsolver/leg.h"\n',
+        "apps/main.cpp": '#include "model/machine.h"\n',
+        "tests/leg_test.cpp": "TEST(Leg, Rates) {}\n",
+        "docs/equations.md": "\n".join(["| equation | says | code | test | deviation |", "|---|---|---|---|---|"] + rows) + "\n",
+    }
+
+
+class CheckStructure(unittest.TestCase):
+    def findings(self, **changes):
+        """Of the sound tree after `path=(old, new)`; an empty old appends; `__` stands for / and `_DOT_` for a point."""
+        tree = sound_tree()
+        for path, (old, new) in changes.items():
+            path = path.replace("__", "/").replace("_DOT_", ".")
+            before = tree.get(path, "")
+            tree[path] = before.replace(old, new) if old else before + new
+            self.assertNotEqual(tree[path], before, "the defect did not get into the tree")
+        with tempfile.TemporaryDirectory() as folder:
+            root = Path(folder)
+            for path, text in tree.items():
+                (root / path).parent.mkdir(parents=True, exist_ok=True)
+                (root / path).write_text(text, encoding="utf-8")
+            return (check_structure.check_includes(root) + check_structure.check_targets(root)
+                    + check_structure.check_equations(root))
+
+    def assert_caught(self, expected, **changes):
+        findings = self.findings(**changes)
+        self.assertTrue(any(expected in f for f in findings), f"{expected!r} not among {findings}")
+
+    def test_sound_tree_passes(self):
+        self.assertEqual(self.findings(), [])
+
+    def test_include_rules(self):
+        append = lambda text: ("", text)  # noqa: E731
+        self.assert_caught("the solver may not see Simbody", nocsolver__leg_DOT_cpp=append("#include <Simbody.h>\n"))
+        self.assert_caught("the solver may not see Simbody", nocsolver__leg_DOT_cpp=append('#include "model/simbody_loop.h"\n'))
+        self.assert_caught("leg.h -> model/machine.h -> model/simbody_loop.h",
+                           model__machine_DOT_h=append('#include "model/simbody_loop.h"\n'))
+        self.assert_caught("may not see the solver", model__simbody_loop_DOT_cpp=append('#include "nocsolver/leg.h"\n'))
+        self.assert_caught("model/ may not include nocsolver/", model__machine_DOT_h=append('#include "nocsolver/leg.h"\n'))
+        self.assert_caught("tests/ may not include apps/", apps__a_DOT_h=append("\n"), tests__leg_test_DOT_cpp=append('#include "apps/a.h"\n'))
+        self.assert_caught("which is internal", validation__r_DOT_h=append('#include "model/simbody_loop_internal.h"\n'))
+        self.assert_caught("is no file of this project", nocsolver__leg_DOT_cpp=append('#include "leg.h"\n'))
+
+    def test_simtk_in_headers(self):
+        self.assert_caught("SimTK in a header", model__simbody_loop_DOT_h=("", "const SimTK::State& s();\n"))
+        self.assert_caught("Simbody.h in a header", validation__r_DOT_h=("", "#include <Simbody.h>\n"))
+        self.assertEqual(self.findings(model__machine_DOT_h=("", "/* SimTK */ // SimTK\n")), [])
+
+    def test_targets(self):
+        self.assert_caught("nocsolver may not link", nocsolver__CMakeLists_DOT_txt=("", "link(${Simbody_LIBRARIES})\n"))
+        self.assert_caught("model may not link", model__CMakeLists_DOT_txt=("", "link(ursula::nocsolver)\n"))
+
+    def test_map_against_code(self):
+        self.assert_caught("which carries no tag (paper, eq. 15b)", nocsolver__leg_DOT_cpp=("15a–b", "15a"))
+        self.assert_caught("tagged with (36)", nocsolver__leg_DOT_cpp=("", "// (paper, eq. 36)\n"))
+        self.assert_caught("tagged with (51c)", model__machine_DOT_h=("", "// (paper, eq. 51)\n"))
+        self.assert_caught("does not have legSpeeds", docs__equations_DOT_md=("legRates", "legSpeeds"))
+        self.assert_caught("does not have Leg.Speeds", docs__equations_DOT_md=("Leg.Rates", "Leg.Speeds"))
+        self.assert_caught("there is no nocsolver/lag.cpp", docs__equations_DOT_md=("leg.cpp", "lag.cpp"))
+
+    def test_map_itself(self):
+        row = "| (7) | what | — a definition | — a definition | none |\n"
+        self.assert_caught("no row for (7)", docs__equations_DOT_md=(row, ""))
+        self.assert_caught("(7) has a row already", docs__equations_DOT_md=("", row))
+        self.assert_caught("no equation (56)", docs__equations_DOT_md=("", row.replace("(7)", "(56)")))
+        self.assert_caught("no equation (15)", docs__equations_DOT_md=("", row.replace("(7)", "(15)")))
+        self.assert_caught("neither code nor a reason", docs__equations_DOT_md=(row, row.replace("— a definition", "—")))
+        self.assert_caught("five filled cells", docs__equations_DOT_md=(row, "| (7) | what | none |\n"))
+
+    def test_malformed_tags(self):
+        for tag in ("(paper, eq 7)", "(paper, eq. 99)", "(paper, eq. 7a)", "(paper, eq. b)", "(paper eq. 7)", "(paper, eq.\n// 7)"):
+            self.assert_caught("cannot read the tag", model__machine_DOT_h=("", f"// {tag}\n"))
+        self.assertEqual(self.findings(model__machine_DOT_h=("", "// (paper, Fig. 3)\n")), [])
+
+    def test_equation_lists(self):
+        read = check_structure.parse_equations
+        self.assertEqual(read("15"), ["15a", "15b"])
+        self.assertEqual(read("(15a)"), ["15a"])
+        self.assertEqual(read("4a–c, 13 and 22-24"), ["4a", "4b", "4c", "13", "22", "23", "24"])
+        self.assertEqual(read("14b–16"), ["14b", "15a", "15b", "16"])
+        for wrong in ("", "0", "56", "1a", "4a–", "x", "15c"):
+            self.assertIsNone(read(wrong), wrong)
+
+    def test_sources(self):
+        self.assertEqual(sources.code_only('a /* SimTK\n */ b // SimTK\n"SimTK" c').split(), ["a", "b", "c"])
+
+
+if __name__ == "__main__":
+    unittest.main()
