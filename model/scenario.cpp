@@ -1,0 +1,100 @@
+#include "model/scenario.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "model/scenario_sections.h"
+
+namespace ursula {
+namespace {
+
+toml::table parseToml(const std::string& text, const std::string& file) {
+  try {
+    return toml::parse(std::string_view(text), std::string_view(file));
+  } catch (const toml::parse_error& error) {
+    throw errorAt(file, error.source().begin, std::string(error.description()) + ", expected valid TOML");
+  }
+}
+
+/// Results go into a folder of that name.
+std::string readName(const TomlSection& document) {
+  std::string name;
+  document.require("name", name);
+  const bool plain =
+      std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == '/' || c == '\\'; });
+  if (!plain || name.empty() || name == "." || name == "..")
+    document.fail("name", fmt::format("'{}', expected a name that a folder can have, without '/'", name));
+  return name;
+}
+
+SimulationSettings readSimulation(const TomlSection& table) {
+  constexpr int most_samples = 1000000;
+  table.allowOnly({"samples", "integrator", "tolerance"});
+  SimulationSettings settings;
+  table.read("samples", settings.samples);
+  if (!(settings.samples >= 2 && settings.samples <= most_samples))
+    table.fail("samples", fmt::format("{}, expected an integer from 2 to {}", settings.samples, most_samples));
+  if (const auto integrator = table.readChoice("integrator", {"rkf78", "rk_merson"}))
+    settings.integrator = *integrator == 0 ? Integrator::rkf78 : Integrator::rk_merson;
+  table.read("tolerance", settings.tolerance);
+  if (!(settings.tolerance >= 1e-15 && settings.tolerance <= 1e-3))
+    table.fail("tolerance", fmt::format("{}, expected a number from 1e-15 to 1e-3", settings.tolerance));
+  return settings;
+}
+
+/// Names of checks have dots of their own: "a.b" = 1, a.b = 1 and [acceptance.a] b = 1 all name the check a.b.
+void readAcceptance(const TomlSection& table, const std::string& prefix, std::vector<AcceptanceLimit>& limits) {
+  for (const auto& [key, node] : table.table()) {
+    const std::string name(key.str());
+    if (node.is_table()) {
+      readAcceptance(*table.section(name), prefix + name + ".", limits);
+      continue;
+    }
+    AcceptanceLimit limit;
+    limit.check = prefix + name;
+    table.require(name, limit.limit);
+    if (!(limit.limit > 0)) table.fail(name, fmt::format("{}, expected a number > 0", limit.limit));
+    const auto same = [&](const AcceptanceLimit& other) { return other.check == limit.check; };
+    if (std::any_of(limits.begin(), limits.end(), same)) table.fail(name, "a second limit for one check, expected one");
+    limits.push_back(limit);
+  }
+}
+
+Scenario assemble(const TomlSection& document) {
+  document.allowOnly({"name", "manipulator", "trajectory", "simulation", "acceptance"});
+  Scenario scenario;
+  scenario.name = readName(document);
+  scenario.manipulator = std::make_shared<Manipulator>(readManipulator(document.requiredSection("manipulator")));
+  scenario.trajectory = readTrajectory(document.requiredSection("trajectory"));
+  if (const auto table = document.section("simulation")) scenario.simulation = readSimulation(*table);
+  if (const auto table = document.section("acceptance")) readAcceptance(*table, "", scenario.acceptance);
+  return scenario;
+}
+
+}  // namespace
+
+Scenario parseScenario(const std::string& text, const std::filesystem::path& file) {
+  const toml::table table = parseToml(text, file.string());
+  const TomlSection document(table, "", file.string());
+  try {
+    Scenario scenario = assemble(document);
+    scenario.file = file;
+    scenario.text = text;
+    return scenario;
+  } catch (const InvalidParameter& refusal) {
+    throw located(refusal, document);
+  }
+}
+
+Scenario readScenario(const std::filesystem::path& file) {
+  std::error_code error;
+  std::ifstream in(file, std::ios::binary);
+  if (!in || std::filesystem::is_directory(file, error))
+    throw errorAt(file.string(), {}, "cannot be read, expected a scenario in TOML");
+  return parseScenario({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()}, file);
+}
+
+}  // namespace ursula

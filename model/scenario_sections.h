@@ -1,0 +1,22 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "model/errors.h"
+#include "model/scenario.h"
+#include "model/toml_reader.h"
+
+// The parts of a scenario, each read from its own table; scenario.cpp puts them together. All throw ScenarioError;
+// what only Manipulator or a trajectory can judge comes back as InvalidParameter, for `located` to place.
+
+namespace ursula {
+
+ManipulatorParameters readManipulator(const TomlSection& manipulator);
+std::shared_ptr<const Trajectory> readTrajectory(const TomlSection& trajectory);
+
+/// Finds the value that `refusal` names in the document, or in manipulator.leg_defaults where a leg inherits it, or the
+/// nearest table around it.
+ScenarioError located(const InvalidParameter& refusal, const TomlSection& document);
+
+}  // namespace ursula

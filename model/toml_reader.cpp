@@ -1,0 +1,191 @@
+#include "model/toml_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "model/nearest.h"
+
+namespace ursula {
+namespace {
+
+std::string typeName(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "an array";
+    case toml::node_type::string:
+      return "a string";
+    case toml::node_type::integer:
+      return "an integer";
+    case toml::node_type::floating_point:
+      return "a float";
+    case toml::node_type::boolean:
+      return "a boolean";
+    default:
+      return "a date or time";
+  }
+}
+
+std::string quotedList(const std::vector<std::string>& words) {
+  std::string list;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) list += i + 1 < words.size() ? ", " : " or ";
+    list += "'" + words[i] + "'";
+  }
+  return list;
+}
+
+}  // namespace
+
+ScenarioError errorAt(const std::string& file, const toml::source_position& position, const std::string& message) {
+  // A default position is line 0; people and editors count from 1.
+  return ScenarioError(
+      fmt::format("{}:{}:{}: error: {}", file, std::max(position.line, 1U), std::max(position.column, 1U), message));
+}
+
+void TomlSection::failAt(const toml::node& node, const std::string& message) const {
+  throw errorAt(file_, node.source().begin, message);
+}
+
+void TomlSection::fail(const std::string& what) const { failAt(*table_, place_.empty() ? what : place_ + ": " + what); }
+
+void TomlSection::fail(const std::string& key, const std::string& what) const {
+  failAt(*table_->get(key), placeOf(key) + ": " + what);
+}
+
+void TomlSection::missing(const std::string& key, const std::string& expected) const {
+  failAt(*table_, fmt::format("missing key '{}'{}, expected {}", key, inPlace(), expected));
+}
+
+void TomlSection::allowOnly(const std::vector<std::string>& keys) const {
+  // toml++ orders keys by name; the first in the file is the one to report.
+  const toml::key* first = nullptr;
+  for (const auto& [key, node] : *table_) {
+    if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;
+    const auto position = [](const toml::key& k) {
+      return std::make_pair(k.source().begin.line, k.source().begin.column);
+    };
+    if (!first || position(key) < position(*first)) first = &key;
+  }
+  if (!first) return;
+  const std::string key(first->str());
+  throw errorAt(
+      file_, first->source().begin,
+      fmt::format("unknown key '{}'{}, expected {}{}", key, inPlace(), quotedList(keys), didYouMean(key, keys)));
+}
+
+double TomlSection::number(const toml::node& node, const std::string& place) const {
+  if (!node.is_number()) failAt(node, fmt::format("{}: {}, expected a number", place, typeName(node)));
+  const double value =
+      node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();
+  if (!std::isfinite(value)) failAt(node, fmt::format("{}: {}, expected a finite number", place, value));
+  return value;
+}
+
+std::optional<std::vector<double>> TomlSection::numbers(const std::string& key, std::size_t size,
+                                                        std::size_t or_size) const {
+  const toml::node* node = table_->get(key);
+  if (!node) return std::nullopt;
+  const std::string expected = fmt::format(
+      "an array of {} numbers", size == or_size ? std::to_string(size) : fmt::format("{} or {}", size, or_size));
+  const toml::array* array = node->as_array();
+  if (!array) fail(key, typeName(*node) + ", expected " + expected);
+  if (array->size() != size && array->size() != or_size)
+    fail(key, fmt::format("an array of {}, expected {}", array->size(), expected));
+  std::vector<double> values;
+  for (std::size_t i = 0; i < array->size(); ++i)
+    values.push_back(number(*array->get(i), fmt::format("{}[{}]", placeOf(key), i + 1)));
+  return values;
+}
+
+bool TomlSection::read(const std::string& key, double& value) const {
+  const toml::node* node = table_->get(key);
+  if (node) value = number(*node, placeOf(key));
+  return node != nullptr;
+}
+
+bool TomlSection::read(const std::string& key, int& value) const {
+  const toml::node* node = table_->get(key);
+  if (!node) return false;
+  if (!node->is_integer()) fail(key, typeName(*node) + ", expected an integer");
+  const std::int64_t given = node->as_integer()->get();
+  if (given < std::numeric_limits<int>::min() || given > std::numeric_limits<int>::max())
+    fail(key, fmt::format("{}, expected an integer of 32 bits", given));
+  value = static_cast<int>(given);
+  return true;
+}
+
+bool TomlSection::read(const std::string& key, std::string& value) const {
+  const toml::node* node = table_->get(key);
+  if (!node) return false;
+  if (!node->is_string()) fail(key, typeName(*node) + ", expected a string");
+  value = node->as_string()->get();
+  return true;
+}
+
+bool TomlSection::read(const std::string& key, Vector3d& value) const {
+  const auto given = numbers(key, 3, 3);
+  if (given) value = Eigen::Map<const Vector3d>(given->data());
+  return given.has_value();
+}
+
+bool TomlSection::read(const std::string& key, Eigen::Vector4d& value) const {
+  const auto given = numbers(key, 4, 4);
+  if (given) value = Eigen::Map<const Eigen::Vector4d>(given->data());
+  return given.has_value();
+}
+
+bool TomlSection::readInertia(const std::string& key, Matrix3d& value) const {
+  const auto given = numbers(key, 3, 6);
+  if (!given) return false;
+  const std::vector<double>& i = *given;
+  value = Vector3d(i[0], i[1], i[2]).asDiagonal();
+  if (i.size() == 6) {
+    value(0, 1) = value(1, 0) = i[3];
+    value(0, 2) = value(2, 0) = i[4];
+    value(1, 2) = value(2, 1) = i[5];
+  }
+  return true;
+}
+
+std::optional<std::size_t> TomlSection::readChoice(const std::string& key,
+                                                   const std::vector<std::string>& choices) const {
+  std::string given;
+  if (!read(key, given)) return std::nullopt;
+  const auto found = std::find(choices.begin(), choices.end(), given);
+  if (found == choices.end())
+    fail(key, fmt::format("'{}', expected {}{}", given, quotedList(choices), didYouMean(given, choices)));
+  return static_cast<std::size_t>(found - choices.begin());
+}
+
+std::optional<TomlSection> TomlSection::section(const std::string& key) const {
+  const toml::node* node = table_->get(key);
+  if (!node) return std::nullopt;
+  if (!node->is_table()) fail(key, typeName(*node) + ", expected a table");
+  return TomlSection(*node->as_table(), placeOf(key), file_);
+}
+
+TomlSection TomlSection::requiredSection(const std::string& key) const {
+  const auto found = section(key);
+  if (!found) missing(key, "a table");
+  return *found;
+}
+
+std::vector<TomlSection> TomlSection::sections(const std::string& key) const {
+  const toml::node* node = table_->get(key);
+  if (!node) return {};
+  if (!node->is_array()) fail(key, typeName(*node) + ", expected an array of tables");
+  std::vector<TomlSection> all;
+  for (const toml::node& element : *node->as_array()) {
+    const std::string place = fmt::format("{}[{}]", placeOf(key), all.size() + 1);
+    if (!element.is_table()) failAt(element, fmt::format("{}: {}, expected a table", place, typeName(element)));
+    all.emplace_back(*element.as_table(), place, file_);
+  }
+  return all;
+}
+
+}  // namespace ursula
