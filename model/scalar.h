@@ -1,13 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <boost/multiprecision/cpp_bin_float.hpp>
-#include <boost/multiprecision/eigen.hpp>
 
 namespace ursula {
-
-/// The 50-digit scalar of reference values: the same kernels in it separate rounding from modelling.
-using Real50 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
 
 constexpr int leg_count = 6;
 /// Two links a leg and the platform. Bodies are ordered as in (30a): proximal links, distal links, platform.
