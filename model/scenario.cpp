@@ -64,11 +64,12 @@ void readAcceptance(const TomlSection& table, const std::string& prefix, std::ve
 }
 
 Scenario assemble(const TomlSection& document) {
-  document.allowOnly({"name", "manipulator", "trajectory", "simulation", "acceptance"});
+  document.allowOnly({"name", "manipulator", "trajectory", "load", "simulation", "acceptance"});
   Scenario scenario;
   scenario.name = readName(document);
   scenario.manipulator = std::make_shared<Manipulator>(readManipulator(document.requiredSection("manipulator")));
   scenario.trajectory = readTrajectory(document.requiredSection("trajectory"));
+  if (const auto table = document.section("load")) scenario.load = readLoad(*table);
   if (const auto table = document.section("simulation")) scenario.simulation = readSimulation(*table);
   if (const auto table = document.section("acceptance")) readAcceptance(*table, "", scenario.acceptance);
   return scenario;
@@ -86,6 +87,8 @@ Scenario parseScenario(const std::string& text, const std::filesystem::path& fil
     return scenario;
   } catch (const InvalidParameter& refusal) {
     throw located(refusal, document);
+  } catch (const CsvError& error) {
+    throw ScenarioError(error.what());
   }
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "model/load.h"
 #include "model/manipulator.h"
 #include "model/trajectory.h"
 
@@ -39,6 +40,7 @@ struct Scenario {
   std::string text;  ///< the file as read: its hash is part of the provenance
   std::shared_ptr<const Manipulator> manipulator;
   std::shared_ptr<const Trajectory> trajectory;
+  std::shared_ptr<const Load> load;  ///< null where none
   SimulationSettings simulation;
   std::vector<AcceptanceLimit> acceptance;
 };

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "model/csv.h"
 #include "model/errors.h"
 #include "model/scenario.h"
 #include "model/toml_reader.h"
@@ -14,6 +15,10 @@ namespace ursula {
 
 ManipulatorParameters readManipulator(const TomlSection& manipulator);
 std::shared_ptr<const Trajectory> readTrajectory(const TomlSection& trajectory);
+std::shared_ptr<const Load> readLoad(const TomlSection& load);
+
+/// The CSV that `key` names; a relative path is taken from the scenario's own folder. Throws also CsvError.
+CsvTable readCsvBeside(const TomlSection& table, const std::string& key);
 
 /// Finds the value that `refusal` names in the document, or in manipulator.leg_defaults where a leg inherits it, or the
 /// nearest table around it.

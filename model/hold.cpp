@@ -1,0 +1,46 @@
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "model/errors.h"
+#include "model/kernel_trajectory.h"
+#include "model/pose_spline.h"
+#include "model/trajectories.h"
+
+namespace ursula {
+namespace {
+
+template <class S>
+class HoldKernel {
+ public:
+  HoldKernel(const Vector3d& position, const Eigen::Vector4d& orientation) {
+    pose_.p = position.cast<S>();
+    const Eigen::Matrix<S, 4, 1> q = orientation.cast<S>();
+    pose_.Q = Eigen::Quaternion<S>(q(0), q(1), q(2), q(3)).normalized().toRotationMatrix();
+  }
+
+  Motion<S> at(const S& t) const {
+    Motion<S> motion = pose_;
+    motion.t = t;
+    return motion;
+  }
+
+ private:
+  Motion<S> pose_;
+};
+
+}  // namespace
+
+std::unique_ptr<Trajectory> makeHold(const Vector3d& position, const Eigen::Vector4d& orientation, double duration) {
+  if (!position.allFinite()) throw InvalidParameter("trajectory.position", "a non-finite entry", "finite numbers");
+  requireUnit(orientation, 1e-3, [](const std::string& value, const std::string& bound) {
+    throw InvalidParameter("trajectory.orientation", value, bound);
+  });
+  if (!(std::isfinite(duration) && duration > 0))
+    throw InvalidParameter("trajectory.duration", fmt::format("{}", duration), "> 0 and finite");
+  return std::make_unique<KernelTrajectory<HoldKernel>>("hold", duration, HoldKernel<double>(position, orientation),
+                                                        HoldKernel<Real50>(position, orientation));
+}
+
+}  // namespace ursula

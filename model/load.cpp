@@ -1,0 +1,100 @@
+#include "model/load.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "model/errors.h"
+#include "model/quintic_hermite.h"
+
+namespace ursula {
+namespace {
+
+using Knot = CurvePoint<Real50, 6>;
+
+/// The harmonic mean of the slopes on both sides, 0 at an extremum, as in F. N. Fritsch and J. Butland, SIAM J. Sci.
+/// Stat. Comput. 5 (1984) 300–304, and at most 5/4 of the lesser: then m₀ + m₁ <= 5/2 in units of a piece's slope, and
+/// the Bézier points 0, m₀/5, 2m₀/5, 1 − 2m₁/5, 1 − m₁/5, 1 of a quintic with zero second derivatives at its ends
+/// increase.
+Real50 limitedSlope(const Real50& before, const Real50& after) {
+  if (before * after <= 0) return 0;
+  const Real50 lesser = abs(before) < abs(after) ? before : after;
+  const Real50 mean = 2 * before * after / (before + after);
+  const Real50 most = 5 * lesser / 4;
+  return abs(mean) < abs(most) ? mean : most;
+}
+
+void require(bool holds, std::size_t row, const char* key, const std::string& value, const std::string& bound) {
+  if (!holds) throw InvalidParameter(fmt::format("load.table[{}].{}", row + 1, key), value, bound);
+}
+
+void validate(const std::vector<TimedWrench>& rows) {
+  if (rows.size() < 2) throw InvalidParameter("load.table", fmt::format("{} rows", rows.size()), ">= 2");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    require(std::isfinite(rows[i].time), i, "time", fmt::format("{}", rows[i].time), "a finite number");
+    require(i == 0 || rows[i].time > rows[i - 1].time, i, "time", fmt::format("{}", rows[i].time),
+            i == 0 ? "" : fmt::format("> {}, the time before", rows[i - 1].time));
+    require(rows[i].wrench.force.allFinite(), i, "force", "a non-finite entry", "finite numbers");
+    require(rows[i].wrench.moment.allFinite(), i, "moment", "a non-finite entry", "finite numbers");
+  }
+}
+
+QuinticHermite<Real50, 6> curveThrough(const std::vector<TimedWrench>& rows) {
+  std::vector<Knot> knots(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    knots[i].t = rows[i].time;
+    knots[i].value << rows[i].wrench.force.cast<Real50>(), rows[i].wrench.moment.cast<Real50>();
+  }
+  for (std::size_t i = 1; i + 1 < knots.size(); ++i) {
+    const Knot::Vector before = (knots[i].value - knots[i - 1].value) / (knots[i].t - knots[i - 1].t);
+    const Knot::Vector after = (knots[i + 1].value - knots[i].value) / (knots[i + 1].t - knots[i].t);
+    for (int k = 0; k < 6; ++k) knots[i].rate(k) = limitedSlope(before(k), after(k));
+  }
+  return QuinticHermite<Real50, 6>(knots);
+}
+
+}  // namespace
+
+struct LoadHistory::Curves {
+  QuinticHermite<Real50, 6> exact;
+  QuinticHermite<double, 6> rounded;
+  TimedWrench first, last;
+};
+
+namespace {
+
+template <class S>
+Wrench<S> widened(const Wrench<double>& wrench) {
+  return {wrench.force.cast<S>(), wrench.moment.cast<S>()};
+}
+
+/// Beyond the ends the rows themselves, to the last bit.
+template <class S>
+Wrench<S> wrenchAt(const QuinticHermite<S, 6>& curve, const TimedWrench& first, const TimedWrench& last, const S& t) {
+  if (t <= S(first.time)) return widened<S>(first.wrench);
+  if (t >= S(last.time)) return widened<S>(last.wrench);
+  const auto value = curve.at(t).value;
+  return {value.template head<3>(), value.template tail<3>()};
+}
+
+}  // namespace
+
+LoadHistory::LoadHistory(const std::vector<TimedWrench>& rows) {
+  validate(rows);
+  const QuinticHermite<Real50, 6> curve = curveThrough(rows);
+  curves_.reset(new Curves{curve, QuinticHermite<double, 6>(curve), rows.front(), rows.back()});
+}
+
+LoadHistory::~LoadHistory() = default;
+
+Wrench<double> LoadHistory::at(double t) const { return wrenchAt(curves_->rounded, curves_->first, curves_->last, t); }
+
+Wrench<Real50> LoadHistory::at(const Real50& t) const {
+  return wrenchAt(curves_->exact, curves_->first, curves_->last, t);
+}
+
+Wrench<double> Load::at(double t) const { return history ? history->at(t) : Wrench<double>{force, moment}; }
+
+Wrench<Real50> Load::at(const Real50& t) const { return history ? history->at(t) : widened<Real50>({force, moment}); }
+
+}  // namespace ursula
