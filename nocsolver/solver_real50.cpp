@@ -1,0 +1,5 @@
+#include "nocsolver/solver_impl.h"
+
+namespace ursula {
+template class Solver<Real50, Corrected>;
+}  // namespace ursula

@@ -1,0 +1,6 @@
+#include "nocsolver/solver_impl.h"
+
+namespace ursula {
+template class Solver<double, WithSlips>;
+template class Solver<Real50, WithSlips>;
+}  // namespace ursula
