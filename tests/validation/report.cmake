@@ -1,0 +1,23 @@
+# Tests of results and their report; to be included where GTest and GoogleTest are at hand.
+
+add_library(report_samples_data STATIC ${CMAKE_CURRENT_LIST_DIR}/report_samples.cpp)
+target_link_libraries(report_samples_data PUBLIC ursula::report)
+
+add_executable(report_tests ${CMAKE_CURRENT_LIST_DIR}/report_test.cpp ${CMAKE_CURRENT_LIST_DIR}/result_test.cpp)
+target_link_libraries(report_tests PRIVATE
+  report_samples_data ursula::model ursula::eigen nlohmann_json::nlohmann_json GTest::gtest_main)
+gtest_discover_tests(report_tests TEST_PREFIX report.)
+
+add_executable(report_samples ${CMAKE_CURRENT_LIST_DIR}/report_samples_main.cpp)
+target_link_libraries(report_samples PRIVATE report_samples_data)
+
+find_program(URSULA_CHROMIUM NAMES chromium chromium-browser google-chrome)
+set(samples_dir ${CMAKE_CURRENT_BINARY_DIR}/report_samples_out)
+add_test(NAME report.write_samples COMMAND report_samples ${samples_dir})
+set_tests_properties(report.write_samples PROPERTIES FIXTURES_SETUP report_samples)
+get_target_property(report_binary_dir ursula_report BINARY_DIR)
+# Where there is no Chromium the test fails and says so: a browser that is missing is no pass.
+add_test(NAME report.browser
+  COMMAND ${URSULA_NODE} ${CMAKE_CURRENT_LIST_DIR}/report_browser_test.mjs
+    ${samples_dir} ${report_binary_dir}/web ${URSULA_CHROMIUM})
+set_tests_properties(report.browser PROPERTIES FIXTURES_REQUIRED report_samples TIMEOUT 120)

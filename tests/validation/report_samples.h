@@ -1,0 +1,15 @@
+#pragma once
+
+#include "validation/result.h"
+
+namespace ursula::test {
+
+/// Made-up results with the shapes that real ones have: every chart, two curves, findings, provenance.
+ValidationResult passedSample();
+/// Two checks beyond their limits, one that was not made, and torques alone.
+ValidationResult failedSample();
+ValidationResult inconclusiveSample();
+/// Markup, control characters and broken UTF-8 wherever text goes, numbers that are not finite wherever numbers go.
+ValidationResult hostileSample();
+
+}  // namespace ursula::test

@@ -1,0 +1,30 @@
+// usage: report_samples DIR
+// Writes the sample results and an index over them, for the browser test.
+
+#include <filesystem>
+#include <iostream>
+
+#include "tests/validation/report_samples.h"
+#include "validation/report/report.h"
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "usage: report_samples DIR\n";
+    return 2;
+  }
+  using ursula::SuiteEntry, ursula::ValidationResult, ursula::Verdict;
+  namespace test = ursula::test;
+
+  const std::filesystem::path dir = argv[1];
+  std::vector<SuiteEntry> entries;
+  const auto add = [&](const ValidationResult& result, const char* folder, double seconds) {
+    writeResults(result, dir / folder);
+    entries.push_back(suiteEntry(result, folder, seconds));
+  };
+  add(test::passedSample(), "passed", 4.2);
+  add(test::failedSample(), "failed", 3.9);
+  add(test::inconclusiveSample(), "not judgeable", 4.4);
+  add(test::hostileSample(), "hostile", 0.1);
+  entries.push_back({"unreadable", Verdict::fail, "", {}, "scenario.toml:3:1: error: expected a value", 0});
+  writeSuiteIndex(entries, dir);
+}

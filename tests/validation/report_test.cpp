@@ -1,0 +1,237 @@
+// The files of a result, read back by other parsers than the code that wrote them: nlohmann::json, Boost's XML reader
+// and the project's CSV reader. What a browser makes of the HTML is report_browser_test.mjs's.
+
+#include "validation/report/report.h"
+
+#include <gtest/gtest.h>
+
+#include <boost/property_tree/xml_parser.hpp>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "model/csv.h"
+#include "tests/validation/report_samples.h"
+#include "validation/report/html.h"
+#include "validation/report/junit.h"
+#include "validation/report/plots.h"
+#include "validation/report/summary.h"
+#include "validation/report/text.h"
+
+namespace ursula {
+namespace {
+
+using boost::property_tree::ptree;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+std::string contentOf(const std::filesystem::path& file) {
+  std::ostringstream content;
+  content << std::ifstream(file, std::ios::binary).rdbuf();
+  return content.str();
+}
+
+ptree parsedXml(const std::string& xml) {
+  std::istringstream stream(xml);
+  ptree tree;
+  read_xml(stream, tree);
+  return tree;
+}
+
+std::size_t countOf(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+class ReportFiles : public testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::remove_all(dir_); }
+  void TearDown() override { std::filesystem::remove_all(dir_); }
+  std::filesystem::path dir_ = std::filesystem::path(testing::TempDir()) /
+                               (std::string("ursula_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+TEST_F(ReportFiles, areFourAndRepeatable) {
+  writeResults(test::passedSample(), dir_ / "a");
+  writeResults(test::passedSample(), dir_ / "b");
+  for (const char* file : {"summary.json", "timeseries.csv", "junit.xml", "report.html"}) {
+    EXPECT_FALSE(contentOf(dir_ / "a" / file).empty()) << file;
+    EXPECT_EQ(contentOf(dir_ / "a" / file), contentOf(dir_ / "b" / file)) << file;
+  }
+  const CsvTable table = readCsv(dir_ / "a" / "timeseries.csv");
+  EXPECT_EQ(table.names, test::passedSample().timeseries.names);
+  EXPECT_EQ(table.at("error_p_m"), *test::passedSample().timeseries.find("error_p_m"));
+}
+
+TEST_F(ReportFiles, leaveNoSummaryWhereWritingFailed) {
+  writeResults(test::passedSample(), dir_);
+  std::filesystem::remove(dir_ / "report.html");
+  std::filesystem::create_directories(dir_ / "report.html" / "in the way");
+  EXPECT_THROW(writeResults(test::passedSample(), dir_), std::exception);
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "summary.json"));
+}
+
+TEST_F(ReportFiles, ofASuiteAreIndexAndJunit) {
+  const ValidationResult passed = test::passedSample();
+  writeSuiteIndex({suiteEntry(passed, "sub folder/ä&b", 1.5)}, dir_);
+  const std::string index = contentOf(dir_ / "index.html");
+  EXPECT_NE(index.find("href=\"sub%20folder/%C3%A4%26b/report.html\""), std::string::npos);
+  EXPECT_NE(index.find("1 of 1 scenario passed"), std::string::npos);
+  EXPECT_NE(index.find("replay.position"), std::string::npos);  // the check closest to its limit
+  EXPECT_EQ(parsedXml(contentOf(dir_ / "junit.xml")).get<double>("testsuites.testsuite.<xmlattr>.time"), 1.5);
+}
+
+TEST(Summary, holdsTheContract) {
+  const auto json = nlohmann::json::parse(report::summaryJson(test::failedSample()));
+  EXPECT_EQ(json["scenario"], "torques of another solver");
+  EXPECT_EQ(json["verdict"], "fail");
+  EXPECT_EQ(json["checks"].size(), 9u);
+  EXPECT_EQ(json["checks"][0]["value"], 41.3);
+  for (const char* key : {"name", "value", "limit", "unit", "verdict", "basis", "why"}) {
+    EXPECT_TRUE(json["checks"][0].contains(key)) << key;
+  }
+  EXPECT_EQ(json["provenance"]["commit"], "478470f");
+}
+
+TEST(Summary, writesNullForWhatIsNotFinite) {
+  const auto json = nlohmann::json::parse(report::summaryJson(test::failedSample()));
+  EXPECT_TRUE(json["checks"][8]["value"].is_null());
+  EXPECT_TRUE(json["checks"][8]["limit"].is_null());
+  EXPECT_EQ(json["checks"][8]["why"], "the torques end at t = 2.1 s, the motion at t = 3 s");
+}
+
+TEST(Summary, keepsBothTextsOfARepeatedKey) {
+  ValidationResult result;
+  result.findings = {{"steps", "3"}, {"steps", "4"}};
+  EXPECT_EQ(nlohmann::json::parse(report::summaryJson(result))["findings"]["steps"], "3; 4");
+}
+
+TEST(Junit, countsAndShowsEveryKindOfCase) {
+  const ptree tree = parsedXml(report::junitXml({suiteEntry(test::passedSample(), "a", 0),
+                                                 suiteEntry(test::failedSample(), "b", 0),
+                                                 suiteEntry(test::inconclusiveSample(), "c", 0),
+                                                 {"d", Verdict::fail, "", {}, "unreadable", 0}}));
+  const ptree& counts = tree.get_child("testsuites.<xmlattr>");
+  EXPECT_EQ(counts.get<int>("tests"), 8 + 9 + 8 + 1);
+  EXPECT_EQ(counts.get<int>("failures"), 3);
+  EXPECT_EQ(counts.get<int>("skipped"), 1);
+  EXPECT_EQ(counts.get<int>("errors"), 1);
+}
+
+TEST(Junit, marksInconclusiveAsSkippedWithItsReason) {
+  const ptree tree = parsedXml(report::junitXml({suiteEntry(test::inconclusiveSample(), "", 0)}));
+  std::string message;
+  for (const auto& [tag, item] : tree.get_child("testsuites.testsuite")) {
+    if (tag == "testcase" && item.count("skipped") > 0) message = item.get<std::string>("skipped.<xmlattr>.message");
+  }
+  EXPECT_EQ(message, "inconclusive: amplification 3.1e14 leaves no digit of a double to judge by");
+}
+
+TEST(Junit, neverLooksBetterThanTheVerdict) {
+  const ptree none = parsedXml(report::junitXml({{"empty", Verdict::fail, "", {}, "", 0}}));
+  EXPECT_EQ(none.get<int>("testsuites.<xmlattr>.failures"), 1);
+  ValidationResult harder = test::passedSample();
+  harder.verdict = Verdict::inconclusive;
+  EXPECT_EQ(parsedXml(report::junitXml({suiteEntry(harder, "", 0)})).get<int>("testsuites.<xmlattr>.skipped"), 1);
+}
+
+TEST(Junit, isWellFormedWhateverTheTexts) {
+  const ptree tree = parsedXml(report::junitXml({suiteEntry(test::hostileSample(), "", 0)}));
+  const auto suite = tree.get<std::string>("testsuites.testsuite.<xmlattr>.name");
+  EXPECT_EQ(suite, "</script><script>alert('x')</script><!-- & \"quoted\" \xEF\xBF\xBD\xEF\xBF\xBD {{data}} ]]>");
+}
+
+TEST(Reason, namesTheWorstCheckAndHowFarItIs) {
+  const auto sentence = [](const ValidationResult& result) { return reason(result.verdict, result.checks); };
+  EXPECT_EQ(sentence(test::passedSample()),
+            "8 of 8 checks held; the closest to its limit, replay.position, is at 0.806 of its limit.");
+  EXPECT_EQ(sentence(test::failedSample()),
+            "3 of 9 checks failed, the worst torque.pointwise, which is at 1.01e+11 times its limit.");
+  EXPECT_EQ(sentence(test::inconclusiveSample()),
+            "Nothing failed, but 1 of 8 checks cannot be judged here, among them replay.orientation.");
+  EXPECT_EQ(reason(Verdict::fail, {}), "No check was made.");
+}
+
+TEST(LimitShare, isDefinedOnlyWhereItMeansSomething) {
+  const auto share = [](double value, double limit) { return limitShare(judged("", value, limit, "", "", "")); };
+  EXPECT_EQ(share(1, 4), 0.25);
+  EXPECT_EQ(share(0, 0), 0);
+  EXPECT_EQ(share(-1, 4), 0);
+  EXPECT_TRUE(std::isinf(share(1, 0)));
+  EXPECT_TRUE(std::isnan(share(nan, 1)));
+  EXPECT_EQ(share(std::numeric_limits<double>::infinity(), 1), std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(std::isnan(share(-2, -1)));
+}
+
+TEST(Standing, saysWhatNumbersCannot) {
+  const auto words = [](double value, double limit) { return standing(judged("", value, limit, "", "", "")); };
+  EXPECT_EQ(words(nan, 1), "has no value");
+  EXPECT_EQ(words(std::numeric_limits<double>::infinity(), 1), "is infinite");
+  EXPECT_EQ(words(1, nan), "cannot be set against its limit");
+  EXPECT_EQ(words(1, 0), "exceeds its limit of 0");
+  EXPECT_EQ(words(1, 2), "is at 0.5 of its limit");
+  EXPECT_EQ(words(3, 2), "is at 1.5 times its limit");
+}
+
+TEST(Plots, areThoseWhoseColumnsAreThere) {
+  const auto titles = [](const ValidationResult& result) {
+    std::vector<std::string> found;
+    for (const report::Plot& plot : report::plots(result)) found.push_back(plot.title);
+    return found;
+  };
+  EXPECT_EQ(
+      titles(test::passedSample()),
+      (std::vector<std::string>{"Actuator torques", "Replay: simulated against commanded pose", "Closure of the loops",
+                                "Position of P", "Work against precision", "Amplification"}));
+  EXPECT_EQ(titles(test::failedSample()), std::vector<std::string>{"Actuator torques"});
+  EXPECT_TRUE(titles({}).empty());
+}
+
+TEST(Plots, chooseLogarithmicAxesByTheData) {
+  const std::vector<report::Plot> plots = report::plots(test::passedSample());
+  EXPECT_FALSE(plots[0].log_y);
+  EXPECT_TRUE(plots[1].log_y);
+  EXPECT_TRUE(plots[4].log_x && plots[4].log_y);   // powers of ten in both
+  EXPECT_TRUE(!plots[5].log_x && plots[5].log_y);  // over time
+  ValidationResult narrow;
+  narrow.curves.emplace_back();
+  narrow.curves.back().second.add("n", {1, 2});
+  narrow.curves.back().second.add("error", {5, 6});
+  EXPECT_FALSE(report::plots(narrow)[0].log_x || report::plots(narrow)[0].log_y);
+}
+
+TEST(Plots, ascendInXAndDropWhatHasNone) {
+  const std::vector<report::Plot> plots = report::plots(test::hostileSample());
+  ASSERT_EQ(plots.size(), 3u);
+  EXPECT_EQ(plots[2].x, (std::vector<double>{1, 3}));
+  EXPECT_EQ(plots[2].lines[0].values[1], 1);
+  EXPECT_EQ(report::inWords(plots[1]), "Nothing to draw: every value is zero or not finite.");
+}
+
+TEST(Html, holdsVerdictAndChecksWithoutScript) {
+  const std::string html = report::reportHtml(test::failedSample());
+  EXPECT_NE(html.find("FAIL"), std::string::npos);
+  EXPECT_EQ(countOf(html, "<tr class=\"check "), 9u);
+  EXPECT_EQ(countOf(html, "<tr class=\"check fail\""), 3u);
+  EXPECT_LT(html.find("<tr class=\"check fail\""), html.find("<tr class=\"check pass\""));
+}
+
+TEST(Html, neverLetsTextBecomeMarkup) {
+  const std::string html = report::reportHtml(test::hostileSample());
+  EXPECT_EQ(countOf(html, "<script>alert"), 0u);
+  EXPECT_EQ(countOf(html, "</script>"), 2u);
+  EXPECT_EQ(countOf(html, "<!--"), 0u);
+}
+
+TEST(Text, isFilledOnceAndCompletely) {
+  EXPECT_EQ(report::filled("a{{b}}c", {{"b", "{{d}}"}}), "a{{d}}c");
+  EXPECT_THROW(report::filled("{{b}}", {}), std::logic_error);
+  EXPECT_THROW(report::filled("{{b", {{"b", ""}}), std::logic_error);
+}
+
+TEST(Text, escapesMarkup) { EXPECT_EQ(report::escaped("<a b='\"&>\n"), "&lt;a b=&#39;&quot;&amp;&gt;\n"); }
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,29 @@
+#include "validation/report/report.h"
+
+#include "model/atomic_file.h"
+#include "model/csv.h"
+#include "validation/report/html.h"
+#include "validation/report/junit.h"
+#include "validation/report/summary.h"
+
+namespace ursula {
+
+SuiteEntry suiteEntry(const ValidationResult& result, std::filesystem::path folder, double seconds) {
+  return {result.scenario, result.verdict, std::move(folder), result.checks, "", seconds};
+}
+
+void writeResults(const ValidationResult& result, const std::filesystem::path& dir) {
+  std::filesystem::remove(dir / "summary.json");
+  writeFileAtomically(dir / "timeseries.csv", csvText(result.timeseries.names, result.timeseries.columns));
+  writeFileAtomically(dir / "junit.xml", report::junitXml({suiteEntry(result, "", 0)}));
+  writeFileAtomically(dir / "report.html", report::reportHtml(result));
+  writeFileAtomically(dir / "summary.json", report::summaryJson(result));
+}
+
+void writeSuiteIndex(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir) {
+  std::filesystem::remove(dir / "index.html");
+  writeFileAtomically(dir / "junit.xml", report::junitXml(entries));
+  writeFileAtomically(dir / "index.html", report::indexHtml(entries));
+}
+
+}  // namespace ursula

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "validation/result.h"
+
+namespace ursula {
+
+/// One line of a suite: what the index needs to know of a scenario, without its time series.
+struct SuiteEntry {
+  std::string scenario;
+  Verdict verdict = Verdict::fail;
+  std::filesystem::path folder;  ///< of its results, relative to the index
+  std::vector<Check> checks;
+  std::string error;   ///< why there is no result: input that was refused, an exception; else empty
+  double seconds = 0;  ///< wall time; 0 where it was not measured
+};
+
+/// The line of `result` in a suite.
+SuiteEntry suiteEntry(const ValidationResult& result, std::filesystem::path folder, double seconds);
+
+/// The verdict's reason in one sentence: how many checks failed and the worst, or how close the closest came.
+std::string reason(Verdict verdict, const std::vector<Check>& checks);
+
+/// value / limit, 0 for values below zero; NaN without a value or without a finite limit that is not negative.
+double limitShare(const Check& check);
+
+/// The same in words: "is at 0.8 of its limit", "has no value", …
+std::string standing(const Check& check);
+
+/// The check that decides: first by verdict (fail, inconclusive, pass), then by limitShare, where NaN counts as 1; the
+/// first of equals. nullptr where there is no check.
+const Check* worstCheck(const std::vector<Check>& checks);
+
+/// Writes `timeseries.csv`, `junit.xml`, `report.html` and, last, `summary.json` into `dir`; an older summary is
+/// removed first, so that its presence means that all four belong together. Throws what writeFileAtomically throws.
+void writeResults(const ValidationResult& result, const std::filesystem::path& dir);
+
+/// Writes `junit.xml` over all entries and, last, `index.html` into `dir`. Throws what writeFileAtomically throws.
+void writeSuiteIndex(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir);
+
+}  // namespace ursula

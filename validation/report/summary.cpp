@@ -1,0 +1,42 @@
+#include "validation/report/summary.h"
+
+#include <nlohmann/json.hpp>
+
+#include "validation/report/report.h"
+
+namespace ursula::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// nlohmann::json itself writes null for what is not finite.
+Json checkJson(const Check& check) {
+  return {{"name", check.name}, {"value", check.value},           {"limit", check.limit},
+          {"unit", check.unit}, {"verdict", name(check.verdict)}, {"basis", check.basis},
+          {"why", check.why}};
+}
+
+// A key that comes twice keeps both texts.
+Json object(const std::vector<std::pair<std::string, std::string>>& facts) {
+  Json json = Json::object();
+  for (const auto& [key, text] : facts) {
+    json[key] = json.contains(key) ? json[key].get<std::string>() + "; " + text : text;
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string summaryJson(const ValidationResult& result) {
+  Json checks = Json::array();
+  for (const Check& check : result.checks) checks.push_back(checkJson(check));
+  const Json summary = {{"scenario", result.scenario},
+                        {"verdict", name(result.verdict)},
+                        {"reason", reason(result.verdict, result.checks)},
+                        {"checks", checks},
+                        {"findings", object(result.findings)},
+                        {"provenance", object(result.provenance)}};
+  return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace ursula::report
