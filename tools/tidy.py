@@ -4,7 +4,7 @@
     tools/tidy.py BUILD_FOLDER [FILE…]      BUILD_FOLDER holds compile_commands.json; without FILEs, all of ours
 
 What passed is remembered in BUILD_FOLDER/tidy under a hash of the unit, everything of ours that it includes, its compile
-command, .clang-tidy and the version of clang-tidy. Exits with 1 if anything was found.
+command, its .clang-tidy and the version of clang-tidy. Exits with 1 if anything was found.
 """
 
 import concurrent.futures
@@ -39,7 +39,8 @@ def units(build, only):
 def key(path, command, version):
     digest = hashlib.sha256()
     mine = sorted(name for name in sources.reach(ROOT, path) if (ROOT / name).is_file())
-    for part in [version, command, sources.read(ROOT, ".clang-tidy")] + [sources.read(ROOT, name) for name in [path] + mine]:
+    config = next(folder / ".clang-tidy" for folder in (ROOT / path).parents if (folder / ".clang-tidy").is_file())
+    for part in [version, command, config.read_text()] + [sources.read(ROOT, name) for name in [path] + mine]:
         digest.update(part.encode() + b"\0")
     return digest.hexdigest()
 
