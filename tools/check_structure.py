@@ -43,6 +43,8 @@ def check_includes(root):
         folder = path.split("/")[0]
         for line, name, quoted in sources.includes(text):
             place = f"{path}:{line}"
+            if folder in ("tests", "bench") and quoted:
+                name = sources.resolve(root, path, name)
             if quoted and not (root / name).is_file():
                 findings.append(f'{place}: "{name}" is no file of this project: name it from the root, or in <> if it is another\'s')
             top = name.split("/")[0]

@@ -1,5 +1,6 @@
 """What the checks know of the source tree: its files, their includes, their text without comments."""
 
+import posixpath
 import re
 from pathlib import Path
 
@@ -16,7 +17,8 @@ def files(root, folders=FOLDERS):
     """Paths relative to root, with forward slashes, sorted."""
     found = []
     for folder in folders:
-        found += [p.relative_to(root).as_posix() for p in (root / folder).rglob("*") if p.suffix in SUFFIXES]
+        found += [p.relative_to(root).as_posix() for p in (root / folder).rglob("*")
+                  if p.suffix in SUFFIXES and "node_modules" not in p.parts]
     return sorted(found)
 
 
@@ -37,6 +39,12 @@ def includes(text):
     return [(text.count("\n", 0, m.start(2)) + 1, m.group(2), m.group(1) == '"') for m in _INCLUDE.finditer(text)]
 
 
+def resolve(root, path, name):
+    """The file of ours that `path` means by `name`: named from the root, or beside `path`. `name` itself if it is none."""
+    beside = posixpath.normpath(posixpath.join(posixpath.dirname(path), name))
+    return beside if not (Path(root) / name).is_file() and (Path(root) / beside).is_file() else name
+
+
 def code_only(text):
     """The text with comments and string literals blanked; line numbers stay."""
     return _COMMENT_OR_STRING.sub(lambda m: re.sub(r"[^\n]", " ", m.group()), text)
@@ -49,7 +57,8 @@ def reach(root, path):
         current, chain = pending.pop()
         if not (Path(root) / current).is_file():
             continue
-        for _, name, _ in includes(read(root, current)):
+        for _, name, quoted in includes(read(root, current)):
+            name = resolve(root, current, name) if quoted else name
             if name not in chains:
                 chains[name] = chain + (name,)
                 pending.append((name, chain + (name,)))

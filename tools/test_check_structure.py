@@ -31,7 +31,8 @@ def sound_tree():
         "nocsolver/leg.cpp": '#include "nocsolver/leg.h"\nvoid legRates();  // (paper, eqs. 15a–b)\n',
         "validation/replay.cpp": '#include "model/simbody_loop.h"\n#include "nocsolver/leg.h"\n',
         "apps/main.cpp": '#include "model/machine.h"\n',
-        "tests/leg_test.cpp": "TEST(Leg, Rates) {}\n",
+        "tests/support.h": '#include "nocsolver/leg.h"\n',
+        "tests/leg_test.cpp": '#include "support.h"\nTEST(Leg, Rates) {}\n',
         "docs/equations.md": "\n".join(["| equation | says | code | test | deviation |", "|---|---|---|---|---|"] + rows) + "\n",
     }
 
@@ -68,7 +69,10 @@ class CheckStructure(unittest.TestCase):
                            model__machine_DOT_h=append('#include "model/simbody_loop.h"\n'))
         self.assert_caught("may not see the solver", model__simbody_loop_DOT_cpp=append('#include "nocsolver/leg.h"\n'))
         self.assert_caught("model/ may not include nocsolver/", model__machine_DOT_h=append('#include "nocsolver/leg.h"\n'))
-        self.assert_caught("tests/ may not include apps/", apps__a_DOT_h=append("\n"), tests__leg_test_DOT_cpp=append('#include "apps/a.h"\n'))
+        self.assert_caught("tests/ may not include apps/", apps__a_DOT_h=append("\n"),
+                           tests__leg_test_DOT_cpp=append('#include "../apps/a.h"\n'))
+        self.assert_caught("tests/ may not include apps/", apps__a_DOT_h=append("\n"),
+                           tests__leg_test_DOT_cpp=append('#include "apps/a.h"\n'))
         self.assert_caught("which is internal", validation__r_DOT_h=append('#include "model/simbody_loop_internal.h"\n'))
         self.assert_caught("is no file of this project", nocsolver__leg_DOT_cpp=append('#include "leg.h"\n'))
 
