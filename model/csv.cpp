@@ -80,6 +80,15 @@ void readRow(std::string_view text, int line, CsvTable& table) {
   table.lines.push_back(line);
 }
 
+/// Whether two columns differ in their index alone, as p_x_m and p_y_m do: the one is never a slip for the other.
+bool areSiblings(const std::string& a, const std::string& b) {
+  if (a.size() != b.size()) return false;
+  const auto [in_a, in_b] = std::mismatch(a.begin(), a.end(), b.begin());
+  if (in_a == a.end() || !std::equal(in_a + 1, a.end(), in_b + 1)) return false;
+  const bool alone_before = in_a == a.begin() || *(in_a - 1) == '_';
+  return alone_before && (in_a + 1 == a.end() || *(in_a + 1) == '_');
+}
+
 }  // namespace
 
 const std::vector<double>* CsvTable::find(const std::string& name) const {
@@ -89,7 +98,10 @@ const std::vector<double>* CsvTable::find(const std::string& name) const {
 
 const std::vector<double>& CsvTable::at(const std::string& name) const {
   if (const std::vector<double>* column = find(name)) return *column;
-  fail(file, 1, "missing column '" + name + "', expected it in the header" + didYouMean(name, names));
+  std::vector<std::string> candidates;
+  std::copy_if(names.begin(), names.end(), std::back_inserter(candidates),
+               [&](const std::string& other) { return !areSiblings(name, other); });
+  fail(file, 1, "missing column '" + name + "', expected it in the header" + didYouMean(name, candidates));
 }
 
 std::string CsvTable::place(std::size_t row) const { return fmt::format("{}:{}", file.string(), lines.at(row)); }

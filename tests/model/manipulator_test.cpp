@@ -1,0 +1,132 @@
+// Every refusal of a machine that cannot exist, and that the machine one step inside each bound is accepted.
+
+#include "model/manipulator.h"
+
+#include <gmock/gmock.h>
+
+#include <Eigen/Geometry>
+#include <limits>
+
+#include "model/scenario.h"
+#include "tests/model/refusals.h"
+#include "tests/model/scenario_text.h"
+
+namespace ursula {
+namespace {
+
+using testing::FieldsAre;
+using testing::HasSubstr;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+ManipulatorParameters good() { return parseScenario(good_scenario, "a.toml").manipulator->parameters(); }
+
+using Machine = ManipulatorParameters;
+
+struct Refusal {
+  const char* name;
+  void (*spoil)(Machine&);
+  const char* place;
+  const char* value;
+  const char* bound;
+};
+
+class RefusedManipulator : public testing::TestWithParam<Refusal> {};
+
+TEST_P(RefusedManipulator, namesPlaceValueAndBound) {
+  Machine machine = good();
+  EXPECT_NO_THROW(Manipulator{machine});
+  GetParam().spoil(machine);
+  EXPECT_THAT(refusedParameter([&] { Manipulator{machine}; }),
+              FieldsAre(GetParam().place, HasSubstr(GetParam().value), HasSubstr(GetParam().bound)));
+}
+
+std::string nameOf(const testing::TestParamInfo<Refusal>& row) { return row.param.name; }
+
+INSTANTIATE_TEST_SUITE_P(
+    Platform, RefusedManipulator,
+    testing::Values(
+        Refusal{"gravity", [](Machine& m) { m.gravity.z() = nan; }, "manipulator.gravity", "nan", "finite numbers"},
+        Refusal{"mass_zero", [](Machine& m) { m.platform.mass = 0; }, "manipulator.platform.mass", "0", "> 0"},
+        Refusal{"mass_nan", [](Machine& m) { m.platform.mass = nan; }, "manipulator.platform.mass", "nan", "finite"},
+        Refusal{"mass_inf", [](Machine& m) { m.platform.mass = inf; }, "manipulator.platform.mass", "inf", "finite"},
+        Refusal{"centre", [](Machine& m) { m.platform.center_of_mass.x() = inf; },
+                "manipulator.platform.center_of_mass", "inf", "finite numbers"},
+        Refusal{"inertia_nan", [](Machine& m) { m.platform.inertia(1, 2) = nan; }, "manipulator.platform.inertia",
+                "non-finite", "finite numbers"},
+        Refusal{"asymmetric", [](Machine& m) { m.platform.inertia(0, 1) = 1; }, "manipulator.platform.inertia",
+                "not symmetric", "a symmetric tensor"},
+        Refusal{"indefinite", [](Machine& m) { m.platform.inertia(0, 0) = -1; }, "manipulator.platform.inertia",
+                "principal moments [-1, 810", "all principal moments > 0"},
+        Refusal{"off_diagonal", [](Machine& m) { m.platform.inertia(0, 1) = m.platform.inertia(1, 0) = 900; },
+                "manipulator.platform.inertia", "principal moments [-", "all principal moments > 0"},
+        Refusal{"triangle", [](Machine& m) { m.platform.inertia(2, 2) = 1610.1; }, "manipulator.platform.inertia",
+                "[800, 810, 1610.1]", "<= the sum of the others, 1610"}),
+    nameOf);
+
+INSTANTIATE_TEST_SUITE_P(
+    Legs, RefusedManipulator,
+    testing::Values(Refusal{"base_point", [](Machine& m) { m.legs[0].base_point.x() = nan; },
+                            "manipulator.leg[1].base_point", "nan", "finite numbers"},
+                    Refusal{"axis_zero", [](Machine& m) { m.legs[5].base_axis.setZero(); },
+                            "manipulator.leg[6].base_axis", "[0, 0, 0]", "not zero"},
+                    Refusal{"axis_nan", [](Machine& m) { m.legs[5].base_axis.y() = nan; },
+                            "manipulator.leg[6].base_axis", "nan", "finite numbers"},
+                    Refusal{"platform_point", [](Machine& m) { m.legs[2].platform_point.z() = -inf; },
+                            "manipulator.leg[3].platform_point", "-inf", "finite numbers"},
+                    Refusal{"length", [](Machine& m) { m.legs[1].proximal.length = 0; },
+                            "manipulator.leg[2].proximal.length", "0", "> 0"},
+                    Refusal{"link_mass", [](Machine& m) { m.legs[1].distal.mass = -2; },
+                            "manipulator.leg[2].distal.mass", "-2", "> 0"},
+                    Refusal{"link_centre", [](Machine& m) { m.legs[1].distal.center_of_mass = nan; },
+                            "manipulator.leg[2].distal.center_of_mass", "nan", "finite"},
+                    Refusal{"link_inertia", [](Machine& m) { m.legs[4].proximal.inertia(2, 2) = 0; },
+                            "manipulator.leg[5].proximal.inertia", "[0, 4.2, 4.2]", "> 0"},
+                    Refusal{"friction_actuated", [](Machine& m) { m.legs[3].friction.actuated = -1; },
+                            "manipulator.leg[4].friction.actuated", "-1", ">= 0"},
+                    Refusal{"friction_universal", [](Machine& m) { m.legs[3].friction.universal = nan; },
+                            "manipulator.leg[4].friction.universal", "nan", "finite"},
+                    Refusal{"friction_knee", [](Machine& m) { m.legs[3].friction.knee = -1e-300; },
+                            "manipulator.leg[4].friction.knee", "-1e-300", ">= 0"},
+                    Refusal{"coulomb", [](Machine& m) { m.legs[3].coulomb.knee = -1; },
+                            "manipulator.leg[4].coulomb.knee", "-1", ">= 0"},
+                    Refusal{"smoothing", [](Machine& m) { m.legs[3].coulomb.smoothing_speed = 0; },
+                            "manipulator.leg[4].coulomb.smoothing_speed", "0", "> 0"},
+                    Refusal{"span", [](Machine& m) { m.legs[4].base_point.x() = 40; }, "manipulator.leg[1]",
+                            "l + s of legs 1 and 5 together 5.", "by which their base and platform distances differ"}),
+    nameOf);
+
+TEST(Manipulator, keepsWhatItWasGiven) {
+  Machine machine = good();
+  machine.legs[2].friction.knee = 0.75;
+  machine.gravity = {1, 2, 3};
+  const Manipulator manipulator(machine);
+  EXPECT_EQ(manipulator.leg(2).friction.knee, 0.75);
+  EXPECT_EQ(manipulator.gravity(), Vector3d(1, 2, 3));
+  EXPECT_EQ(manipulator.platform().mass, 500);
+}
+
+TEST(Manipulator, acceptsALaminaInAnyAttitude) {
+  Machine machine = good();
+  const Matrix3d Q = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const Matrix3d lamina = Q * Vector3d(1, 2, 3).asDiagonal() * Q.transpose();
+  machine.platform.inertia = (lamina + lamina.transpose()) / 2;
+  EXPECT_NO_THROW(Manipulator{machine});
+  machine.platform.inertia += Matrix3d(1e-9 * Q.col(2) * Q.col(2).transpose());
+  machine.platform.inertia = Matrix3d((machine.platform.inertia + machine.platform.inertia.transpose()) / 2);
+  EXPECT_THROW(Manipulator{machine}, InvalidParameter);
+}
+
+TEST(Manipulator, acceptsLegsThatJustReach) {
+  // Base and platform edges of legs 1 and 5 differ by 1 mm less, and 1 mm more, than both legs stretched bridge.
+  Machine machine = good();
+  for (Leg& leg : machine.legs) leg.base_point = leg.platform_point = Vector3d::Zero();
+  machine.legs[4].base_point = {5.399, 0, 0};
+  EXPECT_NO_THROW(Manipulator{machine});
+  machine.legs[4].base_point = {5.401, 0, 0};
+  EXPECT_THROW(Manipulator{machine}, InvalidParameter);
+}
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <gmock/gmock.h>
+
+#include <exception>
+#include <string>
+#include <tuple>
+
+#include "model/errors.h"
+
+namespace ursula {
+
+/// The message of the E that `call` throws; a test failure, and a text that equals nothing, where it throws none.
+template <class E, class Call>
+std::string refusal(Call&& call) {
+  try {
+    std::forward<Call>(call)();
+  } catch (const E& error) {
+    return error.what();
+  } catch (const std::exception& error) {
+    ADD_FAILURE() << "another type of exception: " << error.what();
+    return "(another type)";
+  }
+  ADD_FAILURE() << "nothing thrown";
+  return "(nothing thrown)";
+}
+
+/// Place, value and bound of the InvalidParameter that `call` throws.
+template <class Call>
+std::tuple<std::string, std::string, std::string> refusedParameter(Call&& call) {
+  try {
+    std::forward<Call>(call)();
+  } catch (const InvalidParameter& error) {
+    return {error.place(), error.value(), error.bound()};
+  }
+  ADD_FAILURE() << "nothing thrown";
+  return {};
+}
+
+}  // namespace ursula
