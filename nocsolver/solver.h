@@ -74,6 +74,14 @@ class Solver {
   Vector6<S> inverseDynamics(const Motion<S>& motion, Workspace<S>& work,
                              const Vector6<S>& load = Vector6<S>::Zero()) const;
 
+  /// The platform's twist rate [ω̇; p̈] under actuator torques, by (36) projected on t_P; accelerations in `motion` are
+  /// not read. Does not throw SingularJacobian: the torques act whether or not they determine the motion.
+  Vector6<S> directDynamics(const Motion<S>& motion, const Vector6<S>& torques, Workspace<S>& work,
+                            const Vector6<S>& load = Vector6<S>::Zero()) const;
+
+  /// M_P: the whole machine's mass matrix in the platform's twist at P. Needs displacements.
+  Matrix6<S> massMatrixAtP(const Motion<S>& motion, const Workspace<S>& work) const;
+
  private:
   Vector6<S> wrenchAtP(const Motion<S>& motion, Workspace<S>& work, Vector6<S>& Q_phi) const;
 

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "nocsolver/kernels/direct_dynamics.h"
 #include "nocsolver/kernels/dynamics.h"
 #include "nocsolver/kernels/leg_kinematics.h"
 #include "nocsolver/kernels/link_motion.h"
@@ -158,6 +159,30 @@ Vector6<S> Solver<S, R>::inverseDynamics(const Motion<S>& motion, Workspace<S>& 
   wrench.template head<3>() /= model_.length;
   const Vector6<S> lambda = work.B_transposed.solve(wrench);
   return Q_phi + work.A.cwiseProduct(lambda);  // (paper, eq. 37)
+}
+
+template <class S, class R>
+Matrix6<S> Solver<S, R>::massMatrixAtP(const Motion<S>& motion, const Workspace<S>& work) const {
+  return kernel::massMatrixAtP(model_, motion, work);
+}
+
+template <class S, class R>
+Vector6<S> Solver<S, R>::directDynamics(const Motion<S>& motion, const Vector6<S>& torques, Workspace<S>& work,
+                                        const Vector6<S>& load) const {
+  Motion<S> unaccelerated = motion;
+  unaccelerated.omega_dot.setZero();
+  unaccelerated.p_ddot.setZero();
+  inverseKinematics(unaccelerated, work);
+  Vector6<S> Q_phi;
+  Vector6<S> wrench = load - wrenchAtP(unaccelerated, work, Q_phi);
+  for (int i = 0; i < leg_count; ++i) {
+    const LegState<S>& state = work.legs[at(i)];
+    const Vector3<S> f = ((torques(i) - Q_phi(i)) / state.a_ii) * state.x;  // BᵀA⁻¹
+    wrench.template head<3>() += state.Qb.cross(f);
+    wrench.template tail<3>() += f;
+  }
+  const Matrix6<S> M_P = kernel::massMatrixAtP(model_, unaccelerated, work);
+  return M_P.llt().solve(wrench);  // (paper, eq. 36)
 }
 
 }  // namespace ursula

@@ -1,0 +1,48 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <functional>
+
+#include "apps/verbs.h"
+#include "model/errors.h"
+#include "model/scenario.h"
+#include "nocsolver/errors.h"
+#include "validation/provenance.h"
+
+namespace {
+
+int complain(const std::string& what) {
+  fmt::print(stderr, "{}\n", what);
+  return ursula::exit_bad_input;
+}
+
+int runVerb(const std::function<int()>& run) {
+  try {
+    return run();
+  } catch (const ursula::ScenarioError& error) {
+    return complain(error.what());  // begins with file:line:column
+  } catch (const ursula::PoseError& error) {
+    return complain(fmt::format("error: the motion cannot be made: {}", error.what()));
+  } catch (const std::exception& error) {
+    return complain(fmt::format("error: {}", error.what()));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("ursula: are the closed-form dynamics of a six-legged U-R-S parallel manipulator right, and why");
+  app.set_version_flag("--version", ursula::buildProvenance().version + " (" + ursula::buildProvenance().commit + ")");
+  app.require_subcommand(1);
+  app.failure_message(CLI::FailureMessage::help);
+  std::function<int()> run;
+  ursula::addValidate(app, run);
+  ursula::addInverse(app, run);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? ursula::exit_passed : ursula::exit_bad_input;
+  }
+  return runVerb(run);
+}

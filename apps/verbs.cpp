@@ -1,0 +1,18 @@
+#include "apps/verbs.h"
+
+#include <cstdio>
+
+#include "model/atomic_file.h"
+
+namespace ursula {
+
+void writeOutput(const std::string& file, const std::string& content) {
+  if (!file.empty() && file != "-") {
+    writeFileAtomically(file, content);
+    return;
+  }
+  if (std::fwrite(content.data(), 1, content.size(), stdout) != content.size() || std::fflush(stdout) != 0)
+    throw std::runtime_error("standard output could not be written");
+}
+
+}  // namespace ursula

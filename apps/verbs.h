@@ -1,0 +1,25 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+namespace ursula {
+
+/// The program's answers, as interface.md gives them.
+constexpr int exit_passed = 0, exit_failed = 1, exit_bad_input = 2, exit_inconclusive = 3;
+
+/// What the caller got wrong; the program says it and exits with 2.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Each registers its verb and leaves in `run` what to do when it was called; the value is the exit code.
+void addValidate(CLI::App& app, std::function<int()>& run);
+void addInverse(CLI::App& app, std::function<int()>& run);
+
+/// Writes to `file` atomically, or to standard output where it is "-" or empty.
+void writeOutput(const std::string& file, const std::string& content);
+
+}  // namespace ursula

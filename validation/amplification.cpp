@@ -1,0 +1,135 @@
+#include "validation/amplification.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "nocsolver/solver.h"
+
+namespace ursula {
+namespace {
+
+using Matrix12 = Amplification::Matrix12;
+using Vector12 = Eigen::Matrix<double, 12, 1>;
+
+/// Jacobian of the deviations' rates. A deviation of the orientation turns it: Q → exp(δϑ) Q, so δϑ̇ = δω + ω × δϑ.
+class Linearisation {
+ public:
+  explicit Linearisation(const Scenario& scenario)
+      : trajectory_(*scenario.trajectory), load_(scenario.load), solver_(*scenario.manipulator) {
+    length_ = solver_.model().length;
+  }
+
+  double length() const { return length_; }
+
+  Matrix12 at(double t) {
+    const Motion<double> motion = trajectory_.at(t);
+    const Vector6d torques = solver_.inverseDynamics(motion, work_, loadAtP(load_.get(), motion));
+    Matrix12 J = Matrix12::Zero();
+    J.block<3, 3>(0, 6).setIdentity();
+    J.block<3, 3>(3, 9).setIdentity();
+    J.block<3, 3>(3, 3) << 0, -motion.omega.z(), motion.omega.y(), motion.omega.z(), 0, -motion.omega.x(),
+        -motion.omega.y(), motion.omega.x(), 0;
+    // Central differences: the cube root of eps balances truncation and rounding.
+    const double step = std::cbrt(Eigen::NumTraits<double>::epsilon()) * length_;
+    for (int j = 0; j < 12; ++j) {
+      Vector12 deviation = Vector12::Zero();
+      deviation(j) = step;
+      const Vector6d above = acceleration(motion, deviation, torques);
+      const Vector6d below = acceleration(motion, -deviation, torques);
+      J.block<6, 1>(6, j) = (above - below) / (2 * step);
+    }
+    return J;
+  }
+
+ private:
+  /// [p̈; L ω̇] under the torques with the state deviated.
+  Vector6d acceleration(Motion<double> motion, const Vector12& deviation, const Vector6d& torques) {
+    motion.p += deviation.segment<3>(0);
+    const Vector3d turn = deviation.segment<3>(3) / length_;
+    if (turn.norm() > 0) motion.Q = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * motion.Q;
+    motion.p_dot += deviation.segment<3>(6);
+    motion.omega += deviation.segment<3>(9) / length_;
+    const Vector6d found = solver_.directDynamics(motion, torques, work_, loadAtP(load_.get(), motion));
+    Vector6d out;
+    out << found.tail<3>(), length_ * found.head<3>();
+    return out;
+  }
+
+  const Trajectory& trajectory_;
+  std::shared_ptr<const Load> load_;
+  Solver<double> solver_;
+  Workspace<double> work_;
+  double length_ = 1;
+};
+
+/// Classical Runge–Kutta over one interval, from the Jacobians at its ends and its middle.
+Matrix12 propagator(const Matrix12& J0, const Matrix12& J1, const Matrix12& J2, double h) {
+  const Matrix12 I = Matrix12::Identity();
+  const Matrix12 k1 = J0;
+  const Matrix12 k2 = J1 * (I + (h / 2) * k1);
+  const Matrix12 k3 = J1 * (I + (h / 2) * k2);
+  const Matrix12 k4 = J2 * (I + h * k3);
+  return I + (h / 6) * (k1 + 2 * k2 + 2 * k3 + k4);
+}
+
+}  // namespace
+
+double GrowthWindow::bound(double at, double rate, double initial) const {
+  const auto after = std::lower_bound(t.begin(), t.end(), at);
+  const auto i = static_cast<std::size_t>(std::min(after - t.begin(), static_cast<std::ptrdiff_t>(t.size()) - 1));
+  const auto boundAt = [&](std::size_t k) {
+    return from_acceleration[k] + rate * from_unit_rate[k] + initial * from_start[k];
+  };
+  return std::max(boundAt(i), boundAt(i == 0 ? 0 : i - 1));
+}
+
+Amplification::Amplification(const Scenario& scenario, int intervals) {
+  Linearisation linearisation(scenario);
+  length_ = linearisation.length();
+  const double h = scenario.trajectory->duration() / intervals;
+  instants_.push_back(0);
+  Matrix12 J0 = linearisation.at(0);
+  for (int k = 0; k < intervals; ++k) {
+    const Matrix12 J1 = linearisation.at((k + 0.5) * h), J2 = linearisation.at((k + 1) * h);
+    propagators_.push_back(propagator(J0, J1, J2, h));
+    instants_.push_back((k + 1) * h);
+    J0 = J2;
+  }
+}
+
+/// Φ(t_j, t_k) is carried forward for every k of the window, so no propagator is ever inverted. Frobenius norms bound
+/// the spectral ones.
+GrowthWindow Amplification::window(std::size_t first, const std::function<double(double)>& acceleration, double rate,
+                                   double useful) const {
+  GrowthWindow out;
+  std::vector<Matrix12> Phi;           // Φ(t_j, t_k), k = first …
+  std::vector<double> errors;          // of acceleration in interval k, m/s
+  const auto add = [&out](double t, double from_acceleration, double from_rate, const Matrix12& from_start) {
+    out.t.push_back(t);
+    out.from_acceleration.push_back(from_acceleration);
+    out.from_unit_rate.push_back(from_rate);
+    out.from_start.push_back(from_start.topRows<6>().norm());
+    out.growth.push_back(from_start.topRightCorner<6, 6>().norm());
+  };
+  add(instants_[first], 0, 0, Matrix12::Identity());
+  out.last = first;
+  for (std::size_t j = first; j < propagators_.size(); ++j) {
+    const double h = instants_[j + 1] - instants_[j];
+    Phi.push_back(Matrix12::Identity());
+    errors.push_back(h * std::max(acceleration(instants_[j]), acceleration(instants_[j + 1])));
+    double from_acceleration = 0, from_rate = 0;
+    for (std::size_t k = 0; k < Phi.size(); ++k) {
+      const double before = Phi[k].topRows<6>().norm();
+      Phi[k] = (propagators_[j] * Phi[k]).eval();
+      from_acceleration += Phi[k].topRightCorner<6, 6>().norm() * errors[k];
+      from_rate += h * std::max(before, Phi[k].topRows<6>().norm());
+    }
+    if (!(from_acceleration + rate * from_rate <= useful) && j > first) break;
+    add(instants_[j + 1], from_acceleration, from_rate, Phi.front());
+    out.last = j + 1;
+  }
+  return out;
+}
+
+}  // namespace ursula

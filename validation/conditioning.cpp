@@ -1,0 +1,116 @@
+#include "validation/conditioning.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "validation/subject.h"
+
+namespace ursula {
+namespace {
+
+constexpr double eps = Eigen::NumTraits<double>::epsilon();
+
+/// Wrench of inertia and gravity on each body, with magnitudes added: nothing cancels.
+Vector6d wrenchMagnitude(const BodyMotion<double>& body, double mass, const Matrix3d& inertia, const Vector3d& gravity) {
+  const Matrix3d I = (body.R * inertia * body.R.transpose()).cwiseAbs();
+  const Vector3d omega = body.twist.head<3>().cwiseAbs(), omega_dot = body.twist_rate.head<3>().cwiseAbs();
+  Vector6d w;
+  w.head<3>() = I * omega_dot + Vector3d::Constant(omega.norm() * (I * omega).norm());
+  w.tail<3>() = mass * (body.twist_rate.tail<3>().cwiseAbs() + gravity.cwiseAbs());
+  return w;
+}
+
+double frictionMagnitude(const Leg& leg, const JointTriple<double>& rate) {
+  return leg.friction.actuated * std::abs(rate.phi) + leg.friction.universal * std::abs(rate.psi) +
+         leg.friction.knee * std::abs(rate.theta) + leg.coulomb.actuated + leg.coulomb.universal + leg.coulomb.knee;
+}
+
+/// ‖|T|ᵀ|w|‖ with friction and load; I = TᵀMT.
+struct Projection {
+  double torque_scale = 0;
+  Matrix6d inertia = Matrix6d::Zero();
+};
+
+Projection project(const Manipulator& manipulator, const TwistShaping<double>& T, const BodyMotions<double>& bodies,
+                   const Workspace<double>& work) {
+  Projection out;
+  Vector6d torque = Vector6d::Zero();
+  double friction = 0;
+  for (int b = 0; b < body_count; ++b) {
+    const auto i = static_cast<std::size_t>(b);
+    const int leg_index = b % leg_count;
+    const bool is_platform = b == 2 * leg_count;
+    const Leg& leg = manipulator.leg(leg_index);
+    const Link& link = b < leg_count ? leg.proximal : leg.distal;
+    const double mass = is_platform ? manipulator.platform().mass : link.mass;
+    const Matrix3d& inertia = is_platform ? manipulator.platform().inertia : link.inertia;
+    const Eigen::Matrix<double, 6, 6> T_b = T.block<6, 6>(6 * b, 0);
+    torque += T_b.cwiseAbs().transpose() * wrenchMagnitude(bodies[i], mass, inertia, manipulator.gravity());
+    out.inertia += mass * T_b.bottomRows<3>().transpose() * T_b.bottomRows<3>() +
+                   T_b.topRows<3>().transpose() * (bodies[i].R * inertia * bodies[i].R.transpose()) * T_b.topRows<3>();
+    if (b < leg_count) friction += frictionMagnitude(leg, work.legs[i].rate);
+  }
+  // The same shaping carries friction on ψ, θ to the actuators; its rows are of the order of the links' over l.
+  out.torque_scale = torque.norm() + friction * std::max(1.0, T.cwiseAbs().maxCoeff());
+  return out;
+}
+
+void setLegs(const Workspace<double>& work, Conditioning& out) {
+  out.smallest_sine = 1;
+  for (int i = 0; i < leg_count; ++i) {
+    const LegState<double>& leg = work.legs[static_cast<std::size_t>(i)];
+    const double sine = std::abs(leg.sin_theta), lever = leg.q / leg.r;
+    out.kappa_legs = std::max(out.kappa_legs, lever * lever / (sine * sine));
+    if (sine < out.smallest_sine) {
+      out.smallest_sine = sine;
+      out.smallest_sine_leg = i;
+    }
+  }
+}
+
+}  // namespace
+
+double Conditioning::torqueRounding() const {
+  return rounding_depth * eps * kappa_B * kappa_legs * torque_scale;
+}
+
+double Conditioning::accelerationRounding() const { return response * torqueRounding(); }
+
+ConditioningProbe::ConditioningProbe(const Manipulator& manipulator, std::shared_ptr<const Load> load)
+    : manipulator_(manipulator), load_(std::move(load)), solver_(manipulator) {}
+
+Conditioning ConditioningProbe::at(const Motion<double>& motion) {
+  BodyMotions<double> bodies;
+  TwistShaping<double> T;
+  solver_.inverseKinematics(motion, work_);
+  solver_.jacobians(motion, work_);
+  solver_.bodyMotions(motion, work_, bodies);
+  solver_.twistShaping(motion, work_, T);
+
+  Conditioning out;
+  out.length = solver_.model().length;
+  setLegs(work_, out);
+  Matrix6d B = work_.B;
+  B.leftCols<3>() /= out.length;
+  const Vector6d singular = Eigen::JacobiSVD<Matrix6d>(B).singularValues();
+  out.kappa_B = singular(0) / singular(5);
+  const Projection projection = project(manipulator_, T, bodies, work_);
+  Matrix6d T_P = solver_.T(work_);
+  T_P.topRows<3>() *= out.length;
+  const Vector6d load = loadAtP(load_.get(), motion);
+  out.torque_scale = projection.torque_scale +
+                     T_P.norm() * (load.head<3>().norm() / out.length + load.tail<3>().norm());
+  out.response = (T_P * projection.inertia.llt().solve(Matrix6d::Identity())).norm();
+  out.position_scale = motion.p.norm() + out.length;
+  for (const Leg& leg : manipulator_.parameters().legs) out.position_scale = std::max(out.position_scale, leg.base_point.norm());
+  for (const BodyMotion<double>& body : bodies) {
+    out.twist_scale = std::max(out.twist_scale, body.twist.tail<3>().norm() + out.length * body.twist.head<3>().norm());
+    out.rate_scale = std::max(out.rate_scale, body.twist_rate.tail<3>().norm() + out.length * body.twist_rate.head<3>().norm());
+  }
+  out.rate_scale += out.twist_scale * out.twist_scale / out.length;
+  return out;
+}
+
+}  // namespace ursula

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+
+#include "model/load.h"
+#include "model/manipulator.h"
+#include "model/motion.h"
+#include "nocsolver/solver.h"
+
+namespace ursula {
+
+/// How rounding errors of either road may show at one instant; the factors of every pointwise limit.
+/// Always from the formulas that hold, never from the subject on trial. See docs/validation.md.
+struct Conditioning {
+  double kappa_B = 0;         ///< 2-norm condition number of B, moments over the machine's length
+  double kappa_legs = 0;      ///< largest of 1/sin²θᵢ · (qᵢ/rᵢ)²: how rounding grows in a leg's rates
+  double smallest_sine = 0;   ///< min |sin θᵢ|: the distance from a stretched or folded leg
+  int smallest_sine_leg = 0;  ///< 0-based
+  double torque_scale = 0;    ///< ‖|T|ᵀ|w|‖: size of what cancels in (37), N·m
+  double response = 0;        ///< ‖S T_P I⁻¹‖: platform acceleration for a torque, (m/s²)/(N·m)
+  double length = 0;          ///< a length of the machine, m
+  double position_scale = 0;  ///< largest coordinate, m
+  double twist_scale = 0;     ///< size of a body's velocity, m/s
+  double rate_scale = 0;      ///< size of a body's acceleration, m/s²
+
+  /// Rounding of a torque on either road, N·m.
+  double torqueRounding() const;
+  /// Rounding of the platform's acceleration under given torques, m/s².
+  double accelerationRounding() const;
+};
+
+class ConditioningProbe {
+ public:
+  ConditioningProbe(const Manipulator& manipulator, std::shared_ptr<const Load> load);
+  /// Throws PoseError as the solver does.
+  Conditioning at(const Motion<double>& motion);
+
+ private:
+  Manipulator manipulator_;
+  std::shared_ptr<const Load> load_;
+  Solver<double> solver_;
+  Workspace<double> work_;
+};
+
+/// Rounding errors on the longest chain of dependent operations from the base to a torque, counted once per body and
+/// once per elimination step: 13 bodies and 6 pivots on each road, rounded up to a power of two.
+constexpr double rounding_depth = 64;
+
+}  // namespace ursula

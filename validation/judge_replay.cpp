@@ -1,0 +1,119 @@
+#include "validation/judge_replay.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+namespace ursula {
+namespace {
+
+constexpr double eps = Eigen::NumTraits<double>::epsilon();
+
+/// A value of one step with its limit.
+struct Measure {
+  std::string name, unit, what;
+  std::function<double(const ReplayStep&)> value;
+  std::function<double(const WindowedReplay&, const ReplayStep&)> limit;
+  std::string basis;
+  double useful = 0;  ///< a larger limit says nothing; 0 where any limit does
+};
+
+struct Shown {
+  double value = 0, limit = 0, t = 0;
+};
+
+/// Every step is judged. Shown is the step that is furthest beyond its limit, or where none is, the largest value.
+std::optional<Shown> findShown(const std::vector<WindowedReplay>& windows, const Measure& measure) {
+  std::optional<Shown> largest, worst;
+  double worst_ratio = 1;
+  for (const WindowedReplay& window : windows)
+    for (const ReplayStep& step : window.replay.steps) {
+      const Shown shown{measure.value(step), measure.limit(window, step), step.t};
+      if (!(shown.value <= shown.limit)) {
+        const double ratio = shown.value / shown.limit;
+        if (!(ratio <= worst_ratio)) worst = shown, worst_ratio = ratio;
+        if (std::isnan(ratio)) return worst;
+      }
+      if (!largest || shown.value > largest->value) largest = shown;
+    }
+  return worst ? worst : largest;
+}
+
+std::size_t stepsOf(const std::vector<WindowedReplay>& windows) {
+  std::size_t steps = 0;
+  for (const WindowedReplay& window : windows) steps += window.replay.steps.size();
+  return steps;
+}
+
+Check judgeMeasure(const std::vector<WindowedReplay>& windows, const Measure& measure) {
+  for (const WindowedReplay& window : windows)
+    if (!window.replay.gave_up.empty())
+      return notMade(measure.name, measure.unit,
+                     fmt::format("the replay from t = {:.6g} s gave up: {}", window.window.start(), window.replay.gave_up));
+  const std::optional<Shown> shown = findShown(windows, measure);
+  if (!shown) return notMade(measure.name, measure.unit, "no step was compared");
+  const std::string where = windows.size() == 1 ? "open loop over the whole motion"
+                                                : fmt::format("open loop in {} windows", windows.size());
+  const std::string why =
+      fmt::format("{}, {}, at {} steps; shown for t = {:.6g} s", measure.what, where, stepsOf(windows), shown->t);
+  if (measure.useful > 0 && !(shown->limit <= measure.useful))
+    return notJudgeable(measure.name, shown->value, shown->limit, measure.unit, measure.basis,
+                        why + fmt::format("; the limit exceeds {:.3g} {}, beyond which it says nothing", measure.useful,
+                                          measure.unit));
+  return judged(measure.name, shown->value, shown->limit, measure.unit, measure.basis, why);
+}
+
+double stepCount(const WindowedReplay& window) { return static_cast<double>(window.replay.steps.size()); }
+
+double span(const WindowedReplay& window) { return window.window.end() - window.window.start(); }
+
+}  // namespace
+
+double errorPerStep(double tolerance, double position_scale) {
+  return std::sqrt(24.0) * (tolerance + eps) * (1 + position_scale);
+}
+
+std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, double position_scale, double length) {
+  if (windows.empty()) return {notMade("replay.position", "m", "there was no replay")};
+  const double per_step = errorPerStep(windows.front().replay.tolerance, position_scale);
+  const auto drift = [per_step](const WindowedReplay& window, const ReplayStep& step) {
+    return window.window.bound(step.t, per_step * stepCount(window) / span(window), per_step);
+  };
+  const std::string drift_basis = fmt::format(
+      "pointwise acceleration limit and {:.3g} a step (sqrt(24) (tolerance {:.1g} + eps) (1 + coordinates)), carried to "
+      "t by the variational equations, all aligned for the worst",
+      per_step, windows.front().replay.tolerance);
+  const auto opening = [per_step](const WindowedReplay& window, const ReplayStep&) {
+    return per_step * stepCount(window) * (1 + span(window));
+  };
+  const std::string opening_basis =
+      fmt::format("{:.3g} a step over all steps, x (1 + duration): loop errors are carried, not amplified", per_step);
+  const double per_step_relative = per_step / (1 + position_scale);
+  const std::vector<Measure> measures = {
+      {"replay.position", "m", "P against the commanded path",
+       [](const ReplayStep& step) { return step.position_error.norm(); }, drift, drift_basis,
+       useful_replay_limit * length},
+      {"replay.orientation", "rad", "orientation against the commanded one",
+       [](const ReplayStep& step) { return step.rotation_error.norm(); },
+       [drift, length](const WindowedReplay& window, const ReplayStep& step) { return drift(window, step) / length; },
+       drift_basis, useful_replay_limit},
+      {"closure.position", "m", "the six loops' gaps", [](const ReplayStep& step) { return step.closure.position; },
+       opening, opening_basis},
+      {"closure.velocity", "m/s", "the rates of the gaps", [](const ReplayStep& step) { return step.closure.velocity; },
+       opening, opening_basis},
+      {"energy.balance", "J", "kinetic and potential energy against the work of torques, friction and load",
+       [](const ReplayStep& step) { return std::abs(step.energy_error); },
+       [per_step_relative](const WindowedReplay& window, const ReplayStep&) {
+         return per_step_relative * stepCount(window) * window.replay.energy_scale;
+       },
+       fmt::format("{:.3g} a step x the energy's sensitivity to the state", per_step_relative)},
+  };
+  std::vector<Check> checks;
+  for (const Measure& measure : measures) checks.push_back(judgeMeasure(windows, measure));
+  return checks;
+}
+
+}  // namespace ursula

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "validation/amplification.h"
+#include "validation/pointwise.h"
+#include "validation/replay.h"
+#include "validation/result.h"
+
+namespace ursula {
+
+/// A replay and the window of the motion that it was made in.
+struct WindowedReplay {
+  GrowthWindow window;
+  Replay replay;
+};
+
+/// Errors that one accepted step may put into each coordinate: the integrator's tolerance and rounding, over 24
+/// coordinates, times the coordinates' size. m and m/s.
+double errorPerStep(double tolerance, double position_scale);
+
+/// Above this many metres (times the machine's length over 1 m) a limit on the replay says nothing worth knowing.
+constexpr double useful_replay_limit = 1e-6;
+
+/// `replay.position`, `replay.orientation`, `closure.position`, `closure.velocity`, `energy.balance`, over all windows.
+std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, double position_scale, double length);
+
+}  // namespace ursula

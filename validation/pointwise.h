@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "model/scenario.h"
+#include "validation/conditioning.h"
+#include "validation/result.h"
+#include "validation/subject.h"
+
+namespace ursula {
+
+/// What one quantity differed by at one instant, and what it may differ by there.
+struct Deviation {
+  double error = 0;
+  double limit = 0;
+  int where = -1;  ///< leg or body, 0-based; −1 for none
+};
+
+/// Everything that the pointwise experiments see at one instant.
+struct PointwiseSample {
+  Motion<double> motion;
+  Conditioning conditioning;
+  JointMotion joints;             ///< Simbody's own
+  Vector6d torques, torques_simbody;
+  Deviation joint_angles, joint_rates, joint_accelerations;  ///< rad, rad/s, rad/s²
+  Deviation position, twist, twist_rate;                     ///< over 13 bodies: m, m/s, m/s²
+  Deviation torque;                                          ///< N·m
+  Deviation acceleration;                                    ///< platform, m/s²
+  std::string refused;  ///< why the subject has no answer here; empty where it has
+};
+
+/// Solver and Simbody at the same instants: joint state, 13 bodies, torques, accelerations.
+std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
+                                          const std::vector<double>& instants);
+
+/// The checks of these samples: `kinematics.*`, `torque.pointwise`, `acceleration.pointwise`.
+std::vector<Check> judgePointwise(const std::vector<PointwiseSample>& samples, bool has_kinematics);
+
+}  // namespace ursula

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "model/scenario.h"
+#include "model/simbody_loop.h"
+
+namespace ursula {
+
+/// Where a replay stands after one accepted step, against the commanded motion.
+struct ReplayStep {
+  double t = 0;
+  Vector3d position_error = Vector3d::Zero();  ///< of P, m, in B
+  Vector3d rotation_error = Vector3d::Zero();  ///< rotation vector from commanded to simulated orientation, rad, in B
+  Vector3d velocity_error = Vector3d::Zero();  ///< m/s
+  Vector3d spin_error = Vector3d::Zero();      ///< of the angular velocity, rad/s
+  SimbodyLoop::Closure closure;
+  double energy_error = 0;                     ///< E − E₀ − work, J
+};
+
+/// An open-loop simulation of the Simbody loop from the commanded state under a history of torques.
+struct Replay {
+  Integrator integrator = Integrator::rkf78;
+  double tolerance = 0;
+  std::vector<ReplayStep> steps;  ///< from the start; every accepted step (rk_merson: every instant asked for)
+  long evaluations = 0;           ///< of the derivatives
+  double energy_scale = 0;        ///< ‖∂E/∂x‖ and |work|, what an error of one in the state is to the energy, J
+  std::string gave_up;            ///< why, where it did not reach the end; else empty
+
+  double maxPositionError() const;  ///< m
+  double maxRotationError() const;  ///< rad
+};
+
+struct ReplaySettings {
+  Integrator integrator = Integrator::rkf78;
+  double tolerance = 1e-14;  ///< absolute and relative
+  double start = 0, end = 0; ///< s; the state at start is the commanded one
+  SimbodyLoop::Topology topology = SimbodyLoop::Topology::six_balls;
+  int instants = 101;           ///< rk_merson only: equally spaced instants at which it is compared
+  long max_evaluations = 200000;  ///< more than this is giving up
+};
+
+Replay replay(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const ReplaySettings& settings);
+
+/// Position and rotation errors of `replay` at an instant: cubic in the errors and their rates between the steps.
+ReplayStep interpolated(const Replay& replay, double t);
+
+const char* name(Integrator integrator);
+
+}  // namespace ursula

@@ -1,0 +1,50 @@
+#include "validation/subject.h"
+
+#include <Eigen/Geometry>
+
+#include "nocsolver/solver.h"
+
+namespace ursula {
+namespace {
+
+template <class Reading>
+Subject makeSubject(std::string name, const Manipulator& manipulator, std::shared_ptr<const Load> load,
+                    const Reading& reading) {
+  const auto solver = std::make_shared<const Solver<double, Reading>>(manipulator, reading);
+  const auto work = std::make_shared<Workspace<double>>();
+  Subject subject;
+  subject.name = std::move(name);
+  subject.torques = [solver, work, load](const Motion<double>& motion) {
+    return solver->inverseDynamics(motion, *work, loadAtP(load.get(), motion));
+  };
+  subject.kinematics = [solver, work](const Motion<double>& motion) {
+    KinematicAnswer answer;
+    solver->inverseKinematics(motion, *work);
+    answer.joints = {solver->angles(*work), solver->rates(*work), solver->accelerations(*work)};
+    solver->bodyMotions(motion, *work, answer.bodies);
+    return answer;
+  };
+  return subject;
+}
+
+}  // namespace
+
+Vector6d loadAtP(const Load* load, const Motion<double>& motion) {
+  if (load == nullptr) return Vector6d::Zero();
+  const Wrench<double> wrench = load->at(motion.t);
+  const Matrix3d to_base = load->frame == Load::Frame::platform ? motion.Q : Matrix3d(Matrix3d::Identity());
+  const Vector3d force = to_base * wrench.force;
+  Vector6d out;
+  out << to_base * wrench.moment + (motion.Q * load->point).cross(force), force;
+  return out;
+}
+
+Subject nocSubject(const Manipulator& manipulator, std::shared_ptr<const Load> load) {
+  return makeSubject("noc", manipulator, std::move(load), Corrected{});
+}
+
+Subject slippedSubject(const Manipulator& manipulator, std::shared_ptr<const Load> load, const WithSlips& slips) {
+  return makeSubject("noc with slips", manipulator, std::move(load), slips);
+}
+
+}  // namespace ursula

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "model/joint_variables.h"
+#include "model/load.h"
+#include "model/manipulator.h"
+#include "model/motion.h"
+#include "nocsolver/reading.h"
+
+namespace ursula {
+
+/// What a solver says of one motion beside its torques.
+struct KinematicAnswer {
+  JointMotion joints;
+  BodyMotions<double> bodies;
+};
+
+/// What is on trial: a source of torques, and of kinematics where it has one. Called with the commanded motion.
+struct Subject {
+  std::string name;
+  std::function<Vector6d(const Motion<double>&)> torques;            ///< N·m, conjugate to φ̇
+  std::function<KinematicAnswer(const Motion<double>&)> kinematics;  ///< empty where only torques are judged
+};
+
+/// The NOC of this program.
+Subject nocSubject(const Manipulator& manipulator, std::shared_ptr<const Load> load);
+
+/// The same with formulas that are wrong: a control that must fail.
+Subject slippedSubject(const Manipulator& manipulator, std::shared_ptr<const Load> load, const WithSlips& slips);
+
+/// [moment about P; force], in B, of a load on the platform at `motion`; zero where `load` is null.
+Vector6d loadAtP(const Load* load, const Motion<double>& motion);
+
+}  // namespace ursula

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "model/scenario.h"
+#include "validation/result.h"
+#include "validation/subject.h"
+
+namespace ursula {
+
+/// The whole validation of one scenario: pointwise, replay, closure, energy, and the verdict. Deterministic: the same
+/// build on the same machine gives the same numbers to the last bit. Throws PoseError or std::domain_error where the
+/// commanded motion itself is out of reach or singular: then there is nothing to judge.
+ValidationResult validate(const Scenario& scenario, const Subject& subject);
+
+/// With the NOC of this program as the subject.
+ValidationResult validate(const Scenario& scenario);
+
+/// `count` equally spaced instants from 0 to `duration`, both included.
+std::vector<double> equallySpaced(double duration, int count);
+
+}  // namespace ursula
