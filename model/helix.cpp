@@ -132,9 +132,9 @@ void validateRange(const HelixParameters& helix, const HelixKernel<double>& kern
 
 std::unique_ptr<Trajectory> makeHelix(const HelixParameters& parameters) {
   validate(parameters);
-  HelixKernel<double> kernel(parameters);
+  const HelixKernel<double> kernel(parameters);
   validateRange(parameters, kernel);
-  return std::make_unique<KernelTrajectory<HelixKernel>>("helix", parameters.duration, std::move(kernel),
+  return std::make_unique<KernelTrajectory<HelixKernel>>("helix", parameters.duration, kernel,
                                                          HelixKernel<Real50>(parameters));
 }
 

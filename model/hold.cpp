@@ -16,8 +16,8 @@ class HoldKernel {
  public:
   HoldKernel(const Vector3d& position, const Eigen::Vector4d& orientation) {
     pose_.p = position.cast<S>();
-    const Eigen::Matrix<S, 4, 1> q = orientation.cast<S>();
-    pose_.Q = Eigen::Quaternion<S>(q(0), q(1), q(2), q(3)).normalized().toRotationMatrix();
+    const Eigen::Quaterniond q(orientation(0), orientation(1), orientation(2), orientation(3));
+    pose_.Q = q.cast<S>().normalized().toRotationMatrix();
   }
 
   Motion<S> at(const S& t) const {

@@ -82,7 +82,7 @@ Wrench<S> wrenchAt(const QuinticHermite<S, 6>& curve, const TimedWrench& first, 
 LoadHistory::LoadHistory(const std::vector<TimedWrench>& rows) {
   validate(rows);
   const QuinticHermite<Real50, 6> curve = curveThrough(rows);
-  curves_.reset(new Curves{curve, QuinticHermite<double, 6>(curve), rows.front(), rows.back()});
+  curves_ = std::make_unique<Curves>(Curves{curve, QuinticHermite<double, 6>(curve), rows.front(), rows.back()});
 }
 
 LoadHistory::~LoadHistory() = default;

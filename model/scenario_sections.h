@@ -15,7 +15,7 @@ namespace ursula {
 
 ManipulatorParameters readManipulator(const TomlSection& manipulator);
 std::shared_ptr<const Trajectory> readTrajectory(const TomlSection& trajectory);
-std::shared_ptr<const Load> readLoad(const TomlSection& load);
+std::shared_ptr<const Load> readLoad(const TomlSection& table);
 
 /// The CSV that `key` names; a relative path is taken from the scenario's own folder. Throws also CsvError.
 CsvTable readCsvBeside(const TomlSection& table, const std::string& key);
