@@ -1,0 +1,41 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "model/scenario.h"
+#include "model/simbody_loop.h"
+#include "validation/judge_replay.h"
+#include "validation/pointwise.h"
+
+namespace ursula {
+
+/// What is replayed, and the errors that it may carry: they decide how long a window may be.
+struct ReplayPlan {
+  SimbodyLoop::TorqueHistory torques;
+  std::function<double(double)> acceleration;  ///< error that the platform's acceleration may have at t, m/s²
+  double position_scale = 0;                   ///< as errorPerStep has it, m
+  double step_rate = 0;                        ///< steps a second that the replay will take, for planning only
+};
+
+/// Replays the whole motion in windows that restart on the commanded state, each as long as its limit stays useful.
+std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const ReplayPlan& plan);
+
+/// For smooth torques: the judgement counts the steps taken.
+double plannedStepRate(double duration);
+
+/// Rounding of the platform's acceleration along the motion: the larger of the two samples beside t, m/s². Keeps a
+/// reference to `samples`.
+class SampledLimit {
+ public:
+  explicit SampledLimit(const std::vector<PointwiseSample>& samples) : samples_(samples) {}
+  double operator()(double t) const;
+
+ private:
+  const std::vector<PointwiseSample>& samples_;
+};
+
+/// The largest coordinate over the samples, m.
+double positionScale(const std::vector<PointwiseSample>& samples);
+
+}  // namespace ursula
