@@ -8,6 +8,7 @@
 #include "model/load.h"
 #include "model/manipulator.h"
 #include "model/motion.h"
+#include "model/reactions.h"
 
 namespace ursula {
 
@@ -75,6 +76,9 @@ class SimbodyLoop {
   /// The platform's accelerations and the joints' under these torques, by realize(Acceleration). They are then the
   /// accelerations last found.
   void accelerate(const Vector6d& torques);
+
+  /// Forces and moments at the joints after accelerate(). Only for six_balls.
+  Reactions reactions() const;
 
   // --- as a system of ordinary differential equations: x = [q, u] ---
 

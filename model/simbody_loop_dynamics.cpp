@@ -102,6 +102,26 @@ void SimbodyLoop::accelerate(const Vector6d& torques) {
   loop.u_dot = loop.state.getUDot();
 }
 
+Reactions SimbodyLoop::reactions() const {
+  const Impl& loop = *impl_;
+  loop.realize(SimTK::Stage::Acceleration);
+  SimTK::Vector_<SimTK::SpatialVec> at_outboard_frame;  // on the outboard body, at its joint's frame, in Ground
+  loop.matter.calcMobilizerReactionForces(loop.state, at_outboard_frame);
+  Reactions out;
+  for (std::size_t i = 0; i < leg_count; ++i) {
+    const SimTK::SpatialVec& at_A = at_outboard_frame[loop.mechanism.proximal[i].getMobilizedBodyIndex()];
+    const SimTK::SpatialVec& at_R = at_outboard_frame[loop.mechanism.distal[i].getMobilizedBodyIndex()];
+    out[i].n_A = toEigen(at_A[0]);
+    out[i].f_A = toEigen(at_A[1]);
+    out[i].n_R = toEigen(at_R[0]);
+    out[i].f_R = toEigen(at_R[1]);
+    // Simbody 3.7 keeps multipliers on the left-hand side: what it calls the force on body 2 is the one on body 1.
+    const SimTK::Vec3 on_platform = -loop.mechanism.balls[i].getBallReactionForceOnBody2(loop.state);
+    out[i].f_B = toEigen(SimTK::Vec3(loop.mechanism.platform.getBodyRotation(loop.state) * on_platform));
+  }
+  return out;
+}
+
 int SimbodyLoop::stateSize() const { return impl_->state.getNQ() + impl_->state.getNU(); }
 
 std::vector<double> SimbodyLoop::state() const {

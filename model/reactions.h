@@ -1,0 +1,19 @@
+#pragma once
+
+#include <array>
+
+#include "model/scalar.h"
+
+namespace ursula {
+
+/// Forces and moments that the joints of one leg transmit, on the outboard body at the joint's point; in B, N and N·m.
+/// Moments hold all that passes the joint: what it blocks, the motor's torque, friction.
+struct LegReactions {
+  Vector3d f_A = Vector3d::Zero(), n_A = Vector3d::Zero();  ///< base on proximal link, at A
+  Vector3d f_R = Vector3d::Zero(), n_R = Vector3d::Zero();  ///< proximal on distal link, at R
+  Vector3d f_B = Vector3d::Zero();                          ///< distal link on platform, at B
+};
+
+using Reactions = std::array<LegReactions, leg_count>;
+
+}  // namespace ursula

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "model/reactions.h"
+#include "nocsolver/solver.h"
+
+namespace ursula {
+
+/// The reactions that the orthogonal complement eliminates, recovered from Newton and Euler (28), body by body from the
+/// platform to the base, for the torques of inverseDynamics at the motion. `work` as inverseDynamics left it.
+Reactions recoverReactions(const Solver<double>& solver, const Motion<double>& motion, const Vector6d& torques,
+                           Workspace<double>& work);
+
+}  // namespace ursula
