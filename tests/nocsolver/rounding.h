@@ -1,0 +1,33 @@
+#pragma once
+
+#include <algorithm>
+
+#include "nocsolver/solver.h"
+
+namespace ursula {
+
+/// Rounding errors on the longest chain of dependent operations: one a body and one a pivot on either side of a
+/// comparison, 2 (13 + 6), rounded up to a power of two.
+constexpr double chain_length = 64;
+
+/// How much a relative error of the motion or of a parameter may grow on its way to rates and torques: the condition
+/// number of B (moments over a length of the machine; Frobenius norms bound the spectral ones) times that of the worst
+/// leg, where rates go with 1/sin θ and q/r. Needs inverseKinematics and jacobians.
+template <class S>
+S conditionNumber(const Solver<S>& solver, const Workspace<S>& work) {
+  Matrix6<S> B = work.B;
+  B.template leftCols<3>() /= solver.model().length;
+  const Matrix6<S> inverse = B.inverse();
+  S legs = 1;
+  for (const LegState<S>& leg : work.legs)
+    legs = std::max<S>(legs, leg.q * leg.q / (leg.r * leg.r * leg.sin_theta * leg.sin_theta));
+  return B.norm() * inverse.norm() * legs;
+}
+
+/// Relative rounding error that either of two roads to the same number may have at the motion in `work`.
+template <class S>
+double roundingLimit(const Solver<S>& solver, const Workspace<S>& work) {
+  return static_cast<double>(S(chain_length * Eigen::NumTraits<S>::epsilon() * conditionNumber(solver, work)));
+}
+
+}  // namespace ursula

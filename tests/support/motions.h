@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <random>
+
+#include "model/scenario.h"
+
+namespace ursula {
+
+/// Numbers that are the same on every machine, as the standard's distributions are not.
+class Dice {
+ public:
+  explicit Dice(unsigned seed) : engine_(seed) {}
+  /// Uniform in [low, high).
+  double between(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+  }
+  Vector3d vector(double size) { return {between(-size, size), between(-size, size), between(-size, size)}; }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// A motion through poses near those of the scenario's own, turning about all three axes (the helix turns about one).
+std::unique_ptr<Trajectory> tumbling(const Scenario& scenario, unsigned seed);
+
+/// A pose near one of the scenario's own with a twist and a twist rate of about 1 in every coordinate.
+Motion<double> randomState(const Scenario& scenario, Dice& dice);
+
+}  // namespace ursula

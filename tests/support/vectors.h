@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/joint_variables.h"
+#include "model/motion.h"
+#include "model/real50.h"
+#include "model/scenario.h"
+
+namespace ursula {
+
+/// What tests/vectors/NAME.csv says of one instant, all its 25 digits.
+struct VectorRow {
+  Motion<Real50> motion;
+  JointVariables<Real50> q, q_dot, q_ddot;
+  Vector6<Real50> torques;
+};
+
+/// The seven machines of tests/vectors: "paper-helix", "random-1" … "random-6".
+const std::vector<std::string>& vectorNames();
+
+/// The five instants of one of them. Throws std::runtime_error where the file is not what its README says.
+std::vector<VectorRow> vectorRows(const std::string& name);
+
+/// The scenario that they belong to.
+Scenario vectorScenario(const std::string& name);
+
+/// The same motion rounded to doubles.
+Motion<double> rounded(const Motion<Real50>& motion);
+
+}  // namespace ursula
