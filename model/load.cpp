@@ -12,16 +12,12 @@ namespace {
 
 using Knot = CurvePoint<Real50, 6>;
 
-/// The harmonic mean of the slopes on both sides, 0 at an extremum, as in F. N. Fritsch and J. Butland, SIAM J. Sci.
-/// Stat. Comput. 5 (1984) 300–304, and at most 5/4 of the lesser: then m₀ + m₁ <= 5/2 in units of a piece's slope, and
-/// the Bézier points 0, m₀/5, 2m₀/5, 1 − 2m₁/5, 1 − m₁/5, 1 of a quintic with zero second derivatives at its ends
-/// increase.
+/// The harmonic mean of the slopes on both sides, 0 at an extremum (F. N. Fritsch and J. Butland, SIAM J. Sci. Stat.
+/// Comput. 5 (1984) 300–304): at most twice the lesser. A quintic that rises by 1 over s in [0, 1] with end slopes m₀,
+/// m₁ in [0, 2] and zero second derivatives there is monotone: its slope is linear in m₀ and m₁, and at the corners of
+/// that square it is 30 s²(1 − s)², 2 (1 − s)²(1 + 2s), its mirror image, and 2 − 30 s²(1 − s)² >= 1/8.
 Real50 limitedSlope(const Real50& before, const Real50& after) {
-  if (before * after <= 0) return 0;
-  const Real50 lesser = abs(before) < abs(after) ? before : after;
-  const Real50 mean = 2 * before * after / (before + after);
-  const Real50 most = 5 * lesser / 4;
-  return abs(mean) < abs(most) ? mean : most;
+  return before * after > 0 ? Real50(2 * before * after / (before + after)) : Real50(0);
 }
 
 void require(bool holds, std::size_t row, const char* key, const std::string& value, const std::string& bound) {
