@@ -41,11 +41,14 @@ class Amplification {
 
   const std::vector<double>& instants() const { return instants_; }
   double length() const { return length_; }
+  /// √‖∂acceleration/∂position‖, the largest along the motion: how fast deviations can grow, 1/s.
+  double fastestRate() const { return fastest_rate_; }
 
  private:
   std::vector<double> instants_;
   std::vector<Matrix12> propagators_;  ///< from instant k to k + 1
   double length_ = 1;
+  double fastest_rate_ = 0;
 };
 
 }  // namespace ursula

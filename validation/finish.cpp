@@ -76,7 +76,7 @@ void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<
     steps += window.replay.steps.size() - (window.replay.steps.empty() ? 0 : 1);
     for (double value : window.window.growth) growth = std::max(growth, value);
   }
-  result.findings = {
+  const std::vector<std::pair<std::string, std::string>> findings = {
       {"largest torque", fmt::format("{:.6g} N m", torque)},
       {"torque error, relative to the largest", fmt::format("{:.3g}", torque > 0 ? torque_error / torque : 0)},
       {"largest platform acceleration", fmt::format("{:.6g} m/s^2", acceleration)},
@@ -89,6 +89,7 @@ void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<
       {"replay derivative evaluations", fmt::format("{}", evaluations)},
       {"growth of a velocity deviation in a window", fmt::format("{:.4g} m/(m/s)", growth)},
   };
+  result.findings.insert(result.findings.end(), findings.begin(), findings.end());
 }
 
 }  // namespace ursula

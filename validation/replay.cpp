@@ -58,6 +58,7 @@ class Run {
     odeint::integrate_adaptive(
         stepper, [this](const OdeState& at, OdeState& rate, double t) { derivative(at, rate, t); }, x, settings_.start,
         settings_.end, span / 128, [this](const OdeState& at, double t) { observe(at, t); });
+    result_.accepted = static_cast<long>(result_.steps.size()) - 1;
   }
 
   /// Simbody integrates no work: the energy is left unjudged here.
@@ -68,6 +69,7 @@ class Run {
     const SimbodyLoop::Counters counters =
         loop_.integrateRungeKuttaMerson(settings_.tolerance, torques_, instants, [this](double t) { record(t); });
     result_.evaluations = counters.derivative_evaluations;
+    result_.accepted = counters.steps;
     if (counters.gave_up) result_.gave_up = "Simbody's integrator could not keep its accuracy";
   }
 
@@ -77,16 +79,24 @@ class Run {
   void derivative(const OdeState& x, OdeState& rate, double t) {
     if (++result_.evaluations > settings_.max_evaluations)
       throw GaveUp(fmt::format("more than {} derivative evaluations at t = {} s", settings_.max_evaluations, t));
-    loop_.derivative(t, x.data(), torques_(t), rate.data());
+    loop_.derivative(t, x.data(), torquesAt(t, x), rate.data());
     const SimbodyLoop::Power power = loop_.power();
     rate.back() = (power.actuators + power.friction + power.load) / weight_;
     for (double value : rate)
       if (!std::isfinite(value)) throw GaveUp(fmt::format("the derivatives are not finite at t = {} s", t));
   }
 
+  Vector6d torquesAt(double t, const OdeState& x) {
+    if (!settings_.feedback) return torques_(t);
+    loop_.setState(t, x.data());
+    return torques_(t) + settings_.feedback(t, loop_.joints());
+  }
+
   void observe(const OdeState& x, double t) {
     loop_.setState(t, x.data());
     record(t);
+    if (settings_.feedback)
+      result_.steps.back().feedback = settings_.feedback(t, loop_.joints()).cwiseAbs().maxCoeff();
     const double work = x.back() * weight_;
     const SimbodyLoop::Energy energy = loop_.energy();
     result_.steps.back().energy_error = energy.kinetic + energy.potential - start_energy_ - work;

@@ -18,6 +18,7 @@ struct ReplayStep {
   Vector3d spin_error = Vector3d::Zero();      ///< of the angular velocity, rad/s
   SimbodyLoop::Closure closure;
   double energy_error = 0;                     ///< E − E₀ − work, J
+  double feedback = 0;                         ///< largest torque that a stabilising term added, N·m
 };
 
 /// An open-loop simulation of the Simbody loop from the commanded state under a history of torques.
@@ -26,6 +27,7 @@ struct Replay {
   double tolerance = 0;
   std::vector<ReplayStep> steps;  ///< from the start; every accepted step (rk_merson: every instant asked for)
   long evaluations = 0;           ///< of the derivatives
+  long accepted = 0;              ///< steps of the integrator
   double energy_scale = 0;        ///< ‖∂E/∂x‖ and |work|, what an error of one in the state is to the energy, J
   std::string gave_up;            ///< why, where it did not reach the end; else empty
 
@@ -38,6 +40,8 @@ struct ReplaySettings {
   double tolerance = 1e-14;  ///< absolute and relative
   double start = 0, end = 0; ///< s; the state at start is the commanded one
   SimbodyLoop::Topology topology = SimbodyLoop::Topology::six_balls;
+  /// Added to the torques, from the state that the loop is in; none where empty. rkf78 only.
+  std::function<Vector6d(double t, const JointMotion& joints)> feedback;
   int instants = 101;           ///< rk_merson only: equally spaced instants at which it is compared
   long max_evaluations = 200000;  ///< more than this is giving up
 };

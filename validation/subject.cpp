@@ -8,12 +8,12 @@ namespace ursula {
 namespace {
 
 template <class Reading>
-Subject makeSubject(std::string name, const Manipulator& manipulator, std::shared_ptr<const Load> load,
+Subject makeSubject(const std::string& name, const Manipulator& manipulator, std::shared_ptr<const Load> load,
                     const Reading& reading) {
   const auto solver = std::make_shared<const Solver<double, Reading>>(manipulator, reading);
   const auto work = std::make_shared<Workspace<double>>();
   Subject subject;
-  subject.name = std::move(name);
+  subject.name = name;
   subject.torques = [solver, work, load](const Motion<double>& motion) {
     return solver->inverseDynamics(motion, *work, loadAtP(load.get(), motion));
   };
@@ -24,6 +24,7 @@ Subject makeSubject(std::string name, const Manipulator& manipulator, std::share
     solver->bodyMotions(motion, *work, answer.bodies);
     return answer;
   };
+  subject.rebuilt = [name, reading](const Manipulator& other) { return makeSubject(name, other, nullptr, reading); };
   return subject;
 }
 

@@ -24,6 +24,8 @@ struct Subject {
   std::string name;
   std::function<Vector6d(const Motion<double>&)> torques;            ///< N·m, conjugate to φ̇
   std::function<KinematicAnswer(const Motion<double>&)> kinematics;  ///< empty where only torques are judged
+  /// The same solver for another machine, for invariances; empty where the subject is not a solver.
+  std::function<Subject(const Manipulator&)> rebuilt;
 };
 
 /// The NOC of this program.

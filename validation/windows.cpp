@@ -22,27 +22,46 @@ double positionScale(const std::vector<PointwiseSample>& samples) {
   return scale;
 }
 
-std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const ReplayPlan& plan) {
-  const double duration = scenario.trajectory->duration();
-  const int intervals = std::max(300, static_cast<int>(std::ceil(40 * duration)));
-  const Amplification amplification(scenario, intervals);
-  const double rate = plan.step_rate * errorPerStep(scenario.simulation.tolerance, plan.position_scale);
+Amplification linearised(const Scenario& scenario) {
+  return Amplification(scenario, std::max(300, static_cast<int>(std::ceil(40 * scenario.trajectory->duration()))));
+}
 
-  std::vector<WindowedReplay> windows;
-  for (std::size_t first = 0; first + 1 < amplification.instants().size();) {
-    WindowedReplay window;
-    window.window =
-        amplification.window(first, plan.acceleration, rate, useful_replay_limit * amplification.length());
+std::vector<GrowthWindow> planWindows(const Scenario& scenario, const Amplification& amplification,
+                                      const ReplayPlan& plan) {
+  const double rate = plan.step_rate * errorPerStep(scenario.simulation.tolerance, plan.position_scale);
+  std::vector<GrowthWindow> windows;
+  for (std::size_t first = 0; first + 1 < amplification.instants().size(); first = windows.back().last)
+    windows.push_back(
+        amplification.window(first, plan.acceleration, rate, useful_replay_limit * amplification.length()));
+  return windows;
+}
+
+double plannedBound(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window) {
+  const double per_step = errorPerStep(scenario.simulation.tolerance, plan.position_scale);
+  return window.bound(window.end(), plan.step_rate * per_step, 0);
+}
+
+std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const ReplayPlan& plan,
+                                            const std::vector<GrowthWindow>& windows) {
+  std::vector<WindowedReplay> replays;
+  for (const GrowthWindow& window : windows) {
     ReplaySettings settings;
     settings.integrator = scenario.simulation.integrator;
     settings.tolerance = scenario.simulation.tolerance;
-    settings.start = window.window.start();
-    settings.end = window.window.end();
-    window.replay = replay(scenario, plan.torques, settings);
-    first = window.window.last;
-    windows.push_back(std::move(window));
+    settings.start = window.start();
+    settings.end = window.end();
+    replays.push_back({window, replay(scenario, plan.torques, settings)});
   }
-  return windows;
+  return replays;
+}
+
+std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Amplification& amplification,
+                                            const ReplayPlan& plan) {
+  return replayInWindows(scenario, plan, planWindows(scenario, amplification, plan));
+}
+
+std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const ReplayPlan& plan) {
+  return replayInWindows(scenario, linearised(scenario), plan);
 }
 
 }  // namespace ursula

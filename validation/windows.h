@@ -18,7 +18,24 @@ struct ReplayPlan {
   double step_rate = 0;                        ///< steps a second that the replay will take, for planning only
 };
 
-/// Replays the whole motion in windows that restart on the commanded state, each as long as its limit stays useful.
+/// The growth of deviations along the scenario's motion: 300 intervals, and 40 a second where that is more.
+Amplification linearised(const Scenario& scenario);
+
+/// The whole motion in windows that restart on the commanded state, each as long as its limit stays useful; where none
+/// is short enough for that, one of the shortest.
+std::vector<GrowthWindow> planWindows(const Scenario& scenario, const Amplification& amplification,
+                                      const ReplayPlan& plan);
+
+/// The bound that planWindows held against the useful limit, at the end of `window`, m.
+double plannedBound(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window);
+
+/// A replay for each window.
+std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const ReplayPlan& plan,
+                                            const std::vector<GrowthWindow>& windows);
+
+/// Plans windows and replays in them.
+std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Amplification& amplification,
+                                            const ReplayPlan& plan);
 std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const ReplayPlan& plan);
 
 /// For smooth torques: the judgement counts the steps taken.

@@ -1,0 +1,148 @@
+#include "validation/invariance.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "nocsolver/errors.h"
+
+namespace ursula {
+namespace {
+
+/// No angle of it is special to any leg.
+const Matrix3d& worldTurn() {
+  static const Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3d(0.36, -0.48, 0.8)).toRotationMatrix();
+  return turn;
+}
+
+Motion<double> turned(const Motion<double>& motion) {
+  const Matrix3d& R = worldTurn();
+  Motion<double> out = motion;
+  out.p = R * motion.p;
+  out.Q = R * motion.Q;
+  out.omega = R * motion.omega;
+  out.p_dot = R * motion.p_dot;
+  out.omega_dot = R * motion.omega_dot;
+  out.p_ddot = R * motion.p_ddot;
+  return out;
+}
+
+Manipulator turned(const Manipulator& manipulator) {
+  ManipulatorParameters machine = manipulator.parameters();
+  machine.gravity = worldTurn() * machine.gravity;
+  for (Leg& leg : machine.legs) {
+    leg.base_point = worldTurn() * leg.base_point;
+    leg.base_axis = worldTurn() * leg.base_axis;
+  }
+  return Manipulator(machine);
+}
+
+/// Leg i becomes leg (i + 1) mod 6.
+Manipulator relabelled(const Manipulator& manipulator) {
+  ManipulatorParameters machine = manipulator.parameters();
+  for (std::size_t i = 0; i < leg_count; ++i) machine.legs[(i + 1) % leg_count] = manipulator.parameters().legs[i];
+  return Manipulator(machine);
+}
+
+Vector6d relabelled(const Vector6d& torques) {
+  Vector6d out;
+  for (int i = 0; i < leg_count; ++i) out((i + 1) % leg_count) = torques(i);
+  return out;
+}
+
+/// Masses, inertias and friction doubled: a power of two, so that no rounding differs.
+Manipulator doubled(const Manipulator& manipulator) {
+  ManipulatorParameters machine = manipulator.parameters();
+  machine.platform.mass *= 2;
+  machine.platform.inertia *= 2;
+  for (Leg& leg : machine.legs) {
+    for (Link* link : {&leg.proximal, &leg.distal}) {
+      link->mass *= 2;
+      link->inertia *= 2;
+    }
+    for (JointFriction* friction : {&leg.friction, static_cast<JointFriction*>(&leg.coulomb)}) {
+      friction->actuated *= 2;
+      friction->universal *= 2;
+      friction->knee *= 2;
+    }
+  }
+  return Manipulator(machine);
+}
+
+Manipulator frictionless(const Manipulator& manipulator) {
+  ManipulatorParameters machine = manipulator.parameters();
+  for (Leg& leg : machine.legs) {
+    leg.friction = {};
+    leg.coulomb = {};
+  }
+  return Manipulator(machine);
+}
+
+Motion<double> reversed(const Motion<double>& motion) {
+  Motion<double> out = motion;
+  out.omega = -motion.omega;
+  out.p_dot = -motion.p_dot;
+  return out;
+}
+
+struct Invariance {
+  const char* name;
+  const char* what;
+  std::function<Vector6d(const Motion<double>&)> expected, found;
+};
+
+Check judgeInvariance(const Invariance& invariance, const std::vector<PointwiseSample>& samples) {
+  double error = 0, limit = 0, when = 0;
+  bool beyond = false;
+  double worst_ratio = 1;
+  try {
+    for (const PointwiseSample& sample : samples) {
+      const double difference =
+          (invariance.expected(sample.motion) - invariance.found(sample.motion)).cwiseAbs().maxCoeff();
+      const double bound = 2 * sample.conditioning.torqueRounding();
+      const double ratio = difference / bound;
+      if (!(difference <= bound) && !(ratio <= worst_ratio)) {
+        error = difference, limit = bound, when = sample.motion.t, beyond = true, worst_ratio = ratio;
+        if (std::isnan(ratio)) break;
+      } else if (!beyond && difference >= error) {
+        error = difference, limit = bound, when = sample.motion.t;
+      }
+    }
+  } catch (const PoseError& refusal) {
+    return notMade(invariance.name, "N m", std::string("no answer: ") + refusal.what());
+  }
+  if (samples.empty()) return notMade(invariance.name, "N m", "no instant was compared");
+  return judged(invariance.name, error, limit, "N m", "twice the torque's rounding limit: both sides round",
+                fmt::format("{}, at {} instants; shown for t = {:.6g} s", invariance.what, samples.size(), when));
+}
+
+}  // namespace
+
+std::vector<Check> judgeInvariances(const Scenario& scenario, const Subject& subject,
+                                    const std::vector<PointwiseSample>& samples) {
+  if (!subject.rebuilt) return {};
+  const Manipulator& machine = *scenario.manipulator;
+  const Subject own = subject.rebuilt(machine), in_turned = subject.rebuilt(turned(machine)),
+                with_other_labels = subject.rebuilt(relabelled(machine)), with_double = subject.rebuilt(doubled(machine)),
+                without_friction = subject.rebuilt(frictionless(machine));
+  using M = Motion<double>;
+  const std::vector<Invariance> invariances = {
+      {"invariance.rotation", "the whole world turned, gravity included, leaves the torques", own.torques,
+       [&](const M& motion) { return in_turned.torques(turned(motion)); }},
+      {"invariance.labels", "legs relabelled carry their torques along",
+       [&](const M& motion) { return relabelled(own.torques(motion)); }, with_other_labels.torques},
+      {"invariance.mass", "masses, inertias and friction doubled double the torques",
+       [&](const M& motion) { return Vector6d(2 * own.torques(motion)); }, with_double.torques},
+      {"invariance.time_reversal", "the mean of the torques forwards and backwards is that without friction",
+       without_friction.torques,
+       [&](const M& motion) { return Vector6d((own.torques(motion) + own.torques(reversed(motion))) / 2); }},
+  };
+  std::vector<Check> checks;
+  for (const Invariance& invariance : invariances) checks.push_back(judgeInvariance(invariance, samples));
+  return checks;
+}
+
+}  // namespace ursula

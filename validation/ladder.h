@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/scenario.h"
+#include "validation/judge_replay.h"
+#include "validation/result.h"
+
+namespace ursula {
+
+/// One rung: a replay of the first window at one tolerance.
+struct Rung {
+  Integrator integrator = Integrator::rkf78;
+  double tolerance = 0;
+  long evaluations = 0, steps = 0;
+  double distance = 0;  ///< of its end from the end of the finest replay, m
+  std::string gave_up;
+};
+
+/// The same window replayed at several tolerances and with both integrators.
+struct Ladder {
+  std::vector<Rung> rungs;            ///< rkf78 from coarse to fine, then rk_merson
+  std::vector<double> observed_orders;  ///< between neighbouring rkf78 rungs, of the error against the steps
+  bool asymptotic = false;            ///< both orders within 2 of 8
+  double extrapolated = 0;            ///< estimated integration error of the finest replay at its end, m
+  double uncertainty = 0;             ///< of that estimate, m
+};
+
+/// `finest` is the judged replay of the window.
+Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest);
+
+/// `integration.ladder` and `integration.second`.
+std::vector<Check> judgeLadder(const Ladder& ladder, const WindowedReplay& finest, double position_scale);
+
+/// Error against derivative evaluations, for the report.
+TimeSeries workPrecision(const Ladder& ladder);
+
+}  // namespace ursula

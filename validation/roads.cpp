@@ -1,0 +1,167 @@
+#include "validation/roads.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "model/maximal_loop.h"
+#include "model/simbody_loop.h"
+#include "nocsolver/reactions.h"
+#include "nocsolver/solver.h"
+
+namespace ursula {
+namespace {
+
+using Road = Vector6d RoadSample::*;
+
+struct Disagreement {
+  double error = 0, limit = 0, t = 0;
+  bool beyond = false;
+};
+
+double distance(const RoadSample& sample, Road a, Road b) {
+  return (sample.*a - sample.*b).cwiseAbs().maxCoeff();
+}
+
+/// The instant furthest beyond its limit, or where none is, the largest difference.
+Disagreement compareRoads(const std::vector<RoadSample>& samples, Road a, Road b) {
+  Disagreement shown;
+  double worst_ratio = 1;
+  for (const RoadSample& sample : samples) {
+    const double error = distance(sample, a, b);
+    const bool beyond = !(error <= sample.limit);
+    const double ratio = error / sample.limit;
+    if (beyond && !(ratio <= worst_ratio)) {
+      shown = {error, sample.limit, sample.t, true};
+      worst_ratio = ratio;
+      if (std::isnan(ratio)) return shown;
+    } else if (!shown.beyond && error >= shown.error) {
+      shown = {error, sample.limit, sample.t, false};
+    }
+  }
+  return shown;
+}
+
+Check judgeRoad(const std::vector<RoadSample>& samples, const char* check_name, const char* what, Road road) {
+  if (samples.empty()) return notMade(check_name, "N m", "no instant was compared");
+  const Disagreement shown = compareRoads(samples, &RoadSample::subject, road);
+  return judged(check_name, shown.error, shown.limit, "N m", "64 eps kappa(B) kappa(legs) x || |T|' |w| ||",
+                fmt::format("torques against {}, at {} instants; shown for t = {:.6g} s", what, samples.size(), shown.t));
+}
+
+double largest(const LegReactions& a) {
+  return std::max({a.f_A.norm(), a.n_A.norm(), a.f_R.norm(), a.n_R.norm(), a.f_B.norm()});
+}
+
+double largestDifference(const LegReactions& a, const LegReactions& b) {
+  return std::max({(a.f_A - b.f_A).norm(), (a.n_A - b.n_A).norm(), (a.f_R - b.f_R).norm(), (a.n_R - b.n_R).norm(),
+                   (a.f_B - b.f_B).norm()});
+}
+
+void addReactionColumns(const std::vector<Reactions>& reactions, TimeSeries& series) {
+  struct Column {
+    const char* pattern;
+    Vector3d LegReactions::*member;
+  };
+  const std::array<Column, 5> columns{{{"reaction_fA_{}_{}_N", &LegReactions::f_A},
+                                       {"reaction_nA_{}_{}_Nm", &LegReactions::n_A},
+                                       {"reaction_fR_{}_{}_N", &LegReactions::f_R},
+                                       {"reaction_nR_{}_{}_Nm", &LegReactions::n_R},
+                                       {"reaction_fB_{}_{}_N", &LegReactions::f_B}}};
+  const std::array<char, 3> axes{'x', 'y', 'z'};
+  for (const Column& column : columns)
+    for (std::size_t leg = 0; leg < leg_count; ++leg)
+      for (int k = 0; k < 3; ++k) {
+        std::vector<double> values;
+        for (const Reactions& row : reactions) values.push_back((row[leg].*column.member)(k));
+        series.add(fmt::format(fmt::runtime(column.pattern), axes[static_cast<std::size_t>(k)], leg + 1),
+                   std::move(values));
+      }
+}
+
+}  // namespace
+
+std::vector<RoadSample> runRoads(const Scenario& scenario, const std::vector<PointwiseSample>& samples) {
+  SimbodyLoop twin(*scenario.manipulator, SimbodyLoop::Topology::tree_through_leg_1, scenario.load);
+  MaximalLoop maximal(*scenario.manipulator, scenario.load);
+  std::vector<RoadSample> out;
+  out.reserve(samples.size());
+  for (const PointwiseSample& sample : samples) {
+    RoadSample road;
+    road.t = sample.motion.t;
+    road.subject = sample.torques;
+    road.simbody = sample.torques_simbody;
+    twin.place(sample.motion);
+    road.twin = twin.inverseDynamics();
+    road.maximal = maximal.inverseDynamics(sample.motion);
+    road.limit = sample.torque.limit;
+    out.push_back(road);
+  }
+  return out;
+}
+
+std::vector<Check> judgeRoads(const std::vector<RoadSample>& samples) {
+  return {judgeRoad(samples, "torque.twin", "Simbody's loop grown through leg 1, five balls", &RoadSample::twin),
+          judgeRoad(samples, "torque.maximal", "13 bodies in maximal coordinates with Lagrange multipliers",
+                    &RoadSample::maximal)};
+}
+
+std::string oddOneOut(const std::vector<RoadSample>& samples) {
+  struct Named {
+    const char* name;
+    Road road;
+  };
+  const std::array<Named, 4> roads{{{"the torques on trial", &RoadSample::subject},
+                                    {"Simbody, six balls", &RoadSample::simbody},
+                                    {"Simbody, tree through leg 1", &RoadSample::twin},
+                                    {"maximal coordinates", &RoadSample::maximal}}};
+  const auto agree = [&samples](const Named& a, const Named& b) { return !compareRoads(samples, a.road, b.road).beyond; };
+  for (const Named& odd : roads) {
+    bool others_agree = true, alone = true;
+    for (const Named& a : roads)
+      for (const Named& b : roads) {
+        if (a.road == b.road) continue;
+        const bool pair_agrees = agree(a, b);
+        if (a.road != odd.road && b.road != odd.road) others_agree &= pair_agrees;
+        if (a.road == odd.road) alone &= !pair_agrees;
+      }
+    if (others_agree && alone) return odd.name;
+  }
+  const bool all = std::all_of(roads.begin(), roads.end(), [&](const Named& road) { return agree(roads[0], road); });
+  return all ? "none: four roads agree" : "not one alone: the roads disagree in more than one way";
+}
+
+Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample>& samples, TimeSeries* series) {
+  const Solver<double> solver(*scenario.manipulator);
+  Workspace<double> work;
+  SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
+  double size = 0, error = 0, rounding = 0, when = 0;
+  std::size_t where = 0;
+  std::vector<Reactions> rows;
+  for (const PointwiseSample& sample : samples) {
+    const Vector6d torques =
+        solver.inverseDynamics(sample.motion, work, loadAtP(scenario.load.get(), sample.motion));
+    rows.push_back(recoverReactions(solver, sample.motion, torques, work));
+    loop.place(sample.motion);
+    loop.accelerate(torques);
+    const Reactions simbody = loop.reactions();
+    rounding = std::max(rounding, sample.conditioning.torqueRounding() / sample.conditioning.length);
+    for (std::size_t leg = 0; leg < leg_count; ++leg) {
+      size = std::max(size, largest(rows.back()[leg]));
+      const double difference = largestDifference(rows.back()[leg], simbody[leg]);
+      if (!(difference <= error)) error = difference, when = sample.motion.t, where = leg;
+    }
+  }
+  if (series != nullptr) addReactionColumns(rows, *series);
+  // Forces come back from torques over the legs' levers, once more with the condition of B.
+  const double kappa = samples.empty() ? 1 : samples.front().conditioning.kappa_B;
+  return judged("reactions.pointwise", error, rounding * kappa, "N, N m",
+                "the torque's limit over the machine's length, x kappa(B)",
+                fmt::format("forces and moments at 18 joints against Simbody's mobilizer and constraint reactions, at {} "
+                            "instants; shown for t = {:.6g} s, leg {}; the largest is {:.6g}",
+                            samples.size(), when, where + 1, size));
+}
+
+}  // namespace ursula

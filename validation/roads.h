@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "model/scenario.h"
+#include "validation/pointwise.h"
+#include "validation/result.h"
+#include "validation/subject.h"
+
+namespace ursula {
+
+/// The torques of all roads at one instant, for one subject.
+struct RoadSample {
+  double t = 0;
+  Vector6d subject, simbody, twin, maximal;  ///< N·m
+  double limit = 0;                          ///< of rounding between any two, N·m
+};
+
+/// Simbody's twin (tree through leg 1, five balls) and the maximal coordinates at the instants of `samples`.
+std::vector<RoadSample> runRoads(const Scenario& scenario, const std::vector<PointwiseSample>& samples);
+
+/// `torque.twin`, `torque.maximal`: the subject against each further road.
+std::vector<Check> judgeRoads(const std::vector<RoadSample>& samples);
+
+/// Which road stands alone when the others agree, in words; "none" where all agree.
+std::string oddOneOut(const std::vector<RoadSample>& samples);
+
+/// `reactions.pointwise`: the joint reactions recovered from the solver's road against Simbody's mobilizer and
+/// constraint reactions, relative to the largest; only for the formulas that hold.
+Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample>& samples, TimeSeries* series);
+
+}  // namespace ursula
