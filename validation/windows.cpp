@@ -29,10 +29,11 @@ Amplification linearised(const Scenario& scenario) {
 std::vector<GrowthWindow> planWindows(const Scenario& scenario, const Amplification& amplification,
                                       const ReplayPlan& plan) {
   const double rate = plan.step_rate * errorPerStep(scenario.simulation.tolerance, plan.position_scale);
+  // A quarter of what is useful: the steps taken, known only afterwards, may be more than planned.
+  const double planned = useful_replay_limit / 4 * amplification.length();
   std::vector<GrowthWindow> windows;
   for (std::size_t first = 0; first + 1 < amplification.instants().size(); first = windows.back().last)
-    windows.push_back(
-        amplification.window(first, plan.acceleration, rate, useful_replay_limit * amplification.length()));
+    windows.push_back(amplification.window(first, plan.acceleration, rate, planned));
   return windows;
 }
 
