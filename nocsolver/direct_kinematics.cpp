@@ -16,13 +16,13 @@ using direct::Planes;
 
 constexpr double eps = Eigen::NumTraits<double>::epsilon();
 
-/// What the quadrics may be off by: some 64 roundings on the way from φ, grown by both eliminations.
+/// What the quadrics may be off by: some 16 roundings on the way from φ, grown by both eliminations.
 double quadricRounding(const direct::Elimination& elimination) {
-  return 64 * eps / (elimination.normals * elimination.independence);
+  return 16 * eps / (elimination.normals * elimination.independence);
 }
 
-/// At this ratio a double root is spread over what is taken for one root, (64 eps/ratio)^½ = eps^⅛.
-const double smallest_ratio = 64 * std::pow(eps, 0.75);
+/// At this ratio a double root is spread over what is taken for one root, (16 eps/ratio)^½ = eps^⅛.
+const double smallest_ratio = 16 * std::pow(eps, 0.75);
 
 std::string describe(const std::string& what, double measure, double bound) {
   std::ostringstream text;
