@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
   std::function<int()> run;
   ursula::addValidate(app, run);
   ursula::addInverse(app, run);
+  ursula::addDirect(app, run);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,144 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "apps/verbs.h"
+#include "model/csv.h"
+#include "model/scenario.h"
+#include "nocsolver/direct_kinematics.h"
+
+namespace ursula {
+namespace {
+
+struct DirectOptions {
+  std::string scenario, phi, out = "-";
+};
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  return first == text.npos ? std::string_view{} : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+double readAngle(std::string_view cell, int index) {
+  const std::string_view text = trimmed(cell);
+  const std::string_view digits = text.substr(text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
+    throw UsageError(fmt::format("--phi: phi_{} is '{}', expected a finite number, rad", index, text));
+  return value;
+}
+
+/// Six comma-separated numbers.
+Vector6d readAngles(std::string_view text) {
+  Vector6d phi;
+  int count = 0;
+  for (std::size_t start = 0; start <= text.size(); ++count) {
+    const std::size_t end = std::min(text.find(',', start), text.size());
+    const double value = readAngle(text.substr(start, end - start), count + 1);
+    if (count < leg_count) phi(count) = value;
+    start = end + 1;
+  }
+  if (count != leg_count)
+    throw UsageError(fmt::format("--phi: {} number{}, expected six with commas between, rad", count, count == 1 ? "" : "s"));
+  return phi;
+}
+
+/// Column by column, one row a pose.
+struct PoseTable {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> columns;
+
+  template <class Value>
+  void add(const std::string& name, const PlatformPoses& poses, Value&& value) {
+    names.push_back(name);
+    columns.emplace_back();
+    for (const PlatformPose& pose : poses) columns.back().push_back(value(pose));
+  }
+
+  template <class Value>
+  void addLegs(const char* format, const PlatformPoses& poses, Value&& value) {
+    for (std::size_t i = 0; i < leg_count; ++i)
+      add(fmt::format(fmt::runtime(format), i + 1), poses, [&](const PlatformPose& pose) { return value(pose.legs[i]); });
+  }
+};
+
+PoseTable tabulate(const PlatformPoses& poses) {
+  PoseTable table;
+  table.add("pose", poses, [&](const PlatformPose& pose) { return static_cast<double>(&pose - poses.begin() + 1); });
+  for (int k = 0; k < 3; ++k) table.add(fmt::format("p_{}_m", "xyz"[k]), poses, [k](auto& pose) { return pose.p(k); });
+  for (int k = 0; k < 4; ++k) table.add(fmt::format("q_{}", "wxyz"[k]), poses, [k](auto& pose) { return pose.q(k); });
+  table.add("multiplicity", poses, [](const PlatformPose& pose) { return pose.multiplicity; });
+  table.add("assembles", poses, [](const PlatformPose& pose) { return pose.assembles; });
+  table.add("residual_m", poses, [](const PlatformPose& pose) { return pose.residual; });
+  table.addLegs("reach_{}", poses, [](const LegAtPose& leg) { return leg.in_reach; });
+  table.addLegs("side_{}", poses, [](const LegAtPose& leg) { return leg.front; });
+  table.addLegs("distance_{}_m", poses, [](const LegAtPose& leg) { return leg.distance; });
+  table.addLegs("psi_{}_rad", poses, [](const LegAtPose& leg) { return leg.psi; });
+  table.addLegs("theta_{}_rad", poses, [](const LegAtPose& leg) { return leg.theta; });
+  return table;
+}
+
+/// The legs of which something holds, as "legs 2, 5".
+template <class Condition>
+std::string legsThat(const PlatformPose& pose, Condition&& condition) {
+  std::vector<std::size_t> legs;
+  for (std::size_t i = 0; i < leg_count; ++i)
+    if (condition(pose.legs[i])) legs.push_back(i + 1);
+  return legs.empty() ? "" : fmt::format("leg{} {}", legs.size() == 1 ? "" : "s", fmt::join(legs, ", "));
+}
+
+void summarise(const PlatformPoses& poses) {
+  int index = 0;
+  fmt::print(stderr, "{} real pose{}; {} of 8 solutions in the complex numbers accounted for\n", poses.size,
+             poses.size == 1 ? "" : "s", poses.counted);
+  for (const PlatformPose& pose : poses) {
+    const std::string far = legsThat(pose, [](const LegAtPose& leg) { return !leg.in_reach; });
+    const std::string behind = legsThat(pose, [](const LegAtPose& leg) { return !leg.front; });
+    fmt::print(stderr, "pose {}: P at ({:.6f}, {:.6f}, {:.6f}) m, {}{}{}\n", ++index, pose.p.x(), pose.p.y(), pose.p.z(),
+               far.empty() ? "assembles" : far + " out of reach",
+               behind.empty() ? "" : "; " + behind + " behind the axis, where inverse kinematics says phi ± pi",
+               pose.multiplicity > 1 ? fmt::format("; {} poses in one, singular", pose.multiplicity) : "");
+  }
+}
+
+int direct(const DirectOptions& options) {
+  const Vector6d phi = readAngles(options.phi);
+  const Scenario scenario = readScenario(options.scenario);
+  PlatformPoses poses;
+  try {
+    poses = DirectKinematics(*scenario.manipulator).poses(phi);
+  } catch (const UndeterminedPose& undetermined) {
+    fmt::print(stderr, "these angles do not determine the platform's poses: {}\n", undetermined.what());
+    return exit_inconclusive;
+  }
+  const PoseTable table = tabulate(poses);
+  writeOutput(options.out, csvText(table.names, table.columns));
+  summarise(poses);
+  if (poses.counted != 8) return exit_inconclusive;  // one may be missing
+  return poses.size > 0 ? exit_passed : exit_failed;
+}
+
+}  // namespace
+
+void addDirect(CLI::App& app, std::function<int()>& run) {
+  const auto options = std::make_shared<DirectOptions>();
+  CLI::App* verb = app.add_subcommand("direct", "Every real pose of the platform for given actuated angles, as CSV");
+  verb->add_option("scenario", options->scenario, "Scenario file (TOML)")->required();
+  verb->add_option("--phi", options->phi, "Six angles with commas between, rad: phi_1,...,phi_6")->required();
+  verb->add_option("--out", options->out, "CSV file; - for standard output")->capture_default_str();
+  verb->footer(
+      "One row a pose, at most eight; those that assemble come first. A pose that legs cannot reach is listed with\n"
+      "assembles = 0, reach_i = 0, and psi_i, theta_i = nan. side_i = 1: B_i lies where inverse kinematics answers with\n"
+      "phi_i; 0: it says phi_i ± pi. psi, theta are for the manipulator's own bend of each knee; the other reaches too.\n"
+      "Exit code: 0 real poses found, 1 none, 2 bad input, 3 the angles leave the platform free to move.");
+  verb->callback([options, &run] { run = [options] { return direct(*options); }; });
+}
+
+}  // namespace ursula
