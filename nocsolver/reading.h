@@ -13,6 +13,7 @@ enum class Slip {
   eq14a,                 ///< (14a) φ folded into [0, π]
   eq14b,                 ///< (14b) −k_y for +k_y
   eq15a,                 ///< (15a) without − l sin ψ
+  eq15b,                 ///< (15b) θ for θ̇
   eq16,                  ///< (16) −ωᵢ
   eq17,                  ///< (17a,b) −ω̇ᵢ
   eq19a,                 ///< (19a) ηφ, and without the terms in l

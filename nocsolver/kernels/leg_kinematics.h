@@ -109,7 +109,12 @@ JointTriple<S> legRates(const LegModel<S>& leg, const LegState<S>& state, const 
   const S q_q_dot = h.y() * state.k_y + h.z() * state.r;                                // (paper, eq. 6)
   rate.theta = q_q_dot / (leg.l * leg.s * state.sin_theta);                             // (paper, eq. 4b)
   rate.phi = h.x() / (reading.has(Slip::eq15a) ? S(leg.s * state.sin_sum) : distance);  // (paper, eq. 15a)
-  rate.psi = (h.y() - leg.s * rate.theta * state.sin_sum) / distance;                   // (paper, eq. 15b)
+  S theta_rate = rate.theta;
+  if (reading.has(Slip::eq15b)) {
+    using std::atan2;
+    theta_rate = atan2(state.sin_theta, state.cos_theta);
+  }
+  rate.psi = (h.y() - leg.s * theta_rate * state.sin_sum) / distance;  // (paper, eq. 15b)
   return rate;
 }
 
