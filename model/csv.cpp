@@ -49,34 +49,62 @@ std::vector<std::string_view> splitLines(std::string_view text) {
   return lines;
 }
 
-void readHeader(std::string_view line, CsvTable& table) {
-  for (const std::string_view cell : splitCells(line)) {
-    const std::string name(cell);
+/// The places of the wanted columns among all.
+std::vector<std::size_t> readHeader(const std::vector<std::string_view>& cells, const CsvOptions& options,
+                                    CsvTable& table) {
+  std::vector<std::size_t> wanted;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::string name(cells[i]);
     if (name.empty()) fail(table.file, 1, "a column without a name, expected quantity_index_unit in each");
-    if (table.find(name)) fail(table.file, 1, "duplicate column '" + name + "', expected each name once");
-    table.names.push_back(name);
-    table.columns.emplace_back();
+    const auto here = cells.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::find(cells.begin(), here, cells[i]) != here)
+      fail(table.file, 1, "duplicate column '" + name + "', expected each name once");
+    const bool is_wanted = !options.wanted || options.wanted(name);
+    (is_wanted ? table.names : table.ignored).push_back(name);
+    if (is_wanted) wanted.push_back(i);
   }
+  table.columns.resize(wanted.size());
+  table.last_places.resize(wanted.size());
+  return wanted;
+}
+
+/// Of a cell that is a finite number. Exponents that no double has are cut off.
+int lastPlace(std::string_view cell) {
+  const auto e = cell.find_first_of("eE");
+  const std::string_view mantissa = cell.substr(0, e);
+  const auto point = mantissa.find('.');
+  const int decimals = point == std::string_view::npos ? 0 : static_cast<int>(mantissa.size() - point - 1);
+  int exponent = 0;
+  if (e != std::string_view::npos) {
+    std::string_view digits = cell.substr(e + 1);
+    if (digits[0] == '+') digits.remove_prefix(1);
+    if (std::from_chars(digits.data(), digits.data() + digits.size(), exponent).ec != std::errc()) exponent = 0;
+  }
+  return std::clamp(exponent, -400, 400) - decimals;
 }
 
 /// std::from_chars, since it knows no locale; a leading plus, which it refuses, is harmless.
-double readNumber(std::string_view cell, const CsvTable& table, int line, const std::string& column) {
+double readNumber(std::string_view cell, const CsvTable& table, bool finite, int line, const std::string& column) {
   std::string_view digits = cell;
   if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error == std::errc() && end == digits.data() + digits.size() && std::isfinite(value)) return value;
+  if (error == std::errc() && end == digits.data() + digits.size() && (!finite || std::isfinite(value))) return value;
   const std::string shown = cell.empty() ? "an empty cell" : "'" + std::string(cell) + "'";
-  fail(table.file, line, fmt::format("{} in column '{}', expected a finite number", shown, column));
+  fail(table.file, line, fmt::format("{} in column '{}', expected a {}number", shown, column, finite ? "finite " : ""));
 }
 
-void readRow(std::string_view text, int line, CsvTable& table) {
+void readRow(std::string_view text, int line, const std::vector<std::size_t>& wanted, bool finite, CsvTable& table) {
   const std::vector<std::string_view> cells = splitCells(text);
-  if (cells.size() != table.names.size())
+  const std::size_t width = table.names.size() + table.ignored.size();
+  if (cells.size() != width)
     fail(table.file, line,
-         fmt::format("{} cells, expected {}, one for each column of the header", cells.size(), table.names.size()));
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    table.columns[i].push_back(readNumber(cells[i], table, line, table.names[i]));
+         fmt::format("{} cells, expected {}, one for each column of the header", cells.size(), width));
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const std::string_view cell = cells[wanted[i]];
+    table.columns[i].push_back(readNumber(cell, table, finite, line, table.names[i]));
+    table.last_places[i].push_back(std::isfinite(table.columns[i].back()) ? lastPlace(cell) : 0);
+  }
   table.lines.push_back(line);
 }
 
@@ -99,31 +127,33 @@ const std::vector<double>* CsvTable::find(const std::string& name) const {
 const std::vector<double>& CsvTable::at(const std::string& name) const {
   if (const std::vector<double>* column = find(name)) return *column;
   std::vector<std::string> candidates;
-  std::copy_if(names.begin(), names.end(), std::back_inserter(candidates),
-               [&](const std::string& other) { return !areSiblings(name, other); });
+  for (const auto* some : {&names, &ignored})
+    std::copy_if(some->begin(), some->end(), std::back_inserter(candidates),
+                 [&](const std::string& other) { return !areSiblings(name, other); });
   fail(file, 1, "missing column '" + name + "', expected it in the header" + didYouMean(name, candidates));
 }
 
 std::string CsvTable::place(std::size_t row) const { return fmt::format("{}:{}", file.string(), lines.at(row)); }
 
-CsvTable parseCsv(const std::string& text, const std::filesystem::path& file) {
+CsvTable parseCsv(const std::string& text, const std::filesystem::path& file, const CsvOptions& options) {
   CsvTable table;
   table.file = file;
   const std::vector<std::string_view> lines = splitLines(text);
   if (lines.empty()) fail(file, 1, "an empty file, expected a header line and rows of numbers");
-  readHeader(lines.front(), table);
-  for (std::size_t i = 1; i < lines.size(); ++i) readRow(lines[i], static_cast<int>(i) + 1, table);
+  const std::vector<std::size_t> wanted = readHeader(splitCells(lines.front()), options, table);
+  for (std::size_t i = 1; i < lines.size(); ++i)
+    readRow(lines[i], static_cast<int>(i) + 1, wanted, options.finite, table);
   if (table.lines.empty()) fail(file, 1, "no rows, expected at least one below the header");
   return table;
 }
 
-CsvTable readCsv(const std::filesystem::path& file) {
+CsvTable readCsv(const std::filesystem::path& file, const CsvOptions& options) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error)) fail(file, 1, "a folder, expected a CSV file");
   std::ifstream in(file, std::ios::binary);
   if (!in) fail(file, 1, "cannot be read, expected a CSV file");
   const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  return parseCsv(text, file);
+  return parseCsv(text, file, options);
 }
 
 std::string csvText(const std::vector<std::string>& names, const std::vector<std::vector<double>>& columns) {

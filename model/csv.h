@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,12 +14,14 @@ class CsvError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A CSV of numbers: one header line, then rows. Every column has as many finite numbers as there are rows.
+/// A CSV of numbers: one header line, then rows. Every column has as many numbers as there are rows.
 struct CsvTable {
   std::filesystem::path file;
   std::vector<std::string> names;
-  std::vector<std::vector<double>> columns;  ///< one for each name
-  std::vector<int> lines;                    ///< 1-based line of each row in the file
+  std::vector<std::vector<double>> columns;   ///< one for each name
+  std::vector<std::vector<int>> last_places;  ///< power of ten of the last digit printed: −2 of "1.50", 2 of "15e2"
+  std::vector<int> lines;                     ///< 1-based line of each row in the file
+  std::vector<std::string> ignored;           ///< names of the columns that were not wanted
 
   /// The column of that name, or null where there is none.
   const std::vector<double>* find(const std::string& name) const;
@@ -29,12 +32,17 @@ struct CsvTable {
   std::string place(std::size_t row) const;
 };
 
+struct CsvOptions {
+  std::function<bool(const std::string&)> wanted;  ///< by name; cells of other columns are not looked at. Empty: all
+  bool finite = true;                              ///< whether NaN and infinities are refused
+};
+
 /// Reads a comma-separated file; a byte order mark, CRLF and blanks around a cell are tolerated. Throws CsvError for an
-/// unreadable or empty file, unnamed or duplicate columns, missing or surplus cells and anything but finite numbers.
-CsvTable readCsv(const std::filesystem::path& file);
+/// unreadable or empty file, unnamed or duplicate columns, missing or surplus cells and anything but (finite) numbers.
+CsvTable readCsv(const std::filesystem::path& file, const CsvOptions& options = {});
 
 /// The same from text; `file` names it in errors.
-CsvTable parseCsv(const std::string& text, const std::filesystem::path& file);
+CsvTable parseCsv(const std::string& text, const std::filesystem::path& file, const CsvOptions& options = {});
 
 /// One header line and the rows, numbers with 17 significant digits, so that reading them back gives the same doubles.
 /// Throws std::invalid_argument unless there is one column for each name and all are equally long.

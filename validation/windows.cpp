@@ -51,6 +51,7 @@ std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Repl
     settings.tolerance = scenario.simulation.tolerance;
     settings.start = window.start();
     settings.end = window.end();
+    settings.max_evaluations = plan.max_evaluations;
     replays.push_back({window, replay(scenario, plan.torques, settings)});
   }
   return replays;

@@ -16,6 +16,7 @@ struct ReplayPlan {
   std::function<double(double)> acceleration;  ///< error that the platform's acceleration may have at t, m/s²
   double position_scale = 0;                   ///< as errorPerStep has it, m
   double step_rate = 0;                        ///< steps a second that the replay will take, for planning only
+  long max_evaluations = 200000;               ///< of the derivatives in one window; more is giving up
 };
 
 /// The growth of deviations along the scenario's motion: 300 intervals, and 40 a second where that is more.

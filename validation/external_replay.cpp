@@ -1,0 +1,158 @@
+#include "validation/external_replay.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "validation/subject.h"
+#include "validation/torque_spline.h"
+#include "validation/windows.h"
+
+namespace ursula {
+namespace {
+
+/// Errors of the spline through the file's torques, and what they are to the platform.
+class SplineLimit {
+ public:
+  /// `grid`: equally spaced instants of the motion.
+  SplineLimit(const Scenario& scenario, const ExternalTorques& torques, std::vector<double> grid)
+      : t_(torques.file.t), grid_(std::move(grid)) {
+    ConditioningProbe probe(*scenario.manipulator, scenario.load);
+    for (double t : grid_) {
+      conditioning_.push_back(probe.at(scenario.trajectory->at(t)));
+      position_scale_ = std::max(position_scale_, conditioning_.back().position_scale);
+    }
+    const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
+    interpolation_ = interpolationErrors(t_, [&](double t) { return noc.torques(scenario.trajectory->at(t)); });
+    std::vector<double> norms;
+    for (const Vector6d& row : torques.precision) norms.push_back(row.norm());
+    digits_ = carriedErrors(t_, norms);
+  }
+
+  /// Of the platform's acceleration: the largest within one step of the grid around t, m/s².
+  double operator()(double t) const {
+    const double h = grid_[1] - grid_[0];
+    const auto k = std::min(static_cast<std::size_t>(std::lround(t / h)), grid_.size() - 1);
+    double response = 0, rounding = 0;
+    for (std::size_t j = k == 0 ? 0 : k - 1; j <= std::min(k + 1, grid_.size() - 1); ++j) {
+      response = std::max(response, conditioning_[j].response);
+      rounding = std::max(rounding, conditioning_[j].torqueRounding());
+    }
+    return response * (rounding + splineError(t - h, t + h));
+  }
+
+  double positionScale() const { return position_scale_; }
+  double length() const { return conditioning_.front().length; }
+  double largestInterpolation() const { return *std::max_element(interpolation_.begin(), interpolation_.end()); }
+  double largestOfDigits() const { return *std::max_element(digits_.begin(), digits_.end()); }
+
+ private:
+  double splineError(double from, double to) const {
+    const auto last = static_cast<std::ptrdiff_t>(interpolation_.size()) - 1;
+    const auto first = std::upper_bound(t_.begin(), t_.end(), from) - t_.begin() - 1;
+    double largest = 0;
+    for (auto j = std::clamp<std::ptrdiff_t>(first, 0, last); j <= last; ++j) {
+      const auto i = static_cast<std::size_t>(j);
+      if (t_[i] > to && i > 0) break;
+      largest = std::max(largest, interpolation_[i] + digits_[i]);
+    }
+    return largest;
+  }
+
+  std::vector<double> t_, grid_;
+  std::vector<Conditioning> conditioning_;
+  std::vector<double> interpolation_, digits_;  ///< N·m, one for each interval of t_
+  double position_scale_ = 0;
+};
+
+std::vector<Check> notReplayed(double value, double limit, const std::string& basis, const std::string& why) {
+  std::vector<Check> checks;
+  const std::pair<const char*, const char*> names[] = {{"replay.position", "m"},
+                                                       {"replay.orientation", "rad"},
+                                                       {"closure.position", "m"},
+                                                       {"closure.velocity", "m/s"},
+                                                       {"energy.balance", "J"}};
+  for (const auto& [name, unit] : names) {
+    const bool has_numbers = std::string(name) == "replay.position";
+    checks.push_back(
+        notJudgeable(name, has_numbers ? value : std::nan(""), has_numbers ? limit : std::nan(""), unit, basis, why));
+  }
+  return checks;
+}
+
+ExternalReplay inconclusive(const std::string& why) {
+  return {{}, notReplayed(std::nan(""), std::nan(""), "", "not replayed: " + why), {{"replay", "none: " + why}}};
+}
+
+/// Why no spline can stand for the torques over the whole motion; empty where one can.
+std::string missing(const ExternalTorques& torques, double duration) {
+  const TorqueFile& file = torques.file;
+  if (file.rows() < TorqueSpline::least_samples)
+    return fmt::format("too few samples, {}; a quintic spline needs {}", file.rows(), TorqueSpline::least_samples);
+  const double rounding = 4 * Eigen::NumTraits<double>::epsilon() * duration;
+  const bool begins = file.t.front() <= file.time_precision.front() + rounding;
+  const bool ends = file.t.back() >= duration - file.time_precision.back() - rounding;
+  if (begins && ends) return "";
+  return fmt::format("the samples cover {:.6g} to {:.6g} s of a motion from 0 to {:.6g} s", file.t.front(),
+                     file.t.back(), duration);
+}
+
+/// Where even the shortest window's bound exceeds the useful limit, the worst of them.
+const GrowthWindow* hopeless(const Scenario& scenario, const ReplayPlan& plan, const std::vector<GrowthWindow>& windows,
+                             double useful) {
+  const GrowthWindow* worst = nullptr;
+  double largest = useful;
+  for (const GrowthWindow& window : windows) {
+    const double bound = plannedBound(scenario, plan, window);
+    if (!(bound <= largest)) worst = &window, largest = bound;
+  }
+  return worst;
+}
+
+std::string splineBasis(const SplineLimit& limit, std::size_t rows) {
+  return fmt::format(
+      "between the {} samples: interpolation up to {:.3g} N m (the NOC's torques on a quintic spline through the same "
+      "instants), printed digits up to {:.3g} N m, both x || T_P inv(I) ||",
+      rows, limit.largestInterpolation(), limit.largestOfDigits());
+}
+
+}  // namespace
+
+ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& torques) {
+  const double duration = scenario.trajectory->duration();
+  const std::string why = missing(torques, duration);
+  if (!why.empty()) return inconclusive(why);
+
+  const Amplification amplification = linearised(scenario);
+  const auto limit = std::make_shared<const SplineLimit>(scenario, torques, amplification.instants());
+  const auto spline = std::make_shared<const TorqueSpline>(torques.file.t, torques.file.torques);
+  const double knot_rate = static_cast<double>(torques.file.rows()) / duration;
+  ReplayPlan plan;
+  plan.torques = [spline](double t) { return (*spline)(t); };
+  plan.acceleration = [limit](double t) { return (*limit)(t); };
+  plan.position_scale = limit->positionScale();
+  plan.step_rate = std::max(plannedStepRate(duration), 2 * knot_rate);
+  // Torques that are wrong may throw the machine about: four times what right ones take, 13 to a step, is enough.
+  plan.max_evaluations = 20000 + static_cast<long>(4 * 13 * plan.step_rate * duration);
+  const std::vector<GrowthWindow> windows = planWindows(scenario, amplification, plan);
+  const double useful = useful_replay_limit * limit->length();
+  const std::string basis = splineBasis(*limit, torques.file.rows());
+  if (const GrowthWindow* window = hopeless(scenario, plan, windows, useful)) {
+    const double bound = plannedBound(scenario, plan, *window);
+    const std::string text = fmt::format(
+        "not replayed: too few samples or digits; from t = {:.6g} s the torques' error between samples may move P by "
+        "{:.3g} m within {:.3g} s, beyond {:.3g} m a limit says nothing",
+        window->start(), bound, window->end() - window->start(), useful);
+    return {{}, notReplayed(std::nan(""), bound, basis, text), {{"replay", "none: " + text}, {"spline", basis}}};
+  }
+  ExternalReplay out;
+  out.windows = replayInWindows(scenario, plan, windows);
+  out.checks = judgeReplay(out.windows, limit->positionScale(), limit->length());
+  for (Check& check : out.checks) check.basis += "; " + basis;
+  out.findings = {{"spline", basis}};
+  return out;
+}
+
+}  // namespace ursula

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/scenario.h"
+
+namespace ursula {
+
+/// Torques that differ from the exact ones: what an explanation has to account for.
+struct TorqueResidual {
+  std::vector<Motion<double>> motions;
+  std::vector<Vector6d> exact;     ///< of the NOC, N·m
+  std::vector<Vector6d> residual;  ///< torques on trial less exact, N·m
+
+  double norm() const;
+};
+
+/// One way in which torques may have come to differ.
+struct Hypothesis {
+  std::string text;        ///< "gravity left out"
+  double unexplained = 1;  ///< ‖residual − predicted‖ / ‖residual‖
+  int free_numbers = 0;    ///< that were fitted
+  double explained() const { return 1 - unexplained; }
+};
+
+/// Everything that a person would try, likely and simple ones first, each fitted to the residual by least squares:
+/// terms left out or scaled (gravity, inertia, velocity terms, friction, load, masses), signs and legs swapped, a time
+/// shift, scale factors, offsets, and the formulas as printed. Left out are those that have no effect on this motion
+/// and those with as many free numbers as there are data. The regressors are the NOC's own torques with parameters
+/// changed.
+std::vector<Hypothesis> fitHypotheses(const Scenario& scenario, const TorqueResidual& residual);
+
+/// How a scale factor is known to people ("kN m for N m"); empty for one that is not.
+std::string unitOf(double factor);
+
+}  // namespace ursula

@@ -1,0 +1,109 @@
+#include "validation/judge_external.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/subject.h"
+
+namespace ursula {
+namespace {
+
+/// Deviation of the leg that is furthest beyond, or nearest to, its own limit.
+Deviation deviationOf(const Vector6d& torques, const Vector6d& exact, const Vector6d& precision, double rounding) {
+  Deviation out;
+  double worst = -1;
+  for (int i = 0; i < leg_count; ++i) {
+    const double error = std::abs(torques(i) - exact(i)), limit = rounding + precision(i);
+    const double ratio = error / limit;
+    if (ratio <= worst) continue;
+    worst = ratio;
+    out = {error, limit, i};
+    if (std::isnan(ratio)) break;
+  }
+  return out;
+}
+
+/// What the torques may change by where the instant is off by its last digit.
+Vector6d changeWithin(const std::function<Vector6d(double)>& noc, double t, double precision, double duration) {
+  if (precision == 0) return Vector6d::Zero();
+  const Vector6d here = noc(t);
+  const Vector6d before = (noc(std::max(0.0, t - precision)) - here).cwiseAbs();
+  const Vector6d after = (noc(std::min(duration, t + precision)) - here).cwiseAbs();
+  return before.cwiseMax(after);
+}
+
+/// The one furthest beyond its limit, or where none is, the largest error.
+std::size_t shownOf(const std::vector<Deviation>& deviations) {
+  std::size_t worst = 0, largest = 0;
+  double worst_ratio = 1;
+  for (std::size_t k = 0; k < deviations.size(); ++k) {
+    const double ratio = deviations[k].error / deviations[k].limit;
+    if (std::isnan(ratio)) return k;
+    if (ratio > worst_ratio) worst = k, worst_ratio = ratio;
+    if (deviations[k].error > deviations[largest].error) largest = k;
+  }
+  return worst_ratio > 1 ? worst : largest;
+}
+
+Check judgeAgainstNoc(const ExternalTorques& torques) {
+  const std::size_t k = shownOf(torques.against_noc);
+  const Deviation& shown = torques.against_noc[k];
+  return judged("torque.against_noc", shown.error, shown.limit, "N m",
+                "64 eps kappa(B) kappa(legs) x || |T|' |w| ||, as for torque.pointwise",
+                fmt::format("torques against this program's NOC, at {} instants; shown for t = {:.6g} s, leg {}",
+                            torques.file.rows(), torques.file.t[k], shown.where + 1));
+}
+
+}  // namespace
+
+double ExternalTorques::largestPrecision() const {
+  double largest = 0;
+  for (const Vector6d& row : precision) largest = std::max(largest, row.maxCoeff());
+  return largest;
+}
+
+ExternalTorques runExternal(const Scenario& scenario, const TorqueFile& file) {
+  const double duration = scenario.trajectory->duration();
+  ExternalTorques out;
+  out.file = within(file, duration);
+  const Subject noc_subject = nocSubject(*scenario.manipulator, scenario.load);
+  const auto noc = [&](double t) { return noc_subject.torques(scenario.trajectory->at(t)); };
+  Subject subject;
+  subject.name = file.file.filename().string();
+  subject.torques = [&](const Motion<double>& motion) {  // asked for at the file's own instants alone
+    const auto row = std::lower_bound(out.file.t.begin(), out.file.t.end(), motion.t) - out.file.t.begin();
+    return out.file.torques.at(static_cast<std::size_t>(row));
+  };
+  out.samples = runPointwise(scenario, subject, out.file.t);
+  for (std::size_t k = 0; k < out.file.rows(); ++k) {
+    const double t = out.file.t[k];
+    PointwiseSample& sample = out.samples[k];
+    const Vector6d precision =
+        out.file.torque_precision[k] + changeWithin(noc, t, out.file.time_precision[k], duration);
+    const double rounding = sample.conditioning.torqueRounding();
+    out.noc.push_back(noc(t));
+    out.precision.push_back(precision);
+    sample.torque = deviationOf(sample.torques, sample.torques_simbody, precision, rounding);
+    sample.acceleration.limit += sample.conditioning.response * precision.norm();
+    out.against_noc.push_back(deviationOf(sample.torques, out.noc.back(), precision, rounding));
+  }
+  return out;
+}
+
+std::vector<Check> judgeExternal(const ExternalTorques& torques) {
+  std::vector<Check> checks = judgePointwise(torques.samples, false);
+  checks.push_back(judgeAgainstNoc(torques));
+  const double largest = torques.largestPrecision();
+  const std::string precision =
+      largest == 0 ? "; the file's digits are as fine as doubles and add nothing"
+                   : fmt::format(
+                         "; and half a unit of the last digit printed (torques of up to {} significant digits, "
+                         "instants), up to {:.3g} N m",
+                         torques.file.digits, largest);
+  for (Check& check : checks) check.basis += precision;
+  return checks;
+}
+
+}  // namespace ursula

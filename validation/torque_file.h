@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "model/scalar.h"
+
+namespace ursula {
+
+/// Somebody else's torques at their own instants, and how finely each number was printed.
+///
+/// Half a unit of the last digit that its writer could have printed is what a number may be off by. A writer prints all
+/// numbers with as many decimals or as many significant digits, but may drop zeros at the end ("%g" does): so a number
+/// counts as printed to the finer of its own last digit and the coarser of these two readings of the whole file. Where
+/// that is finer than a double it counts as exact. Instants count the same, with two exceptions: instants k·step are
+/// exact, since rounding would show (0.333, 0.667, 1.000); and such as show rounding of their last digit count as
+/// rounded there, however fine the torques beside them are.
+struct TorqueFile {
+  std::filesystem::path file;
+  std::vector<double> t;                   ///< s, finite, increasing
+  std::vector<double> time_precision;      ///< s
+  std::vector<Vector6d> torques;           ///< N·m, conjugate to φ̇
+  std::vector<Vector6d> torque_precision;  ///< N·m
+  std::vector<int> lines;                  ///< of each row, 1-based
+  std::vector<std::string> ignored;        ///< columns that are none of ours
+  int digits = 0;                          ///< most significant digits of a torque
+  bool all_single = false;                 ///< every torque is a number of single precision
+
+  std::size_t rows() const { return t.size(); }
+};
+
+/// Reads `t_s` and `tau_{1..6}_Nm`, in any order. Throws CsvError (`file:line: error: …`) as readCsv does, and for
+/// instants that repeat or do not increase.
+TorqueFile readTorqueFile(const std::filesystem::path& file);
+
+/// The same from text; `file` names it in errors.
+TorqueFile parseTorqueFile(const std::string& text, const std::filesystem::path& file);
+
+/// The same torques with every instant in [0, duration]: those beyond by no more than rounding (of doubles, and as
+/// printed) are put on the end. Throws CsvError naming the line of one that is further out.
+TorqueFile within(TorqueFile file, double duration);
+
+}  // namespace ursula
