@@ -1,0 +1,108 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+#include <memory>
+#include <optional>
+
+#include "nocsolver/direct_kinematics.h"
+#include "nocsolver/direct_kinematics_planes.h"
+#include "tests/support/motions.h"
+#include "tests/support/vectors.h"
+
+namespace ursula {
+
+constexpr double eps = Eigen::NumTraits<double>::epsilon();
+
+/// Lengths that the plane equations are made of, m.
+inline double sizeOf(const SolverModel<double>& model, const Vector3d& p) {
+  double size = p.norm() + model.length;
+  for (const LegModel<double>& leg : model.legs) size = std::max(size, p.norm() + model.length + leg.a.norm());
+  return size;
+}
+
+/// The farther of p in m and Q in Frobenius' norm.
+inline double poseError(const PlatformPose& pose, const Motion<double>& motion) {
+  return std::max((pose.p - motion.p).norm(), (pose.Q - motion.Q).norm());
+}
+
+inline const PlatformPose* nearestPose(const PlatformPoses& poses, const Motion<double>& motion) {
+  const PlatformPose* nearest = nullptr;
+  for (const PlatformPose& pose : poses)
+    if (nearest == nullptr || poseError(pose, motion) < poseError(*nearest, motion)) nearest = &pose;
+  return nearest;
+}
+
+/// Errors from a motion to the actuated angles and back: B, moments over the machine's length, is what the planes are
+/// solved with.
+struct Conditioned {
+  Vector6d phi;
+  Eigen::JacobiSVD<Matrix6d> svd;
+  double size = 0;
+  double determinant = 0;
+
+  Conditioned(const DirectKinematics& kinematics, const Motion<double>& motion) {
+    Workspace<double> work;
+    const SolverModel<double>& model = kinematics.solver().model();
+    kinematics.solver().displacements(motion, work);
+    phi = kinematics.solver().angles(work).phi;
+    Matrix6d B;
+    for (int i = 0; i < leg_count; ++i) {
+      const LegState<double>& leg = work.legs[static_cast<std::size_t>(i)];
+      B.row(i) << leg.Qb.cross(leg.x).transpose() / model.length, leg.x.transpose();
+    }
+    svd.compute(B, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    determinant = B.determinant();
+    size = sizeOf(model, motion.p);
+  }
+
+  double condition() const { return svd.singularValues()(0) / svd.singularValues()(5); }
+  /// Six planes of some ten roundings each, there and back, grown by the condition number.
+  double limit() const { return 128 * eps * condition() * size; }
+};
+
+inline Motion<double> displaced(Motion<double> motion, const Vector3d& move, const Vector3d& turn) {
+  motion.p += move;
+  if (turn.norm() > 0) motion.Q = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * motion.Q;
+  return motion;
+}
+
+/// The paper's machine with every parameter of its geometry thrown by up to `spread`: lengths relative, places in m.
+inline ManipulatorParameters thrown(const ManipulatorParameters& paper, Dice& dice, double spread) {
+  ManipulatorParameters parameters = paper;
+  for (Leg& leg : parameters.legs) {
+    leg.base_point += dice.vector(3 * spread);
+    leg.platform_point += dice.vector(3 * spread);
+    leg.base_axis += dice.vector(5 * spread);
+    leg.proximal.length *= 1 + dice.between(-2 * spread, 2 * spread);
+    leg.distal.length *= 1 + dice.between(-2 * spread, 2 * spread);
+    leg.knee = dice.between(0, 1) < 0.5 ? Knee::positive : Knee::negative;
+  }
+  return parameters;
+}
+
+/// A machine and a pose that it can take.
+struct Case {
+  std::shared_ptr<const DirectKinematics> kinematics;
+  std::shared_ptr<const Manipulator> manipulator;
+  Motion<double> motion;
+};
+
+inline Case feasibleCase(const Scenario& paper, Dice& dice, double spread) {
+  for (;;) {
+    Case made;
+    try {
+      made.manipulator = std::make_shared<Manipulator>(thrown(paper.manipulator->parameters(), dice, spread));
+      made.kinematics = std::make_shared<DirectKinematics>(*made.manipulator);
+      made.motion = displaced(paper.trajectory->at(dice.between(0, paper.trajectory->duration())),
+                              dice.vector(5 * spread), dice.vector(8 * spread));
+      Workspace<double> work;
+      made.kinematics->solver().displacements(made.motion, work);
+      return made;
+    } catch (const std::invalid_argument&) {  // no such machine: throw the dice again
+    } catch (const PoseError&) {              // no such pose of it
+    }
+  }
+}
+
+}  // namespace ursula

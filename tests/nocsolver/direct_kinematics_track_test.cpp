@@ -1,0 +1,125 @@
+// One pose tracked along the paper's helix; Newton's convergence; the heap.
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <vector>
+
+#include "tests/nocsolver/direct_kinematics_cases.h"
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+#define URSULA_COUNTS_MALLOC 1
+namespace {
+std::atomic<long> mallocs{0};
+}
+extern "C" void* __libc_malloc(std::size_t size);  // NOLINT(readability-identifier-naming): glibc's
+extern "C" void* malloc(std::size_t size) noexcept {
+  mallocs.fetch_add(1, std::memory_order_relaxed);
+  return __libc_malloc(size);
+}
+#endif
+
+namespace ursula {
+namespace {
+
+TEST(DirectKinematics, TracksThePaperHelix) {
+  const Scenario paper = vectorScenario("paper-helix");
+  const DirectKinematics kinematics(*paper.manipulator);
+  const auto commanded = [&](int n) { return paper.trajectory->at(n * paper.trajectory->duration() / 300); };
+  std::optional<PlatformPose> pose = *kinematics.poses(Conditioned(kinematics, commanded(0)).phi).begin();
+  ASSERT_LE(poseError(*pose, commanded(0)), Conditioned(kinematics, commanded(0)).limit());
+  double worst = 0, stale = INFINITY;
+  for (int n = 1; n <= 300; ++n) {
+    const Conditioned conditioned(kinematics, commanded(n));
+    stale = n < 10 || n > 290 ? stale : std::min(stale, poseError(*pose, commanded(n)) / conditioned.limit());
+    pose = kinematics.track(conditioned.phi, *pose);
+    ASSERT_TRUE(pose) << "step " << n;
+    const double off = poseError(*pose, commanded(n)) / conditioned.limit();
+    worst = off <= worst ? worst : off;
+    EXPECT_TRUE(pose->assembles && pose->front);
+    EXPECT_LE(pose->residual, 64 * eps * conditioned.size);
+  }
+  std::cout << "tracking the helix, largest share of the limit: " << worst << '\n';
+  EXPECT_LE(worst, 1);
+  EXPECT_GT(stale, 1) << "the pose of the step before would have passed";
+}
+
+TEST(DirectKinematics, TracksTheBranchThatItIsOnAndNoOther) {
+  const Scenario paper = vectorScenario("paper-helix");
+  Dice dice(5);
+  int others = 0;
+  for (int n = 0; n < 200; ++n) {
+    const Case made = feasibleCase(paper, dice, 0.03);
+    const Conditioned now(*made.kinematics, made.motion);
+    Vector6d ahead = now.phi;
+    for (int i = 0; i < leg_count; ++i) ahead(i) += dice.between(-1e-6, 1e-6);
+    const PlatformPoses poses = made.kinematics->poses(now.phi);
+    for (const PlatformPose& from : poses) {
+      const std::optional<PlatformPose> to = made.kinematics->track(ahead, from);
+      if (!to) continue;
+      Motion<double> motion;
+      motion.p = from.p;
+      motion.Q = from.Q;
+      EXPECT_EQ(nearestPose(poses, motion), &from);
+      motion.p = to->p;
+      motion.Q = to->Q;
+      EXPECT_EQ(nearestPose(poses, motion), &from);
+      if (!from.assembles) ++others;
+    }
+  }
+  EXPECT_GT(others, 0);
+}
+
+/// With J of condition κ, an error e leaves one of at most κ e²/length: second derivatives of the planes are those of
+/// Q b, at most ‖b‖ for each rad².
+TEST(DirectKinematics, NewtonConvergesQuadratically) {
+  const Scenario paper = vectorScenario("paper-helix");
+  const DirectKinematics kinematics(*paper.manipulator);
+  const SolverModel<double>& model = kinematics.solver().model();
+  int judged = 0;
+  for (const double t : {0.3, 1.0, 2.0, 2.9}) {
+    const Conditioned conditioned(kinematics, paper.trajectory->at(t));
+    const PlatformPose there = *kinematics.poses(conditioned.phi).begin();
+    const direct::Planes planes(model, conditioned.phi);
+    direct::PlacedPlatform pose{there.p + Vector3d(2e-3, -1e-3, 1e-3),
+                                (there.q + Eigen::Vector4d(0, 1e-3, -1e-3, 1e-3)).normalized()};
+    int sign = 0;
+    double before = planes.newtonStep(planes.mismatch(pose), pose, sign);
+    for (int i = 0; i < 3; ++i) {
+      const double step = planes.newtonStep(planes.mismatch(pose), pose, sign);
+      EXPECT_LE(step, conditioned.condition() * before * before / model.length + conditioned.limit());
+      if (step > conditioned.limit()) ++judged;
+      before = step;
+    }
+    EXPECT_LE(before, conditioned.limit()) << "three steps from 2 mm are enough";
+  }
+  EXPECT_GT(judged, 0);
+}
+
+TEST(DirectKinematics, DoesNotAllocate) {
+#ifdef URSULA_COUNTS_MALLOC
+  const Scenario paper = vectorScenario("paper-helix");
+  const DirectKinematics kinematics(*paper.manipulator);
+  const Vector6d phi = Conditioned(kinematics, paper.trajectory->at(1)).phi;
+  const Vector6d ahead = Conditioned(kinematics, paper.trajectory->at(1.01)).phi;
+  Workspace<double> work;
+  PlatformPoses poses = kinematics.poses(phi);
+  const long before = mallocs;
+  poses = kinematics.poses(phi);
+  const std::optional<PlatformPose> next = kinematics.track(ahead, *poses.begin());
+  const Motion<double> motion = kinematics.motion(*poses.begin(), ahead - phi, phi, work);
+  const long after = mallocs;
+  EXPECT_EQ(after - before, 0);
+  EXPECT_TRUE(next && motion.p_ddot.allFinite());
+  const std::vector<double> counted(100);
+  EXPECT_EQ(mallocs - after, 1) << "the counter does not count";
+#else
+  GTEST_SKIP() << "malloc cannot be counted here";
+#endif
+}
+
+}  // namespace
+}  // namespace ursula
