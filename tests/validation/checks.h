@@ -1,0 +1,39 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "validation/result.h"
+
+namespace ursula {
+
+/// nullptr where there is none of that name.
+inline const Check* findCheck(const std::vector<Check>& checks, const std::string& name) {
+  const auto found = std::find_if(checks.begin(), checks.end(), [&](const Check& check) { return check.name == name; });
+  return found == checks.end() ? nullptr : &*found;
+}
+
+/// "(none)" where there is no check of that name.
+inline std::string verdictOf(const std::vector<Check>& checks, const std::string& check_name) {
+  const Check* check = findCheck(checks, check_name);
+  return check == nullptr ? "(none)" : name(check->verdict);
+}
+
+/// Names of the checks that have not the verdict, with their numbers.
+inline std::string others(const std::vector<Check>& checks, Verdict verdict) {
+  std::string out;
+  for (const Check& check : checks)
+    if (check.verdict != verdict)
+      out += check.name + " is " + name(check.verdict) + ": " + std::to_string(check.value) + " of " +
+             std::to_string(check.limit) + ", " + check.why + "\n";
+  return out;
+}
+
+inline std::string firstFailing(const std::vector<Check>& checks) {
+  for (const Check& check : checks)
+    if (check.verdict == Verdict::fail) return check.name;
+  return "(none)";
+}
+
+}  // namespace ursula

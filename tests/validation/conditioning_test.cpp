@@ -1,0 +1,146 @@
+// The factors of every pointwise limit: each against its definition by another road, and limits that rounding keeps but
+// that mean something.
+
+#include "validation/conditioning.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <iostream>
+
+#include "nocsolver/errors.h"
+#include "tests/support/motions.h"
+#include "tests/support/vectors.h"
+
+namespace ursula {
+namespace {
+
+constexpr double eps = Eigen::NumTraits<double>::epsilon();
+
+class ConditioningOf : public testing::TestWithParam<std::string> {
+ protected:
+  Scenario scenario_ = vectorScenario(GetParam());
+  Dice dice_{31};
+};
+
+/// κ(B)² is the ratio of the eigenvalues of BᵀB.
+TEST_P(ConditioningOf, kappaBIsThatOfB) {
+  const Solver<double> solver(*scenario_.manipulator);
+  ConditioningProbe probe(*scenario_.manipulator, nullptr);
+  for (int k = 0; k < 5; ++k) {
+    const Motion<double> motion = randomState(scenario_, dice_);
+    Workspace<double> work;
+    solver.inverseKinematics(motion, work);
+    solver.jacobians(motion, work);
+    const Conditioning found = probe.at(motion);
+    Matrix6d B = work.B;
+    B.leftCols<3>() /= found.length;
+    const Vector6d eigenvalues = Eigen::SelfAdjointEigenSolver<Matrix6d>(B.transpose() * B).eigenvalues();
+    const double expected = std::sqrt(eigenvalues(5) / eigenvalues(0));
+    EXPECT_NEAR(found.kappa_B / expected, 1, 64 * eps * expected * expected);
+  }
+}
+
+/// ‖S T_P I⁻¹‖ column by column: what the platform does for a unit torque.
+TEST_P(ConditioningOf, responseIsThatOfTheAccelerationsToTorques) {
+  const Solver<double> solver(*scenario_.manipulator);
+  ConditioningProbe probe(*scenario_.manipulator, nullptr);
+  for (int k = 0; k < 5; ++k) {
+    const Motion<double> motion = randomState(scenario_, dice_);
+    Workspace<double> work;
+    const Conditioning found = probe.at(motion);
+    const Vector6d torques = solver.inverseDynamics(motion, work);
+    const Vector6d base = solver.directDynamics(motion, torques, work);
+    const double size = 1e3;  // linear in the torques: as large as they are themselves
+    double sum = 0;
+    for (int j = 0; j < leg_count; ++j) {
+      Vector6d change = (solver.directDynamics(motion, torques + size * Vector6d::Unit(j), work) - base) / size;
+      change.head<3>() *= found.length;
+      sum += change.squaredNorm();
+    }
+    const double room = found.accelerationRounding() / size * std::sqrt(6.0) / found.response;
+    EXPECT_NEAR(std::sqrt(sum) / found.response, 1, room);
+    EXPECT_LE(room, 1e-6);
+  }
+}
+
+TEST_P(ConditioningOf, legsAreJudgedByTheirSinesAndLevers) {
+  const Solver<double> solver(*scenario_.manipulator);
+  ConditioningProbe probe(*scenario_.manipulator, nullptr);
+  const Motion<double> motion = randomState(scenario_, dice_);
+  Workspace<double> work;
+  solver.inverseKinematics(motion, work);
+  const JointVariables<double> q = solver.angles(work);
+  const Conditioning found = probe.at(motion);
+  Eigen::Index leg = 0;
+  EXPECT_NEAR(q.theta.array().sin().abs().minCoeff(&leg), found.smallest_sine, 16 * eps);
+  EXPECT_EQ(found.smallest_sine_leg, leg);
+  EXPECT_GE(found.kappa_legs * (1 + 16 * eps), 1 / (found.smallest_sine * found.smallest_sine));
+}
+
+/// Doubles against 50 digits: within the limit, and the limit within five orders of magnitude of them.
+TEST_P(ConditioningOf, torqueRoundingIsKeptAndMeansSomething) {
+  const Solver<double> solver(*scenario_.manipulator);
+  const Solver<Real50> exact(*scenario_.manipulator);
+  ConditioningProbe probe(*scenario_.manipulator, nullptr);
+  double closest = 0;
+  for (const VectorRow& row : vectorRows(GetParam())) {
+    Workspace<double> work;
+    Workspace<Real50> exact_work;
+    const Motion<double> motion = rounded(row.motion);
+    const Vector6d right = exact.inverseDynamics(row.motion, exact_work).cast<double>();
+    const double error = (solver.inverseDynamics(motion, work) - right).norm();
+    const double limit = probe.at(motion).torqueRounding();
+    EXPECT_LE(error, limit);
+    closest = std::max(closest, error / limit);
+  }
+  std::cout << "the closest torque is at " << closest << " of its limit\n";
+  EXPECT_GT(closest, 1e-5);
+}
+
+TEST_P(ConditioningOf, aLoadOnlyRaisesTheLimit) {
+  const auto load = std::make_shared<Load>();
+  load->force = {1e4, -2e4, 3e4};
+  const Motion<double> motion = randomState(scenario_, dice_);
+  const Conditioning without = ConditioningProbe(*scenario_.manipulator, nullptr).at(motion);
+  const Conditioning with = ConditioningProbe(*scenario_.manipulator, load).at(motion);
+  EXPECT_GT(with.torqueRounding(), without.torqueRounding());
+  EXPECT_EQ(with.kappa_B, without.kappa_B);
+}
+
+INSTANTIATE_TEST_SUITE_P(Machines, ConditioningOf, testing::ValuesIn(vectorNames()),
+                         [](const auto& name) { return "of_" + std::string(1, name.param.back()); });
+
+/// Up to where a leg is stretched the limits grow without bound, and there the probe refuses.
+TEST(ConditioningNearTheReach, growsAndThenRefuses) {
+  const Scenario scenario = vectorScenario("paper-helix");
+  ConditioningProbe probe(*scenario.manipulator, nullptr);
+  Motion<double> motion = scenario.trajectory->at(0);
+  double reach = 0, beyond = 10;  // by how much P is raised: bisected to the edge of the workspace
+  const auto raised = [&](double by) {
+    Motion<double> out = motion;
+    out.p.z() += by;
+    return out;
+  };
+  for (int k = 0; k < 60; ++k) {
+    const double middle = (reach + beyond) / 2;
+    try {
+      probe.at(raised(middle));
+      reach = middle;
+    } catch (const PoseError&) {
+      beyond = middle;
+    }
+  }
+  EXPECT_GT(reach, 0.1);
+  EXPECT_THROW(probe.at(raised(beyond)), PoseError);
+  double before = 0;
+  for (const double distance : {1e-1, 1e-2, 1e-4, 1e-6}) {
+    const Conditioning found = probe.at(raised(reach - distance));
+    EXPECT_GT(found.kappa_legs, 5 * before);
+    before = found.kappa_legs;
+  }
+}
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,108 @@
+// The judgement of replays, on replays made up: each check fails by itself, and only a limit that means something
+// judges.
+
+#include "validation/judge_replay.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "tests/validation/checks.h"
+
+namespace ursula {
+namespace {
+
+const std::vector<std::string> names = {"replay.position", "replay.orientation", "closure.position", "closure.velocity",
+                                        "energy.balance"};
+constexpr double length = 1.4, position_scale = 2;
+
+/// Small errors over one window of 1 s in 11 steps.
+WindowedReplay made(double growth = 1) {
+  WindowedReplay out;
+  for (int k = 0; k <= 10; ++k) {
+    const double t = 0.1 * k;
+    out.window.t.push_back(t);
+    out.window.from_acceleration.push_back(growth * 1e-9 * t);
+    out.window.from_unit_rate.push_back(growth * t);
+    out.window.from_start.push_back(growth);
+    out.window.growth.push_back(growth * t);
+    ReplayStep step;
+    step.t = t;
+    step.position_error.x() = step.rotation_error.y() = 1e-14 * t;
+    step.closure = {1e-15, 1e-15};
+    step.energy_error = 1e-12;
+    out.replay.steps.push_back(step);
+  }
+  out.window.last = 10;
+  out.replay.tolerance = 1e-14;
+  out.replay.energy_scale = 1e4;
+  return out;
+}
+
+std::vector<Check> judge(const std::function<void(WindowedReplay&)>& change) {
+  WindowedReplay replay = made();
+  change(replay);
+  return judgeReplay({replay}, position_scale, length);
+}
+
+TEST(JudgeReplay, acceptsSmallErrors) {
+  const std::vector<Check> checks = judge([](WindowedReplay&) {});
+  EXPECT_EQ(others(checks, Verdict::pass), "");
+  ASSERT_EQ(checks.size(), names.size());
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    EXPECT_EQ(checks[k].name, names[k]);
+    EXPECT_NE(checks[k].basis, "");
+  }
+}
+
+TEST(JudgeReplay, catchesEachErrorByItsName) {
+  const auto only = [](const std::string& name, const std::function<void(ReplayStep&)>& spoil) {
+    const std::vector<Check> checks = judge([&spoil](WindowedReplay& replay) { spoil(replay.replay.steps[4]); });
+    for (const std::string& other : names)
+      EXPECT_EQ(verdictOf(checks, other), other == name ? "fail" : "pass") << other;
+    EXPECT_NE(findCheck(checks, name)->why.find("t = 0.4 s"), std::string::npos) << findCheck(checks, name)->why;
+  };
+  for (const double wrong : {1e-5, std::nan("")}) {
+    only("replay.position", [wrong](ReplayStep& step) { step.position_error.z() = wrong; });
+    only("replay.orientation", [wrong](ReplayStep& step) { step.rotation_error.z() = wrong; });
+    only("closure.position", [wrong](ReplayStep& step) { step.closure.position = wrong; });
+    only("closure.velocity", [wrong](ReplayStep& step) { step.closure.velocity = wrong; });
+    only("energy.balance", [wrong](ReplayStep& step) { step.energy_error = wrong; });
+    only("energy.balance", [wrong](ReplayStep& step) { step.energy_error = -wrong; });
+  }
+}
+
+/// The limit is smaller early on: an error that is allowed at the end is not allowed before.
+TEST(JudgeReplay, judgesEveryStepByItsOwnLimit) {
+  const double allowed_at_end = 5e-10;
+  const auto spoilt = [allowed_at_end](std::size_t step) {
+    return verdictOf(
+        judge([&](WindowedReplay& replay) { replay.replay.steps[step].position_error.x() = allowed_at_end; }),
+        "replay.position");
+  };
+  EXPECT_EQ(spoilt(10), "pass");
+  EXPECT_EQ(spoilt(1), "fail");
+}
+
+TEST(JudgeReplay, doesNotJudgeWhereTheLimitSaysNothing) {
+  const std::vector<Check> checks = judgeReplay({made(1e12)}, position_scale, length);
+  EXPECT_EQ(verdictOf(checks, "replay.position"), "inconclusive");
+  EXPECT_EQ(verdictOf(checks, "replay.orientation"), "inconclusive");
+  EXPECT_EQ(verdictOf(checks, "closure.position"), "pass");
+}
+
+TEST(JudgeReplay, failsWhereThereIsNothing) {
+  EXPECT_EQ(others(judgeReplay({}, position_scale, length), Verdict::fail), "");
+  EXPECT_FALSE(judgeReplay({}, position_scale, length).empty());
+  EXPECT_EQ(others(judge([](WindowedReplay& replay) { replay.replay.steps.clear(); }), Verdict::fail), "");
+}
+
+TEST(JudgeReplay, failsWithTheReasonWhereTheIntegratorGaveUp) {
+  const std::vector<Check> checks = judge([](WindowedReplay& replay) { replay.replay.gave_up = "the step vanished"; });
+  EXPECT_EQ(others(checks, Verdict::fail), "");
+  for (const Check& check : checks) EXPECT_NE(check.why.find("the step vanished"), std::string::npos) << check.why;
+}
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,143 @@
+// The whole validation: the verdict, what it names, what it records, and that it comes out the same twice.
+
+#include "validation/validate.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "nocsolver/errors.h"
+#include "tests/support/vectors.h"
+#include "tests/validation/checks.h"
+#include "validation/report/summary.h"
+
+namespace ursula {
+namespace {
+
+const std::vector<std::string> promised = {
+    "kinematics.joint_angles", "kinematics.joint_rates", "kinematics.joint_accelerations",
+    "kinematics.positions",    "kinematics.twists",      "kinematics.accelerations",
+    "torque.pointwise",        "acceleration.pointwise", "replay.position",
+    "replay.orientation",      "closure.position",       "closure.velocity",
+    "energy.balance"};
+
+/// Fewer instants than by default, for speed.
+Scenario quick(const std::string& name) {
+  Scenario scenario = vectorScenario(name);
+  scenario.simulation.samples = 21;
+  return scenario;
+}
+
+class Validate : public testing::TestWithParam<std::string> {};
+
+TEST_P(Validate, theSolverPasses) {
+  const ValidationResult result = validate(quick(GetParam()));
+  EXPECT_EQ(others(result.checks, Verdict::pass), "");
+  EXPECT_EQ(result.verdict, Verdict::pass);
+  EXPECT_EQ(result.scenario, GetParam());
+  for (const std::string& name : promised) EXPECT_NE(findCheck(result.checks, name), nullptr) << name;
+  for (const Check& check : result.checks) {
+    EXPECT_NE(check.basis, "") << check.name;
+    EXPECT_NE(check.why, "") << check.name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Machines, Validate, testing::ValuesIn(vectorNames()),
+                         [](const auto& name) { return "of_" + std::string(1, name.param.back()); });
+
+TEST(ValidateResult, carriesSeriesAndProvenance) {
+  const ValidationResult result = validate(quick("paper-helix"));
+  EXPECT_EQ(result.timeseries.rows(), 21u);
+  for (const char* column : {"t_s", "p_x_m", "q_w", "tau_6_Nm", "simbody_tau_1_Nm", "sim_p_z_m", "sim_q_z", "error_p_m",
+                             "error_q_rad", "closure_p_m", "error_energy_J"})
+    EXPECT_NE(result.timeseries.find(column), nullptr) << column;
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : result.provenance) {
+    keys.push_back(key);
+    EXPECT_NE(value, "") << key;
+  }
+  EXPECT_THAT(keys, testing::IsSupersetOf({"scenario sha1", "commit", "compiler", "flags", "Simbody", "integrator",
+                                           "tolerance", "samples"}));
+}
+
+TEST(ValidateControl, theSlipOf15aFailsAndTheJointRatesAreNamedFirst) {
+  const Scenario scenario = quick("paper-helix");
+  const ValidationResult result =
+      validate(scenario, slippedSubject(*scenario.manipulator, nullptr, WithSlips(Slip::eq15a)));
+  EXPECT_EQ(result.verdict, Verdict::fail);
+  EXPECT_EQ(firstFailing(result.checks), "kinematics.joint_rates");
+  EXPECT_EQ(verdictOf(result.checks, "kinematics.joint_angles"), "pass");
+  EXPECT_EQ(verdictOf(result.checks, "torque.pointwise"), "fail");
+}
+
+TEST(ValidateControl, torquesOffByABillionthFail) {
+  const Scenario scenario = quick("paper-helix");
+  Subject subject = nocSubject(*scenario.manipulator, nullptr);
+  const auto right = subject.torques;
+  subject.torques = [right](const Motion<double>& motion) { return Vector6d(right(motion) * (1 + 1e-9)); };
+  const ValidationResult result = validate(scenario, subject);
+  EXPECT_EQ(result.verdict, Verdict::fail);
+  EXPECT_EQ(firstFailing(result.checks), "torque.pointwise");
+}
+
+TEST(ValidateControl, torquesThatAreNoNumbersNeverPass) {
+  const Scenario scenario = quick("paper-helix");
+  Subject subject = nocSubject(*scenario.manipulator, nullptr);
+  subject.kinematics = nullptr;
+  subject.torques = [](const Motion<double>&) { return Vector6d(Vector6d::Constant(std::nan(""))); };
+  const ValidationResult result = validate(scenario, subject);
+  EXPECT_EQ(result.verdict, Verdict::fail);
+  for (const std::string& name : promised)
+    EXPECT_EQ(verdictOf(result.checks, name), name.rfind("kinematics.", 0) == 0 ? "(none)" : "fail") << name;
+}
+
+TEST(ValidateControl, aSubjectThatRefusesFailsWithItsReason) {
+  const Scenario scenario = quick("paper-helix");
+  Subject subject = nocSubject(*scenario.manipulator, nullptr);
+  subject.torques = [](const Motion<double>& motion) -> Vector6d {
+    throw SingularJacobian("B is singular, its pivots' ratio", -1, motion.t, 0, 1e-15, "");
+  };
+  const ValidationResult result = validate(scenario, subject);
+  EXPECT_EQ(result.verdict, Verdict::fail);
+  EXPECT_EQ(others(result.checks, Verdict::fail), "");
+  EXPECT_NE(findCheck(result.checks, "torque.pointwise")->why.find("B is singular"), std::string::npos);
+}
+
+TEST(ValidateControl, aMotionOutOfReachIsNotJudged) {
+  Scenario scenario = quick("paper-helix");
+  HelixParameters helix;
+  helix.radius = 0.2, helix.pitch = 1.2, helix.end_angle = 1, helix.height_phase = 20;
+  scenario.trajectory = makeHelix(helix);
+  EXPECT_THROW(validate(scenario), PoseError);
+}
+
+TEST(Acceptance, holdsWhatTheUserSays) {
+  Scenario scenario = quick("paper-helix");
+  scenario.acceptance = {{"torque.pointwise", 1e-13}, {"replay.position", 1}, {"torque.pontwise", 1}};
+  const ValidationResult result = validate(scenario);
+  EXPECT_EQ(result.verdict, Verdict::fail);
+  const Check* torque = findCheck(result.checks, "torque.pointwise");
+  EXPECT_EQ(torque->verdict, Verdict::fail);
+  EXPECT_EQ(torque->limit, 1e-13);
+  EXPECT_NE(torque->basis.find("[acceptance]"), std::string::npos);
+  EXPECT_EQ(verdictOf(result.checks, "replay.position"), "pass");
+  EXPECT_EQ(findCheck(result.checks, "replay.position")->limit, 1);
+  EXPECT_EQ(verdictOf(result.checks, "torque.pontwise"), "fail") << "a check that was not made is no pass";
+}
+
+TEST(Determinism, twoRunsAreTheSameToTheLastByte) {
+  Scenario scenario = quick("random-4");
+  scenario.simulation.samples = 5;
+  const ValidationResult a = validate(scenario), b = validate(scenario);
+  EXPECT_EQ(report::summaryJson(a), report::summaryJson(b));
+  EXPECT_EQ(a.timeseries.columns, b.timeseries.columns);
+}
+
+TEST(EquallySpaced, hasBothEnds) {
+  EXPECT_EQ(equallySpaced(3, 4), (std::vector<double>{0, 1, 2, 3}));
+  EXPECT_EQ(equallySpaced(0.7, 301).back(), 0.7);
+}
+
+}  // namespace
+}  // namespace ursula
