@@ -2,25 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <iostream>
-#include <vector>
 
 #include "tests/nocsolver/direct_kinematics_cases.h"
-
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
-#define URSULA_COUNTS_MALLOC 1
-namespace {
-std::atomic<long> mallocs{0};
-}
-extern "C" void* __libc_malloc(std::size_t size);  // NOLINT(readability-identifier-naming): glibc's
-extern "C" void* malloc(std::size_t size) noexcept {
-  mallocs.fetch_add(1, std::memory_order_relaxed);
-  return __libc_malloc(size);
-}
-#endif
+#include "tests/support/allocation_counter.h"
 
 namespace ursula {
 namespace {
@@ -100,25 +86,21 @@ TEST(DirectKinematics, NewtonConvergesQuadratically) {
 }
 
 TEST(DirectKinematics, DoesNotAllocate) {
-#ifdef URSULA_COUNTS_MALLOC
   const Scenario paper = vectorScenario("paper-helix");
   const DirectKinematics kinematics(*paper.manipulator);
   const Vector6d phi = Conditioned(kinematics, paper.trajectory->at(1)).phi;
   const Vector6d ahead = Conditioned(kinematics, paper.trajectory->at(1.01)).phi;
   Workspace<double> work;
   PlatformPoses poses = kinematics.poses(phi);
-  const long before = mallocs;
-  poses = kinematics.poses(phi);
-  const std::optional<PlatformPose> next = kinematics.track(ahead, *poses.begin());
-  const Motion<double> motion = kinematics.motion(*poses.begin(), ahead - phi, phi, work);
-  const long after = mallocs;
-  EXPECT_EQ(after - before, 0);
+  std::optional<PlatformPose> next;
+  Motion<double> motion;
+  EXPECT_EQ(allocationsIn([&] {
+              poses = kinematics.poses(phi);
+              next = kinematics.track(ahead, *poses.begin());
+              motion = kinematics.motion(*poses.begin(), ahead - phi, phi, work);
+            }),
+            0);
   EXPECT_TRUE(next && motion.p_ddot.allFinite());
-  const std::vector<double> counted(100);
-  EXPECT_EQ(mallocs - after, 1) << "the counter does not count";
-#else
-  GTEST_SKIP() << "malloc cannot be counted here";
-#endif
 }
 
 }  // namespace

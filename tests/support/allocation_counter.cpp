@@ -1,0 +1,62 @@
+// The C library's allocation functions replaced by ones that count and pass on: Eigen calls malloc, not operator new.
+// Under AddressSanitizer, which has put its own in their place, its hook counts.
+
+#include "tests/support/allocation_counter.h"
+
+#include <cerrno>
+#include <cstddef>
+
+namespace {
+thread_local long count = 0;
+}
+
+long ursula::allocations() { return count; }
+
+#if defined(__SANITIZE_ADDRESS__)
+
+#include <sanitizer/allocator_interface.h>
+
+namespace {
+const int installed = __sanitizer_install_malloc_and_free_hooks([](const volatile void*, std::size_t) { ++count; },
+                                                                [](const volatile void*) {});
+}
+
+#else
+
+extern "C" {
+
+void* __libc_malloc(std::size_t size);                           // NOLINT: the C library's names
+void* __libc_calloc(std::size_t n, std::size_t size);            // NOLINT
+void* __libc_realloc(void* old, std::size_t size);               // NOLINT
+void* __libc_memalign(std::size_t alignment, std::size_t size);  // NOLINT
+
+void* malloc(std::size_t size) {
+  ++count;
+  return __libc_malloc(size);
+}
+
+void* calloc(std::size_t n, std::size_t size) {
+  ++count;
+  return __libc_calloc(n, size);
+}
+
+void* realloc(void* old, std::size_t size) {
+  ++count;
+  return __libc_realloc(old, size);
+}
+
+void* memalign(std::size_t alignment, std::size_t size) {
+  ++count;
+  return __libc_memalign(alignment, size);
+}
+
+void* aligned_alloc(std::size_t alignment, std::size_t size) { return memalign(alignment, size); }
+
+int posix_memalign(void** out, std::size_t alignment, std::size_t size) {
+  *out = memalign(alignment, size);
+  return *out == nullptr ? ENOMEM : 0;
+}
+
+}  // extern "C"
+
+#endif
