@@ -41,7 +41,7 @@ class Amplification {
 
   const std::vector<double>& instants() const { return instants_; }
   double length() const { return length_; }
-  /// √‖∂acceleration/∂position‖, the largest along the motion: how fast deviations can grow, 1/s.
+  /// The largest real part of an eigenvalue of the linearised motion: how fast deviations grow, 1/s.
   double fastestRate() const { return fastest_rate_; }
 
  private:

@@ -15,7 +15,7 @@ namespace ursula {
 namespace {
 
 /// Coarser than the replay: the term forgets integration errors instead of amplifying them.
-constexpr double feedback_tolerance = 1e-12;
+constexpr double feedback_tolerance = 1e-11;
 
 class Stabiliser {
  public:

@@ -63,9 +63,42 @@ void setKinematicLimits(PointwiseSample& sample) {
   sample.joint_accelerations.limit = sample.twist_rate.limit / c.length;
 }
 
-void runKinematics(const Subject& subject, SimbodyLoop& loop, PointwiseSample& sample) {
+/// t_P = T φ̇ (24) and ṫ_P = T φ̈ + Ṫ φ̇ (25) with Simbody's joint motion.
+void compareJacobians(const KinematicAnswer& answer, PointwiseSample& sample) {
+  const Conditioning& c = sample.conditioning;
+  const Vector6d rate = sample.joints.q_dot.phi, acceleration = sample.joints.q_ddot.phi;
+  Vector6d twist, twist_rate;
+  twist << sample.motion.omega, sample.motion.p_dot;
+  twist_rate << sample.motion.omega_dot, sample.motion.p_ddot;
+  const auto norm = [&c](const Vector6d& v) { return v.tail<3>().norm() + c.length * v.head<3>().norm(); };
+  raise(sample.jacobian, norm(answer.T * rate - twist), -1);
+  raise(sample.jacobian_rate, norm(answer.T * acceleration + answer.T_rate * rate - twist_rate), -1);
+  sample.jacobian.limit = sample.twist.limit * c.kappa_B;
+  sample.jacobian_rate.limit = sample.twist_rate.limit * c.kappa_B;
+}
+
+/// Ṫ against a difference of T along the motion: five points, so that the truncation stays below the limit, which is
+/// the rounding of T over the step. No other road is needed.
+void compareJacobianDifferences(const Scenario& scenario, const Subject& subject, const KinematicAnswer& answer,
+                                PointwiseSample& sample) {
+  const Conditioning& c = sample.conditioning;
+  const double duration = scenario.trajectory->duration(), step = duration * std::pow(eps, 0.2) / 100;
+  const double t = std::clamp(sample.motion.t, 2 * step, duration - 2 * step);
+  const auto T = [&](double at) { return subject.kinematics(scenario.trajectory->at(at)).T; };
+  const Matrix6d difference =
+      (8 * (T(t + step) - T(t - step)) - (T(t + 2 * step) - T(t - 2 * step))) / (12 * step);
+  const Matrix6d T_rate = t == sample.motion.t ? answer.T_rate : subject.kinematics(scenario.trajectory->at(t)).T_rate;
+  const Matrix6d error = T_rate - difference;
+  const double scale = answer.T.bottomRows<3>().norm() + c.length * answer.T.topRows<3>().norm();
+  raise(sample.jacobian_difference, error.bottomRows<3>().norm() + c.length * error.topRows<3>().norm(), -1);
+  sample.jacobian_difference.limit = rounding_depth * eps * c.kappa_B * c.kappa_legs * scale / step;
+}
+
+void runKinematics(const Scenario& scenario, const Subject& subject, SimbodyLoop& loop, PointwiseSample& sample) {
   const KinematicAnswer answer = subject.kinematics(sample.motion);
   compareJoints(answer.joints, sample);
+  compareJacobians(answer, sample);
+  compareJacobianDifferences(scenario, subject, answer, sample);
   loop.place(sample.motion, answer.joints);
   compareBodies(answer.bodies, loop.bodies(), sample);
 }
@@ -92,7 +125,7 @@ PointwiseSample runInstant(const Scenario& scenario, const Subject& subject, Con
   try {
     sample.torques = subject.torques(sample.motion);
     setKinematicLimits(sample);
-    if (subject.kinematics) runKinematics(subject, loop, sample);
+    if (subject.kinematics) runKinematics(scenario, subject, loop, sample);
     runDynamics(loop, sample);
   } catch (const PoseError& error) {
     sample.refused = error.what();
@@ -157,6 +190,12 @@ const std::vector<Quantity>& kinematicQuantities() {
        &PointwiseSample::twist, true},
       {"kinematics.accelerations", "m/s^2", "twist rates of 13 bodies, (17), (43)",
        "64 eps kappa(legs)^2 kappa(B) x acceleration", &PointwiseSample::twist_rate, true},
+      {"kinematics.jacobian", "m/s", "t_P = T phi_dot (24) with Simbody's joint rates",
+       "64 eps kappa(legs) kappa(B)^2 x velocity", &PointwiseSample::jacobian, true},
+      {"kinematics.jacobian_rate", "m/s^2", "T phi_ddot + T_dot phi_dot (25) with Simbody's joint motion",
+       "64 eps kappa(legs)^2 kappa(B)^2 x acceleration", &PointwiseSample::jacobian_rate, true},
+      {"kinematics.jacobian_difference", "m/s", "T_dot against five-point differences of T along the motion",
+       "64 eps kappa(legs) kappa(B) x ||T|| / step", &PointwiseSample::jacobian_difference, true},
   };
   return quantities;
 }

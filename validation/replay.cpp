@@ -18,6 +18,8 @@ struct GaveUp : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+struct LeftPath {};
+
 /// The rotation vector of R, exact to rounding also where it is small.
 Vector3d rotationVector(const Matrix3d& R) {
   Eigen::Quaterniond q(R);
@@ -39,7 +41,10 @@ class Run {
     result_.tolerance = settings.tolerance;
     const ManipulatorParameters& machine = scenario.manipulator->parameters();
     double mass = machine.platform.mass;
-    for (const Leg& leg : machine.legs) mass += leg.proximal.mass + leg.distal.mass;
+    for (const Leg& leg : machine.legs) {
+      mass += leg.proximal.mass + leg.distal.mass;
+      size_ = std::max(size_, leg.platform_point.norm());
+    }
     weight_ = mass * std::max(machine.gravity.norm(), 1.0);  // 1 m/s² where there is no gravity
     loop_.place(trajectory_.at(settings.start));
     const SimbodyLoop::Energy energy = loop_.energy();
@@ -74,6 +79,7 @@ class Run {
   }
 
   void giveUp(const std::string& why) { result_.gave_up = why; }
+  void leavePath() { result_.left_path = true; }
 
  private:
   void derivative(const OdeState& x, OdeState& rate, double t) {
@@ -101,6 +107,7 @@ class Run {
     const SimbodyLoop::Energy energy = loop_.energy();
     result_.steps.back().energy_error = energy.kinetic + energy.potential - start_energy_ - work;
     const double speed = Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size() - 1)).norm();
+    if (result_.steps.back().position_error.norm() > size_) throw LeftPath{};
     result_.energy_scale =
         std::max(result_.energy_scale, weight_ * (1 + speed) + 2 * energy.kinetic + std::abs(work));
   }
@@ -125,6 +132,7 @@ class Run {
   Replay result_;
   double start_energy_ = 0;
   double weight_ = 0;  ///< N
+  double size_ = 0;    ///< m
 };
 
 template <class F>
@@ -156,6 +164,8 @@ Replay replay(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torque
       run.integrateRkf78();
     else
       run.integrateRungeKuttaMerson();
+  } catch (const LeftPath&) {
+    run.leavePath();
   } catch (const std::exception& error) {
     run.giveUp(error.what());  // what was reached is still reported
   }

@@ -29,7 +29,8 @@ struct Replay {
   long evaluations = 0;           ///< of the derivatives
   long accepted = 0;              ///< steps of the integrator
   double energy_scale = 0;        ///< ‖∂E/∂x‖ and |work|, what an error of one in the state is to the energy, J
-  std::string gave_up;            ///< why, where it did not reach the end; else empty
+  std::string gave_up;            ///< why, where it could not go on; else empty
+  bool left_path = false;         ///< stopped where P was off by more than the platform's size: no use to go on
 
   double maxPositionError() const;  ///< m
   double maxRotationError() const;  ///< rad
@@ -43,7 +44,7 @@ struct ReplaySettings {
   /// Added to the torques, from the state that the loop is in; none where empty. rkf78 only.
   std::function<Vector6d(double t, const JointMotion& joints)> feedback;
   int instants = 101;           ///< rk_merson only: equally spaced instants at which it is compared
-  long max_evaluations = 200000;  ///< more than this is giving up
+  long max_evaluations = 20000;  ///< more than this is giving up
 };
 
 Replay replay(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const ReplaySettings& settings);

@@ -22,6 +22,9 @@ Subject makeSubject(const std::string& name, const Manipulator& manipulator, std
     solver->inverseKinematics(motion, *work);
     answer.joints = {solver->angles(*work), solver->rates(*work), solver->accelerations(*work)};
     solver->bodyMotions(motion, *work, answer.bodies);
+    solver->jacobians(motion, *work);
+    answer.T = solver->T(*work);
+    answer.T_rate = solver->TRate(motion, *work);
     return answer;
   };
   subject.rebuilt = [name, reading](const Manipulator& other) { return makeSubject(name, other, nullptr, reading); };

@@ -17,6 +17,8 @@ namespace ursula {
 struct KinematicAnswer {
   JointMotion joints;
   BodyMotions<double> bodies;
+  Matrix6d T = Matrix6d::Zero();       ///< of (24): t_P = T φ̇
+  Matrix6d T_rate = Matrix6d::Zero();  ///< of (25)
 };
 
 /// What is on trial: a source of torques, and of kinematics where it has one. Called with the commanded motion.

@@ -115,6 +115,13 @@ TimeSeries inverseSeries(const std::vector<Motion<double>>& motions, const std::
   return series;
 }
 
+TimeSeries simulatedSeries(const std::vector<Motion<double>>& motions, const std::vector<Vector6d>& torques) {
+  TimeSeries series;
+  addMotion(series, motions);
+  addLegs(series, "tau_{}_Nm", torques, [](const Vector6d& tau) { return tau; });
+  return series;
+}
+
 TimeSeries validationSeries(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows) {
   std::vector<Motion<double>> motions;
   std::vector<JointMotion> joints;

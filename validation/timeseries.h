@@ -16,4 +16,7 @@ TimeSeries validationSeries(const std::vector<PointwiseSample>& samples, const s
 TimeSeries inverseSeries(const std::vector<Motion<double>>& motions, const std::vector<JointMotion>& joints,
                          const std::vector<Vector6d>& torques);
 
+/// Motion and torques: what `ursula simulate` prints.
+TimeSeries simulatedSeries(const std::vector<Motion<double>>& motions, const std::vector<Vector6d>& torques);
+
 }  // namespace ursula

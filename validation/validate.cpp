@@ -36,7 +36,7 @@ void append(std::vector<Check>& checks, std::vector<Check> more) {
 }
 
 Motions judgeMotions(const Scenario& scenario, const Subject& subject, const std::vector<PointwiseSample>& samples,
-                     std::vector<Check>& checks) {
+                     const ValidationOptions& options, std::vector<Check>& checks) {
   const Amplification amplification = linearised(scenario);
   const double position_scale = positionScale(samples);
   const SimbodyLoop::TorqueHistory torques = [&](double t) { return subject.torques(scenario.trajectory->at(t)); };
@@ -45,15 +45,17 @@ Motions judgeMotions(const Scenario& scenario, const Subject& subject, const std
                                     {torques, SampledLimit(samples), position_scale,
                                      plannedStepRate(scenario.trajectory->duration())});
   append(checks, judgeReplay(motions.windows, position_scale, amplification.length()));
-  motions.ladder = climb(scenario, torques, motions.windows.front());
-  append(checks, judgeLadder(motions.ladder, motions.windows.front(), position_scale));
+  if (options.ladder) {
+    motions.ladder = climb(scenario, torques, motions.windows.front());
+    append(checks, judgeLadder(motions.ladder, motions.windows.front(), position_scale));
+  }
   checks.push_back(judgeFeedback(scenario, subject, amplification, samples));
   return motions;
 }
 
 }  // namespace
 
-ValidationResult validate(const Scenario& scenario, const Subject& subject) {
+ValidationResult validate(const Scenario& scenario, const Subject& subject, const ValidationOptions& options) {
   ValidationResult result;
   result.scenario = scenario.name;
   const auto samples =
@@ -67,8 +69,8 @@ ValidationResult validate(const Scenario& scenario, const Subject& subject) {
     const std::vector<RoadSample> roads = runRoads(scenario, samples);
     append(result.checks, judgeRoads(roads));
     append(result.checks, judgeInvariances(scenario, subject, samples));
-    result.checks.push_back(judgeReactions(scenario, samples, &reactions));
-    motions = judgeMotions(scenario, subject, samples, result.checks);
+    if (options.reactions) result.checks.push_back(judgeReactions(scenario, samples, &reactions));
+    motions = judgeMotions(scenario, subject, samples, options, result.checks);
     result.findings.emplace_back("odd one out of four roads", oddOneOut(roads));
   } else {
     append(result.checks, judgeReplay({}, 0, 0));
@@ -80,7 +82,7 @@ ValidationResult validate(const Scenario& scenario, const Subject& subject) {
   result.timeseries = validationSeries(samples, motions.windows);
   for (std::size_t k = 0; k < reactions.names.size(); ++k)
     result.timeseries.add(reactions.names[k], std::move(reactions.columns[k]));
-  if (answers) result.curves.emplace_back("Work and precision", workPrecision(motions.ladder));
+  if (!motions.ladder.rungs.empty()) result.curves.emplace_back("Work and precision", workPrecision(motions.ladder));
   addProvenance(scenario, subject.name, result);
   return result;
 }

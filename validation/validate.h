@@ -6,10 +6,16 @@
 
 namespace ursula {
 
+/// What may be left out where many scenarios are judged in a row; `ursula validate` leaves out nothing.
+struct ValidationOptions {
+  bool ladder = true;     ///< integration.*
+  bool reactions = true;  ///< reactions.pointwise
+};
+
 /// The whole validation of one scenario: pointwise, replay, closure, energy, and the verdict. Deterministic: the same
 /// build on the same machine gives the same numbers to the last bit. Throws PoseError or std::domain_error where the
 /// commanded motion itself is out of reach or singular: then there is nothing to judge.
-ValidationResult validate(const Scenario& scenario, const Subject& subject);
+ValidationResult validate(const Scenario& scenario, const Subject& subject, const ValidationOptions& options = {});
 
 /// With the NOC of this program as the subject.
 ValidationResult validate(const Scenario& scenario);

@@ -1,0 +1,56 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstdio>
+#include <map>
+#include <memory>
+
+#include "apps/verbs.h"
+#include "model/csv.h"
+#include "model/scenario.h"
+#include "validation/engines.h"
+#include "validation/timeseries.h"
+#include "validation/torque_file.h"
+#include "validation/torque_spline.h"
+
+namespace ursula {
+namespace {
+
+struct SimulateOptions {
+  std::string scenario, torques, out = "-";
+  Engine engine = Engine::simbody;
+};
+
+int simulateVerb(const SimulateOptions& options) {
+  const Scenario scenario = readScenario(options.scenario);
+  const TorqueFile file = within(readTorqueFile(options.torques), scenario.trajectory->duration());
+  if (!file.ignored.empty()) fmt::print(stderr, "ignored columns: {}\n", fmt::join(file.ignored, ", "));
+  if (file.rows() < TorqueSpline::least_samples)
+    throw UsageError(fmt::format("{}: {} instants, expected at least {} to interpolate between", options.torques,
+                                 file.rows(), TorqueSpline::least_samples));
+  const TorqueSpline spline(file.t, file.torques);
+  const Simulation run = simulate(scenario, options.engine, spline, file.t, scenario.simulation.tolerance);
+  const TimeSeries series = simulatedSeries(run.motions, run.torques);
+  writeOutput(options.out, csvText(series.names, series.columns));
+  if (run.gave_up.empty()) return exit_passed;
+  fmt::print(stderr, "stopped at t = {} s of {} s: {}\n", run.motions.empty() ? 0 : run.motions.back().t,
+             file.t.back(), run.gave_up);
+  return exit_failed;
+}
+
+}  // namespace
+
+void addSimulate(CLI::App& app, std::function<int()>& run) {
+  const auto options = std::make_shared<SimulateOptions>();
+  CLI::App* verb = app.add_subcommand("simulate", "The motion that a torque history produces, as CSV");
+  verb->add_option("scenario", options->scenario, "Scenario file (TOML); the motion starts in its commanded state")
+      ->required();
+  verb->add_option("--torques", options->torques, "CSV file with t_s and tau_{1..6}_Nm")->required();
+  const std::map<std::string, Engine> engines{{"noc", Engine::noc}, {"simbody", Engine::simbody}};
+  verb->add_option("--engine", options->engine, "noc: (36); simbody: the closed loop. Default: simbody")
+      ->transform(CLI::CheckedTransformer(engines));
+  verb->add_option("--out", options->out, "CSV file; - for standard output")->capture_default_str();
+  verb->callback([options, &run] { run = [options] { return simulateVerb(*options); }; });
+}
+
+}  // namespace ursula

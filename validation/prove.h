@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "model/scenario.h"
+#include "validation/result.h"
+
+namespace ursula {
+
+/// What the validation said of one defect.
+struct DefectOutcome {
+  std::string name, group;
+  std::vector<std::string> caught_by;  ///< names of the checks that failed
+  bool shows = true;                   ///< false where the scenario gives the defect nothing to change
+};
+
+/// The smallest relative error of one parameter that `torque.pointwise` still fails.
+struct Sensitivity {
+  std::string parameter, group;
+  double smallest_caught = 0;  ///< relative; infinite where not even 0.1 shows
+  double torque_change = 0;    ///< the change of torque at that error, relative to the largest torque
+};
+
+struct RandomOutcomes {
+  int runs = 0, passed = 0;
+  std::vector<std::string> failed, inconclusive;  ///< seed, worst check and why
+};
+
+/// `task(k)` for k = 0 … count − 1 on `jobs` threads; the first exception is thrown again.
+void inParallel(int jobs, int count, const std::function<void(int)>& task);
+
+/// Every defect of allDefects() in turn, judged by the whole validation but the ladder and the reactions, which look at
+/// the engine and not at the subject. Order and content do not depend on `jobs`.
+std::vector<DefectOutcome> proveDefects(const Scenario& scenario, int jobs, const std::function<void(int)>& done);
+
+/// By bisection over the decades.
+std::vector<Sensitivity> proveSensitivities(const Scenario& scenario);
+
+/// The other direction: `count` random valid scenarios from `seed` on; none may fail.
+RandomOutcomes proveRandom(std::uint64_t seed, int count, int jobs, const std::function<void(int)>& done);
+
+}  // namespace ursula
