@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "apps/verbs.h"
+#include "model/csv.h"
 #include "model/errors.h"
 #include "model/scenario.h"
 #include "nocsolver/errors.h"
@@ -22,6 +23,8 @@ int runVerb(const std::function<int()>& run) {
     return run();
   } catch (const ursula::ScenarioError& error) {
     return complain(error.what());  // begins with file:line:column
+  } catch (const ursula::CsvError& error) {
+    return complain(error.what());  // likewise
   } catch (const ursula::PoseError& error) {
     return complain(fmt::format("error: the motion cannot be made: {}", error.what()));
   } catch (const std::exception& error) {
@@ -39,6 +42,7 @@ int main(int argc, char** argv) {
   std::function<int()> run;
   ursula::addValidate(app, run);
   ursula::addInverse(app, run);
+  ursula::addCompare(app, run);
   ursula::addDirect(app, run);
   try {
     app.parse(argc, argv);

@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "apps/verbs.h"
+#include "validation/compare.h"
+
+namespace ursula {
+namespace {
+
+struct Options {
+  std::string reference, test, out;
+  CompareOptions tolerances;
+};
+
+int compareFiles(const Options& options) {
+  const Comparison comparison = compare(readHistory(options.reference), readHistory(options.test), options.tolerances);
+  if (!options.out.empty()) writeOutput(options.out, comparisonCsv(comparison));
+  // Data alone goes to standard output: where that is the CSV, the table is for the terminal.
+  fmt::print(options.out == "-" ? stderr : stdout, "{}", comparisonText(comparison));
+  switch (comparison.verdict) {
+    case Verdict::pass:
+      return exit_passed;
+    case Verdict::inconclusive:
+      return exit_inconclusive;
+    case Verdict::fail:
+      break;
+  }
+  return exit_failed;
+}
+
+}  // namespace
+
+void addCompare(CLI::App& app, std::function<int()>& run) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* verb = app.add_subcommand("compare", "Two result folders or two CSV files, channel by channel");
+  verb->add_option("reference", options->reference, "Result folder, or CSV file with t_s")->required();
+  verb->add_option("test", options->test, "What is compared with it")->required();
+  verb->add_option("--tolerance", options->tolerances.tolerance,
+                   "Tolerance in value, relative to the largest of the channel's group (all tau_*, …)")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  verb->add_option("--time-tolerance", options->tolerances.time_tolerance, "Tolerance in time, s")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  verb->add_option("--out", options->out, "Table as CSV; - for standard output");
+  verb->callback([options, &run] { run = [options] { return compareFiles(*options); }; });
+}
+
+}  // namespace ursula
