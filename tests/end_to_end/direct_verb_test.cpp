@@ -1,0 +1,127 @@
+// ursula direct, as a user calls it.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "model/csv.h"
+#include "tests/end_to_end/program.h"
+
+namespace ursula {
+namespace {
+
+const std::string helix = "'" URSULA_SCENARIOS "/paper-helix.toml'";
+
+std::vector<std::string> columnsOfDirect() {
+  std::vector<std::string> names = {"pose", "p_x_m", "p_y_m", "p_z_m", "q_w", "q_x", "q_y", "q_z"};
+  names.insert(names.end(), {"multiplicity", "assembles", "residual_m"});
+  for (const std::string quantity : {"reach_#", "side_#", "distance_#_m", "psi_#_rad", "theta_#_rad"})
+    for (const char leg : std::string("123456")) {
+      names.push_back(quantity);
+      std::replace(names.back().begin(), names.back().end(), '#', leg);
+    }
+  return names;
+}
+
+CsvTable table(const std::string& text) {
+  CsvOptions options;
+  options.finite = false;
+  return parseCsv(text, "direct.csv", options);
+}
+
+/// φ of a row of `ursula inverse`, as --phi takes it.
+std::string anglesOf(const CsvTable& inverse, std::size_t row) {
+  std::string text;
+  for (const char leg : std::string("123456")) {
+    char digits[32];
+    std::snprintf(digits, sizeof digits, "%.17g", inverse.at(std::string("phi_") + leg + "_rad")[row]);
+    text += (text.empty() ? "" : ",") + std::string(digits);
+  }
+  return text;
+}
+
+class DirectVerb : public testing::Test {
+ protected:
+  auto direct(const std::string& phi, const std::string& more = "") {
+    return ursula_("direct " + helix + " --phi '" + phi + "' " + more);
+  }
+
+  Program ursula_;
+};
+
+TEST_F(DirectVerb, FindsTheHelixAgainFromItsAngles) {
+  const CsvTable inverse = table(ursula_("inverse " + helix + " --samples 4").out);
+  ASSERT_EQ(inverse.rows(), 4U);
+  for (std::size_t row = 0; row < inverse.rows(); ++row) {
+    const auto run = direct(anglesOf(inverse, row));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const CsvTable poses = table(run.out);
+    EXPECT_EQ(poses.names, columnsOfDirect());
+    double nearest = INFINITY;
+    for (std::size_t pose = 0; pose < poses.rows(); ++pose) {
+      double off = 0;
+      for (const std::string name : {"p_x_m", "p_y_m", "p_z_m"})
+        off = std::max(off, std::abs(poses.at(name)[pose] - inverse.at(name)[row]));
+      nearest = std::min(nearest, off);
+      EXPECT_EQ(poses.at("pose")[pose], static_cast<double>(pose + 1));
+    }
+    EXPECT_LE(nearest, 1e-12);  // B's condition number is below 100 along the helix; eps times that is 2e-14
+    EXPECT_EQ(poses.at("assembles")[0], 1);
+  }
+}
+
+TEST_F(DirectVerb, ListsPosesOutOfReach) {
+  const CsvTable inverse = table(ursula_("inverse " + helix + " --samples 2").out);
+  const auto run = direct(anglesOf(inverse, 0));
+  const CsvTable poses = table(run.out);
+  int far = 0;
+  for (std::size_t pose = 0; pose < poses.rows(); ++pose) {
+    bool all = true;
+    for (const std::string leg : {"1", "2", "3", "4", "5", "6"}) {
+      const bool reach = poses.at("reach_" + leg)[pose] == 1;
+      EXPECT_EQ(std::isnan(poses.at("theta_" + leg + "_rad")[pose]), !reach);
+      all = all && reach;
+    }
+    EXPECT_EQ(poses.at("assembles")[pose] == 1, all);
+    far += all ? 0 : 1;
+  }
+  EXPECT_GT(far, 0);
+  EXPECT_NE(run.err.find("out of reach"), std::string::npos) << run.err;
+}
+
+TEST_F(DirectVerb, WritesTheSameToAFile) {
+  const std::string phi = "-0.48,0.50,-0.97,0.87,-0.63,0.69";
+  const auto run = direct(phi, "--out poses.csv");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(TemporaryFolder::read(ursula_.folder() / "poses.csv"), direct(phi).out);
+}
+
+TEST_F(DirectVerb, SaysWhatIsWrongWithTheAngles) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"1,2,3,4,5", "5 numbers, expected six"}, {"1,2,3,4,5,6,7", "7 numbers, expected six"},
+      {"1,2,three,4,5,6", "phi_3 is 'three'"},  {"1,2,3,4,5,", "phi_6 is ''"},
+      {"1,2,3,4,5,6rad", "phi_6 is '6rad'"},    {"nan,2,3,4,5,6", "phi_1 is 'nan'"}};
+  for (const auto& [phi, words] : cases) {
+    const auto run = direct(phi, "--out poses.csv");
+    EXPECT_EQ(run.exit_code, 2) << phi;
+    EXPECT_NE(run.err.find(words), std::string::npos) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(ursula_.folder() / "poses.csv"));
+  }
+}
+
+TEST_F(DirectVerb, TellsNoPoseFromNoDeterminedPose) {
+  const auto none = direct("-0.1,0.2,0.3,0.1,0.2,-0.4");
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_EQ(std::count(none.out.begin(), none.out.end(), '\n'), 1) << "the header alone";
+  const auto free = direct("0,0,0,0,0,0");  // all planes upright: the platform may rise and fall
+  EXPECT_EQ(free.exit_code, 3);
+  EXPECT_EQ(free.out, "");
+  EXPECT_NE(free.err.find("free to move along a line"), std::string::npos) << free.err;
+}
+
+}  // namespace
+}  // namespace ursula
