@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <cmath>
 #include <random>
 #include <stdexcept>
 
 #include "model/errors.h"
 #include "model/trajectories.h"
+#include "nocsolver/solver.h"
 #include "validation/conditioning.h"
 
 namespace ursula {
@@ -129,10 +131,19 @@ std::shared_ptr<const Load> randomLoad(Dice& dice) {
 /// True where every leg follows the whole motion well away from singularities.
 bool canBeJudged(const Scenario& scenario) {
   ConditioningProbe probe(*scenario.manipulator, scenario.load);
+  const Solver<double> solver(*scenario.manipulator);
+  Workspace<double> work;
   constexpr int instants = 61;
+  double side = 0;  // of the singular poses: the sign of det B
   for (int k = 0; k < instants; ++k) {
-    const Conditioning c = probe.at(scenario.trajectory->at(scenario.trajectory->duration() * k / (instants - 1)));
+    const Motion<double> motion = scenario.trajectory->at(scenario.trajectory->duration() * k / (instants - 1));
+    const Conditioning c = probe.at(motion);
     if (!(c.kappa_B * c.kappa_legs < 1e4)) return false;
+    solver.displacements(motion, work);
+    solver.jacobians(motion, work);
+    const double determinant = work.B.determinant();
+    if (!(determinant * side >= 0)) return false;
+    side = determinant;
   }
   return true;
 }
