@@ -11,6 +11,7 @@ namespace ursula {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
+const char* const work_group = "tau_*_Nm x phi_*_rad";
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// `tau_3_Nm` → `tau_*_Nm`: what shares a unit and a meaning shares a scale.
@@ -36,12 +37,13 @@ std::string scaleGroupOf(const std::string& channel) {
       {"limit_tau_Nm", "tau_*_Nm"},
       {"error_acceleration_m_s2", "a_*_m_s2"},
       {"limit_acceleration_m_s2", "a_*_m_s2"},
+      {"error_energy_J", work_group},
   };
   const auto found = of.find(channel);
   return found == of.end() ? groupOf(channel) : found->second;
 }
 
-/// Largest finite magnitude of every group.
+/// Largest finite magnitude of every group; of energy errors, that of the work: torques times angles.
 std::map<std::string, double> scalesOf(const TimeSeries& series) {
   std::map<std::string, double> scales;
   for (std::size_t i = 0; i < series.names.size(); ++i) {
@@ -49,6 +51,8 @@ std::map<std::string, double> scalesOf(const TimeSeries& series) {
     for (double value : series.columns[i])
       if (std::isfinite(value)) scale = std::max(scale, std::abs(value));
   }
+  if (scales.count("tau_*_Nm") != 0 && scales.count("phi_*_rad") != 0)
+    scales[work_group] = scales["tau_*_Nm"] * scales["phi_*_rad"];
   return scales;
 }
 
@@ -147,9 +151,20 @@ void setTimes(const std::vector<double>& reference, const std::vector<double>& t
   out.covers_reference = test.front() <= reference.front() + rounding && test.back() >= reference.back() - rounding;
 }
 
+/// Instants of the reference that the test passes over: where it is less than a third as dense.
+std::size_t skippedOf(const std::vector<double>& reference, const std::vector<double>& test, double rounding) {
+  std::size_t skipped = 0;
+  for (std::size_t k = 0; k + 1 < test.size(); ++k) {
+    const auto first = std::upper_bound(reference.begin(), reference.end(), test[k] + rounding);
+    const auto last = std::lower_bound(first, reference.end(), test[k + 1] - rounding);
+    if (last - first >= 3) skipped += static_cast<std::size_t>(last - first);
+  }
+  return skipped;
+}
+
 Verdict verdictOf(const Comparison& comparison) {
   if (comparison.channels.empty() || comparison.instants == 0) return Verdict::fail;
-  bool is_whole = comparison.only_in_reference.empty() && comparison.covers_reference;
+  bool is_whole = comparison.only_in_reference.empty() && comparison.covers_reference && comparison.skipped == 0;
   for (const ChannelComparison& channel : comparison.channels) {
     if (channel.verdict == Verdict::fail) return Verdict::fail;
     is_whole = is_whole && channel.verdict == Verdict::pass;
@@ -175,6 +190,7 @@ Comparison compare(const TimeSeries& reference, const TimeSeries& test, const Co
   const std::vector<double>&t = *test.find("t_s"), &t_reference = *reference.find("t_s");
   const double rounding = options.time_tolerance + 4 * eps * std::max(std::abs(t_reference.back()), std::abs(t.back()));
   setTimes(t_reference, t, rounding, out);
+  out.skipped = skippedOf(t_reference, t, rounding);
   std::vector<std::size_t> rows;
   for (std::size_t k = 0; k < t.size(); ++k)
     if (t[k] >= t_reference.front() - rounding && t[k] <= t_reference.back() + rounding) rows.push_back(k);

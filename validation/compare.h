@@ -34,8 +34,9 @@ struct ChannelComparison {
 struct Comparison {
   std::vector<ChannelComparison> channels;  ///< common to both, in the reference's order
   std::vector<std::string> only_in_reference, only_in_test;
-  std::size_t instants = 0;                                                 ///< of the test that were compared
-  std::size_t interpolated = 0;                                             ///< of them, between two of the reference
+  std::size_t instants = 0;      ///< of the test that were compared
+  std::size_t interpolated = 0;  ///< of them, between two of the reference
+  std::size_t skipped = 0;       ///< instants of the reference in gaps of the test, each over three or more of them
   double from = std::numeric_limits<double>::quiet_NaN(), to = from;        ///< overlap, s
   double reference_from = 0, reference_to = 0, test_from = 0, test_to = 0;  ///< s
   bool covers_reference = false;  ///< the test reaches both ends of the reference
@@ -54,7 +55,8 @@ TimeSeries readHistory(const std::filesystem::path& file_or_folder);
 ///
 /// Errors are those at the same instant. A channel is inconclusive where it leaves the tube by no more than a straight
 /// line may miss (by second differences, where instants differ). The whole fails where a channel does or where nothing
-/// is common, and is inconclusive where a channel or a part of the reference's time is missing from the test.
+/// is common, and is inconclusive where a channel or a part of the reference's time is missing from the test, at its
+/// ends or by gaps.
 Comparison compare(const TimeSeries& reference, const TimeSeries& test, const CompareOptions& options);
 
 /// The table for people, ending in "compared n of m channels" and what was not.

@@ -23,6 +23,8 @@ std::string remarks(const Comparison& c) {
         c.covers_reference ? "" : "; the reference is not covered");
   if (c.interpolated > 0)
     out += fmt::format("the reference was interpolated linearly at {} of {} instants\n", c.interpolated, c.instants);
+  if (c.skipped > 0)
+    out += fmt::format("not compared are {} instants of the reference in gaps of the test\n", c.skipped);
   if (!c.only_in_reference.empty()) out += "only in the reference: " + list(c.only_in_reference) + "\n";
   if (!c.only_in_test.empty()) out += "only in the test: " + list(c.only_in_test) + "\n";
   if (c.channels.empty()) out += "no channel is common to both\n";

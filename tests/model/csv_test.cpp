@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <limits>
 
 #include "refusals.h"
@@ -80,6 +81,40 @@ TEST(Csv, suggestsNoColumnThatHasAnotherIndex) {
             "a.csv:1: error: missing column 'p_y_m', expected it in the header");
   EXPECT_EQ(refusal<CsvError>([&] { table.at("q_x"); }),
             "a.csv:1: error: missing column 'q_x', expected it in the header");
+}
+
+TEST(Csv, readsOnlyWhatIsWanted) {
+  const auto wanted = [](const std::string& name) { return name != "note"; };
+  const CsvTable table = parseCsv("note,t_s,x\nfirst,0,1\n,1,2\n", "a.csv", {wanted, true});
+  EXPECT_THAT(table.names, ElementsAre("t_s", "x"));
+  EXPECT_THAT(table.columns, ElementsAre(ElementsAre(0, 1), ElementsAre(1, 2)));
+  EXPECT_THAT(table.ignored, ElementsAre("note"));
+  EXPECT_EQ(refusal<CsvError>([&] {
+              parseCsv("note,t_s\n1,2,3\n", "a.csv", {wanted, true});
+            }),
+            "a.csv:2: error: 3 cells, expected 2, one for each column of the header");
+  EXPECT_EQ(refusal<CsvError>([&] {
+              parseCsv("note,note\n1,2\n", "a.csv", {wanted, true});
+            }),
+            "a.csv:1: error: duplicate column 'note', expected each name once");
+  // The control: without the option the note is refused.
+  EXPECT_THAT(refusal<CsvError>([&] { parseCsv("note,t_s\nfirst,0\n", "a.csv"); }),
+              StartsWith("a.csv:2: error: 'first'"));
+}
+
+TEST(Csv, takesNumbersThatAreNotFiniteOnlyWhereTold) {
+  const CsvTable table = parseCsv("x\nnan\n-inf\n", "a.csv", {{}, false});
+  EXPECT_TRUE(std::isnan(table.columns[0][0]));
+  EXPECT_EQ(table.columns[0][1], -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(refusal<CsvError>([] {
+              parseCsv("x\none\n", "a.csv", {{}, false});
+            }),
+            "a.csv:2: error: 'one' in column 'x', expected a number");
+}
+
+TEST(Csv, knowsTheLastDigitPrinted) {
+  const CsvTable table = parseCsv("x\n1.50\n15e2\n-0.015E-3\n100\n+2.\n1e+06\n", "a.csv");
+  EXPECT_THAT(table.last_places, ElementsAre(ElementsAre(-2, 2, -6, 0, 0, 6)));
 }
 
 TEST(Csv, refusesAFileThatIsNotThereAndAFolder) {

@@ -1,0 +1,193 @@
+// Two histories channel by channel: tubes in value and time, what is not compared, and that nothing passes by absence.
+
+#include "validation/compare.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/csv.h"
+#include "tests/model/refusals.h"
+#include "tests/model/temporary_folder.h"
+#include "validation/validate.h"
+
+namespace ursula {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<double> wave(const std::vector<double>& t, double shift = 0) {
+  std::vector<double> out;
+  for (double at : t) out.push_back(10 * std::sin(2 * (at + shift)));
+  return out;
+}
+
+TimeSeries history(const std::vector<double>& t, double shift = 0) {
+  return {{"t_s", "tau_1_Nm", "tau_2_Nm"}, {t, wave(t, shift), std::vector<double>(t.size(), 20)}};
+}
+
+const std::vector<double> t_101 = equallySpaced(1, 101);
+
+TEST(Compare, aHistoryPassesAgainstItself) {
+  const Comparison result = compare(history(t_101), history(t_101), {});
+  EXPECT_EQ(result.verdict, Verdict::pass);
+  ASSERT_EQ(result.channels.size(), 2U);
+  EXPECT_EQ(result.channels[0].max_error, 0);
+  EXPECT_EQ(result.channels[0].scale, 20);  // of all tau_*
+  EXPECT_EQ(result.channels[0].group, "tau_*_Nm");
+  EXPECT_EQ(result.instants, 101U);
+  EXPECT_EQ(result.interpolated, 0U);
+  EXPECT_THAT(comparisonText(result), HasSubstr("compared 2 of 2 channels at 101 instants; 2 within tolerance"));
+}
+
+TEST(Compare, maximumRmsAndFinalErrorAreThoseOfTheDifference) {
+  TimeSeries test = history(t_101);
+  test.columns[1][50] += 3;
+  test.columns[1][100] -= 1;
+  const Comparison result = compare(history(t_101), test, {});
+  const ChannelComparison& channel = result.channels[0];
+  EXPECT_EQ(result.verdict, Verdict::fail);
+  EXPECT_NEAR(channel.max_error, 3, 1e-12);
+  EXPECT_EQ(channel.max_at, 0.5);
+  EXPECT_NEAR(channel.rms_error, std::sqrt(10.0 / 101), 1e-12);
+  EXPECT_NEAR(channel.final_error, 1, 1e-12);
+  EXPECT_EQ(channel.verdict, Verdict::fail);
+  EXPECT_EQ(result.channels[1].verdict, Verdict::pass);
+}
+
+TEST(Compare, theToleranceIsOfTheGroupsScale) {
+  TimeSeries test = history(t_101);
+  test.columns[1][50] += 1.9e-8;
+  EXPECT_EQ(compare(history(t_101), test, {}).verdict, Verdict::pass);  // 1e-9 of 20
+  test.columns[1][50] += 0.2e-8;
+  EXPECT_EQ(compare(history(t_101), test, {}).verdict, Verdict::fail);
+  EXPECT_EQ(compare(history(t_101), test, {1e-8, 0}).verdict, Verdict::pass);
+}
+
+TEST(Compare, errorChannelsAreMeasuredOnTheScaleOfWhatTheyAreErrorsOf) {
+  const TimeSeries reference{{"t_s", "p_x_m", "error_p_m"}, {{0, 1}, {2, 2}, {1e-12, 1e-12}}};
+  TimeSeries test = reference;
+  test.columns[2] = {3e-12, 4e-12};
+  EXPECT_EQ(compare(reference, test, {}).verdict, Verdict::pass);
+  test.columns[2] = {3e-12, 4e-8};
+  EXPECT_EQ(compare(reference, test, {}).verdict, Verdict::fail);
+}
+
+TEST(Compare, energyErrorsAreMeasuredOnTheWork) {
+  const TimeSeries reference{{"t_s", "tau_1_Nm", "phi_1_rad", "error_energy_J"},
+                             {{0, 1}, {3, 4}, {0.5, 2}, {0, 1e-11}}};
+  TimeSeries test = reference;
+  test.columns[3] = {1e-10, 7e-9};
+  const Comparison result = compare(reference, test, {});
+  EXPECT_EQ(result.verdict, Verdict::pass);
+  EXPECT_EQ(result.channels.back().scale, 8);
+  test.columns[3][1] = 9e-9;
+  EXPECT_EQ(compare(reference, test, {}).verdict, Verdict::fail);
+}
+
+TEST(Compare, theTubeIsInTimeAsWell) {
+  const TimeSeries late = history(t_101, -0.01);
+  EXPECT_EQ(compare(history(t_101), late, {1e-9, 0}).verdict, Verdict::fail);
+  EXPECT_EQ(compare(history(t_101), late, {1e-9, 0.009}).verdict, Verdict::fail);
+  const Comparison result = compare(history(t_101), late, {1e-9, 0.0101});
+  // The first instant alone is off: what it holds came before the reference begins.
+  EXPECT_EQ(result.channels[0].verdict, Verdict::fail);
+  EXPECT_NEAR(result.channels[0].outside, 10 * std::sin(0.02), 1e-9);
+  TimeSeries held = late;
+  held.columns[1][0] = 0;
+  EXPECT_EQ(compare(history(t_101), held, {1e-9, 0.0101}).verdict, Verdict::pass);
+}
+
+TEST(Compare, nanNeverPasses) {
+  for (const bool in_test : {true, false}) {
+    TimeSeries reference = history(t_101), test = history(t_101);
+    (in_test ? test : reference).columns[1][70] = nan;
+    const Comparison result = compare(reference, test, {1e9, 0.5});
+    EXPECT_EQ(result.verdict, Verdict::fail);
+    EXPECT_EQ(result.channels[0].verdict, Verdict::fail);
+    EXPECT_TRUE(std::isnan(result.channels[0].max_error));
+    EXPECT_TRUE(std::isnan(result.channels[0].rms_error));
+    EXPECT_EQ(result.channels[1].verdict, Verdict::pass);
+  }
+}
+
+TEST(Compare, otherInstantsAreInterpolatedAndWhatTheLinesMissIsLeftOpen) {
+  const std::vector<double> finer = equallySpaced(1, 151);
+  const Comparison result = compare(history(t_101), history(finer), {});
+  EXPECT_EQ(result.interpolated, 100U);
+  EXPECT_EQ(result.channels[0].verdict, Verdict::inconclusive);
+  EXPECT_EQ(result.channels[1].verdict, Verdict::pass);
+  EXPECT_EQ(result.verdict, Verdict::inconclusive);
+  EXPECT_EQ(compare(history(t_101), history(finer), {1e-3, 0}).verdict, Verdict::pass);
+  EXPECT_EQ(compare(history(t_101), history(finer, 0.01), {}).verdict, Verdict::fail);
+}
+
+TEST(Compare, namesTheChannelsOfOneFileOnly) {
+  TimeSeries reference = history(t_101), test = history(t_101);
+  test.add("note", std::vector<double>(101, 0));
+  EXPECT_EQ(compare(reference, test, {}).verdict, Verdict::pass);
+  reference.add("p_x_m", std::vector<double>(101, 0));
+  const Comparison result = compare(reference, test, {});
+  EXPECT_EQ(result.verdict, Verdict::inconclusive);
+  EXPECT_THAT(result.only_in_reference, ElementsAre("p_x_m"));
+  EXPECT_THAT(result.only_in_test, ElementsAre("note"));
+  const std::string text = comparisonText(result);
+  EXPECT_THAT(text, HasSubstr("compared 2 of 3 channels"));
+  EXPECT_THAT(text, HasSubstr("only in the reference: p_x_m\n"));
+  EXPECT_THAT(text, HasSubstr("only in the test: note\n"));
+}
+
+TEST(Compare, nothingInCommonFails) {
+  const TimeSeries other{{"t_s", "x"}, {t_101, t_101}};
+  const Comparison channels = compare(history(t_101), other, {});
+  EXPECT_EQ(channels.verdict, Verdict::fail);
+  EXPECT_THAT(comparisonText(channels), HasSubstr("no channel is common to both\ncompared 0 of 2 channels"));
+  std::vector<double> later = t_101;
+  for (double& t : later) t += 5;
+  const Comparison times = compare(history(t_101), history(later), {1e9, 0});
+  EXPECT_EQ(times.verdict, Verdict::fail);
+  EXPECT_THAT(comparisonText(times), HasSubstr("nothing to compare: the reference spans 0 to 1 s, the test 5 to 6 s"));
+}
+
+TEST(Compare, aPartOfTheTimeIsComparedAndSaid) {
+  const std::vector<double> part(t_101.begin() + 10, t_101.end());
+  const Comparison short_test = compare(history(t_101), history(part), {});
+  EXPECT_EQ(short_test.verdict, Verdict::inconclusive);
+  EXPECT_THAT(comparisonText(short_test), HasSubstr("compared from 0.1 to 1 s only"));
+  EXPECT_THAT(comparisonText(short_test), HasSubstr("the reference is not covered"));
+  const Comparison long_test = compare(history(part), history(t_101), {});
+  EXPECT_EQ(long_test.verdict, Verdict::pass);
+  EXPECT_EQ(long_test.instants, 91U);
+}
+
+TEST(Compare, aTestWithGapsLeavesThemOpen) {
+  const Comparison ends = compare(history(t_101), history({0, 1}), {});
+  EXPECT_EQ(ends.verdict, Verdict::inconclusive);
+  EXPECT_EQ(ends.skipped, 99U);
+  EXPECT_THAT(comparisonText(ends), HasSubstr("not compared are 99 instants of the reference in gaps of the test\n"));
+  EXPECT_EQ(compare(history(t_101), history(equallySpaced(1, 51)), {}).verdict, Verdict::pass);
+}
+
+TEST(Compare, readsFoldersAndRefusesInstantsThatDoNotIncrease) {
+  const TemporaryFolder folder;
+  folder.write("timeseries.csv", "t_s,x\n0,nan\n1,2\n");
+  EXPECT_TRUE(std::isnan(readHistory(folder.path()).columns[1][0]));
+  for (const char* text : {"t_s,x\n0,1\n0,2\n", "t_s,x\n1,1\n0,2\n", "t_s,x\n0,1\nnan,2\n"})
+    EXPECT_THAT(refusal<CsvError>([&] { readHistory(folder.write("a.csv", text)); }), HasSubstr("a.csv:3: error: t_s"));
+  EXPECT_THAT(refusal<CsvError>([&] { readHistory(folder.write("a.csv", "x\n1\n")); }),
+              HasSubstr("missing column 't_s'"));
+}
+
+TEST(Compare, theTableAsCsvHasOneRowForEachChannel) {
+  const std::string text = comparisonCsv(compare(history(t_101), history(t_101), {}));
+  EXPECT_THAT(text, HasSubstr("channel,verdict,max_error,t_max_s,rms_error,final_error,outside,tolerance,scale,group\n"
+                              "tau_1_Nm,pass,0,0,0,0,0,"));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);
+}
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,168 @@
+// What is said of torques that are wrong: each fault is put into exact ones of the helix and must be named.
+
+#include "validation/diagnosis.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/motions.h"
+#include "tests/validation/external_torques.h"
+
+namespace ursula {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+constexpr int instants = 61;
+
+const Scenario& helix() {
+  static const Scenario scenario = vectorScenario("paper-helix");
+  return scenario;
+}
+
+const TorqueTable& exact() {
+  static const TorqueTable torques = exactTorques(helix(), instants);
+  return torques;
+}
+
+Diagnosis diagnosed(const TorqueTable& torques, const Scenario& scenario = helix()) {
+  return diagnose(scenario, runExternal(scenario, torques.file()));
+}
+
+/// Torques of a machine that differs.
+TorqueTable ofAnother(const std::function<void(ManipulatorParameters&)>& change, const Scenario& scenario = helix()) {
+  ManipulatorParameters parameters = scenario.manipulator->parameters();
+  change(parameters);
+  return torquesOf(scenario, nocSubject(Manipulator(parameters), scenario.load),
+                   equallySpaced(scenario.trajectory->duration(), instants));
+}
+
+TEST(Diagnosis, saysNothingOfExactTorques) {
+  const Diagnosis diagnosis = diagnosed(exact());
+  EXPECT_EQ(diagnosis.summary, "");
+  EXPECT_EQ(diagnosis.deviation, "");
+  EXPECT_EQ(diagnosis.cause, "");
+}
+
+TEST(Diagnosis, saysWhichLegsWhenAndHowMuch) {
+  const Diagnosis diagnosis = diagnosed(exact().changed([](std::size_t k, Vector6d& tau) {
+    if (k >= 20 && k <= 40) tau(1) += k == 30 ? 50 : 5;
+  }));
+  EXPECT_THAT(diagnosis.summary, StartsWith("leg 2 by up to 50 N m (0.199 % of the largest torque), from t = 1 to 2 s, "
+                                            "21 of 61 instants"));
+  EXPECT_THAT(diagnosis.deviation, HasSubstr("leg 2 by up to 50 N m (0.199 % of the largest torque) at t = 1.5 s"));
+  EXPECT_THAT(diagnosis.deviation, HasSubstr("within their limits: 1, 3, 4, 5, 6"));
+}
+
+TEST(Diagnosis, namesGravity) {
+  const auto without = [](ManipulatorParameters& machine) { machine.gravity.setZero(); };
+  EXPECT_THAT(diagnosed(ofAnother(without)).cause, StartsWith("gravity left out, which explains more than 99.9999 %"));
+  EXPECT_THAT(diagnosed(ofAnother([](auto& machine) { machine.gravity *= -1; })).cause,
+              StartsWith("gravity with the wrong sign"));
+  EXPECT_THAT(diagnosed(ofAnother([](auto& machine) { machine.gravity *= 1.001; })).cause,
+              StartsWith("gravity scaled by 1.001,"));
+}
+
+TEST(Diagnosis, namesInertia) {
+  TorqueTable torques = exact();
+  const Subject noc = nocSubject(*helix().manipulator, nullptr);
+  for (std::size_t k = 0; k < torques.t.size(); ++k) {
+    Motion<double> motion = helix().trajectory->at(torques.t[k]);
+    motion.omega_dot.setZero();
+    motion.p_ddot.setZero();
+    torques.torques[k] = noc.torques(motion);
+  }
+  EXPECT_THAT(diagnosed(torques).cause, StartsWith("the torques of acceleration (inertia) left out"));
+}
+
+TEST(Diagnosis, namesFriction) {
+  Scenario rough = helix();
+  ManipulatorParameters parameters = rough.manipulator->parameters();
+  for (Leg& leg : parameters.legs) leg.friction = {30, 20, 10};
+  rough.manipulator = std::make_shared<const Manipulator>(parameters);
+  EXPECT_THAT(diagnosed(exact(), rough).cause, StartsWith("friction left out"));
+}
+
+TEST(Diagnosis, namesMasses) {
+  EXPECT_THAT(diagnosed(ofAnother([](auto& machine) { machine.platform.mass *= 1.02; })).cause,
+              StartsWith("the platform's mass scaled by 1.02,"));
+  EXPECT_THAT(diagnosed(ofAnother([](auto& machine) { machine.platform.inertia *= 0.9; })).cause,
+              StartsWith("the platform's inertia tensor scaled by 0.9,"));
+}
+
+TEST(Diagnosis, namesSwappedLegs) {
+  const TorqueTable swapped = exact().changed([](std::size_t, Vector6d& tau) { std::swap(tau(1), tau(4)); });
+  EXPECT_THAT(diagnosed(swapped).cause, StartsWith("legs 2 and 5 swapped, which explains more than 99.9999 %"));
+  EXPECT_THAT(diagnosed(swapped).summary, StartsWith("legs 2, 5 by up to "));
+}
+
+TEST(Diagnosis, namesSigns) {
+  EXPECT_THAT(diagnosed(exact().changed([](std::size_t, Vector6d& tau) { tau(2) *= -1; })).cause,
+              StartsWith("the sign of leg 3 flipped, which explains"));
+  EXPECT_THAT(diagnosed(exact().changed([](std::size_t, Vector6d& tau) { tau *= -1; })).cause,
+              StartsWith("the sign of every leg flipped"));
+}
+
+TEST(Diagnosis, namesOffsetsScalesAndUnits) {
+  const Vector6d offset = (Vector6d() << 0, 0, 0, 5, 0, 0).finished();
+  EXPECT_THAT(diagnosed(exact().changed([&](std::size_t, Vector6d& tau) { tau += offset; })).cause,
+              StartsWith("a constant offset: +5 N m on leg 4, which explains"));
+  EXPECT_THAT(diagnosed(exact().changed([](std::size_t, Vector6d& tau) { tau *= 1e-3; })).cause,
+              StartsWith("every torque scaled by 0.001 (kN m for N m)"));
+  EXPECT_THAT(diagnosed(exact().changed([](std::size_t, Vector6d& tau) { tau(3) *= 1.02; })).cause,
+              StartsWith("a factor of 1.02 on leg 4"));
+  EXPECT_THAT(diagnosed(exact().changed([](std::size_t, Vector6d& tau) { tau *= 1 + 1e-8; })).cause,
+              StartsWith("every torque scaled by 1.00000001"));
+}
+
+TEST(Diagnosis, namesATimeShift) {
+  for (double shift : {-0.01, 0.01, 0.2}) {
+    TorqueTable torques = exact();
+    const Subject noc = nocSubject(*helix().manipulator, nullptr);
+    for (std::size_t k = 0; k < torques.t.size(); ++k)
+      torques.torques[k] = noc.torques(helix().trajectory->at(std::min(std::max(torques.t[k] + shift, 0.0), 3.0)));
+    EXPECT_THAT(diagnosed(torques).cause,
+                StartsWith(shift == -0.01  ? "a time shift: the torques of 10 ms before (late)"
+                           : shift == 0.01 ? "a time shift: the torques of 10 ms after (early)"
+                                           : "a time shift: the torques of 200 ms after"));
+  }
+}
+
+TEST(Diagnosis, namesAFormulaAsPrinted) {
+  const TorqueTable torques =
+      torquesOf(helix(), slippedSubject(*helix().manipulator, nullptr, WithSlips(Slip::eq43b_doubled)),
+                equallySpaced(3, instants));
+  EXPECT_THAT(diagnosed(torques).cause, StartsWith("(43b) as printed, its last terms doubled"));
+}
+
+TEST(Diagnosis, namesSinglePrecision) {
+  const TorqueTable torques =
+      exact().changed([](std::size_t, Vector6d& tau) { tau = tau.cast<float>().cast<double>().eval(); });
+  EXPECT_THAT(diagnosed(torques).cause, StartsWith("single precision"));
+}
+
+TEST(Diagnosis, claimsNothingThatTheResidualDoesNotSupport) {
+  Dice dice(5);
+  const TorqueTable noisy = exact().changed([&](std::size_t, Vector6d& tau) {
+    for (int i = 0; i < leg_count; ++i) tau(i) += dice.between(-1, 1);
+  });
+  EXPECT_THAT(diagnosed(noisy).cause, StartsWith("no pattern from one instant to the next"));
+  const TorqueTable mixed = exact().changed([](std::size_t k, Vector6d& tau) {
+    tau(0) += 40 * std::sin(0.1 * static_cast<double>(k));
+    tau(4) *= 1.01;
+  });
+  EXPECT_THAT(diagnosed(mixed).cause, StartsWith("no simple explanation"));
+  EXPECT_THAT(diagnosed(mixed).cause, HasSubstr("explains only"));
+}
+
+TEST(Diagnosis, ofOneInstantFitsNothingWithAsManyNumbers) {
+  TorqueTable one = exact();
+  one.t = {1.5};
+  one.torques = {exact().torques[30] + (Vector6d() << 1, -2, 3, -1, 2, 1).finished()};
+  EXPECT_THAT(diagnosed(one).cause, Not(HasSubstr("offset")));
+}
+
+}  // namespace
+}  // namespace ursula

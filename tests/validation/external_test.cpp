@@ -1,0 +1,142 @@
+// Somebody else's torques judged: exact ones are never called wrong, wrong ones never pass, few ones are inconclusive.
+
+#include "validation/external.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/validation/checks.h"
+#include "tests/validation/external_torques.h"
+
+namespace ursula {
+namespace {
+
+using testing::HasSubstr;
+
+const Scenario& helix() {
+  static const Scenario scenario = vectorScenario("paper-helix");
+  return scenario;
+}
+
+/// `format` for every number: "%.6g" as fmt has it.
+TorqueFile printed(const TorqueTable& table, const char* format) {
+  std::string text = fmt::format("{}\n", fmt::join(table.names(), ","));
+  for (std::size_t k = 0; k < table.t.size(); ++k) {
+    text += fmt::format(fmt::runtime(format), table.t[k]);
+    for (int i = 0; i < leg_count; ++i) text += "," + fmt::format(fmt::runtime(format), table.torques[k](i));
+    text += "\n";
+  }
+  return parseTorqueFile(text, "torques.csv");
+}
+
+std::string finding(const ValidationResult& result, const std::string& key) {
+  for (const auto& [name, text] : result.findings)
+    if (name == key) return text;
+  return "(none)";
+}
+
+TEST(External, exactTorquesPass) {
+  for (int count : {31, 301}) {
+    const ValidationResult result = validateExternal(helix(), exactTorques(helix(), count).file());
+    EXPECT_EQ(others(result.checks, Verdict::pass), "") << count;
+    EXPECT_EQ(result.verdict, Verdict::pass);
+    EXPECT_EQ(finding(result, "likely cause"), "(none)");
+    EXPECT_EQ(result.timeseries.rows(), static_cast<std::size_t>(count));
+  }
+}
+
+TEST(External, everyVectorsExactTorquesPassPointwiseAndFailNowhere) {
+  for (const std::string& name : vectorNames()) {
+    const Scenario scenario = vectorScenario(name);
+    const ValidationResult result = validateExternal(scenario, exactTorques(scenario, 101).file());
+    EXPECT_EQ(firstFailing(result.checks), "(none)") << name << ": " << others(result.checks, Verdict::pass);
+    EXPECT_EQ(verdictOf(result.checks, "torque.pointwise"), "pass");
+  }
+}
+
+TEST(External, anErrorOfOnePartIn1e8FailsOnBothRoads) {
+  for (int count : {31, 301}) {
+    const TorqueTable wrong = exactTorques(helix(), count).changed([](std::size_t, Vector6d& tau) { tau *= 1 + 1e-8; });
+    const ValidationResult result = validateExternal(helix(), wrong.file());
+    EXPECT_EQ(result.verdict, Verdict::fail);
+    for (const char* name : {"torque.pointwise", "acceleration.pointwise", "torque.against_noc"})
+      EXPECT_EQ(verdictOf(result.checks, name), "fail") << name;
+    EXPECT_THAT(findCheck(result.checks, "torque.pointwise")->why,
+                HasSubstr("Off: all legs by up to 0.0002507 N m (1e-06 % of the largest torque), from t = 0 to 3 s"));
+    EXPECT_THAT(findCheck(result.checks, "torque.pointwise")->why, HasSubstr("Likely cause: every torque scaled by"));
+    EXPECT_THAT(finding(result, "likely cause"), HasSubstr("1.00000001"));
+  }
+}
+
+TEST(External, wrongTorquesFailTheReplayAsWell) {
+  const TorqueTable wrong = exactTorques(helix(), 301).changed([](std::size_t, Vector6d& tau) { tau(2) += 0.1; });
+  const ValidationResult result = validateExternal(helix(), wrong.file());
+  EXPECT_EQ(verdictOf(result.checks, "replay.position"), "fail");
+  EXPECT_EQ(verdictOf(result.checks, "replay.orientation"), "fail");
+}
+
+TEST(External, sixDigitsWidenTheLimitByHalfOfTheLast) {
+  const TorqueTable exact = exactTorques(helix(), 61);
+  const ValidationResult result = validateExternal(helix(), printed(exact, "{:.6g}"));
+  const Check& torque = *findCheck(result.checks, "torque.pointwise");
+  EXPECT_EQ(torque.verdict, Verdict::pass);
+  EXPECT_GT(torque.limit, 0.01);
+  EXPECT_LT(torque.limit, 0.0501);
+  EXPECT_THAT(torque.basis, HasSubstr("half a unit of the last digit printed (torques of up to 6 significant digits"));
+  EXPECT_EQ(firstFailing(result.checks), "(none)");
+  // The controls: the same numbers claimed to more digits, and others that are off by one unit of the last.
+  EXPECT_EQ(validateExternal(helix(), printed(exact, "{:.5e}")).verdict, result.verdict);
+  const TorqueFile rounded = printed(exact, "{:.6g}");
+  EXPECT_EQ(validateExternal(helix(), printed({rounded.t, rounded.torques}, "{:.16e}")).verdict, Verdict::fail);
+  const TorqueTable off = exact.changed([](std::size_t, Vector6d& tau) { tau(2) *= 1.0001; });
+  EXPECT_EQ(validateExternal(helix(), printed(off, "{:.6g}")).verdict, Verdict::fail);
+}
+
+TEST(External, tooFewSamplesLeaveTheReplayOpen) {
+  for (int count : {2, 5, 6, 8}) {
+    const ValidationResult result = validateExternal(helix(), exactTorques(helix(), count).file());
+    EXPECT_EQ(result.verdict, Verdict::inconclusive) << count;
+    for (const char* name : {"torque.pointwise", "acceleration.pointwise", "torque.against_noc"})
+      EXPECT_EQ(verdictOf(result.checks, name), "pass") << name;
+    for (const char* name : {"replay.position", "replay.orientation", "closure.position", "energy.balance"})
+      EXPECT_EQ(verdictOf(result.checks, name), "inconclusive") << name;
+    EXPECT_THAT(findCheck(result.checks, "replay.position")->why, HasSubstr("too few samples"));
+  }
+}
+
+TEST(External, aPartOfTheMotionLeavesTheReplayOpen) {
+  TorqueTable part = exactTorques(helix(), 61);
+  part.t.erase(part.t.begin());
+  part.torques.erase(part.torques.begin());
+  const ValidationResult result = validateExternal(helix(), part.file());
+  EXPECT_EQ(result.verdict, Verdict::inconclusive);
+  EXPECT_THAT(findCheck(result.checks, "replay.position")->why, HasSubstr("the samples cover 0.05 to 3 s"));
+}
+
+TEST(External, oneSampleIsJudgedPointwise) {
+  TorqueTable one = exactTorques(helix(), 3);
+  one.t = {one.t[1]};
+  one.torques = {one.torques[1]};
+  EXPECT_EQ(validateExternal(helix(), one.file()).verdict, Verdict::inconclusive);
+  one.torques[0](4) += 1e-5;
+  const ValidationResult wrong = validateExternal(helix(), one.file());
+  EXPECT_EQ(wrong.verdict, Verdict::fail);
+  EXPECT_THAT(findCheck(wrong.checks, "torque.pointwise")->why, HasSubstr("Off: leg 5 by up to 1e-05 N m"));
+}
+
+TEST(External, wrongTorquesDoNotWidenTheirOwnLimit) {
+  const TorqueTable exact = exactTorques(helix(), 61);
+  const TorqueTable wild = exact.changed([](std::size_t k, Vector6d& tau) { tau(0) += k % 2 == 0 ? 50 : -50; });
+  EXPECT_EQ(finding(validateExternal(helix(), wild.file()), "spline"),
+            finding(validateExternal(helix(), exact.file()), "spline"));
+}
+
+TEST(External, theScenariosOwnLimitsHold) {
+  Scenario strict = helix();
+  strict.acceptance = {{"torque.pointwise", 1e-30}};
+  EXPECT_EQ(validateExternal(strict, exactTorques(helix(), 31).file()).verdict, Verdict::fail);
+}
+
+}  // namespace
+}  // namespace ursula
