@@ -134,8 +134,7 @@ ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& t
   plan.acceleration = [limit](double t) { return (*limit)(t); };
   plan.position_scale = limit->positionScale();
   plan.step_rate = std::max(plannedStepRate(duration), 2 * knot_rate);
-  // Torques that are wrong may throw the machine about: four times what right ones take, 13 to a step, is enough.
-  plan.max_evaluations = 20000 + static_cast<long>(4 * 13 * plan.step_rate * duration);
+  plan.max_evaluations = enoughEvaluations(plan.step_rate, duration);
   const std::vector<GrowthWindow> windows = planWindows(scenario, amplification, plan);
   const double useful = useful_replay_limit * limit->length();
   const std::string basis = splineBasis(*limit, torques.file.rows());

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "model/simbody_loop.h"
 
@@ -94,11 +95,23 @@ void compareJacobianDifferences(const Scenario& scenario, const Subject& subject
   sample.jacobian_difference.limit = rounding_depth * eps * c.kappa_B * c.kappa_legs * scale / step;
 }
 
+/// The first leg with an angle that is not finite.
+std::optional<int> unplaceable(const JointVariables<double>& q) {
+  for (int i = 0; i < leg_count; ++i)
+    if (!std::isfinite(q.phi(i) + q.psi(i) + q.theta(i))) return i;
+  return std::nullopt;
+}
+
 void runKinematics(const Scenario& scenario, const Subject& subject, SimbodyLoop& loop, PointwiseSample& sample) {
   const KinematicAnswer answer = subject.kinematics(sample.motion);
   compareJoints(answer.joints, sample);
   compareJacobians(answer, sample);
   compareJacobianDifferences(scenario, subject, answer, sample);
+  if (const std::optional<int> leg = unplaceable(answer.joints.q)) {  // Simbody throws at a state that is no number
+    for (Deviation* deviation : {&sample.position, &sample.twist, &sample.twist_rate})
+      raise(*deviation, std::nan(""), *leg);
+    return;
+  }
   loop.place(sample.motion, answer.joints);
   compareBodies(answer.bodies, loop.bodies(), sample);
 }

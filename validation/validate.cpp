@@ -41,9 +41,9 @@ Motions judgeMotions(const Scenario& scenario, const Subject& subject, const std
   const double position_scale = positionScale(samples);
   const SimbodyLoop::TorqueHistory torques = [&](double t) { return subject.torques(scenario.trajectory->at(t)); };
   Motions motions;
-  motions.windows = replayInWindows(scenario, amplification,
-                                    {torques, SampledLimit(samples), position_scale,
-                                     plannedStepRate(scenario.trajectory->duration())});
+  ReplayPlan plan{torques, SampledLimit(samples), position_scale, plannedStepRate(scenario.trajectory->duration())};
+  plan.max_evaluations = enoughEvaluations(plan.step_rate, scenario.trajectory->duration());
+  motions.windows = replayInWindows(scenario, amplification, plan);
   append(checks, judgeReplay(motions.windows, position_scale, amplification.length()));
   if (options.ladder) {
     motions.ladder = climb(scenario, torques, motions.windows.front());

@@ -16,6 +16,10 @@ double SampledLimit::operator()(double t) const {
 
 double plannedStepRate(double duration) { return 128 / std::min(duration, 3.0); }
 
+long enoughEvaluations(double step_rate, double duration) {
+  return 20000 + static_cast<long>(4 * 13 * step_rate * duration);
+}
+
 double positionScale(const std::vector<PointwiseSample>& samples) {
   double scale = 0;
   for (const PointwiseSample& sample : samples) scale = std::max(scale, sample.conditioning.position_scale);

@@ -42,6 +42,10 @@ std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Repl
 /// For smooth torques: the judgement counts the steps taken.
 double plannedStepRate(double duration);
 
+/// Where to give up: torques that are wrong may throw the machine about, but four times what right ones take, 13
+/// evaluations a step, is enough.
+long enoughEvaluations(double step_rate, double duration);
+
 /// Rounding of the platform's acceleration along the motion: the larger of the two samples beside t, m/s². Keeps a
 /// reference to `samples`.
 class SampledLimit {
