@@ -1,0 +1,76 @@
+// Help and misuse, the same for every verb that the program lists.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <sstream>
+
+#include "tests/end_to_end/program.h"
+
+namespace ursula {
+namespace {
+
+using testing::HasSubstr;
+
+/// From the list in the program's own help.
+std::vector<std::string> verbs(const Program& ursula) {
+  std::istringstream lines(ursula("--help").out);
+  std::vector<std::string> out;
+  bool listed = false;
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch match;
+    if (listed && std::regex_search(line, match, std::regex("^  ([a-z]+) "))) out.push_back(match[1]);
+    listed = listed || line == "Subcommands:";
+  }
+  return out;
+}
+
+TEST(Usage, helpIsGivenByTheProgramAndByEachVerb) {
+  const Program ursula;
+  const std::vector<std::string> listed = verbs(ursula);
+  EXPECT_THAT(listed, testing::IsSupersetOf({"validate", "inverse"}));
+  for (const std::string& verb : listed) {
+    const UrsulaRun run = ursula(verb + " --help");
+    EXPECT_EQ(run.exit_code, 0) << verb;
+    EXPECT_THAT(run.out, HasSubstr("--help")) << verb;
+    EXPECT_EQ(run.err, "") << verb;
+  }
+  EXPECT_EQ(ursula("--help").exit_code, 0);
+  EXPECT_EQ(ursula("--version").exit_code, 0);
+  EXPECT_EQ(ursula.files(), 0u);
+}
+
+TEST(Usage, everyVerbRefusesAnOptionThatItHasNot) {
+  const Program ursula;
+  for (const std::string& verb : verbs(ursula)) {
+    const UrsulaRun run = ursula(verb + " --no-such-option");
+    EXPECT_EQ(run.exit_code, 2) << verb;
+    EXPECT_NE(run.err, "") << verb;
+    EXPECT_EQ(run.out, "") << verb;
+  }
+  EXPECT_EQ(ursula.files(), 0u);
+}
+
+TEST(Usage, misuseExitsWithTwoAndSaysSoOnStandardError) {
+  const Program ursula;
+  for (const char* misuse : {"", "valdate scenario.toml", "validate", "inverse", "inverse none.toml",
+                             "--no-such-option", "inverse none.toml --samples 10 surplus"}) {
+    const UrsulaRun run = ursula(misuse);
+    EXPECT_EQ(run.exit_code, 2) << misuse;
+    EXPECT_NE(run.err, "") << misuse;
+    EXPECT_EQ(run.out, "") << misuse;
+  }
+  EXPECT_EQ(ursula.files(), 0u);
+}
+
+TEST(Usage, aFolderThatCannotBeWrittenIsAnError) {
+  const Program ursula;
+  ursula.write("file", "");
+  const UrsulaRun run = ursula("inverse --samples 2 --out file/below.csv '" URSULA_SCENARIOS "/paper-helix.toml'");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("file"));
+}
+
+}  // namespace
+}  // namespace ursula
