@@ -46,7 +46,8 @@ Vector6d readAngles(std::string_view text) {
     start = end + 1;
   }
   if (count != leg_count)
-    throw UsageError(fmt::format("--phi: {} number{}, expected six with commas between, rad", count, count == 1 ? "" : "s"));
+    throw UsageError(
+        fmt::format("--phi: {} number{}, expected six with commas between, rad", count, count == 1 ? "" : "s"));
   return phi;
 }
 
@@ -65,7 +66,8 @@ struct PoseTable {
   template <class Value>
   void addLegs(const char* format, const PlatformPoses& poses, Value&& value) {
     for (std::size_t i = 0; i < leg_count; ++i)
-      add(fmt::format(fmt::runtime(format), i + 1), poses, [&](const PlatformPose& pose) { return value(pose.legs[i]); });
+      add(fmt::format(fmt::runtime(format), i + 1), poses,
+          [&](const PlatformPose& pose) { return value(pose.legs[i]); });
   }
 };
 
@@ -101,8 +103,8 @@ void summarise(const PlatformPoses& poses) {
   for (const PlatformPose& pose : poses) {
     const std::string far = legsThat(pose, [](const LegAtPose& leg) { return !leg.in_reach; });
     const std::string behind = legsThat(pose, [](const LegAtPose& leg) { return !leg.front; });
-    fmt::print(stderr, "pose {}: P at ({:.6f}, {:.6f}, {:.6f}) m, {}{}{}\n", ++index, pose.p.x(), pose.p.y(), pose.p.z(),
-               far.empty() ? "assembles" : far + " out of reach",
+    fmt::print(stderr, "pose {}: P at ({:.6f}, {:.6f}, {:.6f}) m, {}{}{}\n", ++index, pose.p.x(), pose.p.y(),
+               pose.p.z(), far.empty() ? "assembles" : far + " out of reach",
                behind.empty() ? "" : "; " + behind + " behind the axis, where inverse kinematics says phi ± pi",
                pose.multiplicity > 1 ? fmt::format("; {} poses in one, singular", pose.multiplicity) : "");
   }
@@ -135,8 +137,10 @@ void addDirect(CLI::App& app, std::function<int()>& run) {
   verb->add_option("--out", options->out, "CSV file; - for standard output")->capture_default_str();
   verb->footer(
       "One row a pose, at most eight; those that assemble come first. A pose that legs cannot reach is listed with\n"
-      "assembles = 0, reach_i = 0, and psi_i, theta_i = nan. side_i = 1: B_i lies where inverse kinematics answers with\n"
-      "phi_i; 0: it says phi_i ± pi. psi, theta are for the manipulator's own bend of each knee; the other reaches too.\n"
+      "assembles = 0, reach_i = 0, and psi_i, theta_i = nan. side_i = 1: B_i lies where inverse kinematics answers "
+      "with\n"
+      "phi_i; 0: it says phi_i ± pi. psi, theta are for the manipulator's own bend of each knee; the other reaches "
+      "too.\n"
       "Exit code: 0 real poses found, 1 none, 2 bad input, 3 the angles leave the platform free to move.");
   verb->callback([options, &run] { run = [options] { return direct(*options); }; });
 }

@@ -44,6 +44,10 @@ int main(int argc, char** argv) {
   ursula::addInverse(app, run);
   ursula::addCompare(app, run);
   ursula::addDirect(app, run);
+  ursula::addProve(app, run);
+  ursula::addSimulate(app, run);
+  ursula::addAudit(app, run);
+  ursula::addPoses(app, run);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -33,8 +33,8 @@ int simulateVerb(const SimulateOptions& options) {
   const TimeSeries series = simulatedSeries(run.motions, run.torques);
   writeOutput(options.out, csvText(series.names, series.columns));
   if (run.gave_up.empty()) return exit_passed;
-  fmt::print(stderr, "stopped at t = {} s of {} s: {}\n", run.motions.empty() ? 0 : run.motions.back().t,
-             file.t.back(), run.gave_up);
+  fmt::print(stderr, "stopped at t = {} s of {} s: {}\n", run.motions.empty() ? 0 : run.motions.back().t, file.t.back(),
+             run.gave_up);
   return exit_failed;
 }
 

@@ -1,12 +1,18 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <thread>
 
+#include "apps/suite_progress.h"
 #include "apps/verbs.h"
 #include "model/scenario.h"
+#include "validation/external.h"
 #include "validation/report/report.h"
+#include "validation/suite.h"
 #include "validation/validate.h"
 
 namespace ursula {
@@ -15,14 +21,17 @@ namespace {
 struct ValidateOptions {
   std::vector<std::string> scenarios;
   std::string torques, out;
-  int jobs = 1;
+  int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };
 
 int exitCode(Verdict verdict) {
   switch (verdict) {
-    case Verdict::pass: return exit_passed;
-    case Verdict::inconclusive: return exit_inconclusive;
-    case Verdict::fail: break;
+    case Verdict::pass:
+      return exit_passed;
+    case Verdict::inconclusive:
+      return exit_inconclusive;
+    case Verdict::fail:
+      break;
   }
   return exit_failed;
 }
@@ -34,10 +43,21 @@ void printChecks(const ValidationResult& result) {
                check.unit);
 }
 
-int validateOne(const std::string& file, const std::filesystem::path& out) {
-  const Scenario scenario = readScenario(file);
-  const std::filesystem::path dir = out.empty() ? std::filesystem::path("results") / scenario.name : out;
-  const ValidationResult result = validate(scenario);
+/// Judges the solver, or the torques of a file where there is one.
+ValidationResult judge(const Scenario& scenario, const std::string& torques) {
+  return torques.empty() ? validate(scenario) : validateExternal(scenario, std::filesystem::path(torques));
+}
+
+void nameIgnoredColumns(const std::string& torques) {
+  const TorqueFile file = readTorqueFile(torques);
+  if (!file.ignored.empty())
+    fmt::print(stderr, "{}: ignoring columns that are none of t_s, tau_1_Nm … tau_6_Nm: {}\n", torques,
+               fmt::join(file.ignored, ", "));
+}
+
+int validateOne(const Scenario& scenario, const std::string& torques, const std::filesystem::path& dir) {
+  if (!torques.empty()) nameIgnoredColumns(torques);
+  const ValidationResult result = judge(scenario, torques);
   writeResults(result, dir);
   printChecks(result);
   fmt::print("verdict: {} — {}\nreport: {}\n", name(result.verdict), reason(result.verdict, result.checks),
@@ -45,14 +65,78 @@ int validateOne(const std::string& file, const std::filesystem::path& out) {
   return exitCode(result.verdict);
 }
 
+/// A line for each scenario in the order given, then the totals.
+void printSuite(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir) {
+  std::size_t width = 0;
+  for (const SuiteEntry& entry : entries) width = std::max(width, entry.scenario.size());
+  for (const SuiteEntry& entry : entries) {
+    const Check* worst = worstCheck(entry.checks);
+    const std::string why = worst == nullptr ? entry.error : worst->name + " " + standing(*worst);
+    const std::string report = entry.error.empty() ? (dir / entry.folder / "report.html").string() : "no report";
+    fmt::print("{:<12}  {:<{}}  {}  {}\n", name(entry.verdict), entry.scenario, width, why, report);
+  }
+  const auto count = [&entries](Verdict verdict) {
+    return std::count_if(entries.begin(), entries.end(),
+                         [verdict](const SuiteEntry& entry) { return entry.verdict == verdict; });
+  };
+  fmt::print("{} passed, {} failed, {} inconclusive\nindex: {}\n", count(Verdict::pass), count(Verdict::fail),
+             count(Verdict::inconclusive), (dir / "index.html").string());
+}
+
+int exitCode(const std::vector<SuiteEntry>& entries) {
+  const auto any = [&entries](Verdict verdict) {
+    return std::any_of(entries.begin(), entries.end(),
+                       [verdict](const SuiteEntry& entry) { return entry.verdict == verdict; });
+  };
+  if (any(Verdict::fail)) return exit_failed;
+  return any(Verdict::inconclusive) ? exit_inconclusive : exit_passed;
+}
+
+int validateSuite(const std::vector<Scenario>& scenarios, int jobs, const std::filesystem::path& dir) {
+  SuiteOptions suite;
+  suite.jobs = jobs;
+  suite.judge = [](const Scenario& scenario) { return validate(scenario); };
+  std::optional<SuiteProgress> progress(scenarios.size());
+  suite.finished = [&progress](const SuiteEntry& entry, std::size_t done) { progress->finished(entry, done); };
+  const std::vector<SuiteEntry> entries = runSuite(scenarios, dir, suite);
+  progress.reset();
+  printSuite(entries, dir);
+  return exitCode(entries);
+}
+
+/// Everything that can be refused is refused here, before anything is computed or written.
+int validateAll(const ValidateOptions& options) {
+  const std::vector<Scenario> scenarios = readSuite({options.scenarios.begin(), options.scenarios.end()});
+  const bool is_suite = scenarios.size() > 1;
+  if (is_suite && !options.torques.empty())
+    throw UsageError(fmt::format("--torques judges one motion, expected one scenario, not {}", scenarios.size()));
+  const std::filesystem::path by_name = is_suite ? "suite" : scenarios.front().name;
+  const std::filesystem::path dir = options.out.empty() ? "results" / by_name : std::filesystem::path(options.out);
+  if (std::filesystem::exists(dir) && !std::filesystem::is_directory(dir))
+    throw UsageError(fmt::format("--out {}: is a file, expected a folder", dir.string()));
+  return is_suite ? validateSuite(scenarios, options.jobs, dir) : validateOne(scenarios.front(), options.torques, dir);
+}
+
 }  // namespace
 
 void addValidate(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<ValidateOptions>();
   CLI::App* verb = app.add_subcommand("validate", "Judge the torques of a scenario against Simbody, with reasons");
-  verb->add_option("scenario", options->scenarios, "Scenario files (TOML)")->required();
-  verb->add_option("--out", options->out, "Folder of the results; default results/NAME");
-  verb->callback([options, &run] { run = [options] { return validateOne(options->scenarios.front(), options->out); }; });
+  verb->add_option("scenario", options->scenarios, "Scenario files (TOML), or folders: each *.toml in it, sorted")
+      ->required();
+  verb->add_option("--out", options->out,
+                   "Folder of the results; default results/NAME, for several scenarios results/suite");
+  verb->add_option("--jobs", options->jobs, "Scenarios judged at a time; results are the same for any number")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  verb->add_option("--torques", options->torques,
+                   "CSV of somebody else's torques to judge instead: t_s and tau_1_Nm … tau_6_Nm");
+  verb->footer(
+      "Several scenarios: one folder each under DIR, with index.html and one junit.xml over all. All are read and\n"
+      "their motions tried before anything is computed or written: if one is wrong, out of reach or singular, or two\n"
+      "share a name, nothing is written (exit 2). One that turns out impossible only later counts as failed.\n"
+      "Exit: 1 if any failed, else 3 if any was inconclusive, else 0.");
+  verb->callback([options, &run] { run = [options] { return validateAll(*options); }; });
 }
 
 }  // namespace ursula

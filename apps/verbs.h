@@ -16,10 +16,14 @@ struct UsageError : std::runtime_error {
 };
 
 /// Each registers its verb and leaves in `run` what to do when it was called; the value is the exit code.
+void addAudit(CLI::App& app, std::function<int()>& run);
 void addValidate(CLI::App& app, std::function<int()>& run);
 void addDirect(CLI::App& app, std::function<int()>& run);
 void addCompare(CLI::App& app, std::function<int()>& run);
 void addInverse(CLI::App& app, std::function<int()>& run);
+void addPoses(CLI::App& app, std::function<int()>& run);
+void addProve(CLI::App& app, std::function<int()>& run);
+void addSimulate(CLI::App& app, std::function<int()>& run);
 
 /// Writes to `file` atomically, or to standard output where it is "-" or empty.
 void writeOutput(const std::string& file, const std::string& content);

@@ -12,8 +12,7 @@ namespace {
 
 /// Actuated angles with their rates at instants of the helix, 10 ms apart: what a controller would track.
 struct ActuatedHelix {
-  ActuatedHelix()
-      : scenario(readScenario(URSULA_SCENARIOS "/paper-helix.toml")), kinematics(*scenario.manipulator) {
+  ActuatedHelix() : scenario(readScenario(URSULA_SCENARIOS "/paper-helix.toml")), kinematics(*scenario.manipulator) {
     Workspace<double> work;
     for (double t = 0; t < scenario.trajectory->duration(); t += 0.01) {
       kinematics.solver().inverseKinematics(scenario.trajectory->at(t), work);

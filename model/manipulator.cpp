@@ -41,9 +41,9 @@ void requireInertia(const std::string& place, const Matrix3d& inertia) {
   const double rounding = 16 * Eigen::NumTraits<double>::epsilon() * moments.cwiseAbs().maxCoeff();
   if (!(moments(0) > 0)) throw InvalidParameter(place, value, "all principal moments > 0");
   if (!(moments(2) <= moments(0) + moments(1) + rounding))
-    throw InvalidParameter(place, value,
-                           fmt::format("the largest principal moment <= the sum of the others, {}",
-                                       moments(0) + moments(1)));
+    throw InvalidParameter(
+        place, value,
+        fmt::format("the largest principal moment <= the sum of the others, {}", moments(0) + moments(1)));
 }
 
 void requireLink(const std::string& place, const Link& link) {
@@ -80,8 +80,7 @@ void requireSpan(const ManipulatorParameters& machine, int i, int j) {
   const Leg& second = machine.legs[static_cast<std::size_t>(j)];
   const double base = (first.base_point - second.base_point).norm();
   const double platform = (first.platform_point - second.platform_point).norm();
-  const double reach =
-      first.proximal.length + first.distal.length + second.proximal.length + second.distal.length;
+  const double reach = first.proximal.length + first.distal.length + second.proximal.length + second.distal.length;
   const double gap = std::abs(base - platform);
   if (!(reach >= gap))
     throw InvalidParameter(legPlace(i), fmt::format("l + s of legs {} and {} together {} m", i + 1, j + 1, reach),

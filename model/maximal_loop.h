@@ -33,8 +33,8 @@ class MaximalLoop {
   Manipulator manipulator_;
   std::shared_ptr<const Load> load_;
   BodyMotions<double> bodies_;
-  MatrixX G_;        ///< 72 × 78
-  VectorX gamma_;    ///< G ṫ = γ
+  MatrixX G_;      ///< 72 × 78
+  VectorX gamma_;  ///< G ṫ = γ
 };
 
 }  // namespace ursula

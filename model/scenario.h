@@ -23,9 +23,9 @@ enum class Integrator { rkf78, rk_merson };
 
 /// `[simulation]`: every key has a default, recorded in the results.
 struct SimulationSettings {
-  int samples = 301;                         ///< instants judged and written, >= 2
-  Integrator integrator = Integrator::rkf78; ///< "rkf78" (Boost.Odeint) or "rk_merson" (Simbody)
-  double tolerance = 1e-14;                  ///< of the integrator, absolute and relative, in [1e-15, 1e-3]
+  int samples = 301;                          ///< instants judged and written, >= 2
+  Integrator integrator = Integrator::rkf78;  ///< "rkf78" (Boost.Odeint) or "rk_merson" (Simbody)
+  double tolerance = 1e-14;                   ///< of the integrator, absolute and relative, in [1e-15, 1e-3]
 };
 
 /// `[acceptance]`: limits of the user's own, by check name; those not named are derived.

@@ -18,7 +18,8 @@ SimbodyLoop& SimbodyLoop::operator=(SimbodyLoop&&) noexcept = default;
 
 int SimbodyLoop::Impl::indexOf(int joint, int leg) const {
   const auto i = static_cast<std::size_t>(leg);
-  return joint < 2 ? mechanism.proximal[i].getFirstUIndex(state) + joint : int(mechanism.distal[i].getFirstUIndex(state));
+  return joint < 2 ? mechanism.proximal[i].getFirstUIndex(state) + joint
+                   : int(mechanism.distal[i].getFirstUIndex(state));
 }
 
 void SimbodyLoop::Impl::setLeg(int leg, double phi, double psi, double theta) {
@@ -28,8 +29,8 @@ void SimbodyLoop::Impl::setLeg(int leg, double phi, double psi, double theta) {
   mechanism.distal[i].setOneQ(state, 0, theta);
 }
 
-/// The plane of the leg holds u and B; in it the knee R is where the circles about A and B meet, on the side that `knee`
-/// says: turning from RA to RB about x is positive for a positive knee.
+/// The plane of the leg holds u and B; in it the knee R is where the circles about A and B meet, on the side that
+/// `knee` says: turning from RA to RB about x is positive for a positive knee.
 std::array<double, 3> SimbodyLoop::Impl::legGeometry(int leg, const Motion<double>& motion) const {
   const Leg& from = parameters.leg(leg);
   const SimTK::Rotation& frame =
@@ -44,9 +45,8 @@ std::array<double, 3> SimbodyLoop::Impl::legGeometry(int leg, const Motion<doubl
   const double along = (l * l - s * s + q2) / (2 * q);
   const double off2 = (l - along) * (l + along);
   if (!(off2 >= 0) || !(off_axis.norm() > 0))
-    throw std::domain_error(
-        fmt::format("leg {} cannot reach at t = {} s: the distance is {} m, its links {} m and {} m", leg + 1, motion.t,
-                    q, l, s));
+    throw std::domain_error(fmt::format(
+        "leg {} cannot reach at t = {} s: the distance is {} m, its links {} m and {} m", leg + 1, motion.t, q, l, s));
   const double side = from.knee == Knee::positive ? 1 : -1;
   const Vector3d R = along * d / q + side * std::sqrt(off2) * x.cross(d / q);
   const Vector3d to_A = -R, to_B = d - R;
@@ -91,7 +91,8 @@ void SimbodyLoop::Impl::setRates(const Motion<double>& motion) {
   Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
   right.tail<6>() << motion.omega, motion.p_dot;
   const Eigen::VectorXd u = factors.solve(right);
-  if (!u.allFinite()) throw std::runtime_error(fmt::format("Simbody's constraints do not determine the rates at t = {} s", motion.t));
+  if (!u.allFinite())
+    throw std::runtime_error(fmt::format("Simbody's constraints do not determine the rates at t = {} s", motion.t));
   for (int i = 0; i < state.getNU(); ++i) state.updU()[i] = u(i);
 
   realize(SimTK::Stage::Velocity);

@@ -12,8 +12,8 @@
 
 namespace ursula {
 
-/// The manipulator as a closed loop in Simbody, built of raw parameters alone: per leg a Universal joint at the base and
-/// a Pin at the knee, the platform, and Ball constraints that close the loops. It never sees the solver: joint
+/// The manipulator as a closed loop in Simbody, built of raw parameters alone: per leg a Universal joint at the base
+/// and a Pin at the knee, the platform, and Ball constraints that close the loops. It never sees the solver: joint
 /// variables come from vector geometry and from Simbody's own constraint Jacobian.
 ///
 /// Vectors in B, SI; torques are conjugate to φ̇. Not thread-safe: one loop for each thread.
@@ -99,8 +99,8 @@ class SimbodyLoop {
   };
   /// `observe(t)` is called at 0, at each of `instants` (increasing, > 0) and sees the loop in that state.
   /// Constraint projection is Simbody's default.
-  Counters integrateRungeKuttaMerson(double accuracy, const TorqueHistory& torques,
-                                     const std::vector<double>& instants, const std::function<void(double)>& observe);
+  Counters integrateRungeKuttaMerson(double accuracy, const TorqueHistory& torques, const std::vector<double>& instants,
+                                     const std::function<void(double)>& observe);
 
  private:
   struct Impl;

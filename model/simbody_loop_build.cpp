@@ -1,6 +1,6 @@
-// How the closed loop is built. Frames of the joints: φ turns about −u, then ψ about x (Universal turns about its x, then
-// y), θ about x (Pin turns about z). The links' body frames are G = [x, e × x, e] and H = [x, s × x, s] of the paper's
-// (40), with origins at A and R, so that the raw inertias go in as they are.
+// How the closed loop is built. Frames of the joints: φ turns about −u, then ψ about x (Universal turns about its x,
+// then y), θ about x (Pin turns about z). The links' body frames are G = [x, e × x, e] and H = [x, s × x, s] of the
+// paper's (40), with origins at A and R, so that the raw inertias go in as they are.
 
 #include <Eigen/Geometry>
 
@@ -68,8 +68,7 @@ class DriverForce : public SimTK::Force::Custom::Implementation {
 };
 
 void addDamper(SimTK::GeneralForceSubsystem& forces, const SimTK::MobilizedBody& body, int coordinate, double damping) {
-  if (damping > 0)
-    SimTK::Force::MobilityLinearDamper(forces, body, SimTK::MobilizerUIndex(coordinate), damping);
+  if (damping > 0) SimTK::Force::MobilityLinearDamper(forces, body, SimTK::MobilizerUIndex(coordinate), damping);
 }
 
 }  // namespace
@@ -118,16 +117,14 @@ void SimbodyLoop::Impl::addLeg(int leg) {
   knee_in_proximal << 0, 0, 1, 1, 0, 0, 0, 1, 0;
   knee_in_distal << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   mechanism.distal[i] = SimTK::MobilizedBody::Pin(
-      mechanism.proximal[i],
-      SimTK::Transform(toSimTK(knee_in_proximal), SimTK::Vec3(0, 0, from.proximal.length)), linkBody(from.distal),
-      SimTK::Transform(toSimTK(knee_in_distal)));
+      mechanism.proximal[i], SimTK::Transform(toSimTK(knee_in_proximal), SimTK::Vec3(0, 0, from.proximal.length)),
+      linkBody(from.distal), SimTK::Transform(toSimTK(knee_in_distal)));
 }
 
 void SimbodyLoop::Impl::addPlatform(Topology topology) {
   const Platform& from = parameters.platform();
-  const SimTK::Body::Rigid body(
-      SimTK::MassProperties(from.mass, toSimTK(from.center_of_mass),
-                            inertiaAboutOrigin(from.inertia, from.mass, from.center_of_mass)));
+  const SimTK::Body::Rigid body(SimTK::MassProperties(
+      from.mass, toSimTK(from.center_of_mass), inertiaAboutOrigin(from.inertia, from.mass, from.center_of_mass)));
   const bool on_leg_1 = topology == Topology::tree_through_leg_1;
   if (on_leg_1)
     mechanism.platform = SimTK::MobilizedBody::Ball(

@@ -201,8 +201,7 @@ SimbodyLoop::Counters SimbodyLoop::integrateRungeKuttaMerson(double accuracy, co
   } catch (const std::exception&) {
     counters.gave_up = true;  // the caller still reports what came before
   }
-  counters.derivative_evaluations =
-      loop.system.getNumRealizationsOfThisStage(SimTK::Stage::Acceleration) - before;
+  counters.derivative_evaluations = loop.system.getNumRealizationsOfThisStage(SimTK::Stage::Acceleration) - before;
   counters.steps = integrator.getNumStepsTaken();
   loop.applied->history = nullptr;
   return counters;

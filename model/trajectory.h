@@ -21,13 +21,13 @@ class Trajectory {
 
 /// The helix of the Appendix, (49)–(55).
 struct HelixParameters {
-  double duration = 3.0;   ///< t_f, s
-  double radius = 0;       ///< a, m, > 0
-  double pitch = 0;        ///< b, m/rad, not 0
-  double start_angle = 0;  ///< β₀
-  double end_angle = 0;    ///< β_f
-  double phase = 0;        ///< ω
-  double height_phase = 0; ///< ω̄
+  double duration = 3.0;                                ///< t_f, s
+  double radius = 0;                                    ///< a, m, > 0
+  double pitch = 0;                                     ///< b, m/rad, not 0
+  double start_angle = 0;                               ///< β₀
+  double end_angle = 0;                                 ///< β_f
+  double phase = 0;                                     ///< ω
+  double height_phase = 0;                              ///< ω̄
   double start_rate = 0, end_rate = 0;                  ///< β̇₀, β̇_f, rad/s
   double start_acceleration = 0, end_acceleration = 0;  ///< β̈₀, β̈_f, rad/s²
 };

@@ -31,8 +31,7 @@ void addPointVelocity(Matrix& D, int row, int body, const Vector3<S>& arm, int s
 }  // namespace
 
 template <class S>
-AssembledDynamics<S>::AssembledDynamics(const Manipulator& manipulator, const Motion<S>& motion,
-                                        const Vector6<S>& load)
+AssembledDynamics<S>::AssembledDynamics(const Manipulator& manipulator, const Motion<S>& motion, const Vector6<S>& load)
     : solver_(manipulator),
       M_(MatrixX::Zero(size, size)),
       W_(MatrixX::Zero(size, size)),

@@ -16,12 +16,12 @@ class AssembledDynamics {
   AssembledDynamics(const Manipulator& manipulator, const Motion<S>& motion,
                     const Vector6<S>& load = Vector6<S>::Zero());
 
-  const MatrixX& M() const { return M_; }              ///< (30b), 78 × 78
-  const MatrixX& W() const { return W_; }              ///< (30b), 78 × 78
-  const MatrixX& D() const { return D_; }              ///< velocity constraints D t = 0, 78 × 78 of rank 72
-  const TwistShaping<S>& T() const { return T_; }      ///< (32a), 78 × 6
+  const MatrixX& M() const { return M_; }          ///< (30b), 78 × 78
+  const MatrixX& W() const { return W_; }          ///< (30b), 78 × 78
+  const MatrixX& D() const { return D_; }          ///< velocity constraints D t = 0, 78 × 78 of rank 72
+  const TwistShaping<S>& T() const { return T_; }  ///< (32a), 78 × 6
   const TwistShaping<S>& TRate() const { return T_rate_; }
-  const VectorX& t() const { return t_; }              ///< (30a), 78
+  const VectorX& t() const { return t_; }  ///< (30a), 78
   const VectorX& tRate() const { return t_rate_; }
 
   const VectorX& gravityWrench() const { return w_g_; }      ///< w^g (45)
@@ -34,10 +34,10 @@ class AssembledDynamics {
   /// w^N of (31): what is left of Newton and Euler when everything that works is taken off.
   VectorX constraintWrench(const Vector6<S>& torques) const;
 
-  Matrix6<S> I() const;      ///< generalized inertia TᵀMT of (34)
-  Matrix6<S> C() const;      ///< Tᵀ(MṪ + WMT) of (34)
-  Vector6<S> tauG() const;   ///< τ^g of (36)
-  Vector6<S> tauD() const;   ///< τ^d of (36)
+  Matrix6<S> I() const;     ///< generalized inertia TᵀMT of (34)
+  Matrix6<S> C() const;     ///< Tᵀ(MṪ + WMT) of (34)
+  Vector6<S> tauG() const;  ///< τ^g of (36)
+  Vector6<S> tauD() const;  ///< τ^d of (36)
   Vector6<S> tauLoad() const;
   /// φ̈ under `torques` by (36).
   Vector6<S> jointAccelerations(const Vector6<S>& torques) const;

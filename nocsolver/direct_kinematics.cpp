@@ -56,9 +56,9 @@ double readLeg(const LegModel<double>& leg, const Vector3d& AB, const Vector3d& 
     return std::abs(k_x);
   }
   const double sine = leg.knee * std::sqrt(one_minus * one_plus), cosine = (one_plus - one_minus) / 2;
-  out.theta = std::atan2(sine, cosine);                                                     // (paper, eq. 4a)
-  out.psi = std::atan2(leg.s * sine, leg.l - leg.s * cosine) + std::atan2(r, k_y);          // (paper, eq. 14b)
-  const double law = leg.l * leg.l + leg.s * leg.s - two_ls * std::cos(out.theta) - q2;     // (paper, eq. 27)
+  out.theta = std::atan2(sine, cosine);                                                      // (paper, eq. 4a)
+  out.psi = std::atan2(leg.s * sine, leg.l - leg.s * cosine) + std::atan2(r, k_y);           // (paper, eq. 14b)
+  const double law = leg.l * leg.l + leg.s * leg.s - two_ls * std::cos(out.theta) - q2;      // (paper, eq. 27)
   const double y = leg.l * std::cos(out.psi) - leg.s * std::cos(out.psi + out.theta) - k_y;  // (paper, eq. 13)
   const double third = leg.l * std::sin(out.psi) - leg.s * std::sin(out.psi + out.theta) - r;
   double worst = std::abs(k_x);

@@ -122,8 +122,8 @@ Eigen::Matrix<double, cubic_count, root_count> timesThird(const Ring& ring, int 
   return ring.third.leftCols<lower_count>() * products;
 }
 
-/// (c), in the least squares of all 18 ways; returns x c.
-Element timesC(const Ring& ring) {
+/// (c), in the least squares of all 18 ways; returns x c. Singular where a root lies in the plane at infinity.
+Element timesC(Ring& ring) {
   const std::array<Eigen::Matrix<double, cubic_count, root_count>, 3> lower = {timesThird(ring, 0), timesThird(ring, 1),
                                                                                timesThird(ring, 2)};
   const auto c = ring.third.col(lower_count);
@@ -142,16 +142,19 @@ Element timesC(const Ring& ring) {
         right.row(k) -= c(m_j) * difference;
       }
   normal.triangularView<Eigen::StrictlyLower>() = normal.transpose();
-  return normal.inverse().row(0) * right;
+  const Eigen::Matrix3d inverse = normal.inverse();
+  const double ratio = 3 / (normal.norm() * inverse.norm());            // at most 1
+  ring.pivot = ratio <= ring.pivot ? ratio : ring.pivot * (ratio > 0);  // 0 where that is no number
+  return inverse.row(0) * right;
 }
 
 /// [w, x, y, z] of a unit quaternion as the matrix of multiplication from the left (sign = 1) or right (−1).
 Eigen::Matrix4d isoclinic(Eigen::Vector4d q, double sign) {
   q.normalize();
   Eigen::Matrix4d L;
-  L << q(0), -q(1), -q(2), -q(3),                //
-      q(1), q(0), -sign * q(3), sign * q(2),     //
-      q(2), sign * q(3), q(0), -sign * q(1),     //
+  L << q(0), -q(1), -q(2), -q(3),             //
+      q(1), q(0), -sign * q(3), sign * q(2),  //
+      q(2), sign * q(3), q(0), -sign * q(1),  //
       q(3), -sign * q(2), sign * q(1), q(0);
   return L;
 }
@@ -182,7 +185,6 @@ MultiplicationMatrix multiplicationMatrix(const ThreeQuadrics& quadrics, int ind
   QuadraticRows rows = quadraticRows(quadrics, chart(index));
   reduceSecond(rows, pivots, ring);
   if (ring.pivot > 0) reduceThird(rows, ring);
-  out.pivot = ring.pivot;
   if (!(ring.pivot > 0)) return out;
   out.M.row(0) = Element::Unit(1);
   for (int i = 0; i < 3; ++i) {
@@ -190,6 +192,7 @@ MultiplicationMatrix multiplicationMatrix(const ThreeQuadrics& quadrics, int ind
     out.M.row(4 + i) = ring.third.row(cubic[0][ring.basis[static_cast<std::size_t>(i)]]);
   }
   out.M.row(7) = timesC(ring);
+  out.pivot = ring.pivot;
   return out;
 }
 

@@ -30,9 +30,9 @@ Symmetric packed(const Eigen::Matrix4d& S) {
 Eigen::Matrix4d unpacked(const Symmetric& s) {
   const double root = std::sqrt(0.5);
   Eigen::Matrix4d S;
-  S << s(0), root * s(4), root * s(5), root * s(6),       //
-      root * s(4), s(1), root * s(7), root * s(8),        //
-      root * s(5), root * s(7), s(2), root * s(9),        //
+  S << s(0), root * s(4), root * s(5), root * s(6),  //
+      root * s(4), s(1), root * s(7), root * s(8),   //
+      root * s(5), root * s(7), s(2), root * s(9),   //
       root * s(6), root * s(8), root * s(9), s(3);
   return S;
 }
@@ -82,9 +82,7 @@ Vector6d Planes::mismatch(const PlacedPlatform& pose) const {
 }
 
 /// Three products of three terms each, none larger than the sum of all lengths.
-double Planes::rounding(const PlacedPlatform& pose) const {
-  return 9 * eps * (pose.p.norm() + model_.length + size_);
-}
+double Planes::rounding(const PlacedPlatform& pose) const { return 9 * eps * (pose.p.norm() + model_.length + size_); }
 
 double Planes::newtonStep(const Vector6d& mismatch, PlacedPlatform& pose, int& orientation) const {
   const Matrix3d Q = rotation(pose.q);

@@ -19,7 +19,7 @@ Matrix3d rotation(const Eigen::Vector4d& q);
 /// The three quadrics that are left of the planes without p, and how well that went.
 struct Elimination {
   ThreeQuadrics quadrics;
-  double normals = 0;     ///< pivot ratio of X: 0 where the xᵢ do not span space, so that p is free
+  double normals = 0;       ///< pivot ratio of X: 0 where the xᵢ do not span space, so that p is free
   double independence = 0;  ///< pivot ratio of the quadrics: 0 where they are dependent
 };
 

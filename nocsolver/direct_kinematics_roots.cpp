@@ -126,8 +126,8 @@ class Gathering {
     }
     const ComplexQ at = q.cast<Complex>();
     const Flattest flat = flattest(quadrics_, at);
-    const Complex t = (-flat.sigma + std::sqrt(Complex(flat.sigma * flat.sigma - 4.0 * flat.kappa * flat.f))) /
-                      (2.0 * flat.kappa);
+    const Complex t =
+        (-flat.sigma + std::sqrt(Complex(flat.sigma * flat.sigma - 4.0 * flat.kappa * flat.f))) / (2.0 * flat.kappa);
     ComplexQ root = (at + t * flat.n + flat.correction).normalized();
     if (polish<Complex>(quadrics_, rounding_, root)) addPolished(root, 1, at);
   }
@@ -220,13 +220,16 @@ Roots rootsInChart(const ThreeQuadrics& quadrics, double rounding, int index) {
 
 }  // namespace
 
+/// A chart that leaves half of the digits is good enough; else the next one may be better.
 Roots findRoots(const ThreeQuadrics& quadrics, double rounding) {
+  const double good_pivot = std::sqrt(eps);
   Roots best;
-  for (int index = 0; index < chart_count && best.counted < root_count; ++index) {
+  for (int index = 0; index < chart_count; ++index) {
     const Roots roots = rootsInChart(quadrics, rounding, index);
     const double pivot = std::max(best.pivot, roots.pivot);
-    if (roots.counted > best.counted) best = roots;
+    if (roots.counted > best.counted || (roots.counted == best.counted && roots.pivot > best.pivot)) best = roots;
     best.pivot = pivot;
+    if (best.counted == root_count && roots.pivot > good_pivot) break;
   }
   return best;
 }

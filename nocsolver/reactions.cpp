@@ -40,8 +40,8 @@ Reactions recoverReactions(const Solver<double>& solver, const Motion<double>& m
     reaction.n_R = w_second.head<3>() - (R - second.c).cross(reaction.f_R) + (B - second.c).cross(reaction.f_B);
     const Vector6d w_first = movingWrench(first, leg.mass_proximal, leg.I_proximal, model.gravity);
     reaction.f_A = w_first.tail<3>() + reaction.f_R;
-    reaction.n_A = w_first.head<3>() + reaction.n_R - (A - first.c).cross(reaction.f_A) +
-                   (R - first.c).cross(reaction.f_R);
+    reaction.n_A =
+        w_first.head<3>() + reaction.n_R - (A - first.c).cross(reaction.f_A) + (R - first.c).cross(reaction.f_R);
   }
   return out;
 }

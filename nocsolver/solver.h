@@ -23,8 +23,8 @@ template <class S>
 struct Workspace {
   std::array<LegState<S>, leg_count> legs;
   std::array<LinkMotion<S>, leg_count> proximal, distal;
-  Vector6<S> A;                     ///< diagonal of A (23)
-  Matrix6<S> B;                     ///< (23)
+  Vector6<S> A;                                  ///< diagonal of A (23)
+  Matrix6<S> B;                                  ///< (23)
   Eigen::PartialPivLU<Matrix6<S>> B_transposed;  ///< factors of Bᵀ
 };
 

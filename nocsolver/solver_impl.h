@@ -45,10 +45,10 @@ JointVariables<S> Solver<S, R>::angles(const Workspace<S>& work) const {
     const LegModel<S>& leg = model_.legs[at(i)];
     const LegState<S>& state = work.legs[at(i)];
     const S y = reading_.has(Slip::eq14b) ? S(-state.k_y) : state.k_y;
-    q.phi(i) = atan2(state.sin_phi, state.cos_phi);      // (paper, eq. 14a)
+    q.phi(i) = atan2(state.sin_phi, state.cos_phi);        // (paper, eq. 14a)
     q.theta(i) = atan2(state.sin_theta, state.cos_theta);  // (paper, eq. 4a)
-    q.psi(i) = atan2(S(leg.s * state.sin_theta), S(leg.l - leg.s * state.cos_theta)) +
-               atan2(state.r, y);  // (paper, eq. 14b)
+    q.psi(i) =
+        atan2(S(leg.s * state.sin_theta), S(leg.l - leg.s * state.cos_theta)) + atan2(state.r, y);  // (paper, eq. 14b)
   }
   return q;
 }
@@ -112,8 +112,7 @@ void Solver<S, R>::bodyMotions(const Motion<S>& motion, Workspace<S>& work, Body
   for (int i = 0; i < leg_count; ++i) {
     const LegModel<S>& leg = model_.legs[at(i)];
     const LegState<S>& state = work.legs[at(i)];
-    kernel::linkMotions(leg, state, state.rate, state.acceleration, reading_, work.proximal[at(i)],
-                        work.distal[at(i)]);
+    kernel::linkMotions(leg, state, state.rate, state.acceleration, reading_, work.proximal[at(i)], work.distal[at(i)]);
     kernel::toBase(leg, state, work.proximal[at(i)], state.cos_psi, state.sin_psi, bodies[at(i)]);
     kernel::toBase(leg, state, work.distal[at(i)], S(-state.cos_sum), S(-state.sin_sum), bodies[at(leg_count + i)]);
   }
@@ -138,8 +137,7 @@ Vector6<S> Solver<S, R>::wrenchAtP(const Motion<S>& motion, Workspace<S>& work, 
   for (int i = 0; i < leg_count; ++i) {
     const LegModel<S>& leg = model_.legs[at(i)];
     const LegState<S>& state = work.legs[at(i)];
-    kernel::linkMotions(leg, state, state.rate, state.acceleration, reading_, work.proximal[at(i)],
-                        work.distal[at(i)]);
+    kernel::linkMotions(leg, state, state.rate, state.acceleration, reading_, work.proximal[at(i)], work.distal[at(i)]);
     const JointTriple<S> Q =
         kernel::legForces(leg, state, work.proximal[at(i)], work.distal[at(i)], model_.gravity, reading_);
     Q_phi(i) = Q.phi;

@@ -6,7 +6,8 @@
 namespace ursula {
 namespace {
 
-/// (paper, eq. 2a) as it holds for any tilt: x̂ = (u × e_z)/‖·‖, ŷ = u, ẑ = x̂ × u; for an axis along e_z the seed is e_y.
+/// (paper, eq. 2a) as it holds for any tilt: x̂ = (u × e_z)/‖·‖, ŷ = u, ẑ = x̂ × u; for an axis along e_z the seed is
+/// e_y.
 template <class S>
 void setFixedFrame(const Vector3d& axis, bool printed, LegModel<S>& leg) {
   using std::sqrt;

@@ -95,7 +95,8 @@ Amplification::Amplification(const Scenario& scenario, int intervals) {
     const Matrix12 J1 = linearisation.at((k + 0.5) * h), J2 = linearisation.at((k + 1) * h);
     propagators_.push_back(propagator(J0, J1, J2, h));
     // Every tenth will do: the Jacobian varies with the pose, and slowly.
-    if (k % 10 == 0) fastest_rate_ = std::max(fastest_rate_, Eigen::EigenSolver<Matrix12>(J2, false).eigenvalues().real().maxCoeff());
+    if (k % 10 == 0)
+      fastest_rate_ = std::max(fastest_rate_, Eigen::EigenSolver<Matrix12>(J2, false).eigenvalues().real().maxCoeff());
     instants_.push_back((k + 1) * h);
     J0 = J2;
   }
@@ -106,8 +107,8 @@ Amplification::Amplification(const Scenario& scenario, int intervals) {
 GrowthWindow Amplification::window(std::size_t first, const std::function<double(double)>& acceleration, double rate,
                                    double useful) const {
   GrowthWindow out;
-  std::vector<Matrix12> Phi;           // Φ(t_j, t_k), k = first …
-  std::vector<double> errors;          // of acceleration in interval k, m/s
+  std::vector<Matrix12> Phi;   // Φ(t_j, t_k), k = first …
+  std::vector<double> errors;  // of acceleration in interval k, m/s
   const auto add = [&out](double t, double from_acceleration, double from_rate, const Matrix12& from_start) {
     out.t.push_back(t);
     out.from_acceleration.push_back(from_acceleration);

@@ -59,7 +59,8 @@ void addBudget(const ErrorBudget& budget, ValidationResult& result) {
   result.findings.emplace_back("bound of the model's share", fmt::format("{:.3g} m", budget.model));
   result.findings.emplace_back("integration's share, extrapolated", fmt::format("{:.3g} m", budget.integration));
   result.findings.emplace_back("bound of the closure's share", fmt::format("{:.3g} m", budget.closure));
-  result.findings.emplace_back("amplification of a deviation at the start", fmt::format("{:.4g}", budget.amplification));
+  result.findings.emplace_back("amplification of a deviation at the start",
+                               fmt::format("{:.4g}", budget.amplification));
 }
 
 }  // namespace ursula

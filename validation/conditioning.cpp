@@ -13,7 +13,8 @@ namespace {
 constexpr double eps = Eigen::NumTraits<double>::epsilon();
 
 /// Wrench of inertia and gravity on each body, with magnitudes added: nothing cancels.
-Vector6d wrenchMagnitude(const BodyMotion<double>& body, double mass, const Matrix3d& inertia, const Vector3d& gravity) {
+Vector6d wrenchMagnitude(const BodyMotion<double>& body, double mass, const Matrix3d& inertia,
+                         const Vector3d& gravity) {
   const Matrix3d I = (body.R * inertia * body.R.transpose()).cwiseAbs();
   const Vector3d omega = body.twist.head<3>().cwiseAbs(), omega_dot = body.twist_rate.head<3>().cwiseAbs();
   Vector6d w;
@@ -72,9 +73,7 @@ void setLegs(const Workspace<double>& work, Conditioning& out) {
 
 }  // namespace
 
-double Conditioning::torqueRounding() const {
-  return rounding_depth * eps * kappa_B * kappa_legs * torque_scale;
-}
+double Conditioning::torqueRounding() const { return rounding_depth * eps * kappa_B * kappa_legs * torque_scale; }
 
 double Conditioning::accelerationRounding() const { return response * torqueRounding(); }
 
@@ -100,14 +99,16 @@ Conditioning ConditioningProbe::at(const Motion<double>& motion) {
   Matrix6d T_P = solver_.T(work_);
   T_P.topRows<3>() *= out.length;
   const Vector6d load = loadAtP(load_.get(), motion);
-  out.torque_scale = projection.torque_scale +
-                     T_P.norm() * (load.head<3>().norm() / out.length + load.tail<3>().norm());
+  out.torque_scale =
+      projection.torque_scale + T_P.norm() * (load.head<3>().norm() / out.length + load.tail<3>().norm());
   out.response = (T_P * projection.inertia.llt().solve(Matrix6d::Identity())).norm();
   out.position_scale = motion.p.norm() + out.length;
-  for (const Leg& leg : manipulator_.parameters().legs) out.position_scale = std::max(out.position_scale, leg.base_point.norm());
+  for (const Leg& leg : manipulator_.parameters().legs)
+    out.position_scale = std::max(out.position_scale, leg.base_point.norm());
   for (const BodyMotion<double>& body : bodies) {
     out.twist_scale = std::max(out.twist_scale, body.twist.tail<3>().norm() + out.length * body.twist.head<3>().norm());
-    out.rate_scale = std::max(out.rate_scale, body.twist_rate.tail<3>().norm() + out.length * body.twist_rate.head<3>().norm());
+    out.rate_scale =
+        std::max(out.rate_scale, body.twist_rate.tail<3>().norm() + out.length * body.twist_rate.head<3>().norm());
   }
   out.rate_scale += out.twist_scale * out.twist_scale / out.length;
   return out;

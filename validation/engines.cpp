@@ -86,8 +86,7 @@ Simulation integrate(System system, const Scenario& scenario, const SimbodyLoop:
                      const std::vector<double>& instants, double tolerance) {
   Simulation out;
   OdeState x = system.start(scenario.trajectory->at(instants.front()));
-  const auto stepper =
-      odeint::make_controlled(tolerance, tolerance, odeint::runge_kutta_fehlberg78<OdeState>());
+  const auto stepper = odeint::make_controlled(tolerance, tolerance, odeint::runge_kutta_fehlberg78<OdeState>());
   const auto derivative = [&](const OdeState& at, OdeState& rate, double t) {
     ++out.evaluations;
     system.derivative(t, at, torques(t), rate);

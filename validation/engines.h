@@ -20,8 +20,9 @@ struct Simulation {
 /// Integrates from the commanded state at the first of `instants` (increasing, two or more) with rkf78 at `tolerance`,
 /// stopping at each instant.
 ///
-/// The NOC engine integrates (36) with the platform's pose and twist as the state, so that no direct kinematics is solved
-/// in the loop and the assembly is never in doubt; the Simbody engine integrates the closed loop's own coordinates.
+/// The NOC engine integrates (36) with the platform's pose and twist as the state, so that no direct kinematics is
+/// solved in the loop and the assembly is never in doubt; the Simbody engine integrates the closed loop's own
+/// coordinates.
 Simulation simulate(const Scenario& scenario, Engine engine, const SimbodyLoop::TorqueHistory& torques,
                     const std::vector<double>& instants, double tolerance);
 

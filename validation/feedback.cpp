@@ -92,15 +92,15 @@ Check judgeFeedback(const Scenario& scenario, const Subject& subject, const Ampl
   // ω_f²/(ω_f² − λ²) = 9/8 of it.
   const double steps_per_decay = static_cast<double>(run.steps.size()) / (duration * frequency);
   const double gain = (frequency * frequency + 2 * frequency) * stiffness(*stabiliser, samples);
-  const double limit =
-      2 * rounding + gain * errorPerStep(feedback_tolerance, position_scale) * (1 + steps_per_decay);
-  return judged("feedback.torque", value, limit, "N m",
-                fmt::format("2 x the torque's rounding and {:.3g} N m/m (gain at {:.3g} rad/s) x the integrator's errors "
-                            "within a decay time, tolerance {:g}",
-                            gain, frequency, feedback_tolerance),
-                fmt::format("torque that a weak stabilising term added over the whole motion, {:.3g} of the largest "
-                            "torque; shown for t = {:.6g} s of {} steps",
-                            largest > 0 ? value / largest : value, when, run.steps.size()));
+  const double limit = 2 * rounding + gain * errorPerStep(feedback_tolerance, position_scale) * (1 + steps_per_decay);
+  return judged(
+      "feedback.torque", value, limit, "N m",
+      fmt::format("2 x the torque's rounding and {:.3g} N m/m (gain at {:.3g} rad/s) x the integrator's errors "
+                  "within a decay time, tolerance {:g}",
+                  gain, frequency, feedback_tolerance),
+      fmt::format("torque that a weak stabilising term added over the whole motion, {:.3g} of the largest "
+                  "torque; shown for t = {:.6g} s of {} steps",
+                  largest > 0 ? value / largest : value, when, run.steps.size()));
 }
 
 }  // namespace ursula

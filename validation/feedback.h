@@ -8,8 +8,8 @@
 
 namespace ursula {
 
-/// A further witness over the whole motion, whatever its amplification: the replay with a weak stabilising term, and the
-/// torque that the term had to add. Exact torques need almost none; wrong ones need what they are wrong by.
+/// A further witness over the whole motion, whatever its amplification: the replay with a weak stabilising term, and
+/// the torque that the term had to add. Exact torques need almost none; wrong ones need what they are wrong by.
 ///
 /// The term is −I(φ)(ω_f² δφ + 2 ω_f δφ̇) with ω_f three times the motion's fastest growth rate, so that deviations
 /// decay instead of growing. `feedback.torque`, N·m.

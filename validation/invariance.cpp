@@ -126,7 +126,8 @@ std::vector<Check> judgeInvariances(const Scenario& scenario, const Subject& sub
   if (!subject.rebuilt) return {};
   const Manipulator& machine = *scenario.manipulator;
   const Subject own = subject.rebuilt(machine), in_turned = subject.rebuilt(turned(machine)),
-                with_other_labels = subject.rebuilt(relabelled(machine)), with_double = subject.rebuilt(doubled(machine)),
+                with_other_labels = subject.rebuilt(relabelled(machine)),
+                with_double = subject.rebuilt(doubled(machine)),
                 without_friction = subject.rebuilt(frictionless(machine));
   using M = Motion<double>;
   const std::vector<Invariance> invariances = {

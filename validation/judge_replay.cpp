@@ -51,18 +51,19 @@ std::size_t stepsOf(const std::vector<WindowedReplay>& windows) {
 Check judgeMeasure(const std::vector<WindowedReplay>& windows, const Measure& measure) {
   for (const WindowedReplay& window : windows)
     if (!window.replay.gave_up.empty())
-      return notMade(measure.name, measure.unit,
-                     fmt::format("the replay from t = {:.6g} s gave up: {}", window.window.start(), window.replay.gave_up));
+      return notMade(
+          measure.name, measure.unit,
+          fmt::format("the replay from t = {:.6g} s gave up: {}", window.window.start(), window.replay.gave_up));
   const std::optional<Shown> shown = findShown(windows, measure);
   if (!shown) return notMade(measure.name, measure.unit, "no step was compared");
-  const std::string where = windows.size() == 1 ? "open loop over the whole motion"
-                                                : fmt::format("open loop in {} windows", windows.size());
+  const std::string where =
+      windows.size() == 1 ? "open loop over the whole motion" : fmt::format("open loop in {} windows", windows.size());
   const std::string why =
       fmt::format("{}, {}, at {} steps; shown for t = {:.6g} s", measure.what, where, stepsOf(windows), shown->t);
   if (measure.useful > 0 && !(shown->limit <= measure.useful))
-    return notJudgeable(measure.name, shown->value, shown->limit, measure.unit, measure.basis,
-                        why + fmt::format("; the limit exceeds {:.3g} {}, beyond which it says nothing", measure.useful,
-                                          measure.unit));
+    return notJudgeable(
+        measure.name, shown->value, shown->limit, measure.unit, measure.basis,
+        why + fmt::format("; the limit exceeds {:.3g} {}, beyond which it says nothing", measure.useful, measure.unit));
   return judged(measure.name, shown->value, shown->limit, measure.unit, measure.basis, why);
 }
 
@@ -83,7 +84,8 @@ std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, doubl
     return window.window.bound(step.t, per_step * stepCount(window) / span(window), per_step);
   };
   const std::string drift_basis = fmt::format(
-      "pointwise acceleration limit and {:.3g} a step (sqrt(24) (tolerance {:.1g} + eps) (1 + coordinates)), carried to "
+      "pointwise acceleration limit and {:.3g} a step (sqrt(24) (tolerance {:.1g} + eps) (1 + coordinates)), carried "
+      "to "
       "t by the variational equations, all aligned for the worst",
       per_step, windows.front().replay.tolerance);
   const auto opening = [per_step](const WindowedReplay& window, const ReplayStep&) {

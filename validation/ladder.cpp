@@ -47,8 +47,8 @@ double driftBound(const WindowedReplay& finest, const Rung& rung, double positio
 Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest) {
   Ladder ladder;
   for (double factor : {1e6, 1e4, 1e2})
-    ladder.rungs.push_back(makeRung(scenario, torques, finest, Integrator::rkf78,
-                                    std::min(1e-4, factor * scenario.simulation.tolerance)));
+    ladder.rungs.push_back(
+        makeRung(scenario, torques, finest, Integrator::rkf78, std::min(1e-4, factor * scenario.simulation.tolerance)));
   for (std::size_t k = 0; k + 1 < ladder.rungs.size(); ++k)
     ladder.observed_orders.push_back(order(ladder.rungs[k], ladder.rungs[k + 1]));
   ladder.asymptotic = std::all_of(ladder.observed_orders.begin(), ladder.observed_orders.end(),
@@ -60,8 +60,8 @@ Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques
   ladder.extrapolated = last.distance * std::pow(ratio, -p);
   // Three times, as Roache's grid convergence index takes it for two grids (Verification and Validation, 1998, ch. 5).
   ladder.uncertainty = 3 * ladder.extrapolated;
-  ladder.rungs.push_back(makeRung(scenario, torques, finest, Integrator::rk_merson,
-                                  std::min(1e-4, 1e6 * scenario.simulation.tolerance)));
+  ladder.rungs.push_back(
+      makeRung(scenario, torques, finest, Integrator::rk_merson, std::min(1e-4, 1e6 * scenario.simulation.tolerance)));
   return ladder;
 }
 
@@ -75,17 +75,17 @@ std::vector<Check> judgeLadder(const Ladder& ladder, const WindowedReplay& fines
   const Rung& second = ladder.rungs.back();
   std::string orders;
   for (double p : ladder.observed_orders) orders += fmt::format("{}{:.3g}", orders.empty() ? "" : ", ", p);
-  return {judged("integration.ladder", coarse.distance, driftBound(finest, coarse, position_scale), "m",
-                 fmt::format("the drift bound of the coarser rung, tolerance {:g}", coarse.tolerance),
-                 fmt::format("ends of the replay at tolerances {:g} and {:g}; observed orders {} of {}, {}; the finest is "
-                             "off by {:.2g} +- {:.2g} m",
-                             coarse.tolerance, finest.replay.tolerance, orders, nominal_order,
-                             ladder.asymptotic ? "asymptotic" : "not asymptotic", ladder.extrapolated,
-                             ladder.uncertainty)),
-          judged("integration.second", second.distance, driftBound(finest, second, position_scale), "m",
-                 fmt::format("the drift bound at its accuracy, {:g}", second.tolerance),
-                 fmt::format("end of the replay by Simbody's RungeKuttaMerson, {} derivative evaluations, against {}",
-                             second.evaluations, name(finest.replay.integrator)))};
+  return {
+      judged("integration.ladder", coarse.distance, driftBound(finest, coarse, position_scale), "m",
+             fmt::format("the drift bound of the coarser rung, tolerance {:g}", coarse.tolerance),
+             fmt::format("ends of the replay at tolerances {:g} and {:g}; observed orders {} of {}, {}; the finest is "
+                         "off by {:.2g} +- {:.2g} m",
+                         coarse.tolerance, finest.replay.tolerance, orders, nominal_order,
+                         ladder.asymptotic ? "asymptotic" : "not asymptotic", ladder.extrapolated, ladder.uncertainty)),
+      judged("integration.second", second.distance, driftBound(finest, second, position_scale), "m",
+             fmt::format("the drift bound at its accuracy, {:g}", second.tolerance),
+             fmt::format("end of the replay by Simbody's RungeKuttaMerson, {} derivative evaluations, against {}",
+                         second.evaluations, name(finest.replay.integrator)))};
 }
 
 TimeSeries workPrecision(const Ladder& ladder) {

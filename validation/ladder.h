@@ -20,11 +20,11 @@ struct Rung {
 
 /// The same window replayed at several tolerances and with both integrators.
 struct Ladder {
-  std::vector<Rung> rungs;            ///< rkf78 from coarse to fine, then rk_merson
+  std::vector<Rung> rungs;              ///< rkf78 from coarse to fine, then rk_merson
   std::vector<double> observed_orders;  ///< between neighbouring rkf78 rungs, of the error against the steps
-  bool asymptotic = false;            ///< both orders within 2 of 8
-  double extrapolated = 0;            ///< estimated integration error of the finest replay at its end, m
-  double uncertainty = 0;             ///< of that estimate, m
+  bool asymptotic = false;              ///< both orders within 2 of 8
+  double extrapolated = 0;              ///< estimated integration error of the finest replay at its end, m
+  double uncertainty = 0;               ///< of that estimate, m
 };
 
 /// `finest` is the judged replay of the window.

@@ -32,7 +32,8 @@ void addTensor(std::vector<Parameter>& out, const std::string& name, const Tenso
     const char* name;
     int i, j;
   };
-  const std::array<Entry, 6> entries{{{"xx", 0, 0}, {"yy", 1, 1}, {"zz", 2, 2}, {"xy", 0, 1}, {"xz", 0, 2}, {"yz", 1, 2}}};
+  const std::array<Entry, 6> entries{
+      {{"xx", 0, 0}, {"yy", 1, 1}, {"zz", 2, 2}, {"xy", 0, 1}, {"xz", 0, 2}, {"yz", 1, 2}}};
   for (const Entry& entry : entries)
     out.push_back({name + "." + entry.name, "inertia", [of, entry](Machine& machine, double relative) {
                      Matrix3d& I = of(machine);
@@ -45,13 +46,13 @@ void addTensor(std::vector<Parameter>& out, const std::string& name, const Tenso
 /// The axis turned about two directions across it.
 void addAxis(std::vector<Parameter>& out, const std::string& name, std::size_t leg) {
   for (int k = 0; k < 2; ++k)
-    out.push_back({fmt::format("{}.{}", name, k == 0 ? "across" : "along"), "axis",
-                   [leg, k](Machine& machine, double relative) {
-                     Vector3d& u = machine.legs[leg].base_axis;
-                     const Vector3d across = u.unitOrthogonal();
-                     const Vector3d about = k == 0 ? across : Vector3d(u.normalized().cross(across));
-                     u = Eigen::AngleAxisd(relative, about) * u;
-                   }});
+    out.push_back(
+        {fmt::format("{}.{}", name, k == 0 ? "across" : "along"), "axis", [leg, k](Machine& machine, double relative) {
+           Vector3d& u = machine.legs[leg].base_axis;
+           const Vector3d across = u.unitOrthogonal();
+           const Vector3d about = k == 0 ? across : Vector3d(u.normalized().cross(across));
+           u = Eigen::AngleAxisd(relative, about) * u;
+         }});
 }
 
 void addLink(std::vector<Parameter>& out, const std::string& name, const std::function<Link&(Machine&)>& of) {
@@ -89,7 +90,8 @@ std::vector<Parameter> allParameters() {
   std::vector<Parameter> out;
   addVector(out, "gravity", "gravity", [](Machine& m) -> Vector3d& { return m.gravity; });
   addNumber(out, "platform.mass", "mass", [](Machine& m) -> double& { return m.platform.mass; });
-  addVector(out, "platform.center_of_mass", "center", [](Machine& m) -> Vector3d& { return m.platform.center_of_mass; });
+  addVector(out, "platform.center_of_mass", "center",
+            [](Machine& m) -> Vector3d& { return m.platform.center_of_mass; });
   addTensor(out, "platform.inertia", [](Machine& m) -> Matrix3d& { return m.platform.inertia; });
   for (std::size_t i = 0; i < leg_count; ++i) addLeg(out, i);
   return out;

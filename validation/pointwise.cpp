@@ -86,8 +86,7 @@ void compareJacobianDifferences(const Scenario& scenario, const Subject& subject
   const double duration = scenario.trajectory->duration(), step = duration * std::pow(eps, 0.2) / 100;
   const double t = std::clamp(sample.motion.t, 2 * step, duration - 2 * step);
   const auto T = [&](double at) { return subject.kinematics(scenario.trajectory->at(at)).T; };
-  const Matrix6d difference =
-      (8 * (T(t + step) - T(t - step)) - (T(t + 2 * step) - T(t - 2 * step))) / (12 * step);
+  const Matrix6d difference = (8 * (T(t + step) - T(t - step)) - (T(t + 2 * step) - T(t - 2 * step))) / (12 * step);
   const Matrix6d T_rate = t == sample.motion.t ? answer.T_rate : subject.kinematics(scenario.trajectory->at(t)).T_rate;
   const Matrix6d error = T_rate - difference;
   const double scale = answer.T.bottomRows<3>().norm() + c.length * answer.T.topRows<3>().norm();
@@ -184,8 +183,8 @@ Check judgeQuantity(const std::vector<PointwiseSample>& samples, const Quantity&
   const Conditioning& c = shown->conditioning;
   const std::string basis = fmt::format("{}; there kappa(B) = {:.3g}, kappa(legs) = {:.3g}, eps = {:.3g}",
                                         quantity.basis, c.kappa_B, c.kappa_legs, eps);
-  const std::string why = fmt::format("{}, at {} instants; shown for t = {:.6g} s, {}", quantity.what,
-                                      samples.size(), shown->motion.t, placeName(quantity, deviation.where));
+  const std::string why = fmt::format("{}, at {} instants; shown for t = {:.6g} s, {}", quantity.what, samples.size(),
+                                      shown->motion.t, placeName(quantity, deviation.where));
   return judged(quantity.name, deviation.error, deviation.limit, quantity.unit, basis, why);
 }
 

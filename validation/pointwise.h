@@ -20,15 +20,15 @@ struct Deviation {
 struct PointwiseSample {
   Motion<double> motion;
   Conditioning conditioning;
-  JointMotion joints;             ///< Simbody's own
+  JointMotion joints;  ///< Simbody's own
   Vector6d torques, torques_simbody;
   Deviation joint_angles, joint_rates, joint_accelerations;  ///< rad, rad/s, rad/s²
   Deviation position, twist, twist_rate;                     ///< over 13 bodies: m, m/s, m/s²
   Deviation jacobian, jacobian_rate;  ///< T φ̇ and T φ̈ + Ṫ φ̇ against the commanded t_P, ṫ_P: m/s, m/s²
   Deviation jacobian_difference;      ///< Ṫ against differences of T along the motion, m/s
-  Deviation torque;                                          ///< N·m
-  Deviation acceleration;                                    ///< platform, m/s²
-  std::string refused;  ///< why the subject has no answer here; empty where it has
+  Deviation torque;                   ///< N·m
+  Deviation acceleration;             ///< platform, m/s²
+  std::string refused;                ///< why the subject has no answer here; empty where it has
 };
 
 /// Solver and Simbody at the same instants: joint state, 13 bodies, torques, accelerations.

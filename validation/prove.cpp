@@ -10,6 +10,7 @@
 #include <mutex>
 #include <thread>
 
+#include "model/errors.h"
 #include "nocsolver/errors.h"
 #include "validation/defects.h"
 #include "validation/pointwise.h"
@@ -100,7 +101,12 @@ Sensitivity findSensitivity(const Scenario& scenario, const Reference& reference
   Sensitivity out{parameter.name, parameter.group, std::numeric_limits<double>::infinity(), 0};
   const auto tryError = [&](double exponent) {
     const double relative = std::pow(10, exponent);
-    const double change = reference.caught(disturbedSubject(scenario, parameter, relative));
+    double change = 1;
+    try {
+      change = reference.caught(disturbedSubject(scenario, parameter, relative));
+    } catch (const InvalidParameter&) {
+      // No machine can be so: refused before any check.
+    }
     if (change < 0) return false;
     out.smallest_caught = relative;
     out.torque_change = change;

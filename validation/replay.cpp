@@ -57,12 +57,13 @@ class Run {
   void integrateRkf78() {
     OdeState x = loop_.state();
     x.push_back(0.0);
-    const auto stepper = odeint::make_controlled(settings_.tolerance, settings_.tolerance,
-                                                 odeint::runge_kutta_fehlberg78<OdeState>());
-    const double span = settings_.end - settings_.start;
+    const auto stepper =
+        odeint::make_controlled(settings_.tolerance, settings_.tolerance, odeint::runge_kutta_fehlberg78<OdeState>());
+    // A first step of the whole motion's size: many short windows would else grow theirs from nothing, each again.
+    const double first_step = std::min(settings_.end - settings_.start, trajectory_.duration() / 128);
     odeint::integrate_adaptive(
         stepper, [this](const OdeState& at, OdeState& rate, double t) { derivative(at, rate, t); }, x, settings_.start,
-        settings_.end, span / 128, [this](const OdeState& at, double t) { observe(at, t); });
+        settings_.end, first_step, [this](const OdeState& at, double t) { observe(at, t); });
     result_.accepted = static_cast<long>(result_.steps.size()) - 1;
   }
 
@@ -101,15 +102,13 @@ class Run {
   void observe(const OdeState& x, double t) {
     loop_.setState(t, x.data());
     record(t);
-    if (settings_.feedback)
-      result_.steps.back().feedback = settings_.feedback(t, loop_.joints()).cwiseAbs().maxCoeff();
+    if (settings_.feedback) result_.steps.back().feedback = settings_.feedback(t, loop_.joints()).cwiseAbs().maxCoeff();
     const double work = x.back() * weight_;
     const SimbodyLoop::Energy energy = loop_.energy();
     result_.steps.back().energy_error = energy.kinetic + energy.potential - start_energy_ - work;
     const double speed = Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size() - 1)).norm();
     if (result_.steps.back().position_error.norm() > size_) throw LeftPath{};
-    result_.energy_scale =
-        std::max(result_.energy_scale, weight_ * (1 + speed) + 2 * energy.kinetic + std::abs(work));
+    result_.energy_scale = std::max(result_.energy_scale, weight_ * (1 + speed) + 2 * energy.kinetic + std::abs(work));
   }
 
   void record(double t) {

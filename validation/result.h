@@ -54,7 +54,8 @@ struct ValidationResult {
   /// Facts that are not judged: step counts, condition numbers, the dominant error, …
   std::vector<std::pair<std::string, std::string>> findings;
   TimeSeries timeseries;
-  /// Curves for the report beside the time series, each with columns of its own (work against precision, amplification, …).
+  /// Curves for the report beside the time series, each with columns of its own (work against precision, amplification,
+  /// …).
   std::vector<std::pair<std::string, TimeSeries>> curves;
 };
 

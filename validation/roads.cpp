@@ -21,9 +21,7 @@ struct Disagreement {
   bool beyond = false;
 };
 
-double distance(const RoadSample& sample, Road a, Road b) {
-  return (sample.*a - sample.*b).cwiseAbs().maxCoeff();
-}
+double distance(const RoadSample& sample, Road a, Road b) { return (sample.*a - sample.*b).cwiseAbs().maxCoeff(); }
 
 /// The instant furthest beyond its limit, or where none is, the largest difference.
 Disagreement compareRoads(const std::vector<RoadSample>& samples, Road a, Road b) {
@@ -47,8 +45,9 @@ Disagreement compareRoads(const std::vector<RoadSample>& samples, Road a, Road b
 Check judgeRoad(const std::vector<RoadSample>& samples, const char* check_name, const char* what, Road road) {
   if (samples.empty()) return notMade(check_name, "N m", "no instant was compared");
   const Disagreement shown = compareRoads(samples, &RoadSample::subject, road);
-  return judged(check_name, shown.error, shown.limit, "N m", "64 eps kappa(B) kappa(legs) x || |T|' |w| ||",
-                fmt::format("torques against {}, at {} instants; shown for t = {:.6g} s", what, samples.size(), shown.t));
+  return judged(
+      check_name, shown.error, shown.limit, "N m", "64 eps kappa(B) kappa(legs) x || |T|' |w| ||",
+      fmt::format("torques against {}, at {} instants; shown for t = {:.6g} s", what, samples.size(), shown.t));
 }
 
 double largest(const LegReactions& a) {
@@ -117,7 +116,9 @@ std::string oddOneOut(const std::vector<RoadSample>& samples) {
                                     {"Simbody, six balls", &RoadSample::simbody},
                                     {"Simbody, tree through leg 1", &RoadSample::twin},
                                     {"maximal coordinates", &RoadSample::maximal}}};
-  const auto agree = [&samples](const Named& a, const Named& b) { return !compareRoads(samples, a.road, b.road).beyond; };
+  const auto agree = [&samples](const Named& a, const Named& b) {
+    return !compareRoads(samples, a.road, b.road).beyond;
+  };
   for (const Named& odd : roads) {
     bool others_agree = true, alone = true;
     for (const Named& a : roads)
@@ -141,8 +142,7 @@ Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample
   std::size_t where = 0;
   std::vector<Reactions> rows;
   for (const PointwiseSample& sample : samples) {
-    const Vector6d torques =
-        solver.inverseDynamics(sample.motion, work, loadAtP(scenario.load.get(), sample.motion));
+    const Vector6d torques = solver.inverseDynamics(sample.motion, work, loadAtP(scenario.load.get(), sample.motion));
     rows.push_back(recoverReactions(solver, sample.motion, torques, work));
     loop.place(sample.motion);
     loop.accelerate(torques);
@@ -157,11 +157,12 @@ Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample
   if (series != nullptr) addReactionColumns(rows, *series);
   // Forces come back from torques over the legs' levers, once more with the condition of B.
   const double kappa = samples.empty() ? 1 : samples.front().conditioning.kappa_B;
-  return judged("reactions.pointwise", error, rounding * kappa, "N, N m",
-                "the torque's limit over the machine's length, x kappa(B)",
-                fmt::format("forces and moments at 18 joints against Simbody's mobilizer and constraint reactions, at {} "
-                            "instants; shown for t = {:.6g} s, leg {}; the largest is {:.6g}",
-                            samples.size(), when, where + 1, size));
+  return judged(
+      "reactions.pointwise", error, rounding * kappa, "N, N m",
+      "the torque's limit over the machine's length, x kappa(B)",
+      fmt::format("forces and moments at 18 joints against Simbody's mobilizer and constraint reactions, at {} "
+                  "instants; shown for t = {:.6g} s, leg {}; the largest is {:.6g}",
+                  samples.size(), when, where + 1, size));
 }
 
 }  // namespace ursula

@@ -90,8 +90,7 @@ void addReplay(TimeSeries& series, const std::vector<Motion<double>>& motions,
     simulated[k].p += steps[k].position_error;
     const double angle = steps[k].rotation_error.norm();
     if (angle > 0)
-      simulated[k].Q =
-          Eigen::AngleAxisd(angle, steps[k].rotation_error / angle).toRotationMatrix() * simulated[k].Q;
+      simulated[k].Q = Eigen::AngleAxisd(angle, steps[k].rotation_error / angle).toRotationMatrix() * simulated[k].Q;
   }
   addVector(series, "sim_p_{}_m", simulated, [](const Motion<double>& m) { return m.p; });
   const std::vector<Eigen::Vector4d> q = quaternions(simulated);

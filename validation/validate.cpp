@@ -61,8 +61,8 @@ ValidationResult validate(const Scenario& scenario, const Subject& subject, cons
   const auto samples =
       runPointwise(scenario, subject, equallySpaced(scenario.trajectory->duration(), scenario.simulation.samples));
   result.checks = judgePointwise(samples, static_cast<bool>(subject.kinematics));
-  const bool answers =
-      std::none_of(samples.begin(), samples.end(), [](const PointwiseSample& sample) { return !sample.refused.empty(); });
+  const bool answers = std::none_of(samples.begin(), samples.end(),
+                                    [](const PointwiseSample& sample) { return !sample.refused.empty(); });
   Motions motions;
   TimeSeries reactions;
   if (answers) {

@@ -86,7 +86,8 @@ Matrix6<S> massMatrixAtP(const SolverModel<S>& model, const Motion<S>& motion, c
   addAtP<S>(model.mass * Matrix3<S>::Identity(), motion.Q * model.rho, M_P);
   M_P.template topLeftCorner<3, 3>() += motion.Q * model.I_M * motion.Q.transpose();
   for (std::size_t i = 0; i < leg_count; ++i) {
-    const Matrix3<S> FK = legFrameInBase(model.legs[i], work.legs[i]) * rateMatrix(model.legs[i], work.legs[i]).transpose();
+    const Matrix3<S> FK =
+        legFrameInBase(model.legs[i], work.legs[i]) * rateMatrix(model.legs[i], work.legs[i]).transpose();
     addAtP<S>(FK * legMassMatrix(model.legs[i], work.legs[i]) * FK.transpose(), work.legs[i].Qb, M_P);
   }
   return M_P;

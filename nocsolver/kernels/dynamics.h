@@ -29,7 +29,7 @@ LinkWrench<S> linkWrench(const LinkMotion<S>& link, const S& mass, const Matrix3
     return Vector3<S>(v.x(), sine * v.y() - cosine * v.z(), cosine * v.y() + sine * v.z());  // (paper, eq. 40)
   };
   const Vector3<S> omega = toLink(link.omega);
-  Vector3<S> n = inertia * toLink(link.omega_dot);                                       // (paper, eq. 46)
+  Vector3<S> n = inertia * toLink(link.omega_dot);                                              // (paper, eq. 46)
   if (!reading.has(Slip::drop_gyroscopic_legs)) n += omega.cross(Vector3<S>(inertia * omega));  // (paper, eq. 38)
   LinkWrench<S> wrench;
   wrench.n = Vector3<S>(n.x(), sine * n.y() + cosine * n.z(), sine * n.z() - cosine * n.y());

@@ -28,8 +28,8 @@ template <class S>
 [[noreturn]] void throwOutOfReach(const LegModel<S>& leg, int index, const S& t, const S& q, bool too_far) {
   using std::abs;
   const S bound = too_far ? S(leg.l + leg.s) : S(abs(leg.l - leg.s));
-  throw OutOfReach("is out of reach", index, static_cast<double>(t), static_cast<double>(q),
-                   static_cast<double>(bound), " m");
+  throw OutOfReach("is out of reach", index, static_cast<double>(t), static_cast<double>(q), static_cast<double>(bound),
+                   " m");
 }
 
 /// r, q and θ from AB. Throws OutOfReach and PointOnAxis.
@@ -82,7 +82,7 @@ void legFrame(const LegModel<S>& leg, const S& k_x, const S& k_z, const R& readi
 template <class S, class R>
 void legDisplacement(const LegModel<S>& leg, int index, const Motion<S>& motion, const R& reading, LegState<S>& out) {
   out.Qb.noalias() = motion.Q * leg.b;
-  out.AB = motion.p + out.Qb - leg.a;                              // (paper, eq. 3)
+  out.AB = motion.p + out.Qb - leg.a;  // (paper, eq. 3)
   if (reading.has(Slip::eq5)) out.AB = motion.p + out.Qb + leg.a;
   const S k_x = leg.x_hat.dot(out.AB), k_z = leg.z_hat.dot(out.AB);  // (paper, eq. 13)
   out.k_y = leg.y_hat.dot(out.AB);
@@ -139,17 +139,17 @@ JointTriple<S> legAccelerations(const LegModel<S>& leg, const LegState<S>& state
   const S ls = leg.l * leg.s;
   const S distance = leg.s * state.sin_sum - leg.l * state.sin_psi;
   const S distance_dot = state.eta - leg.l * state.rate.psi * state.cos_psi;
-  acceleration.theta = (q_q_dot_dot - ls * state.rate.theta * rate.theta * state.cos_theta) /
-                       (ls * state.sin_theta);                          // (paper, eq. 4c)
+  acceleration.theta =
+      (q_q_dot_dot - ls * state.rate.theta * rate.theta * state.cos_theta) / (ls * state.sin_theta);  // (paper, eq. 4c)
   acceleration.phi = (h_dot.x() - distance_dot * rate.phi) / distance;  // (paper, eq. 19a)
   if (reading.has(Slip::eq19a)) {
     using std::atan2;
     acceleration.phi = (h_dot.x() - state.eta * atan2(state.sin_phi, state.cos_phi)) / (leg.s * state.sin_sum);
   }
   const S factor = reading.has(Slip::eq19b) ? S(1) : rate.psi;
-  acceleration.psi = (h_dot.y() - state.eta * rate.theta - leg.s * acceleration.theta * state.sin_sum -
-                      distance_dot * factor) /
-                     distance;  // (paper, eq. 19b)
+  acceleration.psi =
+      (h_dot.y() - state.eta * rate.theta - leg.s * acceleration.theta * state.sin_sum - distance_dot * factor) /
+      distance;  // (paper, eq. 19b)
   return acceleration;
 }
 

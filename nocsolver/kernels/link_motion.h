@@ -68,14 +68,15 @@ Vector3<S> pointAcceleration(const PlanarPoint<S>& point, const S& frame_phi_dot
 template <class S, class R>
 void readSlipsOf43b(const LegModel<S>& leg, const LegState<S>& state, const PlanarPoint<S>& d, const R& reading,
                     Vector3<S>& d_ddot) {
+  // What (Ω̇ᵢ + Ωᵢ²) acts on, as it holds [0, d_y, d_z]; as printed σ is added to each component of [s].
   const S phi_dot = state.rate.phi, phi_ddot = state.acceleration.phi;
-  if (reading.has(Slip::eq43b_omega_dot)) d_ddot.z() += (phi_dot * phi_dot - phi_ddot * phi_ddot) * d.z;
-  if (reading.has(Slip::eq43b_sigma)) {
-    // σ added to each component of [s], instead of multiplying it, where Ω̇ + Ω² acts.
-    const S wrong_z = leg.l * state.sin_psi + leg.sigma - state.sin_sum;
-    const S wrong_x = leg.sigma;
-    d_ddot.x() += -phi_ddot * (wrong_z - d.z) - phi_dot * phi_dot * wrong_x;
-    d_ddot.z() += -phi_dot * phi_dot * (wrong_z - d.z) + phi_ddot * wrong_x;
+  const bool printed_sigma = reading.has(Slip::eq43b_sigma);
+  const S w_x = printed_sigma ? leg.sigma : S(0);
+  const S w_z = printed_sigma ? S(leg.l * state.sin_psi + leg.sigma - state.sin_sum) : d.z;
+  const S squared = reading.has(Slip::eq43b_omega_dot) ? S(phi_ddot * phi_ddot) : S(phi_dot * phi_dot);
+  if (printed_sigma || reading.has(Slip::eq43b_omega_dot)) {
+    d_ddot.x() += -phi_ddot * (w_z - d.z) - squared * w_x;
+    d_ddot.z() += phi_ddot * w_x - squared * w_z + phi_dot * phi_dot * d.z;
   }
   if (reading.has(Slip::eq43b_doubled)) d_ddot += Vector3<S>(S(0), d.y_ddot, d.z_ddot);
 }
@@ -91,7 +92,8 @@ void linkMotions(const LegModel<S>& leg, const LegState<S>& state, const JointTr
       planarPoint(leg.rho, state.cos_psi, state.sin_psi, state.rate.psi, rate.psi, acceleration.psi);
   const PlanarPoint<S> knee =
       planarPoint(leg.l, state.cos_psi, state.sin_psi, state.rate.psi, rate.psi, acceleration.psi);
-  PlanarPoint<S> d = planarPoint(leg.sigma, S(-state.cos_sum), S(-state.sin_sum), frame_sum, sum_rate, sum_acceleration);
+  PlanarPoint<S> d =
+      planarPoint(leg.sigma, S(-state.cos_sum), S(-state.sin_sum), frame_sum, sum_rate, sum_acceleration);
   S d_frame_z_dot = d.y * frame_sum;
   d.y += knee.y;  // (paper, eq. 39b)
   d.z += knee.z;
@@ -111,8 +113,7 @@ void linkMotions(const LegModel<S>& leg, const LegState<S>& state, const JointTr
   distal.c_dot = pointVelocity(d, rate.phi);
   proximal.omega_dot = linkAngularAcceleration(rate.psi, acceleration.psi, state.rate.phi, acceleration.phi, reading);
   distal.omega_dot = linkAngularAcceleration(sum_rate, sum_acceleration, state.rate.phi, acceleration.phi, reading);
-  proximal.c_ddot =
-      pointAcceleration(c, state.rate.phi, S(c.y * state.rate.psi), rate.phi, acceleration.phi, reading);
+  proximal.c_ddot = pointAcceleration(c, state.rate.phi, S(c.y * state.rate.psi), rate.phi, acceleration.phi, reading);
   distal.c_ddot = pointAcceleration(d, state.rate.phi, d_frame_z_dot, rate.phi, acceleration.phi, reading);
   readSlipsOf43b(leg, state, d, reading, distal.c_ddot);
 }

@@ -15,18 +15,18 @@ void toBase(const LegModel<S>& leg, const LegState<S>& state, const LinkMotion<S
   Matrix3<S> F;
   F << state.x, leg.y_hat, state.z;
   const Vector3<S> axis = cosine * leg.y_hat + sine * state.z;
-  body.c = leg.a + F * link.c;                                   // (paper, eq. 39)
-  body.R << state.x, axis.cross(state.x), axis;                  // (paper, eq. 40)
-  body.twist << F * link.omega, F * link.c_dot;                  // (paper, eq. 41)
-  body.twist_rate << F * link.omega_dot, F * link.c_ddot;        // (paper, eq. 43)
+  body.c = leg.a + F * link.c;                             // (paper, eq. 39)
+  body.R << state.x, axis.cross(state.x), axis;            // (paper, eq. 40)
+  body.twist << F * link.omega, F * link.c_dot;            // (paper, eq. 41)
+  body.twist_rate << F * link.omega_dot, F * link.c_ddot;  // (paper, eq. 43)
 }
 
 template <class S>
 void platformMotion(const SolverModel<S>& model, const Motion<S>& motion, BodyMotion<S>& body) {
   const Vector3<S> arm = motion.Q * model.rho;
-  body.c = motion.p + arm;                                                              // (paper, eq. 39c)
+  body.c = motion.p + arm;  // (paper, eq. 39c)
   body.R = motion.Q;
-  body.twist << motion.omega, motion.p_dot + motion.omega.cross(arm);                   // (paper, eq. 41c)
+  body.twist << motion.omega, motion.p_dot + motion.omega.cross(arm);  // (paper, eq. 41c)
   body.twist_rate << motion.omega_dot,
       motion.p_ddot + motion.omega_dot.cross(arm) + motion.omega.cross(motion.omega.cross(arm));
 }
@@ -48,8 +48,8 @@ Matrix6<S> platformShapingRate(const SolverModel<S>& model, const Motion<S>& mot
   for (int i = 0; i < leg_count; ++i) {
     const LegState<S>& state = work.legs[static_cast<std::size_t>(i)];
     const Vector3<S> x_dot = state.rate.phi * state.z;  // Q̂ᵢ Ωᵢ Q̂ᵢᵀ xᵢ with (12)
-    const Vector3<S> Qb_dot = motion.omega.cross(
-        reading.has(Slip::eq26_b_dot) ? model.legs[static_cast<std::size_t>(i)].b : state.Qb);
+    const Vector3<S> Qb_dot =
+        motion.omega.cross(reading.has(Slip::eq26_b_dot) ? model.legs[static_cast<std::size_t>(i)].b : state.Qb);
     A_dot(i) = state.a_ii_dot;
     B_dot.row(i) << (Qb_dot.cross(state.x) + state.Qb.cross(x_dot)).transpose(), x_dot.transpose();  // (paper, eq. 26)
   }
@@ -118,8 +118,8 @@ void twistShapingRate(const SolverModel<S>& model, const Motion<S>& motion, cons
       Vector3<S> h;
       const JointTriple<S> rate = columnRates(leg, state, t_P, i == j, reading, h);
       const Vector3<S> v_B = t_P.template tail<3>() + omega.cross(state.Qb);
-      const Vector3<S> a_B = t_P_dot.template tail<3>() + omega_dot.cross(state.Qb) +
-                             omega.cross(motion.omega.cross(state.Qb));
+      const Vector3<S> a_B =
+          t_P_dot.template tail<3>() + omega_dot.cross(state.Qb) + omega.cross(motion.omega.cross(state.Qb));
       const Vector3<S> h_dot(state.x.dot(a_B) + state.rate.phi * h.z(), leg.y_hat.dot(a_B),
                              state.z.dot(a_B) - state.rate.phi * h.x());
       JointTriple<S> acceleration =

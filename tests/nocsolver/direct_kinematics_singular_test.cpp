@@ -36,7 +36,8 @@ std::optional<Fold> findFold(const Scenario& paper, Dice& dice) {
   fold.move = dice.vector(0.3);
   fold.turn = dice.vector(1).normalized();
   const auto determinant = [&](double way) {
-    return Conditioned(*fold.made.kinematics, displaced(fold.made.motion, way * fold.move, way * fold.turn)).determinant;
+    return Conditioned(*fold.made.kinematics, displaced(fold.made.motion, way * fold.move, way * fold.turn))
+        .determinant;
   };
   try {
     const double sign = determinant(0);
@@ -115,10 +116,9 @@ TEST(DirectKinematics, FindsSingularPosesAsDoubleAndTheirNeighboursAsPairs) {
     } catch (const PoseError&) {  // the neighbour is out of reach
     }
   }
-  std::cout << "singular poses: " << singular.doubles << " of " << singular.poses << " double, error "
-            << singular.error << " of the limit; near ones: " << near.doubles << " of " << near.poses << ", error "
-            << near.error << "; 1e-3 away: " << apart.doubles << " of " << apart.poses << ", error " << apart.error
-            << '\n';
+  std::cout << "singular poses: " << singular.doubles << " of " << singular.poses << " double, error " << singular.error
+            << " of the limit; near ones: " << near.doubles << " of " << near.poses << ", error " << near.error
+            << "; 1e-3 away: " << apart.doubles << " of " << apart.poses << ", error " << apart.error << '\n';
   EXPECT_GE(singular.poses, 150);
   EXPECT_EQ(singular.doubles, singular.poses);
   EXPECT_EQ(apart.doubles, 0) << "poses that differ are not one";
@@ -180,9 +180,7 @@ TEST(DirectKinematics, RefusesAnglesThatLeaveThePlatformFree) {
   const auto points_in_line = [](double off) {
     return [off](Leg& leg, int i) { leg.platform_point = Vector3d(0.3 * i - 0.7, off * i * (i - 3), off * (i % 2)); };
   };
-  const auto points_in_one = [](double off) {
-    return [off](Leg& leg, int) { leg.platform_point *= off; };
-  };
+  const auto points_in_one = [](double off) { return [off](Leg& leg, int) { leg.platform_point *= off; }; };
   EXPECT_LT(refusal(parallel_axes(0)), 1) << "all planes along one axis: free along it";
   EXPECT_LT(refusal(points_in_line(0)), 1) << "all Bᵢ in a line: free to turn about it";
   EXPECT_LT(refusal(points_in_one(0)), 1) << "all Bᵢ in P: free to turn";

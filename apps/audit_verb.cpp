@@ -1,0 +1,35 @@
+#include <memory>
+
+#include "apps/embedded_scenario.h"
+#include "apps/verbs.h"
+#include "validation/audit.h"
+
+namespace ursula {
+namespace {
+
+struct AuditOptions {
+  std::string scenario, json, markdown;
+};
+
+int audit(const AuditOptions& options) {
+  if (options.json == "-" && options.markdown == "-")
+    throw UsageError("--json and --markdown both go to standard output");
+  const Audit result = runAudit(options.scenario.empty() ? paperHelix() : readScenario(options.scenario));
+  if (options.json != "-" && options.markdown != "-") writeOutput("-", auditText(result));
+  if (!options.json.empty()) writeOutput(options.json, auditJson(result));
+  if (!options.markdown.empty()) writeOutput(options.markdown, auditMarkdown(result));
+  return exit_passed;
+}
+
+}  // namespace
+
+void addAudit(CLI::App& app, std::function<int()>& run) {
+  const auto options = std::make_shared<AuditOptions>();
+  CLI::App* verb = app.add_subcommand("audit", "Every printed formula of the paper against what holds, with residuals");
+  verb->add_option("scenario", options->scenario, "Scenario file (TOML); default: the paper's helix, built in");
+  verb->add_option("--json", options->json, "The numbers as JSON; - for standard output");
+  verb->add_option("--markdown", options->markdown, "The page docs/audit.md; - for standard output");
+  verb->callback([options, &run] { run = [options] { return audit(*options); }; });
+}
+
+}  // namespace ursula

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "model/scenario.h"
+
+namespace ursula {
+
+/// The paper's helix, scenarios/paper-helix.toml as it was when this program was built.
+Scenario paperHelix();
+
+/// scenarios/proving-ground.toml as built in: what `ursula prove` injects defects into.
+Scenario provingGround();
+
+}  // namespace ursula

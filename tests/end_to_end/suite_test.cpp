@@ -1,0 +1,122 @@
+// `ursula validate` on several scenarios, as a user calls it: exit codes, what is printed where, what is written.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/end_to_end/program.h"
+#include "tests/model/scenario_text.h"
+
+namespace ursula {
+namespace {
+
+using testing::AllOf;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+std::string shortScenario(const std::string& name) {
+  std::string text = replaced(good_scenario, "name = \"small\"", "name = \"" + name + "\"");
+  text = replaced(text, "duration = 3.0", "duration = 0.3");
+  return text + "\n[simulation]\nsamples = 3\n";
+}
+
+std::string tooTight(const std::string& name) {
+  return shortScenario(name) + "\n[acceptance]\n\"torque.pointwise\" = 1e-30\n";
+}
+
+/// Whether `path` is there, under the folder of the run.
+bool isThere(const TemporaryFolder& folder, const std::string& path) {
+  return std::filesystem::exists(folder.path() / path);
+}
+
+TEST(SuiteRun, aFolderThatPassesExitsWith0AndWritesEverything) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "in");
+  folder.write("in/b.toml", shortScenario("second"));
+  folder.write("in/a.toml", shortScenario("first"));
+  const ProgramRun run = runProgram(folder, {"validate", "in", "--jobs", "2"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(StartsWith("pass          first   "), HasSubstr("\npass          second  "),
+                             HasSubstr("results/suite/first/report.html\n"),
+                             EndsWith("2 passed, 0 failed, 0 inconclusive\nindex: results/suite/index.html\n")));
+  // Not on a terminal: a line for each, no bar.
+  EXPECT_THAT(run.err, AllOf(HasSubstr("[1/2] pass "), HasSubstr("[2/2] pass "), Not(HasSubstr("\r"))));
+  for (const char* file : {"index.html", "junit.xml", "first/summary.json", "first/timeseries.csv", "first/report.html",
+                           "first/junit.xml", "second/summary.json"})
+    EXPECT_TRUE(isThere(folder, std::string("results/suite/") + file)) << file;
+}
+
+TEST(SuiteRun, oneScenarioOfAFolderIsNoSuite) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "in");
+  folder.write("in/a.toml", shortScenario("alone"));
+  const ProgramRun run = runProgram(folder, {"validate", "in"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("report: results/alone/report.html\n"));
+  EXPECT_FALSE(isThere(folder, "results/suite"));
+}
+
+TEST(SuiteRun, oneThatFailsMakesTheExitCode1) {
+  const TemporaryFolder folder;
+  folder.write("good.toml", shortScenario("good"));
+  folder.write("tight.toml", tooTight("tight"));
+  const ProgramRun run = runProgram(folder, {"validate", "good.toml", "tight.toml", "--out", "out"});
+  EXPECT_EQ(run.exit_code, 1) << run.err;
+  EXPECT_THAT(run.out,
+              AllOf(HasSubstr("pass          good   "), HasSubstr("\nfail          tight  torque.pointwise is at "),
+                    HasSubstr("1 passed, 1 failed, 0 inconclusive\n")));
+  EXPECT_THAT(TemporaryFolder::read(folder.path() / "out/junit.xml"), HasSubstr("<failure "));
+}
+
+TEST(SuiteRun, oneBadScenarioAmongGoodOnesExitsWith2AndWritesNothing) {
+  const TemporaryFolder folder;
+  folder.write("good.toml", shortScenario("good"));
+  folder.write("reach.toml", replaced(shortScenario("reach"), "height_phase = 2.2", "height_phase = 5"));
+  folder.write("key.toml", replaced(shortScenario("key"), "mass = 500.0", "weight = 500.0"));
+  for (const std::string jobs : {"1", "2"}) {
+    const ProgramRun run =
+        runProgram(folder, {"validate", "good.toml", "reach.toml", "key.toml", "--jobs", jobs, "--out", "out"});
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_EQ(run.out, "");
+    EXPECT_THAT(run.err,
+                AllOf(HasSubstr("reach.toml: error: the motion cannot be made"), HasSubstr("key.toml:5:1: error: ")));
+    EXPECT_FALSE(isThere(folder, "out"));
+  }
+}
+
+TEST(SuiteRun, badUsageExitsWith2AndWritesNothing) {
+  const TemporaryFolder folder;
+  folder.write("a.toml", shortScenario("same"));
+  folder.write("b.toml", shortScenario("same"));
+  folder.write("c.toml", shortScenario("other"));
+  folder.write("file", "");
+  std::filesystem::create_directory(folder.path() / "empty");
+  const std::vector<std::pair<std::vector<std::string>, std::string>> calls = {
+      {{"a.toml", "b.toml"}, "b.toml: error: name = 'same' is also that of a.toml"},
+      {{"empty"}, "empty: error: no scenario in this folder"},
+      {{"a.toml", "c.toml", "--jobs", "0"}, "--jobs"},
+      {{"a.toml", "c.toml", "--torques", "t.csv"}, "--torques judges one motion"},
+      {{"a.toml", "c.toml", "--out", "file"}, "expected a folder"},
+      {{"none.toml"}, "none.toml"},
+      {{}, "scenario is required"},
+  };
+  for (const auto& [arguments, message] : calls) {
+    std::vector<std::string> call = {"validate"};
+    call.insert(call.end(), arguments.begin(), arguments.end());
+    const ProgramRun run = runProgram(folder, call);
+    EXPECT_EQ(run.exit_code, 2) << message;
+    EXPECT_THAT(run.err, HasSubstr(message));
+    EXPECT_FALSE(isThere(folder, "results")) << message;
+  }
+}
+
+TEST(SuiteRun, helpSaysWhatASuiteDoes) {
+  const TemporaryFolder folder;
+  const ProgramRun run = runProgram(folder, {"validate", "--help"});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.out, AllOf(HasSubstr("--jobs"), HasSubstr("Several scenarios:"), HasSubstr("Exit: 1 if any failed")));
+}
+
+}  // namespace
+}  // namespace ursula
