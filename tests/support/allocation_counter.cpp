@@ -14,7 +14,9 @@ long ursula::allocations() { return count; }
 
 #if defined(__SANITIZE_ADDRESS__)
 
-#include <sanitizer/allocator_interface.h>
+// <sanitizer/allocator_interface.h>, which GCC does not always bring
+extern "C" int __sanitizer_install_malloc_and_free_hooks(  // NOLINT
+    void (*malloc_hook)(const volatile void*, std::size_t), void (*free_hook)(const volatile void*));
 
 namespace {
 const int installed = __sanitizer_install_malloc_and_free_hooks([](const volatile void*, std::size_t) { ++count; },
