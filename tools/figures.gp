@@ -89,26 +89,38 @@ set ztics 0.2
 splot motion using 'p_x_m':'p_y_m':'p_z_m' with lines linetype 1, \
   motion using 'p_x_m':'p_y_m':'p_z_m' every 30 with points linetype 1 pointtype 7 pointsize 0.6
 
+set terminal svg size 900,700 font 'Helvetica,Arial,sans-serif,18' linewidth 1 background '#ffffff' dashlength 0.8
 set output folder.'/fig-08-poses.svg'
-set title 'Fig. 8: poses along the helix at five instants, '.end
-set autoscale x
-set autoscale y
+set title 'Fig. 8: poses along the helix, '.end
+set border 31
+set xrange [-2.1:2.1]
+set yrange [-2.1:2.1]
+set zrange [-0.25:1.75]
+set view 72, 28, 1.45
 set view equal xyz
-set view 74, 24
 set xtics 1 offset 0,-0.3
-set ytics 1 offset 0.5,0
+set ytics 1 offset 0.8,-0.2
 set ztics 0.5
+set key at screen 0.97, 0.88 right samplen 4
 c(point, i, axis) = column(sprintf('%s_%d_%s_m', point, i, axis))
 d(to, j, from, i, axis) = c(to, j, axis) - c(from, i, axis)
 next(i) = i % 6 + 1
+# One line of every leg i in row k: from point to point, as a vector without a head.
+set style line 1 linecolor '#000000' dashtype 3 linewidth 2.2
+set style line 2 linecolor '#0072b2' dashtype 2 linewidth 2.2
+set style line 3 linecolor '#d55e00' dashtype 1 linewidth 2.6
+set style line 4 linecolor '#9a9a9a' dashtype 3 linewidth 1.2
+set style line 5 linecolor '#9a9a9a' dashtype 2 linewidth 1.2
+set style line 6 linecolor '#707070' dashtype 1 linewidth 1.4
 splot \
   for [i=1:6] poses using (c('A',i,'x')):(c('A',i,'y')):(c('A',i,'z')):(d('A',next(i),'A',i,'x')):(d('A',next(i),'A',i,'y')):(d('A',next(i),'A',i,'z')) \
-    every ::0::0 with vectors nohead linecolor '#000000' dashtype (6,3) linewidth 1.6, \
-  for [i=1:6] poses using (c('A',i,'x')):(c('A',i,'y')):(c('A',i,'z')):(d('R',i,'A',i,'x')):(d('R',i,'A',i,'y')):(d('R',i,'A',i,'z')) \
-    with vectors nohead linecolor '#b0b0b0' dashtype 1 linewidth 1.0, \
-  for [i=1:6] poses using (c('R',i,'x')):(c('R',i,'y')):(c('R',i,'z')):(d('B',i,'R',i,'x')):(d('B',i,'R',i,'y')):(d('B',i,'R',i,'z')) \
-    with vectors nohead linecolor '#b0b0b0' dashtype 1 linewidth 1.0, \
-  for [i=1:6] poses using (c('B',i,'x')):(c('B',i,'y')):(c('B',i,'z')):(d('B',next(i),'B',i,'x')):(d('B',next(i),'B',i,'y')):(d('B',next(i),'B',i,'z')) \
-    with vectors nohead linecolor '#0072b2' dashtype 1 linewidth 1.8, \
-  poses using 'p_x_m':'p_y_m':'p_z_m' with linespoints linecolor '#d55e00' dashtype 1 linewidth 1.8 pointtype 7 pointsize 0.7
+    every ::0::0 with vectors nohead linecolor '#000000' dashtype 1 linewidth 1.2 notitle, \
+  for [k=0:2] for [i=1:6] poses using (c('A',i,'x')):(c('A',i,'y')):(c('A',i,'z')):(d('R',i,'A',i,'x')):(d('R',i,'A',i,'y')):(d('R',i,'A',i,'z')) \
+    every ::k::k with vectors nohead linestyle k+4 notitle, \
+  for [k=0:2] for [i=1:6] poses using (c('R',i,'x')):(c('R',i,'y')):(c('R',i,'z')):(d('B',i,'R',i,'x')):(d('B',i,'R',i,'y')):(d('B',i,'R',i,'z')) \
+    every ::k::k with vectors nohead linestyle k+4 notitle, \
+  for [k=0:2] for [i=1:6] poses using (c('B',i,'x')):(c('B',i,'y')):(c('B',i,'z')):(d('B',next(i),'B',i,'x')):(d('B',next(i),'B',i,'y')):(d('B',next(i),'B',i,'z')) \
+    every ::k::k with vectors nohead linestyle k+1 title (i == 1 ? word('start half-way end', k + 1) : ''), \
+  motion using 'p_x_m':'p_y_m':'p_z_m' with lines linecolor '#000000' dashtype 1 linewidth 2 notitle, \
+  poses using 'p_x_m':'p_y_m':'p_z_m' with points linecolor '#000000' pointtype 7 pointsize 0.7 title 'P'
 set output

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes what was measured into results/README.md, between its markers.
 
-    tools/results_readme.py FOLDER README     FOLDER holds summary.json and timeseries.csv
+    tools/results_readme.py FOLDER README     FOLDER holds summary.json and inverse.csv
 """
 
 import csv
@@ -29,7 +29,7 @@ def torques(rows):
 
 def main(folder, readme):
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-    with open(folder / "timeseries.csv", encoding="utf-8", newline="") as file:
+    with open(folder / "inverse.csv", encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     text = readme.read_text(encoding="utf-8")
     for name, lines in (("checks", checks(summary)), ("torques", torques(rows))):
