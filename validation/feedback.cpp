@@ -79,7 +79,7 @@ Check judgeFeedback(const Scenario& scenario, const Subject& subject, const Ampl
   ReplaySettings settings;
   settings.tolerance = feedback_tolerance;
   settings.end = duration;
-  settings.max_evaluations = 6000;  // exact torques need some 2,500 for a minute of motion
+  settings.max_evaluations = 6000;  // too few for a minute of the helix: feedback.torque then fails falsely
   settings.feedback = [stabiliser](double t, const JointMotion& joints) { return (*stabiliser)(t, joints); };
   const Replay run = replay(
       scenario, [&](double t) { return subject.torques(scenario.trajectory->at(t)); }, settings);
