@@ -29,7 +29,8 @@ std::vector<Formula> allFormulas(const Manipulator& manipulator) {
   add(rateFormulas());
   add(accelerationFormulas());
   add(jacobianFormulas());
-  add(dynamicsFormulas(manipulator));
+  add(dynamicsFormulas());
+  add(complementFormulas(manipulator));
   add(bodyFormulas());
   add(appendixFormulas());
   // Stable: what carries the same number keeps its order.

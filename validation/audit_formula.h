@@ -70,7 +70,8 @@ std::vector<Formula> rateFormulas();
 std::vector<Formula> accelerationFormulas();
 std::vector<Formula> jacobianFormulas();
 std::vector<Formula> bodyFormulas();
-std::vector<Formula> dynamicsFormulas(const Manipulator& manipulator);
+std::vector<Formula> dynamicsFormulas();
+std::vector<Formula> complementFormulas(const Manipulator& manipulator);
 std::vector<Formula> appendixFormulas();
 
 }  // namespace ursula::audit
