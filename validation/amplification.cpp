@@ -64,6 +64,13 @@ class Linearisation {
   double length_ = 1;
 };
 
+/// Every fifth instant will do: the Jacobian varies with the pose, and slowly.
+constexpr int growth_stride = 5;
+
+double fastestGrowth(const Matrix12& J) {
+  return std::max(0.0, Eigen::EigenSolver<Matrix12>(J, false).eigenvalues().real().maxCoeff());
+}
+
 /// Classical Runge–Kutta over one interval, from the Jacobians at its ends and its middle.
 Matrix12 propagator(const Matrix12& J0, const Matrix12& J1, const Matrix12& J2, double h) {
   const Matrix12 I = Matrix12::Identity();
@@ -94,12 +101,18 @@ Amplification::Amplification(const Scenario& scenario, int intervals) {
   for (int k = 0; k < intervals; ++k) {
     const Matrix12 J1 = linearisation.at((k + 0.5) * h), J2 = linearisation.at((k + 1) * h);
     propagators_.push_back(propagator(J0, J1, J2, h));
-    // Every tenth will do: the Jacobian varies with the pose, and slowly.
-    if (k % 10 == 0)
-      fastest_rate_ = std::max(fastest_rate_, Eigen::EigenSolver<Matrix12>(J2, false).eigenvalues().real().maxCoeff());
+    if (k % growth_stride == 0) growth_rates_.push_back(fastestGrowth(J0));
     instants_.push_back((k + 1) * h);
     J0 = J2;
   }
+  growth_rates_.push_back(fastestGrowth(J0));
+}
+
+double Amplification::growthRate(double t) const {
+  const auto last = growth_rates_.size() - 1;
+  const double interval = instants_[1] - instants_[0];
+  const auto before = static_cast<std::size_t>(std::clamp(t / (growth_stride * interval), 0.0, double(last)));
+  return std::max(growth_rates_[before], growth_rates_[std::min(before + 1, last)]);
 }
 
 /// Φ(t_j, t_k) is carried forward for every k of the window, so no propagator is ever inverted. Frobenius norms bound

@@ -41,14 +41,15 @@ class Amplification {
 
   const std::vector<double>& instants() const { return instants_; }
   double length() const { return length_; }
-  /// The largest real part of an eigenvalue of the linearised motion: how fast deviations grow, 1/s.
-  double fastestRate() const { return fastest_rate_; }
+  /// How fast deviations grow about t: the largest real part of an eigenvalue of the linearised motion, the larger of
+  /// the two instants beside t that were looked at, at least 0. 1/s.
+  double growthRate(double t) const;
 
  private:
   std::vector<double> instants_;
   std::vector<Matrix12> propagators_;  ///< from instant k to k + 1
   double length_ = 1;
-  double fastest_rate_ = 0;
+  std::vector<double> growth_rates_;  ///< at every growth_stride-th instant, and the last
 };
 
 }  // namespace ursula

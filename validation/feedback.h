@@ -11,8 +11,10 @@ namespace ursula {
 /// A further witness over the whole motion, whatever its amplification: the replay with a weak stabilising term, and
 /// the torque that the term had to add. Exact torques need almost none; wrong ones need what they are wrong by.
 ///
-/// The term is −I(φ)(ω_f² δφ + 2 ω_f δφ̇) with ω_f three times the motion's fastest growth rate, so that deviations
-/// decay instead of growing. `feedback.torque`, N·m.
+/// The term is −I(φ)(ω_f² δφ + 2 ω_f δφ̇), with ω_f twice the rate at which deviations grow about each instant, so that
+/// they decay instead. Integrated is the deviation from the commanded motion (Encke's form: Battin, An Introduction to
+/// the Mathematics and Methods of Astrodynamics, 1999, sec. 9.4), so that its errors are relative to the deviation and
+/// not to the motion. `feedback.torque`, N·m.
 Check judgeFeedback(const Scenario& scenario, const Subject& subject, const Amplification& amplification,
                     const std::vector<PointwiseSample>& samples);
 

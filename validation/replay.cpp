@@ -86,23 +86,16 @@ class Run {
   void derivative(const OdeState& x, OdeState& rate, double t) {
     if (++result_.evaluations > settings_.max_evaluations)
       throw GaveUp(fmt::format("more than {} derivative evaluations at t = {} s", settings_.max_evaluations, t));
-    loop_.derivative(t, x.data(), torquesAt(t, x), rate.data());
+    loop_.derivative(t, x.data(), torques_(t), rate.data());
     const SimbodyLoop::Power power = loop_.power();
     rate.back() = (power.actuators + power.friction + power.load) / weight_;
     for (double value : rate)
       if (!std::isfinite(value)) throw GaveUp(fmt::format("the derivatives are not finite at t = {} s", t));
   }
 
-  Vector6d torquesAt(double t, const OdeState& x) {
-    if (!settings_.feedback) return torques_(t);
-    loop_.setState(t, x.data());
-    return torques_(t) + settings_.feedback(t, loop_.joints());
-  }
-
   void observe(const OdeState& x, double t) {
     loop_.setState(t, x.data());
     record(t);
-    if (settings_.feedback) result_.steps.back().feedback = settings_.feedback(t, loop_.joints()).cwiseAbs().maxCoeff();
     const double work = x.back() * weight_;
     const SimbodyLoop::Energy energy = loop_.energy();
     result_.steps.back().energy_error = energy.kinetic + energy.potential - start_energy_ - work;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,7 +17,6 @@ struct ReplayStep {
   Vector3d spin_error = Vector3d::Zero();      ///< of the angular velocity, rad/s
   SimbodyLoop::Closure closure;
   double energy_error = 0;  ///< E − E₀ − work, J
-  double feedback = 0;      ///< largest torque that a stabilising term added, N·m
 };
 
 /// An open-loop simulation of the Simbody loop from the commanded state under a history of torques.
@@ -41,8 +39,6 @@ struct ReplaySettings {
   double tolerance = 1e-14;   ///< absolute and relative
   double start = 0, end = 0;  ///< s; the state at start is the commanded one
   SimbodyLoop::Topology topology = SimbodyLoop::Topology::six_balls;
-  /// Added to the torques, from the state that the loop is in; none where empty. rkf78 only.
-  std::function<Vector6d(double t, const JointMotion& joints)> feedback;
   int instants = 101;            ///< rk_merson only: equally spaced instants at which it is compared
   long max_evaluations = 20000;  ///< more than this is giving up
 };

@@ -1,0 +1,96 @@
+// The stabilised witness: exact torques need no help, wrong ones need what they are wrong by.
+
+#include "validation/feedback.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/support/vectors.h"
+#include "validation/validate.h"
+#include "validation/windows.h"
+
+namespace ursula {
+namespace {
+
+using Change = std::function<Vector6d(const Motion<double>& motion, const Vector6d& torques)>;
+
+/// The check of the NOC's torques after a change.
+class Witness {
+ public:
+  explicit Witness(const std::string& name) : scenario_(vectorScenario(name)), amplification_(linearised(scenario_)) {
+    right_ = nocSubject(*scenario_.manipulator, scenario_.load);
+    samples_ = runPointwise(scenario_, right_, equallySpaced(scenario_.trajectory->duration(), 21));
+    for (const PointwiseSample& sample : samples_)
+      largest_ = std::max(largest_, sample.torques_simbody.cwiseAbs().maxCoeff());
+  }
+
+  Check judge(const Change& change) const {
+    Subject subject = right_;
+    subject.torques = [this, change](const Motion<double>& motion) { return change(motion, right_.torques(motion)); };
+    return judgeFeedback(scenario_, subject, amplification_, samples_);
+  }
+
+  double largest() const { return largest_; }
+  double duration() const { return scenario_.trajectory->duration(); }
+
+ private:
+  Scenario scenario_;
+  Amplification amplification_;
+  Subject right_;
+  std::vector<PointwiseSample> samples_;
+  double largest_ = 0;
+};
+
+class Feedback : public testing::TestWithParam<std::string> {};
+
+TEST_P(Feedback, exactTorquesNeedNoHelp) {
+  const Witness witness(GetParam());
+  const Check check = witness.judge([](const Motion<double>&, const Vector6d& torques) { return torques; });
+  EXPECT_EQ(check.verdict, Verdict::pass) << check.why;
+  EXPECT_GT(check.value, 0);
+  EXPECT_LT(check.limit, 1e-10 * witness.largest()) << "the limit says little";
+}
+
+TEST_P(Feedback, answersALastingErrorWithItsSize) {
+  const Witness witness(GetParam());
+  const double wrong = 1e-7 * witness.largest();
+  const Check check = witness.judge([wrong](const Motion<double>&, const Vector6d& torques) {
+    return Vector6d(torques + wrong * Vector6d::Unit(2));
+  });
+  EXPECT_EQ(check.verdict, Verdict::fail);
+  EXPECT_GT(check.value, 0.5 * wrong);
+  EXPECT_LT(check.value, 3 * wrong);  // 4/3 along a mode, whose directions mix legs
+}
+
+INSTANTIATE_TEST_SUITE_P(Machines, Feedback, testing::Values("paper-helix", "random-2", "random-3", "random-5"),
+                         [](const auto& name) { return "of_" + std::string(1, name.param.back()); });
+
+TEST(FeedbackWitness, seesAnErrorBetweenTheInstantsThatPointwiseChecksLookAt) {
+  const Witness witness("paper-helix");
+  const double middle = 0.5 * witness.duration(), width = 0.02 * witness.duration();
+  const Check check = witness.judge([&](const Motion<double>& motion, const Vector6d& torques) {
+    const double s = (motion.t - middle - width) / width;
+    return Vector6d(torques + 1e-6 * witness.largest() * std::exp(-s * s) * Vector6d::Ones());
+  });
+  EXPECT_EQ(check.verdict, Verdict::fail);
+}
+
+TEST(FeedbackWitness, torquesThatLoseTheMachineFail) {
+  const Check check =
+      Witness("paper-helix").judge([](const Motion<double>&, const Vector6d& torques) { return Vector6d(-torques); });
+  EXPECT_EQ(check.verdict, Verdict::fail);
+  EXPECT_THAT(check.why, testing::HasSubstr("t = "));
+}
+
+TEST(FeedbackWitness, torquesThatAreNoNumbersFail) {
+  const Check check = Witness("paper-helix").judge([](const Motion<double>&, const Vector6d&) {
+    return Vector6d(Vector6d::Constant(std::numeric_limits<double>::quiet_NaN()));
+  });
+  EXPECT_EQ(check.verdict, Verdict::fail);
+}
+
+}  // namespace
+}  // namespace ursula
