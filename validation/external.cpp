@@ -4,6 +4,7 @@
 
 #include <iterator>
 
+#include "validation/curves.h"
 #include "validation/diagnosis.h"
 #include "validation/external_replay.h"
 #include "validation/finish.h"
@@ -45,6 +46,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   result.verdict = overall(result.checks);
   result.timeseries = validationSeries(external.samples, replay.windows);
   addFindings(external.samples, replay.windows, result);
+  addCurves(external.samples, replay.windows, result);
   std::move(replay.findings.begin(), replay.findings.end(), std::back_inserter(result.findings));
   addFileFindings(external.file, result);
   addDiagnosis(diagnose(scenario, external), result);

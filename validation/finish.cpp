@@ -20,6 +20,23 @@ std::string sha1(const std::string& text) {
   return out;
 }
 
+/// κ(B): infinite where the pose is singular.
+std::string nearestToSingular(const std::vector<PointwiseSample>& samples) {
+  const PointwiseSample& at = *std::max_element(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
+    return a.conditioning.kappa_B < b.conditioning.kappa_B;
+  });
+  return fmt::format("{:.4g}, at t = {:.6g} s", at.conditioning.kappa_B, at.motion.t);
+}
+
+/// |sin θ|: 0 where a leg is stretched or folded.
+std::string nearestToEdge(const std::vector<PointwiseSample>& samples) {
+  const PointwiseSample& at = *std::min_element(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
+    return a.conditioning.smallest_sine < b.conditioning.smallest_sine;
+  });
+  return fmt::format("{:.4g}, leg {} at t = {:.6g} s", at.conditioning.smallest_sine,
+                     at.conditioning.smallest_sine_leg + 1, at.motion.t);
+}
+
 }  // namespace
 
 void applyAcceptance(const std::vector<AcceptanceLimit>& acceptance, std::vector<Check>& checks) {
@@ -58,15 +75,13 @@ void addProvenance(const Scenario& scenario, const std::string& subject, Validat
 
 void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
                  ValidationResult& result) {
-  double torque = 0, torque_error = 0, acceleration = 0, acceleration_error = 0, kappa_B = 0, sine = 1;
+  double torque = 0, torque_error = 0, acceleration = 0, acceleration_error = 0;
   for (const PointwiseSample& sample : samples) {
     torque = std::max(torque, sample.torques_simbody.cwiseAbs().maxCoeff());
     torque_error = std::max(torque_error, sample.torque.error);
     const double length = sample.conditioning.length;
     acceleration = std::max(acceleration, sample.motion.p_ddot.norm() + length * sample.motion.omega_dot.norm());
     acceleration_error = std::max(acceleration_error, sample.acceleration.error);
-    kappa_B = std::max(kappa_B, sample.conditioning.kappa_B);
-    sine = std::min(sine, sample.conditioning.smallest_sine);
   }
   long evaluations = 0;
   std::size_t steps = 0;
@@ -82,8 +97,8 @@ void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<
       {"largest platform acceleration", fmt::format("{:.6g} m/s^2", acceleration)},
       {"acceleration error, relative to the largest",
        acceleration > 0 ? fmt::format("{:.3g}", acceleration_error / acceleration) : "none commanded"},
-      {"largest condition number of B", fmt::format("{:.4g}", kappa_B)},
-      {"smallest |sin theta|", fmt::format("{:.4g}", sine)},
+      {"largest condition number of B", nearestToSingular(samples)},
+      {"smallest |sin theta|", nearestToEdge(samples)},
       {"replay windows", fmt::format("{}", windows.size())},
       {"replay steps", fmt::format("{}", steps)},
       {"replay derivative evaluations", fmt::format("{}", evaluations)},

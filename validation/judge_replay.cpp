@@ -77,11 +77,16 @@ double errorPerStep(double tolerance, double position_scale) {
   return std::sqrt(24.0) * (tolerance + eps) * (1 + position_scale);
 }
 
+double driftLimit(const GrowthWindow& window, double tolerance, double steps, double position_scale, double t) {
+  const double per_step = errorPerStep(tolerance, position_scale);
+  return window.bound(t, per_step * steps / (window.end() - window.start()), per_step);
+}
+
 std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, double position_scale, double length) {
   if (windows.empty()) return {notMade("replay.position", "m", "there was no replay")};
   const double per_step = errorPerStep(windows.front().replay.tolerance, position_scale);
-  const auto drift = [per_step](const WindowedReplay& window, const ReplayStep& step) {
-    return window.window.bound(step.t, per_step * stepCount(window) / span(window), per_step);
+  const auto drift = [position_scale](const WindowedReplay& window, const ReplayStep& step) {
+    return driftLimit(window.window, window.replay.tolerance, stepCount(window), position_scale, step.t);
   };
   const std::string drift_basis = fmt::format(
       "pointwise acceleration limit and {:.3g} a step (sqrt(24) (tolerance {:.1g} + eps) (1 + coordinates)), carried "

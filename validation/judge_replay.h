@@ -19,6 +19,10 @@ struct WindowedReplay {
 /// coordinates, times the coordinates' size. m and m/s.
 double errorPerStep(double tolerance, double position_scale);
 
+/// How far `tolerance` and rounding in each of `steps` steps may move the platform from the commanded path by `t`: the
+/// limit of replay.position, m.
+double driftLimit(const GrowthWindow& window, double tolerance, double steps, double position_scale, double t);
+
 /// Above this many metres (times the machine's length over 1 m) a limit on the replay says nothing worth knowing.
 constexpr double useful_replay_limit = 1e-6;
 

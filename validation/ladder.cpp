@@ -37,9 +37,8 @@ double order(const Rung& coarse, const Rung& fine) {
 }
 
 double driftBound(const WindowedReplay& finest, const Rung& rung, double position_scale) {
-  const double per_step = errorPerStep(rung.tolerance, position_scale);
-  const double end = finest.window.end(), span = end - finest.window.start();
-  return finest.window.bound(end, per_step * static_cast<double>(rung.steps) / span, per_step);
+  return driftLimit(finest.window, rung.tolerance, static_cast<double>(rung.steps), position_scale,
+                    finest.window.end());
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <exception>
 #include <map>
 #include <mutex>
@@ -15,8 +14,8 @@
 #include <string>
 #include <thread>
 
-#include "nocsolver/solver.h"
-#include "validation/validate.h"
+#include "nocsolver/errors.h"
+#include "validation/motion_check.h"
 
 namespace ursula {
 namespace {
@@ -41,31 +40,6 @@ std::vector<std::filesystem::path> scenarioFiles(const std::vector<std::filesyst
     files.insert(files.end(), found.begin(), found.end());
   }
   return files;
-}
-
-/// Replays pass between the instants judged: there, too, the motion must be possible.
-std::vector<double> instantsToCheck(const Scenario& scenario) {
-  constexpr int least_intervals = 2000;
-  const int intervals = scenario.simulation.samples - 1;
-  const int parts = (least_intervals + intervals - 1) / intervals;
-  return equallySpaced(scenario.trajectory->duration(), intervals * parts + 1);
-}
-
-/// Throws PoseError where the motion cannot be made. A singular pose that lies between two instants shows by the sign
-/// of the Jacobian's determinant: it is continuous wherever the legs reach, so that it vanishes between unlike signs.
-void checkMotion(const Scenario& scenario) {
-  const Solver<double> solver(*scenario.manipulator);
-  Workspace<double> work;
-  double before = 0;
-  for (double t : instantsToCheck(scenario)) {
-    const Motion<double> motion = scenario.trajectory->at(t);
-    solver.inverseKinematics(motion, work);
-    solver.jacobians(motion, work);
-    const double determinant = work.B_transposed.determinant();
-    if (before * determinant < 0)
-      throw SingularJacobian("B has crossed a singular pose: its determinant changed sign", -1, t, determinant, 0, "");
-    before = std::copysign(1.0, determinant);
-  }
 }
 
 /// Names of folders beside files of the suite's own.

@@ -4,11 +4,13 @@
 #include <iterator>
 
 #include "validation/attribution.h"
+#include "validation/curves.h"
 #include "validation/feedback.h"
 #include "validation/finish.h"
 #include "validation/invariance.h"
 #include "validation/judge_replay.h"
 #include "validation/ladder.h"
+#include "validation/motion_check.h"
 #include "validation/pointwise.h"
 #include "validation/roads.h"
 #include "validation/timeseries.h"
@@ -56,6 +58,7 @@ Motions judgeMotions(const Scenario& scenario, const Subject& subject, const std
 }  // namespace
 
 ValidationResult validate(const Scenario& scenario, const Subject& subject, const ValidationOptions& options) {
+  checkMotion(scenario);
   ValidationResult result;
   result.scenario = scenario.name;
   const auto samples =
@@ -82,6 +85,7 @@ ValidationResult validate(const Scenario& scenario, const Subject& subject, cons
   result.timeseries = validationSeries(samples, motions.windows);
   for (std::size_t k = 0; k < reactions.names.size(); ++k)
     result.timeseries.add(reactions.names[k], std::move(reactions.columns[k]));
+  addCurves(samples, motions.windows, result);
   if (!motions.ladder.rungs.empty()) result.curves.emplace_back("Work and precision", workPrecision(motions.ladder));
   addProvenance(scenario, subject.name, result);
   return result;

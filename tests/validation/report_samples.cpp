@@ -33,12 +33,12 @@ void addMotion(TimeSeries& series) {
     series.add(std::string("p_") + axes[i] + "_m", sampled(commanded));
     series.add(std::string("sim_p_") + axes[i] + "_m", sampled([commanded](double t) { return commanded(t) + 1e-9; }));
   }
-  // Zero at the start, as in every replay, then the growth of an unstable motion.
-  const auto grown = [](double scale) {
-    return [scale](double t) { return t == 0 ? 0 : scale * std::exp(4.6 * t) * (1.2 + std::sin(9 * t)); };
+  // Zero or nearly so at the start, as in every replay, then the growth of an unstable motion.
+  const auto grown = [](double scale, double start) {
+    return [scale, start](double t) { return t == 0 ? start : scale * std::exp(4.6 * t) * (1.2 + std::sin(9 * t)); };
   };
-  series.add("error_p_m", sampled(grown(3e-15)));
-  series.add("error_q_rad", sampled(grown(9e-15)));
+  series.add("error_p_m", sampled(grown(3e-15, 0)));
+  series.add("error_q_rad", sampled(grown(9e-15, 6e-33)));
   series.add("closure_p_m", sampled([](double t) { return 2e-13 * (1.5 + std::sin(31 * t)); }));
   series.add("closure_v_m_s", sampled([](double t) { return 7e-12 * (1.5 + std::cos(23 * t)); }));
   series.add("reaction_1_x_N", sampled([](double t) { return t; }));

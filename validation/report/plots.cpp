@@ -76,13 +76,14 @@ std::vector<Wanted> positionLines() {
   return lines;
 }
 
+/// Zero, where an error starts from, has no place on a logarithmic axis and is left out.
 struct Span {
   bool positive = true;
   double least = std::numeric_limits<double>::infinity(), most = -std::numeric_limits<double>::infinity();
 
   void include(const std::vector<double>& values) {
     for (const double value : values) {
-      if (!std::isfinite(value)) continue;
+      if (!std::isfinite(value) || value == 0) continue;
       positive = positive && value > 0;
       least = std::min(least, value);
       most = std::max(most, value);

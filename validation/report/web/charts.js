@@ -54,8 +54,10 @@ function axisOptions(label, log, size) {
   };
 }
 
-// Zero has no place on a logarithmic axis; it becomes a gap.
-const drawable = (values, log) => (log ? values.map((value) => (value > 0 ? value : null)) : values);
+// Zero has no place on a logarithmic axis; it becomes a gap. So does what is as good as zero: uPlot throws at less than
+// 1e-32.
+const least_on_log = 1e-30;
+const drawable = (values, log) => (log ? values.map((value) => (value > least_on_log ? value : null)) : values);
 
 function options(plot, width) {
   const few = !plot.overTime && plot.x.length <= 60;

@@ -1,0 +1,63 @@
+#include "validation/curves.h"
+
+#include "validation/windows.h"
+
+namespace ursula {
+namespace {
+
+TimeSeries replayAndLimit(const std::vector<WindowedReplay>& windows, double position_scale) {
+  std::vector<double> t, error, limit;
+  for (const WindowedReplay& window : windows)
+    for (const ReplayStep& step : window.replay.steps) {
+      t.push_back(step.t);
+      error.push_back(step.position_error.norm());
+      limit.push_back(driftLimit(window.window, window.replay.tolerance,
+                                 static_cast<double>(window.replay.steps.size()), position_scale, step.t));
+    }
+  TimeSeries series;
+  series.add("t_s", std::move(t));
+  series.add("position error (m)", std::move(error));
+  series.add("derived limit (m)", std::move(limit));
+  return series;
+}
+
+TimeSeries growth(const std::vector<WindowedReplay>& windows) {
+  std::vector<double> t, from_state, from_velocity;
+  for (const WindowedReplay& window : windows) {
+    t.insert(t.end(), window.window.t.begin(), window.window.t.end());
+    from_state.insert(from_state.end(), window.window.from_start.begin(), window.window.from_start.end());
+    from_velocity.insert(from_velocity.end(), window.window.growth.begin(), window.window.growth.end());
+  }
+  TimeSeries series;
+  series.add("t_s", std::move(t));
+  series.add("of the state (m per m and m/s)", std::move(from_state));
+  series.add("of the velocity (m per m/s)", std::move(from_velocity));
+  return series;
+}
+
+TimeSeries distances(const std::vector<PointwiseSample>& samples) {
+  std::vector<double> t, singular, edge;
+  for (const PointwiseSample& sample : samples) {
+    t.push_back(sample.motion.t);
+    singular.push_back(1 / sample.conditioning.kappa_B);
+    edge.push_back(sample.conditioning.smallest_sine);
+  }
+  TimeSeries series;
+  series.add("t_s", std::move(t));
+  series.add("1/κ(B): 0 in a singular pose", std::move(singular));
+  series.add("|sin θ|: 0 in a stretched or folded leg", std::move(edge));
+  return series;
+}
+
+}  // namespace
+
+void addCurves(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
+               ValidationResult& result) {
+  if (!windows.empty()) {
+    result.curves.emplace_back("Replay against its derived limit", replayAndLimit(windows, positionScale(samples)));
+    result.curves.emplace_back("Growth of a deviation at the start of its window", growth(windows));
+  }
+  result.curves.emplace_back("Distance to singular poses and to the workspace's edge", distances(samples));
+}
+
+}  // namespace ursula

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "validation/judge_replay.h"
+#include "validation/pointwise.h"
+#include "validation/result.h"
+
+namespace ursula {
+
+/// Curves for the report: the replay's error with its derived limit, how a deviation grows in each window, and the
+/// distance to singular poses and to the workspace's edge along the path.
+void addCurves(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
+               ValidationResult& result);
+
+}  // namespace ursula
