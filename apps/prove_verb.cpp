@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <set>
 #include <thread>
 
 #include "apps/embedded_scenario.h"
@@ -42,14 +43,20 @@ std::vector<std::string> columnsOf(const std::vector<DefectOutcome>& outcomes) {
   return columns;
 }
 
-/// Returns how many defects that show were caught by fewer than two checks.
+std::size_t roadsThatCaught(const DefectOutcome& outcome) {
+  std::set<std::string> roads;
+  for (const std::string& check : outcome.caught_by) roads.insert(roadOf(check));
+  return roads.size();
+}
+
+/// Returns how many defects that show were caught on fewer than two roads.
 int printMatrix(const std::vector<DefectOutcome>& outcomes) {
   const std::vector<std::string> columns = columnsOf(outcomes);
   fmt::print("Defect by check: x where the check failed, as it should.\n\n");
   for (std::size_t k = 0; k < columns.size(); ++k) fmt::print("  {:>2} {}\n", k + 1, columns[k]);
   fmt::print("\n{:<52}", "");
   for (std::size_t k = 0; k < columns.size(); ++k) fmt::print("{:>3}", k + 1);
-  fmt::print("\n");
+  fmt::print(" roads\n");
   int shown = 0, weak = 0;
   for (const DefectOutcome& outcome : outcomes) {
     fmt::print("{:<52}", outcome.name);
@@ -59,11 +66,12 @@ int printMatrix(const std::vector<DefectOutcome>& outcomes) {
       fmt::print("{:>3}", caught ? "x" : ".");
     }
     shown += outcome.shows;
-    const bool too_few = outcome.shows && outcome.caught_by.size() < 2;
+    const std::size_t roads = roadsThatCaught(outcome);
+    const bool too_few = outcome.shows && roads < 2;
     weak += too_few;
-    fmt::print("{}\n", !outcome.shows ? "  changes nothing here" : too_few ? "  TOO FEW" : "");
+    fmt::print("{:>4}{}\n", roads, !outcome.shows ? "  changes nothing here" : too_few ? "  TOO FEW" : "");
   }
-  fmt::print("\n{} defects, {} of them change something here; {} caught by fewer than two checks\n\n", outcomes.size(),
+  fmt::print("\n{} defects, {} of them change something here; {} caught on fewer than two roads\n\n", outcomes.size(),
              shown, weak);
   return weak;
 }
@@ -105,6 +113,8 @@ void printRandom(const RandomOutcomes& random, std::uint64_t seed) {
   fmt::print("Random valid scenarios, seeds {} to {}: {} passed, {} failed, {} inconclusive\n", seed,
              seed + static_cast<std::uint64_t>(random.runs) - 1, random.passed, random.failed.size(),
              random.inconclusive.size());
+  if (random.runs > 0) fmt::print("\nThe largest share of its limit that each check reached:\n\n");
+  for (const auto& [check, share] : random.largest_share) fmt::print("  {:<34} {:.2g}\n", check, share);
   for (const std::string& why : random.failed) fmt::print("  false alarm: {}\n", why);
   for (const std::string& why : random.inconclusive) fmt::print("  inconclusive: {}\n", why);
 }

@@ -102,7 +102,7 @@ AuditEffect effectOf(const Scenario& scenario, const Torques& torques, int sampl
     for (double t : equallySpaced(scenario.trajectory->duration(), samples)) {
       const Motion<double> motion = scenario.trajectory->at(t);
       const Vector6d right = torquesThatHold(scenario, motion);
-      const double error = (torques(motion) - right).cwiseAbs().maxCoeff();
+      const double error = (torques(motion) - right).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
       largest = std::max(largest, right.cwiseAbs().maxCoeff());
       if (!(error <= effect.torque_error)) effect.torque_error = error;  // keeps a NaN
     }

@@ -11,7 +11,7 @@ namespace ursula {
 
 struct CompareOptions {
   /// Of values, relative to the scale of the channel's group. The default lies between what two right computations
-  /// differ by (rounding: 64 eps times condition numbers, some 1e-12) and the smallest relative error of a parameter
+  /// differ by (rounding: 25 eps times condition numbers, some 1e-12) and the smallest relative error of a parameter
   /// that must be seen (1e-8).
   double tolerance = 1e-9;
   double time_tolerance = 0;  ///< s

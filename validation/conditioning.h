@@ -42,8 +42,9 @@ class ConditioningProbe {
   Workspace<double> work_;
 };
 
-/// Rounding errors on the longest chain of dependent operations from the base to a torque, counted once per body and
-/// once per elimination step: 13 bodies and 6 pivots on each road, rounded up to a power of two.
-constexpr double rounding_depth = 64;
+/// In units of eps, what rounding adds up to on the longest chain of dependent operations from the base to a torque:
+/// n = 38, once for each of 13 bodies and 6 pivots on each of two roads. Roundings are independent, so that they grow
+/// as λ√n with λ = 4, rounded up: Higham and Mary, SIAM J. Sci. Comput. 41 (2019) A2815, theorem 2.4.
+constexpr double rounding_depth = 25;
 
 }  // namespace ursula

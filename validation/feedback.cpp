@@ -27,6 +27,8 @@ constexpr double lost = 0.1;
 /// Above this share of the largest torque a limit says nothing worth knowing.
 constexpr double useful_share = 1e-6;
 constexpr long max_evaluations = 200000;
+/// Where the torques are known to be wrong already, how wrong need not be found out at any price.
+constexpr long max_evaluations_of_wrong = 5000;
 
 /// [δϑ; δp; δω; δṗ] of the platform, in B: Q = exp(δϑ) Q_c, and differences from the commanded motion.
 using Deviation = std::array<double, 12>;
@@ -123,8 +125,9 @@ struct Answer {
   bool too_long = false;  ///< stopped by the number of evaluations
 };
 
-/// From the commanded state to the end of the motion. `tolerance` is absolute, of a step.
-void follow(Stabilised& loop, const Trajectory& trajectory, double tolerance, Answer& found) {
+/// From the commanded state to the end of the motion. `tolerance` is absolute, of a step; torques above `limit` are
+/// wrong.
+void follow(Stabilised& loop, const Trajectory& trajectory, double tolerance, double limit, Answer& found) {
   // A deviation of wrong torques need not be found to more than three digits.
   auto stepper = odeint::make_controlled(tolerance, 1e-3, odeint::runge_kutta_dopri5<Deviation>());
   const auto rate = [&loop](const Deviation& x, Deviation& out, double at) { loop.rate(x, out, at); };
@@ -138,22 +141,23 @@ void follow(Stabilised& loop, const Trajectory& trajectory, double tolerance, An
     if (stepper.try_step(rate, deviation, t, step) == odeint::success) {
       if (last) t = end;
       ++found.steps;
-      const double torque = loop.term(deviation, trajectory.at(t)).cwiseAbs().maxCoeff();
+      const double torque = loop.term(deviation, trajectory.at(t)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
       if (!(torque <= found.torque)) found.torque = torque, found.t = t;
       if (isLost(deviation)) found.stopped = fmt::format("the machine was lost at t = {:.6g} s", t);
     }
-    if (loop.evaluations() > max_evaluations && found.stopped.empty()) {
-      found.stopped = fmt::format("{} derivative evaluations reach t = {:.6g} s only", max_evaluations, t);
+    const long most = found.torque > limit ? max_evaluations_of_wrong : max_evaluations;
+    if (loop.evaluations() > most && found.stopped.empty()) {
+      found.stopped = fmt::format("{} derivative evaluations reach t = {:.6g} s only", most, t);
       found.too_long = true;
     }
   }
 }
 
 /// The same, where what was found before an error is kept.
-Answer answerOf(Stabilised& loop, const Trajectory& trajectory, double tolerance) {
+Answer answerOf(Stabilised& loop, const Trajectory& trajectory, double tolerance, double limit) {
   Answer found;
   try {
-    follow(loop, trajectory, tolerance, found);
+    follow(loop, trajectory, tolerance, limit, found);
   } catch (const std::exception& error) {
     found.stopped = error.what();
     found.gave_up = true;
@@ -174,8 +178,8 @@ Check judgeFeedback(const Scenario& scenario, const Subject& subject, const Ampl
     largest = std::max(largest, sample.torques_simbody.cwiseAbs().maxCoeff());
     gain = std::max(gain, (omega * omega + 2 * omega) * loop.inertia(sample.motion).norm());
   }
-  const Answer found = answerOf(loop, *scenario.trajectory, rounding / gain);
   const double limit = (2 * answer + 1) * rounding;
+  const Answer found = answerOf(loop, *scenario.trajectory, rounding / gain, limit);
   if (found.gave_up && found.torque <= limit)
     return notMade(check, "N m", "the stabilised replay gave up: " + found.stopped);
   const std::string basis = fmt::format(

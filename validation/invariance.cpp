@@ -100,8 +100,9 @@ Check judgeInvariance(const Invariance& invariance, const std::vector<PointwiseS
   double worst_ratio = 1;
   try {
     for (const PointwiseSample& sample : samples) {
-      const double difference =
-          (invariance.expected(sample.motion) - invariance.found(sample.motion)).cwiseAbs().maxCoeff();
+      const double difference = (invariance.expected(sample.motion) - invariance.found(sample.motion))
+                                    .cwiseAbs()
+                                    .maxCoeff<Eigen::PropagateNaN>();
       const double bound = 2 * sample.conditioning.torqueRounding();
       const double ratio = difference / bound;
       if (!(difference <= bound) && !(ratio <= worst_ratio)) {

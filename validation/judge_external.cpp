@@ -51,7 +51,7 @@ Check judgeAgainstNoc(const ExternalTorques& torques) {
   const std::size_t k = shownOf(torques.against_noc);
   const Deviation& shown = torques.against_noc[k];
   return judged("torque.against_noc", shown.error, shown.limit, "N m",
-                "64 eps kappa(B) kappa(legs) x || |T|' |w| ||, as for torque.pointwise",
+                "25 eps kappa(B) kappa(legs) x || |T|' |w| ||, as for torque.pointwise",
                 fmt::format("torques against this program's NOC, at {} instants; shown for t = {:.6g} s, leg {}",
                             torques.file.rows(), torques.file.t[k], shown.where + 1));
 }

@@ -191,23 +191,23 @@ Check judgeQuantity(const std::vector<PointwiseSample>& samples, const Quantity&
 const std::vector<Quantity>& kinematicQuantities() {
   static const std::vector<Quantity> quantities = {
       {"kinematics.joint_angles", "rad", "phi, psi, theta against Simbody's loop placed by geometry",
-       "64 eps kappa(legs) x largest coordinate / length", &PointwiseSample::joint_angles, false},
+       "25 eps kappa(legs) x largest coordinate / length", &PointwiseSample::joint_angles, false},
       {"kinematics.joint_rates", "rad/s", "their rates against Simbody's constraint Jacobian",
-       "64 eps kappa(legs) kappa(B) x velocity / length", &PointwiseSample::joint_rates, false},
+       "25 eps kappa(legs) kappa(B) x velocity / length", &PointwiseSample::joint_rates, false},
       {"kinematics.joint_accelerations", "rad/s^2", "their accelerations against Simbody's constraints",
-       "64 eps kappa(legs)^2 kappa(B) x acceleration / length", &PointwiseSample::joint_accelerations, false},
+       "25 eps kappa(legs)^2 kappa(B) x acceleration / length", &PointwiseSample::joint_accelerations, false},
       {"kinematics.positions", "m", "mass centres and orientations of 13 bodies, Simbody put into the joint state",
-       "64 eps kappa(legs) x largest coordinate", &PointwiseSample::position, true},
-      {"kinematics.twists", "m/s", "twists of 13 bodies, (16), (41)", "64 eps kappa(legs) kappa(B) x velocity",
+       "25 eps kappa(legs) x largest coordinate", &PointwiseSample::position, true},
+      {"kinematics.twists", "m/s", "twists of 13 bodies, (16), (41)", "25 eps kappa(legs) kappa(B) x velocity",
        &PointwiseSample::twist, true},
       {"kinematics.accelerations", "m/s^2", "twist rates of 13 bodies, (17), (43)",
-       "64 eps kappa(legs)^2 kappa(B) x acceleration", &PointwiseSample::twist_rate, true},
+       "25 eps kappa(legs)^2 kappa(B) x acceleration", &PointwiseSample::twist_rate, true},
       {"kinematics.jacobian", "m/s", "t_P = T phi_dot (24) with Simbody's joint rates",
-       "64 eps kappa(legs) kappa(B)^2 x velocity", &PointwiseSample::jacobian, true},
+       "25 eps kappa(legs) kappa(B)^2 x velocity", &PointwiseSample::jacobian, true},
       {"kinematics.jacobian_rate", "m/s^2", "T phi_ddot + T_dot phi_dot (25) with Simbody's joint motion",
-       "64 eps kappa(legs)^2 kappa(B)^2 x acceleration", &PointwiseSample::jacobian_rate, true},
+       "25 eps kappa(legs)^2 kappa(B)^2 x acceleration", &PointwiseSample::jacobian_rate, true},
       {"kinematics.jacobian_difference", "m/s", "T_dot against five-point differences of T along the motion",
-       "64 eps kappa(legs) kappa(B) x ||T|| / step", &PointwiseSample::jacobian_difference, true},
+       "25 eps kappa(legs) kappa(B) x ||T|| / step", &PointwiseSample::jacobian_difference, true},
   };
   return quantities;
 }
@@ -215,7 +215,7 @@ const std::vector<Quantity>& kinematicQuantities() {
 const std::vector<Quantity>& dynamicQuantities() {
   static const std::vector<Quantity> quantities = {
       {"torque.pointwise", "N m", "torques against Simbody's own inverse dynamics",
-       "64 eps kappa(B) kappa(legs) x || |T|' |w| ||", &PointwiseSample::torque, false},
+       "25 eps kappa(B) kappa(legs) x || |T|' |w| ||", &PointwiseSample::torque, false},
       {"acceleration.pointwise", "m/s^2", "Simbody's accelerations of the platform under the torques, commanded state",
        "the torque's limit x || T_P inv(I) ||", &PointwiseSample::acceleration, true},
   };

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,10 @@ struct DefectOutcome {
   bool shows = true;                   ///< false where the scenario gives the defect nothing to change
 };
 
+/// What a check compares with: "six balls", "tree through leg 1", "maximal coordinates", or itself where it needs no
+/// other road.
+std::string roadOf(const std::string& check);
+
 /// The smallest relative error of one parameter that `torque.pointwise` still fails.
 struct Sensitivity {
   std::string parameter, group;
@@ -27,6 +32,7 @@ struct Sensitivity {
 struct RandomOutcomes {
   int runs = 0, passed = 0;
   std::vector<std::string> failed, inconclusive;  ///< seed, worst check and why
+  std::map<std::string, double> largest_share;    ///< of its limit that a check's value reached, by its name
 };
 
 /// `task(k)` for k = 0 … count − 1 on `jobs` threads; the first exception is thrown again.
@@ -36,7 +42,7 @@ void inParallel(int jobs, int count, const std::function<void(int)>& task);
 /// the engine and not at the subject. Order and content do not depend on `jobs`.
 std::vector<DefectOutcome> proveDefects(const Scenario& scenario, int jobs, const std::function<void(int)>& done);
 
-/// By bisection over the decades.
+/// By bisection of the exponent, to one in a hundred.
 std::vector<Sensitivity> proveSensitivities(const Scenario& scenario);
 
 /// The other direction: `count` random valid scenarios from `seed` on; none may fail.

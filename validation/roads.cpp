@@ -21,7 +21,9 @@ struct Disagreement {
   bool beyond = false;
 };
 
-double distance(const RoadSample& sample, Road a, Road b) { return (sample.*a - sample.*b).cwiseAbs().maxCoeff(); }
+double distance(const RoadSample& sample, Road a, Road b) {
+  return (sample.*a - sample.*b).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+}
 
 /// The instant furthest beyond its limit, or where none is, the largest difference.
 Disagreement compareRoads(const std::vector<RoadSample>& samples, Road a, Road b) {
@@ -46,7 +48,7 @@ Check judgeRoad(const std::vector<RoadSample>& samples, const char* check_name, 
   if (samples.empty()) return notMade(check_name, "N m", "no instant was compared");
   const Disagreement shown = compareRoads(samples, &RoadSample::subject, road);
   return judged(
-      check_name, shown.error, shown.limit, "N m", "64 eps kappa(B) kappa(legs) x || |T|' |w| ||",
+      check_name, shown.error, shown.limit, "N m", "25 eps kappa(B) kappa(legs) x || |T|' |w| ||",
       fmt::format("torques against {}, at {} instants; shown for t = {:.6g} s", what, samples.size(), shown.t));
 }
 
