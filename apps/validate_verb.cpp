@@ -43,6 +43,27 @@ void printChecks(const ValidationResult& result) {
                check.unit);
 }
 
+/// "" where the result has no such finding.
+std::string finding(const ValidationResult& result, const std::string& key) {
+  for (const auto& [name, value] : result.findings)
+    if (name == key) return value;
+  return "";
+}
+
+/// What dominates, with numbers, and what is known of torques that are wrong.
+void printReasons(const ValidationResult& result) {
+  fmt::print("dominant error: {}", finding(result, "dominant error"));
+  const std::string observed = finding(result, "replay, largest position error");
+  if (!observed.empty())
+    fmt::print("; replay off by {}; model up to {}, integration {}, closure up to {}; deviations grow {}-fold",
+               observed, finding(result, "bound of the model's share"),
+               finding(result, "integration's share, extrapolated"), finding(result, "bound of the closure's share"),
+               finding(result, "amplification of a deviation at the start"));
+  fmt::print("\n");
+  for (const char* key : {"torques that are off", "likely cause"})
+    if (const std::string value = finding(result, key); !value.empty()) fmt::print("{}: {}\n", key, value);
+}
+
 /// Judges the solver, or the torques of a file where there is one.
 ValidationResult judge(const Scenario& scenario, const std::string& torques) {
   return torques.empty() ? validate(scenario) : validateExternal(scenario, std::filesystem::path(torques));
@@ -60,6 +81,7 @@ int validateOne(const Scenario& scenario, const std::string& torques, const std:
   const ValidationResult result = judge(scenario, torques);
   writeResults(result, dir);
   printChecks(result);
+  printReasons(result);
   fmt::print("verdict: {} — {}\nreport: {}\n", name(result.verdict), reason(result.verdict, result.checks),
              (dir / "report.html").string());
   return exitCode(result.verdict);

@@ -27,8 +27,11 @@ double torqueShare(const std::vector<PointwiseSample>& samples) {
 ErrorBudget attribute(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
                       const Ladder& ladder, const std::vector<Check>& checks) {
   ErrorBudget budget;
-  if (windows.empty()) {
-    budget.dominant = "model";  // the torques gave no replay to look at
+  const bool limit_too_large = std::any_of(checks.begin(), checks.end(), [](const Check& check) {
+    return check.verdict == Verdict::inconclusive && check.name.rfind("replay.", 0) == 0;
+  });
+  if (windows.empty()) {  // no replay to look at
+    budget.dominant = limit_too_large && overall(checks) != Verdict::fail ? "amplification" : "model";
     return budget;
   }
   const WindowedReplay& window = mostAmplified(windows);
@@ -41,9 +44,6 @@ ErrorBudget attribute(const std::vector<PointwiseSample>& samples, const std::ve
   for (const WindowedReplay& each : windows)
     if (!each.replay.steps.empty()) budget.observed = std::max(budget.observed, each.replay.maxPositionError());
 
-  const bool limit_too_large = std::any_of(checks.begin(), checks.end(), [](const Check& check) {
-    return check.verdict == Verdict::inconclusive && check.name.rfind("replay.", 0) == 0;
-  });
   if (limit_too_large)
     budget.dominant = "amplification";
   else if (budget.model >= budget.integration && budget.model >= budget.closure)
@@ -55,6 +55,7 @@ ErrorBudget attribute(const std::vector<PointwiseSample>& samples, const std::ve
 
 void addBudget(const ErrorBudget& budget, ValidationResult& result) {
   result.findings.emplace_back("dominant error", budget.dominant);
+  if (budget.amplification == 0) return;  // nothing was replayed
   result.findings.emplace_back("replay, largest position error", fmt::format("{:.3g} m", budget.observed));
   result.findings.emplace_back("bound of the model's share", fmt::format("{:.3g} m", budget.model));
   result.findings.emplace_back("integration's share, extrapolated", fmt::format("{:.3g} m", budget.integration));

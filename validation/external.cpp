@@ -4,6 +4,7 @@
 
 #include <iterator>
 
+#include "validation/attribution.h"
 #include "validation/curves.h"
 #include "validation/diagnosis.h"
 #include "validation/external_replay.h"
@@ -33,6 +34,14 @@ void addFileFindings(const TorqueFile& file, ValidationResult& result) {
   }
 }
 
+/// Of the first window; none where the torques throw the machine about, for then it says nothing of integration.
+Ladder ladderOf(const Scenario& scenario, const ExternalReplay& replay) {
+  if (replay.windows.empty()) return {};
+  const WindowedReplay& first = replay.windows.front();
+  if (!first.replay.gave_up.empty() || first.replay.left_path) return {};
+  return climb(scenario, replay.torques, first);
+}
+
 }  // namespace
 
 ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& torques) {
@@ -48,6 +57,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   addFindings(external.samples, replay.windows, result);
   addCurves(external.samples, replay.windows, result);
   std::move(replay.findings.begin(), replay.findings.end(), std::back_inserter(result.findings));
+  addBudget(attribute(external.samples, replay.windows, ladderOf(scenario, replay), result.checks), result);
   addFileFindings(external.file, result);
   addDiagnosis(diagnose(scenario, external), result);
   addProvenance(scenario, torques.file.filename().string(), result);

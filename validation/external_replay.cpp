@@ -83,7 +83,10 @@ std::vector<Check> notReplayed(double value, double limit, const std::string& ba
 }
 
 ExternalReplay inconclusive(const std::string& why) {
-  return {{}, notReplayed(std::nan(""), std::nan(""), "", "not replayed: " + why), {{"replay", "none: " + why}}};
+  ExternalReplay out;
+  out.checks = notReplayed(std::nan(""), std::nan(""), "", "not replayed: " + why);
+  out.findings = {{"replay", "none: " + why}};
+  return out;
 }
 
 /// Why no spline can stand for the torques over the whole motion; empty where one can.
@@ -138,15 +141,19 @@ ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& t
   const std::vector<GrowthWindow> windows = planWindows(scenario, amplification, plan);
   const double useful = useful_replay_limit * limit->length();
   const std::string basis = splineBasis(*limit, torques.file.rows());
+  ExternalReplay out;
   if (const GrowthWindow* window = hopeless(scenario, plan, windows, useful)) {
     const double bound = plannedBound(scenario, plan, *window);
     const std::string text = fmt::format(
         "not replayed: too few samples or digits; from t = {:.6g} s the torques' error between samples may move P by "
         "{:.3g} m within {:.3g} s, beyond {:.3g} m a limit says nothing",
         window->start(), bound, window->end() - window->start(), useful);
-    return {{}, notReplayed(std::nan(""), bound, basis, text), {{"replay", "none: " + text}, {"spline", basis}}};
+    out.checks = notReplayed(std::nan(""), bound, basis, text);
+    out.findings = {{"replay", "none: " + text}, {"spline", basis}};
+    return out;
   }
-  ExternalReplay out;
+  out.torques = plan.torques;
+  out.position_scale = plan.position_scale;
   out.windows = replayInWindows(scenario, plan, windows);
   out.checks = judgeReplay(out.windows, limit->positionScale(), limit->length());
   for (Check& check : out.checks) check.basis += "; " + basis;

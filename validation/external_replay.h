@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/simbody_loop.h"
 #include "validation/judge_external.h"
 #include "validation/judge_replay.h"
 
@@ -12,6 +13,8 @@ namespace ursula {
 /// The replay of somebody else's torques on a spline through them.
 struct ExternalReplay {
   std::vector<WindowedReplay> windows;  ///< empty where the replay cannot be judged
+  SimbodyLoop::TorqueHistory torques;   ///< what was replayed
+  double position_scale = 0;            ///< the largest coordinate, m
   std::vector<Check> checks;            ///< those of judgeReplay, inconclusive where there are too few samples
   std::vector<std::pair<std::string, std::string>> findings;
 };

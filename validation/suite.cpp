@@ -142,9 +142,7 @@ std::vector<SuiteEntry> runSuite(const std::vector<Scenario>& scenarios, const s
   if (options.jobs < 1) throw std::invalid_argument(fmt::format("{} jobs, expected at least 1", options.jobs));
   std::filesystem::remove(dir / "index.html");  // until the new one there is none: its presence means all is there
   std::vector<SuiteEntry> entries = SuiteRun(scenarios, dir, options).run();
-  std::vector<SuiteEntry> untimed = entries;
-  for (SuiteEntry& entry : untimed) entry.seconds = 0;
-  writeSuiteIndex(untimed, dir);
+  writeSuiteIndex(entries, dir);
   return entries;
 }
 

@@ -79,8 +79,11 @@ TEST_F(ReportFiles, ofASuiteAreIndexAndJunit) {
   const std::string index = contentOf(dir_ / "index.html");
   EXPECT_NE(index.find("href=\"sub%20folder/%C3%A4%26b/report.html\""), std::string::npos);
   EXPECT_NE(index.find("1 of 1 scenario passed"), std::string::npos);
-  EXPECT_NE(index.find("replay.position"), std::string::npos);  // the check closest to its limit
-  EXPECT_EQ(parsedXml(contentOf(dir_ / "junit.xml")).get<double>("testsuites.testsuite.<xmlattr>.time"), 1.5);
+  EXPECT_NE(index.find("replay.position"), std::string::npos);                     // the check closest to its limit
+  EXPECT_NE(index.find("amplification of integration error"), std::string::npos);  // what dominates
+  const ptree suite = parsedXml(contentOf(dir_ / "junit.xml")).get_child("testsuites.testsuite.<xmlattr>");
+  EXPECT_EQ(suite.get<std::string>("name"), "paper-helix");
+  EXPECT_EQ(suite.count("time"), 0u) << "two runs would differ";
 }
 
 TEST(Summary, holdsTheContract) {
@@ -112,7 +115,7 @@ TEST(Junit, countsAndShowsEveryKindOfCase) {
   const ptree tree = parsedXml(report::junitXml({suiteEntry(test::passedSample(), "a", 0),
                                                  suiteEntry(test::failedSample(), "b", 0),
                                                  suiteEntry(test::inconclusiveSample(), "c", 0),
-                                                 {"d", Verdict::fail, "", {}, "unreadable", 0}}));
+                                                 {"d", Verdict::fail, "", {}, "unreadable", 0, ""}}));
   const ptree& counts = tree.get_child("testsuites.<xmlattr>");
   EXPECT_EQ(counts.get<int>("tests"), 8 + 9 + 8 + 1);
   EXPECT_EQ(counts.get<int>("failures"), 3);
@@ -130,7 +133,7 @@ TEST(Junit, marksInconclusiveAsSkippedWithItsReason) {
 }
 
 TEST(Junit, neverLooksBetterThanTheVerdict) {
-  const ptree none = parsedXml(report::junitXml({{"empty", Verdict::fail, "", {}, "", 0}}));
+  const ptree none = parsedXml(report::junitXml({{"empty", Verdict::fail, "", {}, "", 0, ""}}));
   EXPECT_EQ(none.get<int>("testsuites.<xmlattr>.failures"), 1);
   ValidationResult harder = test::passedSample();
   harder.verdict = Verdict::inconclusive;

@@ -85,14 +85,14 @@ std::string suiteRow(const SuiteEntry& entry) {
   const std::string scenario = escaped(entry.scenario);
   return fmt::format(
       "<tr class=\"scenario {}\"><td>{}</td><th scope=\"row\">{}</th><td class=\"number\">{}</td><td>{}</td>"
-      "<td class=\"number\">{}</td></tr>\n",
+      "<td>{}</td></tr>\n",
       name(entry.verdict), verdictBadge(entry.verdict),
       entry.error.empty() ? fmt::format("<a href=\"{}\">{}</a>", link, scenario) : scenario,
       fmt::format("{} of {}", passed, entry.checks.size()),
       !entry.error.empty() ? escaped(entry.error)
       : worst != nullptr   ? deciding(*worst)
                            : "no check was made",
-      entry.seconds > 0 ? fmt::format("{:.1f}", entry.seconds) : "–");
+      entry.dominant.empty() ? "–" : escaped(entry.dominant));
 }
 
 std::string suiteCounts(const std::vector<SuiteEntry>& entries) {

@@ -81,9 +81,8 @@ std::string junitXml(const std::vector<SuiteEntry>& entries) {
   for (const SuiteEntry& entry : entries) {
     Counts counts;
     const std::string cases = suiteCases(entry, counts);
-    const std::string time = entry.seconds > 0 ? fmt::format(" time=\"{:.3f}\"", entry.seconds) : "";
-    suites += fmt::format("  <testsuite name=\"{}\" {}{}>\n{}  </testsuite>\n", escaped(entry.scenario),
-                          counts.attributes(), time, cases);
+    suites += fmt::format("  <testsuite name=\"{}\" {}>\n{}  </testsuite>\n", escaped(entry.scenario),
+                          counts.attributes(), cases);
     total += counts;
   }
   return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"ursula\" {}>\n{}</testsuites>\n",

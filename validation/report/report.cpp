@@ -9,7 +9,10 @@
 namespace ursula {
 
 SuiteEntry suiteEntry(const ValidationResult& result, std::filesystem::path folder, double seconds) {
-  return {result.scenario, result.verdict, std::move(folder), result.checks, "", seconds};
+  SuiteEntry entry{result.scenario, result.verdict, std::move(folder), result.checks, "", seconds, ""};
+  for (const auto& [key, value] : result.findings)
+    if (key == "dominant error") entry.dominant = value;
+  return entry;
 }
 
 void writeResults(const ValidationResult& result, const std::filesystem::path& dir) {

@@ -15,7 +15,8 @@ struct SuiteEntry {
   std::filesystem::path folder;  ///< of its results, relative to the index
   std::vector<Check> checks;
   std::string error;   ///< why there is no result: input that was refused, an exception; else empty
-  double seconds = 0;  ///< wall time; 0 where it was not measured
+  double seconds = 0;    ///< wall time, for progress; never written, so that two runs write the same
+  std::string dominant;  ///< which error dominates: the finding "dominant error"; may be empty
 };
 
 /// The line of `result` in a suite.
