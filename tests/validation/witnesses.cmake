@@ -1,6 +1,13 @@
 # The witnesses beside the replay: each shows that a wrong input fails it.
 add_executable(witness_tests
+  attribution_test.cpp
   feedback_test.cpp
+  invariance_test.cpp
+  ladder_test.cpp
+  prove_test.cpp
+  roads_test.cpp
+  windows_test.cpp
 )
 target_link_libraries(witness_tests PRIVATE test_support ursula::validation fmt::fmt GTest::gmock GTest::gtest_main)
+target_compile_definitions(witness_tests PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
 gtest_discover_tests(witness_tests)
