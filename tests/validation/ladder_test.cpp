@@ -1,0 +1,196 @@
+// The ladder of tolerances: the integrator's error falls as its order says, and a rung that is off, no number or gave
+// up fails.
+
+#include "validation/ladder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "tests/validation/checks.h"
+#include "tests/validation/scenario_files.h"
+#include "validation/windows.h"
+
+namespace ursula {
+namespace {
+
+using testing::HasSubstr;
+
+/// The paper's helix climbed under a history of torques.
+class Climb {
+ public:
+  explicit Climb(const std::function<double(double t)>& factor = [](double) { return 1.0; }) {
+    const Subject solver = solverOf(scenario_);
+    const SimbodyLoop::TorqueHistory torques = [&](double t) {
+      return Vector6d(factor(t) * solver.torques(scenario_.trajectory->at(t)));
+    };
+    const std::vector<PointwiseSample> samples = rightSamples(scenario_, 11);
+    position_scale_ = positionScale(samples);
+    const ReplayPlan plan{torques, SampledLimit(samples), position_scale_, plannedStepRate(3)};
+    const std::vector<WindowedReplay> windows = replayInWindows(scenario_, plan);
+    finest_ = windows.front();
+    ladder_ = climb(scenario_, torques, finest_);
+  }
+
+  const Ladder& ladder() const { return ladder_; }
+  const WindowedReplay& finest() const { return finest_; }
+  std::vector<Check> checks() const { return judgeLadder(ladder_, finest_, position_scale_); }
+  /// What the judged replay itself may be off by, m.
+  double bound() const {
+    return driftLimit(finest_.window, finest_.replay.tolerance, static_cast<double>(finest_.replay.accepted),
+                      position_scale_, finest_.window.end());
+  }
+
+ private:
+  Scenario scenario_ = scenarioOf("paper-helix");
+  WindowedReplay finest_;
+  Ladder ladder_;
+  double position_scale_ = 0;
+};
+
+TEST(PaperHelixLadder, converges) {
+  const Climb climb;
+  const Ladder& ladder = climb.ladder();
+  ASSERT_EQ(ladder.rungs.size(), 4u);
+  ASSERT_EQ(ladder.observed_orders.size(), 2u);
+  for (double order : ladder.observed_orders) EXPECT_NEAR(order, 8, 2);
+  EXPECT_TRUE(ladder.asymptotic);
+  for (const Rung& rung : ladder.rungs) EXPECT_EQ(rung.gave_up, "");
+  EXPECT_EQ(others(climb.checks(), Verdict::pass), "");
+  for (const char* check : {"integration.ladder", "integration.second"}) {
+    ASSERT_NE(findCheck(climb.checks(), check), nullptr);
+    EXPECT_GT(findCheck(climb.checks(), check)->value, 0) << check;
+  }
+}
+
+/// The torques being exact, the replay's distance from the path is the integrator's error, but for rounding.
+TEST(PaperHelixLadder, extrapolatesTheErrorThatTheFinestReplayHas) {
+  const Climb climb;
+  const double error = climb.finest().replay.steps.back().position_error.norm();
+  EXPECT_GT(climb.ladder().extrapolated, 0);
+  EXPECT_LT(climb.ladder().extrapolated, climb.bound());
+  EXPECT_LE(error, climb.ladder().extrapolated + climb.ladder().uncertainty);
+  EXPECT_LT(climb.ladder().extrapolated, climb.ladder().rungs[2].distance / 10) << "nothing was extrapolated";
+}
+
+TEST(PaperHelixLadder, hasTheOtherIntegratorAsItsLastRung) {
+  const std::vector<Rung> rungs = Climb().ladder().rungs;
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(rungs[k].integrator, Integrator::rkf78) << k;
+    if (k == 0) continue;
+    EXPECT_LT(rungs[k].tolerance, rungs[k - 1].tolerance);
+    EXPECT_GT(rungs[k].steps, rungs[k - 1].steps);
+  }
+  EXPECT_STREQ(name(rungs[3].integrator), "rk_merson");
+  EXPECT_GT(rungs[3].steps, 0);
+}
+
+/// The torques right but for jumps of a millionth, which no formula of eighth order steps over.
+TEST(PaperHelixLadder, sawsOffWhereTheTorquesJump) {
+  const Climb climb([](double t) { return 1 + (std::fmod(t, 0.2) < 0.1 ? 1e-6 : -1e-6); });
+  EXPECT_FALSE(climb.ladder().asymptotic);
+  EXPECT_EQ(verdictOf(climb.checks(), "integration.ladder"), "fail");
+  EXPECT_EQ(climb.ladder().extrapolated, climb.ladder().rungs[2].distance) << "there is no order to extrapolate with";
+}
+
+constexpr double position_scale = 2;
+
+/// A window of 1 s in which nothing grows.
+WindowedReplay madeReplay() {
+  WindowedReplay out;
+  for (double t : {0.0, 0.5, 1.0}) {
+    out.window.t.push_back(t);
+    out.window.from_acceleration.push_back(0);
+    out.window.from_unit_rate.push_back(t);
+    out.window.from_start.push_back(1);
+    out.window.growth.push_back(t);
+    ReplayStep step;
+    step.t = t;
+    out.replay.steps.push_back(step);
+  }
+  out.replay.tolerance = 1e-14;
+  return out;
+}
+
+/// Rungs within their bounds, some tolerance × steps each.
+Ladder madeLadder() {
+  Ladder out;
+  out.rungs = {{Integrator::rkf78, 1e-8, 300, 20, 1e-8, ""},
+               {Integrator::rkf78, 1e-10, 450, 35, 1e-10, ""},
+               {Integrator::rkf78, 1e-12, 800, 62, 1e-12, ""},
+               {Integrator::rk_merson, 1e-8, 600, 120, 2e-8, ""}};
+  return out;
+}
+
+/// The checks after a change of one rung.
+std::vector<Check> judge(std::size_t rung, const std::function<void(Rung&)>& change) {
+  Ladder ladder = madeLadder();
+  change(ladder.rungs[rung]);
+  return judgeLadder(ladder, madeReplay(), position_scale);
+}
+
+TEST(JudgeLadder, acceptsRungsWithinTheirBounds) {
+  const std::vector<Check> checks = judge(0, [](Rung&) {});
+  EXPECT_EQ(verdictOf(checks, "integration.ladder"), "pass");
+  EXPECT_EQ(verdictOf(checks, "integration.second"), "pass");
+}
+
+TEST(JudgeLadder, failsARungBeyondItsBoundAndThatOneAlone) {
+  const std::string names[] = {"integration.ladder", "integration.second"};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::size_t rung = 2 + k;
+    const double limit = findCheck(judge(rung, [](Rung&) {}), names[k])->limit;
+    for (const double wrong : {1.01 * limit, std::nan("")}) {
+      const std::vector<Check> checks = judge(rung, [wrong](Rung& it) { it.distance = wrong; });
+      EXPECT_EQ(verdictOf(checks, names[k]), "fail") << wrong;
+      EXPECT_EQ(verdictOf(checks, names[1 - k]), "pass") << wrong;
+    }
+    const std::vector<Check> within = judge(rung, [limit](Rung& it) { it.distance = 0.99 * limit; });
+    EXPECT_EQ(verdictOf(within, names[k]), "pass");
+  }
+}
+
+/// A rung is held to what its own tolerance allows in its own steps.
+TEST(JudgeLadder, theBoundFallsWithTheTolerance) {
+  const auto limit = [](double tolerance) {
+    return findCheck(judge(2, [tolerance](Rung& rung) { rung.tolerance = tolerance; }), "integration.ladder")->limit;
+  };
+  EXPECT_NEAR(limit(1e-9) / limit(1e-10), 10, 1e-3);
+}
+
+TEST(JudgeLadder, failsWithTheReasonWhereARungGaveUp) {
+  for (std::size_t rung = 0; rung < 4; ++rung) {
+    const std::vector<Check> checks = judge(rung, [](Rung& it) { it.gave_up = "the step vanished"; });
+    EXPECT_EQ(overall(checks), Verdict::fail) << rung;
+    EXPECT_EQ(others(checks, Verdict::fail), "") << rung;
+    EXPECT_THAT(checks.front().why, HasSubstr("the step vanished"));
+  }
+}
+
+TEST(JudgeLadder, failsWhereNoneWasClimbed) {
+  const std::vector<Check> checks = judgeLadder({}, madeReplay(), position_scale);
+  EXPECT_EQ(verdictOf(checks, "integration.ladder"), "fail");
+}
+
+TEST(WorkPrecision, hasARowForEachRungOfTheFirstIntegrator) {
+  const TimeSeries series = workPrecision(madeLadder());
+  ASSERT_NE(series.find("evaluations"), nullptr);
+  ASSERT_NE(series.find("rkf78_error_m"), nullptr);
+  EXPECT_EQ(*series.find("evaluations"), (std::vector<double>{300, 450, 800}));
+  EXPECT_EQ(*series.find("rkf78_error_m"), (std::vector<double>{1e-8, 1e-10, 1e-12}));
+}
+
+TEST(WorkPrecision, moreWorkIsMorePrecise) {
+  const TimeSeries series = workPrecision(Climb().ladder());
+  const std::vector<double>&work = series.columns[0], &errors = series.columns[1];
+  ASSERT_EQ(work.size(), 3u);
+  for (std::size_t k = 1; k < work.size(); ++k) {
+    EXPECT_GT(work[k], work[k - 1]);
+    EXPECT_LT(errors[k], errors[k - 1] / 10) << "a hundredth of the tolerance";
+  }
+}
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,238 @@
+// Who guards the guard: defects that are caught, parameters that are seen, random machines that raise no alarm.
+
+#include "validation/prove.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "tests/validation/checks.h"
+#include "tests/validation/scenario_files.h"
+#include "validation/defects.h"
+#include "validation/random_scenario.h"
+
+namespace ursula {
+namespace {
+
+constexpr ValidationOptions of_the_subject{false, false};
+
+const Scenario& provingGround() {
+  static const Scenario scenario = [] {
+    Scenario read = scenarioOf("proving-ground");
+    read.simulation.samples = 31;  // for speed
+    return read;
+  }();
+  return scenario;
+}
+
+TEST(Defects, areManyAndOfEveryGroup) {
+  std::set<std::string> names;
+  std::map<std::string, int> groups;
+  const std::vector<Defect> defects = allDefects();
+  for (const Defect& defect : defects) {
+    names.insert(defect.name);
+    ++groups[defect.group];
+  }
+  EXPECT_GE(defects.size(), 60u);
+  EXPECT_EQ(names.size(), defects.size()) << "a name is there twice";
+  EXPECT_EQ(groups.size(), 5u);
+  for (const char* group : {"formula", "term", "parameter", "motion", "torque"}) EXPECT_GE(groups[group], 5) << group;
+}
+
+/// On the proving ground none hides: at some instant its torques or its kinematics are not the solver's.
+TEST(Defects, allShowOnTheProvingGround) {
+  const Scenario& scenario = provingGround();
+  const Subject right = solverOf(scenario);
+  const Motion<double> motion = scenario.trajectory->at(0.3737);
+  const auto same = [&](const Subject& subject) {
+    const KinematicAnswer a = subject.kinematics(motion), b = right.kinematics(motion);
+    return subject.torques(motion) == right.torques(motion) && a.T_rate == b.T_rate;
+  };
+  EXPECT_TRUE(same(solverOf(scenario))) << "the comparison sees what is not there";
+  for (const Defect& defect : allDefects()) try {
+      EXPECT_FALSE(same(defect.subject(scenario))) << defect.name;
+    } catch (const PoseError&) {  // no answer is another answer
+    }
+}
+
+struct Caught {
+  const char *group, *name;
+  const char* by;      ///< a check that must be among those that fail
+  const char* not_by;  ///< one that has nothing to do with it
+};
+
+class OneDefect : public testing::TestWithParam<Caught> {};
+
+TEST_P(OneDefect, isCaughtTwice) {
+  const std::vector<Defect> defects = allDefects();
+  const auto found =
+      std::find_if(defects.begin(), defects.end(), [](const Defect& defect) { return defect.name == GetParam().name; });
+  ASSERT_NE(found, defects.end());
+  EXPECT_EQ(found->group, GetParam().group);
+  const ValidationResult result = validate(provingGround(), found->subject(provingGround()), of_the_subject);
+  const auto fails = [](const Check& check) { return check.verdict == Verdict::fail; };
+  EXPECT_EQ(result.verdict, Verdict::fail);
+  EXPECT_GE(std::count_if(result.checks.begin(), result.checks.end(), fails), 2);
+  EXPECT_EQ(verdictOf(result.checks, GetParam().by), "fail");
+  EXPECT_EQ(verdictOf(result.checks, GetParam().not_by), "pass");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Groups, OneDefect,
+    testing::Values(Caught{"formula", "(15a) as printed", "kinematics.joint_rates", "kinematics.joint_angles"},
+                    Caught{"term", "no Coriolis terms", "kinematics.accelerations", "kinematics.twists"},
+                    Caught{"parameter", "leg[2].proximal.mass off by 1e-06", "torque.pointwise",
+                           "kinematics.positions"},
+                    Caught{"motion", "omega in M for omega in B", "kinematics.joint_rates", "kinematics.joint_angles"},
+                    Caught{"torque", "torque 1 off by 1e-9 of itself", "torque.maximal", "kinematics.jacobian"}),
+    [](const auto& caught) { return std::string(caught.param.group); });
+
+TEST(NoDefect, isCaughtByNone) {
+  const ValidationResult result = validate(provingGround(), solverOf(provingGround()), of_the_subject);
+  EXPECT_EQ(others(result.checks, Verdict::pass), "");
+  EXPECT_EQ(result.verdict, Verdict::pass);
+}
+
+TEST(Parameters, areThoseOfPlatformGravityAndSixLegs) {
+  std::set<std::string> names;
+  std::map<std::string, int> groups;
+  for (const Parameter& parameter : allParameters()) {
+    names.insert(parameter.name);
+    ++groups[parameter.group];
+  }
+  EXPECT_EQ(names.size(), 13u + 6 * 32);
+  EXPECT_EQ(groups, (std::map<std::string, int>{{"gravity", 3},
+                                                {"mass", 1 + 12},
+                                                {"center", 3 + 12},
+                                                {"inertia", 6 + 72},
+                                                {"length", 12},
+                                                {"point", 36},
+                                                {"axis", 12},
+                                                {"friction", 36}}));
+}
+
+TEST(Sensitivities, everyParameterShowsOnTheProvingGround) {
+  const std::vector<Sensitivity> sensitivities = proveSensitivities(provingGround());
+  EXPECT_EQ(sensitivities.size(), allParameters().size());
+  const std::set<std::string> sharp = {"mass", "center", "length", "point", "axis", "gravity"};
+  for (const Sensitivity& each : sensitivities) {
+    EXPECT_LE(each.smallest_caught, sharp.count(each.group) == 1 ? 1e-8 : 1e-5) << each.parameter;
+    EXPECT_LE(each.torque_change, 1e-11) << each.parameter;
+    EXPECT_GT(each.smallest_caught, 1e-16) << each.parameter << ": rounding is taken for an error";
+  }
+}
+
+/// torque.pointwise for the solver with one parameter wrong.
+std::string verdictWith(const Parameter& parameter, double relative) {
+  Subject subject = disturbedSubject(provingGround(), parameter, relative);
+  subject.kinematics = nullptr;
+  const auto times = equallySpaced(provingGround().trajectory->duration(), 31);
+  return verdictOf(judgePointwise(runPointwise(provingGround(), subject, times), false), "torque.pointwise");
+}
+
+TEST(Sensitivities, areTheThresholdOfTheCheckItself) {
+  const std::vector<Parameter> parameters = allParameters();
+  const std::vector<Sensitivity> sensitivities = proveSensitivities(provingGround());
+  std::set<std::string> groups;
+  for (std::size_t k = 0; k < parameters.size(); k += 10) {
+    groups.insert(parameters[k].group);
+    ASSERT_EQ(sensitivities[k].parameter, parameters[k].name);
+    EXPECT_EQ(verdictWith(parameters[k], sensitivities[k].smallest_caught), "fail") << parameters[k].name;
+    EXPECT_EQ(verdictWith(parameters[k], 0.9 * sensitivities[k].smallest_caught), "pass") << parameters[k].name;
+  }
+  EXPECT_EQ(groups.size(), 8u) << "a group is left out";
+}
+
+TEST(Sensitivities, whatIsNotThereDoesNotShow) {
+  for (const Sensitivity& each : proveSensitivities(scenarioOf("paper-helix"))) {
+    if (each.group != "friction") continue;  // the helix has none: a part of nothing is nothing
+    EXPECT_TRUE(std::isinf(each.smallest_caught)) << each.parameter;
+    EXPECT_EQ(each.torque_change, 0) << each.parameter;
+  }
+}
+
+/// What two scenarios differ in.
+std::vector<double> numbersOf(const Scenario& scenario) {
+  const Motion<double> motion = scenario.trajectory->at(0.4);
+  const Vector6d torques = solverOf(scenario).torques(motion);
+  std::vector<double> out(torques.data(), torques.data() + 6);
+  out.insert(out.end(), motion.p.data(), motion.p.data() + 3);
+  out.push_back(scenario.trajectory->duration());
+  return out;
+}
+
+TEST(RandomScenario, isTheSeeds) {
+  std::set<std::vector<double>> seen;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const Scenario scenario = randomScenario(seed);
+    EXPECT_EQ(numbersOf(scenario), numbersOf(randomScenario(seed))) << seed;
+    seen.insert(numbersOf(scenario));
+  }
+  EXPECT_EQ(seen.size(), 10u) << "two seeds give the same";
+}
+
+/// Between them, few seeds hold what machines differ in; else whole kinds would never be judged.
+TEST(RandomScenario, isOfEveryKind) {
+  std::set<std::string> kinds;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Scenario scenario = randomScenario(seed);
+    kinds.insert(scenario.trajectory->kind());
+    kinds.insert(scenario.load ? "load" : "no load");
+    for (const Leg& leg : scenario.manipulator->parameters().legs) {
+      kinds.insert(leg.knee == Knee::positive ? "knee out" : "knee in");
+      kinds.insert(leg.friction.knee > 0 ? "viscous" : "smooth");
+      kinds.insert(leg.coulomb.knee > 0 ? "dry" : "oiled");
+    }
+  }
+  EXPECT_THAT(kinds, testing::UnorderedElementsAre("helix", "waypoints", "load", "no load", "knee out", "knee in",
+                                                   "viscous", "smooth", "dry", "oiled"));
+}
+
+TEST(ProveRandom, raisesNoAlarmForAnyNumberOfJobs) {
+  std::atomic<int> told{0};
+  const RandomOutcomes one = proveRandom(1, 2, 1, [&](int) { ++told; });
+  EXPECT_EQ(told, 2);
+  EXPECT_EQ(one.runs, 2);
+  EXPECT_EQ(one.passed, 2);
+  EXPECT_TRUE(one.failed.empty() && one.inconclusive.empty());
+  for (const char* check : {"torque.pointwise", "torque.maximal", "integration.ladder", "reactions.pointwise"}) {
+    ASSERT_EQ(one.largest_share.count(check), 1u) << check;
+    EXPECT_GT(one.largest_share.at(check), 0) << check;
+    EXPECT_LT(one.largest_share.at(check), 1) << check;
+  }
+  double share = 0;
+  for (std::uint64_t seed : {1, 2}) {
+    const Check torque = *findCheck(judgePointwise(rightSamples(randomScenario(seed), 101), true), "torque.pointwise");
+    share = std::max(share, torque.value / torque.limit);
+  }
+  EXPECT_EQ(one.largest_share.at("torque.pointwise"), share);
+  const RandomOutcomes two = proveRandom(1, 2, 2, [](int) {});
+  EXPECT_EQ(two.passed, one.passed);
+  EXPECT_EQ(two.largest_share, one.largest_share) << "to the last bit";
+}
+
+TEST(RoadOf, countsWhatAChecksVerdictRestsOn) {
+  EXPECT_EQ(roadOf("torque.pointwise"), "six balls");
+  EXPECT_EQ(roadOf("replay.position"), "six balls");
+  EXPECT_EQ(roadOf("torque.twin"), "tree through leg 1");
+  EXPECT_EQ(roadOf("torque.maximal"), "maximal coordinates");
+  EXPECT_EQ(roadOf("invariance.labels"), "invariance.labels");
+  EXPECT_EQ(roadOf("kinematics.jacobian_difference"), "kinematics.jacobian_difference");
+}
+
+TEST(InParallel, doesEachTaskOnceAndThrowsWhatATaskThrew) {
+  for (int jobs : {1, 2, 5}) {
+    std::vector<std::atomic<int>> done(20);
+    inParallel(jobs, 20, [&](int k) { ++done[static_cast<std::size_t>(k)]; });
+    EXPECT_THAT(std::vector<int>(done.begin(), done.end()), testing::Each(1)) << jobs;
+    EXPECT_THROW(inParallel(jobs, 20, [](int k) { k == 7 ? throw std::domain_error("seven") : void(); }),
+                 std::domain_error);
+  }
+}
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,204 @@
+// Four roads to the torques: exact ones agree, a wrong one is seen by every other, and the one that is wrong is named.
+
+#include "validation/roads.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "nocsolver/errors.h"
+#include "tests/validation/checks.h"
+#include "tests/validation/scenario_files.h"
+
+namespace ursula {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int instants = 11;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Friction, a load and Coulomb's law are in these four between them.
+const std::vector<std::string> machines = {"paper-helix", "random-2", "random-5", "proving-ground"};
+const auto machineName = [](const auto& name) { return asTestName(name.param); };
+
+class Roads : public testing::TestWithParam<std::string> {
+ protected:
+  Scenario scenario_ = scenarioOf(GetParam());
+  std::vector<PointwiseSample> samples_ = rightSamples(scenario_, instants);
+  double largest_ = largestTorque(samples_);
+};
+
+TEST_P(Roads, ofExactTorquesAgree) {
+  const std::vector<RoadSample> roads = runRoads(scenario_, samples_);
+  const std::vector<Check> checks = judgeRoads(roads);
+  EXPECT_EQ(verdictOf(checks, "torque.twin"), "pass");
+  EXPECT_EQ(verdictOf(checks, "torque.maximal"), "pass");
+  for (const Check& check : checks) {
+    EXPECT_GT(check.value, 0) << check.name << ": a road compared with itself";
+    EXPECT_LT(check.limit, 1e-10 * largest_) << check.name << ": the limit says little";
+  }
+  for (const RoadSample& road : roads) {
+    EXPECT_NE(road.twin, road.simbody) << "no two roads round alike";
+    EXPECT_NE(road.maximal, road.twin);
+    EXPECT_NE(road.maximal, road.simbody);
+  }
+  EXPECT_EQ(oddOneOut(roads), "none: four roads agree");
+}
+
+TEST_P(Roads, seeATorqueThatIsOffByABillionthOfTheLargest) {
+  const Subject right = solverOf(scenario_);
+  Subject wrong = right;
+  wrong.torques = [&](const Motion<double>& motion) {
+    return Vector6d(right.torques(motion) + 1e-9 * largest_ * Vector6d::Unit(4));
+  };
+  const auto times = equallySpaced(scenario_.trajectory->duration(), instants);
+  const std::vector<RoadSample> roads = runRoads(scenario_, runPointwise(scenario_, wrong, times));
+  for (const Check& check : judgeRoads(roads)) {
+    EXPECT_EQ(check.verdict, Verdict::fail) << check.name;
+    EXPECT_NEAR(check.value, 1e-9 * largest_, check.limit) << check.name;
+  }
+  EXPECT_EQ(oddOneOut(roads), "the torques on trial");
+}
+
+INSTANTIATE_TEST_SUITE_P(Machines, Roads, testing::ValuesIn(machines), machineName);
+
+/// Roads made up: all at 1000 N·m within a limit of 1e-9 N·m, but for a rounding of each.
+std::vector<RoadSample> agreeing() {
+  std::vector<RoadSample> roads(5);
+  for (std::size_t k = 0; k < roads.size(); ++k) {
+    RoadSample& road = roads[k];
+    road.t = 0.5 * static_cast<double>(k);
+    road.limit = 1e-9;
+    road.subject = Vector6d::Constant(1000);
+    road.simbody = road.subject + Vector6d::Constant(1e-10);
+    road.twin = road.subject - Vector6d::Constant(1e-10);
+    road.maximal = road.subject + 2e-10 * Vector6d::Unit(5);
+  }
+  return roads;
+}
+
+struct Road {
+  const char* name;
+  Vector6d RoadSample::*torques;
+  const char *twin, *maximal;  ///< verdicts where this road is wrong
+};
+
+const std::vector<Road> four_roads = {{"the torques on trial", &RoadSample::subject, "fail", "fail"},
+                                      {"Simbody, six balls", &RoadSample::simbody, "pass", "pass"},
+                                      {"Simbody, tree through leg 1", &RoadSample::twin, "fail", "pass"},
+                                      {"maximal coordinates", &RoadSample::maximal, "pass", "fail"}};
+
+TEST(OddOneOut, isNoneWhereAllAgree) { EXPECT_EQ(oddOneOut(agreeing()), "none: four roads agree"); }
+
+TEST(OddOneOut, isNamedWhereOneLegOfOneRoadIsWrongAtOneInstant) {
+  for (const Road& road : four_roads)
+    for (int leg = 0; leg < leg_count; ++leg) {
+      std::vector<RoadSample> roads = agreeing();
+      (roads[3].*road.torques)(leg) += 1e-8;
+      EXPECT_EQ(oddOneOut(roads), road.name) << "leg " << leg + 1;
+    }
+}
+
+TEST(OddOneOut, isNamedWhereOneLegOfItIsNoNumber) {
+  for (const Road& road : four_roads)
+    for (int leg = 0; leg < leg_count; ++leg) {
+      std::vector<RoadSample> roads = agreeing();
+      (roads[3].*road.torques)(leg) = nan;
+      EXPECT_EQ(oddOneOut(roads), road.name) << "leg " << leg + 1;
+    }
+}
+
+TEST(OddOneOut, isNobodyWhereTwoAreWrong) {
+  for (const double other : {1e-8, -1e-8}) {  // alike and each in its own way
+    std::vector<RoadSample> roads = agreeing();
+    roads[2].maximal(1) += 1e-8;
+    roads[2].subject(1) += other;
+    EXPECT_THAT(oddOneOut(roads), HasSubstr("not one alone"));
+  }
+}
+
+TEST(OddOneOut, isNobodyWhereEachIsWrongAtAnInstantOfItsOwn) {
+  std::vector<RoadSample> roads = agreeing();
+  roads[1].twin(0) += 1e-8;
+  roads[4].simbody(0) += 1e-8;
+  EXPECT_THAT(oddOneOut(roads), HasSubstr("not one alone"));
+}
+
+TEST(JudgeRoads, failsWhereTheSubjectAndThatRoadDiffer) {
+  for (const Road& road : four_roads) {
+    std::vector<RoadSample> roads = agreeing();
+    (roads[3].*road.torques)(2) -= 1e-8;
+    const std::vector<Check> checks = judgeRoads(roads);
+    EXPECT_EQ(verdictOf(checks, "torque.twin"), road.twin) << road.name;
+    EXPECT_EQ(verdictOf(checks, "torque.maximal"), road.maximal) << road.name;
+  }
+}
+
+TEST(JudgeRoads, judgesEachInstantByItsOwnLimit) {
+  std::vector<RoadSample> roads = agreeing();
+  roads[4].maximal(0) += 1e-7, roads[4].limit = 1e-6;  // larger, and allowed there
+  EXPECT_EQ(verdictOf(judgeRoads(roads), "torque.maximal"), "pass");
+  roads[1].maximal(0) += 1e-8;
+  const Check check = *findCheck(judgeRoads(roads), "torque.maximal");
+  EXPECT_EQ(check.verdict, Verdict::fail);
+  EXPECT_THAT(check.why, HasSubstr("t = 0.5 s"));
+}
+
+TEST(JudgeRoads, noNumberIsNoAgreement) {
+  for (int leg = 0; leg < leg_count; ++leg) {
+    std::vector<RoadSample> roads = agreeing();
+    roads[1].twin(leg) = nan;
+    EXPECT_EQ(verdictOf(judgeRoads(roads), "torque.twin"), "fail") << "leg " << leg + 1;
+    EXPECT_EQ(verdictOf(judgeRoads(roads), "torque.maximal"), "pass") << "leg " << leg + 1;
+  }
+  std::vector<RoadSample> roads = agreeing();
+  roads[1].limit = nan;
+  EXPECT_EQ(others(judgeRoads(roads), Verdict::fail), "");
+}
+
+TEST(JudgeRoads, noInstantIsNoAgreement) {
+  const std::vector<Check> checks = judgeRoads({});
+  EXPECT_EQ(verdictOf(checks, "torque.twin"), "fail");
+  EXPECT_EQ(verdictOf(checks, "torque.maximal"), "fail");
+}
+
+class ReactionCheck : public testing::TestWithParam<std::string> {
+ protected:
+  Scenario scenario_ = scenarioOf(GetParam());
+  std::vector<PointwiseSample> samples_ = rightSamples(scenario_, instants);
+};
+
+TEST_P(ReactionCheck, passesForTheSolver) {
+  TimeSeries series;
+  const Check check = judgeReactions(scenario_, samples_, &series);
+  EXPECT_EQ(check.verdict, Verdict::pass) << check.why;
+  EXPECT_GT(check.value, 0);
+  const double weight = scenario_.manipulator->platform().mass * scenario_.manipulator->gravity().norm();
+  EXPECT_LT(check.limit, 1e-9 * weight) << "the limit says little";
+  EXPECT_EQ(series.names.size(), 6u * 5 * 3);  // legs, joints' forces and moments, axes
+  EXPECT_EQ(series.rows(), samples_.size());
+}
+
+TEST_P(ReactionCheck, holdsTheLimitThatTheSamplesGive) {
+  for (PointwiseSample& sample : samples_) sample.conditioning.torque_scale *= 1e-6;
+  EXPECT_EQ(judgeReactions(scenario_, samples_, nullptr).verdict, Verdict::fail);
+}
+
+TEST_P(ReactionCheck, failsWhereAMotionIsNoNumber) {
+  samples_.back().motion.omega_dot.x() = nan;
+  EXPECT_EQ(judgeReactions(scenario_, samples_, nullptr).verdict, Verdict::fail);
+}
+
+TEST_P(ReactionCheck, refusesAMotionThatTheMachineCannotMake) {
+  samples_.back().motion.p.z() += 10;
+  EXPECT_THROW(judgeReactions(scenario_, samples_, nullptr), PoseError);
+}
+
+INSTANTIATE_TEST_SUITE_P(Machines, ReactionCheck, testing::Values("paper-helix", "random-5", "proving-ground"),
+                         machineName);
+
+}  // namespace
+}  // namespace ursula

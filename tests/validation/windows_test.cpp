@@ -1,0 +1,167 @@
+// A long motion in windows: they cover it, each as long as its limit says something, each restarted on the commanded
+// state.
+
+#include "validation/windows.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/validation/checks.h"
+#include "tests/validation/scenario_files.h"
+
+namespace ursula {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+/// The paper's helix in 10 s, whose deviations grow too far for one window.
+class LongMotion : public testing::Test {
+ protected:
+  SimbodyLoop::TorqueHistory right() const {
+    return [this](double t) { return solver_.torques(scenario_.trajectory->at(t)); };
+  }
+  ReplayPlan plan() const {
+    return {right(), SampledLimit(samples_), positionScale(samples_), plannedStepRate(duration_)};
+  }
+  /// The same with acceleration errors so many times as large.
+  ReplayPlan plan(double factor) const {
+    ReplayPlan out = plan();
+    out.acceleration = [this, factor](double t) { return factor * SampledLimit(samples_)(t); };
+    return out;
+  }
+  std::vector<GrowthWindow> windows(const ReplayPlan& plan) const {
+    return planWindows(scenario_, amplification_, plan);
+  }
+  void expectCovered(const std::vector<GrowthWindow>& windows) const {
+    ASSERT_FALSE(windows.empty());
+    EXPECT_EQ(windows.front().start(), 0);
+    EXPECT_DOUBLE_EQ(windows.back().end(), duration_);
+    for (std::size_t k = 1; k < windows.size(); ++k) EXPECT_EQ(windows[k].start(), windows[k - 1].end()) << k;
+  }
+  /// What planWindows holds a bound against, m.
+  double useful() const { return useful_replay_limit / 4 * amplification_.length(); }
+  std::vector<Check> judge(const std::vector<WindowedReplay>& replays) const {
+    return judgeReplay(replays, positionScale(samples_), amplification_.length());
+  }
+
+  Scenario scenario_ = scenarioOf("helix-10s");
+  double duration_ = scenario_.trajectory->duration();
+  Subject solver_ = solverOf(scenario_);
+  std::vector<PointwiseSample> samples_ = rightSamples(scenario_, 21);
+  Amplification amplification_ = linearised(scenario_);
+};
+
+TEST_F(LongMotion, isCoveredEndToEnd) {
+  const std::vector<GrowthWindow> found = windows(plan());
+  EXPECT_GT(found.size(), 1u);
+  expectCovered(found);
+}
+
+TEST_F(LongMotion, hasWindowsAsLongAsTheirBoundIsUseful) {
+  const ReplayPlan plan = this->plan();
+  const double rate = plan.step_rate * errorPerStep(scenario_.simulation.tolerance, plan.position_scale);
+  std::size_t first = 0;
+  for (const GrowthWindow& window : windows(plan)) {
+    EXPECT_GT(plannedBound(scenario_, plan, window), 0);
+    EXPECT_LE(plannedBound(scenario_, plan, window), useful());
+    if (window.last + 1 < amplification_.instants().size()) {
+      const GrowthWindow longer = amplification_.window(first, plan.acceleration, rate, 1e3);
+      EXPECT_GT(longer.bound(amplification_.instants()[window.last + 1], rate, 0), useful()) << "it could be longer";
+    }
+    first = window.last;
+  }
+}
+
+TEST_F(LongMotion, needsMoreWindowsForLargerErrors) {
+  std::size_t before = windows(plan()).size();
+  for (double factor : {1e2, 1e4, 1e6}) {
+    const std::vector<GrowthWindow> found = windows(plan(factor));
+    EXPECT_GT(found.size(), before) << factor;
+    expectCovered(found);
+    before = found.size();
+  }
+}
+
+TEST_F(LongMotion, hasTheShortestWindowsWhereNoneIsUseful) {
+  const ReplayPlan hopeless = plan(1e12);
+  const std::vector<GrowthWindow> found = windows(hopeless);
+  EXPECT_EQ(found.size(), amplification_.instants().size() - 1);
+  expectCovered(found);
+  for (const GrowthWindow& window : found) EXPECT_GT(plannedBound(scenario_, hopeless, window), useful());
+}
+
+TEST_F(LongMotion, restartsOnTheCommandedState) {
+  const std::vector<WindowedReplay> replays = replayInWindows(scenario_, amplification_, plan());
+  double before = 1;  // the first leaves nothing behind
+  for (const WindowedReplay& each : replays) {
+    ASSERT_EQ(each.replay.gave_up, "");
+    const ReplayStep& step = each.replay.steps.front();
+    EXPECT_EQ(step.t, each.window.start());
+    EXPECT_DOUBLE_EQ(each.replay.steps.back().t, each.window.end());
+    EXPECT_LE(step.position_error.norm(), 8 * eps * positionScale(samples_));
+    EXPECT_LE(step.rotation_error.norm(), 8 * eps);
+    EXPECT_LE(step.velocity_error.norm() + step.spin_error.norm(), 8 * eps);  // of less than 1 m/s and 1 rad/s
+    EXPECT_GT(before, 100 * eps) << "there was nothing to leave behind";
+    before = each.replay.steps.back().position_error.norm();
+  }
+  EXPECT_EQ(others(judge(replays), Verdict::pass), "");
+}
+
+/// What the windows are for.
+TEST_F(LongMotion, couldNotBeJudgedInOne) {
+  const ReplayPlan plan = this->plan();
+  const double rate = plan.step_rate * errorPerStep(scenario_.simulation.tolerance, plan.position_scale);
+  const GrowthWindow whole = amplification_.window(0, plan.acceleration, rate, std::numeric_limits<double>::infinity());
+  EXPECT_DOUBLE_EQ(whole.end(), duration_);
+  const std::vector<Check> checks = judge(replayInWindows(scenario_, plan, {whole}));
+  EXPECT_EQ(verdictOf(checks, "replay.position"), "inconclusive");
+  EXPECT_EQ(verdictOf(checks, "replay.orientation"), "inconclusive");
+}
+
+TEST_F(LongMotion, keepsAnErrorInItsWindow) {
+  const std::vector<GrowthWindow> planned = windows(plan());
+  ASSERT_GE(planned.size(), 3u);
+  const double from = planned[1].start(), to = planned[1].end();
+  ReplayPlan wrong = plan();
+  wrong.torques = [&, right = right()](double t) { return Vector6d((t >= from && t < to ? 1 + 1e-8 : 1) * right(t)); };
+  const std::vector<WindowedReplay> replays = replayInWindows(scenario_, wrong, planned);
+  for (std::size_t k = 0; k < replays.size(); ++k)
+    EXPECT_EQ(verdictOf(judge({replays[k]}), "replay.position"), k == 1 ? "fail" : "pass") << "window " << k;
+  EXPECT_EQ(verdictOf(judge(replays), "replay.position"), "fail");
+}
+
+TEST_F(LongMotion, givesUpWhereAWindowTakesTooMuch) {
+  ReplayPlan hasty = plan();
+  hasty.max_evaluations = 30;
+  for (const WindowedReplay& each : replayInWindows(scenario_, amplification_, hasty))
+    EXPECT_THAT(each.replay.gave_up, testing::HasSubstr("more than 30 derivative evaluations"));
+}
+
+TEST_F(LongMotion, isLinearisedAtFortyIntervalsASecond) {
+  EXPECT_EQ(amplification_.instants().size(), 401u);
+  EXPECT_EQ(linearised(scenarioOf("paper-helix")).instants().size(), 301u) << "300 at least";
+}
+
+TEST(SampledLimit, isTheLargerOfTwoNeighbours) {
+  std::vector<PointwiseSample> samples(3);
+  for (std::size_t k = 0; k < 3; ++k) {
+    samples[k].motion.t = static_cast<double>(k);
+    samples[k].conditioning.kappa_B = samples[k].conditioning.kappa_legs = 1;
+    samples[k].conditioning.torque_scale = 1;
+    samples[k].conditioning.response = k == 1 ? 5.0 : 2.0 - static_cast<double>(k) / 2;  // 2, 5, 1
+  }
+  const SampledLimit limit(samples);
+  const double unit = samples[2].conditioning.accelerationRounding();
+  ASSERT_GT(unit, 0);
+  EXPECT_DOUBLE_EQ(limit(0) / unit, 2);
+  EXPECT_DOUBLE_EQ(limit(0.3) / unit, 5);
+  EXPECT_DOUBLE_EQ(limit(1.7) / unit, 5);
+  EXPECT_DOUBLE_EQ(limit(7) / unit, 5) << "beyond the end, the last two";
+  samples[1].conditioning.response = 0.5;
+  EXPECT_DOUBLE_EQ(limit(1.7) / unit, 1);
+}
+
+}  // namespace
+}  // namespace ursula
