@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "validation/worst.h"
+
 namespace ursula {
 namespace {
 
@@ -18,7 +20,7 @@ const WindowedReplay& mostAmplified(const std::vector<WindowedReplay>& windows) 
 double torqueShare(const std::vector<PointwiseSample>& samples) {
   double share = 0;
   for (const PointwiseSample& sample : samples)
-    if (sample.torque.error > 0) share = std::max(share, sample.torque.error / sample.torque.limit);
+    if (sample.torque.error != 0) share = larger(share, sample.torque.error / sample.torque.limit);
   return share;
 }
 
@@ -39,13 +41,15 @@ ErrorBudget attribute(const std::vector<PointwiseSample>& samples, const std::ve
   budget.model = torqueShare(samples) * window.window.from_acceleration.back();
   budget.integration = ladder.extrapolated;
   double gap = 0;
-  for (const ReplayStep& step : window.replay.steps) gap = std::max(gap, step.closure.position);
+  for (const ReplayStep& step : window.replay.steps) gap = larger(gap, step.closure.position);
   budget.closure = gap * budget.amplification;
   for (const WindowedReplay& each : windows)
-    if (!each.replay.steps.empty()) budget.observed = std::max(budget.observed, each.replay.maxPositionError());
+    if (!each.replay.steps.empty()) budget.observed = larger(budget.observed, each.replay.maxPositionError());
 
   if (limit_too_large)
     budget.dominant = "amplification";
+  else if (std::isnan(budget.model))
+    budget.dominant = "model";
   else if (budget.model >= budget.integration && budget.model >= budget.closure)
     budget.dominant = "model";
   else

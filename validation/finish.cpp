@@ -6,6 +6,7 @@
 #include <boost/uuid/detail/sha1.hpp>
 
 #include "validation/provenance.h"
+#include "validation/worst.h"
 
 namespace ursula {
 namespace {
@@ -78,10 +79,10 @@ void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<
   double torque = 0, torque_error = 0, acceleration = 0, acceleration_error = 0;
   for (const PointwiseSample& sample : samples) {
     torque = std::max(torque, sample.torques_simbody.cwiseAbs().maxCoeff());
-    torque_error = std::max(torque_error, sample.torque.error);
+    torque_error = larger(torque_error, sample.torque.error);
     const double length = sample.conditioning.length;
     acceleration = std::max(acceleration, sample.motion.p_ddot.norm() + length * sample.motion.omega_dot.norm());
-    acceleration_error = std::max(acceleration_error, sample.acceleration.error);
+    acceleration_error = larger(acceleration_error, sample.acceleration.error);
   }
   long evaluations = 0;
   std::size_t steps = 0;

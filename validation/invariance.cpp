@@ -4,10 +4,10 @@
 
 #include <Eigen/Geometry>
 #include <array>
-#include <cmath>
 #include <functional>
 
 #include "nocsolver/errors.h"
+#include "validation/worst.h"
 
 namespace ursula {
 namespace {
@@ -95,29 +95,19 @@ struct Invariance {
 };
 
 Check judgeInvariance(const Invariance& invariance, const std::vector<PointwiseSample>& samples) {
-  double error = 0, limit = 0, when = 0;
-  bool beyond = false;
-  double worst_ratio = 1;
+  Worst worst;
   try {
     for (const PointwiseSample& sample : samples) {
-      const double difference = (invariance.expected(sample.motion) - invariance.found(sample.motion))
-                                    .cwiseAbs()
-                                    .maxCoeff<Eigen::PropagateNaN>();
-      const double bound = 2 * sample.conditioning.torqueRounding();
-      const double ratio = difference / bound;
-      if (!(difference <= bound) && !(ratio <= worst_ratio)) {
-        error = difference, limit = bound, when = sample.motion.t, beyond = true, worst_ratio = ratio;
-        if (std::isnan(ratio)) break;
-      } else if (!beyond && difference >= error) {
-        error = difference, limit = bound, when = sample.motion.t;
-      }
+      const Vector6d difference = invariance.expected(sample.motion) - invariance.found(sample.motion);
+      worst.add(difference.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), 2 * sample.conditioning.torqueRounding(),
+                sample.motion.t);
     }
   } catch (const PoseError& refusal) {
     return notMade(invariance.name, "N m", std::string("no answer: ") + refusal.what());
   }
-  if (samples.empty()) return notMade(invariance.name, "N m", "no instant was compared");
-  return judged(invariance.name, error, limit, "N m", "twice the torque's rounding limit: both sides round",
-                fmt::format("{}, at {} instants; shown for t = {:.6g} s", invariance.what, samples.size(), when));
+  if (!worst.any) return notMade(invariance.name, "N m", "no instant was compared");
+  return judged(invariance.name, worst.value, worst.limit, "N m", "twice the torque's rounding limit: both sides round",
+                fmt::format("{}, at {} instants; shown for t = {:.6g} s", invariance.what, samples.size(), worst.t));
 }
 
 }  // namespace

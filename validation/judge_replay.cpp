@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <optional>
+
+#include "validation/worst.h"
 
 namespace ursula {
 namespace {
@@ -21,25 +22,12 @@ struct Measure {
   double useful = 0;  ///< a larger limit says nothing; 0 where any limit does
 };
 
-struct Shown {
-  double value = 0, limit = 0, t = 0;
-};
-
-/// Every step is judged. Shown is the step that is furthest beyond its limit, or where none is, the largest value.
-std::optional<Shown> findShown(const std::vector<WindowedReplay>& windows, const Measure& measure) {
-  std::optional<Shown> largest, worst;
-  double worst_ratio = 1;
+Worst worstOf(const std::vector<WindowedReplay>& windows, const Measure& measure) {
+  Worst worst;
   for (const WindowedReplay& window : windows)
-    for (const ReplayStep& step : window.replay.steps) {
-      const Shown shown{measure.value(step), measure.limit(window, step), step.t};
-      if (!(shown.value <= shown.limit)) {
-        const double ratio = shown.value / shown.limit;
-        if (!(ratio <= worst_ratio)) worst = shown, worst_ratio = ratio;
-        if (std::isnan(ratio)) return worst;
-      }
-      if (!largest || shown.value > largest->value) largest = shown;
-    }
-  return worst ? worst : largest;
+    for (const ReplayStep& step : window.replay.steps)
+      worst.add(measure.value(step), measure.limit(window, step), step.t);
+  return worst;
 }
 
 std::size_t stepsOf(const std::vector<WindowedReplay>& windows) {
@@ -54,17 +42,17 @@ Check judgeMeasure(const std::vector<WindowedReplay>& windows, const Measure& me
       return notMade(
           measure.name, measure.unit,
           fmt::format("the replay from t = {:.6g} s gave up: {}", window.window.start(), window.replay.gave_up));
-  const std::optional<Shown> shown = findShown(windows, measure);
-  if (!shown) return notMade(measure.name, measure.unit, "no step was compared");
+  const Worst shown = worstOf(windows, measure);
+  if (!shown.any) return notMade(measure.name, measure.unit, "no step was compared");
   const std::string where =
       windows.size() == 1 ? "open loop over the whole motion" : fmt::format("open loop in {} windows", windows.size());
   const std::string why =
-      fmt::format("{}, {}, at {} steps; shown for t = {:.6g} s", measure.what, where, stepsOf(windows), shown->t);
-  if (measure.useful > 0 && !(shown->limit <= measure.useful))
+      fmt::format("{}, {}, at {} steps; shown for t = {:.6g} s", measure.what, where, stepsOf(windows), shown.t);
+  if (measure.useful > 0 && !(shown.limit <= measure.useful))
     return notJudgeable(
-        measure.name, shown->value, shown->limit, measure.unit, measure.basis,
+        measure.name, shown.value, shown.limit, measure.unit, measure.basis,
         why + fmt::format("; the limit exceeds {:.3g} {}, beyond which it says nothing", measure.useful, measure.unit));
-  return judged(measure.name, shown->value, shown->limit, measure.unit, measure.basis, why);
+  return judged(measure.name, shown.value, shown.limit, measure.unit, measure.basis, why);
 }
 
 double stepCount(const WindowedReplay& window) { return static_cast<double>(window.replay.steps.size()); }

@@ -25,6 +25,7 @@ Rung makeRung(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torque
   rung.evaluations = run.evaluations;
   rung.steps = run.accepted;
   rung.gave_up = run.gave_up;
+  rung.left_path = run.left_path;
   rung.distance = run.steps.empty() || finest.replay.steps.empty()
                       ? std::nan("")
                       : (run.steps.back().position_error - finest.replay.steps.back().position_error).norm();
@@ -66,6 +67,13 @@ Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques
 
 std::vector<Check> judgeLadder(const Ladder& ladder, const WindowedReplay& finest, double position_scale) {
   if (ladder.rungs.size() < 2) return {notMade("integration.ladder", "m", "no ladder was climbed")};
+  if (!finest.replay.gave_up.empty())
+    return {notMade("integration.ladder", "m", "the judged replay gave up: " + finest.replay.gave_up)};
+  if (finest.replay.left_path) return {notMade("integration.ladder", "m", "the judged replay left the path")};
+  for (const Rung& rung : ladder.rungs)
+    if (rung.left_path)
+      return {notJudgeable("integration.ladder", std::nan(""), std::nan(""), "m", "",
+                           fmt::format("{} at {:g} left the path", name(rung.integrator), rung.tolerance))};
   for (const Rung& rung : ladder.rungs)
     if (!rung.gave_up.empty())
       return {notMade("integration.ladder", "m",

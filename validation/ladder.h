@@ -16,6 +16,7 @@ struct Rung {
   long evaluations = 0, steps = 0;
   double distance = 0;  ///< of its end from the end of the finest replay, m
   std::string gave_up;
+  bool left_path = false;  ///< the replay ended early, so that its end says nothing
 };
 
 /// The same window replayed at several tolerances and with both integrators.

@@ -116,7 +116,7 @@ Sensitivity findSensitivity(const Scenario& scenario, const Reference& reference
   double exponent = -1;
   if (!tryError(exponent)) return out;
   while (exponent > -16 && tryError(exponent - 1)) exponent -= 1;
-  for (double step = 0.5; step > 0.004; step /= 2)
+  for (double step = 0.5; step > 0.002; step /= 2)
     if (tryError(exponent - step)) exponent -= step;
   return out;
 }

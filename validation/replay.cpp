@@ -51,7 +51,11 @@ class Run {
     start_energy_ = energy.kinetic + energy.potential;
   }
 
-  Replay result() { return std::move(result_); }
+  Replay result() {
+    if (settings_.integrator == Integrator::rkf78 && !result_.steps.empty())
+      result_.accepted = static_cast<long>(result_.steps.size()) - 1;
+    return std::move(result_);
+  }
 
   /// x = [q, u, work / weight]: the work in metres, so that one absolute tolerance suits every coordinate.
   void integrateRkf78() {
@@ -64,7 +68,6 @@ class Run {
     odeint::integrate_adaptive(
         stepper, [this](const OdeState& at, OdeState& rate, double t) { derivative(at, rate, t); }, x, settings_.start,
         settings_.end, first_step, [this](const OdeState& at, double t) { observe(at, t); });
-    result_.accepted = static_cast<long>(result_.steps.size()) - 1;
   }
 
   /// Simbody integrates no work: the energy is left unjudged here.

@@ -4,51 +4,33 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "model/maximal_loop.h"
 #include "model/simbody_loop.h"
 #include "nocsolver/reactions.h"
 #include "nocsolver/solver.h"
+#include "validation/worst.h"
 
 namespace ursula {
 namespace {
 
 using Road = Vector6d RoadSample::*;
 
-struct Disagreement {
-  double error = 0, limit = 0, t = 0;
-  bool beyond = false;
-};
-
 double distance(const RoadSample& sample, Road a, Road b) {
   return (sample.*a - sample.*b).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
 }
 
-/// The instant furthest beyond its limit, or where none is, the largest difference.
-Disagreement compareRoads(const std::vector<RoadSample>& samples, Road a, Road b) {
-  Disagreement shown;
-  double worst_ratio = 1;
-  for (const RoadSample& sample : samples) {
-    const double error = distance(sample, a, b);
-    const bool beyond = !(error <= sample.limit);
-    const double ratio = error / sample.limit;
-    if (beyond && !(ratio <= worst_ratio)) {
-      shown = {error, sample.limit, sample.t, true};
-      worst_ratio = ratio;
-      if (std::isnan(ratio)) return shown;
-    } else if (!shown.beyond && error >= shown.error) {
-      shown = {error, sample.limit, sample.t, false};
-    }
-  }
-  return shown;
+Worst compareRoads(const std::vector<RoadSample>& samples, Road a, Road b) {
+  Worst worst;
+  for (const RoadSample& sample : samples) worst.add(distance(sample, a, b), sample.limit, sample.t);
+  return worst;
 }
 
 Check judgeRoad(const std::vector<RoadSample>& samples, const char* check_name, const char* what, Road road) {
   if (samples.empty()) return notMade(check_name, "N m", "no instant was compared");
-  const Disagreement shown = compareRoads(samples, &RoadSample::subject, road);
+  const Worst shown = compareRoads(samples, &RoadSample::subject, road);
   return judged(
-      check_name, shown.error, shown.limit, "N m", "25 eps kappa(B) kappa(legs) x || |T|' |w| ||",
+      check_name, shown.value, shown.limit, "N m", "25 eps kappa(B) kappa(legs) x || |T|' |w| ||",
       fmt::format("torques against {}, at {} instants; shown for t = {:.6g} s", what, samples.size(), shown.t));
 }
 
@@ -57,8 +39,11 @@ double largest(const LegReactions& a) {
 }
 
 double largestDifference(const LegReactions& a, const LegReactions& b) {
-  return std::max({(a.f_A - b.f_A).norm(), (a.n_A - b.n_A).norm(), (a.f_R - b.f_R).norm(), (a.n_R - b.n_R).norm(),
-                   (a.f_B - b.f_B).norm()});
+  double difference = 0;
+  for (Vector3d LegReactions::*part :
+       {&LegReactions::f_A, &LegReactions::n_A, &LegReactions::f_R, &LegReactions::n_R, &LegReactions::f_B})
+    difference = larger(difference, (a.*part - b.*part).norm());
+  return difference;
 }
 
 void addReactionColumns(const std::vector<Reactions>& reactions, TimeSeries& series) {
@@ -110,6 +95,7 @@ std::vector<Check> judgeRoads(const std::vector<RoadSample>& samples) {
 }
 
 std::string oddOneOut(const std::vector<RoadSample>& samples) {
+  if (samples.empty()) return "unknown: no instant was compared";
   struct Named {
     const char* name;
     Road road;
@@ -140,8 +126,8 @@ Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample
   const Solver<double> solver(*scenario.manipulator);
   Workspace<double> work;
   SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
-  double size = 0, error = 0, rounding = 0, when = 0;
-  std::size_t where = 0;
+  double size = 0;
+  Worst worst;
   std::vector<Reactions> rows;
   for (const PointwiseSample& sample : samples) {
     const Vector6d torques = solver.inverseDynamics(sample.motion, work, loadAtP(scenario.load.get(), sample.motion));
@@ -149,22 +135,22 @@ Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample
     loop.place(sample.motion);
     loop.accelerate(torques);
     const Reactions simbody = loop.reactions();
-    rounding = std::max(rounding, sample.conditioning.torqueRounding() / sample.conditioning.length);
+    // Forces come back from torques over the legs' levers, once more with the condition of B.
+    const Conditioning& at = sample.conditioning;
+    const double limit = at.torqueRounding() / at.length * at.kappa_B;
     for (std::size_t leg = 0; leg < leg_count; ++leg) {
       size = std::max(size, largest(rows.back()[leg]));
-      const double difference = largestDifference(rows.back()[leg], simbody[leg]);
-      if (!(difference <= error)) error = difference, when = sample.motion.t, where = leg;
+      worst.add(largestDifference(rows.back()[leg], simbody[leg]), limit, sample.motion.t, static_cast<int>(leg));
     }
   }
   if (series != nullptr) addReactionColumns(rows, *series);
-  // Forces come back from torques over the legs' levers, once more with the condition of B.
-  const double kappa = samples.empty() ? 1 : samples.front().conditioning.kappa_B;
+  if (!worst.any) return notMade("reactions.pointwise", "N, N m", "no instant was compared");
   return judged(
-      "reactions.pointwise", error, rounding * kappa, "N, N m",
+      "reactions.pointwise", worst.value, worst.limit, "N, N m",
       "the torque's limit over the machine's length, x kappa(B)",
       fmt::format("forces and moments at 18 joints against Simbody's mobilizer and constraint reactions, at {} "
                   "instants; shown for t = {:.6g} s, leg {}; the largest is {:.6g}",
-                  samples.size(), when, where + 1, size));
+                  samples.size(), worst.t, worst.where + 1, size));
 }
 
 }  // namespace ursula

@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
+
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/windows.h"
@@ -123,6 +126,23 @@ TEST(Attribution, findsTorquesThatAreOffByABillionth) {
   EXPECT_GT(wrong.model, 100 * right.model);
   EXPECT_GE(wrong.model, wrong.observed) << "the share is a bound of what was seen";
   EXPECT_GT(wrong.observed, 100 * right.observed);
+}
+
+/// What is no number is not counted as none.
+TEST(Attribution, blamesTheModelForTorquesThatAreNoNumbers) {
+  Scenario scenario = scenarioOf("paper-helix");
+  scenario.simulation.samples = 5;
+  Subject subject = solverOf(scenario);
+  subject.torques = [right = subject.torques](const Motion<double>& motion) {
+    Vector6d torques = right(motion);
+    torques(3) = std::nan("");
+    return torques;
+  };
+  const ValidationResult result = validate(scenario, subject);
+  EXPECT_EQ(result.verdict, Verdict::fail);
+  std::map<std::string, std::string> findings(result.findings.begin(), result.findings.end());
+  EXPECT_EQ(findings["dominant error"], "model");
+  EXPECT_EQ(findings["torque error, relative to the largest"], "nan");
 }
 
 }  // namespace

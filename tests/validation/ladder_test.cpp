@@ -169,6 +169,27 @@ TEST(JudgeLadder, failsWithTheReasonWhereARungGaveUp) {
   }
 }
 
+TEST(JudgeLadder, failsWhereTheJudgedReplayGaveUpOrLeftThePath) {
+  WindowedReplay gave_up = madeReplay(), lost = madeReplay();
+  gave_up.replay.gave_up = "the step vanished";
+  lost.replay.left_path = true;
+  EXPECT_EQ(overall(judgeLadder(madeLadder(), gave_up, position_scale)), Verdict::fail);
+  EXPECT_EQ(overall(judgeLadder(madeLadder(), lost, position_scale)), Verdict::fail);
+}
+
+TEST(JudgeLadder, isInconclusiveWhereARungLeftThePath) {
+  const std::vector<Check> checks = judge(0, [](Rung& it) { it.left_path = true; });
+  EXPECT_EQ(overall(checks), Verdict::inconclusive);
+}
+
+/// One hundredth too much throws the platform off its path by more than its size.
+TEST(PaperHelixLadder, saysNothingOfTorquesThatLoseTheMachine) {
+  const Climb climb([](double) { return 1.01; });
+  EXPECT_TRUE(climb.finest().replay.left_path);
+  EXPECT_GT(climb.finest().replay.accepted, 0);
+  EXPECT_EQ(overall(climb.checks()), Verdict::fail);
+}
+
 TEST(JudgeLadder, failsWhereNoneWasClimbed) {
   const std::vector<Check> checks = judgeLadder({}, madeReplay(), position_scale);
   EXPECT_EQ(verdictOf(checks, "integration.ladder"), "fail");

@@ -93,6 +93,8 @@ const std::vector<Road> four_roads = {{"the torques on trial", &RoadSample::subj
 
 TEST(OddOneOut, isNoneWhereAllAgree) { EXPECT_EQ(oddOneOut(agreeing()), "none: four roads agree"); }
 
+TEST(OddOneOut, isUnknownWhereNothingWasCompared) { EXPECT_THAT(oddOneOut({}), HasSubstr("no instant")); }
+
 TEST(OddOneOut, isNamedWhereOneLegOfOneRoadIsWrongAtOneInstant) {
   for (const Road& road : four_roads)
     for (int leg = 0; leg < leg_count; ++leg) {
@@ -187,9 +189,17 @@ TEST_P(ReactionCheck, holdsTheLimitThatTheSamplesGive) {
   EXPECT_EQ(judgeReactions(scenario_, samples_, nullptr).verdict, Verdict::fail);
 }
 
-TEST_P(ReactionCheck, failsWhereAMotionIsNoNumber) {
-  samples_.back().motion.omega_dot.x() = nan;
-  EXPECT_EQ(judgeReactions(scenario_, samples_, nullptr).verdict, Verdict::fail);
+TEST_P(ReactionCheck, failsWhereAnyMotionIsNoNumber) {
+  for (PointwiseSample& sample : samples_) {
+    const double right = sample.motion.omega_dot.x();
+    sample.motion.omega_dot.x() = nan;
+    EXPECT_EQ(judgeReactions(scenario_, samples_, nullptr).verdict, Verdict::fail) << sample.motion.t;
+    sample.motion.omega_dot.x() = right;
+  }
+}
+
+TEST_P(ReactionCheck, noInstantIsNoAgreement) {
+  EXPECT_EQ(judgeReactions(scenario_, {}, nullptr).verdict, Verdict::fail);
 }
 
 TEST_P(ReactionCheck, refusesAMotionThatTheMachineCannotMake) {
