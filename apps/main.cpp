@@ -32,9 +32,7 @@ int runVerb(const std::function<int()>& run) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int runProgram(int argc, char** argv) {
   CLI::App app("ursula: are the closed-form dynamics of a six-legged U-R-S parallel manipulator right, and why");
   app.set_version_flag("--version", ursula::buildProvenance().version + " (" + ursula::buildProvenance().commit + ")");
   app.require_subcommand(1);
@@ -54,4 +52,15 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? ursula::exit_passed : ursula::exit_bad_input;
   }
   return runVerb(run);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return runProgram(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());  // the last resort is not to throw itself
+    return ursula::exit_bad_input;
+  }
 }

@@ -26,7 +26,7 @@ class MaximalLoop {
   using MatrixX = Eigen::MatrixXd;
   using VectorX = Eigen::VectorXd;
 
-  void placeLeg(int leg, const Motion<double>& motion);
+  void placeLeg(int index, const Motion<double>& motion);
   void solveMotion(const Motion<double>& motion);
   VectorX unbalanced(const Motion<double>& motion) const;
 

@@ -56,7 +56,7 @@ class SimbodyLoop {
   JointMotion place(const Motion<double>& motion);
 
   /// Puts platform and joints into a given state, whether or not the loops close.
-  void place(const Motion<double>& motion, const JointMotion& joints);
+  void place(const Motion<double>& motion, const JointMotion& joint_motion);
 
   /// Of the state that was placed or set.
   JointMotion joints() const;

@@ -94,7 +94,7 @@ SimTK::SpatialVec loadOnPlatform(const Load& load, const Mechanism& mechanism, c
 
 SimbodyLoop::Impl::Impl(const Manipulator& manipulator, Topology topology, std::shared_ptr<const Load> load)
     : matter(system), forces(system), parameters(manipulator) {
-  SimTK::Force::UniformGravity(forces, matter, toSimTK(manipulator.gravity()));
+  const SimTK::Force::UniformGravity gravity(forces, matter, toSimTK(manipulator.gravity()));
   for (int i = 0; i < leg_count; ++i) addLeg(i);
   addPlatform(topology);
   addForces(std::move(load));

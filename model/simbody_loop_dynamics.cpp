@@ -8,11 +8,11 @@ namespace {
 
 BodyMotion<double> bodyMotion(const SimTK::State& state, const SimTK::MobilizedBody& body,
                               const SimTK::SpatialVec& acceleration) {
-  const SimTK::Vec3 center = body.getBodyMassCenterStation(state);
+  const SimTK::Vec3& center = body.getBodyMassCenterStation(state);
   const SimTK::Rotation& R = body.getBodyRotation(state);
   const SimTK::SpatialVec& velocity = body.getBodyVelocity(state);
   const SimTK::Vec3 arm = R * center;
-  const SimTK::Vec3 omega = velocity[0];
+  const SimTK::Vec3& omega = velocity[0];
   BodyMotion<double> out;
   out.R = toEigen(R);
   out.c = toEigen(SimTK::Vec3(body.getBodyOriginLocation(state) + arm));

@@ -74,7 +74,7 @@ double fastestGrowth(const Matrix12& J) {
 /// Classical Runge–Kutta over one interval, from the Jacobians at its ends and its middle.
 Matrix12 propagator(const Matrix12& J0, const Matrix12& J1, const Matrix12& J2, double h) {
   const Matrix12 I = Matrix12::Identity();
-  const Matrix12 k1 = J0;
+  const Matrix12& k1 = J0;
   const Matrix12 k2 = J1 * (I + (h / 2) * k1);
   const Matrix12 k3 = J1 * (I + (h / 2) * k2);
   const Matrix12 k4 = J2 * (I + h * k3);

@@ -48,9 +48,7 @@ ErrorBudget attribute(const std::vector<PointwiseSample>& samples, const std::ve
 
   if (limit_too_large)
     budget.dominant = "amplification";
-  else if (std::isnan(budget.model))
-    budget.dominant = "model";
-  else if (budget.model >= budget.integration && budget.model >= budget.closure)
+  else if (std::isnan(budget.model) || (budget.model >= budget.integration && budget.model >= budget.closure))
     budget.dominant = "model";
   else
     budget.dominant = budget.integration >= budget.closure ? "integration" : "closure";

@@ -45,6 +45,7 @@ TimeSeries poseSeries(const Scenario& scenario, int count) {
   for (std::size_t k = 0; k < names.size(); ++k)
     for (int axis = 0; axis < 3; ++axis) {
       std::vector<double> column;
+      column.reserve(rows.size());
       for (const std::vector<Vector3d>& row : rows) column.push_back(row[k](axis));
       series.add(fmt::format("{}_{}_m", names[k], "xyz"[axis]), std::move(column));
     }

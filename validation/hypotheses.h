@@ -29,7 +29,7 @@ struct Hypothesis {
 /// shift, scale factors, offsets, and the formulas as printed. Left out are those that have no effect on this motion
 /// and those with as many free numbers as there are data. The regressors are the NOC's own torques with parameters
 /// changed.
-std::vector<Hypothesis> fitHypotheses(const Scenario& scenario, const TorqueResidual& residual);
+std::vector<Hypothesis> fitHypotheses(const Scenario& scenario, const TorqueResidual& data);
 
 /// How a scale factor is known to people ("kN m for N m"); empty for one that is not.
 std::string unitOf(double factor);

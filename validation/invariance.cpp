@@ -133,6 +133,7 @@ std::vector<Check> judgeInvariances(const Scenario& scenario, const Subject& sub
        [&](const M& motion) { return Vector6d((own.torques(motion) + own.torques(reversed(motion))) / 2); }},
   };
   std::vector<Check> checks;
+  checks.reserve(invariances.size());
   for (const Invariance& invariance : invariances) checks.push_back(judgeInvariance(invariance, samples));
   return checks;
 }

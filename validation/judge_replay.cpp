@@ -107,6 +107,7 @@ std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, doubl
        fmt::format("{:.3g} a step x the energy's sensitivity to the state", per_step_relative)},
   };
   std::vector<Check> checks;
+  checks.reserve(measures.size());
   for (const Measure& measure : measures) checks.push_back(judgeMeasure(windows, measure));
   return checks;
 }

@@ -61,6 +61,7 @@ void addReactionColumns(const std::vector<Reactions>& reactions, TimeSeries& ser
     for (std::size_t leg = 0; leg < leg_count; ++leg)
       for (int k = 0; k < 3; ++k) {
         std::vector<double> values;
+        values.reserve(reactions.size());
         for (const Reactions& row : reactions) values.push_back((row[leg].*column.member)(k));
         series.add(fmt::format(fmt::runtime(column.pattern), axes[static_cast<std::size_t>(k)], leg + 1),
                    std::move(values));

@@ -8,7 +8,7 @@ namespace ursula {
 namespace {
 
 template <class Reading>
-Subject makeSubject(const std::string& name, const Manipulator& manipulator, std::shared_ptr<const Load> load,
+Subject makeSubject(const std::string& name, const Manipulator& manipulator, const std::shared_ptr<const Load>& load,
                     const Reading& reading) {
   const auto solver = std::make_shared<const Solver<double, Reading>>(manipulator, reading);
   const auto work = std::make_shared<Workspace<double>>();
@@ -43,12 +43,13 @@ Vector6d loadAtP(const Load* load, const Motion<double>& motion) {
   return out;
 }
 
-Subject nocSubject(const Manipulator& manipulator, std::shared_ptr<const Load> load) {
-  return makeSubject("noc", manipulator, std::move(load), Corrected{});
+Subject nocSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load) {
+  return makeSubject("noc", manipulator, load, Corrected{});
 }
 
-Subject slippedSubject(const Manipulator& manipulator, std::shared_ptr<const Load> load, const WithSlips& slips) {
-  return makeSubject("noc with slips", manipulator, std::move(load), slips);
+Subject slippedSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load,
+                       const WithSlips& slips) {
+  return makeSubject("noc with slips", manipulator, load, slips);
 }
 
 }  // namespace ursula

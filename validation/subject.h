@@ -31,10 +31,10 @@ struct Subject {
 };
 
 /// The NOC of this program.
-Subject nocSubject(const Manipulator& manipulator, std::shared_ptr<const Load> load);
+Subject nocSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load);
 
 /// The same with formulas that are wrong: a control that must fail.
-Subject slippedSubject(const Manipulator& manipulator, std::shared_ptr<const Load> load, const WithSlips& slips);
+Subject slippedSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load, const WithSlips& slips);
 
 /// [moment about P; force], in B, of a load on the platform at `motion`; zero where `load` is null.
 Vector6d loadAtP(const Load* load, const Motion<double>& motion);

@@ -75,7 +75,7 @@ TEST(TorquesRun, refusalsNameTheLineAndWriteNothing) {
   };
   const auto repeated = [&](const std::string& row) { return row + "\n" + row; };
   EXPECT_THAT(refused(replacedLine(text, 3, repeated)), HasSubstr("bad.csv:4: error: t_s = 0.75 repeats line 3"));
-  const auto without = [](std::string row) { return row.substr(row.find(',')); };
+  const auto without = [](const std::string& row) { return row.substr(row.find(',')); };
   EXPECT_THAT(refused(replacedLine(text, 4, without)), HasSubstr("bad.csv:4: error: an empty cell in column 't_s'"));
   const auto late = [&](const std::string& row) { return "3.5" + row.substr(row.find(',')); };
   EXPECT_THAT(refused(replacedLine(text, 6, late)),

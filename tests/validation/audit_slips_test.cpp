@@ -97,7 +97,8 @@ TEST(AuditFormulas, asPrintedAreTheSolversSlips) {
   const Scenario scenario = paperHelix();
   const Witness witness = WitnessStand(*scenario.manipulator, *scenario.trajectory).at(S("1.1"));
   const std::vector<Formula> all = formulas();
-  for (const auto& [equation, reading] : readings()) {
+  for (const auto& [name, reading] : readings()) {
+    const std::string& equation = name;  // C++17 lambdas cannot capture a structured binding
     const auto found = std::find_if(all.begin(), all.end(), [&](const Formula& f) { return f.equation == equation; });
     ASSERT_NE(found, all.end()) << equation;
     WithSlips slips;
