@@ -1,10 +1,12 @@
 #include "validation/conditioning.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
+#include "nocsolver/reactions.h"
 #include "validation/subject.h"
 
 namespace ursula {
@@ -58,6 +60,24 @@ Projection project(const Manipulator& manipulator, const TwistShaping<double>& T
   return out;
 }
 
+/// What the platform and the forces that hold it are without its legs.
+void setPlatform(const Solver<double>& solver, const Manipulator& manipulator, const Motion<double>& motion,
+                 const Vector6d& torques, Workspace<double>& work, Conditioning& out) {
+  const Platform& platform = manipulator.platform();
+  const double smallest_moment =
+      Eigen::SelfAdjointEigenSolver<Matrix3d>(platform.inertia, Eigen::EigenvaluesOnly).eigenvalues()(0);
+  double arm = 0;
+  out.largest_mass = platform.mass;
+  for (const Leg& leg : manipulator.parameters().legs) {
+    arm = std::max(arm, (leg.platform_point - platform.center_of_mass).norm());
+    out.largest_mass = std::max({out.largest_mass, leg.proximal.mass, leg.distal.mass});
+  }
+  out.compliance = 1 / platform.mass + arm * arm / smallest_moment;
+  double squares = 0;
+  for (const LegReactions& leg : recoverReactions(solver, motion, torques, work)) squares += leg.f_B.squaredNorm();
+  out.force_scale = std::sqrt(squares);
+}
+
 void setLegs(const Workspace<double>& work, Conditioning& out) {
   out.smallest_sine = 1;
   for (int i = 0; i < leg_count; ++i) {
@@ -75,7 +95,9 @@ void setLegs(const Workspace<double>& work, Conditioning& out) {
 
 double Conditioning::torqueRounding() const { return rounding_depth * eps * kappa_B * kappa_legs * torque_scale; }
 
-double Conditioning::accelerationRounding() const { return response * torqueRounding(); }
+double Conditioning::loopRounding() const { return rounding_depth * eps * compliance * force_scale; }
+
+double Conditioning::accelerationRounding() const { return response * torqueRounding() + loopRounding(); }
 
 ConditioningProbe::ConditioningProbe(const Manipulator& manipulator, std::shared_ptr<const Load> load)
     : manipulator_(manipulator), load_(std::move(load)), solver_(manipulator) {}
@@ -99,6 +121,7 @@ Conditioning ConditioningProbe::at(const Motion<double>& motion) {
   Matrix6d T_P = solver_.T(work_);
   T_P.topRows<3>() *= out.length;
   const Vector6d load = loadAtP(load_.get(), motion);
+  setPlatform(solver_, manipulator_, motion, solver_.inverseDynamics(motion, work_, load), work_, out);
   out.torque_scale =
       projection.torque_scale + T_P.norm() * (load.head<3>().norm() / out.length + load.tail<3>().norm());
   out.response = (T_P * projection.inertia.llt().solve(Matrix6d::Identity())).norm();

@@ -18,6 +18,9 @@ struct Conditioning {
   int smallest_sine_leg = 0;  ///< 0-based
   double torque_scale = 0;    ///< ‖|T|ᵀ|w|‖: size of what cancels in (37), N·m
   double response = 0;        ///< ‖S T_P I⁻¹‖: platform acceleration for a torque, (m/s²)/(N·m)
+  double compliance = 0;      ///< of the platform alone: its acceleration for a force at a spherical joint, 1/kg
+  double force_scale = 0;     ///< root of the sum of squares of the forces at the spherical joints, N
+  double largest_mass = 0;    ///< of a body, kg
   double length = 0;          ///< a length of the machine, m
   double position_scale = 0;  ///< largest coordinate, m
   double twist_scale = 0;     ///< size of a body's velocity, m/s
@@ -25,6 +28,9 @@ struct Conditioning {
 
   /// Rounding of a torque on either road, N·m.
   double torqueRounding() const;
+  /// Rounding of the platform's acceleration by the forces that close the loops, which an engine with free bodies adds
+  /// up: they cancel the more, the lighter the platform is against its legs. m/s².
+  double loopRounding() const;
   /// Rounding of the platform's acceleration under given torques, m/s².
   double accelerationRounding() const;
 };

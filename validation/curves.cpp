@@ -1,9 +1,18 @@
 #include "validation/curves.h"
 
+#include <string>
+#include <utility>
+
 #include "validation/windows.h"
 
 namespace ursula {
 namespace {
+
+TimeSeries curve(const std::vector<std::pair<std::string, std::vector<double>>>& columns) {
+  TimeSeries series;
+  for (const auto& [name, values] : columns) series.add(name, values);
+  return series;
+}
 
 TimeSeries replayAndLimit(const std::vector<WindowedReplay>& windows, double position_scale) {
   std::vector<double> t, error, limit;
@@ -14,11 +23,7 @@ TimeSeries replayAndLimit(const std::vector<WindowedReplay>& windows, double pos
       limit.push_back(driftLimit(window.window, window.replay.tolerance,
                                  static_cast<double>(window.replay.steps.size()), position_scale, step.t));
     }
-  TimeSeries series;
-  series.add("t_s", std::move(t));
-  series.add("position error (m)", std::move(error));
-  series.add("derived limit (m)", std::move(limit));
-  return series;
+  return curve({{"t_s", t}, {"position error (m)", error}, {"derived limit (m)", limit}});
 }
 
 TimeSeries growth(const std::vector<WindowedReplay>& windows) {
@@ -28,11 +33,8 @@ TimeSeries growth(const std::vector<WindowedReplay>& windows) {
     from_state.insert(from_state.end(), window.window.from_start.begin(), window.window.from_start.end());
     from_velocity.insert(from_velocity.end(), window.window.growth.begin(), window.window.growth.end());
   }
-  TimeSeries series;
-  series.add("t_s", std::move(t));
-  series.add("of the state (m per m and m/s)", std::move(from_state));
-  series.add("of the velocity (m per m/s)", std::move(from_velocity));
-  return series;
+  return curve(
+      {{"t_s", t}, {"of the state (m per m and m/s)", from_state}, {"of the velocity (m per m/s)", from_velocity}});
 }
 
 TimeSeries distances(const std::vector<PointwiseSample>& samples) {
@@ -42,11 +44,8 @@ TimeSeries distances(const std::vector<PointwiseSample>& samples) {
     singular.push_back(1 / sample.conditioning.kappa_B);
     edge.push_back(sample.conditioning.smallest_sine);
   }
-  TimeSeries series;
-  series.add("t_s", std::move(t));
-  series.add("1/κ(B): 0 in a singular pose", std::move(singular));
-  series.add("|sin θ|: 0 in a stretched or folded leg", std::move(edge));
-  return series;
+  return curve(
+      {{"t_s", t}, {"1/κ(B): 0 in a singular pose", singular}, {"|sin θ|: 0 in a stretched or folded leg", edge}});
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ class SplineLimit {
     for (double t : grid_) {
       conditioning_.push_back(probe.at(scenario.trajectory->at(t)));
       position_scale_ = std::max(position_scale_, conditioning_.back().position_scale);
+      force_scale_ = std::max(force_scale_, conditioning_.back().force_scale);
     }
     const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
     interpolation_ = interpolationErrors(t_, [&](double t) { return noc.torques(scenario.trajectory->at(t)); });
@@ -35,15 +36,17 @@ class SplineLimit {
   double operator()(double t) const {
     const double h = grid_[1] - grid_[0];
     const auto k = std::min(static_cast<std::size_t>(std::lround(t / h)), grid_.size() - 1);
-    double response = 0, rounding = 0;
+    double response = 0, rounding = 0, loops = 0;
     for (std::size_t j = k == 0 ? 0 : k - 1; j <= std::min(k + 1, grid_.size() - 1); ++j) {
       response = std::max(response, conditioning_[j].response);
       rounding = std::max(rounding, conditioning_[j].torqueRounding());
+      loops = std::max(loops, conditioning_[j].loopRounding());
     }
-    return response * (rounding + splineError(t - h, t + h));
+    return response * (rounding + splineError(t - h, t + h)) + loops;
   }
 
   double positionScale() const { return position_scale_; }
+  double forceScale() const { return force_scale_; }
   double length() const { return conditioning_.front().length; }
   double largestInterpolation() const { return *std::max_element(interpolation_.begin(), interpolation_.end()); }
   double largestOfDigits() const { return *std::max_element(digits_.begin(), digits_.end()); }
@@ -64,7 +67,7 @@ class SplineLimit {
   std::vector<double> t_, grid_;
   std::vector<Conditioning> conditioning_;
   std::vector<double> interpolation_, digits_;  ///< N·m, one for each interval of t_
-  double position_scale_ = 0;
+  double position_scale_ = 0, force_scale_ = 0;
 };
 
 std::vector<Check> notReplayed(double value, double limit, const std::string& basis, const std::string& why) {
@@ -103,12 +106,11 @@ std::string missing(const ExternalTorques& torques, double duration) {
 }
 
 /// Where even the shortest window's bound exceeds the useful limit, the worst of them.
-const GrowthWindow* hopeless(const Scenario& scenario, const ReplayPlan& plan, const std::vector<GrowthWindow>& windows,
-                             double useful) {
+const GrowthWindow* hopeless(const ReplayPlan& plan, const std::vector<GrowthWindow>& windows, double useful) {
   const GrowthWindow* worst = nullptr;
   double largest = useful;
   for (const GrowthWindow& window : windows) {
-    const double bound = plannedBound(scenario, plan, window);
+    const double bound = plannedBound(plan, window);
     if (!(bound <= largest)) worst = &window, largest = bound;
   }
   return worst;
@@ -137,13 +139,14 @@ ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& t
   plan.acceleration = [limit](double t) { return (*limit)(t); };
   plan.position_scale = limit->positionScale();
   plan.step_rate = std::max(plannedStepRate(duration), 2 * knot_rate);
+  plan.tolerance = reachableTolerance(scenario, plan.step_rate);
   plan.max_evaluations = enoughEvaluations(plan.step_rate, duration);
-  const std::vector<GrowthWindow> windows = planWindows(scenario, amplification, plan);
+  const std::vector<GrowthWindow> windows = planWindows(amplification, plan);
   const double useful = useful_replay_limit * limit->length();
   const std::string basis = splineBasis(*limit, torques.file.rows());
   ExternalReplay out;
-  if (const GrowthWindow* window = hopeless(scenario, plan, windows, useful)) {
-    const double bound = plannedBound(scenario, plan, *window);
+  if (const GrowthWindow* window = hopeless(plan, windows, useful)) {
+    const double bound = plannedBound(plan, *window);
     const std::string text = fmt::format(
         "not replayed: too few samples or digits; from t = {:.6g} s the torques' error between samples may move P by "
         "{:.3g} m within {:.3g} s, beyond {:.3g} m a limit says nothing",
@@ -155,7 +158,7 @@ ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& t
   out.torques = plan.torques;
   out.position_scale = plan.position_scale;
   out.windows = replayInWindows(scenario, plan, windows);
-  out.checks = judgeReplay(out.windows, limit->positionScale(), limit->length());
+  out.checks = judgeReplay(out.windows, limit->positionScale(), limit->length(), limit->forceScale());
   for (Check& check : out.checks) check.basis += "; " + basis;
   out.findings = {{"spline", basis}};
   return out;

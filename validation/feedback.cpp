@@ -30,7 +30,8 @@ constexpr long max_evaluations = 200000;
 /// Where the torques are known to be wrong already, how wrong need not be found out at any price.
 constexpr long max_evaluations_of_wrong = 5000;
 
-/// [δϑ; δp; δω; δṗ] of the platform, in B: Q = exp(δϑ) Q_c, and differences from the commanded motion.
+/// [δϑ ω; δp ω; δω; δṗ] of the platform, in B: Q = exp(δϑ) Q_c, and differences from the commanded motion; times a
+/// frequency, so that one tolerance suits both halves.
 using Deviation = std::array<double, 12>;
 
 Vector3d part(const Deviation& x, int k) { return Eigen::Map<const Vector3d>(x.data() + 3 * k); }
@@ -44,8 +45,8 @@ Vector3d turned(const Vector3d& theta, const Vector3d& v) {
   return full * across + half * half / 2 * theta.cross(across);
 }
 
-/// ϑ̇ for the spin of exp(ϑ) in B (Bortz's equation: Titterton and Weston, Strapdown Inertial Navigation, 2004,
-/// (11.34)).
+/// ϑ̇ for the spin of exp(ϑ) in axes fixed in B (Bortz, IEEE Trans. Aerosp. Electron. Syst. 7 (1971) 61, who has axes
+/// that turn along: there the middle term is positive).
 Vector3d rotationVectorRate(const Vector3d& theta, const Vector3d& spin) {
   const double angle = theta.norm();
   const Vector3d across = theta.cross(spin);
@@ -57,12 +58,20 @@ Vector3d rotationVectorRate(const Vector3d& theta, const Vector3d& spin) {
 /// loops stay closed and no gap can pile up.
 class Stabilised {
  public:
-  Stabilised(const Scenario& scenario, const Subject& subject, const Amplification& amplification)
+  Stabilised(const Scenario& scenario, const Subject& subject, const Amplification& amplification,
+             const std::vector<PointwiseSample>& samples)
       : trajectory_(*scenario.trajectory),
         subject_(subject),
         amplification_(amplification),
         loop_(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load),
-        solver_(*scenario.manipulator) {}
+        solver_(*scenario.manipulator) {
+    for (const PointwiseSample& sample : samples) scale_ = std::max(scale_, frequency(sample.motion.t));
+  }
+
+  /// Torque for a deviation of one, at the most, N·m/(m/s).
+  double gain(const Motion<double>& motion) { return 3 * scale_ * inertia(motion).norm(); }
+
+  bool isLost(const Deviation& x) const { return !(offset(x, 0).norm() < lost && offset(x, 1).norm() < lost); }
 
   /// Of the term at t, 1/s.
   double frequency(double t) const {
@@ -74,25 +83,26 @@ class Stabilised {
   void rate(const Deviation& x, Deviation& out, double t) {
     ++evaluations_;
     const Motion<double> commanded = trajectory_.at(t);
-    const Vector3d theta = part(x, 0);
+    const Vector3d theta = offset(x, 0);
     Motion<double> motion = commanded;
     for (int k = 0; k < 3; ++k) motion.Q.col(k) += turned(theta, commanded.Q.col(k));
-    motion.p += part(x, 1);
+    motion.p += offset(x, 1);
     motion.omega += part(x, 2);
     motion.p_dot += part(x, 3);
     loop_.place(motion);
     loop_.accelerate(subject_.torques(commanded) + term(x, commanded));
     const Motion<double> moved = loop_.platform();
     Eigen::Map<Eigen::Matrix<double, 12, 1>>(out.data())
-        << rotationVectorRate(theta, part(x, 2) - turned(theta, commanded.omega)),
-        part(x, 3), moved.omega_dot - commanded.omega_dot, moved.p_ddot - commanded.p_ddot;
+        << scale_ * rotationVectorRate(theta, part(x, 2) - turned(theta, commanded.omega)),
+        scale_ * part(x, 3), moved.omega_dot - commanded.omega_dot, moved.p_ddot - commanded.p_ddot;
   }
 
   /// Torques that the term adds, N·m.
   Vector6d term(const Deviation& x, const Motion<double>& commanded) {
     const double omega = frequency(commanded.t);
     Vector6d pull;
-    pull << omega * omega * part(x, 0) + 2 * omega * part(x, 2), omega * omega * part(x, 1) + 2 * omega * part(x, 3);
+    pull << omega * omega * offset(x, 0) + 2 * omega * part(x, 2),
+        omega * omega * offset(x, 1) + 2 * omega * part(x, 3);
     return -inertia(commanded) * pull;
   }
 
@@ -104,18 +114,18 @@ class Stabilised {
   }
 
  private:
+  /// δϑ or δp.
+  Vector3d offset(const Deviation& x, int k) const { return part(x, k) / scale_; }
+
   const Trajectory& trajectory_;
   const Subject& subject_;
   const Amplification& amplification_;
   SimbodyLoop loop_;
   Solver<double> solver_;
   Workspace<double> work_;
+  double scale_ = 0;  ///< the largest frequency, 1/s
   long evaluations_ = 0;
 };
-
-bool isLost(const Deviation& x) {
-  return std::any_of(x.begin(), x.begin() + 6, [](double value) { return !(std::abs(value) < lost); });
-}
 
 struct Answer {
   double torque = 0, t = 0;  ///< the largest that the term added, N·m, and when
@@ -143,7 +153,7 @@ void follow(Stabilised& loop, const Trajectory& trajectory, double tolerance, do
       ++found.steps;
       const double torque = loop.term(deviation, trajectory.at(t)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
       if (!(torque <= found.torque)) found.torque = torque, found.t = t;
-      if (isLost(deviation)) found.stopped = fmt::format("the machine was lost at t = {:.6g} s", t);
+      if (loop.isLost(deviation)) found.stopped = fmt::format("the machine was lost at t = {:.6g} s", t);
     }
     const long most = found.torque > limit ? max_evaluations_of_wrong : max_evaluations;
     if (loop.evaluations() > most && found.stopped.empty()) {
@@ -170,22 +180,23 @@ Answer answerOf(Stabilised& loop, const Trajectory& trajectory, double tolerance
 Check judgeFeedback(const Scenario& scenario, const Subject& subject, const Amplification& amplification,
                     const std::vector<PointwiseSample>& samples) {
   static constexpr const char* check = "feedback.torque";
-  Stabilised loop(scenario, subject, amplification);
+  Stabilised loop(scenario, subject, amplification, samples);
   double rounding = 0, largest = 0, gain = 0;
   for (const PointwiseSample& sample : samples) {
-    const double omega = loop.frequency(sample.motion.t);
-    rounding = std::max(rounding, sample.torque.limit);
+    const double loops = loop.inertia(sample.motion).norm() * sample.conditioning.loopRounding();
+    rounding = std::max(rounding, 2 * sample.torque.limit + loops);
     largest = std::max(largest, sample.torques_simbody.cwiseAbs().maxCoeff());
-    gain = std::max(gain, (omega * omega + 2 * omega) * loop.inertia(sample.motion).norm());
+    gain = std::max(gain, loop.gain(sample.motion));
   }
-  const double limit = (2 * answer + 1) * rounding;
-  const Answer found = answerOf(loop, *scenario.trajectory, rounding / gain, limit);
+  const double limit = (answer + 0.5) * rounding;
+  const Answer found = answerOf(loop, *scenario.trajectory, 0.5 * rounding / gain, limit);
   if (found.gave_up && found.torque <= limit)
     return notMade(check, "N m", "the stabilised replay gave up: " + found.stopped);
   const std::string basis = fmt::format(
-      "{:.3g} x the torque's largest rounding: on both roads, answered with {:.3g} of it, and as much again from a "
-      "step",
-      2 * answer + 1, answer);
+      "{:.3g} N m, twice the torque's largest rounding and the loops' as torque, answered with {:.3g} of it, and half "
+      "of "
+      "it again from a step",
+      rounding, answer);
   const std::string why = fmt::format(
       "torque that a weak stabilising term added over the whole motion, {:.3g} of the largest torque; shown for "
       "t = {:.6g} s of {} steps, {} derivative evaluations{}{}",

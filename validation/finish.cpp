@@ -100,6 +100,7 @@ void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<
        acceleration > 0 ? fmt::format("{:.3g}", acceleration_error / acceleration) : "none commanded"},
       {"largest condition number of B", nearestToSingular(samples)},
       {"smallest |sin theta|", nearestToEdge(samples)},
+      {"replay tolerance", windows.empty() ? "–" : fmt::format("{:.3g}", windows.front().replay.tolerance)},
       {"replay windows", fmt::format("{}", windows.size())},
       {"replay steps", fmt::format("{}", steps)},
       {"replay derivative evaluations", fmt::format("{}", evaluations)},

@@ -70,7 +70,8 @@ double driftLimit(const GrowthWindow& window, double tolerance, double steps, do
   return window.bound(t, per_step * steps / (window.end() - window.start()), per_step);
 }
 
-std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, double position_scale, double length) {
+std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, double position_scale, double length,
+                               double force_scale) {
   if (windows.empty()) return {notMade("replay.position", "m", "there was no replay")};
   const double per_step = errorPerStep(windows.front().replay.tolerance, position_scale);
   const auto drift = [position_scale](const WindowedReplay& window, const ReplayStep& step) {
@@ -101,10 +102,13 @@ std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, doubl
        opening, opening_basis},
       {"energy.balance", "J", "kinetic and potential energy against the work of torques, friction and load",
        [](const ReplayStep& step) { return std::abs(step.energy_error); },
-       [per_step_relative](const WindowedReplay& window, const ReplayStep&) {
-         return per_step_relative * stepCount(window) * window.replay.energy_scale;
+       [per_step_relative, force_scale](const WindowedReplay& window, const ReplayStep&) {
+         const double sensitivity = window.replay.energy_scale + force_scale * (1 + span(window));
+         return per_step_relative * stepCount(window) * sensitivity;
        },
-       fmt::format("{:.3g} a step x the energy's sensitivity to the state", per_step_relative)},
+       fmt::format("{:.3g} a step x the energy's sensitivity to the state, and the work of the {:.3g} N that hold the "
+                   "loops on gaps that open: x (1 + duration)",
+                   per_step_relative, force_scale)},
   };
   std::vector<Check> checks;
   checks.reserve(measures.size());

@@ -27,6 +27,8 @@ double driftLimit(const GrowthWindow& window, double tolerance, double steps, do
 constexpr double useful_replay_limit = 1e-6;
 
 /// `replay.position`, `replay.orientation`, `closure.position`, `closure.velocity`, `energy.balance`, over all windows.
-std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, double position_scale, double length);
+/// `force_scale`: of the forces at the spherical joints, which do work where gaps move, N.
+std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, double position_scale, double length,
+                               double force_scale);
 
 }  // namespace ursula

@@ -48,7 +48,7 @@ Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques
   Ladder ladder;
   for (double factor : {1e6, 1e4, 1e2})
     ladder.rungs.push_back(
-        makeRung(scenario, torques, finest, Integrator::rkf78, std::min(1e-4, factor * scenario.simulation.tolerance)));
+        makeRung(scenario, torques, finest, Integrator::rkf78, std::min(1e-4, factor * finest.replay.tolerance)));
   for (std::size_t k = 0; k + 1 < ladder.rungs.size(); ++k)
     ladder.observed_orders.push_back(order(ladder.rungs[k], ladder.rungs[k + 1]));
   ladder.asymptotic = std::all_of(ladder.observed_orders.begin(), ladder.observed_orders.end(),
@@ -61,7 +61,7 @@ Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques
   // Three times, as Roache's grid convergence index takes it for two grids (Verification and Validation, 1998, ch. 5).
   ladder.uncertainty = 3 * ladder.extrapolated;
   ladder.rungs.push_back(
-      makeRung(scenario, torques, finest, Integrator::rk_merson, std::min(1e-4, 1e6 * scenario.simulation.tolerance)));
+      makeRung(scenario, torques, finest, Integrator::rk_merson, std::min(1e-4, 1e6 * finest.replay.tolerance)));
   return ladder;
 }
 

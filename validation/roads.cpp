@@ -136,9 +136,10 @@ Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample
     loop.place(sample.motion);
     loop.accelerate(torques);
     const Reactions simbody = loop.reactions();
-    // Forces come back from torques over the legs' levers, once more with the condition of B.
+    // Forces come back from torques over the legs' levers, once more with the condition of B; accelerations that are
+    // off ask for forces.
     const Conditioning& at = sample.conditioning;
-    const double limit = at.torqueRounding() / at.length * at.kappa_B;
+    const double limit = at.torqueRounding() / at.length * at.kappa_B + at.largest_mass * at.accelerationRounding();
     for (std::size_t leg = 0; leg < leg_count; ++leg) {
       size = std::max(size, largest(rows.back()[leg]));
       worst.add(largestDifference(rows.back()[leg], simbody[leg]), limit, sample.motion.t, static_cast<int>(leg));
@@ -148,7 +149,7 @@ Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample
   if (!worst.any) return notMade("reactions.pointwise", "N, N m", "no instant was compared");
   return judged(
       "reactions.pointwise", worst.value, worst.limit, "N, N m",
-      "the torque's limit over the machine's length, x kappa(B)",
+      "the torque's limit over the machine's length, x kappa(B), and the acceleration's, x the largest mass",
       fmt::format("forces and moments at 18 joints against Simbody's mobilizer and constraint reactions, at {} "
                   "instants; shown for t = {:.6g} s, leg {}; the largest is {:.6g}",
                   samples.size(), worst.t, worst.where + 1, size));

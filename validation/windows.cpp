@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "validation/subject.h"
+
 namespace ursula {
 
 double SampledLimit::operator()(double t) const {
@@ -12,6 +14,39 @@ double SampledLimit::operator()(double t) const {
   const auto i = static_cast<std::size_t>(std::min(after - samples_.begin(), last));
   return std::max(samples_[i].conditioning.accelerationRounding(),
                   samples_[i == 0 ? 0 : i - 1].conditioning.accelerationRounding());
+}
+
+namespace {
+
+/// The largest change of a derivative where the state changes by its rounding, at one instant, 1/s of the state.
+double derivativeNoise(SimbodyLoop& loop, const Motion<double>& motion, const Vector6d& torques) {
+  loop.place(motion);
+  const std::vector<double> x = loop.state();
+  std::vector<double> base(x.size()), changed(x.size());
+  loop.derivative(motion.t, x.data(), torques, base.data());
+  double noise = 0;
+  for (unsigned pattern = 0; pattern < 4; ++pattern) {
+    std::vector<double> near = x;
+    for (std::size_t k = 0; k < near.size(); ++k)
+      near[k] *= 1 + ((k >> pattern) % 2 == 0 ? 1 : -1) * Eigen::NumTraits<double>::epsilon();
+    loop.derivative(motion.t, near.data(), torques, changed.data());
+    for (std::size_t k = 0; k < near.size(); ++k) noise = std::max(noise, std::abs(changed[k] - base[k]));
+  }
+  return noise;
+}
+
+}  // namespace
+
+double reachableTolerance(const Scenario& scenario, double step_rate) {
+  SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
+  const Subject right = nocSubject(*scenario.manipulator, scenario.load);  // not those on trial
+  constexpr int instants = 5;
+  double noise = 0;
+  for (int k = 0; k < instants; ++k) {
+    const Motion<double> motion = scenario.trajectory->at(scenario.trajectory->duration() * (k + 0.5) / instants);
+    noise = std::max(noise, derivativeNoise(loop, motion, right.torques(motion)));
+  }
+  return std::max(scenario.simulation.tolerance, 0.1 * noise / step_rate);
 }
 
 double plannedStepRate(double duration) { return 128 / std::min(duration, 3.0); }
@@ -26,13 +61,18 @@ double positionScale(const std::vector<PointwiseSample>& samples) {
   return scale;
 }
 
+double forceScale(const std::vector<PointwiseSample>& samples) {
+  double scale = 0;
+  for (const PointwiseSample& sample : samples) scale = std::max(scale, sample.conditioning.force_scale);
+  return scale;
+}
+
 Amplification linearised(const Scenario& scenario) {
   return Amplification(scenario, std::max(300, static_cast<int>(std::ceil(40 * scenario.trajectory->duration()))));
 }
 
-std::vector<GrowthWindow> planWindows(const Scenario& scenario, const Amplification& amplification,
-                                      const ReplayPlan& plan) {
-  const double rate = plan.step_rate * errorPerStep(scenario.simulation.tolerance, plan.position_scale);
+std::vector<GrowthWindow> planWindows(const Amplification& amplification, const ReplayPlan& plan) {
+  const double rate = plan.step_rate * errorPerStep(plan.tolerance, plan.position_scale);
   // A quarter of what is useful: the steps taken, known only afterwards, may be more than planned.
   const double planned = useful_replay_limit / 4 * amplification.length();
   std::vector<GrowthWindow> windows;
@@ -41,8 +81,8 @@ std::vector<GrowthWindow> planWindows(const Scenario& scenario, const Amplificat
   return windows;
 }
 
-double plannedBound(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window) {
-  const double per_step = errorPerStep(scenario.simulation.tolerance, plan.position_scale);
+double plannedBound(const ReplayPlan& plan, const GrowthWindow& window) {
+  const double per_step = errorPerStep(plan.tolerance, plan.position_scale);
   return window.bound(window.end(), plan.step_rate * per_step, 0);
 }
 
@@ -52,7 +92,7 @@ std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Repl
   for (const GrowthWindow& window : windows) {
     ReplaySettings settings;
     settings.integrator = scenario.simulation.integrator;
-    settings.tolerance = scenario.simulation.tolerance;
+    settings.tolerance = plan.tolerance;
     settings.start = window.start();
     settings.end = window.end();
     settings.max_evaluations = plan.max_evaluations;
@@ -63,7 +103,7 @@ std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Repl
 
 std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Amplification& amplification,
                                             const ReplayPlan& plan) {
-  return replayInWindows(scenario, plan, planWindows(scenario, amplification, plan));
+  return replayInWindows(scenario, plan, planWindows(amplification, plan));
 }
 
 std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const ReplayPlan& plan) {

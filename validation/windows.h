@@ -17,6 +17,7 @@ struct ReplayPlan {
   double position_scale = 0;                   ///< as errorPerStep has it, m
   double step_rate = 0;                        ///< steps a second that the replay will take, for planning only
   long max_evaluations = 200000;               ///< of the derivatives in one window; more is giving up
+  double tolerance = 1e-14;                    ///< of the integrator: reachableTolerance
 };
 
 /// The growth of deviations along the scenario's motion: 300 intervals, and 40 a second where that is more.
@@ -24,11 +25,10 @@ Amplification linearised(const Scenario& scenario);
 
 /// The whole motion in windows that restart on the commanded state, each as long as its limit stays useful; where none
 /// is short enough for that, one of the shortest.
-std::vector<GrowthWindow> planWindows(const Scenario& scenario, const Amplification& amplification,
-                                      const ReplayPlan& plan);
+std::vector<GrowthWindow> planWindows(const Amplification& amplification, const ReplayPlan& plan);
 
 /// The bound that planWindows held against the useful limit, at the end of `window`, m.
-double plannedBound(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window);
+double plannedBound(const ReplayPlan& plan, const GrowthWindow& window);
 
 /// A replay for each window.
 std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const ReplayPlan& plan,
@@ -38,6 +38,11 @@ std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Repl
 std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Amplification& amplification,
                                             const ReplayPlan& plan);
 std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const ReplayPlan& plan);
+
+/// The scenario's tolerance, or where the loop's derivatives are too noisy for that, what they allow: a step's error
+/// estimate by Fehlberg's pair adds their rounding with 41/840 at four stages, so that a step of the planned length is
+/// never accepted below a tenth of it. Where bodies of very different mass hold each other this is far above eps.
+double reachableTolerance(const Scenario& scenario, double step_rate);
 
 /// For smooth torques: the judgement counts the steps taken.
 double plannedStepRate(double duration);
@@ -56,6 +61,9 @@ class SampledLimit {
  private:
   const std::vector<PointwiseSample>& samples_;
 };
+
+/// The largest forces at the spherical joints over the samples, N.
+double forceScale(const std::vector<PointwiseSample>& samples);
 
 /// The largest coordinate over the samples, m.
 double positionScale(const std::vector<PointwiseSample>& samples);

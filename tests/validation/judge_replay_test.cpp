@@ -15,7 +15,7 @@ namespace {
 
 const std::vector<std::string> names = {"replay.position", "replay.orientation", "closure.position", "closure.velocity",
                                         "energy.balance"};
-constexpr double length = 1.4, position_scale = 2;
+constexpr double length = 1.4, position_scale = 2, force_scale = 0;
 
 /// Small errors over one window of 1 s in 11 steps.
 WindowedReplay made(double growth = 1) {
@@ -43,7 +43,7 @@ WindowedReplay made(double growth = 1) {
 std::vector<Check> judge(const std::function<void(WindowedReplay&)>& change) {
   WindowedReplay replay = made();
   change(replay);
-  return judgeReplay({replay}, position_scale, length);
+  return judgeReplay({replay}, position_scale, length, force_scale);
 }
 
 TEST(JudgeReplay, acceptsSmallErrors) {
@@ -86,15 +86,15 @@ TEST(JudgeReplay, judgesEveryStepByItsOwnLimit) {
 }
 
 TEST(JudgeReplay, doesNotJudgeWhereTheLimitSaysNothing) {
-  const std::vector<Check> checks = judgeReplay({made(1e12)}, position_scale, length);
+  const std::vector<Check> checks = judgeReplay({made(1e12)}, position_scale, length, force_scale);
   EXPECT_EQ(verdictOf(checks, "replay.position"), "inconclusive");
   EXPECT_EQ(verdictOf(checks, "replay.orientation"), "inconclusive");
   EXPECT_EQ(verdictOf(checks, "closure.position"), "pass");
 }
 
 TEST(JudgeReplay, failsWhereThereIsNothing) {
-  EXPECT_EQ(others(judgeReplay({}, position_scale, length), Verdict::fail), "");
-  EXPECT_FALSE(judgeReplay({}, position_scale, length).empty());
+  EXPECT_EQ(others(judgeReplay({}, position_scale, length, force_scale), Verdict::fail), "");
+  EXPECT_FALSE(judgeReplay({}, position_scale, length, force_scale).empty());
   EXPECT_EQ(others(judge([](WindowedReplay& replay) { replay.replay.steps.clear(); }), Verdict::fail), "");
 }
 

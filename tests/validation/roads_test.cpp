@@ -185,7 +185,10 @@ TEST_P(ReactionCheck, passesForTheSolver) {
 }
 
 TEST_P(ReactionCheck, holdsTheLimitThatTheSamplesGive) {
-  for (PointwiseSample& sample : samples_) sample.conditioning.torque_scale *= 1e-6;
+  for (PointwiseSample& sample : samples_) {
+    sample.conditioning.torque_scale *= 1e-6;
+    sample.conditioning.force_scale *= 1e-6;
+  }
   EXPECT_EQ(judgeReactions(scenario_, samples_, nullptr).verdict, Verdict::fail);
 }
 

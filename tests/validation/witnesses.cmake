@@ -1,6 +1,7 @@
 # The witnesses beside the replay: each shows that a wrong input fails it.
 add_executable(witness_tests
   attribution_test.cpp
+  extremes_test.cpp
   feedback_test.cpp
   invariance_test.cpp
   ladder_test.cpp

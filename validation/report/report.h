@@ -14,7 +14,7 @@ struct SuiteEntry {
   Verdict verdict = Verdict::fail;
   std::filesystem::path folder;  ///< of its results, relative to the index
   std::vector<Check> checks;
-  std::string error;   ///< why there is no result: input that was refused, an exception; else empty
+  std::string error;     ///< why there is no result: input that was refused, an exception; else empty
   double seconds = 0;    ///< wall time, for progress; never written, so that two runs write the same
   std::string dominant;  ///< which error dominates: the finding "dominant error"; may be empty
 };
