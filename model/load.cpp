@@ -55,6 +55,7 @@ struct LoadHistory::Curves {
   QuinticHermite<Real50, 6> exact;
   QuinticHermite<double, 6> rounded;
   TimedWrench first, last;
+  std::vector<double> knots;
 };
 
 namespace {
@@ -78,8 +79,14 @@ Wrench<S> wrenchAt(const QuinticHermite<S, 6>& curve, const TimedWrench& first, 
 LoadHistory::LoadHistory(const std::vector<TimedWrench>& rows) {
   validate(rows);
   const QuinticHermite<Real50, 6> curve = curveThrough(rows);
-  curves_ = std::make_unique<Curves>(Curves{curve, QuinticHermite<double, 6>(curve), rows.front(), rows.back()});
+  std::vector<double> knots;
+  knots.reserve(rows.size());
+  for (const TimedWrench& row : rows) knots.push_back(row.time);
+  curves_ = std::make_unique<Curves>(
+      Curves{curve, QuinticHermite<double, 6>(curve), rows.front(), rows.back(), std::move(knots)});
 }
+
+const std::vector<double>& LoadHistory::knots() const { return curves_->knots; }
 
 LoadHistory::~LoadHistory() = default;
 

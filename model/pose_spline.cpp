@@ -123,9 +123,12 @@ std::unique_ptr<Trajectory> makePoseSpline(const std::vector<TimedPose>& poses, 
   requireAwayFromZero(knots, refuse);
   // Solved in 50 digits and rounded once, so that both kernels are the same curve to the last bit of a double.
   const QuinticHermite<Real50, 7> curve(knots);
+  std::vector<double> times;
+  times.reserve(poses.size());
+  for (const TimedPose& pose : poses) times.push_back(pose.time);
   return std::make_unique<KernelTrajectory<PoseSplineKernel>>(
       options.kind, poses.back().time, PoseSplineKernel<double>(QuinticHermite<double, 7>(curve)),
-      PoseSplineKernel<Real50>(curve));
+      PoseSplineKernel<Real50>(curve), std::move(times));
 }
 
 }  // namespace ursula

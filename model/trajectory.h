@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "model/motion.h"
 #include "model/real50.h"
@@ -17,6 +18,12 @@ class Trajectory {
   virtual double duration() const = 0;  ///< t_f, s
   virtual Motion<double> at(double t) const = 0;
   virtual Motion<Real50> at(const Real50& t) const = 0;
+  /// Instants at which a higher derivative jumps, increasing, s: an integrator keeps its order between them, not
+  /// across.
+  virtual const std::vector<double>& knots() const {
+    static const std::vector<double> none;
+    return none;
+  }
 };
 
 /// The helix of the Appendix, (49)–(55).

@@ -36,7 +36,9 @@ class Run {
       : trajectory_(*scenario.trajectory),
         torques_(torques),
         settings_(settings),
+        stops_(knotsWithin(scenario, settings.start, settings.end)),
         loop_(*scenario.manipulator, settings.topology, scenario.load) {
+    stops_.push_back(settings.end);
     result_.integrator = settings.integrator;
     result_.tolerance = settings.tolerance;
     const ManipulatorParameters& machine = scenario.manipulator->parameters();
@@ -64,10 +66,22 @@ class Run {
     const auto stepper =
         odeint::make_controlled(settings_.tolerance, settings_.tolerance, odeint::runge_kutta_fehlberg78<OdeState>());
     // A first step of the whole motion's size: many short windows would else grow theirs from nothing, each again.
-    const double first_step = std::min(settings_.end - settings_.start, trajectory_.duration() / 128);
-    odeint::integrate_adaptive(
-        stepper, [this](const OdeState& at, OdeState& rate, double t) { derivative(at, rate, t); }, x, settings_.start,
-        settings_.end, first_step, [this](const OdeState& at, double t) { observe(at, t); });
+    double step = trajectory_.duration() / 128;
+    double start = settings_.start;
+    observe(x, start);
+    for (double stop : stops_) {
+      double longest = 0;
+      odeint::integrate_adaptive(
+          stepper, [this](const OdeState& at, OdeState& rate, double t) { derivative(at, rate, t); }, x, start, stop,
+          std::min(step, stop - start),
+          [&](const OdeState& at, double t) {
+            if (t == result_.steps.back().t) return;  // where the piece before ended
+            longest = std::max(longest, t - result_.steps.back().t);
+            observe(at, t);
+          });
+      start = stop;
+      step = longest;
+    }
   }
 
   /// Simbody integrates no work: the energy is left unjudged here.
@@ -123,6 +137,7 @@ class Run {
   const Trajectory& trajectory_;
   const SimbodyLoop::TorqueHistory& torques_;
   ReplaySettings settings_;
+  std::vector<double> stops_;  ///< the integrator's order holds from one to the next
   SimbodyLoop loop_;
   Replay result_;
   double start_energy_ = 0;
@@ -150,6 +165,21 @@ double Replay::maxPositionError() const {
 
 double Replay::maxRotationError() const {
   return maxOver(steps, [](const ReplayStep& step) { return step.rotation_error.norm(); });
+}
+
+std::vector<double> knotsWithin(const Scenario& scenario, double start, double end) {
+  std::vector<double> knots = scenario.trajectory->knots();
+  if (scenario.load && scenario.load->history) {
+    const std::vector<double>& more = scenario.load->history->knots();
+    knots.insert(knots.end(), more.begin(), more.end());
+    std::sort(knots.begin(), knots.end());
+  }
+  const double least = scenario.trajectory->duration() / 1024;
+  std::vector<double> within;
+  double before = start;
+  for (double knot : knots)
+    if (knot - before >= least && end - knot >= least) within.push_back(before = knot);
+  return within;
 }
 
 Replay replay(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const ReplaySettings& settings) {

@@ -43,6 +43,10 @@ struct ReplaySettings {
   long max_evaluations = 20000;  ///< more than this is giving up
 };
 
+/// The scenario's knots (trajectory and load) within (start, end), those left out that follow another by less than a
+/// 1024th of the motion: their jumps are then far smaller than a step's error.
+std::vector<double> knotsWithin(const Scenario& scenario, double start, double end);
+
 Replay replay(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const ReplaySettings& settings);
 
 /// Position and rotation errors of `replay` at an instant: cubic in the errors and their rates between the steps.

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
+
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
+#include "validation/replay.h"
 
 namespace ursula {
 namespace {
@@ -33,6 +37,51 @@ TEST_P(Extremes, aMillionthTooMuchFails) {
   EXPECT_EQ(result.verdict, Verdict::fail);
   EXPECT_EQ(verdictOf(result.checks, "torque.pointwise"), "fail");
   EXPECT_EQ(verdictOf(result.checks, "feedback.torque"), "fail");
+}
+
+TEST(Knots, areThoseOfWaypointsWithinAndNoneOfAHelix) {
+  const Scenario waypoints = scenarioOf("waypoints"), helix = scenarioOf("paper-helix");
+  const std::vector<double>& all = waypoints.trajectory->knots();
+  ASSERT_GT(all.size(), 3u);
+  EXPECT_EQ(knotsWithin(waypoints, 0, waypoints.trajectory->duration()),
+            std::vector<double>(all.begin() + 1, all.end() - 1));
+  EXPECT_EQ(knotsWithin(waypoints, all[1], all[3]), std::vector<double>{all[2]});
+  EXPECT_TRUE(knotsWithin(helix, 0, 3).empty());
+  EXPECT_FALSE(knotsWithin(scenarioOf("load-table"), 0, 3).empty());
+}
+
+/// The same motion that says nothing of its knots.
+class Knotless final : public Trajectory {
+ public:
+  explicit Knotless(std::shared_ptr<const Trajectory> whole) : whole_(std::move(whole)) {}
+  std::string kind() const override { return whole_->kind(); }
+  double duration() const override { return whole_->duration(); }
+  Motion<double> at(double t) const override { return whole_->at(t); }
+  Motion<Real50> at(const Real50& t) const override { return whole_->at(t); }
+
+ private:
+  std::shared_ptr<const Trajectory> whole_;
+};
+
+Replay exactReplay(const Scenario& scenario) {
+  const Subject right = solverOf(scenario);
+  ReplaySettings settings;
+  settings.end = scenario.trajectory->duration();
+  return replay(
+      scenario, [&](double t) { return right.torques(scenario.trajectory->at(t)); }, settings);
+}
+
+/// A step across a knot errs by far more than its estimate says; steps that end there do not.
+TEST(Knots, keepTheIntegratorsOrder) {
+  Scenario scenario = scenarioOf("waypoints");
+  const Replay run = exactReplay(scenario);
+  EXPECT_EQ(run.gave_up, "");
+  for (double knot : knotsWithin(scenario, 0, scenario.trajectory->duration()))
+    EXPECT_TRUE(std::any_of(run.steps.begin(), run.steps.end(), [knot](const auto& step) { return step.t == knot; }));
+  scenario.trajectory = std::make_shared<const Knotless>(scenario.trajectory);
+  const Replay across = exactReplay(scenario);
+  EXPECT_GT(run.maxPositionError(), 0);
+  EXPECT_GT(across.maxPositionError(), 10 * run.maxPositionError());
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenarios, Extremes,
