@@ -22,6 +22,8 @@ constexpr double answer = stiffness * stiffness / (stiffness * stiffness - 1);
 /// Largest step times ω_f: the fastest pole, −ω_f − λ, then stays well within the stability of Dormand and Prince's
 /// pair.
 constexpr double largest_step = 1.5;
+/// Smallest step that is tried once more with a quarter of it, over the motion's duration.
+constexpr double shortest_step = 1e-12;
 /// A deviation, m or rad, that is no use to follow: the torques are wrong, and by how much is known.
 constexpr double lost = 0.1;
 /// Above this share of the largest torque a limit says nothing worth knowing.
@@ -143,12 +145,24 @@ void follow(Stabilised& loop, const Trajectory& trajectory, double tolerance, do
   const auto rate = [&loop](const Deviation& x, Deviation& out, double at) { loop.rate(x, out, at); };
   Deviation deviation{};
   const double end = trajectory.duration();
+  // A stiff right-hand side can throw a stage of too long a step out of the machine's reach: a rejected step like any
+  // other, unless no shorter one helps.
+  const auto accepted = [&](double& at, double& h) {
+    const double tried = h;
+    try {
+      return stepper.try_step(rate, deviation, at, h) == odeint::success;
+    } catch (const std::exception&) {
+      if (!(tried > shortest_step * end)) throw;
+      h = tried / 4;
+      return false;
+    }
+  };
   double t = 0, step = end;
   while (t < end && found.stopped.empty()) {
     const double left = end - t;
     step = std::min({step, largest_step / loop.frequency(t), left});
     const bool last = step == left;
-    if (stepper.try_step(rate, deviation, t, step) == odeint::success) {
+    if (accepted(t, step)) {
       if (last) t = end;
       ++found.steps;
       const double torque = loop.term(deviation, trajectory.at(t)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();

@@ -85,6 +85,15 @@ TEST(FeedbackWitness, torquesThatLoseTheMachineFail) {
   EXPECT_THAT(check.why, testing::HasSubstr("t = "));
 }
 
+TEST(FeedbackWitness, aStageOutOfTheMachinesReachIsARejectedStep) {
+  const Check check = Witness("paper-helix").judge([](const Motion<double>&, const Vector6d& torques) {
+    return Vector6d(-1e6 * torques);
+  });
+  EXPECT_EQ(check.verdict, Verdict::fail);
+  EXPECT_TRUE(std::isfinite(check.value)) << check.why;
+  EXPECT_THAT(check.why, testing::HasSubstr("the machine was lost at t = "));
+}
+
 TEST(FeedbackWitness, torquesThatAreNoNumbersFail) {
   const Check check = Witness("paper-helix").judge([](const Motion<double>&, const Vector6d&) {
     return Vector6d(Vector6d::Constant(std::numeric_limits<double>::quiet_NaN()));
