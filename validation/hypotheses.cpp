@@ -23,6 +23,12 @@ double dot(const Rows& a, const Rows& b) {
   return sum;
 }
 
+/// 1 + c, with digits to spare where c is small.
+std::string factorText(double c) {
+  if (std::abs(c) < 5e-4) return fmt::format("1 {} {:.4g}", c < 0 ? '-' : '+', std::abs(c));
+  return fmt::format("{:.6g}", 1 + c);
+}
+
 double norm(const Rows& rows) { return std::sqrt(dot(rows, rows)); }
 
 Rows minus(const Rows& a, const Rows& b, double factor) {
@@ -102,7 +108,7 @@ std::optional<Hypothesis> scaledTerm(const TorqueResidual& data, const TorqueTer
   const double c = term.fixed ? *term.fixed : dot(data.residual, term.torques) / (size * size);
   const double factor = 1 + c, unexplained = norm(minus(data.residual, term.torques, c)) / data.norm();
   if (term.fixed) return Hypothesis{term.name, unexplained, 0};
-  std::string text = fmt::format("{} scaled by {:.6g}", term.name, factor);
+  std::string text = fmt::format("{} scaled by {}", term.name, factorText(c));
   if (std::abs(factor) < 1e-3) text = term.name + " left out";
   if (std::abs(factor + 1) < 1e-3) text = term.name + " with the wrong sign";
   return Hypothesis{text, unexplained, 1};
@@ -111,7 +117,7 @@ std::optional<Hypothesis> scaledTerm(const TorqueResidual& data, const TorqueTer
 std::optional<Hypothesis> scaled(const TorqueResidual& data) {
   const double c = dot(data.residual, data.exact) / std::max(dot(data.exact, data.exact), 1e-300);
   const std::string unit = unitOf(1 + c);
-  return Hypothesis{fmt::format("every torque scaled by {:.9g}{}", 1 + c, unit.empty() ? "" : " (" + unit + ")"),
+  return Hypothesis{fmt::format("every torque scaled by {}{}", factorText(c), unit.empty() ? "" : " (" + unit + ")"),
                     norm(minus(data.residual, data.exact, c)) / data.norm(), 1};
 }
 
@@ -144,7 +150,7 @@ std::optional<Hypothesis> gains(const TorqueResidual& data) {
   Rows predicted;
   for (const Vector6d& row : data.exact) predicted.push_back(c.cwiseProduct(row));
   return perLeg(
-      data, c, predicted, [](double value) { return fmt::format("a factor of {:.9g}", 1 + value); }, "");
+      data, c, predicted, [](double value) { return "a factor of " + factorText(value); }, "");
 }
 
 /// Torques of another time, τ(t + dt), where that is within the motion.

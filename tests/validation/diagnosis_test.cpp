@@ -114,7 +114,9 @@ TEST(Diagnosis, namesOffsetsScalesAndUnits) {
   EXPECT_THAT(diagnosed(exact().changed([](std::size_t, Vector6d& tau) { tau(3) *= 1.02; })).cause,
               StartsWith("a factor of 1.02 on leg 4"));
   EXPECT_THAT(diagnosed(exact().changed([](std::size_t, Vector6d& tau) { tau *= 1 + 1e-8; })).cause,
-              StartsWith("every torque scaled by 1.00000001"));
+              StartsWith("every torque scaled by 1 + 1e-08"));
+  EXPECT_THAT(diagnosed(exact().changed([](std::size_t, Vector6d& tau) { tau(2) *= 1 - 1e-10; })).cause,
+              StartsWith("a factor of 1 - 1e-10 on leg 3, which"));
 }
 
 TEST(Diagnosis, namesATimeShift) {
