@@ -41,8 +41,9 @@ class Amplification {
 
   const std::vector<double>& instants() const { return instants_; }
   double length() const { return length_; }
-  /// How fast deviations grow about t: the largest real part of an eigenvalue of the linearised motion, the larger of
-  /// the two instants beside t that were looked at, at least 0. 1/s.
+  /// How fast deviations grow about t, or would without friction: the largest real part of an eigenvalue λ of the
+  /// linearised motion, or of its part λ² = ∂p̈/∂p, the larger of the two instants beside t that were looked at, at
+  /// least 0. 1/s.
   double growthRate(double t) const;
 
  private:

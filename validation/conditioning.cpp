@@ -60,6 +60,14 @@ Projection project(const Manipulator& manipulator, const TwistShaping<double>& T
   return out;
 }
 
+/// ‖1/m + [d]ᵀ I⁻¹ [d]‖ of a free link at its far end, [d] the cross product with the vector from its mass centre.
+double complianceAtEnd(const Link& link) {
+  const double d = link.length - link.center_of_mass;
+  Matrix3d cross;
+  cross << 0, -d, 0, d, 0, 0, 0, 0, 0;  // along z of its frame (40)
+  return (Matrix3d::Identity() / link.mass + cross.transpose() * link.inertia.inverse() * cross).norm();
+}
+
 /// What the platform and the forces that hold it are without its legs.
 void setPlatform(const Solver<double>& solver, const Manipulator& manipulator, const Motion<double>& motion,
                  const Vector6d& torques, Workspace<double>& work, Conditioning& out) {
@@ -71,6 +79,7 @@ void setPlatform(const Solver<double>& solver, const Manipulator& manipulator, c
   for (const Leg& leg : manipulator.parameters().legs) {
     arm = std::max(arm, (leg.platform_point - platform.center_of_mass).norm());
     out.largest_mass = std::max({out.largest_mass, leg.proximal.mass, leg.distal.mass});
+    out.leg_compliance = std::max(out.leg_compliance, complianceAtEnd(leg.distal));
   }
   out.compliance = 1 / platform.mass + arm * arm / smallest_moment;
   double squares = 0;
@@ -96,6 +105,8 @@ void setLegs(const Workspace<double>& work, Conditioning& out) {
 double Conditioning::torqueRounding() const { return rounding_depth * eps * kappa_B * kappa_legs * torque_scale; }
 
 double Conditioning::loopRounding() const { return rounding_depth * eps * compliance * force_scale; }
+
+double Conditioning::gapRounding() const { return rounding_depth * eps * (compliance + leg_compliance) * force_scale; }
 
 double Conditioning::accelerationRounding() const { return response * torqueRounding() + loopRounding(); }
 

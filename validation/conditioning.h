@@ -19,6 +19,7 @@ struct Conditioning {
   double torque_scale = 0;    ///< ‖|T|ᵀ|w|‖: size of what cancels in (37), N·m
   double response = 0;        ///< ‖S T_P I⁻¹‖: platform acceleration for a torque, (m/s²)/(N·m)
   double compliance = 0;      ///< of the platform alone: its acceleration for a force at a spherical joint, 1/kg
+  double leg_compliance = 0;  ///< largest of a distal link alone at its spherical joint, 1/kg
   double force_scale = 0;     ///< root of the sum of squares of the forces at the spherical joints, N
   double largest_mass = 0;    ///< of a body, kg
   double length = 0;          ///< a length of the machine, m
@@ -31,6 +32,8 @@ struct Conditioning {
   /// Rounding of the platform's acceleration by the forces that close the loops, which an engine with free bodies adds
   /// up: they cancel the more, the lighter the platform is against its legs. m/s².
   double loopRounding() const;
+  /// Rounding of the accelerations at which the loops' gaps open, by the same forces on both sides. m/s².
+  double gapRounding() const;
   /// Rounding of the platform's acceleration under given torques, m/s².
   double accelerationRounding() const;
 };

@@ -23,7 +23,7 @@ class SplineLimit {
     for (double t : grid_) {
       conditioning_.push_back(probe.at(scenario.trajectory->at(t)));
       position_scale_ = std::max(position_scale_, conditioning_.back().position_scale);
-      force_scale_ = std::max(force_scale_, conditioning_.back().force_scale);
+      forces_.include(conditioning_.back());
     }
     const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
     interpolation_ = interpolationErrors(t_, [&](double t) { return noc.torques(scenario.trajectory->at(t)); });
@@ -46,7 +46,7 @@ class SplineLimit {
   }
 
   double positionScale() const { return position_scale_; }
-  double forceScale() const { return force_scale_; }
+  const LoopForces& forces() const { return forces_; }
   double length() const { return conditioning_.front().length; }
   double largestInterpolation() const { return *std::max_element(interpolation_.begin(), interpolation_.end()); }
   double largestOfDigits() const { return *std::max_element(digits_.begin(), digits_.end()); }
@@ -67,7 +67,8 @@ class SplineLimit {
   std::vector<double> t_, grid_;
   std::vector<Conditioning> conditioning_;
   std::vector<double> interpolation_, digits_;  ///< N·m, one for each interval of t_
-  double position_scale_ = 0, force_scale_ = 0;
+  double position_scale_ = 0;
+  LoopForces forces_;
 };
 
 std::vector<Check> notReplayed(double value, double limit, const std::string& basis, const std::string& why) {
@@ -158,7 +159,7 @@ ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& t
   out.torques = plan.torques;
   out.position_scale = plan.position_scale;
   out.windows = replayInWindows(scenario, plan, windows);
-  out.checks = judgeReplay(out.windows, limit->positionScale(), limit->length(), limit->forceScale());
+  out.checks = judgeReplay(out.windows, limit->positionScale(), limit->length(), limit->forces());
   for (Check& check : out.checks) check.basis += "; " + basis;
   out.findings = {{"spline", basis}};
   return out;

@@ -37,17 +37,20 @@ std::size_t stepsOf(const std::vector<WindowedReplay>& windows) {
 }
 
 Check judgeMeasure(const std::vector<WindowedReplay>& windows, const Measure& measure) {
-  for (const WindowedReplay& window : windows)
-    if (!window.replay.gave_up.empty())
-      return notMade(
-          measure.name, measure.unit,
-          fmt::format("the replay from t = {:.6g} s gave up: {}", window.window.start(), window.replay.gave_up));
+  std::string unfinished;
+  for (const WindowedReplay& window : windows) {
+    if (window.replay.gave_up.empty()) continue;
+    unfinished = fmt::format("the replay from t = {:.6g} s gave up: {}", window.window.start(), window.replay.gave_up);
+    if (!window.replay.too_long) return notMade(measure.name, measure.unit, unfinished);
+  }
   const Worst shown = worstOf(windows, measure);
   if (!shown.any) return notMade(measure.name, measure.unit, "no step was compared");
   const std::string where =
       windows.size() == 1 ? "open loop over the whole motion" : fmt::format("open loop in {} windows", windows.size());
-  const std::string why =
-      fmt::format("{}, {}, at {} steps; shown for t = {:.6g} s", measure.what, where, stepsOf(windows), shown.t);
+  const std::string why = fmt::format("{}, {}, at {} steps; shown for t = {:.6g} s{}{}", measure.what, where,
+                                      stepsOf(windows), shown.t, unfinished.empty() ? "" : "; ", unfinished);
+  if (!unfinished.empty() && shown.value <= shown.limit)
+    return notJudgeable(measure.name, shown.value, shown.limit, measure.unit, measure.basis, why);
   if (measure.useful > 0 && !(shown.limit <= measure.useful))
     return notJudgeable(
         measure.name, shown.value, shown.limit, measure.unit, measure.basis,
@@ -61,6 +64,11 @@ double span(const WindowedReplay& window) { return window.window.end() - window.
 
 }  // namespace
 
+void LoopForces::include(const Conditioning& instant) {
+  size = std::max(size, instant.force_scale);
+  rounding = std::max(rounding, instant.gapRounding());
+}
+
 double errorPerStep(double tolerance, double position_scale) {
   return std::sqrt(24.0) * (tolerance + eps) * (1 + position_scale);
 }
@@ -71,7 +79,7 @@ double driftLimit(const GrowthWindow& window, double tolerance, double steps, do
 }
 
 std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, double position_scale, double length,
-                               double force_scale) {
+                               const LoopForces& forces) {
   if (windows.empty()) return {notMade("replay.position", "m", "there was no replay")};
   const double per_step = errorPerStep(windows.front().replay.tolerance, position_scale);
   const auto drift = [position_scale](const WindowedReplay& window, const ReplayStep& step) {
@@ -82,11 +90,16 @@ std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, doubl
       "to "
       "t by the variational equations, all aligned for the worst",
       per_step, windows.front().replay.tolerance);
-  const auto opening = [per_step](const WindowedReplay& window, const ReplayStep&) {
-    return per_step * stepCount(window) * (1 + span(window));
+  const auto opening = [per_step, forces](const WindowedReplay& window, const ReplayStep&) {
+    return per_step * stepCount(window) * (1 + span(window)) + forces.rounding * span(window) * span(window) / 2;
   };
-  const std::string opening_basis =
-      fmt::format("{:.3g} a step over all steps, x (1 + duration): loop errors are carried, not amplified", per_step);
+  const auto rate = [per_step, forces](const WindowedReplay& window, const ReplayStep&) {
+    return per_step * stepCount(window) * (1 + span(window)) + forces.rounding * span(window);
+  };
+  const std::string opening_basis = fmt::format(
+      "{:.3g} a step over all steps, x (1 + duration): loop errors are carried, not amplified; and {:.3g} m/s^2, the "
+      "rounding of the forces that close the loops",
+      per_step, forces.rounding);
   const double per_step_relative = per_step / (1 + position_scale);
   const std::vector<Measure> measures = {
       {"replay.position", "m", "P against the commanded path",
@@ -99,16 +112,16 @@ std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, doubl
       {"closure.position", "m", "the six loops' gaps", [](const ReplayStep& step) { return step.closure.position; },
        opening, opening_basis},
       {"closure.velocity", "m/s", "the rates of the gaps", [](const ReplayStep& step) { return step.closure.velocity; },
-       opening, opening_basis},
+       rate, opening_basis},
       {"energy.balance", "J", "kinetic and potential energy against the work of torques, friction and load",
        [](const ReplayStep& step) { return std::abs(step.energy_error); },
-       [per_step_relative, force_scale](const WindowedReplay& window, const ReplayStep&) {
-         const double sensitivity = window.replay.energy_scale + force_scale * (1 + span(window));
-         return per_step_relative * stepCount(window) * sensitivity;
+       [opening, per_step_relative, forces](const WindowedReplay& window, const ReplayStep& step) {
+         return per_step_relative * stepCount(window) * window.replay.energy_scale +
+                forces.size * opening(window, step);
        },
        fmt::format("{:.3g} a step x the energy's sensitivity to the state, and the work of the {:.3g} N that hold the "
-                   "loops on gaps that open: x (1 + duration)",
-                   per_step_relative, force_scale)},
+                   "loops on gaps as wide as closure.position allows",
+                   per_step_relative, forces.size)},
   };
   std::vector<Check> checks;
   checks.reserve(measures.size());

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "validation/amplification.h"
+#include "validation/conditioning.h"
 #include "validation/pointwise.h"
 #include "validation/replay.h"
 #include "validation/result.h"
@@ -26,9 +27,16 @@ double driftLimit(const GrowthWindow& window, double tolerance, double steps, do
 /// Above this many metres (times the machine's length over 1 m) a limit on the replay says nothing worth knowing.
 constexpr double useful_replay_limit = 1e-6;
 
+/// Of the forces at the spherical joints, the largest along the motion.
+struct LoopForces {
+  double size = 0;      ///< they do work where gaps move, N
+  double rounding = 0;  ///< Conditioning::gapRounding, m/s²
+
+  void include(const Conditioning& instant);
+};
+
 /// `replay.position`, `replay.orientation`, `closure.position`, `closure.velocity`, `energy.balance`, over all windows.
-/// `force_scale`: of the forces at the spherical joints, which do work where gaps move, N.
 std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, double position_scale, double length,
-                               double force_scale);
+                               const LoopForces& forces);
 
 }  // namespace ursula

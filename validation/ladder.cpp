@@ -25,6 +25,7 @@ Rung makeRung(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torque
   rung.evaluations = run.evaluations;
   rung.steps = run.accepted;
   rung.gave_up = run.gave_up;
+  rung.too_long = run.too_long;
   rung.left_path = run.left_path;
   rung.distance = run.steps.empty() || finest.replay.steps.empty()
                       ? std::nan("")
@@ -35,6 +36,12 @@ Rung makeRung(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torque
 double order(const Rung& coarse, const Rung& fine) {
   return std::log(coarse.distance / fine.distance) /
          std::log(static_cast<double>(fine.steps) / static_cast<double>(coarse.steps));
+}
+
+/// Inconclusive where that proves nothing, else a failure.
+Check notClimbed(bool proves_nothing, const std::string& why) {
+  static constexpr const char* check = "integration.ladder";
+  return proves_nothing ? notJudgeable(check, std::nan(""), std::nan(""), "m", "", why) : notMade(check, "m", why);
 }
 
 double driftBound(const WindowedReplay& finest, const Rung& rung, double position_scale) {
@@ -68,16 +75,15 @@ Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques
 std::vector<Check> judgeLadder(const Ladder& ladder, const WindowedReplay& finest, double position_scale) {
   if (ladder.rungs.size() < 2) return {notMade("integration.ladder", "m", "no ladder was climbed")};
   if (!finest.replay.gave_up.empty())
-    return {notMade("integration.ladder", "m", "the judged replay gave up: " + finest.replay.gave_up)};
+    return {notClimbed(finest.replay.too_long, "the judged replay gave up: " + finest.replay.gave_up)};
   if (finest.replay.left_path) return {notMade("integration.ladder", "m", "the judged replay left the path")};
   for (const Rung& rung : ladder.rungs)
     if (rung.left_path)
-      return {notJudgeable("integration.ladder", std::nan(""), std::nan(""), "m", "",
-                           fmt::format("{} at {:g} left the path", name(rung.integrator), rung.tolerance))};
+      return {notClimbed(true, fmt::format("{} at {:g} left the path", name(rung.integrator), rung.tolerance))};
   for (const Rung& rung : ladder.rungs)
     if (!rung.gave_up.empty())
-      return {notMade("integration.ladder", "m",
-                      fmt::format("{} at {:g} gave up: {}", name(rung.integrator), rung.tolerance, rung.gave_up))};
+      return {notClimbed(rung.too_long,
+                         fmt::format("{} at {:g} gave up: {}", name(rung.integrator), rung.tolerance, rung.gave_up))};
   const Rung& coarse = ladder.rungs[ladder.rungs.size() - 2];
   const Rung& second = ladder.rungs.back();
   std::string orders;

@@ -16,6 +16,7 @@ struct Rung {
   long evaluations = 0, steps = 0;
   double distance = 0;  ///< of its end from the end of the finest replay, m
   std::string gave_up;
+  bool too_long = false;   ///< as Replay has it
   bool left_path = false;  ///< the replay ended early, so that its end says nothing
 };
 

@@ -18,6 +18,10 @@ struct GaveUp : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+struct TooLong : GaveUp {
+  using GaveUp::GaveUp;
+};
+
 struct LeftPath {};
 
 /// The rotation vector of R, exact to rounding also where it is small.
@@ -96,13 +100,16 @@ class Run {
     if (counters.gave_up) result_.gave_up = "Simbody's integrator could not keep its accuracy";
   }
 
-  void giveUp(const std::string& why) { result_.gave_up = why; }
+  void giveUp(const std::string& why, bool too_long) {
+    result_.gave_up = why;
+    result_.too_long = too_long;
+  }
   void leavePath() { result_.left_path = true; }
 
  private:
   void derivative(const OdeState& x, OdeState& rate, double t) {
     if (++result_.evaluations > settings_.max_evaluations)
-      throw GaveUp(fmt::format("more than {} derivative evaluations at t = {} s", settings_.max_evaluations, t));
+      throw TooLong(fmt::format("more than {} derivative evaluations at t = {} s", settings_.max_evaluations, t));
     loop_.derivative(t, x.data(), torques_(t), rate.data());
     const SimbodyLoop::Power power = loop_.power();
     rate.back() = (power.actuators + power.friction + power.load) / weight_;
@@ -116,9 +123,9 @@ class Run {
     const double work = x.back() * weight_;
     const SimbodyLoop::Energy energy = loop_.energy();
     result_.steps.back().energy_error = energy.kinetic + energy.potential - start_energy_ - work;
-    const double speed = Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size() - 1)).norm();
+    const double state = Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size() - 1)).norm();
     if (result_.steps.back().position_error.norm() > size_) throw LeftPath{};
-    result_.energy_scale = std::max(result_.energy_scale, weight_ * (1 + speed) + 2 * energy.kinetic + std::abs(work));
+    result_.energy_scale = std::max(result_.energy_scale, weight_ * (1 + state) + 2 * energy.kinetic + std::abs(work));
   }
 
   void record(double t) {
@@ -191,8 +198,10 @@ Replay replay(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torque
       run.integrateRungeKuttaMerson();
   } catch (const LeftPath&) {
     run.leavePath();
+  } catch (const TooLong& error) {
+    run.giveUp(error.what(), true);
   } catch (const std::exception& error) {
-    run.giveUp(error.what());  // what was reached is still reported
+    run.giveUp(error.what(), false);  // what was reached is still reported
   }
   return run.result();
 }

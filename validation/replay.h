@@ -28,6 +28,7 @@ struct Replay {
   long accepted = 0;              ///< steps of the integrator
   double energy_scale = 0;        ///< ‖∂E/∂x‖ and |work|, what an error of one in the state is to the energy, J
   std::string gave_up;            ///< why, where it could not go on; else empty
+  bool too_long = false;          ///< gave up after too many evaluations: what is missing proves nothing
   bool left_path = false;         ///< stopped where P was off by more than the platform's size: no use to go on
 
   double maxPositionError() const;  ///< m

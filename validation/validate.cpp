@@ -47,7 +47,7 @@ Motions judgeMotions(const Scenario& scenario, const Subject& subject, const std
   plan.tolerance = reachableTolerance(scenario, plan.step_rate);
   plan.max_evaluations = enoughEvaluations(plan.step_rate, scenario.trajectory->duration());
   motions.windows = replayInWindows(scenario, amplification, plan);
-  append(checks, judgeReplay(motions.windows, position_scale, amplification.length(), forceScale(samples)));
+  append(checks, judgeReplay(motions.windows, position_scale, amplification.length(), loopForces(samples)));
   if (options.ladder) {
     motions.ladder = climb(scenario, torques, motions.windows.front());
     append(checks, judgeLadder(motions.ladder, motions.windows.front(), position_scale));
@@ -77,7 +77,7 @@ ValidationResult validate(const Scenario& scenario, const Subject& subject, cons
     motions = judgeMotions(scenario, subject, samples, options, result.checks);
     result.findings.emplace_back("odd one out of four roads", oddOneOut(roads));
   } else {
-    append(result.checks, judgeReplay({}, 0, 0, 0));
+    append(result.checks, judgeReplay({}, 0, 0, {}));
   }
   applyAcceptance(scenario.acceptance, result.checks);
   result.verdict = overall(result.checks);

@@ -61,10 +61,10 @@ double positionScale(const std::vector<PointwiseSample>& samples) {
   return scale;
 }
 
-double forceScale(const std::vector<PointwiseSample>& samples) {
-  double scale = 0;
-  for (const PointwiseSample& sample : samples) scale = std::max(scale, sample.conditioning.force_scale);
-  return scale;
+LoopForces loopForces(const std::vector<PointwiseSample>& samples) {
+  LoopForces forces;
+  for (const PointwiseSample& sample : samples) forces.include(sample.conditioning);
+  return forces;
 }
 
 Amplification linearised(const Scenario& scenario) {

@@ -62,8 +62,8 @@ class SampledLimit {
   const std::vector<PointwiseSample>& samples_;
 };
 
-/// The largest forces at the spherical joints over the samples, N.
-double forceScale(const std::vector<PointwiseSample>& samples);
+/// Over the samples.
+LoopForces loopForces(const std::vector<PointwiseSample>& samples);
 
 /// The largest coordinate over the samples, m.
 double positionScale(const std::vector<PointwiseSample>& samples);

@@ -7,8 +7,10 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "tests/support/vectors.h"
+#include "tests/validation/scenario_files.h"
 #include "validation/validate.h"
 #include "validation/windows.h"
 
@@ -99,6 +101,25 @@ TEST(FeedbackWitness, torquesThatAreNoNumbersFail) {
     return Vector6d(Vector6d::Constant(std::numeric_limits<double>::quiet_NaN()));
   });
   EXPECT_EQ(check.verdict, Verdict::fail);
+}
+
+/// Friction slows a fall but holds nothing: a term that is to hold the machine must be as stiff with it as without.
+TEST(FeedbackWitness, isAsStiffWithFrictionAsWithout) {
+  Scenario scenario = scenarioOf("hold");
+  const Amplification free(scenario, 10);
+  ManipulatorParameters machine = scenario.manipulator->parameters();
+  for (Leg& leg : machine.legs) leg.friction.actuated = 3000;
+  scenario.manipulator = std::make_shared<const Manipulator>(machine);
+  const Amplification slowed(scenario, 10);
+  const auto growth = [](const Amplification& of) {
+    return of
+        .window(
+            0, [](double) { return 0.0; }, 0, std::numeric_limits<double>::max())
+        .growth.back();
+  };
+  EXPECT_LT(growth(slowed), 0.1 * growth(free)) << "friction changes nothing here";
+  EXPECT_GT(free.growthRate(1), 1);
+  EXPECT_NEAR(slowed.growthRate(1) / free.growthRate(1), 1, 1e-6);
 }
 
 }  // namespace

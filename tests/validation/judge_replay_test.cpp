@@ -15,7 +15,8 @@ namespace {
 
 const std::vector<std::string> names = {"replay.position", "replay.orientation", "closure.position", "closure.velocity",
                                         "energy.balance"};
-constexpr double length = 1.4, position_scale = 2, force_scale = 0;
+constexpr double length = 1.4, position_scale = 2;
+constexpr LoopForces forces;
 
 /// Small errors over one window of 1 s in 11 steps.
 WindowedReplay made(double growth = 1) {
@@ -43,7 +44,7 @@ WindowedReplay made(double growth = 1) {
 std::vector<Check> judge(const std::function<void(WindowedReplay&)>& change) {
   WindowedReplay replay = made();
   change(replay);
-  return judgeReplay({replay}, position_scale, length, force_scale);
+  return judgeReplay({replay}, position_scale, length, forces);
 }
 
 TEST(JudgeReplay, acceptsSmallErrors) {
@@ -85,16 +86,33 @@ TEST(JudgeReplay, judgesEveryStepByItsOwnLimit) {
   EXPECT_EQ(spoilt(1), "fail");
 }
 
+/// Gaps as large as they may be, and the work on them of the forces that hold the loops, on a machine of any size.
+TEST(JudgeReplay, allowsTheWorkOfForcesOnTheGapsItAllows) {
+  for (const auto& [size, rounding] : {std::pair(0.01, 0.0), std::pair(2.0, 1e-10), std::pair(20.0, 0.0)}) {
+    WindowedReplay replay = made();
+    replay.replay.energy_scale = 0;
+    for (ReplayStep& step : replay.replay.steps) step.energy_error = 0;
+    const auto with = [&, size = size, rounding = rounding](double force, double energy) {
+      replay.replay.steps[10].energy_error = energy;
+      return judgeReplay({replay}, size, length, {force, rounding});
+    };
+    const double gap = findCheck(with(1e5, 0), "closure.position")->limit;
+    EXPECT_EQ(verdictOf(with(1e5, 0.99 * 1e5 * gap), "energy.balance"), "pass") << size;
+    EXPECT_EQ(verdictOf(with(1e5, 1.01 * 1e5 * gap), "energy.balance"), "fail") << size;
+    EXPECT_EQ(verdictOf(with(1e4, 0.99 * 1e5 * gap), "energy.balance"), "fail") << size;
+  }
+}
+
 TEST(JudgeReplay, doesNotJudgeWhereTheLimitSaysNothing) {
-  const std::vector<Check> checks = judgeReplay({made(1e12)}, position_scale, length, force_scale);
+  const std::vector<Check> checks = judgeReplay({made(1e12)}, position_scale, length, forces);
   EXPECT_EQ(verdictOf(checks, "replay.position"), "inconclusive");
   EXPECT_EQ(verdictOf(checks, "replay.orientation"), "inconclusive");
   EXPECT_EQ(verdictOf(checks, "closure.position"), "pass");
 }
 
 TEST(JudgeReplay, failsWhereThereIsNothing) {
-  EXPECT_EQ(others(judgeReplay({}, position_scale, length, force_scale), Verdict::fail), "");
-  EXPECT_FALSE(judgeReplay({}, position_scale, length, force_scale).empty());
+  EXPECT_EQ(others(judgeReplay({}, position_scale, length, forces), Verdict::fail), "");
+  EXPECT_FALSE(judgeReplay({}, position_scale, length, forces).empty());
   EXPECT_EQ(others(judge([](WindowedReplay& replay) { replay.replay.steps.clear(); }), Verdict::fail), "");
 }
 
@@ -102,6 +120,24 @@ TEST(JudgeReplay, failsWithTheReasonWhereTheIntegratorGaveUp) {
   const std::vector<Check> checks = judge([](WindowedReplay& replay) { replay.replay.gave_up = "the step vanished"; });
   EXPECT_EQ(others(checks, Verdict::fail), "");
   for (const Check& check : checks) EXPECT_NE(check.why.find("the step vanished"), std::string::npos) << check.why;
+}
+
+/// Too many evaluations prove nothing, but what was reached may already be wrong.
+TEST(JudgeReplay, leavesOpenWhatTookTooLongUnlessItIsWrongAlready) {
+  const auto hasty = [](double error) {
+    return judge([error](WindowedReplay& window) {
+      window.replay.steps.pop_back();
+      window.replay.steps[4].position_error.x() = error;
+      window.replay.gave_up = "more than 30 derivative evaluations";
+      window.replay.too_long = true;
+    });
+  };
+  EXPECT_EQ(others(hasty(0), Verdict::inconclusive), "");
+  EXPECT_NE(hasty(0).front().why.find("more than 30"), std::string::npos) << hasty(0).front().why;
+  for (double wrong : {1e-5, std::nan("")}) {
+    EXPECT_EQ(verdictOf(hasty(wrong), "replay.position"), "fail");
+    EXPECT_EQ(verdictOf(hasty(wrong), "closure.position"), "inconclusive");
+  }
 }
 
 }  // namespace

@@ -182,6 +182,14 @@ TEST(JudgeLadder, isInconclusiveWhereARungLeftThePath) {
   EXPECT_EQ(overall(checks), Verdict::inconclusive);
 }
 
+TEST(JudgeLadder, isInconclusiveWhereARungOrTheJudgedReplayTookTooLong) {
+  const auto hasty = [](auto& it) { it.gave_up = "more than 30 derivative evaluations", it.too_long = true; };
+  for (std::size_t rung = 0; rung < 4; ++rung) EXPECT_EQ(overall(judge(rung, hasty)), Verdict::inconclusive) << rung;
+  WindowedReplay judged = madeReplay();
+  hasty(judged.replay);
+  EXPECT_EQ(overall(judgeLadder(madeLadder(), judged, position_scale)), Verdict::inconclusive);
+}
+
 /// One hundredth too much throws the platform off its path by more than its size.
 TEST(PaperHelixLadder, saysNothingOfTorquesThatLoseTheMachine) {
   const Climb climb([](double) { return 1.01; });

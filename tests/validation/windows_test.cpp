@@ -41,7 +41,7 @@ class LongMotion : public testing::Test {
   /// What planWindows holds a bound against, m.
   double useful() const { return useful_replay_limit / 4 * amplification_.length(); }
   std::vector<Check> judge(const std::vector<WindowedReplay>& replays) const {
-    return judgeReplay(replays, positionScale(samples_), amplification_.length(), forceScale(samples_));
+    return judgeReplay(replays, positionScale(samples_), amplification_.length(), loopForces(samples_));
   }
 
   Scenario scenario_ = scenarioOf("helix-10s");
