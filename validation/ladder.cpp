@@ -18,6 +18,7 @@ Rung makeRung(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torque
   settings.start = finest.window.start();
   settings.end = finest.window.end();
   settings.instants = 2;
+  settings.max_evaluations = std::max(settings.max_evaluations, 4 * finest.replay.evaluations);
   const Replay run = replay(scenario, torques, settings);
   Rung rung;
   rung.integrator = integrator;

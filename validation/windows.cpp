@@ -101,9 +101,32 @@ std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Repl
   return replays;
 }
 
+namespace {
+
+/// The largest number of steps a second in windows that came out too long to be judged and may be shorter; 0 where
+/// there is none.
+double stepRateOfTooLong(const std::vector<WindowedReplay>& replays, const ReplayPlan& plan, double length) {
+  double rate = 0;
+  for (const WindowedReplay& each : replays) {
+    const GrowthWindow& window = each.window;
+    const auto steps = static_cast<double>(each.replay.steps.size());
+    const double limit = driftLimit(window, plan.tolerance, steps, plan.position_scale, window.end());
+    if (window.t.size() > 2 && each.replay.gave_up.empty() && !(limit <= useful_replay_limit * length))
+      rate = std::max(rate, steps / (window.end() - window.start()));
+  }
+  return rate;
+}
+
+}  // namespace
+
 std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Amplification& amplification,
                                             const ReplayPlan& plan) {
-  return replayInWindows(scenario, plan, planWindows(amplification, plan));
+  std::vector<WindowedReplay> replays = replayInWindows(scenario, plan, planWindows(amplification, plan));
+  const double taken = stepRateOfTooLong(replays, plan, amplification.length());
+  if (!(taken > plan.step_rate)) return replays;
+  ReplayPlan shorter = plan;
+  shorter.step_rate = taken;
+  return replayInWindows(scenario, shorter, planWindows(amplification, shorter));
 }
 
 std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const ReplayPlan& plan) {

@@ -15,7 +15,7 @@ struct ReplayPlan {
   SimbodyLoop::TorqueHistory torques;
   std::function<double(double)> acceleration;  ///< error that the platform's acceleration may have at t, m/s²
   double position_scale = 0;                   ///< as errorPerStep has it, m
-  double step_rate = 0;                        ///< steps a second that the replay will take, for planning only
+  double step_rate = 0;                        ///< steps a second that the replay is taken to need, for planning only
   long max_evaluations = 200000;               ///< of the derivatives in one window; more is giving up
   double tolerance = 1e-14;                    ///< of the integrator: reachableTolerance
 };
@@ -34,7 +34,8 @@ double plannedBound(const ReplayPlan& plan, const GrowthWindow& window);
 std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const ReplayPlan& plan,
                                             const std::vector<GrowthWindow>& windows);
 
-/// Plans windows and replays in them.
+/// Plans windows and replays in them; once more with shorter windows where more steps were taken than planned and left
+/// one that cannot be judged.
 std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Amplification& amplification,
                                             const ReplayPlan& plan);
 std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const ReplayPlan& plan);

@@ -137,6 +137,18 @@ TEST_F(LongMotion, givesUpWhereAWindowTakesTooMuch) {
     EXPECT_THAT(each.replay.gave_up, testing::HasSubstr("more than 30 derivative evaluations"));
 }
 
+/// A plan with far fewer steps than are taken makes windows that are too long; what was taken makes them right.
+TEST_F(LongMotion, isPlannedAgainWhereMoreStepsWereTaken) {
+  ReplayPlan rash = plan();
+  rash.tolerance = 1e-12;  // so that steps, not torques, decide how long a window may be
+  rash.step_rate /= 100;
+  const std::vector<GrowthWindow> first = windows(rash);
+  EXPECT_EQ(verdictOf(judge(replayInWindows(scenario_, rash, first)), "replay.position"), "inconclusive");
+  const std::vector<WindowedReplay> again = replayInWindows(scenario_, amplification_, rash);
+  EXPECT_GT(again.size(), first.size());
+  EXPECT_EQ(verdictOf(judge(again), "replay.position"), "pass");
+}
+
 TEST_F(LongMotion, isLinearisedAtFortyIntervalsASecond) {
   EXPECT_EQ(amplification_.instants().size(), 401u);
   EXPECT_EQ(linearised(scenarioOf("paper-helix")).instants().size(), 301u) << "300 at least";
