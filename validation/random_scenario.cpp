@@ -25,6 +25,8 @@ class Dice {
   double uniform(double low, double high) {
     return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
   }
+  /// Uniform in the logarithm.
+  double spread(double low, double high) { return low * std::pow(high / low, uniform(0, 1)); }
   bool chance(double probability) { return uniform(0, 1) < probability; }
   Vector3d vector(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
   Matrix3d rotation(double largest) {
@@ -48,9 +50,9 @@ Matrix3d randomInertia(Dice& dice, double size) {
 Link randomLink(Dice& dice) {
   Link link;
   link.length = dice.uniform(1.25, 1.7);
-  link.mass = dice.uniform(5, 25);
+  link.mass = dice.spread(0.5, 100);
   link.center_of_mass = dice.uniform(0.3, 0.7) * link.length;
-  link.inertia = randomInertia(dice, dice.uniform(1, 4));
+  link.inertia = randomInertia(dice, link.mass * dice.uniform(0.05, 0.2));
   return link;
 }
 
@@ -73,7 +75,7 @@ Leg randomLeg(Dice& dice, int i, bool friction, bool coulomb) {
   if (friction) leg.friction = randomFriction(dice, 60);
   if (coulomb) {
     static_cast<JointFriction&>(leg.coulomb) = randomFriction(dice, 30);
-    leg.coulomb.smoothing_speed = dice.uniform(0.05, 0.2);
+    leg.coulomb.smoothing_speed = dice.spread(0.01, 0.2);
   }
   return leg;
 }
@@ -81,9 +83,9 @@ Leg randomLeg(Dice& dice, int i, bool friction, bool coulomb) {
 ManipulatorParameters randomMachine(Dice& dice) {
   ManipulatorParameters machine;
   machine.gravity = Vector3d(0, 0, -9.81) + dice.vector(1);
-  machine.platform.mass = dice.uniform(300, 600);
+  machine.platform.mass = dice.spread(30, 1500);
   machine.platform.center_of_mass = Vector3d(0, 0, dice.uniform(0, 1.9)) + dice.vector(0.3);
-  machine.platform.inertia = randomInertia(dice, dice.uniform(200, 600));
+  machine.platform.inertia = randomInertia(dice, machine.platform.mass * dice.uniform(0.5, 1.5));
   const bool friction = dice.chance(0.6), coulomb = dice.chance(0.25);
   for (int i = 0; i < leg_count; ++i) machine.legs[static_cast<std::size_t>(i)] = randomLeg(dice, i, friction, coulomb);
   return machine;
@@ -91,7 +93,7 @@ ManipulatorParameters randomMachine(Dice& dice) {
 
 std::shared_ptr<const Trajectory> randomHelix(Dice& dice) {
   HelixParameters helix;
-  helix.duration = dice.uniform(1, 4);
+  helix.duration = dice.spread(0.5, 8);
   helix.radius = dice.uniform(0.1, 0.2);
   helix.pitch = dice.uniform(0.7, 1.3);
   helix.start_angle = -pi / 2 + dice.uniform(-0.2, 0.2);
@@ -102,21 +104,37 @@ std::shared_ptr<const Trajectory> randomHelix(Dice& dice) {
   return makeHelix(helix);
 }
 
+TimedPose randomPose(Dice& dice, double time, const Vector3d& about) {
+  TimedPose pose;
+  pose.time = time;
+  pose.position = about + dice.vector(0.15);
+  const Eigen::Quaterniond q(dice.rotation(0.3));
+  pose.orientation << q.w(), q.vec();
+  return pose;
+}
+
+Vector3d randomCenter(Dice& dice) { return {dice.uniform(-0.1, 0.1), dice.uniform(-0.1, 0.1), dice.uniform(0.8, 1.3)}; }
+
+std::shared_ptr<const Trajectory> randomHold(Dice& dice) {
+  const TimedPose pose = randomPose(dice, 0, randomCenter(dice));
+  return makeHold(pose.position, pose.orientation, dice.spread(0.5, 8));
+}
+
 std::shared_ptr<const Trajectory> randomWaypoints(Dice& dice) {
-  const Vector3d center(dice.uniform(-0.1, 0.1), dice.uniform(-0.1, 0.1), dice.uniform(0.8, 1.3));
+  const Vector3d center = randomCenter(dice);
   std::vector<TimedPose> points;
   double t = 0;
   const int count = dice.chance(0.5) ? 3 : 4;
   for (int k = 0; k < count; ++k) {
-    TimedPose point;
-    point.time = t;
-    point.position = center + dice.vector(0.15);
-    const Eigen::Quaterniond q(dice.rotation(0.3));
-    point.orientation << q.w(), q.vec();
-    points.push_back(point);
-    t += dice.uniform(0.7, 1.5);
+    points.push_back(randomPose(dice, t, center));
+    t += dice.spread(0.3, 2.5);
   }
   return makeWaypoints(points);
+}
+
+std::shared_ptr<const Trajectory> randomMotion(Dice& dice) {
+  if (dice.chance(0.15)) return randomHold(dice);
+  return dice.chance(0.5) ? randomHelix(dice) : randomWaypoints(dice);
 }
 
 std::shared_ptr<const Load> randomLoad(Dice& dice) {
@@ -159,7 +177,7 @@ Scenario randomScenario(std::uint64_t seed) {
     scenario.text = fmt::format("seed {}", seed);
     try {
       scenario.manipulator = std::make_shared<const Manipulator>(randomMachine(dice));
-      scenario.trajectory = dice.chance(0.5) ? randomHelix(dice) : randomWaypoints(dice);
+      scenario.trajectory = randomMotion(dice);
       if (dice.chance(0.4)) scenario.load = randomLoad(dice);
       if (canBeJudged(scenario)) return scenario;
     } catch (const PoseError&) {  // out of reach: draw again

@@ -188,8 +188,8 @@ TEST(RandomScenario, isOfEveryKind) {
       kinds.insert(leg.coulomb.knee > 0 ? "dry" : "oiled");
     }
   }
-  EXPECT_THAT(kinds, testing::UnorderedElementsAre("helix", "waypoints", "load", "no load", "knee out", "knee in",
-                                                   "viscous", "smooth", "dry", "oiled"));
+  EXPECT_THAT(kinds, testing::UnorderedElementsAre("helix", "waypoints", "hold", "load", "no load", "knee out",
+                                                   "knee in", "viscous", "smooth", "dry", "oiled"));
 }
 
 TEST(ProveRandom, raisesNoAlarmForAnyNumberOfJobs) {
