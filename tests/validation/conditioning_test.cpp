@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -107,6 +109,26 @@ TEST_P(ConditioningOf, aLoadOnlyRaisesTheLimit) {
   const Conditioning with = ConditioningProbe(*scenario_.manipulator, load).at(motion);
   EXPECT_GT(with.torqueRounding(), without.torqueRounding());
   EXPECT_EQ(with.kappa_B, without.kappa_B);
+}
+
+/// A free distal link pushed at its end moves there as Newton and Euler have it: never more than the largest compliance
+/// says, and in the worst direction of the worst leg not much less.
+TEST_P(ConditioningOf, legComplianceIsThatOfAPushedLink) {
+  const Conditioning found = ConditioningProbe(*scenario_.manipulator, nullptr).at(randomState(scenario_, dice_));
+  double most = 0;
+  for (int i = 0; i < leg_count; ++i) {
+    const Link& link = scenario_.manipulator->leg(i).distal;
+    const Vector3d arm(0, 0, link.length - link.center_of_mass);
+    for (int k = 0; k < 200; ++k) {
+      const Vector3d force = dice_.vector(1).normalized();
+      const Vector3d spin = link.inertia.ldlt().solve(arm.cross(force));
+      most = std::max(most, (force / link.mass + spin.cross(arm)).norm());
+    }
+  }
+  EXPECT_LE(most, found.leg_compliance);
+  EXPECT_GT(most, 0.5 * found.leg_compliance);
+  EXPECT_GT(found.gapRounding(), found.loopRounding());
+  EXPECT_GT(found.loopRounding(), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Machines, ConditioningOf, testing::ValuesIn(vectorNames()),

@@ -103,6 +103,22 @@ TEST(JudgeReplay, allowsTheWorkOfForcesOnTheGapsItAllows) {
   }
 }
 
+/// An acceleration of rounding opens gaps over the window's second: by itself to the rate, by half to the position.
+TEST(JudgeReplay, allowsGapsThatOpenByTheForcesRounding) {
+  const double rounding = 1e-8;
+  const auto limit = [](const char* check, const LoopForces& of) {
+    return findCheck(judgeReplay({made()}, position_scale, length, of), check)->limit;
+  };
+  EXPECT_NEAR(limit("closure.position", {0, rounding}) - limit("closure.position", {}), rounding / 2, 1e-20);
+  EXPECT_NEAR(limit("closure.velocity", {0, rounding}) - limit("closure.velocity", {}), rounding, 1e-20);
+  WindowedReplay open = made();
+  open.replay.steps[10].closure = {0.4 * rounding, 0.9 * rounding};
+  EXPECT_EQ(others(judgeReplay({open}, position_scale, length, {0, rounding}), Verdict::pass), "");
+  const std::vector<Check> checks = judgeReplay({open}, position_scale, length, {0, rounding / 2});
+  EXPECT_EQ(verdictOf(checks, "closure.position"), "fail");
+  EXPECT_EQ(verdictOf(checks, "closure.velocity"), "fail");
+}
+
 TEST(JudgeReplay, doesNotJudgeWhereTheLimitSaysNothing) {
   const std::vector<Check> checks = judgeReplay({made(1e12)}, position_scale, length, forces);
   EXPECT_EQ(verdictOf(checks, "replay.position"), "inconclusive");
