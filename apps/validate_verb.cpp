@@ -53,11 +53,11 @@ std::string finding(const ValidationResult& result, const std::string& key) {
 /// What dominates, with numbers, and what is known of torques that are wrong.
 void printReasons(const ValidationResult& result) {
   fmt::print("dominant error: {}", finding(result, "dominant error"));
-  const std::string observed = finding(result, "replay, largest position error");
+  const std::string observed = finding(result, "replay, error in position");
   if (!observed.empty())
-    fmt::print("; replay off by {}; model up to {}, integration {}, closure up to {}; deviations grow {}-fold",
-               observed, finding(result, "bound of the model's share"),
-               finding(result, "integration's share, extrapolated"), finding(result, "bound of the closure's share"),
+    fmt::print("; replay off by {}; of it by rounding {}, integration {}, gaps {}, torques {}; deviations grow {}-fold",
+               observed, finding(result, "of it by rounding"), finding(result, "of it by the integration"),
+               finding(result, "of it by the loops' gaps"), finding(result, "of it by the torques"),
                finding(result, "amplification of a deviation at the start"));
   fmt::print("\n");
   for (const char* key : {"torques that are off", "likely cause"})

@@ -12,10 +12,10 @@
 namespace ursula {
 namespace {
 
-/// The helix's parameter and its first two rates at one instant.
+/// The helix's parameter, its rise from the start and its first two rates at one instant.
 template <class S>
 struct HelixParameter {
-  S beta, rate, acceleration;
+  S beta, rise, rate, acceleration;  ///< rise: β − β₀
 };
 
 /// Coefficients aₖ t_fᵏ of the quintic in s = t / t_f: scaled so, no power of t_f can overflow or underflow.
@@ -39,12 +39,13 @@ std::array<S, 6> quinticCoefficients(const HelixParameters& helix) {
 template <class S>
 class HelixKernel {
  public:
-  explicit HelixKernel(const HelixParameters& helix)
+  /// Positions from `origin`, m, in B.
+  HelixKernel(const HelixParameters& helix, const Vector3d& origin)
       : duration_(helix.duration),
         a_(helix.radius),
         b_(helix.pitch),
         phase_(helix.phase),
-        height_phase_(helix.height_phase),
+        axis_(S(-origin.x()), S(-origin.y()), startHeight(helix, origin)),
         coefficients_(quinticCoefficients<S>(helix)) {}
 
   /// With c = cos(β + ω), s = sin(β + ω), and ' the derivative by β:
@@ -67,7 +68,7 @@ class HelixKernel {
 
     Motion<S> motion;
     motion.t = t;
-    motion.p = Vector3<S>(a_ * c, a_ * s, b_ * (helix.beta + height_phase_));
+    motion.p = axis_ + Vector3<S>(a_ * c, a_ * s, b_ * helix.rise);
     motion.p_dot = m * helix.rate;
     motion.p_ddot = m * helix.acceleration + n * (helix.rate * helix.rate);
     motion.Q.col(0) = -e_t.cross(e_n);
@@ -79,20 +80,26 @@ class HelixKernel {
   }
 
  private:
+  /// b (β₀ + ω̄) less the origin's height, rounded once: on a machine far above the origin the two cancel.
+  static S startHeight(const HelixParameters& helix, const Vector3d& origin) {
+    return S(Real50(Real50(helix.pitch) * (Real50(helix.start_angle) + Real50(helix.height_phase)) - origin.z()));
+  }
+
   /// β by Horner's rule (paper, eq. 50), and β̇, β̈ (paper, eq. 53).
   HelixParameter<S> parameter(const S& t) const {
     const S s = t / duration_;
-    S beta(0), rate(0), acceleration(0);
-    for (int k = 5; k >= 0; --k) {
+    S rise(0), rate(0), acceleration(0);
+    for (int k = 5; k >= 1; --k) {
       const S& coefficient = coefficients_[static_cast<std::size_t>(k)];
-      beta = beta * s + coefficient;
-      if (k >= 1) rate = rate * s + k * coefficient;
+      rise = (rise + coefficient) * s;
+      rate = rate * s + k * coefficient;
       if (k >= 2) acceleration = acceleration * s + k * (k - 1) * coefficient;
     }
-    return {beta, rate / duration_, acceleration / (duration_ * duration_)};
+    return {coefficients_[0] + rise, rise, rate / duration_, acceleration / (duration_ * duration_)};
   }
 
-  S duration_, a_, b_, phase_, height_phase_;
+  S duration_, a_, b_, phase_;
+  Vector3<S> axis_;  ///< from the origin to the helix's axis, at the height where it starts
   std::array<S, 6> coefficients_;
 };
 
@@ -128,14 +135,18 @@ void validateRange(const HelixParameters& helix, const HelixKernel<double>& kern
   }
 }
 
+std::unique_ptr<Trajectory> helixFrom(const HelixParameters& parameters, const Vector3d& origin) {
+  return std::make_unique<KernelTrajectory<HelixKernel>>(
+      "helix", parameters.duration, HelixKernel<double>(parameters, origin), HelixKernel<Real50>(parameters, origin),
+      [parameters, origin](const Vector3d& further) { return helixFrom(parameters, origin + further); });
+}
+
 }  // namespace
 
 std::unique_ptr<Trajectory> makeHelix(const HelixParameters& parameters) {
   validate(parameters);
-  const HelixKernel<double> kernel(parameters);
-  validateRange(parameters, kernel);
-  return std::make_unique<KernelTrajectory<HelixKernel>>("helix", parameters.duration, kernel,
-                                                         HelixKernel<Real50>(parameters));
+  validateRange(parameters, HelixKernel<double>(parameters, Vector3d::Zero()));
+  return helixFrom(parameters, Vector3d::Zero());
 }
 
 }  // namespace ursula

@@ -39,8 +39,9 @@ std::unique_ptr<Trajectory> makeHold(const Vector3d& position, const Eigen::Vect
   });
   if (!(std::isfinite(duration) && duration > 0))
     throw InvalidParameter("trajectory.duration", fmt::format("{}", duration), "> 0 and finite");
-  return std::make_unique<KernelTrajectory<HoldKernel>>("hold", duration, HoldKernel<double>(position, orientation),
-                                                        HoldKernel<Real50>(position, orientation));
+  return std::make_unique<KernelTrajectory<HoldKernel>>(
+      "hold", duration, HoldKernel<double>(position, orientation), HoldKernel<Real50>(position, orientation),
+      [=](const Vector3d& origin) { return makeHold(position - origin, orientation, duration); });
 }
 
 }  // namespace ursula

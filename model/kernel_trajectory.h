@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,18 +14,23 @@ namespace ursula {
 template <template <class> class Kernel>
 class KernelTrajectory final : public Trajectory {
  public:
-  KernelTrajectory(std::string kind, double duration, Kernel<double> kernel, Kernel<Real50> kernel50,
+  /// Makes the same motion with its positions from another origin.
+  using Relocate = std::function<std::unique_ptr<Trajectory>(const Vector3d& origin)>;
+
+  KernelTrajectory(std::string kind, double duration, Kernel<double> kernel, Kernel<Real50> kernel50, Relocate relocate,
                    std::vector<double> knots = {})
       : kind_(std::move(kind)),
         duration_(duration),
         kernel_(std::move(kernel)),
         kernel50_(std::move(kernel50)),
+        relocate_(std::move(relocate)),
         knots_(std::move(knots)) {}
 
   std::string kind() const override { return kind_; }
   double duration() const override { return duration_; }
   Motion<double> at(double t) const override { return kernel_.at(t); }
   Motion<Real50> at(const Real50& t) const override { return kernel50_.at(t); }
+  std::unique_ptr<Trajectory> relativeTo(const Vector3d& origin) const override { return relocate_(origin); }
   const std::vector<double>& knots() const override { return knots_; }
 
  private:
@@ -31,6 +38,7 @@ class KernelTrajectory final : public Trajectory {
   double duration_;
   Kernel<double> kernel_;
   Kernel<Real50> kernel50_;
+  Relocate relocate_;
   std::vector<double> knots_;
 };
 

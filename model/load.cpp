@@ -54,7 +54,7 @@ QuinticHermite<Real50, 6> curveThrough(const std::vector<TimedWrench>& rows) {
 struct LoadHistory::Curves {
   QuinticHermite<Real50, 6> exact;
   QuinticHermite<double, 6> rounded;
-  TimedWrench first, last;
+  std::vector<TimedWrench> rows;
   std::vector<double> knots;
 };
 
@@ -82,18 +82,21 @@ LoadHistory::LoadHistory(const std::vector<TimedWrench>& rows) {
   std::vector<double> knots;
   knots.reserve(rows.size());
   for (const TimedWrench& row : rows) knots.push_back(row.time);
-  curves_ = std::make_unique<Curves>(
-      Curves{curve, QuinticHermite<double, 6>(curve), rows.front(), rows.back(), std::move(knots)});
+  curves_ = std::make_unique<Curves>(Curves{curve, QuinticHermite<double, 6>(curve), rows, std::move(knots)});
 }
+
+const std::vector<TimedWrench>& LoadHistory::rows() const { return curves_->rows; }
 
 const std::vector<double>& LoadHistory::knots() const { return curves_->knots; }
 
 LoadHistory::~LoadHistory() = default;
 
-Wrench<double> LoadHistory::at(double t) const { return wrenchAt(curves_->rounded, curves_->first, curves_->last, t); }
+Wrench<double> LoadHistory::at(double t) const {
+  return wrenchAt(curves_->rounded, curves_->rows.front(), curves_->rows.back(), t);
+}
 
 Wrench<Real50> LoadHistory::at(const Real50& t) const {
-  return wrenchAt(curves_->exact, curves_->first, curves_->last, t);
+  return wrenchAt(curves_->exact, curves_->rows.front(), curves_->rows.back(), t);
 }
 
 Wrench<double> Load::at(double t) const { return history ? history->at(t) : Wrench<double>{force, moment}; }

@@ -34,6 +34,7 @@ class LoadHistory {
 
   Wrench<double> at(double t) const;
   Wrench<Real50> at(const Real50& t) const;
+  const std::vector<TimedWrench>& rows() const;
   /// The rows' times, at which the third derivative jumps, s.
   const std::vector<double>& knots() const;
 

@@ -99,6 +99,21 @@ void requireAwayFromZero(const std::vector<Knot>& knots, const RefusePose& refus
   }
 }
 
+/// Rounded once from the 50 digits in which it was solved, so that both kernels are the same curve to the last bit of a
+/// double.
+std::unique_ptr<Trajectory> splineAlong(const std::string& kind, const QuinticHermite<Real50, 7>& curve,
+                                        std::vector<double> times) {
+  const auto relocate = [kind, curve, times](const Vector3d& origin) {
+    Knot::Vector offset = Knot::Vector::Zero();
+    offset.head<3>() = origin.cast<Real50>();
+    return splineAlong(kind, curve.shifted(offset), times);
+  };
+  const double duration = times.back();
+  return std::make_unique<KernelTrajectory<PoseSplineKernel>>(
+      kind, duration, PoseSplineKernel<double>(QuinticHermite<double, 7>(curve)), PoseSplineKernel<Real50>(curve),
+      relocate, std::move(times));
+}
+
 }  // namespace
 
 void requireUnit(const Eigen::Vector4d& orientation, double within,
@@ -121,14 +136,10 @@ std::unique_ptr<Trajectory> makePoseSpline(const std::vector<TimedPose>& poses, 
   }
   solveQuinticSpline(knots);
   requireAwayFromZero(knots, refuse);
-  // Solved in 50 digits and rounded once, so that both kernels are the same curve to the last bit of a double.
-  const QuinticHermite<Real50, 7> curve(knots);
   std::vector<double> times;
   times.reserve(poses.size());
   for (const TimedPose& pose : poses) times.push_back(pose.time);
-  return std::make_unique<KernelTrajectory<PoseSplineKernel>>(
-      options.kind, poses.back().time, PoseSplineKernel<double>(QuinticHermite<double, 7>(curve)),
-      PoseSplineKernel<Real50>(curve), std::move(times));
+  return splineAlong(options.kind, QuinticHermite<Real50, 7>(knots), std::move(times));
 }
 
 }  // namespace ursula

@@ -33,6 +33,13 @@ class QuinticHermite {
       pieces_.push_back({S(piece.start), S(piece.duration), piece.coefficients.template cast<S>()});
   }
 
+  /// The same curve with `offset` taken off every value.
+  QuinticHermite shifted(const Vector& offset) const {
+    QuinticHermite out(*this);
+    for (Piece& piece : out.pieces_) piece.coefficients.col(0) -= offset;
+    return out;
+  }
+
   /// By powers of s = (t − start) / duration, not by control points: with those the second derivative would be a small
   /// difference of large numbers. Does not allocate.
   CurvePoint<S, D> at(const S& t) const {

@@ -62,6 +62,8 @@ class SimbodyLoop {
   JointMotion joints() const;
   Motion<double> platform() const;  ///< accelerations are those last placed or found
   Closure closure() const;
+  /// The largest acceleration at which a ball's gap opens after accelerate(), m/s²: rounding, and nothing else.
+  double gapAcceleration() const;
   Energy energy() const;
 
   /// Pose, twist and twist rate of the 13 bodies' mass centres at the accelerations last placed or found.

@@ -35,6 +35,14 @@ SimbodyLoop::Closure SimbodyLoop::closure() const {
   return out;
 }
 
+double SimbodyLoop::gapAcceleration() const {
+  impl_->realize(SimTK::Stage::Acceleration);
+  double largest = 0;
+  for (const SimTK::Constraint::Ball& ball : impl_->mechanism.balls)
+    largest = std::max(largest, ball.getAccelerationErrors(impl_->state).norm());
+  return largest;
+}
+
 SimbodyLoop::Energy SimbodyLoop::energy() const {
   impl_->realize(SimTK::Stage::Dynamics);
   return {impl_->system.calcKineticEnergy(impl_->state), impl_->system.calcPotentialEnergy(impl_->state)};

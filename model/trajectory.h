@@ -18,6 +18,10 @@ class Trajectory {
   virtual double duration() const = 0;  ///< t_f, s
   virtual Motion<double> at(double t) const = 0;
   virtual Motion<Real50> at(const Real50& t) const = 0;
+  /// The same motion with P's position from `origin` (m, in B), subtracted before anything is rounded, so that a
+  /// machine far from the base's origin loses no digits. Null where the trajectory cannot: then at(t).p − origin has to
+  /// do.
+  virtual std::unique_ptr<Trajectory> relativeTo(const Vector3d& /*origin*/) const { return nullptr; }
   /// Instants at which a higher derivative jumps, increasing, s: an integrator keeps its order between them, not
   /// across.
   virtual const std::vector<double>& knots() const {

@@ -12,21 +12,24 @@ namespace ursula {
 namespace {
 
 using Matrix12 = Amplification::Matrix12;
-using Vector12 = Eigen::Matrix<double, 12, 1>;
+using Vector12 = Amplification::Vector12;
 
 /// Jacobian of the deviations' rates. A deviation of the orientation turns it: Q → exp(δϑ) Q, so δϑ̇ = δω + ω × δϑ.
 class Linearisation {
  public:
+  Linearisation(const Scenario& scenario, AccelerationUnder accelerations)
+      : trajectory_(*scenario.trajectory),
+        right_(nocSubject(*scenario.manipulator, scenario.load)),
+        accelerations_(std::move(accelerations)),
+        length_(SolverModel<double>(*scenario.manipulator).length) {}
   explicit Linearisation(const Scenario& scenario)
-      : trajectory_(*scenario.trajectory), load_(scenario.load), solver_(*scenario.manipulator) {
-    length_ = solver_.model().length;
-  }
+      : Linearisation(scenario, nocSubject(*scenario.manipulator, scenario.load).accelerations) {}
 
   double length() const { return length_; }
 
   Matrix12 at(double t) {
     const Motion<double> motion = trajectory_.at(t);
-    const Vector6d torques = solver_.inverseDynamics(motion, work_, loadAtP(load_.get(), motion));
+    const Vector6d torques = right_.torques(motion);
     Matrix12 J = Matrix12::Zero();
     J.block<3, 3>(0, 6).setIdentity();
     J.block<3, 3>(3, 9).setIdentity();
@@ -52,17 +55,16 @@ class Linearisation {
     if (turn.norm() > 0) motion.Q = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * motion.Q;
     motion.p_dot += deviation.segment<3>(6);
     motion.omega += deviation.segment<3>(9) / length_;
-    const Vector6d found = solver_.directDynamics(motion, torques, work_, loadAtP(load_.get(), motion));
+    const Vector6d found = accelerations_(motion, torques);
     Vector6d out;
     out << found.tail<3>(), length_ * found.head<3>();
     return out;
   }
 
   const Trajectory& trajectory_;
-  std::shared_ptr<const Load> load_;
-  Solver<double> solver_;
-  Workspace<double> work_;
-  double length_ = 1;
+  Subject right_;
+  AccelerationUnder accelerations_;
+  double length_;
 };
 
 /// Every fifth instant will do: the Jacobian varies with the pose, and slowly.
@@ -108,6 +110,48 @@ Amplification::Amplification(const Scenario& scenario, int intervals) {
     J0 = J2;
   }
   growth_rates_.push_back(fastestGrowth(J0));
+}
+
+Matrix12 propagated(const Scenario& scenario, const AccelerationUnder& accelerations, double end, int intervals) {
+  Linearisation linearisation(scenario, accelerations);
+  const double h = end / intervals;
+  Matrix12 Phi = Matrix12::Identity(), J0 = linearisation.at(0);
+  for (int k = 0; k < intervals; ++k) {
+    const Matrix12 J1 = linearisation.at((k + 0.5) * h), J2 = linearisation.at((k + 1) * h);
+    Phi = (propagator(J0, J1, J2, h) * Phi).eval();
+    J0 = J2;
+  }
+  return Phi;
+}
+
+std::size_t Amplification::nearest(double t) const {
+  const double interval = instants_[1] - instants_[0];
+  return std::min(static_cast<std::size_t>(std::lround(t / interval)), instants_.size() - 1);
+}
+
+/// Carried forward by the trapezoidal rule: what the error does in one interval is added at its end.
+Amplification::Vector12 Amplification::carried(double start, double end,
+                                               const std::function<Vector6d(double)>& error) const {
+  Vector12 deviation = Vector12::Zero();
+  for (std::size_t k = nearest(start); k < nearest(end); ++k) {
+    const double h = instants_[k + 1] - instants_[k];
+    deviation.tail<6>() += h / 2 * error(instants_[k]);
+    deviation = (propagators_[k] * deviation).eval();
+    deviation.tail<6>() += h / 2 * error(instants_[k + 1]);
+  }
+  return deviation;
+}
+
+double Amplification::carriedBound(double start, double end, const std::function<double(double)>& size) const {
+  double bound = 0;
+  Matrix12 Phi = Matrix12::Identity();  // from the end of interval k to the end
+  for (std::size_t k = nearest(end); k-- > nearest(start);) {
+    const double h = instants_[k + 1] - instants_[k];
+    const double after = Phi.topRightCorner<6, 6>().norm();
+    Phi = (Phi * propagators_[k]).eval();
+    bound += h / 2 * (after * size(instants_[k + 1]) + Phi.topRightCorner<6, 6>().norm() * size(instants_[k]));
+  }
+  return bound;
 }
 
 double Amplification::growthRate(double t) const {

@@ -30,6 +30,7 @@ struct GrowthWindow {
 class Amplification {
  public:
   using Matrix12 = Eigen::Matrix<double, 12, 12>;
+  using Vector12 = Eigen::Matrix<double, 12, 1>;
 
   /// Linearises the direct dynamics at 2 `intervals` + 1 instants of the motion. Throws PoseError where it is singular.
   Amplification(const Scenario& scenario, int intervals);
@@ -39,6 +40,12 @@ class Amplification {
   GrowthWindow window(std::size_t first, const std::function<double(double)>& acceleration, double rate,
                       double useful) const;
 
+  /// The deviation at `end` of a motion that starts on the path at `start` and whose acceleration [p̈; L ω̇] is off by
+  /// `error(t)`: ∫ Φ(end, s) [0; error(s)] ds. Both are taken to the nearest instants.
+  Vector12 carried(double start, double end, const std::function<Vector6d(double)>& error) const;
+  /// A bound of its position where only the error's size is known: ∫ ‖Φ‖ size(s) ds.
+  double carriedBound(double start, double end, const std::function<double(double)>& size) const;
+
   const std::vector<double>& instants() const { return instants_; }
   double length() const { return length_; }
   /// How fast deviations grow about t, or would without friction: the largest real part of an eigenvalue λ of the
@@ -47,10 +54,19 @@ class Amplification {
   double growthRate(double t) const;
 
  private:
+  std::size_t nearest(double t) const;
+
   std::vector<double> instants_;
   std::vector<Matrix12> propagators_;  ///< from instant k to k + 1
   double length_ = 1;
   std::vector<double> growth_rates_;  ///< at every growth_stride-th instant, and the last
 };
+
+/// [ω̇; p̈] of the platform under torques.
+using AccelerationUnder = std::function<Vector6d(const Motion<double>&, const Vector6d& torques)>;
+
+/// Φ(end, 0) of the same equations with somebody's direct dynamics, over `intervals` of equal length.
+Amplification::Matrix12 propagated(const Scenario& scenario, const AccelerationUnder& accelerations, double end,
+                                   int intervals);
 
 }  // namespace ursula

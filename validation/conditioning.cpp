@@ -14,15 +14,16 @@ namespace {
 
 constexpr double eps = Eigen::NumTraits<double>::epsilon();
 
-/// Wrench of inertia and gravity on each body, with magnitudes added: nothing cancels.
-Vector6d wrenchMagnitude(const BodyMotion<double>& body, double mass, const Matrix3d& inertia,
-                         const Vector3d& gravity) {
-  const Matrix3d I = (body.R * inertia * body.R.transpose()).cwiseAbs();
-  const Vector3d omega = body.twist.head<3>().cwiseAbs(), omega_dot = body.twist_rate.head<3>().cwiseAbs();
-  Vector6d w;
-  w.head<3>() = I * omega_dot + Vector3d::Constant(omega.norm() * (I * omega).norm());
-  w.tail<3>() = mass * (body.twist_rate.tail<3>().cwiseAbs() + gravity.cwiseAbs());
-  return w;
+/// Sizes of what inertia and gravity put on a body, [moment; force], with magnitudes added: nothing cancels. Norms, so
+/// that the frame does not matter.
+struct WrenchSize {
+  double moment, force;
+};
+
+WrenchSize wrenchSize(const BodyMotion<double>& body, double mass, const Matrix3d& inertia, const Vector3d& gravity) {
+  const double I = inertia.norm(), omega = body.twist.head<3>().norm();
+  return {I * (body.twist_rate.head<3>().norm() + omega * omega),
+          mass * (body.twist_rate.tail<3>().norm() + gravity.norm())};
 }
 
 double frictionMagnitude(const Leg& leg, const JointTriple<double>& rate) {
@@ -40,7 +41,7 @@ Projection project(const Manipulator& manipulator, const TwistShaping<double>& T
                    const Workspace<double>& work) {
   Projection out;
   Vector6d torque = Vector6d::Zero();
-  double friction = 0;
+  double friction = 0, largest_spin = 0;
   for (int b = 0; b < body_count; ++b) {
     const auto i = static_cast<std::size_t>(b);
     const int leg_index = b % leg_count;
@@ -50,13 +51,15 @@ Projection project(const Manipulator& manipulator, const TwistShaping<double>& T
     const double mass = is_platform ? manipulator.platform().mass : link.mass;
     const Matrix3d& inertia = is_platform ? manipulator.platform().inertia : link.inertia;
     const Eigen::Matrix<double, 6, 6> T_b = T.block<6, 6>(6 * b, 0);
-    torque += T_b.cwiseAbs().transpose() * wrenchMagnitude(bodies[i], mass, inertia, manipulator.gravity());
+    const WrenchSize w = wrenchSize(bodies[i], mass, inertia, manipulator.gravity());
+    torque += w.moment * T_b.topRows<3>().colwise().norm() + w.force * T_b.bottomRows<3>().colwise().norm();
     out.inertia += mass * T_b.bottomRows<3>().transpose() * T_b.bottomRows<3>() +
                    T_b.topRows<3>().transpose() * (bodies[i].R * inertia * bodies[i].R.transpose()) * T_b.topRows<3>();
+    if (!is_platform) largest_spin = std::max(largest_spin, T_b.topRows<3>().colwise().norm().maxCoeff());
     if (b < leg_count) friction += frictionMagnitude(leg, work.legs[i].rate);
   }
-  // The same shaping carries friction on ψ, θ to the actuators; its rows are of the order of the links' over l.
-  out.torque_scale = torque.norm() + friction * std::max(1.0, T.cwiseAbs().maxCoeff());
+  // The same shaping carries friction on ψ, θ to the actuators; its rows are of the order of the links' spins.
+  out.torque_scale = torque.norm() + friction * std::max(1.0, largest_spin);
   return out;
 }
 
@@ -85,6 +88,8 @@ void setPlatform(const Solver<double>& solver, const Manipulator& manipulator, c
   double squares = 0;
   for (const LegReactions& leg : recoverReactions(solver, motion, torques, work)) squares += leg.f_B.squaredNorm();
   out.force_scale = std::sqrt(squares);
+  const double inertia = platform.mass * (manipulator.gravity().norm() + motion.p_ddot.norm());
+  out.weight_ratio = inertia > 0 ? out.force_scale / inertia : 0;
 }
 
 void setLegs(const Workspace<double>& work, Conditioning& out) {
@@ -100,15 +105,70 @@ void setLegs(const Workspace<double>& work, Conditioning& out) {
   }
 }
 
+/// ‖T_PᵀM_P‖ with accelerations [L ω̇; p̈].
+double effortScale(const Solver<double>& solver, const Motion<double>& motion, const Workspace<double>& work,
+                   double length) {
+  Matrix6d effort = solver.T(work).transpose() * solver.massMatrixAtP(motion, work);
+  effort.leftCols<3>() /= length;
+  return effort.norm();
+}
+
+/// The largest coordinate from the middle of the base, wherever the base's origin is.
+void setPositions(const Manipulator& manipulator, const Motion<double>& motion, const BodyMotions<double>& bodies,
+                  Conditioning& out) {
+  Vector3d middle = Vector3d::Zero();
+  for (const Leg& leg : manipulator.parameters().legs) middle += leg.base_point / leg_count;
+  out.position_scale = (motion.p - middle).norm() + out.length;
+  for (const Leg& leg : manipulator.parameters().legs)
+    out.position_scale = std::max(out.position_scale, (leg.base_point - middle).norm());
+  for (const BodyMotion<double>& body : bodies)
+    out.position_scale = std::max(out.position_scale, (body.c - middle).norm());
+}
+
 }  // namespace
 
-double Conditioning::torqueRounding() const { return rounding_depth * eps * kappa_B * kappa_legs * torque_scale; }
-
-double Conditioning::loopRounding() const { return rounding_depth * eps * compliance * force_scale; }
-
-double Conditioning::gapRounding() const { return rounding_depth * eps * (compliance + leg_compliance) * force_scale; }
-
-double Conditioning::accelerationRounding() const { return response * torqueRounding() + loopRounding(); }
+double Conditioning::shape(Rounded quantity) const {
+  const double torque = kappa_B * kappa_legs * torque_scale;
+  const double platform = response * torque + compliance * force_scale;
+  switch (quantity) {
+    case Rounded::angles:
+      return eps * kappa_legs * position_scale / length;
+    case Rounded::rates:
+      return eps * kappa_legs * kappa_B * twist_scale / length;
+    case Rounded::accelerations:
+      return eps * kappa_legs * kappa_legs * kappa_B * rate_scale / length;
+    case Rounded::positions:
+      return eps * kappa_legs * position_scale;
+    case Rounded::twists:
+      return eps * kappa_legs * kappa_B * twist_scale;
+    case Rounded::twist_rates:
+      return eps * kappa_legs * kappa_legs * kappa_B * rate_scale;
+    case Rounded::jacobian:
+      return eps * kappa_legs * kappa_B * kappa_B * twist_scale;
+    case Rounded::jacobian_rate:
+      return eps * kappa_legs * kappa_legs * kappa_B * kappa_B * rate_scale;
+    case Rounded::shaping:
+      return eps * kappa_B * kappa_legs * shaping_scale;
+    case Rounded::torque:
+    case Rounded::solver:
+    case Rounded::twin:
+    case Rounded::maximal:
+    case Rounded::mujoco:
+      return eps * torque;
+    case Rounded::acceleration:
+    case Rounded::direct:
+      return eps * platform;
+    case Rounded::effort:
+      return eps * (torque + effort_scale * compliance * force_scale);
+    case Rounded::gaps:
+      return eps * (compliance + leg_compliance) * force_scale;
+    case Rounded::reactions:
+      return eps * (torque / length * kappa_B + largest_mass * platform);
+    case Rounded::count:
+      break;
+  }
+  return 0;
+}
 
 ConditioningProbe::ConditioningProbe(const Manipulator& manipulator, std::shared_ptr<const Load> load)
     : manipulator_(manipulator), load_(std::move(load)), solver_(manipulator) {}
@@ -136,9 +196,9 @@ Conditioning ConditioningProbe::at(const Motion<double>& motion) {
   out.torque_scale =
       projection.torque_scale + T_P.norm() * (load.head<3>().norm() / out.length + load.tail<3>().norm());
   out.response = (T_P * projection.inertia.llt().solve(Matrix6d::Identity())).norm();
-  out.position_scale = motion.p.norm() + out.length;
-  for (const Leg& leg : manipulator_.parameters().legs)
-    out.position_scale = std::max(out.position_scale, leg.base_point.norm());
+  out.shaping_scale = T_P.norm();
+  out.effort_scale = effortScale(solver_, motion, work_, out.length);
+  setPositions(manipulator_, motion, bodies, out);
   for (const BodyMotion<double>& body : bodies) {
     out.twist_scale = std::max(out.twist_scale, body.twist.tail<3>().norm() + out.length * body.twist.head<3>().norm());
     out.rate_scale =

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "model/load.h"
@@ -9,8 +10,50 @@
 
 namespace ursula {
 
-/// How rounding errors of either road may show at one instant; the factors of every pointwise limit.
-/// Always from the formulas that hold, never from the subject on trial. See docs/validation.md.
+/// In units of eps, what rounding adds up to on the longest chain of dependent operations from the base to a torque:
+/// n = 38, once for each of 13 bodies and 6 pivots on each of two roads. Roundings are independent, so that they grow
+/// as λ√n with λ = 4, rounded up: Higham and Mary, SIAM J. Sci. Comput. 41 (2019) A2815, theorem 2.4. Stands in where
+/// nothing was measured.
+constexpr double rounding_depth = 25;
+
+/// What rounds: each pointwise limit is of one of these.
+enum class Rounded {
+  angles,         ///< joint angles, rad
+  rates,          ///< joint rates, rad/s
+  accelerations,  ///< joint accelerations, rad/s²
+  positions,      ///< of 13 bodies, m
+  twists,         ///< of 13 bodies, m/s
+  twist_rates,    ///< of 13 bodies, m/s²
+  jacobian,       ///< T φ̇, m/s
+  jacobian_rate,  ///< T φ̈ + Ṫ φ̇, m/s²
+  shaping,        ///< T itself, m
+  torque,         ///< solver's and Simbody's, N·m
+  solver,         ///< the solver's torque alone, N·m
+  twin,           ///< solver's torque and that of the tree through leg 1, N·m
+  maximal,        ///< solver's torque and that of the maximal coordinates, N·m
+  mujoco,         ///< solver's torque and MuJoCo's, N·m
+  acceleration,   ///< Simbody's of the platform under the solver's torques, m/s²
+  effort,         ///< the same as torques, N·m
+  gaps,           ///< accelerations at which the loops' gaps open, m/s²
+  reactions,      ///< forces at the joints and moments over the machine's length, N
+  direct,         ///< solver's and Simbody's direct dynamics under the same torques, m/s²
+  count
+};
+constexpr std::size_t rounded_count = static_cast<std::size_t>(Rounded::count);
+
+/// How far a quantity's rounding goes, in units of its shape (Conditioning::shape).
+using RoundingLevels = std::array<double, rounded_count>;
+
+constexpr RoundingLevels uniformLevels(double level) {
+  RoundingLevels levels{};
+  for (double& each : levels) each = level;
+  return levels;
+}
+
+/// How rounding errors of either road may show at one instant; the factors of every pointwise limit. The shape of a
+/// limit, how it grows with the pose and the machine, is derived; its level is measured (RoundingProfile). No number
+/// here depends on the frame in which the machine is written. Always from the formulas that hold, never from the
+/// subject on trial. See docs/validation.md.
 struct Conditioning {
   double kappa_B = 0;         ///< 2-norm condition number of B, moments over the machine's length
   double kappa_legs = 0;      ///< largest of 1/sin²θᵢ · (qᵢ/rᵢ)²: how rounding grows in a leg's rates
@@ -27,15 +70,21 @@ struct Conditioning {
   double twist_scale = 0;     ///< size of a body's velocity, m/s
   double rate_scale = 0;      ///< size of a body's acceleration, m/s²
 
+  double shaping_scale = 0;  ///< ‖T‖, angular rows times length, m
+  double effort_scale = 0;   ///< ‖T_PᵀM_P‖: torque for an acceleration of the platform, N·m/(m/s²)
+  double weight_ratio = 0;   ///< force_scale over the platform's weight and inertia
+  RoundingLevels levels = uniformLevels(rounding_depth);
+
+  /// How `quantity` rounds with the pose and the machine, times eps: its unit.
+  double shape(Rounded quantity) const;
+  /// What rounding may make of it: shape × level.
+  double rounding(Rounded quantity) const { return shape(quantity) * levels[static_cast<std::size_t>(quantity)]; }
+
   /// Rounding of a torque on either road, N·m.
-  double torqueRounding() const;
-  /// Rounding of the platform's acceleration by the forces that close the loops, which an engine with free bodies adds
-  /// up: they cancel the more, the lighter the platform is against its legs. m/s².
-  double loopRounding() const;
-  /// Rounding of the accelerations at which the loops' gaps open, by the same forces on both sides. m/s².
-  double gapRounding() const;
-  /// Rounding of the platform's acceleration under given torques, m/s².
-  double accelerationRounding() const;
+  double torqueRounding() const { return rounding(Rounded::torque); }
+  /// Rounding of the platform's acceleration in Simbody under torques, those included that rounding makes of them,
+  /// m/s².
+  double accelerationRounding() const { return rounding(Rounded::acceleration); }
 };
 
 class ConditioningProbe {
@@ -50,10 +99,5 @@ class ConditioningProbe {
   Solver<double> solver_;
   Workspace<double> work_;
 };
-
-/// In units of eps, what rounding adds up to on the longest chain of dependent operations from the base to a torque:
-/// n = 38, once for each of 13 bodies and 6 pivots on each of two roads. Roundings are independent, so that they grow
-/// as λ√n with λ = 4, rounded up: Higham and Mary, SIAM J. Sci. Comput. 41 (2019) A2815, theorem 2.4.
-constexpr double rounding_depth = 25;
 
 }  // namespace ursula

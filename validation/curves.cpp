@@ -20,8 +20,7 @@ TimeSeries replayAndLimit(const std::vector<WindowedReplay>& windows, double pos
     for (const ReplayStep& step : window.replay.steps) {
       t.push_back(step.t);
       error.push_back(step.position_error.norm());
-      limit.push_back(driftLimit(window.window, window.replay.tolerance,
-                                 static_cast<double>(window.replay.steps.size()), position_scale, step.t));
+      limit.push_back(replayLimit(window, position_scale, step.t));
     }
   return curve({{"t_s", t}, {"position error (m)", error}, {"derived limit (m)", limit}});
 }
@@ -33,8 +32,7 @@ TimeSeries growth(const std::vector<WindowedReplay>& windows) {
     from_state.insert(from_state.end(), window.window.from_start.begin(), window.window.from_start.end());
     from_velocity.insert(from_velocity.end(), window.window.growth.begin(), window.window.growth.end());
   }
-  return curve(
-      {{"t_s", t}, {"of the state (m per m and m/s)", from_state}, {"of the velocity (m per m/s)", from_velocity}});
+  return curve({{"t_s", t}, {"of the state (1)", from_state}, {"of the velocity (s)", from_velocity}});
 }
 
 TimeSeries distances(const std::vector<PointwiseSample>& samples) {

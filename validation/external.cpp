@@ -10,6 +10,8 @@
 #include "validation/external_replay.h"
 #include "validation/finish.h"
 #include "validation/judge_external.h"
+#include "validation/motion_check.h"
+#include "validation/presentation.h"
 #include "validation/timeseries.h"
 
 namespace ursula {
@@ -34,32 +36,50 @@ void addFileFindings(const TorqueFile& file, ValidationResult& result) {
   }
 }
 
-/// Of the first window; none where the torques throw the machine about, for then it says nothing of integration.
-Ladder ladderOf(const Scenario& scenario, const ExternalReplay& replay) {
-  if (replay.windows.empty()) return {};
-  const WindowedReplay& first = replay.windows.front();
-  if (!first.replay.gave_up.empty() || first.replay.left_path) return {};
-  return climb(scenario, replay.torques, first);
+/// In other units; all are powers of two, so that no digit is lost.
+TorqueFile inUnits(TorqueFile file, const Units& units) {
+  for (std::size_t k = 0; k < file.rows(); ++k) {
+    file.t[k] /= units.time;
+    file.time_precision[k] /= units.time;
+    file.torques[k] /= units.torque();
+    file.torque_precision[k] /= units.torque();
+  }
+  return file;
+}
+
+void addReplay(const Scenario& scenario, const ExternalTorques& external, const Units& units,
+               ValidationResult& result) {
+  ExternalReplay replay = replayExternal(scenario, external, units);
+  std::move(replay.checks.begin(), replay.checks.end(), std::back_inserter(result.checks));
+  result.timeseries = validationSeries(external.samples, replay.windows);
+  addFindings(external.samples, replay.windows, result, units);
+  addCurves(external.samples, replay.windows, result);
+  std::move(replay.findings.begin(), replay.findings.end(), std::back_inserter(result.findings));
+  const ErrorBudget budget = replay.windows.empty() ? ErrorBudget{}
+                                                    : attribute(scenario, external.samples, replay.windows,
+                                                                *replay.amplification, replay.plan);
+  addBudget(budget, result, units);
 }
 
 }  // namespace
 
 ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& torques) {
+  checkMotion(scenario);
+  const Presentation natural = naturalPresentation(scenario);
+  const Scenario here = natural.of(scenario);
   ValidationResult result;
   result.scenario = scenario.name;
-  const ExternalTorques external = runExternal(scenario, torques);
-  result.checks = judgeExternal(external);
-  ExternalReplay replay = replayExternal(scenario, external);
-  std::move(replay.checks.begin(), replay.checks.end(), std::back_inserter(result.checks));
-  applyAcceptance(scenario.acceptance, result.checks);
-  result.verdict = overall(result.checks);
-  result.timeseries = validationSeries(external.samples, replay.windows);
-  addFindings(external.samples, replay.windows, result);
-  addCurves(external.samples, replay.windows, result);
-  std::move(replay.findings.begin(), replay.findings.end(), std::back_inserter(result.findings));
-  addBudget(attribute(external.samples, replay.windows, ladderOf(scenario, replay), result.checks), result);
-  addFileFindings(external.file, result);
-  addDiagnosis(diagnose(scenario, external), result);
+  const TorqueFile file = within(torques, scenario.trajectory->duration());
+  const ExternalTorques external = runExternal(here, inUnits(file, natural.units));
+  result.checks = judgeExternal(external, natural.units);
+  addReplay(here, external, natural.units, result);
+  restore(natural, result);
+  judgeByUser(scenario.acceptance, result);
+  addFileFindings(file, result);
+  if (result.verdict == Verdict::fail || result.limits == LimitBy::user) {
+    const Scenario relocated = ursula::relocated(scenario, natural.origin);  // in SI: its words are
+    addDiagnosis(diagnose(relocated, runExternal(relocated, file)), result);
+  }
   addProvenance(scenario, torques.file.filename().string(), result);
   return result;
 }

@@ -19,9 +19,9 @@ class SplineLimit {
   /// `grid`: equally spaced instants of the motion.
   SplineLimit(const Scenario& scenario, const ExternalTorques& torques, std::vector<double> grid)
       : t_(torques.file.t), grid_(std::move(grid)) {
-    ConditioningProbe probe(*scenario.manipulator, scenario.load);
+    const RoundingProfile profile(scenario, profileInstants(static_cast<int>(grid_.size())));
     for (double t : grid_) {
-      conditioning_.push_back(probe.at(scenario.trajectory->at(t)));
+      conditioning_.push_back(profile.at(scenario.trajectory->at(t)));
       position_scale_ = std::max(position_scale_, conditioning_.back().position_scale);
       forces_.include(conditioning_.back());
     }
@@ -36,13 +36,12 @@ class SplineLimit {
   double operator()(double t) const {
     const double h = grid_[1] - grid_[0];
     const auto k = std::min(static_cast<std::size_t>(std::lround(t / h)), grid_.size() - 1);
-    double response = 0, rounding = 0, loops = 0;
+    double response = 0, rounding = 0;
     for (std::size_t j = k == 0 ? 0 : k - 1; j <= std::min(k + 1, grid_.size() - 1); ++j) {
       response = std::max(response, conditioning_[j].response);
-      rounding = std::max(rounding, conditioning_[j].torqueRounding());
-      loops = std::max(loops, conditioning_[j].loopRounding());
+      rounding = std::max(rounding, conditioning_[j].accelerationRounding());
     }
-    return response * (rounding + splineError(t - h, t + h)) + loops;
+    return rounding + response * splineError(t - h, t + h);
   }
 
   double positionScale() const { return position_scale_; }
@@ -80,8 +79,8 @@ std::vector<Check> notReplayed(double value, double limit, const std::string& ba
                                                        {"energy.balance", "J"}};
   for (const auto& [name, unit] : names) {
     const bool has_numbers = std::string(name) == "replay.position";
-    checks.push_back(
-        notJudgeable(name, has_numbers ? value : std::nan(""), has_numbers ? limit : std::nan(""), unit, basis, why));
+    checks.push_back(notJudgeable(Reason::not_covered, name, has_numbers ? value : std::nan(""),
+                                  has_numbers ? limit : std::nan(""), unit, basis, why));
   }
   return checks;
 }
@@ -94,7 +93,7 @@ ExternalReplay inconclusive(const std::string& why) {
 }
 
 /// Why no spline can stand for the torques over the whole motion; empty where one can.
-std::string missing(const ExternalTorques& torques, double duration) {
+std::string missing(const ExternalTorques& torques, double duration, const Units& units) {
   const TorqueFile& file = torques.file;
   if (file.rows() < TorqueSpline::least_samples)
     return fmt::format("too few samples, {}; a quintic spline needs {}", file.rows(), TorqueSpline::least_samples);
@@ -102,8 +101,8 @@ std::string missing(const ExternalTorques& torques, double duration) {
   const bool begins = file.t.front() <= file.time_precision.front() + rounding;
   const bool ends = file.t.back() >= duration - file.time_precision.back() - rounding;
   if (begins && ends) return "";
-  return fmt::format("the samples cover {:.6g} to {:.6g} s of a motion from 0 to {:.6g} s", file.t.front(),
-                     file.t.back(), duration);
+  return fmt::format("the samples cover {:.6g} to {:.6g} s of a motion from 0 to {:.6g} s", file.t.front() * units.time,
+                     file.t.back() * units.time, duration * units.time);
 }
 
 /// Where even the shortest window's bound exceeds the useful limit, the worst of them.
@@ -117,18 +116,18 @@ const GrowthWindow* hopeless(const ReplayPlan& plan, const std::vector<GrowthWin
   return worst;
 }
 
-std::string splineBasis(const SplineLimit& limit, std::size_t rows) {
+std::string splineBasis(const SplineLimit& limit, std::size_t rows, const Units& units) {
   return fmt::format(
       "between the {} samples: interpolation up to {:.3g} N m (the NOC's torques on a quintic spline through the same "
       "instants), printed digits up to {:.3g} N m, both x || T_P inv(I) ||",
-      rows, limit.largestInterpolation(), limit.largestOfDigits());
+      rows, limit.largestInterpolation() * units.torque(), limit.largestOfDigits() * units.torque());
 }
 
 }  // namespace
 
-ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& torques) {
+ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& torques, const Units& units) {
   const double duration = scenario.trajectory->duration();
-  const std::string why = missing(torques, duration);
+  const std::string why = missing(torques, duration, units);
   if (!why.empty()) return inconclusive(why);
 
   const Amplification amplification = linearised(scenario);
@@ -144,22 +143,23 @@ ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& t
   plan.max_evaluations = enoughEvaluations(plan.step_rate, duration);
   const std::vector<GrowthWindow> windows = planWindows(amplification, plan);
   const double useful = useful_replay_limit * limit->length();
-  const std::string basis = splineBasis(*limit, torques.file.rows());
+  const std::string basis = splineBasis(*limit, torques.file.rows(), units);
   ExternalReplay out;
   if (const GrowthWindow* window = hopeless(plan, windows, useful)) {
     const double bound = plannedBound(plan, *window);
     const std::string text = fmt::format(
         "not replayed: too few samples or digits; from t = {:.6g} s the torques' error between samples may move P by "
         "{:.3g} m within {:.3g} s, beyond {:.3g} m a limit says nothing",
-        window->start(), bound, window->end() - window->start(), useful);
+        window->start() * units.time, bound * units.length, (window->end() - window->start()) * units.time,
+        useful * units.length);
     out.checks = notReplayed(std::nan(""), bound, basis, text);
     out.findings = {{"replay", "none: " + text}, {"spline", basis}};
     return out;
   }
-  out.torques = plan.torques;
-  out.position_scale = plan.position_scale;
+  out.plan = plan;
+  out.amplification = std::make_shared<const Amplification>(amplification);
   out.windows = replayInWindows(scenario, plan, windows);
-  out.checks = judgeReplay(out.windows, limit->positionScale(), limit->length(), limit->forces());
+  out.checks = judgeReplay(out.windows, limit->positionScale(), limit->length(), limit->forces(), units);
   for (Check& check : out.checks) check.basis += "; " + basis;
   out.findings = {{"spline", basis}};
   return out;

@@ -26,8 +26,6 @@ constexpr double largest_step = 1.5;
 constexpr double shortest_step = 1e-12;
 /// A deviation, m or rad, that is no use to follow: the torques are wrong, and by how much is known.
 constexpr double lost = 0.1;
-/// Above this share of the largest torque a limit says nothing worth knowing.
-constexpr double useful_share = 1e-6;
 constexpr long max_evaluations = 200000;
 /// Where the torques are known to be wrong already, how wrong need not be found out at any price.
 constexpr long max_evaluations_of_wrong = 5000;
@@ -133,6 +131,7 @@ struct Answer {
   double torque = 0, t = 0;  ///< the largest that the term added, N·m, and when
   long steps = 0;
   std::string stopped;    ///< why before the end of the motion, else empty
+  double stopped_at = 0;  ///< s
   bool gave_up = false;   ///< stopped by an error
   bool too_long = false;  ///< stopped by the number of evaluations
 };
@@ -167,13 +166,14 @@ void follow(Stabilised& loop, const Trajectory& trajectory, double tolerance, do
       ++found.steps;
       const double torque = loop.term(deviation, trajectory.at(t)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
       if (!(torque <= found.torque)) found.torque = torque, found.t = t;
-      if (loop.isLost(deviation)) found.stopped = fmt::format("the machine was lost at t = {:.6g} s", t);
+      if (loop.isLost(deviation)) found.stopped = "the machine was lost";
     }
     const long most = found.torque > limit ? max_evaluations_of_wrong : max_evaluations;
     if (loop.evaluations() > most && found.stopped.empty()) {
-      found.stopped = fmt::format("{} derivative evaluations reach t = {:.6g} s only", most, t);
+      found.stopped = fmt::format("{} derivative evaluations did not reach the end, but ended", most);
       found.too_long = true;
     }
+    found.stopped_at = t;
   }
 }
 
@@ -192,37 +192,38 @@ Answer answerOf(Stabilised& loop, const Trajectory& trajectory, double tolerance
 }  // namespace
 
 Check judgeFeedback(const Scenario& scenario, const Subject& subject, const Amplification& amplification,
-                    const std::vector<PointwiseSample>& samples) {
+                    const std::vector<PointwiseSample>& samples, const Units& units) {
   static constexpr const char* check = "feedback.torque";
   Stabilised loop(scenario, subject, amplification, samples);
   double rounding = 0, largest = 0, gain = 0;
+  const PointwiseSample* noisiest = nullptr;
   for (const PointwiseSample& sample : samples) {
-    const double loops = loop.inertia(sample.motion).norm() * sample.conditioning.loopRounding();
-    rounding = std::max(rounding, 2 * sample.torque.limit + loops);
+    const double here = 2 * sample.torque.limit + sample.conditioning.rounding(Rounded::effort);
+    if (noisiest == nullptr || !(here <= rounding)) noisiest = &sample, rounding = here;
     largest = std::max(largest, sample.torques_simbody.cwiseAbs().maxCoeff());
     gain = std::max(gain, loop.gain(sample.motion));
   }
   const double limit = (answer + 0.5) * rounding;
   const Answer found = answerOf(loop, *scenario.trajectory, 0.5 * rounding / gain, limit);
-  if (found.gave_up && found.torque <= limit)
-    return notMade(check, "N m", "the stabilised replay gave up: " + found.stopped);
+  const std::string stopped =
+      found.stopped.empty() ? "" : fmt::format("; {} at t = {:.6g} s", found.stopped, found.stopped_at * units.time);
+  if (found.gave_up && found.torque <= limit) return notMade(check, "N m", "the stabilised replay gave up" + stopped);
   const std::string basis = fmt::format(
       "{:.3g} N m, twice the torque's largest rounding and the loops' as torque, answered with {:.3g} of it, and half "
-      "of "
-      "it again from a step",
-      rounding, answer);
+      "of it again from a step",
+      rounding * units.torque(), answer);
   const std::string why = fmt::format(
       "torque that a weak stabilising term added over the whole motion, {:.3g} of the largest torque; shown for "
-      "t = {:.6g} s of {} steps, {} derivative evaluations{}{}",
-      largest > 0 ? found.torque / largest : found.torque, found.t, found.steps, loop.evaluations(),
-      found.stopped.empty() ? "" : "; ", found.stopped);
-  if (found.torque <= limit) {
-    if (found.too_long) return notJudgeable(check, found.torque, limit, "N m", basis, why);
-    if (!(limit <= useful_share * largest))
-      return notJudgeable(check, found.torque, limit, "N m", basis,
-                          why + fmt::format("; the limit exceeds {:g} of the largest torque", useful_share));
-  }
-  return judged(check, found.torque, limit, "N m", basis, why);
+      "t = {:.6g} s of {} steps, {} derivative evaluations{}",
+      largest > 0 ? found.torque / largest : found.torque, found.t * units.time, found.steps, loop.evaluations(),
+      stopped);
+  Check out = judgedIfUseful(check, found.torque, limit, useful_share * largest, "N m", basis, why,
+                             fmt::format("it exceeds {:g} of the largest torque: {}", useful_share,
+                                         noisiest == nullptr ? "" : causeOfRounding(noisiest->conditioning)));
+  if (found.torque <= limit && found.too_long)
+    out = notJudgeable(Reason::unfinished, check, found.torque, limit, "N m", basis, why);
+  out.largest = {found.torque, found.t * units.time, ""};
+  return out;
 }
 
 }  // namespace ursula

@@ -16,6 +16,6 @@ namespace ursula {
 /// the Mathematics and Methods of Astrodynamics, 1999, chapter 9), so that its errors are relative to the deviation and
 /// not to the motion. `feedback.torque`, N·m.
 Check judgeFeedback(const Scenario& scenario, const Subject& subject, const Amplification& amplification,
-                    const std::vector<PointwiseSample>& samples);
+                    const std::vector<PointwiseSample>& samples, const Units& units = {});
 
 }  // namespace ursula

@@ -21,37 +21,89 @@ std::string sha1(const std::string& text) {
   return out;
 }
 
+/// "p_x_m" → "m", "tau_1_Nm" → "Nm", "q_w" → "".
+std::string unitOf(const std::string& column) {
+  for (const char* unit : {"rad_s2", "rad_s", "rad", "m_s2", "m_s", "Nm", "N", "J", "m", "s"}) {
+    const std::string ending = std::string("_") + unit;
+    if (column.size() > ending.size() && column.compare(column.size() - ending.size(), ending.size(), ending) == 0)
+      return unit;
+  }
+  const std::size_t open = column.rfind('(');
+  return open == std::string::npos || column.back() != ')' ? "" : column.substr(open + 1, column.size() - open - 2);
+}
+
+void restoreColumns(const Presentation& from, TimeSeries& series) {
+  for (std::size_t k = 0; k < series.names.size(); ++k) {
+    const std::string& column = series.names[k];
+    const double unit = from.units.of(unitOf(column));
+    double offset = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const char* prefix : {"p_", "sim_p_"})
+        if (column == fmt::format("{}{}_m", prefix, "xyz"[axis])) offset = from.origin(axis);
+    for (double& value : series.columns[k]) value = value * unit + offset;
+  }
+}
+
+/// A wider limit decides only where there is a finished value to hold against it.
+void judgeByUser(double limit, Check& check) {
+  const bool finished = check.reason == Reason::none || check.reason == Reason::limit_useless;
+  if (!finished) {
+    check.why += fmt::format("; [acceptance] allows {:.3g} {}, but there is no finished value to hold against it",
+                             limit, check.unit);
+    return;
+  }
+  const bool wider = !(limit <= check.limit) || check.reason == Reason::limit_useless;
+  const Largest largest = check.largest;
+  const std::string where = largest.where.empty() ? "" : ", " + largest.where;
+  check = judged(check.name, largest.value, limit, check.unit,
+                 fmt::format("[acceptance] of the scenario; derived: {:.3g}, {}", check.limit, check.basis),
+                 fmt::format("{}; the largest value, at t = {:.6g} s{}", check.why, largest.t, where));
+  check.largest = largest;
+  check.limit_by = wider ? LimitBy::user : LimitBy::derived;
+}
+
 /// κ(B): infinite where the pose is singular.
-std::string nearestToSingular(const std::vector<PointwiseSample>& samples) {
+std::string nearestToSingular(const std::vector<PointwiseSample>& samples, const Units& units) {
   const PointwiseSample& at = *std::max_element(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
     return a.conditioning.kappa_B < b.conditioning.kappa_B;
   });
-  return fmt::format("{:.4g}, at t = {:.6g} s", at.conditioning.kappa_B, at.motion.t);
+  return fmt::format("{:.4g}, at t = {:.6g} s", at.conditioning.kappa_B, at.motion.t * units.time);
 }
 
 /// |sin θ|: 0 where a leg is stretched or folded.
-std::string nearestToEdge(const std::vector<PointwiseSample>& samples) {
+std::string nearestToEdge(const std::vector<PointwiseSample>& samples, const Units& units) {
   const PointwiseSample& at = *std::min_element(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
     return a.conditioning.smallest_sine < b.conditioning.smallest_sine;
   });
   return fmt::format("{:.4g}, leg {} at t = {:.6g} s", at.conditioning.smallest_sine,
-                     at.conditioning.smallest_sine_leg + 1, at.motion.t);
+                     at.conditioning.smallest_sine_leg + 1, at.motion.t * units.time);
 }
 
 }  // namespace
 
-void applyAcceptance(const std::vector<AcceptanceLimit>& acceptance, std::vector<Check>& checks) {
-  for (const AcceptanceLimit& wanted : acceptance) {
-    const auto found = std::find_if(checks.begin(), checks.end(),
-                                    [&wanted](const Check& check) { return check.name == wanted.check; });
-    if (found == checks.end()) {
-      checks.push_back(notMade(wanted.check, "", "[acceptance] names a check that was not made"));
-      continue;
-    }
-    *found = judged(found->name, found->value, wanted.limit, found->unit,
-                    fmt::format("[acceptance] of the scenario; derived: {:.3g}, {}", found->limit, found->basis),
-                    found->why);
+void restore(const Presentation& from, ValidationResult& result) {
+  for (Check& check : result.checks) {
+    const double unit = from.units.of(check.unit);
+    check.value *= unit;
+    check.limit *= unit;
+    check.largest.value *= unit;
   }
+  restoreColumns(from, result.timeseries);
+  for (auto& [title, curve] : result.curves) restoreColumns(from, curve);
+}
+
+void judgeByUser(const std::vector<AcceptanceLimit>& acceptance, ValidationResult& result) {
+  for (const AcceptanceLimit& wanted : acceptance) {
+    const auto found = std::find_if(result.checks.begin(), result.checks.end(),
+                                    [&wanted](const Check& check) { return check.name == wanted.check; });
+    if (found == result.checks.end())
+      result.checks.push_back(notMade(wanted.check, "", "[acceptance] names a check that was not made"));
+    else
+      judgeByUser(wanted.limit, *found);
+  }
+  for (const Check& check : result.checks)
+    if (check.limit_by == LimitBy::user) result.limits = LimitBy::user;
+  result.verdict = overall(result.checks);
 }
 
 void addProvenance(const Scenario& scenario, const std::string& subject, ValidationResult& result) {
@@ -75,7 +127,7 @@ void addProvenance(const Scenario& scenario, const std::string& subject, Validat
 }
 
 void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
-                 ValidationResult& result) {
+                 ValidationResult& result, const Units& units) {
   double torque = 0, torque_error = 0, acceleration = 0, acceleration_error = 0;
   for (const PointwiseSample& sample : samples) {
     torque = std::max(torque, sample.torques_simbody.cwiseAbs().maxCoeff());
@@ -93,18 +145,18 @@ void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<
     for (double value : window.window.growth) growth = std::max(growth, value);
   }
   const std::vector<std::pair<std::string, std::string>> findings = {
-      {"largest torque", fmt::format("{:.6g} N m", torque)},
+      {"largest torque", fmt::format("{:.6g} N m", torque * units.torque())},
       {"torque error, relative to the largest", fmt::format("{:.3g}", torque > 0 ? torque_error / torque : 0)},
-      {"largest platform acceleration", fmt::format("{:.6g} m/s^2", acceleration)},
+      {"largest platform acceleration", fmt::format("{:.6g} m/s^2", acceleration * units.acceleration())},
       {"acceleration error, relative to the largest",
        acceleration > 0 ? fmt::format("{:.3g}", acceleration_error / acceleration) : "none commanded"},
-      {"largest condition number of B", nearestToSingular(samples)},
-      {"smallest |sin theta|", nearestToEdge(samples)},
+      {"largest condition number of B", nearestToSingular(samples, units)},
+      {"smallest |sin theta|", nearestToEdge(samples, units)},
       {"replay tolerance", windows.empty() ? "–" : fmt::format("{:.3g}", windows.front().replay.tolerance)},
       {"replay windows", fmt::format("{}", windows.size())},
       {"replay steps", fmt::format("{}", steps)},
       {"replay derivative evaluations", fmt::format("{}", evaluations)},
-      {"growth of a velocity deviation in a window", fmt::format("{:.4g} m/(m/s)", growth)},
+      {"growth of a velocity deviation in a window", fmt::format("{:.4g} m/(m/s)", growth * units.time)},
   };
   result.findings.insert(result.findings.end(), findings.begin(), findings.end());
 }

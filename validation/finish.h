@@ -6,18 +6,24 @@
 #include "model/scenario.h"
 #include "validation/judge_replay.h"
 #include "validation/pointwise.h"
+#include "validation/presentation.h"
 #include "validation/result.h"
 
 namespace ursula {
 
-/// Judges by the scenario's own limits where it has any; naming a check that was not made is a failure.
-void applyAcceptance(const std::vector<AcceptanceLimit>& acceptance, std::vector<Check>& checks);
+/// From a presentation's units and origin to SI and B: checks by their unit, columns by their name's.
+void restore(const Presentation& from, ValidationResult& result);
+
+/// Judges by the scenario's own limits where it has any, each held against the largest value of its check, and sets the
+/// verdict. Of what could not be judged a limit of the user's lifts only what had no useful limit; naming a check that
+/// was not made is a failure.
+void judgeByUser(const std::vector<AcceptanceLimit>& acceptance, ValidationResult& result);
 
 /// Scenario, subject, build and settings.
 void addProvenance(const Scenario& scenario, const std::string& subject, ValidationResult& result);
 
 /// Largest torque and acceleration with their errors, condition numbers, and what the replay took.
 void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
-                 ValidationResult& result);
+                 ValidationResult& result, const Units& units = {});
 
 }  // namespace ursula

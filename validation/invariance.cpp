@@ -7,49 +7,23 @@
 #include <functional>
 
 #include "nocsolver/errors.h"
+#include "validation/presentation.h"
 #include "validation/worst.h"
 
 namespace ursula {
 namespace {
 
 /// No angle of it is special to any leg.
-const Matrix3d& worldTurn() {
-  static const Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3d(0.36, -0.48, 0.8)).toRotationMatrix();
-  return turn;
-}
-
-Motion<double> turned(const Motion<double>& motion) {
-  const Matrix3d& R = worldTurn();
-  Motion<double> out = motion;
-  out.p = R * motion.p;
-  out.Q = R * motion.Q;
-  out.omega = R * motion.omega;
-  out.p_dot = R * motion.p_dot;
-  out.omega_dot = R * motion.omega_dot;
-  out.p_ddot = R * motion.p_ddot;
+Presentation worldTurned() {
+  Presentation out;
+  out.turn = Eigen::AngleAxisd(0.7, Vector3d(0.36, -0.48, 0.8)).toRotationMatrix();
   return out;
 }
 
-Manipulator turned(const Manipulator& manipulator) {
-  ManipulatorParameters machine = manipulator.parameters();
-  machine.gravity = worldTurn() * machine.gravity;
-  for (Leg& leg : machine.legs) {
-    leg.base_point = worldTurn() * leg.base_point;
-    leg.base_axis = worldTurn() * leg.base_axis;
-  }
-  return Manipulator(machine);
-}
-
 /// Leg i becomes leg (i + 1) mod 6.
-Manipulator relabelled(const Manipulator& manipulator) {
-  ManipulatorParameters machine = manipulator.parameters();
-  for (std::size_t i = 0; i < leg_count; ++i) machine.legs[(i + 1) % leg_count] = manipulator.parameters().legs[i];
-  return Manipulator(machine);
-}
-
-Vector6d relabelled(const Vector6d& torques) {
-  Vector6d out;
-  for (int i = 0; i < leg_count; ++i) out((i + 1) % leg_count) = torques(i);
+Presentation relabelled() {
+  Presentation out;
+  for (int i = 0; i < leg_count; ++i) out.leg[static_cast<std::size_t>((i + 1) % leg_count)] = i;
   return out;
 }
 
@@ -94,38 +68,47 @@ struct Invariance {
   std::function<Vector6d(const Motion<double>&)> expected, found;
 };
 
-Check judgeInvariance(const Invariance& invariance, const std::vector<PointwiseSample>& samples) {
+Check judgeInvariance(const Invariance& invariance, const std::vector<PointwiseSample>& samples, const Units& units) {
   Worst worst;
+  double torque = 0;
   try {
     for (const PointwiseSample& sample : samples) {
       const Vector6d difference = invariance.expected(sample.motion) - invariance.found(sample.motion);
-      worst.add(difference.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), 2 * sample.conditioning.torqueRounding(),
-                sample.motion.t);
+      Eigen::Index leg = 0;
+      worst.add(difference.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(&leg),
+                2 * sample.conditioning.rounding(Rounded::solver), sample.motion.t, static_cast<int>(leg));
+      torque = std::max(torque, sample.torques_simbody.cwiseAbs().maxCoeff());
     }
   } catch (const PoseError& refusal) {
     return notMade(invariance.name, "N m", std::string("no answer: ") + refusal.what());
   }
   if (!worst.any) return notMade(invariance.name, "N m", "no instant was compared");
-  return judged(invariance.name, worst.value, worst.limit, "N m", "twice the torque's rounding limit: both sides round",
-                fmt::format("{}, at {} instants; shown for t = {:.6g} s", invariance.what, samples.size(), worst.t));
+  Check check = judgedIfUseful(invariance.name, worst.value, worst.limit, useful_share * torque, "N m",
+                               "twice the solver's own rounding: both sides round",
+                               fmt::format("{}, at {} instants; shown for t = {:.6g} s, leg {}", invariance.what,
+                                           samples.size(), worst.t * units.time, worst.where + 1),
+                               fmt::format("it exceeds {:g} of the largest torque", useful_share));
+  check.largest = {worst.largest, worst.largest_t * units.time, placeName(worst.largest_where, false)};
+  return check;
 }
 
 }  // namespace
 
 std::vector<Check> judgeInvariances(const Scenario& scenario, const Subject& subject,
-                                    const std::vector<PointwiseSample>& samples) {
+                                    const std::vector<PointwiseSample>& samples, const Units& units) {
   if (!subject.rebuilt) return {};
   const Manipulator& machine = *scenario.manipulator;
-  const Subject own = subject.rebuilt(machine), in_turned = subject.rebuilt(turned(machine)),
-                with_other_labels = subject.rebuilt(relabelled(machine)),
+  const Presentation turned = worldTurned(), labels = relabelled();
+  const Subject own = subject.rebuilt(machine), in_turned = subject.rebuilt(turned.of(machine)),
+                with_other_labels = subject.rebuilt(labels.of(machine)),
                 with_double = subject.rebuilt(doubled(machine)),
                 without_friction = subject.rebuilt(frictionless(machine));
   using M = Motion<double>;
   const std::vector<Invariance> invariances = {
       {"invariance.rotation", "the whole world turned, gravity included, leaves the torques", own.torques,
-       [&](const M& motion) { return in_turned.torques(turned(motion)); }},
+       [&](const M& motion) { return in_turned.torques(turned.of(motion)); }},
       {"invariance.labels", "legs relabelled carry their torques along",
-       [&](const M& motion) { return relabelled(own.torques(motion)); }, with_other_labels.torques},
+       [&](const M& motion) { return labels.of(own.torques(motion)); }, with_other_labels.torques},
       {"invariance.mass", "masses, inertias and friction doubled double the torques",
        [&](const M& motion) { return Vector6d(2 * own.torques(motion)); }, with_double.torques},
       {"invariance.time_reversal", "the mean of the torques forwards and backwards is that without friction",
@@ -134,7 +117,7 @@ std::vector<Check> judgeInvariances(const Scenario& scenario, const Subject& sub
   };
   std::vector<Check> checks;
   checks.reserve(invariances.size());
-  for (const Invariance& invariance : invariances) checks.push_back(judgeInvariance(invariance, samples));
+  for (const Invariance& invariance : invariances) checks.push_back(judgeInvariance(invariance, samples, units));
   return checks;
 }
 

@@ -12,6 +12,6 @@ namespace ursula {
 /// Invariances that hold exactly and need no reference: the whole world turned (gravity included), legs relabelled,
 /// masses doubled, time reversed. `invariance.*`; none where the subject is no solver. Load is left out of them.
 std::vector<Check> judgeInvariances(const Scenario& scenario, const Subject& subject,
-                                    const std::vector<PointwiseSample>& samples);
+                                    const std::vector<PointwiseSample>& samples, const Units& units = {});
 
 }  // namespace ursula

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "validation/subject.h"
+#include "validation/worst.h"
 
 namespace ursula {
 namespace {
@@ -34,26 +35,18 @@ Vector6d changeWithin(const std::function<Vector6d(double)>& noc, double t, doub
   return before.cwiseMax(after);
 }
 
-/// The one furthest beyond its limit, or where none is, the largest error.
-std::size_t shownOf(const std::vector<Deviation>& deviations) {
-  std::size_t worst = 0, largest = 0;
-  double worst_ratio = 1;
-  for (std::size_t k = 0; k < deviations.size(); ++k) {
-    const double ratio = deviations[k].error / deviations[k].limit;
-    if (std::isnan(ratio)) return k;
-    if (ratio > worst_ratio) worst = k, worst_ratio = ratio;
-    if (deviations[k].error > deviations[largest].error) largest = k;
+Check judgeAgainstNoc(const ExternalTorques& torques, const Units& units) {
+  Worst shown;
+  for (std::size_t k = 0; k < torques.against_noc.size(); ++k) {
+    const Deviation& each = torques.against_noc[k];
+    shown.add(each.error, each.limit, torques.file.t[k], each.where);
   }
-  return worst_ratio > 1 ? worst : largest;
-}
-
-Check judgeAgainstNoc(const ExternalTorques& torques) {
-  const std::size_t k = shownOf(torques.against_noc);
-  const Deviation& shown = torques.against_noc[k];
-  return judged("torque.against_noc", shown.error, shown.limit, "N m",
-                "25 eps kappa(B) kappa(legs) x || |T|' |w| ||, as for torque.pointwise",
-                fmt::format("torques against this program's NOC, at {} instants; shown for t = {:.6g} s, leg {}",
-                            torques.file.rows(), torques.file.t[k], shown.where + 1));
+  if (!shown.any) return notMade("torque.against_noc", "N m", "no instant was compared");
+  Check check = judged("torque.against_noc", shown.value, shown.limit, "N m", "as for torque.pointwise",
+                       fmt::format("torques against this program's NOC, at {} instants; shown for t = {:.6g} s, leg {}",
+                                   torques.file.rows(), shown.t * units.time, shown.where + 1));
+  check.largest = {shown.largest, shown.largest_t * units.time, placeName(shown.largest_where, false)};
+  return check;
 }
 
 }  // namespace
@@ -92,16 +85,16 @@ ExternalTorques runExternal(const Scenario& scenario, const TorqueFile& file) {
   return out;
 }
 
-std::vector<Check> judgeExternal(const ExternalTorques& torques) {
-  std::vector<Check> checks = judgePointwise(torques.samples, false);
-  checks.push_back(judgeAgainstNoc(torques));
+std::vector<Check> judgeExternal(const ExternalTorques& torques, const Units& units) {
+  std::vector<Check> checks = judgePointwise(torques.samples, false, units);
+  checks.push_back(judgeAgainstNoc(torques, units));
   const double largest = torques.largestPrecision();
   const std::string precision =
       largest == 0 ? "; the file's digits are as fine as doubles and add nothing"
                    : fmt::format(
                          "; and half a unit of the last digit printed (torques of up to {} significant digits, "
                          "instants), up to {:.3g} N m",
-                         torques.file.digits, largest);
+                         torques.file.digits, largest * units.torque());
   for (Check& check : checks) check.basis += precision;
   return checks;
 }

@@ -26,6 +26,6 @@ struct ExternalTorques {
 ExternalTorques runExternal(const Scenario& scenario, const TorqueFile& file);
 
 /// `torque.pointwise`, `acceleration.pointwise`, `torque.against_noc`.
-std::vector<Check> judgeExternal(const ExternalTorques& torques);
+std::vector<Check> judgeExternal(const ExternalTorques& torques, const Units& units = {});
 
 }  // namespace ursula

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "validation/worst.h"
 
@@ -12,6 +13,8 @@ namespace ursula {
 namespace {
 
 constexpr double eps = Eigen::NumTraits<double>::epsilon();
+/// Ends of a window that two integrators reach differ by rounding.
+constexpr double same_instant = 1e-12;
 
 /// A value of one step with its limit.
 struct Measure {
@@ -36,26 +39,45 @@ std::size_t stepsOf(const std::vector<WindowedReplay>& windows) {
   return steps;
 }
 
-Check judgeMeasure(const std::vector<WindowedReplay>& windows, const Measure& measure) {
+/// Which of a limit's parts makes it large at t.
+std::string causeOf(const std::vector<WindowedReplay>& windows, double t) {
+  for (const WindowedReplay& each : windows) {
+    if (t > each.window.end()) continue;
+    const double integration = each.integration.measured() ? each.integration.at(t).position : 0;
+    const double bound = each.window.bound(t, 0, 0);
+    if (integration_safety * integration > bound) return "the integration does not converge to that";
+    return fmt::format("deviations grow {:.2g} times within the window", each.window.from_start.back());
+  }
+  return "";
+}
+
+Check judgeMeasure(const std::vector<WindowedReplay>& windows, const Measure& measure, const Units& units) {
   std::string unfinished;
   for (const WindowedReplay& window : windows) {
     if (window.replay.gave_up.empty()) continue;
-    unfinished = fmt::format("the replay from t = {:.6g} s gave up: {}", window.window.start(), window.replay.gave_up);
+    unfinished =
+        fmt::format("the replay from t = {:.6g} s gave up at t = {:.6g} s: {}", window.window.start() * units.time,
+                    window.replay.stopped_at * units.time, window.replay.gave_up);
     if (!window.replay.too_long) return notMade(measure.name, measure.unit, unfinished);
   }
   const Worst shown = worstOf(windows, measure);
   if (!shown.any) return notMade(measure.name, measure.unit, "no step was compared");
   const std::string where =
       windows.size() == 1 ? "open loop over the whole motion" : fmt::format("open loop in {} windows", windows.size());
-  const std::string why = fmt::format("{}, {}, at {} steps; shown for t = {:.6g} s{}{}", measure.what, where,
-                                      stepsOf(windows), shown.t, unfinished.empty() ? "" : "; ", unfinished);
+  const std::string why =
+      fmt::format("{}, {}, at {} steps; shown for t = {:.6g} s{}{}", measure.what, where, stepsOf(windows),
+                  shown.t * units.time, unfinished.empty() ? "" : "; ", unfinished);
+  Check check = judged(measure.name, shown.value, shown.limit, measure.unit, measure.basis, why);
   if (!unfinished.empty() && shown.value <= shown.limit)
-    return notJudgeable(measure.name, shown.value, shown.limit, measure.unit, measure.basis, why);
-  if (measure.useful > 0 && !(shown.limit <= measure.useful))
-    return notJudgeable(
-        measure.name, shown.value, shown.limit, measure.unit, measure.basis,
-        why + fmt::format("; the limit exceeds {:.3g} {}, beyond which it says nothing", measure.useful, measure.unit));
-  return judged(measure.name, shown.value, shown.limit, measure.unit, measure.basis, why);
+    check = notJudgeable(Reason::unfinished, measure.name, shown.value, shown.limit, measure.unit, measure.basis, why);
+  else if (shown.value <= shown.limit && measure.useful > 0 && !(shown.widest_limit <= measure.useful))
+    check =
+        notJudgeable(Reason::limit_useless, measure.name, shown.value, shown.widest_limit, measure.unit, measure.basis,
+                     fmt::format("{}; at t = {:.6g} s the limit exceeds {:.3g} {}, beyond which it says nothing: {}",
+                                 why, shown.widest_t * units.time, measure.useful * units.of(measure.unit),
+                                 measure.unit, causeOf(windows, shown.widest_t)));
+  check.largest = {shown.largest, shown.largest_t * units.time, ""};
+  return check;
 }
 
 double stepCount(const WindowedReplay& window) { return static_cast<double>(window.replay.steps.size()); }
@@ -66,7 +88,34 @@ double span(const WindowedReplay& window) { return window.window.end() - window.
 
 void LoopForces::include(const Conditioning& instant) {
   size = std::max(size, instant.force_scale);
-  rounding = std::max(rounding, instant.gapRounding());
+  rounding = std::max(rounding, instant.rounding(Rounded::gaps));
+}
+
+IntegrationError::At IntegrationError::at(double t) const {
+  const auto after =
+      std::lower_bound(steps.begin(), steps.end(), t, [](const At& each, double x) { return each.t < x; });
+  if (after != steps.end()) return *after;
+  if (!steps.empty() && t - steps.back().t <= same_instant * t) return steps.back();
+  constexpr double none = std::numeric_limits<double>::infinity();
+  return {t, none, none, none, none, none};
+}
+
+IntegrationError integrationError(const Replay& fine, const Replay& coarse) {
+  IntegrationError out;
+  IntegrationError::At largest;
+  const double reached = coarse.steps.empty() ? 0 : coarse.steps.back().t;
+  for (const ReplayStep& step : fine.steps) {
+    if (step.t - reached > same_instant * step.t) break;
+    const ReplayStep other = interpolated(coarse, step.t);
+    largest.t = step.t;
+    largest.position = larger(largest.position, (step.position_error - other.position_error).norm());
+    largest.rotation = larger(largest.rotation, (step.rotation_error - other.rotation_error).norm());
+    largest.gap = larger(largest.gap, other.closure.position);
+    largest.gap_rate = larger(largest.gap_rate, other.closure.velocity);
+    largest.energy = larger(largest.energy, std::abs(other.energy_error));
+    out.steps.push_back(largest);
+  }
+  return out;
 }
 
 double errorPerStep(double tolerance, double position_scale) {
@@ -78,54 +127,70 @@ double driftLimit(const GrowthWindow& window, double tolerance, double steps, do
   return window.bound(t, per_step * steps / (window.end() - window.start()), per_step);
 }
 
+double replayLimit(const WindowedReplay& window, double position_scale, double t) {
+  const bool measured = window.integration.measured();
+  const double drift =
+      driftLimit(window.window, measured ? 0 : window.replay.tolerance, stepCount(window), position_scale, t);
+  return measured ? drift + integration_safety * window.integration.at(t).position : drift;
+}
+
 std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, double position_scale, double length,
-                               const LoopForces& forces) {
+                               const LoopForces& forces, const Units& units) {
   if (windows.empty()) return {notMade("replay.position", "m", "there was no replay")};
-  const double per_step = errorPerStep(windows.front().replay.tolerance, position_scale);
+  const auto per_step = [position_scale](const WindowedReplay& window) {
+    return errorPerStep(window.integration.measured() ? 0 : window.replay.tolerance, position_scale);
+  };
+  const auto carried = [per_step](const WindowedReplay& window) {
+    return per_step(window) * stepCount(window) * (1 + span(window));
+  };
+  const auto measured = [](const WindowedReplay& window, const ReplayStep& step, double IntegrationError::At::*part) {
+    return window.integration.measured() ? integration_safety * (window.integration.at(step.t).*part) : 0;
+  };
+  using At = IntegrationError::At;
   const auto drift = [position_scale](const WindowedReplay& window, const ReplayStep& step) {
-    return driftLimit(window.window, window.replay.tolerance, stepCount(window), position_scale, step.t);
+    return replayLimit(window, position_scale, step.t);
   };
-  const std::string drift_basis = fmt::format(
-      "pointwise acceleration limit and {:.3g} a step (sqrt(24) (tolerance {:.1g} + eps) (1 + coordinates)), carried "
-      "to "
-      "t by the variational equations, all aligned for the worst",
-      per_step, windows.front().replay.tolerance);
-  const auto opening = [per_step, forces](const WindowedReplay& window, const ReplayStep&) {
-    return per_step * stepCount(window) * (1 + span(window)) + forces.rounding * span(window) * span(window) / 2;
+  const auto turn = [=](const WindowedReplay& window, const ReplayStep& step) {
+    const double position = measured(window, step, &At::position);
+    return (replayLimit(window, position_scale, step.t) - position) / length + measured(window, step, &At::rotation);
   };
-  const auto rate = [per_step, forces](const WindowedReplay& window, const ReplayStep&) {
-    return per_step * stepCount(window) * (1 + span(window)) + forces.rounding * span(window);
+  const auto opening = [=](const WindowedReplay& window, const ReplayStep& step) {
+    return carried(window) + forces.rounding * span(window) * span(window) / 2 + measured(window, step, &At::gap);
   };
-  const std::string opening_basis = fmt::format(
-      "{:.3g} a step over all steps, x (1 + duration): loop errors are carried, not amplified; and {:.3g} m/s^2, the "
-      "rounding of the forces that close the loops",
-      per_step, forces.rounding);
-  const double per_step_relative = per_step / (1 + position_scale);
+  const auto rate = [=](const WindowedReplay& window, const ReplayStep& step) {
+    return carried(window) + forces.rounding * span(window) + measured(window, step, &At::gap_rate);
+  };
+  const auto energy = [=](const WindowedReplay& window, const ReplayStep& step) {
+    return per_step(window) / (1 + position_scale) * stepCount(window) * window.replay.energy_scale +
+           forces.size * opening(window, step) + measured(window, step, &At::energy);
+  };
+  const std::string integration =
+      windows.front().integration.measured()
+          ? fmt::format("eps a step and {:g} times what a hundredfold tolerance changes", integration_safety)
+          : fmt::format("tolerance {:.1g} and eps a step", windows.front().replay.tolerance);
+  const std::string drift_basis =
+      "rounding of the accelerations, carried by the variational equations and aligned for the worst; " + integration;
+  const std::string opening_basis = fmt::format("rounding of the accelerations at which gaps open, {:.3g} m/s^2; {}",
+                                                forces.rounding * units.acceleration(), integration);
   const std::vector<Measure> measures = {
       {"replay.position", "m", "P against the commanded path",
        [](const ReplayStep& step) { return step.position_error.norm(); }, drift, drift_basis,
        useful_replay_limit * length},
       {"replay.orientation", "rad", "orientation against the commanded one",
-       [](const ReplayStep& step) { return step.rotation_error.norm(); },
-       [drift, length](const WindowedReplay& window, const ReplayStep& step) { return drift(window, step) / length; },
-       drift_basis, useful_replay_limit},
+       [](const ReplayStep& step) { return step.rotation_error.norm(); }, turn, drift_basis, useful_replay_limit},
       {"closure.position", "m", "the six loops' gaps", [](const ReplayStep& step) { return step.closure.position; },
-       opening, opening_basis},
+       opening, opening_basis, useful_replay_limit * length},
       {"closure.velocity", "m/s", "the rates of the gaps", [](const ReplayStep& step) { return step.closure.velocity; },
        rate, opening_basis},
       {"energy.balance", "J", "kinetic and potential energy against the work of torques, friction and load",
-       [](const ReplayStep& step) { return std::abs(step.energy_error); },
-       [opening, per_step_relative, forces](const WindowedReplay& window, const ReplayStep& step) {
-         return per_step_relative * stepCount(window) * window.replay.energy_scale +
-                forces.size * opening(window, step);
-       },
-       fmt::format("{:.3g} a step x the energy's sensitivity to the state, and the work of the {:.3g} N that hold the "
-                   "loops on gaps as wide as closure.position allows",
-                   per_step_relative, forces.size)},
+       [](const ReplayStep& step) { return std::abs(step.energy_error); }, energy,
+       fmt::format("rounding of the energy, and the work of the {:.3g} N that hold the loops on gaps as wide as "
+                   "closure.position allows; {}",
+                   forces.size * units.force(), integration)},
   };
   std::vector<Check> checks;
   checks.reserve(measures.size());
-  for (const Measure& measure : measures) checks.push_back(judgeMeasure(windows, measure));
+  for (const Measure& measure : measures) checks.push_back(judgeMeasure(windows, measure, units));
   return checks;
 }
 

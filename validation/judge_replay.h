@@ -10,18 +10,46 @@
 
 namespace ursula {
 
+/// What the integration may be off by in one window, measured: the right torques replayed at a hundred times the
+/// tolerance, against the same at the tolerance itself, with the gaps and the energy of the coarser. Largest up to each
+/// instant.
+struct IntegrationError {
+  struct At {
+    double t = 0;
+    double position = 0, rotation = 0;  ///< m, rad
+    double gap = 0, gap_rate = 0;       ///< m, m/s
+    double energy = 0;                  ///< J
+  };
+  std::vector<At> steps;  ///< increasing; empty where it was not measured
+
+  bool measured() const { return !steps.empty(); }
+  /// The first at or after t; beyond the last all are infinite: the coarser replay did not get there.
+  At at(double t) const;
+};
+
+IntegrationError integrationError(const Replay& fine, const Replay& coarse);
+
 /// A replay and the window of the motion that it was made in.
 struct WindowedReplay {
   GrowthWindow window;
   Replay replay;
+  IntegrationError integration = {};
 };
+
+/// By which a measured integration error is multiplied, as Roache's grid convergence index does for two grids
+/// (Verification and Validation, 1998, ch. 5).
+constexpr double integration_safety = 3;
 
 /// Errors that one accepted step may put into each coordinate: the integrator's tolerance and rounding, over 24
 /// coordinates, times the coordinates' size. m and m/s.
 double errorPerStep(double tolerance, double position_scale);
 
-/// How far `tolerance` and rounding in each of `steps` steps may move the platform from the commanded path by `t`: the
-/// limit of replay.position, m.
+/// How far a replay may have moved from the commanded path by `t`, m: the accelerations' rounding and that of each
+/// step, carried by the variational equations and aligned for the worst, and integration_safety times the measured
+/// integration error; where that was not measured, the tolerance for each step instead.
+double replayLimit(const WindowedReplay& window, double position_scale, double t);
+
+/// How far `tolerance` and rounding in each of `steps` steps may move the platform from the commanded path by `t`, m.
 double driftLimit(const GrowthWindow& window, double tolerance, double steps, double position_scale, double t);
 
 /// Above this many metres (times the machine's length over 1 m) a limit on the replay says nothing worth knowing.
@@ -30,13 +58,13 @@ constexpr double useful_replay_limit = 1e-6;
 /// Of the forces at the spherical joints, the largest along the motion.
 struct LoopForces {
   double size = 0;      ///< they do work where gaps move, N
-  double rounding = 0;  ///< Conditioning::gapRounding, m/s²
+  double rounding = 0;  ///< of the accelerations at which gaps open, m/s²
 
   void include(const Conditioning& instant);
 };
 
 /// `replay.position`, `replay.orientation`, `closure.position`, `closure.velocity`, `energy.balance`, over all windows.
 std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, double position_scale, double length,
-                               const LoopForces& forces);
+                               const LoopForces& forces, const Units& units = {});
 
 }  // namespace ursula

@@ -4,14 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace ursula {
 namespace {
 
 constexpr double nominal_order = 8;
+/// Of Simbody's integrator: error control of fourth order takes too many steps beyond.
+constexpr double second_accuracy = 1e-9;
+/// A hundred times the tolerance makes an error a hundred times as large, whatever the order; where it does not make it
+/// this many times as large, the integration does not converge.
+constexpr double least_gain = 4;
 
-Rung makeRung(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-              Integrator integrator, double tolerance) {
+ReplaySettings settingsOf(const WindowedReplay& finest, Integrator integrator, double tolerance) {
   ReplaySettings settings;
   settings.integrator = integrator;
   settings.tolerance = tolerance;
@@ -19,19 +24,48 @@ Rung makeRung(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torque
   settings.end = finest.window.end();
   settings.instants = 2;
   settings.max_evaluations = std::max(settings.max_evaluations, 4 * finest.replay.evaluations);
-  const Replay run = replay(scenario, torques, settings);
+  return settings;
+}
+
+Rung rungOf(const ReplaySettings& settings, const Replay& run, const Replay& finest) {
   Rung rung;
-  rung.integrator = integrator;
-  rung.tolerance = tolerance;
+  rung.integrator = settings.integrator;
+  rung.tolerance = settings.tolerance;
   rung.evaluations = run.evaluations;
   rung.steps = run.accepted;
   rung.gave_up = run.gave_up;
   rung.too_long = run.too_long;
   rung.left_path = run.left_path;
-  rung.distance = run.steps.empty() || finest.replay.steps.empty()
-                      ? std::nan("")
-                      : (run.steps.back().position_error - finest.replay.steps.back().position_error).norm();
+  rung.distance =
+      run.steps.empty() || finest.steps.empty()
+          ? std::nan("")
+          : (run.steps.back().position_error - interpolated(finest, run.steps.back().t).position_error).norm();
   return rung;
+}
+
+Rung makeRung(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
+              double tolerance) {
+  const ReplaySettings settings = settingsOf(finest, Integrator::rkf78, tolerance);
+  return rungOf(settings, replay(scenario, torques, settings), finest.replay);
+}
+
+/// Over the first steps only, a tenth of them at least: it is another integrator that is wanted, not another replay.
+void climbSecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
+                 Ladder& ladder) {
+  const std::vector<ReplayStep>& steps = finest.replay.steps;
+  if (steps.size() < 2) return;
+  const std::size_t last = std::min(steps.size() - 1, std::max<std::size_t>(20, steps.size() / 10));
+  ladder.second_end = steps[last].t;
+  std::vector<Replay> runs;
+  for (double accuracy : {10 * second_accuracy, second_accuracy}) {
+    ReplaySettings settings = settingsOf(finest, Integrator::rk_merson, accuracy);
+    settings.end = ladder.second_end;
+    runs.push_back(replay(scenario, torques, settings));
+    ladder.second.push_back(rungOf(settings, runs.back(), finest.replay));
+  }
+  ladder.second_difference = runs[0].steps.empty() || runs[1].steps.empty()
+                                 ? std::nan("")
+                                 : (runs[0].steps.back().position_error - runs[1].steps.back().position_error).norm();
 }
 
 double order(const Rung& coarse, const Rung& fine) {
@@ -42,12 +76,51 @@ double order(const Rung& coarse, const Rung& fine) {
 /// Inconclusive where that proves nothing, else a failure.
 Check notClimbed(bool proves_nothing, const std::string& why) {
   static constexpr const char* check = "integration.ladder";
-  return proves_nothing ? notJudgeable(check, std::nan(""), std::nan(""), "m", "", why) : notMade(check, "m", why);
+  return proves_nothing ? notJudgeable(Reason::unfinished, check, std::nan(""), std::nan(""), "m", "", why)
+                        : notMade(check, "m", why);
 }
 
-double driftBound(const WindowedReplay& finest, const Rung& rung, double position_scale) {
-  return driftLimit(finest.window, rung.tolerance, static_cast<double>(rung.steps), position_scale,
-                    finest.window.end());
+/// What rounding alone may make of the window's end, m.
+double roundingBound(const WindowedReplay& finest, double position_scale, double t) {
+  return driftLimit(finest.window, 0, static_cast<double>(finest.replay.steps.size()), position_scale, t);
+}
+
+const Rung* firstThat(const std::vector<Rung>& rungs, const std::function<bool(const Rung&)>& holds) {
+  const auto found = std::find_if(rungs.begin(), rungs.end(), holds);
+  return found == rungs.end() ? nullptr : &*found;
+}
+
+Check judgeConvergence(const Ladder& ladder, const WindowedReplay& finest, double position_scale) {
+  const Rung& coarse = ladder.rungs[ladder.rungs.size() - 2];
+  const Rung& fine = ladder.rungs.back();
+  std::string orders;
+  for (double p : ladder.observed_orders) orders += fmt::format("{}{:.3g}", orders.empty() ? "" : ", ", p);
+  return judged(
+      "integration.ladder", fine.distance,
+      std::max(coarse.distance / least_gain, roundingBound(finest, position_scale, finest.window.end())), "m",
+      fmt::format("{:g} of what it is at a tolerance of {:g}, or what rounding may make of it", 1 / least_gain,
+                  coarse.tolerance),
+      fmt::format("ends of the replay at tolerances {:g} and {:g}; observed orders {} of {}, {}", fine.tolerance,
+                  finest.replay.tolerance, orders, nominal_order, ladder.asymptotic ? "asymptotic" : "not asymptotic"));
+}
+
+Check judgeSecond(const Ladder& ladder, const WindowedReplay& finest, double position_scale, const Units& units) {
+  static constexpr const char* check = "integration.second";
+  if (ladder.second.empty()) return notMade(check, "m", "there was no second integrator");
+  const Rung& second = ladder.second.back();
+  for (const Rung& rung : ladder.second)
+    if (!rung.gave_up.empty() || rung.left_path)
+      return notJudgeable(Reason::unfinished, check, std::nan(""), std::nan(""), "m", "",
+                          "Simbody's integrator did not get there: " + rung.gave_up);
+  return judged(
+      check, second.distance,
+      integration_safety * ladder.second_difference + replayLimit(finest, position_scale, ladder.second_end), "m",
+      fmt::format("{:g} times what ten times the accuracy changes of it, and the limit of replay.position there",
+                  integration_safety),
+      fmt::format("the replay by Simbody's RungeKuttaMerson to t = {:.6g} s, accuracy {:g}, {} derivative evaluations, "
+                  "against {}",
+                  ladder.second_end * units.time, second.tolerance, second.evaluations,
+                  name(finest.replay.integrator)));
 }
 
 }  // namespace
@@ -55,8 +128,7 @@ double driftBound(const WindowedReplay& finest, const Rung& rung, double positio
 Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest) {
   Ladder ladder;
   for (double factor : {1e6, 1e4, 1e2})
-    ladder.rungs.push_back(
-        makeRung(scenario, torques, finest, Integrator::rkf78, std::min(1e-4, factor * finest.replay.tolerance)));
+    ladder.rungs.push_back(makeRung(scenario, torques, finest, std::min(1e-4, factor * finest.replay.tolerance)));
   for (std::size_t k = 0; k + 1 < ladder.rungs.size(); ++k)
     ladder.observed_orders.push_back(order(ladder.rungs[k], ladder.rungs[k + 1]));
   ladder.asymptotic = std::all_of(ladder.observed_orders.begin(), ladder.observed_orders.end(),
@@ -66,47 +138,29 @@ Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques
   const double ratio = static_cast<double>(finest.replay.accepted) / static_cast<double>(std::max(last.steps, 1L));
   const double p = ladder.asymptotic ? ladder.observed_orders.back() : 0;
   ladder.extrapolated = last.distance * std::pow(ratio, -p);
-  // Three times, as Roache's grid convergence index takes it for two grids (Verification and Validation, 1998, ch. 5).
-  ladder.uncertainty = 3 * ladder.extrapolated;
-  ladder.rungs.push_back(
-      makeRung(scenario, torques, finest, Integrator::rk_merson, std::min(1e-4, 1e6 * finest.replay.tolerance)));
+  ladder.uncertainty = integration_safety * ladder.extrapolated;
+  climbSecond(scenario, torques, finest, ladder);
   return ladder;
 }
 
-std::vector<Check> judgeLadder(const Ladder& ladder, const WindowedReplay& finest, double position_scale) {
+std::vector<Check> judgeLadder(const Ladder& ladder, const WindowedReplay& finest, double position_scale,
+                               const Units& units) {
   if (ladder.rungs.size() < 2) return {notMade("integration.ladder", "m", "no ladder was climbed")};
   if (!finest.replay.gave_up.empty())
     return {notClimbed(finest.replay.too_long, "the judged replay gave up: " + finest.replay.gave_up)};
   if (finest.replay.left_path) return {notMade("integration.ladder", "m", "the judged replay left the path")};
-  for (const Rung& rung : ladder.rungs)
-    if (rung.left_path)
-      return {notClimbed(true, fmt::format("{} at {:g} left the path", name(rung.integrator), rung.tolerance))};
-  for (const Rung& rung : ladder.rungs)
-    if (!rung.gave_up.empty())
-      return {notClimbed(rung.too_long,
-                         fmt::format("{} at {:g} gave up: {}", name(rung.integrator), rung.tolerance, rung.gave_up))};
-  const Rung& coarse = ladder.rungs[ladder.rungs.size() - 2];
-  const Rung& second = ladder.rungs.back();
-  std::string orders;
-  for (double p : ladder.observed_orders) orders += fmt::format("{}{:.3g}", orders.empty() ? "" : ", ", p);
-  return {
-      judged("integration.ladder", coarse.distance, driftBound(finest, coarse, position_scale), "m",
-             fmt::format("the drift bound of the coarser rung, tolerance {:g}", coarse.tolerance),
-             fmt::format("ends of the replay at tolerances {:g} and {:g}; observed orders {} of {}, {}; the finest is "
-                         "off by {:.2g} +- {:.2g} m",
-                         coarse.tolerance, finest.replay.tolerance, orders, nominal_order,
-                         ladder.asymptotic ? "asymptotic" : "not asymptotic", ladder.extrapolated, ladder.uncertainty)),
-      judged("integration.second", second.distance, driftBound(finest, second, position_scale), "m",
-             fmt::format("the drift bound at its accuracy, {:g}", second.tolerance),
-             fmt::format("end of the replay by Simbody's RungeKuttaMerson, {} derivative evaluations, against {}",
-                         second.evaluations, name(finest.replay.integrator)))};
+  if (const Rung* rung = firstThat(ladder.rungs, [](const Rung& each) { return each.left_path; }))
+    return {notClimbed(true, fmt::format("{} at {:g} left the path", name(rung->integrator), rung->tolerance))};
+  if (const Rung* rung = firstThat(ladder.rungs, [](const Rung& each) { return !each.gave_up.empty(); }))
+    return {notClimbed(rung->too_long,
+                       fmt::format("{} at {:g} gave up: {}", name(rung->integrator), rung->tolerance, rung->gave_up))};
+  return {judgeConvergence(ladder, finest, position_scale), judgeSecond(ladder, finest, position_scale, units)};
 }
 
 TimeSeries workPrecision(const Ladder& ladder) {
   TimeSeries series;
   std::vector<double> evaluations, distances;
   for (const Rung& rung : ladder.rungs) {
-    if (rung.integrator != Integrator::rkf78) continue;
     evaluations.push_back(static_cast<double>(rung.evaluations));
     distances.push_back(rung.distance);
   }

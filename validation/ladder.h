@@ -20,9 +20,14 @@ struct Rung {
   bool left_path = false;  ///< the replay ended early, so that its end says nothing
 };
 
-/// The same window replayed at several tolerances and with both integrators.
+/// The same window replayed at several tolerances, and its beginning with Simbody's own integrator.
 struct Ladder {
-  std::vector<Rung> rungs;              ///< rkf78 from coarse to fine, then rk_merson
+  std::vector<Rung> rungs;  ///< rkf78 from coarse to fine
+  /// rk_merson at two accuracies, the coarser first, over the beginning of the window: distances at `second_end` from
+  /// the finest replay.
+  std::vector<Rung> second;
+  double second_end = 0;                ///< s
+  double second_difference = 0;         ///< between the two, m
   std::vector<double> observed_orders;  ///< between neighbouring rkf78 rungs, of the error against the steps
   bool asymptotic = false;              ///< both orders within 2 of 8
   double extrapolated = 0;              ///< estimated integration error of the finest replay at its end, m
@@ -33,7 +38,8 @@ struct Ladder {
 Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest);
 
 /// `integration.ladder` and `integration.second`.
-std::vector<Check> judgeLadder(const Ladder& ladder, const WindowedReplay& finest, double position_scale);
+std::vector<Check> judgeLadder(const Ladder& ladder, const WindowedReplay& finest, double position_scale,
+                               const Units& units = {});
 
 /// Error against derivative evaluations, for the report.
 TimeSeries workPrecision(const Ladder& ladder);

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "model/simbody_loop.h"
+#include "validation/worst.h"
 
 namespace ursula {
 namespace {
@@ -52,16 +53,21 @@ void compareBodies(const BodyMotions<double>& answer, const BodyMotions<double>&
   }
 }
 
-/// Rounding of displacements, rates and accelerations: depth · eps · κ of the legs · scale, each level once more κ.
-void setKinematicLimits(PointwiseSample& sample) {
-  const Conditioning& c = sample.conditioning;
-  const double unit = rounding_depth * eps * c.kappa_legs;
-  sample.position.limit = unit * c.position_scale;
-  sample.twist.limit = unit * c.kappa_B * c.twist_scale;
-  sample.twist_rate.limit = unit * c.kappa_legs * c.kappa_B * c.rate_scale;
-  sample.joint_angles.limit = sample.position.limit / c.length;
-  sample.joint_rates.limit = sample.twist.limit / c.length;
-  sample.joint_accelerations.limit = sample.twist_rate.limit / c.length;
+void setLimits(PointwiseSample& sample) {
+  const auto set = [&sample](Deviation PointwiseSample::*deviation, Rounded quantity) {
+    (sample.*deviation).limit = sample.conditioning.rounding(quantity);
+  };
+  using S = PointwiseSample;
+  set(&S::joint_angles, Rounded::angles);
+  set(&S::joint_rates, Rounded::rates);
+  set(&S::joint_accelerations, Rounded::accelerations);
+  set(&S::position, Rounded::positions);
+  set(&S::twist, Rounded::twists);
+  set(&S::twist_rate, Rounded::twist_rates);
+  set(&S::jacobian, Rounded::jacobian);
+  set(&S::jacobian_rate, Rounded::jacobian_rate);
+  set(&S::torque, Rounded::torque);
+  set(&S::acceleration, Rounded::acceleration);
 }
 
 /// t_P = T φ̇ (24) and ṫ_P = T φ̈ + Ṫ φ̇ (25) with Simbody's joint motion.
@@ -74,24 +80,31 @@ void compareJacobians(const KinematicAnswer& answer, PointwiseSample& sample) {
   const auto norm = [&c](const Vector6d& v) { return v.tail<3>().norm() + c.length * v.head<3>().norm(); };
   raise(sample.jacobian, norm(answer.T * rate - twist), -1);
   raise(sample.jacobian_rate, norm(answer.T * acceleration + answer.T_rate * rate - twist_rate), -1);
-  sample.jacobian.limit = sample.twist.limit * c.kappa_B;
-  sample.jacobian_rate.limit = sample.twist_rate.limit * c.kappa_B;
 }
 
-/// Ṫ against a difference of T along the motion: five points, so that the truncation stays below the limit, which is
-/// the rounding of T over the step. No other road is needed.
-void compareJacobianDifferences(const Scenario& scenario, const Subject& subject, const KinematicAnswer& answer,
-                                PointwiseSample& sample) {
+using ShapingAt = std::function<Matrix6d(double t)>;
+
+/// Five points: the truncation is of fourth order.
+Matrix6d differenceOf(const ShapingAt& T, double t, double step) {
+  return (8 * (T(t + step) - T(t - step)) - (T(t + 2 * step) - T(t - 2 * step))) / (12 * step);
+}
+
+/// Ṫ against a difference of T along the motion; no other road is needed. The limit is the rounding of T over the step,
+/// and the truncation: what doubling the step changes for the formulas that hold, some 15 times the truncation itself.
+void compareJacobianDifferences(const Scenario& scenario, const Subject& subject, const Subject& right,
+                                const KinematicAnswer& answer, PointwiseSample& sample) {
   const Conditioning& c = sample.conditioning;
   const double duration = scenario.trajectory->duration(), step = duration * std::pow(eps, 0.2) / 100;
-  const double t = std::clamp(sample.motion.t, 2 * step, duration - 2 * step);
-  const auto T = [&](double at) { return subject.kinematics(scenario.trajectory->at(at)).T; };
-  const Matrix6d difference = (8 * (T(t + step) - T(t - step)) - (T(t + 2 * step) - T(t - 2 * step))) / (12 * step);
+  const double t = std::clamp(sample.motion.t, 4 * step, duration - 4 * step);
+  const auto shapingOf = [&scenario](const Subject& of) -> ShapingAt {
+    return [&](double at) { return of.kinematics(scenario.trajectory->at(at)).T; };
+  };
+  const auto size = [&c](const Matrix6d& T) { return T.bottomRows<3>().norm() + c.length * T.topRows<3>().norm(); };
   const Matrix6d T_rate = t == sample.motion.t ? answer.T_rate : subject.kinematics(scenario.trajectory->at(t)).T_rate;
-  const Matrix6d error = T_rate - difference;
-  const double scale = answer.T.bottomRows<3>().norm() + c.length * answer.T.topRows<3>().norm();
-  raise(sample.jacobian_difference, error.bottomRows<3>().norm() + c.length * error.topRows<3>().norm(), -1);
-  sample.jacobian_difference.limit = rounding_depth * eps * c.kappa_B * c.kappa_legs * scale / step;
+  raise(sample.jacobian_difference, size(T_rate - differenceOf(shapingOf(subject), t, step)), -1);
+  const ShapingAt T = shapingOf(right);
+  const double truncation = size(differenceOf(T, t, step) - differenceOf(T, t, 2 * step));
+  sample.jacobian_difference.limit = 1.5 * c.rounding(Rounded::shaping) / step + truncation;
 }
 
 /// The first leg with an angle that is not finite.
@@ -101,11 +114,12 @@ std::optional<int> unplaceable(const JointVariables<double>& q) {
   return std::nullopt;
 }
 
-void runKinematics(const Scenario& scenario, const Subject& subject, SimbodyLoop& loop, PointwiseSample& sample) {
+void runKinematics(const Scenario& scenario, const Subject& subject, const Subject& right, SimbodyLoop& loop,
+                   PointwiseSample& sample) {
   const KinematicAnswer answer = subject.kinematics(sample.motion);
   compareJoints(answer.joints, sample);
   compareJacobians(answer, sample);
-  compareJacobianDifferences(scenario, subject, answer, sample);
+  compareJacobianDifferences(scenario, subject, right, answer, sample);
   if (const std::optional<int> leg = unplaceable(answer.joints.q)) {  // Simbody throws at a state that is no number
     for (Deviation* deviation : {&sample.position, &sample.twist, &sample.twist_rate})
       raise(*deviation, std::nan(""), *leg);
@@ -122,22 +136,21 @@ void runDynamics(SimbodyLoop& loop, PointwiseSample& sample) {
   const double length = sample.conditioning.length;
   loop.accelerate(sample.torques);
   const Motion<double> found = loop.platform();
+  sample.acceleration_error << found.omega_dot - sample.motion.omega_dot, found.p_ddot - sample.motion.p_ddot;
   raise(sample.acceleration,
         (found.p_ddot - sample.motion.p_ddot).norm() + length * (found.omega_dot - sample.motion.omega_dot).norm(), -1);
-  sample.torque.limit = sample.conditioning.torqueRounding();
-  sample.acceleration.limit = sample.conditioning.accelerationRounding();
 }
 
-PointwiseSample runInstant(const Scenario& scenario, const Subject& subject, ConditioningProbe& probe,
-                           SimbodyLoop& loop, double t) {
+PointwiseSample runInstant(const Scenario& scenario, const Subject& subject, const Subject& right,
+                           const RoundingProfile& profile, SimbodyLoop& loop, double t) {
   PointwiseSample sample;
   sample.motion = scenario.trajectory->at(t);
-  sample.conditioning = probe.at(sample.motion);
+  sample.conditioning = profile.at(sample.motion);
   sample.joints = loop.place(sample.motion);
+  setLimits(sample);
   try {
     sample.torques = subject.torques(sample.motion);
-    setKinematicLimits(sample);
-    if (subject.kinematics) runKinematics(scenario, subject, loop, sample);
+    if (subject.kinematics) runKinematics(scenario, subject, right, loop, sample);
     runDynamics(loop, sample);
   } catch (const PoseError& error) {
     sample.refused = error.what();
@@ -149,96 +162,132 @@ struct Quantity {
   std::string name, unit, what, basis;
   Deviation PointwiseSample::*deviation;
   bool of_body;
+  /// The quantity's own size, of which useful_share is what a limit may be; 0 where any limit says something.
+  std::function<double(const PointwiseSample&)> size = nullptr;
 };
 
-std::string placeName(const Quantity& quantity, int where) {
-  if (where < 0) return "platform";
-  if (!quantity.of_body) return fmt::format("leg {}", where + 1);
-  if (where == 2 * leg_count) return "platform";
-  return fmt::format("{} link of leg {}", where < leg_count ? "proximal" : "distal", where % leg_count + 1);
-}
-
-/// Every instant is judged. Shown is the one furthest beyond its limit, or where none is, the largest error.
-const PointwiseSample* findShown(const std::vector<PointwiseSample>& samples, const Quantity& quantity) {
-  const PointwiseSample *largest = nullptr, *worst = nullptr;
-  double worst_ratio = 1;
-  for (const PointwiseSample& sample : samples) {
-    const Deviation& deviation = sample.*quantity.deviation;
-    if (!(deviation.error <= deviation.limit)) {
-      const double ratio = deviation.error / deviation.limit;
-      if (!(ratio <= worst_ratio)) worst = &sample, worst_ratio = ratio;
-      if (std::isnan(ratio)) return worst;
-    }
-    if (largest == nullptr || deviation.error > (largest->*quantity.deviation).error) largest = &sample;
-  }
-  return worst != nullptr ? worst : largest;
-}
-
-Check judgeQuantity(const std::vector<PointwiseSample>& samples, const Quantity& quantity) {
+double largestSize(const std::vector<PointwiseSample>& samples, const Quantity& quantity) {
+  double largest = 0;
   for (const PointwiseSample& sample : samples)
+    if (quantity.size) largest = std::max(largest, quantity.size(sample));
+  return largest;
+}
+
+Check judgeQuantity(const std::vector<PointwiseSample>& samples, const Quantity& quantity, const Units& units) {
+  Worst shown;
+  const PointwiseSample* at = nullptr;
+  const PointwiseSample* widest = nullptr;
+  for (const PointwiseSample& sample : samples) {
     if (!sample.refused.empty()) return notMade(quantity.name, quantity.unit, "no answer: " + sample.refused);
-  const PointwiseSample* shown = findShown(samples, quantity);
-  if (shown == nullptr) return notMade(quantity.name, quantity.unit, "no instant was compared");
-  const Deviation& deviation = shown->*quantity.deviation;
-  const Conditioning& c = shown->conditioning;
+    const Deviation& deviation = sample.*quantity.deviation;
+    shown.add(deviation.error, deviation.limit, sample.motion.t, deviation.where);
+    if (shown.t == sample.motion.t) at = &sample;
+    if (shown.widest_t == sample.motion.t) widest = &sample;
+  }
+  if (at == nullptr) return notMade(quantity.name, quantity.unit, "no instant was compared");
+  const Conditioning& c = at->conditioning;
   const std::string basis = fmt::format("{}; there kappa(B) = {:.3g}, kappa(legs) = {:.3g}, eps = {:.3g}",
                                         quantity.basis, c.kappa_B, c.kappa_legs, eps);
   const std::string why = fmt::format("{}, at {} instants; shown for t = {:.6g} s, {}", quantity.what, samples.size(),
-                                      shown->motion.t, placeName(quantity, deviation.where));
-  return judged(quantity.name, deviation.error, deviation.limit, quantity.unit, basis, why);
+                                      shown.t * units.time, placeName(shown.where, quantity.of_body));
+  const double useful = quantity.size ? useful_share * largestSize(samples, quantity) : shown.widest_limit;
+  Check check = judged(quantity.name, shown.value, shown.limit, quantity.unit, basis, why);
+  if (check.verdict == Verdict::pass && !(shown.widest_limit <= useful))
+    check = notJudgeable(Reason::limit_useless, quantity.name, shown.value, shown.widest_limit, quantity.unit, basis,
+                         fmt::format("{}; at t = {:.6g} s the limit exceeds {:g} of the quantity's size: {}", why,
+                                     shown.widest_t * units.time, useful_share, causeOfRounding(widest->conditioning)));
+  check.largest = {shown.largest, shown.largest_t * units.time, placeName(shown.largest_where, quantity.of_body)};
+  return check;
+}
+
+/// Every limit is a derived shape and a measured level: RoundingProfile.
+std::string leveled(const char* shape) {
+  return fmt::format("eps {} x (1 + {:g} x the spread measured in turned and rescaled frames)", shape, rounding_safety);
 }
 
 const std::vector<Quantity>& kinematicQuantities() {
+  using S = PointwiseSample;
+  const auto spin = [](const S& s) { return s.conditioning.twist_scale; };
+  const auto rate = [](const S& s) { return s.conditioning.rate_scale; };
   static const std::vector<Quantity> quantities = {
       {"kinematics.joint_angles", "rad", "phi, psi, theta against Simbody's loop placed by geometry",
-       "25 eps kappa(legs) x largest coordinate / length", &PointwiseSample::joint_angles, false},
+       leveled("kappa(legs) x largest coordinate / length"), &S::joint_angles, false, [](const S&) { return 1.0; }},
       {"kinematics.joint_rates", "rad/s", "their rates against Simbody's constraint Jacobian",
-       "25 eps kappa(legs) kappa(B) x velocity / length", &PointwiseSample::joint_rates, false},
+       leveled("kappa(legs) kappa(B) x velocity / length"), &S::joint_rates, false,
+       [spin](const S& s) { return spin(s) / s.conditioning.length; }},
       {"kinematics.joint_accelerations", "rad/s^2", "their accelerations against Simbody's constraints",
-       "25 eps kappa(legs)^2 kappa(B) x acceleration / length", &PointwiseSample::joint_accelerations, false},
+       leveled("kappa(legs)^2 kappa(B) x acceleration / length"), &S::joint_accelerations, false,
+       [rate](const S& s) { return rate(s) / s.conditioning.length; }},
       {"kinematics.positions", "m", "mass centres and orientations of 13 bodies, Simbody put into the joint state",
-       "25 eps kappa(legs) x largest coordinate", &PointwiseSample::position, true},
-      {"kinematics.twists", "m/s", "twists of 13 bodies, (16), (41)", "25 eps kappa(legs) kappa(B) x velocity",
-       &PointwiseSample::twist, true},
+       leveled("kappa(legs) x largest coordinate"), &S::position, true,
+       [](const S& s) { return s.conditioning.position_scale; }},
+      {"kinematics.twists", "m/s", "twists of 13 bodies, (16), (41)", leveled("kappa(legs) kappa(B) x velocity"),
+       &S::twist, true, spin},
       {"kinematics.accelerations", "m/s^2", "twist rates of 13 bodies, (17), (43)",
-       "25 eps kappa(legs)^2 kappa(B) x acceleration", &PointwiseSample::twist_rate, true},
+       leveled("kappa(legs)^2 kappa(B) x acceleration"), &S::twist_rate, true, rate},
       {"kinematics.jacobian", "m/s", "t_P = T phi_dot (24) with Simbody's joint rates",
-       "25 eps kappa(legs) kappa(B)^2 x velocity", &PointwiseSample::jacobian, true},
+       leveled("kappa(legs) kappa(B)^2 x velocity"), &S::jacobian, true, spin},
       {"kinematics.jacobian_rate", "m/s^2", "T phi_ddot + T_dot phi_dot (25) with Simbody's joint motion",
-       "25 eps kappa(legs)^2 kappa(B)^2 x acceleration", &PointwiseSample::jacobian_rate, true},
+       leveled("kappa(legs)^2 kappa(B)^2 x acceleration"), &S::jacobian_rate, true, rate},
       {"kinematics.jacobian_difference", "m/s", "T_dot against five-point differences of T along the motion",
-       "25 eps kappa(legs) kappa(B) x ||T|| / step", &PointwiseSample::jacobian_difference, true},
+       leveled("kappa(legs) kappa(B) x ||T|| x 1.5 / step") + ", and what doubling the step changes",
+       &S::jacobian_difference, true},
   };
   return quantities;
 }
 
 const std::vector<Quantity>& dynamicQuantities() {
+  using S = PointwiseSample;
+  const auto torque = [](const S& s) { return s.torques_simbody.cwiseAbs().maxCoeff(); };
   static const std::vector<Quantity> quantities = {
       {"torque.pointwise", "N m", "torques against Simbody's own inverse dynamics",
-       "25 eps kappa(B) kappa(legs) x || |T|' |w| ||", &PointwiseSample::torque, false},
+       leveled("kappa(B) kappa(legs) x || |T|' |w| ||"), &S::torque, false, torque},
       {"acceleration.pointwise", "m/s^2", "Simbody's accelerations of the platform under the torques, commanded state",
-       "the torque's limit x || T_P inv(I) ||", &PointwiseSample::acceleration, true},
+       leveled("(|| T_P inv(I) || x the torque's and the platform's compliance x the forces that close the loops)"),
+       &S::acceleration, true, [torque](const S& s) { return s.conditioning.response * torque(s); }},
   };
   return quantities;
 }
 
 }  // namespace
 
+std::string placeName(int where, bool of_body) {
+  if (where < 0) return "platform";
+  if (!of_body) return fmt::format("leg {}", where + 1);
+  if (where == 2 * leg_count) return "platform";
+  return fmt::format("{} link of leg {}", where < leg_count ? "proximal" : "distal", where % leg_count + 1);
+}
+
+std::string causeOfRounding(const Conditioning& at) {
+  if (at.weight_ratio > at.kappa_B * at.kappa_legs)
+    return fmt::format("the forces that close the loops are {:.2g} times the platform's weight", at.weight_ratio);
+  if (at.kappa_B > at.kappa_legs) return fmt::format("a singular pose is near, kappa(B) = {:.2g}", at.kappa_B);
+  return fmt::format("leg {} is nearly stretched or folded, |sin theta| = {:.2g}, kappa(legs) = {:.2g}",
+                     at.smallest_sine_leg + 1, at.smallest_sine, at.kappa_legs);
+}
+
 std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
-                                          const std::vector<double>& instants) {
-  ConditioningProbe probe(*scenario.manipulator, scenario.load);
+                                          const std::vector<double>& instants, const RoundingProfile& profile) {
   SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
+  const Subject right = nocSubject(*scenario.manipulator, scenario.load);
   std::vector<PointwiseSample> samples;
   samples.reserve(instants.size());
-  for (double t : instants) samples.push_back(runInstant(scenario, subject, probe, loop, t));
+  for (double t : instants) samples.push_back(runInstant(scenario, subject, right, profile, loop, t));
   return samples;
 }
 
-std::vector<Check> judgePointwise(const std::vector<PointwiseSample>& samples, bool has_kinematics) {
+std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
+                                          const std::vector<double>& instants) {
+  return runPointwise(scenario, subject, instants,
+                      RoundingProfile(scenario, profileInstants(static_cast<int>(instants.size()))));
+}
+
+std::vector<Check> judgePointwise(const std::vector<PointwiseSample>& samples, bool has_kinematics,
+                                  const Units& units) {
   std::vector<Check> checks;
   if (has_kinematics)
-    for (const Quantity& quantity : kinematicQuantities()) checks.push_back(judgeQuantity(samples, quantity));
-  for (const Quantity& quantity : dynamicQuantities()) checks.push_back(judgeQuantity(samples, quantity));
+    for (const Quantity& quantity : kinematicQuantities()) checks.push_back(judgeQuantity(samples, quantity, units));
+  for (const Quantity& quantity : dynamicQuantities()) checks.push_back(judgeQuantity(samples, quantity, units));
   return checks;
 }
 

@@ -3,8 +3,9 @@
 #include <vector>
 
 #include "model/scenario.h"
-#include "validation/conditioning.h"
+#include "validation/presentation.h"
 #include "validation/result.h"
+#include "validation/rounding_profile.h"
 #include "validation/subject.h"
 
 namespace ursula {
@@ -28,14 +29,30 @@ struct PointwiseSample {
   Deviation jacobian_difference;      ///< Ṫ against differences of T along the motion, m/s
   Deviation torque;                   ///< N·m
   Deviation acceleration;             ///< platform, m/s²
-  std::string refused;                ///< why the subject has no answer here; empty where it has
+  Vector6d acceleration_error = Vector6d::Zero();  ///< Simbody's less the commanded, [ω̇; p̈]
+  std::string refused;                             ///< why the subject has no answer here; empty where it has
 };
 
-/// Solver and Simbody at the same instants: joint state, 13 bodies, torques, accelerations.
+/// Solver and Simbody at the same instants: joint state, 13 bodies, torques, accelerations. `profile` is the
+/// scenario's.
+std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
+                                          const std::vector<double>& instants, const RoundingProfile& profile);
+/// With a profile of its own.
 std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
                                           const std::vector<double>& instants);
 
-/// The checks of these samples: `kinematics.*`, `torque.pointwise`, `acceleration.pointwise`.
-std::vector<Check> judgePointwise(const std::vector<PointwiseSample>& samples, bool has_kinematics);
+/// The checks of these samples: `kinematics.*`, `torque.pointwise`, `acceleration.pointwise`. `units` are those of the
+/// samples, in SI, for the words.
+std::vector<Check> judgePointwise(const std::vector<PointwiseSample>& samples, bool has_kinematics,
+                                  const Units& units = {});
+
+/// "leg 3", "proximal link of leg 3" or "platform".
+std::string placeName(int where, bool of_body);
+
+/// What makes a limit of rounding large here, with the number.
+std::string causeOfRounding(const Conditioning& at);
+
+/// Above this share of a quantity's own size a limit of rounding says nothing worth knowing.
+constexpr double useful_share = 1e-6;
 
 }  // namespace ursula

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "nocsolver/solver_model.h"
+
 namespace ursula {
 namespace {
 
@@ -33,6 +35,18 @@ Vector3d rotationVector(const Matrix3d& R) {
   return (2 * std::atan2(sine, q.w()) / sine) * q.vec();
 }
 
+Motion<double> startOf(const Scenario& scenario, const ReplaySettings& settings) {
+  Motion<double> motion = scenario.trajectory->at(settings.start);
+  if (settings.deviation.isZero(0)) return motion;
+  const double length = SolverModel<double>(*scenario.manipulator).length;
+  const Vector3d turn = settings.deviation.segment<3>(3) / length;
+  motion.p += settings.deviation.segment<3>(0);
+  if (turn.norm() > 0) motion.Q = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * motion.Q;
+  motion.p_dot += settings.deviation.segment<3>(6);
+  motion.omega += settings.deviation.segment<3>(9) / length;
+  return motion;
+}
+
 /// One run: the loop, the work done on it and what is recorded.
 class Run {
  public:
@@ -52,7 +66,7 @@ class Run {
       size_ = std::max(size_, leg.platform_point.norm());
     }
     weight_ = mass * std::max(machine.gravity.norm(), 1.0);  // 1 m/s² where there is no gravity
-    loop_.place(trajectory_.at(settings.start));
+    loop_.place(startOf(scenario, settings));
     const SimbodyLoop::Energy energy = loop_.energy();
     start_energy_ = energy.kinetic + energy.potential;
   }
@@ -67,23 +81,15 @@ class Run {
   void integrateRkf78() {
     OdeState x = loop_.state();
     x.push_back(0.0);
-    const auto stepper =
+    auto stepper =
         odeint::make_controlled(settings_.tolerance, settings_.tolerance, odeint::runge_kutta_fehlberg78<OdeState>());
     // A first step of the whole motion's size: many short windows would else grow theirs from nothing, each again.
     double step = trajectory_.duration() / 128;
-    double start = settings_.start;
-    observe(x, start);
+    double t = settings_.start;
+    observe(x, t);
     for (double stop : stops_) {
       double longest = 0;
-      odeint::integrate_adaptive(
-          stepper, [this](const OdeState& at, OdeState& rate, double t) { derivative(at, rate, t); }, x, start, stop,
-          std::min(step, stop - start),
-          [&](const OdeState& at, double t) {
-            if (t == result_.steps.back().t) return;  // where the piece before ended
-            longest = std::max(longest, t - result_.steps.back().t);
-            observe(at, t);
-          });
-      start = stop;
+      while (t < stop) longest = std::max(longest, takeStep(stepper, x, t, stop, longest > 0 ? next_step_ : step));
       step = longest;
     }
   }
@@ -107,14 +113,45 @@ class Run {
   void leavePath() { result_.left_path = true; }
 
  private:
+  /// One accepted step from t, which it moves on, by at most to `stop`; the length of it.
+  template <class Stepper>
+  double takeStep(Stepper& stepper, OdeState& x, double& t, double stop, double try_first) {
+    const auto rate = [this](const OdeState& at, OdeState& out, double when) { derivative(at, out, when); };
+    const double start = t;
+    double h = try_first;
+    for (int rejected = 0;; ++rejected) {
+      const bool last = t + h * (1 + 1e-12) >= stop;
+      if (last) h = stop - t;
+      if (stepper.try_step(rate, x, t, h) == odeint::success) {
+        if (last) t = stop;  // not stop's neighbour
+        break;
+      }
+      if (rejected > 500 || t + h == t) throw TooLong("the integrator's step has vanished");
+    }
+    next_step_ = h;
+    if (settings_.spoil) settings_.spoil(t, x);
+    if (settings_.project) project(x, t);
+    observe(x, t);
+    return t - start;
+  }
+
+  void project(OdeState& x, double t) {
+    loop_.setState(t, x.data());
+    loop_.place(loop_.platform());
+    const double work = x.back();
+    x = loop_.state();
+    x.push_back(work);
+  }
+
   void derivative(const OdeState& x, OdeState& rate, double t) {
     if (++result_.evaluations > settings_.max_evaluations)
-      throw TooLong(fmt::format("more than {} derivative evaluations at t = {} s", settings_.max_evaluations, t));
+      throw TooLong(fmt::format("more than {} derivative evaluations", settings_.max_evaluations));
+    result_.stopped_at = t;
     loop_.derivative(t, x.data(), torques_(t), rate.data());
     const SimbodyLoop::Power power = loop_.power();
     rate.back() = (power.actuators + power.friction + power.load) / weight_;
     for (double value : rate)
-      if (!std::isfinite(value)) throw GaveUp(fmt::format("the derivatives are not finite at t = {} s", t));
+      if (!std::isfinite(value)) throw GaveUp("the derivatives are not finite");
   }
 
   void observe(const OdeState& x, double t) {
@@ -148,8 +185,9 @@ class Run {
   SimbodyLoop loop_;
   Replay result_;
   double start_energy_ = 0;
-  double weight_ = 0;  ///< N
-  double size_ = 0;    ///< m
+  double next_step_ = 0;  ///< that the step control proposes
+  double weight_ = 0;     ///< N
+  double size_ = 0;       ///< m
 };
 
 template <class F>
@@ -181,7 +219,7 @@ std::vector<double> knotsWithin(const Scenario& scenario, double start, double e
     knots.insert(knots.end(), more.begin(), more.end());
     std::sort(knots.begin(), knots.end());
   }
-  const double least = scenario.trajectory->duration() / 1024;
+  const double least = scenario.trajectory->duration() / 4096;
   std::vector<double> within;
   double before = start;
   for (double knot : knots)

@@ -28,6 +28,7 @@ struct Replay {
   long accepted = 0;              ///< steps of the integrator
   double energy_scale = 0;        ///< ‖∂E/∂x‖ and |work|, what an error of one in the state is to the energy, J
   std::string gave_up;            ///< why, where it could not go on; else empty
+  double stopped_at = 0;          ///< when it could not go on, s
   bool too_long = false;          ///< gave up after too many evaluations: what is missing proves nothing
   bool left_path = false;         ///< stopped where P was off by more than the platform's size: no use to go on
 
@@ -40,12 +41,17 @@ struct ReplaySettings {
   double tolerance = 1e-14;   ///< absolute and relative
   double start = 0, end = 0;  ///< s; the state at start is the commanded one
   SimbodyLoop::Topology topology = SimbodyLoop::Topology::six_balls;
+  /// [δp; L δϑ; δṗ; L δω] by which the start is put off the commanded state, L the machine's length; m and m/s.
+  Eigen::Matrix<double, 12, 1> deviation = Eigen::Matrix<double, 12, 1>::Zero();
   int instants = 101;            ///< rk_merson only: equally spaced instants at which it is compared
   long max_evaluations = 20000;  ///< more than this is giving up
+  bool project = false;          ///< rkf78 only: after each step the legs follow the platform, so that no gap is left
+  /// rkf78 only, for controls that must fail: spoils the state x = [q, u, …] after each step.
+  std::function<void(double t, std::vector<double>& x)> spoil;
 };
 
 /// The scenario's knots (trajectory and load) within (start, end), those left out that follow another by less than a
-/// 1024th of the motion: their jumps are then far smaller than a step's error.
+/// 4096th of the motion: their jumps are then far smaller than a step's error.
 std::vector<double> knotsWithin(const Scenario& scenario, double start, double end);
 
 Replay replay(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const ReplaySettings& settings);

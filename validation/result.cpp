@@ -26,20 +26,49 @@ const char* name(Verdict verdict) {
   throw std::logic_error("no such verdict");
 }
 
+const char* name(Reason reason) {
+  switch (reason) {
+    case Reason::none:
+      return "none";
+    case Reason::limit_useless:
+      return "limit_useless";
+    case Reason::unfinished:
+      return "unfinished";
+    case Reason::not_covered:
+      return "not_covered";
+    case Reason::not_made:
+      return "not_made";
+  }
+  throw std::logic_error("no such reason");
+}
+
+const char* name(LimitBy limit_by) { return limit_by == LimitBy::user ? "user" : "derived"; }
+
 Check judged(std::string name, double value, double limit, std::string unit, std::string basis, std::string why) {
   // An infinite limit would accept anything: it is a limit that was not found.
   const bool accepted = value <= limit && std::isfinite(value) && std::isfinite(limit);
-  return {std::move(name),  value,         limit, std::move(unit), accepted ? Verdict::pass : Verdict::fail,
-          std::move(basis), std::move(why)};
+  return {std::move(name),  value,          limit,        std::move(unit), accepted ? Verdict::pass : Verdict::fail,
+          std::move(basis), std::move(why), Reason::none, {value, 0, ""}};
 }
 
 Check notMade(std::string name, std::string unit, std::string why) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  return {std::move(name), none, none, std::move(unit), Verdict::fail, "", std::move(why)};
+  return {std::move(name),  none,         none, std::move(unit), Verdict::fail, "", std::move(why),
+          Reason::not_made, {none, 0, ""}};
 }
 
-Check notJudgeable(std::string name, double value, double limit, std::string unit, std::string basis, std::string why) {
-  return {std::move(name), value, limit, std::move(unit), Verdict::inconclusive, std::move(basis), std::move(why)};
+Check notJudgeable(Reason reason, std::string name, double value, double limit, std::string unit, std::string basis,
+                   std::string why) {
+  return {std::move(name),  value,          limit,  std::move(unit), Verdict::inconclusive,
+          std::move(basis), std::move(why), reason, {value, 0, ""}};
+}
+
+Check judgedIfUseful(std::string name, double value, double limit, double useful, std::string unit, std::string basis,
+                     std::string why, const std::string& cause) {
+  const bool says_nothing = !(limit <= useful) && value <= limit;
+  if (!says_nothing) return judged(std::move(name), value, limit, std::move(unit), std::move(basis), std::move(why));
+  return notJudgeable(Reason::limit_useless, std::move(name), value, limit, std::move(unit), std::move(basis),
+                      why + "; the limit says nothing here: " + cause);
 }
 
 Verdict overall(const std::vector<Check>& checks) {

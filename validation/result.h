@@ -11,7 +11,33 @@ enum class Verdict { pass, fail, inconclusive };
 /// "pass", "fail" or "inconclusive".
 const char* name(Verdict verdict);
 
-/// One statement that was judged: accepted exactly if `value <= limit`, so that NaN never passes.
+/// Why a check is not judged, or its failure not the value's.
+enum class Reason {
+  none,           ///< judged by value and limit
+  limit_useless,  ///< the limit is so large that it says nothing: the only one that a limit of the user's may lift
+  unfinished,     ///< stopped before the end of what was to be judged
+  not_covered,    ///< something that it needs is not there: samples, digits, a part of the motion
+  not_made,       ///< it could not be made at all: a failure
+};
+
+/// "none", "limit_useless", …
+const char* name(Reason reason);
+
+/// The largest value of a check, whatever the limit there.
+struct Largest {
+  double value = 0;
+  double t = 0;       ///< s
+  std::string where;  ///< leg or body, for people; empty where there is none
+};
+
+/// Whose limit decided.
+enum class LimitBy { derived, user };
+
+/// "derived" or "user".
+const char* name(LimitBy limit_by);
+
+/// One statement that was judged: accepted exactly if `value <= limit`, so that NaN never passes. Value and limit are
+/// those where their share is largest; limits of the user's are held against `largest`.
 struct Check {
   std::string name;  ///< `group.what`, e.g. "torque.pointwise"
   double value = 0;
@@ -20,6 +46,9 @@ struct Check {
   Verdict verdict = Verdict::fail;
   std::string basis;  ///< where the limit comes from, in words and numbers
   std::string why;    ///< what was found: which leg or body, when, how much
+  Reason reason = Reason::none;
+  Largest largest;
+  LimitBy limit_by = LimitBy::derived;
 };
 
 /// Accepts exactly if `value <= limit` and both are finite.
@@ -29,7 +58,12 @@ Check judged(std::string name, double value, double limit, std::string unit, std
 Check notMade(std::string name, std::string unit, std::string why);
 
 /// A check that cannot be judged here: inconclusive, with the reason.
-Check notJudgeable(std::string name, double value, double limit, std::string unit, std::string basis, std::string why);
+Check notJudgeable(Reason reason, std::string name, double value, double limit, std::string unit, std::string basis,
+                   std::string why);
+
+/// As judged(), but where the limit exceeds `useful` and nothing is beyond it, inconclusive with `cause`.
+Check judgedIfUseful(std::string name, double value, double limit, double useful, std::string unit, std::string basis,
+                     std::string why, const std::string& cause);
 
 /// fail if any failed or there is none, else inconclusive if any was, else pass.
 Verdict overall(const std::vector<Check>& checks);
@@ -48,6 +82,7 @@ struct TimeSeries {
 /// What one scenario's validation found. Provenance keeps its order: (key, value as text).
 struct ValidationResult {
   std::string scenario;
+  LimitBy limits = LimitBy::derived;  ///< user: a limit of the user's, wider than the derived one, decided
   Verdict verdict = Verdict::fail;
   std::vector<Check> checks;
   std::vector<std::pair<std::string, std::string>> provenance;

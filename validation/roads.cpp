@@ -16,35 +16,37 @@ namespace {
 
 using Road = Vector6d RoadSample::*;
 
-double distance(const RoadSample& sample, Road a, Road b) {
-  return (sample.*a - sample.*b).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-}
+using Limit = double RoadSample::*;
 
-Worst compareRoads(const std::vector<RoadSample>& samples, Road a, Road b) {
+Worst compareRoads(const std::vector<RoadSample>& samples, Road a, Road b, Limit limit) {
   Worst worst;
-  for (const RoadSample& sample : samples) worst.add(distance(sample, a, b), sample.limit, sample.t);
+  for (const RoadSample& sample : samples) {
+    Eigen::Index leg = 0;
+    const double distance = (sample.*a - sample.*b).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(&leg);
+    worst.add(distance, sample.*limit, sample.t, static_cast<int>(leg));
+  }
   return worst;
 }
 
-Check judgeRoad(const std::vector<RoadSample>& samples, const char* check_name, const char* what, Road road) {
+Check judgeRoad(const std::vector<RoadSample>& samples, const char* check_name, const char* what, Road road,
+                Limit limit, const Units& units) {
   if (samples.empty()) return notMade(check_name, "N m", "no instant was compared");
-  const Worst shown = compareRoads(samples, &RoadSample::subject, road);
-  return judged(
-      check_name, shown.value, shown.limit, "N m", "25 eps kappa(B) kappa(legs) x || |T|' |w| ||",
-      fmt::format("torques against {}, at {} instants; shown for t = {:.6g} s", what, samples.size(), shown.t));
+  const Worst shown = compareRoads(samples, &RoadSample::subject, road, limit);
+  double torque = 0;
+  for (const RoadSample& sample : samples) torque = std::max(torque, (sample.*road).cwiseAbs().maxCoeff());
+  Check check = judgedIfUseful(
+      check_name, shown.value, shown.limit, useful_share * torque, "N m",
+      fmt::format("eps kappa(B) kappa(legs) x || |T|' |w| || x (1 + {:g} x the spread measured in turned and rescaled "
+                  "frames)",
+                  rounding_safety),
+      fmt::format("torques against {}, at {} instants; shown for t = {:.6g} s, leg {}", what, samples.size(),
+                  shown.t * units.time, shown.where + 1),
+      fmt::format("it exceeds {:g} of the largest torque", useful_share));
+  check.largest = {shown.largest, shown.largest_t * units.time, placeName(shown.largest_where, false)};
+  return check;
 }
 
-double largest(const LegReactions& a) {
-  return std::max({a.f_A.norm(), a.n_A.norm(), a.f_R.norm(), a.n_R.norm(), a.f_B.norm()});
-}
-
-double largestDifference(const LegReactions& a, const LegReactions& b) {
-  double difference = 0;
-  for (Vector3d LegReactions::*part :
-       {&LegReactions::f_A, &LegReactions::n_A, &LegReactions::f_R, &LegReactions::n_R, &LegReactions::f_B})
-    difference = larger(difference, (a.*part - b.*part).norm());
-  return difference;
-}
+double largest(const LegReactions& a, double length) { return distance(a, LegReactions{}, length); }
 
 void addReactionColumns(const std::vector<Reactions>& reactions, TimeSeries& series) {
   struct Column {
@@ -83,16 +85,28 @@ std::vector<RoadSample> runRoads(const Scenario& scenario, const std::vector<Poi
     twin.place(sample.motion);
     road.twin = twin.inverseDynamics();
     road.maximal = maximal.inverseDynamics(sample.motion);
-    road.limit = sample.torque.limit;
+    road.limit_twin = sample.conditioning.rounding(Rounded::twin);
+    road.limit_maximal = sample.conditioning.rounding(Rounded::maximal);
+    road.limit = sample.torque.limit + road.limit_twin + road.limit_maximal;
     out.push_back(road);
   }
   return out;
 }
 
-std::vector<Check> judgeRoads(const std::vector<RoadSample>& samples) {
-  return {judgeRoad(samples, "torque.twin", "Simbody's loop grown through leg 1, five balls", &RoadSample::twin),
+double distance(const LegReactions& a, const LegReactions& b, double length) {
+  double difference = 0;
+  for (Vector3d LegReactions::*force : {&LegReactions::f_A, &LegReactions::f_R, &LegReactions::f_B})
+    difference = larger(difference, (a.*force - b.*force).norm());
+  for (Vector3d LegReactions::*moment : {&LegReactions::n_A, &LegReactions::n_R})
+    difference = larger(difference, (a.*moment - b.*moment).norm() / length);
+  return difference;
+}
+
+std::vector<Check> judgeRoads(const std::vector<RoadSample>& samples, const Units& units) {
+  return {judgeRoad(samples, "torque.twin", "Simbody's loop grown through leg 1, five balls", &RoadSample::twin,
+                    &RoadSample::limit_twin, units),
           judgeRoad(samples, "torque.maximal", "13 bodies in maximal coordinates with Lagrange multipliers",
-                    &RoadSample::maximal)};
+                    &RoadSample::maximal, &RoadSample::limit_maximal, units)};
 }
 
 std::string oddOneOut(const std::vector<RoadSample>& samples) {
@@ -106,7 +120,7 @@ std::string oddOneOut(const std::vector<RoadSample>& samples) {
                                     {"Simbody, tree through leg 1", &RoadSample::twin},
                                     {"maximal coordinates", &RoadSample::maximal}}};
   const auto agree = [&samples](const Named& a, const Named& b) {
-    return !compareRoads(samples, a.road, b.road).beyond;
+    return !compareRoads(samples, a.road, b.road, &RoadSample::limit).beyond();
   };
   for (const Named& odd : roads) {
     bool others_agree = true, alone = true;
@@ -123,7 +137,8 @@ std::string oddOneOut(const std::vector<RoadSample>& samples) {
   return all ? "none: four roads agree" : "not one alone: the roads disagree in more than one way";
 }
 
-Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample>& samples, TimeSeries* series) {
+Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample>& samples, TimeSeries* series,
+                     const Units& units) {
   const Solver<double> solver(*scenario.manipulator);
   Workspace<double> work;
   SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
@@ -136,23 +151,26 @@ Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample
     loop.place(sample.motion);
     loop.accelerate(torques);
     const Reactions simbody = loop.reactions();
-    // Forces come back from torques over the legs' levers, once more with the condition of B; accelerations that are
-    // off ask for forces.
     const Conditioning& at = sample.conditioning;
-    const double limit = at.torqueRounding() / at.length * at.kappa_B + at.largest_mass * at.accelerationRounding();
     for (std::size_t leg = 0; leg < leg_count; ++leg) {
-      size = std::max(size, largest(rows.back()[leg]));
-      worst.add(largestDifference(rows.back()[leg], simbody[leg]), limit, sample.motion.t, static_cast<int>(leg));
+      size = std::max(size, largest(rows.back()[leg], at.length));
+      worst.add(distance(rows.back()[leg], simbody[leg], at.length), at.rounding(Rounded::reactions), sample.motion.t,
+                static_cast<int>(leg));
     }
   }
   if (series != nullptr) addReactionColumns(rows, *series);
-  if (!worst.any) return notMade("reactions.pointwise", "N, N m", "no instant was compared");
-  return judged(
-      "reactions.pointwise", worst.value, worst.limit, "N, N m",
-      "the torque's limit over the machine's length, x kappa(B), and the acceleration's, x the largest mass",
-      fmt::format("forces and moments at 18 joints against Simbody's mobilizer and constraint reactions, at {} "
-                  "instants; shown for t = {:.6g} s, leg {}; the largest is {:.6g}",
-                  samples.size(), worst.t, worst.where + 1, size));
+  if (!worst.any) return notMade("reactions.pointwise", "N", "no instant was compared");
+  Check check = judgedIfUseful(
+      "reactions.pointwise", worst.value, worst.limit, useful_share * size, "N",
+      fmt::format("eps (kappa(B)^2 kappa(legs) x || |T|' |w| || / length + largest mass x the acceleration's) x (1 + "
+                  "{:g} x the spread measured in turned and rescaled frames)",
+                  rounding_safety),
+      fmt::format("forces, and moments over the machine's length, at 18 joints against Simbody's mobilizer and "
+                  "constraint reactions, at {} instants; shown for t = {:.6g} s, leg {}; the largest is {:.6g} N",
+                  samples.size(), worst.t * units.time, worst.where + 1, size * units.force()),
+      fmt::format("it exceeds {:g} of the largest", useful_share));
+  check.largest = {worst.largest, worst.largest_t * units.time, placeName(worst.largest_where, false)};
+  return check;
 }
 
 }  // namespace ursula

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "model/reactions.h"
 #include "model/scenario.h"
 #include "validation/pointwise.h"
 #include "validation/result.h"
@@ -13,6 +14,7 @@ namespace ursula {
 struct RoadSample {
   double t = 0;
   Vector6d subject, simbody, twin, maximal;  ///< N·m
+  double limit_twin = 0, limit_maximal = 0;  ///< of rounding between subject and road, N·m
   double limit = 0;                          ///< of rounding between any two, N·m
 };
 
@@ -20,13 +22,17 @@ struct RoadSample {
 std::vector<RoadSample> runRoads(const Scenario& scenario, const std::vector<PointwiseSample>& samples);
 
 /// `torque.twin`, `torque.maximal`: the subject against each further road.
-std::vector<Check> judgeRoads(const std::vector<RoadSample>& samples);
+std::vector<Check> judgeRoads(const std::vector<RoadSample>& samples, const Units& units = {});
 
 /// Which road stands alone when the others agree, in words; "none" where all agree.
 std::string oddOneOut(const std::vector<RoadSample>& samples);
 
 /// `reactions.pointwise`: the joint reactions recovered from the solver's road against Simbody's mobilizer and
-/// constraint reactions, relative to the largest; only for the formulas that hold.
-Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample>& samples, TimeSeries* series);
+/// constraint reactions; only for the formulas that hold.
+Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample>& samples, TimeSeries* series,
+                     const Units& units = {});
+
+/// The largest difference of a force, or of a moment over `length`, N.
+double distance(const LegReactions& a, const LegReactions& b, double length);
 
 }  // namespace ursula

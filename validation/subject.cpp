@@ -27,6 +27,9 @@ Subject makeSubject(const std::string& name, const Manipulator& manipulator, con
     answer.T_rate = solver->TRate(motion, *work);
     return answer;
   };
+  subject.accelerations = [solver, work, load](const Motion<double>& motion, const Vector6d& torques) {
+    return solver->directDynamics(motion, torques, *work, loadAtP(load.get(), motion));
+  };
   subject.rebuilt = [name, reading](const Manipulator& other) { return makeSubject(name, other, nullptr, reading); };
   return subject;
 }

@@ -26,6 +26,8 @@ struct Subject {
   std::string name;
   std::function<Vector6d(const Motion<double>&)> torques;            ///< N·m, conjugate to φ̇
   std::function<KinematicAnswer(const Motion<double>&)> kinematics;  ///< empty where only torques are judged
+  /// [ω̇; p̈] of the platform under torques, state as commanded; empty where the subject solves no direct dynamics.
+  std::function<Vector6d(const Motion<double>&, const Vector6d& torques)> accelerations;
   /// The same solver for another machine, for invariances; empty where the subject is not a solver.
   std::function<Subject(const Manipulator&)> rebuilt;
 };

@@ -5,13 +5,15 @@
 
 #include "validation/attribution.h"
 #include "validation/curves.h"
+#include "validation/dense_torques.h"
+#include "validation/direct_checks.h"
 #include "validation/feedback.h"
 #include "validation/finish.h"
 #include "validation/invariance.h"
 #include "validation/judge_replay.h"
 #include "validation/ladder.h"
-#include "validation/motion_check.h"
 #include "validation/pointwise.h"
+#include "validation/reference.h"
 #include "validation/roads.h"
 #include "validation/timeseries.h"
 #include "validation/windows.h"
@@ -27,73 +29,140 @@ std::vector<double> equallySpaced(double duration, int count) {
 
 namespace {
 
-/// What the replays show: ladder, feedback and attribution beside the judged windows.
-struct Motions {
-  std::vector<WindowedReplay> windows;
-  Ladder ladder;
-};
-
 void append(std::vector<Check>& checks, std::vector<Check> more) {
   std::move(more.begin(), more.end(), std::back_inserter(checks));
 }
 
-Motions judgeMotions(const Scenario& scenario, const Subject& subject, const std::vector<PointwiseSample>& samples,
-                     const ValidationOptions& options, std::vector<Check>& checks) {
-  const Amplification amplification = linearised(scenario);
-  const double position_scale = positionScale(samples);
-  const SimbodyLoop::TorqueHistory torques = [&](double t) { return subject.torques(scenario.trajectory->at(t)); };
-  Motions motions;
-  ReplayPlan plan{torques, SampledLimit(samples), position_scale, plannedStepRate(scenario.trajectory->duration())};
-  plan.tolerance = reachableTolerance(scenario, plan.step_rate);
-  plan.max_evaluations = enoughEvaluations(plan.step_rate, scenario.trajectory->duration());
-  motions.windows = replayInWindows(scenario, amplification, plan);
-  append(checks, judgeReplay(motions.windows, position_scale, amplification.length(), loopForces(samples)));
-  if (options.ladder) {
-    motions.ladder = climb(scenario, torques, motions.windows.front());
-    append(checks, judgeLadder(motions.ladder, motions.windows.front(), position_scale));
+/// One subject on one scenario, in the scenario's natural units.
+class Trial {
+ public:
+  /// `right`: the subject is the one whose replays the reference holds.
+  Trial(const Reference& reference, const Subject& subject, bool right, const ValidationOptions& options)
+      : reference_(reference),
+        scenario_(reference.scenario),
+        units_(reference.natural.units),
+        subject_(subject),
+        right_(right),
+        options_(options),
+        plan_(reference.plan) {
+    const auto trajectory = scenario_.trajectory;
+    plan_.torques = [subject, trajectory](double t) { return subject.torques(trajectory->at(t)); };
   }
-  checks.push_back(judgeFeedback(scenario, subject, amplification, samples));
-  return motions;
+
+  ValidationResult result() {
+    ValidationResult result;
+    result.scenario = scenario_.name;
+    samples_ = runPointwise(scenario_, subject_, reference_.instants, reference_.profile);
+    result.checks = judgePointwise(samples_, static_cast<bool>(subject_.kinematics), units_);
+    const bool answers = std::none_of(samples_.begin(), samples_.end(),
+                                      [](const PointwiseSample& sample) { return !sample.refused.empty(); });
+    if (answers)
+      judgeAnswers(result);
+    else
+      append(result.checks, judgeReplay({}, 0, 0, {}));
+    addResults(result);
+    return result;
+  }
+
+ private:
+  void judgeAnswers(ValidationResult& result) {
+    const std::vector<RoadSample> roads = runRoads(scenario_, samples_);
+    append(result.checks, judgeRoads(roads, units_));
+    append(result.checks, judgeInvariances(scenario_, subject_, samples_, units_));
+    if (options_.reactions) result.checks.push_back(judgeReactions(scenario_, samples_, &reactions_, units_));
+    result.checks.push_back(judgeBetween(scenario_, subject_, samples_, reference_.profile, units_));
+    if (subject_.accelerations) judgeDirectDynamics(result);
+    judgeReplays(result);
+    result.findings.emplace_back("odd one out of four roads", oddOneOut(roads));
+  }
+
+  void judgeDirectDynamics(ValidationResult& result) {
+    result.checks.push_back(judgeDirect(scenario_, subject_, samples_, units_));
+    result.checks.push_back(judgeGrowth(scenario_, subject_, reference_.plan.torques, reference_.amplification,
+                                        reference_.position_scale, coarser * plan_.tolerance, units_));
+  }
+
+  void judgeReplays(ValidationResult& result) {
+    windows_ = right_ && !options_.spoil_replay ? reference_.windows : replayed();
+    append(result.checks, judgeReplay(windows_, reference_.position_scale, reference_.amplification.length(),
+                                      reference_.forces, units_));
+    if (options_.ladder) {
+      ladder_ = climb(scenario_, plan_.torques, windows_.front());
+      append(result.checks, judgeLadder(ladder_, windows_.front(), reference_.position_scale, units_));
+    }
+    result.checks.push_back(judgeFeedback(scenario_, subject_, reference_.amplification, samples_, units_));
+  }
+
+  /// In the windows of the right torques, with what those say of the integration.
+  std::vector<WindowedReplay> replayed() const {
+    std::vector<WindowedReplay> out = reference_.windows;
+    for (WindowedReplay& window : out) {
+      ReplaySettings settings = settingsOf(scenario_, plan_, window.window, 1);
+      settings.spoil = options_.spoil_replay;
+      window.replay = replay(scenario_, plan_.torques, settings);
+    }
+    return out;
+  }
+
+  void addResults(ValidationResult& result) {
+    addFindings(samples_, windows_, result, units_);
+    if (options_.budget)
+      addBudget(attribute(scenario_, samples_, windows_, reference_.amplification, plan_), result, units_);
+    result.timeseries = validationSeries(samples_, windows_);
+    for (std::size_t k = 0; k < reactions_.names.size(); ++k)
+      result.timeseries.add(reactions_.names[k], std::move(reactions_.columns[k]));
+    addCurves(samples_, windows_, result);
+    if (!ladder_.rungs.empty()) result.curves.emplace_back("Work and precision", workPrecision(ladder_));
+  }
+
+  const Reference& reference_;
+  const Scenario& scenario_;
+  const Units& units_;
+  const Subject& subject_;
+  bool right_;
+  const ValidationOptions& options_;
+  ReplayPlan plan_;
+  std::vector<PointwiseSample> samples_;
+  TimeSeries reactions_;
+  std::vector<WindowedReplay> windows_;
+  Ladder ladder_;
+};
+
+ValidationResult run(const Scenario& scenario, const Reference& reference, const Subject& subject, bool right,
+                     const ValidationOptions& options) {
+  ValidationResult result = Trial(reference, subject, right, options).result();
+  restore(reference.natural, result);
+  judgeByUser(scenario.acceptance, result);
+  addProvenance(scenario, subject.name, result);
+  return result;
+}
+
+std::shared_ptr<const Reference> referenceOf(const Scenario& scenario, const ValidationOptions& options) {
+  return options.reference ? options.reference : makeReference(scenario);
+}
+
+ValidationResult validateOwn(const Scenario& scenario, const SubjectOf& make, bool right,
+                             const ValidationOptions& options) {
+  const std::shared_ptr<const Reference> reference = referenceOf(scenario, options);
+  const Subject subject = presented(make(reference->relocated), Vector3d::Zero(), reference->natural.units);
+  return run(scenario, *reference, subject, right, options);
 }
 
 }  // namespace
 
 ValidationResult validate(const Scenario& scenario, const Subject& subject, const ValidationOptions& options) {
-  checkMotion(scenario);
-  ValidationResult result;
-  result.scenario = scenario.name;
-  const auto samples =
-      runPointwise(scenario, subject, equallySpaced(scenario.trajectory->duration(), scenario.simulation.samples));
-  result.checks = judgePointwise(samples, static_cast<bool>(subject.kinematics));
-  const bool answers = std::none_of(samples.begin(), samples.end(),
-                                    [](const PointwiseSample& sample) { return !sample.refused.empty(); });
-  Motions motions;
-  TimeSeries reactions;
-  if (answers) {
-    const std::vector<RoadSample> roads = runRoads(scenario, samples);
-    append(result.checks, judgeRoads(roads));
-    append(result.checks, judgeInvariances(scenario, subject, samples));
-    if (options.reactions) result.checks.push_back(judgeReactions(scenario, samples, &reactions));
-    motions = judgeMotions(scenario, subject, samples, options, result.checks);
-    result.findings.emplace_back("odd one out of four roads", oddOneOut(roads));
-  } else {
-    append(result.checks, judgeReplay({}, 0, 0, {}));
-  }
-  applyAcceptance(scenario.acceptance, result.checks);
-  result.verdict = overall(result.checks);
-  addFindings(samples, motions.windows, result);
-  addBudget(attribute(samples, motions.windows, motions.ladder, result.checks), result);
-  result.timeseries = validationSeries(samples, motions.windows);
-  for (std::size_t k = 0; k < reactions.names.size(); ++k)
-    result.timeseries.add(reactions.names[k], std::move(reactions.columns[k]));
-  addCurves(samples, motions.windows, result);
-  if (!motions.ladder.rungs.empty()) result.curves.emplace_back("Work and precision", workPrecision(motions.ladder));
-  addProvenance(scenario, subject.name, result);
-  return result;
+  const std::shared_ptr<const Reference> reference = referenceOf(scenario, options);
+  return run(scenario, *reference, presented(subject, reference->natural.origin, reference->natural.units), false,
+             options);
 }
 
-ValidationResult validate(const Scenario& scenario) {
-  return validate(scenario, nocSubject(*scenario.manipulator, scenario.load));
+ValidationResult validateMade(const Scenario& scenario, const SubjectOf& make, const ValidationOptions& options) {
+  return validateOwn(scenario, make, false, options);
+}
+
+ValidationResult validate(const Scenario& scenario, const ValidationOptions& options) {
+  const SubjectOf noc = [](const Scenario& here) { return nocSubject(*here.manipulator, here.load); };
+  return validateOwn(scenario, noc, true, options);
 }
 
 }  // namespace ursula

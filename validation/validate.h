@@ -1,15 +1,25 @@
 #pragma once
 
+#include <functional>
+#include <memory>
+
 #include "model/scenario.h"
 #include "validation/result.h"
 #include "validation/subject.h"
 
 namespace ursula {
 
+struct Reference;
+
 /// What may be left out where many scenarios are judged in a row; `ursula validate` leaves out nothing.
 struct ValidationOptions {
   bool ladder = true;     ///< integration.*
   bool reactions = true;  ///< reactions.pointwise
+  bool budget = true;     ///< the error's sources, which decide nothing
+  /// What depends on the scenario alone, made before, for many subjects on one scenario; null: made afresh.
+  std::shared_ptr<const Reference> reference = nullptr;
+  /// rkf78 only, for controls that must fail: spoils the state after each step of the judged replay.
+  std::function<void(double t, std::vector<double>& x)> spoil_replay = nullptr;
 };
 
 /// The whole validation of one scenario: pointwise, replay, closure, energy, and the verdict. Deterministic: the same
@@ -18,7 +28,13 @@ struct ValidationOptions {
 ValidationResult validate(const Scenario& scenario, const Subject& subject, const ValidationOptions& options = {});
 
 /// With the NOC of this program as the subject.
-ValidationResult validate(const Scenario& scenario);
+ValidationResult validate(const Scenario& scenario, const ValidationOptions& options = {});
+
+/// With a subject that is made for the scenario where its numbers are good: positions from an origin near the machine.
+using SubjectOf = std::function<Subject(const Scenario&)>;
+ValidationResult validateMade(const Scenario& scenario, const SubjectOf& make, const ValidationOptions& options = {});
+
+std::shared_ptr<const Reference> makeReference(const Scenario& scenario);
 
 /// `count` equally spaced instants from 0 to `duration`, both included.
 std::vector<double> equallySpaced(double duration, int count);

@@ -49,7 +49,7 @@ double reachableTolerance(const Scenario& scenario, double step_rate) {
   return std::max(scenario.simulation.tolerance, 0.1 * noise / step_rate);
 }
 
-double plannedStepRate(double duration) { return 128 / std::min(duration, 3.0); }
+double plannedStepRate(double duration) { return 128 / std::min(duration, 8.0); }
 
 long enoughEvaluations(double step_rate, double duration) {
   return 20000 + static_cast<long>(4 * 13 * step_rate * duration);
@@ -86,19 +86,30 @@ double plannedBound(const ReplayPlan& plan, const GrowthWindow& window) {
   return window.bound(window.end(), plan.step_rate * per_step, 0);
 }
 
+ReplaySettings settingsOf(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window,
+                          double of_tolerance) {
+  ReplaySettings settings;
+  settings.integrator = scenario.simulation.integrator;
+  settings.tolerance = of_tolerance * plan.tolerance;
+  settings.start = window.start();
+  settings.end = window.end();
+  settings.max_evaluations = plan.max_evaluations;
+  return settings;
+}
+
 std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const ReplayPlan& plan,
                                             const std::vector<GrowthWindow>& windows) {
   std::vector<WindowedReplay> replays;
-  for (const GrowthWindow& window : windows) {
-    ReplaySettings settings;
-    settings.integrator = scenario.simulation.integrator;
-    settings.tolerance = plan.tolerance;
-    settings.start = window.start();
-    settings.end = window.end();
-    settings.max_evaluations = plan.max_evaluations;
-    replays.push_back({window, replay(scenario, plan.torques, settings)});
-  }
+  for (const GrowthWindow& window : windows)
+    replays.push_back({window, replay(scenario, plan.torques, settingsOf(scenario, plan, window, 1))});
   return replays;
+}
+
+void measureIntegration(const Scenario& scenario, const ReplayPlan& plan, std::vector<WindowedReplay>& windows) {
+  for (WindowedReplay& window : windows) {
+    const Replay coarse = replay(scenario, plan.torques, settingsOf(scenario, plan, window.window, coarser));
+    window.integration = integrationError(window.replay, coarse);
+  }
 }
 
 namespace {

@@ -30,9 +30,18 @@ std::vector<GrowthWindow> planWindows(const Amplification& amplification, const 
 /// The bound that planWindows held against the useful limit, at the end of `window`, m.
 double plannedBound(const ReplayPlan& plan, const GrowthWindow& window);
 
+/// Of a replay of `window` at so many times the plan's tolerance.
+ReplaySettings settingsOf(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window,
+                          double of_tolerance);
+
 /// A replay for each window.
 std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const ReplayPlan& plan,
                                             const std::vector<GrowthWindow>& windows);
+
+/// Sets what the integration may be off by in each of `windows`, replays under the right torques, by replaying once
+/// more with `coarser` times the tolerance.
+void measureIntegration(const Scenario& scenario, const ReplayPlan& plan, std::vector<WindowedReplay>& windows);
+constexpr double coarser = 100;
 
 /// Plans windows and replays in them; once more with shorter windows where more steps were taken than planned and left
 /// one that cannot be judged.

@@ -1,27 +1,48 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 namespace ursula {
 
 /// The larger of two; NaN wins, so that it is seen.
 inline double larger(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 
-/// What a check shows of many instants: the one furthest beyond its limit, or where none is, the largest value. NaN is
+/// What a check shows of many instants: the value with the largest share of its limit, and the largest value. NaN is
 /// beyond any limit and stays.
 struct Worst {
   double value = 0, limit = 0, t = 0;
-  int where = -1;       ///< leg or body, 0-based
-  bool beyond = false;  ///< value > limit, or NaN
-  bool any = false;     ///< something was compared
+  int where = -1;    ///< leg or body, 0-based
+  bool any = false;  ///< something was compared
+  double largest = 0, largest_t = 0;
+  int largest_where = -1;
+  double widest_limit = 0, widest_t = 0;  ///< the largest limit
+
+  /// Of the limit; 0 of 0 is 0, and NaN is infinite.
+  static double share(double of_value, double of_limit) {
+    if (of_value == 0 && of_limit >= 0) return 0;
+    const double out = of_value / of_limit;
+    return std::isnan(out) ? std::numeric_limits<double>::infinity() : out;
+  }
+  bool beyond() const { return !(value <= limit); }
 
   void add(double new_value, double new_limit, double new_t, int new_where = -1) {
-    const bool new_beyond = !(new_value <= new_limit);
-    const bool isWorse = !any                   ? true
-                         : new_beyond != beyond ? new_beyond
-                         : new_beyond ? !std::isnan(value / limit) && !(new_value / new_limit <= value / limit)
-                                      : new_value >= value;
-    if (isWorse) *this = {new_value, new_limit, new_t, new_where, new_beyond, true};
+    if (!any || (!std::isnan(largest) && !(new_value <= largest))) {
+      largest = new_value;
+      largest_t = new_t;
+      largest_where = new_where;
+    }
+    if (!any || !(new_limit <= widest_limit)) {
+      widest_limit = new_limit;
+      widest_t = new_t;
+    }
+    if (!any || (!std::isnan(value) && (std::isnan(new_value) || share(new_value, new_limit) > share(value, limit)))) {
+      value = new_value;
+      limit = new_limit;
+      t = new_t;
+      where = new_where;
+    }
+    any = true;
   }
 };
 

@@ -82,7 +82,7 @@ void legFrame(const LegModel<S>& leg, const S& k_x, const S& k_z, const R& readi
 template <class S, class R>
 void legDisplacement(const LegModel<S>& leg, int index, const Motion<S>& motion, const R& reading, LegState<S>& out) {
   out.Qb.noalias() = motion.Q * leg.b;
-  out.AB = motion.p + out.Qb - leg.a;  // (paper, eq. 3)
+  out.AB = (motion.p - leg.a) + out.Qb;  // (paper, eq. 3), with nothing lost far from the base's origin
   if (reading.has(Slip::eq5)) out.AB = motion.p + out.Qb + leg.a;
   const S k_x = leg.x_hat.dot(out.AB), k_z = leg.z_hat.dot(out.AB);  // (paper, eq. 13)
   out.k_y = leg.y_hat.dot(out.AB);

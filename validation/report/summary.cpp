@@ -13,7 +13,8 @@ using Json = nlohmann::ordered_json;
 Json checkJson(const Check& check) {
   return {{"name", check.name}, {"value", check.value},           {"limit", check.limit},
           {"unit", check.unit}, {"verdict", name(check.verdict)}, {"basis", check.basis},
-          {"why", check.why}};
+          {"why", check.why},   {"reason", name(check.reason)},   {"limit_by", name(check.limit_by)},
+          {"largest", {{"value", check.largest.value}, {"t_s", check.largest.t}, {"where", check.largest.where}}}};
 }
 
 // A key that comes twice keeps both texts.
@@ -32,6 +33,7 @@ std::string summaryJson(const ValidationResult& result) {
   for (const Check& check : result.checks) checks.push_back(checkJson(check));
   const Json summary = {{"scenario", result.scenario},
                         {"verdict", name(result.verdict)},
+                        {"limits", name(result.limits)},
                         {"reason", reason(result.verdict, result.checks)},
                         {"checks", checks},
                         {"findings", object(result.findings)},

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "model/scenario.h"
+#include "validation/amplification.h"
+#include "validation/pointwise.h"
+#include "validation/replay.h"
+#include "validation/result.h"
+#include "validation/subject.h"
+
+namespace ursula {
+
+/// `direct.pointwise`: the subject's direct dynamics (36) against Simbody's, under the commanded torques and with each
+/// motor's changed in turn, so that every column of the mass matrix shows. Only for subjects that have it.
+Check judgeDirect(const Scenario& scenario, const Subject& subject, const std::vector<PointwiseSample>& samples,
+                  const Units& units = {});
+
+/// `direct.growth`: how a deviation grows by the variational equations of the subject's direct dynamics, against what
+/// it does in Simbody's loop, really put off the path by as much either way. `torques` are the right ones.
+Check judgeGrowth(const Scenario& scenario, const Subject& subject, const SimbodyLoop::TorqueHistory& torques,
+                  const Amplification& amplification, double position_scale, double tolerance, const Units& units = {});
+
+}  // namespace ursula
