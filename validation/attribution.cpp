@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
+#include <mutex>
 #include <stdexcept>
 
 namespace ursula {
@@ -31,14 +32,17 @@ Vector3d endOf(const Replay& replay) {
 
 /// The window's replay with the gaps projected away, seen from `presentation`; the error of its end, in B.
 Vector3d projectedEnd(const Scenario& scenario, const ReplayPlan& plan, const WindowedReplay& window,
-                      const Presentation& presentation) {
+                      const Presentation& presentation, std::mutex& asking) {
   const Scenario there = presentation.of(scenario);
   const Units& units = presentation.units;
   ReplaySettings settings = settingsOf(scenario, plan, window.window, 1);
   settings.start /= units.time;
   settings.end = window.replay.steps.back().t / units.time;
   settings.project = true;
-  const SimbodyLoop::TorqueHistory torques = [&](double t) { return presentation.of(plan.torques(t * units.time)); };
+  const SimbodyLoop::TorqueHistory torques = [&](double t) {
+    const std::lock_guard<std::mutex> one_at_a_time(asking);  // the subject may be anybody's
+    return presentation.of(plan.torques(t * units.time));
+  };
   return presentation.turn.transpose() * endOf(replay(there, torques, settings)) * units.length;
 }
 
@@ -151,14 +155,15 @@ ErrorBudget attribute(const Scenario& scenario, const std::vector<PointwiseSampl
 
   std::vector<Presentation> from = {Presentation{}};
   for (unsigned k = 0; k < presentations; ++k) from.push_back(randomPresentation(k + 101, amplification.length()));
+  std::mutex asking;
   std::vector<std::future<Vector3d>> running;
   for (const Presentation& presentation : from)
-    running.push_back(std::async(std::launch::async, [&scenario, &plan, window, presentation] {
-      return projectedEnd(scenario, plan, *window, presentation);
+    running.push_back(std::async(std::launch::async, [&scenario, &plan, &asking, window, presentation] {
+      return projectedEnd(scenario, plan, *window, presentation, asking);
     }));
-  const Vector3d coarse = coarseEnd(scenario, plan, *window);
   std::vector<Vector3d> ends;
   for (auto& each : running) ends.push_back(each.get());
+  const Vector3d coarse = coarseEnd(scenario, plan, *window);
   Vector3d mean = Vector3d::Zero();
   for (unsigned k = 1; k <= presentations; ++k) mean += ends[k] / presentations;
   double spread = 0;

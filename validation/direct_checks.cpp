@@ -8,6 +8,7 @@
 #include "model/simbody_loop.h"
 #include "nocsolver/errors.h"
 #include "validation/judge_replay.h"
+#include "validation/windows.h"
 #include "validation/worst.h"
 
 namespace ursula {
@@ -96,7 +97,8 @@ Check judgeDirect(const Scenario& scenario, const Subject& subject, const std::v
 }
 
 Check judgeGrowth(const Scenario& scenario, const Subject& subject, const SimbodyLoop::TorqueHistory& torques,
-                  const Amplification& amplification, double position_scale, double tolerance, const Units& units) {
+                  const Amplification& amplification, const std::function<double(double)>& acceleration_rounding,
+                  double tolerance, const Units& units) {
   static constexpr const char* check = "direct.growth";
   const std::size_t last = lastOf(amplification, scenario.trajectory->duration());
   const double end = amplification.instants()[last], length = amplification.length();
@@ -111,31 +113,34 @@ Check judgeGrowth(const Scenario& scenario, const Subject& subject, const Simbod
 
   const double size = wanted_deviation * length / std::max(1.0, finer.topRows<6>().norm());
   ReplaySettings settings;
-  settings.tolerance = tolerance;
   settings.end = end;
-  std::vector<Replay> runs;
-  for (double sign : {0.0, 1.0, -1.0}) {
+  std::vector<Vector6d> ends;  // on the path, beside it either way, and the same two at a hundredth of the tolerance
+  const std::pair<double, double> runs[] = {{0, 1}, {1, 1}, {-1, 1}, {1, coarser}, {-1, coarser}};
+  for (const auto& [sign, finer_by] : runs) {
     settings.deviation = sign * size * from;
-    runs.push_back(replay(scenario, torques, settings));
-    if (!runs.back().gave_up.empty() || runs.back().steps.empty())
+    settings.tolerance = tolerance / finer_by;
+    const Replay run = replay(scenario, torques, settings);
+    if (!run.gave_up.empty() || run.left_path || run.steps.empty())
       return notJudgeable(Reason::unfinished, check, std::nan(""), std::nan(""), "", "",
-                          "the replay from beside the path gave up: " + runs.back().gave_up);
+                          "the replay from beside the path gave up: " + run.gave_up);
+    ends.push_back(deviationAtEnd(run, length));
   }
-  const Vector6d middle = deviationAtEnd(runs[0], length), above = deviationAtEnd(runs[1], length),
-                 below = deviationAtEnd(runs[2], length);
-  const double grown = expected.norm(), error = (above - below - 2 * size * expected).norm() / (2 * size);
+  const Vector6d apart = ends[3] - ends[4];
+  const double grown = expected.norm(), error = (apart - 2 * size * expected).norm() / (2 * size);
   // What is even in the deviation bounds what is cubic; intervals of half the length show what the others miss.
-  const double bend = (above + below - 2 * middle).norm() / (2 * size);
+  const double bend = (ends[1] + ends[2] - 2 * ends[0]).norm() / (2 * size);
   const double magnus = ((finer - found) * from).head<6>().norm();
-  const double integration = errorPerStep(tolerance, position_scale) * static_cast<double>(runs[1].accepted) *
-                             finer.topRows<6>().norm() / size;
-  return judged(check, error / grown, (bend + magnus + integration) / grown, "",
-                "what is even in the deviation, what halved intervals change, and the replays' tolerance at each step "
-                "over the deviation",
-                fmt::format("a deviation of the state by {:.2g} m grows {:.4g} times until t = {:.6g} s by the "
-                            "variational equations; relative difference from Simbody put off the path as much either "
-                            "way",
-                            size * units.length, grown, end * units.time));
+  const double integration = integration_safety * (ends[1] - ends[2] - apart).norm() / (2 * size);
+  const double rounding = amplification.carriedBound(0, end, acceleration_rounding) / size;
+  return judged(
+      check, error / grown, (bend + magnus + integration + rounding) / grown, "",
+      fmt::format("what is even in the deviation, what halved intervals change, {:g} times what a hundredfold "
+                  "tolerance changes, and rounding of the accelerations",
+                  integration_safety),
+      fmt::format("a deviation of the state by {:.2g} m grows {:.4g} times until t = {:.6g} s by the "
+                  "variational equations; relative difference from Simbody put off the path as much either "
+                  "way",
+                  size * units.length, grown, end * units.time));
 }
 
 }  // namespace ursula

@@ -17,8 +17,11 @@ Check judgeDirect(const Scenario& scenario, const Subject& subject, const std::v
                   const Units& units = {});
 
 /// `direct.growth`: how a deviation grows by the variational equations of the subject's direct dynamics, against what
-/// it does in Simbody's loop, really put off the path by as much either way. `torques` are the right ones.
+/// it does in Simbody's loop, really put off the path by as much either way. `torques` are the right ones,
+/// `acceleration_rounding` what rounding may make of the platform's acceleration at t, `tolerance` that of the coarser
+/// replays.
 Check judgeGrowth(const Scenario& scenario, const Subject& subject, const SimbodyLoop::TorqueHistory& torques,
-                  const Amplification& amplification, double position_scale, double tolerance, const Units& units = {});
+                  const Amplification& amplification, const std::function<double(double)>& acceleration_rounding,
+                  double tolerance, const Units& units = {});
 
 }  // namespace ursula

@@ -7,28 +7,34 @@
 namespace ursula {
 namespace {
 
+/// Subjects are asked from many threads.
+Workspace<double>& workspace() {
+  thread_local Workspace<double> work;
+  return work;
+}
+
 template <class Reading>
 Subject makeSubject(const std::string& name, const Manipulator& manipulator, const std::shared_ptr<const Load>& load,
                     const Reading& reading) {
   const auto solver = std::make_shared<const Solver<double, Reading>>(manipulator, reading);
-  const auto work = std::make_shared<Workspace<double>>();
   Subject subject;
   subject.name = name;
-  subject.torques = [solver, work, load](const Motion<double>& motion) {
-    return solver->inverseDynamics(motion, *work, loadAtP(load.get(), motion));
+  subject.torques = [solver, load](const Motion<double>& motion) {
+    return solver->inverseDynamics(motion, workspace(), loadAtP(load.get(), motion));
   };
-  subject.kinematics = [solver, work](const Motion<double>& motion) {
+  subject.kinematics = [solver](const Motion<double>& motion) {
+    Workspace<double>& work = workspace();
     KinematicAnswer answer;
-    solver->inverseKinematics(motion, *work);
-    answer.joints = {solver->angles(*work), solver->rates(*work), solver->accelerations(*work)};
-    solver->bodyMotions(motion, *work, answer.bodies);
-    solver->jacobians(motion, *work);
-    answer.T = solver->T(*work);
-    answer.T_rate = solver->TRate(motion, *work);
+    solver->inverseKinematics(motion, work);
+    answer.joints = {solver->angles(work), solver->rates(work), solver->accelerations(work)};
+    solver->bodyMotions(motion, work, answer.bodies);
+    solver->jacobians(motion, work);
+    answer.T = solver->T(work);
+    answer.T_rate = solver->TRate(motion, work);
     return answer;
   };
-  subject.accelerations = [solver, work, load](const Motion<double>& motion, const Vector6d& torques) {
-    return solver->directDynamics(motion, torques, *work, loadAtP(load.get(), motion));
+  subject.accelerations = [solver, load](const Motion<double>& motion, const Vector6d& torques) {
+    return solver->directDynamics(motion, torques, workspace(), loadAtP(load.get(), motion));
   };
   subject.rebuilt = [name, reading](const Manipulator& other) { return makeSubject(name, other, nullptr, reading); };
   return subject;
