@@ -1,6 +1,7 @@
 #include "validation/random_recipe.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -16,7 +17,6 @@ class Oddities {
     if (odd) recipe_.unusual.emplace_back(words);
     return odd;
   }
-  void note(const std::string& words) { recipe_.unusual.push_back(words); }
 
  private:
   Dice& dice_;
@@ -26,15 +26,15 @@ class Oddities {
 /// Masses grow with the volume of a machine of the paper's kind, 10 kg at 1.4 m, or have nothing to do with it.
 void drawUnits(Dice& dice, Oddities& odd, Recipe& recipe) {
   recipe.length = dice.spread(0.4, 4);
-  if (odd.happens(0.25, "size")) recipe.length = dice.spread(2e-3, 300);
+  if (odd.happens(0.2, "size")) recipe.length = dice.spread(2e-3, 300);
   const double volume = std::pow(recipe.length, 3);
-  recipe.mass = odd.happens(0.2, "masses of another size") ? dice.spread(1e-3, 1e3) : dice.spread(1, 15) * volume;
+  recipe.mass = odd.happens(0.15, "masses of another size") ? dice.spread(1e-3, 1e3) : dice.spread(1, 15) * volume;
   recipe.acceleration = dice.uniform(9.78, 9.83);
-  if (odd.happens(0.2, "gravity's size")) recipe.acceleration = dice.spread(1.6, 274);
+  if (odd.happens(0.15, "gravity's size")) recipe.acceleration = dice.spread(1.6, 274);
 }
 
 void drawGeometry(Dice& dice, Oddities& odd, Recipe& recipe) {
-  if (odd.happens(0.6, "layout")) {
+  if (dice.chance(0.6)) {
     recipe.arrangement = dice.pick<Arrangement>(5);
     recipe.axes = dice.pick<Axes>(4);
   }
@@ -52,16 +52,16 @@ void drawGeometry(Dice& dice, Oddities& odd, Recipe& recipe) {
 void drawBodies(Dice& dice, Oddities& odd, Recipe& recipe) {
   if (odd.happens(0.15, "links' masses unlike the platform's")) recipe.masses = Masses::apart;
   if (odd.happens(0.1, "masses mixed")) recipe.masses = Masses::mixed;
-  recipe.centres_anywhere = odd.happens(0.2, "mass centres outside of links");
+  recipe.centres_anywhere = odd.happens(0.15, "mass centres outside of links");
   recipe.platform_centre = dice.uniform(0, 1) * recipe.length;
   if (odd.happens(0.1, "platform's mass centre away")) recipe.platform_centre = dice.spread(1, 10) * recipe.length;
-  if (odd.happens(0.2, "inertias")) recipe.inertias = static_cast<Inertias>(dice.whole(1, 4));
+  if (odd.happens(0.15, "inertias")) recipe.inertias = static_cast<Inertias>(dice.whole(1, 4));
   recipe.viscous = dice.chance(0.5);
   recipe.coulomb = dice.chance(0.25);
 }
 
 void drawSurroundings(Dice& dice, Oddities& odd, Recipe& recipe) {
-  if (odd.happens(0.2, "gravity's direction")) recipe.gravity = dice.pick<GravityKind>(4);
+  if (odd.happens(0.15, "gravity's direction")) recipe.gravity = dice.pick<GravityKind>(4);
   if (dice.chance(0.2)) recipe.load = LoadKind::constant;
   if (dice.chance(0.15)) recipe.load = LoadKind::table;
   if (odd.happens(0.08, "load jumps")) recipe.load = LoadKind::jumps;
@@ -86,6 +86,15 @@ void drawMotion(Dice& dice, Oddities& odd, Recipe& recipe) {
 }
 
 }  // namespace
+
+std::string Recipe::text() const {
+  static constexpr const char* arrangements[] = {"the paper's layout", "a ring", "3-3", "6-3", "no order"};
+  static constexpr const char* directions[] = {"tilted", "radial", "tangential", "random"};
+  const std::string odd = unusual.empty() ? "nothing unusual" : fmt::format("{}", fmt::join(unusual, ", "));
+  return fmt::format("L {:.3g} m, m {:.3g} kg, a {:.3g} m/s^2, {:.3g} T, {}, {} axes; {}", length, mass, acceleration,
+                     duration / time(), arrangements[static_cast<int>(arrangement)], directions[static_cast<int>(axes)],
+                     odd);
+}
 
 double Recipe::largestKappa() const {
   // P far off the platform's points makes B worse by as many lengths.

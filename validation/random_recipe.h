@@ -55,6 +55,8 @@ struct Recipe {
 
   /// The time in which `acceleration` moves about `length`, s.
   double time() const { return std::sqrt(length / acceleration); }
+  /// Units, layout and what is unusual.
+  std::string text() const;
   /// The largest κ(B) κ(legs) kept.
   double largestKappa() const;
 };

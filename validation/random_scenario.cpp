@@ -1,7 +1,6 @@
 #include "validation/random_scenario.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -64,7 +63,7 @@ bool canStand(const Recipe& recipe, const Design& design, const Manipulator& man
   if (!Follower(manipulator).follows(motion)) return false;
   const double kappa = kappaOf(ConditioningProbe(manipulator, nullptr).at(motion));
   // Near a singularity the machine stands not far from it already: else few of its motions come near.
-  if (recipe.near_singular) return kappa > 1e3 && kappa < recipe.largestKappa();
+  if (recipe.near_singular) return kappa > 3e3 && kappa < recipe.largestKappa();
   return 3 * kappa < recipe.largestKappa();
 }
 
@@ -88,8 +87,8 @@ bool canBeJudged(const Recipe& recipe, const Scenario& scenario) {
 /// Motions smaller and smaller until the legs can follow; near a singularity from larger ones on and in smaller steps,
 /// so that the first that they can follow comes close to it.
 bool findMotion(Dice& dice, const Recipe& recipe, const Design& design, int& draws, Scenario& scenario) {
-  const double factor = recipe.near_singular ? 0.85 : 0.6;
-  double share = recipe.near_singular ? 2 : 1;
+  const double factor = recipe.near_singular ? 0.75 : 0.6;
+  double share = recipe.near_singular ? 1.5 : 1;
   for (int k = 0; k < (recipe.near_singular ? 10 : 5); ++k, share *= factor) try {
       ++draws;
       scenario.trajectory = randomMotion(dice, recipe, design, share);
@@ -116,14 +115,6 @@ bool tryDesign(Dice& dice, const Recipe& recipe, int& draws, Scenario& scenario)
   return false;
 }
 
-std::string textOf(std::uint64_t seed, int draws, const Recipe& recipe, const Scenario& scenario) {
-  const std::string unusual =
-      recipe.unusual.empty() ? "nothing unusual" : fmt::format("{}", fmt::join(recipe.unusual, ", "));
-  return fmt::format("seed {}, draw {}: L {:.3g} m, m {:.3g} kg, a {:.3g} m/s^2, {} of {:.3g} T; {}", seed, draws,
-                     recipe.length, recipe.mass, recipe.acceleration, scenario.trajectory->kind(),
-                     recipe.duration / recipe.time(), unusual);
-}
-
 }  // namespace
 
 Scenario randomScenario(std::uint64_t seed) {
@@ -137,7 +128,7 @@ Scenario randomScenario(std::uint64_t seed) {
     // A recipe that no design meets is given up for another.
     for (int design = 0; design < 100; ++design) {
       if (!tryDesign(dice, recipe, draws, scenario)) continue;
-      scenario.text = textOf(seed, draws, recipe, scenario);
+      scenario.text = fmt::format("seed {}, draw {}: {}: {}", seed, draws, scenario.trajectory->kind(), recipe.text());
       return scenario;
     }
   }

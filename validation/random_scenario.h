@@ -7,7 +7,7 @@
 namespace ursula {
 
 /// A valid scenario made from a seed; the same on every machine. Most numbers are moderate; each kind of extreme comes
-/// with a probability of its own, so that a scenario has some two or three and `text` names them. No two legs share a
+/// with a probability of its own, so that a scenario has some two and `text` names them. No two legs share a
 /// number other than zero. L is the machine's length, m its mass, a its acceleration (|g|, also where gravity is left
 /// out), T = √(L/a) its time. What is covered:
 ///
