@@ -67,7 +67,8 @@ Vector3d randomAxis(Dice& dice, Axes axes, double angle, double side) {
 
 LegPlace placeLeg(Dice& dice, const Recipe& recipe, const Rings& rings, int i) {
   const double side = i % 2 == 0 ? -1 : 1;
-  const double middle = rings.turn + 2 * pi / 3 * (i / 2);
+  const int pair = i / 2;
+  const double middle = rings.turn + 2 * pi / 3 * pair;
   LegPlace place;
   double angle = middle + side * rings.base_half;
   if (recipe.arrangement == Arrangement::anywhere) {

@@ -23,6 +23,7 @@ constexpr double smallest_lever = 0.05;  // of B from its leg's axis, as a share
 std::vector<double> instantsOf(const Trajectory& trajectory) {
   constexpr int count = 61;
   std::vector<double> out;
+  out.reserve(count);
   for (int k = 0; k < count; ++k) out.push_back(trajectory.duration() * k / (count - 1));
   const std::vector<double>& knots = trajectory.knots();
   for (std::size_t i = 1; i < knots.size(); ++i)
