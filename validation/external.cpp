@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "validation/attribution.h"
+#include "validation/commanded_motion.h"
 #include "validation/curves.h"
 #include "validation/diagnosis.h"
 #include "validation/external_replay.h"
@@ -48,7 +49,9 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   ValidationResult result;
   result.scenario = scenario.name;
   const ExternalTorques external = runExternal(scenario, torques);
-  result.checks = judgeExternal(external);
+  result.checks = judgeCommandedMotion(scenario);
+  std::vector<Check> of_file = judgeExternal(external);
+  std::move(of_file.begin(), of_file.end(), std::back_inserter(result.checks));
   ExternalReplay replay = replayExternal(scenario, external);
   std::move(replay.checks.begin(), replay.checks.end(), std::back_inserter(result.checks));
   applyAcceptance(scenario.acceptance, result.checks);

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "validation/attribution.h"
+#include "validation/commanded_motion.h"
 #include "validation/curves.h"
 #include "validation/feedback.h"
 #include "validation/finish.h"
@@ -64,7 +65,8 @@ ValidationResult validate(const Scenario& scenario, const Subject& subject, cons
   result.scenario = scenario.name;
   const auto samples =
       runPointwise(scenario, subject, equallySpaced(scenario.trajectory->duration(), scenario.simulation.samples));
-  result.checks = judgePointwise(samples, static_cast<bool>(subject.kinematics));
+  result.checks = judgeCommandedMotion(scenario);
+  append(result.checks, judgePointwise(samples, static_cast<bool>(subject.kinematics)));
   const bool answers = std::none_of(samples.begin(), samples.end(),
                                     [](const PointwiseSample& sample) { return !sample.refused.empty(); });
   Motions motions;
