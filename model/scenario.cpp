@@ -84,6 +84,7 @@ Scenario parseScenario(const std::string& text, const std::filesystem::path& fil
     Scenario scenario = assemble(document);
     scenario.file = file;
     scenario.text = text;
+    scenario.markAsRead();
     return scenario;
   } catch (const InvalidParameter& refusal) {
     throw located(refusal, document);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -43,6 +44,16 @@ struct Scenario {
   std::shared_ptr<const Load> load;  ///< null where none
   SimulationSettings simulation;
   std::vector<AcceptanceLimit> acceptance;
+
+  /// Says that machine, trajectory and load are those that `text` gives.
+  void markAsRead() { read_ = {manipulator.get(), trajectory.get(), load.get()}; }
+  /// False for a scenario that a program made, or changed after it was read: then its text says nothing of it.
+  bool isAsRead() const {
+    return read_[0] != nullptr && read_ == std::array<const void*, 3>{manipulator.get(), trajectory.get(), load.get()};
+  }
+
+ private:
+  std::array<const void*, 3> read_{};
 };
 
 /// Reads and checks a whole scenario. Throws ScenarioError; nothing is accepted that is not understood.

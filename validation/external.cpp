@@ -74,6 +74,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   result.checks = judgeExternal(external, natural.units);
   addReplay(here, external, natural.units, result);
   restore(natural, result);
+  prependMotionChecks(scenario, result);
   judgeByUser(scenario.acceptance, result);
   addFileFindings(file, result);
   if (result.verdict == Verdict::fail || result.limits == LimitBy::user) {

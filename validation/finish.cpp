@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <boost/uuid/detail/sha1.hpp>
+#include <iterator>
 
+#include "validation/commanded_motion.h"
 #include "validation/provenance.h"
 #include "validation/worst.h"
 
@@ -90,6 +92,12 @@ void restore(const Presentation& from, ValidationResult& result) {
   }
   restoreColumns(from, result.timeseries);
   for (auto& [title, curve] : result.curves) restoreColumns(from, curve);
+}
+
+void prependMotionChecks(const Scenario& scenario, ValidationResult& result) {
+  std::vector<Check> checks = judgeCommandedMotion(scenario);
+  result.checks.insert(result.checks.begin(), std::make_move_iterator(checks.begin()),
+                       std::make_move_iterator(checks.end()));
 }
 
 void judgeByUser(const std::vector<AcceptanceLimit>& acceptance, ValidationResult& result) {

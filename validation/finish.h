@@ -14,6 +14,9 @@ namespace ursula {
 /// From a presentation's units and origin to SI and B: checks by their unit, columns by their name's.
 void restore(const Presentation& from, ValidationResult& result);
 
+/// What all roads share: the commanded motion, the load, the file as it was read.
+void prependMotionChecks(const Scenario& scenario, ValidationResult& result);
+
 /// Judges by the scenario's own limits where it has any, each held against the largest value of its check, and sets the
 /// verdict. Of what could not be judged a limit of the user's lifts only what had no useful limit; naming a check that
 /// was not made is a failure.

@@ -132,6 +132,7 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
                      const ValidationOptions& options) {
   ValidationResult result = Trial(reference, subject, right, options).result();
   restore(reference.natural, result);
+  prependMotionChecks(scenario, result);
   judgeByUser(scenario.acceptance, result);
   addProvenance(scenario, subject.name, result);
   return result;

@@ -12,3 +12,13 @@ add_executable(witness_tests
 target_link_libraries(witness_tests PRIVATE test_support ursula::validation fmt::fmt GTest::gmock GTest::gtest_main)
 target_compile_definitions(witness_tests PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
 gtest_discover_tests(witness_tests)
+
+# What all roads share: the commanded motion, the load, the numbers as read.
+add_executable(commanded_tests
+  commanded_motion_test.cpp
+  independent_reading_test.cpp
+  load_check_test.cpp
+)
+target_link_libraries(commanded_tests PRIVATE test_support ursula::validation fmt::fmt GTest::gmock GTest::gtest_main)
+target_compile_definitions(commanded_tests PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
+gtest_discover_tests(commanded_tests)

@@ -1,0 +1,160 @@
+// What all roads share: right as it ships, and each way to be wrong is seen by the check that is for it.
+
+#include "validation/commanded_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+
+#include "model/trajectories.h"
+#include "tests/validation/checks.h"
+#include "tests/validation/scenario_files.h"
+#include "validation/random_scenario.h"
+
+namespace ursula {
+namespace {
+
+std::vector<std::string> shipped() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(URSULA_SCENARIOS))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+class CommandedMotion : public testing::TestWithParam<std::string> {};
+
+/// A third of a limit that holds for the worst is more than roundings ever take.
+TEST_P(CommandedMotion, isRightWithAMargin) {
+  const Scenario scenario = readScenario(std::string(URSULA_SCENARIOS) + "/" + GetParam() + ".toml");
+  const std::vector<Check> checks = judgeCommandedMotion(scenario);
+  EXPECT_EQ(others(checks, Verdict::pass), "");
+  for (const Check& check : checks) {
+    EXPECT_LE(check.value, check.limit / 3) << check.name << ": " << check.why;
+    if (check.limit > 0) RecordProperty(check.name, std::to_string(check.value / check.limit));
+  }
+  for (const char* name : {"motion.pose", "motion.twist", "motion.twist_rate", "motion.reading"})
+    EXPECT_NE(findCheck(checks, name), nullptr) << name;
+  EXPECT_EQ(findCheck(checks, "motion.load") != nullptr, scenario.load != nullptr);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, CommandedMotion, testing::ValuesIn(shipped()),
+                         [](const auto& name) { return asTestName(name.param); });
+
+TEST(CommandedMotionOfRandomMachines, passesAndHasNoFileToBeReadAgain) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const std::vector<Check> checks = judgeCommandedMotion(randomScenario(seed));
+    EXPECT_EQ(others(checks, Verdict::pass), "") << seed;
+    EXPECT_EQ(findCheck(checks, "motion.reading"), nullptr);
+    for (const Check& check : checks) EXPECT_LE(check.value, check.limit / 3) << seed << " " << check.name;
+  }
+}
+
+/// A trajectory whose double motion is spoilt; the 50-digit one stays right.
+class Spoilt final : public Trajectory {
+ public:
+  using Spoil = std::function<void(Motion<double>&)>;
+  Spoilt(std::shared_ptr<const Trajectory> truth, Spoil spoil) : truth_(std::move(truth)), spoil_(std::move(spoil)) {}
+  std::string kind() const override { return truth_->kind(); }
+  double duration() const override { return truth_->duration(); }
+  Motion<double> at(double t) const override {
+    Motion<double> motion = truth_->at(t);
+    spoil_(motion);
+    return motion;
+  }
+  Motion<Real50> at(const Real50& t) const override { return truth_->at(t); }
+  const std::vector<double>& knots() const override { return truth_->knots(); }
+
+ private:
+  std::shared_ptr<const Trajectory> truth_;
+  Spoil spoil_;
+};
+
+struct Control {
+  const char *name, *scenario, *caught_by;
+  Spoilt::Spoil spoil;
+};
+
+class SpoiltMotion : public testing::TestWithParam<Control> {};
+
+TEST_P(SpoiltMotion, failsTheCheckThatIsForIt) {
+  Scenario scenario = scenarioOf(GetParam().scenario);
+  scenario.trajectory = std::make_shared<const Spoilt>(scenario.trajectory, GetParam().spoil);
+  for (const Check& check : judgeCommandedMotion(scenario)) {
+    const bool wanted = check.name == GetParam().caught_by;
+    EXPECT_EQ(name(check.verdict), std::string(wanted ? "fail" : "pass")) << check.name << ": " << check.why;
+  }
+}
+
+const double nan_value = std::nan("");
+
+INSTANTIATE_TEST_SUITE_P(
+    By, SpoiltMotion,
+    testing::Values(
+        Control{"velocity", "paper-helix", "motion.twist", [](auto& m) { m.p_dot *= 1 + 1e-9; }},
+        Control{"velocity_by_little", "paper-helix", "motion.twist", [](auto& m) { m.p_dot *= 1 + 1e-12; }},
+        Control{"velocity_of_waypoints", "waypoints", "motion.twist", [](auto& m) { m.p_dot.y() *= 1 + 1e-9; }},
+        Control{"omega", "samples", "motion.twist", [](auto& m) { m.omega *= 1 + 1e-9; }},
+        Control{"omega_in_the_platform", "waypoints", "motion.twist",
+                [](auto& m) { m.omega = (m.Q.transpose() * m.omega).eval(); }},
+        Control{"alpha", "paper-helix", "motion.twist_rate", [](auto& m) { m.omega_dot *= 1 + 1e-9; }},
+        Control{"alpha_of_samples", "samples", "motion.twist_rate", [](auto& m) { m.omega_dot.x() *= 1 + 1e-9; }},
+        Control{"acceleration", "waypoints", "motion.twist_rate", [](auto& m) { m.p_ddot *= 1 + 1e-9; }},
+        Control{"held_and_moving", "hold", "motion.twist", [](auto& m) { m.p_dot.x() = 1e-30; }},
+        Control{"Q_transposed", "waypoints", "motion.pose", [](auto& m) { m.Q.transposeInPlace(); }},
+        Control{"Q_left_handed", "hold", "motion.pose", [](auto& m) { m.Q.col(0) *= -1; }},
+        Control{"position", "hold", "motion.pose", [](auto& m) { m.p.z() *= 1 + 1e-13; }},
+        Control{"position_is_no_number", "hold", "motion.pose", [](auto& m) { m.p.x() = nan_value; }},
+        Control{"Q_is_no_number", "helix-1s", "motion.pose", [](auto& m) { m.Q(1, 2) = nan_value; }},
+        Control{"velocity_is_no_number", "waypoints", "motion.twist",
+                [](auto& m) {
+                  if (m.t > 1 && m.t < 1.4) m.p_dot.x() = nan_value;
+                }},
+        Control{"alpha_is_no_number", "samples", "motion.twist_rate", [](auto& m) { m.omega_dot.z() = nan_value; }}),
+    [](const auto& control) { return std::string(control.param.name); });
+
+/// Steep, slow, far from rest at the ends, many turns, uneven waypoints: rounding alone never fails.
+TEST(CommandedMotionLimits, holdForMotionsAtTheEdges) {
+  HelixParameters helix;
+  helix.radius = 0.2, helix.pitch = 1.2, helix.start_angle = -1.5, helix.end_angle = -1, helix.height_phase = 2.2;
+  const auto expectPass = [](const Trajectory& trajectory, const std::string& what) {
+    const std::vector<Check> checks = judgeTrajectory(trajectory, 1.5, {});
+    EXPECT_EQ(others(checks, Verdict::pass), "") << what;
+    for (const Check& check : checks) EXPECT_LE(check.value, check.limit / 2) << what << " " << check.name;
+  };
+  for (const double duration : {1e-6, 0.01, 1e5}) {
+    helix.duration = duration;
+    expectPass(*makeHelix(helix), "duration " + std::to_string(duration));
+    HelixParameters moving = helix;
+    moving.start_rate = 3 / duration, moving.end_rate = -2 / duration;
+    moving.start_acceleration = 50 / duration / duration, moving.end_acceleration = -9 / duration / duration;
+    expectPass(*makeHelix(moving), "moving at both ends, duration " + std::to_string(duration));
+    HelixParameters turning = helix;
+    turning.end_angle = 20;
+    expectPass(*makeHelix(turning), "three turns, duration " + std::to_string(duration));
+  }
+  std::vector<TimedPose> points;
+  double t = 0;
+  for (int i = 0; i < 70; ++i) {
+    const double angle = 0.1 * std::sin(1.7 * i);
+    points.push_back(
+        {t, {std::sin(i), std::cos(2 * i), 1}, {std::cos(angle), 0.6 * std::sin(angle), 0, 0.8 * std::sin(angle)}});
+    t += i % 7 == 3 ? 0.4 : 0.5 + 0.1 * (i % 3);
+  }
+  expectPass(*makeWaypoints(points), "uneven waypoints");
+}
+
+TEST(CommandedMotionLimits, doNotGrowWithWhatIsOnTrial) {
+  const Scenario right = scenarioOf("paper-helix");
+  Scenario wrong = right;
+  wrong.trajectory = std::make_shared<const Spoilt>(right.trajectory, [](auto& m) { m.p_dot *= 1e6; });
+  const auto limit = [](const Scenario& s) { return findCheck(judgeCommandedMotion(s), "motion.twist")->limit; };
+  EXPECT_LE(limit(wrong), 1e-12);
+  EXPECT_GT(limit(right), 0);
+}
+
+}  // namespace
+}  // namespace ursula

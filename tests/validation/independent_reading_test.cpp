@@ -1,0 +1,204 @@
+// A scenario that is not what its text says: every kind of number is held.
+
+#include "validation/independent_reading.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "tests/model/scenario_text.h"
+#include "tests/model/temporary_folder.h"
+#include "tests/validation/checks.h"
+#include "tests/validation/scenario_files.h"
+#include "validation/commanded_motion.h"
+#include "validation/defects.h"
+
+namespace ursula {
+namespace {
+
+using testing::HasSubstr;
+
+Check readingOf(const Scenario& scenario) {
+  const std::optional<FileAsWritten> written = asWritten(scenario);
+  return written ? judgeReading(scenario, *written) : notMade("motion.reading", "", "no text");
+}
+
+Scenario withMachine(const std::string& name, const std::function<void(ManipulatorParameters&)>& change) {
+  Scenario scenario = scenarioOf(name);
+  ManipulatorParameters machine = scenario.manipulator->parameters();
+  change(machine);
+  scenario.manipulator = std::make_shared<const Manipulator>(machine);
+  return scenario;
+}
+
+TEST(IndependentReading, findsNothingWhereNothingWasChanged) {
+  const Check check = readingOf(withMachine("coulomb-friction", [](auto&) {}));
+  EXPECT_EQ(check.verdict, Verdict::pass) << check.why;
+  EXPECT_EQ(check.value, 0);
+}
+
+/// None of them is zero on the proving ground.
+TEST(IndependentReading, seesEveryParameterOffByARounding) {
+  const Scenario right = scenarioOf("proving-ground");
+  for (const Parameter& parameter : allParameters()) {
+    Scenario wrong = right;
+    ManipulatorParameters machine = right.manipulator->parameters();
+    parameter.disturb(machine, 2e-15);
+    wrong.manipulator = std::make_shared<const Manipulator>(machine);
+    const Check check = readingOf(wrong);
+    EXPECT_EQ(check.verdict, Verdict::fail) << parameter.name;
+    EXPECT_THAT(check.why, HasSubstr("manipulator." + parameter.name.substr(0, 6))) << parameter.name;
+  }
+}
+
+TEST(IndependentReading, namesTheFirstMismatch) {
+  const Check mass = readingOf(withMachine("paper-helix", [](auto& m) { m.platform.mass *= 1 + 1e-15; }));
+  EXPECT_EQ(mass.value, 1);
+  EXPECT_THAT(mass.why, HasSubstr("manipulator.platform.mass is 500.0000000000"));
+  EXPECT_THAT(mass.why, HasSubstr("the file says 500"));
+  const Check swapped = readingOf(withMachine("full-tensors", [](auto& m) {
+    Matrix3d& I = m.platform.inertia;
+    std::swap(I(0, 1), I(0, 2)), std::swap(I(1, 0), I(2, 0));
+  }));
+  EXPECT_EQ(swapped.value, 4);
+  EXPECT_THAT(swapped.why, HasSubstr("platform.inertia[2] is 95, the file says -70"));
+}
+
+TEST(IndependentReading, seesKneesAndDefaultsThatWereNotOverridden) {
+  EXPECT_EQ(readingOf(withMachine("knees-mixed", [](auto& m) { m.legs[1].knee = m.legs[0].knee; })).value +
+                readingOf(withMachine("knees-mixed", [](auto& m) { m.legs[0].knee = m.legs[1].knee; })).value,
+            readingOf(scenarioOf("knees-mixed")).value + 2);
+  const Check inertia =
+      readingOf(withMachine("full-tensors", [](auto& m) { m.legs[1].proximal.inertia = m.legs[0].proximal.inertia; }));
+  EXPECT_EQ(inertia.verdict, Verdict::fail);
+  EXPECT_THAT(inertia.why, HasSubstr("leg[2].proximal.inertia"));
+}
+
+Scenario withTrajectory(const std::string& name, std::shared_ptr<const Trajectory> trajectory) {
+  Scenario scenario = scenarioOf(name);
+  scenario.trajectory = std::move(trajectory);
+  return scenario;
+}
+
+TEST(IndependentReading, seesEveryNumberOfAHelixOffByARounding) {
+  const Scenario right = scenarioOf("paper-helix");
+  const HelixParameters helix = asWritten(right)->trajectory.helix;
+  ASSERT_EQ(readingOf(withTrajectory("paper-helix", makeHelix(helix))).value, 0);
+  for (double HelixParameters::*number :
+       {&HelixParameters::duration, &HelixParameters::radius, &HelixParameters::pitch, &HelixParameters::start_angle,
+        &HelixParameters::end_angle, &HelixParameters::phase, &HelixParameters::height_phase,
+        &HelixParameters::start_rate, &HelixParameters::end_rate, &HelixParameters::start_acceleration,
+        &HelixParameters::end_acceleration}) {
+    HelixParameters wrong = helix;
+    wrong.*number = wrong.*number * (1 + 1e-15) + (wrong.*number == 0 ? 1e-15 : 0);
+    EXPECT_EQ(readingOf(withTrajectory("paper-helix", makeHelix(wrong))).verdict, Verdict::fail);
+  }
+}
+
+TEST(IndependentReading, seesPosesThatAreNotTheFiles) {
+  const std::vector<TimedPose> points = asWritten(scenarioOf("waypoints"))->trajectory.poses;
+  ASSERT_EQ(readingOf(withTrajectory("waypoints", makeWaypoints(points))).value, 0);
+  const auto why = [&](const std::function<void(std::vector<TimedPose>&)>& change) {
+    std::vector<TimedPose> wrong = points;
+    change(wrong);
+    const Check check = readingOf(withTrajectory("waypoints", makeWaypoints(wrong)));
+    EXPECT_EQ(check.verdict, Verdict::fail);
+    return check.why;
+  };
+  EXPECT_THAT(why([](auto& p) { p[2].position.y() *= 1 + 1e-15; }), HasSubstr("pose 3.position"));
+  EXPECT_THAT(why([](auto& p) { p[4].orientation.z() *= 1 + 1e-14; }), HasSubstr("pose 5.orientation"));
+  EXPECT_THAT(why([](auto& p) { p[1].time *= 1 + 1e-15; }), HasSubstr("pose 2.time"));
+  EXPECT_THAT(why([](auto& p) {
+                for (TimedPose& pose : p) {
+                  const Eigen::Vector4d q = pose.orientation;
+                  pose.orientation << q(1), q(2), q(3), q(0);  // read as [x, y, z, w]
+                }
+              }),
+              HasSubstr("pose 1.orientation"));
+  EXPECT_THAT(why([](auto& p) { p.pop_back(); }), HasSubstr("the number of poses is 4, the file says 5"));
+}
+
+TEST(IndependentReading, seesAHoldAndSamplesThatAreNotTheFiles) {
+  const TrajectoryAsWritten hold = asWritten(scenarioOf("hold"))->trajectory;
+  const TimedPose& pose = hold.poses.front();
+  const auto held = [&](const Vector3d& p, double duration) {
+    return readingOf(withTrajectory("hold", makeHold(p, pose.orientation, duration))).verdict;
+  };
+  EXPECT_EQ(held(pose.position, hold.duration), Verdict::pass);
+  EXPECT_EQ(held(pose.position * (1 + 1e-15), hold.duration), Verdict::fail);
+  EXPECT_EQ(held(pose.position, hold.duration * (1 + 1e-15)), Verdict::fail);
+  std::vector<TimedPose> samples = asWritten(scenarioOf("samples"))->trajectory.poses;
+  ASSERT_EQ(samples.size(), 41u);
+  EXPECT_EQ(readingOf(withTrajectory("samples", makeSamples(samples))).verdict, Verdict::pass);
+  samples[17].position.x() *= 1 + 1e-15;
+  EXPECT_THAT(readingOf(withTrajectory("samples", makeSamples(samples))).why, HasSubstr("pose 18.position"));
+}
+
+/// Beyond 60 poses most are compared in doubles.
+TEST(IndependentReading, holdsEveryOneOfManySamples) {
+  const TemporaryFolder folder;
+  std::string table = "t_s,p_x_m,p_y_m,p_z_m,q_w,q_x,q_y,q_z\n";
+  std::vector<TimedPose> poses;
+  for (int i = 0; i < 200; ++i) {
+    const double t = i / 64.0, z = 1 + t / 8;
+    table += std::to_string(t) + ",0.125,0," + fmt::format("{:.17g}", z) + ",1,0,0,0\n";
+    poses.push_back({std::stod(std::to_string(t)), {0.125, 0, z}, {1, 0, 0, 0}});
+  }
+  folder.write("many.csv", table);
+  const std::string text = good_scenario.substr(0, good_scenario.find("[trajectory]")) +
+                           "[trajectory]\nkind = \"samples\"\nfile = \"many.csv\"\n";
+  Scenario scenario = parseScenario(text, folder.path() / "a.toml");
+  EXPECT_EQ(readingOf(scenario).verdict, Verdict::pass) << readingOf(scenario).why;
+  poses[101].position.z() *= 1 + 1e-15;
+  scenario.trajectory = makeSamples(poses);
+  EXPECT_THAT(readingOf(scenario).why, HasSubstr("pose 102.position"));
+}
+
+TEST(IndependentReading, seesLoadsThatAreNotTheFiles) {
+  const auto changed = [](const std::string& name, const std::function<void(Load&)>& change) {
+    Scenario scenario = scenarioOf(name);
+    auto load = std::make_shared<Load>(*scenario.load);
+    change(*load);
+    scenario.load = load;
+    return readingOf(scenario).why;
+  };
+  EXPECT_THAT(changed("load-base", [](Load& l) { l.force.x() *= 1 + 1e-15; }), HasSubstr("load.force[1]"));
+  EXPECT_THAT(changed("load-base", [](Load& l) { std::swap(l.force, l.moment); }), HasSubstr("load.force[1]"));
+  EXPECT_THAT(changed("load-base", [](Load& l) { l.frame = Load::Frame::platform; }), HasSubstr("load.frame"));
+  EXPECT_THAT(changed("load-platform", [](Load& l) { l.point.z() += 1e-15; }), HasSubstr("load.point[3]"));
+  std::vector<TimedWrench> rows = asWritten(scenarioOf("load-table"))->load->rows;
+  ASSERT_EQ(rows.size(), 5u);
+  rows[2].wrench.moment.y() *= 1 + 1e-15;
+  EXPECT_THAT(changed("load-table", [&](Load& l) { l.history = std::make_shared<const LoadHistory>(rows); }),
+              HasSubstr("load.table[3].moment[2]"));
+  Scenario without = scenarioOf("load-base");
+  without.load = nullptr;
+  EXPECT_THAT(readingOf(without).why, HasSubstr("load is 'none', the file says 'given'"));
+}
+
+TEST(IndependentReading, readsTheTablesBesideTheFile) {
+  const TemporaryFolder folder;
+  folder.write(
+      "load.csv",
+      "t_s,f_x_N,f_y_N,f_z_N,m_x_Nm,m_y_Nm,m_z_Nm\n0,0,0,-0,0,0,0\r\n1.5, 10 ,0,-300.25,0,7,0\n3,0,0,0,0,0,1\n");
+  const std::string text = std::string(good_scenario) + "\n[load]\nfile = \"load.csv\"\n";
+  const Scenario scenario = parseScenario(text, folder.path() / "a.toml");
+  EXPECT_EQ(others(judgeCommandedMotion(scenario), Verdict::pass), "");
+  folder.write("load.csv",
+               "t_s,f_x_N,f_y_N,f_z_N,m_x_Nm,m_y_Nm,m_z_Nm\n0,0,0,0,0,0,0\n1.5,10,0,-300.5,0,7,0\n3,0,0,0,0,0,1\n");
+  const std::vector<Check> changed = judgeCommandedMotion(scenario);
+  EXPECT_EQ(verdictOf(changed, "motion.reading"), "fail");
+  EXPECT_EQ(verdictOf(changed, "motion.load"), "fail");
+}
+
+TEST(IndependentReading, isNotMadeWhereThereIsNoFile) {
+  Scenario scenario = scenarioOf("paper-helix");
+  for (const char* text : {"", "seed 7", "name = \"other\""}) {
+    scenario.text = text;
+    EXPECT_FALSE(asWritten(scenario)) << text;
+  }
+}
+
+}  // namespace
+}  // namespace ursula

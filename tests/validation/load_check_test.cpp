@@ -1,0 +1,93 @@
+// The load over time: what LoadHistory promises, and tables and curves that break it.
+
+#include "validation/load_check.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/validation/checks.h"
+#include "validation/conditioning.h"
+
+namespace ursula {
+namespace {
+
+/// Uneven times, extrema, flats, and values over many orders of magnitude.
+std::vector<TimedWrench> table() {
+  std::mt19937_64 engine(7);
+  const auto uniform = [&engine] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1; };
+  std::vector<TimedWrench> rows;
+  double t = -0.3;
+  for (int i = 0; i < 100; ++i) {
+    TimedWrench row;
+    row.time = t += 1e-3 + std::abs(uniform());
+    row.wrench.force = {1e3 * uniform(), 1 + uniform() * 1e-9, i % 3 == 0 ? 0 : 5 * uniform()};
+    row.wrench.moment = {std::exp(30 * uniform()), 40, i * uniform()};
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+TEST(LoadCheck, passesWithAMarginWhatLoadHistoryMakesOfATable) {
+  const LoadHistory history(table());
+  const Check check = judgeLoadTable(table(), [&](double t) { return history.at(t); });
+  EXPECT_EQ(check.verdict, Verdict::pass) << check.why;
+  EXPECT_GT(check.value, 0) << "something is rounded";
+  EXPECT_LE(check.value, check.limit / 3);
+}
+
+TEST(LoadCheck, seesARowThatIsNotTheTables) {
+  const LoadHistory history(table());
+  for (const std::size_t i : {0u, 31u, 99u}) {
+    std::vector<TimedWrench> wrong = table();
+    wrong[i].wrench.force.x() *= 1 + 1e-15;
+    EXPECT_EQ(judgeLoadTable(wrong, [&](double t) { return history.at(t); }).verdict, Verdict::fail) << i;
+  }
+}
+
+class WrongCurve : public testing::TestWithParam<const char*> {};
+
+/// Between two rows; the rows themselves are kept.
+Wrench<double> wrongBetween(const std::string& way, const LoadHistory& history, double t) {
+  const std::vector<double>& knots = history.knots();
+  Wrench<double> wrench = history.at(t);
+  const auto after = std::upper_bound(knots.begin(), knots.end(), t);
+  if (way == "not constant beyond" && after == knots.end() && t > knots.back()) wrench.moment.z() += 1e-9;
+  if (after == knots.begin() || after == knots.end() || t == *(after - 1)) return wrench;
+  const double s = (t - *(after - 1)) / (*after - *(after - 1));
+  const Wrench<double> from = history.at(*(after - 1)), to = history.at(*after);
+  if (way == "straight lines") wrench.force = from.force + s * (to.force - from.force);
+  if (way == "off by 1e-9") wrench.force *= 1 + 1e-9;
+  if (way == "out of range") wrench.force.y() = std::max(from.force.y(), to.force.y()) + 1e-9;
+  if (way == "no number") wrench.moment.x() = std::nan("");
+  return wrench;
+}
+
+TEST_P(WrongCurve, fails) {
+  const LoadHistory history(table());
+  const Check check = judgeLoadTable(table(), [&](double t) { return wrongBetween(GetParam(), history, t); });
+  EXPECT_EQ(check.verdict, Verdict::fail) << check.why;
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, WrongCurve,
+                         testing::Values("straight lines", "off by 1e-9", "out of range", "no number",
+                                         "not constant beyond"));
+
+TEST(LoadCheck, holdsAConstantLoadAgainstItsFile) {
+  Load load;
+  load.force = {1, 2, 3};
+  load.moment = {4, 5, 6};
+  LoadAsWritten written;
+  written.force = load.force;
+  written.moment = load.moment;
+  EXPECT_EQ(judgeLoad(load, 3, &written).verdict, Verdict::pass);
+  EXPECT_EQ(judgeLoad(load, 3, nullptr).verdict, Verdict::pass);
+  written.moment.z() *= 1 + 1e-15;
+  EXPECT_EQ(judgeLoad(load, 3, &written).verdict, Verdict::fail);
+  written.moment.z() = std::nan("");
+  EXPECT_EQ(judgeLoad(load, 3, &written).verdict, Verdict::fail);
+}
+
+}  // namespace
+}  // namespace ursula

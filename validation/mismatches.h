@@ -1,0 +1,52 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+#include "model/scalar.h"
+
+namespace ursula {
+
+/// Numbers that are not what a file says, counted; the first is kept in words.
+class Mismatches {
+ public:
+  /// The same to the last bit; NaN equals nothing.
+  void number(const std::string& place, double read, double written) {
+    note(read == written && std::signbit(read) == std::signbit(written), place,
+         [&] { return fmt::format("{:.17g}, the file says {:.17g}", read, written); });
+  }
+
+  template <class Read, class Written>
+  void numbers(const std::string& place, const Read& read, const Written& written) {
+    for (Eigen::Index i = 0; i < written.size(); ++i) number(fmt::format("{}[{}]", place, i + 1), read(i), written(i));
+  }
+
+  void text(const std::string& place, const std::string& read, const std::string& written) {
+    note(read == written, place, [&] { return fmt::format("'{}', the file says '{}'", read, written); });
+  }
+
+  /// What cannot be equal to the last bit: off by no more than a rounding limit, so that NaN never holds.
+  void within(const std::string& place, double error, double limit) {
+    note(error <= limit, place,
+         [&] { return fmt::format("off by {:.3g} from what the file says, beyond {:.3g}", error, limit); });
+  }
+
+  int compared() const { return compared_; }
+  int count() const { return count_; }
+  const std::string& first() const { return first_; }
+
+ private:
+  template <class Words>
+  void note(bool holds, const std::string& place, const Words& words) {
+    ++compared_;
+    if (holds) return;
+    if (count_++ == 0) first_ = place + " is " + words();
+  }
+
+  int compared_ = 0, count_ = 0;
+  std::string first_;
+};
+
+}  // namespace ursula

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+namespace ursula {
+
+/// Of values with limits of their own, the one that takes the largest share of its limit. NaN takes more than any.
+struct NearestToLimit {
+  double value = 0, limit = 0, t = 0;
+  int where = -1;  ///< -1 where nothing was compared
+
+  void add(double new_value, double new_limit, double new_t, int new_where) {
+    const double share = shareOf(new_value, new_limit);
+    if (where >= 0 && !(share > shareOf(value, limit))) return;
+    value = new_value, limit = new_limit, t = new_t, where = new_where;
+  }
+
+ private:
+  static double shareOf(double value, double limit) {
+    if (value == 0 && limit >= 0) return 0;  // a limit of 0 is kept by 0
+    const double share = value / limit;
+    return std::isnan(share) ? std::numeric_limits<double>::infinity() : share;
+  }
+};
+
+}  // namespace ursula
