@@ -6,6 +6,7 @@
 #include <array>
 
 #include "model/maximal_loop.h"
+#include "model/mujoco_loop.h"
 #include "model/simbody_loop.h"
 #include "nocsolver/reactions.h"
 #include "nocsolver/solver.h"
@@ -14,10 +15,16 @@
 namespace ursula {
 namespace {
 
-using Road = Vector6d RoadSample::*;
+using Road = const Vector6d& (*)(const RoadSample&);
+
+const Vector6d& subjectOf(const RoadSample& sample) { return sample.subject; }
+const Vector6d& simbodyOf(const RoadSample& sample) { return sample.simbody; }
+const Vector6d& twinOf(const RoadSample& sample) { return sample.twin; }
+const Vector6d& maximalOf(const RoadSample& sample) { return sample.maximal; }
+const Vector6d& mujocoOf(const RoadSample& sample) { return sample.mujoco.value(); }
 
 double distance(const RoadSample& sample, Road a, Road b) {
-  return (sample.*a - sample.*b).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+  return (a(sample) - b(sample)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
 }
 
 Worst compareRoads(const std::vector<RoadSample>& samples, Road a, Road b) {
@@ -28,7 +35,7 @@ Worst compareRoads(const std::vector<RoadSample>& samples, Road a, Road b) {
 
 Check judgeRoad(const std::vector<RoadSample>& samples, const char* check_name, const char* what, Road road) {
   if (samples.empty()) return notMade(check_name, "N m", "no instant was compared");
-  const Worst shown = compareRoads(samples, &RoadSample::subject, road);
+  const Worst shown = compareRoads(samples, subjectOf, road);
   return judged(
       check_name, shown.value, shown.limit, "N m", "25 eps kappa(B) kappa(legs) x || |T|' |w| ||",
       fmt::format("torques against {}, at {} instants; shown for t = {:.6g} s", what, samples.size(), shown.t));
@@ -73,6 +80,7 @@ void addReactionColumns(const std::vector<Reactions>& reactions, TimeSeries& ser
 std::vector<RoadSample> runRoads(const Scenario& scenario, const std::vector<PointwiseSample>& samples) {
   SimbodyLoop twin(*scenario.manipulator, SimbodyLoop::Topology::tree_through_leg_1, scenario.load);
   MaximalLoop maximal(*scenario.manipulator, scenario.load);
+  const auto mujoco = makeMujocoLoop(*scenario.manipulator, scenario.load);
   std::vector<RoadSample> out;
   out.reserve(samples.size());
   for (const PointwiseSample& sample : samples) {
@@ -83,6 +91,7 @@ std::vector<RoadSample> runRoads(const Scenario& scenario, const std::vector<Poi
     twin.place(sample.motion);
     road.twin = twin.inverseDynamics();
     road.maximal = maximal.inverseDynamics(sample.motion);
+    if (mujoco) road.mujoco = mujoco->inverseDynamics(sample.motion);
     road.limit = sample.torque.limit;
     out.push_back(road);
   }
@@ -90,9 +99,12 @@ std::vector<RoadSample> runRoads(const Scenario& scenario, const std::vector<Poi
 }
 
 std::vector<Check> judgeRoads(const std::vector<RoadSample>& samples) {
-  return {judgeRoad(samples, "torque.twin", "Simbody's loop grown through leg 1, five balls", &RoadSample::twin),
-          judgeRoad(samples, "torque.maximal", "13 bodies in maximal coordinates with Lagrange multipliers",
-                    &RoadSample::maximal)};
+  std::vector<Check> checks{
+      judgeRoad(samples, "torque.twin", "Simbody's loop grown through leg 1, five balls", twinOf),
+      judgeRoad(samples, "torque.maximal", "13 bodies in maximal coordinates with Lagrange multipliers", maximalOf)};
+  if (samples.empty() ? mujocoAvailable() : samples.front().mujoco.has_value())
+    checks.push_back(judgeRoad(samples, "torque.mujoco", "MuJoCo's trees, closed by Lagrange multipliers", mujocoOf));
+  return checks;
 }
 
 std::string oddOneOut(const std::vector<RoadSample>& samples) {
@@ -101,10 +113,11 @@ std::string oddOneOut(const std::vector<RoadSample>& samples) {
     const char* name;
     Road road;
   };
-  const std::array<Named, 4> roads{{{"the torques on trial", &RoadSample::subject},
-                                    {"Simbody, six balls", &RoadSample::simbody},
-                                    {"Simbody, tree through leg 1", &RoadSample::twin},
-                                    {"maximal coordinates", &RoadSample::maximal}}};
+  std::vector<Named> roads{{"the torques on trial", subjectOf},
+                           {"Simbody, six balls", simbodyOf},
+                           {"Simbody, tree through leg 1", twinOf},
+                           {"maximal coordinates", maximalOf}};
+  if (samples.front().mujoco) roads.push_back({"MuJoCo", mujocoOf});
   const auto agree = [&samples](const Named& a, const Named& b) {
     return !compareRoads(samples, a.road, b.road).beyond;
   };
@@ -120,7 +133,8 @@ std::string oddOneOut(const std::vector<RoadSample>& samples) {
     if (others_agree && alone) return odd.name;
   }
   const bool all = std::all_of(roads.begin(), roads.end(), [&](const Named& road) { return agree(roads[0], road); });
-  return all ? "none: four roads agree" : "not one alone: the roads disagree in more than one way";
+  return all ? fmt::format("none: {} roads agree", roads.size() == 5 ? "five" : "four")
+             : "not one alone: the roads disagree in more than one way";
 }
 
 Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample>& samples, TimeSeries* series) {

@@ -75,7 +75,7 @@ ValidationResult validate(const Scenario& scenario, const Subject& subject, cons
     append(result.checks, judgeInvariances(scenario, subject, samples));
     if (options.reactions) result.checks.push_back(judgeReactions(scenario, samples, &reactions));
     motions = judgeMotions(scenario, subject, samples, options, result.checks);
-    result.findings.emplace_back("odd one out of four roads", oddOneOut(roads));
+    result.findings.emplace_back("odd one out of the roads", oddOneOut(roads));
   } else {
     append(result.checks, judgeReplay({}, 0, 0, {}));
   }
