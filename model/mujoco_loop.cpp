@@ -182,6 +182,8 @@ Vector6d MujocoLoop::inverseDynamics(const Motion<double>& motion) {
 
 bool mujocoAvailable() { return true; }
 
+std::string mujocoVersion() { return mj_versionString(); }
+
 std::unique_ptr<MujocoLoop> makeMujocoLoop(const Manipulator& manipulator, std::shared_ptr<const Load> load) {
   return std::make_unique<MujocoLoop>(manipulator, std::move(load));
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "model/load.h"
 #include "model/manipulator.h"
@@ -29,6 +30,9 @@ class MujocoLoop {
 
 /// MuJoCo is optional: false where this was built without it.
 bool mujocoAvailable();
+
+/// Of the library that is loaded, "2.2.2"; "none" without it.
+std::string mujocoVersion();
 
 /// Null where this was built without MuJoCo.
 std::unique_ptr<MujocoLoop> makeMujocoLoop(const Manipulator& manipulator, std::shared_ptr<const Load> load = nullptr);

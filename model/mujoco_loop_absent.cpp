@@ -20,6 +20,8 @@ Vector6d MujocoLoop::inverseDynamics(const Motion<double>&) {
 
 bool mujocoAvailable() { return false; }
 
+std::string mujocoVersion() { return "none"; }
+
 std::unique_ptr<MujocoLoop> makeMujocoLoop(const Manipulator&, std::shared_ptr<const Load>) { return nullptr; }
 
 }  // namespace ursula

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/uuid/detail/sha1.hpp>
 
+#include "model/mujoco_loop.h"
 #include "validation/provenance.h"
 #include "validation/worst.h"
 
@@ -67,6 +68,7 @@ void addProvenance(const Scenario& scenario, const std::string& subject, Validat
                        {"Eigen", build.eigen},
                        {"Boost", build.boost},
                        {"Simbody", build.simbody},
+                       {"MuJoCo", mujocoVersion()},
                        {"trajectory", scenario.trajectory->kind()},
                        {"duration", fmt::format("{} s", scenario.trajectory->duration())},
                        {"samples", fmt::format("{}", scenario.simulation.samples)},

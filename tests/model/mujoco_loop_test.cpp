@@ -240,6 +240,7 @@ TEST(MujocoLoops, refuseAPoseOutOfReachAndOneThatIsNoNumber) {
 TEST(MujocoLoops, areMadeWhereMujocoIsThere) {
   const Scenario scenario = shipped("paper-helix");
   EXPECT_EQ(makeMujocoLoop(*scenario.manipulator) != nullptr, mujocoAvailable());
+  EXPECT_EQ(mujocoVersion() != "none", mujocoAvailable());
   if (!mujocoAvailable()) {
     EXPECT_THROW(MujocoLoop(*scenario.manipulator), std::runtime_error);
   }
