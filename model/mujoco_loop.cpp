@@ -16,13 +16,15 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "model/mujoco_loop_internal.h"
 
 namespace ursula {
 namespace {
 
-using namespace mujoco;
+using mujoco::dofs, mujoco::joints_per_leg, mujoco::leg_dofs, mujoco::platform_body;
+using mujoco::siteOnLeg, mujoco::siteOnPlatform, mujoco::universalFrame;
 
 using GapJacobian = Eigen::Matrix<double, leg_dofs, dofs>;  ///< three gaps a leg: as many as a leg has joints
 using VectorOfDofs = Eigen::Matrix<double, dofs, 1>;
@@ -75,7 +77,7 @@ struct MujocoLoop::Impl {
       : manipulator(from),
         load(std::move(on_platform)),
         origin(centroidOfBase(from)),
-        model(buildModel(from, origin)),
+        model(mujoco::buildModel(from, origin)),
         data(mj_makeData(model.get())) {
     if (!data) throw std::runtime_error("MuJoCo: no memory for its data");
   }
@@ -89,8 +91,8 @@ struct MujocoLoop::Impl {
   Manipulator manipulator;
   std::shared_ptr<const Load> load;
   Vector3d origin;  ///< B's origin may be far from the machine, MuJoCo's world is not
-  Model model;
-  Data data;
+  mujoco::Model model;
+  mujoco::Data data;
   GapJacobian G;
 };
 
