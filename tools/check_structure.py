@@ -23,8 +23,8 @@ ALLOWED = {
     "tests": {"tests", "validation", "nocsolver", "model"},
     "bench": {"bench", "tests", "validation", "nocsolver", "model"},
 }
-SIMBODY_HEADER = re.compile(r"(?i)^(simbody|simtk|simmath)|/(simbody|simtk|simmath)")
-SIMBODY_LOOP = re.compile(r"^model/simbody_loop[^/]*$")
+ENGINE_HEADER = re.compile(r"(?i)^(simbody|simtk|simmath|mujoco/)|/(simbody|simtk|simmath)")
+OTHER_ROAD = re.compile(r"^model/(simbody|mujoco|maximal)_loop[^/]*$")
 
 MAP = "docs/equations.md"
 TAGGED_FOLDERS = ("model", "nocsolver", "validation")
@@ -59,14 +59,16 @@ def check_includes(root):
 
 
 def check_roads(root, path):
-    """The two roads meet nowhere, not through a third file either."""
+    """The roads meet nowhere, not through a third file either."""
     findings = []
     for name, chain in sources.reach(root, path).items():
         via = " -> ".join(chain)
-        if path.startswith("nocsolver/") and (SIMBODY_HEADER.search(name) or SIMBODY_LOOP.match(name)):
-            findings.append(f"{path}: the solver may not see Simbody ({via})")
-        if SIMBODY_LOOP.match(path) and name.startswith("nocsolver/"):
-            findings.append(f"{path}: the Simbody loop may not see the solver ({via})")
+        if path.startswith("nocsolver/") and (ENGINE_HEADER.search(name) or OTHER_ROAD.match(name)):
+            findings.append(f"{path}: the solver may not see another road ({via})")
+        if OTHER_ROAD.match(path) and name.startswith("nocsolver/"):
+            findings.append(f"{path}: a road may not see the solver ({via})")
+        if OTHER_ROAD.match(path) and OTHER_ROAD.match(name) and OTHER_ROAD.match(path)[1] != OTHER_ROAD.match(name)[1]:
+            findings.append(f"{path}: a road may not see another ({via})")
     return findings
 
 
@@ -75,14 +77,14 @@ def check_no_simtk(path, text):
     return [f"{path}:{number}: SimTK in a header that others include (only *_internal headers may)"
             for number, line in enumerate(code.splitlines(), 1) if "SimTK" in line] + [
             f"{path}:{line}: {name} in a header that others include (only *_internal headers may)"
-            for line, name, quoted in sources.includes(text) if not quoted and SIMBODY_HEADER.search(name)]
+            for line, name, quoted in sources.includes(text) if not quoted and ENGINE_HEADER.search(name)]
 
 
 def check_targets(root):
     """What the CMake targets link, by folder."""
-    forbidden = {"nocsolver": re.compile(r"(?i)simbody|ursula::validation"),
+    forbidden = {"nocsolver": re.compile(r"(?i)simbody|mujoco|ursula::validation"),
                  "model": re.compile(r"ursula[:_]+(nocsolver|validation)"),
-                 "validation": re.compile(r"(?i)ursula::apps|\$\{simbody_")}
+                 "validation": re.compile(r"(?i)ursula::apps|\$\{(simbody|ursula_mujoco)_")}
     findings = []
     for folder, pattern in forbidden.items():
         path = root / folder / "CMakeLists.txt"

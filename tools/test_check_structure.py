@@ -63,11 +63,14 @@ class CheckStructure(unittest.TestCase):
 
     def test_include_rules(self):
         append = lambda text: ("", text)  # noqa: E731
-        self.assert_caught("the solver may not see Simbody", nocsolver__leg_DOT_cpp=append("#include <Simbody.h>\n"))
-        self.assert_caught("the solver may not see Simbody", nocsolver__leg_DOT_cpp=append('#include "model/simbody_loop.h"\n'))
+        self.assert_caught("the solver may not see another road", nocsolver__leg_DOT_cpp=append("#include <Simbody.h>\n"))
+        self.assert_caught("the solver may not see another road", nocsolver__leg_DOT_cpp=append('#include "model/simbody_loop.h"\n'))
         self.assert_caught("leg.h -> model/machine.h -> model/simbody_loop.h",
                            model__machine_DOT_h=append('#include "model/simbody_loop.h"\n'))
         self.assert_caught("may not see the solver", model__simbody_loop_DOT_cpp=append('#include "nocsolver/leg.h"\n'))
+        self.assert_caught("the solver may not see another road", nocsolver__leg_DOT_cpp=append("#include <mujoco/mujoco.h>\n"))
+        self.assert_caught("a road may not see another",
+                           model__mujoco_loop_DOT_cpp=append('#include "model/simbody_loop.h"\n'))
         self.assert_caught("model/ may not include nocsolver/", model__machine_DOT_h=append('#include "nocsolver/leg.h"\n'))
         self.assert_caught("tests/ may not include apps/", apps__a_DOT_h=append("\n"),
                            tests__leg_test_DOT_cpp=append('#include "../apps/a.h"\n'))
@@ -79,6 +82,7 @@ class CheckStructure(unittest.TestCase):
     def test_simtk_in_headers(self):
         self.assert_caught("SimTK in a header", model__simbody_loop_DOT_h=("", "const SimTK::State& s();\n"))
         self.assert_caught("Simbody.h in a header", validation__r_DOT_h=("", "#include <Simbody.h>\n"))
+        self.assert_caught("mujoco.h in a header", validation__r_DOT_h=("", "#include <mujoco/mujoco.h>\n"))
         self.assertEqual(self.findings(model__machine_DOT_h=("", "/* SimTK */ // SimTK\n")), [])
 
     def test_targets(self):

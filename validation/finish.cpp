@@ -6,6 +6,7 @@
 #include <boost/uuid/detail/sha1.hpp>
 #include <iterator>
 
+#include "model/mujoco_loop.h"
 #include "validation/commanded_motion.h"
 #include "validation/provenance.h"
 #include "validation/worst.h"
@@ -127,6 +128,7 @@ void addProvenance(const Scenario& scenario, const std::string& subject, Validat
                        {"Eigen", build.eigen},
                        {"Boost", build.boost},
                        {"Simbody", build.simbody},
+                       {"MuJoCo", mujocoVersion()},
                        {"trajectory", scenario.trajectory->kind()},
                        {"duration", fmt::format("{} s", scenario.trajectory->duration())},
                        {"samples", fmt::format("{}", scenario.simulation.samples)},

@@ -18,8 +18,8 @@ struct DefectOutcome {
   bool shows = true;                   ///< false where the scenario gives the defect nothing to change
 };
 
-/// What a check compares with: "six balls", "tree through leg 1", "maximal coordinates", or itself where it needs no
-/// other road.
+/// What a check compares with: "Simbody" in either topology, "maximal coordinates", "MuJoCo", or itself where it needs
+/// no other road.
 std::string roadOf(const std::string& check);
 
 /// The smallest relative error of one parameter that `torque.pointwise` still fails.

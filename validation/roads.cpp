@@ -6,6 +6,7 @@
 #include <array>
 
 #include "model/maximal_loop.h"
+#include "model/mujoco_loop.h"
 #include "model/simbody_loop.h"
 #include "nocsolver/reactions.h"
 #include "nocsolver/solver.h"
@@ -14,7 +15,13 @@
 namespace ursula {
 namespace {
 
-using Road = Vector6d RoadSample::*;
+using Road = const Vector6d& (*)(const RoadSample&);
+
+const Vector6d& subjectOf(const RoadSample& sample) { return sample.subject; }
+const Vector6d& simbodyOf(const RoadSample& sample) { return sample.simbody; }
+const Vector6d& twinOf(const RoadSample& sample) { return sample.twin; }
+const Vector6d& maximalOf(const RoadSample& sample) { return sample.maximal; }
+const Vector6d& mujocoOf(const RoadSample& sample) { return sample.mujoco.value(); }
 
 using Limit = double RoadSample::*;
 
@@ -22,7 +29,7 @@ Worst compareRoads(const std::vector<RoadSample>& samples, Road a, Road b, Limit
   Worst worst;
   for (const RoadSample& sample : samples) {
     Eigen::Index leg = 0;
-    const double distance = (sample.*a - sample.*b).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(&leg);
+    const double distance = (a(sample) - b(sample)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(&leg);
     worst.add(distance, sample.*limit, sample.t, static_cast<int>(leg));
   }
   return worst;
@@ -31,9 +38,9 @@ Worst compareRoads(const std::vector<RoadSample>& samples, Road a, Road b, Limit
 Check judgeRoad(const std::vector<RoadSample>& samples, const char* check_name, const char* what, Road road,
                 Limit limit, const Units& units) {
   if (samples.empty()) return notMade(check_name, "N m", "no instant was compared");
-  const Worst shown = compareRoads(samples, &RoadSample::subject, road, limit);
+  const Worst shown = compareRoads(samples, subjectOf, road, limit);
   double torque = 0;
-  for (const RoadSample& sample : samples) torque = std::max(torque, (sample.*road).cwiseAbs().maxCoeff());
+  for (const RoadSample& sample : samples) torque = std::max(torque, road(sample).cwiseAbs().maxCoeff());
   Check check = judgedIfUseful(
       check_name, shown.value, shown.limit, useful_share * torque, "N m",
       fmt::format("eps kappa(B) kappa(legs) x || |T|' |w| || x (1 + {:g} x the spread measured in turned and rescaled "
@@ -75,6 +82,7 @@ void addReactionColumns(const std::vector<Reactions>& reactions, TimeSeries& ser
 std::vector<RoadSample> runRoads(const Scenario& scenario, const std::vector<PointwiseSample>& samples) {
   SimbodyLoop twin(*scenario.manipulator, SimbodyLoop::Topology::tree_through_leg_1, scenario.load);
   MaximalLoop maximal(*scenario.manipulator, scenario.load);
+  const auto mujoco = makeMujocoLoop(*scenario.manipulator, scenario.load);
   std::vector<RoadSample> out;
   out.reserve(samples.size());
   for (const PointwiseSample& sample : samples) {
@@ -87,7 +95,9 @@ std::vector<RoadSample> runRoads(const Scenario& scenario, const std::vector<Poi
     road.maximal = maximal.inverseDynamics(sample.motion);
     road.limit_twin = sample.conditioning.rounding(Rounded::twin);
     road.limit_maximal = sample.conditioning.rounding(Rounded::maximal);
-    road.limit = sample.torque.limit + road.limit_twin + road.limit_maximal;
+    road.limit_mujoco = sample.conditioning.rounding(Rounded::mujoco);
+    if (mujoco) road.mujoco = mujoco->inverseDynamics(sample.motion);
+    road.limit = sample.torque.limit + road.limit_twin + road.limit_maximal + road.limit_mujoco;
     out.push_back(road);
   }
   return out;
@@ -103,10 +113,15 @@ double distance(const LegReactions& a, const LegReactions& b, double length) {
 }
 
 std::vector<Check> judgeRoads(const std::vector<RoadSample>& samples, const Units& units) {
-  return {judgeRoad(samples, "torque.twin", "Simbody's loop grown through leg 1, five balls", &RoadSample::twin,
-                    &RoadSample::limit_twin, units),
-          judgeRoad(samples, "torque.maximal", "13 bodies in maximal coordinates with Lagrange multipliers",
-                    &RoadSample::maximal, &RoadSample::limit_maximal, units)};
+  std::vector<Check> checks{
+      judgeRoad(samples, "torque.twin", "Simbody's loop grown through leg 1, five balls", twinOf,
+                &RoadSample::limit_twin, units),
+      judgeRoad(samples, "torque.maximal", "13 bodies in maximal coordinates with Lagrange multipliers", maximalOf,
+                &RoadSample::limit_maximal, units)};
+  if (samples.empty() ? mujocoAvailable() : samples.front().mujoco.has_value())
+    checks.push_back(judgeRoad(samples, "torque.mujoco", "MuJoCo's trees, closed by Lagrange multipliers", mujocoOf,
+                               &RoadSample::limit_mujoco, units));
+  return checks;
 }
 
 std::string oddOneOut(const std::vector<RoadSample>& samples) {
@@ -115,10 +130,11 @@ std::string oddOneOut(const std::vector<RoadSample>& samples) {
     const char* name;
     Road road;
   };
-  const std::array<Named, 4> roads{{{"the torques on trial", &RoadSample::subject},
-                                    {"Simbody, six balls", &RoadSample::simbody},
-                                    {"Simbody, tree through leg 1", &RoadSample::twin},
-                                    {"maximal coordinates", &RoadSample::maximal}}};
+  std::vector<Named> roads{{"the torques on trial", subjectOf},
+                           {"Simbody, six balls", simbodyOf},
+                           {"Simbody, tree through leg 1", twinOf},
+                           {"maximal coordinates", maximalOf}};
+  if (samples.front().mujoco) roads.push_back({"MuJoCo", mujocoOf});
   const auto agree = [&samples](const Named& a, const Named& b) {
     return !compareRoads(samples, a.road, b.road, &RoadSample::limit).beyond();
   };
@@ -134,7 +150,8 @@ std::string oddOneOut(const std::vector<RoadSample>& samples) {
     if (others_agree && alone) return odd.name;
   }
   const bool all = std::all_of(roads.begin(), roads.end(), [&](const Named& road) { return agree(roads[0], road); });
-  return all ? "none: four roads agree" : "not one alone: the roads disagree in more than one way";
+  return all ? fmt::format("none: {} roads agree", roads.size() == 5 ? "five" : "four")
+             : "not one alone: the roads disagree in more than one way";
 }
 
 Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample>& samples, TimeSeries* series,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "model/reactions.h"
@@ -13,15 +14,17 @@ namespace ursula {
 /// The torques of all roads at one instant, for one subject.
 struct RoadSample {
   double t = 0;
-  Vector6d subject, simbody, twin, maximal;  ///< N·m
-  double limit_twin = 0, limit_maximal = 0;  ///< of rounding between subject and road, N·m
-  double limit = 0;                          ///< of rounding between any two, N·m
+  Vector6d subject, simbody, twin, maximal;                    ///< N·m
+  double limit_twin = 0, limit_maximal = 0, limit_mujoco = 0;  ///< of rounding between subject and road, N·m
+  std::optional<Vector6d> mujoco;                              ///< N·m; none in a build without MuJoCo
+  double limit = 0;                                            ///< of rounding between any two, N·m
 };
 
-/// Simbody's twin (tree through leg 1, five balls) and the maximal coordinates at the instants of `samples`.
+/// Simbody's twin (tree through leg 1, five balls), the maximal coordinates and MuJoCo at the instants of `samples`.
 std::vector<RoadSample> runRoads(const Scenario& scenario, const std::vector<PointwiseSample>& samples);
 
-/// `torque.twin`, `torque.maximal`: the subject against each further road.
+/// `torque.twin`, `torque.maximal`, and `torque.mujoco` where MuJoCo is built in: the subject against each further
+/// road.
 std::vector<Check> judgeRoads(const std::vector<RoadSample>& samples, const Units& units = {});
 
 /// Which road stands alone when the others agree, in words; "none" where all agree.

@@ -73,7 +73,7 @@ class Trial {
     result.checks.push_back(judgeBetween(scenario_, subject_, samples_, reference_.profile, units_));
     if (subject_.accelerations) judgeDirectDynamics(result);
     judgeReplays(result);
-    result.findings.emplace_back("odd one out of four roads", oddOneOut(roads));
+    result.findings.emplace_back("odd one out of the roads", oddOneOut(roads));
   }
 
   void judgeDirectDynamics(ValidationResult& result) {

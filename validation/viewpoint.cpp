@@ -1,6 +1,7 @@
 #include "validation/viewpoint.h"
 
 #include "model/maximal_loop.h"
+#include "model/mujoco_loop.h"
 #include "model/simbody_loop.h"
 #include "nocsolver/reactions.h"
 #include "nocsolver/solver.h"
@@ -13,13 +14,15 @@ struct Viewpoint::Roads {
         load(std::move(load_)),
         six_balls(machine, SimbodyLoop::Topology::six_balls, load),
         twin(machine, SimbodyLoop::Topology::tree_through_leg_1, load),
-        maximal(machine, load) {}
+        maximal(machine, load),
+        mujoco(makeMujocoLoop(machine, load)) {}
 
   Solver<double> solver;
   Workspace<double> work;
   std::shared_ptr<const Load> load;
   SimbodyLoop six_balls, twin;
   MaximalLoop maximal;
+  std::unique_ptr<MujocoLoop> mujoco;
 };
 
 namespace {
@@ -96,6 +99,7 @@ View Viewpoint::at(const Motion<double>& motion, const Vector6d& torques) {
   r.twin.place(there);
   out.torques_twin = p.torquesBack(r.twin.inverseDynamics());
   out.torques_maximal = p.torquesBack(r.maximal.inverseDynamics(there));
+  if (r.mujoco) out.torques_mujoco = p.torquesBack(r.mujoco->inverseDynamics(there));
   return out;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "model/joint_variables.h"
 #include "model/reactions.h"
@@ -16,7 +17,7 @@ struct View {
   Vector6d jacobian, jacobian_rate;  ///< T φ̇, T φ̈ + Ṫ φ̇ with Simbody's joint motion: [ω; v] at P
   Matrix6d T;                        ///< the solver's
   Vector6d torques_solver, torques_simbody, torques_twin, torques_maximal;  ///< N·m
-  std::unique_ptr<Vector6d> torques_mujoco;                                 ///< where it is built in
+  std::optional<Vector6d> torques_mujoco;                                   ///< where it is built in
   Vector6d acceleration;                   ///< Simbody's of the platform under the solver's torques, [ω̇; p̈]
   Vector6d direct_solver, direct_simbody;  ///< both under torques given from outside
   double gap_acceleration = 0;             ///< of the loops, m/s²

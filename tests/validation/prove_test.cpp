@@ -216,10 +216,11 @@ TEST(ProveRandom, raisesNoAlarmForAnyNumberOfJobs) {
 }
 
 TEST(RoadOf, countsWhatAChecksVerdictRestsOn) {
-  EXPECT_EQ(roadOf("torque.pointwise"), "six balls");
-  EXPECT_EQ(roadOf("replay.position"), "six balls");
-  EXPECT_EQ(roadOf("torque.twin"), "tree through leg 1");
+  EXPECT_EQ(roadOf("torque.pointwise"), "Simbody");
+  EXPECT_EQ(roadOf("replay.position"), "Simbody");
+  EXPECT_EQ(roadOf("torque.twin"), "Simbody") << "the same engine and the same builder";
   EXPECT_EQ(roadOf("torque.maximal"), "maximal coordinates");
+  EXPECT_EQ(roadOf("torque.mujoco"), "MuJoCo");
   EXPECT_EQ(roadOf("invariance.labels"), "invariance.labels");
   EXPECT_EQ(roadOf("kinematics.jacobian_difference"), "kinematics.jacobian_difference");
 }

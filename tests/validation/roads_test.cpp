@@ -1,4 +1,5 @@
-// Four roads to the torques: exact ones agree, a wrong one is seen by every other, and the one that is wrong is named.
+// Four roads to the torques, and a fifth where MuJoCo is built in: exact ones agree, a wrong one is seen by every
+// other, and the one that is wrong is named.
 
 #include "validation/roads.h"
 
@@ -8,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/mujoco_loop.h"
 #include "nocsolver/errors.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
@@ -36,6 +38,7 @@ TEST_P(Roads, ofExactTorquesAgree) {
   const std::vector<Check> checks = judgeRoads(roads);
   EXPECT_EQ(verdictOf(checks, "torque.twin"), "pass");
   EXPECT_EQ(verdictOf(checks, "torque.maximal"), "pass");
+  EXPECT_EQ(verdictOf(checks, "torque.mujoco"), mujocoAvailable() ? "pass" : "(none)");
   for (const Check& check : checks) {
     EXPECT_GT(check.value, 0) << check.name << ": a road compared with itself";
     EXPECT_LT(check.limit, 1e-10 * largest_) << check.name << ": the limit says little";
@@ -44,8 +47,10 @@ TEST_P(Roads, ofExactTorquesAgree) {
     EXPECT_NE(road.twin, road.simbody) << "no two roads round alike";
     EXPECT_NE(road.maximal, road.twin);
     EXPECT_NE(road.maximal, road.simbody);
+    EXPECT_EQ(road.mujoco.has_value(), mujocoAvailable());
+    for (const Vector6d& other : {road.maximal, road.twin, road.simbody}) EXPECT_NE(road.mujoco, other);
   }
-  EXPECT_EQ(oddOneOut(roads), "none: four roads agree");
+  EXPECT_EQ(oddOneOut(roads), mujocoAvailable() ? "none: five roads agree" : "none: four roads agree");
 }
 
 TEST_P(Roads, seeATorqueThatIsOffByABillionthOfTheLargest) {
@@ -76,39 +81,53 @@ std::vector<RoadSample> agreeing() {
     road.simbody = road.subject + Vector6d::Constant(1e-10);
     road.twin = road.subject - Vector6d::Constant(1e-10);
     road.maximal = road.subject + 2e-10 * Vector6d::Unit(5);
+    road.mujoco = road.subject - 2e-10 * Vector6d::Unit(5);
   }
+  return roads;
+}
+
+/// As from a build without MuJoCo.
+std::vector<RoadSample> withoutMujoco(std::vector<RoadSample> roads) {
+  for (RoadSample& road : roads) road.mujoco.reset();
   return roads;
 }
 
 struct Road {
   const char* name;
-  Vector6d RoadSample::*torques;
-  const char *twin, *maximal;  ///< verdicts where this road is wrong
+  Vector6d& (*torques)(RoadSample&);
+  const char *twin, *maximal, *mujoco;  ///< verdicts where this road is wrong
 };
 
-const std::vector<Road> four_roads = {{"the torques on trial", &RoadSample::subject, "fail", "fail"},
-                                      {"Simbody, six balls", &RoadSample::simbody, "pass", "pass"},
-                                      {"Simbody, tree through leg 1", &RoadSample::twin, "fail", "pass"},
-                                      {"maximal coordinates", &RoadSample::maximal, "pass", "fail"}};
+const std::vector<Road> five_roads = {
+    {"the torques on trial", [](RoadSample& road) -> Vector6d& { return road.subject; }, "fail", "fail", "fail"},
+    {"Simbody, six balls", [](RoadSample& road) -> Vector6d& { return road.simbody; }, "pass", "pass", "pass"},
+    {"Simbody, tree through leg 1", [](RoadSample& road) -> Vector6d& { return road.twin; }, "fail", "pass", "pass"},
+    {"maximal coordinates", [](RoadSample& road) -> Vector6d& { return road.maximal; }, "pass", "fail", "pass"},
+    {"MuJoCo", [](RoadSample& road) -> Vector6d& { return *road.mujoco; }, "pass", "pass", "fail"}};
 
-TEST(OddOneOut, isNoneWhereAllAgree) { EXPECT_EQ(oddOneOut(agreeing()), "none: four roads agree"); }
+TEST(OddOneOut, isNoneWhereAllAgree) {
+  EXPECT_EQ(oddOneOut(agreeing()), "none: five roads agree");
+  EXPECT_EQ(oddOneOut(withoutMujoco(agreeing())), "none: four roads agree");
+}
 
 TEST(OddOneOut, isUnknownWhereNothingWasCompared) { EXPECT_THAT(oddOneOut({}), HasSubstr("no instant")); }
 
 TEST(OddOneOut, isNamedWhereOneLegOfOneRoadIsWrongAtOneInstant) {
-  for (const Road& road : four_roads)
+  for (const Road& road : five_roads)
     for (int leg = 0; leg < leg_count; ++leg) {
       std::vector<RoadSample> roads = agreeing();
-      (roads[3].*road.torques)(leg) += 1e-8;
+      road.torques(roads[3])(leg) += 1e-8;
       EXPECT_EQ(oddOneOut(roads), road.name) << "leg " << leg + 1;
+      EXPECT_EQ(oddOneOut(withoutMujoco(roads)),
+                road.name == std::string("MuJoCo") ? "none: four roads agree" : road.name);
     }
 }
 
 TEST(OddOneOut, isNamedWhereOneLegOfItIsNoNumber) {
-  for (const Road& road : four_roads)
+  for (const Road& road : five_roads)
     for (int leg = 0; leg < leg_count; ++leg) {
       std::vector<RoadSample> roads = agreeing();
-      (roads[3].*road.torques)(leg) = nan;
+      road.torques(roads[3])(leg) = nan;
       EXPECT_EQ(oddOneOut(roads), road.name) << "leg " << leg + 1;
     }
 }
@@ -130,12 +149,16 @@ TEST(OddOneOut, isNobodyWhereEachIsWrongAtAnInstantOfItsOwn) {
 }
 
 TEST(JudgeRoads, failsWhereTheSubjectAndThatRoadDiffer) {
-  for (const Road& road : four_roads) {
+  for (const Road& road : five_roads) {
     std::vector<RoadSample> roads = agreeing();
-    (roads[3].*road.torques)(2) -= 1e-8;
+    road.torques(roads[3])(2) -= 1e-8;
     const std::vector<Check> checks = judgeRoads(roads);
     EXPECT_EQ(verdictOf(checks, "torque.twin"), road.twin) << road.name;
     EXPECT_EQ(verdictOf(checks, "torque.maximal"), road.maximal) << road.name;
+    EXPECT_EQ(verdictOf(checks, "torque.mujoco"), road.mujoco) << road.name;
+    const std::vector<Check> fewer = judgeRoads(withoutMujoco(roads));
+    EXPECT_EQ(verdictOf(fewer, "torque.maximal"), road.maximal) << road.name;
+    EXPECT_EQ(verdictOf(fewer, "torque.mujoco"), "(none)") << road.name;
   }
 }
 
@@ -165,6 +188,7 @@ TEST(JudgeRoads, noInstantIsNoAgreement) {
   const std::vector<Check> checks = judgeRoads({});
   EXPECT_EQ(verdictOf(checks, "torque.twin"), "fail");
   EXPECT_EQ(verdictOf(checks, "torque.maximal"), "fail");
+  EXPECT_EQ(verdictOf(checks, "torque.mujoco"), mujocoAvailable() ? "fail" : "(none)");
 }
 
 class ReactionCheck : public testing::TestWithParam<std::string> {

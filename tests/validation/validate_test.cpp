@@ -65,8 +65,8 @@ TEST(ValidateResult, carriesSeriesAndProvenance) {
     keys.push_back(key);
     EXPECT_NE(value, "") << key;
   }
-  EXPECT_THAT(keys, testing::IsSupersetOf({"scenario sha1", "commit", "compiler", "flags", "Simbody", "integrator",
-                                           "tolerance", "samples"}));
+  EXPECT_THAT(keys, testing::IsSupersetOf({"scenario sha1", "commit", "compiler", "flags", "Simbody", "MuJoCo",
+                                           "integrator", "tolerance", "samples"}));
 }
 
 TEST(ValidateControl, theSlipOf15aFailsAndTheJointRatesAreNamedFirst) {

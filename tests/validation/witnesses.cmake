@@ -9,7 +9,8 @@ add_executable(witness_tests
   roads_test.cpp
   windows_test.cpp
 )
-target_link_libraries(witness_tests PRIVATE test_support ursula::validation fmt::fmt GTest::gmock GTest::gtest_main)
+target_link_libraries(witness_tests PRIVATE
+  test_support ursula::validation ursula::mujoco fmt::fmt GTest::gmock GTest::gtest_main)
 target_compile_definitions(witness_tests PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
 gtest_discover_tests(witness_tests)
 
