@@ -16,6 +16,8 @@ constexpr double second_accuracy = 1e-9;
 /// this many times as large, the integration does not converge.
 constexpr double least_gain = 4;
 
+using SpoilSettings = std::function<void(ReplaySettings&)>;
+
 ReplaySettings settingsOf(const WindowedReplay& finest, Integrator integrator, double tolerance) {
   ReplaySettings settings;
   settings.integrator = integrator;
@@ -43,15 +45,22 @@ Rung rungOf(const ReplaySettings& settings, const Replay& run, const Replay& fin
   return rung;
 }
 
+/// One replay beside the judged one.
+Replay replayBeside(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, ReplaySettings settings,
+                    const SpoilSettings& spoil) {
+  if (spoil) spoil(settings);
+  return replay(scenario, torques, settings);
+}
+
 Rung makeRung(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-              double tolerance) {
+              double tolerance, const SpoilSettings& spoil) {
   const ReplaySettings settings = settingsOf(finest, Integrator::rkf78, tolerance);
-  return rungOf(settings, replay(scenario, torques, settings), finest.replay);
+  return rungOf(settings, replayBeside(scenario, torques, settings, spoil), finest.replay);
 }
 
 /// Over the first steps only, a tenth of them at least: it is another integrator that is wanted, not another replay.
 void climbSecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-                 Ladder& ladder) {
+                 const SpoilSettings& spoil, Ladder& ladder) {
   const std::vector<ReplayStep>& steps = finest.replay.steps;
   if (steps.size() < 2) return;
   const std::size_t last = std::min(steps.size() - 1, std::max<std::size_t>(20, steps.size() / 10));
@@ -60,7 +69,7 @@ void climbSecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& tor
   for (double accuracy : {10 * second_accuracy, second_accuracy}) {
     ReplaySettings settings = settingsOf(finest, Integrator::rk_merson, accuracy);
     settings.end = ladder.second_end;
-    runs.push_back(replay(scenario, torques, settings));
+    runs.push_back(replayBeside(scenario, torques, settings, spoil));
     ladder.second.push_back(rungOf(settings, runs.back(), finest.replay));
   }
   ladder.second_difference = runs[0].steps.empty() || runs[1].steps.empty()
@@ -125,10 +134,12 @@ Check judgeSecond(const Ladder& ladder, const WindowedReplay& finest, double pos
 
 }  // namespace
 
-Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest) {
+Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
+             const SpoilSettings& spoil) {
   Ladder ladder;
   for (double factor : {1e6, 1e4, 1e2})
-    ladder.rungs.push_back(makeRung(scenario, torques, finest, std::min(1e-4, factor * finest.replay.tolerance)));
+    ladder.rungs.push_back(
+        makeRung(scenario, torques, finest, std::min(1e-4, factor * finest.replay.tolerance), spoil));
   for (std::size_t k = 0; k + 1 < ladder.rungs.size(); ++k)
     ladder.observed_orders.push_back(order(ladder.rungs[k], ladder.rungs[k + 1]));
   ladder.asymptotic = std::all_of(ladder.observed_orders.begin(), ladder.observed_orders.end(),
@@ -139,7 +150,7 @@ Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques
   const double p = ladder.asymptotic ? ladder.observed_orders.back() : 0;
   ladder.extrapolated = last.distance * std::pow(ratio, -p);
   ladder.uncertainty = integration_safety * ladder.extrapolated;
-  climbSecond(scenario, torques, finest, ladder);
+  climbSecond(scenario, torques, finest, spoil, ladder);
   return ladder;
 }
 
