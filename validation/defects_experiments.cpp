@@ -1,6 +1,8 @@
 // The experiments themselves spoilt: a road's engine, reactions, an integrator, the energy's account. The numbers are
 // those of natural units, in which lengths are of the machine's size and masses of the machine's.
 
+#include <Eigen/Geometry>
+
 #include "validation/defects_kit.h"
 
 namespace ursula {
