@@ -12,8 +12,12 @@ namespace {
 constexpr double nominal_order = 8;
 /// Of Simbody's integrator: error control of fourth order takes too many steps beyond.
 constexpr double second_accuracy = 1e-9;
+/// Its accuracy is of a step, and goes into an error with a power between 4/5 and 1: ten times the accuracy changes at
+/// least five times what is left.
+constexpr double second_safety = 10;
 /// A hundred times the tolerance makes an error a hundred times as large, whatever the order; where it does not make it
-/// this many times as large, the integration does not converge.
+/// this many times as large, the integration does not converge. Where knots, not the tolerance, decide the steps, the
+/// error may only be asked to fall with them, by half the order.
 constexpr double least_gain = 4;
 
 ReplaySettings settingsOf(const WindowedReplay& finest, Integrator integrator, double tolerance) {
@@ -95,11 +99,15 @@ Check judgeConvergence(const Ladder& ladder, const WindowedReplay& finest, doubl
   const Rung& fine = ladder.rungs.back();
   std::string orders;
   for (double p : ladder.observed_orders) orders += fmt::format("{}{:.3g}", orders.empty() ? "" : ", ", p);
+  const double steps = static_cast<double>(fine.steps) / static_cast<double>(std::max(coarse.steps, 1L));
+  const double share = std::max(1 / least_gain, 2 * std::pow(steps, -nominal_order / 2));
   return judged(
       "integration.ladder", fine.distance,
-      std::max(coarse.distance / least_gain, roundingBound(finest, position_scale, finest.window.end())), "m",
-      fmt::format("{:g} of what it is at a tolerance of {:g}, or what rounding may make of it", 1 / least_gain,
-                  coarse.tolerance),
+      std::max(coarse.distance * share, roundingBound(finest, position_scale, finest.window.end())), "m",
+      fmt::format(
+          "{:.3g} of what it is at a tolerance of {:g}, which takes {} steps of {}, or what rounding may make of "
+          "it",
+          share, coarse.tolerance, coarse.steps, fine.steps),
       fmt::format("ends of the replay at tolerances {:g} and {:g}; observed orders {} of {}, {}", fine.tolerance,
                   finest.replay.tolerance, orders, nominal_order, ladder.asymptotic ? "asymptotic" : "not asymptotic"));
 }
@@ -114,9 +122,9 @@ Check judgeSecond(const Ladder& ladder, const WindowedReplay& finest, double pos
                           "Simbody's integrator did not get there: " + rung.gave_up);
   return judged(
       check, second.distance,
-      integration_safety * ladder.second_difference + replayLimit(finest, position_scale, ladder.second_end), "m",
+      second_safety * ladder.second_difference + replayLimit(finest, position_scale, ladder.second_end), "m",
       fmt::format("{:g} times what ten times the accuracy changes of it, and the limit of replay.position there",
-                  integration_safety),
+                  second_safety),
       fmt::format("the replay by Simbody's RungeKuttaMerson to t = {:.6g} s, accuracy {:g}, {} derivative evaluations, "
                   "against {}",
                   ladder.second_end * units.time, second.tolerance, second.evaluations,

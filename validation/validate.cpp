@@ -79,7 +79,7 @@ class Trial {
   void judgeDirectDynamics(ValidationResult& result) {
     result.checks.push_back(judgeDirect(scenario_, subject_, samples_, units_));
     result.checks.push_back(judgeGrowth(scenario_, subject_, reference_.plan.torques, reference_.amplification,
-                                        plan_.acceleration, coarser * plan_.tolerance, units_));
+                                        plan_.acceleration, 10 * coarser * plan_.tolerance, units_));
   }
 
   void judgeReplays(ValidationResult& result) {
