@@ -17,13 +17,14 @@ using Vector12 = Amplification::Vector12;
 /// Jacobian of the deviations' rates. A deviation of the orientation turns it: Q → exp(δϑ) Q, so δϑ̇ = δω + ω × δϑ.
 class Linearisation {
  public:
-  Linearisation(const Scenario& scenario, AccelerationUnder accelerations)
+  Linearisation(const Scenario& scenario, AccelerationUnder accelerations, double step)
       : trajectory_(*scenario.trajectory),
         right_(nocSubject(*scenario.manipulator, scenario.load)),
         accelerations_(std::move(accelerations)),
-        length_(SolverModel<double>(*scenario.manipulator).length) {}
+        length_(SolverModel<double>(*scenario.manipulator).length),
+        step_(step * std::cbrt(Eigen::NumTraits<double>::epsilon()) * length_) {}
   explicit Linearisation(const Scenario& scenario)
-      : Linearisation(scenario, nocSubject(*scenario.manipulator, scenario.load).accelerations) {}
+      : Linearisation(scenario, nocSubject(*scenario.manipulator, scenario.load).accelerations, 1) {}
 
   double length() const { return length_; }
 
@@ -36,13 +37,12 @@ class Linearisation {
     J.block<3, 3>(3, 3) << 0, -motion.omega.z(), motion.omega.y(), motion.omega.z(), 0, -motion.omega.x(),
         -motion.omega.y(), motion.omega.x(), 0;
     // Central differences: the cube root of eps balances truncation and rounding.
-    const double step = std::cbrt(Eigen::NumTraits<double>::epsilon()) * length_;
     for (int j = 0; j < 12; ++j) {
       Vector12 deviation = Vector12::Zero();
-      deviation(j) = step;
+      deviation(j) = step_;
       const Vector6d above = acceleration(motion, deviation, torques);
       const Vector6d below = acceleration(motion, -deviation, torques);
-      J.block<6, 1>(6, j) = (above - below) / (2 * step);
+      J.block<6, 1>(6, j) = (above - below) / (2 * step_);
     }
     return J;
   }
@@ -65,6 +65,7 @@ class Linearisation {
   Subject right_;
   AccelerationUnder accelerations_;
   double length_;
+  double step_;
 };
 
 /// Every fifth instant will do: the Jacobian varies with the pose, and slowly.
@@ -112,8 +113,9 @@ Amplification::Amplification(const Scenario& scenario, int intervals) {
   growth_rates_.push_back(fastestGrowth(J0));
 }
 
-Matrix12 propagated(const Scenario& scenario, const AccelerationUnder& accelerations, double end, int intervals) {
-  Linearisation linearisation(scenario, accelerations);
+Matrix12 propagated(const Scenario& scenario, const AccelerationUnder& accelerations, double end, int intervals,
+                    double step) {
+  Linearisation linearisation(scenario, accelerations, step);
   const double h = end / intervals;
   Matrix12 Phi = Matrix12::Identity(), J0 = linearisation.at(0);
   for (int k = 0; k < intervals; ++k) {

@@ -65,8 +65,9 @@ class Amplification {
 /// [ω̇; p̈] of the platform under torques.
 using AccelerationUnder = std::function<Vector6d(const Motion<double>&, const Vector6d& torques)>;
 
-/// Φ(end, 0) of the same equations with somebody's direct dynamics, over `intervals` of equal length.
+/// Φ(end, 0) of the same equations with somebody's direct dynamics, over `intervals` of equal length, differentiated
+/// with `step` times the usual step.
 Amplification::Matrix12 propagated(const Scenario& scenario, const AccelerationUnder& accelerations, double end,
-                                   int intervals);
+                                   int intervals, double step);
 
 }  // namespace ursula

@@ -6,14 +6,20 @@
 #include <cmath>
 #include <functional>
 
+#include "validation/windows.h"
+
 namespace ursula {
 namespace {
 
 constexpr double nominal_order = 8;
 /// Of Simbody's integrator: error control of fourth order takes too many steps beyond.
 constexpr double second_accuracy = 1e-9;
+/// Its accuracy is of a step, and goes into an error with a power between 4/5 and 1: ten times the accuracy changes at
+/// least five times what is left.
+constexpr double second_safety = 10;
 /// A hundred times the tolerance makes an error a hundred times as large, whatever the order; where it does not make it
-/// this many times as large, the integration does not converge.
+/// this many times as large, the integration does not converge. Where knots, not the tolerance, decide the steps, the
+/// error may only be asked to fall with them, by half the order.
 constexpr double least_gain = 4;
 
 using SpoilSettings = std::function<void(ReplaySettings&)>;
@@ -104,11 +110,15 @@ Check judgeConvergence(const Ladder& ladder, const WindowedReplay& finest, doubl
   const Rung& fine = ladder.rungs.back();
   std::string orders;
   for (double p : ladder.observed_orders) orders += fmt::format("{}{:.3g}", orders.empty() ? "" : ", ", p);
+  const double steps = static_cast<double>(fine.steps) / static_cast<double>(std::max(coarse.steps, 1L));
+  const double share = std::max(1 / least_gain, 2 * std::pow(steps, -nominal_order / 2));
   return judged(
       "integration.ladder", fine.distance,
-      std::max(coarse.distance / least_gain, roundingBound(finest, position_scale, finest.window.end())), "m",
-      fmt::format("{:g} of what it is at a tolerance of {:g}, or what rounding may make of it", 1 / least_gain,
-                  coarse.tolerance),
+      std::max(coarse.distance * share, roundingBound(finest, position_scale, finest.window.end())), "m",
+      fmt::format(
+          "{:.3g} of what it is at a tolerance of {:g}, which takes {} steps of {}, or what rounding may make of "
+          "it",
+          share, coarse.tolerance, coarse.steps, fine.steps),
       fmt::format("ends of the replay at tolerances {:g} and {:g}; observed orders {} of {}, {}", fine.tolerance,
                   finest.replay.tolerance, orders, nominal_order, ladder.asymptotic ? "asymptotic" : "not asymptotic"));
 }
@@ -123,9 +133,9 @@ Check judgeSecond(const Ladder& ladder, const WindowedReplay& finest, double pos
                           "Simbody's integrator did not get there: " + rung.gave_up);
   return judged(
       check, second.distance,
-      integration_safety * ladder.second_difference + replayLimit(finest, position_scale, ladder.second_end), "m",
+      second_safety * ladder.second_difference + replayLimit(finest, position_scale, ladder.second_end), "m",
       fmt::format("{:g} times what ten times the accuracy changes of it, and the limit of replay.position there",
-                  integration_safety),
+                  second_safety),
       fmt::format("the replay by Simbody's RungeKuttaMerson to t = {:.6g} s, accuracy {:g}, {} derivative evaluations, "
                   "against {}",
                   ladder.second_end * units.time, second.tolerance, second.evaluations,
@@ -135,11 +145,16 @@ Check judgeSecond(const Ladder& ladder, const WindowedReplay& finest, double pos
 }  // namespace
 
 Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-             const SpoilSettings& spoil) {
+             bool torques_are_right, const SpoilSettings& spoil) {
   Ladder ladder;
-  for (double factor : {1e6, 1e4, 1e2})
-    ladder.rungs.push_back(
-        makeRung(scenario, torques, finest, std::min(1e-4, factor * finest.replay.tolerance), spoil));
+  for (double factor : {1e6, 1e4, coarser}) {
+    const double tolerance = std::min(1e-4, factor * finest.replay.tolerance);
+    const bool known = torques_are_right && !spoil && finest.coarse && finest.coarse->integrator == Integrator::rkf78 &&
+                       finest.coarse->tolerance == tolerance;
+    ladder.rungs.push_back(known
+                               ? rungOf(settingsOf(finest, Integrator::rkf78, tolerance), *finest.coarse, finest.replay)
+                               : makeRung(scenario, torques, finest, tolerance, spoil));
+  }
   for (std::size_t k = 0; k + 1 < ladder.rungs.size(); ++k)
     ladder.observed_orders.push_back(order(ladder.rungs[k], ladder.rungs[k + 1]));
   ladder.asymptotic = std::all_of(ladder.observed_orders.begin(), ladder.observed_orders.end(),

@@ -202,7 +202,7 @@ Check judgeQuantity(const std::vector<PointwiseSample>& samples, const Quantity&
 
 /// Every limit is a derived shape and a measured level: RoundingProfile.
 std::string leveled(const char* shape) {
-  return fmt::format("eps {} x (1 + {:g} x the spread measured in turned and rescaled frames)", shape, rounding_safety);
+  return fmt::format("eps {} x {:g} x the spread measured in turned and rescaled frames", shape, rounding_safety);
 }
 
 const std::vector<Quantity>& kinematicQuantities() {

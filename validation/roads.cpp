@@ -43,8 +43,8 @@ Check judgeRoad(const std::vector<RoadSample>& samples, const char* check_name, 
   for (const RoadSample& sample : samples) torque = std::max(torque, road(sample).cwiseAbs().maxCoeff());
   Check check = judgedIfUseful(
       check_name, shown.value, shown.limit, useful_share * torque, "N m",
-      fmt::format("eps kappa(B) kappa(legs) x || |T|' |w| || x (1 + {:g} x the spread measured in turned and rescaled "
-                  "frames)",
+      fmt::format("eps kappa(B) kappa(legs) x || |T|' |w| || x {:g} x the spread measured in turned and rescaled "
+                  "frames",
                   rounding_safety),
       fmt::format("torques against {}, at {} instants; shown for t = {:.6g} s, leg {}", what, samples.size(),
                   shown.t * units.time, shown.where + 1),
@@ -180,8 +180,8 @@ Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample
   if (!worst.any) return notMade("reactions.pointwise", "N", "no instant was compared");
   Check check = judgedIfUseful(
       "reactions.pointwise", worst.value, worst.limit, useful_share * size, "N",
-      fmt::format("eps (kappa(B)^2 kappa(legs) x || |T|' |w| || / length + largest mass x the acceleration's) x (1 + "
-                  "{:g} x the spread measured in turned and rescaled frames)",
+      fmt::format("eps (kappa(B)^2 kappa(legs) x || |T|' |w| || / length + largest mass x the acceleration's) x "
+                  "{:g} x the spread measured in turned and rescaled frames",
                   rounding_safety),
       fmt::format("forces, and moments over the machine's length, at 18 joints against Simbody's mobilizer and "
                   "constraint reactions, at {} instants; shown for t = {:.6g} s, leg {}; the largest is {:.6g} N",

@@ -170,7 +170,7 @@ Conditioning RoundingProfile::at(const Motion<double>& motion) const {
   out.levels = uniformLevels(0);
   for (std::size_t k = std::min(first, last); k <= last; ++k)
     for (std::size_t q = 0; q < rounded_count; ++q) out.levels[q] = larger(out.levels[q], measured_[k].spread[q]);
-  for (double& level : out.levels) level = 1 + rounding_safety * level;
+  for (double& level : out.levels) level = rounding_floor + rounding_safety * level;
   return out;
 }
 

@@ -14,7 +14,7 @@ namespace ursula {
 /// trial.
 ///
 /// Measured at some instants, in units of the derived shape, which carries the level to the instants between: a level
-/// is safety × the largest spread at the five instants about, plus 1.
+/// is safety × the largest spread at the five instants about, and a floor.
 class RoundingProfile {
  public:
   /// At `instants` equally spaced ones of the motion. Throws PoseError as the solver does.
@@ -44,5 +44,9 @@ int profileInstants(int samples);
 /// Statistics, 1946, sect. 28.6); the rest is for what is not normal. Over 5,000 random machines the largest error used
 /// about a third of its limit.
 constexpr double rounding_safety = 10;
+
+/// A level is at least this: the shape is a worst case, and what rounds in double seldom reaches a hundredth of it, but
+/// may round to the same number in every frame.
+constexpr double rounding_floor = 0.02;
 
 }  // namespace ursula

@@ -94,7 +94,7 @@ class Trial {
   void judgeDirectDynamics(ValidationResult& result) {
     result.checks.push_back(judgeDirect(scenario_, subject_, samples_, units_));
     result.checks.push_back(judgeGrowth(scenario_, subject_, reference_.plan.torques, reference_.amplification,
-                                        plan_.acceleration, coarser * plan_.tolerance, units_));
+                                        plan_.acceleration, 10 * coarser * plan_.tolerance, units_));
   }
 
   void judgeReplays(ValidationResult& result) {
@@ -102,7 +102,7 @@ class Trial {
     append(result.checks, judgeReplay(windows_, reference_.position_scale, reference_.amplification.length(),
                                       reference_.forces, units_));
     if (options_.ladder) {
-      ladder_ = climb(scenario_, plan_.torques, windows_.front(), options_.spoil.ladder);
+      ladder_ = climb(scenario_, plan_.torques, windows_.front(), right_, options_.spoil.ladder);
       append(result.checks, judgeLadder(ladder_, windows_.front(), reference_.position_scale, units_));
     }
     const Spoil::Seen& seen = options_.spoil.feedback;
