@@ -118,14 +118,9 @@ std::shared_ptr<const Load> Presentation::of(const std::shared_ptr<const Load>& 
   };
   out->point = platform_turn.transpose() * load->point / units.length;
   present(out->force, out->moment);
-  if (load->history) {
-    std::vector<TimedWrench> rows = load->history->rows();
-    for (TimedWrench& row : rows) {
-      row.time /= units.time;
-      present(row.wrench.force, row.wrench.moment);
-    }
-    out->history = std::make_shared<const LoadHistory>(rows);
-  }
+  if (load->history)
+    out->history = std::make_shared<const LoadHistory>(*load->history,
+                                                       LoadHistory::Axes{R, units.force(), units.torque(), units.time});
   return out;
 }
 

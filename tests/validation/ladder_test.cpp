@@ -1,5 +1,5 @@
-// The ladder of tolerances: the integrator's error falls as its order says, and a rung that is off, no number or gave
-// up fails.
+// The ladder of tolerances: the integrator's error falls with the tolerance, another integrator gets to the same place,
+// and a rung that is off, no number or gave up fails.
 
 #include "validation/ladder.h"
 
@@ -53,7 +53,7 @@ class Climb {
 TEST(PaperHelixLadder, converges) {
   const Climb climb;
   const Ladder& ladder = climb.ladder();
-  ASSERT_EQ(ladder.rungs.size(), 4u);
+  ASSERT_EQ(ladder.rungs.size(), 3u);
   ASSERT_EQ(ladder.observed_orders.size(), 2u);
   for (double order : ladder.observed_orders) EXPECT_NEAR(order, 8, 2);
   EXPECT_TRUE(ladder.asymptotic);
@@ -75,7 +75,7 @@ TEST(PaperHelixLadder, extrapolatesTheErrorThatTheFinestReplayHas) {
   EXPECT_LT(climb.ladder().extrapolated, climb.ladder().rungs[2].distance / 10) << "nothing was extrapolated";
 }
 
-TEST(PaperHelixLadder, hasTheOtherIntegratorAsItsLastRung) {
+TEST(PaperHelixLadder, climbsToFinerTolerancesInMoreSteps) {
   const std::vector<Rung> rungs = Climb().ladder().rungs;
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_EQ(rungs[k].integrator, Integrator::rkf78) << k;
@@ -83,8 +83,23 @@ TEST(PaperHelixLadder, hasTheOtherIntegratorAsItsLastRung) {
     EXPECT_LT(rungs[k].tolerance, rungs[k - 1].tolerance);
     EXPECT_GT(rungs[k].steps, rungs[k - 1].steps);
   }
-  EXPECT_STREQ(name(rungs[3].integrator), "rk_merson");
-  EXPECT_GT(rungs[3].steps, 0);
+}
+
+/// Twice, so that its own error is known; over the beginning, for it takes many more steps.
+TEST(PaperHelixLadder, hasAnotherIntegratorOverTheBeginning) {
+  const Climb climb;
+  const Ladder& ladder = climb.ladder();
+  ASSERT_EQ(ladder.second.size(), 2u);
+  for (const Rung& rung : ladder.second) {
+    EXPECT_STREQ(name(rung.integrator), "rk_merson");
+    EXPECT_GT(rung.steps, 0);
+  }
+  EXPECT_DOUBLE_EQ(ladder.second[0].tolerance / ladder.second[1].tolerance, 10);
+  EXPECT_LT(ladder.second[1].distance, ladder.second[0].distance);
+  EXPECT_GT(ladder.second_difference, 0);
+  EXPECT_GE(ladder.second_end, 0.1 * climb.finest().window.end());
+  EXPECT_LT(ladder.second_end, climb.finest().window.end());
+  EXPECT_LT(findCheck(climb.checks(), "integration.second")->limit, 1e-8) << "the limit says little";
 }
 
 /// The torques right but for jumps of a millionth, which no formula of eighth order steps over.
@@ -114,25 +129,33 @@ WindowedReplay madeReplay() {
   return out;
 }
 
-/// Rungs within their bounds, some tolerance × steps each.
+/// Each a hundredth of the one before; the other integrator's two a tenth apart.
 Ladder madeLadder() {
   Ladder out;
   out.rungs = {{Integrator::rkf78, 1e-8, 300, 20, 1e-8, ""},
                {Integrator::rkf78, 1e-10, 450, 35, 1e-10, ""},
-               {Integrator::rkf78, 1e-12, 800, 62, 1e-12, ""},
-               {Integrator::rk_merson, 1e-8, 600, 120, 2e-8, ""}};
+               {Integrator::rkf78, 1e-12, 800, 62, 1e-12, ""}};
+  out.second = {{Integrator::rk_merson, 1e-8, 600, 120, 2e-9, ""}, {Integrator::rk_merson, 1e-9, 900, 180, 2e-10, ""}};
+  out.second_end = 0.5;
+  out.second_difference = 1.8e-9;
   return out;
+}
+
+using Change = std::function<void(Ladder&)>;
+
+std::vector<Check> judge(const Change& change) {
+  Ladder ladder = madeLadder();
+  change(ladder);
+  return judgeLadder(ladder, madeReplay(), position_scale);
 }
 
 /// The checks after a change of one rung.
 std::vector<Check> judge(std::size_t rung, const std::function<void(Rung&)>& change) {
-  Ladder ladder = madeLadder();
-  change(ladder.rungs[rung]);
-  return judgeLadder(ladder, madeReplay(), position_scale);
+  return judge([&](Ladder& ladder) { change(ladder.rungs[rung]); });
 }
 
 TEST(JudgeLadder, acceptsRungsWithinTheirBounds) {
-  const std::vector<Check> checks = judge(0, [](Rung&) {});
+  const std::vector<Check> checks = judge([](Ladder&) {});
   EXPECT_EQ(verdictOf(checks, "integration.ladder"), "pass");
   EXPECT_EQ(verdictOf(checks, "integration.second"), "pass");
 }
@@ -140,33 +163,79 @@ TEST(JudgeLadder, acceptsRungsWithinTheirBounds) {
 TEST(JudgeLadder, failsARungBeyondItsBoundAndThatOneAlone) {
   const std::string names[] = {"integration.ladder", "integration.second"};
   for (std::size_t k = 0; k < 2; ++k) {
-    const std::size_t rung = 2 + k;
-    const double limit = findCheck(judge(rung, [](Rung&) {}), names[k])->limit;
+    const auto with = [k](double distance) {
+      return judge(
+          [k, distance](Ladder& ladder) { (k == 0 ? ladder.rungs : ladder.second).back().distance = distance; });
+    };
+    const double limit = findCheck(judge([](Ladder&) {}), names[k])->limit;
     for (const double wrong : {1.01 * limit, std::nan("")}) {
-      const std::vector<Check> checks = judge(rung, [wrong](Rung& it) { it.distance = wrong; });
-      EXPECT_EQ(verdictOf(checks, names[k]), "fail") << wrong;
-      EXPECT_EQ(verdictOf(checks, names[1 - k]), "pass") << wrong;
+      EXPECT_EQ(verdictOf(with(wrong), names[k]), "fail") << wrong;
+      EXPECT_EQ(verdictOf(with(wrong), names[1 - k]), "pass") << wrong;
     }
-    const std::vector<Check> within = judge(rung, [limit](Rung& it) { it.distance = 0.99 * limit; });
-    EXPECT_EQ(verdictOf(within, names[k]), "pass");
+    EXPECT_EQ(verdictOf(with(0.99 * limit), names[k]), "pass");
   }
 }
 
-/// A rung is held to what its own tolerance allows in its own steps.
-TEST(JudgeLadder, theBoundFallsWithTheTolerance) {
-  const auto limit = [](double tolerance) {
-    return findCheck(judge(2, [tolerance](Rung& rung) { rung.tolerance = tolerance; }), "integration.ladder")->limit;
+/// A hundredth of the tolerance has to bring the end nearer at least four times, but for rounding.
+TEST(JudgeLadder, theBoundIsAQuarterOfTheCoarserRungsDistance) {
+  const auto limit = [](double coarser) {
+    return findCheck(judge(1, [coarser](Rung& rung) { rung.distance = coarser; }), "integration.ladder")->limit;
   };
-  EXPECT_NEAR(limit(1e-9) / limit(1e-10), 10, 1e-3);
+  EXPECT_DOUBLE_EQ(limit(1e-9), 0.25e-9);
+  EXPECT_DOUBLE_EQ(limit(1e-10), 0.25e-10);
+  const WindowedReplay replay = madeReplay();
+  EXPECT_DOUBLE_EQ(limit(0), driftLimit(replay.window, 0, 3, position_scale, 1)) << "rounding";
+  EXPECT_LT(limit(0), 1e-13);
+}
+
+/// Where knots decide the steps, a finer tolerance takes few more, and the error is asked to fall with them alone.
+TEST(JudgeLadder, theBoundIsWiderWhereStepsAreHardlyMore) {
+  const auto limit = [](long steps) {
+    return findCheck(judge(2, [steps](Rung& rung) { rung.steps = steps; }), "integration.ladder")->limit;
+  };
+  EXPECT_DOUBLE_EQ(limit(35), 2e-10) << "as many steps: twice";
+  EXPECT_NEAR(limit(42), 2e-10 / std::pow(1.2, 4), 1e-16);
+  EXPECT_DOUBLE_EQ(limit(70), 0.25e-10) << "twice as many: a quarter";
+}
+
+/// The other integrator by what it changes itself, and by what the judged replay may be off by at that instant.
+TEST(JudgeLadder, theSecondIsBoundByItsOwnErrorAndTheReplays) {
+  const auto limit = [](double difference, double end) {
+    return findCheck(judge([=](Ladder& ladder) { ladder.second_difference = difference, ladder.second_end = end; }),
+                     "integration.second")
+        ->limit;
+  };
+  EXPECT_NEAR(limit(2e-9, 0.5) - limit(1e-9, 0.5), 10 * 1e-9, 1e-17);
+  for (const double end : {0.5, 1.0}) EXPECT_DOUBLE_EQ(limit(0, end), replayLimit(madeReplay(), position_scale, end));
+  EXPECT_GT(limit(0, 1), limit(0, 0.5));
+  EXPECT_EQ(verdictOf(judge([](Ladder& ladder) { ladder.second_difference = std::nan(""); }), "integration.second"),
+            "fail");
 }
 
 TEST(JudgeLadder, failsWithTheReasonWhereARungGaveUp) {
-  for (std::size_t rung = 0; rung < 4; ++rung) {
+  for (std::size_t rung = 0; rung < 3; ++rung) {
     const std::vector<Check> checks = judge(rung, [](Rung& it) { it.gave_up = "the step vanished"; });
     EXPECT_EQ(overall(checks), Verdict::fail) << rung;
     EXPECT_EQ(others(checks, Verdict::fail), "") << rung;
     EXPECT_THAT(checks.front().why, HasSubstr("the step vanished"));
   }
+}
+
+/// It is Simbody's own, and a stiff loop may be beyond it: that says nothing of the judged replay.
+TEST(JudgeLadder, leavesTheSecondOpenWhereThatIntegratorDidNotGetThere) {
+  for (std::size_t rung = 0; rung < 2; ++rung)
+    for (const bool left_path : {false, true}) {
+      const std::vector<Check> checks = judge([=](Ladder& ladder) {
+        if (left_path)
+          ladder.second[rung].left_path = true;
+        else
+          ladder.second[rung].gave_up = "the step vanished";
+      });
+      EXPECT_EQ(verdictOf(checks, "integration.ladder"), "pass");
+      EXPECT_EQ(verdictOf(checks, "integration.second"), "inconclusive");
+      EXPECT_EQ(findCheck(checks, "integration.second")->reason, Reason::unfinished);
+    }
+  EXPECT_EQ(verdictOf(judge([](Ladder& ladder) { ladder.second.clear(); }), "integration.second"), "fail");
 }
 
 TEST(JudgeLadder, failsWhereTheJudgedReplayGaveUpOrLeftThePath) {
@@ -184,7 +253,7 @@ TEST(JudgeLadder, isInconclusiveWhereARungLeftThePath) {
 
 TEST(JudgeLadder, isInconclusiveWhereARungOrTheJudgedReplayTookTooLong) {
   const auto hasty = [](auto& it) { it.gave_up = "more than 30 derivative evaluations", it.too_long = true; };
-  for (std::size_t rung = 0; rung < 4; ++rung) EXPECT_EQ(overall(judge(rung, hasty)), Verdict::inconclusive) << rung;
+  for (std::size_t rung = 0; rung < 3; ++rung) EXPECT_EQ(overall(judge(rung, hasty)), Verdict::inconclusive) << rung;
   WindowedReplay judged = madeReplay();
   hasty(judged.replay);
   EXPECT_EQ(overall(judgeLadder(madeLadder(), judged, position_scale)), Verdict::inconclusive);
