@@ -174,8 +174,8 @@ std::vector<Defect> wrongStates() {
                        m.omega = commanded.omega;
                        m.p_dot = commanded.p_dot;
                      }),
-          wrongState("direct dynamics at a state a thousandth nearer to the commanded one",
-                     [](M& m, const M& commanded) { m.p += 1e-3 * (commanded.p - m.p); })};
+          wrongState("direct dynamics at a state by 3e-5 nearer to the commanded one",
+                     [](M& m, const M& commanded) { m.p += 3e-5 * (commanded.p - m.p); })};
 }
 
 /// What a machine or a motion must be like for the solver to be wrong.

@@ -12,20 +12,31 @@ namespace {
 /// Of the torque, where the branch is taken.
 constexpr double branch_error = 1e-8;
 
+struct Joints {
+  JointVariables<double> q, q_dot;
+};
+
+Joints jointsOf(const Solver<double>& solver, const Motion<double>& motion) {
+  Workspace<double> work;
+  solver.inverseKinematics(motion, work);
+  return {solver.angles(work), solver.rates(work)};
+}
+
 /// What the solver branches on.
-using Quantity = std::function<double(const Motion<double>&, const JointMotion&)>;
+using Quantity = std::function<double(const Motion<double>&, const Joints&)>;
 
 struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -low;
 };
 
 /// What `quantity` passes through during the pulse.
-Range rangeIn(const Pulse& pulse, const Trajectory& trajectory, const Subject& right, const Quantity& quantity) {
+Range rangeIn(const Pulse& pulse, const Trajectory& trajectory, const Solver<double>& solver,
+              const Quantity& quantity) {
   Range out;
   constexpr int parts = 20;
   for (int k = 0; k <= parts; ++k) {
     const Motion<double> motion = trajectory.at(pulse.from + (pulse.to - pulse.from) * k / parts);
-    const double value = quantity(motion, right.kinematics(motion).joints);
+    const double value = quantity(motion, jointsOf(solver, motion));
     out.low = std::min(out.low, value);
     out.high = std::max(out.high, value);
   }
@@ -35,10 +46,10 @@ Range rangeIn(const Pulse& pulse, const Trajectory& trajectory, const Subject& r
 /// All torques wrong where `quantity` is what it is for a 3000th of the motion, after `share` of it.
 Defect branch(const char* name, double share, const Quantity& quantity) {
   Defect out = wrongTorques(name, "branch", [share, quantity](const Scenario& s) -> ChangeTorques {
-    const Subject right = nocSubject(*s.manipulator, s.load);
-    const Range range = rangeIn(Pulse(*s.trajectory, share), *s.trajectory, right, quantity);
-    return [right, range, quantity](const Vector6d& torques, const Motion<double>& m) {
-      const double value = quantity(m, right.kinematics(m).joints);
+    const auto solver = std::make_shared<const Solver<double>>(*s.manipulator);
+    const Range range = rangeIn(Pulse(*s.trajectory, share), *s.trajectory, *solver, quantity);
+    return [solver, range, quantity](const Vector6d& torques, const Motion<double>& m) {
+      const double value = quantity(m, jointsOf(*solver, m));
       return Vector6d(value >= range.low && value <= range.high ? (1 + branch_error) * torques : torques);
     };
   });
@@ -65,7 +76,7 @@ Defect pulse(const char* name, double share, const ChangeLeg& change) {
 
 std::vector<Defect> branchDefects() {
   using M = Motion<double>;
-  using J = JointMotion;
+  using J = Joints;
   return {branch("narrow branch: theta of leg 2", 0.2137, [](const M&, const J& j) { return j.q.theta(1); }),
           branch("narrow branch: phi of leg 5", 0.4661, [](const M&, const J& j) { return j.q.phi(4); }),
           branch("narrow branch: psi of leg 3", 0.6438, [](const M&, const J& j) { return j.q.psi(2); }),

@@ -147,13 +147,13 @@ std::vector<Defect> wrongReplays() {
           wrongPower("motors' power off by 1e-9 in the energy's account",
                      [](const SimbodyLoop::Power& power) { return 1e-9 * power.actuators; }),
           wrongLadder("coarser replays that heed no tolerance", Integrator::rkf78,
-                      [](ReplaySettings& settings) { settings.tolerance = 1e-9; }),
+                      [](ReplaySettings& settings) { settings.tolerance = 1e-6; }),
           wrongLadder("coarser replays spoilt by 1e-9 after each step", Integrator::rkf78,
                       [](ReplaySettings& settings) {
                         settings.spoil = [](double, State& x) { x[velocity_of_platform] += 1e-9; };
                       }),
-          wrongLadder("second integrator starts 1e-8 beside the path", Integrator::rk_merson,
-                      [](ReplaySettings& settings) { settings.deviation(0) = 1e-8; })};
+          wrongLadder("second integrator starts 1e-7 beside the path", Integrator::rk_merson,
+                      [](ReplaySettings& settings) { settings.deviation(0) = 1e-7; })};
 }
 
 }  // namespace

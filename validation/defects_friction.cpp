@@ -45,8 +45,11 @@ Excess excessOf(Law law) {
 Subject withFriction(const Manipulator& machine, const std::shared_ptr<const Load>& load, const Excess& excess) {
   const Subject right = nocSubject(machine, load);
   Subject wrong = right;
-  const auto more = [right, machine, excess](const Motion<double>& m) {
-    return onActuators(right, m, excess(machine, right.kinematics(m).joints.q_dot));
+  const auto solver = std::make_shared<const Solver<double>>(machine);
+  const auto more = [solver, machine, excess](const Motion<double>& m) {
+    Workspace<double> work;
+    solver->inverseKinematics(m, work);
+    return onActuators(*solver, m, excess(machine, solver->rates(work)));
   };
   wrong.torques = [right, more](const Motion<double>& m) { return Vector6d(right.torques(m) + more(m)); };
   wrong.accelerations = [right, more](const Motion<double>& m, const Vector6d& torques) {

@@ -47,23 +47,34 @@ Defect wrongTorques(const std::string& name, const std::string& group,
           }};
 }
 
-Vector6d onActuators(const Subject& right, const Motion<double>& motion, const JointVariables<double>& forces) {
-  const Matrix6d T = right.kinematics(motion).T;
+namespace {
+
+Matrix6d shaping(const Solver<double>& solver, const Motion<double>& motion, Workspace<double>& work) {
+  solver.inverseKinematics(motion, work);
+  solver.jacobians(motion, work);
+  return solver.T(work);
+}
+
+}  // namespace
+
+Vector6d onActuators(const Solver<double>& solver, const Motion<double>& motion, const JointVariables<double>& forces) {
+  Workspace<double> work;
+  const Matrix6d T = shaping(solver, motion, work);
   Motion<double> unit = motion;
-  unit.omega_dot.setZero();
-  unit.p_ddot.setZero();
   Vector6d torques;
   for (int k = 0; k < leg_count; ++k) {
     unit.omega = T.col(k).head<3>();
     unit.p_dot = T.col(k).tail<3>();
-    const JointVariables<double> rates = right.kinematics(unit).joints.q_dot;
+    solver.inverseKinematics(unit, work);
+    const JointVariables<double> rates = solver.rates(work);
     torques(k) = forces.phi.dot(rates.phi) + forces.psi.dot(rates.psi) + forces.theta.dot(rates.theta);
   }
   return torques;
 }
 
-Vector6d onActuators(const Subject& right, const Motion<double>& motion, const Vector6d& wrench) {
-  return right.kinematics(motion).T.transpose() * wrench;
+Vector6d onActuators(const Solver<double>& solver, const Motion<double>& motion, const Vector6d& wrench) {
+  Workspace<double> work;
+  return shaping(solver, motion, work).transpose() * wrench;
 }
 
 Pulse::Pulse(const Trajectory& trajectory, double share)

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "nocsolver/solver.h"
 #include "validation/defects.h"
 
 // What the groups of defects are made with. Internal.
@@ -30,10 +31,10 @@ Defect wrongTorques(const std::string& name, const std::string& group,
 
 /// Torques for a force against each joint, by the power that they take: the joints' rates for a unit rate of each
 /// motor.
-Vector6d onActuators(const Subject& right, const Motion<double>& motion, const JointVariables<double>& forces);
+Vector6d onActuators(const Solver<double>& solver, const Motion<double>& motion, const JointVariables<double>& forces);
 
 /// Torques for a wrench on the platform, [moment about P; force].
-Vector6d onActuators(const Subject& right, const Motion<double>& motion, const Vector6d& wrench);
+Vector6d onActuators(const Solver<double>& solver, const Motion<double>& motion, const Vector6d& wrench);
 
 /// Two instants, a pulse's ends: `share` of the motion and a 3000th of it later.
 struct Pulse {

@@ -33,13 +33,13 @@ Matrix3d quarterTurned(const Matrix3d& inertia) {
 /// A platform's tensor that is wrong by an amount that depends on its orientation: the moment that it takes more.
 Defect wrongPlatformTensor(const char* name, const std::function<Matrix3d(const Matrix3d& I, const Matrix3d& Q)>& of) {
   return wrongTorques(name, "frame", [of](const Scenario& s) -> ChangeTorques {
-    const Subject right = nocSubject(*s.manipulator, s.load);
+    const auto solver = std::make_shared<const Solver<double>>(*s.manipulator);
     const Matrix3d I = s.manipulator->platform().inertia;
-    return [right, I, of](const Vector6d& torques, const Motion<double>& m) {
+    return [solver, I, of](const Vector6d& torques, const Motion<double>& m) {
       const Matrix3d more = of(I, m.Q) - m.Q * I * m.Q.transpose();
       Vector6d wrench = Vector6d::Zero();
       wrench.head<3>() = more * m.omega_dot + m.omega.cross(Vector3d(more * m.omega));
-      return Vector6d(torques + onActuators(right, m, wrench));
+      return Vector6d(torques + onActuators(*solver, m, wrench));
     };
   });
 }
@@ -87,8 +87,8 @@ std::vector<Defect> indexDefects() {
                         [](std::size_t i) { return (i + 1) % leg_count; }));
     out.push_back(
         mixUp(fmt::format("{} of leg 1 for all legs", part.name), part, [](std::size_t) { return std::size_t{0}; }));
-    out.push_back(mixUp(fmt::format("{} of leg 4 for leg 6", part.name), part,
-                        [](std::size_t i) { return i == 5 ? std::size_t{3} : i; }));
+    out.push_back(mixUp(fmt::format("{} of leg 4 for leg 5", part.name), part,
+                        [](std::size_t i) { return i == 4 ? std::size_t{3} : i; }));
   }
   append(out, {wrongMachine("legs 2 and 5 swapped", "index", [](P& m) { std::swap(m.legs[1], m.legs[4]); }),
                wrongMachine("platform points 1 and 2 swapped", "index",

@@ -64,13 +64,13 @@ Defect withLoad(const char* name, const std::function<void(Load&, const Manipula
 /// The load of another instant.
 Defect lateLoad() {
   return wrongTorques("load late by 1e-6 s", "torque", [](const Scenario& s) -> ChangeTorques {
-    const Subject right = nocSubject(*s.manipulator, s.load);
+    const auto solver = std::make_shared<const Solver<double>>(*s.manipulator);
     const auto load = s.load;
-    return [right, load](const Vector6d& torques, const Motion<double>& m) {
+    return [solver, load](const Vector6d& torques, const Motion<double>& m) {
       Motion<double> before = m;
       before.t -= 1e-6;
       const Vector6d missing = loadAtP(load.get(), m) - loadAtP(load.get(), before);
-      return Vector6d(torques + onActuators(right, m, missing));
+      return Vector6d(torques + onActuators(*solver, m, missing));
     };
   });
 }

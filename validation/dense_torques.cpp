@@ -24,14 +24,13 @@ struct Instant {
   Vector6d torques = Vector6d::Zero();
 };
 
-/// k φ⁻¹ mod 1, sorted: gaps of at most three lengths, none of them in step with anything (Knuth, The Art of Computer
+/// k φ⁻¹ mod 1: gaps of at most three lengths, none of them in step with anything (Knuth, The Art of Computer
 /// Programming 3, sect. 6.4, theorem S).
 std::vector<double> goldenInstants(double duration, int count) {
   const double ratio = (std::sqrt(5.0) - 1) / 2;
   std::vector<double> out;
   out.reserve(static_cast<std::size_t>(count));
   for (int k = 1; k <= count; ++k) out.push_back(duration * std::fmod(k * ratio, 1.0));
-  std::sort(out.begin(), out.end());
   return out;
 }
 
@@ -84,7 +83,9 @@ class Comparison {
     Eigen::Index leg = 0;
     const double error = (out.torques - right_.torques(motion)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(&leg);
     double limit = limit_.at(t);
-    if (!(error <= limit)) limit = profile_.at(motion).torqueRounding();
+    // A limit of its own is dear: for what would decide, and not for each instant of torques that are wrong all along.
+    const bool decided = worst_.beyond() && Worst::share(error, limit) <= Worst::share(worst_.value, worst_.limit);
+    if (!(error <= limit) && !decided) limit = profile_.at(motion).torqueRounding();
     worst_.add(error, limit, t, static_cast<int>(leg));
     return out;
   }
@@ -113,10 +114,12 @@ Check judgeBetween(const Scenario& scenario, const Subject& subject, const std::
   std::vector<Instant> instants;
   double gap = 0, before = 0;
   try {
-    for (double t : goldenInstants(duration, count)) {
-      instants.push_back(comparison.at(t));
-      gap = std::max(gap, t - before);
-      before = t;
+    // In that order, not in time: what is largest is then met early.
+    for (double t : goldenInstants(duration, count)) instants.push_back(comparison.at(t));
+    std::sort(instants.begin(), instants.end(), [](const Instant& a, const Instant& b) { return a.t < b.t; });
+    for (const Instant& instant : instants) {
+      gap = std::max(gap, instant.t - before);
+      before = instant.t;
     }
     for (double t : curvedInstants(instants)) comparison.at(t);
   } catch (const PoseError& error) {

@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(
         Caught{"formula", "(15a) as printed", "kinematics.joint_rates", "kinematics.joint_angles"},
         Caught{"term", "no Coriolis terms", "kinematics.accelerations", "kinematics.twists"},
         Caught{"parameter", "leg[2].proximal.mass off by 1e-06", "torque.pointwise", "kinematics.positions"},
-        Caught{"index", "smoothing speed of leg 4 for leg 6", "torque.mujoco", "kinematics.accelerations"},
+        Caught{"index", "smoothing speed of leg 4 for leg 5", "torque.mujoco", "kinematics.accelerations"},
         Caught{"frame", "tensor of the platform not turned", "torque.maximal", "kinematics.accelerations"},
         Caught{"friction", "atan for tanh", "direct.pointwise", "kinematics.accelerations"},
         Caught{"motion", "omega in M for omega in B", "kinematics.joint_rates", "kinematics.joint_angles"},
