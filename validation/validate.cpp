@@ -9,6 +9,7 @@
 #include "validation/direct_checks.h"
 #include "validation/feedback.h"
 #include "validation/finish.h"
+#include "validation/integration_order.h"
 #include "validation/invariance.h"
 #include "validation/judge_replay.h"
 #include "validation/ladder.h"
@@ -89,6 +90,7 @@ class Trial {
     if (options_.ladder) {
       ladder_ = climb(scenario_, plan_.torques, windows_.front(), right_);
       append(result.checks, judgeLadder(ladder_, windows_.front(), reference_.position_scale, units_));
+      result.checks.push_back(judgeOrder(scenario_));
     }
     result.checks.push_back(judgeFeedback(scenario_, subject_, reference_.amplification, samples_, units_));
   }
