@@ -99,15 +99,27 @@ TEST(PaperHelixLadder, hasAnotherIntegratorOverTheBeginning) {
   EXPECT_GT(ladder.second_difference, 0);
   EXPECT_GE(ladder.second_end, 0.1 * climb.finest().window.end());
   EXPECT_LT(ladder.second_end, climb.finest().window.end());
-  EXPECT_LT(findCheck(climb.checks(), "integration.second")->limit, 1e-8) << "the limit says little";
+  EXPECT_LT(findCheck(climb.checks(), "integration.second")->limit, 5e-8) << "the limit says little";
 }
 
-/// The torques right but for jumps of a millionth, which no formula of eighth order steps over.
-TEST(PaperHelixLadder, sawsOffWhereTheTorquesJump) {
+/// The torques right but for jumps of a millionth, which no formula of eighth order steps over: steps become shorter
+/// there until the end is right, but there is no order to extrapolate with.
+TEST(PaperHelixLadder, convergesWithoutAnOrderWhereTheTorquesJump) {
   const Climb climb([](double t) { return 1 + (std::fmod(t, 0.2) < 0.1 ? 1e-6 : -1e-6); });
   EXPECT_FALSE(climb.ladder().asymptotic);
-  EXPECT_EQ(verdictOf(climb.checks(), "integration.ladder"), "fail");
-  EXPECT_EQ(climb.ladder().extrapolated, climb.ladder().rungs[2].distance) << "there is no order to extrapolate with";
+  EXPECT_EQ(verdictOf(climb.checks(), "integration.ladder"), "pass");
+  EXPECT_THAT(findCheck(climb.checks(), "integration.ladder")->why, HasSubstr("not asymptotic"));
+  EXPECT_EQ(climb.ladder().extrapolated, climb.ladder().rungs[2].distance);
+}
+
+/// Noise that is another at every instant: however fine the tolerance, the end does not settle.
+TEST(PaperHelixLadder, failsWhereTheIntegrationDoesNotConverge) {
+  const auto noise = [](double t) { return std::fmod(std::abs(std::sin(1e9 * t)) * 1e6, 1.0) - 0.5; };
+  const Climb climb([noise](double t) { return 1 + 1e-9 * noise(t); });
+  const Check* check = findCheck(climb.checks(), "integration.ladder");
+  ASSERT_NE(check, nullptr);
+  EXPECT_EQ(check->verdict, Verdict::fail) << check->value << " of " << check->limit << ", " << check->why;
+  EXPECT_FALSE(climb.ladder().asymptotic);
 }
 
 constexpr double position_scale = 2;
