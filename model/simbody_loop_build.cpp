@@ -92,8 +92,8 @@ SimTK::SpatialVec loadOnPlatform(const Load& load, const Mechanism& mechanism, c
   return {moment + (R * toSimTK(load.point)) % force, force};
 }
 
-SimbodyLoop::Impl::Impl(const Manipulator& manipulator, Topology topology, std::shared_ptr<const Load> load)
-    : matter(system), forces(system), parameters(manipulator) {
+SimbodyLoop::Impl::Impl(const Manipulator& manipulator, Topology topology_, std::shared_ptr<const Load> load)
+    : matter(system), forces(system), parameters(manipulator), topology(topology_) {
   const SimTK::Force::UniformGravity gravity(forces, matter, toSimTK(manipulator.gravity()));
   for (int i = 0; i < leg_count; ++i) addLeg(i);
   addPlatform(topology);

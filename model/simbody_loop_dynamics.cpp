@@ -154,7 +154,10 @@ void SimbodyLoop::setState(double t, const double* x) {
 
 void SimbodyLoop::derivative(double t, const double* x, const Vector6d& torques, double* x_dot) {
   setState(t, x);
-  accelerate(torques);
+  if (impl_->topology == Topology::six_balls)
+    impl_->eliminate(torques);
+  else
+    accelerate(torques);
   const SimTK::Vector& q_dot = impl_->state.getQDot();
   for (int i = 0; i < q_dot.size(); ++i) x_dot[i] = q_dot[i];
   for (int i = 0; i < impl_->u_dot.size(); ++i) x_dot[q_dot.size() + i] = impl_->u_dot[i];

@@ -77,6 +77,7 @@ struct SimbodyLoop::Impl {
   SimTK::State state;
   SimTK::Vector u_dot;  ///< accelerations last placed or found
   Manipulator parameters;
+  Topology topology;
 
   /// Index in u of φᵢ, ψᵢ, θᵢ.
   int indexOf(int joint, int leg) const;
@@ -88,6 +89,8 @@ struct SimbodyLoop::Impl {
   /// [G; J]: constraint Jacobian over the platform's frame Jacobian, nu × nu.
   Eigen::MatrixXd constraintsAndPlatform() const;
   Eigen::MatrixXd constraintJacobian() const;
+  /// Sets u_dot under `torques`, the legs' coordinates eliminated; six balls only.
+  void eliminate(const Vector6d& torques);
   /// Velocities and accelerations of all coordinates that go with the platform's.
   void setRates(const Motion<double>& motion);
 

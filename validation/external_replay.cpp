@@ -97,7 +97,7 @@ std::string missing(const ExternalTorques& torques, double duration, const Units
   const TorqueFile& file = torques.file;
   if (file.rows() < TorqueSpline::least_samples)
     return fmt::format("too few samples, {}; a quintic spline needs {}", file.rows(), TorqueSpline::least_samples);
-  const double rounding = 4 * Eigen::NumTraits<double>::epsilon() * duration;
+  const double rounding = timeRounding(file, duration);
   const bool begins = file.t.front() <= file.time_precision.front() + rounding;
   const bool ends = file.t.back() >= duration - file.time_precision.back() - rounding;
   if (begins && ends) return "";

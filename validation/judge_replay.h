@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "validation/amplification.h"
@@ -34,6 +35,7 @@ struct WindowedReplay {
   GrowthWindow window;
   Replay replay;
   IntegrationError integration = {};
+  std::shared_ptr<const Replay> coarse = nullptr;  ///< that it was measured with, under the right torques
 };
 
 /// By which a measured integration error is multiplied, as Roache's grid convergence index does for two grids

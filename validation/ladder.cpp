@@ -6,6 +6,8 @@
 #include <cmath>
 #include <functional>
 
+#include "validation/windows.h"
+
 namespace ursula {
 namespace {
 
@@ -133,10 +135,17 @@ Check judgeSecond(const Ladder& ladder, const WindowedReplay& finest, double pos
 
 }  // namespace
 
-Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest) {
+Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
+             bool torques_are_right) {
   Ladder ladder;
-  for (double factor : {1e6, 1e4, 1e2})
-    ladder.rungs.push_back(makeRung(scenario, torques, finest, std::min(1e-4, factor * finest.replay.tolerance)));
+  for (double factor : {1e6, 1e4, coarser}) {
+    const double tolerance = std::min(1e-4, factor * finest.replay.tolerance);
+    const bool known = torques_are_right && finest.coarse && finest.coarse->integrator == Integrator::rkf78 &&
+                       finest.coarse->tolerance == tolerance;
+    ladder.rungs.push_back(known
+                               ? rungOf(settingsOf(finest, Integrator::rkf78, tolerance), *finest.coarse, finest.replay)
+                               : makeRung(scenario, torques, finest, tolerance));
+  }
   for (std::size_t k = 0; k + 1 < ladder.rungs.size(); ++k)
     ladder.observed_orders.push_back(order(ladder.rungs[k], ladder.rungs[k + 1]));
   ladder.asymptotic = std::all_of(ladder.observed_orders.begin(), ladder.observed_orders.end(),

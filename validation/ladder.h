@@ -34,8 +34,9 @@ struct Ladder {
   double uncertainty = 0;               ///< of that estimate, m
 };
 
-/// `finest` is the judged replay of the window.
-Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest);
+/// `finest` is the judged replay of the window. `torques_are_right`: its coarser replay is a rung already.
+Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
+             bool torques_are_right = false);
 
 /// `integration.ladder` and `integration.second`.
 std::vector<Check> judgeLadder(const Ladder& ladder, const WindowedReplay& finest, double position_scale,

@@ -144,9 +144,13 @@ TorqueFile parseTorqueFile(const std::string& text, const std::filesystem::path&
   return torquesOf(parseCsv(text, file, {isOurs, true}));
 }
 
+double timeRounding(const TorqueFile& file, double duration) {
+  return eps * duration * static_cast<double>(std::max<std::size_t>(4, file.rows()));
+}
+
 TorqueFile within(TorqueFile file, double duration) {
   for (std::size_t k = 0; k < file.rows(); ++k) {
-    const double rounding = file.time_precision[k] + 4 * eps * duration;
+    const double rounding = file.time_precision[k] + timeRounding(file, duration);
     if (!(file.t[k] >= -rounding && file.t[k] <= duration + rounding))
       throw CsvError(fmt::format("{}:{}: error: t_s = {} lies outside of the motion, expected 0 to {} s",
                                  file.file.string(), file.lines[k], file.t[k], duration));

@@ -87,7 +87,7 @@ class Trial {
     append(result.checks, judgeReplay(windows_, reference_.position_scale, reference_.amplification.length(),
                                       reference_.forces, units_));
     if (options_.ladder) {
-      ladder_ = climb(scenario_, plan_.torques, windows_.front());
+      ladder_ = climb(scenario_, plan_.torques, windows_.front(), right_);
       append(result.checks, judgeLadder(ladder_, windows_.front(), reference_.position_scale, units_));
     }
     result.checks.push_back(judgeFeedback(scenario_, subject_, reference_.amplification, samples_, units_));

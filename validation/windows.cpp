@@ -107,8 +107,9 @@ std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Repl
 
 void measureIntegration(const Scenario& scenario, const ReplayPlan& plan, std::vector<WindowedReplay>& windows) {
   for (WindowedReplay& window : windows) {
-    const Replay coarse = replay(scenario, plan.torques, settingsOf(scenario, plan, window.window, coarser));
-    window.integration = integrationError(window.replay, coarse);
+    window.coarse = std::make_shared<const Replay>(
+        replay(scenario, plan.torques, settingsOf(scenario, plan, window.window, coarser)));
+    window.integration = integrationError(window.replay, *window.coarse);
   }
 }
 
