@@ -1,5 +1,7 @@
 // The judgement of ladders, on ladders made up: each rung is held to its own bound.
 
+#include "validation/ladder.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,7 +9,6 @@
 #include <functional>
 
 #include "tests/validation/checks.h"
-#include "validation/ladder.h"
 
 namespace ursula {
 namespace {
