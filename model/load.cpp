@@ -85,6 +85,21 @@ LoadHistory::LoadHistory(const std::vector<TimedWrench>& rows) {
   curves_ = std::make_unique<Curves>(Curves{curve, QuinticHermite<double, 6>(curve), rows, std::move(knots)});
 }
 
+LoadHistory::LoadHistory(const LoadHistory& from, const Matrix6d& map, double time_unit) {
+  const auto curve = from.curves_->exact.mapped(map.cast<Real50>(), Real50(time_unit));
+  std::vector<TimedWrench> rows = from.curves_->rows;
+  std::vector<double> knots;
+  for (TimedWrench& row : rows) {
+    Vector6d wrench;
+    wrench << row.wrench.force, row.wrench.moment;
+    wrench = (map * wrench).eval();
+    row = {row.time / time_unit, {wrench.head<3>(), wrench.tail<3>()}};
+    knots.push_back(row.time);
+  }
+  curves_ =
+      std::make_unique<Curves>(Curves{curve, QuinticHermite<double, 6>(curve), std::move(rows), std::move(knots)});
+}
+
 const std::vector<TimedWrench>& LoadHistory::rows() const { return curves_->rows; }
 
 const std::vector<double>& LoadHistory::knots() const { return curves_->knots; }

@@ -28,6 +28,9 @@ class LoadHistory {
  public:
   /// At least two rows, finite, times increasing. Throws InvalidParameter (places `load.table[n].…`, 1-based).
   explicit LoadHistory(const std::vector<TimedWrench>& rows);
+  /// The same history under a linear map of [force; moment], its time divided by `time_unit`. Not that of mapped rows:
+  /// slopes are limited by component, so that the axes matter.
+  LoadHistory(const LoadHistory& from, const Matrix6d& map, double time_unit);
   ~LoadHistory();
   LoadHistory(const LoadHistory&) = delete;
   LoadHistory& operator=(const LoadHistory&) = delete;

@@ -119,12 +119,10 @@ std::shared_ptr<const Load> Presentation::of(const std::shared_ptr<const Load>& 
   out->point = platform_turn.transpose() * load->point / units.length;
   present(out->force, out->moment);
   if (load->history) {
-    std::vector<TimedWrench> rows = load->history->rows();
-    for (TimedWrench& row : rows) {
-      row.time /= units.time;
-      present(row.wrench.force, row.wrench.moment);
-    }
-    out->history = std::make_shared<const LoadHistory>(rows);
+    Matrix6d map = Matrix6d::Zero();
+    map.topLeftCorner<3, 3>() = R / units.force();
+    map.bottomRightCorner<3, 3>() = R / units.torque();
+    out->history = std::make_shared<const LoadHistory>(*load->history, map, units.time);
   }
   return out;
 }

@@ -81,14 +81,16 @@ std::shared_ptr<const Trajectory> shifted(const std::shared_ptr<const Trajectory
 
 double powerOfTwo(double x) { return std::exp2(std::floor(std::log2(x))); }
 
-/// Multiples of a power of two above the machine's size are taken off without rounding.
+/// Multiples of a power of two above the machine's size are taken off without rounding (Sterbenz), but for the first:
+/// about it coordinates are still too small.
 Vector3d roundOrigin(const Manipulator& machine, double length) {
   Vector3d middle = Vector3d::Zero();
   for (const Leg& leg : machine.parameters().legs) middle += leg.base_point / leg_count;
   double spread = length;
   for (const Leg& leg : machine.parameters().legs) spread = std::max(spread, (leg.base_point - middle).norm());
   const double grid = 4 * powerOfTwo(spread);
-  return (middle / grid).array().round() * grid;
+  const Vector3d steps = (middle / grid).array().round();
+  return (steps.array().abs() < 2).select(Vector3d::Zero(), steps * grid);
 }
 
 /// The largest acceleration that the platform or gravity has, m/s².

@@ -32,7 +32,7 @@ struct Worst {
       largest_t = new_t;
       largest_where = new_where;
     }
-    if (!any || !(new_limit <= widest_limit)) {
+    if (!any || (!std::isnan(widest_limit) && !(new_limit <= widest_limit))) {
       widest_limit = new_limit;
       widest_t = new_t;
     }

@@ -1,4 +1,4 @@
-// Which error moved the replay: the largest share is named, and a limit that prevents judging comes before all.
+// What moved the replay, measured: the shares add up, what is left is within what is not known, and the cause is named.
 
 #include "validation/attribution.h"
 
@@ -6,126 +6,190 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <iostream>
 #include <map>
 
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/windows.h"
+#include "validation/reference.h"
 
 namespace ursula {
 namespace {
 
-/// A window that carries its acceleration limit to `from_limit` m and a deviation at its start to `growth` times that.
-WindowedReplay made(double growth, double from_limit, double gap, double observed) {
-  WindowedReplay out;
-  out.window.t = {0, 1};
-  out.window.from_acceleration = {0, from_limit};
-  out.window.from_unit_rate = {0, 1};
-  out.window.from_start = {1, growth};
-  out.window.growth = {0, growth};
-  out.replay.steps.resize(2);
-  out.replay.steps[0].closure.position = gap;
-  out.replay.steps[1].position_error.x() = observed;
-  return out;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Pair;
+
+using Spoil = std::function<void(double t, std::vector<double>& x)>;
+using Change = std::function<Vector6d(const Motion<double>& motion, const Vector6d& torques)>;
+
+/// A scenario made ready once; few samples, for speed.
+const Reference& referenceOf(const std::string& name) {
+  static std::map<std::string, std::shared_ptr<const Reference>> made;
+  std::shared_ptr<const Reference>& reference = made[name];
+  if (!reference) {
+    Scenario scenario = scenarioOf(name);
+    scenario.simulation.samples = 61;
+    reference = makeReference(scenario);
+  }
+  return *reference;
 }
 
-/// One sample whose torque is off by that share of its limit.
-std::vector<PointwiseSample> samplesWith(double share) {
-  PointwiseSample sample;
-  sample.torque.error = share * 1e-8;
-  sample.torque.limit = 1e-8;
-  return {sample};
+/// The windows of the right torques replayed under changed ones, with a state that is spoilt where asked for.
+ErrorBudget budgetOf(const std::string& name, const Change& change = nullptr, const Spoil& spoil = nullptr) {
+  const Reference& reference = referenceOf(name);
+  const Scenario& scenario = reference.scenario;
+  Subject subject = solverOf(scenario);
+  if (change)
+    subject.torques = [right = subject.torques, change](const Motion<double>& motion) {
+      return change(motion, right(motion));
+    };
+  ReplayPlan plan = reference.plan;
+  plan.torques = [subject, trajectory = scenario.trajectory](double t) { return subject.torques(trajectory->at(t)); };
+  std::vector<WindowedReplay> windows = reference.windows;
+  for (WindowedReplay& window : windows) {
+    ReplaySettings settings = settingsOf(scenario, plan, window.window, 1);
+    settings.spoil = spoil;
+    window.replay = replay(scenario, plan.torques, settings);
+  }
+  const auto samples = runPointwise(scenario, subject, reference.instants, reference.profile);
+  const ErrorBudget budget = attribute(scenario, samples, windows, reference.amplification, plan);
+  std::cout << name << ": observed " << budget.observed.norm() << ", model " << budget.model.error.norm()
+            << ", integration " << budget.integration.error.norm() << ", rounding " << budget.rounding.error.norm()
+            << ", closure " << budget.closure.error.norm() << ", unexplained " << budget.unexplained().norm() << " of "
+            << budget.uncertainty() << '\n';
+  return budget;
 }
 
-Ladder ladderWith(double extrapolated) {
-  Ladder ladder;
-  ladder.extrapolated = extrapolated;
-  return ladder;
+class Budget : public testing::TestWithParam<std::string> {};
+
+TEST_P(Budget, isWholeAndLeavesNoMoreThanIsNotKnown) {
+  const ErrorBudget budget = budgetOf(GetParam());
+  ASSERT_TRUE(budget.measured);
+  EXPECT_GT(budget.observed.norm(), 0);
+  const Vector3d sum = budget.model.error + budget.integration.error + budget.rounding.error + budget.closure.error +
+                       budget.unexplained();
+  const double size = budget.observed.norm() + budget.model.error.norm() + budget.rounding.error.norm() +
+                      budget.closure.error.norm() + budget.integration.error.norm();
+  EXPECT_LE((sum - budget.observed).norm(), 4 * Eigen::NumTraits<double>::epsilon() * size);
+  EXPECT_LE(budget.unexplained().norm(), budget.uncertainty());
+  EXPECT_NE(budget.dominant, ErrorSource::model) << "the torques are right";
+  // Known to no more than a few times what there is, or the bar says nothing.
+  EXPECT_LT(budget.uncertainty(), 100 * size);
 }
 
-Check inconclusive(const std::string& name) { return notJudgeable(name, 1, 2, "m", "basis", "why"); }
+INSTANTIATE_TEST_SUITE_P(Scenarios, Budget,
+                         testing::Values("paper-helix", "near-singular", "millimetres", "viscous-friction",
+                                         "coulomb-friction"),
+                         [](const auto& name) { return asTestName(name.param); });
 
-const std::vector<WindowedReplay> one_window = {made(1000, 1e-8, 1e-15, 3e-12)};
-
-TEST(Attribution, measuresEachShare) {
-  const ErrorBudget budget = attribute(samplesWith(0.25), one_window, ladderWith(4e-11), {});
-  EXPECT_DOUBLE_EQ(budget.model, 0.25e-8);
-  EXPECT_DOUBLE_EQ(budget.integration, 4e-11);
-  EXPECT_DOUBLE_EQ(budget.closure, 1e-12);
-  EXPECT_DOUBLE_EQ(budget.observed, 3e-12);
-  EXPECT_DOUBLE_EQ(budget.amplification, 1000);
+TEST(Attribution, namesTheModelWhereTorquesAreOffByAMillionth) {
+  for (const char* name : {"paper-helix", "millimetres"}) {
+    const ErrorBudget wrong =
+        budgetOf(name, [](const auto&, const Vector6d& torques) { return Vector6d((1 + 1e-6) * torques); });
+    EXPECT_EQ(wrong.dominant, ErrorSource::model) << name;
+    EXPECT_GT(wrong.observed.norm(), 1000 * budgetOf(name).observed.norm());
+    EXPECT_LE((wrong.model.error - wrong.observed).norm(), 0.1 * wrong.observed.norm()) << "carried, not bounded";
+    EXPECT_LE(wrong.unexplained().norm(), wrong.uncertainty());
+  }
 }
 
-TEST(Attribution, namesTheLargestShare) {
-  EXPECT_EQ(attribute(samplesWith(0.1), one_window, ladderWith(5e-10), {}).dominant, "model");
-  EXPECT_EQ(attribute(samplesWith(0.01), one_window, ladderWith(5e-10), {}).dominant, "integration");
-  EXPECT_EQ(attribute(samplesWith(0.01), {made(1000, 1e-8, 1e-12, 0)}, ladderWith(5e-10), {}).dominant, "closure");
+TEST(Attribution, namesTheModelWhereOneLegIsOffByABillionth) {
+  const ErrorBudget wrong = budgetOf("paper-helix", [](const auto&, Vector6d torques) {
+    torques(4) *= 1 + 1e-9;
+    return torques;
+  });
+  EXPECT_EQ(wrong.dominant, ErrorSource::model);
+  EXPECT_LE(wrong.unexplained().norm(), wrong.uncertainty());
 }
 
-TEST(Attribution, takesTheSampleThatUsesMostOfItsLimit) {
-  std::vector<PointwiseSample> samples = samplesWith(0.1);
-  samples.push_back(samplesWith(0.3).front());
-  samples.push_back(samples.front());
-  samples.back().torque = {2e-9, 1e-7, 0};  // larger in N·m than the first, and a smaller share
-  EXPECT_DOUBLE_EQ(attribute(samples, one_window, ladderWith(0), {}).model, 0.3e-8);
+/// A state that is spoilt after each step is no error of the torques'.
+TEST(Attribution, doesNotNameTheModelWhereTheIntegratorIsSpoilt) {
+  const ErrorBudget spoilt = budgetOf("paper-helix", nullptr, [](double, std::vector<double>& x) {
+    for (double& each : x) each *= 1 + 1e-11;
+  });
+  EXPECT_NE(spoilt.dominant, ErrorSource::model);
+  EXPECT_GT(spoilt.observed.norm(), 10 * budgetOf("paper-helix").observed.norm()) << "nothing was spoilt";
+  EXPECT_LT(spoilt.model.error.norm(), 0.1 * spoilt.observed.norm());
 }
 
-TEST(Attribution, looksAtTheWindowWhereDeviationsGrowMost) {
-  const std::vector<WindowedReplay> windows = {made(10, 1e-6, 1e-9, 7e-12), made(1000, 1e-8, 1e-15, 3e-12),
-                                               made(100, 1e-7, 1e-9, 5e-12)};
-  const ErrorBudget budget = attribute(samplesWith(1), windows, ladderWith(0), {});
-  EXPECT_EQ(budget.amplification, 1000);
-  EXPECT_DOUBLE_EQ(budget.model, 1e-8);
-  EXPECT_DOUBLE_EQ(budget.closure, 1e-12);
-  EXPECT_DOUBLE_EQ(budget.observed, 7e-12) << "what was observed is over all of them";
+/// The replay that ends furthest off is the one that is taken apart.
+TEST(Attribution, looksAtTheWindowThatEndsFurthestOff) {
+  const Reference& reference = referenceOf("helix-10s");
+  ASSERT_GE(reference.windows.size(), 3u);
+  double furthest = 0, t = 0;
+  for (const WindowedReplay& window : reference.windows)
+    if (window.replay.steps.back().position_error.norm() > furthest) {
+      furthest = window.replay.steps.back().position_error.norm();
+      t = window.replay.steps.back().t;
+    }
+  const ErrorBudget budget = budgetOf("helix-10s");
+  EXPECT_EQ(budget.t, t);
+  EXPECT_EQ(budget.observed.norm(), furthest);
+  EXPECT_LE(budget.unexplained().norm(), budget.uncertainty());
 }
 
-TEST(Attribution, amplificationDominatesWhereItPreventsJudging) {
-  const auto dominant = [](const std::vector<Check>& checks) {
-    return attribute(samplesWith(0.1), one_window, ladderWith(0), checks).dominant;
-  };
-  EXPECT_EQ(dominant({inconclusive("replay.position")}), "amplification");
-  EXPECT_EQ(dominant({inconclusive("replay.orientation")}), "amplification");
-  EXPECT_EQ(dominant({inconclusive("feedback.torque")}), "model") << "that one's limit is no amplification";
-  EXPECT_EQ(dominant({notMade("replay.position", "m", "gave up")}), "model") << "a failure prevents nothing";
+TEST(Attribution, comesOutTheSameTwice) {
+  const ErrorBudget a = budgetOf("paper-helix"), b = budgetOf("paper-helix");
+  for (ErrorShare ErrorBudget::*share :
+       {&ErrorBudget::model, &ErrorBudget::integration, &ErrorBudget::rounding, &ErrorBudget::closure}) {
+    EXPECT_EQ((a.*share).error, (b.*share).error);
+    EXPECT_EQ((a.*share).uncertainty, (b.*share).uncertainty);
+  }
 }
 
-TEST(Attribution, withoutAReplayTheModelIsToBlameUnlessALimitPreventedIt) {
-  const auto dominant = [](const std::vector<Check>& checks) {
-    return attribute(samplesWith(1), {}, ladderWith(1), checks).dominant;
-  };
-  EXPECT_EQ(dominant({}), "model");
-  EXPECT_EQ(dominant({notMade("replay.position", "m", "there was no replay")}), "model");
-  EXPECT_EQ(dominant({inconclusive("replay.position")}), "amplification");
-  EXPECT_EQ(dominant({inconclusive("replay.position"), notMade("torque.pointwise", "N m", "no answer")}), "model");
-}
-
-TEST(Attribution, becomesFindings) {
+TEST(Attribution, withoutAReplayNothingIsMeasured) {
+  const Reference& reference = referenceOf("paper-helix");
+  const ErrorBudget none =
+      attribute(reference.scenario, reference.conditions, {}, reference.amplification, reference.plan);
+  EXPECT_FALSE(none.measured);
   ValidationResult result;
-  addBudget(attribute(samplesWith(0.01), one_window, ladderWith(5e-10), {}), result);
-  EXPECT_THAT(result.findings, testing::Contains(testing::Pair("dominant error", "integration")));
-  EXPECT_THAT(result.findings,
-              testing::Contains(testing::Pair("integration's share, extrapolated", testing::HasSubstr("5e-10"))));
+  addBudget(none, result);
+  EXPECT_THAT(result.findings, testing::ElementsAre(Pair("dominant error", "model")));
 }
 
-/// The whole of it for torques by a factor: a torque error of a billionth is beyond anything that the integrator does.
-TEST(Attribution, findsTorquesThatAreOffByABillionth) {
-  const Scenario scenario = scenarioOf("paper-helix");
-  const Subject solver = solverOf(scenario);
-  const auto budgetOf = [&](double factor) {
-    Subject subject = solver;
-    subject.torques = [&, factor](const Motion<double>& motion) { return Vector6d(factor * solver.torques(motion)); };
-    const auto samples = runPointwise(scenario, subject, equallySpaced(3, 7));
-    const SimbodyLoop::TorqueHistory torques = [&](double t) { return subject.torques(scenario.trajectory->at(t)); };
-    const ReplayPlan plan{torques, SampledLimit(samples), positionScale(samples), plannedStepRate(3)};
-    return attribute(samples, replayInWindows(scenario, plan), ladderWith(4.5e-11), {});
+ErrorBudget madeBudget() {
+  ErrorBudget budget;
+  budget.measured = true;
+  budget.t = 3;
+  budget.observed = {4e-11, 0, 3e-11};
+  budget.integration = {{3e-11, 0, 0}, 1e-12};
+  budget.rounding = {{0, 0, 2e-11}, 2e-12};
+  budget.closure = {{0, 1e-12, 0}, 4e-12};
+  budget.model = {{1e-13, 0, 0}, 5e-12};
+  budget.amplification = 1000;
+  budget.dominant = ErrorSource::integration;
+  return budget;
+}
+
+Check unjudged(const std::string& name, Reason reason) { return notJudgeable(reason, name, 1, 2, "m", "basis", "why"); }
+
+TEST(Budgets, becomeFindings) {
+  ValidationResult result;
+  addBudget(madeBudget(), result, {2, 3, 0.5});
+  EXPECT_THAT(result.findings, Contains(Pair("dominant error", "integration")));
+  EXPECT_THAT(result.findings, Contains(Pair("replay, error in position", "1e-10 m at t = 1.5 s")));
+  EXPECT_THAT(result.findings, Contains(Pair("of it by rounding", "4e-11 m +- 4e-12 m")));
+  EXPECT_THAT(result.findings, Contains(Pair("of it by the integration", "6e-11 m +- 2e-12 m")));
+  EXPECT_THAT(result.findings, Contains(Pair("of it by the loops' gaps", "2e-12 m +- 8e-12 m")));
+  EXPECT_THAT(result.findings, Contains(Pair("of it by the torques", "2e-13 m +- 1e-11 m")));
+  EXPECT_THAT(result.findings, Contains(Pair("of it unexplained", HasSubstr("of an uncertainty of 2.4e-11 m"))));
+  EXPECT_THAT(result.findings, Contains(Pair("amplification of a deviation at the start", "1000")));
+}
+
+TEST(Budgets, nameAmplificationWhereItPreventsJudging) {
+  const auto dominant = [](const Check& check) {
+    ValidationResult result;
+    result.checks = {check};
+    addBudget(madeBudget(), result);
+    return result.findings.front().second;
   };
-  const ErrorBudget right = budgetOf(1), wrong = budgetOf(1 + 1e-9);
-  EXPECT_NE(right.dominant, "model");
-  EXPECT_EQ(wrong.dominant, "model");
-  EXPECT_GT(wrong.model, 100 * right.model);
-  EXPECT_GE(wrong.model, wrong.observed) << "the share is a bound of what was seen";
-  EXPECT_GT(wrong.observed, 100 * right.observed);
+  EXPECT_EQ(dominant(unjudged("replay.position", Reason::limit_useless)), "amplification");
+  EXPECT_EQ(dominant(unjudged("replay.orientation", Reason::limit_useless)), "amplification");
+  EXPECT_EQ(dominant(unjudged("replay.position", Reason::unfinished)), "integration") << "no limit prevented that";
+  EXPECT_EQ(dominant(unjudged("feedback.torque", Reason::limit_useless)), "integration") << "that is no amplification";
+  EXPECT_EQ(dominant(notMade("replay.position", "m", "gave up")), "integration") << "a failure prevents nothing";
 }
 
 /// What is no number is not counted as none.

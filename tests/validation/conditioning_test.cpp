@@ -14,6 +14,7 @@
 #include "nocsolver/errors.h"
 #include "tests/support/motions.h"
 #include "tests/support/vectors.h"
+#include "validation/presentation.h"
 
 namespace ursula {
 namespace {
@@ -127,8 +128,54 @@ TEST_P(ConditioningOf, legComplianceIsThatOfAPushedLink) {
   }
   EXPECT_LE(most, found.leg_compliance);
   EXPECT_GT(most, 0.5 * found.leg_compliance);
-  EXPECT_GT(found.gapRounding(), found.loopRounding());
-  EXPECT_GT(found.loopRounding(), 0);
+  EXPECT_DOUBLE_EQ(found.shape(Rounded::gaps), eps * (found.compliance + found.leg_compliance) * found.force_scale);
+  EXPECT_GT(found.shape(Rounded::gaps), 0);
+}
+
+/// A limit is its shape times its level, and each quantity has its own.
+TEST_P(ConditioningOf, limitsAreShapesTimesLevels) {
+  Conditioning found = ConditioningProbe(*scenario_.manipulator, nullptr).at(randomState(scenario_, dice_));
+  for (std::size_t q = 0; q < rounded_count; ++q) {
+    const auto quantity = static_cast<Rounded>(q);
+    EXPECT_GT(found.shape(quantity), 0) << q;
+    EXPECT_LT(found.shape(quantity), 1e-6) << q;
+    EXPECT_DOUBLE_EQ(found.rounding(quantity), rounding_depth * found.shape(quantity)) << "nothing was measured";
+    found.levels[q] = static_cast<double>(q);
+  }
+  for (std::size_t q = 0; q < rounded_count; ++q)
+    EXPECT_EQ(found.rounding(static_cast<Rounded>(q)), static_cast<double>(q) * found.shape(static_cast<Rounded>(q)));
+  EXPECT_EQ(found.torqueRounding(), found.rounding(Rounded::torque));
+  EXPECT_EQ(found.accelerationRounding(), found.rounding(Rounded::acceleration));
+}
+
+/// Wherever the machine stands, however it is turned and in whatever units: shapes are measured alike.
+TEST_P(ConditioningOf, shapesDoNotDependOnThePresentation) {
+  const Motion<double> motion = randomState(scenario_, dice_);
+  const Conditioning here = ConditioningProbe(*scenario_.manipulator, scenario_.load).at(motion);
+  Presentation there = randomPresentation(17, 3 * here.length);
+  const auto shapeThere = [&](Rounded quantity) {
+    return ConditioningProbe(there.of(*scenario_.manipulator), there.of(scenario_.load))
+        .at(there.of(motion))
+        .shape(quantity);
+  };
+  const Units u = there.units;
+  const std::pair<Rounded, double> units[] = {{Rounded::angles, 1},
+                                              {Rounded::rates, 1 / u.time},
+                                              {Rounded::accelerations, 1 / (u.time * u.time)},
+                                              {Rounded::positions, u.length},
+                                              {Rounded::twists, u.velocity()},
+                                              {Rounded::twist_rates, u.acceleration()},
+                                              {Rounded::jacobian, u.velocity()},
+                                              {Rounded::jacobian_rate, u.acceleration()},
+                                              {Rounded::shaping, u.length},
+                                              {Rounded::torque, u.torque()},
+                                              {Rounded::acceleration, u.acceleration()},
+                                              {Rounded::effort, u.torque()},
+                                              {Rounded::gaps, u.acceleration()},
+                                              {Rounded::reactions, u.force()},
+                                              {Rounded::direct, u.acceleration()}};
+  for (const auto& [quantity, unit] : units)
+    EXPECT_NEAR(shapeThere(quantity) * unit / here.shape(quantity), 1, 1e-9) << static_cast<int>(quantity);
 }
 
 INSTANTIATE_TEST_SUITE_P(Machines, ConditioningOf, testing::ValuesIn(vectorNames()),

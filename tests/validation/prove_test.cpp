@@ -18,7 +18,7 @@
 namespace ursula {
 namespace {
 
-constexpr ValidationOptions of_the_subject{false, false};
+const ValidationOptions of_the_subject{false, false};
 
 const Scenario& provingGround() {
   static const Scenario scenario = [] {

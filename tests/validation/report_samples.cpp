@@ -114,7 +114,8 @@ ValidationResult failedSample() {
 ValidationResult inconclusiveSample() {
   ValidationResult result = passedSample();
   result.scenario = "near-singular";
-  result.checks[3] = notJudgeable("replay.orientation", 0.4, 2.7e3, "rad", "integration error · amplification 3.1e14",
+  result.checks[3] = notJudgeable(Reason::limit_useless, "replay.orientation", 0.4, 2.7e3, "rad",
+                                  "integration error · amplification 3.1e14",
                                   "amplification 3.1e14 leaves no digit of a double to judge by");
   result.verdict = overall(result.checks);
   return result;
@@ -127,7 +128,8 @@ ValidationResult hostileSample() {
   ValidationResult result;
   result.scenario = text;
   result.checks = {judged(text, nan, 1, text, text, text), judged("infinite", infinite, 1, "m", text, "why"),
-                   judged("limit", 1, infinite, "m", text, "why"), notJudgeable(text, nan, nan, text, text, text)};
+                   judged("limit", 1, infinite, "m", text, "why"),
+                   notJudgeable(Reason::limit_useless, text, nan, nan, text, text, text)};
   result.verdict = overall(result.checks);
   result.findings = {{text, text}};
   result.provenance = {{text, text}};

@@ -44,13 +44,52 @@ TEST(NotMade, failsWithoutNumbers) {
   EXPECT_EQ(check.why, "no channel");
 }
 
-TEST(NotJudgeable, isInconclusiveEvenWithinItsLimit) {
-  EXPECT_EQ(notJudgeable("name", 0, 1, "m", "basis", "why").verdict, Verdict::inconclusive);
+TEST(NotJudgeable, isInconclusiveEvenWithinItsLimitAndSaysWhy) {
+  for (const Reason reason : {Reason::limit_useless, Reason::unfinished, Reason::not_covered}) {
+    const Check check = notJudgeable(reason, "name", 0, 1, "m", "basis", "why");
+    EXPECT_EQ(check.verdict, Verdict::inconclusive);
+    EXPECT_EQ(check.reason, reason);
+  }
+}
+
+TEST(Reasons, areOfWhatWasNotJudged) {
+  EXPECT_EQ(judged("name", 0, 1, "m", "", "").reason, Reason::none);
+  EXPECT_EQ(judged("name", 2, 1, "m", "", "").reason, Reason::none) << "a failure of the value's";
+  EXPECT_EQ(notMade("name", "m", "").reason, Reason::not_made);
+  EXPECT_STREQ(name(Reason::none), "none");
+  EXPECT_STREQ(name(Reason::limit_useless), "limit_useless");
+  EXPECT_STREQ(name(Reason::unfinished), "unfinished");
+  EXPECT_STREQ(name(Reason::not_covered), "not_covered");
+  EXPECT_STREQ(name(Reason::not_made), "not_made");
+}
+
+TEST(JudgedIfUseful, isInconclusiveOnlyWhereNothingIsBeyondALimitThatSaysNothing) {
+  const auto check = [](double value, double limit) {
+    return judgedIfUseful("name", value, limit, 1, "m", "basis", "why", "the cause");
+  };
+  EXPECT_EQ(check(0.5, 1).verdict, Verdict::pass);
+  EXPECT_EQ(check(0.5, 1).reason, Reason::none);
+  EXPECT_EQ(check(0.5, 2).verdict, Verdict::inconclusive);
+  EXPECT_EQ(check(0.5, 2).reason, Reason::limit_useless);
+  EXPECT_NE(check(0.5, 2).why.find("the cause"), std::string::npos);
+  EXPECT_EQ(check(0.5, infinite).verdict, Verdict::inconclusive);
+  EXPECT_EQ(check(3, 2).verdict, Verdict::fail);
+  EXPECT_EQ(check(nan, 2).verdict, Verdict::fail);
+  EXPECT_EQ(check(0.5, nan).verdict, Verdict::fail);
+}
+
+TEST(Largest, isTheValueUntilMoreIsKnown) {
+  EXPECT_EQ(judged("name", 2, 3, "m", "", "").largest.value, 2);
+  EXPECT_EQ(notJudgeable(Reason::unfinished, "name", 2, 3, "m", "", "").largest.value, 2);
+  EXPECT_TRUE(std::isnan(notMade("name", "m", "").largest.value));
+  EXPECT_EQ(judged("name", 2, 3, "m", "", "").limit_by, LimitBy::derived);
+  EXPECT_STREQ(name(LimitBy::derived), "derived");
+  EXPECT_STREQ(name(LimitBy::user), "user");
 }
 
 TEST(Overall, isThatOfTheWorstCheck) {
   const Check pass = judged("a", 0, 1, "", "", ""), fail = notMade("b", "", "");
-  const Check open = notJudgeable("c", 0, 0, "", "", "");
+  const Check open = notJudgeable(Reason::not_covered, "c", 0, 0, "", "", "");
   EXPECT_EQ(overall({pass, pass}), Verdict::pass);
   EXPECT_EQ(overall({pass, open}), Verdict::inconclusive);
   EXPECT_EQ(overall({open, fail, pass}), Verdict::fail);

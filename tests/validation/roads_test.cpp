@@ -70,13 +70,17 @@ TEST_P(Roads, seeATorqueThatIsOffByABillionthOfTheLargest) {
 
 INSTANTIATE_TEST_SUITE_P(Machines, Roads, testing::ValuesIn(machines), machineName);
 
+void setLimits(RoadSample& road, double limit) {
+  road.limit = road.limit_twin = road.limit_maximal = road.limit_mujoco = limit;
+}
+
 /// Roads made up: all at 1000 N·m within a limit of 1e-9 N·m, but for a rounding of each.
 std::vector<RoadSample> agreeing() {
   std::vector<RoadSample> roads(5);
   for (std::size_t k = 0; k < roads.size(); ++k) {
     RoadSample& road = roads[k];
     road.t = 0.5 * static_cast<double>(k);
-    road.limit = 1e-9;
+    setLimits(road, 1e-9);
     road.subject = Vector6d::Constant(1000);
     road.simbody = road.subject + Vector6d::Constant(1e-10);
     road.twin = road.subject - Vector6d::Constant(1e-10);
@@ -164,12 +168,35 @@ TEST(JudgeRoads, failsWhereTheSubjectAndThatRoadDiffer) {
 
 TEST(JudgeRoads, judgesEachInstantByItsOwnLimit) {
   std::vector<RoadSample> roads = agreeing();
-  roads[4].maximal(0) += 1e-7, roads[4].limit = 1e-6;  // larger, and allowed there
+  roads[4].maximal(0) += 1e-7, setLimits(roads[4], 1e-6);  // larger, and allowed there
   EXPECT_EQ(verdictOf(judgeRoads(roads), "torque.maximal"), "pass");
   roads[1].maximal(0) += 1e-8;
   const Check check = *findCheck(judgeRoads(roads), "torque.maximal");
   EXPECT_EQ(check.verdict, Verdict::fail);
   EXPECT_THAT(check.why, HasSubstr("t = 0.5 s"));
+}
+
+/// Each road rounds in its own way, so each has a limit of its own.
+TEST(JudgeRoads, judgesEachRoadByItsOwnLimit) {
+  const std::pair<const char*, double RoadSample::*> limits[] = {{"torque.twin", &RoadSample::limit_twin},
+                                                                 {"torque.maximal", &RoadSample::limit_maximal},
+                                                                 {"torque.mujoco", &RoadSample::limit_mujoco}};
+  for (const auto& [tight, limit] : limits) {
+    std::vector<RoadSample> roads = agreeing();
+    roads[2].*limit = 0.9e-10;
+    for (const auto& [check, other] : limits)
+      EXPECT_EQ(verdictOf(judgeRoads(roads), check), check == tight ? "fail" : "pass") << tight;
+  }
+}
+
+TEST(JudgeRoads, keepsTheLargestDifferenceBesideTheOneNearestToItsLimit) {
+  std::vector<RoadSample> roads = agreeing();
+  roads[4].maximal(3) += 1e-7, setLimits(roads[4], 1e-5);
+  const Check check = *findCheck(judgeRoads(roads), "torque.maximal");
+  EXPECT_EQ(check.limit, 1e-9);
+  EXPECT_NEAR(check.largest.value, 1e-7, 1e-9);
+  EXPECT_EQ(check.largest.t, 2);
+  EXPECT_EQ(check.largest.where, "leg 4");
 }
 
 TEST(JudgeRoads, noNumberIsNoAgreement) {
@@ -180,7 +207,7 @@ TEST(JudgeRoads, noNumberIsNoAgreement) {
     EXPECT_EQ(verdictOf(judgeRoads(roads), "torque.maximal"), "pass") << "leg " << leg + 1;
   }
   std::vector<RoadSample> roads = agreeing();
-  roads[1].limit = nan;
+  setLimits(roads[1], nan);
   EXPECT_EQ(others(judgeRoads(roads), Verdict::fail), "");
 }
 

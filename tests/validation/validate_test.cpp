@@ -16,12 +16,34 @@
 namespace ursula {
 namespace {
 
-const std::vector<std::string> promised = {
-    "kinematics.joint_angles", "kinematics.joint_rates", "kinematics.joint_accelerations",
-    "kinematics.positions",    "kinematics.twists",      "kinematics.accelerations",
-    "torque.pointwise",        "acceleration.pointwise", "replay.position",
-    "replay.orientation",      "closure.position",       "closure.velocity",
-    "energy.balance"};
+const std::vector<std::string> promised = {"kinematics.joint_angles",
+                                           "kinematics.joint_rates",
+                                           "kinematics.joint_accelerations",
+                                           "kinematics.positions",
+                                           "kinematics.twists",
+                                           "kinematics.accelerations",
+                                           "torque.pointwise",
+                                           "acceleration.pointwise",
+                                           "replay.position",
+                                           "replay.orientation",
+                                           "closure.position",
+                                           "closure.velocity",
+                                           "energy.balance",
+                                           "torque.twin",
+                                           "torque.maximal",
+                                           "torque.between",
+                                           "feedback.torque"};
+
+/// Of a subject that is a solver whole.
+const std::vector<std::string> of_solvers = {"direct.pointwise",
+                                             "direct.growth",
+                                             "invariance.rotation",
+                                             "invariance.labels",
+                                             "invariance.mass",
+                                             "invariance.time_reversal",
+                                             "kinematics.jacobian",
+                                             "kinematics.jacobian_rate",
+                                             "kinematics.jacobian_difference"};
 
 /// Fewer instants than by default, for speed.
 Scenario quick(const std::string& name) {
@@ -31,7 +53,7 @@ Scenario quick(const std::string& name) {
 }
 
 /// Leaves out what is judged beside the promised checks.
-constexpr ValidationOptions without_extras{false, false};
+const ValidationOptions without_extras{false, false};
 
 class Validate : public testing::TestWithParam<std::string> {};
 
@@ -44,6 +66,10 @@ TEST_P(Validate, theSolverPasses) {
   EXPECT_EQ(result.verdict, Verdict::pass);
   EXPECT_EQ(result.scenario, GetParam());
   for (const std::string& name : promised) EXPECT_NE(findCheck(result.checks, name), nullptr) << name;
+  for (const std::string& name : of_solvers) EXPECT_NE(findCheck(result.checks, name), nullptr) << name;
+  for (const char* name : {"reactions.pointwise", "integration.ladder", "integration.second"})
+    EXPECT_EQ(verdictOf(result.checks, name), whole ? "pass" : "(none)") << name;
+  EXPECT_EQ(result.limits, LimitBy::derived);
   for (const Check& check : result.checks) {
     EXPECT_NE(check.basis, "") << check.name;
     EXPECT_NE(check.why, "") << check.name;
@@ -98,6 +124,59 @@ TEST(ValidateControl, torquesThatAreNoNumbersNeverPass) {
   EXPECT_EQ(result.verdict, Verdict::fail);
   for (const std::string& name : promised)
     EXPECT_EQ(verdictOf(result.checks, name), name.rfind("kinematics.", 0) == 0 ? "(none)" : "fail") << name;
+  for (const char* name : {"direct.pointwise", "direct.growth"})
+    EXPECT_EQ(verdictOf(result.checks, name), "pass") << name << ": its direct dynamics are right";
+}
+
+/// Torques alone: what only a solver can be asked is left out, and nothing else.
+TEST(ValidateControl, torquesAloneAreJudgedByWhatNeedsNoMore) {
+  const Scenario scenario = quick("paper-helix");
+  Subject subject = nocSubject(*scenario.manipulator, nullptr);
+  subject.kinematics = nullptr;
+  subject.accelerations = nullptr;
+  subject.rebuilt = nullptr;
+  const ValidationResult result = validate(scenario, subject, without_extras);
+  EXPECT_EQ(result.verdict, Verdict::pass) << others(result.checks, Verdict::pass);
+  for (const std::string& name : promised)
+    EXPECT_EQ(verdictOf(result.checks, name), name.rfind("kinematics.", 0) == 0 ? "(none)" : "pass") << name;
+  for (const std::string& name : of_solvers) EXPECT_EQ(verdictOf(result.checks, name), "(none)") << name;
+}
+
+/// What depends on the scenario alone may be made before, for many subjects.
+TEST(ValidateResult, isTheSameWithAReferenceMadeBefore) {
+  const Scenario scenario = quick("random-2");
+  ValidationOptions with_reference = without_extras;
+  with_reference.reference = makeReference(scenario);
+  const auto run = [&](const ValidationOptions& options) {
+    return report::summaryJson(validate(scenario, nocSubject(*scenario.manipulator, nullptr), options));
+  };
+  const std::string made_before = run(with_reference);
+  EXPECT_EQ(made_before, run(without_extras));
+  EXPECT_EQ(made_before, run(with_reference)) << "the first left something behind";
+}
+
+/// The replay's own judges are judged: a state spoilt after each step fails it, and nothing pointwise.
+TEST(ValidateControl, aSpoiltReplayFails) {
+  const Scenario scenario = quick("paper-helix");
+  ValidationOptions spoilt = without_extras;
+  spoilt.spoil_replay = [](double, std::vector<double>& x) { x.back() += 1e-9; };
+  const ValidationResult result = validate(scenario, spoilt);
+  EXPECT_EQ(verdictOf(result.checks, "replay.position"), "fail");
+  for (const char* name : {"torque.pointwise", "torque.between", "acceleration.pointwise", "direct.growth"})
+    EXPECT_EQ(verdictOf(result.checks, name), "pass") << name;
+}
+
+/// Made for the scenario where its numbers are good, or as it is given: the same verdicts.
+TEST(ValidateResult, doesNotDependOnHowTheSubjectIsMade) {
+  const Scenario scenario = quick("paper-helix");
+  const SubjectOf make = [](const Scenario& here) { return nocSubject(*here.manipulator, here.load); };
+  const ValidationResult made = validateMade(scenario, make, without_extras), own = validate(scenario, without_extras);
+  ASSERT_EQ(made.checks.size(), own.checks.size());
+  for (std::size_t k = 0; k < made.checks.size(); ++k) {
+    EXPECT_EQ(made.checks[k].name, own.checks[k].name);
+    EXPECT_EQ(made.checks[k].value, own.checks[k].value) << made.checks[k].name;
+    EXPECT_EQ(made.checks[k].limit, own.checks[k].limit) << made.checks[k].name;
+  }
 }
 
 TEST(ValidateControl, aSubjectThatRefusesFailsWithItsReason) {

@@ -1,0 +1,124 @@
+// Torques between the samples: a pulse that no sample meets is met there, and how narrow one may be is said.
+
+#include "validation/dense_torques.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <regex>
+
+#include "nocsolver/errors.h"
+#include "tests/support/motions.h"
+#include "tests/validation/checks.h"
+#include "tests/validation/scenario_files.h"
+#include "validation/roads.h"
+
+namespace ursula {
+namespace {
+
+using testing::HasSubstr;
+
+class Between : public testing::Test {
+ protected:
+  Check judge(const Subject& subject) const { return judgeBetween(scenario_, subject, samples_, profile_); }
+  /// Right torques with a pulse of leg 3's over [from, from + length).
+  Subject pulsed(double from, double length, double size) const {
+    Subject subject = right_;
+    subject.torques = [right = right_.torques, from, length, size](const Motion<double>& motion) {
+      Vector6d torques = right(motion);
+      if (motion.t >= from && motion.t < from + length) torques(2) += size;
+      return torques;
+    };
+    return subject;
+  }
+
+  Scenario scenario_ = scenarioOf("paper-helix");
+  RoundingProfile profile_{scenario_, 31};
+  Subject right_ = solverOf(scenario_);
+  std::vector<double> instants_ = equallySpaced(3, 301);
+  std::vector<PointwiseSample> samples_ = runPointwise(scenario_, right_, instants_, profile_);
+};
+
+TEST_F(Between, rightTorquesPass) {
+  const Check check = judge(right_);
+  EXPECT_EQ(check.verdict, Verdict::pass) << check.why;
+  EXPECT_LT(check.limit, 1e-10 * largestTorque(samples_)) << "the limit says little";
+  EXPECT_THAT(check.why, HasSubstr("at 10240 instants"));
+}
+
+/// A millisecond of a quarter of a million newton metres between two samples: no other check of torques sees it.
+TEST_F(Between, aPulseBetweenTheSamplesFailsThereAlone) {
+  const Subject subject = pulsed(1.2345, 1e-3, 2.5e5);
+  const auto samples = runPointwise(scenario_, subject, instants_, profile_);
+  std::vector<Check> checks = judgePointwise(samples, true);
+  for (Check& road : judgeRoads(runRoads(scenario_, samples))) checks.push_back(std::move(road));
+  EXPECT_EQ(others(checks, Verdict::pass), "");
+  EXPECT_NE(findCheck(checks, "torque.twin"), nullptr);
+  const Check check = judge(subject);
+  EXPECT_EQ(check.verdict, Verdict::fail);
+  EXPECT_NEAR(check.largest.value, 2.5e5, 1);
+  EXPECT_NEAR(check.largest.t, 1.235, 6e-4);
+  EXPECT_EQ(check.largest.where, "leg 3");
+}
+
+TEST_F(Between, theNarrowestPulseSeenIsWhatItSays) {
+  const std::string why = judge(right_).why;
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(why, found, std::regex("longer than ([0-9.e-]+) s and larger than ([0-9.e-]+) N m")))
+      << why;
+  const double length = std::stod(found[1]), size = std::stod(found[2]);
+  EXPECT_LT(length, 1e-3);
+  EXPECT_LT(size, 1e-5);
+  Dice dice(3);
+  int missed = 0;
+  for (int k = 0; k < 12; ++k) {
+    const double from = dice.between(0, 3 - length);
+    EXPECT_EQ(judge(pulsed(from, 1.0001 * length, 2 * size)).verdict, Verdict::fail) << from;
+    missed += judge(pulsed(from, 0.02 * length, 2 * size)).verdict == Verdict::pass ? 1 : 0;
+  }
+  EXPECT_GT(missed, 0) << "far narrower ones are seen: the number says too little";
+}
+
+/// In other units the same is said.
+TEST_F(Between, saysSoInSeconds) {
+  const Presentation natural = naturalPresentation(scenario_);
+  const Scenario there = natural.of(scenario_);
+  const RoundingProfile profile(there, 5);
+  const Subject subject = nocSubject(*there.manipulator, there.load);
+  const double end = there.trajectory->duration();
+  const auto samples = runPointwise(there, subject, equallySpaced(end, 5), profile);
+  const auto pulse = [](const std::string& why) { return why.substr(why.find("a pulse longer"), 28); };
+  EXPECT_EQ(pulse(judgeBetween(there, subject, samples, profile, natural.units).why), pulse(judge(right_).why));
+}
+
+TEST_F(Between, seesWhatIsWrongEverywhere) {
+  Subject wrong = right_;
+  wrong.torques = [right = right_.torques](const Motion<double>& motion) {
+    return Vector6d((1 + 1e-9) * right(motion));
+  };
+  EXPECT_EQ(judge(wrong).verdict, Verdict::fail);
+}
+
+TEST_F(Between, noNumberIsNoAgreement) {
+  EXPECT_EQ(judge(pulsed(2, 1e-3, std::nan(""))).verdict, Verdict::fail);
+  EXPECT_EQ(judge(pulsed(0, 3.1, std::nan(""))).verdict, Verdict::fail);
+}
+
+TEST_F(Between, aRefusalFailsWithItsReason) {
+  Subject refusing = right_;
+  refusing.torques = [right = right_.torques](const Motion<double>& motion) {
+    if (motion.t > 2) throw StretchedLeg("is stretched", 2, motion.t, 1e-9, 1e-8, "");
+    return right(motion);
+  };
+  const Check check = judge(refusing);
+  EXPECT_EQ(check.verdict, Verdict::fail);
+  EXPECT_EQ(check.reason, Reason::not_made);
+  EXPECT_THAT(check.why, HasSubstr("leg 3 is stretched"));
+}
+
+TEST_F(Between, noSampleFails) { EXPECT_EQ(judgeBetween(scenario_, right_, {}, profile_).verdict, Verdict::fail); }
+
+}  // namespace
+}  // namespace ursula

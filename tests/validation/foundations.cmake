@@ -1,0 +1,20 @@
+# What every verdict stands on: limits, presentations, the user's say, and witnesses between the samples.
+add_executable(foundation_tests
+  acceptance_test.cpp
+  dense_torques_test.cpp
+  direct_checks_test.cpp
+  presentation_test.cpp
+  relocation_test.cpp
+  subject_test.cpp
+  worst_test.cpp
+)
+add_executable(profile_tests
+  far_away_test.cpp
+  rounding_profile_test.cpp
+)
+foreach(program foundation_tests profile_tests)
+  target_link_libraries(${program} PRIVATE
+    test_support ursula::validation fmt::fmt nlohmann_json::nlohmann_json GTest::gmock GTest::gtest_main)
+  target_compile_definitions(${program} PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
+  gtest_discover_tests(${program})
+endforeach()

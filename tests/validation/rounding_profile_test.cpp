@@ -1,0 +1,177 @@
+// How roads round, measured: limits hold for places that were not measured, know nothing of what is wrong with a model,
+// and are about the same however the world is turned.
+
+#include "validation/rounding_profile.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "model/real50.h"
+#include "nocsolver/solver.h"
+#include "tests/validation/scenario_files.h"
+#include "validation/presentation.h"
+#include "validation/random_scenario.h"
+
+namespace ursula {
+namespace {
+
+constexpr int instants = 31;
+
+/// Without MuJoCo's, where that is not built in.
+std::vector<Rounded> quantities(const RoundingProfile& profile) {
+  std::vector<Rounded> out;
+  for (std::size_t q = 0; q < rounded_count; ++q) {
+    const auto spreads = profile.spreads(static_cast<Rounded>(q));
+    if (static_cast<Rounded>(q) == Rounded::mujoco && *std::max_element(spreads.begin(), spreads.end()) == 0) continue;
+    out.push_back(static_cast<Rounded>(q));
+  }
+  return out;
+}
+
+/// The conditioning that `profile` of `scenario` says at its k-th instant.
+Conditioning at(const Scenario& scenario, const RoundingProfile& profile, int k, int of = instants) {
+  return profile.at(scenario.trajectory->at(scenario.trajectory->duration() * k / (of - 1)));
+}
+
+/// Limit over twice the noise that was seen from elsewhere, in units of the shape, which is the same everywhere.
+void expectDominance(const Scenario& scenario, unsigned seed, int of = instants) {
+  const RoundingProfile profile(scenario, of);
+  const double length = at(scenario, profile, 0, of).length;
+  const RoundingProfile elsewhere(randomPresentation(seed, length).of(scenario), of);
+  double least = 1e300;
+  for (const Rounded quantity : quantities(profile)) {
+    const std::vector<double> noise = elsewhere.spreads(quantity);
+    for (int k = 0; k < of; ++k) {
+      const Conditioning here = at(scenario, profile, k, of);
+      const double level = here.levels[static_cast<std::size_t>(quantity)];
+      EXPECT_GE(level, 2 * noise[static_cast<std::size_t>(k)])
+          << "quantity " << static_cast<int>(quantity) << ", " << k;
+      least = std::min(least, level / noise[static_cast<std::size_t>(k)]);
+    }
+  }
+  std::cout << scenario.name << ": levels are at least " << least << " times the noise from elsewhere\n";
+}
+
+class Profile : public testing::TestWithParam<std::string> {
+ protected:
+  Scenario scenario_ = scenarioOf(GetParam());
+};
+
+TEST_P(Profile, dominatesTheNoiseSeenFromElsewhere) {
+  for (unsigned seed : {1001u, 1002u}) expectDominance(scenario_, seed);
+}
+
+/// What was measured is noise: there is some in every quantity, and it is far below what it is the noise of.
+TEST_P(Profile, measuresNoiseInEveryQuantity) {
+  const RoundingProfile profile(scenario_, instants);
+  for (const Rounded quantity : quantities(profile)) {
+    std::vector<double> spreads = profile.spreads(quantity);
+    ASSERT_EQ(spreads.size(), static_cast<std::size_t>(instants));
+    std::sort(spreads.begin(), spreads.end());
+    EXPECT_GT(spreads[instants / 2], 0) << static_cast<int>(quantity);
+    EXPECT_LT(spreads.back(), 1000) << static_cast<int>(quantity);
+  }
+}
+
+/// The solver's torques in doubles against those in 50 digits: the true error is below half of the limit.
+TEST_P(Profile, dominatesTheTrueErrorOfTheSolver) {
+  const RoundingProfile profile(scenario_, instants);
+  const Solver<double> solver(*scenario_.manipulator);
+  const Solver<Real50> exact(*scenario_.manipulator);
+  Workspace<double> work;
+  Workspace<Real50> exact_work;
+  double closest = 0;
+  for (int k = 0; k < 10 * instants; ++k) {
+    const Motion<double> motion = scenario_.trajectory->at(scenario_.trajectory->duration() * k / (10 * instants - 1));
+    Motion<Real50> same;
+    same.t = motion.t;
+    same.Q = motion.Q.cast<Real50>();
+    const std::pair<Vector3<Real50>*, const Vector3d*> parts[] = {{&same.p, &motion.p},
+                                                                  {&same.omega, &motion.omega},
+                                                                  {&same.p_dot, &motion.p_dot},
+                                                                  {&same.omega_dot, &motion.omega_dot},
+                                                                  {&same.p_ddot, &motion.p_ddot}};
+    for (const auto& [to, from] : parts) *to = from->cast<Real50>();
+    const Vector6d load = loadAtP(scenario_.load.get(), motion);
+    const Vector6d right = exact.inverseDynamics(same, exact_work, load.cast<Real50>()).cast<double>();
+    const double error = (solver.inverseDynamics(motion, work, load) - right).cwiseAbs().maxCoeff();
+    closest = std::max(closest, error / profile.at(motion).rounding(Rounded::solver));
+  }
+  std::cout << GetParam() << ": the solver's true error is at " << closest << " of its limit\n";
+  EXPECT_LT(closest, 0.5);
+  EXPECT_GT(closest, 1e-3) << "the limit says nothing";
+}
+
+/// Turned with its gravity and the motion, the limits are the same within a factor of two, where they are nearest to a
+/// verdict: their largest over the motion, and their mean.
+TEST_P(Profile, limitsAreTheSameHoweverTheWorldIsTurned) {
+  Presentation turned;
+  turned.turn = Eigen::AngleAxisd(1.1, Vector3d(0.6, -0.64, 0.48)).toRotationMatrix();
+  const Scenario there = turned.of(scenario_);
+  const RoundingProfile a(scenario_, instants), b(there, instants);
+  double furthest = 1;
+  for (const Rounded quantity : quantities(a)) {
+    double largest_a = 0, largest_b = 0, mean = 0;
+    for (int k = 0; k < instants; ++k) {
+      const double x = at(scenario_, a, k).rounding(quantity), y = at(there, b, k).rounding(quantity);
+      largest_a = std::max(largest_a, x), largest_b = std::max(largest_b, y);
+      if (x > 0) mean += std::log2(y / x) / instants;
+    }
+    EXPECT_LT(std::abs(std::log2(largest_b / largest_a)), 1) << "quantity " << static_cast<int>(quantity);
+    EXPECT_LT(std::abs(mean), 1) << "quantity " << static_cast<int>(quantity);
+    furthest = std::max({furthest, largest_b / largest_a, largest_a / largest_b});
+  }
+  std::cout << GetParam() << ": limits differ by a factor of up to " << furthest << '\n';
+}
+
+/// The same wrong machine in every frame rounds as the right one does: no error of a model makes room for itself.
+TEST_P(Profile, knowsNothingOfAWrongModel) {
+  ManipulatorParameters machine = scenario_.manipulator->parameters();
+  machine.platform.mass *= 1.01;
+  machine.legs[2].base_axis += Vector3d(0.01, -0.02, 0.01);
+  Scenario wrong = scenario_;
+  wrong.manipulator = std::make_shared<const Manipulator>(machine);
+  const RoundingProfile a(scenario_, instants), b(wrong, instants);
+  for (const Rounded quantity : quantities(a)) {
+    const auto largest = [quantity](const RoundingProfile& of) {
+      const auto spreads = of.spreads(quantity);
+      return *std::max_element(spreads.begin(), spreads.end());
+    };
+    EXPECT_LT(largest(b), 3 * largest(a)) << static_cast<int>(quantity);
+    EXPECT_GT(largest(b), largest(a) / 3) << static_cast<int>(quantity);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenarios, Profile,
+                         testing::Values("paper-helix", "near-singular", "millimetres", "proving-ground", "light-legs",
+                                         "load-table"),
+                         [](const auto& name) { return asTestName(name.param); });
+
+TEST(RandomProfiles, dominateTheNoiseSeenFromElsewhere) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed)
+    expectDominance(randomScenario(seed), static_cast<unsigned>(2000 + seed), 9);
+}
+
+TEST(ProfileAt, takesTheLargestOfTheFiveInstantsAbout) {
+  const Scenario scenario = scenarioOf("paper-helix");
+  const RoundingProfile profile(scenario, instants);
+  const std::vector<double> spreads = profile.spreads(Rounded::torque);
+  for (int k = 0; k < instants; ++k) {
+    const auto first = spreads.begin() + std::max(0, k - 2), last = spreads.begin() + std::min(instants, k + 3);
+    EXPECT_DOUBLE_EQ(at(scenario, profile, k).levels[static_cast<std::size_t>(Rounded::torque)],
+                     rounding_floor + rounding_safety * *std::max_element(first, last));
+  }
+}
+
+TEST(ProfileInstants, areAtMostThoseOfTheSamples) {
+  EXPECT_EQ(profileInstants(1), 2);
+  EXPECT_EQ(profileInstants(31), 31);
+  EXPECT_EQ(profileInstants(301), 61);
+}
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,104 @@
+// What a check shows of many instants: the largest share of a limit and the largest value, and NaN before all.
+
+#include "validation/worst.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace ursula {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+struct Each {
+  double value, limit;
+};
+
+/// Each at its index as t and as where.
+Worst worstOf(const std::vector<Each>& all) {
+  Worst out;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    out.add(all[k].value, all[k].limit, static_cast<double>(k), static_cast<int>(k));
+  return out;
+}
+
+TEST(Worst, keepsTheWorstShareAndTheLargestValueApart) {
+  const Worst found = worstOf({{3, 10}, {2, 4}, {5, 100}, {1, 3}});
+  EXPECT_EQ(found.value, 2);
+  EXPECT_EQ(found.limit, 4);
+  EXPECT_EQ(found.t, 1);
+  EXPECT_EQ(found.where, 1);
+  EXPECT_EQ(found.largest, 5);
+  EXPECT_EQ(found.largest_t, 2);
+  EXPECT_EQ(found.largest_where, 2);
+  EXPECT_EQ(found.widest_limit, 100);
+  EXPECT_EQ(found.widest_t, 2);
+  EXPECT_FALSE(found.beyond());
+}
+
+TEST(Worst, doesNotDependOnTheOrder) {
+  std::vector<Each> all = {{3, 10}, {2, 4}, {5, 100}, {1, 3}};
+  for (int turns = 0; turns < 4; ++turns) {
+    std::rotate(all.begin(), all.begin() + 1, all.end());
+    const Worst found = worstOf(all);
+    EXPECT_EQ(found.value / found.limit, 0.5);
+    EXPECT_EQ(found.largest, 5);
+    EXPECT_EQ(found.widest_limit, 100);
+  }
+}
+
+TEST(Worst, isTheFirstOfEqualOnes) {
+  const Worst found = worstOf({{1, 2}, {1, 2}, {2, 4}, {2, 4}});
+  EXPECT_EQ(found.where, 0);
+  EXPECT_EQ(found.largest_where, 2);
+  EXPECT_EQ(found.widest_t, 2);
+}
+
+/// Wherever it comes, before whatever is beyond its limit, and the first of several.
+TEST(Worst, keepsNaNBeforeAll) {
+  for (std::size_t at = 0; at < 3; ++at) {
+    std::vector<Each> all = {{9, 1}, {1e9, 1}, {infinite, 1}};
+    all.insert(all.begin() + static_cast<std::ptrdiff_t>(at), {nan, 1});
+    all.push_back({nan, 1});
+    const Worst found = worstOf(all);
+    EXPECT_TRUE(std::isnan(found.value)) << at;
+    EXPECT_TRUE(std::isnan(found.largest)) << at;
+    EXPECT_EQ(found.where, static_cast<int>(at));
+    EXPECT_EQ(found.largest_where, static_cast<int>(at));
+    EXPECT_TRUE(found.beyond());
+  }
+}
+
+TEST(Worst, aLimitThatIsNoNumberIsBeyondAllOthersButNaN) {
+  const Worst found = worstOf({{1, 2}, {0, nan}, {1.9, 2}});
+  EXPECT_EQ(found.where, 1);
+  EXPECT_TRUE(found.beyond());
+  EXPECT_TRUE(std::isnan(found.widest_limit));
+  EXPECT_EQ(worstOf({{1, nan}, {nan, 2}}).where, 1);
+}
+
+TEST(Worst, nothingOfNothingIsWithin) {
+  const Worst found = worstOf({{0, 0}});
+  EXPECT_FALSE(found.beyond());
+  EXPECT_TRUE(found.any);
+  EXPECT_FALSE(Worst{}.any);
+  EXPECT_EQ(Worst::share(0, 0), 0);
+  EXPECT_EQ(Worst::share(1, 0), infinite);
+  EXPECT_EQ(Worst::share(nan, 1), infinite);
+  EXPECT_EQ(Worst::share(1, nan), infinite);
+  EXPECT_TRUE(worstOf({{0, 0}, {1e-300, 0}}).beyond());
+}
+
+TEST(Larger, isNaNWhereEitherIs) {
+  EXPECT_EQ(larger(1, 2), 2);
+  EXPECT_EQ(larger(2, 1), 2);
+  EXPECT_TRUE(std::isnan(larger(nan, 1)));
+  EXPECT_TRUE(std::isnan(larger(1, nan)));
+}
+
+}  // namespace
+}  // namespace ursula
