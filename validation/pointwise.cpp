@@ -104,7 +104,8 @@ void compareJacobianDifferences(const Scenario& scenario, const Subject& subject
   raise(sample.jacobian_difference, size(T_rate - differenceOf(shapingOf(subject), t, step)), -1);
   const ShapingAt T = shapingOf(right);
   const double truncation = size(differenceOf(T, t, step) - differenceOf(T, t, 2 * step));
-  sample.jacobian_difference.limit = 1.5 * c.rounding(Rounded::shaping) / step + truncation;
+  sample.jacobian_difference.limit =
+      1.5 * c.rounding(Rounded::shaping) / step + c.rounding(Rounded::shaping_rate) + truncation;
 }
 
 /// The first leg with an angle that is not finite.
