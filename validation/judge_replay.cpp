@@ -84,6 +84,12 @@ double stepCount(const WindowedReplay& window) { return static_cast<double>(wind
 
 double span(const WindowedReplay& window) { return window.window.end() - window.window.start(); }
 
+/// As replayLimit, but for what was measured of the integration, m.
+double driftWithoutMeasured(const WindowedReplay& window, double position_scale, double t) {
+  const double tolerance = window.integration.measured() ? 0 : window.replay.tolerance;
+  return driftLimit(window.window, tolerance, stepCount(window), position_scale, t);
+}
+
 }  // namespace
 
 void LoopForces::include(const Conditioning& instant) { size = std::max(size, instant.force_scale); }
@@ -125,10 +131,8 @@ double driftLimit(const GrowthWindow& window, double tolerance, double steps, do
 }
 
 double replayLimit(const WindowedReplay& window, double position_scale, double t) {
-  const bool measured = window.integration.measured();
-  const double drift =
-      driftLimit(window.window, measured ? 0 : window.replay.tolerance, stepCount(window), position_scale, t);
-  return measured ? drift + integration_safety * window.integration.at(t).position : drift;
+  const double drift = driftWithoutMeasured(window, position_scale, t);
+  return window.integration.measured() ? drift + integration_safety * window.integration.at(t).position : drift;
 }
 
 std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, double position_scale, double length,
@@ -148,8 +152,7 @@ std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, doubl
     return replayLimit(window, position_scale, step.t);
   };
   const auto turn = [=](const WindowedReplay& window, const ReplayStep& step) {
-    const double position = measured(window, step, &At::position);
-    return (replayLimit(window, position_scale, step.t) - position) / length + measured(window, step, &At::rotation);
+    return driftWithoutMeasured(window, position_scale, step.t) / length + measured(window, step, &At::rotation);
   };
   const auto opening = [=](const WindowedReplay& window, const ReplayStep& step) {
     return carried(window) + window.opening.position + measured(window, step, &At::gap);

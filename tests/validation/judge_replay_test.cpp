@@ -205,6 +205,7 @@ TEST(IntegrationErrors, areInfiniteWhereTheCoarserDidNotGetTo) {
 /// With a measured integration error the tolerance has no part in a limit; three times the measured one has.
 TEST(JudgeReplay, takesTheMeasuredIntegrationErrorForTheTolerance) {
   WindowedReplay window = made();
+  for (std::size_t k = 0; k < 10; ++k) window.replay.steps[k] = errors(0).steps[k];  // so that the end is shown
   window.integration = integrationError(errors(0), errors(1e-10));
   const WindowedReplay without = [&] {
     WindowedReplay out = window;
@@ -215,6 +216,7 @@ TEST(JudgeReplay, takesTheMeasuredIntegrationErrorForTheTolerance) {
     return findCheck(judgeReplay({of}, position_scale, length, forces), name)->limit;
   };
   EXPECT_NEAR(replayLimit(window, position_scale, 1) - replayLimit(without, position_scale, 1), 3e-10, 1e-18);
+  EXPECT_NEAR(limit(window, "replay.orientation") - limit(without, "replay.orientation"), 3e-10, 1e-18);
   EXPECT_NEAR(limit(window, "closure.position") - limit(without, "closure.position"), 6e-10, 1e-18);
   EXPECT_NEAR(limit(window, "closure.velocity") - limit(without, "closure.velocity"), 9e-10, 1e-18);
   EXPECT_NEAR(limit(window, "energy.balance") - limit(without, "energy.balance"), 12e-10, 1e-15);
