@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <map>
 #include <memory>
-#include <set>
 #include <thread>
 
 #include "apps/embedded_scenario.h"
@@ -43,37 +42,61 @@ std::vector<std::string> columnsOf(const std::vector<DefectOutcome>& outcomes) {
   return columns;
 }
 
-std::size_t roadsThatCaught(const DefectOutcome& outcome) {
-  std::set<std::string> roads;
-  for (const std::string& check : outcome.caught_by) roads.insert(roadOf(check));
-  return roads.size();
+std::string remark(const DefectOutcome& outcome) {
+  if (!outcome.refused.empty()) return "  refused: " + outcome.refused;
+  if (!outcome.shows) return "  changes nothing here";
+  if (!outcome.caught()) return fmt::format("  TOO FEW of {}", outcome.roads_wanted);
+  return outcome.roads_wanted == 1 ? "  of 1 that can" : "";
 }
 
-/// Returns how many defects that show were caught on fewer than two roads.
+/// Returns how many defects that show were caught on fewer roads than they must.
 int printMatrix(const std::vector<DefectOutcome>& outcomes) {
   const std::vector<std::string> columns = columnsOf(outcomes);
   fmt::print("Defect by check: x where the check failed, as it should.\n\n");
   for (std::size_t k = 0; k < columns.size(); ++k) fmt::print("  {:>2} {}\n", k + 1, columns[k]);
-  fmt::print("\n{:<52}", "");
+  fmt::print("\n{:<70}", "");
   for (std::size_t k = 0; k < columns.size(); ++k) fmt::print("{:>3}", k + 1);
   fmt::print(" roads\n");
-  int shown = 0, weak = 0;
+  int shown = 0, weak = 0, on_one = 0;
   for (const DefectOutcome& outcome : outcomes) {
-    fmt::print("{:<52}", outcome.name);
+    fmt::print("{:<70}", outcome.name);
     for (const std::string& column : columns) {
       const bool caught =
           std::find(outcome.caught_by.begin(), outcome.caught_by.end(), column) != outcome.caught_by.end();
       fmt::print("{:>3}", caught ? "x" : ".");
     }
     shown += outcome.shows;
-    const std::size_t roads = roadsThatCaught(outcome);
-    const bool too_few = outcome.shows && roads < 2;
-    weak += too_few;
-    fmt::print("{:>4}{}\n", roads, !outcome.shows ? "  changes nothing here" : too_few ? "  TOO FEW" : "");
+    on_one += outcome.shows && outcome.roads_wanted == 1;
+    weak += outcome.shows && !outcome.caught();
+    fmt::print("{:>4}{}\n", outcome.roads(), remark(outcome));
   }
-  fmt::print("\n{} defects, {} of them change something here; {} caught on fewer than two roads\n\n", outcomes.size(),
-             shown, weak);
+  fmt::print(
+      "\n{} defects, {} of them change something here; {} of these show on one road by their nature; {} caught on "
+      "fewer than they must, which is two for the others\n\n",
+      outcomes.size(), shown, on_one, weak);
   return weak;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 3;
+  std::string out;
+  for (std::size_t k = 0; k < std::min(most, names.size()); ++k) out += (k > 0 ? "; " : "") + names[k];
+  return names.size() > most ? out + fmt::format("; and {} more", names.size() - most) : out;
+}
+
+/// Returns how many checks catch nothing that those before them do not.
+int printChecks(const std::vector<CheckProof>& checks) {
+  fmt::print("Check: the defects that it alone catches, and those that it catches first, in the result's order.\n\n");
+  fmt::print("{:<30} {:>5} {:>5}\n", "", "alone", "first");
+  int without = 0;
+  for (const CheckProof& proof : checks) {
+    fmt::print("{:<30} {:>5} {:>5}  ", proof.check, proof.alone.size(), proof.first.size());
+    const bool none = proof.alone.empty() && proof.first.empty();
+    without += none;
+    fmt::print("{}\n", none ? "NONE" : listed(proof.alone.empty() ? proof.first : proof.alone));
+  }
+  fmt::print("\n{} checks, {} of them without a defect that they alone or first catch\n\n", checks.size(), without);
+  return without;
 }
 
 void printSensitivities(const std::vector<Sensitivity>& sensitivities) {
@@ -119,16 +142,22 @@ void printRandom(const RandomOutcomes& random, std::uint64_t seed) {
   for (const std::string& why : random.inconclusive) fmt::print("  inconclusive: {}\n", why);
 }
 
+/// Whether the right solver passes, every defect is caught and every check is needed.
+bool proveChecks(const ProveOptions& options) {
+  const Scenario scenario = options.scenario.empty() ? provingGround() : readScenario(options.scenario);
+  const DefectProof proof = proveDefects(scenario, options.jobs, progress("defects"));
+  const int weak = printMatrix(proof.outcomes);
+  printSensitivities(proveSensitivities(scenario));
+  const int without = printChecks(proof.checks);
+  for (const std::string& check : proof.without_defect) fmt::print("The right solver fails {}.\n", check);
+  return weak == 0 && without == 0 && proof.without_defect.empty();
+}
+
 int prove(const ProveOptions& options) {
-  int weak = 0;
-  if (!options.only_random) {
-    const Scenario scenario = options.scenario.empty() ? provingGround() : readScenario(options.scenario);
-    weak = printMatrix(proveDefects(scenario, options.jobs, progress("defects")));
-    printSensitivities(proveSensitivities(scenario));
-  }
+  const bool proved = options.only_random || proveChecks(options);
   const RandomOutcomes random = proveRandom(options.seed, options.random, options.jobs, progress("random scenarios"));
   printRandom(random, options.seed);
-  return weak == 0 && random.failed.empty() ? exit_passed : exit_failed;
+  return proved && random.failed.empty() ? exit_passed : exit_failed;
 }
 
 }  // namespace

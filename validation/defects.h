@@ -5,18 +5,24 @@
 #include <vector>
 
 #include "model/scenario.h"
+#include "validation/spoil.h"
 #include "validation/subject.h"
 
 namespace ursula {
 
-/// One way for the solver's side to be wrong, put into an otherwise right solver.
+/// One way to be wrong, put into an otherwise right validation at one of three places. What is empty stays right.
 struct Defect {
   std::string name;
-  std::string group;  ///< "formula", "term", "parameter", "motion" or "torque"
-  std::function<Subject(const Scenario&)> subject;
+  std::string group;               ///< "formula", "term", "parameter", …
+  SubjectOf subject = nullptr;     ///< the solver on trial
+  Spoil::Seen scenario = nullptr;  ///< what all roads are given: commanded motion, load, numbers as read
+  Spoil spoil = {};                ///< an experiment
+  /// On how many roads it must be caught. 1 where by its nature only one can see it: direct dynamics and reactions,
+  /// which Simbody alone has beside the solver; what all roads share; an engine; what the motion does not reach.
+  int roads = 2;
 };
 
-/// Every defect that `ursula prove` injects, at least 60, one at a time.
+/// Every defect that `ursula prove` injects, at least 150, one at a time.
 std::vector<Defect> allDefects();
 
 /// A continuous parameter of the machine: `disturb` makes it wrong by a relative error (of the largest moment for an

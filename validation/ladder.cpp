@@ -25,6 +25,8 @@ constexpr double least_gain = 4;
 /// An error below this share of the largest useful limit decides nothing, whether or not it converges.
 constexpr double harmless = 0.01;
 
+using SpoilSettings = std::function<void(ReplaySettings&)>;
+
 ReplaySettings settingsOf(const WindowedReplay& finest, Integrator integrator, double tolerance) {
   ReplaySettings settings;
   settings.integrator = integrator;
@@ -52,15 +54,22 @@ Rung rungOf(const ReplaySettings& settings, const Replay& run, const Replay& fin
   return rung;
 }
 
+/// One replay beside the judged one.
+Replay replayBeside(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, ReplaySettings settings,
+                    const SpoilSettings& spoil) {
+  if (spoil) spoil(settings);
+  return replay(scenario, torques, settings);
+}
+
 Rung makeRung(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-              double tolerance) {
+              double tolerance, const SpoilSettings& spoil) {
   const ReplaySettings settings = settingsOf(finest, Integrator::rkf78, tolerance);
-  return rungOf(settings, replay(scenario, torques, settings), finest.replay);
+  return rungOf(settings, replayBeside(scenario, torques, settings, spoil), finest.replay);
 }
 
 /// Over the first steps only, a tenth of them at least: it is another integrator that is wanted, not another replay.
 void climbSecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-                 Ladder& ladder) {
+                 const SpoilSettings& spoil, Ladder& ladder) {
   const std::vector<ReplayStep>& steps = finest.replay.steps;
   if (steps.size() < 2) return;
   const std::size_t last = std::min(steps.size() - 1, std::max<std::size_t>(20, steps.size() / 10));
@@ -69,7 +78,7 @@ void climbSecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& tor
   for (double accuracy : {10 * second_accuracy, second_accuracy}) {
     ReplaySettings settings = settingsOf(finest, Integrator::rk_merson, accuracy);
     settings.end = ladder.second_end;
-    runs.push_back(replay(scenario, torques, settings));
+    runs.push_back(replayBeside(scenario, torques, settings, spoil));
     ladder.second.push_back(rungOf(settings, runs.back(), finest.replay));
   }
   ladder.second_difference = runs[0].steps.empty() || runs[1].steps.empty()
@@ -141,15 +150,15 @@ Check judgeSecond(const Ladder& ladder, const WindowedReplay& finest, double pos
 }  // namespace
 
 Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-             bool torques_are_right) {
+             bool torques_are_right, const SpoilSettings& spoil) {
   Ladder ladder;
   for (double factor : {1e6, 1e4, coarser}) {
     const double tolerance = std::min(1e-4, factor * finest.replay.tolerance);
-    const bool known = torques_are_right && finest.coarse && finest.coarse->integrator == Integrator::rkf78 &&
+    const bool known = torques_are_right && !spoil && finest.coarse && finest.coarse->integrator == Integrator::rkf78 &&
                        finest.coarse->tolerance == tolerance;
     ladder.rungs.push_back(known
                                ? rungOf(settingsOf(finest, Integrator::rkf78, tolerance), *finest.coarse, finest.replay)
-                               : makeRung(scenario, torques, finest, tolerance));
+                               : makeRung(scenario, torques, finest, tolerance, spoil));
   }
   for (std::size_t k = 0; k + 1 < ladder.rungs.size(); ++k)
     ladder.observed_orders.push_back(order(ladder.rungs[k], ladder.rungs[k + 1]));
@@ -161,7 +170,7 @@ Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques
   const double p = ladder.asymptotic ? ladder.observed_orders.back() : 0;
   ladder.extrapolated = last.distance * std::pow(ratio, -p);
   ladder.uncertainty = integration_safety * ladder.extrapolated;
-  climbSecond(scenario, torques, finest, ladder);
+  climbSecond(scenario, torques, finest, spoil, ladder);
   return ladder;
 }
 

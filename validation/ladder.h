@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,9 +35,10 @@ struct Ladder {
   double uncertainty = 0;               ///< of that estimate, m
 };
 
-/// `finest` is the judged replay of the window. `torques_are_right`: its coarser replay is a rung already.
+/// `finest` is the judged replay of the window. `torques_are_right`: its coarser replay is a rung already. `spoil`, for
+/// controls that must fail, changes the settings of all others.
 Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-             bool torques_are_right = false);
+             bool torques_are_right = false, const std::function<void(ReplaySettings&)>& spoil = nullptr);
 
 /// `integration.ladder` and `integration.second`.
 std::vector<Check> judgeLadder(const Ladder& ladder, const WindowedReplay& finest, double position_scale,

@@ -72,6 +72,8 @@ void addFriction(std::vector<Parameter>& out, const std::string& name, std::size
   add("actuated", &JointFriction::actuated);
   add("universal", &JointFriction::universal);
   add("knee", &JointFriction::knee);
+  addNumber(out, name + ".coulomb.smoothing_speed", "friction",
+            [i](Machine& m) -> double& { return m.legs[i].coulomb.smoothing_speed; });
 }
 
 void addLeg(std::vector<Parameter>& out, std::size_t i) {

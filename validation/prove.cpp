@@ -24,47 +24,6 @@ namespace {
 constexpr int samples_in_a_row = 101;
 constexpr int samples_of_sensitivity = 31;
 
-bool equal(const JointVariables<double>& a, const JointVariables<double>& b) {
-  return a.phi == b.phi && a.psi == b.psi && a.theta == b.theta;
-}
-
-bool equal(const KinematicAnswer& a, const KinematicAnswer& b) {
-  for (std::size_t i = 0; i < body_count; ++i)
-    if (a.bodies[i].c != b.bodies[i].c || a.bodies[i].twist != b.bodies[i].twist ||
-        a.bodies[i].twist_rate != b.bodies[i].twist_rate)
-      return false;
-  return equal(a.joints.q, b.joints.q) && equal(a.joints.q_dot, b.joints.q_dot) &&
-         equal(a.joints.q_ddot, b.joints.q_ddot) && a.T == b.T && a.T_rate == b.T_rate;
-}
-
-/// False where every answer is the right one's to the last bit: the scenario has nothing for the defect to spoil.
-bool shows(const Scenario& scenario, const Subject& subject) {
-  const Subject right = nocSubject(*scenario.manipulator, scenario.load);
-  // Instants that are no samples of anything.
-  for (int k = 0; k < samples_of_sensitivity; ++k) {
-    const Motion<double> motion = scenario.trajectory->at(scenario.trajectory->duration() * (k + 0.37) / 31);
-    try {
-      if (subject.torques(motion) != right.torques(motion)) return true;
-      if (!equal(subject.kinematics(motion), right.kinematics(motion))) return true;
-    } catch (const PoseError&) {
-      return true;
-    }
-  }
-  return false;
-}
-
-DefectOutcome judgeDefect(const Scenario& scenario, const Defect& defect) {
-  DefectOutcome outcome{defect.name, defect.group, {}, true};
-  const Subject subject = defect.subject(scenario);
-  outcome.shows = shows(scenario, subject);
-  ValidationOptions options;
-  options.ladder = false;
-  options.reactions = false;
-  for (const Check& check : validate(scenario, subject, options).checks)
-    if (check.verdict == Verdict::fail) outcome.caught_by.push_back(check.name);
-  return outcome;
-}
-
 /// The torques of the right machine by Simbody, and whether other torques would be caught.
 class TorqueReference {
  public:
@@ -121,18 +80,11 @@ Sensitivity findSensitivity(const Scenario& scenario, const TorqueReference& ref
   return out;
 }
 
-Scenario sampled(Scenario scenario) {
-  scenario.simulation.samples = samples_in_a_row;
-  return scenario;
-}
-
 }  // namespace
 
-std::string roadOf(const std::string& check) {
-  if (check == "torque.maximal") return "maximal coordinates";
-  if (check == "torque.mujoco") return "MuJoCo";
-  if (check == "kinematics.jacobian_difference" || check.rfind("invariance.", 0) == 0) return check;
-  return "Simbody";  // torque.twin, too: another topology, by the same builder in the same engine
+Scenario sampledForMany(Scenario scenario) {
+  scenario.simulation.samples = samples_in_a_row;
+  return scenario;
 }
 
 void inParallel(int jobs, int count, const std::function<void(int)>& task) {
@@ -154,17 +106,6 @@ void inParallel(int jobs, int count, const std::function<void(int)>& task) {
   if (failure) std::rethrow_exception(failure);
 }
 
-std::vector<DefectOutcome> proveDefects(const Scenario& scenario, int jobs, const std::function<void(int)>& done) {
-  const std::vector<Defect> defects = allDefects();
-  const Scenario quick = sampled(scenario);
-  std::vector<DefectOutcome> outcomes(defects.size());
-  inParallel(jobs, static_cast<int>(defects.size()), [&](int k) {
-    outcomes[static_cast<std::size_t>(k)] = judgeDefect(quick, defects[static_cast<std::size_t>(k)]);
-    done(static_cast<int>(defects.size()));
-  });
-  return outcomes;
-}
-
 std::vector<Sensitivity> proveSensitivities(const Scenario& scenario) {
   const TorqueReference reference(scenario);
   std::vector<Sensitivity> out;
@@ -178,7 +119,7 @@ RandomOutcomes proveRandom(std::uint64_t seed, int count, int jobs, const std::f
   std::vector<std::vector<Check>> checks(static_cast<std::size_t>(count));
   inParallel(jobs, count, [&](int k) {
     const auto i = static_cast<std::size_t>(k);
-    const Scenario scenario = sampled(randomScenario(seed + i));
+    const Scenario scenario = sampledForMany(randomScenario(seed + i));
     ValidationOptions options;
     options.budget = false;
     const ValidationResult result = validate(scenario, options);

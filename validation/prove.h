@@ -14,12 +14,29 @@ namespace ursula {
 /// What the validation said of one defect.
 struct DefectOutcome {
   std::string name, group;
-  std::vector<std::string> caught_by;  ///< names of the checks that failed
+  std::vector<std::string> caught_by;  ///< names of the checks that failed, in the order of the result
+  int roads_wanted = 2;                ///< as Defect::roads
   bool shows = true;                   ///< false where the scenario gives the defect nothing to change
+  std::string refused;                 ///< why there was nothing to validate: no machine or no motion can be so
+
+  int roads() const;  ///< on which it was caught
+  bool caught() const { return !refused.empty() || roads() >= roads_wanted; }
+};
+
+/// Of one check: what it alone catches, and what it catches first of all in the order of the result.
+struct CheckProof {
+  std::string check;
+  std::vector<std::string> alone, first;
+};
+
+struct DefectProof {
+  std::vector<DefectOutcome> outcomes;
+  std::vector<CheckProof> checks;           ///< every check that the scenario's result has
+  std::vector<std::string> without_defect;  ///< checks that fail the right solver: then nothing is proved
 };
 
 /// What a check compares with: "Simbody" in either topology, "maximal coordinates", "MuJoCo", or itself where it needs
-/// no other road.
+/// none of them.
 std::string roadOf(const std::string& check);
 
 /// The smallest relative error of one parameter that `torque.pointwise` still fails.
@@ -38,9 +55,11 @@ struct RandomOutcomes {
 /// `task(k)` for k = 0 … count − 1 on `jobs` threads; the first exception is thrown again.
 void inParallel(int jobs, int count, const std::function<void(int)>& task);
 
-/// Every defect of allDefects() in turn, judged by the whole validation but the ladder and the reactions, which look at
-/// the engine and not at the subject. Order and content do not depend on `jobs`.
-std::vector<DefectOutcome> proveDefects(const Scenario& scenario, int jobs, const std::function<void(int)>& done);
+/// Every defect of allDefects() in turn, judged by the whole validation. Order and content do not depend on `jobs`.
+DefectProof proveDefects(const Scenario& scenario, int jobs, const std::function<void(int)>& done);
+
+/// With few samples, for one of many validations: enough for three a step of the replay.
+Scenario sampledForMany(Scenario scenario);
 
 /// By bisection of the exponent, to one in a hundred.
 std::vector<Sensitivity> proveSensitivities(const Scenario& scenario);

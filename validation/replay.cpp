@@ -149,7 +149,8 @@ class Run {
     result_.stopped_at = t;
     loop_.derivative(t, x.data(), torques_(t), rate.data());
     const SimbodyLoop::Power power = loop_.power();
-    rate.back() = (power.actuators + power.friction + power.load) / weight_;
+    const double spoilt = settings_.spoil_power ? settings_.spoil_power(power) : 0;
+    rate.back() = (power.actuators + power.friction + power.load + spoilt) / weight_;
     for (double value : rate)
       if (!std::isfinite(value)) throw GaveUp("the derivatives are not finite");
   }

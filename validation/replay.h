@@ -48,6 +48,8 @@ struct ReplaySettings {
   bool project = false;          ///< rkf78 only: after each step the legs follow the platform, so that no gap is left
   /// rkf78 only, for controls that must fail: spoils the state x = [q, u, …] after each step.
   std::function<void(double t, std::vector<double>& x)> spoil;
+  /// The same for the power that the energy is held against: what is added to it, W.
+  std::function<double(const SimbodyLoop::Power&)> spoil_power;
 };
 
 /// The scenario's knots (trajectory and load) within (start, end), those left out that follow another by less than a

@@ -155,7 +155,7 @@ std::string oddOneOut(const std::vector<RoadSample>& samples) {
 }
 
 Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample>& samples, TimeSeries* series,
-                     const Units& units) {
+                     const Units& units, const std::function<void(Reactions&)>& spoil) {
   const Solver<double> solver(*scenario.manipulator);
   Workspace<double> work;
   SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
@@ -165,6 +165,7 @@ Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample
   for (const PointwiseSample& sample : samples) {
     const Vector6d torques = solver.inverseDynamics(sample.motion, work, loadAtP(scenario.load.get(), sample.motion));
     rows.push_back(recoverReactions(solver, sample.motion, torques, work));
+    if (spoil) spoil(rows.back());
     loop.place(sample.motion);
     loop.accelerate(torques);
     const Reactions simbody = loop.reactions();

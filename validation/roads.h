@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -31,9 +32,10 @@ std::vector<Check> judgeRoads(const std::vector<RoadSample>& samples, const Unit
 std::string oddOneOut(const std::vector<RoadSample>& samples);
 
 /// `reactions.pointwise`: the joint reactions recovered from the solver's road against Simbody's mobilizer and
-/// constraint reactions; only for the formulas that hold.
+/// constraint reactions; only for the formulas that hold. `spoil`, for controls that must fail, changes those
+/// recovered.
 Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample>& samples, TimeSeries* series,
-                     const Units& units = {});
+                     const Units& units = {}, const std::function<void(Reactions&)>& spoil = nullptr);
 
 /// The largest difference of a force, or of a moment over `length`, N.
 double distance(const LegReactions& a, const LegReactions& b, double length);

@@ -9,6 +9,7 @@
 #include "model/load.h"
 #include "model/manipulator.h"
 #include "model/motion.h"
+#include "model/scenario.h"
 #include "nocsolver/reading.h"
 
 namespace ursula {
@@ -31,6 +32,9 @@ struct Subject {
   /// The same solver for another machine, for invariances; empty where the subject is not a solver.
   std::function<Subject(const Manipulator&)> rebuilt;
 };
+
+/// Makes a subject for a scenario.
+using SubjectOf = std::function<Subject(const Scenario&)>;
 
 /// The NOC of this program.
 Subject nocSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load);

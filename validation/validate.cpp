@@ -54,6 +54,7 @@ class Trial {
     ValidationResult result;
     result.scenario = scenario_.name;
     samples_ = runPointwise(scenario_, subject_, reference_.instants, reference_.profile);
+    if (options_.spoil.sample) std::for_each(samples_.begin(), samples_.end(), options_.spoil.sample);
     result.checks = judgePointwise(samples_, static_cast<bool>(subject_.kinematics), units_);
     const bool answers = std::none_of(samples_.begin(), samples_.end(),
                                       [](const PointwiseSample& sample) { return !sample.refused.empty(); });
@@ -67,14 +68,28 @@ class Trial {
 
  private:
   void judgeAnswers(ValidationResult& result) {
-    const std::vector<RoadSample> roads = runRoads(scenario_, samples_);
+    const std::vector<RoadSample> roads = roadSamples();
     append(result.checks, judgeRoads(roads, units_));
     append(result.checks, judgeInvariances(scenario_, subject_, samples_, units_));
-    if (options_.reactions) result.checks.push_back(judgeReactions(scenario_, samples_, &reactions_, units_));
+    if (options_.reactions)
+      result.checks.push_back(judgeReactions(scenario_, samples_, &reactions_, units_, options_.spoil.reactions));
     result.checks.push_back(judgeBetween(scenario_, subject_, samples_, reference_.profile, units_));
     if (subject_.accelerations) judgeDirectDynamics(result);
     judgeReplays(result);
     result.findings.emplace_back("odd one out of the roads", oddOneOut(roads));
+  }
+
+  std::vector<RoadSample> roadSamples() const {
+    std::vector<RoadSample> out = runRoads(scenario_, samples_);
+    const auto replace = [&](const Spoil::Seen& seen, auto RoadSample::*road) {
+      if (!seen) return;
+      const std::vector<RoadSample> spoilt = runRoads(seen(scenario_), samples_);
+      for (std::size_t k = 0; k < out.size(); ++k) out[k].*road = spoilt[k].*road;
+    };
+    replace(options_.spoil.twin, &RoadSample::twin);
+    replace(options_.spoil.maximal, &RoadSample::maximal);
+    replace(options_.spoil.mujoco, &RoadSample::mujoco);
+    return out;
   }
 
   void judgeDirectDynamics(ValidationResult& result) {
@@ -84,15 +99,17 @@ class Trial {
   }
 
   void judgeReplays(ValidationResult& result) {
-    windows_ = right_ && !options_.spoil_replay ? reference_.windows : replayed();
+    windows_ = right_ && !options_.spoil.replay ? reference_.windows : replayed();
     append(result.checks, judgeReplay(windows_, reference_.position_scale, reference_.amplification.length(),
                                       reference_.forces, units_));
     if (options_.ladder) {
-      ladder_ = climb(scenario_, plan_.torques, windows_.front(), right_);
+      ladder_ = climb(scenario_, plan_.torques, windows_.front(), right_, options_.spoil.ladder);
       append(result.checks, judgeLadder(ladder_, windows_.front(), reference_.position_scale, units_));
       result.checks.push_back(judgeOrder(scenario_));
     }
-    result.checks.push_back(judgeFeedback(scenario_, subject_, reference_.amplification, samples_, units_));
+    const Spoil::Seen& seen = options_.spoil.feedback;
+    const Scenario fed_back = seen ? seen(scenario_) : scenario_;
+    result.checks.push_back(judgeFeedback(fed_back, subject_, reference_.amplification, samples_, units_));
   }
 
   /// In the windows of the right torques, with what those say of the integration.
@@ -100,8 +117,9 @@ class Trial {
     std::vector<WindowedReplay> out = reference_.windows;
     for (WindowedReplay& window : out) {
       ReplaySettings settings = settingsOf(scenario_, plan_, window.window, 1);
-      settings.spoil = options_.spoil_replay;
+      if (options_.spoil.replay) options_.spoil.replay(settings);
       window.replay = replay(scenario_, plan_.torques, settings);
+      window.replay.tolerance = plan_.tolerance;  // that it is taken to have
     }
     return out;
   }

@@ -5,6 +5,7 @@
 
 #include "model/scenario.h"
 #include "validation/result.h"
+#include "validation/spoil.h"
 #include "validation/subject.h"
 
 namespace ursula {
@@ -18,8 +19,7 @@ struct ValidationOptions {
   bool budget = true;     ///< the error's sources, which decide nothing
   /// What depends on the scenario alone, made before, for many subjects on one scenario; null: made afresh.
   std::shared_ptr<const Reference> reference = nullptr;
-  /// rkf78 only, for controls that must fail: spoils the state after each step of the judged replay.
-  std::function<void(double t, std::vector<double>& x)> spoil_replay = nullptr;
+  Spoil spoil = {};  ///< for controls that must fail
 };
 
 /// The whole validation of one scenario: pointwise, replay, closure, energy, and the verdict. Deterministic: the same
@@ -31,7 +31,6 @@ ValidationResult validate(const Scenario& scenario, const Subject& subject, cons
 ValidationResult validate(const Scenario& scenario, const ValidationOptions& options = {});
 
 /// With a subject that is made for the scenario where its numbers are good: positions from an origin near the machine.
-using SubjectOf = std::function<Subject(const Scenario&)>;
 ValidationResult validateMade(const Scenario& scenario, const SubjectOf& make, const ValidationOptions& options = {});
 
 std::shared_ptr<const Reference> makeReference(const Scenario& scenario);

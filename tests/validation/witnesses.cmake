@@ -15,6 +15,13 @@ target_link_libraries(witness_tests PRIVATE
 target_compile_definitions(witness_tests PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
 gtest_discover_tests(witness_tests)
 
+# One program and one test: every defect is judged once.
+add_executable(prove_tests prove_defects_test.cpp)
+target_link_libraries(prove_tests PRIVATE test_support ursula::validation ursula::mujoco GTest::gtest_main)
+target_compile_definitions(prove_tests PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
+add_test(NAME prove COMMAND prove_tests)
+set_tests_properties(prove PROPERTIES PROCESSORS 2)
+
 # What all roads share: the commanded motion, the load, the numbers as read.
 add_executable(commanded_tests
   commanded_motion_test.cpp

@@ -1,0 +1,28 @@
+// All of `ursula prove`: every defect is caught, and every check catches one that those before it do not.
+
+#include <gtest/gtest.h>
+
+#include "model/mujoco_loop.h"
+#include "tests/validation/scenario_files.h"
+#include "validation/prove.h"
+
+namespace ursula {
+namespace {
+
+/// One test, for it takes its time: whatever it says is of one run.
+TEST(Proof, catchesEveryDefectAndNeedsEveryCheck) {
+  const DefectProof proof = proveDefects(scenarioOf("proving-ground"), 2, [](int) {});
+  EXPECT_TRUE(proof.without_defect.empty()) << "the right solver fails " << proof.without_defect.front();
+  EXPECT_GE(proof.outcomes.size(), 150u);
+  for (const DefectOutcome& outcome : proof.outcomes) {
+    if (!mujocoAvailable() && outcome.name.rfind("MuJoCo", 0) == 0) continue;
+    EXPECT_TRUE(outcome.shows) << outcome.name;
+    EXPECT_TRUE(outcome.caught()) << outcome.name << ", on " << outcome.roads() << " of " << outcome.roads_wanted;
+  }
+  EXPECT_EQ(proof.checks.size(), mujocoAvailable() ? 35u : 34u);
+  for (const CheckProof& check : proof.checks)
+    EXPECT_FALSE(check.alone.empty() && check.first.empty()) << check.check << " catches nothing first";
+}
+
+}  // namespace
+}  // namespace ursula
