@@ -159,8 +159,10 @@ TEST(ValidateResult, isTheSameWithAReferenceMadeBefore) {
 TEST(ValidateControl, aSpoiltReplayFails) {
   const Scenario scenario = quick("paper-helix");
   ValidationOptions spoilt = without_extras;
-  spoilt.spoil_replay = [](double, std::vector<double>& x) {
-    for (double& each : x) each *= 1 + 1e-9;
+  spoilt.spoil.replay = [](ReplaySettings& settings) {
+    settings.spoil = [](double, std::vector<double>& x) {
+      for (double& each : x) each *= 1 + 1e-9;
+    };
   };
   const ValidationResult result = validate(scenario, spoilt);
   EXPECT_EQ(verdictOf(result.checks, "replay.position"), "fail");
