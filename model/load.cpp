@@ -55,6 +55,7 @@ struct LoadHistory::Curves {
   QuinticHermite<Real50, 6> exact;
   QuinticHermite<double, 6> rounded;
   std::vector<TimedWrench> rows;
+  std::vector<double> knots;
 };
 
 namespace {
@@ -73,53 +74,44 @@ Wrench<S> wrenchAt(const QuinticHermite<S, 6>& curve, const TimedWrench& first, 
   return {value.template head<3>(), value.template tail<3>()};
 }
 
-template <class S>
-Wrench<S> turned(const LoadHistory::Axes& axes, const Wrench<S>& wrench) {
-  const Matrix3<S> turn = axes.turn.cast<S>();
-  return {turn * wrench.force / S(axes.force), turn * wrench.moment / S(axes.moment)};
-}
-
 }  // namespace
 
-LoadHistory::LoadHistory(const std::vector<TimedWrench>& rows) : rows_(rows) {
+LoadHistory::LoadHistory(const std::vector<TimedWrench>& rows) {
   validate(rows);
   const QuinticHermite<Real50, 6> curve = curveThrough(rows);
-  curves_ = std::make_shared<Curves>(Curves{curve, QuinticHermite<double, 6>(curve), rows});
-  setKnots();
+  std::vector<double> knots;
+  knots.reserve(rows.size());
+  for (const TimedWrench& row : rows) knots.push_back(row.time);
+  curves_ = std::make_unique<Curves>(Curves{curve, QuinticHermite<double, 6>(curve), rows, std::move(knots)});
 }
 
-LoadHistory::LoadHistory(const LoadHistory& from, const Axes& to) : curves_(from.curves_), rows_(from.rows_) {
-  for (TimedWrench& row : rows_) row = {row.time / to.time, turned(to, row.wrench)};
-  Axes axes = to;
-  if (from.axes_) {
-    axes.turn = to.turn * from.axes_->turn;
-    axes.force *= from.axes_->force;
-    axes.moment *= from.axes_->moment;
-    axes.time *= from.axes_->time;
+LoadHistory::LoadHistory(const LoadHistory& from, const Matrix6d& map, double time_unit) {
+  const auto curve = from.curves_->exact.mapped(map.cast<Real50>(), Real50(time_unit));
+  std::vector<TimedWrench> rows = from.curves_->rows;
+  std::vector<double> knots;
+  for (TimedWrench& row : rows) {
+    Vector6d wrench;
+    wrench << row.wrench.force, row.wrench.moment;
+    wrench = (map * wrench).eval();
+    row = {row.time / time_unit, {wrench.head<3>(), wrench.tail<3>()}};
+    knots.push_back(row.time);
   }
-  axes_ = std::make_unique<const Axes>(axes);
-  setKnots();
+  curves_ =
+      std::make_unique<Curves>(Curves{curve, QuinticHermite<double, 6>(curve), std::move(rows), std::move(knots)});
 }
+
+const std::vector<TimedWrench>& LoadHistory::rows() const { return curves_->rows; }
+
+const std::vector<double>& LoadHistory::knots() const { return curves_->knots; }
 
 LoadHistory::~LoadHistory() = default;
 
-void LoadHistory::setKnots() {
-  knots_.reserve(rows_.size());
-  for (const TimedWrench& row : rows_) knots_.push_back(row.time);
-}
-
 Wrench<double> LoadHistory::at(double t) const {
-  const auto of_table = [this](double at) {
-    return wrenchAt(curves_->rounded, curves_->rows.front(), curves_->rows.back(), at);
-  };
-  return axes_ ? turned(*axes_, of_table(t * axes_->time)) : of_table(t);
+  return wrenchAt(curves_->rounded, curves_->rows.front(), curves_->rows.back(), t);
 }
 
 Wrench<Real50> LoadHistory::at(const Real50& t) const {
-  const auto of_table = [this](const Real50& at) {
-    return wrenchAt(curves_->exact, curves_->rows.front(), curves_->rows.back(), at);
-  };
-  return axes_ ? turned(*axes_, of_table(Real50(t * axes_->time))) : of_table(t);
+  return wrenchAt(curves_->exact, curves_->rows.front(), curves_->rows.back(), t);
 }
 
 Wrench<double> Load::at(double t) const { return history ? history->at(t) : Wrench<double>{force, moment}; }

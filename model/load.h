@@ -26,35 +26,24 @@ struct TimedWrench {
 /// beyond. Twice continuously differentiable over all time, so that an integrator keeps its order across the rows.
 class LoadHistory {
  public:
-  /// Other axes and units: a force becomes turn · f / force, a moment turn · m / moment, an instant t / time.
-  struct Axes {
-    Matrix3d turn = Matrix3d::Identity();
-    double force = 1, moment = 1, time = 1;
-  };
-
   /// At least two rows, finite, times increasing. Throws InvalidParameter (places `load.table[n].…`, 1-based).
   explicit LoadHistory(const std::vector<TimedWrench>& rows);
-  /// The same curve in other axes. Not the curve through its rows there: slopes are limited along the axes of the
-  /// table.
-  LoadHistory(const LoadHistory& from, const Axes& to);
+  /// The same history under a linear map of [force; moment], its time divided by `time_unit`. Not that of mapped rows:
+  /// slopes are limited by component, so that the axes matter.
+  LoadHistory(const LoadHistory& from, const Matrix6d& map, double time_unit);
   ~LoadHistory();
   LoadHistory(const LoadHistory&) = delete;
   LoadHistory& operator=(const LoadHistory&) = delete;
 
   Wrench<double> at(double t) const;
   Wrench<Real50> at(const Real50& t) const;
-  const std::vector<TimedWrench>& rows() const { return rows_; }
+  const std::vector<TimedWrench>& rows() const;
   /// The rows' times, at which the third derivative jumps, s.
-  const std::vector<double>& knots() const { return knots_; }
+  const std::vector<double>& knots() const;
 
  private:
   struct Curves;
-  void setKnots();
-
-  std::shared_ptr<const Curves> curves_;
-  std::vector<TimedWrench> rows_;
-  std::vector<double> knots_;
-  std::unique_ptr<const Axes> axes_;  ///< null: those of the table
+  std::unique_ptr<const Curves> curves_;
 };
 
 /// `[load]`: an external force and moment on the platform.

@@ -33,6 +33,17 @@ class QuinticHermite {
       pieces_.push_back({S(piece.start), S(piece.duration), piece.coefficients.template cast<S>()});
   }
 
+  /// The curve's values under a linear map, its time divided by `time_unit`.
+  QuinticHermite mapped(const Eigen::Matrix<S, D, D>& map, const S& time_unit) const {
+    QuinticHermite out(*this);
+    for (Piece& piece : out.pieces_) {
+      piece.coefficients = (map * piece.coefficients).eval();
+      piece.start /= time_unit;
+      piece.duration /= time_unit;
+    }
+    return out;
+  }
+
   /// The same curve with `offset` taken off every value.
   QuinticHermite shifted(const Vector& offset) const {
     QuinticHermite out(*this);

@@ -179,6 +179,7 @@ GrowthWindow Amplification::window(std::size_t first, const std::function<double
   };
   add(instants_[first], 0, 0, Matrix12::Identity());
   out.last = first;
+  out.length = length_;
   for (std::size_t j = first; j < propagators_.size(); ++j) {
     const double h = instants_[j + 1] - instants_[j];
     Phi.push_back(Matrix12::Identity());

@@ -16,6 +16,7 @@ struct GrowthWindow {
   std::vector<double> from_start;         ///< ‖∂position/∂state‖ from the window's start
   std::vector<double> growth;             ///< ‖∂position/∂velocity‖ from the window's start, s
   std::size_t last = 0;                   ///< index of its last instant along the whole motion
+  double length = 0;                      ///< of the machine, m
 
   double start() const { return t.front(); }
   double end() const { return t.back(); }

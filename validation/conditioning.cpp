@@ -149,6 +149,8 @@ double Conditioning::shape(Rounded quantity) const {
       return eps * kappa_legs * kappa_legs * kappa_B * kappa_B * rate_scale;
     case Rounded::shaping:
       return eps * kappa_B * kappa_legs * shaping_scale;
+    case Rounded::shaping_rate:
+      return eps * kappa_B * kappa_B * kappa_legs * kappa_legs * shaping_scale * twist_scale / length;
     case Rounded::torque:
     case Rounded::solver:
     case Rounded::twin:

@@ -27,6 +27,7 @@ enum class Rounded {
   jacobian,       ///< T φ̇, m/s
   jacobian_rate,  ///< T φ̈ + Ṫ φ̇, m/s²
   shaping,        ///< T itself, m
+  shaping_rate,   ///< Ṫ, m/s
   torque,         ///< solver's and Simbody's, N·m
   solver,         ///< the solver's torque alone, N·m
   twin,           ///< solver's torque and that of the tree through leg 1, N·m

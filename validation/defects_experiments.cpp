@@ -94,6 +94,12 @@ Defect wrongLadder(const char* name, Integrator integrator, const Spoil::Setting
   return spoilt(name, spoil);
 }
 
+Defect lowerOrder() {
+  Spoil spoil;
+  spoil.lower_order = true;
+  return spoilt("an integrator of order 5 for one of order 8", spoil);
+}
+
 std::vector<Defect> wrongEngines() {
   using P = ManipulatorParameters;
   return {engine("Simbody's second loop: a mass off by 1e-8", &Spoil::twin,
@@ -126,7 +132,8 @@ std::vector<Defect> wrongReactionForces() {
 }
 
 std::vector<Defect> wrongReplays() {
-  return {wrongReplay("integrator that accepts a million times its tolerance",
+  return {lowerOrder(),
+          wrongReplay("integrator that accepts a million times its tolerance",
                       [](ReplaySettings& settings) { settings.tolerance *= 1e6; }),
           drift("platform moved by 1e-10 after each step", [](State& x) { x[position_of_platform] += 1e-10; }),
           drift("platform faster by 1e-10 after each step", [](State& x) { x[velocity_of_platform] += 1e-10; }),

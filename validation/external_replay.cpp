@@ -159,6 +159,7 @@ ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& t
   out.plan = plan;
   out.amplification = std::make_shared<const Amplification>(amplification);
   out.windows = replayInWindows(scenario, plan, windows);
+  measureOpening(torques.samples, out.windows);
   out.checks = judgeReplay(out.windows, limit->positionScale(), limit->length(), limit->forces(), units);
   for (Check& check : out.checks) check.basis += "; " + basis;
   out.findings = {{"spline", basis}};

@@ -26,6 +26,9 @@ constexpr double largest_step = 1.5;
 constexpr double shortest_step = 1e-12;
 /// A deviation, m or rad, that is no use to follow: the torques are wrong, and by how much is known.
 constexpr double lost = 0.1;
+/// Above this share of the largest torque a limit says nothing worth knowing: torques between the samples have sharper
+/// witnesses, but none that sees all of the motion at once.
+constexpr double useful_feedback = 1e-4;
 constexpr long max_evaluations = 200000;
 /// Where the torques are known to be wrong already, how wrong need not be found out at any price.
 constexpr long max_evaluations_of_wrong = 5000;
@@ -217,8 +220,8 @@ Check judgeFeedback(const Scenario& scenario, const Subject& subject, const Ampl
       "t = {:.6g} s of {} steps, {} derivative evaluations{}",
       largest > 0 ? found.torque / largest : found.torque, found.t * units.time, found.steps, loop.evaluations(),
       stopped);
-  Check out = judgedIfUseful(check, found.torque, limit, useful_share * largest, "N m", basis, why,
-                             fmt::format("it exceeds {:g} of the largest torque: {}", useful_share,
+  Check out = judgedIfUseful(check, found.torque, limit, useful_feedback * largest, "N m", basis, why,
+                             fmt::format("it exceeds {:g} of the largest torque: {}", useful_feedback,
                                          noisiest == nullptr ? "" : causeOfRounding(noisiest->conditioning)));
   if (found.torque <= limit && found.too_long)
     out = notJudgeable(Reason::unfinished, check, found.torque, limit, "N m", basis, why);

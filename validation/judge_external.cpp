@@ -20,7 +20,7 @@ Deviation deviationOf(const Vector6d& torques, const Vector6d& exact, const Vect
     const double ratio = error / limit;
     if (ratio <= worst) continue;
     worst = ratio;
-    out = {error, limit, i};
+    out = {error, limit, i, precision(i)};
     if (std::isnan(ratio)) break;
   }
   return out;
@@ -79,7 +79,8 @@ ExternalTorques runExternal(const Scenario& scenario, const TorqueFile& file) {
     out.noc.push_back(noc(t));
     out.precision.push_back(precision);
     sample.torque = deviationOf(sample.torques, sample.torques_simbody, precision, rounding);
-    sample.acceleration.limit += sample.conditioning.response * precision.norm();
+    sample.acceleration.given = sample.conditioning.response * precision.norm();
+    sample.acceleration.limit += sample.acceleration.given;
     out.against_noc.push_back(deviationOf(sample.torques, out.noc.back(), precision, rounding));
   }
   return out;

@@ -84,12 +84,15 @@ double stepCount(const WindowedReplay& window) { return static_cast<double>(wind
 
 double span(const WindowedReplay& window) { return window.window.end() - window.window.start(); }
 
+/// As replayLimit, but for what was measured of the integration, m.
+double driftWithoutMeasured(const WindowedReplay& window, double position_scale, double t) {
+  const double tolerance = window.integration.measured() ? 0 : window.replay.tolerance;
+  return driftLimit(window.window, tolerance, stepCount(window), position_scale, t);
+}
+
 }  // namespace
 
-void LoopForces::include(const Conditioning& instant) {
-  size = std::max(size, instant.force_scale);
-  rounding = std::max(rounding, instant.rounding(Rounded::gaps));
-}
+void LoopForces::include(const Conditioning& instant) { size = std::max(size, instant.force_scale); }
 
 IntegrationError::At IntegrationError::at(double t) const {
   const auto after =
@@ -128,10 +131,8 @@ double driftLimit(const GrowthWindow& window, double tolerance, double steps, do
 }
 
 double replayLimit(const WindowedReplay& window, double position_scale, double t) {
-  const bool measured = window.integration.measured();
-  const double drift =
-      driftLimit(window.window, measured ? 0 : window.replay.tolerance, stepCount(window), position_scale, t);
-  return measured ? drift + integration_safety * window.integration.at(t).position : drift;
+  const double drift = driftWithoutMeasured(window, position_scale, t);
+  return window.integration.measured() ? drift + integration_safety * window.integration.at(t).position : drift;
 }
 
 std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, double position_scale, double length,
@@ -151,14 +152,13 @@ std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, doubl
     return replayLimit(window, position_scale, step.t);
   };
   const auto turn = [=](const WindowedReplay& window, const ReplayStep& step) {
-    const double position = measured(window, step, &At::position);
-    return (replayLimit(window, position_scale, step.t) - position) / length + measured(window, step, &At::rotation);
+    return driftWithoutMeasured(window, position_scale, step.t) / length + measured(window, step, &At::rotation);
   };
   const auto opening = [=](const WindowedReplay& window, const ReplayStep& step) {
-    return carried(window) + forces.rounding * span(window) * span(window) / 2 + measured(window, step, &At::gap);
+    return carried(window) + window.opening.position + measured(window, step, &At::gap);
   };
   const auto rate = [=](const WindowedReplay& window, const ReplayStep& step) {
-    return carried(window) + forces.rounding * span(window) + measured(window, step, &At::gap_rate);
+    return carried(window) + window.opening.velocity + measured(window, step, &At::gap_rate);
   };
   const auto energy = [=](const WindowedReplay& window, const ReplayStep& step) {
     return per_step(window) / (1 + position_scale) * stepCount(window) * window.replay.energy_scale +
@@ -170,8 +170,7 @@ std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, doubl
           : fmt::format("tolerance {:.1g} and eps a step", windows.front().replay.tolerance);
   const std::string drift_basis =
       "rounding of the accelerations, carried by the variational equations and aligned for the worst; " + integration;
-  const std::string opening_basis = fmt::format("rounding of the accelerations at which gaps open, {:.3g} m/s^2; {}",
-                                                forces.rounding * units.acceleration(), integration);
+  const std::string opening_basis = "rounding of the accelerations at which gaps open, all one way; " + integration;
   const std::vector<Measure> measures = {
       {"replay.position", "m", "P against the commanded path",
        [](const ReplayStep& step) { return step.position_error.norm(); }, drift, drift_basis,

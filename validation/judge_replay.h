@@ -30,11 +30,17 @@ struct IntegrationError {
 
 IntegrationError integrationError(const Replay& fine, const Replay& coarse);
 
+/// What rounding of the accelerations at which gaps open makes of them by the end of a window.
+struct GapOpening {
+  double position = 0, velocity = 0;  ///< m, m/s
+};
+
 /// A replay and the window of the motion that it was made in.
 struct WindowedReplay {
   GrowthWindow window;
   Replay replay;
   IntegrationError integration = {};
+  GapOpening opening = {};
   std::shared_ptr<const Replay> coarse = nullptr;  ///< that it was measured with, under the right torques
 };
 
@@ -59,8 +65,7 @@ constexpr double useful_replay_limit = 1e-6;
 
 /// Of the forces at the spherical joints, the largest along the motion.
 struct LoopForces {
-  double size = 0;      ///< they do work where gaps move, N
-  double rounding = 0;  ///< of the accelerations at which gaps open, m/s²
+  double size = 0;  ///< they do work where gaps move, N
 
   void include(const Conditioning& instant);
 };

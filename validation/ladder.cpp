@@ -22,6 +22,9 @@ constexpr double second_safety = 10;
 /// error may only be asked to fall with them, by half the order.
 constexpr double least_gain = 4;
 
+/// An error below this share of the largest useful limit decides nothing, whether or not it converges.
+constexpr double harmless = 0.01;
+
 using SpoilSettings = std::function<void(ReplaySettings&)>;
 
 ReplaySettings settingsOf(const WindowedReplay& finest, Integrator integrator, double tolerance) {
@@ -114,11 +117,13 @@ Check judgeConvergence(const Ladder& ladder, const WindowedReplay& finest, doubl
   const double share = std::max(1 / least_gain, 2 * std::pow(steps, -nominal_order / 2));
   return judged(
       "integration.ladder", fine.distance,
-      std::max(coarse.distance * share, roundingBound(finest, position_scale, finest.window.end())), "m",
+      std::max({coarse.distance * share, roundingBound(finest, position_scale, finest.window.end()),
+                harmless * useful_replay_limit * finest.window.length}),
+      "m",
       fmt::format(
-          "{:.3g} of what it is at a tolerance of {:g}, which takes {} steps of {}, or what rounding may make of "
-          "it",
-          share, coarse.tolerance, coarse.steps, fine.steps),
+          "{:.3g} of what it is at a tolerance of {:g}, which takes {} steps of {}; or what rounding may make of "
+          "it; or {:g} of what a replay's limit may be",
+          share, coarse.tolerance, coarse.steps, fine.steps, harmless),
       fmt::format("ends of the replay at tolerances {:g} and {:g}; observed orders {} of {}, {}", fine.tolerance,
                   finest.replay.tolerance, orders, nominal_order, ladder.asymptotic ? "asymptotic" : "not asymptotic"));
 }

@@ -104,7 +104,8 @@ void compareJacobianDifferences(const Scenario& scenario, const Subject& subject
   raise(sample.jacobian_difference, size(T_rate - differenceOf(shapingOf(subject), t, step)), -1);
   const ShapingAt T = shapingOf(right);
   const double truncation = size(differenceOf(T, t, step) - differenceOf(T, t, 2 * step));
-  sample.jacobian_difference.limit = 1.5 * c.rounding(Rounded::shaping) / step + truncation;
+  sample.jacobian_difference.limit =
+      1.5 * c.rounding(Rounded::shaping) / step + c.rounding(Rounded::shaping_rate) + truncation;
 }
 
 /// The first leg with an angle that is not finite.
@@ -176,13 +177,17 @@ double largestSize(const std::vector<PointwiseSample>& samples, const Quantity& 
 Check judgeQuantity(const std::vector<PointwiseSample>& samples, const Quantity& quantity, const Units& units) {
   Worst shown;
   const PointwiseSample* at = nullptr;
-  const PointwiseSample* widest = nullptr;
+  const PointwiseSample* widest = nullptr;  // by rounding alone: digits that were not printed are no fault of a limit
+  double widest_rounding = 0;
   for (const PointwiseSample& sample : samples) {
     if (!sample.refused.empty()) return notMade(quantity.name, quantity.unit, "no answer: " + sample.refused);
     const Deviation& deviation = sample.*quantity.deviation;
     shown.add(deviation.error, deviation.limit, sample.motion.t, deviation.where);
     if (shown.t == sample.motion.t) at = &sample;
-    if (shown.widest_t == sample.motion.t) widest = &sample;
+    if (widest == nullptr || !(deviation.limit - deviation.given <= widest_rounding)) {
+      widest = &sample;
+      widest_rounding = deviation.limit - deviation.given;
+    }
   }
   if (at == nullptr) return notMade(quantity.name, quantity.unit, "no instant was compared");
   const Conditioning& c = at->conditioning;
@@ -190,12 +195,13 @@ Check judgeQuantity(const std::vector<PointwiseSample>& samples, const Quantity&
                                         quantity.basis, c.kappa_B, c.kappa_legs, eps);
   const std::string why = fmt::format("{}, at {} instants; shown for t = {:.6g} s, {}", quantity.what, samples.size(),
                                       shown.t * units.time, placeName(shown.where, quantity.of_body));
-  const double useful = quantity.size ? useful_share * largestSize(samples, quantity) : shown.widest_limit;
+  const double useful = quantity.size ? useful_share * largestSize(samples, quantity) : widest_rounding;
   Check check = judged(quantity.name, shown.value, shown.limit, quantity.unit, basis, why);
-  if (check.verdict == Verdict::pass && !(shown.widest_limit <= useful))
-    check = notJudgeable(Reason::limit_useless, quantity.name, shown.value, shown.widest_limit, quantity.unit, basis,
-                         fmt::format("{}; at t = {:.6g} s the limit exceeds {:g} of the quantity's size: {}", why,
-                                     shown.widest_t * units.time, useful_share, causeOfRounding(widest->conditioning)));
+  if (check.verdict == Verdict::pass && !(widest_rounding <= useful))
+    check =
+        notJudgeable(Reason::limit_useless, quantity.name, shown.value, widest_rounding, quantity.unit, basis,
+                     fmt::format("{}; at t = {:.6g} s the limit exceeds {:g} of the quantity's size: {}", why,
+                                 widest->motion.t * units.time, useful_share, causeOfRounding(widest->conditioning)));
   check.largest = {shown.largest, shown.largest_t * units.time, placeName(shown.largest_where, quantity.of_body)};
   return check;
 }

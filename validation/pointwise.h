@@ -14,7 +14,8 @@ namespace ursula {
 struct Deviation {
   double error = 0;
   double limit = 0;
-  int where = -1;  ///< leg or body, 0-based; −1 for none
+  int where = -1;    ///< leg or body, 0-based; −1 for none
+  double given = 0;  ///< part of the limit that comes with what is judged, as printed digits do
 };
 
 /// Everything that the pointwise experiments see at one instant.

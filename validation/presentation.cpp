@@ -118,9 +118,12 @@ std::shared_ptr<const Load> Presentation::of(const std::shared_ptr<const Load>& 
   };
   out->point = platform_turn.transpose() * load->point / units.length;
   present(out->force, out->moment);
-  if (load->history)
-    out->history = std::make_shared<const LoadHistory>(*load->history,
-                                                       LoadHistory::Axes{R, units.force(), units.torque(), units.time});
+  if (load->history) {
+    Matrix6d map = Matrix6d::Zero();
+    map.topLeftCorner<3, 3>() = R / units.force();
+    map.bottomRightCorner<3, 3>() = R / units.torque();
+    out->history = std::make_shared<const LoadHistory>(*load->history, map, units.time);
+  }
   return out;
 }
 

@@ -44,6 +44,7 @@ Reference::Reference(const Scenario& given)
   plan.max_evaluations = enoughEvaluations(plan.step_rate, duration);
   windows = replayInWindows(scenario, amplification, plan);
   measureIntegration(scenario, plan, windows);
+  measureOpening(conditions, windows);
 }
 
 std::shared_ptr<const Reference> makeReference(const Scenario& scenario) {

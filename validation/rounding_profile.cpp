@@ -81,8 +81,9 @@ void spreadOfKinematics(const View& a, const View& b, double length, RoundingLev
           jointDistance(a.joints_simbody.q_ddot, b.joints_simbody.q_ddot));
   set(out, Rounded::jacobian, spin(a.jacobian - b.jacobian, length));
   set(out, Rounded::jacobian_rate, spin(a.jacobian_rate - b.jacobian_rate, length));
-  const Matrix6d T = a.T - b.T;
-  set(out, Rounded::shaping, T.bottomRows<3>().norm() + length * T.topRows<3>().norm());
+  const auto size = [length](const Matrix6d& T) { return T.bottomRows<3>().norm() + length * T.topRows<3>().norm(); };
+  set(out, Rounded::shaping, size(a.T - b.T));
+  set(out, Rounded::shaping_rate, size(a.T_rate - b.T_rate));
 }
 
 /// `effort` is T_PᵀM_P.

@@ -21,6 +21,7 @@ struct Spoil {
   std::function<void(PointwiseSample&)> sample;  ///< what was measured at one instant
   std::function<void(Reactions&)> reactions;     ///< those recovered from the solver's road
   Settings replay;                               ///< the judged replays
+  bool lower_order = false;                      ///< another integrator, of order 5, as the one of integration.order
   Settings ladder;                               ///< the replays that they are compared with, of both integrators
 };
 

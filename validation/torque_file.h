@@ -37,8 +37,8 @@ TorqueFile readTorqueFile(const std::filesystem::path& file);
 /// The same from text; `file` names it in errors.
 TorqueFile parseTorqueFile(const std::string& text, const std::filesystem::path& file);
 
-/// What an instant near `duration` may be off by where its writer added one step to the instant before, s: half an eps for
-/// each row, and as much again for the step's own rounding. At least four eps.
+/// What an instant near `duration` may be off by where its writer added one step to the instant before, s: half an eps
+/// for each row, and as much again for the step's own rounding. At least four eps.
 double timeRounding(const TorqueFile& file, double duration);
 
 /// The same torques with every instant in [0, duration]: those beyond by no more than rounding (of doubles, and as

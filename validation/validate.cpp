@@ -9,6 +9,7 @@
 #include "validation/direct_checks.h"
 #include "validation/feedback.h"
 #include "validation/finish.h"
+#include "validation/integration_order.h"
 #include "validation/invariance.h"
 #include "validation/judge_replay.h"
 #include "validation/ladder.h"
@@ -104,6 +105,7 @@ class Trial {
     if (options_.ladder) {
       ladder_ = climb(scenario_, plan_.torques, windows_.front(), right_, options_.spoil.ladder);
       append(result.checks, judgeLadder(ladder_, windows_.front(), reference_.position_scale, units_));
+      result.checks.push_back(judgeOrder(scenario_, options_.spoil.lower_order));
     }
     const Spoil::Seen& seen = options_.spoil.feedback;
     const Scenario fed_back = seen ? seen(scenario_) : scenario_;

@@ -79,6 +79,7 @@ View Viewpoint::at(const Motion<double>& motion, const Vector6d& torques) {
   out.joints_solver = p.back(solver_joints);
   out.bodies_solver = p.back(bodies);
   out.T = shapingBack(p, T);
+  out.T_rate = shapingBack(p, T_rate) / p.units.time;
   out.reactions_solver = p.back(recoverReactions(r.solver, there, tau, r.work));
   out.direct_solver = twistBack(p, r.solver.directDynamics(there, p.of(torques), r.work, load), 2);
 

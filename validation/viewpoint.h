@@ -15,7 +15,7 @@ struct View {
   JointMotion joints_solver, joints_simbody;
   BodyMotions<double> bodies_solver, bodies_simbody;  ///< Simbody's where it is put into the solver's joint state
   Vector6d jacobian, jacobian_rate;  ///< T φ̇, T φ̈ + Ṫ φ̇ with Simbody's joint motion: [ω; v] at P
-  Matrix6d T;                        ///< the solver's
+  Matrix6d T, T_rate;                ///< the solver's
   Vector6d torques_solver, torques_simbody, torques_twin, torques_maximal;  ///< N·m
   std::optional<Vector6d> torques_mujoco;                                   ///< where it is built in
   Vector6d acceleration;                   ///< Simbody's of the platform under the solver's torques, [ω̇; p̈]

@@ -61,6 +61,22 @@ double positionScale(const std::vector<PointwiseSample>& samples) {
   return scale;
 }
 
+/// ∫ n(s) ds and ∫ (end − s) n(s) ds, the larger n of the two samples beside s.
+void measureOpening(const std::vector<PointwiseSample>& samples, std::vector<WindowedReplay>& windows) {
+  for (WindowedReplay& window : windows) {
+    const double start = window.window.start(), end = window.window.end();
+    window.opening = {};
+    for (std::size_t k = 0; k + 1 < samples.size(); ++k) {
+      const double from = std::max(start, samples[k].motion.t), to = std::min(end, samples[k + 1].motion.t);
+      if (!(to > from)) continue;
+      const double noise = std::max(samples[k].conditioning.rounding(Rounded::gaps),
+                                    samples[k + 1].conditioning.rounding(Rounded::gaps));
+      window.opening.velocity += noise * (to - from);
+      window.opening.position += noise * (to - from) * (end - (from + to) / 2);
+    }
+  }
+}
+
 LoopForces loopForces(const std::vector<PointwiseSample>& samples) {
   LoopForces forces;
   for (const PointwiseSample& sample : samples) forces.include(sample.conditioning);

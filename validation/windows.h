@@ -72,6 +72,9 @@ class SampledLimit {
   const std::vector<PointwiseSample>& samples_;
 };
 
+/// Of each window, from the conditioning of its samples.
+void measureOpening(const std::vector<PointwiseSample>& samples, std::vector<WindowedReplay>& windows);
+
 /// Over the samples.
 LoopForces loopForces(const std::vector<PointwiseSample>& samples);
 

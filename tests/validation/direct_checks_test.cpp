@@ -104,8 +104,7 @@ TEST_P(Direct, noNumberIsNoAgreement) {
   EXPECT_EQ(growth(none).verdict, Verdict::fail);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenarios, Direct,
-                         testing::Values("paper-helix", "proving-ground", "millimetres", "viscous-friction"),
+INSTANTIATE_TEST_SUITE_P(Scenarios, Direct, testing::Values("paper-helix", "proving-ground", "millimetres"),
                          [](const auto& name) { return asTestName(name.param); });
 
 TEST(DirectChecks, noSampleFails) {

@@ -156,5 +156,97 @@ TEST(JudgeReplay, leavesOpenWhatTookTooLongUnlessItIsWrongAlready) {
   }
 }
 
+/// A replay of 11 steps whose errors are `factor` times t.
+Replay errors(double factor, int steps = 11) {
+  Replay out;
+  for (int k = 0; k < steps; ++k) {
+    ReplayStep step;
+    step.t = 0.1 * k;
+    step.position_error.x() = step.rotation_error.y() = factor * step.t;
+    step.velocity_error.x() = step.spin_error.y() = factor;
+    step.closure = {2 * factor * step.t, 3 * factor * step.t};
+    step.energy_error = -4 * factor * step.t;
+    out.steps.push_back(step);
+  }
+  return out;
+}
+
+TEST(IntegrationErrors, areDifferencesOfTwoReplaysAndTheGapsOfTheCoarser) {
+  const IntegrationError found = integrationError(errors(1e-12), errors(1e-10));
+  ASSERT_EQ(found.steps.size(), 11u);
+  const IntegrationError::At at = found.at(0.5);
+  EXPECT_NEAR(at.position, 99e-12 * 0.5, 1e-20);
+  EXPECT_NEAR(at.rotation, 99e-12 * 0.5, 1e-20);
+  EXPECT_NEAR(at.gap, 2e-10 * 0.5, 1e-20);
+  EXPECT_NEAR(at.gap_rate, 3e-10 * 0.5, 1e-20);
+  EXPECT_NEAR(at.energy, 4e-10 * 0.5, 1e-20);
+}
+
+/// The largest up to there: an error that comes back to nothing was there.
+TEST(IntegrationErrors, neverFallAndKeepNaN) {
+  Replay coarse = errors(0);
+  coarse.steps[3].position_error.x() = 1e-9;
+  const IntegrationError found = integrationError(errors(0), coarse);
+  EXPECT_EQ(found.at(0.2).position, 0);
+  EXPECT_EQ(found.at(0.3).position, 1e-9);
+  EXPECT_EQ(found.at(1).position, 1e-9);
+  coarse.steps[5].closure.position = std::nan("");
+  EXPECT_TRUE(std::isnan(integrationError(errors(0), coarse).at(1).gap));
+}
+
+TEST(IntegrationErrors, areInfiniteWhereTheCoarserDidNotGetTo) {
+  const IntegrationError found = integrationError(errors(1e-12), errors(1e-10, 6));
+  EXPECT_TRUE(std::isfinite(found.at(0.5).position));
+  EXPECT_TRUE(std::isinf(found.at(0.6).position));
+  EXPECT_TRUE(std::isinf(found.at(0.6).energy));
+  EXPECT_FALSE(IntegrationError{}.measured());
+}
+
+/// With a measured integration error the tolerance has no part in a limit; three times the measured one has.
+TEST(JudgeReplay, takesTheMeasuredIntegrationErrorForTheTolerance) {
+  WindowedReplay window = made();
+  for (std::size_t k = 0; k < 10; ++k) window.replay.steps[k] = errors(0).steps[k];  // so that the end is shown
+  window.integration = integrationError(errors(0), errors(1e-10));
+  const WindowedReplay without = [&] {
+    WindowedReplay out = window;
+    out.integration = integrationError(errors(0), errors(0));
+    return out;
+  }();
+  const auto limit = [](const WindowedReplay& of, const std::string& name) {
+    return findCheck(judgeReplay({of}, position_scale, length, forces), name)->limit;
+  };
+  EXPECT_NEAR(replayLimit(window, position_scale, 1) - replayLimit(without, position_scale, 1), 3e-10, 1e-18);
+  EXPECT_NEAR(limit(window, "replay.orientation") - limit(without, "replay.orientation"), 3e-10, 1e-18);
+  EXPECT_NEAR(limit(window, "closure.position") - limit(without, "closure.position"), 6e-10, 1e-18);
+  EXPECT_NEAR(limit(window, "closure.velocity") - limit(without, "closure.velocity"), 9e-10, 1e-18);
+  EXPECT_NEAR(limit(window, "energy.balance") - limit(without, "energy.balance"), 12e-10, 1e-15);
+  EXPECT_EQ(replayLimit(without, position_scale, 1), driftLimit(without.window, 0, 11, position_scale, 1));
+  WindowedReplay coarser_tolerance = without;
+  coarser_tolerance.replay.tolerance = 1e-6;
+  EXPECT_EQ(replayLimit(coarser_tolerance, position_scale, 1), replayLimit(without, position_scale, 1));
+  EXPECT_LT(replayLimit(without, position_scale, 1), replayLimit(made(), position_scale, 1));
+}
+
+TEST(JudgeReplay, isInconclusiveWhereTheIntegrationWasNotMeasuredToTheEnd) {
+  WindowedReplay window = made();
+  window.integration = integrationError(errors(0), errors(1e-13, 6));
+  const std::vector<Check> checks = judgeReplay({window}, position_scale, length, forces);
+  for (const char* name : {"replay.position", "replay.orientation", "closure.position"}) {
+    EXPECT_EQ(verdictOf(checks, name), "inconclusive") << name;
+    EXPECT_EQ(findCheck(checks, name)->reason, Reason::limit_useless) << name;
+  }
+}
+
+TEST(JudgeReplay, keepsTheLargestErrorBesideTheOneNearestToItsLimit) {
+  const std::vector<Check> checks = judge([](WindowedReplay& window) {
+    window.replay.steps[1].position_error.x() = 1e-11;  // near its limit, early on
+    window.replay.steps[10].position_error.x() = 2e-11;
+  });
+  const Check& check = *findCheck(checks, "replay.position");
+  EXPECT_EQ(check.value, 1e-11);
+  EXPECT_EQ(check.largest.value, 2e-11);
+  EXPECT_DOUBLE_EQ(check.largest.t, 1);
+}
+
 }  // namespace
 }  // namespace ursula

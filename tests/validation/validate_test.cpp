@@ -159,7 +159,11 @@ TEST(ValidateResult, isTheSameWithAReferenceMadeBefore) {
 TEST(ValidateControl, aSpoiltReplayFails) {
   const Scenario scenario = quick("paper-helix");
   ValidationOptions spoilt = without_extras;
-  spoilt.spoil_replay = [](double, std::vector<double>& x) { x.back() += 1e-9; };
+  spoilt.spoil.replay = [](ReplaySettings& settings) {
+    settings.spoil = [](double, std::vector<double>& x) {
+      for (double& each : x) each *= 1 + 1e-9;
+    };
+  };
   const ValidationResult result = validate(scenario, spoilt);
   EXPECT_EQ(verdictOf(result.checks, "replay.position"), "fail");
   for (const char* name : {"torque.pointwise", "torque.between", "acceleration.pointwise", "direct.growth"})

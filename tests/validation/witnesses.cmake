@@ -4,6 +4,7 @@ add_executable(witness_tests
   extremes_test.cpp
   feedback_test.cpp
   invariance_test.cpp
+  judge_ladder_test.cpp
   ladder_test.cpp
   prove_test.cpp
   roads_test.cpp

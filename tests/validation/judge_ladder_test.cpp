@@ -1,0 +1,181 @@
+// The judgement of ladders, on ladders made up: each rung is held to its own bound.
+
+#include "validation/ladder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "tests/validation/checks.h"
+
+namespace ursula {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double position_scale = 2;
+
+/// A window of 1 s in which nothing grows.
+WindowedReplay madeReplay() {
+  WindowedReplay out;
+  for (double t : {0.0, 0.5, 1.0}) {
+    out.window.t.push_back(t);
+    out.window.from_acceleration.push_back(0);
+    out.window.from_unit_rate.push_back(t);
+    out.window.from_start.push_back(1);
+    out.window.growth.push_back(t);
+    ReplayStep step;
+    step.t = t;
+    out.replay.steps.push_back(step);
+  }
+  out.replay.tolerance = 1e-14;
+  return out;
+}
+
+/// Each a hundredth of the one before; the other integrator's two a tenth apart.
+Ladder madeLadder() {
+  Ladder out;
+  out.rungs = {{Integrator::rkf78, 1e-8, 300, 20, 1e-8, ""},
+               {Integrator::rkf78, 1e-10, 450, 35, 1e-10, ""},
+               {Integrator::rkf78, 1e-12, 800, 62, 1e-12, ""}};
+  out.second = {{Integrator::rk_merson, 1e-8, 600, 120, 2e-9, ""}, {Integrator::rk_merson, 1e-9, 900, 180, 2e-10, ""}};
+  out.second_end = 0.5;
+  out.second_difference = 1.8e-9;
+  return out;
+}
+
+using Change = std::function<void(Ladder&)>;
+
+std::vector<Check> judge(const Change& change) {
+  Ladder ladder = madeLadder();
+  change(ladder);
+  return judgeLadder(ladder, madeReplay(), position_scale);
+}
+
+/// The checks after a change of one rung.
+std::vector<Check> judge(std::size_t rung, const std::function<void(Rung&)>& change) {
+  return judge([&](Ladder& ladder) { change(ladder.rungs[rung]); });
+}
+
+TEST(JudgeLadder, acceptsRungsWithinTheirBounds) {
+  const std::vector<Check> checks = judge([](Ladder&) {});
+  EXPECT_EQ(verdictOf(checks, "integration.ladder"), "pass");
+  EXPECT_EQ(verdictOf(checks, "integration.second"), "pass");
+}
+
+TEST(JudgeLadder, failsARungBeyondItsBoundAndThatOneAlone) {
+  const std::string names[] = {"integration.ladder", "integration.second"};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto with = [k](double distance) {
+      return judge(
+          [k, distance](Ladder& ladder) { (k == 0 ? ladder.rungs : ladder.second).back().distance = distance; });
+    };
+    const double limit = findCheck(judge([](Ladder&) {}), names[k])->limit;
+    for (const double wrong : {1.01 * limit, std::nan("")}) {
+      EXPECT_EQ(verdictOf(with(wrong), names[k]), "fail") << wrong;
+      EXPECT_EQ(verdictOf(with(wrong), names[1 - k]), "pass") << wrong;
+    }
+    EXPECT_EQ(verdictOf(with(0.99 * limit), names[k]), "pass");
+  }
+}
+
+/// A hundredth of the tolerance has to bring the end nearer at least four times, but for rounding.
+TEST(JudgeLadder, theBoundIsAQuarterOfTheCoarserRungsDistance) {
+  const auto limit = [](double coarser) {
+    return findCheck(judge(1, [coarser](Rung& rung) { rung.distance = coarser; }), "integration.ladder")->limit;
+  };
+  EXPECT_DOUBLE_EQ(limit(1e-9), 0.25e-9);
+  EXPECT_DOUBLE_EQ(limit(1e-10), 0.25e-10);
+  const WindowedReplay replay = madeReplay();
+  EXPECT_DOUBLE_EQ(limit(0), driftLimit(replay.window, 0, 3, position_scale, 1)) << "rounding";
+  EXPECT_LT(limit(0), 1e-13);
+}
+
+/// Where knots decide the steps, a finer tolerance takes few more, and the error is asked to fall with them alone.
+TEST(JudgeLadder, theBoundIsWiderWhereStepsAreHardlyMore) {
+  const auto limit = [](long steps) {
+    return findCheck(judge(2, [steps](Rung& rung) { rung.steps = steps; }), "integration.ladder")->limit;
+  };
+  EXPECT_DOUBLE_EQ(limit(35), 2e-10) << "as many steps: twice";
+  EXPECT_NEAR(limit(42), 2e-10 / std::pow(1.2, 4), 1e-16);
+  EXPECT_DOUBLE_EQ(limit(70), 0.25e-10) << "twice as many: a quarter";
+}
+
+/// The other integrator by what it changes itself, and by what the judged replay may be off by at that instant.
+TEST(JudgeLadder, theSecondIsBoundByItsOwnErrorAndTheReplays) {
+  const auto limit = [](double difference, double end) {
+    return findCheck(judge([=](Ladder& ladder) { ladder.second_difference = difference, ladder.second_end = end; }),
+                     "integration.second")
+        ->limit;
+  };
+  EXPECT_NEAR(limit(2e-9, 0.5) - limit(1e-9, 0.5), 10 * 1e-9, 1e-17);
+  for (const double end : {0.5, 1.0}) EXPECT_DOUBLE_EQ(limit(0, end), replayLimit(madeReplay(), position_scale, end));
+  EXPECT_GT(limit(0, 1), limit(0, 0.5));
+  EXPECT_EQ(verdictOf(judge([](Ladder& ladder) { ladder.second_difference = std::nan(""); }), "integration.second"),
+            "fail");
+}
+
+TEST(JudgeLadder, failsWithTheReasonWhereARungGaveUp) {
+  for (std::size_t rung = 0; rung < 3; ++rung) {
+    const std::vector<Check> checks = judge(rung, [](Rung& it) { it.gave_up = "the step vanished"; });
+    EXPECT_EQ(overall(checks), Verdict::fail) << rung;
+    EXPECT_EQ(others(checks, Verdict::fail), "") << rung;
+    EXPECT_THAT(checks.front().why, HasSubstr("the step vanished"));
+  }
+}
+
+/// It is Simbody's own, and a stiff loop may be beyond it: that says nothing of the judged replay.
+TEST(JudgeLadder, leavesTheSecondOpenWhereThatIntegratorDidNotGetThere) {
+  for (std::size_t rung = 0; rung < 2; ++rung)
+    for (const bool left_path : {false, true}) {
+      const std::vector<Check> checks = judge([=](Ladder& ladder) {
+        if (left_path)
+          ladder.second[rung].left_path = true;
+        else
+          ladder.second[rung].gave_up = "the step vanished";
+      });
+      EXPECT_EQ(verdictOf(checks, "integration.ladder"), "pass");
+      EXPECT_EQ(verdictOf(checks, "integration.second"), "inconclusive");
+      EXPECT_EQ(findCheck(checks, "integration.second")->reason, Reason::unfinished);
+    }
+  EXPECT_EQ(verdictOf(judge([](Ladder& ladder) { ladder.second.clear(); }), "integration.second"), "fail");
+}
+
+TEST(JudgeLadder, failsWhereTheJudgedReplayGaveUpOrLeftThePath) {
+  WindowedReplay gave_up = madeReplay(), lost = madeReplay();
+  gave_up.replay.gave_up = "the step vanished";
+  lost.replay.left_path = true;
+  EXPECT_EQ(overall(judgeLadder(madeLadder(), gave_up, position_scale)), Verdict::fail);
+  EXPECT_EQ(overall(judgeLadder(madeLadder(), lost, position_scale)), Verdict::fail);
+}
+
+TEST(JudgeLadder, isInconclusiveWhereARungLeftThePath) {
+  const std::vector<Check> checks = judge(0, [](Rung& it) { it.left_path = true; });
+  EXPECT_EQ(overall(checks), Verdict::inconclusive);
+}
+
+TEST(JudgeLadder, isInconclusiveWhereARungOrTheJudgedReplayTookTooLong) {
+  const auto hasty = [](auto& it) { it.gave_up = "more than 30 derivative evaluations", it.too_long = true; };
+  for (std::size_t rung = 0; rung < 3; ++rung) EXPECT_EQ(overall(judge(rung, hasty)), Verdict::inconclusive) << rung;
+  WindowedReplay judged = madeReplay();
+  hasty(judged.replay);
+  EXPECT_EQ(overall(judgeLadder(madeLadder(), judged, position_scale)), Verdict::inconclusive);
+}
+
+TEST(JudgeLadder, failsWhereNoneWasClimbed) {
+  const std::vector<Check> checks = judgeLadder({}, madeReplay(), position_scale);
+  EXPECT_EQ(verdictOf(checks, "integration.ladder"), "fail");
+}
+
+TEST(WorkPrecision, hasARowForEachRungOfTheFirstIntegrator) {
+  const TimeSeries series = workPrecision(madeLadder());
+  ASSERT_NE(series.find("evaluations"), nullptr);
+  ASSERT_NE(series.find("rkf78_error_m"), nullptr);
+  EXPECT_EQ(*series.find("evaluations"), (std::vector<double>{300, 450, 800}));
+  EXPECT_EQ(*series.find("rkf78_error_m"), (std::vector<double>{1e-8, 1e-10, 1e-12}));
+}
+
+}  // namespace
+}  // namespace ursula
