@@ -113,6 +113,7 @@ Check judgeGrowth(const Scenario& scenario, const Subject& subject, const Simbod
   const double size = wanted_deviation * length / std::max(1.0, finer.topRows<6>().norm());
   ReplaySettings settings;
   settings.end = end;
+  settings.max_evaluations = enoughEvaluations(scenario, plannedStepRate(scenario.trajectory->duration()));
   std::vector<Vector6d> ends;  // on the path, beside it either way, and the same two at a hundredth of the tolerance
   const std::pair<double, double> runs[] = {{0, 1}, {1, 1}, {-1, 1}, {1, coarser}, {-1, coarser}};
   for (const auto& [sign, finer_by] : runs) {
