@@ -45,7 +45,7 @@ class HelixKernel {
         a_(helix.radius),
         b_(helix.pitch),
         phase_(helix.phase),
-        axis_(S(-origin.x()), S(-origin.y()), startHeight(helix, origin)),
+        start_(startOf(helix, origin)),
         coefficients_(quinticCoefficients<S>(helix)) {}
 
   /// With c = cos(β + ω), s = sin(β + ω), and ' the derivative by β:
@@ -68,7 +68,9 @@ class HelixKernel {
 
     Motion<S> motion;
     motion.t = t;
-    motion.p = axis_ + Vector3<S>(a_ * c, a_ * s, b_ * helix.rise);
+    // The chord from the start instead of two radii, which cancel where the axis is far.
+    const S half = helix.rise / 2, middle = coefficients_[0] + phase_ + half, chord = 2 * sin(half);
+    motion.p = start_ + Vector3<S>(-a_ * chord * sin(middle), a_ * chord * cos(middle), b_ * helix.rise);
     motion.p_dot = m * helix.rate;
     motion.p_ddot = m * helix.acceleration + n * (helix.rate * helix.rate);
     motion.Q.col(0) = -e_t.cross(e_n);
@@ -80,9 +82,12 @@ class HelixKernel {
   }
 
  private:
-  /// b (β₀ + ω̄) less the origin's height, rounded once: on a machine far above the origin the two cancel.
-  static S startHeight(const HelixParameters& helix, const Vector3d& origin) {
-    return S(Real50(Real50(helix.pitch) * (Real50(helix.start_angle) + Real50(helix.height_phase)) - origin.z()));
+  /// p at β₀ from the origin, rounded once: on a machine far from the base's origin the two cancel.
+  static Vector3<S> startOf(const HelixParameters& helix, const Vector3d& origin) {
+    const Real50 angle = Real50(helix.start_angle) + helix.phase;
+    const Real50 height = Real50(helix.pitch) * (Real50(helix.start_angle) + Real50(helix.height_phase));
+    return {S(Real50(helix.radius * cos(angle) - origin.x())), S(Real50(helix.radius * sin(angle) - origin.y())),
+            S(Real50(height - origin.z()))};
   }
 
   /// β by Horner's rule (paper, eq. 50), and β̇, β̈ (paper, eq. 53).
@@ -99,7 +104,7 @@ class HelixKernel {
   }
 
   S duration_, a_, b_, phase_;
-  Vector3<S> axis_;  ///< from the origin to the helix's axis, at the height where it starts
+  Vector3<S> start_;  ///< p at β₀
   std::array<S, 6> coefficients_;
 };
 

@@ -58,6 +58,7 @@ std::array<double, 3> SimbodyLoop::Impl::legGeometry(int leg, const Motion<doubl
 
 void SimbodyLoop::Impl::setPlatformPose(const Motion<double>& motion) {
   const SimTK::Transform X_GB(toSimTK(motion.Q), toSimTK(motion.p));
+  mechanism.platform.setQToFitTransform(state, SimTK::Transform());  // what was there may be no number
   realize(SimTK::Stage::Position);
   const SimTK::MobilizedBody& parent = mechanism.platform.getParentMobilizedBody();
   const SimTK::Transform X_GF = parent.getBodyTransform(state) * mechanism.platform.getInboardFrame(state);

@@ -83,7 +83,7 @@ Check judgeDirect(const Scenario& scenario, const Subject& subject, const std::v
   if (!shown.any) return notMade(check, "m/s^2", "no instant was compared");
   const auto motor = [](int where) { return where < 0 ? "as commanded" : fmt::format("motor {} changed", where + 1); };
   Check out = judgedIfUseful(
-      check, shown.value, shown.limit, useful_share * size, "m/s^2",
+      check, shown.value, limitToJudge(shown, useful_share * size), useful_share * size, "m/s^2",
       fmt::format("eps (|| T_P inv(I) || x the torque's and the platform's compliance x the forces that close the "
                   "loops) x {:g} x the spread measured in turned and rescaled frames",
                   rounding_safety),
@@ -113,6 +113,7 @@ Check judgeGrowth(const Scenario& scenario, const Subject& subject, const Simbod
   const double size = wanted_deviation * length / std::max(1.0, finer.topRows<6>().norm());
   ReplaySettings settings;
   settings.end = end;
+  settings.max_evaluations = enoughEvaluations(scenario, plannedStepRate(scenario.trajectory->duration()));
   std::vector<Vector6d> ends;  // on the path, beside it either way, and the same two at a hundredth of the tolerance
   const std::pair<double, double> runs[] = {{0, 1}, {1, 1}, {-1, 1}, {1, coarser}, {-1, coarser}};
   for (const auto& [sign, finer_by] : runs) {

@@ -140,7 +140,7 @@ ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& t
   plan.position_scale = limit->positionScale();
   plan.step_rate = std::max(plannedStepRate(duration), 2 * knot_rate);
   plan.tolerance = reachableTolerance(scenario, plan.step_rate);
-  plan.max_evaluations = enoughEvaluations(plan.step_rate, duration);
+  plan.max_evaluations = enoughEvaluations(scenario, plan.step_rate);
   const std::vector<GrowthWindow> windows = planWindows(amplification, plan);
   const double useful = useful_replay_limit * limit->length();
   const std::string basis = splineBasis(*limit, torques.file.rows(), units);

@@ -23,7 +23,9 @@ constexpr double nominal_order = 8;
 constexpr double largest_distance = 0.75;
 /// Differences below this, in natural units, may be rounding; above the other, steps are too long to show an order.
 constexpr double least_difference = 1e-11, most_difference = 1e-3;
-constexpr int attempts = 12;
+/// Stretches that are tried, in natural units of time: from the longest on, each so much shorter.
+constexpr double longest = 4, shorter = 0.75;
+constexpr int attempts = 20;
 
 Manipulator frictionless(const Manipulator& manipulator) {
   ManipulatorParameters machine = manipulator.parameters();
@@ -87,17 +89,15 @@ template <class Stepper>
 Check judgeOrderOf(const Scenario& scenario) {
   static constexpr const char* check = "integration.order";
   LetGo<Stepper> loop(scenario);
-  double nearest = std::nan(""), duration = 1, found_at = 0;
-  for (int attempt = 0; attempt < attempts; ++attempt) {
-    const double tried = duration;
+  double nearest = std::nan(""), found_at = 0, duration = longest;
+  for (int attempt = 0; attempt < attempts; ++attempt, duration *= shorter) {
     const auto [first, second] = loop.differences(duration);
-    const bool shows = first <= most_difference && second >= least_difference;
-    duration *= second < least_difference ? 1.4 : 0.7;
-    if (!shows) continue;
+    if (second < least_difference) break;  // and the more so over less
+    if (!(first <= most_difference)) continue;
     const double order = std::log2(first / second);
     if (std::isnan(nearest) || std::abs(order - nominal_order) < std::abs(nearest - nominal_order)) {
       nearest = order;
-      found_at = tried;
+      found_at = duration;
     }
     if (std::abs(order - nominal_order) <= largest_distance / 2) break;
   }

@@ -51,6 +51,9 @@ std::string causeOf(const std::vector<WindowedReplay>& windows, double t) {
   return "";
 }
 
+/// `useful` 0: any limit says something, but for an infinite one.
+bool isUseless(double limit, double useful) { return useful > 0 ? !(limit <= useful) : !std::isfinite(limit); }
+
 Check judgeMeasure(const std::vector<WindowedReplay>& windows, const Measure& measure, const Units& units) {
   std::string unfinished;
   for (const WindowedReplay& window : windows) {
@@ -70,7 +73,7 @@ Check judgeMeasure(const std::vector<WindowedReplay>& windows, const Measure& me
   Check check = judged(measure.name, shown.value, shown.limit, measure.unit, measure.basis, why);
   if (!unfinished.empty() && shown.value <= shown.limit)
     check = notJudgeable(Reason::unfinished, measure.name, shown.value, shown.limit, measure.unit, measure.basis, why);
-  else if (shown.value <= shown.limit && measure.useful > 0 && !(shown.widest_limit <= measure.useful))
+  else if (shown.value <= shown.limit && isUseless(shown.widest_limit, measure.useful))
     check =
         notJudgeable(Reason::limit_useless, measure.name, shown.value, shown.widest_limit, measure.unit, measure.basis,
                      fmt::format("{}; at t = {:.6g} s the limit exceeds {:.3g} {}, beyond which it says nothing: {}",

@@ -115,7 +115,7 @@ Check judgeConvergence(const Ladder& ladder, const WindowedReplay& finest, doubl
   for (double p : ladder.observed_orders) orders += fmt::format("{}{:.3g}", orders.empty() ? "" : ", ", p);
   const double steps = static_cast<double>(fine.steps) / static_cast<double>(std::max(coarse.steps, 1L));
   const double share = std::max(1 / least_gain, 2 * std::pow(steps, -nominal_order / 2));
-  return judged(
+  Check check = judged(
       "integration.ladder", fine.distance,
       std::max({coarse.distance * share, roundingBound(finest, position_scale, finest.window.end()),
                 harmless * useful_replay_limit * finest.window.length}),
@@ -126,6 +126,11 @@ Check judgeConvergence(const Ladder& ladder, const WindowedReplay& finest, doubl
           share, coarse.tolerance, coarse.steps, fine.steps, harmless),
       fmt::format("ends of the replay at tolerances {:g} and {:g}; observed orders {} of {}, {}", fine.tolerance,
                   finest.replay.tolerance, orders, nominal_order, ladder.asymptotic ? "asymptotic" : "not asymptotic"));
+  if (check.verdict == Verdict::fail && ladder.passes_knots)
+    check =
+        notJudgeable(Reason::limit_useless, check.name, check.value, check.limit, "m", check.basis,
+                     check.why + "; the motion has more knots than can be stepped to, so that it need not converge");
+  return check;
 }
 
 Check judgeSecond(const Ladder& ladder, const WindowedReplay& finest, double position_scale, const Units& units) {
@@ -171,6 +176,7 @@ Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques
   ladder.extrapolated = last.distance * std::pow(ratio, -p);
   ladder.uncertainty = integration_safety * ladder.extrapolated;
   climbSecond(scenario, torques, finest, spoil, ladder);
+  ladder.passes_knots = allKnots(scenario).size() > most_knots;
   return ladder;
 }
 

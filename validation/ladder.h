@@ -29,6 +29,7 @@ struct Ladder {
   std::vector<Rung> second;
   double second_end = 0;                ///< s
   double second_difference = 0;         ///< between the two, m
+  bool passes_knots = false;            ///< over some it steps, so that it need not converge
   std::vector<double> observed_orders;  ///< between neighbouring rkf78 rungs, of the error against the steps
   bool asymptotic = false;              ///< both orders within 2 of 8
   double extrapolated = 0;              ///< estimated integration error of the finest replay at its end, m

@@ -184,10 +184,8 @@ Check judgeQuantity(const std::vector<PointwiseSample>& samples, const Quantity&
     const Deviation& deviation = sample.*quantity.deviation;
     shown.add(deviation.error, deviation.limit, sample.motion.t, deviation.where);
     if (shown.t == sample.motion.t) at = &sample;
-    if (widest == nullptr || !(deviation.limit - deviation.given <= widest_rounding)) {
-      widest = &sample;
-      widest_rounding = deviation.limit - deviation.given;
-    }
+    if (widest == nullptr || !(deviation.limit - deviation.given <= widest_rounding))
+      widest = &sample, widest_rounding = deviation.limit - deviation.given;
   }
   if (at == nullptr) return notMade(quantity.name, quantity.unit, "no instant was compared");
   const Conditioning& c = at->conditioning;

@@ -41,7 +41,7 @@ Reference::Reference(const Scenario& given)
   plan.position_scale = position_scale;
   plan.step_rate = plannedStepRate(duration);
   plan.tolerance = reachableTolerance(scenario, plan.step_rate);
-  plan.max_evaluations = enoughEvaluations(plan.step_rate, duration);
+  plan.max_evaluations = enoughEvaluations(scenario, plan.step_rate);
   windows = replayInWindows(scenario, amplification, plan);
   measureIntegration(scenario, plan, windows);
   measureOpening(conditions, windows);

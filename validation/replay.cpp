@@ -213,14 +213,20 @@ double Replay::maxRotationError() const {
   return maxOver(steps, [](const ReplayStep& step) { return step.rotation_error.norm(); });
 }
 
-std::vector<double> knotsWithin(const Scenario& scenario, double start, double end) {
+std::vector<double> allKnots(const Scenario& scenario) {
   std::vector<double> knots = scenario.trajectory->knots();
   if (scenario.load && scenario.load->history) {
     const std::vector<double>& more = scenario.load->history->knots();
     knots.insert(knots.end(), more.begin(), more.end());
     std::sort(knots.begin(), knots.end());
   }
-  const double least = scenario.trajectory->duration() / 4096;
+  return knots;
+}
+
+std::vector<double> knotsWithin(const Scenario& scenario, double start, double end) {
+  const std::vector<double> knots = allKnots(scenario);
+  const double duration = scenario.trajectory->duration();
+  const double least = duration * (knots.size() <= most_knots ? 1e-9 : 1.0 / 4096);
   std::vector<double> within;
   double before = start;
   for (double knot : knots)

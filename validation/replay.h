@@ -52,8 +52,14 @@ struct ReplaySettings {
   std::function<double(const SimbodyLoop::Power&)> spoil_power;
 };
 
-/// The scenario's knots (trajectory and load) within (start, end), those left out that follow another by less than a
-/// 4096th of the motion: their jumps are then far smaller than a step's error.
+/// The instants at which a higher derivative of motion or load jumps, in order.
+std::vector<double> allKnots(const Scenario& scenario);
+
+/// Up to so many are all stepped to; of more, those that follow another by less than a 4096th of the motion are passed
+/// over, and the order of the integration is lost there.
+constexpr std::size_t most_knots = 2048;
+
+/// Those within (start, end) that a replay steps to.
 std::vector<double> knotsWithin(const Scenario& scenario, double start, double end);
 
 Replay replay(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const ReplaySettings& settings);

@@ -42,7 +42,7 @@ Check judgeRoad(const std::vector<RoadSample>& samples, const char* check_name, 
   double torque = 0;
   for (const RoadSample& sample : samples) torque = std::max(torque, road(sample).cwiseAbs().maxCoeff());
   Check check = judgedIfUseful(
-      check_name, shown.value, shown.limit, useful_share * torque, "N m",
+      check_name, shown.value, limitToJudge(shown, useful_share * torque), useful_share * torque, "N m",
       fmt::format("eps kappa(B) kappa(legs) x || |T|' |w| || x {:g} x the spread measured in turned and rescaled "
                   "frames",
                   rounding_safety),
@@ -179,7 +179,7 @@ Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample
   if (series != nullptr) addReactionColumns(rows, *series);
   if (!worst.any) return notMade("reactions.pointwise", "N", "no instant was compared");
   Check check = judgedIfUseful(
-      "reactions.pointwise", worst.value, worst.limit, useful_share * size, "N",
+      "reactions.pointwise", worst.value, limitToJudge(worst, useful_share * size), useful_share * size, "N",
       fmt::format("eps (kappa(B)^2 kappa(legs) x || |T|' |w| || / length + largest mass x the acceleration's) x "
                   "{:g} x the spread measured in turned and rescaled frames",
                   rounding_safety),

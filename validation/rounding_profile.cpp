@@ -34,7 +34,7 @@ double angleDistance(const JointVariables<double>& a, const JointVariables<doubl
     const auto k = static_cast<std::size_t>(i);
     const double phi = (of_a[k].R.col(0) - of_b[k].R.col(0)).norm();
     const auto turn = [](double x, double y) { return std::abs(std::remainder(x - y, 2 * std::acos(-1.0))); };
-    largest = larger(largest, std::max({phi, turn(a.psi(i), b.psi(i)), turn(a.theta(i), b.theta(i))}));
+    largest = larger(larger(larger(largest, phi), turn(a.psi(i), b.psi(i))), turn(a.theta(i), b.theta(i)));
   }
   return largest;
 }

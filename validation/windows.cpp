@@ -51,8 +51,9 @@ double reachableTolerance(const Scenario& scenario, double step_rate) {
 
 double plannedStepRate(double duration) { return 128 / std::min(duration, 8.0); }
 
-long enoughEvaluations(double step_rate, double duration) {
-  return 20000 + static_cast<long>(4 * 13 * step_rate * duration);
+long enoughEvaluations(const Scenario& scenario, double step_rate) {
+  const auto knots = static_cast<long>(allKnots(scenario).size());
+  return 20000 + static_cast<long>(4 * 13 * step_rate * scenario.trajectory->duration()) + 4 * 13 * knots;
 }
 
 double positionScale(const std::vector<PointwiseSample>& samples) {

@@ -59,7 +59,7 @@ double plannedStepRate(double duration);
 
 /// Where to give up: torques that are wrong may throw the machine about, but four times what right ones take, 13
 /// evaluations a step, is enough.
-long enoughEvaluations(double step_rate, double duration);
+long enoughEvaluations(const Scenario& scenario, double step_rate);
 
 /// Rounding of the platform's acceleration along the motion: the larger of the two samples beside t, m/s². Keeps a
 /// reference to `samples`.

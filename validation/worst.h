@@ -46,4 +46,9 @@ struct Worst {
   }
 };
 
+/// The limit that a check is judged by: where nothing is beyond its own, the widest, if that is beyond use.
+inline double limitToJudge(const Worst& worst, double useful) {
+  return worst.beyond() || worst.widest_limit <= useful ? worst.limit : worst.widest_limit;
+}
+
 }  // namespace ursula

@@ -90,11 +90,12 @@ TEST(JudgeReplay, judgesEveryStepByItsOwnLimit) {
 TEST(JudgeReplay, allowsTheWorkOfForcesOnTheGapsItAllows) {
   for (const auto& [size, rounding] : {std::pair(0.01, 0.0), std::pair(2.0, 1e-10), std::pair(20.0, 0.0)}) {
     WindowedReplay replay = made();
+    replay.opening = {rounding / 2, rounding};
     replay.replay.energy_scale = 0;
     for (ReplayStep& step : replay.replay.steps) step.energy_error = 0;
-    const auto with = [&, size = size, rounding = rounding](double force, double energy) {
+    const auto with = [&, size = size](double force, double energy) {
       replay.replay.steps[10].energy_error = energy;
-      return judgeReplay({replay}, size, length, {force, rounding});
+      return judgeReplay({replay}, size, length, LoopForces{force});
     };
     const double gap = findCheck(with(1e5, 0), "closure.position")->limit;
     EXPECT_EQ(verdictOf(with(1e5, 0.99 * 1e5 * gap), "energy.balance"), "pass") << size;
@@ -103,18 +104,24 @@ TEST(JudgeReplay, allowsTheWorkOfForcesOnTheGapsItAllows) {
   }
 }
 
-/// An acceleration of rounding opens gaps over the window's second: by itself to the rate, by half to the position.
+/// What rounding of the gaps' accelerations makes of them is allowed to the last.
 TEST(JudgeReplay, allowsGapsThatOpenByTheForcesRounding) {
-  const double rounding = 1e-8;
-  const auto limit = [](const char* check, const LoopForces& of) {
-    return findCheck(judgeReplay({made()}, position_scale, length, of), check)->limit;
+  const GapOpening opening{0.5e-8, 1e-8};
+  const auto with = [](const GapOpening& of) {
+    WindowedReplay window = made();
+    window.opening = of;
+    return window;
   };
-  EXPECT_NEAR(limit("closure.position", {0, rounding}) - limit("closure.position", {}), rounding / 2, 1e-20);
-  EXPECT_NEAR(limit("closure.velocity", {0, rounding}) - limit("closure.velocity", {}), rounding, 1e-20);
-  WindowedReplay open = made();
-  open.replay.steps[10].closure = {0.4 * rounding, 0.9 * rounding};
-  EXPECT_EQ(others(judgeReplay({open}, position_scale, length, {0, rounding}), Verdict::pass), "");
-  const std::vector<Check> checks = judgeReplay({open}, position_scale, length, {0, rounding / 2});
+  const auto limit = [](const char* check, const WindowedReplay& window) {
+    return findCheck(judgeReplay({window}, position_scale, length, forces), check)->limit;
+  };
+  EXPECT_NEAR(limit("closure.position", with(opening)) - limit("closure.position", made()), opening.position, 1e-20);
+  EXPECT_NEAR(limit("closure.velocity", with(opening)) - limit("closure.velocity", made()), opening.velocity, 1e-20);
+  WindowedReplay open = with(opening);
+  open.replay.steps[10].closure = {0.9 * opening.position, 0.9 * opening.velocity};
+  EXPECT_EQ(others(judgeReplay({open}, position_scale, length, forces), Verdict::pass), "");
+  open.opening = {opening.position / 2, opening.velocity / 2};
+  const std::vector<Check> checks = judgeReplay({open}, position_scale, length, forces);
   EXPECT_EQ(verdictOf(checks, "closure.position"), "fail");
   EXPECT_EQ(verdictOf(checks, "closure.velocity"), "fail");
 }
