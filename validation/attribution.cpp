@@ -100,7 +100,9 @@ Vector3d coarseEnd(const Scenario& scenario, const ReplayPlan& plan, const Windo
 }
 
 ErrorSource dominantOf(const ErrorBudget& budget) {
-  const std::pair<ErrorSource, double> shares[] = {{ErrorSource::model, budget.model.error.norm()},
+  // Torques that are right to rounding leave residuals of rounding: no error of theirs.
+  const double model = budget.model.error.norm();
+  const std::pair<ErrorSource, double> shares[] = {{ErrorSource::model, model > budget.model.uncertainty ? model : 0},
                                                    {ErrorSource::integration, budget.integration.error.norm()},
                                                    {ErrorSource::rounding, budget.rounding.error.norm()},
                                                    {ErrorSource::closure, budget.closure.error.norm()},
