@@ -88,8 +88,8 @@ class SimbodyLoop {
   std::vector<double> state() const;
   /// Sets time and state.
   void setState(double t, const double* x);
-  /// ẋ at (t, x) under `torques`. With six balls the legs' coordinates are eliminated by the balls' constraints; else by
-  /// realize(Acceleration).
+  /// ẋ at (t, x) under `torques`. With six balls the legs' coordinates are eliminated by the balls' constraints; else
+  /// by realize(Acceleration).
   void derivative(double t, const double* x, const Vector6d& torques, double* x_dot);
   /// Power at the state last differentiated, under its torques.
   Power power() const;

@@ -11,9 +11,15 @@ using Json = nlohmann::ordered_json;
 
 // nlohmann::json itself writes null for what is not finite.
 Json checkJson(const Check& check) {
-  return {{"name", check.name}, {"value", check.value},           {"limit", check.limit},
-          {"unit", check.unit}, {"verdict", name(check.verdict)}, {"basis", check.basis},
-          {"why", check.why},   {"reason", name(check.reason)},   {"limit_by", name(check.limit_by)},
+  return {{"name", check.name},
+          {"value", check.value},
+          {"limit", check.limit},
+          {"unit", check.unit},
+          {"verdict", name(check.verdict)},
+          {"basis", check.basis},
+          {"why", check.why},
+          {"reason", name(check.reason)},
+          {"limit_by", name(check.limit_by)},
           {"largest", {{"value", check.largest.value}, {"t_s", check.largest.t}, {"where", check.largest.where}}}};
 }
 

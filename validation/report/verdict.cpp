@@ -61,8 +61,8 @@ std::string reason(Verdict verdict, const std::vector<Check>& checks) {
     case Verdict::pass:
       break;
   }
-  const auto by_user = std::count_if(checks.begin(), checks.end(),
-                                     [](const Check& check) { return check.limit_by == LimitBy::user; });
+  const auto by_user =
+      std::count_if(checks.begin(), checks.end(), [](const Check& check) { return check.limit_by == LimitBy::user; });
   const std::string whose =
       by_user == 0 ? "" : fmt::format(", {} at the user's limits, wider than the derived ones", by_user);
   return fmt::format("{} of {} held{}; the closest to its limit, {}, {}.", count, plural(total), whose, worst.name,
