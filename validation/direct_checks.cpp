@@ -114,10 +114,10 @@ Check judgeGrowth(const Scenario& scenario, const Subject& subject, const Simbod
   ReplaySettings settings;
   settings.end = end;
   settings.max_evaluations = enoughEvaluations(scenario, plannedStepRate(scenario.trajectory->duration()));
-  std::vector<Vector6d> ends;  // on the path, beside it either way, and the same two at a hundredth of the tolerance
+  std::vector<Vector6d> ends;  // on the path, half beside it either way, and whole at a hundredth of the tolerance
   const std::pair<double, double> runs[] = {{0, 1}, {1, 1}, {-1, 1}, {1, coarser}, {-1, coarser}};
   for (const auto& [sign, finer_by] : runs) {
-    settings.deviation = sign * size * from;
+    settings.deviation = sign * size * (finer_by == 1 ? 0.5 : 1) * from;
     settings.tolerance = tolerance / finer_by;
     const Replay run = replay(scenario, torques, settings);
     if (!run.gave_up.empty() || run.left_path || run.steps.empty())
@@ -129,9 +129,9 @@ Check judgeGrowth(const Scenario& scenario, const Subject& subject, const Simbod
   const double grown = expected.norm(), error = (apart - 2 * size * expected).norm() / (2 * size);
   // What is even in the deviation bounds what is cubic; intervals and differences of half the length show what the
   // others miss.
-  const double bend = (ends[1] + ends[2] - 2 * ends[0]).norm() / (2 * size);
+  const double bend = (ends[1] + ends[2] - 2 * ends[0]).norm() / size;
   const double magnus = ((finer - found) * from).head<6>().norm();
-  const double integration = integration_safety * (ends[1] - ends[2] - apart).norm() / (2 * size);
+  const double integration = integration_safety * (2 * (ends[1] - ends[2]) - apart).norm() / (2 * size);
   const double rounding = amplification.carriedBound(0, end, acceleration_rounding) / size;
   return judged(
       check, error / grown, (bend + magnus + integration + rounding) / grown, "",
