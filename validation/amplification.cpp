@@ -1,72 +1,16 @@
 #include "validation/amplification.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include "nocsolver/solver.h"
+#include "validation/linearisation.h"
 
 namespace ursula {
 namespace {
 
 using Matrix12 = Amplification::Matrix12;
-using Vector12 = Amplification::Vector12;
-
-/// Jacobian of the deviations' rates. A deviation of the orientation turns it: Q → exp(δϑ) Q, so δϑ̇ = δω + ω × δϑ.
-class Linearisation {
- public:
-  Linearisation(const Scenario& scenario, AccelerationUnder accelerations, double step)
-      : trajectory_(*scenario.trajectory),
-        right_(nocSubject(*scenario.manipulator, scenario.load)),
-        accelerations_(std::move(accelerations)),
-        length_(SolverModel<double>(*scenario.manipulator).length),
-        step_(step * std::cbrt(Eigen::NumTraits<double>::epsilon()) * length_) {}
-  explicit Linearisation(const Scenario& scenario)
-      : Linearisation(scenario, nocSubject(*scenario.manipulator, scenario.load).accelerations, 1) {}
-
-  double length() const { return length_; }
-
-  Matrix12 at(double t) {
-    const Motion<double> motion = trajectory_.at(t);
-    const Vector6d torques = right_.torques(motion);
-    Matrix12 J = Matrix12::Zero();
-    J.block<3, 3>(0, 6).setIdentity();
-    J.block<3, 3>(3, 9).setIdentity();
-    J.block<3, 3>(3, 3) << 0, -motion.omega.z(), motion.omega.y(), motion.omega.z(), 0, -motion.omega.x(),
-        -motion.omega.y(), motion.omega.x(), 0;
-    // Central differences: the cube root of eps balances truncation and rounding.
-    for (int j = 0; j < 12; ++j) {
-      Vector12 deviation = Vector12::Zero();
-      deviation(j) = step_;
-      const Vector6d above = acceleration(motion, deviation, torques);
-      const Vector6d below = acceleration(motion, -deviation, torques);
-      J.block<6, 1>(6, j) = (above - below) / (2 * step_);
-    }
-    return J;
-  }
-
- private:
-  /// [p̈; L ω̇] under the torques with the state deviated.
-  Vector6d acceleration(Motion<double> motion, const Vector12& deviation, const Vector6d& torques) {
-    motion.p += deviation.segment<3>(0);
-    const Vector3d turn = deviation.segment<3>(3) / length_;
-    if (turn.norm() > 0) motion.Q = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * motion.Q;
-    motion.p_dot += deviation.segment<3>(6);
-    motion.omega += deviation.segment<3>(9) / length_;
-    const Vector6d found = accelerations_(motion, torques);
-    Vector6d out;
-    out << found.tail<3>(), length_ * found.head<3>();
-    return out;
-  }
-
-  const Trajectory& trajectory_;
-  Subject right_;
-  AccelerationUnder accelerations_;
-  double length_;
-  double step_;
-};
 
 /// Every fifth instant will do: the Jacobian varies with the pose, and slowly.
 constexpr int growth_stride = 5;
@@ -111,19 +55,6 @@ Amplification::Amplification(const Scenario& scenario, int intervals) {
     J0 = J2;
   }
   growth_rates_.push_back(fastestGrowth(J0));
-}
-
-Matrix12 propagated(const Scenario& scenario, const AccelerationUnder& accelerations, double end, int intervals,
-                    double step) {
-  Linearisation linearisation(scenario, accelerations, step);
-  const double h = end / intervals;
-  Matrix12 Phi = Matrix12::Identity(), J0 = linearisation.at(0);
-  for (int k = 0; k < intervals; ++k) {
-    const Matrix12 J1 = linearisation.at((k + 0.5) * h), J2 = linearisation.at((k + 1) * h);
-    Phi = (propagator(J0, J1, J2, h) * Phi).eval();
-    J0 = J2;
-  }
-  return Phi;
 }
 
 std::size_t Amplification::nearest(double t) const {

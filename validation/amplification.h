@@ -63,12 +63,4 @@ class Amplification {
   std::vector<double> growth_rates_;  ///< at every growth_stride-th instant, and the last
 };
 
-/// [ω̇; p̈] of the platform under torques.
-using AccelerationUnder = std::function<Vector6d(const Motion<double>&, const Vector6d& torques)>;
-
-/// Φ(end, 0) of the same equations with somebody's direct dynamics, over `intervals` of equal length, differentiated
-/// with `step` times the usual step.
-Amplification::Matrix12 propagated(const Scenario& scenario, const AccelerationUnder& accelerations, double end,
-                                   int intervals, double step);
-
 }  // namespace ursula

@@ -75,7 +75,8 @@ class Comparison {
         subject_(subject),
         right_(nocSubject(*scenario.manipulator, scenario.load)),
         limit_(samples),
-        profile_(profile) {}
+        profile_(profile),
+        look_(profile) {}
 
   Instant at(double t) {
     const Motion<double> motion = trajectory_.at(t);
@@ -85,7 +86,10 @@ class Comparison {
     double limit = limit_.at(t);
     // A limit of its own is dear: for what would decide, and not for each instant of torques that are wrong all along.
     const bool decided = worst_.beyond() && Worst::share(error, limit) <= Worst::share(worst_.value, worst_.limit);
-    if (!(error <= limit) && !decided) limit = profile_.at(motion).torqueRounding();
+    if (!(error <= limit) && !decided) {
+      const Conditioning here = profile_.at(motion);
+      limit = look_.limit(error, here, Rounded::torque, motion);
+    }
     worst_.add(error, limit, t, static_cast<int>(leg));
     return out;
   }
@@ -98,6 +102,7 @@ class Comparison {
   Subject right_;
   SampledTorqueLimit limit_;
   const RoundingProfile& profile_;
+  SecondLook look_;
   Worst worst_;
 };
 

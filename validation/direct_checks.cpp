@@ -7,6 +7,7 @@
 
 #include "model/simbody_loop.h"
 #include "nocsolver/errors.h"
+#include "validation/growth.h"
 #include "validation/judge_replay.h"
 #include "validation/windows.h"
 #include "validation/worst.h"
@@ -54,11 +55,63 @@ Vector6d deviationAtEnd(const Replay& replay, double length) {
   return out;
 }
 
+/// Ends of replays from beside the path.
+struct Beside {
+  Vector6d on_path;          ///< from the commanded state itself
+  Vector6d above, below;     ///< from half a deviation beside it either way
+  Vector6d whole_apart;      ///< between the two from a whole one, at a hundredth of the tolerance
+  std::string gave_up = "";  ///< why there are none
+};
+
+Beside replaysBeside(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, ReplaySettings settings,
+                     double size, double length) {
+  Beside out;
+  const double tolerance = settings.tolerance;
+  const auto endOf = [&](double share, double finer_by) {
+    settings.deviation = share * size * direction();
+    settings.tolerance = tolerance / finer_by;
+    const Replay run = replay(scenario, torques, settings);
+    if (run.gave_up.empty() && !run.left_path && !run.steps.empty()) return deviationAtEnd(run, length);
+    if (out.gave_up.empty()) out.gave_up = "the replay from beside the path gave up: " + run.gave_up;
+    return Vector6d(Vector6d::Constant(std::nan("")));
+  };
+  out.on_path = endOf(0, 1);
+  out.above = endOf(0.5, 1);
+  out.below = endOf(-0.5, 1);
+  out.whole_apart = endOf(1, coarser) - endOf(-1, coarser);
+  return out;
+}
+
+Check judgeBeside(const Growth& growth, const Beside& beside, double size, double end, double rounding,
+                  const Units& units) {
+  static constexpr const char* check = "direct.growth";
+  if (!beside.gave_up.empty())
+    return notJudgeable(Reason::unfinished, check, std::nan(""), std::nan(""), "", "", beside.gave_up);
+  const Vector6d expected = (growth.Phi * direction()).head<6>();
+  const double grown = expected.norm(), error = (beside.whole_apart - 2 * size * expected).norm() / (2 * size);
+  // What is even in the deviation bounds what is cubic; intervals and differences of twice the length show more than
+  // what these miss.
+  const double bend = (beside.above + beside.below - 2 * beside.on_path).norm() / size;
+  const double steps = ((growth.coarser - growth.Phi) * direction()).head<6>().norm() +
+                       ((growth.blunter - growth.coarser) * direction()).head<6>().norm();
+  const double integration =
+      integration_safety * (2 * (beside.above - beside.below) - beside.whole_apart).norm() / (2 * size);
+  return judged(check, error / grown, (bend + steps + integration + rounding) / grown, "",
+                fmt::format("what is even in the deviation, what intervals and differences of twice the length change, "
+                            "{:g} times what a hundredfold tolerance changes, and rounding of the accelerations",
+                            integration_safety),
+                fmt::format("a deviation of the state by {:.2g} m grows {:.4g} times until t = {:.6g} s by the "
+                            "variational equations; relative difference from Simbody put off the path as much either "
+                            "way",
+                            size * units.length, grown, end * units.time));
+}
+
 }  // namespace
 
 Check judgeDirect(const Scenario& scenario, const Subject& subject, const std::vector<PointwiseSample>& samples,
-                  const Units& units) {
+                  const RoundingProfile& profile, const Units& units) {
   static constexpr const char* check = "direct.pointwise";
+  SecondLook look(profile);
   SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
   Worst shown;
   double size = 0;
@@ -73,8 +126,9 @@ Check judgeDirect(const Scenario& scenario, const Subject& subject, const std::v
         if (motor >= 0) torques(motor) += change;
         const Vector6d simbody = accelerationsOf(loop, torques);
         size = std::max(size, spin(simbody, length));
-        shown.add(spin(subject.accelerations(sample.motion, torques) - simbody, length),
-                  sample.conditioning.rounding(Rounded::direct), sample.motion.t, motor);
+        const double error = spin(subject.accelerations(sample.motion, torques) - simbody, length);
+        shown.add(error, look.limit(error, sample.conditioning, Rounded::direct, sample.motion, 1, &torques),
+                  sample.motion.t, motor);
       }
     }
   } catch (const PoseError& error) {
@@ -98,51 +152,26 @@ Check judgeDirect(const Scenario& scenario, const Subject& subject, const std::v
 Check judgeGrowth(const Scenario& scenario, const Subject& subject, const SimbodyLoop::TorqueHistory& torques,
                   const Amplification& amplification, const std::function<double(double)>& acceleration_rounding,
                   double tolerance, const Units& units) {
-  static constexpr const char* check = "direct.growth";
   const std::size_t last = lastOf(amplification);
   const double end = amplification.instants()[last], length = amplification.length();
   const auto acceleration = [&subject](const Motion<double>& motion, const Vector6d& tau) {
     return subject.accelerations(motion, tau);
   };
-  const auto intervals = static_cast<int>(last);
-  const auto found = propagated(scenario, acceleration, end, intervals, 2);
-  const auto finer = propagated(scenario, acceleration, end, 2 * intervals, 1);
-  const Amplification::Vector12 from = direction();
-  const Vector6d expected = (finer * from).head<6>();
-
-  const double size = wanted_deviation * length / std::max(1.0, finer.topRows<6>().norm());
+  const Growth growth = growthOf(scenario, acceleration, end, static_cast<int>(last));
+  const double size = wanted_deviation * length / std::max(1.0, growth.Phi.topRows<6>().norm());
+  const double rounding = amplification.carriedBound(0, end, acceleration_rounding) / size;
   ReplaySettings settings;
   settings.end = end;
+  settings.tolerance = tolerance;
   settings.max_evaluations = enoughEvaluations(scenario, plannedStepRate(scenario.trajectory->duration()));
-  std::vector<Vector6d> ends;  // on the path, half beside it either way, and whole at a hundredth of the tolerance
-  const std::pair<double, double> runs[] = {{0, 1}, {1, 1}, {-1, 1}, {1, coarser}, {-1, coarser}};
-  for (const auto& [sign, finer_by] : runs) {
-    settings.deviation = sign * size * (finer_by == 1 ? 0.5 : 1) * from;
-    settings.tolerance = tolerance / finer_by;
-    const Replay run = replay(scenario, torques, settings);
-    if (!run.gave_up.empty() || run.left_path || run.steps.empty())
-      return notJudgeable(Reason::unfinished, check, std::nan(""), std::nan(""), "", "",
-                          "the replay from beside the path gave up: " + run.gave_up);
-    ends.push_back(deviationAtEnd(run, length));
-  }
-  const Vector6d apart = ends[3] - ends[4];
-  const double grown = expected.norm(), error = (apart - 2 * size * expected).norm() / (2 * size);
-  // What is even in the deviation bounds what is cubic; intervals and differences of half the length show what the
-  // others miss.
-  const double bend = (ends[1] + ends[2] - 2 * ends[0]).norm() / size;
-  const double magnus = ((finer - found) * from).head<6>().norm();
-  const double integration = integration_safety * (2 * (ends[1] - ends[2]) - apart).norm() / (2 * size);
-  const double rounding = amplification.carriedBound(0, end, acceleration_rounding) / size;
-  return judged(
-      check, error / grown, (bend + magnus + integration + rounding) / grown, "",
-      fmt::format(
-          "what is even in the deviation, what halved intervals and differences change, {:g} times what a hundredfold "
-          "tolerance changes, and rounding of the accelerations",
-          integration_safety),
-      fmt::format("a deviation of the state by {:.2g} m grows {:.4g} times until t = {:.6g} s by the "
-                  "variational equations; relative difference from Simbody put off the path as much either "
-                  "way",
-                  size * units.length, grown, end * units.time));
+  const auto judge = [&] {
+    return judgeBeside(growth, replaysBeside(scenario, torques, settings, size, length), size, end, rounding, units);
+  };
+  const Check first = judge();
+  if (first.verdict != Verdict::fail || growth.halved_at.empty()) return first;
+  // A step may pass over what changes faster, a joint that turns about, at any tolerance.
+  settings.stops = growth.halved_at;
+  return judge();
 }
 
 }  // namespace ursula

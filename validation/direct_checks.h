@@ -14,7 +14,7 @@ namespace ursula {
 /// `direct.pointwise`: the subject's direct dynamics (36) against Simbody's, under the commanded torques and with each
 /// motor's changed in turn, so that every column of the mass matrix shows. Only for subjects that have it.
 Check judgeDirect(const Scenario& scenario, const Subject& subject, const std::vector<PointwiseSample>& samples,
-                  const Units& units = {});
+                  const RoundingProfile& profile, const Units& units = {});
 
 /// `direct.growth`: how a deviation grows by the variational equations of the subject's direct dynamics, against what
 /// it does in Simbody's loop, really put off the path by as much either way. `torques` are the right ones,

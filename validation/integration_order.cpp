@@ -6,10 +6,10 @@
 #include <boost/numeric/odeint.hpp>
 #include <cmath>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "model/simbody_loop.h"
+#include "validation/invariance.h"
 #include "validation/subject.h"
 
 namespace ursula {
@@ -19,23 +19,14 @@ namespace odeint = boost::numeric::odeint;
 using OdeState = std::vector<double>;
 
 constexpr double nominal_order = 8;
-/// What a machine's own scales leave open over steps that are short but not yet vanishing; methods of order 6 and less
-/// are farther off.
-constexpr double largest_distance = 2;
+/// By which the observed order may be lower: what a machine's own scales leave open over steps that are short but not
+/// yet vanishing. Methods of order 6 and less are farther off.
+constexpr double largest_shortfall = 1.5;
 /// Differences below this, in natural units, may be rounding; above the other, steps are too long to show an order.
-constexpr double least_difference = 1e-11, most_difference = 1e-5;
+constexpr double least_difference = 1e-12, most_difference = 1e-4;
 /// Stretches that are tried, in natural units of time: from the longest on, each so much shorter.
-constexpr double longest = 4, shorter = 0.75;
-constexpr int attempts = 20;
-
-Manipulator frictionless(const Manipulator& manipulator) {
-  ManipulatorParameters machine = manipulator.parameters();
-  for (Leg& leg : machine.legs) {
-    leg.friction = {};
-    leg.coulomb = {};
-  }
-  return Manipulator(machine);
-}
+constexpr double longest = 8, shorter = 0.85;
+constexpr int attempts = 60, wanted = 5;
 
 /// The loop let go from the commanded state at the start of the motion.
 template <class Stepper>
@@ -50,14 +41,12 @@ class LetGo {
     torques_ = nocSubject(machine_, nullptr).torques(pushed);
   }
 
-  /// Between the ends with 4 and 8 steps, and with 8 and 16; infinite where the machine flies apart.
-  std::pair<double, double> differences(double duration) {
+  /// Between the ends with `steps` and with twice as many; infinite where the machine flies apart.
+  double difference(double duration, int steps) {
     try {
-      const OdeState coarse = endOf(duration, 4), middle = endOf(duration, 8), fine = endOf(duration, 16);
-      return {distance(coarse, middle), distance(middle, fine)};
+      return distance(endOf(duration, steps), endOf(duration, 2 * steps));
     } catch (const std::exception&) {
-      constexpr double none = std::numeric_limits<double>::infinity();
-      return {none, none};
+      return std::numeric_limits<double>::infinity();
     }
   }
 
@@ -86,31 +75,39 @@ class LetGo {
   Vector6d torques_;
 };
 
+/// The first stretch that is short enough: differences fall with the ninth power of it.
+template <class Stepper>
+int firstStretch(LetGo<Stepper>& loop) {
+  int too_long = -1, short_enough = attempts;
+  while (short_enough - too_long > 1) {
+    const int k = (too_long + short_enough) / 2;
+    (loop.difference(longest * std::pow(shorter, k), 4) <= most_difference ? short_enough : too_long) = k;
+  }
+  return short_enough;
+}
+
 template <class Stepper>
 Check judgeOrderOf(const Scenario& scenario) {
   static constexpr const char* check = "integration.order";
   LetGo<Stepper> loop(scenario);
-  double nearest = std::nan(""), found_at = 0, duration = longest;
-  for (int attempt = 0; attempt < attempts; ++attempt, duration *= shorter) {
-    const auto [first, second] = loop.differences(duration);
-    if (second < least_difference) break;  // and the more so over less
-    if (!(first <= most_difference)) continue;
-    const double order = std::log2(first / second);
-    if (std::isnan(nearest) || std::abs(order - nominal_order) < std::abs(nearest - nominal_order)) {
-      nearest = order;
-      found_at = duration;
-    }
-    if (std::abs(order - nominal_order) <= largest_distance / 4) break;
+  std::vector<double> orders;
+  double duration = longest * std::pow(shorter, firstStretch(loop));
+  for (; orders.size() < wanted; duration *= shorter) {
+    const double first = loop.difference(duration, 4), second = loop.difference(duration, 8);
+    if (!(second >= least_difference)) break;  // and the less so over less
+    if (first <= most_difference) orders.push_back(std::log2(first / second));
   }
-  if (std::isnan(nearest))
-    return notJudgeable(Reason::limit_useless, check, nearest, largest_distance, "",
+  if (orders.empty())
+    return notJudgeable(Reason::limit_useless, check, std::nan(""), largest_shortfall, "",
                         "as far as steps that have not vanished leave it open",
                         "no stretch of the motion is between rounding and steps too long to show an order");
-  return judged(check, std::abs(nearest - nominal_order), largest_distance, "",
+  std::sort(orders.begin(), orders.end());
+  const double order = orders[orders.size() / 2];
+  return judged(check, std::max(0.0, nominal_order - order), largest_shortfall, "",
                 "as far as steps that have not vanished leave it open; of order 6 and less is farther",
-                fmt::format("observed order {:.3g}, of {:g}, by halving fixed steps twice over {:.3g} natural units of "
-                            "time, without friction and load",
-                            nearest, nominal_order, found_at));
+                fmt::format("observed order {:.3g}, of {:g}, by halving fixed steps twice: the middle one over {} "
+                            "stretches of {:.3g} natural units of time and more, without friction and load",
+                            order, nominal_order, orders.size(), duration / shorter));
 }
 
 }  // namespace

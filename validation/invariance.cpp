@@ -46,15 +46,6 @@ Manipulator doubled(const Manipulator& manipulator) {
   return Manipulator(machine);
 }
 
-Manipulator frictionless(const Manipulator& manipulator) {
-  ManipulatorParameters machine = manipulator.parameters();
-  for (Leg& leg : machine.legs) {
-    leg.friction = {};
-    leg.coulomb = {};
-  }
-  return Manipulator(machine);
-}
-
 Motion<double> reversed(const Motion<double>& motion) {
   Motion<double> out = motion;
   out.omega = -motion.omega;
@@ -68,15 +59,18 @@ struct Invariance {
   std::function<Vector6d(const Motion<double>&)> expected, found;
 };
 
-Check judgeInvariance(const Invariance& invariance, const std::vector<PointwiseSample>& samples, const Units& units) {
+Check judgeInvariance(const Invariance& invariance, const std::vector<PointwiseSample>& samples,
+                      const RoundingProfile& profile, const Units& units) {
+  SecondLook look(profile);
   Worst worst;
   double torque = 0;
   try {
     for (const PointwiseSample& sample : samples) {
       const Vector6d difference = invariance.expected(sample.motion) - invariance.found(sample.motion);
       Eigen::Index leg = 0;
-      worst.add(difference.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(&leg),
-                2 * sample.conditioning.rounding(Rounded::solver), sample.motion.t, static_cast<int>(leg));
+      const double error = difference.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(&leg);
+      worst.add(error, look.limit(error, sample.conditioning, Rounded::solver, sample.motion, 2), sample.motion.t,
+                static_cast<int>(leg));
       torque = std::max(torque, sample.torques_simbody.cwiseAbs().maxCoeff());
     }
   } catch (const PoseError& refusal) {
@@ -94,8 +88,18 @@ Check judgeInvariance(const Invariance& invariance, const std::vector<PointwiseS
 
 }  // namespace
 
+Manipulator frictionless(const Manipulator& manipulator) {
+  ManipulatorParameters machine = manipulator.parameters();
+  for (Leg& leg : machine.legs) {
+    leg.friction = {};
+    leg.coulomb = {};
+  }
+  return Manipulator(machine);
+}
+
 std::vector<Check> judgeInvariances(const Scenario& scenario, const Subject& subject,
-                                    const std::vector<PointwiseSample>& samples, const Units& units) {
+                                    const std::vector<PointwiseSample>& samples, const RoundingProfile& profile,
+                                    const Units& units) {
   if (!subject.rebuilt) return {};
   const Manipulator& machine = *scenario.manipulator;
   const Presentation turned = worldTurned(), labels = relabelled();
@@ -117,7 +121,8 @@ std::vector<Check> judgeInvariances(const Scenario& scenario, const Subject& sub
   };
   std::vector<Check> checks;
   checks.reserve(invariances.size());
-  for (const Invariance& invariance : invariances) checks.push_back(judgeInvariance(invariance, samples, units));
+  for (const Invariance& invariance : invariances)
+    checks.push_back(judgeInvariance(invariance, samples, profile, units));
   return checks;
 }
 

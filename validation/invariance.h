@@ -9,9 +9,13 @@
 
 namespace ursula {
 
+/// The same machine, but nothing rubs.
+Manipulator frictionless(const Manipulator& manipulator);
+
 /// Invariances that hold exactly and need no reference: the whole world turned (gravity included), legs relabelled,
 /// masses doubled, time reversed. `invariance.*`; none where the subject is no solver. Load is left out of them.
 std::vector<Check> judgeInvariances(const Scenario& scenario, const Subject& subject,
-                                    const std::vector<PointwiseSample>& samples, const Units& units = {});
+                                    const std::vector<PointwiseSample>& samples, const RoundingProfile& profile,
+                                    const Units& units = {});
 
 }  // namespace ursula

@@ -106,6 +106,13 @@ IntegrationError::At IntegrationError::at(double t) const {
   return {t, none, none, none, none, none};
 }
 
+double measuredError(const WindowedReplay& window, double t, double IntegrationError::At::*part) {
+  double out = 0;
+  for (const IntegrationError* error : {&window.integration, &window.closer})
+    if (error->measured()) out += integration_safety * (error->at(t).*part);
+  return out;
+}
+
 IntegrationError integrationError(const Replay& fine, const Replay& coarse) {
   IntegrationError out;
   IntegrationError::At largest;
@@ -134,8 +141,7 @@ double driftLimit(const GrowthWindow& window, double tolerance, double steps, do
 }
 
 double replayLimit(const WindowedReplay& window, double position_scale, double t) {
-  const double drift = driftWithoutMeasured(window, position_scale, t);
-  return window.integration.measured() ? drift + integration_safety * window.integration.at(t).position : drift;
+  return driftWithoutMeasured(window, position_scale, t) + measuredError(window, t, &IntegrationError::At::position);
 }
 
 std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, double position_scale, double length,
@@ -148,7 +154,7 @@ std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, doubl
     return per_step(window) * stepCount(window) * (1 + span(window));
   };
   const auto measured = [](const WindowedReplay& window, const ReplayStep& step, double IntegrationError::At::*part) {
-    return window.integration.measured() ? integration_safety * (window.integration.at(step.t).*part) : 0;
+    return measuredError(window, step.t, part);
   };
   using At = IntegrationError::At;
   const auto drift = [position_scale](const WindowedReplay& window, const ReplayStep& step) {

@@ -12,8 +12,8 @@
 namespace ursula {
 
 /// What the integration may be off by in one window, measured: the right torques replayed at a hundred times the
-/// tolerance, against the same at the tolerance itself, with the gaps and the energy of the coarser. Largest up to each
-/// instant.
+/// tolerance, against the same at the tolerance itself, with the gaps and the energy of the coarser. Likewise the
+/// closer look: halved steps and other frames. Largest up to each instant.
 struct IntegrationError {
   struct At {
     double t = 0;
@@ -40,9 +40,13 @@ struct WindowedReplay {
   GrowthWindow window;
   Replay replay;
   IntegrationError integration = {};
+  IntegrationError closer = {};  ///< what halved steps and turned frames change; empty where nothing asked for it
   GapOpening opening = {};
   std::shared_ptr<const Replay> coarse = nullptr;  ///< that it was measured with, under the right torques
 };
+
+/// `integration_safety` times what was measured of the integration up to `t`; 0 where nothing was.
+double measuredError(const WindowedReplay& window, double t, double IntegrationError::At::*part);
 
 /// By which a measured integration error is multiplied, as Roache's grid convergence index does for two grids
 /// (Verification and Validation, 1998, ch. 5).
@@ -54,7 +58,7 @@ double errorPerStep(double tolerance, double position_scale);
 
 /// How far a replay may have moved from the commanded path by `t`, m: the accelerations' rounding and that of each
 /// step, carried by the variational equations and aligned for the worst, and integration_safety times the measured
-/// integration error; where that was not measured, the tolerance for each step instead.
+/// integration error and closer look; where the former was not measured, the tolerance for each step instead.
 double replayLimit(const WindowedReplay& window, double position_scale, double t);
 
 /// How far `tolerance` and rounding in each of `steps` steps may move the platform from the commanded path by `t`, m.

@@ -24,11 +24,11 @@ struct Rung {
 /// The same window replayed at several tolerances, and its beginning with Simbody's own integrator.
 struct Ladder {
   std::vector<Rung> rungs;  ///< rkf78 from coarse to fine
-  /// rk_merson at two accuracies, the coarser first, over the beginning of the window: distances at `second_end` from
-  /// the finest replay.
+  /// rk_merson at two accuracies and more, the finest last, over the beginning of the window: distances at
+  /// `second_end` from the finest replay.
   std::vector<Rung> second;
   double second_end = 0;                ///< s
-  double second_difference = 0;         ///< between the two, m
+  double second_difference = 0;         ///< between the last two, m
   bool passes_knots = false;            ///< over some it steps, so that it need not converge
   std::vector<double> observed_orders;  ///< between neighbouring rkf78 rungs, of the error against the steps
   bool asymptotic = false;              ///< both orders within 2 of 8

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <optional>
 
 #include "model/simbody_loop.h"
@@ -143,10 +145,10 @@ void runDynamics(SimbodyLoop& loop, PointwiseSample& sample) {
 }
 
 PointwiseSample runInstant(const Scenario& scenario, const Subject& subject, const Subject& right,
-                           const RoundingProfile& profile, SimbodyLoop& loop, double t) {
+                           const Conditioning& conditioning, SimbodyLoop& loop, const Motion<double>& motion) {
   PointwiseSample sample;
-  sample.motion = scenario.trajectory->at(t);
-  sample.conditioning = profile.at(sample.motion);
+  sample.motion = motion;
+  sample.conditioning = conditioning;
   sample.joints = loop.place(sample.motion);
   setLimits(sample);
   try {
@@ -157,6 +159,22 @@ PointwiseSample runInstant(const Scenario& scenario, const Subject& subject, con
     sample.refused = error.what();
   }
   return sample;
+}
+
+constexpr Deviation PointwiseSample::*deviations[] = {
+    &PointwiseSample::joint_angles, &PointwiseSample::joint_rates,   &PointwiseSample::joint_accelerations,
+    &PointwiseSample::position,     &PointwiseSample::twist,         &PointwiseSample::twist_rate,
+    &PointwiseSample::jacobian,     &PointwiseSample::jacobian_rate, &PointwiseSample::jacobian_difference,
+    &PointwiseSample::torque,       &PointwiseSample::acceleration};
+
+/// Which of the deviations are beyond their limits.
+std::bitset<std::size(deviations)> beyond(const PointwiseSample& sample) {
+  std::bitset<std::size(deviations)> out;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const Deviation& deviation = sample.*deviations[k];
+    out[k] = !(deviation.error <= deviation.limit);
+  }
+  return out;
 }
 
 struct Quantity {
@@ -276,7 +294,17 @@ std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subjec
   const Subject right = nocSubject(*scenario.manipulator, scenario.load);
   std::vector<PointwiseSample> samples;
   samples.reserve(instants.size());
-  for (double t : instants) samples.push_back(runInstant(scenario, subject, right, profile, loop, t));
+  std::bitset<std::size(deviations)> confirmed;  // by a second look: no further one is needed
+  for (double t : instants) {
+    const Motion<double> motion = scenario.trajectory->at(t);
+    const auto run = [&](const Conditioning& conditioning) {
+      return runInstant(scenario, subject, right, conditioning, loop, motion);
+    };
+    samples.push_back(run(profile.at(motion)));
+    if ((beyond(samples.back()) & ~confirmed).none() || !samples.back().refused.empty()) continue;
+    samples.back() = run(profile.closer(motion));
+    confirmed |= beyond(samples.back());
+  }
   return samples;
 }
 

@@ -126,7 +126,7 @@ RandomOutcomes proveRandom(std::uint64_t seed, int count, int jobs, const std::f
     verdicts[i] = result.verdict;
     checks[i] = result.checks;
     for (const Check& check : result.checks)
-      if (check.verdict != Verdict::pass && why[i].empty())
+      if (check.verdict == result.verdict && result.verdict != Verdict::pass && why[i].empty())
         why[i] = fmt::format("seed {}: {} {:.3g} of {:.3g} {}: {}", seed + i, check.name, check.value, check.limit,
                              check.unit, check.why);
     done(count);

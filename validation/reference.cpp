@@ -1,5 +1,6 @@
 #include "validation/reference.h"
 
+#include "validation/integration_order.h"
 #include "validation/motion_check.h"
 #include "validation/validate.h"
 
@@ -45,6 +46,19 @@ Reference::Reference(const Scenario& given)
   windows = replayInWindows(scenario, amplification, plan);
   measureIntegration(scenario, plan, windows);
   measureOpening(conditions, windows);
+}
+
+const Check& Reference::order() const {
+  std::call_once(judged_, [this] { order_ = judgeOrder(scenario); });
+  return order_;
+}
+
+const IntegrationError& Reference::closer(std::size_t window) const {
+  const std::lock_guard<std::mutex> lock(measuring_);
+  const auto known = closer_.find(window);
+  if (known != closer_.end()) return known->second;
+  const WindowedReplay& here = windows[window];
+  return closer_[window] = closerLook(scenario, plan, here.window, here.replay);
 }
 
 std::shared_ptr<const Reference> makeReference(const Scenario& scenario) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <mutex>
 #include <vector>
 
 #include "model/scenario.h"
@@ -31,6 +33,17 @@ struct Reference {
   ReplayPlan plan;  ///< with the right torques
   /// Replays of the right torques, with what their integration is off by.
   std::vector<WindowedReplay> windows;
+
+  /// `integration.order`, judged when first asked for.
+  const Check& order() const;
+  /// closerLook at one of `windows`, when first asked for.
+  const IntegrationError& closer(std::size_t window) const;
+
+ private:
+  mutable std::once_flag judged_;
+  mutable Check order_;
+  mutable std::mutex measuring_;
+  mutable std::map<std::size_t, IntegrationError> closer_;
 };
 
 /// Motion and conditioning alone.

@@ -56,6 +56,10 @@ class Run {
         settings_(settings),
         stops_(knotsWithin(scenario, settings.start, settings.end)),
         loop_(*scenario.manipulator, settings.topology, scenario.load) {
+    for (double stop : settings.stops)
+      if (stop > settings.start && stop < settings.end) stops_.push_back(stop);
+    std::sort(stops_.begin(), stops_.end());
+    stops_.erase(std::unique(stops_.begin(), stops_.end()), stops_.end());
     stops_.push_back(settings.end);
     result_.integrator = settings.integrator;
     result_.tolerance = settings.tolerance;

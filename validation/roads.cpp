@@ -79,7 +79,9 @@ void addReactionColumns(const std::vector<Reactions>& reactions, TimeSeries& ser
 
 }  // namespace
 
-std::vector<RoadSample> runRoads(const Scenario& scenario, const std::vector<PointwiseSample>& samples) {
+std::vector<RoadSample> runRoads(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
+                                 const RoundingProfile& profile) {
+  SecondLook look_twin(profile), look_maximal(profile), look_mujoco(profile);
   SimbodyLoop twin(*scenario.manipulator, SimbodyLoop::Topology::tree_through_leg_1, scenario.load);
   MaximalLoop maximal(*scenario.manipulator, scenario.load);
   const auto mujoco = makeMujocoLoop(*scenario.manipulator, scenario.load);
@@ -93,10 +95,14 @@ std::vector<RoadSample> runRoads(const Scenario& scenario, const std::vector<Poi
     twin.place(sample.motion);
     road.twin = twin.inverseDynamics();
     road.maximal = maximal.inverseDynamics(sample.motion);
-    road.limit_twin = sample.conditioning.rounding(Rounded::twin);
-    road.limit_maximal = sample.conditioning.rounding(Rounded::maximal);
-    road.limit_mujoco = sample.conditioning.rounding(Rounded::mujoco);
     if (mujoco) road.mujoco = mujoco->inverseDynamics(sample.motion);
+    const auto limit = [&](SecondLook& look, Rounded quantity, const Vector6d& torques) {
+      const double error = (road.subject - torques).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+      return look.limit(error, sample.conditioning, quantity, sample.motion);
+    };
+    road.limit_twin = limit(look_twin, Rounded::twin, road.twin);
+    road.limit_maximal = limit(look_maximal, Rounded::maximal, road.maximal);
+    road.limit_mujoco = mujoco ? limit(look_mujoco, Rounded::mujoco, *road.mujoco) : 0;
     road.limit = sample.torque.limit + road.limit_twin + road.limit_maximal + road.limit_mujoco;
     out.push_back(road);
   }
@@ -154,8 +160,10 @@ std::string oddOneOut(const std::vector<RoadSample>& samples) {
              : "not one alone: the roads disagree in more than one way";
 }
 
-Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample>& samples, TimeSeries* series,
-                     const Units& units, const std::function<void(Reactions&)>& spoil) {
+Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
+                     const RoundingProfile& profile, TimeSeries* series, const Units& units,
+                     const std::function<void(Reactions&)>& spoil) {
+  SecondLook look(profile);
   const Solver<double> solver(*scenario.manipulator);
   Workspace<double> work;
   SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
@@ -172,7 +180,8 @@ Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample
     const Conditioning& at = sample.conditioning;
     for (std::size_t leg = 0; leg < leg_count; ++leg) {
       size = std::max(size, largest(rows.back()[leg], at.length));
-      worst.add(distance(rows.back()[leg], simbody[leg], at.length), at.rounding(Rounded::reactions), sample.motion.t,
+      const double error = distance(rows.back()[leg], simbody[leg], at.length);
+      worst.add(error, look.limit(error, at, Rounded::reactions, sample.motion), sample.motion.t,
                 static_cast<int>(leg));
     }
   }

@@ -22,7 +22,8 @@ struct RoadSample {
 };
 
 /// Simbody's twin (tree through leg 1, five balls), the maximal coordinates and MuJoCo at the instants of `samples`.
-std::vector<RoadSample> runRoads(const Scenario& scenario, const std::vector<PointwiseSample>& samples);
+std::vector<RoadSample> runRoads(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
+                                 const RoundingProfile& profile);
 
 /// `torque.twin`, `torque.maximal`, and `torque.mujoco` where MuJoCo is built in: the subject against each further
 /// road.
@@ -34,8 +35,9 @@ std::string oddOneOut(const std::vector<RoadSample>& samples);
 /// `reactions.pointwise`: the joint reactions recovered from the solver's road against Simbody's mobilizer and
 /// constraint reactions; only for the formulas that hold. `spoil`, for controls that must fail, changes those
 /// recovered.
-Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample>& samples, TimeSeries* series,
-                     const Units& units = {}, const std::function<void(Reactions&)>& spoil = nullptr);
+Check judgeReactions(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
+                     const RoundingProfile& profile, TimeSeries* series, const Units& units = {},
+                     const std::function<void(Reactions&)>& spoil = nullptr);
 
 /// The largest difference of a force, or of a moment over `length`, N.
 double distance(const LegReactions& a, const LegReactions& b, double length);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 #include "nocsolver/solver.h"
 #include "validation/roads.h"
@@ -136,43 +137,81 @@ Vector6d otherTorques(const Vector6d& torques) {
 
 int profileInstants(int samples) { return std::clamp(samples, 2, 61); }
 
-RoundingProfile::RoundingProfile(const Scenario& scenario, int instants)
-    : probe_(std::make_unique<ConditioningProbe>(*scenario.manipulator, scenario.load)) {
-  const Solver<double> solver(*scenario.manipulator);
+struct RoundingProfile::Workshop {
+  explicit Workshop(const Scenario& scenario)
+      : load(scenario.load), solver(*scenario.manipulator), probe(*scenario.manipulator, scenario.load) {
+    viewpoints.emplace_back(scenario, Presentation{});
+    for (unsigned k = 0; k < presentations; ++k)
+      viewpoints.emplace_back(scenario, randomPresentation(k + 1, solver.model().length));
+  }
+
+  std::mutex guard;
+  std::shared_ptr<const Load> load;
+  Solver<double> solver;
   Workspace<double> work;
+  ConditioningProbe probe;
   std::vector<Viewpoint> viewpoints;
-  viewpoints.emplace_back(scenario, Presentation{});
-  for (unsigned k = 0; k < presentations; ++k)
-    viewpoints.emplace_back(scenario, randomPresentation(k + 1, solver.model().length));
+};
+
+RoundingProfile::RoundingProfile(const Scenario& scenario, int instants)
+    : workshop_(std::make_unique<Workshop>(scenario)) {
   for (int k = 0; k < instants; ++k) {
-    Measured here;
-    here.t = instants > 1 ? scenario.trajectory->duration() * k / (instants - 1) : 0;
-    const Motion<double> motion = scenario.trajectory->at(here.t);
-    const Conditioning conditioning = probe_->at(motion);
-    const Vector6d torques = solver.inverseDynamics(motion, work, loadAtP(scenario.load.get(), motion));
-    const Matrix6d effort = solver.T(work).transpose() * solver.massMatrixAtP(motion, work);
-    std::vector<View> views;
-    for (Viewpoint& viewpoint : viewpoints) views.push_back(viewpoint.at(motion, otherTorques(torques)));
-    here.spread = spreadOf(views, effort, conditioning.length);
-    divideByShape(conditioning, here.spread);
-    measured_.push_back(here);
+    const double t = instants > 1 ? scenario.trajectory->duration() * k / (instants - 1) : 0;
+    measured_.push_back(measure(scenario.trajectory->at(t), nullptr));
   }
 }
 
 RoundingProfile::~RoundingProfile() = default;
 
-Conditioning RoundingProfile::at(const Motion<double>& motion) const {
-  Conditioning out = probe_->at(motion);
+RoundingProfile::Measured RoundingProfile::measure(const Motion<double>& motion, const Vector6d* torques) const {
+  Workshop& w = *workshop_;
+  const std::lock_guard<std::mutex> lock(w.guard);
+  Measured here;
+  here.t = motion.t;
+  const Conditioning conditioning = w.probe.at(motion);
+  const Vector6d commanded = w.solver.inverseDynamics(motion, w.work, loadAtP(w.load.get(), motion));
+  const Matrix6d effort = w.solver.T(w.work).transpose() * w.solver.massMatrixAtP(motion, w.work);
+  std::vector<View> views;
+  for (Viewpoint& viewpoint : w.viewpoints)
+    views.push_back(viewpoint.at(motion, torques != nullptr ? *torques : otherTorques(commanded)));
+  here.spread = spreadOf(views, effort, conditioning.length);
+  divideByShape(conditioning, here.spread);
+  return here;
+}
+
+Conditioning RoundingProfile::leveled(const Motion<double>& motion, const Measured* itself) const {
+  Conditioning out;
+  {
+    const std::lock_guard<std::mutex> lock(workshop_->guard);
+    out = workshop_->probe.at(motion);
+  }
   const auto after = std::lower_bound(measured_.begin(), measured_.end(), motion.t,
                                       [](const Measured& each, double t) { return each.t < t; });
   const auto i = static_cast<std::size_t>(after - measured_.begin());
   const std::size_t first = i > neighbours ? i - neighbours : 0;
   const std::size_t last = std::min(i + neighbours, measured_.size() - 1);
-  out.levels = uniformLevels(0);
+  out.levels = itself != nullptr ? itself->spread : uniformLevels(0);
   for (std::size_t k = std::min(first, last); k <= last; ++k)
     for (std::size_t q = 0; q < rounded_count; ++q) out.levels[q] = larger(out.levels[q], measured_[k].spread[q]);
   for (double& level : out.levels) level = rounding_floor + rounding_safety * level;
   return out;
+}
+
+Conditioning RoundingProfile::at(const Motion<double>& motion) const { return leveled(motion, nullptr); }
+
+Conditioning RoundingProfile::closer(const Motion<double>& motion, const Vector6d* torques) const {
+  const Measured here = measure(motion, torques);
+  return leveled(motion, &here);
+}
+
+double SecondLook::limit(double error, const Conditioning& at, Rounded quantity, const Motion<double>& motion,
+                         double factor, const Vector6d* torques) {
+  const double first = factor * at.rounding(quantity);
+  if (error <= first || confirmed_ || !std::isfinite(error)) return first;
+  const RoundingLevels levels = profile_.closer(motion, torques).levels;
+  const double second = factor * at.shape(quantity) * levels[static_cast<std::size_t>(quantity)];
+  confirmed_ = error > second;
+  return second;
 }
 
 std::vector<double> RoundingProfile::spreads(Rounded quantity) const {

@@ -23,6 +23,10 @@ class RoundingProfile {
 
   /// The conditioning at an instant of the motion, with measured levels.
   Conditioning at(const Motion<double>& motion) const;
+  /// The same, where the instant itself is measured, too, the direct dynamics under `torques` where they are given.
+  /// What two roads differ by as the scenario stands is no more than their spread and their least difference in any
+  /// presentation: beyond such a limit it is a difference that no presentation takes away, and so no rounding.
+  Conditioning closer(const Motion<double>& motion, const Vector6d* torques = nullptr) const;
 
   /// The measured spread of `quantity`, in units of its shape, at each instant measured.
   std::vector<double> spreads(Rounded quantity) const;
@@ -32,8 +36,26 @@ class RoundingProfile {
     double t = 0;
     RoundingLevels spread = uniformLevels(0);
   };
-  std::unique_ptr<ConditioningProbe> probe_;
+  Measured measure(const Motion<double>& motion, const Vector6d* torques) const;
+  Conditioning leveled(const Motion<double>& motion, const Measured* itself) const;
+
+  struct Workshop;
+  std::unique_ptr<Workshop> workshop_;  ///< what is worked with, by one thread at a time
   std::vector<Measured> measured_;
+};
+
+/// Limits that are looked at again where a value is beyond them, until one is so all the same: the check has then
+/// failed, whatever comes after.
+class SecondLook {
+ public:
+  explicit SecondLook(const RoundingProfile& profile) : profile_(profile) {}
+  /// `factor` × the rounding of `quantity`, of a sample with the conditioning `at`, for a value of `error`.
+  double limit(double error, const Conditioning& at, Rounded quantity, const Motion<double>& motion, double factor = 1,
+               const Vector6d* torques = nullptr);
+
+ private:
+  const RoundingProfile& profile_;
+  bool confirmed_ = false;
 };
 
 /// Enough of them for a run that is judged at `samples` instants.

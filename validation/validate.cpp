@@ -34,6 +34,10 @@ void append(std::vector<Check>& checks, std::vector<Check> more) {
   std::move(more.begin(), more.end(), std::back_inserter(checks));
 }
 
+bool anyFails(const std::vector<Check>& checks) {
+  return std::any_of(checks.begin(), checks.end(), [](const Check& each) { return each.verdict == Verdict::fail; });
+}
+
 /// One subject on one scenario, in the scenario's natural units.
 class Trial {
  public:
@@ -70,9 +74,10 @@ class Trial {
   void judgeAnswers(ValidationResult& result) {
     const std::vector<RoadSample> roads = roadSamples();
     append(result.checks, judgeRoads(roads, units_));
-    append(result.checks, judgeInvariances(scenario_, subject_, samples_, units_));
+    append(result.checks, judgeInvariances(scenario_, subject_, samples_, reference_.profile, units_));
     if (options_.reactions)
-      result.checks.push_back(judgeReactions(scenario_, samples_, &reactions_, units_, options_.spoil.reactions));
+      result.checks.push_back(
+          judgeReactions(scenario_, samples_, reference_.profile, &reactions_, units_, options_.spoil.reactions));
     result.checks.push_back(judgeBetween(scenario_, subject_, samples_, reference_.profile, units_));
     if (subject_.accelerations) judgeDirectDynamics(result);
     judgeReplays(result);
@@ -80,10 +85,10 @@ class Trial {
   }
 
   std::vector<RoadSample> roadSamples() const {
-    std::vector<RoadSample> out = runRoads(scenario_, samples_);
+    std::vector<RoadSample> out = runRoads(scenario_, samples_, reference_.profile);
     const auto replace = [&](const Spoil::Seen& seen, auto RoadSample::*road) {
       if (!seen) return;
-      const std::vector<RoadSample> spoilt = runRoads(seen(scenario_), samples_);
+      const std::vector<RoadSample> spoilt = runRoads(seen(scenario_), samples_, reference_.profile);
       for (std::size_t k = 0; k < out.size(); ++k) out[k].*road = spoilt[k].*road;
     };
     replace(options_.spoil.twin, &RoadSample::twin);
@@ -93,19 +98,31 @@ class Trial {
   }
 
   void judgeDirectDynamics(ValidationResult& result) {
-    result.checks.push_back(judgeDirect(scenario_, subject_, samples_, units_));
+    result.checks.push_back(judgeDirect(scenario_, subject_, samples_, reference_.profile, units_));
     result.checks.push_back(judgeGrowth(scenario_, subject_, reference_.plan.torques, reference_.amplification,
                                         plan_.acceleration, 10 * coarser * plan_.tolerance, units_));
   }
 
   void judgeReplays(ValidationResult& result) {
     windows_ = right_ && !options_.spoil.replay ? reference_.windows : replayed();
-    append(result.checks, judgeReplay(windows_, reference_.position_scale, reference_.amplification.length(),
-                                      reference_.forces, units_));
+    const auto judgeWindows = [this](const std::vector<WindowedReplay>& windows) {
+      return judgeReplay(windows, reference_.position_scale, reference_.amplification.length(), reference_.forces,
+                         units_);
+    };
+    const auto judgeClimbed = [this] {
+      return judgeLadder(ladder_, windows_.front(), reference_.position_scale, units_);
+    };
+    // What is beyond a limit gets a second look, at what steps and rounding really do there.
+    for (std::size_t k = 0; k < windows_.size(); ++k)
+      if (anyFails(judgeWindows({windows_[k]}))) windows_[k].closer = reference_.closer(k);
     if (options_.ladder) {
       ladder_ = climb(scenario_, plan_.torques, windows_.front(), right_, options_.spoil.ladder);
-      append(result.checks, judgeLadder(ladder_, windows_.front(), reference_.position_scale, units_));
-      result.checks.push_back(judgeOrder(scenario_, options_.spoil.lower_order));
+      if (anyFails(judgeClimbed())) windows_.front().closer = reference_.closer(0);
+    }
+    append(result.checks, judgeWindows(windows_));
+    if (options_.ladder) {
+      append(result.checks, judgeClimbed());
+      result.checks.push_back(options_.spoil.lower_order ? judgeOrder(scenario_, true) : reference_.order());
     }
     const Spoil::Seen& seen = options_.spoil.feedback;
     const Scenario fed_back = seen ? seen(scenario_) : scenario_;

@@ -132,6 +132,54 @@ void measureIntegration(const Scenario& scenario, const ReplayPlan& plan, std::v
 
 namespace {
 
+constexpr unsigned frames_of_replay = 3;
+
+/// Errors of the path turned back to here. Without units, so that one tolerance means one thing.
+Replay replayedElsewhere(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window, unsigned seed) {
+  Presentation there = randomPresentation(seed, window.length);
+  there.units = {};
+  ReplayPlan presented = plan;
+  presented.torques = [&](double t) { return there.of(plan.torques(t)); };
+  const Scenario seen = there.of(scenario);
+  Replay out = replay(seen, presented.torques, settingsOf(seen, presented, window, 1));
+  for (ReplayStep& step : out.steps)
+    for (Vector3d ReplayStep::*part : {&ReplayStep::position_error, &ReplayStep::rotation_error,
+                                       &ReplayStep::velocity_error, &ReplayStep::spin_error})
+      step.*part = there.turn.transpose() * (step.*part);
+  return out;
+}
+
+/// Where no step was rejected, this is what the steps were off by.
+Replay replayedByHalves(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window,
+                        const Replay& here) {
+  ReplaySettings settings = settingsOf(scenario, plan, window, 1);
+  for (std::size_t k = 0; k + 1 < here.steps.size(); ++k) {
+    settings.stops.push_back((here.steps[k].t + here.steps[k + 1].t) / 2);
+    settings.stops.push_back(here.steps[k + 1].t);
+  }
+  settings.max_evaluations *= 4;
+  return replay(scenario, plan.torques, settings);
+}
+
+}  // namespace
+
+IntegrationError closerLook(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window,
+                            const Replay& here) {
+  IntegrationError out = integrationError(here, replayedByHalves(scenario, plan, window, here));
+  for (unsigned seed = 1; seed <= frames_of_replay; ++seed) {
+    const IntegrationError error = integrationError(here, replayedElsewhere(scenario, plan, window, seed));
+    out.steps.resize(std::min(out.steps.size(), error.steps.size()));
+    for (std::size_t k = 0; k < out.steps.size(); ++k)
+      for (double IntegrationError::At::*part :
+           {&IntegrationError::At::position, &IntegrationError::At::rotation, &IntegrationError::At::gap,
+            &IntegrationError::At::gap_rate, &IntegrationError::At::energy})
+        out.steps[k].*part = std::max(out.steps[k].*part, error.steps[k].*part);
+  }
+  return out;
+}
+
+namespace {
+
 /// The largest number of steps a second in windows that came out too long to be judged and may be shorter; 0 where
 /// there is none.
 double stepRateOfTooLong(const std::vector<WindowedReplay>& replays, const ReplayPlan& plan, double length) {

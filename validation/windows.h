@@ -43,6 +43,11 @@ std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Repl
 void measureIntegration(const Scenario& scenario, const ReplayPlan& plan, std::vector<WindowedReplay>& windows);
 constexpr double coarser = 100;
 
+/// What steps and rounding make of a replay of `window` under the plan's torques: the same with every step halved, and
+/// in turned and shifted frames with other labels, against `here`.
+IntegrationError closerLook(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window,
+                            const Replay& here);
+
 /// Plans windows and replays in them; once more with shorter windows where more steps were taken than planned and left
 /// one that cannot be judged.
 std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Amplification& amplification,

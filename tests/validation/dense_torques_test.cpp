@@ -53,7 +53,7 @@ TEST_F(Between, aPulseBetweenTheSamplesFailsThereAlone) {
   const Subject subject = pulsed(1.2345, 1e-3, 2.5e5);
   const auto samples = runPointwise(scenario_, subject, instants_, profile_);
   std::vector<Check> checks = judgePointwise(samples, true);
-  for (Check& road : judgeRoads(runRoads(scenario_, samples))) checks.push_back(std::move(road));
+  for (Check& road : judgeRoads(runRoads(scenario_, samples, profile_))) checks.push_back(std::move(road));
   EXPECT_EQ(others(checks, Verdict::pass), "");
   EXPECT_NE(findCheck(checks, "torque.twin"), nullptr);
   const Check check = judge(subject);

@@ -31,7 +31,7 @@ class Direct : public testing::TestWithParam<std::string> {
     subject.accelerations = accelerations;
     return subject;
   }
-  Check pointwise(const Subject& subject) const { return judgeDirect(here(), subject, samples_); }
+  Check pointwise(const Subject& subject) const { return judgeDirect(here(), subject, samples_, reference_->profile); }
   Check growth(const Subject& subject) const {
     const ReplayPlan& plan = reference_->plan;
     return judgeGrowth(here(), subject, plan.torques, reference_->amplification, plan.acceleration,
@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, Direct, testing::Values("paper-helix", "prov
 
 TEST(DirectChecks, noSampleFails) {
   const Scenario scenario = scenarioOf("paper-helix");
-  EXPECT_EQ(judgeDirect(scenario, solverOf(scenario), {}).verdict, Verdict::fail);
+  EXPECT_EQ(judgeDirect(scenario, solverOf(scenario), {}, RoundingProfile(scenario, 2)).verdict, Verdict::fail);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ Subject broken(const Extra& extra) {
 }
 
 std::vector<Check> judge(const Scenario& scenario, const Subject& subject) {
-  return judgeInvariances(scenario, subject, rightSamples(scenario, instants));
+  return judgeInvariances(scenario, subject, rightSamples(scenario, instants), RoundingProfile(scenario, instants));
 }
 
 class SolverInvariance : public testing::TestWithParam<std::string> {};
@@ -45,7 +45,8 @@ class SolverInvariance : public testing::TestWithParam<std::string> {};
 TEST_P(SolverInvariance, isWhole) {
   const Scenario scenario = scenarioOf(GetParam());
   const std::vector<PointwiseSample> samples = rightSamples(scenario, instants);
-  const std::vector<Check> checks = judgeInvariances(scenario, solverOf(scenario), samples);
+  const std::vector<Check> checks =
+      judgeInvariances(scenario, solverOf(scenario), samples, RoundingProfile(scenario, instants));
   for (const std::string& name : names) EXPECT_EQ(verdictOf(checks, name), "pass") << others(checks, Verdict::pass);
   // In the others a sum may come out the same to the last bit.
   EXPECT_GT(findCheck(checks, "invariance.rotation")->value, 0) << "nothing was turned";
@@ -141,7 +142,8 @@ TEST(Invariance, aRefusalFailsWithItsReason) {
 
 TEST(Invariance, noInstantFails) {
   const Scenario scenario = scenarioOf("paper-helix");
-  const std::vector<Check> checks = judgeInvariances(scenario, solverOf(scenario), {});
+  const std::vector<Check> checks =
+      judgeInvariances(scenario, solverOf(scenario), {}, RoundingProfile(scenario, instants));
   for (const std::string& name : names) EXPECT_EQ(verdictOf(checks, name), "fail") << name;
 }
 

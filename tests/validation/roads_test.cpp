@@ -30,11 +30,12 @@ class Roads : public testing::TestWithParam<std::string> {
  protected:
   Scenario scenario_ = scenarioOf(GetParam());
   std::vector<PointwiseSample> samples_ = rightSamples(scenario_, instants);
+  RoundingProfile profile_{scenario_, instants};
   double largest_ = largestTorque(samples_);
 };
 
 TEST_P(Roads, ofExactTorquesAgree) {
-  const std::vector<RoadSample> roads = runRoads(scenario_, samples_);
+  const std::vector<RoadSample> roads = runRoads(scenario_, samples_, profile_);
   const std::vector<Check> checks = judgeRoads(roads);
   EXPECT_EQ(verdictOf(checks, "torque.twin"), "pass");
   EXPECT_EQ(verdictOf(checks, "torque.maximal"), "pass");
@@ -60,7 +61,7 @@ TEST_P(Roads, seeATorqueThatIsOffByABillionthOfTheLargest) {
     return Vector6d(right.torques(motion) + 1e-9 * largest_ * Vector6d::Unit(4));
   };
   const auto times = equallySpaced(scenario_.trajectory->duration(), instants);
-  const std::vector<RoadSample> roads = runRoads(scenario_, runPointwise(scenario_, wrong, times));
+  const std::vector<RoadSample> roads = runRoads(scenario_, runPointwise(scenario_, wrong, times), profile_);
   for (const Check& check : judgeRoads(roads)) {
     EXPECT_EQ(check.verdict, Verdict::fail) << check.name;
     EXPECT_NEAR(check.value, 1e-9 * largest_, check.limit) << check.name;
@@ -222,11 +223,12 @@ class ReactionCheck : public testing::TestWithParam<std::string> {
  protected:
   Scenario scenario_ = scenarioOf(GetParam());
   std::vector<PointwiseSample> samples_ = rightSamples(scenario_, instants);
+  RoundingProfile profile_{scenario_, instants};
 };
 
 TEST_P(ReactionCheck, passesForTheSolver) {
   TimeSeries series;
-  const Check check = judgeReactions(scenario_, samples_, &series);
+  const Check check = judgeReactions(scenario_, samples_, profile_, &series);
   EXPECT_EQ(check.verdict, Verdict::pass) << check.why;
   EXPECT_GT(check.value, 0);
   const double weight = scenario_.manipulator->platform().mass * scenario_.manipulator->gravity().norm();
@@ -240,25 +242,25 @@ TEST_P(ReactionCheck, holdsTheLimitThatTheSamplesGive) {
     sample.conditioning.torque_scale *= 1e-6;
     sample.conditioning.force_scale *= 1e-6;
   }
-  EXPECT_EQ(judgeReactions(scenario_, samples_, nullptr).verdict, Verdict::fail);
+  EXPECT_EQ(judgeReactions(scenario_, samples_, profile_, nullptr).verdict, Verdict::fail);
 }
 
 TEST_P(ReactionCheck, failsWhereAnyMotionIsNoNumber) {
   for (PointwiseSample& sample : samples_) {
     const double right = sample.motion.omega_dot.x();
     sample.motion.omega_dot.x() = nan;
-    EXPECT_EQ(judgeReactions(scenario_, samples_, nullptr).verdict, Verdict::fail) << sample.motion.t;
+    EXPECT_EQ(judgeReactions(scenario_, samples_, profile_, nullptr).verdict, Verdict::fail) << sample.motion.t;
     sample.motion.omega_dot.x() = right;
   }
 }
 
 TEST_P(ReactionCheck, noInstantIsNoAgreement) {
-  EXPECT_EQ(judgeReactions(scenario_, {}, nullptr).verdict, Verdict::fail);
+  EXPECT_EQ(judgeReactions(scenario_, {}, profile_, nullptr).verdict, Verdict::fail);
 }
 
 TEST_P(ReactionCheck, refusesAMotionThatTheMachineCannotMake) {
   samples_.back().motion.p.z() += 10;
-  EXPECT_THROW(judgeReactions(scenario_, samples_, nullptr), PoseError);
+  EXPECT_THROW(judgeReactions(scenario_, samples_, profile_, nullptr), PoseError);
 }
 
 INSTANTIATE_TEST_SUITE_P(Machines, ReactionCheck, testing::Values("paper-helix", "random-5", "proving-ground"),
