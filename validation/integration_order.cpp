@@ -20,13 +20,15 @@ using OdeState = std::vector<double>;
 
 constexpr double nominal_order = 8;
 /// By which the observed order may be lower: what a machine's own scales leave open over steps that are short but not
-/// yet vanishing. Methods of order 6 and less are farther off.
-constexpr double largest_shortfall = 1.5;
-/// Differences below this, in natural units, may be rounding; above the other, steps are too long to show an order.
-constexpr double least_difference = 1e-12, most_difference = 1e-4;
+/// yet vanishing. Methods of order 5 and less are farther off.
+constexpr double largest_shortfall = 2;
+/// Of differences, in natural units: beyond, steps are too long to show an order …
+constexpr double most_difference = 1e-3;
+/// … and below so many times what rounding of the start makes of the end, they may be rounding.
+constexpr double above_noise = 5;
 /// Stretches that are tried, in natural units of time: from the longest on, each so much shorter.
-constexpr double longest = 8, shorter = 0.85;
-constexpr int attempts = 60, wanted = 5;
+constexpr double longest = 8, shorter = 0.9;
+constexpr int attempts = 90, wanted = 7;
 
 /// The loop let go from the commanded state at the start of the motion.
 template <class Stepper>
@@ -39,6 +41,15 @@ class LetGo {
     pushed.p_ddot += Vector3d(0.3, -0.4, 0.5);
     pushed.omega_dot += Vector3d(0.4, 0.3, -0.5);
     torques_ = nocSubject(machine_, nullptr).torques(pushed);
+  }
+
+  /// What rounding of the start's coordinates changes of the end.
+  double noise(double duration) {
+    double out = 0;
+    const OdeState end = endOf(duration, 16);
+    for (unsigned pattern = 1; pattern <= 3; ++pattern)
+      out = std::max(out, distance(end, endOf(duration, 16, pattern)));
+    return out;
   }
 
   /// Between the ends with `steps` and with twice as many; infinite where the machine flies apart.
@@ -57,9 +68,12 @@ class LetGo {
     return std::sqrt(sum);
   }
 
-  OdeState endOf(double duration, int steps) {
+  /// With a `pattern`, from a state that is rounded otherwise.
+  OdeState endOf(double duration, int steps, unsigned pattern = 0) {
     loop_.place(start_);
     OdeState x = loop_.state();
+    for (std::size_t k = 0; k < x.size() && pattern > 0; ++k)
+      x[k] *= 1 + ((k >> pattern) % 2 == 0 ? 1 : -1) * std::numeric_limits<double>::epsilon();
     Stepper stepper;
     const double h = duration / steps;
     for (int k = 0; k < steps; ++k)
@@ -92,9 +106,10 @@ Check judgeOrderOf(const Scenario& scenario) {
   LetGo<Stepper> loop(scenario);
   std::vector<double> orders;
   double duration = longest * std::pow(shorter, firstStretch(loop));
+  const double noise = above_noise * loop.noise(duration);  // the larger, the longer
   for (; orders.size() < wanted; duration *= shorter) {
     const double first = loop.difference(duration, 4), second = loop.difference(duration, 8);
-    if (!(second >= least_difference)) break;  // and the less so over less
+    if (!(second >= noise)) break;  // and the less so over less
     if (first <= most_difference) orders.push_back(std::log2(first / second));
   }
   if (orders.empty())
@@ -104,7 +119,7 @@ Check judgeOrderOf(const Scenario& scenario) {
   std::sort(orders.begin(), orders.end());
   const double order = orders[orders.size() / 2];
   return judged(check, std::max(0.0, nominal_order - order), largest_shortfall, "",
-                "as far as steps that have not vanished leave it open; of order 6 and less is farther",
+                "as far as steps that have not vanished leave it open; of order 5 and less is farther",
                 fmt::format("observed order {:.3g}, of {:g}, by halving fixed steps twice: the middle one over {} "
                             "stretches of {:.3g} natural units of time and more, without friction and load",
                             order, nominal_order, orders.size(), duration / shorter));

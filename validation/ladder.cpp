@@ -22,6 +22,9 @@ constexpr double second_safety = 10;
 /// error may only be asked to fall with them, by half the order.
 constexpr double least_gain = 4;
 
+/// Of the tolerance, at a further rung, where one may have met a kink of the friction by bad luck.
+constexpr double last_rung = 10;
+
 /// An error below this share of the largest useful limit decides nothing, whether or not it converges.
 constexpr double harmless = 0.01;
 
@@ -117,9 +120,7 @@ const Rung* firstThat(const std::vector<Rung>& rungs, const std::function<bool(c
 }
 
 Check judgeConvergence(const Ladder& ladder, const WindowedReplay& finest, double position_scale) {
-  // The farthest of the coarser ones: where a step happens to meet a kink of the friction, one may be right by luck.
-  const Rung& coarse = *std::max_element(ladder.rungs.begin(), ladder.rungs.end() - 1,
-                                         [](const Rung& a, const Rung& b) { return a.distance < b.distance; });
+  const Rung& coarse = ladder.rungs[ladder.rungs.size() - 2];
   const Rung& fine = ladder.rungs.back();
   std::string orders;
   for (double p : ladder.observed_orders) orders += fmt::format("{}{:.3g}", orders.empty() ? "" : ", ", p);
@@ -189,6 +190,11 @@ Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques
   climbSecond(scenario, torques, finest, spoil, ladder);
   ladder.passes_knots = allKnots(scenario).size() > most_knots;
   return ladder;
+}
+
+void climbOn(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
+             const SpoilSettings& spoil, Ladder& ladder) {
+  ladder.rungs.push_back(makeRung(scenario, torques, finest, last_rung * finest.replay.tolerance, spoil));
 }
 
 std::vector<Check> judgeLadder(const Ladder& ladder, const WindowedReplay& finest, double position_scale,

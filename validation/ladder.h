@@ -41,6 +41,10 @@ struct Ladder {
 Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
              bool torques_are_right = false, const std::function<void(ReplaySettings&)>& spoil = nullptr);
 
+/// One rung more, at ten times the judged tolerance.
+void climbOn(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
+             const std::function<void(ReplaySettings&)>& spoil, Ladder& ladder);
+
 /// `integration.ladder` and `integration.second`.
 std::vector<Check> judgeLadder(const Ladder& ladder, const WindowedReplay& finest, double position_scale,
                                const Units& units = {});

@@ -117,7 +117,10 @@ class Trial {
       if (anyFails(judgeWindows({windows_[k]}))) windows_[k].closer = reference_.closer(k);
     if (options_.ladder) {
       ladder_ = climb(scenario_, plan_.torques, windows_.front(), right_, options_.spoil.ladder);
-      if (anyFails(judgeClimbed())) windows_.front().closer = reference_.closer(0);
+      if (anyFails(judgeClimbed())) {
+        windows_.front().closer = reference_.closer(0);
+        climbOn(scenario_, plan_.torques, windows_.front(), options_.spoil.ladder, ladder_);
+      }
     }
     append(result.checks, judgeWindows(windows_));
     if (options_.ladder) {

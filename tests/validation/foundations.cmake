@@ -5,6 +5,7 @@ add_executable(foundation_tests
   direct_checks_test.cpp
   presentation_test.cpp
   relocation_test.cpp
+  second_look_test.cpp
   subject_test.cpp
   worst_test.cpp
 )

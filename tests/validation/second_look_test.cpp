@@ -1,0 +1,123 @@
+// Where a value is beyond its limit: what is measured there, and that no error of a model hides behind it.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/validation/checks.h"
+#include "tests/validation/scenario_files.h"
+#include "validation/growth.h"
+#include "validation/integration_order.h"
+#include "validation/reference.h"
+#include "validation/rounding_profile.h"
+#include "validation/windows.h"
+
+namespace ursula {
+namespace {
+
+using testing::HasSubstr;
+
+class SecondLooks : public testing::TestWithParam<std::string> {
+ protected:
+  Scenario scenario_ = scenarioOf(GetParam());
+  RoundingProfile profile_{scenario_, 5};
+  Motion<double> motion_ = scenario_.trajectory->at(0.37 * scenario_.trajectory->duration());
+  Conditioning at_ = profile_.at(motion_);
+};
+
+TEST_P(SecondLooks, measureTheInstantItself) {
+  const Conditioning closer = profile_.closer(motion_);
+  for (std::size_t q = 0; q < rounded_count; ++q) EXPECT_GE(closer.levels[q], at_.levels[q]);
+  // As if rounding were far smaller everywhere else.
+  Conditioning sharp = at_;
+  sharp.levels = uniformLevels(1e-9);
+  SecondLook look(profile_);
+  const double rounding = closer.rounding(Rounded::torque);
+  EXPECT_DOUBLE_EQ(look.limit(0.5 * rounding, sharp, Rounded::torque, motion_), rounding);
+  EXPECT_EQ(look.limit(1e-3 * sharp.rounding(Rounded::torque), sharp, Rounded::torque, motion_),
+            sharp.rounding(Rounded::torque))
+      << "within its limit, nothing is looked at";
+}
+
+TEST_P(SecondLooks, areNotTakenAgainOnceAnErrorIsConfirmed) {
+  const double rounding = profile_.closer(motion_).rounding(Rounded::torque);
+  Conditioning sharp = at_;
+  sharp.levels = uniformLevels(1e-9);
+  SecondLook look(profile_);
+  EXPECT_LT(look.limit(3 * rounding, sharp, Rounded::torque, motion_), 3 * rounding);
+  EXPECT_EQ(look.limit(0.5 * rounding, sharp, Rounded::torque, motion_), sharp.rounding(Rounded::torque));
+  SecondLook other(profile_);
+  EXPECT_EQ(other.limit(std::nan(""), sharp, Rounded::torque, motion_), sharp.rounding(Rounded::torque));
+}
+
+/// The direct dynamics are looked at under the torques that showed the error.
+TEST_P(SecondLooks, knowTheTorquesOfTheDirectDynamics) {
+  const Vector6d large = Vector6d::Constant(1e6 * at_.torque_scale);
+  EXPECT_GT(profile_.closer(motion_, &large).levels[static_cast<std::size_t>(Rounded::direct)],
+            10 * profile_.closer(motion_).levels[static_cast<std::size_t>(Rounded::direct)]);
+}
+
+TEST_P(SecondLooks, seeWhatTheStepsOfAReplayAreOffBy) {
+  Scenario scenario = scenario_;
+  scenario.simulation.samples = 21;
+  const Reference reference(scenario);
+  const WindowedReplay& window = reference.windows.front();
+  ReplayPlan blunt = reference.plan;
+  blunt.tolerance = 1e-8;
+  const Replay replay =
+      ursula::replay(reference.scenario, blunt.torques, settingsOf(reference.scenario, blunt, window.window, 1));
+  const double error = (replay.steps.back().position_error - window.replay.steps.back().position_error).norm();
+  const IntegrationError seen = closerLook(reference.scenario, blunt, window.window, replay);
+  ASSERT_TRUE(seen.measured());
+  EXPECT_GT(error, 1e-10);
+  EXPECT_GT(integration_safety * seen.steps.back().position, error);
+  EXPECT_LT(seen.steps.back().position, 100 * error);
+  EXPECT_LT(reference.closer(0).steps.back().position, 1e-3 * seen.steps.back().position) << "the judged one's";
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenarios, SecondLooks, testing::Values("paper-helix", "proving-ground", "near-singular"),
+                         [](const auto& name) { return asTestName(name.param); });
+
+class Growths : public testing::TestWithParam<std::string> {
+ protected:
+  Scenario scenario_ = scenarioOf(GetParam());
+  AccelerationUnder right_ = solverOf(scenario_).accelerations;
+  double end_ = scenario_.trajectory->duration() / 4;
+};
+
+TEST_P(Growths, areTheSameOverFewAndManyIntervals) {
+  const Growth few = growthOf(scenario_, right_, end_, 10), many = growthOf(scenario_, right_, end_, 200);
+  EXPECT_LT((few.Phi - many.Phi).norm(), 1e-5 * many.Phi.norm());
+  EXPECT_GT((few.Phi - few.coarser).norm(), 0);
+  EXPECT_GT((few.blunter - few.coarser).norm(), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenarios, Growths, testing::Values("paper-helix", "proving-ground", "load-table"),
+                         [](const auto& name) { return asTestName(name.param); });
+
+/// Joints that turn about with Coulomb friction hold a deviation back for a moment.
+TEST(Growth, halvesWhereAJointTurnsAbout) {
+  const Scenario rubbing = scenarioOf("proving-ground"), smooth = scenarioOf("paper-helix");
+  const auto halvings = [](const Scenario& scenario) {
+    return growthOf(scenario, solverOf(scenario).accelerations, scenario.trajectory->duration(), 60).halved_at.size();
+  };
+  EXPECT_GT(halvings(rubbing), halvings(smooth));
+}
+
+class Orders : public testing::TestWithParam<std::string> {};
+
+TEST_P(Orders, ofTheJudgedIntegratorIsEightAndAnotherFails) {
+  const Scenario scenario = Reference(scenarioOf(GetParam())).scenario;
+  const Check right = judgeOrder(scenario), lower = judgeOrder(scenario, true);
+  EXPECT_EQ(right.verdict, Verdict::pass) << right.why;
+  EXPECT_THAT(right.why, HasSubstr("stretches"));
+  EXPECT_EQ(lower.verdict, Verdict::fail) << lower.why;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenarios, Orders,
+                         testing::Values("paper-helix", "proving-ground", "millimetres", "near-singular"),
+                         [](const auto& name) { return asTestName(name.param); });
+
+}  // namespace
+}  // namespace ursula
