@@ -20,15 +20,17 @@ using OdeState = std::vector<double>;
 
 constexpr double nominal_order = 8;
 /// By which the observed order may be lower: what a machine's own scales leave open over steps that are short but not
-/// yet vanishing. Methods of order 5 and less are farther off.
-constexpr double largest_shortfall = 2;
+/// yet vanishing. Where it is lower, it must also be settled, within the other over the shortest stretches.
+constexpr double largest_shortfall = 1.25, settled = 0.4;
+constexpr int settled_over = 6;  ///< stretches: half as long at their shortest
 /// Of differences, in natural units: beyond, steps are too long to show an order …
 constexpr double most_difference = 1e-3;
 /// … and below so many times what rounding of the start makes of the end, they may be rounding.
-constexpr double above_noise = 5;
+constexpr double above_noise = 3;
 /// Stretches that are tried, in natural units of time: from the longest on, each so much shorter.
 constexpr double longest = 8, shorter = 0.9;
-constexpr int attempts = 90, wanted = 7;
+constexpr int attempts = 90;
+constexpr std::size_t most_stretches = 12;
 
 /// The loop let go from the commanded state at the start of the motion.
 template <class Stepper>
@@ -100,36 +102,54 @@ int firstStretch(LetGo<Stepper>& loop) {
   return short_enough;
 }
 
+/// The observed order of each stretch, from the longest on.
 template <class Stepper>
-Check judgeOrderOf(const Scenario& scenario) {
-  static constexpr const char* check = "integration.order";
+std::vector<double> observedOrders(const Scenario& scenario) {
   LetGo<Stepper> loop(scenario);
   std::vector<double> orders;
   double duration = longest * std::pow(shorter, firstStretch(loop));
   const double noise = above_noise * loop.noise(duration);  // the larger, the longer
-  for (; orders.size() < wanted; duration *= shorter) {
+  for (; orders.size() < most_stretches; duration *= shorter) {
     const double first = loop.difference(duration, 4), second = loop.difference(duration, 8);
     if (!(second >= noise)) break;  // and the less so over less
     if (first <= most_difference) orders.push_back(std::log2(first / second));
   }
+  return orders;
+}
+
+/// The shortest ones agree.
+bool haveSettled(const std::vector<double>& orders) {
+  if (orders.size() < settled_over) return false;
+  const auto [least, most] = std::minmax_element(orders.end() - settled_over, orders.end());
+  return *most - *least <= settled;
+}
+
+Check judgeOrders(const std::vector<double>& orders) {
+  static constexpr const char* check = "integration.order";
+  const std::string basis = fmt::format(
+      "as far as steps that have not vanished leave it open; it fails where the shortest {} stretches agree to {:g}",
+      settled_over, settled);
   if (orders.empty())
-    return notJudgeable(Reason::limit_useless, check, std::nan(""), largest_shortfall, "",
-                        "as far as steps that have not vanished leave it open",
+    return notJudgeable(Reason::limit_useless, check, std::nan(""), largest_shortfall, "", basis,
                         "no stretch of the motion is between rounding and steps too long to show an order");
-  std::sort(orders.begin(), orders.end());
-  const double order = orders[orders.size() / 2];
-  return judged(check, std::max(0.0, nominal_order - order), largest_shortfall, "",
-                "as far as steps that have not vanished leave it open; of order 5 and less is farther",
-                fmt::format("observed order {:.3g}, of {:g}, by halving fixed steps twice: the middle one over {} "
-                            "stretches of {:.3g} natural units of time and more, without friction and load",
-                            order, nominal_order, orders.size(), duration / shorter));
+  const auto half = orders.begin() + static_cast<std::ptrdiff_t>(orders.size() / 2);
+  const double order = *std::max_element(half, orders.end());
+  const double shortfall = std::max(0.0, nominal_order - order);
+  const std::string why = fmt::format(
+      "observed order {:.3g}, of {:g}, by halving fixed steps twice: the best over the shorter half of {} stretches, "
+      "without friction and load",
+      order, nominal_order, orders.size());
+  if (shortfall > largest_shortfall && !haveSettled(orders))
+    return notJudgeable(Reason::limit_useless, check, shortfall, largest_shortfall, "", basis,
+                        why + "; the orders have not settled: rounding is met before the steps are short enough");
+  return judged(check, shortfall, largest_shortfall, "", basis, why);
 }
 
 }  // namespace
 
 Check judgeOrder(const Scenario& scenario, bool lower) {
-  return lower ? judgeOrderOf<odeint::runge_kutta_dopri5<OdeState>>(scenario)
-               : judgeOrderOf<odeint::runge_kutta_fehlberg78<OdeState>>(scenario);
+  return judgeOrders(lower ? observedOrders<odeint::runge_kutta_dopri5<OdeState>>(scenario)
+                           : observedOrders<odeint::runge_kutta_fehlberg78<OdeState>>(scenario));
 }
 
 }  // namespace ursula

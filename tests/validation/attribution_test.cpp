@@ -75,13 +75,12 @@ TEST_P(Budget, isWholeAndLeavesNoMoreThanIsNotKnown) {
   EXPECT_LE((sum - budget.observed).norm(), 4 * Eigen::NumTraits<double>::epsilon() * size);
   EXPECT_LE(budget.unexplained().norm(), budget.uncertainty());
   EXPECT_NE(budget.dominant, ErrorSource::model) << "the torques are right";
-  // Known to no more than a few times what there is, or the bar says nothing.
-  EXPECT_LT(budget.uncertainty(), 100 * size);
+  // Known to no more than a few times what there is, or the bar says nothing; but for what is hardly above rounding.
+  if (budget.observed.norm() > 1e-13) EXPECT_LT(budget.uncertainty(), 100 * size);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenarios, Budget,
-                         testing::Values("paper-helix", "near-singular", "millimetres", "viscous-friction",
-                                         "coulomb-friction"),
+                         testing::ValuesIn(shippedScenarios()),
                          [](const auto& name) { return asTestName(name.param); });
 
 TEST(Attribution, namesTheModelWhereTorquesAreOffByAMillionth) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,17 @@ namespace ursula {
 
 /// scenarios/NAME.toml where there is one, else the machine of tests/vectors.
 inline Scenario scenarioOf(const std::string& name) {
-  return name.rfind("random-", 0) == 0 ? vectorScenario(name)
-                                       : readScenario(std::string(URSULA_SCENARIOS) + "/" + name + ".toml");
+  const std::string file = std::string(URSULA_SCENARIOS) + "/" + name + ".toml";
+  return std::filesystem::exists(file) ? readScenario(file) : vectorScenario(name);
+}
+
+/// The names of all that ship, in order.
+inline std::vector<std::string> shippedScenarios() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(URSULA_SCENARIOS))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 inline Subject solverOf(const Scenario& scenario) { return nocSubject(*scenario.manipulator, scenario.load); }
