@@ -25,6 +25,7 @@ int compareFiles(const Options& options) {
     case Verdict::inconclusive:
       return exit_inconclusive;
     case Verdict::fail:
+    case Verdict::not_applicable:
       break;
   }
   return exit_failed;

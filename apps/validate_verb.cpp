@@ -31,6 +31,7 @@ int exitCode(Verdict verdict) {
     case Verdict::inconclusive:
       return exit_inconclusive;
     case Verdict::fail:
+    case Verdict::not_applicable:
       break;
   }
   return exit_failed;
@@ -39,8 +40,11 @@ int exitCode(Verdict verdict) {
 void printChecks(const ValidationResult& result) {
   fmt::print("{}: {}\n", result.scenario, name(result.verdict));
   for (const Check& check : result.checks)
-    fmt::print("  {:<12} {:<32} {:>10.3g} of {:>10.3g} {}\n", name(check.verdict), check.name, check.value, check.limit,
-               check.unit);
+    if (check.verdict == Verdict::not_applicable)
+      fmt::print("  {:<14} {:<32} {}\n", "not applicable", check.name, check.why);
+    else
+      fmt::print("  {:<14} {:<32} {:>10.3g} of {:>10.3g} {}\n", name(check.verdict), check.name, check.value,
+                 check.limit, check.unit);
 }
 
 /// "" where the result has no such finding.

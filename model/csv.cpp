@@ -85,6 +85,7 @@ int lastPlace(std::string_view cell) {
 
 /// std::from_chars, since it knows no locale; a leading plus, which it refuses, is harmless.
 double readNumber(std::string_view cell, const CsvTable& table, bool finite, int line, const std::string& column) {
+  if (cell.empty() && !finite) return std::nan("");
   std::string_view digits = cell;
   if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
   double value = 0;
@@ -156,7 +157,7 @@ CsvTable readCsv(const std::filesystem::path& file, const CsvOptions& options) {
   return parseCsv(text, file, options);
 }
 
-std::string csvText(const std::vector<std::string>& names, const std::vector<std::vector<double>>& columns) {
+std::string csvText(const std::vector<std::string>& names, const std::vector<std::vector<double>>& columns, NanAs nan) {
   if (names.empty() || names.size() != columns.size()) throw std::invalid_argument("csvText: one column for each name");
   const std::size_t rows = columns.front().size();
   for (const auto& column : columns)
@@ -164,8 +165,11 @@ std::string csvText(const std::vector<std::string>& names, const std::vector<std
   fmt::memory_buffer out;
   fmt::format_to(std::back_inserter(out), "{}\n", fmt::join(names, ","));
   for (std::size_t row = 0; row < rows; ++row)
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      fmt::format_to(std::back_inserter(out), "{:.17g}{}", columns[i][row], i + 1 < columns.size() ? ',' : '\n');
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const double value = columns[i][row];
+      if (nan == NanAs::word || !std::isnan(value)) fmt::format_to(std::back_inserter(out), "{:.17g}", value);
+      out.push_back(i + 1 < columns.size() ? ',' : '\n');
+    }
   return fmt::to_string(out);
 }
 

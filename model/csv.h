@@ -34,7 +34,7 @@ struct CsvTable {
 
 struct CsvOptions {
   std::function<bool(const std::string&)> wanted;  ///< by name; cells of other columns are not looked at. Empty: all
-  bool finite = true;                              ///< whether NaN and infinities are refused
+  bool finite = true;                              ///< whether NaN, infinities and empty cells (NaN) are refused
 };
 
 /// Reads a comma-separated file; a byte order mark, CRLF and blanks around a cell are tolerated. Throws CsvError for an
@@ -44,8 +44,12 @@ CsvTable readCsv(const std::filesystem::path& file, const CsvOptions& options = 
 /// The same from text; `file` names it in errors.
 CsvTable parseCsv(const std::string& text, const std::filesystem::path& file, const CsvOptions& options = {});
 
+/// How NaN is written.
+enum class NanAs { word, empty_cell };
+
 /// One header line and the rows, numbers with 17 significant digits, so that reading them back gives the same doubles.
 /// Throws std::invalid_argument unless there is one column for each name and all are equally long.
-std::string csvText(const std::vector<std::string>& names, const std::vector<std::vector<double>>& columns);
+std::string csvText(const std::vector<std::string>& names, const std::vector<std::vector<double>>& columns,
+                    NanAs nan = NanAs::word);
 
 }  // namespace ursula

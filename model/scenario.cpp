@@ -6,6 +6,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "model/check_names.h"
+#include "model/nearest.h"
 #include "model/scenario_sections.h"
 
 namespace ursula {
@@ -55,6 +57,9 @@ void readAcceptance(const TomlSection& table, const std::string& prefix, std::ve
     }
     AcceptanceLimit limit;
     limit.check = prefix + name;
+    const std::vector<std::string> known = namesOfChecks();
+    if (std::find(known.begin(), known.end(), limit.check) == known.end())
+      table.fail(name, fmt::format("'{}' is no check{}", limit.check, didYouMean(limit.check, known)));
     table.require(name, limit.limit);
     if (!(limit.limit > 0)) table.fail(name, fmt::format("{}, expected a number > 0", limit.limit));
     const auto same = [&](const AcceptanceLimit& other) { return other.check == limit.check; };

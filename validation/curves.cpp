@@ -1,5 +1,6 @@
 #include "validation/curves.h"
 
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -14,6 +15,10 @@ TimeSeries curve(const std::vector<std::pair<std::string, std::vector<double>>>&
   return series;
 }
 
+bool reachesEnd(const WindowedReplay& window) {
+  return window.window.end() - window.replay.steps.back().t <= 1e-12 * window.window.end();
+}
+
 TimeSeries replayAndLimit(const std::vector<WindowedReplay>& windows, double position_scale) {
   std::vector<double> t, error, limit;
   for (const WindowedReplay& window : windows)
@@ -21,6 +26,10 @@ TimeSeries replayAndLimit(const std::vector<WindowedReplay>& windows, double pos
       t.push_back(step.t);
       error.push_back(step.position_error.norm());
       limit.push_back(replayLimit(window, position_scale, step.t));
+      if (&step != &window.replay.steps.back() || reachesEnd(window)) continue;
+      t.push_back(window.window.end());  // nothing was computed from here to there
+      error.push_back(std::nan(""));
+      limit.push_back(std::nan(""));
     }
   return curve({{"t_s", t}, {"position error (m)", error}, {"derived limit (m)", limit}});
 }

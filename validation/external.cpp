@@ -75,6 +75,9 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   addReplay(here, external, natural.units, result);
   restore(natural, result);
   prependMotionChecks(scenario, result);
+  SubjectHas has;
+  has.any_instant = has.kinematics = has.direct_dynamics = has.other_machines = false;
+  listEveryCheck(scenario, has, result);
   judgeByUser(scenario.acceptance, result);
   addFileFindings(file, result);
   if (result.verdict == Verdict::fail || result.limits == LimitBy::user) {

@@ -6,6 +6,7 @@
 #include <boost/uuid/detail/sha1.hpp>
 #include <iterator>
 
+#include "model/check_names.h"
 #include "model/mujoco_loop.h"
 #include "validation/commanded_motion.h"
 #include "validation/provenance.h"
@@ -82,6 +83,37 @@ std::string nearestToEdge(const std::vector<PointwiseSample>& samples, const Uni
                      at.conditioning.smallest_sine_leg + 1, at.motion.t * units.time);
 }
 
+/// Why a check that was not made does not apply.
+std::string whyNot(const CheckName& check, const Scenario& scenario, const SubjectHas& has) {
+  const auto unless = [&](bool there, const char* why) {
+    return std::string(there ? "the subject has no answer" : why);
+  };
+  if (!has.any_instant && check.needs != CheckNeeds::load_history && check.needs != CheckNeeds::scenario_file)
+    return "a file gives torques alone, at its own instants";
+  switch (check.needs) {
+    case CheckNeeds::load_history:
+      return scenario.load ? "the load is constant" : "there is no load";
+    case CheckNeeds::scenario_file:
+      return "the scenario was not read from a file";
+    case CheckNeeds::kinematics:
+      return unless(has.kinematics, "the subject gives no kinematics");
+    case CheckNeeds::direct_dynamics:
+      return unless(has.direct_dynamics, "the subject solves no direct dynamics");
+    case CheckNeeds::other_machines:
+      return unless(has.other_machines, "the subject cannot be made for another machine");
+    case CheckNeeds::own_reactions:
+      return unless(!has.left_out_reactions, "left out by the caller's options");
+    case CheckNeeds::mujoco:
+      return unless(mujocoAvailable(), "this build has no MuJoCo");
+    case CheckNeeds::torque_file:
+      return "the torques do not come from a file";
+    case CheckNeeds::nothing:
+    case CheckNeeds::any_instant:
+      break;
+  }
+  return unless(!has.left_out_ladder, "left out by the caller's options");
+}
+
 }  // namespace
 
 void restore(const Presentation& from, ValidationResult& result) {
@@ -101,13 +133,25 @@ void prependMotionChecks(const Scenario& scenario, ValidationResult& result) {
                        std::make_move_iterator(checks.end()));
 }
 
+void listEveryCheck(const Scenario& scenario, const SubjectHas& has, ValidationResult& result) {
+  std::vector<Check> listed;
+  for (const CheckName& wanted : checkNames()) {
+    const auto found = std::find_if(result.checks.begin(), result.checks.end(),
+                                    [&wanted](const Check& check) { return check.name == wanted.name; });
+    listed.push_back(found != result.checks.end()
+                         ? std::move(*found)
+                         : notApplicable(wanted.name, wanted.unit, whyNot(wanted, scenario, has)));
+  }
+  result.checks = std::move(listed);
+}
+
 void judgeByUser(const std::vector<AcceptanceLimit>& acceptance, ValidationResult& result) {
   for (const AcceptanceLimit& wanted : acceptance) {
     const auto found = std::find_if(result.checks.begin(), result.checks.end(),
                                     [&wanted](const Check& check) { return check.name == wanted.check; });
     if (found == result.checks.end())
-      result.checks.push_back(notMade(wanted.check, "", "[acceptance] names a check that was not made"));
-    else
+      result.checks.push_back(notMade(wanted.check, "", "[acceptance] names a check that is none"));
+    else if (found->verdict != Verdict::not_applicable)
       judgeByUser(wanted.limit, *found);
   }
   for (const Check& check : result.checks)
@@ -153,6 +197,13 @@ void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<
     evaluations += window.replay.evaluations;
     steps += window.replay.steps.size() - (window.replay.steps.empty() ? 0 : 1);
     for (double value : window.window.growth) growth = std::max(growth, value);
+  }
+  for (const WindowedReplay& window : windows) {
+    const Replay& replay = window.replay;
+    if (replay.gave_up.empty() && !replay.left_path) continue;
+    const double t = replay.left_path && !replay.steps.empty() ? replay.steps.back().t : replay.stopped_at;
+    const std::string why = replay.left_path ? "P was off by more than the platform's size" : replay.gave_up;
+    result.findings.emplace_back("replay stopped", fmt::format("stopped at t = {:.6g} s: {}", t * units.time, why));
   }
   const std::vector<std::pair<std::string, std::string>> findings = {
       {"largest torque", fmt::format("{:.6g} N m", torque * units.torque())},

@@ -17,6 +17,16 @@ void restore(const Presentation& from, ValidationResult& result);
 /// What all roads share: the commanded motion, the load, the file as it was read.
 void prependMotionChecks(const Scenario& scenario, ValidationResult& result);
 
+/// What a subject and its validation have beside torques.
+struct SubjectHas {
+  bool any_instant = true;  ///< torques at any instant, not those of a file alone
+  bool kinematics = true, direct_dynamics = true, other_machines = true;
+  bool left_out_ladder = false, left_out_reactions = false;  ///< by the caller's options
+};
+
+/// Puts the checks into the order of checkNames() and adds those that do not apply, each with its reason.
+void listEveryCheck(const Scenario& scenario, const SubjectHas& has, ValidationResult& result);
+
 /// Judges by the scenario's own limits where it has any, each held against the largest value of its check, and sets the
 /// verdict. Of what could not be judged a limit of the user's lifts only what had no useful limit; naming a check that
 /// was not made is a failure.

@@ -122,6 +122,7 @@ class Proof {
 std::vector<CheckProof> proofsOf(const std::vector<Check>& checks, const std::vector<DefectOutcome>& outcomes) {
   std::vector<CheckProof> out;
   for (const Check& check : checks) {
+    if (check.verdict == Verdict::not_applicable) continue;
     CheckProof proof{check.name, {}, {}};
     for (const DefectOutcome& outcome : outcomes) {
       if (outcome.caught_by.empty() || outcome.caught_by.front() != check.name) continue;

@@ -22,6 +22,8 @@ const char* name(Verdict verdict) {
       return "fail";
     case Verdict::inconclusive:
       return "inconclusive";
+    case Verdict::not_applicable:
+      return "not_applicable";
   }
   throw std::logic_error("no such verdict");
 }
@@ -38,6 +40,8 @@ const char* name(Reason reason) {
       return "not_covered";
     case Reason::not_made:
       return "not_made";
+    case Reason::not_applicable:
+      return "not_applicable";
   }
   throw std::logic_error("no such reason");
 }
@@ -57,6 +61,13 @@ Check notMade(std::string name, std::string unit, std::string why) {
           Reason::not_made, {none, 0, ""}};
 }
 
+Check notApplicable(std::string name, std::string unit, std::string why) {
+  Check out = notMade(std::move(name), std::move(unit), std::move(why));
+  out.verdict = Verdict::not_applicable;
+  out.reason = Reason::not_applicable;
+  return out;
+}
+
 Check notJudgeable(Reason reason, std::string name, double value, double limit, std::string unit, std::string basis,
                    std::string why) {
   return {std::move(name),  value,          limit,  std::move(unit), Verdict::inconclusive,
@@ -72,8 +83,9 @@ Check judgedIfUseful(std::string name, double value, double limit, double useful
 }
 
 Verdict overall(const std::vector<Check>& checks) {
-  if (checks.empty() || anyIs(checks, Verdict::fail)) return Verdict::fail;
-  return anyIs(checks, Verdict::inconclusive) ? Verdict::inconclusive : Verdict::pass;
+  if (anyIs(checks, Verdict::fail)) return Verdict::fail;
+  if (anyIs(checks, Verdict::inconclusive)) return Verdict::inconclusive;
+  return anyIs(checks, Verdict::pass) ? Verdict::pass : Verdict::fail;  // of nothing judged
 }
 
 void TimeSeries::add(std::string column_name, std::vector<double> values) {

@@ -6,18 +6,20 @@
 
 namespace ursula {
 
-enum class Verdict { pass, fail, inconclusive };
+/// `not_applicable` is of checks alone: it needs what is not there, and counts neither as passed nor as failed.
+enum class Verdict { pass, fail, inconclusive, not_applicable };
 
-/// "pass", "fail" or "inconclusive".
+/// "pass", "fail", "inconclusive" or "not_applicable".
 const char* name(Verdict verdict);
 
 /// Why a check is not judged, or its failure not the value's.
 enum class Reason {
-  none,           ///< judged by value and limit
-  limit_useless,  ///< the limit is so large that it says nothing: the only one that a limit of the user's may lift
-  unfinished,     ///< stopped before the end of what was to be judged
-  not_covered,    ///< something that it needs is not there: samples, digits, a part of the motion
-  not_made,       ///< it could not be made at all: a failure
+  none,            ///< judged by value and limit
+  limit_useless,   ///< the limit is so large that it says nothing: the only one that a limit of the user's may lift
+  unfinished,      ///< stopped before the end of what was to be judged
+  not_covered,     ///< something that it needs is not there: samples, digits, a part of the motion
+  not_made,        ///< it could not be made at all: a failure
+  not_applicable,  ///< it needs what neither scenario nor subject nor build has
 };
 
 /// "none", "limit_useless", …
@@ -56,6 +58,9 @@ Check judged(std::string name, double value, double limit, std::string unit, std
 
 /// A check that could not be made: a failure that says so.
 Check notMade(std::string name, std::string unit, std::string why);
+
+/// A check that needs what is not there, with the reason.
+Check notApplicable(std::string name, std::string unit, std::string why);
 
 /// A check that cannot be judged here: inconclusive, with the reason.
 Check notJudgeable(Reason reason, std::string name, double value, double limit, std::string unit, std::string basis,

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
 
@@ -77,18 +78,30 @@ const WindowedReplay* windowAt(const std::vector<WindowedReplay>& windows, doubl
   return windows.empty() ? nullptr : &windows.back();
 }
 
+/// Ends that two integrators reach differ by rounding.
+bool reached(const Replay& replay, double t) {
+  return !replay.steps.empty() && t <= replay.steps.back().t * (1 + 1e-12);
+}
+
+/// After a replay stopped there is nothing, and nothing is drawn.
+ReplayStep notComputed(double t) {
+  const Vector3d none = Vector3d::Constant(std::nan(""));
+  return {t, none, none, none, none, {std::nan(""), std::nan("")}, std::nan("")};
+}
+
 void addReplay(TimeSeries& series, const std::vector<Motion<double>>& motions,
                const std::vector<WindowedReplay>& windows) {
   std::vector<ReplayStep> steps;
   for (const Motion<double>& motion : motions) {
     const WindowedReplay* window = windowAt(windows, motion.t);
-    if (window == nullptr || window->replay.steps.empty()) return;
-    steps.push_back(interpolated(window->replay, motion.t));
+    if (window == nullptr) return;
+    steps.push_back(reached(window->replay, motion.t) ? interpolated(window->replay, motion.t) : notComputed(motion.t));
   }
   std::vector<Motion<double>> simulated = motions;
   for (std::size_t k = 0; k < steps.size(); ++k) {
     simulated[k].p += steps[k].position_error;
     const double angle = steps[k].rotation_error.norm();
+    if (std::isnan(angle)) simulated[k].Q.setConstant(angle);
     if (angle > 0)
       simulated[k].Q = Eigen::AngleAxisd(angle, steps[k].rotation_error / angle).toRotationMatrix() * simulated[k].Q;
   }

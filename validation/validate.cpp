@@ -54,7 +54,12 @@ class Trial {
     plan_.torques = [subject, trajectory](double t) { return subject.torques(trajectory->at(t)); };
   }
 
-  ValidationResult result() {
+  ValidationResult result(SubjectHas& has) {
+    has.kinematics = static_cast<bool>(subject_.kinematics);
+    has.direct_dynamics = static_cast<bool>(subject_.accelerations);
+    has.other_machines = static_cast<bool>(subject_.rebuilt);
+    has.left_out_ladder = !options_.ladder;
+    has.left_out_reactions = !options_.reactions;
     ValidationResult result;
     result.scenario = scenario_.name;
     samples_ = runPointwise(scenario_, subject_, reference_.instants, reference_.profile);
@@ -170,9 +175,11 @@ class Trial {
 
 ValidationResult run(const Scenario& scenario, const Reference& reference, const Subject& subject, bool right,
                      const ValidationOptions& options) {
-  ValidationResult result = Trial(reference, subject, right, options).result();
+  SubjectHas has;
+  ValidationResult result = Trial(reference, subject, right, options).result(has);
   restore(reference.natural, result);
   prependMotionChecks(scenario, result);
+  listEveryCheck(scenario, has, result);
   judgeByUser(scenario.acceptance, result);
   addProvenance(scenario, subject.name, result);
   return result;

@@ -107,11 +107,13 @@ TEST(Scenario, readsSettings) {
 
 TEST(Scenario, flattensTheNamesOfChecks) {
   const Scenario scenario = parsed(
-      "[trajectory]", "[acceptance]\n\"replay.a\" = 1e-9\nreplay.b = 2\n[acceptance.deep.er]\nc = 3\n[trajectory]");
+      "[trajectory]",
+      "[acceptance]\n\"replay.position\" = 1e-9\nenergy.balance = 2\n[acceptance.torque]\npointwise = 3\n[trajectory]");
   std::vector<std::pair<std::string, double>> limits;
   for (const AcceptanceLimit& limit : scenario.acceptance) limits.emplace_back(limit.check, limit.limit);
-  EXPECT_THAT(limits, testing::UnorderedElementsAre(std::pair("replay.a", 1e-9), std::pair("replay.b", 2.0),
-                                                    std::pair("deep.er.c", 3.0)));
+  EXPECT_THAT(limits,
+              testing::UnorderedElementsAre(std::pair("replay.position", 1e-9), std::pair("energy.balance", 2.0),
+                                            std::pair("torque.pointwise", 3.0)));
 }
 
 TEST(Scenario, readFromAFileIsThatOfItsText) {

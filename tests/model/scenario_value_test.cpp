@@ -64,12 +64,16 @@ INSTANTIATE_TEST_SUITE_P(
                             "simulation.integrator: 'rkf87', expected 'rkf78' or 'rk_merson', did you mean 'rkf78'?"},
                     Refusal{"tolerance", "[trajectory]", "[simulation]\ntolerance = @1e-16\n[trajectory]",
                             "simulation.tolerance: 1e-16, expected a number from 1e-15 to 1e-3"},
-                    Refusal{"limit_zero", "[trajectory]", "[acceptance]\n\"closure\" = @0\n[trajectory]",
-                            "acceptance.closure: 0, expected a number > 0"},
+                    Refusal{"limit_zero", "[trajectory]", "[acceptance]\n\"closure.position\" = @0\n[trajectory]",
+                            "acceptance.closure.position: 0, expected a number > 0"},
                     Refusal{"limit_word", "[trajectory]", "[acceptance]\nreplay.position = @\"small\"\n[trajectory]",
                             "acceptance.replay.position: a string, expected a number"},
-                    Refusal{"limit_twice", "[trajectory]", "[acceptance]\na.b = 1\n\"a.b\" = @2\n[trajectory]",
-                            "acceptance.a.b: a second limit for one check, expected one"}),
+                    Refusal{"limit_twice", "[trajectory]",
+                            "[acceptance]\nenergy.balance = 1\n\"energy.balance\" = @2\n[trajectory]",
+                            "acceptance.energy.balance: a second limit for one check, expected one"},
+                    Refusal{
+                        "limit_misspelt", "[trajectory]", "[acceptance]\ntorque.pontwise = @2\n[trajectory]",
+                        "acceptance.torque.pontwise: 'torque.pontwise' is no check, did you mean 'torque.pointwise'?"}),
     nameOf);
 
 TEST(ImpossibleScenario, hasLegsTooShort) {

@@ -1,6 +1,7 @@
 # What every verdict stands on: limits, presentations, the user's say, and witnesses between the samples.
 add_executable(foundation_tests
   acceptance_test.cpp
+  check_list_test.cpp
   dense_torques_test.cpp
   direct_checks_test.cpp
   presentation_test.cpp

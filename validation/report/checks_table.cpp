@@ -61,14 +61,29 @@ std::string rows(const Check& check, std::size_t index, const Decades& decades) 
       fact("Limit from", check.basis), fact("In full", inFull(check)));
 }
 
-int rank(Verdict verdict) { return verdict == Verdict::fail ? 0 : verdict == Verdict::inconclusive ? 1 : 2; }
+int rank(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::fail:
+      return 0;
+    case Verdict::inconclusive:
+      return 1;
+    case Verdict::pass:
+      return 2;
+    case Verdict::not_applicable:
+      break;
+  }
+  return 3;
+}
 
 }  // namespace
 
 std::string verdictBadge(Verdict verdict) {
-  const char* sign = verdict == Verdict::pass ? "✓" : verdict == Verdict::fail ? "✗" : "?";
+  const char* sign = verdict == Verdict::pass             ? "✓"
+                     : verdict == Verdict::fail           ? "✗"
+                     : verdict == Verdict::not_applicable ? "–"
+                                                          : "?";
   std::string word = name(verdict);
-  for (char& c : word) c = static_cast<char>(c - 'a' + 'A');
+  for (char& c : word) c = c == '_' ? ' ' : static_cast<char>(c - 'a' + 'A');
   return fmt::format("<span class=\"badge {}\"><span aria-hidden=\"true\">{}</span> {}</span>", name(verdict), sign,
                      word);
 }

@@ -88,7 +88,7 @@ std::string suiteRow(const SuiteEntry& entry) {
       "<td>{}</td></tr>\n",
       name(entry.verdict), verdictBadge(entry.verdict),
       entry.error.empty() ? fmt::format("<a href=\"{}\">{}</a>", link, scenario) : scenario,
-      fmt::format("{} of {}", passed, entry.checks.size()),
+      fmt::format("{} of {}", passed, judgedCount(entry.checks)),
       !entry.error.empty() ? escaped(entry.error)
       : worst != nullptr   ? deciding(*worst)
                            : "no check was made",

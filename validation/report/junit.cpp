@@ -39,6 +39,8 @@ std::string outcome(const Check& check) {
     case Verdict::inconclusive:
       return fmt::format("<skipped message=\"inconclusive: {}\"/><system-out>{}</system-out>", escaped(check.why),
                          text);
+    case Verdict::not_applicable:
+      return fmt::format("<skipped message=\"not applicable: {}\"/>", escaped(check.why));
     case Verdict::pass:
       break;
   }
@@ -61,7 +63,7 @@ std::string suiteCases(const SuiteEntry& entry, Counts& counts) {
   for (const Check& check : checks) {
     ++counts.tests;
     counts.failures += check.verdict == Verdict::fail;
-    counts.skipped += check.verdict == Verdict::inconclusive;
+    counts.skipped += check.verdict == Verdict::inconclusive || check.verdict == Verdict::not_applicable;
     cases += testCase(entry.scenario, check.name, outcome(check));
   }
   if (!entry.error.empty()) {

@@ -17,7 +17,8 @@ SuiteEntry suiteEntry(const ValidationResult& result, std::filesystem::path fold
 
 void writeResults(const ValidationResult& result, const std::filesystem::path& dir) {
   std::filesystem::remove(dir / "summary.json");
-  writeFileAtomically(dir / "timeseries.csv", csvText(result.timeseries.names, result.timeseries.columns));
+  writeFileAtomically(dir / "timeseries.csv",
+                      csvText(result.timeseries.names, result.timeseries.columns, NanAs::empty_cell));
   writeFileAtomically(dir / "junit.xml", report::junitXml({suiteEntry(result, "", 0)}));
   writeFileAtomically(dir / "report.html", report::reportHtml(result));
   writeFileAtomically(dir / "summary.json", report::summaryJson(result));

@@ -31,8 +31,11 @@ double limitShare(const Check& check);
 /// The same in words: "is at 0.8 of its limit", "has no value", …
 std::string standing(const Check& check);
 
-/// The check that decides: first by verdict (fail, inconclusive, pass), then by limitShare, where NaN counts as 1; the
-/// first of equals. nullptr where there is no check.
+/// How many of them apply.
+std::ptrdiff_t judgedCount(const std::vector<Check>& checks);
+
+/// The check that decides: first by verdict (fail, inconclusive, pass, not applicable), then by limitShare, where NaN
+/// counts as 1; the first of equals. nullptr where there is no check.
 const Check* worstCheck(const std::vector<Check>& checks);
 
 /// Writes `timeseries.csv`, `junit.xml`, `report.html` and, last, `summary.json` into `dir`; an older summary is

@@ -10,7 +10,19 @@
 namespace ursula {
 namespace {
 
-int severity(Verdict verdict) { return verdict == Verdict::fail ? 2 : verdict == Verdict::inconclusive ? 1 : 0; }
+int severity(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::fail:
+      return 3;
+    case Verdict::inconclusive:
+      return 2;
+    case Verdict::pass:
+      return 1;
+    case Verdict::not_applicable:
+      break;
+  }
+  return 0;
+}
 
 // A number beyond its limit tells more than one that is missing, often only its consequence.
 std::pair<int, double> badness(const Check& check) {
@@ -37,6 +49,11 @@ std::string standing(const Check& check) {
   return fmt::format("is at {:.3g} {} its limit", share, share > 1 ? "times" : "of");
 }
 
+std::ptrdiff_t judgedCount(const std::vector<Check>& checks) {
+  return std::count_if(checks.begin(), checks.end(),
+                       [](const Check& check) { return check.verdict != Verdict::not_applicable; });
+}
+
 const Check* worstCheck(const std::vector<Check>& checks) {
   const auto worst = std::max_element(checks.begin(), checks.end(),
                                       [](const Check& a, const Check& b) { return badness(a) < badness(b); });
@@ -46,7 +63,7 @@ const Check* worstCheck(const std::vector<Check>& checks) {
 std::string reason(Verdict verdict, const std::vector<Check>& checks) {
   if (checks.empty()) return "No check was made.";
   const Check& worst = *worstCheck(checks);
-  const auto total = static_cast<std::ptrdiff_t>(checks.size());
+  const auto total = judgedCount(checks);
   const auto count =
       std::count_if(checks.begin(), checks.end(), [verdict](const Check& check) { return check.verdict == verdict; });
   // A caller may judge harder than its checks do; then they are not the reason.
@@ -59,6 +76,7 @@ std::string reason(Verdict verdict, const std::vector<Check>& checks) {
       return fmt::format("Nothing failed, but {} of {} cannot be judged here, among them {}.", count, plural(total),
                          worst.name);
     case Verdict::pass:
+    case Verdict::not_applicable:
       break;
   }
   const auto by_user =

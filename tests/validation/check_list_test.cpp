@@ -1,0 +1,105 @@
+// Every check is in every result, in one order: judged, or not applicable with the reason.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/check_names.h"
+#include "tests/validation/checks.h"
+#include "tests/validation/scenario_files.h"
+#include "validation/external.h"
+#include "validation/report/report.h"
+
+namespace ursula {
+namespace {
+
+Scenario quick(const std::string& name) {
+  Scenario scenario = scenarioOf(name);
+  scenario.simulation.samples = 31;
+  return scenario;
+}
+
+void expectEveryCheck(const ValidationResult& result) {
+  ASSERT_EQ(result.checks.size(), checkNames().size());
+  std::size_t applicable = 0;
+  for (std::size_t k = 0; k < result.checks.size(); ++k) {
+    const Check& check = result.checks[k];
+    EXPECT_EQ(check.name, checkNames()[k].name);
+    applicable += check.verdict != Verdict::not_applicable;
+    if (check.verdict == Verdict::not_applicable) {
+      EXPECT_NE(check.why, "") << check.name;
+      EXPECT_TRUE(std::isnan(check.value)) << check.name;
+    } else {
+      EXPECT_EQ(check.unit, checkNames()[k].unit) << check.name;
+    }
+  }
+  EXPECT_GT(applicable, 10u);
+  EXPECT_EQ(judgedCount(result.checks), static_cast<std::ptrdiff_t>(applicable));
+}
+
+TEST(CheckList, isWholeForTheSolver) {
+  for (const char* name : {"paper-helix", "proving-ground"}) {
+    const ValidationResult result = validate(quick(name));
+    expectEveryCheck(result);
+    EXPECT_EQ(result.verdict, Verdict::pass);
+    EXPECT_EQ(verdictOf(result.checks, "torque.against_noc"), "not_applicable");
+  }
+}
+
+TEST(CheckList, isWholeForTorquesAlone) {
+  const Scenario scenario = quick("paper-helix");
+  Subject torques = solverOf(scenario);
+  torques.kinematics = nullptr;
+  torques.accelerations = nullptr;
+  torques.rebuilt = nullptr;
+  const ValidationResult result = validate(scenario, torques);
+  expectEveryCheck(result);
+  for (const char* name : {"kinematics.positions", "direct.growth", "invariance.mass"})
+    EXPECT_EQ(verdictOf(result.checks, name), "not_applicable") << name;
+  EXPECT_EQ(result.verdict, Verdict::pass);
+}
+
+TEST(CheckList, isWholeForAFile) {
+  const Scenario scenario = quick("paper-helix");
+  TorqueFile file;
+  file.file = "mine.csv";
+  const Subject solver = solverOf(scenario);
+  for (double t : equallySpaced(scenario.trajectory->duration(), 301)) {
+    file.t.push_back(t);
+    file.torques.push_back(solver.torques(scenario.trajectory->at(t)));
+  }
+  file.time_precision.assign(file.t.size(), 0);
+  file.torque_precision.assign(file.t.size(), Vector6d::Zero());
+  const ValidationResult result = validateExternal(scenario, file);
+  expectEveryCheck(result);
+  EXPECT_EQ(result.verdict, Verdict::pass);
+  EXPECT_EQ(verdictOf(result.checks, "torque.against_noc"), "pass");
+  EXPECT_EQ(verdictOf(result.checks, "torque.between"), "not_applicable");
+}
+
+TEST(CheckList, ofNothingJudgedIsNoPass) {
+  EXPECT_EQ(overall({notApplicable("torque.mujoco", "N m", "this build has no MuJoCo")}), Verdict::fail);
+  EXPECT_EQ(overall({notApplicable("torque.mujoco", "N m", "none"), judged("a", 0, 1, "", "", "")}), Verdict::pass);
+}
+
+/// Torques 1 % too large lose the machine: after that there is nothing to show.
+TEST(CheckList, whatWasNotComputedIsNotShown) {
+  const Scenario scenario = quick("paper-helix");
+  Subject wrong = solverOf(scenario);
+  wrong.torques = [right = wrong.torques](const Motion<double>& motion) { return Vector6d(1.01 * right(motion)); };
+  const ValidationResult result = validate(scenario, wrong);
+  EXPECT_EQ(result.verdict, Verdict::fail);
+  const std::vector<double>* error = result.timeseries.find("error_p_m");
+  ASSERT_NE(error, nullptr);
+  EXPECT_TRUE(std::isfinite(error->front()));
+  EXPECT_TRUE(std::isnan(error->back()));
+  EXPECT_TRUE(std::isfinite(result.timeseries.find("tau_1_Nm")->back()));
+  std::string stopped;
+  for (const auto& [key, text] : result.findings)
+    if (key == "replay stopped") stopped = text;
+  EXPECT_THAT(stopped, testing::HasSubstr("stopped at t = "));
+}
+
+}  // namespace
+}  // namespace ursula
