@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -40,11 +41,14 @@ int exitCode(Verdict verdict) {
 void printChecks(const ValidationResult& result) {
   fmt::print("{}: {}\n", result.scenario, name(result.verdict));
   for (const Check& check : result.checks)
-    if (check.verdict == Verdict::not_applicable)
-      fmt::print("  {:<14} {:<32} {}\n", "not applicable", check.name, check.why);
-    else
-      fmt::print("  {:<14} {:<32} {:>10.3g} of {:>10.3g} {}\n", name(check.verdict), check.name, check.value,
+    if (check.verdict != Verdict::not_applicable)
+      fmt::print("  {:<12} {:<32} {:>10.3g} of {:>10.3g} {}\n", name(check.verdict), check.name, check.value,
                  check.limit, check.unit);
+  std::map<std::string, std::vector<std::string>> not_applicable;  // by reason
+  for (const Check& check : result.checks)
+    if (check.verdict == Verdict::not_applicable) not_applicable[check.why].push_back(check.name);
+  for (const auto& [why, checks] : not_applicable)
+    fmt::print("  not applicable, since {}: {}\n", why, fmt::join(checks, ", "));
 }
 
 /// "" where the result has no such finding.
