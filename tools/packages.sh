@@ -91,7 +91,7 @@ setup_unpacked() {
 }
 
 setup() {
-  local verb wanted packages
+  local verb wanted packages=()
   for verb in program "$@"; do
     read -ra wanted <<<"${needs[$verb]:-}"
     mapfile -t -O "${#packages[@]}" packages < <(missing "${wanted[@]}")
