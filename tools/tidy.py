@@ -24,20 +24,10 @@ ROOT = Path(__file__).resolve().parent.parent
 FOLDERS = ("model", "nocsolver", "validation", "apps", "tests", "bench")
 
 
-def plain_commands(build):
-    """The compile commands without precompiled headers, which are the compiler's own and hide includes that are missing."""
-    folder = build / "tidy_commands"
-    folder.mkdir(exist_ok=True)
-    text = (build / "compile_commands.json").read_text()
-    (folder / "compile_commands.json").write_text(
-        re.sub(r"-Winvalid-pch |-fpch-preprocess |-include \S+/cmake_pch\.hxx ", "", text))
-    return folder
-
-
 def units(build, only):
     """[(path relative to the root, compile command)], the largest first."""
     found = {}
-    for entry in json.loads((plain_commands(build) / "compile_commands.json").read_text()):
+    for entry in json.loads((build / "compile_commands.json").read_text()):
         path = Path(entry["directory"], entry["file"]).resolve()
         if ROOT in path.parents:
             name = path.relative_to(ROOT).as_posix()
@@ -58,7 +48,7 @@ def key(path, command, version):
 def run(build, path):
     started = time.monotonic()
     done = subprocess.run(
-        ["clang-tidy", "--quiet", "-p", str(build / "tidy_commands"), "--warnings-as-errors=*", "--extra-arg=-Wno-unknown-warning-option",
+        ["clang-tidy", "--quiet", "-p", str(build), "--warnings-as-errors=*", "--extra-arg=-Wno-unknown-warning-option",
          "--extra-arg=-Wno-error", str(ROOT / path)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     text = "\n".join(line for line in done.stdout.splitlines() if not re.match(r"\d+ warnings? (generated|treated)|Suppressed", line))
     return done.returncode == 0, text, time.monotonic() - started
