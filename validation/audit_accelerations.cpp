@@ -7,10 +7,6 @@
 namespace ursula::audit {
 namespace {
 
-S distanceFromAxis(const LegWitness& leg) {
-  return leg.s * sin(leg.at.psi() + leg.at.theta()) - leg.l * sin(leg.at.psi());
-}
-
 S eta(const LegWitness& leg) { return leg.s * (leg.dot.psi() + leg.dot.theta()) * cos(leg.at.psi() + leg.at.theta()); }
 
 Formula kneeAcceleration() {

@@ -11,12 +11,6 @@
 namespace ursula::audit {
 namespace {
 
-Vector6<S> stack(const V& angular, const V& linear) {
-  Vector6<S> six;
-  six << angular, linear;
-  return six;
-}
-
 /// The solver's T and Ṫ at a witness.
 class Shaping {
  public:

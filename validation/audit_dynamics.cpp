@@ -13,12 +13,6 @@ Values overBodies(const Witness& at, const std::function<Vector6<S>(const BodyWi
   return all;
 }
 
-Vector6<S> stack(const V& angular, const V& linear) {
-  Vector6<S> six;
-  six << angular, linear;
-  return six;
-}
-
 /// M ṫ + W M t
 Vector6<S> inertiaWrench(const BodyWitness& body) {
   return stack(body.I * body.omega_dot + crossMatrix(body.omega) * V(body.I * body.omega), body.mass * body.c_ddot);

@@ -74,4 +74,15 @@ std::vector<Formula> dynamicsFormulas();
 std::vector<Formula> complementFormulas(const Manipulator& manipulator);
 std::vector<Formula> appendixFormulas();
 
+inline Vector6<S> stack(const V& angular, const V& linear) {
+  Vector6<S> six;
+  six << angular, linear;
+  return six;
+}
+
+/// Of B from the axis of φ, signed, m.
+inline S distanceFromAxis(const LegWitness& leg) {
+  return leg.s * sin(leg.at.psi() + leg.at.theta()) - leg.l * sin(leg.at.psi());
+}
+
 }  // namespace ursula::audit

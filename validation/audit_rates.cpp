@@ -7,10 +7,6 @@
 namespace ursula::audit {
 namespace {
 
-S distanceFromAxis(const LegWitness& leg) {
-  return leg.s * sin(leg.at.psi() + leg.at.theta()) - leg.l * sin(leg.at.psi());
-}
-
 Side spins() {
   return overLegs([](const Witness&, const LegWitness& leg) {
     return values(V(vect(leg.dot.G() * leg.at.G().transpose())), V(vect(leg.dot.H() * leg.at.H().transpose())));

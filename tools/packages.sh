@@ -1,0 +1,117 @@
+# shellcheck shell=bash
+# What the verbs of ./dev need, and how it is brought here. For ./dev to read; it has say().
+
+# What a verb needs: a command and the package that brings it where the command is not there already, or a library's package.
+declare -A needs=(
+  [program]='g++:g++ cmake:cmake ninja:ninja-build libeigen3-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev'
+  [test]='libgtest-dev libgmock-dev python3:python3 node:nodejs npm:npm chromium:chromium'
+  [prove]='libgtest-dev libgmock-dev'
+  [bench]='libbenchmark-dev'
+  [format]='git:git clang-format:clang-format'
+  [lint]='git:git clang-format:clang-format shellcheck:shellcheck python3:python3'
+  [tidy]='libgtest-dev libgmock-dev libbenchmark-dev clang-tidy:clang-tidy python3:python3'
+  [results]='git:git gnuplot:gnuplot-nox chromium:chromium python3:python3'
+  [bundle]='node:nodejs npm:npm'
+  [fresh]='git:git debootstrap:debootstrap'
+)
+optional=(libmujoco-dev)  # a further road: asked for before the first configuration, and done without where it is not to be had
+
+# Used for their headers, and some 350 MB if installed: libsimbody-dev brings OpenGL with a compiler for it, and most of
+# Boost is never touched. Where they are not installed, what is used of them is unpacked into .deps/, which CMake looks into.
+unpacked=(libsimbody-dev libboost-dev)
+left_out=(asio beast compute geometry gil graph hana interprocess log msm phoenix polygon proto qvm spirit test thread wave
+  xpressive)
+
+# Of these needs, the packages that are not there.
+missing() {
+  local need installed=''
+  if command -v dpkg-query >/dev/null; then
+    installed=$(dpkg-query -W -f='${db:Status-Status}:${Package}\n' "${@#*:}" 2>/dev/null || true)
+  fi
+  for need in "$@"; do
+    if [[ $need == *:* ]] && command -v "${need%%:*}" >/dev/null; then continue; fi
+    grep -qx "installed:${need#*:}" <<<"$installed" || echo "${need#*:}"
+  done
+}
+
+update_lists() {
+  local as_root=()
+  ((EUID == 0)) || as_root=(sudo)
+  [[ -n ${lists_are_new:-} ]] || "${as_root[@]}" apt-get update -q >&2 || return
+  lists_are_new=yes
+}
+
+install_packages() {
+  (($#)) || return 0
+  local as_root=()
+  if ! command -v apt-get >/dev/null; then
+    say "no apt here; needed are what Debian calls: $*"
+    say "going on, as they may be there under other names"
+    return 0
+  fi
+  if ((EUID != 0)); then
+    if ! command -v sudo >/dev/null; then
+      say "neither root nor sudo; missing are: $*"
+      return 0
+    fi
+    as_root=(sudo)
+  fi
+  say "installing $*"
+  update_lists && "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "$@" >&2
+}
+
+# The package, and what it stands for or links to: libboost1.74-dev, libsimbody3.7.
+unpack() {
+  local work deb names status=0
+  say "unpacking $1"
+  mapfile -t names < <(LC_ALL=C apt-cache depends "$1" | sed -nE 's/^ *Depends: (lib(boost[0-9.]+-dev|simbody[0-9.]+))$/\1/p')
+  work=$(mktemp -d)
+  (cd "$work" && apt-get -q -o APT::Sandbox::User=root download "$1" "${names[@]}" >&2) || status=1
+  mkdir -p .deps
+  for deb in "$work"/*.deb; do
+    dpkg-deb --fsys-tarfile "$deb" |
+      tar -x -C .deps --exclude='./usr/share' "${left_out[@]/#/--exclude=./usr/include/boost/}" || status=1
+  done
+  rm -r "$work"
+  ((status)) || touch ".deps/$1"
+  return "$status"
+}
+
+setup_unpacked() {
+  local package packages
+  mapfile -t packages < <(missing "${unpacked[@]}")
+  for package in "${packages[@]}"; do
+    [[ ! -e .deps/$package ]] || continue
+    if ! command -v apt-get >/dev/null || ! update_lists || ! unpack "$package"; then
+      install_packages "$package"
+    elif [[ $package == libsimbody-dev ]]; then
+      # Its libraries bring LAPACK themselves: to name it too would ask for LAPACK's own package of headers.
+      sed -i -E 's#/[^;"]*/lib(blas|lapack)\.so;##g' .deps/usr/lib/*/cmake/simbody/SimbodyTargets-*.cmake
+      install_packages liblapack3
+    fi
+  done
+}
+
+setup() {
+  local verb wanted packages=()
+  for verb in program "$@"; do
+    read -ra wanted <<<"${needs[$verb]:-}"
+    mapfile -t -O "${#packages[@]}" packages < <(missing "${wanted[@]}")
+  done
+  install_packages "${packages[@]}"
+  setup_unpacked
+}
+
+# What this verb needs, without the program's needs.
+setup_tools() {
+  local wanted packages
+  read -ra wanted <<<"${needs[$1]}"
+  mapfile -t packages < <(missing "${wanted[@]}")
+  install_packages "${packages[@]}"
+}
+
+setup_optional() {
+  local packages
+  mapfile -t packages < <(missing "${optional[@]}")
+  install_packages "${packages[@]}" || say "going on without ${packages[*]}"
+}
