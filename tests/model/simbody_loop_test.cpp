@@ -2,6 +2,7 @@
 // does not link the solver.
 
 #include "model/simbody_loop.h"
+#include "model/real50.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,6 +2,7 @@
 // out here from raw parameters.
 
 #include "nocsolver/direct_kinematics.h"
+#include "model/real50.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // What all roads share: right as it ships, and each way to be wrong is seen by the check that is for it.
 
 #include "validation/commanded_motion.h"
+#include "model/exact_trajectory.h"
 
 #include <gtest/gtest.h>
 
@@ -54,7 +55,7 @@ TEST(CommandedMotionOfRandomMachines, passesAndHasNoFileToBeReadAgain) {
 }
 
 /// A trajectory whose double motion is spoilt; the 50-digit one stays right.
-class Spoilt final : public Trajectory {
+class Spoilt final : public ExactTrajectory {
  public:
   using Spoil = std::function<void(Motion<double>&)>;
   Spoilt(std::shared_ptr<const Trajectory> truth, Spoil spoil) : truth_(std::move(truth)), spoil_(std::move(spoil)) {}

@@ -2,6 +2,7 @@
 // that mean something.
 
 #include "validation/conditioning.h"
+#include "model/real50.h"
 
 #include <gtest/gtest.h>
 

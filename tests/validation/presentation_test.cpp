@@ -2,6 +2,7 @@
 // forgets any one part is seen.
 
 #include "validation/presentation.h"
+#include "model/real50.h"
 
 #include <gtest/gtest.h>
 
