@@ -157,10 +157,10 @@ Limits limitsAt(const Reference& exact, const PieceSizes& sizes, double tau, con
 /// by t eps, which moves the poses by |v| t eps.
 Limits widenedBy(const Reference& exact, const Reference& halved, Limits limits, double t, double step) {
   const double moved = 10 * eps * t / step;
-  limits.v += 2 * sizeOf(exact.v - halved.v) + moved * sizeOf(exact.v);
-  limits.omega += 2 * sizeOf(exact.omega - halved.omega) + moved * sizeOf(exact.omega);
-  limits.a += 2 * sizeOf(exact.a - halved.a) + moved / step * sizeOf(exact.v);
-  limits.alpha += 2 * sizeOf(exact.alpha - halved.alpha) + moved / step * sizeOf(exact.omega);
+  limits.v += 2 * sizeOf(Real(exact.v - halved.v)) + moved * sizeOf(exact.v);
+  limits.omega += 2 * sizeOf(Real(exact.omega - halved.omega)) + moved * sizeOf(exact.omega);
+  limits.a += 2 * sizeOf(Real(exact.a - halved.a)) + moved / step * sizeOf(exact.v);
+  limits.alpha += 2 * sizeOf(Real(exact.alpha - halved.alpha)) + moved / step * sizeOf(exact.omega);
   return limits;
 }
 

@@ -2,7 +2,6 @@
 // does not link the solver.
 
 #include "model/simbody_loop.h"
-#include "model/real50.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,6 +11,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "model/real50.h"
 #include "tests/support/motions.h"
 #include "tests/support/vectors.h"
 

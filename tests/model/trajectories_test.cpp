@@ -1,7 +1,6 @@
 // Waypoints and hold: derivatives against differences of the pose in 50 digits, smoothness at the knots, and refusals.
 
 #include "model/trajectories.h"
-#include "model/real50.h"
 
 #include <gmock/gmock.h>
 
@@ -10,6 +9,7 @@
 #include <limits>
 
 #include "derivatives.h"
+#include "model/real50.h"
 #include "refusals.h"
 
 namespace ursula {

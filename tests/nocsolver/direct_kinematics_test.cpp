@@ -2,13 +2,13 @@
 // out here from raw parameters.
 
 #include "nocsolver/direct_kinematics.h"
-#include "model/real50.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <iostream>
 
+#include "model/real50.h"
 #include "tests/nocsolver/direct_kinematics_cases.h"
 #include "tests/nocsolver/rounding.h"
 

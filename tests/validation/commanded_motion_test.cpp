@@ -1,7 +1,6 @@
 // What all roads share: right as it ships, and each way to be wrong is seen by the check that is for it.
 
 #include "validation/commanded_motion.h"
-#include "model/exact_trajectory.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "model/exact_trajectory.h"
 #include "model/trajectories.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"

@@ -2,7 +2,6 @@
 // that mean something.
 
 #include "validation/conditioning.h"
-#include "model/real50.h"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +11,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "model/real50.h"
 #include "nocsolver/errors.h"
 #include "tests/support/motions.h"
 #include "tests/support/vectors.h"

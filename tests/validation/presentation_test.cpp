@@ -2,7 +2,6 @@
 // forgets any one part is seen.
 
 #include "validation/presentation.h"
-#include "model/real50.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +9,7 @@
 #include <cmath>
 #include <functional>
 
+#include "model/real50.h"
 #include "nocsolver/reactions.h"
 #include "nocsolver/solver.h"
 #include "tests/support/motions.h"
