@@ -17,16 +17,16 @@ add_custom_target(ursula_headers ALL
           -P ${PROJECT_SOURCE_DIR}/cmake/public_headers.cmake
   COMMENT "Laying out the public headers" VERBATIM)
 
-# Its one source sees the headers as users do.
-add_library(ursula_library SHARED ${PROJECT_SOURCE_DIR}/cmake/library.cpp)
+# All objects of the static parts, and one source that sees the headers as users do. The parts are linked as well, for
+# the libraries that they need.
+set(parts ursula_model ursula_nocsolver ursula_simbody_loop ursula_mujoco ursula_report ursula_validation
+  ursula_provenance)
+list(TRANSFORM parts REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>" OUTPUT_VARIABLE objects)
+add_library(ursula_library SHARED ${PROJECT_SOURCE_DIR}/cmake/library.cpp ${objects})
 add_library(ursula::ursula ALIAS ursula_library)
 add_dependencies(ursula_library ursula_headers)
 set(symbols ${PROJECT_SOURCE_DIR}/cmake/ursula.map)
-set(parts ursula_model ursula_nocsolver ursula_simbody_loop ursula_mujoco ursula_report ursula_validation
-  ursula_provenance)
 target_link_libraries(ursula_library PRIVATE ${parts} PUBLIC Eigen3::Eigen)
-list(JOIN parts , parts)
-set_property(TARGET ursula_library PROPERTY LINK_LIBRARY_OVERRIDE WHOLE_ARCHIVE,${parts})  # all of each
 target_link_options(ursula_library PRIVATE LINKER:--version-script=${symbols} LINKER:--no-undefined LINKER:--gc-sections)
 target_include_directories(ursula_library INTERFACE
   $<BUILD_INTERFACE:${public_include}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
