@@ -7,6 +7,7 @@
 
 #include "model/errors.h"
 #include "model/kernel_trajectory.h"
+#include "model/real50.h"
 #include "model/trajectory.h"
 
 namespace ursula {

@@ -6,6 +6,7 @@
 #include "model/errors.h"
 #include "model/kernel_trajectory.h"
 #include "model/pose_spline.h"
+#include "model/real50.h"
 #include "model/trajectories.h"
 
 namespace ursula {

@@ -6,13 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include "model/trajectory.h"
+#include "model/exact_trajectory.h"
 
 namespace ursula {
 
 /// A trajectory from one kernel written once for any scalar: `Kernel<S>::at(const S& t) const -> Motion<S>`.
 template <template <class> class Kernel>
-class KernelTrajectory final : public Trajectory {
+class KernelTrajectory final : public ExactTrajectory {
  public:
   /// Makes the same motion with its positions from another origin.
   using Relocate = std::function<std::unique_ptr<Trajectory>(const Vector3d& origin)>;

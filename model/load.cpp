@@ -6,6 +6,7 @@
 
 #include "model/errors.h"
 #include "model/quintic_hermite.h"
+#include "model/real50.h"
 
 namespace ursula {
 namespace {
@@ -110,12 +111,19 @@ Wrench<double> LoadHistory::at(double t) const {
   return wrenchAt(curves_->rounded, curves_->rows.front(), curves_->rows.back(), t);
 }
 
-Wrench<Real50> LoadHistory::at(const Real50& t) const {
+template <class S, class>
+Wrench<S> LoadHistory::at(const S& t) const {
   return wrenchAt(curves_->exact, curves_->rows.front(), curves_->rows.back(), t);
 }
 
 Wrench<double> Load::at(double t) const { return history ? history->at(t) : Wrench<double>{force, moment}; }
 
-Wrench<Real50> Load::at(const Real50& t) const { return history ? history->at(t) : widened<Real50>({force, moment}); }
+template <class S, class>
+Wrench<S> Load::at(const S& t) const {
+  return history ? history->at(t) : widened<S>({force, moment});
+}
+
+template Wrench<Real50> LoadHistory::at(const Real50& t) const;
+template Wrench<Real50> Load::at(const Real50& t) const;
 
 }  // namespace ursula

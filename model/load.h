@@ -1,9 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <type_traits>
 #include <vector>
 
-#include "model/real50.h"
 #include "model/scalar.h"
 
 namespace ursula {
@@ -36,7 +36,9 @@ class LoadHistory {
   LoadHistory& operator=(const LoadHistory&) = delete;
 
   Wrench<double> at(double t) const;
-  Wrench<Real50> at(const Real50& t) const;
+  /// In 50 digits: S is Real50, for nothing else links.
+  template <class S, class = std::enable_if_t<!std::is_arithmetic_v<S>>>
+  Wrench<S> at(const S& t) const;
   const std::vector<TimedWrench>& rows() const;
   /// The rows' times, at which the third derivative jumps, s.
   const std::vector<double>& knots() const;
@@ -58,7 +60,9 @@ struct Load {
 
   /// Force and moment at t, in `frame`. Does not allocate.
   Wrench<double> at(double t) const;
-  Wrench<Real50> at(const Real50& t) const;
+  /// In 50 digits: S is Real50, for nothing else links.
+  template <class S, class = std::enable_if_t<!std::is_arithmetic_v<S>>>
+  Wrench<S> at(const S& t) const;
 };
 
 }  // namespace ursula

@@ -7,6 +7,7 @@
 
 #include "model/kernel_trajectory.h"
 #include "model/quintic_spline.h"
+#include "model/real50.h"
 
 namespace ursula {
 namespace {

@@ -35,6 +35,7 @@ struct AcceptanceLimit {
   double limit = 0;
 };
 
+/// A machine, what it is asked to do, and how that is judged; read from a file, or made by a program.
 struct Scenario {
   std::string name;
   std::filesystem::path file;

@@ -2,22 +2,30 @@
 
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "model/motion.h"
-#include "model/real50.h"
 
 namespace ursula {
 
+class ExactTrajectory;
+
 /// A commanded motion of the platform: pose, twist and twist rate at t in [0, duration], twice continuously
-/// differentiable; ω and ω̇ are exact derivatives of the orientation given.
+/// differentiable; ω and ω̇ are exact derivatives of the orientation given. For one of your own, say `kind`, `duration`
+/// and `at(double)`.
 class Trajectory {
  public:
   virtual ~Trajectory() = default;
   virtual std::string kind() const = 0;
   virtual double duration() const = 0;  ///< t_f, s
   virtual Motion<double> at(double t) const = 0;
-  virtual Motion<Real50> at(const Real50& t) const = 0;
+  /// The motion in the 50 digits of the checks (S is Real50, for nothing else links); throws std::logic_error where
+  /// exact() is null.
+  template <class S, class = std::enable_if_t<!std::is_arithmetic_v<S>>>
+  Motion<S> at(const S& t) const;
+  /// Null where the motion is known in doubles only: then its derivatives are judged by differences of doubles.
+  virtual const ExactTrajectory* exact() const { return nullptr; }
   /// The same motion with P's position from `origin` (m, in B), subtracted before anything is rounded, so that a
   /// machine far from the base's origin loses no digits. Null where the trajectory cannot: then at(t).p − origin has to
   /// do.

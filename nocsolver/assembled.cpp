@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "model/real50.h"
 #include "nocsolver/kernels/dynamics.h"
 
 namespace ursula {

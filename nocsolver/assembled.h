@@ -1,5 +1,6 @@
 #pragma once
 
+#include "model/real50.h"
 #include "nocsolver/solver.h"
 
 namespace ursula {

@@ -6,7 +6,6 @@
 
 #include "model/joint_variables.h"
 #include "model/motion.h"
-#include "model/real50.h"
 #include "nocsolver/errors.h"
 #include "nocsolver/leg_state.h"
 #include "nocsolver/reading.h"
@@ -92,7 +91,5 @@ class Solver {
 extern template class Solver<double, Corrected>;
 extern template class Solver<double, WithSlips>;
 extern template class Solver<float, Corrected>;
-extern template class Solver<Real50, Corrected>;
-extern template class Solver<Real50, WithSlips>;
 
 }  // namespace ursula

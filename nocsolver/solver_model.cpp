@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "model/real50.h"
+
 namespace ursula {
 namespace {
 

@@ -3,7 +3,6 @@
 #include <array>
 
 #include "model/manipulator.h"
-#include "model/real50.h"
 
 namespace ursula {
 
@@ -37,6 +36,5 @@ struct SolverModel {
 
 extern template struct SolverModel<double>;
 extern template struct SolverModel<float>;
-extern template struct SolverModel<Real50>;
 
 }  // namespace ursula

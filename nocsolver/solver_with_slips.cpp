@@ -1,3 +1,4 @@
+#include "model/real50.h"
 #include "nocsolver/solver_impl.h"
 
 namespace ursula {

@@ -20,10 +20,14 @@ ALLOWED = {
     "nocsolver": {"nocsolver", "model"},
     "validation": {"validation", "nocsolver", "model"},
     "apps": {"apps", "validation", "nocsolver", "model"},
+    "include": {"include", "validation", "nocsolver", "model"},
+    "examples": set(),
     "tests": {"tests", "validation", "nocsolver", "model"},
     "bench": {"bench", "tests", "validation", "nocsolver", "model"},
 }
 ENGINE_HEADER = re.compile(r"(?i)^(simbody|simtk|simmath|mujoco/)|/(simbody|simtk|simmath)")
+# What users of the library have: the standard library, Eigen and the library itself.
+USERS_HEADER = re.compile(r"[a-z_]+|Eigen/\w+|ursula/\w+\.h")
 OTHER_ROAD = re.compile(r"^model/(simbody|mujoco|maximal)_loop[^/]*$")
 
 MAP = "docs/equations.md"
@@ -53,6 +57,8 @@ def check_includes(root):
             if sources.is_internal(name) and sources.is_header(path) and not sources.is_internal(path):
                 findings.append(f"{place}: a header that others include may not include {name}, which is internal")
         findings += check_roads(root, path)
+        if folder in ("include", "examples"):
+            findings += check_users(root, path)
         if sources.is_header(path) and not sources.is_internal(path):
             findings += check_no_simtk(path, text)
     return findings
@@ -70,6 +76,13 @@ def check_roads(root, path):
         if OTHER_ROAD.match(path) and OTHER_ROAD.match(name) and OTHER_ROAD.match(path)[1] != OTHER_ROAD.match(name)[1]:
             findings.append(f"{path}: a road may not see another ({via})")
     return findings
+
+
+def check_users(root, path):
+    """A public header, with all that it includes, and an example ask for nothing that users do not have."""
+    return [f"{path}: users of the library do not have {name} ({' -> '.join(chain)})"
+            for name, chain in sources.reach(root, path).items()
+            if not (root / name).is_file() and not USERS_HEADER.fullmatch(name)]
 
 
 def check_no_simtk(path, text):

@@ -30,6 +30,8 @@ def sound_tree():
         "nocsolver/leg.h": '#include "model/machine.h"\n',
         "nocsolver/leg.cpp": '#include "nocsolver/leg.h"\nvoid legRates();  // (paper, eqs. 15a–b)\n',
         "validation/replay.cpp": '#include "model/simbody_loop.h"\n#include "nocsolver/leg.h"\n',
+        "include/ursula/solver.h": '#include <ursula/build.h>\n#include "nocsolver/leg.h"\n',
+        "examples/loop.cpp": "#include <ursula/solver.h>\n#include <vector>\n",
         "apps/main.cpp": '#include "model/machine.h"\n',
         "tests/support.h": '#include "nocsolver/leg.h"\n',
         "tests/leg_test.cpp": '#include "support.h"\nTEST(Leg, Rates) {}\n',
@@ -78,6 +80,13 @@ class CheckStructure(unittest.TestCase):
                            tests__leg_test_DOT_cpp=append('#include "apps/a.h"\n'))
         self.assert_caught("which is internal", validation__r_DOT_h=append('#include "model/simbody_loop_internal.h"\n'))
         self.assert_caught("is no file of this project", nocsolver__leg_DOT_cpp=append('#include "leg.h"\n'))
+
+    def test_users_of_the_library(self):
+        self.assert_caught("users of the library do not have boost/version.hpp (include/ursula/solver.h -> nocsolver/leg.h -> "
+                           "boost/version.hpp)", nocsolver__leg_DOT_h=("", "#include <boost/version.hpp>\n"))
+        self.assert_caught("users of the library do not have fmt/format.h", examples__loop_DOT_cpp=("", "#include <fmt/format.h>\n"))
+        self.assert_caught("examples/ may not include nocsolver/", examples__loop_DOT_cpp=("", '#include "nocsolver/leg.h"\n'))
+        self.assert_caught("model/ may not include include/", model__machine_DOT_h=("", '#include "include/ursula/solver.h"\n'))
 
     def test_simtk_in_headers(self):
         self.assert_caught("SimTK in a header", model__simbody_loop_DOT_h=("", "const SimTK::State& s();\n"))

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/real50.h"
 #include "nocsolver/solver.h"
 #include "validation/audit_effect.h"
 #include "validation/audit_formula.h"

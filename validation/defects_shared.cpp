@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/exact_trajectory.h"
 #include "model/trajectories.h"
 #include "validation/defects_kit.h"
 #include "validation/file_as_written.h"
@@ -22,7 +23,7 @@ Scenario asRead(const Scenario& right, Scenario wrong) {
 using ChangeAt = std::function<void(Motion<double>& motion, const Trajectory& right)>;
 
 /// Wrong in doubles; the 50-digit pose stays right.
-class SpoiltTrajectory final : public Trajectory {
+class SpoiltTrajectory final : public ExactTrajectory {
  public:
   SpoiltTrajectory(std::shared_ptr<const Trajectory> right, ChangeAt change)
       : right_(std::move(right)), change_(std::move(change)) {}

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/real50.h"
 #include "validation/conditioning.h"
 #include "validation/independent_reading.h"
 #include "validation/quintic_by_control_points.h"

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "model/real50.h"
 #include "validation/conditioning.h"
 #include "validation/nearest_to_limit.h"
 #include "validation/quintic_by_control_points.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "model/exact_trajectory.h"
 #include "nocsolver/solver_model.h"
 #include "validation/presentation.h"
 
@@ -12,7 +13,7 @@ namespace ursula {
 namespace {
 
 /// A trajectory as it looks in a presentation; positions from its origin already.
-class PresentedTrajectory final : public Trajectory {
+class PresentedTrajectory final : public ExactTrajectory {
  public:
   PresentedTrajectory(std::shared_ptr<const Trajectory> from, const Presentation& presentation)
       : from_(std::move(from)), presentation_(presentation), knots_(from_->knots()) {
@@ -41,6 +42,7 @@ class PresentedTrajectory final : public Trajectory {
     out.p_ddot = turn * from.p_ddot * Real50(time * time / length);
     return out;
   }
+  const ExactTrajectory* exact() const override { return from_->exact() ? this : nullptr; }
   const std::vector<double>& knots() const override { return knots_; }
 
  private:
@@ -50,7 +52,7 @@ class PresentedTrajectory final : public Trajectory {
 };
 
 /// For trajectories that cannot move their origin themselves.
-class ShiftedTrajectory final : public Trajectory {
+class ShiftedTrajectory final : public ExactTrajectory {
  public:
   ShiftedTrajectory(std::shared_ptr<const Trajectory> from, const Vector3d& origin)
       : from_(std::move(from)), origin_(origin) {}
@@ -66,6 +68,7 @@ class ShiftedTrajectory final : public Trajectory {
     motion.p -= origin_.cast<Real50>();
     return motion;
   }
+  const ExactTrajectory* exact() const override { return from_->exact() ? this : nullptr; }
   const std::vector<double>& knots() const override { return from_->knots(); }
 
  private:

@@ -94,7 +94,7 @@ class Proof {
 
   std::vector<Check> withIts(const Defect& defect) const {
     ValidationOptions spoilt = options();
-    spoilt.spoil = defect.spoil;
+    spoilt.spoil = std::make_shared<const Spoil>(defect.spoil);
     return validateMade(scenario_, defect.subject ? defect.subject : right, spoilt).checks;
   }
 

@@ -16,6 +16,7 @@
 #include "validation/pointwise.h"
 #include "validation/reference.h"
 #include "validation/roads.h"
+#include "validation/spoil.h"
 #include "validation/timeseries.h"
 #include "validation/windows.h"
 
@@ -49,6 +50,7 @@ class Trial {
         subject_(subject),
         right_(right),
         options_(options),
+        spoil_(options.spoil ? *options.spoil : Spoil{}),
         plan_(reference.plan) {
     const auto trajectory = scenario_.trajectory;
     plan_.torques = [subject, trajectory](double t) { return subject.torques(trajectory->at(t)); };
@@ -63,7 +65,7 @@ class Trial {
     ValidationResult result;
     result.scenario = scenario_.name;
     samples_ = runPointwise(scenario_, subject_, reference_.instants, reference_.profile);
-    if (options_.spoil.sample) std::for_each(samples_.begin(), samples_.end(), options_.spoil.sample);
+    if (spoil_.sample) std::for_each(samples_.begin(), samples_.end(), spoil_.sample);
     result.checks = judgePointwise(samples_, static_cast<bool>(subject_.kinematics), units_);
     const bool answers = std::none_of(samples_.begin(), samples_.end(),
                                       [](const PointwiseSample& sample) { return !sample.refused.empty(); });
@@ -82,7 +84,7 @@ class Trial {
     append(result.checks, judgeInvariances(scenario_, subject_, samples_, reference_.profile, units_));
     if (options_.reactions)
       result.checks.push_back(
-          judgeReactions(scenario_, samples_, reference_.profile, &reactions_, units_, options_.spoil.reactions));
+          judgeReactions(scenario_, samples_, reference_.profile, &reactions_, units_, spoil_.reactions));
     result.checks.push_back(judgeBetween(scenario_, subject_, samples_, reference_.profile, units_));
     if (subject_.accelerations) judgeDirectDynamics(result);
     judgeReplays(result);
@@ -96,9 +98,9 @@ class Trial {
       const std::vector<RoadSample> spoilt = runRoads(seen(scenario_), samples_, reference_.profile);
       for (std::size_t k = 0; k < out.size(); ++k) out[k].*road = spoilt[k].*road;
     };
-    replace(options_.spoil.twin, &RoadSample::twin);
-    replace(options_.spoil.maximal, &RoadSample::maximal);
-    replace(options_.spoil.mujoco, &RoadSample::mujoco);
+    replace(spoil_.twin, &RoadSample::twin);
+    replace(spoil_.maximal, &RoadSample::maximal);
+    replace(spoil_.mujoco, &RoadSample::mujoco);
     return out;
   }
 
@@ -109,7 +111,7 @@ class Trial {
   }
 
   void judgeReplays(ValidationResult& result) {
-    windows_ = right_ && !options_.spoil.replay ? reference_.windows : replayed();
+    windows_ = right_ && !spoil_.replay ? reference_.windows : replayed();
     const auto judgeWindows = [this](const std::vector<WindowedReplay>& windows) {
       return judgeReplay(windows, reference_.position_scale, reference_.amplification.length(), reference_.forces,
                          units_);
@@ -121,18 +123,18 @@ class Trial {
     for (std::size_t k = 0; k < windows_.size(); ++k)
       if (anyFails(judgeWindows({windows_[k]}))) windows_[k].closer = reference_.closer(k);
     if (options_.ladder) {
-      ladder_ = climb(scenario_, plan_.torques, windows_.front(), right_, options_.spoil.ladder);
+      ladder_ = climb(scenario_, plan_.torques, windows_.front(), right_, spoil_.ladder);
       if (anyFails(judgeClimbed())) {
         windows_.front().closer = reference_.closer(0);
-        climbOn(scenario_, plan_.torques, windows_.front(), options_.spoil.ladder, ladder_);
+        climbOn(scenario_, plan_.torques, windows_.front(), spoil_.ladder, ladder_);
       }
     }
     append(result.checks, judgeWindows(windows_));
     if (options_.ladder) {
       append(result.checks, judgeClimbed());
-      result.checks.push_back(options_.spoil.lower_order ? judgeOrder(scenario_, true) : reference_.order());
+      result.checks.push_back(spoil_.lower_order ? judgeOrder(scenario_, true) : reference_.order());
     }
-    const Spoil::Seen& seen = options_.spoil.feedback;
+    const Spoil::Seen& seen = spoil_.feedback;
     const Scenario fed_back = seen ? seen(scenario_) : scenario_;
     result.checks.push_back(judgeFeedback(fed_back, subject_, reference_.amplification, samples_, units_));
   }
@@ -142,7 +144,7 @@ class Trial {
     std::vector<WindowedReplay> out = reference_.windows;
     for (WindowedReplay& window : out) {
       ReplaySettings settings = settingsOf(scenario_, plan_, window.window, 1);
-      if (options_.spoil.replay) options_.spoil.replay(settings);
+      if (spoil_.replay) spoil_.replay(settings);
       window.replay = replay(scenario_, plan_.torques, settings);
       window.replay.tolerance = plan_.tolerance;  // that it is taken to have
     }
@@ -166,6 +168,7 @@ class Trial {
   const Subject& subject_;
   bool right_;
   const ValidationOptions& options_;
+  Spoil spoil_;
   ReplayPlan plan_;
   std::vector<PointwiseSample> samples_;
   TimeSeries reactions_;

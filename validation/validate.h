@@ -5,12 +5,12 @@
 
 #include "model/scenario.h"
 #include "validation/result.h"
-#include "validation/spoil.h"
 #include "validation/subject.h"
 
 namespace ursula {
 
 struct Reference;
+struct Spoil;
 
 /// What may be left out where many scenarios are judged in a row; `ursula validate` leaves out nothing.
 struct ValidationOptions {
@@ -19,7 +19,7 @@ struct ValidationOptions {
   bool budget = true;     ///< the error's sources, which decide nothing
   /// What depends on the scenario alone, made before, for many subjects on one scenario; null: made afresh.
   std::shared_ptr<const Reference> reference = nullptr;
-  Spoil spoil = {};  ///< for controls that must fail
+  std::shared_ptr<const Spoil> spoil = nullptr;  ///< for controls that must fail; null: nothing is spoilt
 };
 
 /// The whole validation of one scenario: pointwise, replay, closure, energy, and the verdict. Deterministic: the same

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "model/csv.h"
+#include "model/real50.h"
 #include "tests/end_to_end/program.h"
 #include "tests/support/vectors.h"
 

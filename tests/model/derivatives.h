@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "model/exact_trajectory.h"
 #include "model/trajectory.h"
 
 namespace ursula {
@@ -84,7 +85,7 @@ inline double roundingError(const Trajectory& trajectory, const std::vector<doub
 }
 
 /// Another trajectory with an error put into one derivative: what a check must catch.
-class Falsified : public Trajectory {
+class Falsified : public ExactTrajectory {
  public:
   enum class Part { omega, omega_dot, p_dot, p_ddot };
   Falsified(const Trajectory& truth, Part part, double error) : truth_(truth), part_(part), error_(error) {}

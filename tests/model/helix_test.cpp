@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "derivatives.h"
+#include "model/real50.h"
 #include "model/trajectory.h"
 #include "refusals.h"
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "model/real50.h"
 #include "refusals.h"
 
 namespace ursula {

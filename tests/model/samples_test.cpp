@@ -9,6 +9,7 @@
 #include <random>
 
 #include "derivatives.h"
+#include "model/real50.h"
 #include "model/trajectories.h"
 #include "refusals.h"
 

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "model/real50.h"
 #include "tests/support/motions.h"
 #include "tests/support/vectors.h"
 

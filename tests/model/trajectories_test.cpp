@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "derivatives.h"
+#include "model/real50.h"
 #include "refusals.h"
 
 namespace ursula {

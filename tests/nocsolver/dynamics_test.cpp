@@ -7,6 +7,7 @@
 #include <array>
 #include <iostream>
 
+#include "model/real50.h"
 #include "nocsolver/solver.h"
 #include "tests/model/derivatives.h"
 #include "tests/nocsolver/newton_euler.h"

@@ -4,6 +4,7 @@
 
 #include <iostream>
 
+#include "model/real50.h"
 #include "nocsolver/solver.h"
 #include "tests/model/derivatives.h"
 #include "tests/nocsolver/rounding.h"

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "model/real50.h"
 #include "nocsolver/solver.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/vectors.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "model/real50.h"
 #include "nocsolver/solver.h"
 #include "tests/nocsolver/rounding.h"
 #include "tests/support/vectors.h"

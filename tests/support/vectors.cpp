@@ -5,6 +5,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "model/real50.h"
+
 namespace ursula {
 namespace {
 

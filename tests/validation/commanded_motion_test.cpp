@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "model/exact_trajectory.h"
 #include "model/trajectories.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
@@ -54,7 +55,7 @@ TEST(CommandedMotionOfRandomMachines, passesAndHasNoFileToBeReadAgain) {
 }
 
 /// A trajectory whose double motion is spoilt; the 50-digit one stays right.
-class Spoilt final : public Trajectory {
+class Spoilt final : public ExactTrajectory {
  public:
   using Spoil = std::function<void(Motion<double>&)>;
   Spoilt(std::shared_ptr<const Trajectory> truth, Spoil spoil) : truth_(std::move(truth)), spoil_(std::move(spoil)) {}

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "model/exact_trajectory.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/replay.h"
@@ -51,7 +52,7 @@ TEST(Knots, areThoseOfWaypointsWithinAndNoneOfAHelix) {
 }
 
 /// The same motion that says nothing of its knots.
-class Knotless final : public Trajectory {
+class Knotless final : public ExactTrajectory {
  public:
   explicit Knotless(std::shared_ptr<const Trajectory> whole) : whole_(std::move(whole)) {}
   std::string kind() const override { return whole_->kind(); }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 
+#include "model/real50.h"
 #include "nocsolver/reactions.h"
 #include "nocsolver/solver.h"
 #include "tests/support/motions.h"

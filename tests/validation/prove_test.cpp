@@ -32,7 +32,7 @@ std::vector<Check> checksWith(const Defect& defect) {
   static const auto reference = makeReference(provingGround());
   ValidationOptions options;
   options.budget = false;
-  options.spoil = defect.spoil;
+  options.spoil = std::make_shared<const Spoil>(defect.spoil);
   if (defect.scenario) return validate(defect.scenario(provingGround()), options).checks;
   options.reference = reference;
   return validateMade(provingGround(), defect.subject ? defect.subject : solverOf, options).checks;

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "model/exact_trajectory.h"
 #include "model/trajectories.h"
 #include "nocsolver/solver_model.h"
 #include "tests/validation/presented_numbers.h"
@@ -181,7 +182,7 @@ TEST(RelocatedTrajectories, moveOnFromWhereTheyAre) {
 }
 
 /// One that cannot move its origin is shifted as it is.
-class Immovable final : public Trajectory {
+class Immovable final : public ExactTrajectory {
  public:
   std::string kind() const override { return "immovable"; }
   double duration() const override { return whole_->duration(); }

@@ -1,6 +1,7 @@
 // The whole validation: the verdict, what it names, what it records, and that it comes out the same twice.
 
 #include "validation/validate.h"
+#include "validation/spoil.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -159,11 +160,13 @@ TEST(ValidateResult, isTheSameWithAReferenceMadeBefore) {
 TEST(ValidateControl, aSpoiltReplayFails) {
   const Scenario scenario = quick("paper-helix");
   ValidationOptions spoilt = without_extras;
-  spoilt.spoil.replay = [](ReplaySettings& settings) {
+  Spoil spoil;
+  spoil.replay = [](ReplaySettings& settings) {
     settings.spoil = [](double, std::vector<double>& x) {
       for (double& each : x) each *= 1 + 1e-9;
     };
   };
+  spoilt.spoil = std::make_shared<const Spoil>(spoil);
   const ValidationResult result = validate(scenario, spoilt);
   EXPECT_EQ(verdictOf(result.checks, "replay.position"), "fail");
   for (const char* name : {"torque.pointwise", "torque.between", "acceleration.pointwise", "direct.growth"})

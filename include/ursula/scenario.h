@@ -1,0 +1,9 @@
+#pragma once
+
+/// \file
+/// What the machine is and what it is asked to do: Manipulator, Trajectory, Load, and the Scenario that holds them.
+
+#include "include/ursula/abi.h"
+#include "model/errors.h"
+#include "model/scenario.h"
+#include "model/trajectories.h"

@@ -1,0 +1,10 @@
+#pragma once
+
+/// \file
+/// Everything of the library.
+
+#include "include/ursula/abi.h"
+#include "include/ursula/report.h"
+#include "include/ursula/scenario.h"
+#include "include/ursula/solver.h"
+#include "include/ursula/validate.h"

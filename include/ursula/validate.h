@@ -1,0 +1,8 @@
+#pragma once
+
+/// \file
+/// The verdict: validate() on a Scenario and a Subject gives a ValidationResult.
+
+#include "include/ursula/abi.h"
+#include "validation/external.h"
+#include "validation/validate.h"

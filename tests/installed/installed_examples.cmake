@@ -1,0 +1,51 @@
+# Installs into an empty folder, builds the examples there against what was installed, with warnings as errors in our
+# headers too, and runs them. cmake -D BUILD=… -D CXX=… -D GENERATOR=… -D WORK=… -P installed_examples.cmake
+cmake_policy(VERSION 3.25)
+
+# run(EXIT_CODE PATTERN COMMAND…): the command's output has to match.
+function(run expected pattern)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  message("$ ${ARGN}\n${output}")
+  if(NOT code STREQUAL expected OR NOT output MATCHES "${pattern}")
+    message(FATAL_ERROR "exit code ${code}, expected ${expected} and output that matches ${pattern}")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+set(prefix ${WORK}/prefix)
+run(0 "" ${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+
+# Nothing of ours is forced on users: no options, no definitions, no library but our own.
+file(GLOB_RECURSE exported ${prefix}/lib*/ursula-targets*.cmake)
+foreach(file IN LISTS exported)
+  file(READ ${file} text)
+  if(text MATCHES "INTERFACE_(COMPILE_OPTIONS|COMPILE_DEFINITIONS|LINK_OPTIONS)|-fsanitize|Simbody|fmt")
+    message(FATAL_ERROR "${file} forces ${CMAKE_MATCH_0} on users")
+  endif()
+endforeach()
+if(NOT exported)
+  message(FATAL_ERROR "no CMake package was installed")
+endif()
+
+file(GLOB_RECURSE examples ${prefix}/share/doc/*/examples/CMakeLists.txt)
+cmake_path(GET examples PARENT_PATH source)
+run(0 "" ${CMAKE_COMMAND} -S ${source} -B ${WORK}/build -G ${GENERATOR} -D CMAKE_CXX_COMPILER=${CXX}
+  -D CMAKE_PREFIX_PATH=${prefix} -D CMAKE_NO_SYSTEM_FROM_IMPORTED=ON "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror -pedantic")
+run(0 "" ${CMAKE_COMMAND} --build ${WORK}/build)
+
+set(bin ${WORK}/build)
+set(helix ${prefix}/share/ursula/scenarios/paper-helix.toml)
+run(0 "paper-helix: pass" ${bin}/judge_own_solver ${helix})
+run(1 "paper-helix: fail\n.*torque" ${bin}/judge_own_solver ${helix} 1e-11)
+run(2 "no-such.toml" ${bin}/judge_own_solver ${WORK}/no-such.toml)
+run(0 "3.000 s: .* N m\n.*come back within" ${bin}/inverse_dynamics ${helix})
+run(0 "[1-8] real poses of 8; the one commanded is found" ${bin}/all_poses ${helix})
+run(0 "400 kg: .*600 kg: [0-9.]+ N m" ${bin}/sweep_by_hand ${helix})
+run(0 "heave: pass, report at" ${bin}/machine_in_code ${WORK}/heave)
+run(1 "heave: fail.*motion.twist" ${bin}/machine_in_code ${WORK}/wrong 1e-6)
+foreach(file summary.json timeseries.csv report.html junit.xml)
+  if(NOT EXISTS ${WORK}/heave/${file})
+    message(FATAL_ERROR "machine_in_code did not write ${file}")
+  endif()
+endforeach()
+run(0 "[0-9]" ${prefix}/bin/ursula --version)
