@@ -11,6 +11,8 @@ declare -A needs=(
   [lint]='git:git clang-format:clang-format shellcheck:shellcheck python3:python3'
   [tidy]='libgtest-dev libgmock-dev libbenchmark-dev clang-tidy:clang-tidy python3:python3'
   [results]='git:git gnuplot:gnuplot-nox chromium:chromium python3:python3'
+  [docs]='doxygen:doxygen python3:python3'
+  [package]='dpkg-shlibdeps:dpkg-dev file:file python3:python3'
   [bundle]='node:nodejs npm:npm'
   [fresh]='git:git debootstrap:debootstrap'
 )

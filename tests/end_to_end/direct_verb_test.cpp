@@ -115,7 +115,7 @@ TEST_F(DirectVerb, SaysWhatIsWrongWithTheAngles) {
 
 TEST_F(DirectVerb, TellsNoPoseFromNoDeterminedPose) {
   const auto none = direct("-0.1,0.2,0.3,0.1,0.2,-0.4");
-  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_EQ(none.exit_code, 0) << "none is all there are";
   EXPECT_EQ(std::count(none.out.begin(), none.out.end(), '\n'), 1) << "the header alone";
   const auto free = direct("0,0,0,0,0,0");  // all planes upright: the platform may rise and fall
   EXPECT_EQ(free.exit_code, 3);

@@ -79,8 +79,7 @@ TEST_P(Budget, isWholeAndLeavesNoMoreThanIsNotKnown) {
   if (budget.observed.norm() > 1e-13) EXPECT_LT(budget.uncertainty(), 100 * size);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenarios, Budget,
-                         testing::ValuesIn(shippedScenarios()),
+INSTANTIATE_TEST_SUITE_P(Scenarios, Budget, testing::ValuesIn(shippedScenarios()),
                          [](const auto& name) { return asTestName(name.param); });
 
 TEST(Attribution, namesTheModelWhereTorquesAreOffByAMillionth) {

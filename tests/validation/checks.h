@@ -20,11 +20,14 @@ inline std::string verdictOf(const std::vector<Check>& checks, const std::string
   return check == nullptr ? "(none)" : name(check->verdict);
 }
 
-/// Names of the checks that have not the verdict, with their numbers.
+/// Names of the checks that apply and have not the verdict, with their numbers; of none that apply, a complaint.
 inline std::string others(const std::vector<Check>& checks, Verdict verdict) {
   std::string out;
+  bool any = false;
+  for (const Check& check : checks) any |= check.verdict != Verdict::not_applicable;
+  if (!any) return "no check applies";
   for (const Check& check : checks)
-    if (check.verdict != verdict)
+    if (check.verdict != verdict && check.verdict != Verdict::not_applicable)
       out += check.name + " is " + name(check.verdict) + ": " + std::to_string(check.value) + " of " +
              std::to_string(check.limit) + ", " + check.why + "\n";
   return out;

@@ -52,6 +52,7 @@ TEST(CommittedResults, haveTheVerdictAndTheChecksOfAFreshRun) {
   std::set<std::string> committed, now;
   for (const nlohmann::json& check : summary["checks"]) {
     committed.insert(check["name"].get<std::string>());
+    if (check["verdict"] == "not_applicable") continue;
     EXPECT_LE(check["value"].get<double>(), check["limit"].get<double>()) << check["name"];
   }
   for (const Check& check : fresh().checks) now.insert(check.name);
