@@ -151,7 +151,7 @@ Check judgeDirect(const Scenario& scenario, const Subject& subject, const std::v
 
 Check judgeGrowth(const Scenario& scenario, const Subject& subject, const SimbodyLoop::TorqueHistory& torques,
                   const Amplification& amplification, const std::function<double(double)>& acceleration_rounding,
-                  double tolerance, const Units& units) {
+                  double tolerance, const Units& units, bool second_look) {
   const std::size_t last = lastOf(amplification);
   const double end = amplification.instants()[last], length = amplification.length();
   const auto acceleration = [&subject](const Motion<double>& motion, const Vector6d& tau) {
@@ -168,7 +168,7 @@ Check judgeGrowth(const Scenario& scenario, const Subject& subject, const Simbod
     return judgeBeside(growth, replaysBeside(scenario, torques, settings, size, length), size, end, rounding, units);
   };
   const Check first = judge();
-  if (first.verdict != Verdict::fail || growth.halved_at.empty()) return first;
+  if (first.verdict != Verdict::fail || growth.halved_at.empty() || !second_look) return first;
   // A step may pass over what changes faster, a joint that turns about, at any tolerance.
   settings.stops = growth.halved_at;
   return judge();

@@ -19,9 +19,10 @@ Check judgeDirect(const Scenario& scenario, const Subject& subject, const std::v
 /// `direct.growth`: how a deviation grows by the variational equations of the subject's direct dynamics, against what
 /// it does in Simbody's loop, really put off the path by as much either way. `torques` are the right ones,
 /// `acceleration_rounding` what rounding may make of the platform's acceleration at t, `tolerance` that of the coarser
-/// replays.
+/// replays. `second_look`: what fails is replayed once more, with steps to where a joint with Coulomb friction turns
+/// about.
 Check judgeGrowth(const Scenario& scenario, const Subject& subject, const SimbodyLoop::TorqueHistory& torques,
                   const Amplification& amplification, const std::function<double(double)>& acceleration_rounding,
-                  double tolerance, const Units& units = {});
+                  double tolerance, const Units& units = {}, bool second_look = true);
 
 }  // namespace ursula

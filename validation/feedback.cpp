@@ -31,7 +31,7 @@ constexpr double lost = 0.1;
 constexpr double useful_feedback = 1e-4;
 constexpr long max_evaluations = 200000;
 /// Where the torques are known to be wrong already, how wrong need not be found out at any price.
-constexpr long max_evaluations_of_wrong = 5000;
+constexpr long max_evaluations_of_wrong = 2000;
 /// To which a deviation of wrong torques is found.
 constexpr double three_digits = 1e-3;
 

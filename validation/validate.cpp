@@ -106,8 +106,9 @@ class Trial {
 
   void judgeDirectDynamics(ValidationResult& result) {
     result.checks.push_back(judgeDirect(scenario_, subject_, samples_, reference_.profile, units_));
+    const bool right_here = result.checks.back().verdict != Verdict::fail;  // else what is wrong is known
     result.checks.push_back(judgeGrowth(scenario_, subject_, reference_.plan.torques, reference_.amplification,
-                                        plan_.acceleration, 10 * coarser * plan_.tolerance, units_));
+                                        plan_.acceleration, 10 * coarser * plan_.tolerance, units_, right_here));
   }
 
   void judgeReplays(ValidationResult& result) {
@@ -126,7 +127,7 @@ class Trial {
       ladder_ = climb(scenario_, plan_.torques, windows_.front(), right_, spoil_.ladder);
       if (anyFails(judgeClimbed())) {
         windows_.front().closer = reference_.closer(0);
-        climbOn(scenario_, plan_.torques, windows_.front(), spoil_.ladder, ladder_);
+        if (torquesHold()) climbOn(scenario_, plan_.torques, windows_.front(), spoil_.ladder, ladder_);
       }
     }
     append(result.checks, judgeWindows(windows_));
@@ -137,6 +138,12 @@ class Trial {
     const Spoil::Seen& seen = spoil_.feedback;
     const Scenario fed_back = seen ? seen(scenario_) : scenario_;
     result.checks.push_back(judgeFeedback(fed_back, subject_, reference_.amplification, samples_, units_));
+  }
+
+  /// Of wrong torques it is known what is wrong.
+  bool torquesHold() const {
+    return std::all_of(samples_.begin(), samples_.end(),
+                       [](const PointwiseSample& sample) { return sample.torque.error <= sample.torque.limit; });
   }
 
   /// In the windows of the right torques, with what those say of the integration.

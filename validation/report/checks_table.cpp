@@ -94,10 +94,12 @@ std::string checksTable(const std::vector<Check>& checks) {
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const Check& a, const Check& b) { return rank(a.verdict) < rank(b.verdict); });
   const Decades decades = decadesOf(sorted);
+  const std::ptrdiff_t applicable = judgedCount(sorted);
+  const std::ptrdiff_t others = static_cast<std::ptrdiff_t>(sorted.size()) - applicable;
   std::string body;
   for (std::size_t i = 0; i < sorted.size(); ++i) body += rows(sorted[i], i, decades);
   return fmt::format(
-      "<table class=\"checks\">\n<caption>{} check{}; a check passes if its value does not exceed its limit. Bars: "
+      "<table class=\"checks\">\n<caption>{} check{}{}; a check passes if its value does not exceed its limit. Bars: "
       "value / limit"
       " on a logarithmic scale from 1e{:.0f} to 1e{:.0f}, the upright line is the limit.</caption>\n"
       "<thead><tr><th scope=\"col\">Verdict</th><th scope=\"col\">Check</th><th scope=\"col\" "
@@ -105,7 +107,8 @@ std::string checksTable(const std::vector<Check>& checks) {
       "<th scope=\"col\" class=\"number\">Limit</th><th scope=\"col\">Unit</th><th scope=\"col\">Value / "
       "limit</th></tr></thead>\n"
       "<tbody>\n{}</tbody>\n</table>",
-      sorted.size(), sorted.size() == 1 ? "" : "s", decades.low, decades.high, body);
+      applicable, applicable == 1 ? "" : "s", others > 0 ? fmt::format(", {} more that do not apply here", others) : "",
+      decades.low, decades.high, body);
 }
 
 }  // namespace ursula::report
