@@ -213,7 +213,9 @@ Check judgeQuantity(const std::vector<PointwiseSample>& samples, const Quantity&
                                       shown.t * units.time, placeName(shown.where, quantity.of_body));
   const double useful = quantity.size ? useful_share * largestSize(samples, quantity) : widest_rounding;
   Check check = judged(quantity.name, shown.value, shown.limit, quantity.unit, basis, why);
-  if (check.verdict == Verdict::pass && !(widest_rounding <= useful))
+  const Deviation& shown_at = at->*quantity.deviation;  // what an engine makes there is not to be trusted either way
+  const bool beyond_use = quantity.size && !std::isnan(shown.value) && shown_at.limit - shown_at.given > useful;
+  if (beyond_use || (check.verdict == Verdict::pass && !(widest_rounding <= useful)))
     check =
         notJudgeable(Reason::limit_useless, quantity.name, shown.value, widest_rounding, quantity.unit, basis,
                      fmt::format("{}; at t = {:.6g} s the limit exceeds {:g} of the quantity's size: {}", why,

@@ -76,7 +76,7 @@ Check notJudgeable(Reason reason, std::string name, double value, double limit, 
 
 Check judgedIfUseful(std::string name, double value, double limit, double useful, std::string unit, std::string basis,
                      std::string why, const std::string& cause) {
-  const bool says_nothing = !(limit <= useful) && value <= limit;
+  const bool says_nothing = limit > useful && !std::isnan(value);
   if (!says_nothing) return judged(std::move(name), value, limit, std::move(unit), std::move(basis), std::move(why));
   return notJudgeable(Reason::limit_useless, std::move(name), value, limit, std::move(unit), std::move(basis),
                       why + "; the limit says nothing here: " + cause);
