@@ -66,7 +66,8 @@ Check notApplicable(std::string name, std::string unit, std::string why);
 Check notJudgeable(Reason reason, std::string name, double value, double limit, std::string unit, std::string basis,
                    std::string why);
 
-/// As judged(), but where the limit exceeds `useful` and nothing is beyond it, inconclusive with `cause`.
+/// As judged(), but where the limit exceeds `useful`, inconclusive with `cause` whatever the value; no number fails all
+/// the same.
 Check judgedIfUseful(std::string name, double value, double limit, double useful, std::string unit, std::string basis,
                      std::string why, const std::string& cause);
 

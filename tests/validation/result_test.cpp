@@ -63,7 +63,7 @@ TEST(Reasons, areOfWhatWasNotJudged) {
   EXPECT_STREQ(name(Reason::not_made), "not_made");
 }
 
-TEST(JudgedIfUseful, isInconclusiveOnlyWhereNothingIsBeyondALimitThatSaysNothing) {
+TEST(JudgedIfUseful, isInconclusiveWhateverTheValueWhereTheLimitSaysNothing) {
   const auto check = [](double value, double limit) {
     return judgedIfUseful("name", value, limit, 1, "m", "basis", "why", "the cause");
   };
@@ -73,7 +73,8 @@ TEST(JudgedIfUseful, isInconclusiveOnlyWhereNothingIsBeyondALimitThatSaysNothing
   EXPECT_EQ(check(0.5, 2).reason, Reason::limit_useless);
   EXPECT_NE(check(0.5, 2).why.find("the cause"), std::string::npos);
   EXPECT_EQ(check(0.5, infinite).verdict, Verdict::inconclusive);
-  EXPECT_EQ(check(3, 2).verdict, Verdict::fail);
+  EXPECT_EQ(check(3, 2).verdict, Verdict::inconclusive) << "who rounds to more than what matters fails nobody";
+  EXPECT_EQ(check(3, 1).verdict, Verdict::fail);
   EXPECT_EQ(check(nan, 2).verdict, Verdict::fail);
   EXPECT_EQ(check(0.5, nan).verdict, Verdict::fail);
 }
