@@ -12,10 +12,10 @@
 #include "apps/suite_progress.h"
 #include "apps/verbs.h"
 #include "model/scenario.h"
-#include "validation/external.h"
 #include "validation/report/report.h"
-#include "validation/suite.h"
+#include "validation/suite/suite.h"
 #include "validation/validate.h"
+#include "validation/validate_external.h"
 
 namespace ursula {
 namespace {
