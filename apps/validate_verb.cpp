@@ -23,6 +23,7 @@ namespace {
 struct ValidateOptions {
   std::vector<std::string> scenarios;
   std::string torques, out;
+  double rtol = 0, atol = 0;  ///< 0: not given
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };
 
@@ -91,8 +92,9 @@ int validateOne(const Scenario& scenario, const std::string& torques, const std:
   writeResults(result, dir);
   printChecks(result);
   printReasons(result);
-  fmt::print("verdict: {} — {}\nreport: {}\n", name(result.verdict), reason(result.verdict, result.checks),
-             (dir / "report.html").string());
+  fmt::print("verdict: {} — {}\n", name(result.verdict), reason(result.verdict, result.checks));
+  if (result.deviation) fmt::print("{}\n", sentence(*result.deviation));
+  fmt::print("report: {}\n", (dir / "report.html").string());
   return exitCode(result.verdict);
 }
 
@@ -137,7 +139,9 @@ int validateSuite(const std::vector<Scenario>& scenarios, int jobs, const std::f
 
 /// Everything that can be refused is refused here, before anything is computed or written.
 int validateAll(const ValidateOptions& options) {
-  const std::vector<Scenario> scenarios = readSuite({options.scenarios.begin(), options.scenarios.end()});
+  std::vector<Scenario> scenarios = readSuite({options.scenarios.begin(), options.scenarios.end()});
+  if (options.rtol > 0 || options.atol > 0)
+    for (Scenario& scenario : scenarios) scenario.tolerance = EffortTolerance{options.rtol, options.atol};
   const bool is_suite = scenarios.size() > 1;
   if (is_suite && !options.torques.empty())
     throw UsageError(fmt::format("--torques judges one motion, expected one scenario, not {}", scenarios.size()));
@@ -162,6 +166,11 @@ void addValidate(CLI::App& app, std::function<int()>& run) {
       ->capture_default_str();
   verb->add_option("--torques", options->torques,
                    "CSV of somebody else's torques to judge instead: t_s and tau_1_Nm … tau_6_Nm");
+  verb->add_option("--rtol", options->rtol,
+                   "Torques pass that are off by no more, relative to the largest effort of the motion; wins over\n"
+                   "[acceptance] torque")
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--atol", options->atol, "The same in N m; both are added")->check(CLI::PositiveNumber);
   verb->footer(
       "Several scenarios: one folder each under DIR, with index.html and one junit.xml over all. All are read and\n"
       "their motions tried before anything is computed or written: if one is wrong, out of reach or singular, or two\n"

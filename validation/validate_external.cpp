@@ -5,6 +5,7 @@
 #include "validation/checks/acceptance.h"
 #include "validation/checks/every_check.h"
 #include "validation/checks/families.h"
+#include "validation/checks/tolerance.h"
 #include "validation/evidence/evidence.h"
 #include "validation/external/diagnosis.h"
 #include "validation/external/external_replay.h"
@@ -98,7 +99,9 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   result.checks = judgeAll(evidence);
   addFacts(evidence, result);
   seriesInSi(natural, result);
+  result.deviation = effortDeviation(evidence, result.checks);
   listEveryCheck(scenario, evidence.has, result);
+  judgeByTolerance(scenario, replay.covered, result);
   judgeByUser(scenario.acceptance, result);
   addFileFindings(file, result);
   if (result.verdict == Verdict::fail || result.limits == LimitBy::user) {

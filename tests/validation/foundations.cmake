@@ -8,6 +8,7 @@ add_executable(foundation_tests
   relocation_test.cpp
   second_look_test.cpp
   subject_test.cpp
+  tolerance_test.cpp
   worst_test.cpp
 )
 add_executable(profile_tests

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,7 @@ enum class Reason {
   not_covered,     ///< something that it needs is not there: samples, digits, a part of the motion
   not_made,        ///< it could not be made at all: a failure
   not_applicable,  ///< it needs what neither scenario nor subject nor build has
+  reported,        ///< shown, not judged: at a tolerance of the user's only the efforts are
 };
 
 /// "none", "limit_useless", …
@@ -85,6 +87,23 @@ struct TimeSeries {
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
 };
 
+/// How far the efforts on trial are from the expected ones, at most.
+struct EffortDeviation {
+  double largest = 0;         ///< N·m
+  double t = 0;               ///< s
+  std::string where;          ///< "leg 3"
+  double largest_effort = 0;  ///< of the expected ones along the motion, N·m
+  double drift = 0;     ///< how far errors of that size may move the platform by the end, open loop, m; NaN: unknown
+  double duration = 0;  ///< of the motion, s
+  double length = 0;    ///< of the machine, m: a drift beyond says that the motion is lost
+  double allowed = 0;   ///< by a tolerance of the user's, N·m; 0 where there is none
+  double absolute = 0;  ///< of it what is not relative, N·m
+
+  double relative() const { return largest / largest_effort; }
+  /// The smallest `--rtol` that would pass, beside the tolerance's absolute part; rounded up to three digits.
+  double smallestRelative() const;
+};
+
 /// What one scenario's validation found. Provenance keeps its order: (key, value as text).
 struct ValidationResult {
   std::string scenario;
@@ -94,6 +113,7 @@ struct ValidationResult {
   std::vector<std::pair<std::string, std::string>> provenance;
   /// Facts that are not judged: step counts, condition numbers, the dominant error, …
   std::vector<std::pair<std::string, std::string>> findings;
+  std::optional<EffortDeviation> deviation;  ///< none where no effort was compared
   TimeSeries timeseries;
   /// Curves for the report beside the time series, each with columns of its own (work against precision, amplification,
   /// …).
