@@ -46,9 +46,12 @@ void printChecks(const ValidationResult& result) {
     if (check.verdict != Verdict::not_applicable)
       fmt::print("  {:<12} {:<32} {:>10.3g} of {:>10.3g} {}\n", name(check.verdict), check.name, check.value,
                  check.limit, check.unit);
+  for (const Check& check : result.checks)
+    if (check.reason == Reason::reported)
+      fmt::print("  {:<12} {:<32} {:>10.3g} {}\n", "not judged", check.name, check.value, check.unit);
   std::map<std::string, std::vector<std::string>> not_applicable;  // by reason
   for (const Check& check : result.checks)
-    if (check.verdict == Verdict::not_applicable) not_applicable[check.why].push_back(check.name);
+    if (check.reason == Reason::not_applicable) not_applicable[check.why].push_back(check.name);
   for (const auto& [why, checks] : not_applicable)
     fmt::print("  not applicable, since {}: {}\n", why, fmt::join(checks, ", "));
 }

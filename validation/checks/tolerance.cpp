@@ -70,7 +70,6 @@ void judgeByTolerance(const Scenario& scenario, bool covered, ValidationResult& 
   if (!scenario.tolerance || !result.deviation) return;  // nothing was compared: the checks say why
   const EffortTolerance& tolerance = *scenario.tolerance;
   EffortDeviation& deviation = *result.deviation;
-  deviation.absolute = tolerance.absolute;
   deviation.allowed = tolerance.relative * deviation.largest_effort + tolerance.absolute;
   const std::string whose = fmt::format("the user's tolerance, {:g} of the largest effort, {:.6g} N m, and {:g} N m",
                                         tolerance.relative, deviation.largest_effort, tolerance.absolute);

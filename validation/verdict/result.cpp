@@ -91,7 +91,7 @@ Verdict overall(const std::vector<Check>& checks) {
 }
 
 double EffortDeviation::smallestRelative() const {
-  const double least = std::max(0.0, largest - absolute) / largest_effort;
+  const double least = relative();
   if (!(least > 0)) return least;
   const double digit = std::pow(10.0, std::floor(std::log10(least)) - 2);
   return std::ceil(least / digit * (1 + 1e-12)) * digit;

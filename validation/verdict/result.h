@@ -97,10 +97,9 @@ struct EffortDeviation {
   double duration = 0;  ///< of the motion, s
   double length = 0;    ///< of the machine, m: a drift beyond says that the motion is lost
   double allowed = 0;   ///< by a tolerance of the user's, N·m; 0 where there is none
-  double absolute = 0;  ///< of it what is not relative, N·m
 
   double relative() const { return largest / largest_effort; }
-  /// The smallest `--rtol` that would pass, beside the tolerance's absolute part; rounded up to three digits.
+  /// The smallest `--rtol` that would pass alone; rounded up to three digits.
   double smallestRelative() const;
 };
 
