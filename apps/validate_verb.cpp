@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "apps/suite_progress.h"
+#include "apps/torque_option.h"
 #include "apps/verbs.h"
 #include "model/scenario.h"
 #include "validation/report/report.h"
@@ -21,7 +22,7 @@ namespace ursula {
 namespace {
 
 struct ValidateOptions {
-  std::vector<std::string> scenarios;
+  std::vector<std::string> scenarios, map;
   std::string torques, out;
   double rtol = 0, atol = 0;  ///< 0: not given
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -78,19 +79,13 @@ void printReasons(const ValidationResult& result) {
 }
 
 /// Judges the solver, or the torques of a file where there is one.
-ValidationResult judge(const Scenario& scenario, const std::string& torques) {
-  return torques.empty() ? validate(scenario) : validateExternal(scenario, std::filesystem::path(torques));
+ValidationResult judge(const Scenario& scenario, const std::optional<TorqueFile>& torques) {
+  return torques ? validateExternal(scenario, *torques) : validate(scenario);
 }
 
-void nameIgnoredColumns(const std::string& torques) {
-  const TorqueFile file = readTorqueFile(torques);
-  if (!file.ignored.empty())
-    fmt::print(stderr, "{}: ignoring columns that are none of t_s, tau_1_Nm … tau_6_Nm: {}\n", torques,
-               fmt::join(file.ignored, ", "));
-}
-
-int validateOne(const Scenario& scenario, const std::string& torques, const std::filesystem::path& dir) {
-  if (!torques.empty()) nameIgnoredColumns(torques);
+int validateOne(const Scenario& scenario, const ValidateOptions& options, const std::filesystem::path& dir) {
+  std::optional<TorqueFile> torques;
+  if (!options.torques.empty()) torques = readTorquesAloud(options.torques, options.map);
   const ValidationResult result = judge(scenario, torques);
   writeResults(result, dir);
   printChecks(result);
@@ -148,11 +143,13 @@ int validateAll(const ValidateOptions& options) {
   const bool is_suite = scenarios.size() > 1;
   if (is_suite && !options.torques.empty())
     throw UsageError(fmt::format("--torques judges one motion, expected one scenario, not {}", scenarios.size()));
+  if (!options.map.empty() && options.torques.empty())
+    throw UsageError("--map names columns, expected --torques FILE.csv");
   const std::filesystem::path by_name = is_suite ? "suite" : scenarios.front().name;
   const std::filesystem::path dir = options.out.empty() ? "results" / by_name : std::filesystem::path(options.out);
   if (std::filesystem::exists(dir) && !std::filesystem::is_directory(dir))
     throw UsageError(fmt::format("--out {}: is a file, expected a folder", dir.string()));
-  return is_suite ? validateSuite(scenarios, options.jobs, dir) : validateOne(scenarios.front(), options.torques, dir);
+  return is_suite ? validateSuite(scenarios, options.jobs, dir) : validateOne(scenarios.front(), options, dir);
 }
 
 }  // namespace
@@ -169,6 +166,7 @@ void addValidate(CLI::App& app, std::function<int()>& run) {
       ->capture_default_str();
   verb->add_option("--torques", options->torques,
                    "CSV of somebody else's torques to judge instead: t_s and tau_1_Nm … tau_6_Nm");
+  addMapOption(*verb, options->map);
   verb->add_option("--rtol", options->rtol,
                    "Torques pass that are off by no more, relative to the largest effort of the motion; wins over\n"
                    "[acceptance] torque")
