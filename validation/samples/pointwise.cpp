@@ -202,4 +202,11 @@ std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subjec
                       RoundingProfile(scenario, profileInstants(static_cast<int>(instants.size()))));
 }
 
+std::string causeOfRounding(const std::vector<PointwiseSample>& samples, double t) {
+  if (samples.empty()) return "";
+  const auto at = std::lower_bound(samples.begin(), samples.end(), t,
+                                   [](const PointwiseSample& each, double x) { return each.motion.t < x; });
+  return causeOfRounding((at == samples.end() ? samples.back() : *at).conditioning);
+}
+
 }  // namespace ursula
