@@ -54,6 +54,10 @@ class Trial {
         plan_(reference.plan) {
     const auto trajectory = scenario_.trajectory;
     plan_.torques = [subject, trajectory](double t) { return subject.torques(trajectory->at(t)); };
+    if (subject.foresee)
+      plan_.foresee = [subject, trajectory](const std::vector<double>& instants) {
+        foresee(subject, *trajectory, instants);
+      };
   }
 
   ValidationResult result(SubjectHas& has) {
@@ -124,10 +128,10 @@ class Trial {
     for (std::size_t k = 0; k < windows_.size(); ++k)
       if (anyFails(judgeWindows({windows_[k]}))) windows_[k].closer = reference_.closer(k);
     if (options_.ladder) {
-      ladder_ = climb(scenario_, plan_.torques, windows_.front(), right_, spoil_.ladder);
+      ladder_ = climb(scenario_, plan_.torques, windows_.front(), right_, rungs());
       if (anyFails(judgeClimbed())) {
         windows_.front().closer = reference_.closer(0);
-        if (torquesHold()) climbOn(scenario_, plan_.torques, windows_.front(), spoil_.ladder, ladder_);
+        if (torquesHold()) climbOn(scenario_, plan_.torques, windows_.front(), rungs(), ladder_);
       }
     }
     append(result.checks, judgeWindows(windows_));
@@ -138,6 +142,15 @@ class Trial {
     const Spoil::Seen& seen = spoil_.feedback;
     const Scenario fed_back = seen ? seen(scenario_) : scenario_;
     result.checks.push_back(judgeFeedback(fed_back, subject_, reference_.amplification, samples_, units_));
+  }
+
+  /// What is changed in the settings of the ladder's rungs.
+  std::function<void(ReplaySettings&)> rungs() const {
+    if (!plan_.foresee) return spoil_.ladder;
+    return [this](ReplaySettings& settings) {
+      settings.foresee = plan_.foresee;
+      if (spoil_.ladder) spoil_.ladder(settings);
+    };
   }
 
   /// Of wrong torques it is known what is wrong.

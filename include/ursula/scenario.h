@@ -5,5 +5,6 @@
 
 #include "include/ursula/abi.h"
 #include "model/errors.h"
+#include "model/quaternions.h"
 #include "model/scenario.h"
 #include "model/trajectories.h"

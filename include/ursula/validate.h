@@ -5,4 +5,5 @@
 
 #include "include/ursula/abi.h"
 #include "validation/external.h"
+#include "validation/outside_solver.h"
 #include "validation/validate.h"
