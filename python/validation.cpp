@@ -22,14 +22,14 @@ std::string atInstant(const Motion<double>& motion) { return " at t = " + std::t
 
 /// The solver's answer to `motions`: N × 6 finite numbers, and nothing else.
 std::vector<Vector6d> torquesOf(const py::object& answer, const std::vector<Motion<double>>& motions) {
-  const auto given = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(answer);
   const std::string expected = ", expected (" + std::to_string(motions.size()) + ", 6)";
-  if (!given || py::array::ensure(answer).dtype().kind() == 'c') {
-    PyErr_Clear();
+  const py::array any = py::array::ensure(answer);
+  if (!any) PyErr_Clear();
+  if (!any || std::string("fiu").find(any.dtype().kind()) == std::string::npos)
     throw py::value_error("the solver's answer" + atInstant(motions.front()) + " is of type " +
                           std::string(py::str(py::type::of(answer).attr("__name__"))) + " and no array of numbers" +
                           expected);
-  }
+  const auto given = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(any);
   if (given.ndim() != 2 || static_cast<std::size_t>(given.shape(0)) != motions.size() || given.shape(1) != leg_count)
     throw py::value_error("the solver's answer to " + std::to_string(motions.size()) + " instants has shape " +
                           std::string(py::str(given.attr("shape"))) + expected);

@@ -24,12 +24,16 @@ function machine = read_machine(file)
   machine.I = diag(numbers(platform, 'inertia'));
   for k = 1:2
     machine.link(k) = struct('l', numbers(links{k}, 'length'), 'm', numbers(links{k}, 'mass'), ...
-                             'c', numbers(links{k}, 'center_of_mass'), 'I', diag(numbers(links{k}, 'inertia')));
+                             'c', numbers(links{k}, 'center_of_mass'), 'I', numbers(links{k}, 'inertia'));
   end
   machine.a = numbers(text, 'base_point').';
   machine.u = numbers(text, 'base_axis').';
   machine.u = machine.u ./ sqrt(sum(machine.u .^ 2));
   machine.b = numbers(text, 'platform_point').';
+end
+
+function c = cross3(a, b)
+  c = a([2 3 1], :) .* b([3 1 2], :) - a([3 1 2], :) .* b([2 3 1], :);
 end
 
 function X = skew(v)
@@ -41,54 +45,62 @@ function Q = rotation(q)
   Q = eye(3) + 2 * q(1) * X + 2 * X * X;
 end
 
-% C with v_B = C [φ̇; ψ̇; χ̇]: φ about −u, the two links turning by ψ and χ about x. Rows of G: rates for v_B.
-function [row, F] = leg(machine, u, r, v_B, a_B)
-  [p, d] = machine.link.l;
-  z = r - u * (u.' * r);  z /= norm(z);  x = skew(u) * z;
-  cosine = (p^2 + d^2 - r.' * r) / (2 * p * d);  sine = sqrt(1 - cosine^2);
-  psi = atan2(r.' * z, r.' * u) + atan2(d * sine, p - d * cosine);
-  e = cos(psi) * u + sin(psi) * z;
-  s = -cosine * e - sine * skew(x) * e;
-  C = [-skew(u) * r, p * skew(x) * e, d * skew(x) * s];
-  rate = C \ v_B;
-  w = -rate(1) * u;  w1 = w + rate(2) * x;  w2 = w + rate(3) * x;
-  W = skew(w);  W1 = skew(w1);  W2 = skew(w2);
-  bias = W * v_B + p * rate(2) * (skew(W * x) * e + skew(x) * (W1 * e)) + ...
-         d * rate(3) * (skew(W * x) * s + skew(x) * (W2 * s));
-  acc = C \ (a_B - bias);
-  w1_dot = -acc(1) * u + acc(2) * x + rate(2) * W * x;
-  w2_dot = -acc(1) * u + acc(3) * x + rate(3) * W * x;
-  e_ddot = (skew(w1_dot) + W1 * W1) * e;
-  s_ddot = (skew(w2_dot) + W2 * W2) * s;
-  k1 = machine.link(1);  k2 = machine.link(2);
-  f1 = k1.m * (k1.c * e_ddot - machine.g);
-  f2 = k2.m * (p * e_ddot + k2.c * s_ddot - machine.g);
-  E = [x, skew(e) * x, e];  I1 = E * k1.I * E.';
-  S = [x, skew(s) * x, s];  I2 = S * k2.I * S.';
-  n1 = I1 * w1_dot + W1 * I1 * w1;
-  n2 = I2 * w2_dot + W2 * I2 * w2;
-  work = [-u.' * (skew(k1.c * e) * f1 + n1 + skew(p * e + k2.c * s) * f2 + n2)
-          (skew(x) * e).' * (k1.c * f1 + p * f2) + x.' * n1
-          (skew(x) * s).' * (k2.c * f2) + x.' * n2];
-  F = C.' \ work;
-  row = [1 0 0] / C;
+% I ω̇ + ω × I ω of six links with axes x, y, z.
+function n = inertia_torque(I, x, y, z, w, w_dot)
+  times = @(v) x .* (I(1) * sum(x .* v)) + y .* (I(2) * sum(y .* v)) + z .* (I(3) * sum(z .* v));
+  n = times(w_dot) + cross3(w, times(w));
 end
 
+% Columns are legs. v_B = −φ̇ u × r + ψ̇ l x × e + χ̇ s x × d: φ turns about −u, the two links by ψ and χ about x.
 function tau = torques(machine, in)
   p = in(2:4);  Q = rotation(in(5:8));  v = in(9:11);  w = in(12:14);  a = in(15:17);  alpha = in(18:20);
   turn = skew(alpha) + skew(w)^2;
+  u = machine.u;  [l, s] = machine.link.l;  g = machine.g;
+  arm = Q * machine.b;
+  r = p + arm - machine.a;
+  v_B = v + skew(w) * arm;
+  a_B = a + turn * arm;
+
+  % The leg's plane holds u and B; in it a triangle of l, s and |r|.
+  along = sum(r .* u);
+  z = r - u .* along;  across = sqrt(sum(z .^ 2));  z = z ./ across;
+  x = cross3(u, z);
+  cosine = (l^2 + s^2 - along .^ 2 - across .^ 2) / (2 * l * s);  sine = sqrt(1 - cosine .^ 2);
+  psi = atan2(across, along) + atan2(s * sine, l - s * cosine);
+  e = cos(psi) .* u + sin(psi) .* z;  e_turned = cos(psi) .* z - sin(psi) .* u;
+  d = -cosine .* e - sine .* e_turned;  d_turned = -cosine .* e_turned + sine .* e;
+  ed = l * sum(e_turned .* d);  de = s * sum(d_turned .* e);
+  rates = @(v) deal(-sum(v .* x) ./ across, sum(v .* d) ./ ed, sum(v .* e) ./ de);
+
+  [phi, psi, chi] = rates(v_B);
+  W = -phi .* u;  x_rate = cross3(W, x);
+  w1 = W + psi .* x;  w2 = W + chi .* x;
+  e_rate = cross3(w1, e);  d_rate = cross3(w2, d);
+  bias = cross3(W, v_B) + l * psi .* (cross3(x_rate, e) + cross3(x, e_rate)) + ...
+         s * chi .* (cross3(x_rate, d) + cross3(x, d_rate));
+  [phi_dot, psi_dot, chi_dot] = rates(a_B - bias);
+  w1_dot = -phi_dot .* u + psi_dot .* x + psi .* x_rate;
+  w2_dot = -phi_dot .* u + chi_dot .* x + chi .* x_rate;
+  e_ddot = cross3(w1_dot, e) + cross3(w1, e_rate);
+  d_ddot = cross3(w2_dot, d) + cross3(w2, d_rate);
+
+  % What the links resist with, its work for φ, ψ, χ, and the force at B that does the same.
+  k1 = machine.link(1);  k2 = machine.link(2);
+  f1 = k1.m * (k1.c * e_ddot - g);
+  f2 = k2.m * (l * e_ddot + k2.c * d_ddot - g);
+  n1 = inertia_torque(k1.I, x, cross3(e, x), e, w1, w1_dot);
+  n2 = inertia_torque(k2.I, x, cross3(d, x), d, w2, w2_dot);
+  for_phi = -sum(u .* (cross3(k1.c * e, f1) + n1 + cross3(l * e + k2.c * d, f2) + n2));
+  for_psi = sum(e_turned .* (k1.c * f1 + l * f2)) + sum(x .* n1);
+  for_chi = k2.c * sum(d_turned .* f2) + sum(x .* n2);
+  F = (-for_phi ./ across) .* x + (for_psi ./ ed) .* d + (for_chi ./ de) .* e;
+
+  % All of it at P, with the platform's own; the motors do its work: Jφᵀ τ = w.
   rho = Q * machine.rho;
-  f = machine.m * (a + turn * rho - machine.g);
+  f = machine.m * (a + turn * rho - g);
   I = Q * machine.I * Q.';
-  W = [I * alpha + skew(w) * I * w + skew(rho) * f; f];
-  J = zeros(6);
-  for i = 1:6
-    arm = Q * machine.b(:, i);
-    [row, F] = leg(machine, machine.u(:, i), p + arm - machine.a(:, i), v + skew(w) * arm, a + turn * arm);
-    J(i, :) = [(skew(arm) * row.').', row];
-    W += [skew(arm) * F; F];
-  end
-  tau = J.' \ W;
+  row = -x ./ across;
+  tau = [cross3(arm, row); row] \ ([I * alpha + skew(w) * I * w + skew(rho) * f; f] + sum([cross3(arm, F); F], 2));
 end
 
 wrong = 0;
