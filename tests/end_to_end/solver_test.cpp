@@ -44,7 +44,7 @@ constexpr const char* question = "\n  asked: 0,[^,]+(,[^,\n]+){18}\n  got:   ";
 TEST_F(SolverRun, aRightOnePasses) {
   const UrsulaRun run = judge("echo started >&2; exec " URSULA_EXAMPLE_SOLVER);
   EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
-  EXPECT_THAT(run.out, AllOf(StartsWith("quick: pass"), HasSubstr("replay.position"), HasSubstr("integration.ladder")));
+  EXPECT_THAT(run.out, AllOf(StartsWith("paper-helix: pass"), HasSubstr("replay.position"), HasSubstr("integration.ladder")));
   EXPECT_EQ(run.err, "started\n") << "once, and its standard error is ours";
   const auto summary = nlohmann::json::parse(TemporaryFolder::read(folder() / "out/summary.json"));
   EXPECT_EQ(summary.at("verdict"), "pass");
@@ -107,7 +107,7 @@ TEST_F(SolverRun, oneThatHangsIsEndedWithItsChildren) {
 }
 
 TEST_F(SolverRun, whatCannotBeMeantIsRefused) {
-  EXPECT_THAT(refused("cat", "--torques tau.csv"), HasSubstr("--solver excludes --torques"));
+  EXPECT_THAT(refused("cat", "--torques tau.csv"), HasSubstr("--torques excludes --solver"));
   EXPECT_THAT(refused(""), HasSubstr("expected a command"));
   EXPECT_THAT(refused("cat", "--solver-timeout 0"), HasSubstr("--solver-timeout"));
   EXPECT_EQ(ursula_("validate quick.toml --solver-timeout 3").exit_code, 2);
