@@ -109,14 +109,14 @@ TEST(ExternalSolver, questionsAreTheMotionToTheLastBit) {
   Motion<double> motion;
   motion.t = 0.1;
   motion.p = {1.0 / 3, -2, 3e-300};
-  motion.Q << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  motion.Q << 1, 0, 0, 0, -1, 0, 0, 0, -1;  // half a turn about x
   motion.p_dot = {4, 5, 6};
   motion.omega = {7, 8, 9};
   motion.p_ddot = {10, 11, 12};
   motion.omega_dot = {13, 14, 15};
   EXPECT_EQ(solverQuestion(motion),
-            "0.10000000000000001,0.33333333333333331,-2,3.0000000000000001e-300,0.70710678118654757,0,0,"
-            "0.70710678118654757,4,5,6,7,8,9,10,11,12,13,14,15");
+            "0.10000000000000001,0.33333333333333331,-2,3.0000000000000002e-300,0,1,0,0,"
+            "4,5,6,7,8,9,10,11,12,13,14,15");
 }
 
 TEST(ExternalSolver, answersAreSixNumbers) {
