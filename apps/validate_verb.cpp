@@ -12,11 +12,11 @@
 #include "apps/suite_progress.h"
 #include "apps/verbs.h"
 #include "model/scenario.h"
-#include "validation/external.h"
-#include "validation/external_solver.h"
+#include "validation/outside/external_solver.h"
 #include "validation/report/report.h"
-#include "validation/suite.h"
+#include "validation/suite/suite.h"
 #include "validation/validate.h"
+#include "validation/validate_external.h"
 
 namespace ursula {
 namespace {
@@ -25,6 +25,7 @@ struct ValidateOptions {
   std::vector<std::string> scenarios;
   std::string torques, out;
   ExternalSolverOptions solver;  ///< with a command, it is judged
+  double rtol = 0, atol = 0;     ///< 0: not given
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };
 
@@ -47,9 +48,12 @@ void printChecks(const ValidationResult& result) {
     if (check.verdict != Verdict::not_applicable)
       fmt::print("  {:<12} {:<32} {:>10.3g} of {:>10.3g} {}\n", name(check.verdict), check.name, check.value,
                  check.limit, check.unit);
+  for (const Check& check : result.checks)
+    if (check.reason == Reason::reported)
+      fmt::print("  {:<12} {:<32} {:>10.3g} {}\n", "not judged", check.name, check.value, check.unit);
   std::map<std::string, std::vector<std::string>> not_applicable;  // by reason
   for (const Check& check : result.checks)
-    if (check.verdict == Verdict::not_applicable) not_applicable[check.why].push_back(check.name);
+    if (check.reason == Reason::not_applicable) not_applicable[check.why].push_back(check.name);
   for (const auto& [why, checks] : not_applicable)
     fmt::print("  not applicable, since {}: {}\n", why, fmt::join(checks, ", "));
 }
@@ -95,8 +99,9 @@ int validateOne(const Scenario& scenario, const ValidateOptions& options, const 
   writeResults(result, dir);
   printChecks(result);
   printReasons(result);
-  fmt::print("verdict: {} — {}\nreport: {}\n", name(result.verdict), reason(result.verdict, result.checks),
-             (dir / "report.html").string());
+  fmt::print("verdict: {} — {}\n", name(result.verdict), reason(result.verdict, result.checks));
+  if (result.deviation) fmt::print("{}\n", sentence(*result.deviation));
+  fmt::print("report: {}\n", (dir / "report.html").string());
   return exitCode(result.verdict);
 }
 
@@ -141,7 +146,9 @@ int validateSuite(const std::vector<Scenario>& scenarios, int jobs, const std::f
 
 /// Everything that can be refused is refused here, before anything is computed or written.
 int validateAll(const ValidateOptions& options) {
-  const std::vector<Scenario> scenarios = readSuite({options.scenarios.begin(), options.scenarios.end()});
+  std::vector<Scenario> scenarios = readSuite({options.scenarios.begin(), options.scenarios.end()});
+  if (options.rtol > 0 || options.atol > 0)
+    for (Scenario& scenario : scenarios) scenario.tolerance = EffortTolerance{options.rtol, options.atol};
   const bool is_suite = scenarios.size() > 1;
   for (const auto& [option, value] : {std::pair("--torques", options.torques), {"--solver", options.solver.command}})
     if (is_suite && !value.empty())
@@ -177,6 +184,11 @@ void addValidate(CLI::App& app, std::function<int()>& run) {
       ->check(CLI::Range(1e-3, 1e6))
       ->capture_default_str()
       ->needs(solver);
+  verb->add_option("--rtol", options->rtol,
+                   "Torques pass that are off by no more, relative to the largest effort of the motion; wins over\n"
+                   "[acceptance] torque")
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--atol", options->atol, "The same in N m; both are added")->check(CLI::PositiveNumber);
   verb->footer(
       "Several scenarios: one folder each under DIR, with index.html and one junit.xml over all. All are read and\n"
       "their motions tried before anything is computed or written: if one is wrong, out of reach or singular, or two\n"

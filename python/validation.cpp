@@ -7,7 +7,9 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "python/motion.h"
@@ -49,11 +51,21 @@ std::string nameOf(const py::object& solver) {
   return py::str(py::getattr(solver, "__qualname__", py::type::of(solver).attr("__name__")));
 }
 
-ValidationResult validated(const ScenarioWithSolver& scenario, const py::object& solver, const py::object& name) {
-  const ValidationOptions options;
+/// The scenario with the tolerance given, if any.
+Scenario tolerant(Scenario scenario, std::optional<double> rtol, std::optional<double> atol) {
+  for (const auto& [name, value] : {std::pair("rtol", rtol), {"atol", atol}})
+    if (value && !(*value > 0 && std::isfinite(*value)))
+      throw py::value_error(std::string(name) + " is " + std::to_string(*value) + ", expected a positive number");
+  if (rtol || atol) scenario.tolerance = EffortTolerance{rtol.value_or(0), atol.value_or(0)};
+  return scenario;
+}
+
+ValidationResult validated(const ScenarioWithSolver& given, const py::object& solver, std::optional<double> rtol,
+                           std::optional<double> atol, const py::object& name) {
+  const Scenario scenario = tolerant(given.scenario, rtol, atol);
   if (solver.is_none()) {
     const py::gil_scoped_release unlocked;
-    return validate(scenario.scenario, options);
+    return validate(scenario);
   }
   if (PyCallable_Check(solver.ptr()) == 0) throw py::type_error("solver: expected a function of a Motion");
   OutsideSolver outside;
@@ -64,7 +76,7 @@ ValidationResult validated(const ScenarioWithSolver& scenario, const py::object&
     return torquesOf(solver(Motions{motions}), motions);
   };
   const py::gil_scoped_release unlocked;
-  return validateOutside(scenario.scenario, outside, options);
+  return validateOutside(scenario, outside);
 }
 
 py::dict seriesOf(const ValidationResult& result) {
@@ -136,7 +148,7 @@ void addValidation(py::module_& module) {
         return "<ursula.Result " + result.scenario + ": " + ursula::name(result.verdict) + ">";
       });
   module.def("validate", &validated, py::arg("s"), py::arg("solver") = py::none(), py::kw_only(),
-             py::arg("name") = py::none(), words::validate);
+             py::arg("rtol") = py::none(), py::arg("atol") = py::none(), py::arg("name") = py::none(), words::validate);
 }
 
 }  // namespace ursula::python

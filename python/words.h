@@ -55,15 +55,14 @@ constexpr const char* direct_kinematics =
 
 constexpr const char* validate =
     "The whole validation of a scenario: a Result.\n\n"
-    "solver: what is judged instead of this program's own solver, a function f(m) that gives the torques (N, 6), N m, "
-    "for\n"
-    "a Motion of N instants, any number. It is called by one thread at a time, in any order of instants. What needs a\n"
-    "second machine, kinematics or direct dynamics is not applicable then. name: of the solver, for the results; its "
-    "own\n"
-    "where left out.\n\n"
-    "Raises what the solver raises, as it was raised; ValueError where it answers with another shape or with what is "
-    "not\n"
-    "finite; PoseError where the commanded motion is out of reach or singular.";
+    "solver: what is judged instead of this program's own solver, a function f(m) that gives the torques (N, 6),\n"
+    "N m, for a Motion of N instants, any number. It is called by one thread at a time, in any order of instants.\n"
+    "What needs a second machine, kinematics or direct dynamics is not applicable then.\n\n"
+    "rtol, atol: torques pass that are off by no more, relative to the largest effort of the motion, and N m; both\n"
+    "are added. Where both are left out, [acceptance] torque of the scenario holds, else rounding. name: of the\n"
+    "solver, for the results; its own where left out.\n\n"
+    "Raises what the solver raises, as it was raised; ValueError where it answers with another shape or with what is\n"
+    "not finite; PoseError where the commanded motion is out of reach or singular.";
 
 constexpr const char* result = "What one validation found.";
 

@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 sys.dont_write_bytecode = True
+import rooms  # noqa: E402
 import sources  # noqa: E402
 
 # Which folder may include from which.
@@ -30,7 +31,7 @@ ENGINE_HEADER = re.compile(r"(?i)^(simbody|simtk|simmath|mujoco/)|/(simbody|simt
 # What users of the library have: the standard library, Eigen and the library itself.
 PYTHONS_HEADER = re.compile(r"pybind11/[\w/]+\.h")
 USERS_HEADER = re.compile(r"[a-z_]+|Eigen/\w+|ursula/\w+\.h")
-OTHER_ROAD = re.compile(r"^model/(simbody|mujoco|maximal)_loop[^/]*$")
+OTHER_ROAD = re.compile(r"^model/loops/(\w+)/")
 
 MAP = "docs/equations.md"
 TAGGED_FOLDERS = ("model", "nocsolver", "validation")
@@ -100,6 +101,7 @@ def check_targets(root):
     """What the CMake targets link, by folder."""
     forbidden = {"nocsolver": re.compile(r"(?i)simbody|mujoco|ursula::validation"),
                  "model": re.compile(r"ursula[:_]+(nocsolver|validation)"),
+                 "model/loops": re.compile(r"ursula[:_]+(nocsolver|validation)"),
                  "validation": re.compile(r"(?i)ursula::apps|\$\{(simbody|ursula_mujoco)_")}
     findings = []
     for folder, pattern in forbidden.items():
@@ -232,10 +234,10 @@ def main(arguments):
         for equation in EQUATIONS:
             print(f"({equation})", ", ".join(f"{p}:{n}" for p, n in tags.get(equation, {}).items()) or "—")
     else:
-        findings = check_includes(root) + check_targets(root) + check_equations(root)
+        findings = check_includes(root) + check_targets(root) + rooms.check_rooms(root) + check_equations(root)
     print(*findings, sep="\n", end="\n" if findings else "", file=sys.stderr)
     if not findings and not only_tags:
-        print(f"structure: {len(sources.files(root))} files, {len(EQUATIONS)} equations, nothing amiss")
+        print(f"structure: {len(sources.files(root))} files, {len(rooms.ROOMS)} rooms, {len(EQUATIONS)} equations, nothing amiss")
     return 1 if findings else 0
 
 

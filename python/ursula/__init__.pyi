@@ -159,6 +159,8 @@ def validate(
     s: Scenario,
     solver: Callable[[Motion], npt.ArrayLike] | None = None,
     *,
+    rtol: float | None = None,
+    atol: float | None = None,
     name: str | None = None,
 ) -> Result:
     """The whole validation of a scenario, of this program's solver or of `solver`: Motion of N instants -> (N, 6), N m."""

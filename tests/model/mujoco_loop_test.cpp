@@ -1,7 +1,7 @@
 // MuJoCo's road against reference vectors of 25 digits, against Simbody's six balls and against the maximal
 // coordinates; and that a parameter that is wrong in one of them is seen.
 
-#include "model/mujoco_loop.h"
+#include "model/loops/mujoco/mujoco_loop.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@
 #include <limits>
 #include <thread>
 
-#include "model/maximal_loop.h"
-#include "model/simbody_loop.h"
+#include "model/loops/maximal/maximal_loop.h"
+#include "model/loops/simbody/simbody_loop.h"
 #include "tests/support/motions.h"
 #include "tests/support/vectors.h"
 

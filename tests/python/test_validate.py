@@ -54,6 +54,19 @@ def test_a_wrong_solver_fails(quick):
     assert "torque.pointwise" in [check.name for check in r.checks if check.verdict == "fail"]
 
 
+def test_a_tolerance_of_ones_own(quick):
+    s = ursula.read_scenario(quick)
+
+    def single(m):
+        return s.inverse_dynamics(m).astype(np.float32)
+
+    assert ursula.validate(s, single).verdict == "fail"
+    assert ursula.validate(s, single, rtol=1e-6).verdict == "pass"
+    assert ursula.validate(s, single, atol=1e-4).verdict == "fail"
+    with pytest.raises(ValueError, match="rtol is -1.000000, expected a positive number"):
+        ursula.validate(s, rtol=-1)
+
+
 @pytest.mark.parametrize("answer, words", [
     (lambda m: np.zeros((len(m), 5)), r"to 11 instants has shape \(11, 5\), expected \(11, 6\)"),
     (lambda m: np.zeros((len(m) + 1, 6)), r"to 11 instants has shape \(12, 6\), expected \(11, 6\)"),

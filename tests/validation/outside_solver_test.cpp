@@ -1,6 +1,6 @@
 // Solvers that are no part of this program: asked in batches, never changed by that, and what they throw.
 
-#include "validation/outside_solver.h"
+#include "validation/outside/outside_solver.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 
 #include "tests/support/vectors.h"
 #include "tests/validation/checks.h"
-#include "validation/external_solver.h"
-#include "validation/subject.h"
+#include "validation/outside/external_solver.h"
+#include "validation/subject/subject.h"
 
 namespace ursula {
 namespace {

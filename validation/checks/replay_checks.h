@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "validation/replay/windowed_replay.h"
+#include "validation/subject/presentation.h"
+#include "validation/verdict/result.h"
+
+namespace ursula {
+
+/// `replay.position`, `replay.orientation`, `closure.position`, `closure.velocity`, `energy.balance`, over all windows.
+std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, double position_scale, double length,
+                               const LoopForces& forces, const Units& units = {});
+
+}  // namespace ursula
