@@ -114,10 +114,7 @@ void addCheck(py::module_& module) {
            [](const Check& check) { return "<ursula.Check " + check.name + ": " + ursula::name(check.verdict) + ">"; });
 }
 
-}  // namespace
-
-void addValidation(py::module_& module) {
-  addCheck(module);
+void addResult(py::module_& module) {
   using Result = ValidationResult;
   py::class_<Result>(module, "Result", words::result)
       .def_readonly("scenario", &Result::scenario, "Its name.")
@@ -147,6 +144,13 @@ void addValidation(py::module_& module) {
       .def("__repr__", [](const Result& result) {
         return "<ursula.Result " + result.scenario + ": " + ursula::name(result.verdict) + ">";
       });
+}
+
+}  // namespace
+
+void addValidation(py::module_& module) {
+  addCheck(module);
+  addResult(module);
   module.def("validate", &validated, py::arg("s"), py::arg("solver") = py::none(), py::kw_only(),
              py::arg("rtol") = py::none(), py::arg("atol") = py::none(), py::arg("name") = py::none(), words::validate);
 }

@@ -26,9 +26,8 @@ constexpr const char* read_scenario =
 constexpr const char* scenario = "A machine, what it is asked to do, and how that is judged; made by read_scenario.";
 
 constexpr const char* at =
-    "The commanded motion at t, s: (N,) or a number. Instants outside of [0, duration] are those of the motion's "
-    "smooth\n"
-    "continuation. Raises ValueError for what is not finite.";
+    "The commanded motion at t, s: (N,) or a number. Instants outside of [0, duration] are those of the\n"
+    "motion's smooth continuation. Raises ValueError for what is not finite.";
 
 constexpr const char* inverse_dynamics =
     "Torques of the motors for a motion of N instants, N m: (N, 6), by (37). Positive about -u_i, conjugate to the "
@@ -37,9 +36,9 @@ constexpr const char* inverse_dynamics =
     "Raises PoseError where the legs cannot take a pose, or it is singular.";
 
 constexpr const char* forward_dynamics =
-    "Accelerations (a, alpha) of the platform under torques tau, N m, (N, 6), in the states of a motion of N instants, "
-    "by\n"
-    "(36): of P, m/s², and angular, rad/s², in B, each (N, 3). The motion's own a and alpha are not read.\n"
+    "Accelerations (a, alpha) of the platform under torques tau, N m, (N, 6), in the states of a motion of N "
+    "instants,\n"
+    "by (36): of P, m/s², and angular, rad/s², in B, each (N, 3). The motion's own a and alpha are not read.\n"
     "Raises PoseError as inverse_dynamics does.";
 
 constexpr const char* inverse_kinematics =
@@ -47,11 +46,9 @@ constexpr const char* inverse_kinematics =
     "thetadot, rad/s; phiddot, psiddot, thetaddot, rad/s². Raises PoseError as inverse_dynamics does.";
 
 constexpr const char* direct_kinematics =
-    "Every real pose of the platform for six actuated angles phi, rad, at most eight, as a list of Pose: first those "
-    "that\n"
-    "assemble. Raises UndeterminedPose where the angles leave the platform free to move, ValueError unless they are "
-    "six\n"
-    "finite numbers, and RuntimeError where a pose may be missing.";
+    "Every real pose of the platform for six actuated angles phi, rad, at most eight, as a list of Pose: first those\n"
+    "that assemble. Raises UndeterminedPose where the angles leave the platform free to move, ValueError unless they\n"
+    "are six finite numbers, and RuntimeError where a pose may be missing.";
 
 constexpr const char* validate =
     "The whole validation of a scenario: a Result.\n\n"
@@ -67,8 +64,7 @@ constexpr const char* validate =
 constexpr const char* result = "What one validation found.";
 
 constexpr const char* check =
-    "One statement that was judged. It passes exactly if value <= limit; basis says where the limit comes from, why "
-    "what\n"
-    "was found.";
+    "One statement that was judged. It passes exactly if value <= limit; basis says where the limit comes from, why\n"
+    "what was found.";
 
 }  // namespace ursula::python::words
