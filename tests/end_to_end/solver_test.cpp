@@ -44,7 +44,8 @@ constexpr const char* question = "\n  asked: 0,[^,]+(,[^,\n]+){18}\n  got:   ";
 TEST_F(SolverRun, aRightOnePasses) {
   const UrsulaRun run = judge("echo started >&2; exec " URSULA_EXAMPLE_SOLVER);
   EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
-  EXPECT_THAT(run.out, AllOf(StartsWith("paper-helix: pass"), HasSubstr("replay.position"), HasSubstr("integration.ladder")));
+  EXPECT_THAT(run.out,
+              AllOf(StartsWith("paper-helix: pass"), HasSubstr("replay.position"), HasSubstr("integration.ladder")));
   EXPECT_EQ(run.err, "started\n") << "once, and its standard error is ours";
   const auto summary = nlohmann::json::parse(TemporaryFolder::read(folder() / "out/summary.json"));
   EXPECT_EQ(summary.at("verdict"), "pass");
@@ -94,16 +95,28 @@ bool runs(const std::string& pid) {
   return stat >> number >> name >> state && state != "Z" && state != "X";
 }
 
+/// Whether the process whose number is in `file` is gone, or goes.
+bool ends(const std::filesystem::path& file) {
+  std::string pid = TemporaryFolder::read(file);
+  pid.erase(pid.find_last_not_of('\n') + 1);
+  EXPECT_FALSE(pid.empty());
+  for (int k = 0; runs(pid) && k < 1000; ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  return !runs(pid);
+}
+
 TEST_F(SolverRun, oneThatHangsIsEndedWithItsChildren) {
   EXPECT_THAT(refused("sleep 1000 & echo $! > child; echo $$ > self; wait", "--solver-timeout 0.3"),
               AllOf(HasSubstr("gave no answer within 0.3 s"), ContainsRegex(question + std::string("nothing\n"))));
-  for (const char* file : {"child", "self"}) {
-    std::string pid = TemporaryFolder::read(folder() / file);
-    pid.erase(pid.find_last_not_of('\n') + 1);
-    ASSERT_FALSE(pid.empty());
-    for (int k = 0; runs(pid) && k < 1000; ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    EXPECT_FALSE(runs(pid)) << file;
-  }
+  EXPECT_TRUE(ends(folder() / "child"));
+  EXPECT_TRUE(ends(folder() / "self"));
+}
+
+TEST_F(SolverRun, oneIsEndedWithAProgramThatIsInterrupted) {
+  const UrsulaRun run = judge("echo $$ > self; kill -INT $PPID; exec sleep 1000");
+  EXPECT_NE(run.exit_code, 0);
+  EXPECT_EQ(run.out, "");
+  EXPECT_TRUE(ends(folder() / "self"));
+  EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
 }
 
 TEST_F(SolverRun, whatCannotBeMeantIsRefused) {
