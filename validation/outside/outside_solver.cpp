@@ -96,8 +96,8 @@ ValidationResult validateOutside(const Scenario& scenario, const OutsideSolver& 
     ValidationResult result = validate(scenario, subject, options);
     asking->rethrow();  // an engine may have kept it to itself
     return result;
-  } catch (const SolverStopped&) {
-    asking->rethrow();
+  } catch (...) {
+    asking->rethrow();  // that came first
     throw;
   }
 }
