@@ -99,7 +99,7 @@ void lookAtLadder(Evidence& e) {
   const bool torques_hold = std::all_of(e.samples.begin(), e.samples.end(), [](const PointwiseSample& sample) {
     return sample.torque.error <= sample.torque.limit;
   });
-  if (torques_hold) climbOn(*e.scenario, e.plan.torques, e.windows.front(), e.spoil.ladder, e.ladder);
+  if (torques_hold) climbOn(*e.scenario, e.plan.torques, e.windows.front(), rungSettings(e), e.ladder);
 }
 
 std::vector<Check> judgeStabilisedReplay(const Evidence& e) {

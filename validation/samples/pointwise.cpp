@@ -182,6 +182,7 @@ std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subjec
   const Subject right = nocSubject(*scenario.manipulator, scenario.load);
   std::vector<PointwiseSample> samples;
   samples.reserve(instants.size());
+  foresee(subject, *scenario.trajectory, instants);
   std::bitset<std::size(deviations)> confirmed;  // by a second look: no further one is needed
   for (double t : instants) {
     const Motion<double> motion = scenario.trajectory->at(t);
