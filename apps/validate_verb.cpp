@@ -13,6 +13,7 @@
 #include "apps/torque_option.h"
 #include "apps/verbs.h"
 #include "model/scenario.h"
+#include "validation/outside/external_solver.h"
 #include "validation/report/report.h"
 #include "validation/suite/suite.h"
 #include "validation/validate.h"
@@ -24,7 +25,8 @@ namespace {
 struct ValidateOptions {
   std::vector<std::string> scenarios, map;
   std::string torques, out;
-  double rtol = 0, atol = 0;  ///< 0: not given
+  ExternalSolverOptions solver;  ///< with a command, it is judged
+  double rtol = 0, atol = 0;     ///< 0: not given
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };
 
@@ -78,15 +80,15 @@ void printReasons(const ValidationResult& result) {
     if (const std::string value = finding(result, key); !value.empty()) fmt::print("{}: {}\n", key, value);
 }
 
-/// Judges the solver, or the torques of a file where there is one.
-ValidationResult judge(const Scenario& scenario, const std::optional<TorqueFile>& torques) {
-  return torques ? validateExternal(scenario, *torques) : validate(scenario);
+/// Judges this program's solver, somebody else's, or the torques of a file.
+ValidationResult judge(const Scenario& scenario, const ValidateOptions& options) {
+  if (!options.solver.command.empty()) return validateExternalSolver(scenario, options.solver);
+  if (options.torques.empty()) return validate(scenario);
+  return validateExternal(scenario, readTorquesAloud(options.torques, options.map));
 }
 
 int validateOne(const Scenario& scenario, const ValidateOptions& options, const std::filesystem::path& dir) {
-  std::optional<TorqueFile> torques;
-  if (!options.torques.empty()) torques = readTorquesAloud(options.torques, options.map);
-  const ValidationResult result = judge(scenario, torques);
+  const ValidationResult result = judge(scenario, options);
   writeResults(result, dir);
   printChecks(result);
   printReasons(result);
@@ -141,8 +143,9 @@ int validateAll(const ValidateOptions& options) {
   if (options.rtol > 0 || options.atol > 0)
     for (Scenario& scenario : scenarios) scenario.tolerance = EffortTolerance{options.rtol, options.atol};
   const bool is_suite = scenarios.size() > 1;
-  if (is_suite && !options.torques.empty())
-    throw UsageError(fmt::format("--torques judges one motion, expected one scenario, not {}", scenarios.size()));
+  for (const auto& [option, value] : {std::pair("--torques", options.torques), {"--solver", options.solver.command}})
+    if (is_suite && !value.empty())
+      throw UsageError(fmt::format("{} judges one motion, expected one scenario, not {}", option, scenarios.size()));
   if (!options.map.empty() && options.torques.empty())
     throw UsageError("--map names columns, expected --torques FILE.csv");
   const std::filesystem::path by_name = is_suite ? "suite" : scenarios.front().name;
@@ -164,8 +167,18 @@ void addValidate(CLI::App& app, std::function<int()>& run) {
   verb->add_option("--jobs", options->jobs, "Scenarios judged at a time; results are the same for any number")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  verb->add_option("--torques", options->torques,
-                   "CSV of somebody else's torques to judge instead: t_s and tau_1_Nm … tau_6_Nm");
+  CLI::Option* torques = verb->add_option(
+      "--torques", options->torques, "CSV of somebody else's torques to judge instead: t_s and tau_1_Nm … tau_6_Nm");
+  CLI::Option* solver = verb->add_option(
+      "--solver", options->solver.command,
+      "Command to judge instead: started once by sh, it answers each line of a motion on its standard\n"
+      "input (t,p,q,v,w,a,alpha: 20 values with commas) with a line of six torques");
+  solver->excludes(torques)->check(
+      [](const std::string& command) { return command.empty() ? std::string("expected a command") : std::string(); });
+  verb->add_option("--solver-timeout", options->solver.timeout, "For an answer of that command, s")
+      ->check(CLI::Range(1e-3, 1e6))
+      ->capture_default_str()
+      ->needs(solver);
   addMapOption(*verb, options->map);
   verb->add_option("--rtol", options->rtol,
                    "Torques pass that are off by no more, relative to the largest effort of the motion; wins over\n"

@@ -38,7 +38,7 @@ void runReplays(bool right, bool ladder, Evidence& evidence) {
   const Spoil& spoil = evidence.spoil;
   evidence.windows = right && !spoil.replay ? evidence.reference->windows : replayed(evidence);
   if (ladder) {
-    evidence.ladder = climb(scenario, evidence.plan.torques, evidence.windows.front(), right, spoil.ladder);
+    evidence.ladder = climb(scenario, evidence.plan.torques, evidence.windows.front(), right, rungSettings(evidence));
     evidence.orders = spoil.lower_order ? observedOrders(scenario, true) : evidence.reference->orders();
   }
   evidence.stabilised = stabilisedReplay(spoil.feedback ? spoil.feedback(scenario) : scenario, *evidence.subject,
@@ -70,6 +70,10 @@ Evidence gather(const Scenario& given, const Reference& reference, const Subject
   out.plan = reference.plan;
   const auto trajectory = reference.scenario.trajectory;
   out.plan.torques = [subject, trajectory](double t) { return subject.torques(trajectory->at(t)); };
+  if (subject.foresee)
+    out.plan.foresee = [subject, trajectory](const std::vector<double>& instants) {
+      foresee(subject, *trajectory, instants);
+    };
   out.scales = {reference.position_scale, reference.amplification.length(), reference.forces};
 
   out.samples = runPointwise(*out.scenario, subject, reference.instants, reference.profile);
@@ -79,6 +83,16 @@ Evidence gather(const Scenario& given, const Reference& reference, const Subject
   if (experiments.reactions) out.reactions = runReactions(*out.scenario, out.samples, spoil.reactions);
   runReplays(right, experiments.ladder, out);
   return out;
+}
+
+std::function<void(ReplaySettings&)> rungSettings(const Evidence& evidence) {
+  const auto& spoil = evidence.spoil.ladder;
+  const auto& foresee = evidence.plan.foresee;
+  if (!foresee) return spoil;
+  return [spoil, foresee](ReplaySettings& settings) {
+    settings.foresee = foresee;
+    if (spoil) spoil(settings);
+  };
 }
 
 void lookCloser(Evidence& evidence, std::size_t window) {

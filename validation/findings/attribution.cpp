@@ -43,6 +43,12 @@ Vector3d projectedEnd(const Scenario& scenario, const ReplayPlan& plan, const Wi
     const std::lock_guard<std::mutex> one_at_a_time(asking);  // the subject may be anybody's
     return presentation.of(plan.torques(t * units.time));
   };
+  if (plan.foresee)
+    settings.foresee = [&](std::vector<double> instants) {
+      const std::lock_guard<std::mutex> one_at_a_time(asking);
+      for (double& t : instants) t *= units.time;
+      plan.foresee(instants);
+    };
   return presentation.turn.transpose() * endOf(replay(there, torques, settings)) * units.length;
 }
 

@@ -35,13 +35,13 @@ struct Ladder {
   double uncertainty = 0;               ///< of that estimate, m
 };
 
-/// `finest` is the judged replay of the window. `torques_are_right`: its coarser replay is a rung already. `spoil`, for
-/// controls that must fail, changes the settings of all others.
+/// `finest` is the judged replay of the window. `torques_are_right`: its coarser replay is a rung already. `change`,
+/// of the settings of all others.
 Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-             bool torques_are_right = false, const std::function<void(ReplaySettings&)>& spoil = nullptr);
+             bool torques_are_right = false, const std::function<void(ReplaySettings&)>& change = nullptr);
 
 /// One rung more, at ten times the judged tolerance.
 void climbOn(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-             const std::function<void(ReplaySettings&)>& spoil, Ladder& ladder);
+             const std::function<void(ReplaySettings&)>& change, Ladder& ladder);
 
 }  // namespace ursula

@@ -82,6 +82,13 @@ class Stabilised {
 
   long evaluations() const { return evaluations_; }
 
+  /// A step of Dormand and Prince's pair from t comes.
+  void foreseeStep(double t, double h) const {
+    if (subject_.foresee)
+      foresee(subject_, trajectory_,
+              {t, t + h * (1.0 / 5), t + h * (3.0 / 10), t + h * (4.0 / 5), t + h * (8.0 / 9), t + h});
+  }
+
   void rate(const Deviation& x, Deviation& out, double t) {
     ++evaluations_;
     const Motion<double> commanded = trajectory_.at(t);
@@ -143,6 +150,7 @@ void follow(Stabilised& loop, const Trajectory& trajectory, double tolerance, do
   // other, unless no shorter one helps.
   const auto accepted = [&](double& at, double& h) {
     const double tried = h;
+    loop.foreseeStep(at, h);
     try {
       return stepper.try_step(rate, deviation, at, h) == odeint::success;
     } catch (const std::exception&) {

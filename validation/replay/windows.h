@@ -13,6 +13,7 @@ namespace ursula {
 /// What is replayed, and the errors that it may carry: they decide how long a window may be.
 struct ReplayPlan {
   SimbodyLoop::TorqueHistory torques;
+  std::function<void(const std::vector<double>&)> foresee;  ///< as ReplaySettings has it; may be empty
   std::function<double(double)> acceleration;  ///< error that the platform's acceleration may have at t, m/s²
   double position_scale = 0;                   ///< as errorPerStep has it, m
   double step_rate = 0;                        ///< steps a second that the replay is taken to need, for planning only

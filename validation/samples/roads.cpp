@@ -17,6 +17,7 @@ std::vector<RoadSample> runRoads(const Scenario& scenario, const std::vector<Poi
   for (const PointwiseSample& sample : samples) {
     RoadSample road;
     road.t = sample.motion.t;
+    road.conditioning = sample.conditioning;
     road.subject = sample.torques;
     road.simbody = sample.torques_simbody;
     twin.place(sample.motion);
