@@ -74,6 +74,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   result.checks = judgeExternal(external, natural.units);
   addReplay(here, external, natural.units, result);
   restore(natural, result);
+  addPicture(scenario, result);
   prependMotionChecks(scenario, result);
   SubjectHas has;
   has.any_instant = has.kinematics = has.direct_dynamics = has.other_machines = false;

@@ -9,6 +9,7 @@
 #include "model/check_names.h"
 #include "model/mujoco_loop.h"
 #include "validation/commanded_motion.h"
+#include "validation/picture.h"
 #include "validation/provenance.h"
 #include "validation/worst.h"
 
@@ -83,6 +84,14 @@ std::string nearestToEdge(const std::vector<PointwiseSample>& samples, const Uni
                      at.conditioning.smallest_sine_leg + 1, at.motion.t * units.time);
 }
 
+/// Evenly picked, the last among them.
+std::vector<double> atMost(std::size_t most, const std::vector<double>& t) {
+  if (t.size() <= most) return t;
+  std::vector<double> out;
+  for (std::size_t i = 0; i < most; ++i) out.push_back(t[i * (t.size() - 1) / (most - 1)]);
+  return out;
+}
+
 /// Why a check that was not made does not apply.
 std::string whyNot(const CheckName& check, const Scenario& scenario, const SubjectHas& has) {
   const auto unless = [&](bool there, const char* why) {
@@ -125,6 +134,7 @@ void restore(const Presentation& from, ValidationResult& result) {
   }
   restoreColumns(from, result.timeseries);
   for (auto& [title, curve] : result.curves) restoreColumns(from, curve);
+  for (Event& event : result.events) event.t *= from.units.time;
 }
 
 void prependMotionChecks(const Scenario& scenario, ValidationResult& result) {
@@ -178,6 +188,12 @@ void addProvenance(const Scenario& scenario, const std::string& subject, Validat
                        {"samples", fmt::format("{}", scenario.simulation.samples)},
                        {"integrator", name(scenario.simulation.integrator)},
                        {"tolerance", fmt::format("{:g}", scenario.simulation.tolerance)}};
+}
+
+void addPicture(const Scenario& scenario, ValidationResult& result) {
+  constexpr std::size_t smooth_to_the_eye = 601;
+  const std::vector<double>* t = result.timeseries.find("t_s");
+  if (t != nullptr && !t->empty()) result.picture = makePicture(scenario, atMost(smooth_to_the_eye, *t));
 }
 
 void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,

@@ -35,6 +35,9 @@ void judgeByUser(const std::vector<AcceptanceLimit>& acceptance, ValidationResul
 /// Scenario, subject, build and settings.
 void addProvenance(const Scenario& scenario, const std::string& subject, ValidationResult& result);
 
+/// The machine along the time series, for the report.
+void addPicture(const Scenario& scenario, ValidationResult& result);
+
 /// Largest torque and acceleration with their errors, condition numbers, and what the replay took.
 void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
                  ValidationResult& result, const Units& units = {});

@@ -188,6 +188,7 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   SubjectHas has;
   ValidationResult result = Trial(reference, subject, right, options).result(has);
   restore(reference.natural, result);
+  addPicture(scenario, result);
   prependMotionChecks(scenario, result);
   listEveryCheck(scenario, has, result);
   judgeByUser(scenario.acceptance, result);

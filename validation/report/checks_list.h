@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "validation/result.h"
+
+namespace ursula::report {
+
+/// A verdict as a sign and its word, so that nothing hangs on colour.
+std::string verdictBadge(Verdict verdict);
+
+/// The checks in groups, those with something to see to first and open; each check with a bar of value against limit
+/// on a logarithmic scale and, folded, what it means, what was found and where the limit comes from. Needs no script.
+std::string checksList(const std::vector<Check>& checks);
+
+}  // namespace ursula::report
