@@ -58,6 +58,13 @@ std::string numbers(const Check& check) {
                      escaped(quantity(check.limit, check.unit)));
 }
 
+/// What was found, up to the words on the likely cause.
+std::string without(const std::string& cause, const std::string& why) {
+  const std::size_t off = why.find(". Off: ");
+  const bool has = !cause.empty() && off != std::string::npos && why.find(cause, off) != std::string::npos;
+  return has ? why.substr(0, off) : why;
+}
+
 const char* sign(Verdict verdict) {
   switch (verdict) {
     case Verdict::pass:
@@ -148,8 +155,10 @@ std::string verdictBadge(Verdict verdict) {
                      sign(verdict), upper);
 }
 
-std::string checksList(const std::vector<Check>& checks) {
-  if (checks.empty()) return "<p>No check was made.</p>";
+std::string checksList(const std::vector<Check>& all, const std::string& cause) {
+  if (all.empty()) return "<p>No check was made.</p>";
+  std::vector<Check> checks = all;
+  for (Check& check : checks) check.why = without(cause, check.why);
   const Decades decades = decadesOf(checks);
   std::vector<std::vector<Check>> by_group(checkGroups().size() + 1);
   for (const Check& check : checks)

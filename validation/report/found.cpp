@@ -147,7 +147,7 @@ std::string sentence(const ValidationResult& result) {
 std::string detail(const ValidationResult& result) {
   const Found facts = found(result);
   if (result.verdict == Verdict::pass) return "";
-  if (!facts.off.empty()) return capital(facts.off) + ".";
+  if (!facts.off.empty()) return capital(prettyUnit(facts.off)) + ".";
   const Check* worst = worstCheck(result.checks);
   const bool said = result.verdict != Verdict::fail || worst == nullptr || worst->why.empty() ||
                     !std::isfinite(worst->value) || !std::isfinite(worst->limit);
@@ -166,7 +166,7 @@ std::vector<KeyFigure> keyFigures(const ValidationResult& result) {
                    std::isnan(facts.replay_limit) ? "" : "limit " + quantity(facts.replay_limit, "m", 2)});
   if (!std::isnan(facts.agreement))
     out.push_back({"largest effort deviation", plainNumber(facts.agreement, 2), "of the largest effort"});
-  if (!facts.dominant.empty())
+  if (!facts.dominant.empty() && facts.cause.empty())
     out.push_back(
         {"what limits it", facts.dominant,
          facts.windows > 1 ? fmt::format("{} windows", facts.windows) : "largest source of the replay's error"});

@@ -11,6 +11,8 @@
 namespace ursula::report {
 namespace {
 
+const std::string joined = "\u00A0";  // a number is not parted from its unit
+
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
   for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
     text.replace(at, what.size(), by);
@@ -48,17 +50,18 @@ std::string prettyUnit(const std::string& unit) {
 std::string quantity(double value, const std::string& unit, int digits) {
   const std::string pretty = prettyUnit(unit);
   if (!std::isfinite(value)) return number(value);
-  if (value == 0) return pretty.empty() ? "0" : "0 " + pretty;
-  if (pretty.empty() || !takesPrefix(pretty)) return plainNumber(value, digits) + (pretty.empty() ? "" : " " + pretty);
+  if (value == 0) return pretty.empty() ? "0" : "0" + joined + pretty;
+  if (pretty.empty() || !takesPrefix(pretty))
+    return plainNumber(value, digits) + (pretty.empty() ? "" : joined + pretty);
   const std::array<const char*, 9> prefixes = {"f", "p", "n", "µ", "m", "", "k", "M", "G"};
   // As it will be written: 999.96 is 1.00 k.
   const double shown = std::stod(fmt::format("{:.{}e}", value, digits - 1));
   const int thousands = static_cast<int>(std::floor(std::log10(std::abs(shown)) / 3 + 1e-9));
   const bool small = pretty == "rad" || pretty == "s" || pretty.find("rad/") == 0;  // never kilo-
   const int highest = small ? 0 : 3;
-  if (thousands < -5 || thousands > 3) return plainNumber(value, digits) + " " + pretty;
+  if (thousands < -5 || thousands > 3) return plainNumber(value, digits) + joined + pretty;
   const int used = std::min(thousands, highest);
-  return fmt::format("{} {}{}", rounded(shown / std::pow(1000.0, used), digits),
+  return fmt::format("{}{}{}{}", rounded(shown / std::pow(1000.0, used), digits), joined,
                      prefixes[static_cast<std::size_t>(used + 5)], pretty);
 }
 
@@ -73,7 +76,7 @@ std::string plainNumber(double value, int digits) {
   if (mantissa.find('.') != std::string::npos) mantissa.erase(mantissa.find_last_not_of('0') + 1);
   if (mantissa.back() == '.') mantissa.pop_back();
   const std::string power = "10" + superscript(std::stoi(text.substr(e + 1)));
-  return mantissa == "1" ? power : mantissa + " × " + power;
+  return mantissa == "1" ? power : mantissa + joined + "×" + joined + power;
 }
 
 std::string inWords(int count) {

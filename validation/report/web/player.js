@@ -1,3 +1,5 @@
+import { powerOfTen } from "./ticks.js";
+
 const speeds = [0.05, 0.1, 0.25, 0.5, 1, 2, 4, 10];
 
 function element(tag, attributes, text = "") {
@@ -34,8 +36,9 @@ function transport(clock) {
   const shown = element("output", { "data-role": "now" });
   button.addEventListener("click", () => (clock.playing ? clock.pause() : clock.play()));
   slider.addEventListener("input", () => {
+    const t = Number(slider.value); // before the clock, told to pause, moves the slider back
     clock.pause();
-    clock.set(Number(slider.value));
+    clock.set(t);
   });
   clock.onChange(() => {
     const label = clock.playing ? "❚❚ Pause" : "▶ Play";
@@ -79,7 +82,7 @@ function switches(stage) {
 }
 
 function magnification(stage) {
-  const options = stage.factors.map((factor) => [factor, factor < 1000 ? `${factor} ×` : `10^${Math.log10(factor)} ×`]);
+  const options = stage.factors.map((factor) => [factor, `${factor < 1000 ? factor : powerOfTen(Math.log10(factor))} ×`]);
   return labelled("Errors enlarged", choice("factor", options, stage.factor, (factor) => stage.magnify(factor)));
 }
 

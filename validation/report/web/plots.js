@@ -15,9 +15,10 @@ export const widthOf = (line) => (line.stroke === "ghost" ? 5 : line.stroke === 
 export const colorOf = (line) =>
   line.stroke === "limit" ? color("limit") : lineColor(line.color) + (line.stroke === "ghost" ? "66" : "");
 
-function seriesOptions(line, few) {
+function seriesOptions(line, plot, few) {
+  const said = !line.unit || plot.yLabel.endsWith(`(${line.unit})`); // by the axis
   return {
-    label: line.unit ? `${line.label} (${line.unit})` : line.label,
+    label: said ? line.label : `${line.label} (${line.unit})`,
     stroke: () => colorOf(line),
     width: widthOf(line),
     dash: dashOf(line),
@@ -111,7 +112,7 @@ function options(plot, width, events, together) {
     axes: [axisOptions(plot.xLabel, plot.logX, 30), axisOptions(plot.yLabel, plot.logY, 60)],
     series: [
       { label: plot.xLabel, value: (_, value) => shortNumber(value) },
-      ...plot.lines.map((line) => seriesOptions(line, few)),
+      ...plot.lines.map((line) => seriesOptions(line, plot, few)),
     ],
     cursor: { drag: { x: x1 > x0, y: false }, ...(plot.overTime && { sync: { key: "time", setSeries: false } }) },
     hooks: timeHooks(plot, events, together),
@@ -123,13 +124,15 @@ function follow(chart, plot, clock) {
   const mark = document.createElement("div");
   mark.className = "now";
   chart.over.append(mark);
-  clock.onChange(() => {
+  const move = () => {
     const left = chart.valToPos(clock.t, "x");
     mark.hidden = !(left >= 0 && left <= chart.over.clientWidth);
     mark.style.transform = `translateX(${left}px)`;
     mark.dataset.t = clock.t;
     if (chart.cursor.left < 0 && !clock.playing) chart.setLegend({ idx: nearest(plot.x, clock.t) }, false);
-  });
+  };
+  clock.onChange(move);
+  setTimeout(move); // once more when uPlot, too, has filled its legend
   let down = 0;
   chart.over.addEventListener("mousedown", (event) => (down = event.clientX));
   chart.over.addEventListener("click", (event) => {
