@@ -12,8 +12,10 @@ const { chromium } = require("playwright-core");
 const args = ["--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-background-networking"];
 
 let browser;
+const pages = [];
 export const launch = async () => (browser = await chromium.launch({ executablePath: chromium_path, args }));
 export const close = () => browser?.close();
+export const closePages = () => Promise.all(pages.splice(0).map((page) => page.close()));
 export const sample = (file) => readFile(path.join(samples, file), "utf8");
 
 // What the driver says of its own software renderer is no complaint of the page.
@@ -22,6 +24,7 @@ const of_driver = /GL Driver Message|GPU stall due to ReadPixels/;
 /** A page at `file`, with all that it complained of and asked for. */
 export async function opened(file, options = {}) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, ...options });
+  pages.push(page);
   page.setDefaultTimeout(60000);
   const complaints = [];
   const requests = [];

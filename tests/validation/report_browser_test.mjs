@@ -1,11 +1,12 @@
 // The pages of a validation in a browser.
 // usage: node report_browser_test.mjs SAMPLES_DIR PACKAGE_DIR CHROMIUM
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { assertQuietAndOffline, close, colorsOf, drawAll, launch, machineSeen, opened, sample, seriousFindings } from "../browser/pages.mjs";
+import { after, afterEach, before, test } from "node:test";
+import { assertQuietAndOffline, close, closePages, colorsOf, drawAll, launch, machineSeen, opened, sample, seriousFindings } from "../browser/pages.mjs";
 
 before(launch);
 after(close);
+afterEach(closePages);
 
 const setTime = (page, t) =>
   page.locator("[data-role=time]").evaluate((slider, value) => {

@@ -168,7 +168,6 @@ function drawChart(host, plot, data, clock, together) {
     drawLegend(chart, plot);
     if (host.clientWidth !== chart.width) chart.setSize({ width: host.clientWidth, height: chart.height });
     chart.redraw(false);
-    if (plot.overTime) clock.set(clock.t);
   };
 }
 
@@ -187,7 +186,10 @@ export function drawCharts(document, data, clock) {
     { rootMargin: "200px" },
   );
   for (const host of document.querySelectorAll("[data-plot]")) watcher.observe(host);
-  const redrawAll = () => redraws.forEach((redraw) => redraw());
+  const redrawAll = () => {
+    redraws.forEach((redraw) => redraw());
+    clock.set(clock.t); // puts the marks where the time now is
+  };
   window.addEventListener("resize", redrawAll);
   watchTheme(redrawAll);
 }
