@@ -2,7 +2,7 @@
 
 #include "apps/embedded_scenario.h"
 #include "apps/verbs.h"
-#include "validation/audit.h"
+#include "validation/audit/audit.h"
 
 namespace ursula {
 namespace {

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "apps/verbs.h"
-#include "validation/compare.h"
+#include "validation/compare/compare.h"
 
 namespace ursula {
 namespace {

@@ -2,10 +2,11 @@
 
 #include "apps/verbs.h"
 #include "model/csv.h"
+#include "model/instants.h"
 #include "model/scenario.h"
 #include "nocsolver/solver.h"
-#include "validation/subject.h"
-#include "validation/timeseries.h"
+#include "validation/findings/timeseries.h"
+#include "validation/subject/subject.h"
 #include "validation/validate.h"
 
 namespace ursula {

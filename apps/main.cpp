@@ -9,7 +9,7 @@
 #include "model/errors.h"
 #include "model/scenario.h"
 #include "nocsolver/errors.h"
-#include "validation/provenance.h"
+#include "validation/findings/provenance.h"
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include "apps/verbs.h"
 #include "model/csv.h"
 #include "model/scenario.h"
-#include "validation/figures.h"
+#include "validation/simulate/pose_series.h"
 
 namespace ursula {
 namespace {

@@ -11,7 +11,7 @@
 #include "apps/embedded_scenario.h"
 #include "apps/verbs.h"
 #include "model/scenario.h"
-#include "validation/prove.h"
+#include "validation/prove/prove.h"
 
 namespace ursula {
 namespace {

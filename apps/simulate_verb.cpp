@@ -8,10 +8,10 @@
 #include "apps/verbs.h"
 #include "model/csv.h"
 #include "model/scenario.h"
-#include "validation/engines.h"
-#include "validation/timeseries.h"
-#include "validation/torque_file.h"
-#include "validation/torque_spline.h"
+#include "validation/external/torque_spline.h"
+#include "validation/findings/timeseries.h"
+#include "validation/simulate/simulate.h"
+#include "validation/subject/torque_file.h"
 
 namespace ursula {
 namespace {

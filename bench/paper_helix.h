@@ -6,8 +6,8 @@
 #include <ctime>
 #include <vector>
 
+#include "model/loops/simbody/simbody_loop.h"
 #include "model/scenario.h"
-#include "model/simbody_loop.h"
 #include "nocsolver/solver.h"
 
 namespace ursula::bench {

@@ -99,4 +99,13 @@ Manipulator::Manipulator(const ManipulatorParameters& parameters) : parameters_(
     for (int j = i + 1; j < leg_count; ++j) requireSpan(parameters_, i, j);
 }
 
+Manipulator frictionless(const Manipulator& manipulator) {
+  ManipulatorParameters machine = manipulator.parameters();
+  for (Leg& leg : machine.legs) {
+    leg.friction = {};
+    leg.coulomb = {};
+  }
+  return Manipulator(machine);
+}
+
 }  // namespace ursula

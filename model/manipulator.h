@@ -71,4 +71,7 @@ class Manipulator {
   ManipulatorParameters parameters_;
 };
 
+/// The same machine, but nothing rubs.
+Manipulator frictionless(const Manipulator& manipulator);
+
 }  // namespace ursula

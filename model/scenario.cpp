@@ -47,12 +47,29 @@ SimulationSettings readSimulation(const TomlSection& table) {
   return settings;
 }
 
+/// `torque = { relative = X, absolute = Y }`, either alone or both.
+EffortTolerance readTolerance(const TomlSection& table) {
+  EffortTolerance tolerance;
+  for (const auto& [key, member] :
+       {std::pair("relative", &EffortTolerance::relative), {"absolute", &EffortTolerance::absolute}}) {
+    if (!table.table().contains(key)) continue;
+    table.require(key, tolerance.*member);
+    if (!(tolerance.*member > 0)) table.fail(key, fmt::format("{}, expected a number > 0", tolerance.*member));
+  }
+  return tolerance;
+}
+
 /// Names of checks have dots of their own: "a.b" = 1, a.b = 1 and [acceptance.a] b = 1 all name the check a.b.
-void readAcceptance(const TomlSection& table, const std::string& prefix, std::vector<AcceptanceLimit>& limits) {
+void readAcceptance(const TomlSection& table, const std::string& prefix, Scenario& scenario) {
+  std::vector<AcceptanceLimit>& limits = scenario.acceptance;
   for (const auto& [key, node] : table.table()) {
     const std::string name(key.str());
+    if (prefix == "torque." && (name == "relative" || name == "absolute")) {
+      scenario.tolerance = readTolerance(table);
+      continue;
+    }
     if (node.is_table()) {
-      readAcceptance(*table.section(name), prefix + name + ".", limits);
+      readAcceptance(*table.section(name), prefix + name + ".", scenario);
       continue;
     }
     AcceptanceLimit limit;
@@ -76,7 +93,7 @@ Scenario assemble(const TomlSection& document) {
   scenario.trajectory = readTrajectory(document.requiredSection("trajectory"));
   if (const auto table = document.section("load")) scenario.load = readLoad(*table);
   if (const auto table = document.section("simulation")) scenario.simulation = readSimulation(*table);
-  if (const auto table = document.section("acceptance")) readAcceptance(*table, "", scenario.acceptance);
+  if (const auto table = document.section("acceptance")) readAcceptance(*table, "", scenario);
   return scenario;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/reactions.h"
+#include "model/joint_reactions.h"
 #include "nocsolver/solver.h"
 
 namespace ursula {

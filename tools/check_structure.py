@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 sys.dont_write_bytecode = True
+import rooms  # noqa: E402
 import sources  # noqa: E402
 
 # Which folder may include from which.
@@ -22,13 +23,15 @@ ALLOWED = {
     "apps": {"apps", "validation", "nocsolver", "model"},
     "include": {"include", "validation", "nocsolver", "model"},
     "examples": set(),
+    "python": {"python"},
     "tests": {"tests", "validation", "nocsolver", "model"},
     "bench": {"bench", "tests", "validation", "nocsolver", "model"},
 }
 ENGINE_HEADER = re.compile(r"(?i)^(simbody|simtk|simmath|mujoco/)|/(simbody|simtk|simmath)")
 # What users of the library have: the standard library, Eigen and the library itself.
+PYTHONS_HEADER = re.compile(r"pybind11/[\w/]+\.h")
 USERS_HEADER = re.compile(r"[a-z_]+|Eigen/\w+|ursula/\w+\.h")
-OTHER_ROAD = re.compile(r"^model/(simbody|mujoco|maximal)_loop[^/]*$")
+OTHER_ROAD = re.compile(r"^model/loops/(\w+)/")
 
 MAP = "docs/equations.md"
 TAGGED_FOLDERS = ("model", "nocsolver", "validation")
@@ -57,7 +60,7 @@ def check_includes(root):
             if sources.is_internal(name) and sources.is_header(path) and not sources.is_internal(path):
                 findings.append(f"{place}: a header that others include may not include {name}, which is internal")
         findings += check_roads(root, path)
-        if folder in ("include", "examples"):
+        if folder in ("include", "examples", "python"):
             findings += check_users(root, path)
         if sources.is_header(path) and not sources.is_internal(path):
             findings += check_no_simtk(path, text)
@@ -82,7 +85,8 @@ def check_users(root, path):
     """A public header, with all that it includes, and an example ask for nothing that users do not have."""
     return [f"{path}: users of the library do not have {name} ({' -> '.join(chain)})"
             for name, chain in sources.reach(root, path).items()
-            if not (root / name).is_file() and not USERS_HEADER.fullmatch(name)]
+            if not (root / name).is_file() and not USERS_HEADER.fullmatch(name)
+            and not (path.startswith("python/") and PYTHONS_HEADER.fullmatch(name))]
 
 
 def check_no_simtk(path, text):
@@ -97,6 +101,7 @@ def check_targets(root):
     """What the CMake targets link, by folder."""
     forbidden = {"nocsolver": re.compile(r"(?i)simbody|mujoco|ursula::validation"),
                  "model": re.compile(r"ursula[:_]+(nocsolver|validation)"),
+                 "model/loops": re.compile(r"ursula[:_]+(nocsolver|validation)"),
                  "validation": re.compile(r"(?i)ursula::apps|\$\{(simbody|ursula_mujoco)_")}
     findings = []
     for folder, pattern in forbidden.items():
@@ -229,10 +234,10 @@ def main(arguments):
         for equation in EQUATIONS:
             print(f"({equation})", ", ".join(f"{p}:{n}" for p, n in tags.get(equation, {}).items()) or "—")
     else:
-        findings = check_includes(root) + check_targets(root) + check_equations(root)
+        findings = check_includes(root) + check_targets(root) + rooms.check_rooms(root) + check_equations(root)
     print(*findings, sep="\n", end="\n" if findings else "", file=sys.stderr)
     if not findings and not only_tags:
-        print(f"structure: {len(sources.files(root))} files, {len(EQUATIONS)} equations, nothing amiss")
+        print(f"structure: {len(sources.files(root))} files, {len(rooms.ROOMS)} rooms, {len(EQUATIONS)} equations, nothing amiss")
     return 1 if findings else 0
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import check_structure  # noqa: E402
+import rooms  # noqa: E402
 import sources  # noqa: E402
 
 
@@ -21,17 +22,23 @@ def sound_tree():
         rows.append(f"| ({equation}) | what | {code} | {test} | none |")
     return {
         "model/CMakeLists.txt": "target_link_libraries(m ${Simbody_LIBRARIES})\n",
+        "model/loops/CMakeLists.txt": "target_link_libraries(s ${Simbody_LIBRARIES})\n",
         "nocsolver/CMakeLists.txt": "target_link_libraries(n ursula::model)  # never Simbody\n",
         "validation/CMakeLists.txt": "target_link_libraries(v ursula::nocsolver ursula::simbody_loop)\n",
         "model/machine.h": "#include <Eigen/Core>\n",
-        "model/simbody_loop.h": "// SimTK stays behind this header.\n",
-        "model/simbody_loop_internal.h": "#include <Simbody.h>\nSimTK::State s;\n",
-        "model/simbody_loop.cpp": '#include "model/simbody_loop_internal.h"\n#include "model/simbody_loop.h"\n',
+        "model/loops/simbody/simbody_loop.h": "// SimTK stays behind this header.\n",
+        "model/loops/simbody/simbody_loop_internal.h": "#include <Simbody.h>\nSimTK::State s;\n",
+        "model/loops/simbody/simbody_loop.cpp": '#include "model/loops/simbody/simbody_loop_internal.h"\n#include "model/loops/simbody/simbody_loop.h"\n',
         "nocsolver/leg.h": '#include "model/machine.h"\n',
         "nocsolver/leg.cpp": '#include "nocsolver/leg.h"\nvoid legRates();  // (paper, eqs. 15a–b)\n',
-        "validation/replay.cpp": '#include "model/simbody_loop.h"\n#include "nocsolver/leg.h"\n',
+        "validation/replay/replay.cpp": '#include "model/loops/simbody/simbody_loop.h"\n#include "nocsolver/leg.h"\n',
+        "validation/verdict/result.h": "// Verdicts.\n",
+        "validation/verdict/CMakeLists.txt": "ursula_room(verdict)\n",
+        "validation/checks/roads.cpp": '#include "validation/verdict/result.h"\n#include "validation/replay/replay.h"\n',
+        "validation/replay/replay.h": "// Replays.\n",
         "include/ursula/solver.h": '#include <ursula/build.h>\n#include "nocsolver/leg.h"\n',
         "examples/loop.cpp": "#include <ursula/solver.h>\n#include <vector>\n",
+        "python/module.cpp": "#include <pybind11/pybind11.h>\n#include <ursula/solver.h>\n",
         "apps/main.cpp": '#include "model/machine.h"\n',
         "tests/support.h": '#include "nocsolver/leg.h"\n',
         "tests/leg_test.cpp": '#include "support.h"\nTEST(Leg, Rates) {}\n',
@@ -53,7 +60,7 @@ class CheckStructure(unittest.TestCase):
             for path, text in tree.items():
                 (root / path).parent.mkdir(parents=True, exist_ok=True)
                 (root / path).write_text(text, encoding="utf-8")
-            return (check_structure.check_includes(root) + check_structure.check_targets(root)
+            return (check_structure.check_includes(root) + check_structure.check_targets(root) + rooms.check_rooms(root)
                     + check_structure.check_equations(root))
 
     def assert_caught(self, expected, **changes):
@@ -66,19 +73,19 @@ class CheckStructure(unittest.TestCase):
     def test_include_rules(self):
         append = lambda text: ("", text)  # noqa: E731
         self.assert_caught("the solver may not see another road", nocsolver__leg_DOT_cpp=append("#include <Simbody.h>\n"))
-        self.assert_caught("the solver may not see another road", nocsolver__leg_DOT_cpp=append('#include "model/simbody_loop.h"\n'))
-        self.assert_caught("leg.h -> model/machine.h -> model/simbody_loop.h",
-                           model__machine_DOT_h=append('#include "model/simbody_loop.h"\n'))
-        self.assert_caught("may not see the solver", model__simbody_loop_DOT_cpp=append('#include "nocsolver/leg.h"\n'))
+        self.assert_caught("the solver may not see another road", nocsolver__leg_DOT_cpp=append('#include "model/loops/simbody/simbody_loop.h"\n'))
+        self.assert_caught("leg.h -> model/machine.h -> model/loops/simbody/simbody_loop.h",
+                           model__machine_DOT_h=append('#include "model/loops/simbody/simbody_loop.h"\n'))
+        self.assert_caught("may not see the solver", model__loops__simbody__simbody_loop_DOT_cpp=append('#include "nocsolver/leg.h"\n'))
         self.assert_caught("the solver may not see another road", nocsolver__leg_DOT_cpp=append("#include <mujoco/mujoco.h>\n"))
         self.assert_caught("a road may not see another",
-                           model__mujoco_loop_DOT_cpp=append('#include "model/simbody_loop.h"\n'))
+                           model__loops__mujoco__mujoco_loop_DOT_cpp=append('#include "model/loops/simbody/simbody_loop.h"\n'))
         self.assert_caught("model/ may not include nocsolver/", model__machine_DOT_h=append('#include "nocsolver/leg.h"\n'))
         self.assert_caught("tests/ may not include apps/", apps__a_DOT_h=append("\n"),
                            tests__leg_test_DOT_cpp=append('#include "../apps/a.h"\n'))
         self.assert_caught("tests/ may not include apps/", apps__a_DOT_h=append("\n"),
                            tests__leg_test_DOT_cpp=append('#include "apps/a.h"\n'))
-        self.assert_caught("which is internal", validation__r_DOT_h=append('#include "model/simbody_loop_internal.h"\n'))
+        self.assert_caught("which is internal", validation__r_DOT_h=append('#include "model/loops/simbody/simbody_loop_internal.h"\n'))
         self.assert_caught("is no file of this project", nocsolver__leg_DOT_cpp=append('#include "leg.h"\n'))
 
     def test_users_of_the_library(self):
@@ -86,10 +93,14 @@ class CheckStructure(unittest.TestCase):
                            "boost/version.hpp)", nocsolver__leg_DOT_h=("", "#include <boost/version.hpp>\n"))
         self.assert_caught("users of the library do not have fmt/format.h", examples__loop_DOT_cpp=("", "#include <fmt/format.h>\n"))
         self.assert_caught("examples/ may not include nocsolver/", examples__loop_DOT_cpp=("", '#include "nocsolver/leg.h"\n'))
+        self.assert_caught("users of the library do not have fmt/format.h", python__module_DOT_cpp=("", "#include <fmt/format.h>\n"))
+        self.assert_caught("users of the library do not have pybind11/numpy.h",
+                           examples__loop_DOT_cpp=("", "#include <pybind11/numpy.h>\n"))
+        self.assert_caught("python/ may not include nocsolver/", python__module_DOT_cpp=("", '#include "nocsolver/leg.h"\n'))
         self.assert_caught("model/ may not include include/", model__machine_DOT_h=("", '#include "include/ursula/solver.h"\n'))
 
     def test_simtk_in_headers(self):
-        self.assert_caught("SimTK in a header", model__simbody_loop_DOT_h=("", "const SimTK::State& s();\n"))
+        self.assert_caught("SimTK in a header", model__loops__simbody__simbody_loop_DOT_h=("", "const SimTK::State& s();\n"))
         self.assert_caught("Simbody.h in a header", validation__r_DOT_h=("", "#include <Simbody.h>\n"))
         self.assert_caught("mujoco.h in a header", validation__r_DOT_h=("", "#include <mujoco/mujoco.h>\n"))
         self.assertEqual(self.findings(model__machine_DOT_h=("", "/* SimTK */ // SimTK\n")), [])
@@ -97,6 +108,20 @@ class CheckStructure(unittest.TestCase):
     def test_targets(self):
         self.assert_caught("nocsolver may not link", nocsolver__CMakeLists_DOT_txt=("", "link(${Simbody_LIBRARIES})\n"))
         self.assert_caught("model may not link", model__CMakeLists_DOT_txt=("", "link(ursula::nocsolver)\n"))
+
+    def test_rooms(self):
+        self.assert_caught("verdict may not see checks", validation__checks__a_DOT_h=("", "\n"),
+                           validation__verdict__result_DOT_h=("", '#include "validation/checks/a.h"\n'))
+        self.assert_caught("replay may not see the front door", validation__validate_DOT_h=("", "\n"),
+                           validation__replay__replay_DOT_cpp=("", '#include "validation/validate.h"\n'))
+        self.assert_caught("attic/ is no room", validation__attic__a_DOT_cpp=("", "\n"))
+        self.assert_caught("verdict may not link ursula::checks",
+                           validation__verdict__CMakeLists_DOT_txt=("", "target_link_libraries(v ursula::checks)\n"))
+        self.assert_caught("too large for a room", validation__checks__a_DOT_cpp=("", "\n" * 2000))
+
+    def test_plan_of_rooms(self):
+        self.assertEqual(rooms.check_plan(), [])
+        self.assertTrue(rooms.check_plan({"a": "b", "b": ""}))
 
     def test_map_against_code(self):
         self.assert_caught("which carries no tag (paper, eq. 15b)", nocsolver__leg_DOT_cpp=("15a–b", "15a"))

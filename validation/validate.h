@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "model/scenario.h"
-#include "validation/result.h"
-#include "validation/subject.h"
+#include "validation/subject/subject.h"
+#include "validation/verdict/result.h"
 
 namespace ursula {
 
@@ -34,8 +34,5 @@ ValidationResult validate(const Scenario& scenario, const ValidationOptions& opt
 ValidationResult validateMade(const Scenario& scenario, const SubjectOf& make, const ValidationOptions& options = {});
 
 std::shared_ptr<const Reference> makeReference(const Scenario& scenario);
-
-/// `count` equally spaced instants from 0 to `duration`, both included.
-std::vector<double> equallySpaced(double duration, int count);
 
 }  // namespace ursula

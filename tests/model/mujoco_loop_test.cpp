@@ -1,7 +1,7 @@
 // MuJoCo's road against reference vectors of 25 digits, against Simbody's six balls and against the maximal
 // coordinates; and that a parameter that is wrong in one of them is seen.
 
-#include "model/mujoco_loop.h"
+#include "model/loops/mujoco/mujoco_loop.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,13 +10,14 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <cstdlib>
 #include <functional>
 #include <iostream>
 #include <limits>
 #include <thread>
 
-#include "model/maximal_loop.h"
-#include "model/simbody_loop.h"
+#include "model/loops/maximal/maximal_loop.h"
+#include "model/loops/simbody/simbody_loop.h"
 #include "tests/support/motions.h"
 #include "tests/support/vectors.h"
 
@@ -46,6 +47,12 @@ const auto asName = [](const auto& name) {
     if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
   return text;
 };
+
+/// Where every test is asked for, none of these is passed over in silence.
+TEST(Mujoco, isThereInContinuousIntegration) {
+  const char* ci = std::getenv("CI");
+  if (ci != nullptr && std::string(ci) == "true") EXPECT_TRUE(mujocoAvailable());
+}
 
 /// All that is tested here is optional.
 class Named : public testing::TestWithParam<std::string> {

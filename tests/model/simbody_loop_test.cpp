@@ -1,7 +1,7 @@
 // The closed loop in Simbody by itself: two topologies of one machine, and what must hold of any of them. This program
 // does not link the solver.
 
-#include "model/simbody_loop.h"
+#include "model/loops/simbody/simbody_loop.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

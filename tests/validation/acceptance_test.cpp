@@ -10,7 +10,7 @@
 
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/finish.h"
+#include "validation/checks/acceptance.h"
 #include "validation/report/report.h"
 #include "validation/report/summary.h"
 

@@ -1,6 +1,6 @@
 // The growth of deviations by the variational equations against nonlinear simulations of deviated motions.
 
-#include "validation/amplification.h"
+#include "validation/limits/amplification.h"
 
 #include <gtest/gtest.h>
 

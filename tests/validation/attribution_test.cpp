@@ -1,6 +1,6 @@
 // What moved the replay, measured: the shares add up, what is left is within what is not known, and the cause is named.
 
-#include "validation/attribution.h"
+#include "validation/findings/attribution.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,8 @@
 
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/reference.h"
+#include "validation/evidence/reference.h"
+#include "validation/replay/windowed_replay.h"
 
 namespace ursula {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "model/scenario.h"
 #include "nocsolver/solver.h"
-#include "validation/audit_formula.h"
+#include "validation/audit/formula.h"
 
 namespace ursula::audit {
 namespace {

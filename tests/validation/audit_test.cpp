@@ -1,6 +1,6 @@
 // The audit of the paper's example as a whole, and docs/audit.md against it. One program, one audit.
 
-#include "validation/audit.h"
+#include "validation/audit/audit.h"
 
 #include <gtest/gtest.h>
 

@@ -6,10 +6,11 @@
 #include <cmath>
 
 #include "model/check_names.h"
+#include "model/instants.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/external.h"
 #include "validation/report/report.h"
+#include "validation/validate_external.h"
 
 namespace ursula {
 namespace {

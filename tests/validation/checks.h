@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/result.h"
+#include "validation/verdict/result.h"
 
 namespace ursula {
 

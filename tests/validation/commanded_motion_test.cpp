@@ -1,6 +1,6 @@
 // What all roads share: right as it ships, and each way to be wrong is seen by the check that is for it.
 
-#include "validation/commanded_motion.h"
+#include "validation/checks/commanded_motion.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include "model/trajectories.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/random_scenario.h"
+#include "validation/prove/random_scenario.h"
 
 namespace ursula {
 namespace {

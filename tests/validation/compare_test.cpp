@@ -1,6 +1,7 @@
 // Two histories channel by channel: tubes in value and time, what is not compared, and that nothing passes by absence.
 
-#include "validation/compare.h"
+#include "validation/compare/compare.h"
+#include "model/instants.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

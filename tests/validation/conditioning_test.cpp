@@ -1,7 +1,7 @@
 // The factors of every pointwise limit: each against its definition by another road, and limits that rounding keeps but
 // that mean something.
 
-#include "validation/conditioning.h"
+#include "validation/limits/conditioning.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 #include "nocsolver/errors.h"
 #include "tests/support/motions.h"
 #include "tests/support/vectors.h"
-#include "validation/presentation.h"
+#include "validation/subject/presentation.h"
 
 namespace ursula {
 namespace {

@@ -1,6 +1,7 @@
 // Torques between the samples: a pulse that no sample meets is met there, and how narrow one may be is said.
 
-#include "validation/dense_torques.h"
+#include "model/instants.h"
+#include "validation/checks/torque_between.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -13,7 +14,9 @@
 #include "tests/support/motions.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/roads.h"
+#include "validation/checks/pointwise_checks.h"
+#include "validation/checks/road_checks.h"
+#include "validation/samples/roads.h"
 
 namespace ursula {
 namespace {

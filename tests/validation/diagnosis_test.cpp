@@ -1,6 +1,7 @@
 // What is said of torques that are wrong: each fault is put into exact ones of the helix and must be named.
 
-#include "validation/diagnosis.h"
+#include "validation/external/diagnosis.h"
+#include "model/instants.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Direct dynamics on trial: the mass matrix column by column, and the growth of deviations.
 
-#include "validation/direct_checks.h"
+#include "validation/checks/direct_checks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/reference.h"
+#include "validation/evidence/reference.h"
 
 namespace ursula {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "validation/random_scenario.h"
+#include "validation/prove/random_scenario.h"
 
 namespace ursula {
 

@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "model/csv.h"
+#include "model/instants.h"
 #include "tests/support/vectors.h"
-#include "validation/subject.h"
-#include "validation/torque_file.h"
+#include "validation/subject/subject.h"
+#include "validation/subject/torque_file.h"
 #include "validation/validate.h"
 
 namespace ursula {

@@ -6,9 +6,10 @@
 #include <memory>
 
 #include "model/exact_trajectory.h"
+#include "model/instants.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/replay.h"
+#include "validation/replay/replay.h"
 
 namespace ursula {
 namespace {

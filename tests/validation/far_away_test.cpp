@@ -7,7 +7,8 @@
 
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/reference.h"
+#include "validation/evidence/reference.h"
+#include "validation/replay/windowed_replay.h"
 
 namespace ursula {
 namespace {

@@ -1,6 +1,6 @@
 // The stabilised witness: exact torques need no help, wrong ones need what they are wrong by.
 
-#include "validation/feedback.h"
+#include "validation/replay/stabilised_replay.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,10 +9,12 @@
 #include <limits>
 #include <memory>
 
+#include "model/instants.h"
 #include "tests/support/vectors.h"
 #include "tests/validation/scenario_files.h"
+#include "validation/checks/stabilised_check.h"
+#include "validation/replay/windows.h"
 #include "validation/validate.h"
-#include "validation/windows.h"
 
 namespace ursula {
 namespace {
@@ -32,7 +34,7 @@ class Witness {
   Check judge(const Change& change) const {
     Subject subject = right_;
     subject.torques = [this, change](const Motion<double>& motion) { return change(motion, right_.torques(motion)); };
-    return judgeFeedback(scenario_, subject, amplification_, samples_);
+    return judgeStabilised(stabilisedReplay(scenario_, subject, amplification_, samples_), largest_);
   }
 
   double largest() const { return largest_; }

@@ -8,6 +8,7 @@ add_executable(foundation_tests
   relocation_test.cpp
   second_look_test.cpp
   subject_test.cpp
+  tolerance_test.cpp
   worst_test.cpp
 )
 add_executable(profile_tests
@@ -16,7 +17,7 @@ add_executable(profile_tests
 )
 foreach(program foundation_tests profile_tests)
   target_link_libraries(${program} PRIVATE
-    test_support ursula::validation fmt::fmt nlohmann_json::nlohmann_json GTest::gmock GTest::gtest_main)
+    test_support test_rooms fmt::fmt nlohmann_json::nlohmann_json GTest::gmock GTest::gtest_main)
   target_compile_definitions(${program} PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
   gtest_discover_tests(${program})
 endforeach()

@@ -1,6 +1,6 @@
 // A scenario that is not what its text says: every kind of number is held.
 
-#include "validation/independent_reading.h"
+#include "validation/checks/independent_reading.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 #include "tests/model/temporary_folder.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/commanded_motion.h"
-#include "validation/defects.h"
+#include "validation/checks/commanded_motion.h"
+#include "validation/prove/defects.h"
 
 namespace ursula {
 namespace {

@@ -1,6 +1,6 @@
 // The judgement of ladders, on ladders made up: each rung is held to its own bound.
 
-#include "validation/ladder.h"
+#include "validation/replay/ladder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,6 +9,9 @@
 #include <functional>
 
 #include "tests/validation/checks.h"
+#include "validation/checks/ladder_checks.h"
+#include "validation/findings/curves.h"
+#include "validation/replay/windowed_replay.h"
 
 namespace ursula {
 namespace {

@@ -1,7 +1,7 @@
 // The judgement of replays, on replays made up: each check fails by itself, and only a limit that means something
 // judges.
 
-#include "validation/judge_replay.h"
+#include "validation/checks/replay_checks.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "tests/validation/checks.h"
+#include "validation/replay/windowed_replay.h"
 
 namespace ursula {
 namespace {

@@ -1,7 +1,7 @@
 // The ladder of tolerances: the integrator's error falls with the tolerance, another integrator gets to the same place,
 // and a rung that is off, no number or gave up fails.
 
-#include "validation/ladder.h"
+#include "validation/replay/ladder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,9 @@
 
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/windows.h"
+#include "validation/checks/ladder_checks.h"
+#include "validation/findings/curves.h"
+#include "validation/replay/windows.h"
 
 namespace ursula {
 namespace {

@@ -1,6 +1,6 @@
 // The load over time: what LoadHistory promises, and tables and curves that break it.
 
-#include "validation/load_check.h"
+#include "validation/checks/load_check.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 
 #include "tests/validation/checks.h"
-#include "validation/conditioning.h"
+#include "validation/limits/conditioning.h"
 
 namespace ursula {
 namespace {

@@ -9,7 +9,7 @@
 #include "model/exact_trajectory.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/commanded_motion.h"
+#include "validation/checks/commanded_motion.h"
 
 namespace ursula {
 namespace {

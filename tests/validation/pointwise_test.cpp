@@ -1,6 +1,7 @@
 // Solver and Simbody at the same instants: what is right passes, what is wrong fails, by name.
 
-#include "validation/pointwise.h"
+#include "validation/samples/pointwise.h"
+#include "model/instants.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +11,7 @@
 #include "nocsolver/errors.h"
 #include "tests/support/vectors.h"
 #include "tests/validation/checks.h"
+#include "validation/checks/pointwise_checks.h"
 #include "validation/validate.h"
 
 namespace ursula {

@@ -1,7 +1,7 @@
 // The same physics from elsewhere: there and back is where it was, torques do not change, and a presentation that
 // forgets any one part is seen.
 
-#include "validation/presentation.h"
+#include "validation/subject/presentation.h"
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,8 @@
 #include "tests/support/motions.h"
 #include "tests/validation/presented_numbers.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/conditioning.h"
-#include "validation/viewpoint.h"
+#include "validation/limits/conditioning.h"
+#include "validation/limits/viewpoint.h"
 
 namespace ursula {
 namespace {

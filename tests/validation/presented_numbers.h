@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "model/joint_reactions.h"
 #include "model/joint_variables.h"
 #include "model/load.h"
 #include "model/manipulator.h"
 #include "model/motion.h"
-#include "model/reactions.h"
-#include "validation/presentation.h"
+#include "validation/subject/presentation.h"
 
 namespace ursula {
 

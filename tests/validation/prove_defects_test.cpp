@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "model/mujoco_loop.h"
+#include "model/loops/mujoco/mujoco_loop.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/prove.h"
+#include "validation/prove/prove.h"
 
 namespace ursula {
 namespace {

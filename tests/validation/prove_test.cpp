@@ -1,6 +1,7 @@
 // Who guards the guard: defects that are caught, parameters that are seen, random machines that raise no alarm.
 
-#include "validation/prove.h"
+#include "validation/prove/prove.h"
+#include "model/instants.h"
 #include "validation/report/report.h"
 
 #include <gmock/gmock.h>
@@ -13,8 +14,10 @@
 
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/defects.h"
-#include "validation/random_scenario.h"
+#include "validation/checks/pointwise_checks.h"
+#include "validation/evidence/reference.h"
+#include "validation/prove/defects.h"
+#include "validation/prove/random_scenario.h"
 
 namespace ursula {
 namespace {

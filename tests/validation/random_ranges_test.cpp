@@ -1,4 +1,5 @@
-// What random scenarios span: the claims of validation/random_scenario.h, asked of many draws. Nothing is validated.
+// What random scenarios span: the claims of validation/prove/random_scenario.h, asked of many draws. Nothing is
+// validated.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -13,7 +14,7 @@
 
 #include "nocsolver/solver.h"
 #include "tests/validation/drawn_scenarios.h"
-#include "validation/conditioning.h"
+#include "validation/limits/conditioning.h"
 
 namespace ursula {
 namespace {

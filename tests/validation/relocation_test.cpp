@@ -11,7 +11,7 @@
 #include "nocsolver/solver_model.h"
 #include "tests/validation/presented_numbers.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/random_scenario.h"
+#include "validation/prove/random_scenario.h"
 
 namespace ursula {
 namespace {

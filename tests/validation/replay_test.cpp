@@ -1,6 +1,6 @@
 // The Simbody loop driven open loop: it follows the helix under the right torques and leaves it under wrong ones.
 
-#include "validation/replay.h"
+#include "validation/replay/replay.h"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <limits>
 
 #include "tests/support/vectors.h"
-#include "validation/amplification.h"
-#include "validation/judge_replay.h"
-#include "validation/subject.h"
+#include "validation/checks/replay_checks.h"
+#include "validation/limits/amplification.h"
+#include "validation/subject/subject.h"
 
 namespace ursula {
 namespace {

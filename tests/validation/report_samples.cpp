@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "validation/picture.h"
+#include "validation/findings/picture.h"
 
 namespace ursula::test {
 namespace {

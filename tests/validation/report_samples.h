@@ -1,6 +1,6 @@
 #pragma once
 
-#include "validation/result.h"
+#include "validation/verdict/result.h"
 
 namespace ursula::test {
 

@@ -1,4 +1,4 @@
-#include "validation/result.h"
+#include "validation/verdict/result.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Four roads to the torques, and a fifth where MuJoCo is built in: exact ones agree, a wrong one is seen by every
 // other, and the one that is wrong is named.
 
-#include "validation/roads.h"
+#include "validation/samples/roads.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,10 +9,15 @@
 #include <cmath>
 #include <limits>
 
-#include "model/mujoco_loop.h"
+#include "model/instants.h"
+#include "model/loops/mujoco/mujoco_loop.h"
 #include "nocsolver/errors.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
+#include "validation/checks/reaction_check.h"
+#include "validation/checks/road_checks.h"
+#include "validation/findings/timeseries.h"
+#include "validation/samples/reaction_samples.h"
 
 namespace ursula {
 namespace {
@@ -224,11 +229,17 @@ class ReactionCheck : public testing::TestWithParam<std::string> {
   Scenario scenario_ = scenarioOf(GetParam());
   std::vector<PointwiseSample> samples_ = rightSamples(scenario_, instants);
   RoundingProfile profile_{scenario_, instants};
+
+  Check judge(const std::vector<PointwiseSample>& samples) const {
+    return judgeReactions(runReactions(scenario_, samples), samples, profile_);
+  }
 };
 
 TEST_P(ReactionCheck, passesForTheSolver) {
   TimeSeries series;
-  const Check check = judgeReactions(scenario_, samples_, profile_, &series);
+  const std::vector<ReactionSample> reactions = runReactions(scenario_, samples_);
+  addReactionColumns(reactions, series);
+  const Check check = judgeReactions(reactions, samples_, profile_);
   EXPECT_EQ(check.verdict, Verdict::pass) << check.why;
   EXPECT_GT(check.value, 0);
   const double weight = scenario_.manipulator->platform().mass * scenario_.manipulator->gravity().norm();
@@ -242,25 +253,23 @@ TEST_P(ReactionCheck, holdsTheLimitThatTheSamplesGive) {
     sample.conditioning.torque_scale *= 1e-6;
     sample.conditioning.force_scale *= 1e-6;
   }
-  EXPECT_EQ(judgeReactions(scenario_, samples_, profile_, nullptr).verdict, Verdict::fail);
+  EXPECT_EQ(judge(samples_).verdict, Verdict::fail);
 }
 
 TEST_P(ReactionCheck, failsWhereAnyMotionIsNoNumber) {
   for (PointwiseSample& sample : samples_) {
     const double right = sample.motion.omega_dot.x();
     sample.motion.omega_dot.x() = nan;
-    EXPECT_EQ(judgeReactions(scenario_, samples_, profile_, nullptr).verdict, Verdict::fail) << sample.motion.t;
+    EXPECT_EQ(judge(samples_).verdict, Verdict::fail) << sample.motion.t;
     sample.motion.omega_dot.x() = right;
   }
 }
 
-TEST_P(ReactionCheck, noInstantIsNoAgreement) {
-  EXPECT_EQ(judgeReactions(scenario_, {}, profile_, nullptr).verdict, Verdict::fail);
-}
+TEST_P(ReactionCheck, noInstantIsNoAgreement) { EXPECT_EQ(judge({}).verdict, Verdict::fail); }
 
 TEST_P(ReactionCheck, refusesAMotionThatTheMachineCannotMake) {
   samples_.back().motion.p.z() += 10;
-  EXPECT_THROW(judgeReactions(scenario_, samples_, profile_, nullptr), PoseError);
+  EXPECT_THROW(judge(samples_), PoseError);
 }
 
 INSTANTIATE_TEST_SUITE_P(Machines, ReactionCheck, testing::Values("paper-helix", "random-5", "proving-ground"),

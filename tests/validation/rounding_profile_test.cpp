@@ -1,7 +1,7 @@
 // How roads round, measured: limits hold for places that were not measured, know nothing of what is wrong with a model,
 // and are about the same however the world is turned.
 
-#include "validation/rounding_profile.h"
+#include "validation/limits/rounding_profile.h"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@
 #include "model/real50.h"
 #include "nocsolver/solver.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/presentation.h"
-#include "validation/random_scenario.h"
+#include "validation/prove/random_scenario.h"
+#include "validation/subject/presentation.h"
 
 namespace ursula {
 namespace {

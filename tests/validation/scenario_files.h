@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "model/instants.h"
 #include "tests/support/vectors.h"
-#include "validation/pointwise.h"
-#include "validation/subject.h"
+#include "validation/samples/pointwise.h"
+#include "validation/subject/subject.h"
 #include "validation/validate.h"
 
 namespace ursula {

@@ -7,11 +7,12 @@
 
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/growth.h"
-#include "validation/integration_order.h"
-#include "validation/reference.h"
-#include "validation/rounding_profile.h"
-#include "validation/windows.h"
+#include "validation/checks/order_check.h"
+#include "validation/evidence/reference.h"
+#include "validation/limits/growth.h"
+#include "validation/limits/rounding_profile.h"
+#include "validation/replay/observed_order.h"
+#include "validation/replay/windows.h"
 
 namespace ursula {
 namespace {
@@ -109,7 +110,7 @@ class Orders : public testing::TestWithParam<std::string> {};
 
 TEST_P(Orders, ofTheJudgedIntegratorIsEightAndAnotherFails) {
   const Scenario scenario = Reference(scenarioOf(GetParam())).scenario;
-  const Check right = judgeOrder(scenario), lower = judgeOrder(scenario, true);
+  const Check right = judgeOrder(observedOrders(scenario)), lower = judgeOrder(observedOrders(scenario, true));
   EXPECT_EQ(right.verdict, Verdict::pass) << right.why;
   EXPECT_THAT(right.why, HasSubstr("stretches"));
   EXPECT_EQ(lower.verdict, Verdict::fail) << lower.why;

@@ -1,6 +1,6 @@
 // Subjects are asked from many threads at once, and answer each as if it were alone.
 
-#include "validation/subject.h"
+#include "validation/subject/subject.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "tests/support/motions.h"
 #include "tests/validation/presented_numbers.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/presentation.h"
+#include "validation/subject/presentation.h"
 
 namespace ursula {
 namespace {

@@ -1,6 +1,6 @@
 // Suites: which files, what is refused before anything is made, results that do not depend on the number of threads.
 
-#include "validation/suite.h"
+#include "validation/suite/suite.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // The reader of somebody else's torques: what it takes, what it refuses and where, how finely it says they were
 // printed.
 
-#include "validation/torque_file.h"
+#include "validation/subject/torque_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

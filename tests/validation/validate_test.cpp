@@ -1,7 +1,8 @@
 // The whole validation: the verdict, what it names, what it records, and that it comes out the same twice.
 
 #include "validation/validate.h"
-#include "validation/spoil.h"
+#include "model/instants.h"
+#include "validation/evidence/spoil.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,6 +13,7 @@
 #include "nocsolver/errors.h"
 #include "tests/support/vectors.h"
 #include "tests/validation/checks.h"
+#include "validation/evidence/reference.h"
 #include "validation/report/summary.h"
 
 namespace ursula {

@@ -1,7 +1,7 @@
 // A long motion in windows: they cover it, each as long as its limit says something, each restarted on the commanded
 // state.
 
-#include "validation/windows.h"
+#include "validation/replay/windows.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,6 +10,7 @@
 
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
+#include "validation/checks/replay_checks.h"
 
 namespace ursula {
 namespace {

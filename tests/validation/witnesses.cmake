@@ -11,13 +11,13 @@ add_executable(witness_tests
   windows_test.cpp
 )
 target_link_libraries(witness_tests PRIVATE
-  test_support ursula::validation ursula::mujoco fmt::fmt GTest::gmock GTest::gtest_main)
+  test_support test_rooms ursula::mujoco fmt::fmt GTest::gmock GTest::gtest_main)
 target_compile_definitions(witness_tests PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
 gtest_discover_tests(witness_tests)
 
 # One program and one test: every defect is judged once.
 add_executable(prove_tests prove_defects_test.cpp)
-target_link_libraries(prove_tests PRIVATE test_support ursula::validation ursula::mujoco GTest::gtest_main)
+target_link_libraries(prove_tests PRIVATE test_support test_rooms ursula::mujoco GTest::gtest_main)
 target_compile_definitions(prove_tests PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
 # Minutes: ./dev prove. What prove_test.cpp has of it runs with all tests.
 add_test(NAME prove COMMAND prove_tests CONFIGURATIONS Proof)
@@ -29,6 +29,6 @@ add_executable(commanded_tests
   load_check_test.cpp
   motion_in_doubles_test.cpp
 )
-target_link_libraries(commanded_tests PRIVATE test_support ursula::validation fmt::fmt GTest::gmock GTest::gtest_main)
+target_link_libraries(commanded_tests PRIVATE test_support test_rooms fmt::fmt GTest::gmock GTest::gtest_main)
 target_compile_definitions(commanded_tests PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
 gtest_discover_tests(commanded_tests)

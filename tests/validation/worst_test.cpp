@@ -1,6 +1,6 @@
 // What a check shows of many instants: the largest share of a limit and the largest value, and NaN before all.
 
-#include "validation/worst.h"
+#include "validation/verdict/worst_share.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/result.h"
+#include "validation/verdict/result.h"
 
 namespace ursula::report {
 

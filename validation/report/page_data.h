@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "validation/report/plots.h"
-#include "validation/result.h"
+#include "validation/verdict/result.h"
 
 namespace ursula::report {
 

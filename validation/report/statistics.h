@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "validation/result.h"
+#include "validation/verdict/result.h"
 
 namespace ursula::report {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "validation/picture.h"
+#include "validation/findings/picture.h"
 
 namespace ursula::report {
 

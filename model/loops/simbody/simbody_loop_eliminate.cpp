@@ -1,0 +1,90 @@
+// Accelerations of the loop without multipliers. Simbody's own realize(Acceleration) solves for 18 of them with
+// G M⁻¹Gᵀ, which takes most of a replay's time and loses digits where the platform is light. Here Simbody's tree gives
+// mass matrix, forces and velocities, and the legs' coordinates are eliminated by the balls' constraints, which are of
+// one leg each (García de Jalón and Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994, sect. 5.3):
+//   Jᵢ u̇ᵢ + aᵢ = Pᵢ u̇_P + a_Pᵢ,  Pᵢ = [−[Qbᵢ]×, 1]          (a) both sides are the acceleration of Bᵢ
+//   u̇ = N u̇_P + c,  N = [Jᵢ⁻¹Pᵢ; 1],  c = [Jᵢ⁻¹(a_Pᵢ − aᵢ); 0]  (b)
+//   NᵀMN u̇_P = −Nᵀ(M c + bias − applied)                       (c)
+// Tests hold it against realize(Acceleration).
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include "model/loops/simbody/simbody_loop_internal.h"
+
+namespace ursula {
+namespace {
+
+using Matrix36 = Eigen::Matrix<double, 3, 6>;
+
+/// One leg's part of (a).
+struct LegClosure {
+  Matrix3d J;
+  Matrix36 P;
+  Vector3d bias;  ///< a_P − a
+};
+
+Vector3d centripetal(const Vector3d& omega, const Vector3d& arm) { return omega.cross(omega.cross(arm)); }
+
+LegClosure closureOf(const Mechanism& mechanism, const SimTK::State& state, std::size_t i, const Leg& leg,
+                     const SimTK::Vector_<SimTK::SpatialVec>& at_rest) {
+  const SimTK::MobilizedBody &first = mechanism.proximal[i], &second = mechanism.distal[i];
+  const Vector3d minus_u = toEigen(SimTK::Vec3(first.getInboardFrame(state).R().x()));
+  const Vector3d x = toEigen(SimTK::Vec3(first.getBodyRotation(state).x()));
+  const Vector3d A = toEigen(first.getInboardFrame(state).p()), R = toEigen(second.getBodyOriginLocation(state));
+  const Vector3d to_B = leg.distal.length * toEigen(SimTK::Vec3(second.getBodyRotation(state).z()));
+  const Vector3d from_A = R + to_B - A;
+  const Vector3d arm = toEigen(mechanism.platform.getBodyRotation(state)) * leg.platform_point;
+  LegClosure out;
+  out.J << minus_u.cross(from_A), x.cross(from_A), x.cross(to_B);
+  out.P.leftCols<3>() << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0;
+  out.P.rightCols<3>().setIdentity();
+  const SimTK::SpatialVec& second_at_rest = at_rest[second.getMobilizedBodyIndex()];
+  const SimTK::SpatialVec& platform_at_rest = at_rest[mechanism.platform.getMobilizedBodyIndex()];
+  const auto pointOf = [](const SimTK::SpatialVec& body, const Vector3d& omega, const Vector3d& to_point) {
+    return Vector3d(toEigen(body[1]) + toEigen(body[0]).cross(to_point) + centripetal(omega, to_point));
+  };
+  out.bias = pointOf(platform_at_rest, toEigen(mechanism.platform.getBodyAngularVelocity(state)), arm) -
+             pointOf(second_at_rest, toEigen(second.getBodyAngularVelocity(state)), to_B);
+  return out;
+}
+
+}  // namespace
+
+void SimbodyLoop::Impl::eliminate(const Vector6d& torques) {
+  applied->torques = torques;
+  state.invalidateAllCacheAtOrAbove(SimTK::Stage::Dynamics);
+  realize(SimTK::Stage::Dynamics);
+  const int nu = state.getNU(), of_platform = mechanism.platform.getFirstUIndex(state);
+  SimTK::Vector_<SimTK::SpatialVec> at_rest;
+  matter.calcBodyAccelerationFromUDot(state, SimTK::Vector(nu, 0.0), at_rest);
+
+  Eigen::Matrix<double, Eigen::Dynamic, 6> N = Eigen::Matrix<double, Eigen::Dynamic, 6>::Zero(nu, 6);
+  SimTK::Vector c(nu, 0.0);
+  for (int k = 0; k < 6; ++k) N(of_platform + k, k) = 1;
+  for (int i = 0; i < leg_count; ++i) {
+    const LegClosure leg = closureOf(mechanism, state, static_cast<std::size_t>(i), parameters.leg(i), at_rest);
+    const Eigen::PartialPivLU<Matrix3d> factors(leg.J);
+    const Matrix36 rates = factors.solve(leg.P);        // (b)
+    const Vector3d constant = factors.solve(leg.bias);  // (b)
+    for (int joint = 0; joint < 3; ++joint) {
+      N.row(indexOf(joint, i)) = rates.row(joint);
+      c[indexOf(joint, i)] = constant(joint);
+    }
+  }
+  SimTK::Vector residual, column(nu), M_column;
+  matter.calcResidualForceIgnoringConstraints(state, system.getMobilityForces(state, SimTK::Stage::Dynamics),
+                                              system.getRigidBodyForces(state, SimTK::Stage::Dynamics), c, residual);
+  Eigen::Matrix<double, Eigen::Dynamic, 6> MN(nu, 6);
+  for (int k = 0; k < 6; ++k) {
+    for (int row = 0; row < nu; ++row) column[row] = N(row, k);
+    matter.multiplyByM(state, column, M_column);
+    MN.col(k) = mapped(M_column);
+  }
+  const Matrix6d mass = N.transpose() * MN;
+  const Vector6d platform = mass.llt().solve(-N.transpose() * mapped(residual));  // (c)
+  const Eigen::VectorXd found = N * platform + mapped(c);
+  for (int row = 0; row < nu; ++row) u_dot[row] = found(row);
+}
+
+}  // namespace ursula

@@ -1,0 +1,103 @@
+#pragma once
+
+// The inside of SimbodyLoop; included by simbody_loop*.cpp only. Never `using namespace SimTK` here: beside Eigen it
+// breaks Eigen's comparisons.
+
+#include <Simbody.h>
+
+#include <array>
+
+#include <Eigen/LU>
+
+#include "model/loops/simbody/simbody_loop.h"
+
+namespace ursula {
+
+inline SimTK::Vec3 toSimTK(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+inline Vector3d toEigen(const SimTK::Vec3& v) { return {v[0], v[1], v[2]}; }
+
+inline SimTK::Rotation toSimTK(const Matrix3d& R) {
+  // trustMe: re-orthogonalising would move the pose that was asked for.
+  return SimTK::Rotation(SimTK::Mat33(R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1), R(2, 2)),
+                         true);
+}
+
+inline Matrix3d toEigen(const SimTK::Rotation& R) {
+  Matrix3d out;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) out(i, j) = R[i][j];
+  return out;
+}
+
+/// [ω; v] or [n; f].
+inline Vector6d toEigen(const SimTK::SpatialVec& v) {
+  Vector6d out;
+  out << toEigen(v[0]), toEigen(v[1]);
+  return out;
+}
+
+inline Eigen::Map<const Eigen::VectorXd> mapped(const SimTK::Vector& v) {
+  return {v.size() > 0 ? &v[0] : nullptr, v.size()};
+}
+
+/// What Simbody asks for forces that are not its own: torques, Coulomb friction, the load on the platform.
+struct AppliedForces {
+  Vector6d torques = Vector6d::Zero();
+  SimbodyLoop::TorqueHistory history;  ///< instead of `torques`, where set
+  std::shared_ptr<const Load> load;
+  std::array<CoulombFriction, leg_count> coulomb;
+  bool any_coulomb = false;
+};
+
+/// Handles on the bodies and on the balls that close the loops.
+struct Mechanism {
+  std::array<SimTK::MobilizedBody::Universal, leg_count> proximal;
+  std::array<SimTK::MobilizedBody::Pin, leg_count> distal;
+  SimTK::MobilizedBody platform;
+  std::vector<SimTK::Constraint::Ball> balls;
+
+  /// Rate of φ, ψ or θ (joint 0, 1, 2).
+  double rate(const SimTK::State& state, int joint, int leg) const;
+};
+
+/// −c tanh(q̇ / speed), the force that smoothed Coulomb friction puts on a joint. `joint` is 0, 1, 2 for φ, ψ, θ.
+double coulombForce(const CoulombFriction& friction, int joint, double rate);
+
+/// [moment about P; force] of the load in B for the platform's pose in `state`, realized to Position.
+SimTK::SpatialVec loadOnPlatform(const Load& load, const Mechanism& mechanism, const SimTK::State& state);
+
+struct SimbodyLoop::Impl {
+  Impl(const Manipulator& manipulator, Topology topology, std::shared_ptr<const Load> load);
+
+  SimTK::MultibodySystem system;
+  SimTK::SimbodyMatterSubsystem matter;
+  SimTK::GeneralForceSubsystem forces;
+  Mechanism mechanism;
+  std::shared_ptr<AppliedForces> applied = std::make_shared<AppliedForces>();
+  SimTK::State state;
+  SimTK::Vector u_dot;  ///< accelerations last placed or found
+  Manipulator parameters;
+  Topology topology;
+
+  /// Index in u of φᵢ, ψᵢ, θᵢ.
+  int indexOf(int joint, int leg) const;
+  void setLeg(int leg, double phi, double psi, double theta);
+  /// Geometry of one leg for the platform's pose: φ, ψ, θ. Throws std::domain_error where it cannot reach.
+  std::array<double, 3> legGeometry(int leg, const Motion<double>& motion) const;
+  void setPlatformPose(const Motion<double>& motion);
+  void realize(SimTK::Stage stage) const { system.realize(state, stage); }
+  /// [G; J]: constraint Jacobian over the platform's frame Jacobian, nu × nu.
+  Eigen::MatrixXd constraintsAndPlatform() const;
+  Eigen::MatrixXd constraintJacobian() const;
+  /// Sets u_dot under `torques`, the legs' coordinates eliminated; six balls only.
+  void eliminate(const Vector6d& torques);
+  /// Velocities and accelerations of all coordinates that go with the platform's.
+  void setRates(const Motion<double>& motion);
+
+ private:
+  void addLeg(int leg);
+  void addPlatform(Topology topology);
+  void addForces(std::shared_ptr<const Load> load);
+};
+
+}  // namespace ursula

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <functional>
+
+#include "nocsolver/reading.h"
+#include "validation/audit/audit.h"
+
+namespace ursula::audit {
+
+using Torques = std::function<Vector6d(const Motion<double>&)>;
+
+/// Torques with `slips`, by (37) or, for formulas that only Ṫ needs, by (36).
+Torques torquesWith(const Scenario& scenario, const WithSlips& slips, bool through_36);
+
+/// Torques and replay against those of the formulas that hold, at `samples` instants.
+AuditEffect effectOf(const Scenario& scenario, const Torques& torques, int samples, double replay_tolerance);
+
+/// The largest torque of the motion, N·m.
+double largestTorque(const Scenario& scenario, int samples);
+
+}  // namespace ursula::audit

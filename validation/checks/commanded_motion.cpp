@@ -1,0 +1,275 @@
+#include "validation/checks/commanded_motion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "model/real50.h"
+#include "nocsolver/solver.h"
+#include "validation/checks/independent_reading.h"
+#include "validation/checks/load_check.h"
+#include "validation/limits/conditioning.h"
+#include "validation/verdict/nearest_to_limit.h"
+
+namespace ursula {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr int highest = 5;  ///< derivative: motions are quintics, or functions of one
+
+using Real = Vector3<Real50>;
+using RealMatrix = Matrix3<Real50>;
+
+/// How a trajectory's poses are differentiated. In 50 digits where it has them; else in doubles, with a step at which
+/// (1/512)⁶ of a seventh derivative is still below eps, and what remains of it measured.
+struct Differences {
+  bool exact;
+  Real50 share;   ///< of a piece: the step, a power of two where instants are doubles
+  double digits;  ///< rounding of a pose
+  explicit Differences(const Trajectory& trajectory)
+      : exact(trajectory.exact() != nullptr),
+        share(exact ? Real50("1e-7") : Real50(1) / 512),
+        digits(exact ? static_cast<double>(std::numeric_limits<Real50>::epsilon()) : eps) {}
+};
+
+Motion<Real50> widest(const Trajectory& trajectory, const Real50& t) {
+  if (trajectory.exact() != nullptr) return trajectory.at(t);
+  const Motion<double> motion = trajectory.at(static_cast<double>(t));
+  Motion<Real50> out;
+  out.p = motion.p.cast<Real50>();
+  out.Q = motion.Q.cast<Real50>();
+  return out;
+}
+
+/// A trajectory's pose around one instant: seven of them, `step` apart.
+struct Stencil {
+  Real50 step;
+  std::array<Real, 7> p;
+  std::array<RealMatrix, 7> Q;
+
+  Stencil(const Trajectory& trajectory, const Real50& t, const Real50& step_) : step(step_) {
+    for (int j = -3; j <= 3; ++j) {
+      const Motion<Real50> motion = widest(trajectory, Real50(t + j * step));
+      p[static_cast<std::size_t>(j + 3)] = motion.p;
+      Q[static_cast<std::size_t>(j + 3)] = motion.Q;
+    }
+  }
+
+  /// By central differences, of order h⁶ for the first two derivatives and h⁴ or h² for the others.
+  template <class V>
+  V derivative(const std::array<V, 7>& values, int order) const {
+    constexpr int weights[highest][7] = {{-1, 9, -45, 0, 45, -9, 1},
+                                         {2, -27, 270, -490, 270, -27, 2},
+                                         {1, -8, 13, 0, -13, 8, -1},
+                                         {-1, 12, -39, 56, -39, 12, -1},
+                                         {-1, 4, -5, 0, 5, -4, 1}};
+    constexpr int divisors[highest] = {60, 180, 8, 6, 2};
+    V sum = V::Zero();
+    Real50 divisor(divisors[order - 1]);
+    for (std::size_t j = 0; j < 7; ++j)
+      if (weights[order - 1][j] != 0) sum += weights[order - 1][j] * values[j];
+    for (int k = 0; k < order; ++k) divisor *= step;
+    return sum / divisor;
+  }
+};
+
+double sizeOf(const Real& v) { return static_cast<double>(v.norm()); }
+/// That of the turn: [ω]Q has the norm √2 |ω|.
+double sizeOf(const RealMatrix& m) { return static_cast<double>(m.norm()) / std::sqrt(2.0); }
+
+Real axis(const RealMatrix& m) { return Real(m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)) / Real50(2); }
+
+/// Sizes of the derivatives where a piece of the motion starts: what a double evaluation adds up.
+struct PieceSizes {
+  std::array<double, highest + 1> p{}, Q{};
+
+  explicit PieceSizes(const Stencil& start) {
+    p[0] = sizeOf(start.p[3]);
+    for (int k = 1; k <= highest; ++k) {
+      p[static_cast<std::size_t>(k)] = sizeOf(start.derivative(start.p, k));
+      Q[static_cast<std::size_t>(k)] = sizeOf(start.derivative(start.Q, k));
+    }
+  }
+};
+
+/// Σ |f⁽ᵏ⁾(start)| τ^(k−m) / (k−m)!: the m-th derivative at τ after the start, with magnitudes added.
+double terms(const std::array<double, highest + 1>& sizes, std::size_t m, double tau) {
+  double sum = 0, factor = 1;
+  for (std::size_t k = m; k <= highest; ++k) {
+    sum += sizes[k] * factor;
+    factor *= tau / static_cast<double>(k - m + 1);
+  }
+  return sum;
+}
+
+/// What the 50-digit pose says: Q̇ Qᵀ = [ω], and Q̈ Qᵀ = [ω̇] + [ω]², of which the second is symmetric.
+struct Reference {
+  Real p, v, a, omega, alpha;
+  RealMatrix Q;
+
+  explicit Reference(const Stencil& stencil)
+      : p(stencil.p[3]),
+        v(stencil.derivative(stencil.p, 1)),
+        a(stencil.derivative(stencil.p, 2)),
+        omega(axis(stencil.derivative(stencil.Q, 1) * stencil.Q[3].transpose())),
+        alpha(axis(stencil.derivative(stencil.Q, 2) * stencil.Q[3].transpose())),
+        Q(stencil.Q[3]) {}
+};
+
+/// Rounding of a double evaluation. A motion is a quintic of s = (t − start)/h by Horner's rule, or what a few more
+/// operations make of one (sine and cosine of a helix's angle, a quaternion over its norm). Roundings of eps/2 that one
+/// term of the quintic meets: 1 of its coefficient, 2 of factors k(k − 1), 10 of Horner's rule, 15 of s, which is off
+/// by 3 and enters five times, 3 of the division by h²; those after it number at most 19 in either kernel (ω of a
+/// quaternion: 7 for the product, 8 for |r|², 2 more). 50 in all: 25 eps. With Pₘ, Aₘ the sums `terms` for p and Q
+/// and A = 1 + A₀ + the hidden angle, to which a helix's angle is rounded,
+///   p: |p| + P₀ + hidden length    Q: A
+///   v: P₁ + |v| A                  ω: A₁ + |ω| A
+///   a: P₂ + 2 |v| A₁ + 2 |a| A     α: A₂ + 2 |ω| A₁ + |α| A
+/// since an angle off by δ turns v by it, and n β̇², m β̈ and (r·ṙ) ω are products of two rounded factors. Differences in
+/// 50 digits add the rounding of seven poses over step^m, with weights that sum up to less than 10; their truncation,
+/// (1e-7)⁶ of a seventh derivative, is far below eps. For differences of doubles see widenedBy.
+struct Limits {
+  double p, Q, v, omega, a, alpha;
+};
+
+Limits limitsAt(const Reference& exact, const PieceSizes& sizes, double tau, const HiddenTerms& hidden, double step,
+                double rounding) {
+  const double P_1 = terms(sizes.p, 1, tau), P_2 = terms(sizes.p, 2, tau);
+  const double A_1 = terms(sizes.Q, 1, tau), A_2 = terms(sizes.Q, 2, tau);
+  const double A = 1 + terms(sizes.Q, 0, tau) + hidden.angle;
+  const double v = sizeOf(exact.v), a = sizeOf(exact.a), p = sizeOf(exact.p) + terms(sizes.p, 0, tau);
+  const double omega = sizeOf(exact.omega), alpha = sizeOf(exact.alpha);
+  const double unit = rounding_depth * eps;
+  const double digits = 10 * rounding_depth * rounding;
+  const double first = digits / step, second = first / step;
+  return {unit * (p + hidden.length),
+          unit * A,
+          unit * (P_1 + v * A) + first * (p + hidden.length),
+          unit * (A_1 + omega * A) + first * A,
+          unit * (P_2 + 2 * v * A_1 + 2 * a * A) + second * (p + hidden.length),
+          unit * (A_2 + 2 * omega * A_1 + alpha * A) + second * A};
+}
+
+/// Differences of doubles truncate as well: by what halving the step changes, twice. And their instants are rounded,
+/// by t eps, which moves the poses by |v| t eps.
+Limits widenedBy(const Reference& exact, const Reference& halved, Limits limits, double t, double step) {
+  const double moved = 10 * eps * t / step;
+  limits.v += 2 * sizeOf(Real(exact.v - halved.v)) + moved * sizeOf(exact.v);
+  limits.omega += 2 * sizeOf(Real(exact.omega - halved.omega)) + moved * sizeOf(exact.omega);
+  limits.a += 2 * sizeOf(Real(exact.a - halved.a)) + moved / step * sizeOf(exact.v);
+  limits.alpha += 2 * sizeOf(Real(exact.alpha - halved.alpha)) + moved / step * sizeOf(exact.omega);
+  return limits;
+}
+
+/// Those nearest to their limits; `where` is 0 for the point, 1 for the orientation, 2 for orthonormality.
+struct Deviations {
+  NearestToLimit pose, twist, twist_rate;
+  int instants = 0;
+};
+
+template <class Read, class Exact>
+double distance(const Read& read, const Exact& exact) {
+  return static_cast<double>((read.template cast<Real50>() - exact).norm());
+}
+
+void compare(const Motion<double>& motion, const Reference& exact, const Limits& limits, double length,
+             Deviations& out) {
+  const double t = motion.t;
+  out.pose.add(distance(motion.p, exact.p), limits.p, t, 0);
+  out.pose.add(length * distance(motion.Q, exact.Q) / std::sqrt(2.0), length * limits.Q, t, 1);
+  const Matrix3d product = motion.Q.transpose() * motion.Q - Matrix3d::Identity();
+  const double turned = motion.Q.determinant() > 0 ? product.norm() : 2;
+  out.pose.add(length * turned, length * rounding_depth * eps, t, 2);
+  out.twist.add(distance(motion.p_dot, exact.v), limits.v, t, 0);
+  out.twist.add(length * distance(motion.omega, exact.omega), length * limits.omega, t, 1);
+  out.twist_rate.add(distance(motion.p_ddot, exact.a), limits.a, t, 0);
+  out.twist_rate.add(length * distance(motion.omega_dot, exact.alpha), length * limits.alpha, t, 1);
+  ++out.instants;
+}
+
+/// Some 60 stencils, whatever the number of pieces: 50 digits are dear. Within pieces, for across a knot a higher
+/// derivative jumps.
+Deviations deviationsOf(const Trajectory& trajectory, double length, const HiddenTerms& hidden) {
+  std::vector<double> ends = trajectory.knots();
+  if (ends.size() < 2) ends = {0, trajectory.duration()};
+  constexpr std::size_t most_pieces = 30, stencils = 60;
+  const std::size_t pieces = ends.size() - 1, looked_at = std::min(pieces, most_pieces);
+  const Differences differences(trajectory);
+  const double margin = differences.exact ? 0 : 3 * static_cast<double>(differences.share);
+  Deviations out;
+  for (std::size_t j = 0; j < looked_at; ++j) {
+    const std::size_t i = looked_at == 1 ? 0 : j * (pieces - 1) / (looked_at - 1);
+    const double start = ends[i], h = ends[i + 1] - ends[i];
+    const Real50 step = Real50(h) * differences.share;
+    const PieceSizes sizes(Stencil(trajectory, start + 3 * step, step));
+    for (std::size_t k = 0; k + 1 < stencils / looked_at; ++k) {
+      // Multiples of the golden ratio: spread over the piece, and never the same in all of them.
+      const double spread = std::fmod(0.381966 + 0.618034 * out.instants, 1.0);
+      const double share = margin + (1 - 2 * margin) * spread, t = start + h * share;
+      const Reference exact(Stencil(trajectory, t, step));
+      Limits limits = limitsAt(exact, sizes, h * share, hidden, static_cast<double>(step), differences.digits);
+      if (!differences.exact) {
+        const Reference halved(Stencil(trajectory, t, Real50(step / 2)));
+        limits = widenedBy(exact, halved, limits, t, static_cast<double>(step));
+      }
+      compare(trajectory.at(t), exact, limits, length, out);
+    }
+  }
+  return out;
+}
+
+Check judgedAs(const std::string& name, const NearestToLimit& shown, const std::string& unit, const std::string& what,
+               int instants, bool exact) {
+  constexpr std::array<const char*, 3> parts{"point P", "orientation, times the machine's length",
+                                             "Q'Q - 1, times the machine's length"};
+  if (shown.where < 0) return notMade(name, unit, "no instant was compared");
+  const std::string doubles =
+      exact ? "" : "; 250 eps over the step, to the order of the derivative, and twice what halving the step changes";
+  return judged(
+      name, shown.value, shown.limit, unit,
+      "25 eps x what is added up to it in powers of (t - start)/h, and what an angle off by its rounding turns" +
+          doubles,
+      fmt::format("{}, at {} instants; shown for t = {:.6g} s, {}", what, instants, shown.t,
+                  parts[static_cast<std::size_t>(shown.where)]));
+}
+
+HiddenTerms hiddenOf(const std::optional<FileAsWritten>& written) {
+  if (!written || written->trajectory.kind != "helix") return {};
+  const HelixParameters& helix = written->trajectory.helix;
+  HiddenTerms hidden;
+  const double start = std::abs(helix.start_angle);
+  hidden.angle = start + std::abs(helix.phase);
+  hidden.length = helix.radius * (1 + hidden.angle) + std::abs(helix.pitch) * (start + std::abs(helix.height_phase));
+  return hidden;
+}
+
+}  // namespace
+
+std::vector<Check> judgeTrajectory(const Trajectory& trajectory, double length, const HiddenTerms& hidden) {
+  const Deviations found = deviationsOf(trajectory, length, hidden);
+  const bool exact = trajectory.exact() != nullptr;
+  const std::string digits = exact ? "the 50-digit pose" : "the pose in doubles";
+  const std::string pose =
+      exact ? "the pose in doubles against the pose in 50 digits" : "Q'Q = 1; no 50 digits are known";
+  return {judgedAs("motion.pose", found.pose, "m", pose, found.instants, exact),
+          judgedAs("motion.twist", found.twist, "m/s", "v and omega against differences of " + digits, found.instants,
+                   exact),
+          judgedAs("motion.twist_rate", found.twist_rate, "m/s^2",
+                   "a and alpha against second differences of " + digits, found.instants, exact)};
+}
+
+std::vector<Check> judgeCommandedMotion(const Scenario& scenario) {
+  const std::optional<FileAsWritten> written = scenario.isAsRead() ? asWritten(scenario) : std::nullopt;
+  const double length = Solver<double>(*scenario.manipulator).model().length;
+  std::vector<Check> checks = judgeTrajectory(*scenario.trajectory, length, hiddenOf(written));
+  if (scenario.load)
+    checks.push_back(judgeLoad(*scenario.load, scenario.trajectory->duration(),
+                               written && written->load ? &*written->load : nullptr));
+  if (written) checks.push_back(judgeReading(scenario, *written));
+  return checks;
+}
+
+}  // namespace ursula

@@ -1,0 +1,56 @@
+#include "validation/checks/every_check.h"
+
+#include <algorithm>
+
+#include "model/check_names.h"
+#include "model/loops/mujoco/mujoco_loop.h"
+
+namespace ursula {
+namespace {
+
+/// Why a check that was not made does not apply.
+std::string whyNot(const CheckName& check, const Scenario& scenario, const SubjectHas& has) {
+  const auto unless = [&](bool there, const char* why) {
+    return std::string(there ? "the subject has no answer" : why);
+  };
+  if (!has.any_instant && check.needs != CheckNeeds::load_history && check.needs != CheckNeeds::scenario_file)
+    return "a file gives torques alone, at its own instants";
+  switch (check.needs) {
+    case CheckNeeds::load_history:
+      return scenario.load ? "the load is constant" : "there is no load";
+    case CheckNeeds::scenario_file:
+      return "the scenario was not read from a file";
+    case CheckNeeds::kinematics:
+      return unless(has.kinematics, "the subject gives no kinematics");
+    case CheckNeeds::direct_dynamics:
+      return unless(has.direct_dynamics, "the subject solves no direct dynamics");
+    case CheckNeeds::other_machines:
+      return unless(has.other_machines, "the subject cannot be made for another machine");
+    case CheckNeeds::own_reactions:
+      return unless(!has.left_out_reactions, "left out by the caller's options");
+    case CheckNeeds::mujoco:
+      return unless(mujocoAvailable(), "this build has no MuJoCo");
+    case CheckNeeds::torque_file:
+      return "the torques do not come from a file";
+    case CheckNeeds::nothing:
+    case CheckNeeds::any_instant:
+      break;
+  }
+  return unless(!has.left_out_ladder, "left out by the caller's options");
+}
+
+}  // namespace
+
+void listEveryCheck(const Scenario& scenario, const SubjectHas& has, ValidationResult& result) {
+  std::vector<Check> listed;
+  for (const CheckName& wanted : checkNames()) {
+    const auto found = std::find_if(result.checks.begin(), result.checks.end(),
+                                    [&wanted](const Check& check) { return check.name == wanted.name; });
+    listed.push_back(found != result.checks.end()
+                         ? std::move(*found)
+                         : notApplicable(wanted.name, wanted.unit, whyNot(wanted, scenario, has)));
+  }
+  result.checks = std::move(listed);
+}
+
+}  // namespace ursula

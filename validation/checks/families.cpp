@@ -1,0 +1,165 @@
+#include "validation/checks/families.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "validation/checks/commanded_motion.h"
+#include "validation/checks/direct_checks.h"
+#include "validation/checks/external_check.h"
+#include "validation/checks/invariance.h"
+#include "validation/checks/ladder_checks.h"
+#include "validation/checks/order_check.h"
+#include "validation/checks/pointwise_checks.h"
+#include "validation/checks/reaction_check.h"
+#include "validation/checks/replay_checks.h"
+#include "validation/checks/road_checks.h"
+#include "validation/checks/stabilised_check.h"
+#include "validation/checks/torque_between.h"
+#include "validation/replay/windowed_replay.h"
+
+namespace ursula {
+namespace {
+
+bool always(const Evidence&) { return true; }
+
+bool answers(const Evidence& e) { return e.subject != nullptr && e.answered(); }
+
+bool anyFails(const std::vector<Check>& checks) {
+  return std::any_of(checks.begin(), checks.end(), [](const Check& each) { return each.verdict == Verdict::fail; });
+}
+
+const RoundingProfile& profileOf(const Evidence& e) { return e.reference->profile; }
+
+std::vector<Check> judgeMotion(const Evidence& e) { return judgeCommandedMotion(*e.given); }
+
+std::vector<Check> judgeSamples(const Evidence& e) {
+  std::vector<Check> checks = judgePointwise(e.samples, e.has.kinematics, e.units());
+  if (e.external == nullptr) return checks;
+  checks.push_back(judgeAgainstNoc(*e.external, e.units()));
+  for (Check& check : checks) check.basis += e.external->precisionInWords(e.units());
+  return checks;
+}
+
+/// Under the torques that are right; a second look at its growth only where its answers are.
+std::vector<Check> judgeDirectDynamics(const Evidence& e) {
+  std::vector<Check> checks = {judgeDirect(*e.scenario, *e.subject, e.samples, profileOf(e), e.units())};
+  const bool right_here = checks.back().verdict != Verdict::fail;  // else what is wrong is known
+  checks.push_back(judgeGrowth(*e.scenario, *e.subject, e.reference->plan.torques, *e.amplification,
+                               e.plan.acceleration, 10 * coarser * e.plan.tolerance, e.units(), right_here));
+  return checks;
+}
+
+std::vector<Check> judgeWindows(const Evidence& e, const std::vector<WindowedReplay>& windows) {
+  const auto noisiest = std::max_element(e.samples.begin(), e.samples.end(), [](const auto& a, const auto& b) {
+    return a.conditioning.accelerationRounding() < b.conditioning.accelerationRounding();
+  });
+  const std::string cause = noisiest == e.samples.end() ? "" : causeOfRounding(noisiest->conditioning);
+  return judgeReplay(windows, e.scales.position, e.scales.length, e.scales.forces, e.units(), cause);
+}
+
+std::vector<Check> notReplayed(double value, double limit, const std::string& basis, const std::string& why) {
+  std::vector<Check> checks;
+  const std::pair<const char*, const char*> names[] = {{"replay.position", "m"},
+                                                       {"replay.orientation", "rad"},
+                                                       {"closure.position", "m"},
+                                                       {"closure.velocity", "m/s"},
+                                                       {"energy.balance", "J"}};
+  for (const auto& [name, unit] : names) {
+    const bool has_numbers = std::string(name) == "replay.position";
+    checks.push_back(notJudgeable(Reason::not_covered, name, has_numbers ? value : std::nan(""),
+                                  has_numbers ? limit : std::nan(""), unit, basis, why));
+  }
+  return checks;
+}
+
+std::vector<Check> judgeReplays(const Evidence& e) {
+  if (!e.not_replayed.empty())
+    return notReplayed(std::nan(""), e.replay_bound, e.spline, "not replayed: " + e.not_replayed);
+  std::vector<Check> checks = judgeWindows(e, e.windows);
+  if (!e.spline.empty())
+    for (Check& check : checks) check.basis += "; " + e.spline;
+  return checks;
+}
+
+void lookAtReplays(Evidence& e) {
+  for (std::size_t k = 0; k < e.windows.size() && e.reference != nullptr; ++k)
+    if (anyFails(judgeWindows(e, {e.windows[k]}))) lookCloser(e, k);
+}
+
+bool climbed(const Evidence& e) { return !e.ladder.rungs.empty(); }
+
+std::vector<Check> judgeClimbed(const Evidence& e) {
+  return judgeLadder(e.ladder, e.windows.front(), e.scales.position, e.units());
+}
+
+void lookAtLadder(Evidence& e) {
+  lookCloser(e, 0);
+  // Of wrong torques it is known what is wrong.
+  const bool torques_hold = std::all_of(e.samples.begin(), e.samples.end(), [](const PointwiseSample& sample) {
+    return sample.torque.error <= sample.torque.limit;
+  });
+  if (torques_hold) climbOn(*e.scenario, e.plan.torques, e.windows.front(), rungSettings(e), e.ladder);
+}
+
+std::vector<Check> judgeStabilisedReplay(const Evidence& e) {
+  double largest = 0;
+  for (const PointwiseSample& sample : e.samples)
+    largest = std::max(largest, sample.torques_simbody.cwiseAbs().maxCoeff());
+  return {judgeStabilised(*e.stabilised, largest, e.units())};
+}
+
+void checksInSi(const Units& units, std::vector<Check>& checks) {
+  for (Check& check : checks) {
+    const double unit = units.of(check.unit);
+    check.value *= unit;
+    check.limit *= unit;
+    check.largest.value *= unit;
+  }
+}
+
+void append(std::vector<Check>& checks, std::vector<Check> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(checks));
+}
+
+}  // namespace
+
+const std::vector<CheckFamily>& checkFamilies() {
+  using E = const Evidence&;
+  static const std::vector<CheckFamily> families = {
+      {"motion", always, judgeMotion, nullptr, true},
+      {"samples", always, judgeSamples},
+      {"roads", answers, [](E e) { return judgeRoads(e.roads, e.units()); }},
+      {"invariances", answers,
+       [](E e) { return judgeInvariances(*e.scenario, *e.subject, e.samples, profileOf(e), e.units()); }},
+      {"reactions", [](E e) { return !e.reactions.empty(); },
+       [](E e) { return std::vector<Check>{judgeReactions(e.reactions, e.samples, profileOf(e), e.units())}; }},
+      {"between samples", answers,
+       [](E e) {
+         return std::vector<Check>{judgeBetween(*e.scenario, *e.subject, e.samples, profileOf(e), e.units())};
+       }},
+      {"direct dynamics", [](E e) { return answers(e) && e.has.direct_dynamics; }, judgeDirectDynamics},
+      {"replays", always, judgeReplays, lookAtReplays},
+      {"ladder", climbed, judgeClimbed, lookAtLadder},
+      {"order", [](E e) { return e.orders.has_value(); },
+       [](E e) { return std::vector<Check>{judgeOrder(*e.orders)}; }},
+      {"stabilised replay", [](E e) { return e.stabilised.has_value(); }, judgeStabilisedReplay},
+  };
+  return families;
+}
+
+std::vector<Check> judgeAll(Evidence& evidence) {
+  for (const CheckFamily& family : checkFamilies())
+    if (family.second_look && family.applies(evidence) && anyFails(family.judge(evidence)))
+      family.second_look(evidence);
+  std::vector<Check> out;
+  for (const CheckFamily& family : checkFamilies()) {
+    if (!family.applies(evidence)) continue;
+    std::vector<Check> checks = family.judge(evidence);
+    if (!family.in_si) checksInSi(evidence.units(), checks);
+    append(out, std::move(checks));
+  }
+  return out;
+}
+
+}  // namespace ursula

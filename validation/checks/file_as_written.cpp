@@ -1,0 +1,225 @@
+#include "validation/checks/file_as_written.h"
+
+#include <toml++/toml.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <sstream>
+
+namespace ursula {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+using View = toml::node_view<const toml::node>;
+
+double number(const View& node) { return node.value<double>().value_or(none); }
+
+double numberOr(const View& node, double otherwise) { return node ? number(node) : otherwise; }
+
+template <int N>
+Eigen::Matrix<double, N, 1> numbers(const View& node) {
+  Eigen::Matrix<double, N, 1> out = Eigen::Matrix<double, N, 1>::Constant(none);
+  const toml::array* array = node.as_array();
+  if (array == nullptr || array->size() != N) return out;
+  for (int i = 0; i < N; ++i) out(i) = number(node[static_cast<std::size_t>(i)]);
+  return out;
+}
+
+Vector3d vectorOr(const View& node, const Vector3d& otherwise) { return node ? Vector3d(numbers<3>(node)) : otherwise; }
+
+/// Tensor entries: [xx, yy, zz] or [xx, yy, zz, xy, xz, yz].
+Matrix3d tensor(const View& node) {
+  const toml::array* array = node.as_array();
+  if (array != nullptr && array->size() == 3) return numbers<3>(node).asDiagonal();
+  const Vector6d entry = numbers<6>(node);
+  Matrix3d out;
+  out << entry(0), entry(3), entry(4),  //
+      entry(3), entry(1), entry(5),     //
+      entry(4), entry(5), entry(2);
+  return out;
+}
+
+// --- the machine
+// ------------------------------------------------------------------------------------------------------
+
+/// A leg's keys: its own, and where it has not that one, the defaults'.
+class LegKeys {
+ public:
+  LegKeys(View own, View defaults) : own_(own), defaults_(defaults) {}
+
+  View operator()(const char* key) const {
+    const View found = own_[key];
+    return found ? found : defaults_[key];
+  }
+  View operator()(const char* table, const char* key) const {
+    const View found = own_[table][key];
+    return found ? found : defaults_[table][key];
+  }
+
+ private:
+  View own_, defaults_;
+};
+
+Link linkOf(const LegKeys& keys, const char* name) {
+  Link link;
+  link.length = number(keys(name, "length"));
+  link.mass = number(keys(name, "mass"));
+  link.center_of_mass = number(keys(name, "center_of_mass"));
+  link.inertia = tensor(keys(name, "inertia"));
+  return link;
+}
+
+JointFriction frictionOf(const LegKeys& keys, const char* name) {
+  return {numberOr(keys(name, "actuated"), 0), numberOr(keys(name, "universal"), 0), numberOr(keys(name, "knee"), 0)};
+}
+
+Leg legOf(const LegKeys& keys) {
+  Leg leg;
+  leg.base_point = numbers<3>(keys("base_point"));
+  leg.base_axis = numbers<3>(keys("base_axis"));
+  leg.platform_point = numbers<3>(keys("platform_point"));
+  leg.proximal = linkOf(keys, "proximal");
+  leg.distal = linkOf(keys, "distal");
+  leg.knee = keys("knee").value_or(std::string("positive")) == "negative" ? Knee::negative : Knee::positive;
+  leg.friction = frictionOf(keys, "friction");
+  static_cast<JointFriction&>(leg.coulomb) = frictionOf(keys, "coulomb");
+  leg.coulomb.smoothing_speed = numberOr(keys("coulomb", "smoothing_speed"), 0.01);
+  return leg;
+}
+
+ManipulatorParameters machineOf(const View& table) {
+  ManipulatorParameters machine;
+  machine.gravity = vectorOr(table["gravity"], {0, 0, -9.81});
+  machine.platform.mass = number(table["platform"]["mass"]);
+  machine.platform.center_of_mass = numbers<3>(table["platform"]["center_of_mass"]);
+  machine.platform.inertia = tensor(table["platform"]["inertia"]);
+  for (std::size_t i = 0; i < leg_count; ++i) machine.legs[i] = legOf({table["leg"][i], table["leg_defaults"]});
+  return machine;
+}
+
+// --- tables beside the file
+// -------------------------------------------------------------------------------------------
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::vector<std::string> cells(const std::string& line) {
+  std::vector<std::string> out;
+  std::istringstream in(line);
+  for (std::string cell; std::getline(in, cell, ',');) out.push_back(trimmed(cell));
+  return out;
+}
+
+/// Rows by the names of their columns; none where the file cannot be read any more.
+std::vector<std::map<std::string, double>> rowsOf(const std::filesystem::path& file) {
+  std::vector<std::map<std::string, double>> rows;
+  std::ifstream in(file);
+  std::string line;
+  if (!std::getline(in, line)) return rows;
+  if (line.rfind("\xEF\xBB\xBF", 0) == 0) line.erase(0, 3);
+  const std::vector<std::string> names = cells(line);
+  while (std::getline(in, line)) {
+    if (trimmed(line).empty()) continue;
+    const std::vector<std::string> values = cells(line);
+    std::map<std::string, double> row;
+    for (std::size_t i = 0; i < std::min(names.size(), values.size()); ++i)
+      row[names[i]] = std::strtod(values[i].c_str(), nullptr);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+double cell(const std::map<std::string, double>& row, const std::string& name) {
+  const auto found = row.find(name);
+  return found == row.end() ? none : found->second;
+}
+
+Vector3d axes(const std::map<std::string, double>& row, const std::string& before, const std::string& after) {
+  return {cell(row, before + "x" + after), cell(row, before + "y" + after), cell(row, before + "z" + after)};
+}
+
+// --- motion and load
+// --------------------------------------------------------------------------------------------------
+
+HelixParameters helixOf(const View& table) {
+  HelixParameters helix;
+  helix.duration = number(table["duration"]);
+  helix.radius = number(table["radius"]);
+  helix.pitch = number(table["pitch"]);
+  helix.start_angle = number(table["start_angle"]);
+  helix.end_angle = number(table["end_angle"]);
+  helix.phase = numberOr(table["phase"], 0);
+  helix.height_phase = numberOr(table["height_phase"], 0);
+  helix.start_rate = numberOr(table["start_rate"], 0);
+  helix.end_rate = numberOr(table["end_rate"], 0);
+  helix.start_acceleration = numberOr(table["start_acceleration"], 0);
+  helix.end_acceleration = numberOr(table["end_acceleration"], 0);
+  return helix;
+}
+
+TimedPose poseOf(const View& table, double time) {
+  return {time, numbers<3>(table["position"]), numbers<4>(table["orientation"])};
+}
+
+std::size_t sizeOf(const View& node) { return node.is_array() ? node.as_array()->size() : 0; }
+
+TrajectoryAsWritten trajectoryOf(const View& table, const std::filesystem::path& folder) {
+  TrajectoryAsWritten out;
+  out.kind = table["kind"].value_or(std::string());
+  out.duration = number(table["duration"]);
+  if (out.kind == "helix") out.helix = helixOf(table);
+  if (out.kind == "hold") out.poses = {poseOf(table, 0)};
+  if (out.kind == "waypoints")
+    for (std::size_t i = 0; i < sizeOf(table["points"]); ++i)
+      out.poses.push_back(poseOf(table["points"][i], number(table["points"][i]["time"])));
+  if (out.kind == "samples")
+    for (const auto& row : rowsOf(folder / table["file"].value_or(std::string())))
+      out.poses.push_back({cell(row, "t_s"),
+                           axes(row, "p_", "_m"),
+                           {cell(row, "q_w"), cell(row, "q_x"), cell(row, "q_y"), cell(row, "q_z")}});
+  return out;
+}
+
+LoadAsWritten loadOf(const View& table, const std::filesystem::path& folder) {
+  LoadAsWritten out;
+  out.force = vectorOr(table["force"], Vector3d::Zero());
+  out.moment = vectorOr(table["moment"], Vector3d::Zero());
+  out.point = vectorOr(table["point"], Vector3d::Zero());
+  out.frame = table["frame"].value_or(std::string("base"));
+  out.tabulated = table["table"] || table["file"];
+  for (std::size_t i = 0; i < sizeOf(table["table"]); ++i) {
+    const View row = table["table"][i];
+    out.rows.push_back(
+        {number(row["time"]), {vectorOr(row["force"], Vector3d::Zero()), vectorOr(row["moment"], Vector3d::Zero())}});
+  }
+  if (table["file"])
+    for (const auto& row : rowsOf(folder / table["file"].value_or(std::string())))
+      out.rows.push_back({cell(row, "t_s"), {axes(row, "f_", "_N"), axes(row, "m_", "_Nm")}});
+  return out;
+}
+
+}  // namespace
+
+std::optional<FileAsWritten> asWritten(const Scenario& scenario) {
+  toml::table document;
+  try {
+    document = toml::parse(std::string_view(scenario.text));
+  } catch (const toml::parse_error&) {
+    return std::nullopt;
+  }
+  const toml::table& read = document;
+  if (!read.contains("manipulator")) return std::nullopt;
+  const std::filesystem::path folder = scenario.file.parent_path();
+  FileAsWritten out;
+  out.machine = machineOf(read["manipulator"]);
+  out.trajectory = trajectoryOf(read["trajectory"], folder);
+  if (read["load"]) out.load = loadOf(read["load"], folder);
+  return out;
+}
+
+}  // namespace ursula

@@ -1,0 +1,106 @@
+#include "validation/checks/ladder_checks.h"
+#include "validation/replay/windowed_replay.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace ursula {
+namespace {
+
+/// Its accuracy is of a step, and goes into an error with a power between 4/5 and 1: ten times the accuracy changes at
+/// least five times what is left.
+constexpr double second_safety = 10;
+/// A hundred times the tolerance makes an error a hundred times as large, whatever the order; where it does not make it
+/// this many times as large, the integration does not converge. Where knots, not the tolerance, decide the steps, the
+/// error may only be asked to fall with them, by half the order.
+constexpr double least_gain = 4;
+
+/// An error below this share of the largest useful limit decides nothing, whether or not it converges.
+constexpr double harmless = 0.01;
+
+/// Inconclusive where that proves nothing, else a failure.
+Check notClimbed(bool proves_nothing, const std::string& why) {
+  static constexpr const char* check = "integration.ladder";
+  return proves_nothing ? notJudgeable(Reason::unfinished, check, std::nan(""), std::nan(""), "m", "", why)
+                        : notMade(check, "m", why);
+}
+
+/// What rounding alone may make of the window's end, m.
+double roundingBound(const WindowedReplay& finest, double position_scale, double t) {
+  const double measured = finest.closer.measured() ? integration_safety * finest.closer.at(t).position : 0;
+  return driftLimit(finest.window, 0, static_cast<double>(finest.replay.steps.size()), position_scale, t) + measured;
+}
+
+const Rung* firstThat(const std::vector<Rung>& rungs, const std::function<bool(const Rung&)>& holds) {
+  const auto found = std::find_if(rungs.begin(), rungs.end(), holds);
+  return found == rungs.end() ? nullptr : &*found;
+}
+
+Check judgeConvergence(const Ladder& ladder, const WindowedReplay& finest, double position_scale) {
+  const Rung& coarse = ladder.rungs[ladder.rungs.size() - 2];
+  const Rung& fine = ladder.rungs.back();
+  std::string orders;
+  for (double p : ladder.observed_orders) orders += fmt::format("{}{:.3g}", orders.empty() ? "" : ", ", p);
+  const double steps = static_cast<double>(fine.steps) / static_cast<double>(std::max(coarse.steps, 1L));
+  // Rungs alike, and unlike the judged replay: it is not the knots that decide their steps.
+  const bool heedless =
+      steps <= 1 && static_cast<double>(finest.replay.accepted) > 1.5 * static_cast<double>(fine.steps);
+  const double share = heedless ? 1 / least_gain : std::max(1 / least_gain, 2 * std::pow(steps, -nominal_order / 2));
+  Check check = judged(
+      "integration.ladder", fine.distance,
+      std::max({coarse.distance * share, roundingBound(finest, position_scale, finest.window.end()),
+                harmless * useful_replay_limit * finest.window.length}),
+      "m",
+      fmt::format(
+          "{:.3g} of what it is at a tolerance of {:g}, which takes {} steps of {}; or what rounding may make of "
+          "it; or {:g} of what a replay's limit may be",
+          share, coarse.tolerance, coarse.steps, fine.steps, harmless),
+      fmt::format("ends of the replay at tolerances {:g} and {:g}; observed orders {} of {}, {}", fine.tolerance,
+                  finest.replay.tolerance, orders, nominal_order, ladder.asymptotic ? "asymptotic" : "not asymptotic"));
+  if (check.verdict == Verdict::fail && ladder.passes_knots)
+    check =
+        notJudgeable(Reason::limit_useless, check.name, check.value, check.limit, "m", check.basis,
+                     check.why + "; the motion has more knots than can be stepped to, so that it need not converge");
+  return check;
+}
+
+Check judgeSecond(const Ladder& ladder, const WindowedReplay& finest, double position_scale, const Units& units) {
+  static constexpr const char* check = "integration.second";
+  if (ladder.second.empty()) return notMade(check, "m", "there was no second integrator");
+  const Rung& second = ladder.second.back();
+  for (const Rung& rung : ladder.second)
+    if (!rung.gave_up.empty() || rung.left_path)
+      return notJudgeable(Reason::unfinished, check, std::nan(""), std::nan(""), "m", "",
+                          "Simbody's integrator did not get there: " + rung.gave_up);
+  return judged(
+      check, second.distance,
+      second_safety * ladder.second_difference + replayLimit(finest, position_scale, ladder.second_end), "m",
+      fmt::format("{:g} times what longer steps, at ten times the accuracy, change of it, and the limit of "
+                  "replay.position there",
+                  second_safety),
+      fmt::format("the replay by Simbody's RungeKuttaMerson to t = {:.6g} s, accuracy {:g}, {} derivative evaluations, "
+                  "against {}",
+                  ladder.second_end * units.time, second.tolerance, second.evaluations,
+                  name(finest.replay.integrator)));
+}
+
+}  // namespace
+
+std::vector<Check> judgeLadder(const Ladder& ladder, const WindowedReplay& finest, double position_scale,
+                               const Units& units) {
+  if (ladder.rungs.size() < 2) return {notMade("integration.ladder", "m", "no ladder was climbed")};
+  if (!finest.replay.gave_up.empty())
+    return {notClimbed(finest.replay.too_long, "the judged replay gave up: " + finest.replay.gave_up)};
+  if (finest.replay.left_path) return {notMade("integration.ladder", "m", "the judged replay left the path")};
+  if (const Rung* rung = firstThat(ladder.rungs, [](const Rung& each) { return each.left_path; }))
+    return {notClimbed(true, fmt::format("{} at {:g} left the path", name(rung->integrator), rung->tolerance))};
+  if (const Rung* rung = firstThat(ladder.rungs, [](const Rung& each) { return !each.gave_up.empty(); }))
+    return {notClimbed(rung->too_long,
+                       fmt::format("{} at {:g} gave up: {}", name(rung->integrator), rung->tolerance, rung->gave_up))};
+  return {judgeConvergence(ladder, finest, position_scale), judgeSecond(ladder, finest, position_scale, units)};
+}
+
+}  // namespace ursula

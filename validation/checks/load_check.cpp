@@ -1,0 +1,142 @@
+#include "validation/checks/load_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "model/real50.h"
+#include "validation/checks/quintic_by_control_points.h"
+#include "validation/limits/conditioning.h"
+#include "validation/verdict/nearest_to_limit.h"
+
+namespace ursula {
+namespace {
+
+constexpr double eps = Eigen::NumTraits<double>::epsilon();
+
+Vector6d stacked(const Wrench<double>& wrench) { return (Vector6d() << wrench.force, wrench.moment).finished(); }
+
+/// One component of the table between two rows.
+///
+/// Rounding: the double evaluation adds powers of s = (t − t₀)/h whose coefficients are y₀, v₀, 10 r − 6 v₀ − 4 v₁,
+/// −15 r + 8 v₀ + 7 v₁ and 6 r − 3 (v₀ + v₁), with the rise r and v = h times a slope. Each is rounded once, meets at
+/// most 10 roundings on its way through Horner's rule, and s, off by three roundings, enters five times: 26 roundings
+/// of eps/2, within 25 eps.
+struct Segment {
+  Real50 h;
+  double rise = 0;
+  QuinticEnd from, to;
+
+  Real50 at(const Real50& s) const { return atControlPoints(controlPoints(from, to, h), s); }
+  double limit(double s) const {
+    const double size = std::abs(rise), y_0 = std::abs(static_cast<double>(from.value)),
+                 v_0 = std::abs(static_cast<double>(h * from.rate)), v_1 = std::abs(static_cast<double>(h * to.rate));
+    const double cubic = 10 * size + 6 * v_0 + 4 * v_1, quartic = 15 * size + 8 * v_0 + 7 * v_1,
+                 quintic = 6 * size + 3 * (v_0 + v_1);
+    return rounding_depth * eps * (y_0 + s * (v_0 + s * s * (cubic + s * (quartic + s * quintic))));
+  }
+};
+
+class Table {
+ public:
+  explicit Table(const std::vector<TimedWrench>& rows) : rows_(rows) {}
+
+  Segment segment(std::size_t i, int k) const {
+    Segment out;
+    out.h = width(i);
+    out.from = {value(i, k), slope(i, k), 0};
+    out.to = {value(i + 1, k), slope(i + 1, k), 0};
+    out.rise = static_cast<double>(out.to.value - out.from.value);
+    return out;
+  }
+  double value(std::size_t i, int k) const { return stacked(rows_[i].wrench)(k); }
+
+ private:
+  Real50 width(std::size_t i) const { return Real50(rows_[i + 1].time) - rows_[i].time; }
+  Real50 chord(std::size_t i, int k) const { return (Real50(value(i + 1, k)) - value(i, k)) / width(i); }
+  /// The harmonic mean of both sides' chords where they rise or fall alike; zero at extrema and at both ends.
+  Real50 slope(std::size_t i, int k) const {
+    if (i == 0 || i + 1 == rows_.size()) return 0;
+    const Real50 left = chord(i - 1, k), right = chord(i, k);
+    if (left == 0 || right == 0 || (left < 0) != (right < 0)) return 0;
+    return 2 / (1 / left + 1 / right);
+  }
+
+  const std::vector<TimedWrench>& rows_;
+};
+
+const char* componentName(int k) {
+  constexpr std::array<const char*, 6> names{"f_x", "f_y", "f_z", "m_x", "m_y", "m_z"};
+  return k < 0 ? "no component" : names[static_cast<std::size_t>(k)];
+}
+
+void compareRows(const std::vector<TimedWrench>& rows, const std::function<Wrench<double>(double)>& at,
+                 NearestToLimit& shown) {
+  const auto compare = [&](double t, const TimedWrench& row) {
+    const Vector6d error = stacked(at(t)) - stacked(row.wrench);
+    for (int k = 0; k < 6; ++k) shown.add(std::abs(error(k)), 0, t, k);
+  };
+  for (const TimedWrench& row : rows) compare(row.time, row);
+  const double beyond = rows.back().time - rows.front().time;
+  compare(rows.front().time - beyond, rows.front());
+  compare(rows.back().time + beyond, rows.back());
+}
+
+/// At one instant within segment i: against the other evaluation, and against the range of both rows.
+void compareWithin(const Table& table, std::size_t i, double s, double t, const Vector6d& found,
+                   NearestToLimit& shown) {
+  for (int k = 0; k < 6; ++k) {
+    const Segment segment = table.segment(i, k);
+    const double a = table.value(i, k), b = table.value(i + 1, k), limit = segment.limit(s);
+    // t is rounded: s is that of the double.
+    shown.add(std::abs(static_cast<double>(Real50(found(k)) - segment.at(s))), limit, t, k);
+    shown.add(std::max({0.0, std::min(a, b) - found(k), found(k) - std::max(a, b)}), limit, t, k);
+  }
+}
+
+}  // namespace
+
+Check judgeLoadTable(const std::vector<TimedWrench>& rows, const std::function<Wrench<double>(double)>& at) {
+  if (rows.size() < 2) return notMade("motion.load", "N, N m", "a table of fewer than two rows");
+  NearestToLimit shown;
+  compareRows(rows, at, shown);
+  const Table table(rows);
+  constexpr std::size_t most_segments = 40;  // of thousands, for 50 digits are dear
+  const std::size_t every = (rows.size() + most_segments - 1) / most_segments;
+  for (std::size_t i = 0; i + 1 < rows.size(); i += every)
+    for (const double share : {0.07, 0.31, 0.5, 0.88}) {
+      const double from = rows[i].time, to = rows[i + 1].time, t = from + share * (to - from);
+      if (!(t > from && t < to)) continue;  // rows that are neighbours among the doubles
+      const double s = static_cast<double>((Real50(t) - from) / (Real50(to) - from));
+      compareWithin(table, i, s, t, stacked(at(t)), shown);
+    }
+  return judged(
+      "motion.load", shown.value, shown.limit, "N, N m",
+      "0 at the rows and beyond; between, 25 eps x what is added up in powers of (t - t_0)/h",
+      fmt::format("the load against its {} rows: through them, constant beyond, between them the quintic with "
+                  "harmonic-mean slopes, never out of both rows' range; shown for t = {:.6g} s, {}",
+                  rows.size(), shown.t, componentName(shown.where)));
+}
+
+Check judgeLoad(const Load& load, double duration, const LoadAsWritten* written) {
+  if (load.history) {
+    std::vector<TimedWrench> rows;
+    for (const double t : load.history->knots()) rows.push_back({t, load.history->at(t)});
+    return judgeLoadTable(written != nullptr && written->tabulated ? written->rows : rows,
+                          [&](double t) { return load.at(t); });
+  }
+  const Vector6d constant = stacked(written == nullptr ? Wrench<double>{load.force, load.moment}
+                                                       : Wrench<double>{written->force, written->moment});
+  NearestToLimit shown;
+  for (const double t : {0.0, 0.3 * duration, duration}) {
+    const Vector6d error = stacked(load.at(t)) - constant;
+    for (int k = 0; k < 6; ++k) shown.add(std::abs(error(k)), 0, t, k);
+  }
+  return judged("motion.load", shown.value, shown.limit, "N, N m", "the load is constant: nothing is rounded",
+                fmt::format("the load against the force and moment given, at 3 instants; shown for t = {:.6g} s, {}",
+                            shown.t, componentName(shown.where)));
+}
+
+}  // namespace ursula

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "validation/samples/pointwise.h"
+#include "validation/subject/presentation.h"
+#include "validation/verdict/result.h"
+
+namespace ursula {
+
+/// The checks of these samples: `kinematics.*`, `torque.pointwise`, `acceleration.pointwise`. `units` are those of the
+/// samples, in SI, for the words.
+std::vector<Check> judgePointwise(const std::vector<PointwiseSample>& samples, bool has_kinematics,
+                                  const Units& units = {});
+
+}  // namespace ursula

@@ -1,0 +1,151 @@
+#include "validation/checks/replay_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "validation/verdict/worst_share.h"
+
+namespace ursula {
+namespace {
+
+/// A value of one step with its limit.
+struct Measure {
+  std::string name, unit, what;
+  std::function<double(const ReplayStep&)> value;
+  std::function<double(const WindowedReplay&, const ReplayStep&)> limit;
+  std::string basis;
+  double useful = 0;  ///< a larger limit says nothing; 0 where any limit does
+};
+
+Worst worstOf(const std::vector<WindowedReplay>& windows, const Measure& measure) {
+  Worst worst;
+  for (const WindowedReplay& window : windows)
+    for (const ReplayStep& step : window.replay.steps)
+      worst.add(measure.value(step), measure.limit(window, step), step.t);
+  return worst;
+}
+
+std::size_t stepsOf(const std::vector<WindowedReplay>& windows) {
+  std::size_t steps = 0;
+  for (const WindowedReplay& window : windows) steps += window.replay.steps.size();
+  return steps;
+}
+
+/// Deviations that grow less within a window are not what makes its limit large.
+constexpr double notable_growth = 100;
+
+/// Which of a limit's parts makes it large at t.
+std::string causeOf(const std::vector<WindowedReplay>& windows, double t, const std::string& of_rounding) {
+  for (const WindowedReplay& each : windows) {
+    if (t > each.window.end()) continue;
+    const double integration = each.integration.measured() ? each.integration.at(t).position : 0;
+    const double bound = each.window.bound(t, 0, 0);
+    if (integration_safety * integration > bound) return "the integration does not converge to that";
+    const double growth = each.window.from_start.back();
+    if (growth < notable_growth && !of_rounding.empty()) return of_rounding;
+    return fmt::format("deviations grow {:.2g} times within the window", growth);
+  }
+  return "";
+}
+
+/// `useful` 0: any limit says something, but for an infinite one.
+bool isUseless(double limit, double useful) { return useful > 0 ? !(limit <= useful) : !std::isfinite(limit); }
+
+Check judgeMeasure(const std::vector<WindowedReplay>& windows, const Measure& measure, const Units& units,
+                   const std::string& cause) {
+  std::string unfinished;
+  for (const WindowedReplay& window : windows) {
+    if (window.replay.gave_up.empty()) continue;
+    unfinished =
+        fmt::format("the replay from t = {:.6g} s gave up at t = {:.6g} s: {}", window.window.start() * units.time,
+                    window.replay.stopped_at * units.time, window.replay.gave_up);
+    if (!window.replay.too_long) return notMade(measure.name, measure.unit, unfinished);
+  }
+  const Worst shown = worstOf(windows, measure);
+  if (!shown.any) return notMade(measure.name, measure.unit, "no step was compared");
+  const std::string where =
+      windows.size() == 1 ? "open loop over the whole motion" : fmt::format("open loop in {} windows", windows.size());
+  const std::string why =
+      fmt::format("{}, {}, at {} steps; shown for t = {:.6g} s{}{}", measure.what, where, stepsOf(windows),
+                  shown.t * units.time, unfinished.empty() ? "" : "; ", unfinished);
+  Check check = judged(measure.name, shown.value, shown.limit, measure.unit, measure.basis, why);
+  if (!unfinished.empty() && shown.value <= shown.limit)
+    check = notJudgeable(Reason::unfinished, measure.name, shown.value, shown.limit, measure.unit, measure.basis, why);
+  else if (shown.value <= shown.limit && isUseless(shown.widest_limit, measure.useful))
+    check =
+        notJudgeable(Reason::limit_useless, measure.name, shown.value, shown.widest_limit, measure.unit, measure.basis,
+                     fmt::format("{}; at t = {:.6g} s the limit exceeds {:.3g} {}, beyond which it says nothing: {}",
+                                 why, shown.widest_t * units.time, measure.useful * units.of(measure.unit),
+                                 measure.unit, causeOf(windows, shown.widest_t, cause)));
+  check.largest = {shown.largest, shown.largest_t * units.time, ""};
+  return check;
+}
+
+double stepCount(const WindowedReplay& window) { return static_cast<double>(window.replay.steps.size()); }
+
+double span(const WindowedReplay& window) { return window.window.end() - window.window.start(); }
+
+}  // namespace
+
+std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, double position_scale, double length,
+                               const LoopForces& forces, const Units& units, const std::string& cause) {
+  if (windows.empty()) return {notMade("replay.position", "m", "there was no replay")};
+  const auto per_step = [position_scale](const WindowedReplay& window) {
+    return errorPerStep(window.integration.measured() ? 0 : window.replay.tolerance, position_scale);
+  };
+  const auto carried = [per_step](const WindowedReplay& window) {
+    return per_step(window) * stepCount(window) * (1 + span(window));
+  };
+  const auto measured = [](const WindowedReplay& window, const ReplayStep& step, double IntegrationError::At::*part) {
+    return measuredError(window, step.t, part);
+  };
+  using At = IntegrationError::At;
+  const auto drift = [position_scale](const WindowedReplay& window, const ReplayStep& step) {
+    return replayLimit(window, position_scale, step.t);
+  };
+  const auto turn = [=](const WindowedReplay& window, const ReplayStep& step) {
+    return driftWithoutMeasured(window, position_scale, step.t) / length + measured(window, step, &At::rotation);
+  };
+  const auto opening = [=](const WindowedReplay& window, const ReplayStep& step) {
+    return carried(window) + window.opening.position + measured(window, step, &At::gap);
+  };
+  const auto rate = [=](const WindowedReplay& window, const ReplayStep& step) {
+    return carried(window) + window.opening.velocity + measured(window, step, &At::gap_rate);
+  };
+  const auto energy = [=](const WindowedReplay& window, const ReplayStep& step) {
+    return per_step(window) / (1 + position_scale) * stepCount(window) * window.replay.energy_scale +
+           forces.size * opening(window, step) + measured(window, step, &At::energy);
+  };
+  const std::string integration =
+      windows.front().integration.measured()
+          ? fmt::format("eps a step and {:g} times what a hundredfold tolerance changes", integration_safety)
+          : fmt::format("tolerance {:.1g} and eps a step", windows.front().replay.tolerance);
+  const std::string drift_basis =
+      "rounding of the accelerations, carried by the variational equations and aligned for the worst; " + integration;
+  const std::string opening_basis = "rounding of the accelerations at which gaps open, all one way; " + integration;
+  const std::vector<Measure> measures = {
+      {"replay.position", "m", "P against the commanded path",
+       [](const ReplayStep& step) { return step.position_error.norm(); }, drift, drift_basis,
+       useful_replay_limit * length},
+      {"replay.orientation", "rad", "orientation against the commanded one",
+       [](const ReplayStep& step) { return step.rotation_error.norm(); }, turn, drift_basis, useful_replay_limit},
+      {"closure.position", "m", "the six loops' gaps", [](const ReplayStep& step) { return step.closure.position; },
+       opening, opening_basis, useful_replay_limit * length},
+      {"closure.velocity", "m/s", "the rates of the gaps", [](const ReplayStep& step) { return step.closure.velocity; },
+       rate, opening_basis},
+      {"energy.balance", "J", "kinetic and potential energy against the work of torques, friction and load",
+       [](const ReplayStep& step) { return std::abs(step.energy_error); }, energy,
+       fmt::format("rounding of the energy, and the work of the {:.3g} N that hold the loops on gaps as wide as "
+                   "closure.position allows; {}",
+                   forces.size * units.force(), integration)},
+  };
+  std::vector<Check> checks;
+  checks.reserve(measures.size());
+  for (const Measure& measure : measures) checks.push_back(judgeMeasure(windows, measure, units, cause));
+  return checks;
+}
+
+}  // namespace ursula

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "validation/replay/windowed_replay.h"
+#include "validation/subject/presentation.h"
+#include "validation/verdict/result.h"
+
+namespace ursula {
+
+/// `replay.position`, `replay.orientation`, `closure.position`, `closure.velocity`, `energy.balance`, over all windows.
+/// `cause`: what makes the accelerations' rounding large, for limits that say nothing because of it.
+std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, double position_scale, double length,
+                               const LoopForces& forces, const Units& units = {}, const std::string& cause = "");
+
+}  // namespace ursula

@@ -1,0 +1,44 @@
+#include "validation/checks/stabilised_check.h"
+#include "validation/limits/conditioning.h"
+
+#include <fmt/format.h>
+
+namespace ursula {
+namespace {
+
+/// Above this share of the largest torque a limit says nothing worth knowing: torques between the samples have sharper
+/// witnesses, but none that sees all of the motion at once.
+constexpr double useful_feedback = 1e-4;
+
+}  // namespace
+
+Check judgeStabilised(const StabilisedReplay& found, double largest, const Units& units) {
+  static constexpr const char* check = "feedback.torque";
+  const std::string stopped =
+      found.stopped.empty() ? "" : fmt::format("; {} at t = {:.6g} s", found.stopped, found.stopped_at * units.time);
+  const std::string useless = fmt::format("it exceeds {:g} of the largest torque: {}", useful_feedback,
+                                          found.noisiest ? causeOfRounding(*found.noisiest) : "");
+  if (found.gave_up && found.torque <= found.limit) {
+    const std::string why = "the stabilised replay gave up" + stopped;
+    // Where rounding alone may throw the machine about, that proves nothing.
+    if (found.limit <= useful_feedback * largest) return notMade(check, "N m", why);
+    return notJudgeable(Reason::limit_useless, check, found.torque, found.limit, "N m", "",
+                        why + "; the limit: " + useless);
+  }
+  const std::string basis = fmt::format(
+      "{:.3g} N m, twice the torque's largest rounding and the loops' as torque, answered with {:.3g} of it, and half "
+      "of it again from a step",
+      found.rounding * units.torque(), found.answer);
+  const std::string why = fmt::format(
+      "torque that a weak stabilising term added over the whole motion, {:.3g} of the largest torque; shown for "
+      "t = {:.6g} s of {} steps, {} derivative evaluations{}",
+      largest > 0 ? found.torque / largest : found.torque, found.t * units.time, found.steps, found.evaluations,
+      stopped);
+  Check out = judgedIfUseful(check, found.torque, found.limit, useful_feedback * largest, "N m", basis, why, useless);
+  if (found.torque <= found.limit && found.too_long)
+    out = notJudgeable(Reason::unfinished, check, found.torque, found.limit, "N m", basis, why);
+  out.largest = {found.torque, found.t * units.time, ""};
+  return out;
+}
+
+}  // namespace ursula

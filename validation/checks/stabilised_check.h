@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "validation/replay/stabilised_replay.h"
+#include "validation/subject/presentation.h"
+#include "validation/verdict/result.h"
+
+namespace ursula {
+
+/// `feedback.torque`, N·m: what the stabilising term had to add. `largest`: of the right torques.
+Check judgeStabilised(const StabilisedReplay& found, double largest, const Units& units = {});
+
+}  // namespace ursula

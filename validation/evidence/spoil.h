@@ -1,0 +1,28 @@
+#pragma once
+
+#include <functional>
+
+#include "model/joint_reactions.h"
+#include "model/scenario.h"
+#include "validation/replay/replay.h"
+#include "validation/samples/pointwise.h"
+
+namespace ursula {
+
+/// For controls that must fail: spoils an experiment, and neither the subject nor the scenario. What is empty stays
+/// right. All see the scenario in its natural units.
+struct Spoil {
+  /// The scenario as something takes it to be.
+  using Seen = std::function<Scenario(const Scenario&)>;
+  using Settings = std::function<void(ReplaySettings&)>;
+
+  Seen twin, maximal, mujoco;                    ///< what that road's engine is built of
+  Seen feedback;                                 ///< what the loop of the stabilised replay is built of
+  std::function<void(PointwiseSample&)> sample;  ///< what was measured at one instant
+  std::function<void(Reactions&)> reactions;     ///< those recovered from the solver's road
+  Settings replay;                               ///< the judged replays
+  bool lower_order = false;                      ///< another integrator, of order 5, as the one of integration.order
+  Settings ladder;                               ///< the replays that they are compared with, of both integrators
+};
+
+}  // namespace ursula

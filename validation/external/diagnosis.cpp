@@ -1,0 +1,161 @@
+#include "validation/external/diagnosis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/external/hypotheses.h"
+
+namespace ursula {
+namespace {
+
+/// An explanation must leave less than this part of the residual.
+constexpr double may_remain = 0.01;
+
+/// Where one leg's torque is beyond its limit.
+struct LegDeviation {
+  std::size_t count = 0, first = 0, last = 0, worst = 0;
+  double largest = 0;
+};
+
+double limitAt(const ExternalTorques& torques, std::size_t k, int leg) {
+  return torques.samples[k].conditioning.torqueRounding() + torques.precision[k](leg);
+}
+
+double residualAt(const ExternalTorques& torques, std::size_t k, int leg) {
+  return torques.file.torques[k](leg) - torques.noc[k](leg);
+}
+
+LegDeviation deviationOf(const ExternalTorques& torques, int leg) {
+  LegDeviation out;
+  for (std::size_t k = 0; k < torques.file.rows(); ++k) {
+    const double error = std::abs(residualAt(torques, k, leg));
+    if (error <= limitAt(torques, k, leg)) continue;
+    if (out.count++ == 0) out.first = k;
+    out.last = k;
+    if (error > out.largest) out.largest = error, out.worst = k;
+  }
+  return out;
+}
+
+std::string intervalText(const ExternalTorques& torques, std::size_t count, std::size_t first, std::size_t last) {
+  const std::vector<double>& t = torques.file.t;
+  const std::string span = first == last ? fmt::format("at t = {:.6g} s", t[first])
+                                         : fmt::format("from t = {:.6g} to {:.6g} s", t[first], t[last]);
+  return fmt::format("{}, {} of {} instants", span, count, t.size());
+}
+
+double largestTorque(const ExternalTorques& torques) {
+  double largest = 0;
+  for (const Vector6d& row : torques.noc) largest = std::max(largest, row.cwiseAbs().maxCoeff());
+  return largest;
+}
+
+std::string amountText(const LegDeviation& leg, double largest_torque) {
+  const std::string share =
+      largest_torque > 0 ? fmt::format(" ({:.3g} % of the largest torque)", 100 * leg.largest / largest_torque) : "";
+  return fmt::format("by up to {:.4g} N m{}", leg.largest, share);
+}
+
+/// Summary and details, empty where every leg is within its limits.
+Diagnosis deviationTexts(const ExternalTorques& torques) {
+  const double largest_torque = largestTorque(torques);
+  std::string legs, details, right;
+  LegDeviation all;
+  all.first = torques.file.rows();
+  for (int i = 0; i < leg_count; ++i) {
+    const LegDeviation leg = deviationOf(torques, i);
+    std::string& names = leg.count == 0 ? right : legs;
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", i + 1);
+    if (leg.count == 0) continue;
+    details += fmt::format("{}leg {} {} at t = {:.6g} s, beyond its limit {}", details.empty() ? "" : "; ", i + 1,
+                           amountText(leg, largest_torque), torques.file.t[leg.worst],
+                           intervalText(torques, leg.count, leg.first, leg.last));
+    if (leg.largest > all.largest) all.largest = leg.largest, all.worst = leg.worst;
+    all.first = std::min(all.first, leg.first);
+    all.last = std::max(all.last, leg.last);
+    all.count = std::max(all.count, leg.count);
+  }
+  if (legs.empty()) return {};
+  const std::string who = right.empty() ? "all legs" : (legs.size() == 1 ? "leg " : "legs ") + legs;
+  return {fmt::format("{} {}, {}", who, amountText(all, largest_torque),
+                      intervalText(torques, all.count, all.first, all.last)),
+          details + (right.empty() ? "; no leg is right" : "; within their limits: " + right), ""};
+}
+
+/// At most `most` instants, evenly picked: an explanation needs no more.
+TorqueResidual residualOf(const Scenario& scenario, const ExternalTorques& torques) {
+  constexpr std::size_t most = 1000;
+  TorqueResidual out;
+  const std::size_t rows = torques.file.rows(), count = std::min(rows, most);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t k = count == 1 ? 0 : i * (rows - 1) / (count - 1);
+    out.motions.push_back(scenario.trajectory->at(torques.file.t[k]));
+    out.exact.push_back(torques.noc[k]);
+    out.residual.push_back(torques.file.torques[k] - torques.noc[k]);
+  }
+  return out;
+}
+
+/// Numbers of single precision with the errors that such have.
+bool isSinglePrecision(const ExternalTorques& torques) {
+  if (!torques.file.all_single) return false;
+  for (std::size_t k = 0; k < torques.file.rows(); ++k)
+    for (int i = 0; i < leg_count; ++i) {
+      const double half = std::ldexp(std::abs(torques.noc[k](i)), -24);
+      if (!(std::abs(residualAt(torques, k, i)) <= 2 * half + limitAt(torques, k, i))) return false;
+    }
+  return true;
+}
+
+/// Whether one instant's residual says nothing of the next one's: their correlation is within three of its deviations.
+bool isNoise(const TorqueResidual& data) {
+  double along = 0, all = 0;
+  for (std::size_t k = 0; k + 1 < data.residual.size(); ++k) along += data.residual[k].dot(data.residual[k + 1]);
+  for (const Vector6d& row : data.residual) all += row.squaredNorm();
+  return data.residual.size() >= 16 &&
+         std::abs(along / all) <= 3 / std::sqrt(static_cast<double>(data.residual.size()));
+}
+
+std::string percent(double explained) {
+  if (explained > 1 - 1e-6) return "more than 99.9999 % of the deviation";
+  return fmt::format("{:.4f} % of the deviation", 100 * std::max(0.0, explained));
+}
+
+std::string causeText(const Scenario& scenario, const ExternalTorques& torques) {
+  const TorqueResidual data = residualOf(scenario, torques);
+  if (isSinglePrecision(torques))
+    return "single precision: every torque is a 24-bit number, off by no more than such numbers are";
+  const std::vector<Hypothesis> fitted = fitHypotheses(scenario, data);
+  if (fitted.empty()) return "no simple explanation";
+  const auto least = std::min_element(fitted.begin(), fitted.end(), [](const Hypothesis& a, const Hypothesis& b) {
+    return a.unexplained < b.unexplained;
+  });
+  // The first that does as well as the best: they stand in the order in which a person would believe them.
+  std::string others;
+  const Hypothesis* best = nullptr;
+  for (const Hypothesis& hypothesis : fitted) {
+    if (!(hypothesis.unexplained <= 2 * least->unexplained + 1e-9)) continue;
+    if (best == nullptr)
+      best = &hypothesis;
+    else if (hypothesis.free_numbers <= best->free_numbers)
+      others += (others.empty() ? "; as well explained by: " : "; ") + hypothesis.text;
+  }
+  if (best->unexplained < may_remain)
+    return fmt::format("{}, which explains {}{}", best->text, percent(best->explained()), others);
+  const std::string noise = isNoise(data) ? "no pattern from one instant to the next, as of noise or too few digits"
+                                          : "no simple explanation";
+  return fmt::format("{}; the best, {}, explains only {}", noise, best->text,
+                     percent(std::max(0.0, best->explained())));
+}
+
+}  // namespace
+
+Diagnosis diagnose(const Scenario& scenario, const ExternalTorques& torques) {
+  Diagnosis out = deviationTexts(torques);
+  if (!out.summary.empty()) out.cause = causeText(scenario, torques);
+  return out;
+}
+
+}  // namespace ursula

@@ -1,0 +1,150 @@
+#include "validation/external/external_replay.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "validation/external/torque_spline.h"
+#include "validation/replay/windows.h"
+#include "validation/subject/subject.h"
+
+namespace ursula {
+namespace {
+
+/// Errors of the spline through the file's torques, and what they are to the platform.
+class SplineLimit {
+ public:
+  /// `grid`: equally spaced instants of the motion.
+  SplineLimit(const Scenario& scenario, const ExternalTorques& torques, std::vector<double> grid)
+      : t_(torques.file.t), grid_(std::move(grid)) {
+    const RoundingProfile profile(scenario, profileInstants(static_cast<int>(grid_.size())));
+    for (double t : grid_) {
+      conditioning_.push_back(profile.at(scenario.trajectory->at(t)));
+      position_scale_ = std::max(position_scale_, conditioning_.back().position_scale);
+      forces_.include(conditioning_.back());
+    }
+    const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
+    interpolation_ = interpolationErrors(t_, [&](double t) { return noc.torques(scenario.trajectory->at(t)); });
+    std::vector<double> norms;
+    for (const Vector6d& row : torques.precision) norms.push_back(row.norm());
+    digits_ = carriedErrors(t_, norms);
+  }
+
+  /// Of the platform's acceleration: the largest within one step of the grid around t, m/s².
+  double operator()(double t) const {
+    const double h = grid_[1] - grid_[0];
+    const auto k = std::min(static_cast<std::size_t>(std::lround(t / h)), grid_.size() - 1);
+    double response = 0, rounding = 0;
+    for (std::size_t j = k == 0 ? 0 : k - 1; j <= std::min(k + 1, grid_.size() - 1); ++j) {
+      response = std::max(response, conditioning_[j].response);
+      rounding = std::max(rounding, conditioning_[j].accelerationRounding());
+    }
+    return rounding + response * splineError(t - h, t + h);
+  }
+
+  double positionScale() const { return position_scale_; }
+  const LoopForces& forces() const { return forces_; }
+  double length() const { return conditioning_.front().length; }
+  double largestInterpolation() const { return *std::max_element(interpolation_.begin(), interpolation_.end()); }
+  double largestOfDigits() const { return *std::max_element(digits_.begin(), digits_.end()); }
+
+ private:
+  double splineError(double from, double to) const {
+    const auto last = static_cast<std::ptrdiff_t>(interpolation_.size()) - 1;
+    const auto first = std::upper_bound(t_.begin(), t_.end(), from) - t_.begin() - 1;
+    double largest = 0;
+    for (auto j = std::clamp<std::ptrdiff_t>(first, 0, last); j <= last; ++j) {
+      const auto i = static_cast<std::size_t>(j);
+      if (t_[i] > to && i > 0) break;
+      largest = std::max(largest, interpolation_[i] + digits_[i]);
+    }
+    return largest;
+  }
+
+  std::vector<double> t_, grid_;
+  std::vector<Conditioning> conditioning_;
+  std::vector<double> interpolation_, digits_;  ///< N·m, one for each interval of t_
+  double position_scale_ = 0;
+  LoopForces forces_;
+};
+
+bool covers(const TorqueFile& file, double duration) {
+  const double rounding = timeRounding(file, duration);
+  return !file.t.empty() && file.t.front() <= file.time_precision.front() + rounding &&
+         file.t.back() >= duration - file.time_precision.back() - rounding;
+}
+
+/// Why no spline can stand for the torques over the whole motion; empty where one can.
+std::string missing(const ExternalTorques& torques, double duration, const Units& units) {
+  const TorqueFile& file = torques.file;
+  if (file.rows() < TorqueSpline::least_samples)
+    return fmt::format("too few samples, {}; a quintic spline needs {}", file.rows(), TorqueSpline::least_samples);
+  if (covers(file, duration)) return "";
+  return fmt::format("the samples cover {:.6g} to {:.6g} s of a motion from 0 to {:.6g} s", file.t.front() * units.time,
+                     file.t.back() * units.time, duration * units.time);
+}
+
+/// Where even the shortest window's bound exceeds the useful limit, the worst of them.
+const GrowthWindow* hopeless(const ReplayPlan& plan, const std::vector<GrowthWindow>& windows, double useful) {
+  const GrowthWindow* worst = nullptr;
+  double largest = useful;
+  for (const GrowthWindow& window : windows) {
+    const double bound = plannedBound(plan, window);
+    if (!(bound <= largest)) worst = &window, largest = bound;
+  }
+  return worst;
+}
+
+std::string splineBasis(const SplineLimit& limit, std::size_t rows, const Units& units) {
+  return fmt::format(
+      "between the {} samples: interpolation up to {:.3g} N m (the NOC's torques on a quintic spline through the same "
+      "instants), printed digits up to {:.3g} N m, both x || T_P inv(I) ||",
+      rows, limit.largestInterpolation() * units.torque(), limit.largestOfDigits() * units.torque());
+}
+
+}  // namespace
+
+ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& torques, const Units& units) {
+  const double duration = scenario.trajectory->duration();
+  ExternalReplay out;
+  out.amplification = std::make_shared<const Amplification>(linearised(scenario));
+  out.covered = covers(torques.file, duration);
+  out.not_replayed = missing(torques, duration, units);
+  if (!out.not_replayed.empty()) return out;
+
+  const Amplification& amplification = *out.amplification;
+  const auto limit = std::make_shared<const SplineLimit>(scenario, torques, amplification.instants());
+  const auto spline = std::make_shared<const TorqueSpline>(torques.file.t, torques.file.torques);
+  const double knot_rate = static_cast<double>(torques.file.rows()) / duration;
+  ReplayPlan plan;
+  plan.torques = [spline](double t) { return (*spline)(t); };
+  plan.acceleration = [limit](double t) { return (*limit)(t); };
+  plan.position_scale = limit->positionScale();
+  plan.step_rate = std::max(plannedStepRate(duration), 2 * knot_rate);
+  plan.tolerance = reachableTolerance(scenario, plan.step_rate);
+  plan.max_evaluations = enoughEvaluations(scenario, plan.step_rate);
+  const std::vector<GrowthWindow> windows = planWindows(amplification, plan);
+  const double useful = useful_replay_limit * limit->length();
+  const std::string basis = splineBasis(*limit, torques.file.rows(), units);
+  if (const GrowthWindow* window = hopeless(plan, windows, useful)) {
+    const double bound = plannedBound(plan, *window);
+    out.not_replayed = fmt::format(
+        "too few samples or digits; from t = {:.6g} s the torques' error between samples may move P by "
+        "{:.3g} m within {:.3g} s, beyond {:.3g} m a limit says nothing",
+        window->start() * units.time, bound * units.length, (window->end() - window->start()) * units.time,
+        useful * units.length);
+    out.bound = bound;
+    out.spline = basis;
+    return out;
+  }
+  out.plan = plan;
+  out.windows = replayInWindows(scenario, plan, windows);
+  measureOpening(torques.samples, out.windows);
+  out.scales = {limit->positionScale(), limit->length(), limit->forces()};
+  out.spline = basis;
+  return out;
+}
+
+}  // namespace ursula

@@ -1,0 +1,177 @@
+#include "validation/external/hypothesis_terms.h"
+
+#include <functional>
+
+#include "nocsolver/errors.h"
+#include "validation/subject/subject.h"
+
+namespace ursula {
+namespace {
+
+using Rows = std::vector<Vector6d>;
+using Change = std::function<void(ManipulatorParameters&)>;
+using MotionChange = std::function<void(Motion<double>&)>;
+
+Rows torquesOf(const Subject& subject, const std::vector<Motion<double>>& motions) {
+  Rows out;
+  out.reserve(motions.size());
+  for (const Motion<double>& motion : motions) out.push_back(subject.torques(motion));
+  return out;
+}
+
+Rows difference(const Rows& a, const Rows& b) {
+  Rows out(a.size());
+  for (std::size_t k = 0; k < a.size(); ++k) out[k] = a[k] - b[k];
+  return out;
+}
+
+struct WrongFormula {
+  Slip slip;
+  const char* name;
+};
+
+/// Parts that the solver itself can leave out: they may be scaled as well.
+const WrongFormula parts[] = {
+    {Slip::drop_gravity_platform, "the platform's gravity"},
+    {Slip::drop_gravity_legs, "the links' gravity"},
+    {Slip::drop_centrifugal, "the centrifugal terms of (43a,b)"},
+    {Slip::drop_coriolis, "the Coriolis terms of (43a,b)"},
+    {Slip::drop_gyroscopic_legs, "the links' gyroscopic moments of (38)"},
+    {Slip::drop_gyroscopic_platform, "the platform's gyroscopic moment"},
+    {Slip::drop_platform_centripetal, "the platform's centripetal acceleration of (43c)"},
+    {Slip::drop_link_coupling, "the terms in the elbow's motion of (41b), (43b)"},
+};
+
+const WrongFormula printed[] = {
+    {Slip::eq2, "(2a,b) as printed"},
+    {Slip::eq4c, "(4c) as printed"},
+    {Slip::eq14a, "(14a) as printed"},
+    {Slip::eq14b, "(14b) as printed"},
+    {Slip::eq15a, "(15a) as printed"},
+    {Slip::eq16, "(16) as printed"},
+    {Slip::eq17, "(17a,b) as printed"},
+    {Slip::eq19a, "(19a) as printed"},
+    {Slip::eq19b, "(19b) as printed"},
+    {Slip::eq23, "(23) as printed"},
+    {Slip::eq43b_omega_dot, "(43b) as printed, the rate for the square"},
+    {Slip::eq43b_sigma, "(43b) as printed, sigma + [s]"},
+    {Slip::eq43b_doubled, "(43b) as printed, its last terms doubled"},
+    {Slip::eq47, "the text by (47) as printed"},
+};
+
+/// Collects terms; one that the changed machine cannot have, or that throws on the way, is left out.
+class Collector {
+ public:
+  Collector(const Scenario& scenario, const std::vector<Motion<double>>& motions, const Rows& exact)
+      : scenario_(scenario), motions_(motions), exact_(exact) {}
+
+  std::vector<TorqueTerm> terms() { return std::move(terms_); }
+
+  /// What a change of the machine takes from the torques (`sign` 1), or adds to them (−1).
+  void addChange(const std::string& name, const Change& change, double sign) {
+    ManipulatorParameters parameters = scenario_.manipulator->parameters();
+    change(parameters);
+    add(name, {}, sign, [&] { return torquesOf(nocSubject(Manipulator(parameters), scenario_.load), motions_); });
+  }
+
+  void addSlip(const WrongFormula& formula, std::optional<double> fixed, double sign) {
+    add(formula.name, fixed, sign, [&] {
+      return torquesOf(slippedSubject(*scenario_.manipulator, scenario_.load, WithSlips(formula.slip)), motions_);
+    });
+  }
+
+  void addLoad() {
+    if (scenario_.load)
+      add("the load", {}, 1, [&] { return torquesOf(nocSubject(*scenario_.manipulator, nullptr), motions_); });
+  }
+
+  /// τ(from) − τ(to), of motions changed.
+  void addMotionChange(const std::string& name, const MotionChange& from, const MotionChange& to) {
+    add(name, {}, 1, [&] { return difference(exact_, difference(changed(from), changed(to))); });
+  }
+
+ private:
+  Rows changed(const MotionChange& change) const {
+    std::vector<Motion<double>> motions = motions_;
+    for (Motion<double>& motion : motions) change(motion);
+    return torquesOf(nocSubject(*scenario_.manipulator, scenario_.load), motions);
+  }
+
+  void add(const std::string& name, std::optional<double> fixed, double sign, const std::function<Rows()>& without) {
+    try {
+      Rows term = difference(exact_, without());
+      for (Vector6d& row : term) row *= sign;
+      terms_.push_back({name, std::move(term), fixed});
+    } catch (const PoseError&) {
+    } catch (const std::invalid_argument&) {
+    }
+  }
+
+  const Scenario& scenario_;
+  const std::vector<Motion<double>>& motions_;
+  const Rows& exact_;
+  std::vector<TorqueTerm> terms_;
+};
+
+void withoutFriction(ManipulatorParameters& machine) {
+  for (Leg& leg : machine.legs) {
+    leg.friction = {};
+    leg.coulomb.actuated = leg.coulomb.universal = leg.coulomb.knee = 0;
+  }
+}
+
+template <class F>
+void forLinks(ManipulatorParameters& machine, F&& change) {
+  for (Leg& leg : machine.legs) {
+    change(leg.proximal);
+    change(leg.distal);
+  }
+}
+
+void addParts(Collector& out) {
+  const auto same = [](Motion<double>&) {};
+  const auto unaccelerated = [](Motion<double>& motion) {
+    motion.omega_dot.setZero();
+    motion.p_ddot.setZero();
+  };
+  const auto at_rest = [unaccelerated](Motion<double>& motion) {
+    unaccelerated(motion);
+    motion.omega.setZero();
+    motion.p_dot.setZero();
+  };
+  out.addChange(
+      "gravity", [](ManipulatorParameters& machine) { machine.gravity.setZero(); }, 1);
+  out.addMotionChange("everything that moves (all but statics)", same, at_rest);
+  out.addMotionChange("the torques of acceleration (inertia)", same, unaccelerated);
+  out.addMotionChange("the torques of velocity (Coriolis, centrifugal, gyroscopic, friction)", unaccelerated, at_rest);
+  out.addChange("friction", withoutFriction, 1);
+  out.addLoad();
+}
+
+/// The torques are linear in masses and inertias: what doubling adds is their part.
+void addMasses(Collector& out) {
+  out.addChange(
+      "the platform's mass", [](ManipulatorParameters& machine) { machine.platform.mass *= 2; }, -1);
+  out.addChange(
+      "the platform's inertia tensor", [](ManipulatorParameters& machine) { machine.platform.inertia *= 2; }, -1);
+  out.addChange(
+      "the links' masses",
+      [](ManipulatorParameters& machine) { forLinks(machine, [](Link& link) { link.mass *= 2; }); }, -1);
+  out.addChange(
+      "the links' inertia tensors",
+      [](ManipulatorParameters& machine) { forLinks(machine, [](Link& link) { link.inertia *= 2; }); }, -1);
+}
+
+}  // namespace
+
+std::vector<TorqueTerm> torqueTerms(const Scenario& scenario, const std::vector<Motion<double>>& motions,
+                                    const std::vector<Vector6d>& exact) {
+  Collector out(scenario, motions, exact);
+  addParts(out);
+  for (const WrongFormula& part : parts) out.addSlip(part, {}, 1);
+  addMasses(out);
+  for (const WrongFormula& formula : printed) out.addSlip(formula, 1.0, -1);
+  return out.terms();
+}
+
+}  // namespace ursula

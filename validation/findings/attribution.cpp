@@ -1,0 +1,289 @@
+#include "validation/findings/attribution.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <future>
+#include <mutex>
+#include <stdexcept>
+
+namespace ursula {
+namespace {
+
+/// Beside the judged one; each is a whole replay.
+constexpr unsigned presentations = 3;
+
+/// The window whose replay ends furthest off, and reached its end.
+const WindowedReplay* worstWindow(const std::vector<WindowedReplay>& windows) {
+  const WindowedReplay* worst = nullptr;
+  double largest = -1;
+  for (const WindowedReplay& each : windows) {
+    if (each.replay.steps.size() < 2) continue;
+    const double error = each.replay.steps.back().position_error.norm();
+    if (error > largest) worst = &each, largest = error;
+  }
+  return worst;
+}
+
+Vector3d endOf(const Replay& replay) {
+  return replay.steps.empty() ? Vector3d::Constant(std::nan("")) : replay.steps.back().position_error;
+}
+
+/// Instants in a window at which its errors are taken apart, to be drawn.
+constexpr int drawn = 60;
+
+std::vector<double> drawnInstants(const WindowedReplay& window) {
+  const double start = window.window.start(), end = window.replay.steps.back().t;
+  std::vector<double> out;
+  for (int k = 0; k <= drawn; ++k) out.push_back(k == drawn ? end : start + (end - start) * k / drawn);
+  return out;
+}
+
+/// Errors of P at the end of a replay and at the instants that are drawn; in m and B.
+struct Track {
+  Vector3d end;
+  std::vector<Vector3d> along;
+
+  Track(const Replay& replay, const std::vector<double>& instants, const Presentation& from = {}) {
+    const auto back = [&from](const Vector3d& error) -> Vector3d {
+      return from.turn.transpose() * error * from.units.length;
+    };
+    end = back(endOf(replay));
+    for (const double t : instants) {
+      const double there = t / from.units.time;
+      const bool reached = !replay.steps.empty() && there <= replay.steps.back().t * (1 + 1e-12);
+      along.push_back(reached ? back(interpolated(replay, there).position_error)
+                              : Vector3d::Constant(std::nan("")).eval());
+    }
+  }
+};
+
+/// The window's replay with the gaps projected away, seen from `presentation`.
+Track projected(const Scenario& scenario, const ReplayPlan& plan, const WindowedReplay& window,
+                const Presentation& presentation, std::mutex& asking) {
+  const Scenario there = presentation.of(scenario);
+  const Units& units = presentation.units;
+  ReplaySettings settings = settingsOf(scenario, plan, window.window, 1);
+  settings.start /= units.time;
+  settings.end = window.replay.steps.back().t / units.time;
+  settings.project = true;
+  const SimbodyLoop::TorqueHistory torques = [&](double t) {
+    const std::lock_guard<std::mutex> one_at_a_time(asking);  // the subject may be anybody's
+    return presentation.of(plan.torques(t * units.time));
+  };
+  if (plan.foresee)
+    settings.foresee = [&](std::vector<double> instants) {
+      const std::lock_guard<std::mutex> one_at_a_time(asking);
+      for (double& t : instants) t *= units.time;
+      plan.foresee(instants);
+    };
+  return Track(replay(there, torques, settings), drawnInstants(window), presentation);
+}
+
+/// The torques' errors at the samples as accelerations of the platform, [p̈; L ω̇]: linear between the samples.
+class Residual {
+ public:
+  explicit Residual(const std::vector<PointwiseSample>& samples) : samples_(samples) {}
+
+  Vector6d operator()(double t) const {
+    const auto after = std::lower_bound(samples_.begin(), samples_.end(), t,
+                                        [](const PointwiseSample& each, double x) { return each.motion.t < x; });
+    if (after == samples_.begin()) return of(*after);
+    if (after == samples_.end()) return of(samples_.back());
+    const PointwiseSample &a = *(after - 1), &b = *after;
+    const double s = (t - a.motion.t) / (b.motion.t - a.motion.t);
+    return (1 - s) * of(a) + s * of(b);
+  }
+
+ private:
+  static Vector6d of(const PointwiseSample& sample) {
+    Vector6d out;
+    out << sample.acceleration_error.tail<3>(), sample.conditioning.length * sample.acceleration_error.head<3>();
+    return out;
+  }
+  const std::vector<PointwiseSample>& samples_;
+};
+
+ErrorShare modelShare(const std::vector<PointwiseSample>& samples, const WindowedReplay& window,
+                      const Amplification& amplification) {
+  const Residual residual(samples);
+  const double end = window.replay.steps.back().t;
+  const double length = amplification.length();
+  ErrorShare out;
+  out.error = amplification.carried(window.window.start(), end, residual).head<3>();
+  // Rounding of each residual, as if all were the same way; and what is not linear in the error.
+  const double rounding = amplification.carriedBound(
+      window.window.start(), end, [&samples](double t) { return SampledLimit(samples)(t) / rounding_safety; });
+  const double size = out.error.norm();
+  out.uncertainty = rounding + size * std::min(1.0, 100 * size / length);
+  return out;
+}
+
+/// err(100 tolerance) − err(tolerance), over 99 where the error is proportional to the tolerance, as control of it
+/// makes it; over 9 where it goes with the square root.
+ErrorShare integrationShare(const Vector3d& fine, const Vector3d& coarse) {
+  const Vector3d change = coarse - fine;
+  return {change / (coarser - 1), change.norm() / (std::sqrt(coarser) - 1)};
+}
+
+Track coarse(const Scenario& scenario, const ReplayPlan& plan, const WindowedReplay& window) {
+  ReplaySettings settings = settingsOf(scenario, plan, window.window, coarser);
+  settings.end = window.replay.steps.back().t;
+  settings.project = true;
+  return Track(replay(scenario, plan.torques, settings), drawnInstants(window));
+}
+
+/// What the shares come from: the judged replay, the projected ones (as judged, then in other presentations), and that
+/// with a coarser tolerance.
+struct Tracks {
+  Track judged, plain;
+  std::vector<Track> turned;
+  Track coarse;
+};
+
+std::vector<ErrorsAt> sharesAlong(const Tracks& tracks, const std::vector<PointwiseSample>& samples,
+                                  const WindowedReplay& window, const Amplification& amplification) {
+  const std::vector<double> instants = drawnInstants(window);
+  const Residual residual(samples);
+  const double scale = positionScale(samples);
+  std::vector<ErrorsAt> out;
+  for (std::size_t k = 0; k < instants.size(); ++k) {
+    const Vector3d observed = tracks.judged.along[k], plain = tracks.plain.along[k];
+    Vector3d mean = Vector3d::Zero();
+    for (const Track& each : tracks.turned) mean += each.along[k] / presentations;
+    const Vector3d integration = integrationShare(plain, tracks.coarse.along[k]).error;
+    const Vector3d model = amplification.carried(window.window.start(), instants[k], residual).head<3>();
+    out.push_back({instants[k], observed.norm(), (plain - mean).norm(), integration.norm(), (observed - plain).norm(),
+                   model.norm(), (mean - integration - model).norm(), replayLimit(window, scale, instants[k])});
+  }
+  return out;
+}
+
+TimeSeries curveOf(const std::vector<ErrorsAt>& along) {
+  const std::pair<const char*, double ErrorsAt::*> columns[] = {{"t_s", &ErrorsAt::t},
+                                                                {"observed (m)", &ErrorsAt::observed},
+                                                                {"rounding (m)", &ErrorsAt::rounding},
+                                                                {"integration (m)", &ErrorsAt::integration},
+                                                                {"loop closure (m)", &ErrorsAt::closure},
+                                                                {"torques (m)", &ErrorsAt::model},
+                                                                {"unexplained (m)", &ErrorsAt::unexplained},
+                                                                {"limit (m)", &ErrorsAt::limit}};
+  TimeSeries curve;
+  for (const auto& [name, member] : columns) {
+    std::vector<double> values;
+    values.reserve(along.size());
+    for (const ErrorsAt& at : along) values.push_back(at.*member);
+    curve.add(name, std::move(values));
+  }
+  return curve;
+}
+
+ErrorSource dominantOf(const ErrorBudget& budget) {
+  // Torques that are right to rounding leave residuals of rounding: no error of theirs.
+  const double model = budget.model.error.norm();
+  const std::pair<ErrorSource, double> shares[] = {{ErrorSource::model, model > budget.model.uncertainty ? model : 0},
+                                                   {ErrorSource::integration, budget.integration.error.norm()},
+                                                   {ErrorSource::rounding, budget.rounding.error.norm()},
+                                                   {ErrorSource::closure, budget.closure.error.norm()},
+                                                   {ErrorSource::unexplained, budget.unexplained().norm()}};
+  return std::max_element(std::begin(shares), std::end(shares),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
+}
+
+std::string shareText(const ErrorShare& share, const Units& units) {
+  return fmt::format("{:.3g} m +- {:.2g} m", share.error.norm() * units.length, share.uncertainty * units.length);
+}
+
+}  // namespace
+
+const char* name(ErrorSource source) {
+  switch (source) {
+    case ErrorSource::model:
+      return "model";
+    case ErrorSource::integration:
+      return "integration";
+    case ErrorSource::rounding:
+      return "rounding";
+    case ErrorSource::closure:
+      return "closure";
+    case ErrorSource::amplification:
+      return "amplification";
+    case ErrorSource::unexplained:
+      return "unexplained";
+  }
+  throw std::logic_error("no such source of errors");
+}
+
+Vector3d ErrorBudget::unexplained() const {
+  return observed - model.error - integration.error - rounding.error - closure.error;
+}
+
+double ErrorBudget::uncertainty() const {
+  return model.uncertainty + integration.uncertainty + rounding.uncertainty + closure.uncertainty;
+}
+
+ErrorBudget attribute(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
+                      const std::vector<WindowedReplay>& windows, const Amplification& amplification,
+                      const ReplayPlan& plan) {
+  ErrorBudget budget;
+  const WindowedReplay* window = worstWindow(windows);
+  if (window == nullptr) return budget;
+  budget.measured = true;
+  budget.t = window->replay.steps.back().t;
+  budget.observed = endOf(window->replay);
+  budget.amplification = window->window.from_start.back();
+
+  std::vector<Presentation> from = {Presentation{}};
+  for (unsigned k = 0; k < presentations; ++k) from.push_back(randomPresentation(k + 101, amplification.length()));
+  std::mutex asking;
+  std::vector<std::future<Track>> running;
+  for (const Presentation& presentation : from)
+    running.push_back(std::async(std::launch::async, [&scenario, &plan, &asking, window, presentation] {
+      return projected(scenario, plan, *window, presentation, asking);
+    }));
+  std::vector<Track> seen;
+  for (auto& each : running) seen.push_back(each.get());
+  const Tracks tracks{Track(window->replay, drawnInstants(*window)),
+                      seen[0],
+                      {seen.begin() + 1, seen.end()},
+                      coarse(scenario, plan, *window)};
+  Vector3d mean = Vector3d::Zero();
+  for (const Track& each : tracks.turned) mean += each.end / presentations;
+  double spread = 0;
+  for (const Track& each : seen) spread = std::max(spread, (each.end - mean).norm());
+  budget.closure.error = budget.observed - tracks.plain.end;
+  budget.rounding = {tracks.plain.end - mean, spread};  // of the mean of three, and of the judged replay against it
+  budget.closure.uncertainty = spread;
+  budget.integration = integrationShare(tracks.plain.end, tracks.coarse.end);
+  budget.along = sharesAlong(tracks, samples, *window, amplification);
+  budget.model = modelShare(samples, *window, amplification);
+  budget.dominant = dominantOf(budget);
+  return budget;
+}
+
+void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units& units) {
+  const bool limit_too_large = std::any_of(result.checks.begin(), result.checks.end(), [](const Check& check) {
+    return check.reason == Reason::limit_useless && check.name.rfind("replay.", 0) == 0;
+  });
+  const ErrorSource dominant = limit_too_large   ? ErrorSource::amplification
+                               : budget.measured ? budget.dominant
+                                                 : ErrorSource::model;
+  result.findings.emplace_back("dominant error", name(dominant));
+  if (!budget.measured) return;
+  result.curves.emplace_back("Sources of the replay's error", curveOf(budget.along));
+  const auto add = [&result](const char* what, const std::string& text) { result.findings.emplace_back(what, text); };
+  add("replay, error in position",
+      fmt::format("{:.3g} m at t = {:.6g} s", budget.observed.norm() * units.length, budget.t * units.time));
+  add("of it by rounding", shareText(budget.rounding, units));
+  add("of it by the integration", shareText(budget.integration, units));
+  add("of it by the loops' gaps", shareText(budget.closure, units));
+  add("of it by the torques", shareText(budget.model, units));
+  add("of it unexplained",
+      fmt::format("{:.3g} m, of an uncertainty of {:.3g} m", budget.unexplained().norm() * units.length,
+                  budget.uncertainty() * units.length));
+  add("amplification of a deviation at the start", fmt::format("{:.4g}", budget.amplification));
+}
+
+}  // namespace ursula

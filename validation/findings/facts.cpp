@@ -1,0 +1,73 @@
+#include "validation/findings/facts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "validation/verdict/worst_share.h"
+
+namespace ursula {
+namespace {
+
+/// κ(B): infinite where the pose is singular.
+std::string nearestToSingular(const std::vector<PointwiseSample>& samples, const Units& units) {
+  const PointwiseSample& at = *std::max_element(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
+    return a.conditioning.kappa_B < b.conditioning.kappa_B;
+  });
+  return fmt::format("{:.4g}, at t = {:.6g} s", at.conditioning.kappa_B, at.motion.t * units.time);
+}
+
+/// |sin θ|: 0 where a leg is stretched or folded.
+std::string nearestToEdge(const std::vector<PointwiseSample>& samples, const Units& units) {
+  const PointwiseSample& at = *std::min_element(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
+    return a.conditioning.smallest_sine < b.conditioning.smallest_sine;
+  });
+  return fmt::format("{:.4g}, leg {} at t = {:.6g} s", at.conditioning.smallest_sine,
+                     at.conditioning.smallest_sine_leg + 1, at.motion.t * units.time);
+}
+
+}  // namespace
+
+void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
+                 ValidationResult& result, const Units& units) {
+  double torque = 0, torque_error = 0, acceleration = 0, acceleration_error = 0;
+  for (const PointwiseSample& sample : samples) {
+    torque = std::max(torque, sample.torques_simbody.cwiseAbs().maxCoeff());
+    torque_error = larger(torque_error, sample.torque.error);
+    const double length = sample.conditioning.length;
+    acceleration = std::max(acceleration, sample.motion.p_ddot.norm() + length * sample.motion.omega_dot.norm());
+    acceleration_error = larger(acceleration_error, sample.acceleration.error);
+  }
+  long evaluations = 0;
+  std::size_t steps = 0;
+  double growth = 0;
+  for (const WindowedReplay& window : windows) {
+    evaluations += window.replay.evaluations;
+    steps += window.replay.steps.size() - (window.replay.steps.empty() ? 0 : 1);
+    for (double value : window.window.growth) growth = std::max(growth, value);
+  }
+  for (const WindowedReplay& window : windows) {
+    const Replay& replay = window.replay;
+    if (replay.gave_up.empty() && !replay.left_path) continue;
+    const double t = replay.left_path && !replay.steps.empty() ? replay.steps.back().t : replay.stopped_at;
+    const std::string why = replay.left_path ? "P was off by more than the platform's size" : replay.gave_up;
+    result.findings.emplace_back("replay stopped", fmt::format("stopped at t = {:.6g} s: {}", t * units.time, why));
+  }
+  const std::vector<std::pair<std::string, std::string>> findings = {
+      {"largest torque", fmt::format("{:.6g} N m", torque * units.torque())},
+      {"torque error, relative to the largest", fmt::format("{:.3g}", torque > 0 ? torque_error / torque : 0)},
+      {"largest platform acceleration", fmt::format("{:.6g} m/s^2", acceleration * units.acceleration())},
+      {"acceleration error, relative to the largest",
+       acceleration > 0 ? fmt::format("{:.3g}", acceleration_error / acceleration) : "none commanded"},
+      {"largest condition number of B", nearestToSingular(samples, units)},
+      {"smallest |sin theta|", nearestToEdge(samples, units)},
+      {"replay tolerance", windows.empty() ? "–" : fmt::format("{:.3g}", windows.front().replay.tolerance)},
+      {"replay windows", fmt::format("{}", windows.size())},
+      {"replay steps", fmt::format("{}", steps)},
+      {"replay derivative evaluations", fmt::format("{}", evaluations)},
+      {"growth of a velocity deviation in a window", fmt::format("{:.4g} m/(m/s)", growth * units.time)},
+  };
+  result.findings.insert(result.findings.end(), findings.begin(), findings.end());
+}
+
+}  // namespace ursula

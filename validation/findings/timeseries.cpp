@@ -1,0 +1,170 @@
+#include "validation/findings/timeseries.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "model/quaternions.h"
+
+namespace ursula {
+namespace {
+
+template <class Rows, class F>
+void addColumn(TimeSeries& series, const std::string& column, const Rows& rows, F&& value) {
+  std::vector<double> values;
+  values.reserve(rows.size());
+  for (const auto& row : rows) values.push_back(value(row));
+  series.add(column, std::move(values));
+}
+
+/// `pattern` holds one {} for x, y, z.
+template <class Rows, class F>
+void addVector(TimeSeries& series, const std::string& pattern, const Rows& rows, F&& vector) {
+  const char* axes[] = {"x", "y", "z"};
+  for (int k = 0; k < 3; ++k)
+    addColumn(series, fmt::format(fmt::runtime(pattern), axes[k]), rows,
+              [&](const auto& row) { return vector(row)(k); });
+}
+
+/// `pattern` holds one {} for the leg.
+template <class Rows, class F>
+void addLegs(TimeSeries& series, const std::string& pattern, const Rows& rows, F&& values) {
+  for (int i = 0; i < leg_count; ++i)
+    addColumn(series, fmt::format(fmt::runtime(pattern), i + 1), rows, [&](const auto& row) { return values(row)(i); });
+}
+
+void addMotion(TimeSeries& series, const std::vector<Motion<double>>& motions) {
+  addColumn(series, "t_s", motions, [](const Motion<double>& m) { return m.t; });
+  addVector(series, "p_{}_m", motions, [](const Motion<double>& m) { return m.p; });
+  const std::vector<Eigen::Vector4d> q = quaternions(motions);
+  const char* parts[] = {"q_w", "q_x", "q_y", "q_z"};
+  for (int k = 0; k < 4; ++k) addColumn(series, parts[k], q, [k](const Eigen::Vector4d& row) { return row(k); });
+  addVector(series, "v_{}_m_s", motions, [](const Motion<double>& m) { return m.p_dot; });
+  addVector(series, "w_{}_rad_s", motions, [](const Motion<double>& m) { return m.omega; });
+  addVector(series, "a_{}_m_s2", motions, [](const Motion<double>& m) { return m.p_ddot; });
+  addVector(series, "alpha_{}_rad_s2", motions, [](const Motion<double>& m) { return m.omega_dot; });
+}
+
+void addJoints(TimeSeries& series, const std::vector<JointMotion>& joints) {
+  using Joints = JointMotion;
+  addLegs(series, "phi_{}_rad", joints, [](const Joints& j) { return j.q.phi; });
+  addLegs(series, "psi_{}_rad", joints, [](const Joints& j) { return j.q.psi; });
+  addLegs(series, "theta_{}_rad", joints, [](const Joints& j) { return j.q.theta; });
+  addLegs(series, "phidot_{}_rad_s", joints, [](const Joints& j) { return j.q_dot.phi; });
+  addLegs(series, "psidot_{}_rad_s", joints, [](const Joints& j) { return j.q_dot.psi; });
+  addLegs(series, "thetadot_{}_rad_s", joints, [](const Joints& j) { return j.q_dot.theta; });
+  addLegs(series, "phiddot_{}_rad_s2", joints, [](const Joints& j) { return j.q_ddot.phi; });
+  addLegs(series, "psiddot_{}_rad_s2", joints, [](const Joints& j) { return j.q_ddot.psi; });
+  addLegs(series, "thetaddot_{}_rad_s2", joints, [](const Joints& j) { return j.q_ddot.theta; });
+}
+
+const WindowedReplay* windowAt(const std::vector<WindowedReplay>& windows, double t) {
+  for (const WindowedReplay& window : windows)
+    if (t <= window.window.end()) return &window;
+  return windows.empty() ? nullptr : &windows.back();
+}
+
+/// Ends that two integrators reach differ by rounding.
+bool reached(const Replay& replay, double t) {
+  return !replay.steps.empty() && t <= replay.steps.back().t * (1 + 1e-12);
+}
+
+/// After a replay stopped there is nothing, and nothing is drawn.
+ReplayStep notComputed(double t) {
+  const Vector3d none = Vector3d::Constant(std::nan(""));
+  return {t, none, none, none, none, {std::nan(""), std::nan("")}, std::nan("")};
+}
+
+void addReplay(TimeSeries& series, const std::vector<Motion<double>>& motions,
+               const std::vector<WindowedReplay>& windows) {
+  std::vector<ReplayStep> steps;
+  for (const Motion<double>& motion : motions) {
+    const WindowedReplay* window = windowAt(windows, motion.t);
+    if (window == nullptr) return;
+    steps.push_back(reached(window->replay, motion.t) ? interpolated(window->replay, motion.t) : notComputed(motion.t));
+  }
+  std::vector<Motion<double>> simulated = motions;
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    simulated[k].p += steps[k].position_error;
+    const double angle = steps[k].rotation_error.norm();
+    if (std::isnan(angle)) simulated[k].Q.setConstant(angle);
+    if (angle > 0)
+      simulated[k].Q = Eigen::AngleAxisd(angle, steps[k].rotation_error / angle).toRotationMatrix() * simulated[k].Q;
+  }
+  addVector(series, "sim_p_{}_m", simulated, [](const Motion<double>& m) { return m.p; });
+  const std::vector<Eigen::Vector4d> q = quaternions(simulated);
+  const char* parts[] = {"sim_q_w", "sim_q_x", "sim_q_y", "sim_q_z"};
+  for (int k = 0; k < 4; ++k) addColumn(series, parts[k], q, [k](const Eigen::Vector4d& row) { return row(k); });
+  addColumn(series, "error_p_m", steps, [](const ReplayStep& s) { return s.position_error.norm(); });
+  addColumn(series, "error_q_rad", steps, [](const ReplayStep& s) { return s.rotation_error.norm(); });
+  addColumn(series, "closure_p_m", steps, [](const ReplayStep& s) { return s.closure.position; });
+  addColumn(series, "closure_v_m_s", steps, [](const ReplayStep& s) { return s.closure.velocity; });
+  addColumn(series, "error_energy_J", steps, [](const ReplayStep& s) { return s.energy_error; });
+}
+
+}  // namespace
+
+TimeSeries inverseSeries(const std::vector<Motion<double>>& motions, const std::vector<JointMotion>& joints,
+                         const std::vector<Vector6d>& torques) {
+  TimeSeries series;
+  addMotion(series, motions);
+  addJoints(series, joints);
+  addLegs(series, "tau_{}_Nm", torques, [](const Vector6d& tau) { return tau; });
+  return series;
+}
+
+TimeSeries simulatedSeries(const std::vector<Motion<double>>& motions, const std::vector<Vector6d>& torques) {
+  TimeSeries series;
+  addMotion(series, motions);
+  addLegs(series, "tau_{}_Nm", torques, [](const Vector6d& tau) { return tau; });
+  return series;
+}
+
+TimeSeries validationSeries(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows) {
+  std::vector<Motion<double>> motions;
+  std::vector<JointMotion> joints;
+  std::vector<Vector6d> torques;
+  for (const PointwiseSample& sample : samples) {
+    motions.push_back(sample.motion);
+    joints.push_back(sample.joints);
+    torques.push_back(sample.torques);
+  }
+  TimeSeries series = inverseSeries(motions, joints, torques);
+  using Sample = PointwiseSample;
+  addLegs(series, "simbody_tau_{}_Nm", samples, [](const Sample& s) { return s.torques_simbody; });
+  addColumn(series, "error_tau_Nm", samples, [](const Sample& s) { return s.torque.error; });
+  addColumn(series, "limit_tau_Nm", samples, [](const Sample& s) { return s.torque.limit; });
+  addColumn(series, "error_acceleration_m_s2", samples, [](const Sample& s) { return s.acceleration.error; });
+  addColumn(series, "limit_acceleration_m_s2", samples, [](const Sample& s) { return s.acceleration.limit; });
+  addReplay(series, motions, windows);
+  return series;
+}
+
+void addReactionColumns(const std::vector<ReactionSample>& reactions, TimeSeries& series) {
+  struct Column {
+    const char* pattern;
+    Vector3d LegReactions::*member;
+  };
+  const std::array<Column, 5> columns{{{"reaction_fA_{}_{}_N", &LegReactions::f_A},
+                                       {"reaction_nA_{}_{}_Nm", &LegReactions::n_A},
+                                       {"reaction_fR_{}_{}_N", &LegReactions::f_R},
+                                       {"reaction_nR_{}_{}_Nm", &LegReactions::n_R},
+                                       {"reaction_fB_{}_{}_N", &LegReactions::f_B}}};
+  const std::array<char, 3> axes{'x', 'y', 'z'};
+  for (const Column& column : columns)
+    for (std::size_t leg = 0; leg < leg_count; ++leg)
+      for (int k = 0; k < 3; ++k) {
+        std::vector<double> values;
+        values.reserve(reactions.size());
+        for (const ReactionSample& row : reactions) values.push_back((row.recovered[leg].*column.member)(k));
+        series.add(fmt::format(fmt::runtime(column.pattern), axes[static_cast<std::size_t>(k)], leg + 1),
+                   std::move(values));
+      }
+}
+
+}  // namespace ursula

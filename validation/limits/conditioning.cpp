@@ -1,0 +1,233 @@
+#include "validation/limits/conditioning.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "nocsolver/reactions.h"
+#include "validation/subject/subject.h"
+
+namespace ursula {
+namespace {
+
+constexpr double eps = Eigen::NumTraits<double>::epsilon();
+
+/// Sizes of what inertia and gravity put on a body, [moment; force], with magnitudes added: nothing cancels. Norms, so
+/// that the frame does not matter.
+struct WrenchSize {
+  double moment, force;
+};
+
+WrenchSize wrenchSize(const BodyMotion<double>& body, double mass, const Matrix3d& inertia, const Vector3d& gravity) {
+  const double I = inertia.norm(), omega = body.twist.head<3>().norm();
+  return {I * (body.twist_rate.head<3>().norm() + omega * omega),
+          mass * (body.twist_rate.tail<3>().norm() + gravity.norm())};
+}
+
+double frictionMagnitude(const Leg& leg, const JointTriple<double>& rate) {
+  return leg.friction.actuated * std::abs(rate.phi) + leg.friction.universal * std::abs(rate.psi) +
+         leg.friction.knee * std::abs(rate.theta) + leg.coulomb.actuated + leg.coulomb.universal + leg.coulomb.knee;
+}
+
+/// ‖|T|ᵀ|w|‖ with friction and load; I = TᵀMT.
+struct Projection {
+  double torque_scale = 0;
+  Matrix6d inertia = Matrix6d::Zero();
+};
+
+Projection project(const Manipulator& manipulator, const TwistShaping<double>& T, const BodyMotions<double>& bodies,
+                   const Workspace<double>& work) {
+  Projection out;
+  Vector6d torque = Vector6d::Zero();
+  double friction = 0, largest_spin = 0;
+  for (int b = 0; b < body_count; ++b) {
+    const auto i = static_cast<std::size_t>(b);
+    const int leg_index = b % leg_count;
+    const bool is_platform = b == 2 * leg_count;
+    const Leg& leg = manipulator.leg(leg_index);
+    const Link& link = b < leg_count ? leg.proximal : leg.distal;
+    const double mass = is_platform ? manipulator.platform().mass : link.mass;
+    const Matrix3d& inertia = is_platform ? manipulator.platform().inertia : link.inertia;
+    const Eigen::Matrix<double, 6, 6> T_b = T.block<6, 6>(6 * b, 0);
+    const WrenchSize w = wrenchSize(bodies[i], mass, inertia, manipulator.gravity());
+    torque += w.moment * T_b.topRows<3>().colwise().norm() + w.force * T_b.bottomRows<3>().colwise().norm();
+    out.inertia += mass * T_b.bottomRows<3>().transpose() * T_b.bottomRows<3>() +
+                   T_b.topRows<3>().transpose() * (bodies[i].R * inertia * bodies[i].R.transpose()) * T_b.topRows<3>();
+    if (!is_platform) largest_spin = std::max(largest_spin, T_b.topRows<3>().colwise().norm().maxCoeff());
+    if (b < leg_count) friction += frictionMagnitude(leg, work.legs[i].rate);
+  }
+  // The same shaping carries friction on ψ, θ to the actuators; its rows are of the order of the links' spins.
+  out.torque_scale = torque.norm() + friction * std::max(1.0, largest_spin);
+  return out;
+}
+
+/// ‖1/m + [d]ᵀ I⁻¹ [d]‖ of a free link at its far end, [d] the cross product with the vector from its mass centre.
+double complianceAtEnd(const Link& link) {
+  const double d = link.length - link.center_of_mass;
+  Matrix3d cross;
+  cross << 0, -d, 0, d, 0, 0, 0, 0, 0;  // along z of its frame (40)
+  return (Matrix3d::Identity() / link.mass + cross.transpose() * link.inertia.inverse() * cross).norm();
+}
+
+/// What the platform and the forces that hold it are without its legs.
+void setPlatform(const Solver<double>& solver, const Manipulator& manipulator, const Motion<double>& motion,
+                 const Vector6d& torques, Workspace<double>& work, Conditioning& out) {
+  const Platform& platform = manipulator.platform();
+  const double smallest_moment =
+      Eigen::SelfAdjointEigenSolver<Matrix3d>(platform.inertia, Eigen::EigenvaluesOnly).eigenvalues()(0);
+  double arm = 0;
+  out.largest_mass = platform.mass;
+  for (const Leg& leg : manipulator.parameters().legs) {
+    arm = std::max(arm, (leg.platform_point - platform.center_of_mass).norm());
+    out.largest_mass = std::max({out.largest_mass, leg.proximal.mass, leg.distal.mass});
+    out.leg_compliance = std::max(out.leg_compliance, complianceAtEnd(leg.distal));
+  }
+  out.compliance = 1 / platform.mass + arm * arm / smallest_moment;
+  double squares = 0;
+  for (const LegReactions& leg : recoverReactions(solver, motion, torques, work)) squares += leg.f_B.squaredNorm();
+  out.force_scale = std::sqrt(squares);
+  const double inertia = platform.mass * (manipulator.gravity().norm() + motion.p_ddot.norm());
+  out.weight_ratio = inertia > 0 ? out.force_scale / inertia : 0;
+}
+
+void setLegs(const Workspace<double>& work, Conditioning& out) {
+  out.smallest_sine = 1;
+  for (int i = 0; i < leg_count; ++i) {
+    const LegState<double>& leg = work.legs[static_cast<std::size_t>(i)];
+    const double sine = std::abs(leg.sin_theta), lever = leg.q / leg.r;
+    out.kappa_legs = std::max(out.kappa_legs, lever * lever / (sine * sine));
+    if (sine < out.smallest_sine) {
+      out.smallest_sine = sine;
+      out.smallest_sine_leg = i;
+    }
+  }
+}
+
+/// ‖T_PᵀM_P‖ with accelerations [L ω̇; p̈].
+double effortScale(const Solver<double>& solver, const Motion<double>& motion, const Workspace<double>& work,
+                   double length) {
+  Matrix6d effort = solver.T(work).transpose() * solver.massMatrixAtP(motion, work);
+  effort.leftCols<3>() /= length;
+  return effort.norm();
+}
+
+/// The largest coordinate from the middle of the base, wherever the base's origin is.
+void setPositions(const Manipulator& manipulator, const Motion<double>& motion, const BodyMotions<double>& bodies,
+                  Conditioning& out) {
+  Vector3d middle = Vector3d::Zero();
+  for (const Leg& leg : manipulator.parameters().legs) middle += leg.base_point / leg_count;
+  out.position_scale = (motion.p - middle).norm() + out.length;
+  for (const Leg& leg : manipulator.parameters().legs)
+    out.position_scale = std::max(out.position_scale, (leg.base_point - middle).norm());
+  for (const BodyMotion<double>& body : bodies)
+    out.position_scale = std::max(out.position_scale, (body.c - middle).norm());
+}
+
+}  // namespace
+
+double Conditioning::shape(Rounded quantity) const {
+  const double torque = kappa_B * kappa_legs * torque_scale;
+  const double platform = response * torque + compliance * force_scale;
+  switch (quantity) {
+    case Rounded::angles:
+      return eps * kappa_legs * position_scale / length;
+    case Rounded::rates:
+      return eps * kappa_legs * kappa_B * twist_scale / length;
+    case Rounded::accelerations:
+      return eps * kappa_legs * kappa_legs * kappa_B * rate_scale / length;
+    case Rounded::positions:
+      return eps * kappa_legs * position_scale;
+    case Rounded::twists:
+      return eps * kappa_legs * kappa_B * twist_scale;
+    case Rounded::twist_rates:
+      return eps * kappa_legs * kappa_legs * kappa_B * rate_scale;
+    case Rounded::jacobian:
+      return eps * kappa_legs * kappa_B * kappa_B * twist_scale;
+    case Rounded::jacobian_rate:
+      return eps * kappa_legs * kappa_legs * kappa_B * kappa_B * rate_scale;
+    case Rounded::shaping:
+      return eps * kappa_B * kappa_legs * shaping_scale;
+    case Rounded::shaping_rate:
+      return eps * kappa_B * kappa_B * kappa_legs * kappa_legs * shaping_scale * twist_scale / length;
+    case Rounded::torque:
+    case Rounded::solver:
+    case Rounded::twin:
+    case Rounded::maximal:
+    case Rounded::mujoco:
+      return eps * torque;
+    case Rounded::acceleration:
+    case Rounded::direct:
+      return eps * platform;
+    case Rounded::effort:
+      return eps * (torque + effort_scale * compliance * force_scale);
+    case Rounded::gaps:
+      return eps * (compliance + leg_compliance) * force_scale;
+    case Rounded::reactions:
+      return eps * (torque / length * kappa_B + largest_mass * platform);
+    case Rounded::count:
+      break;
+  }
+  return 0;
+}
+
+ConditioningProbe::ConditioningProbe(const Manipulator& manipulator, std::shared_ptr<const Load> load)
+    : manipulator_(manipulator), load_(std::move(load)), solver_(manipulator) {}
+
+Conditioning ConditioningProbe::at(const Motion<double>& motion) {
+  BodyMotions<double> bodies;
+  TwistShaping<double> T;
+  solver_.inverseKinematics(motion, work_);
+  solver_.jacobians(motion, work_);
+  solver_.bodyMotions(motion, work_, bodies);
+  solver_.twistShaping(motion, work_, T);
+
+  Conditioning out;
+  out.length = solver_.model().length;
+  setLegs(work_, out);
+  Matrix6d B = work_.B;
+  B.leftCols<3>() /= out.length;
+  const Vector6d singular = Eigen::JacobiSVD<Matrix6d>(B).singularValues();
+  out.kappa_B = singular(0) / singular(5);
+  const Projection projection = project(manipulator_, T, bodies, work_);
+  Matrix6d T_P = solver_.T(work_);
+  T_P.topRows<3>() *= out.length;
+  const Vector6d load = loadAtP(load_.get(), motion);
+  setPlatform(solver_, manipulator_, motion, solver_.inverseDynamics(motion, work_, load), work_, out);
+  out.torque_scale =
+      projection.torque_scale + T_P.norm() * (load.head<3>().norm() / out.length + load.tail<3>().norm());
+  out.response = (T_P * projection.inertia.llt().solve(Matrix6d::Identity())).norm();
+  out.shaping_scale = T_P.norm();
+  out.effort_scale = effortScale(solver_, motion, work_, out.length);
+  setPositions(manipulator_, motion, bodies, out);
+  for (const BodyMotion<double>& body : bodies) {
+    out.twist_scale = std::max(out.twist_scale, body.twist.tail<3>().norm() + out.length * body.twist.head<3>().norm());
+    out.rate_scale =
+        std::max(out.rate_scale, body.twist_rate.tail<3>().norm() + out.length * body.twist_rate.head<3>().norm());
+  }
+  out.rate_scale += out.twist_scale * out.twist_scale / out.length;
+  return out;
+}
+
+std::string causeOfRounding(const Conditioning& at) {
+  const double platform = at.compliance * at.largest_mass, link = at.leg_compliance * at.largest_mass;
+  const double largest = std::max({at.weight_ratio, at.kappa_B, at.kappa_legs, platform, link});
+  if (largest == at.weight_ratio)
+    return fmt::format("the forces that close the loops are {:.2g} times the platform's weight", at.weight_ratio);
+  if (largest == platform)
+    return fmt::format(
+        "at its joints the platform gives way {:.2g} times as easily as the heaviest body's mass: its mass "
+        "or moments of inertia are small beside the links",
+        platform);
+  if (largest == link)
+    return fmt::format(
+        "at its joint a distal link gives way {:.2g} times as easily as the heaviest body's mass: its mass "
+        "or moments of inertia are small",
+        link);
+  if (largest == at.kappa_B) return fmt::format("a singular pose is near, kappa(B) = {:.2g}", at.kappa_B);
+  return fmt::format("leg {} is nearly stretched or folded, |sin theta| = {:.2g}, kappa(legs) = {:.2g}",
+                     at.smallest_sine_leg + 1, at.smallest_sine, at.kappa_legs);
+}
+
+}  // namespace ursula

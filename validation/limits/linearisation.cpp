@@ -1,0 +1,53 @@
+#include "validation/limits/linearisation.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "nocsolver/solver.h"
+
+namespace ursula {
+
+using Vector12 = Eigen::Matrix<double, 12, 1>;
+
+Linearisation::Linearisation(const Scenario& scenario, AccelerationUnder accelerations, double step)
+    : trajectory_(*scenario.trajectory),
+      right_(nocSubject(*scenario.manipulator, scenario.load)),
+      accelerations_(std::move(accelerations)),
+      length_(SolverModel<double>(*scenario.manipulator).length),
+      // Central differences: the cube root of eps balances truncation and rounding.
+      step_(step * std::cbrt(Eigen::NumTraits<double>::epsilon()) * length_) {}
+
+Linearisation::Linearisation(const Scenario& scenario)
+    : Linearisation(scenario, nocSubject(*scenario.manipulator, scenario.load).accelerations, 1) {}
+
+Linearisation::Matrix12 Linearisation::at(double t) const {
+  const Motion<double> motion = trajectory_.at(t);
+  const Vector6d torques = right_.torques(motion);
+  Matrix12 J = Matrix12::Zero();
+  J.block<3, 3>(0, 6).setIdentity();
+  J.block<3, 3>(3, 9).setIdentity();
+  J.block<3, 3>(3, 3) << 0, -motion.omega.z(), motion.omega.y(), motion.omega.z(), 0, -motion.omega.x(),
+      -motion.omega.y(), motion.omega.x(), 0;
+  for (int j = 0; j < 12; ++j) {
+    Vector12 deviation = Vector12::Zero();
+    deviation(j) = step_;
+    const Vector6d above = acceleration(motion, deviation, torques);
+    const Vector6d below = acceleration(motion, -deviation, torques);
+    J.block<6, 1>(6, j) = (above - below) / (2 * step_);
+  }
+  return J;
+}
+
+Vector6d Linearisation::acceleration(Motion<double> motion, const Vector12& deviation, const Vector6d& torques) const {
+  motion.p += deviation.segment<3>(0);
+  const Vector3d turn = deviation.segment<3>(3) / length_;
+  if (turn.norm() > 0) motion.Q = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * motion.Q;
+  motion.p_dot += deviation.segment<3>(6);
+  motion.omega += deviation.segment<3>(9) / length_;
+  const Vector6d found = accelerations_(motion, torques);
+  Vector6d out;
+  out << found.tail<3>(), length_ * found.head<3>();
+  return out;
+}
+
+}  // namespace ursula

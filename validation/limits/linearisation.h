@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+
+#include "model/scenario.h"
+#include "validation/subject/subject.h"
+
+namespace ursula {
+
+/// [ω̇; p̈] of the platform under torques.
+using AccelerationUnder = std::function<Vector6d(const Motion<double>&, const Vector6d& torques)>;
+
+/// The variational equations of direct dynamics along the commanded motion, the torques held as functions of time:
+/// ẋ = J(t) x with x = [δp; L δϑ; δṗ; L δω] of the platform in m and m/s, L a length of the machine. A deviation of the
+/// orientation turns it: Q → exp(δϑ) Q, so δϑ̇ = δω + ω × δϑ.
+class Linearisation {
+ public:
+  using Matrix12 = Eigen::Matrix<double, 12, 12>;
+
+  /// Of somebody's direct dynamics, by central differences of `step` times the usual step.
+  Linearisation(const Scenario& scenario, AccelerationUnder accelerations, double step);
+  /// Of the formulas that hold.
+  explicit Linearisation(const Scenario& scenario);
+
+  /// L, m.
+  double length() const { return length_; }
+  /// J(t). Throws PoseError where the motion is singular.
+  Matrix12 at(double t) const;
+
+ private:
+  /// [p̈; L ω̇] under the torques with the state deviated.
+  Vector6d acceleration(Motion<double> motion, const Eigen::Matrix<double, 12, 1>& deviation,
+                        const Vector6d& torques) const;
+
+  const Trajectory& trajectory_;
+  Subject right_;
+  AccelerationUnder accelerations_;
+  double length_;
+  double step_;
+};
+
+}  // namespace ursula

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "model/scenario.h"
+#include "validation/evidence/spoil.h"
+#include "validation/subject/subject.h"
+
+namespace ursula {
+
+/// One way to be wrong, put into an otherwise right validation at one of three places. What is empty stays right.
+struct Defect {
+  std::string name;
+  std::string group;               ///< "formula", "term", "parameter", …
+  SubjectOf subject = nullptr;     ///< the solver on trial
+  Spoil::Seen scenario = nullptr;  ///< what all roads are given: commanded motion, load, numbers as read
+  Spoil spoil = {};                ///< an experiment
+  /// On how many roads it must be caught. 1 where by its nature only one can see it: direct dynamics and reactions,
+  /// which Simbody alone has beside the solver; what all roads share; an engine; what the motion does not reach.
+  int roads = 2;
+};
+
+/// Every defect that `ursula prove` injects, at least 150, one at a time.
+std::vector<Defect> allDefects();
+
+/// A continuous parameter of the machine: `disturb` makes it wrong by a relative error (of the largest moment for an
+/// inertia entry, of the vector's norm for points, turned by that angle for axes).
+struct Parameter {
+  std::string name;   ///< "leg[2].proximal.mass"
+  std::string group;  ///< "mass", "center", "length", "point", "axis", "inertia", "gravity", "friction"
+  std::function<void(ManipulatorParameters&, double relative)> disturb;
+};
+
+/// All of them: 13 of platform and gravity, and those of six legs.
+std::vector<Parameter> allParameters();
+
+/// The solver with one parameter wrong.
+Subject disturbedSubject(const Scenario& scenario, const Parameter& parameter, double relative);
+
+}  // namespace ursula

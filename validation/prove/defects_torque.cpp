@@ -1,0 +1,108 @@
+// Torques spoilt on their way out, at all instants or at other ones than asked for.
+
+#include <algorithm>
+#include <cmath>
+
+#include "nocsolver/solver.h"
+#include "validation/prove/defects_kit.h"
+
+namespace ursula {
+namespace {
+
+Defect torque(const char* name, const std::function<void(Vector6d&)>& change) {
+  return wrongTorques(name, "torque", [change](const Scenario&) -> ChangeTorques {
+    return [change](Vector6d torques, const Motion<double>&) {
+      change(torques);
+      return torques;
+    };
+  });
+}
+
+/// Torques of another instant of the motion.
+Defect timed(const char* name, const std::function<double(double t, double sample)>& change) {
+  return wrongTorques(name, "torque", [change](const Scenario& s) -> ChangeTorques {
+    const Subject right = nocSubject(*s.manipulator, s.load);
+    const auto trajectory = s.trajectory;
+    const double duration = trajectory->duration(), sample = duration / 300;
+    return [=](const Vector6d&, const Motion<double>& m) {
+      return right.torques(trajectory->at(std::clamp(change(m.t, sample), 0.0, duration)));
+    };
+  });
+}
+
+Vector6d inSinglePrecision(const Solver<float>& solver, const Load* load, const Motion<double>& m) {
+  Motion<float> single;
+  single.t = static_cast<float>(m.t);
+  single.p = m.p.cast<float>();
+  single.Q = m.Q.cast<float>();
+  single.omega = m.omega.cast<float>();
+  single.p_dot = m.p_dot.cast<float>();
+  single.omega_dot = m.omega_dot.cast<float>();
+  single.p_ddot = m.p_ddot.cast<float>();
+  Workspace<float> work;
+  const Vector6<float> wrench = loadAtP(load, m).cast<float>();
+  return solver.inverseDynamics(single, work, wrench).cast<double>();
+}
+
+Defect singlePrecision() {
+  return wrongTorques("single precision", "torque", [](const Scenario& s) -> ChangeTorques {
+    const auto solver = std::make_shared<const Solver<float>>(*s.manipulator);
+    const auto load = s.load;
+    return
+        [solver, load](const Vector6d&, const Motion<double>& m) { return inSinglePrecision(*solver, load.get(), m); };
+  });
+}
+
+Defect withLoad(const char* name, const std::function<void(Load&, const Manipulator&)>& change) {
+  return {name, "torque", [change](const Scenario& s) {
+            const auto load = std::make_shared<Load>(s.load ? *s.load : Load{});
+            change(*load, *s.manipulator);
+            return nocSubject(*s.manipulator, load);
+          }};
+}
+
+/// The load of another instant.
+Defect lateLoad() {
+  return wrongTorques("load late by 1e-6 s", "torque", [](const Scenario& s) -> ChangeTorques {
+    const auto solver = std::make_shared<const Solver<double>>(*s.manipulator);
+    const auto load = s.load;
+    return [solver, load](const Vector6d& torques, const Motion<double>& m) {
+      Motion<double> before = m;
+      before.t -= 1e-6;
+      const Vector6d missing = loadAtP(load.get(), m) - loadAtP(load.get(), before);
+      return Vector6d(torques + onActuators(*solver, m, missing));
+    };
+  });
+}
+
+}  // namespace
+
+std::vector<Defect> torqueDefects() {
+  using V = Vector6d;
+  using M = Manipulator;
+  return {
+      torque("sign of all torques", [](V& tau) { tau = -tau; }),
+      torque("sign of torque 3", [](V& tau) { tau(2) = -tau(2); }),
+      torque("torques 2 and 5 swapped", [](V& tau) { std::swap(tau(1), tau(4)); }),
+      torque("columns of T permuted", [](V& tau) { std::rotate(tau.data(), tau.data() + 5, tau.data() + 6); }),
+      torque("torque 1 off by 1e-9 of itself", [](V& tau) { tau(0) *= 1 + 1e-9; }),
+      torque("torque 6 left out", [](V& tau) { tau(5) = 0; }),
+      torque("torques in kN m", [](V& tau) { tau /= 1000; }),
+      torque("torque 4 not a number", [](V& tau) { tau(3) = std::nan(""); }),
+      torque("torques off by 1e-10 of themselves", [](V& tau) { tau *= 1 + 1e-10; }),
+      timed("held constant between samples", [](double t, double sample) { return sample * std::floor(t / sample); }),
+      timed("late by one sample", [](double t, double sample) { return t - sample; }),
+      timed("late by 1e-9 s", [](double t, double) { return t - 1e-9; }),
+      singlePrecision(),
+      withLoad("load in the other frame",
+               [](Load& load, const M&) {
+                 load.frame = load.frame == Load::Frame::base ? Load::Frame::platform : Load::Frame::base;
+               }),
+      withLoad("load's point left out", [](Load& load, const M&) { load.point.setZero(); }),
+      withLoad("load's point from the mass centre",
+               [](Load& load, const M& machine) { load.point += machine.platform().center_of_mass; }),
+      withLoad("load's point off by 1e-9 m", [](Load& load, const M&) { load.point.z() += 1e-9; }),
+      lateLoad()};
+}
+
+}  // namespace ursula

@@ -1,0 +1,113 @@
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <array>
+
+#include "validation/prove/defects.h"
+
+namespace ursula {
+namespace {
+
+using Machine = ManipulatorParameters;
+using VectorOf = std::function<Vector3d&(Machine&)>;
+using NumberOf = std::function<double&(Machine&)>;
+using TensorOf = std::function<Matrix3d&(Machine&)>;
+
+void addNumber(std::vector<Parameter>& out, const std::string& name, const std::string& group, const NumberOf& of) {
+  out.push_back({name, group, [of](Machine& machine, double relative) { of(machine) *= 1 + relative; }});
+}
+
+void addVector(std::vector<Parameter>& out, const std::string& name, const std::string& group, const VectorOf& of) {
+  const std::array<const char*, 3> axes{"x", "y", "z"};
+  for (int k = 0; k < 3; ++k)
+    out.push_back({fmt::format("{}.{}", name, axes[static_cast<std::size_t>(k)]), group,
+                   [of, k](Machine& machine, double relative) {
+                     const double size = of(machine).norm();
+                     of(machine)(k) += relative * (size > 0 ? size : 1);  // of one metre where the vector is zero
+                   }});
+}
+
+void addTensor(std::vector<Parameter>& out, const std::string& name, const TensorOf& of) {
+  struct Entry {
+    const char* name;
+    int i, j;
+  };
+  const std::array<Entry, 6> entries{
+      {{"xx", 0, 0}, {"yy", 1, 1}, {"zz", 2, 2}, {"xy", 0, 1}, {"xz", 0, 2}, {"yz", 1, 2}}};
+  for (const Entry& entry : entries)
+    out.push_back({name + "." + entry.name, "inertia", [of, entry](Machine& machine, double relative) {
+                     Matrix3d& I = of(machine);
+                     const double change = relative * I.cwiseAbs().maxCoeff();
+                     I(entry.i, entry.j) += change;
+                     if (entry.i != entry.j) I(entry.j, entry.i) += change;
+                   }});
+}
+
+/// The axis turned about two directions across it.
+void addAxis(std::vector<Parameter>& out, const std::string& name, std::size_t leg) {
+  for (int k = 0; k < 2; ++k)
+    out.push_back(
+        {fmt::format("{}.{}", name, k == 0 ? "across" : "along"), "axis", [leg, k](Machine& machine, double relative) {
+           Vector3d& u = machine.legs[leg].base_axis;
+           const Vector3d across = u.unitOrthogonal();
+           const Vector3d about = k == 0 ? across : Vector3d(u.normalized().cross(across));
+           u = Eigen::AngleAxisd(relative, about) * u;
+         }});
+}
+
+void addLink(std::vector<Parameter>& out, const std::string& name, const std::function<Link&(Machine&)>& of) {
+  addNumber(out, name + ".length", "length", [of](Machine& m) -> double& { return of(m).length; });
+  addNumber(out, name + ".mass", "mass", [of](Machine& m) -> double& { return of(m).mass; });
+  addNumber(out, name + ".center_of_mass", "center", [of](Machine& m) -> double& { return of(m).center_of_mass; });
+  addTensor(out, name + ".inertia", [of](Machine& m) -> Matrix3d& { return of(m).inertia; });
+}
+
+void addFriction(std::vector<Parameter>& out, const std::string& name, std::size_t i) {
+  const auto add = [&](const char* joint, double JointFriction::*member) {
+    addNumber(out, name + ".friction." + joint, "friction",
+              [i, member](Machine& m) -> double& { return m.legs[i].friction.*member; });
+    addNumber(out, name + ".coulomb." + joint, "friction",
+              [i, member](Machine& m) -> double& { return m.legs[i].coulomb.*member; });
+  };
+  add("actuated", &JointFriction::actuated);
+  add("universal", &JointFriction::universal);
+  add("knee", &JointFriction::knee);
+  addNumber(out, name + ".coulomb.smoothing_speed", "friction",
+            [i](Machine& m) -> double& { return m.legs[i].coulomb.smoothing_speed; });
+}
+
+void addLeg(std::vector<Parameter>& out, std::size_t i) {
+  const std::string name = fmt::format("leg[{}]", i + 1);
+  addVector(out, name + ".base_point", "point", [i](Machine& m) -> Vector3d& { return m.legs[i].base_point; });
+  addVector(out, name + ".platform_point", "point", [i](Machine& m) -> Vector3d& { return m.legs[i].platform_point; });
+  addAxis(out, name + ".base_axis", i);
+  addLink(out, name + ".proximal", [i](Machine& m) -> Link& { return m.legs[i].proximal; });
+  addLink(out, name + ".distal", [i](Machine& m) -> Link& { return m.legs[i].distal; });
+  addFriction(out, name, i);
+}
+
+}  // namespace
+
+std::vector<Parameter> allParameters() {
+  std::vector<Parameter> out;
+  addVector(out, "gravity", "gravity", [](Machine& m) -> Vector3d& { return m.gravity; });
+  addNumber(out, "platform.mass", "mass", [](Machine& m) -> double& { return m.platform.mass; });
+  addVector(out, "platform.center_of_mass", "center",
+            [](Machine& m) -> Vector3d& { return m.platform.center_of_mass; });
+  addTensor(out, "platform.inertia", [](Machine& m) -> Matrix3d& { return m.platform.inertia; });
+  for (std::size_t i = 0; i < leg_count; ++i) addLeg(out, i);
+  return out;
+}
+
+Subject disturbedSubject(const Scenario& scenario, const Parameter& parameter, double relative) {
+  const auto rebuilt = [&parameter, relative](const Manipulator& manipulator) {
+    ManipulatorParameters machine = manipulator.parameters();
+    parameter.disturb(machine, relative);
+    return Manipulator(machine);
+  };
+  Subject subject = nocSubject(rebuilt(*scenario.manipulator), scenario.load);
+  subject.name = fmt::format("noc with {} off by {:g}", parameter.name, relative);
+  return subject;
+}
+
+}  // namespace ursula

@@ -1,0 +1,124 @@
+#include "validation/replay/ladder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "model/instants.h"
+#include "validation/replay/windows.h"
+
+namespace ursula {
+namespace {
+
+/// Of Simbody's integrator: error control of fourth order takes too many steps beyond.
+constexpr double second_accuracy = 1e-9;
+/// Of the tolerance, at a further rung, where one may have met a kink of the friction by bad luck.
+constexpr double last_rung = 10;
+
+using ChangeSettings = std::function<void(ReplaySettings&)>;
+
+ReplaySettings settingsOf(const WindowedReplay& finest, Integrator integrator, double tolerance) {
+  ReplaySettings settings;
+  settings.integrator = integrator;
+  settings.tolerance = tolerance;
+  settings.start = finest.window.start();
+  settings.end = finest.window.end();
+  settings.instants = 2;
+  settings.max_evaluations = std::max(settings.max_evaluations, 4 * finest.replay.evaluations);
+  return settings;
+}
+
+Rung rungOf(const ReplaySettings& settings, const Replay& run, const Replay& finest) {
+  Rung rung;
+  rung.integrator = settings.integrator;
+  rung.tolerance = settings.tolerance;
+  rung.evaluations = run.evaluations;
+  rung.steps = run.accepted;
+  rung.gave_up = run.gave_up;
+  rung.too_long = run.too_long;
+  rung.left_path = run.left_path;
+  rung.distance =
+      run.steps.empty() || finest.steps.empty()
+          ? std::nan("")
+          : (run.steps.back().position_error - interpolated(finest, run.steps.back().t).position_error).norm();
+  return rung;
+}
+
+/// One replay beside the judged one.
+Replay replayBeside(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, ReplaySettings settings,
+                    const ChangeSettings& change) {
+  if (change) change(settings);
+  return replay(scenario, torques, settings);
+}
+
+Rung makeRung(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
+              double tolerance, const ChangeSettings& change) {
+  const ReplaySettings settings = settingsOf(finest, Integrator::rkf78, tolerance);
+  return rungOf(settings, replayBeside(scenario, torques, settings, change), finest.replay);
+}
+
+/// Over the first steps only, a tenth of them at least: it is another integrator that is wanted, not another replay.
+void climbSecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
+                 const ChangeSettings& change, Ladder& ladder) {
+  const std::vector<ReplayStep>& steps = finest.replay.steps;
+  if (steps.size() < 2) return;
+  const std::size_t last = std::min(steps.size() - 1, std::max<std::size_t>(20, steps.size() / 10));
+  ladder.second_end = steps[last].t;
+  const auto run = [&](double accuracy) {
+    ReplaySettings settings = settingsOf(finest, Integrator::rk_merson, accuracy);
+    settings.end = ladder.second_end;
+    Replay out = replayBeside(scenario, torques, settings, change);
+    ladder.second.push_back(rungOf(settings, out, finest.replay));
+    return out;
+  };
+  Replay coarse = run(10 * second_accuracy), fine = run(second_accuracy);
+  // Where the accuracy does not decide the steps, both are the same and nothing is learnt of the error.
+  for (double accuracy = second_accuracy / 10; accuracy > 1e-14 && fine.evaluations <= coarse.evaluations;
+       accuracy /= 10) {
+    coarse = std::move(fine);
+    fine = run(accuracy);
+  }
+  const bool both = !coarse.steps.empty() && !fine.steps.empty();
+  ladder.second_difference =
+      both ? (coarse.steps.back().position_error - fine.steps.back().position_error).norm() : std::nan("");
+}
+
+double order(const Rung& coarse, const Rung& fine) {
+  return std::log(coarse.distance / fine.distance) /
+         std::log(static_cast<double>(fine.steps) / static_cast<double>(coarse.steps));
+}
+
+}  // namespace
+
+Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
+             bool torques_are_right, const ChangeSettings& change) {
+  Ladder ladder;
+  for (double factor : {1e6, 1e4, coarser}) {
+    const double tolerance = std::min(1e-4, factor * finest.replay.tolerance);
+    const bool known = torques_are_right && !change && finest.coarse &&
+                       finest.coarse->integrator == Integrator::rkf78 && finest.coarse->tolerance == tolerance;
+    ladder.rungs.push_back(known
+                               ? rungOf(settingsOf(finest, Integrator::rkf78, tolerance), *finest.coarse, finest.replay)
+                               : makeRung(scenario, torques, finest, tolerance, change));
+  }
+  for (std::size_t k = 0; k + 1 < ladder.rungs.size(); ++k)
+    ladder.observed_orders.push_back(order(ladder.rungs[k], ladder.rungs[k + 1]));
+  ladder.asymptotic = std::all_of(ladder.observed_orders.begin(), ladder.observed_orders.end(),
+                                  [](double p) { return std::abs(p - nominal_order) <= 2; });
+  // Richardson with the last observed order, or without an asymptotic range the last difference itself.
+  const Rung& last = ladder.rungs.back();
+  const double ratio = static_cast<double>(finest.replay.accepted) / static_cast<double>(std::max(last.steps, 1L));
+  const double p = ladder.asymptotic ? ladder.observed_orders.back() : 0;
+  ladder.extrapolated = last.distance * std::pow(ratio, -p);
+  ladder.uncertainty = integration_safety * ladder.extrapolated;
+  climbSecond(scenario, torques, finest, change, ladder);
+  ladder.passes_knots = allKnots(scenario).size() > most_knots;
+  return ladder;
+}
+
+void climbOn(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
+             const ChangeSettings& change, Ladder& ladder) {
+  ladder.rungs.push_back(makeRung(scenario, torques, finest, last_rung * finest.replay.tolerance, change));
+}
+
+}  // namespace ursula

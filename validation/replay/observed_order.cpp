@@ -1,0 +1,120 @@
+#include "validation/replay/observed_order.h"
+
+#include <algorithm>
+#include <boost/numeric/odeint.hpp>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "model/loops/simbody/simbody_loop.h"
+#include "model/manipulator.h"
+#include "validation/subject/subject.h"
+
+namespace ursula {
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+using OdeState = std::vector<double>;
+
+/// Of differences, in natural units: beyond, steps are too long to show an order …
+constexpr double most_difference = 1e-3;
+/// … and below so many times what rounding of the start makes of the end, they may be rounding.
+constexpr double above_noise = 3;
+/// Stretches that are tried, in natural units of time: from the longest on, each so much shorter.
+constexpr double longest = 8, shorter = 0.9;
+constexpr int attempts = 90;
+constexpr std::size_t most_stretches = 12;
+
+/// The loop let go from the commanded state at the start of the motion.
+template <class Stepper>
+class LetGo {
+ public:
+  explicit LetGo(const Scenario& scenario)
+      : machine_(frictionless(*scenario.manipulator)), loop_(machine_), start_(scenario.trajectory->at(0)) {
+    // As if to accelerate by a natural unit or so every way: else a motion from rest would stay there.
+    Motion<double> pushed = start_;
+    pushed.p_ddot += Vector3d(0.3, -0.4, 0.5);
+    pushed.omega_dot += Vector3d(0.4, 0.3, -0.5);
+    torques_ = nocSubject(machine_, nullptr).torques(pushed);
+  }
+
+  /// What rounding of the start's coordinates changes of the end.
+  double noise(double duration) {
+    double out = 0;
+    const OdeState end = endOf(duration, 16);
+    for (unsigned pattern = 1; pattern <= 3; ++pattern)
+      out = std::max(out, distance(end, endOf(duration, 16, pattern)));
+    return out;
+  }
+
+  /// Between the ends with `steps` and with twice as many; infinite where the machine flies apart.
+  double difference(double duration, int steps) {
+    try {
+      return distance(endOf(duration, steps), endOf(duration, 2 * steps));
+    } catch (const std::exception&) {
+      return std::numeric_limits<double>::infinity();
+    }
+  }
+
+ private:
+  static double distance(const OdeState& a, const OdeState& b) {
+    double sum = 0;
+    for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
+    return std::sqrt(sum);
+  }
+
+  /// With a `pattern`, from a state that is rounded otherwise.
+  OdeState endOf(double duration, int steps, unsigned pattern = 0) {
+    loop_.place(start_);
+    OdeState x = loop_.state();
+    for (std::size_t k = 0; k < x.size() && pattern > 0; ++k)
+      x[k] *= 1 + ((k >> pattern) % 2 == 0 ? 1 : -1) * std::numeric_limits<double>::epsilon();
+    Stepper stepper;
+    const double h = duration / steps;
+    for (int k = 0; k < steps; ++k)
+      stepper.do_step([this](const OdeState& at, OdeState& rate,
+                             double t) { loop_.derivative(t, at.data(), torques_, rate.data()); },
+                      x, k * h, h);
+    return x;
+  }
+
+  Manipulator machine_;
+  SimbodyLoop loop_;
+  Motion<double> start_;
+  Vector6d torques_;
+};
+
+/// The first stretch that is short enough: differences fall with the ninth power of it.
+template <class Stepper>
+int firstStretch(LetGo<Stepper>& loop) {
+  int too_long = -1, short_enough = attempts;
+  while (short_enough - too_long > 1) {
+    const int k = (too_long + short_enough) / 2;
+    (loop.difference(longest * std::pow(shorter, k), 4) <= most_difference ? short_enough : too_long) = k;
+  }
+  return short_enough;
+}
+
+/// The observed order of each stretch, from the longest on.
+template <class Stepper>
+std::vector<double> ordersOf(const Scenario& scenario) {
+  LetGo<Stepper> loop(scenario);
+  std::vector<double> orders;
+  double duration = longest * std::pow(shorter, firstStretch(loop));
+  const double noise = above_noise * loop.noise(duration);  // the larger, the longer
+  for (; orders.size() < most_stretches; duration *= shorter) {
+    const double first = loop.difference(duration, 4), second = loop.difference(duration, 8);
+    if (!(second >= noise)) break;  // and the less so over less
+    if (first <= most_difference) orders.push_back(std::log2(first / second));
+  }
+  return orders;
+}
+
+}  // namespace
+
+std::vector<double> observedOrders(const Scenario& scenario, bool lower) {
+  return lower ? ordersOf<odeint::runge_kutta_dopri5<OdeState>>(scenario)
+               : ordersOf<odeint::runge_kutta_fehlberg78<OdeState>>(scenario);
+}
+
+}  // namespace ursula

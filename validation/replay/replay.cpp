@@ -1,0 +1,274 @@
+#include "validation/replay/replay.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <boost/numeric/odeint.hpp>
+#include <cmath>
+#include <stdexcept>
+
+#include "model/instants.h"
+#include "nocsolver/solver_model.h"
+
+namespace ursula {
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+using OdeState = std::vector<double>;
+
+struct GaveUp : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct TooLong : GaveUp {
+  using GaveUp::GaveUp;
+};
+
+struct LeftPath {};
+
+/// The rotation vector of R, exact to rounding also where it is small.
+Vector3d rotationVector(const Matrix3d& R) {
+  Eigen::Quaterniond q(R);
+  if (q.w() < 0) q.coeffs() = -q.coeffs();
+  const double sine = q.vec().norm();
+  if (sine == 0) return Vector3d::Zero();
+  return (2 * std::atan2(sine, q.w()) / sine) * q.vec();
+}
+
+/// The instants at which Fehlberg's pair asks for derivatives in a step of h, to the bit.
+std::vector<double> stagesOf(double t, double h) {
+  static const odeint::rk78_coefficients_c<double> nodes;
+  std::vector<double> out;
+  for (double node : nodes) out.push_back(t + node * h);
+  return out;
+}
+
+Motion<double> startOf(const Scenario& scenario, const ReplaySettings& settings) {
+  Motion<double> motion = scenario.trajectory->at(settings.start);
+  if (settings.deviation.isZero(0)) return motion;
+  const double length = SolverModel<double>(*scenario.manipulator).length;
+  const Vector3d turn = settings.deviation.segment<3>(3) / length;
+  motion.p += settings.deviation.segment<3>(0);
+  if (turn.norm() > 0) motion.Q = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * motion.Q;
+  motion.p_dot += settings.deviation.segment<3>(6);
+  motion.omega += settings.deviation.segment<3>(9) / length;
+  return motion;
+}
+
+/// One run: the loop, the work done on it and what is recorded.
+class Run {
+ public:
+  Run(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const ReplaySettings& settings)
+      : trajectory_(*scenario.trajectory),
+        torques_(torques),
+        settings_(settings),
+        stops_(knotsWithin(scenario, settings.start, settings.end)),
+        loop_(*scenario.manipulator, settings.topology, scenario.load) {
+    for (double stop : settings.stops)
+      if (stop > settings.start && stop < settings.end) stops_.push_back(stop);
+    std::sort(stops_.begin(), stops_.end());
+    stops_.erase(std::unique(stops_.begin(), stops_.end()), stops_.end());
+    stops_.push_back(settings.end);
+    result_.integrator = settings.integrator;
+    result_.tolerance = settings.tolerance;
+    const ManipulatorParameters& machine = scenario.manipulator->parameters();
+    double mass = machine.platform.mass;
+    for (const Leg& leg : machine.legs) {
+      mass += leg.proximal.mass + leg.distal.mass;
+      size_ = std::max(size_, leg.platform_point.norm());
+    }
+    weight_ = mass * std::max(machine.gravity.norm(), 1.0);  // 1 m/s² where there is no gravity
+    loop_.place(startOf(scenario, settings));
+    const SimbodyLoop::Energy energy = loop_.energy();
+    start_energy_ = energy.kinetic + energy.potential;
+  }
+
+  Replay result() {
+    if (settings_.integrator == Integrator::rkf78 && !result_.steps.empty())
+      result_.accepted = static_cast<long>(result_.steps.size()) - 1;
+    return std::move(result_);
+  }
+
+  /// x = [q, u, work / weight]: the work in metres, so that one absolute tolerance suits every coordinate.
+  void integrateRkf78() {
+    OdeState x = loop_.state();
+    x.push_back(0.0);
+    auto stepper =
+        odeint::make_controlled(settings_.tolerance, settings_.tolerance, odeint::runge_kutta_fehlberg78<OdeState>());
+    // A first step of the whole motion's size: many short windows would else grow theirs from nothing, each again.
+    double step = trajectory_.duration() / 128;
+    double t = settings_.start;
+    observe(x, t);
+    for (double stop : stops_) {
+      double longest = 0;
+      while (t < stop) longest = std::max(longest, takeStep(stepper, x, t, stop, longest > 0 ? next_step_ : step));
+      step = longest;
+    }
+  }
+
+  /// Simbody integrates no work: the energy is left unjudged here.
+  void integrateRungeKuttaMerson() {
+    std::vector<double> instants;
+    for (int k = 1; k < settings_.instants; ++k)
+      instants.push_back(settings_.start + (settings_.end - settings_.start) * k / (settings_.instants - 1));
+    const SimbodyLoop::Counters counters =
+        loop_.integrateRungeKuttaMerson(settings_.tolerance, torques_, instants, [this](double t) { record(t); });
+    result_.evaluations = counters.derivative_evaluations;
+    result_.accepted = counters.steps;
+    if (counters.gave_up) result_.gave_up = "Simbody's integrator could not keep its accuracy";
+  }
+
+  void giveUp(const std::string& why, bool too_long) {
+    result_.gave_up = why;
+    result_.too_long = too_long;
+  }
+  void leavePath() { result_.left_path = true; }
+
+ private:
+  /// One accepted step from t, which it moves on, by at most to `stop`; the length of it.
+  template <class Stepper>
+  double takeStep(Stepper& stepper, OdeState& x, double& t, double stop, double try_first) {
+    const auto rate = [this](const OdeState& at, OdeState& out, double when) { derivative(at, out, when); };
+    const double start = t;
+    double h = try_first;
+    for (int rejected = 0;; ++rejected) {
+      const bool last = t + h * (1 + 1e-12) >= stop;
+      if (last) h = stop - t;
+      if (settings_.foresee) settings_.foresee(stagesOf(t, h));
+      if (stepper.try_step(rate, x, t, h) == odeint::success) {
+        if (last) t = stop;  // not stop's neighbour
+        break;
+      }
+      if (rejected > 500 || t + h == t) throw TooLong("the integrator's step has vanished");
+    }
+    next_step_ = h;
+    if (settings_.spoil) settings_.spoil(t, x);
+    if (settings_.project) project(x, t);
+    observe(x, t);
+    return t - start;
+  }
+
+  void project(OdeState& x, double t) {
+    loop_.setState(t, x.data());
+    loop_.place(loop_.platform());
+    const double work = x.back();
+    x = loop_.state();
+    x.push_back(work);
+  }
+
+  void derivative(const OdeState& x, OdeState& rate, double t) {
+    if (++result_.evaluations > settings_.max_evaluations)
+      throw TooLong(fmt::format("more than {} derivative evaluations", settings_.max_evaluations));
+    result_.stopped_at = t;
+    loop_.derivative(t, x.data(), torques_(t), rate.data());
+    const SimbodyLoop::Power power = loop_.power();
+    const double spoilt = settings_.spoil_power ? settings_.spoil_power(power) : 0;
+    rate.back() = (power.actuators + power.friction + power.load + spoilt) / weight_;
+    for (double value : rate)
+      if (!std::isfinite(value)) throw GaveUp("the derivatives are not finite");
+  }
+
+  void observe(const OdeState& x, double t) {
+    loop_.setState(t, x.data());
+    record(t);
+    const double work = x.back() * weight_;
+    const SimbodyLoop::Energy energy = loop_.energy();
+    result_.steps.back().energy_error = energy.kinetic + energy.potential - start_energy_ - work;
+    const double state = Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size() - 1)).norm();
+    if (result_.steps.back().position_error.norm() > size_) throw LeftPath{};
+    result_.energy_scale = std::max(result_.energy_scale, weight_ * (1 + state) + 2 * energy.kinetic + std::abs(work));
+  }
+
+  void record(double t) {
+    const Motion<double> commanded = trajectory_.at(t);
+    const Motion<double> simulated = loop_.platform();
+    ReplayStep step;
+    step.t = t;
+    step.position_error = simulated.p - commanded.p;
+    step.rotation_error = rotationVector(simulated.Q * commanded.Q.transpose());
+    step.velocity_error = simulated.p_dot - commanded.p_dot;
+    step.spin_error = simulated.omega - commanded.omega;
+    step.closure = loop_.closure();
+    result_.steps.push_back(step);
+  }
+
+  const Trajectory& trajectory_;
+  const SimbodyLoop::TorqueHistory& torques_;
+  ReplaySettings settings_;
+  std::vector<double> stops_;  ///< the integrator's order holds from one to the next
+  SimbodyLoop loop_;
+  Replay result_;
+  double start_energy_ = 0;
+  double next_step_ = 0;  ///< that the step control proposes
+  double weight_ = 0;     ///< N
+  double size_ = 0;       ///< m
+};
+
+template <class F>
+double maxOver(const std::vector<ReplayStep>& steps, F&& value) {
+  if (steps.empty()) return std::nan("");
+  double largest = 0;
+  for (const ReplayStep& step : steps) {
+    const double v = value(step);
+    if (std::isnan(v)) return v;
+    largest = std::max(largest, v);
+  }
+  return largest;
+}
+
+}  // namespace
+
+double Replay::maxPositionError() const {
+  return maxOver(steps, [](const ReplayStep& step) { return step.position_error.norm(); });
+}
+
+double Replay::maxRotationError() const {
+  return maxOver(steps, [](const ReplayStep& step) { return step.rotation_error.norm(); });
+}
+
+Replay replay(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const ReplaySettings& settings) {
+  Run run(scenario, torques, settings);
+  try {
+    if (settings.integrator == Integrator::rkf78)
+      run.integrateRkf78();
+    else
+      run.integrateRungeKuttaMerson();
+  } catch (const LeftPath&) {
+    run.leavePath();
+  } catch (const TooLong& error) {
+    run.giveUp(error.what(), true);
+  } catch (const std::exception& error) {
+    run.giveUp(error.what(), false);  // what was reached is still reported
+  }
+  return run.result();
+}
+
+ReplayStep interpolated(const Replay& replay, double t) {
+  const std::vector<ReplayStep>& steps = replay.steps;
+  const auto after =
+      std::lower_bound(steps.begin(), steps.end(), t, [](const ReplayStep& step, double at) { return step.t < at; });
+  if (after == steps.begin()) return steps.front();
+  if (after == steps.end()) return steps.back();
+  const ReplayStep &a = *(after - 1), &b = *after;
+  const double h = b.t - a.t, s = (t - a.t) / h;
+  const auto hermite = [h, s](const Vector3d& y0, const Vector3d& r0, const Vector3d& y1, const Vector3d& r1) {
+    return Vector3d((1 + 2 * s) * (1 - s) * (1 - s) * y0 + s * (1 - s) * (1 - s) * h * r0 + s * s * (3 - 2 * s) * y1 -
+                    s * s * (1 - s) * h * r1);
+  };
+  const auto linear = [s](double y0, double y1) { return (1 - s) * y0 + s * y1; };
+  ReplayStep out;
+  out.t = t;
+  out.position_error = hermite(a.position_error, a.velocity_error, b.position_error, b.velocity_error);
+  out.rotation_error = hermite(a.rotation_error, a.spin_error, b.rotation_error, b.spin_error);
+  out.velocity_error = (1 - s) * a.velocity_error + s * b.velocity_error;
+  out.spin_error = (1 - s) * a.spin_error + s * b.spin_error;
+  out.closure.position = linear(a.closure.position, b.closure.position);
+  out.closure.velocity = linear(a.closure.velocity, b.closure.velocity);
+  out.energy_error = linear(a.energy_error, b.energy_error);
+  return out;
+}
+
+const char* name(Integrator integrator) { return integrator == Integrator::rkf78 ? "rkf78" : "rk_merson"; }
+
+}  // namespace ursula

@@ -1,0 +1,220 @@
+#include "validation/replay/stabilised_replay.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <boost/numeric/odeint.hpp>
+#include <cmath>
+
+#include "model/loops/simbody/simbody_loop.h"
+#include "nocsolver/solver.h"
+
+namespace ursula {
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+
+/// ω_f over the rate at which deviations grow: poles at −ω_f ± λ, and 4/3 of a lasting torque error is answered.
+constexpr double stiffness = 2;
+constexpr double answer = stiffness * stiffness / (stiffness * stiffness - 1);
+/// Largest step times ω_f: the fastest pole, −ω_f − λ, then stays well within the stability of Dormand and Prince's
+/// pair.
+constexpr double largest_step = 1.5;
+/// Smallest step that is tried once more with a quarter of it, over the motion's duration.
+constexpr double shortest_step = 1e-12;
+/// A deviation, m or rad, that is no use to follow: the torques are wrong, and by how much is known.
+constexpr double lost = 0.1;
+constexpr long max_evaluations = 200000;
+/// Where the torques are known to be wrong already, how wrong need not be found out at any price.
+constexpr long max_evaluations_of_wrong = 2000;
+/// To which a deviation of wrong torques is found.
+constexpr double three_digits = 1e-3;
+
+/// [δϑ ω; δp ω; δω; δṗ] of the platform, in B: Q = exp(δϑ) Q_c, and differences from the commanded motion; times a
+/// frequency, so that one tolerance suits both halves.
+using Deviation = std::array<double, 12>;
+
+Vector3d part(const Deviation& x, int k) { return Eigen::Map<const Vector3d>(x.data() + 3 * k); }
+
+/// The rotation exp(ϑ) − 1 applied to v, exact to rounding of the small result (Rodrigues).
+Vector3d turned(const Vector3d& theta, const Vector3d& v) {
+  const double angle = theta.norm();
+  const double half = angle > 0 ? std::sin(angle / 2) / (angle / 2) : 1;
+  const double full = angle > 0 ? std::sin(angle) / angle : 1;
+  const Vector3d across = theta.cross(v);
+  return full * across + half * half / 2 * theta.cross(across);
+}
+
+/// ϑ̇ for the spin of exp(ϑ) in axes fixed in B (Bortz, IEEE Trans. Aerosp. Electron. Syst. 7 (1971) 61, who has axes
+/// that turn along: there the middle term is positive).
+Vector3d rotationVectorRate(const Vector3d& theta, const Vector3d& spin) {
+  const double angle = theta.norm();
+  const Vector3d across = theta.cross(spin);
+  const double third = angle > 1e-3 ? (1 - angle / 2 / std::tan(angle / 2)) / (angle * angle) : 1.0 / 12;
+  return spin - 0.5 * across + third * theta.cross(across);
+}
+
+/// The platform's deviation under the torques on trial and the stabilising term. The legs follow the platform, so the
+/// loops stay closed and no gap can pile up.
+class Stabilised {
+ public:
+  Stabilised(const Scenario& scenario, const Subject& subject, const Amplification& amplification,
+             const std::vector<PointwiseSample>& samples)
+      : trajectory_(*scenario.trajectory),
+        subject_(subject),
+        amplification_(amplification),
+        loop_(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load),
+        solver_(*scenario.manipulator) {
+    for (const PointwiseSample& sample : samples) scale_ = std::max(scale_, frequency(sample.motion.t));
+  }
+
+  /// Torque for a deviation of one, at the most, N·m/(m/s).
+  double gain(const Motion<double>& motion) { return 3 * scale_ * inertia(motion).norm(); }
+
+  bool isLost(const Deviation& x) const { return !(offset(x, 0).norm() < lost && offset(x, 1).norm() < lost); }
+
+  /// Of the term at t, 1/s.
+  double frequency(double t) const {
+    return stiffness * std::max(amplification_.growthRate(t), 1 / trajectory_.duration());
+  }
+
+  long evaluations() const { return evaluations_; }
+
+  /// A step of Dormand and Prince's pair from t comes.
+  void foreseeStep(double t, double h) const {
+    if (subject_.foresee)
+      foresee(subject_, trajectory_,
+              {t, t + h * (1.0 / 5), t + h * (3.0 / 10), t + h * (4.0 / 5), t + h * (8.0 / 9), t + h});
+  }
+
+  void rate(const Deviation& x, Deviation& out, double t) {
+    ++evaluations_;
+    const Motion<double> commanded = trajectory_.at(t);
+    const Vector3d theta = offset(x, 0);
+    Motion<double> motion = commanded;
+    for (int k = 0; k < 3; ++k) motion.Q.col(k) += turned(theta, commanded.Q.col(k));
+    motion.p += offset(x, 1);
+    motion.omega += part(x, 2);
+    motion.p_dot += part(x, 3);
+    loop_.place(motion);
+    loop_.accelerate(subject_.torques(commanded) + term(x, commanded));
+    const Motion<double> moved = loop_.platform();
+    Eigen::Map<Eigen::Matrix<double, 12, 1>>(out.data())
+        << scale_ * rotationVectorRate(theta, part(x, 2) - turned(theta, commanded.omega)),
+        scale_ * part(x, 3), moved.omega_dot - commanded.omega_dot, moved.p_ddot - commanded.p_ddot;
+  }
+
+  /// Torques that the term adds, N·m.
+  Vector6d term(const Deviation& x, const Motion<double>& commanded) {
+    const double omega = frequency(commanded.t);
+    Vector6d pull;
+    pull << omega * omega * offset(x, 0) + 2 * omega * part(x, 2),
+        omega * omega * offset(x, 1) + 2 * omega * part(x, 3);
+    return -inertia(commanded) * pull;
+  }
+
+  /// T_PᵀM_P: torques for an acceleration of the platform.
+  Matrix6d inertia(const Motion<double>& motion) {
+    solver_.inverseKinematics(motion, work_);
+    solver_.jacobians(motion, work_);
+    return solver_.T(work_).transpose() * solver_.massMatrixAtP(motion, work_);
+  }
+
+ private:
+  /// δϑ or δp.
+  Vector3d offset(const Deviation& x, int k) const { return part(x, k) / scale_; }
+
+  const Trajectory& trajectory_;
+  const Subject& subject_;
+  const Amplification& amplification_;
+  SimbodyLoop loop_;
+  Solver<double> solver_;
+  Workspace<double> work_;
+  double scale_ = 0;  ///< the largest frequency, 1/s
+  long evaluations_ = 0;
+};
+
+/// From the commanded state to the end of the motion. `tolerance` is absolute, of a step; torques above `limit` are
+/// wrong.
+void follow(Stabilised& loop, const Trajectory& trajectory, double tolerance, double limit, StabilisedReplay& found) {
+  const auto stepperOf = [](double absolute) {
+    return odeint::make_controlled(absolute, three_digits, odeint::runge_kutta_dopri5<Deviation>());
+  };
+  auto stepper = stepperOf(tolerance);
+  const auto rate = [&loop](const Deviation& x, Deviation& out, double at) { loop.rate(x, out, at); };
+  Deviation deviation{};
+  const double end = trajectory.duration();
+  // A stiff right-hand side can throw a stage of too long a step out of the machine's reach: a rejected step like any
+  // other, unless no shorter one helps.
+  const auto accepted = [&](double& at, double& h) {
+    const double tried = h;
+    loop.foreseeStep(at, h);
+    try {
+      return stepper.try_step(rate, deviation, at, h) == odeint::success;
+    } catch (const std::exception&) {
+      if (!(tried > shortest_step * end)) throw;
+      h = tried / 4;
+      return false;
+    }
+  };
+  double t = 0, step = end;
+  while (t < end && found.stopped.empty()) {
+    const double left = end - t;
+    step = std::min({step, largest_step / loop.frequency(t), left});
+    const bool last = step == left;
+    if (accepted(t, step)) {
+      if (last) t = end;
+      ++found.steps;
+      const double torque = loop.term(deviation, trajectory.at(t)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+      if (!(torque <= found.torque)) found.torque = torque, found.t = t;
+      // Of wrong torques, no coordinate need be found better than the largest.
+      const double size = three_digits * Eigen::Map<const Eigen::Matrix<double, 12, 1>>(deviation.data()).norm();
+      if (found.torque > limit && size > 2 * tolerance) stepper = stepperOf(tolerance = size);
+      if (loop.isLost(deviation)) found.stopped = "the machine was lost";
+    }
+    const long most = found.torque > limit ? max_evaluations_of_wrong : max_evaluations;
+    if (loop.evaluations() > most && found.stopped.empty()) {
+      found.stopped = fmt::format("{} derivative evaluations did not reach the end, but ended", most);
+      found.too_long = true;
+    }
+    found.stopped_at = t;
+  }
+}
+
+/// The same, where what was found before an error is kept.
+StabilisedReplay answerOf(Stabilised& loop, const Trajectory& trajectory, double tolerance, double limit) {
+  StabilisedReplay found;
+  try {
+    follow(loop, trajectory, tolerance, limit, found);
+  } catch (const std::exception& error) {
+    found.stopped = error.what();
+    found.gave_up = true;
+  }
+  return found;
+}
+
+}  // namespace
+
+StabilisedReplay stabilisedReplay(const Scenario& scenario, const Subject& subject, const Amplification& amplification,
+                                  const std::vector<PointwiseSample>& samples) {
+  Stabilised loop(scenario, subject, amplification, samples);
+  double rounding = 0, gain = 0;
+  const PointwiseSample* noisiest = nullptr;
+  for (const PointwiseSample& sample : samples) {
+    const double here = 2 * sample.torque.limit + sample.conditioning.rounding(Rounded::effort);
+    if (noisiest == nullptr || !(here <= rounding)) noisiest = &sample, rounding = here;
+    gain = std::max(gain, loop.gain(sample.motion));
+  }
+  const double limit = (answer + 0.5) * rounding;
+  StabilisedReplay found = answerOf(loop, *scenario.trajectory, 0.5 * rounding / gain, limit);
+  found.rounding = rounding;
+  found.answer = answer;
+  found.limit = limit;
+  found.evaluations = loop.evaluations();
+  if (noisiest != nullptr) found.noisiest = noisiest->conditioning;
+  return found;
+}
+
+}  // namespace ursula

@@ -1,0 +1,216 @@
+#include "validation/replay/windows.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/instants.h"
+#include "validation/subject/presentation.h"
+#include "validation/subject/subject.h"
+
+namespace ursula {
+
+double SampledLimit::operator()(double t) const {
+  const auto after = std::lower_bound(samples_.begin(), samples_.end(), t,
+                                      [](const PointwiseSample& sample, double at) { return sample.motion.t < at; });
+  const auto last = static_cast<std::ptrdiff_t>(samples_.size()) - 1;
+  const auto i = static_cast<std::size_t>(std::min(after - samples_.begin(), last));
+  return std::max(samples_[i].conditioning.accelerationRounding(),
+                  samples_[i == 0 ? 0 : i - 1].conditioning.accelerationRounding());
+}
+
+namespace {
+
+/// The largest change of a derivative where the state changes by its rounding, at one instant, 1/s of the state.
+double derivativeNoise(SimbodyLoop& loop, const Motion<double>& motion, const Vector6d& torques) {
+  loop.place(motion);
+  const std::vector<double> x = loop.state();
+  std::vector<double> base(x.size()), changed(x.size());
+  loop.derivative(motion.t, x.data(), torques, base.data());
+  double noise = 0;
+  for (unsigned pattern = 0; pattern < 4; ++pattern) {
+    std::vector<double> near = x;
+    for (std::size_t k = 0; k < near.size(); ++k)
+      near[k] *= 1 + ((k >> pattern) % 2 == 0 ? 1 : -1) * Eigen::NumTraits<double>::epsilon();
+    loop.derivative(motion.t, near.data(), torques, changed.data());
+    for (std::size_t k = 0; k < near.size(); ++k) noise = std::max(noise, std::abs(changed[k] - base[k]));
+  }
+  return noise;
+}
+
+}  // namespace
+
+double reachableTolerance(const Scenario& scenario, double step_rate) {
+  SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
+  const Subject right = nocSubject(*scenario.manipulator, scenario.load);  // not those on trial
+  constexpr int instants = 5;
+  double noise = 0;
+  for (int k = 0; k < instants; ++k) {
+    const Motion<double> motion = scenario.trajectory->at(scenario.trajectory->duration() * (k + 0.5) / instants);
+    noise = std::max(noise, derivativeNoise(loop, motion, right.torques(motion)));
+  }
+  return std::max(scenario.simulation.tolerance, 0.1 * noise / step_rate);
+}
+
+double plannedStepRate(double duration) { return 128 / std::min(duration, 8.0); }
+
+long enoughEvaluations(const Scenario& scenario, double step_rate) {
+  const auto knots = static_cast<long>(allKnots(scenario).size());
+  return 20000 + static_cast<long>(4 * 13 * step_rate * scenario.trajectory->duration()) + 4 * 13 * knots;
+}
+
+double positionScale(const std::vector<PointwiseSample>& samples) {
+  double scale = 0;
+  for (const PointwiseSample& sample : samples) scale = std::max(scale, sample.conditioning.position_scale);
+  return scale;
+}
+
+/// ∫ n(s) ds and ∫ (end − s) n(s) ds, the larger n of the two samples beside s.
+void measureOpening(const std::vector<PointwiseSample>& samples, std::vector<WindowedReplay>& windows) {
+  for (WindowedReplay& window : windows) {
+    const double start = window.window.start(), end = window.window.end();
+    window.opening = {};
+    for (std::size_t k = 0; k + 1 < samples.size(); ++k) {
+      const double from = std::max(start, samples[k].motion.t), to = std::min(end, samples[k + 1].motion.t);
+      if (!(to > from)) continue;
+      const double noise = std::max(samples[k].conditioning.rounding(Rounded::gaps),
+                                    samples[k + 1].conditioning.rounding(Rounded::gaps));
+      window.opening.velocity += noise * (to - from);
+      window.opening.position += noise * (to - from) * (end - (from + to) / 2);
+    }
+  }
+}
+
+LoopForces loopForces(const std::vector<PointwiseSample>& samples) {
+  LoopForces forces;
+  for (const PointwiseSample& sample : samples) forces.include(sample.conditioning);
+  return forces;
+}
+
+Amplification linearised(const Scenario& scenario) {
+  return Amplification(scenario, std::max(300, static_cast<int>(std::ceil(40 * scenario.trajectory->duration()))));
+}
+
+std::vector<GrowthWindow> planWindows(const Amplification& amplification, const ReplayPlan& plan) {
+  const double rate = plan.step_rate * errorPerStep(plan.tolerance, plan.position_scale);
+  // A quarter of what is useful: the steps taken, known only afterwards, may be more than planned.
+  const double planned = useful_replay_limit / 4 * amplification.length();
+  std::vector<GrowthWindow> windows;
+  for (std::size_t first = 0; first + 1 < amplification.instants().size(); first = windows.back().last)
+    windows.push_back(amplification.window(first, plan.acceleration, rate, planned));
+  return windows;
+}
+
+double plannedBound(const ReplayPlan& plan, const GrowthWindow& window) {
+  const double per_step = errorPerStep(plan.tolerance, plan.position_scale);
+  return window.bound(window.end(), plan.step_rate * per_step, 0);
+}
+
+ReplaySettings settingsOf(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window,
+                          double of_tolerance) {
+  ReplaySettings settings;
+  settings.integrator = scenario.simulation.integrator;
+  settings.tolerance = of_tolerance * plan.tolerance;
+  settings.start = window.start();
+  settings.end = window.end();
+  settings.max_evaluations = plan.max_evaluations;
+  settings.foresee = plan.foresee;
+  return settings;
+}
+
+std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const ReplayPlan& plan,
+                                            const std::vector<GrowthWindow>& windows) {
+  std::vector<WindowedReplay> replays;
+  for (const GrowthWindow& window : windows)
+    replays.push_back({window, replay(scenario, plan.torques, settingsOf(scenario, plan, window, 1))});
+  return replays;
+}
+
+void measureIntegration(const Scenario& scenario, const ReplayPlan& plan, std::vector<WindowedReplay>& windows) {
+  for (WindowedReplay& window : windows) {
+    window.coarse = std::make_shared<const Replay>(
+        replay(scenario, plan.torques, settingsOf(scenario, plan, window.window, coarser)));
+    window.integration = integrationError(window.replay, *window.coarse);
+  }
+}
+
+namespace {
+
+constexpr unsigned frames_of_replay = 3;
+
+/// Errors of the path turned back to here. Without units, so that one tolerance means one thing.
+Replay replayedElsewhere(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window, unsigned seed) {
+  Presentation there = randomPresentation(seed, window.length);
+  there.units = {};
+  ReplayPlan presented = plan;
+  presented.torques = [&](double t) { return there.of(plan.torques(t)); };
+  const Scenario seen = there.of(scenario);
+  Replay out = replay(seen, presented.torques, settingsOf(seen, presented, window, 1));
+  for (ReplayStep& step : out.steps)
+    for (Vector3d ReplayStep::*part : {&ReplayStep::position_error, &ReplayStep::rotation_error,
+                                       &ReplayStep::velocity_error, &ReplayStep::spin_error})
+      step.*part = there.turn.transpose() * (step.*part);
+  return out;
+}
+
+/// Where no step was rejected, this is what the steps were off by.
+Replay replayedByHalves(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window,
+                        const Replay& here) {
+  ReplaySettings settings = settingsOf(scenario, plan, window, 1);
+  for (std::size_t k = 0; k + 1 < here.steps.size(); ++k) {
+    settings.stops.push_back((here.steps[k].t + here.steps[k + 1].t) / 2);
+    settings.stops.push_back(here.steps[k + 1].t);
+  }
+  settings.max_evaluations *= 4;
+  return replay(scenario, plan.torques, settings);
+}
+
+}  // namespace
+
+IntegrationError closerLook(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window,
+                            const Replay& here) {
+  IntegrationError out = integrationError(here, replayedByHalves(scenario, plan, window, here));
+  for (unsigned seed = 1; seed <= frames_of_replay; ++seed) {
+    const IntegrationError error = integrationError(here, replayedElsewhere(scenario, plan, window, seed));
+    out.steps.resize(std::min(out.steps.size(), error.steps.size()));
+    for (std::size_t k = 0; k < out.steps.size(); ++k)
+      for (double IntegrationError::At::*part :
+           {&IntegrationError::At::position, &IntegrationError::At::rotation, &IntegrationError::At::gap,
+            &IntegrationError::At::gap_rate, &IntegrationError::At::energy})
+        out.steps[k].*part = std::max(out.steps[k].*part, error.steps[k].*part);
+  }
+  return out;
+}
+
+namespace {
+
+/// The largest number of steps a second in windows that came out too long to be judged and may be shorter; 0 where
+/// there is none.
+double stepRateOfTooLong(const std::vector<WindowedReplay>& replays, const ReplayPlan& plan, double length) {
+  double rate = 0;
+  for (const WindowedReplay& each : replays) {
+    const GrowthWindow& window = each.window;
+    const auto steps = static_cast<double>(each.replay.steps.size());
+    const double limit = driftLimit(window, plan.tolerance, steps, plan.position_scale, window.end());
+    if (window.t.size() > 2 && each.replay.gave_up.empty() && !(limit <= useful_replay_limit * length))
+      rate = std::max(rate, steps / (window.end() - window.start()));
+  }
+  return rate;
+}
+
+}  // namespace
+
+std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Amplification& amplification,
+                                            const ReplayPlan& plan) {
+  std::vector<WindowedReplay> replays = replayInWindows(scenario, plan, planWindows(amplification, plan));
+  const double taken = stepRateOfTooLong(replays, plan, amplification.length());
+  if (!(taken > plan.step_rate)) return replays;
+  ReplayPlan shorter = plan;
+  shorter.step_rate = taken;
+  return replayInWindows(scenario, shorter, planWindows(amplification, shorter));
+}
+
+std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const ReplayPlan& plan) {
+  return replayInWindows(scenario, linearised(scenario), plan);
+}
+
+}  // namespace ursula

@@ -1,0 +1,213 @@
+#include "validation/samples/pointwise.h"
+
+#include <algorithm>
+#include <bitset>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <optional>
+
+#include "model/loops/simbody/simbody_loop.h"
+
+namespace ursula {
+namespace {
+
+constexpr double eps = Eigen::NumTraits<double>::epsilon();
+constexpr double pi = 3.14159265358979323846;
+
+/// Angles that differ by whole turns are equal.
+double angleDifference(double a, double b) { return std::abs(std::remainder(a - b, 2 * pi)); }
+
+/// The largest of errors over legs or bodies; NaN stays and wins, so that it is seen.
+void raise(Deviation& deviation, double error, int where) {
+  if (std::isnan(deviation.error)) return;
+  if (std::isnan(error) || error >= deviation.error) {
+    deviation.error = error;
+    deviation.where = where;
+  }
+}
+
+void compareJoints(const JointMotion& answer, PointwiseSample& sample) {
+  const JointMotion& simbody = sample.joints;
+  for (int i = 0; i < leg_count; ++i) {
+    raise(sample.joint_angles, angleDifference(answer.q.phi(i), simbody.q.phi(i)), i);
+    raise(sample.joint_angles, angleDifference(answer.q.psi(i), simbody.q.psi(i)), i);
+    raise(sample.joint_angles, angleDifference(answer.q.theta(i), simbody.q.theta(i)), i);
+    const auto difference = [i](const JointVariables<double>& a, const JointVariables<double>& b) {
+      return Vector3d(a.phi(i) - b.phi(i), a.psi(i) - b.psi(i), a.theta(i) - b.theta(i)).norm();
+    };
+    raise(sample.joint_rates, difference(answer.q_dot, simbody.q_dot), i);
+    raise(sample.joint_accelerations, difference(answer.q_ddot, simbody.q_ddot), i);
+  }
+}
+
+void compareBodies(const BodyMotions<double>& answer, const BodyMotions<double>& simbody, PointwiseSample& sample) {
+  const double length = sample.conditioning.length;
+  const auto norm = [length](const Vector6d& v) { return v.tail<3>().norm() + length * v.head<3>().norm(); };
+  for (int b = 0; b < body_count; ++b) {
+    const auto i = static_cast<std::size_t>(b);
+    raise(sample.position, (answer[i].c - simbody[i].c).norm() + length * (answer[i].R - simbody[i].R).norm(), b);
+    raise(sample.twist, norm(answer[i].twist - simbody[i].twist), b);
+    raise(sample.twist_rate, norm(answer[i].twist_rate - simbody[i].twist_rate), b);
+  }
+}
+
+void setLimits(PointwiseSample& sample) {
+  const auto set = [&sample](Deviation PointwiseSample::*deviation, Rounded quantity) {
+    (sample.*deviation).limit = sample.conditioning.rounding(quantity);
+  };
+  using S = PointwiseSample;
+  set(&S::joint_angles, Rounded::angles);
+  set(&S::joint_rates, Rounded::rates);
+  set(&S::joint_accelerations, Rounded::accelerations);
+  set(&S::position, Rounded::positions);
+  set(&S::twist, Rounded::twists);
+  set(&S::twist_rate, Rounded::twist_rates);
+  set(&S::jacobian, Rounded::jacobian);
+  set(&S::jacobian_rate, Rounded::jacobian_rate);
+  set(&S::torque, Rounded::torque);
+  set(&S::acceleration, Rounded::acceleration);
+}
+
+/// t_P = T φ̇ (24) and ṫ_P = T φ̈ + Ṫ φ̇ (25) with Simbody's joint motion.
+void compareJacobians(const KinematicAnswer& answer, PointwiseSample& sample) {
+  const Conditioning& c = sample.conditioning;
+  const Vector6d rate = sample.joints.q_dot.phi, acceleration = sample.joints.q_ddot.phi;
+  Vector6d twist, twist_rate;
+  twist << sample.motion.omega, sample.motion.p_dot;
+  twist_rate << sample.motion.omega_dot, sample.motion.p_ddot;
+  const auto norm = [&c](const Vector6d& v) { return v.tail<3>().norm() + c.length * v.head<3>().norm(); };
+  raise(sample.jacobian, norm(answer.T * rate - twist), -1);
+  raise(sample.jacobian_rate, norm(answer.T * acceleration + answer.T_rate * rate - twist_rate), -1);
+}
+
+using ShapingAt = std::function<Matrix6d(double t)>;
+
+/// Five points: the truncation is of fourth order.
+Matrix6d differenceOf(const ShapingAt& T, double t, double step) {
+  return (8 * (T(t + step) - T(t - step)) - (T(t + 2 * step) - T(t - 2 * step))) / (12 * step);
+}
+
+/// Ṫ against a difference of T along the motion; no other road is needed. The limit is the rounding of T over the step,
+/// and the truncation: what doubling the step changes for the formulas that hold, some 15 times the truncation itself.
+void compareJacobianDifferences(const Scenario& scenario, const Subject& subject, const Subject& right,
+                                const KinematicAnswer& answer, PointwiseSample& sample) {
+  const Conditioning& c = sample.conditioning;
+  const double duration = scenario.trajectory->duration(), step = duration * std::pow(eps, 0.2) / 100;
+  const double t = std::clamp(sample.motion.t, 4 * step, duration - 4 * step);
+  const auto shapingOf = [&scenario](const Subject& of) -> ShapingAt {
+    return [&](double at) { return of.kinematics(scenario.trajectory->at(at)).T; };
+  };
+  const auto size = [&c](const Matrix6d& T) { return T.bottomRows<3>().norm() + c.length * T.topRows<3>().norm(); };
+  const Matrix6d T_rate = t == sample.motion.t ? answer.T_rate : subject.kinematics(scenario.trajectory->at(t)).T_rate;
+  raise(sample.jacobian_difference, size(T_rate - differenceOf(shapingOf(subject), t, step)), -1);
+  const ShapingAt T = shapingOf(right);
+  const double truncation = size(differenceOf(T, t, step) - differenceOf(T, t, 2 * step));
+  sample.jacobian_difference.limit =
+      1.5 * c.rounding(Rounded::shaping) / step + c.rounding(Rounded::shaping_rate) + truncation;
+}
+
+/// The first leg with an angle that is not finite.
+std::optional<int> unplaceable(const JointVariables<double>& q) {
+  for (int i = 0; i < leg_count; ++i)
+    if (!std::isfinite(q.phi(i) + q.psi(i) + q.theta(i))) return i;
+  return std::nullopt;
+}
+
+void runKinematics(const Scenario& scenario, const Subject& subject, const Subject& right, SimbodyLoop& loop,
+                   PointwiseSample& sample) {
+  const KinematicAnswer answer = subject.kinematics(sample.motion);
+  compareJoints(answer.joints, sample);
+  compareJacobians(answer, sample);
+  compareJacobianDifferences(scenario, subject, right, answer, sample);
+  if (const std::optional<int> leg = unplaceable(answer.joints.q)) {  // Simbody throws at a state that is no number
+    for (Deviation* deviation : {&sample.position, &sample.twist, &sample.twist_rate})
+      raise(*deviation, std::nan(""), *leg);
+    return;
+  }
+  loop.place(sample.motion, answer.joints);
+  compareBodies(answer.bodies, loop.bodies(), sample);
+}
+
+void runDynamics(SimbodyLoop& loop, PointwiseSample& sample) {
+  loop.place(sample.motion);
+  sample.torques_simbody = loop.inverseDynamics();
+  for (int i = 0; i < leg_count; ++i) raise(sample.torque, std::abs(sample.torques(i) - sample.torques_simbody(i)), i);
+  const double length = sample.conditioning.length;
+  loop.accelerate(sample.torques);
+  const Motion<double> found = loop.platform();
+  sample.acceleration_error << found.omega_dot - sample.motion.omega_dot, found.p_ddot - sample.motion.p_ddot;
+  raise(sample.acceleration,
+        (found.p_ddot - sample.motion.p_ddot).norm() + length * (found.omega_dot - sample.motion.omega_dot).norm(), -1);
+}
+
+PointwiseSample runInstant(const Scenario& scenario, const Subject& subject, const Subject& right,
+                           const Conditioning& conditioning, SimbodyLoop& loop, const Motion<double>& motion) {
+  PointwiseSample sample;
+  sample.motion = motion;
+  sample.conditioning = conditioning;
+  sample.joints = loop.place(sample.motion);
+  setLimits(sample);
+  try {
+    sample.torques = subject.torques(sample.motion);
+    if (subject.kinematics) runKinematics(scenario, subject, right, loop, sample);
+    runDynamics(loop, sample);
+  } catch (const PoseError& error) {
+    sample.refused = error.what();
+  }
+  return sample;
+}
+
+constexpr Deviation PointwiseSample::*deviations[] = {
+    &PointwiseSample::joint_angles, &PointwiseSample::joint_rates,   &PointwiseSample::joint_accelerations,
+    &PointwiseSample::position,     &PointwiseSample::twist,         &PointwiseSample::twist_rate,
+    &PointwiseSample::jacobian,     &PointwiseSample::jacobian_rate, &PointwiseSample::jacobian_difference,
+    &PointwiseSample::torque,       &PointwiseSample::acceleration};
+
+/// Which of the deviations are beyond their limits.
+std::bitset<std::size(deviations)> beyond(const PointwiseSample& sample) {
+  std::bitset<std::size(deviations)> out;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const Deviation& deviation = sample.*deviations[k];
+    out[k] = !(deviation.error <= deviation.limit);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
+                                          const std::vector<double>& instants, const RoundingProfile& profile) {
+  SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
+  const Subject right = nocSubject(*scenario.manipulator, scenario.load);
+  std::vector<PointwiseSample> samples;
+  samples.reserve(instants.size());
+  foresee(subject, *scenario.trajectory, instants);
+  std::bitset<std::size(deviations)> confirmed;  // by a second look: no further one is needed
+  for (double t : instants) {
+    const Motion<double> motion = scenario.trajectory->at(t);
+    const auto run = [&](const Conditioning& conditioning) {
+      return runInstant(scenario, subject, right, conditioning, loop, motion);
+    };
+    samples.push_back(run(profile.at(motion)));
+    if ((beyond(samples.back()) & ~confirmed).none() || !samples.back().refused.empty()) continue;
+    samples.back() = run(profile.closer(motion));
+    confirmed |= beyond(samples.back());
+  }
+  return samples;
+}
+
+std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
+                                          const std::vector<double>& instants) {
+  return runPointwise(scenario, subject, instants,
+                      RoundingProfile(scenario, profileInstants(static_cast<int>(instants.size()))));
+}
+
+std::string causeOfRounding(const std::vector<PointwiseSample>& samples, double t) {
+  if (samples.empty()) return "";
+  const auto at = std::lower_bound(samples.begin(), samples.end(), t,
+                                   [](const PointwiseSample& each, double x) { return each.motion.t < x; });
+  return causeOfRounding((at == samples.end() ? samples.back() : *at).conditioning);
+}
+
+}  // namespace ursula

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/scenario.h"
+#include "validation/limits/rounding_profile.h"
+#include "validation/subject/subject.h"
+
+namespace ursula {
+
+/// What one quantity differed by at one instant, and what it may differ by there.
+struct Deviation {
+  double error = 0;
+  double limit = 0;
+  int where = -1;    ///< leg or body, 0-based; −1 for none
+  double given = 0;  ///< part of the limit that comes with what is judged, as printed digits do
+};
+
+/// Everything that the pointwise experiments see at one instant.
+struct PointwiseSample {
+  Motion<double> motion;
+  Conditioning conditioning;
+  JointMotion joints;  ///< Simbody's own
+  Vector6d torques, torques_simbody;
+  Deviation joint_angles, joint_rates, joint_accelerations;  ///< rad, rad/s, rad/s²
+  Deviation position, twist, twist_rate;                     ///< over 13 bodies: m, m/s, m/s²
+  Deviation jacobian, jacobian_rate;  ///< T φ̇ and T φ̈ + Ṫ φ̇ against the commanded t_P, ṫ_P: m/s, m/s²
+  Deviation jacobian_difference;      ///< Ṫ against differences of T along the motion, m/s
+  Deviation torque;                   ///< N·m
+  Deviation acceleration;             ///< platform, m/s²
+  Vector6d acceleration_error = Vector6d::Zero();  ///< Simbody's less the commanded, [ω̇; p̈]
+  std::string refused;                             ///< why the subject has no answer here; empty where it has
+};
+
+/// Solver and Simbody at the same instants: joint state, 13 bodies, torques, accelerations. `profile` is the
+/// scenario's.
+std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
+                                          const std::vector<double>& instants, const RoundingProfile& profile);
+/// With a profile of its own.
+std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
+                                          const std::vector<double>& instants);
+
+/// causeOfRounding at the sample at t, or at the first after it; "" where there is none.
+std::string causeOfRounding(const std::vector<PointwiseSample>& samples, double t);
+
+}  // namespace ursula

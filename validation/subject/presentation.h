@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "model/joint_reactions.h"
+#include "model/joint_variables.h"
+#include "model/load.h"
+#include "model/manipulator.h"
+#include "model/motion.h"
+#include "model/scenario.h"
+#include "validation/subject/subject.h"
+
+namespace ursula {
+
+/// Units of length, mass and time, in metres, kilograms and seconds.
+struct Units {
+  double length = 1, mass = 1, time = 1;
+
+  double velocity() const { return length / time; }
+  double acceleration() const { return length / (time * time); }
+  double force() const { return mass * acceleration(); }
+  double torque() const { return force() * length; }
+  /// A unit's size in SI: "m", "m/s^2", "N m", "rad/s", "J", … as checks write them; also as columns do ("Nm", "m_s2").
+  /// 1 for a unit that is a pure number. Throws std::invalid_argument for one that it does not know.
+  double of(const std::string& unit) const;
+};
+
+/// The same physics seen from elsewhere: the world turned and shifted, the platform's frame turned, legs relabelled,
+/// units changed. No number that can be measured depends on it; only roundings do. A vector v of B becomes
+/// turn · v / unit, a position turn · (p − origin) / unit.
+struct Presentation {
+  Matrix3d turn = Matrix3d::Identity();                 ///< of the world
+  Vector3d origin = Vector3d::Zero();                   ///< the new origin, m, in B
+  Matrix3d platform_turn = Matrix3d::Identity();        ///< the platform's new axes, in M
+  std::array<int, leg_count> leg = {0, 1, 2, 3, 4, 5};  ///< leg i there is leg[i] here
+  Units units;
+
+  Manipulator of(const Manipulator& machine) const;
+  Motion<double> of(const Motion<double>& motion) const;
+  /// Null for null.
+  std::shared_ptr<const Load> of(const std::shared_ptr<const Load>& load) const;
+  /// Without origin: torques, N·m.
+  Vector6d of(const Vector6d& torques) const;
+  /// The scenario with machine, trajectory and load presented; text and settings stay. Keeps the trajectory alive.
+  Scenario of(const Scenario& scenario) const;
+
+  // Answers from there, as they are here.
+  Motion<double> back(const Motion<double>& motion) const;
+  Vector6d torquesBack(const Vector6d& torques) const;
+  BodyMotions<double> back(const BodyMotions<double>& bodies) const;
+  /// Rates and accelerations; of the angles ψ and θ only, for φ counts from an axis that is not turned along.
+  JointMotion back(const JointMotion& joints) const;
+  Reactions back(const Reactions& reactions) const;
+};
+
+/// Any turn, shift by up to `size`, labels and units (none a power of two), reproducible from `seed`.
+Presentation randomPresentation(unsigned seed, double size);
+
+/// Where the numbers are good: origin near the machine, units of the machine's own length, mass and time, all powers of
+/// two, so that nothing is rounded. Of a machine of metres about the base's origin the origin stays.
+Presentation naturalPresentation(const Scenario& scenario);
+
+/// A subject made in SI, asked from `origin` in `units`. Where the subject was made for the relocated scenario,
+/// `origin` is zero, and no digit is lost on the way.
+Subject presented(const Subject& subject, const Vector3d& origin, const Units& units);
+
+/// The scenario with its positions from `origin` (base points and trajectory), otherwise as it is.
+Scenario relocated(const Scenario& scenario, const Vector3d& origin);
+
+}  // namespace ursula

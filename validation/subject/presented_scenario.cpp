@@ -1,0 +1,214 @@
+// Whole scenarios in a presentation, and the presentations that are used. See presentation.h.
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "model/exact_trajectory.h"
+#include "nocsolver/solver_model.h"
+#include "validation/subject/presentation.h"
+
+namespace ursula {
+namespace {
+
+/// A trajectory as it looks in a presentation; positions from its origin already.
+class PresentedTrajectory final : public ExactTrajectory {
+ public:
+  PresentedTrajectory(std::shared_ptr<const Trajectory> from, const Presentation& presentation)
+      : from_(std::move(from)), presentation_(presentation), knots_(from_->knots()) {
+    presentation_.origin.setZero();
+    for (double& knot : knots_) knot /= presentation.units.time;
+  }
+  std::string kind() const override { return from_->kind(); }
+  double duration() const override { return from_->duration() / presentation_.units.time; }
+  Motion<double> at(double t) const override {
+    Motion<double> motion = presentation_.of(from_->at(t * presentation_.units.time));
+    motion.t = t;  // the instant that was asked for, to the last bit
+    return motion;
+  }
+  Motion<Real50> at(const Real50& t) const override {
+    const Presentation& p = presentation_;
+    const Motion<Real50> from = from_->at(Real50(t * p.units.time));
+    const auto turn = p.turn.cast<Real50>().eval();
+    const Real50 length = p.units.length, time = p.units.time;
+    Motion<Real50> out;
+    out.t = t;
+    out.p = turn * from.p / length;
+    out.Q = turn * from.Q * p.platform_turn.cast<Real50>();
+    out.omega = turn * from.omega * time;
+    out.p_dot = turn * from.p_dot * Real50(time / length);
+    out.omega_dot = turn * from.omega_dot * Real50(time * time);
+    out.p_ddot = turn * from.p_ddot * Real50(time * time / length);
+    return out;
+  }
+  const ExactTrajectory* exact() const override { return from_->exact() ? this : nullptr; }
+  const std::vector<double>& knots() const override { return knots_; }
+
+ private:
+  std::shared_ptr<const Trajectory> from_;
+  Presentation presentation_;
+  std::vector<double> knots_;
+};
+
+/// For trajectories that cannot move their origin themselves.
+class ShiftedTrajectory final : public ExactTrajectory {
+ public:
+  ShiftedTrajectory(std::shared_ptr<const Trajectory> from, const Vector3d& origin)
+      : from_(std::move(from)), origin_(origin) {}
+  std::string kind() const override { return from_->kind(); }
+  double duration() const override { return from_->duration(); }
+  Motion<double> at(double t) const override {
+    Motion<double> motion = from_->at(t);
+    motion.p -= origin_;
+    return motion;
+  }
+  Motion<Real50> at(const Real50& t) const override {
+    Motion<Real50> motion = from_->at(t);
+    motion.p -= origin_.cast<Real50>();
+    return motion;
+  }
+  const ExactTrajectory* exact() const override { return from_->exact() ? this : nullptr; }
+  const std::vector<double>& knots() const override { return from_->knots(); }
+
+ private:
+  std::shared_ptr<const Trajectory> from_;
+  Vector3d origin_;
+};
+
+std::shared_ptr<const Trajectory> shifted(const std::shared_ptr<const Trajectory>& from, const Vector3d& origin) {
+  if (origin.isZero(0)) return from;
+  if (std::shared_ptr<const Trajectory> moved = from->relativeTo(origin)) return moved;
+  return std::make_shared<const ShiftedTrajectory>(from, origin);
+}
+
+double powerOfTwo(double x) { return std::exp2(std::floor(std::log2(x))); }
+
+/// Multiples of a power of two above the machine's size are taken off without rounding (Sterbenz), but for the first:
+/// about it coordinates are still too small.
+Vector3d roundOrigin(const Manipulator& machine, double length) {
+  Vector3d middle = Vector3d::Zero();
+  for (const Leg& leg : machine.parameters().legs) middle += leg.base_point / leg_count;
+  double spread = length;
+  for (const Leg& leg : machine.parameters().legs) spread = std::max(spread, (leg.base_point - middle).norm());
+  const double grid = 4 * powerOfTwo(spread);
+  const Vector3d steps = (middle / grid).array().round();
+  return (steps.array().abs() < 2).select(Vector3d::Zero(), steps * grid);
+}
+
+/// The largest acceleration that the platform or gravity has, m/s².
+double accelerationOf(const Scenario& scenario, double length) {
+  double largest = scenario.manipulator->gravity().norm();
+  constexpr int instants = 16;
+  for (int k = 0; k <= instants; ++k) {
+    const Motion<double> motion = scenario.trajectory->at(scenario.trajectory->duration() * k / instants);
+    largest = std::max(
+        {largest, motion.p_ddot.norm(), length * motion.omega_dot.norm(), length * motion.omega.squaredNorm()});
+  }
+  return largest;
+}
+
+double massOf(const ManipulatorParameters& machine) {
+  double mass = machine.platform.mass;
+  for (const Leg& leg : machine.legs) mass += leg.proximal.mass + leg.distal.mass;
+  return mass;
+}
+
+Matrix3d randomTurn(std::mt19937_64& engine) {
+  // Four normal deviates by the sum of twelve uniform ones make a quaternion; which exactly does not matter here.
+  const auto normal = [&engine] {
+    double sum = -6;
+    for (int k = 0; k < 12; ++k) sum += static_cast<double>(engine() >> 11) * 0x1p-53;
+    return sum;
+  };
+  Eigen::Quaterniond q(normal(), normal(), normal(), normal());
+  return q.normalized().toRotationMatrix();
+}
+
+/// `back` is the way from `to`.
+KinematicAnswer answerIn(const Presentation& to, const Presentation& back, KinematicAnswer answer) {
+  answer.joints = back.back(answer.joints);
+  answer.bodies = back.back(answer.bodies);
+  for (Matrix6d* T : {&answer.T, &answer.T_rate}) T->bottomRows<3>() /= to.units.length;
+  answer.T_rate *= to.units.time;
+  return answer;
+}
+
+}  // namespace
+
+Scenario relocated(const Scenario& scenario, const Vector3d& origin) {
+  Scenario out = scenario;
+  ManipulatorParameters machine = scenario.manipulator->parameters();
+  for (Leg& leg : machine.legs) leg.base_point -= origin;
+  out.manipulator = std::make_shared<const Manipulator>(machine);
+  out.trajectory = shifted(scenario.trajectory, origin);
+  return out;
+}
+
+Scenario Presentation::of(const Scenario& scenario) const {
+  Scenario out = scenario;
+  out.manipulator = std::make_shared<const Manipulator>(of(*scenario.manipulator));
+  out.trajectory = std::make_shared<const PresentedTrajectory>(shifted(scenario.trajectory, origin), *this);
+  out.load = of(scenario.load);
+  return out;
+}
+
+Presentation randomPresentation(unsigned seed, double size) {
+  std::mt19937_64 engine(seed);
+  const auto uniform = [&engine](double low, double high) {
+    return low + (high - low) * static_cast<double>(engine() >> 11) * 0x1p-53;
+  };
+  Presentation out;
+  out.turn = randomTurn(engine);
+  out.platform_turn = randomTurn(engine);
+  out.origin = size * Vector3d(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+  for (std::size_t i = leg_count - 1; i > 0; --i) std::swap(out.leg[i], out.leg[engine() % (i + 1)]);
+  out.units = {uniform(0.6, 1.9), uniform(0.6, 1.9), uniform(0.6, 1.9)};
+  return out;
+}
+
+Presentation naturalPresentation(const Scenario& scenario) {
+  const double length = SolverModel<double>(*scenario.manipulator).length;
+  const double acceleration = accelerationOf(scenario, length);
+  Presentation out;
+  out.origin = roundOrigin(*scenario.manipulator, length);
+  out.units.length = powerOfTwo(length);
+  out.units.mass = powerOfTwo(massOf(scenario.manipulator->parameters()));
+  out.units.time = powerOfTwo(acceleration > 0 ? std::sqrt(length / acceleration) : scenario.trajectory->duration());
+  return out;
+}
+
+Subject presented(const Subject& subject, const Vector3d& origin, const Units& units) {
+  Presentation to;
+  to.origin = origin;
+  to.units = units;
+  Presentation from;
+  from.origin = -origin / units.length;
+  from.units = {1 / units.length, 1 / units.mass, 1 / units.time};
+  Subject out;
+  out.name = subject.name;
+  out.torques = [=](const Motion<double>& motion) { return to.of(subject.torques(from.of(motion))); };
+  if (subject.foresee)
+    out.foresee = [=](std::vector<Motion<double>> motions) {
+      for (Motion<double>& motion : motions) motion = from.of(motion);
+      subject.foresee(motions);
+    };
+  if (subject.kinematics)
+    out.kinematics = [=](const Motion<double>& motion) {
+      return answerIn(to, from, subject.kinematics(from.of(motion)));
+    };
+  if (subject.accelerations)
+    out.accelerations = [=](const Motion<double>& motion, const Vector6d& torques) {
+      Vector6d found = subject.accelerations(from.of(motion), from.of(torques));
+      found.head<3>() *= units.time * units.time;
+      found.tail<3>() /= units.acceleration();
+      return found;
+    };
+  if (subject.rebuilt)
+    out.rebuilt = [=](const Manipulator& machine) {
+      return presented(subject.rebuilt(from.of(machine)), origin, units);
+    };
+  return out;
+}
+
+}  // namespace ursula

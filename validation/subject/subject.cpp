@@ -1,0 +1,72 @@
+#include "validation/subject/subject.h"
+
+#include <Eigen/Geometry>
+
+#include "nocsolver/solver.h"
+
+namespace ursula {
+namespace {
+
+/// Subjects are asked from many threads.
+Workspace<double>& workspace() {
+  thread_local Workspace<double> work;
+  return work;
+}
+
+template <class Reading>
+Subject makeSubject(const std::string& name, const Manipulator& manipulator, const std::shared_ptr<const Load>& load,
+                    const Reading& reading) {
+  const auto solver = std::make_shared<const Solver<double, Reading>>(manipulator, reading);
+  Subject subject;
+  subject.name = name;
+  subject.torques = [solver, load](const Motion<double>& motion) {
+    return solver->inverseDynamics(motion, workspace(), loadAtP(load.get(), motion));
+  };
+  subject.kinematics = [solver](const Motion<double>& motion) {
+    Workspace<double>& work = workspace();
+    KinematicAnswer answer;
+    solver->inverseKinematics(motion, work);
+    answer.joints = {solver->angles(work), solver->rates(work), solver->accelerations(work)};
+    solver->bodyMotions(motion, work, answer.bodies);
+    solver->jacobians(motion, work);
+    answer.T = solver->T(work);
+    answer.T_rate = solver->TRate(motion, work);
+    return answer;
+  };
+  subject.accelerations = [solver, load](const Motion<double>& motion, const Vector6d& torques) {
+    return solver->directDynamics(motion, torques, workspace(), loadAtP(load.get(), motion));
+  };
+  subject.rebuilt = [name, reading](const Manipulator& other) { return makeSubject(name, other, nullptr, reading); };
+  return subject;
+}
+
+}  // namespace
+
+Vector6d loadAtP(const Load* load, const Motion<double>& motion) {
+  if (load == nullptr) return Vector6d::Zero();
+  const Wrench<double> wrench = load->at(motion.t);
+  const Matrix3d to_base = load->frame == Load::Frame::platform ? motion.Q : Matrix3d(Matrix3d::Identity());
+  const Vector3d force = to_base * wrench.force;
+  Vector6d out;
+  out << to_base * wrench.moment + (motion.Q * load->point).cross(force), force;
+  return out;
+}
+
+void foresee(const Subject& subject, const Trajectory& trajectory, const std::vector<double>& instants) {
+  if (!subject.foresee) return;
+  std::vector<Motion<double>> motions;
+  motions.reserve(instants.size());
+  for (double t : instants) motions.push_back(trajectory.at(t));
+  subject.foresee(motions);
+}
+
+Subject nocSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load) {
+  return makeSubject("noc", manipulator, load, Corrected{});
+}
+
+Subject slippedSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load,
+                       const WithSlips& slips) {
+  return makeSubject("noc with slips", manipulator, load, slips);
+}
+
+}  // namespace ursula

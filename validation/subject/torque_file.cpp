@@ -1,0 +1,162 @@
+#include "validation/subject/torque_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "model/csv.h"
+
+namespace ursula {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr int no_digit = std::numeric_limits<int>::max();
+
+std::string torqueName(int leg) { return fmt::format("tau_{}_Nm", leg + 1); }
+
+bool isOurs(const std::string& name) {
+  if (name == "t_s") return true;
+  for (int i = 0; i < leg_count; ++i)
+    if (name == torqueName(i)) return true;
+  return false;
+}
+
+/// The power of ten of the first significant digit.
+int firstPlace(double value) { return static_cast<int>(std::floor(std::log10(std::abs(value)))); }
+
+/// How finely a file was printed: its most decimals and its most significant digits.
+struct Fineness {
+  int last_place = no_digit;  ///< of its most decimals
+  int digits = 0;
+
+  void add(double value, int place) {
+    last_place = std::min(last_place, place);
+    if (value != 0) digits = std::max(digits, firstPlace(value) - place + 1);
+  }
+
+  /// Half a unit of the last digit, as TorqueFile has it.
+  double precision(double value, int place) const {
+    const int by_digits = value == 0 ? last_place : firstPlace(value) - digits + 1;
+    const double half = 0.5 * std::pow(10.0, std::min(place, std::max(last_place, by_digits)));
+    return half > eps * std::abs(value) ? half : 0;  // finer than a double: exact
+  }
+};
+
+/// The columns of the contract in a table that was read.
+struct Columns {
+  std::size_t time = 0;
+  std::array<std::size_t, leg_count> torques{};
+
+  explicit Columns(const CsvTable& table) : time(place(table, "t_s")) {
+    for (int i = 0; i < leg_count; ++i) torques[static_cast<std::size_t>(i)] = place(table, torqueName(i));
+  }
+
+ private:
+  static std::size_t place(const CsvTable& table, const std::string& name) {
+    return static_cast<std::size_t>(&table.at(name) - table.columns.data());
+  }
+};
+
+void requireIncreasing(const CsvTable& table, const std::vector<double>& t) {
+  for (std::size_t k = 1; k < t.size(); ++k) {
+    if (t[k] > t[k - 1]) continue;
+    const std::string what =
+        t[k] == t[k - 1] ? fmt::format("t_s = {} repeats line {}", t[k], table.lines[k - 1])
+                         : fmt::format("t_s = {} comes after {} of line {}", t[k], t[k - 1], table.lines[k - 1]);
+    throw CsvError(fmt::format("{}: error: {}, expected increasing instants", table.place(k), what));
+  }
+}
+
+enum class Grid { none, rounded, exact };
+
+/// Whether the instants are k·step (exact), or were before they were rounded to the last digit printed.
+Grid gridOf(const std::vector<double>& t, double half) {
+  if (t.size() < 3) return Grid::none;
+  const double step = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
+  const double rounding = 4 * eps * std::max(std::abs(t.front()), std::abs(t.back()));
+  double largest = std::abs(std::remainder(t.front(), step));  // rounding a grid that begins elsewhere may not show
+  for (std::size_t k = 1; k + 1 < t.size(); ++k)
+    largest = std::max(largest, std::abs(t[k] - (t.front() + static_cast<double>(k) * step)));
+  if (largest <= rounding) return Grid::exact;
+  return largest <= 2 * half + rounding ? Grid::rounded
+                                        : Grid::none;  // the grid's ends are rounded as well: two halves
+}
+
+void setTimePrecision(const std::vector<int>& places, const Fineness& whole, TorqueFile& out) {
+  const double half = 0.5 * std::pow(10.0, *std::min_element(places.begin(), places.end()));
+  const Grid grid = gridOf(out.t, half);
+  for (std::size_t k = 0; k < out.t.size(); ++k) {
+    const double at_own_digit = half > eps * std::abs(out.t[k]) ? half : 0;
+    out.time_precision.push_back(grid == Grid::exact     ? 0
+                                 : grid == Grid::rounded ? at_own_digit
+                                                         : whole.precision(out.t[k], places[k]));
+  }
+}
+
+void setTorquePrecision(const CsvTable& table, const Columns& columns, const Fineness& torques, TorqueFile& out) {
+  out.all_single = true;
+  for (std::size_t k = 0; k < table.rows(); ++k) {
+    Vector6d precision;
+    for (int i = 0; i < leg_count; ++i) {
+      const double value = out.torques[k](i);
+      precision(i) = torques.precision(value, table.last_places[columns.torques[static_cast<std::size_t>(i)]][k]);
+      out.all_single = out.all_single && static_cast<double>(static_cast<float>(value)) == value;
+    }
+    out.torque_precision.push_back(precision);
+  }
+  out.digits = torques.digits;
+}
+
+TorqueFile torquesOf(const CsvTable& table) {
+  const Columns columns(table);
+  TorqueFile out;
+  out.file = table.file;
+  out.lines = table.lines;
+  out.ignored = table.ignored;
+  out.t = table.columns[columns.time];
+  requireIncreasing(table, out.t);
+  Fineness torques;
+  for (std::size_t k = 0; k < table.rows(); ++k) {
+    Vector6d tau;
+    for (int i = 0; i < leg_count; ++i) {
+      const std::size_t column = columns.torques[static_cast<std::size_t>(i)];
+      tau(i) = table.columns[column][k];
+      torques.add(tau(i), table.last_places[column][k]);
+    }
+    out.torques.push_back(tau);
+  }
+  Fineness whole = torques;
+  const std::vector<int>& places = table.last_places[columns.time];
+  for (std::size_t k = 0; k < table.rows(); ++k) whole.add(out.t[k], places[k]);
+  setTorquePrecision(table, columns, torques, out);
+  setTimePrecision(places, whole, out);
+  return out;
+}
+
+}  // namespace
+
+TorqueFile readTorqueFile(const std::filesystem::path& file) { return torquesOf(readCsv(file, {isOurs, true})); }
+
+TorqueFile parseTorqueFile(const std::string& text, const std::filesystem::path& file) {
+  return torquesOf(parseCsv(text, file, {isOurs, true}));
+}
+
+double timeRounding(const TorqueFile& file, double duration) {
+  return eps * duration * static_cast<double>(std::max<std::size_t>(4, file.rows()));
+}
+
+TorqueFile within(TorqueFile file, double duration) {
+  for (std::size_t k = 0; k < file.rows(); ++k) {
+    const double rounding = file.time_precision[k] + timeRounding(file, duration);
+    if (!(file.t[k] >= -rounding && file.t[k] <= duration + rounding))
+      throw CsvError(fmt::format("{}:{}: error: t_s = {} lies outside of the motion, expected 0 to {} s",
+                                 file.file.string(), file.lines[k], file.t[k], duration));
+    file.t[k] = std::clamp(file.t[k], 0.0, duration);
+  }
+  return file;
+}
+
+}  // namespace ursula

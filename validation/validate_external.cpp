@@ -1,0 +1,121 @@
+#include "validation/validate_external.h"
+
+#include <fmt/format.h>
+
+#include "validation/checks/acceptance.h"
+#include "validation/checks/every_check.h"
+#include "validation/checks/families.h"
+#include "validation/checks/tolerance.h"
+#include "validation/evidence/evidence.h"
+#include "validation/external/diagnosis.h"
+#include "validation/external/external_replay.h"
+#include "validation/external/external_samples.h"
+#include "validation/findings/attribution.h"
+#include "validation/findings/curves.h"
+#include "validation/findings/facts.h"
+#include "validation/findings/in_si.h"
+#include "validation/findings/picture.h"
+#include "validation/findings/run_provenance.h"
+#include "validation/findings/timeseries.h"
+#include "validation/subject/motion_check.h"
+#include "validation/subject/presentation.h"
+
+namespace ursula {
+namespace {
+
+void addDiagnosis(const Diagnosis& diagnosis, ValidationResult& result) {
+  if (diagnosis.summary.empty()) return;
+  result.findings.emplace_back("torques that are off", diagnosis.deviation);
+  result.findings.emplace_back("likely cause", diagnosis.cause);
+  for (Check& check : result.checks)
+    if (check.verdict == Verdict::fail)
+      check.why += fmt::format(". Off: {}. Likely cause: {}", diagnosis.summary, diagnosis.cause);
+}
+
+void addFileFindings(const TorqueFile& file, ValidationResult& result) {
+  result.findings.emplace_back("torque file", fmt::format("{} instants from {:.6g} to {:.6g} s, up to {} digits",
+                                                          file.rows(), file.t.front(), file.t.back(), file.digits));
+  if (!file.ignored.empty()) {
+    std::string names;
+    for (const std::string& name : file.ignored) names += (names.empty() ? "" : ", ") + name;
+    result.findings.emplace_back("columns ignored", names);
+  }
+}
+
+/// In other units; all are powers of two, so that no digit is lost.
+TorqueFile inUnits(TorqueFile file, const Units& units) {
+  for (std::size_t k = 0; k < file.rows(); ++k) {
+    file.t[k] /= units.time;
+    file.time_precision[k] /= units.time;
+    file.torques[k] /= units.torque();
+    file.torque_precision[k] /= units.torque();
+  }
+  return file;
+}
+
+Evidence gatherExternal(const Scenario& given, const Presentation& natural, const Scenario& scenario,
+                        const ExternalTorques& external, const ExternalReplay& replay) {
+  Evidence out;
+  out.given = &given;
+  out.natural = natural;
+  out.scenario = &scenario;
+  out.external = &external;
+  out.amplification = replay.amplification.get();
+  out.has.any_instant = out.has.kinematics = out.has.direct_dynamics = out.has.other_machines = false;
+  out.samples = external.samples;
+  out.plan = replay.plan;
+  out.scales = replay.scales;
+  out.windows = replay.windows;
+  out.spline = replay.spline;
+  out.not_replayed = replay.not_replayed;
+  out.replay_bound = replay.bound;
+  return out;
+}
+
+void addFacts(const Evidence& evidence, ValidationResult& result) {
+  result.timeseries = validationSeries(evidence.samples, evidence.windows);
+  addFindings(evidence.samples, evidence.windows, result, evidence.units());
+  addCurves(evidence.samples, evidence.windows, result);
+  if (!evidence.not_replayed.empty()) result.findings.emplace_back("replay", "none: " + evidence.not_replayed);
+  if (!evidence.spline.empty()) result.findings.emplace_back("spline", evidence.spline);
+  const ErrorBudget budget =
+      evidence.windows.empty()
+          ? ErrorBudget{}
+          : attribute(*evidence.scenario, evidence.samples, evidence.windows, *evidence.amplification, evidence.plan);
+  addBudget(budget, result, evidence.units());
+}
+
+}  // namespace
+
+ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& torques) {
+  checkMotion(scenario);
+  const Presentation natural = naturalPresentation(scenario);
+  const Scenario here = natural.of(scenario);
+  const TorqueFile file = within(torques, scenario.trajectory->duration());
+  const ExternalTorques external = runExternal(here, inUnits(file, natural.units));
+  const ExternalReplay replay = replayExternal(here, external, natural.units);
+  Evidence evidence = gatherExternal(scenario, natural, here, external, replay);
+  ValidationResult result;
+  result.scenario = scenario.name;
+  result.checks = judgeAll(evidence);
+  addFacts(evidence, result);
+  seriesInSi(natural, result);
+  addPicture(scenario, result);
+  result.deviation = effortDeviation(evidence, result.checks);
+  listEveryCheck(scenario, evidence.has, result);
+  judgeByTolerance(scenario, replay.covered, result);
+  judgeByUser(scenario.acceptance, result);
+  addFileFindings(file, result);
+  if (result.verdict == Verdict::fail || result.limits == LimitBy::user) {
+    const Scenario relocated = ursula::relocated(scenario, natural.origin);  // in SI: its words are
+    addDiagnosis(diagnose(relocated, runExternal(relocated, file)), result);
+  }
+  addProvenance(scenario, torques.file.filename().string(), result);
+  return result;
+}
+
+ValidationResult validateExternal(const Scenario& scenario, const std::filesystem::path& torques_csv) {
+  return validateExternal(scenario, readTorqueFile(torques_csv));
+}
+
+}  // namespace ursula

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+
+#include "model/scenario.h"
+#include "validation/subject/torque_file.h"
+#include "validation/verdict/result.h"
+
+namespace ursula {
+
+/// Judges somebody else's torques: pointwise at their own instants, and by replay on a spline through them. What is
+/// wrong with them goes into the `why` of the checks that fail and into the findings. Throws CsvError for instants
+/// outside of the motion, and as validate() does.
+ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& torques);
+
+/// The same from a file; throws CsvError as readTorqueFile does.
+ValidationResult validateExternal(const Scenario& scenario, const std::filesystem::path& torques_csv);
+
+}  // namespace ursula

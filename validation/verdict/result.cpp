@@ -1,0 +1,115 @@
+#include "validation/verdict/result.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace ursula {
+namespace {
+
+bool anyIs(const std::vector<Check>& checks, Verdict verdict) {
+  return std::any_of(checks.begin(), checks.end(), [verdict](const Check& check) { return check.verdict == verdict; });
+}
+
+}  // namespace
+
+const char* name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::pass:
+      return "pass";
+    case Verdict::fail:
+      return "fail";
+    case Verdict::inconclusive:
+      return "inconclusive";
+    case Verdict::not_applicable:
+      return "not_applicable";
+  }
+  throw std::logic_error("no such verdict");
+}
+
+const char* name(Reason reason) {
+  switch (reason) {
+    case Reason::none:
+      return "none";
+    case Reason::limit_useless:
+      return "limit_useless";
+    case Reason::unfinished:
+      return "unfinished";
+    case Reason::not_covered:
+      return "not_covered";
+    case Reason::not_made:
+      return "not_made";
+    case Reason::not_applicable:
+      return "not_applicable";
+    case Reason::reported:
+      return "reported";
+  }
+  throw std::logic_error("no such reason");
+}
+
+const char* name(LimitBy limit_by) { return limit_by == LimitBy::user ? "user" : "derived"; }
+
+Check judged(std::string name, double value, double limit, std::string unit, std::string basis, std::string why) {
+  // An infinite limit would accept anything: it is a limit that was not found.
+  const bool accepted = value <= limit && std::isfinite(value) && std::isfinite(limit);
+  return {std::move(name),  value,          limit,        std::move(unit), accepted ? Verdict::pass : Verdict::fail,
+          std::move(basis), std::move(why), Reason::none, {value, 0, ""}};
+}
+
+Check notMade(std::string name, std::string unit, std::string why) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  return {std::move(name),  none,         none, std::move(unit), Verdict::fail, "", std::move(why),
+          Reason::not_made, {none, 0, ""}};
+}
+
+Check notApplicable(std::string name, std::string unit, std::string why) {
+  Check out = notMade(std::move(name), std::move(unit), std::move(why));
+  out.verdict = Verdict::not_applicable;
+  out.reason = Reason::not_applicable;
+  return out;
+}
+
+Check notJudgeable(Reason reason, std::string name, double value, double limit, std::string unit, std::string basis,
+                   std::string why) {
+  return {std::move(name),  value,          limit,  std::move(unit), Verdict::inconclusive,
+          std::move(basis), std::move(why), reason, {value, 0, ""}};
+}
+
+Check judgedIfUseful(std::string name, double value, double limit, double useful, std::string unit, std::string basis,
+                     std::string why, const std::string& cause) {
+  const bool says_nothing = limit > useful && !std::isnan(value);
+  if (!says_nothing) return judged(std::move(name), value, limit, std::move(unit), std::move(basis), std::move(why));
+  return notJudgeable(Reason::limit_useless, std::move(name), value, limit, std::move(unit), std::move(basis),
+                      why + "; the limit says nothing here: " + cause);
+}
+
+Verdict overall(const std::vector<Check>& checks) {
+  if (anyIs(checks, Verdict::fail)) return Verdict::fail;
+  if (anyIs(checks, Verdict::inconclusive)) return Verdict::inconclusive;
+  return anyIs(checks, Verdict::pass) ? Verdict::pass : Verdict::fail;  // of nothing judged
+}
+
+double EffortDeviation::smallestRelative() const {
+  const double least = relative();
+  if (!(least > 0)) return least;
+  const double digit = std::pow(10.0, std::floor(std::log10(least)) - 2);
+  return std::ceil(least / digit * (1 + 1e-12)) * digit;
+}
+
+void TimeSeries::add(std::string column_name, std::vector<double> values) {
+  if (find(column_name) != nullptr) throw std::invalid_argument("column " + column_name + " is there already");
+  if (!columns.empty() && values.size() != rows()) {
+    throw std::invalid_argument("column " + column_name + " has " + std::to_string(values.size()) + " rows, expected " +
+                                std::to_string(rows()));
+  }
+  names.push_back(std::move(column_name));
+  columns.push_back(std::move(values));
+}
+
+const std::vector<double>* TimeSeries::find(const std::string& column_name) const {
+  const auto found = std::find(names.begin(), names.end(), column_name);
+  return found == names.end() ? nullptr : &columns[static_cast<std::size_t>(found - names.begin())];
+}
+
+}  // namespace ursula
