@@ -11,9 +11,9 @@
 #include "validation/findings/curves.h"
 #include "validation/findings/facts.h"
 #include "validation/findings/in_si.h"
-#include "validation/findings/picture.h"
 #include "validation/findings/run_provenance.h"
 #include "validation/findings/timeseries.h"
+#include "validation/picture/picture.h"
 
 namespace ursula {
 namespace {

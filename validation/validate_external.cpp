@@ -14,9 +14,9 @@
 #include "validation/findings/curves.h"
 #include "validation/findings/facts.h"
 #include "validation/findings/in_si.h"
-#include "validation/findings/picture.h"
 #include "validation/findings/run_provenance.h"
 #include "validation/findings/timeseries.h"
+#include "validation/picture/picture.h"
 #include "validation/subject/motion_check.h"
 #include "validation/subject/presentation.h"
 

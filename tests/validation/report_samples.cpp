@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "validation/findings/picture.h"
+#include "validation/picture/picture.h"
 
 namespace ursula::test {
 namespace {

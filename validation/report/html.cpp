@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "validation/findings/picture.h"
+#include "validation/picture/picture.h"
 #include "validation/report/assets.h"
 #include "validation/report/checks_list.h"
 #include "validation/report/found.h"

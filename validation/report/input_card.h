@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "validation/findings/picture.h"
+#include "validation/picture/picture.h"
 
 namespace ursula::report {
 

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "validation/findings/picture.h"
+#include "validation/picture/picture.h"
 #include "validation/report/quantity.h"
 
 namespace ursula::report {

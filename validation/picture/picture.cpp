@@ -1,4 +1,4 @@
-#include "validation/findings/picture.h"
+#include "validation/picture/picture.h"
 
 #include <Eigen/Geometry>
 
