@@ -16,6 +16,7 @@
 #include "validation/findings/in_si.h"
 #include "validation/findings/run_provenance.h"
 #include "validation/findings/timeseries.h"
+#include "validation/picture/picture.h"
 #include "validation/subject/motion_check.h"
 #include "validation/subject/presentation.h"
 
@@ -99,6 +100,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   result.checks = judgeAll(evidence);
   addFacts(evidence, result);
   seriesInSi(natural, result);
+  addPicture(scenario, result);
   result.deviation = effortDeviation(evidence, result.checks);
   listEveryCheck(scenario, evidence.has, result);
   judgeByTolerance(scenario, replay.covered, result);
