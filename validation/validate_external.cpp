@@ -35,6 +35,7 @@ void addDiagnosis(const Diagnosis& diagnosis, ValidationResult& result) {
 void addFileFindings(const TorqueFile& file, ValidationResult& result) {
   result.findings.emplace_back("torque file", fmt::format("{} instants from {:.6g} to {:.6g} s, up to {} digits",
                                                           file.rows(), file.t.front(), file.t.back(), file.digits));
+  if (!file.read_as.empty()) result.findings.emplace_back("torque file read as", file.read_as);
   if (!file.ignored.empty()) {
     std::string names;
     for (const std::string& name : file.ignored) names += (names.empty() ? "" : ", ") + name;
