@@ -63,7 +63,7 @@ TEST(CheckVerb, exitsWithTwoForErrorsOfAnyScenarioAndNamesThemAll) {
   const UrsulaRun run = ursula("check key.toml far.toml good.toml");
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, AllOf(HasSubstr("key.toml:5:1: error: unknown key 'weight'"),
-                             ContainsRegex("far.toml:46:1: error: the motion cannot be made: leg [1-6] is out of reach "
+                             ContainsRegex("far.toml:44:1: error: the motion cannot be made: leg [1-6] is out of reach "
                                            "at t = 0 s: .* it misses by [0-9.]+ m")));
   EXPECT_THAT(run.out, HasSubstr("good.toml: can be read"));
   EXPECT_EQ(ursula("check good.toml").exit_code, 0);
@@ -78,7 +78,7 @@ TEST(UnreachableMotion, namesPlaceInstantLegAndMetres) {
     const UrsulaRun run = ursula(std::string(verb) + " far.toml");
     EXPECT_EQ(run.exit_code, 2) << verb;
     EXPECT_THAT(run.err,
-                ContainsRegex("far.toml:46:1: error: the motion cannot be made: leg [1-6] is out of reach at t "
+                ContainsRegex("far.toml:44:1: error: the motion cannot be made: leg [1-6] is out of reach at t "
                               "= [0-9.]+ s: .* m apart.* span at most 2.7 m; it misses by [0-9.e-]+ m"))
         << verb;
   }

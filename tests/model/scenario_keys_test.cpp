@@ -23,43 +23,61 @@ const std::string points =
 /// A scenario with `line` in the table of that name, in place of the same key where it is there.
 std::string withLine(const std::string& table, const std::string& key, const std::string& line) {
   const std::string machine = good_scenario.substr(0, good_scenario.find("[trajectory]"));
-  const auto in = [&](const std::string& header, std::vector<std::pair<std::string, std::string>> lines) {
+  using Lines = std::vector<std::pair<std::string, std::string>>;
+  const auto in = [&](const std::string& header, const Lines& lines, const std::string& last) {
     std::string text = header + "\n";
     for (const auto& [name, value] : lines)
-      if (name != key) text += value + "\n";
-    return text + line + "\n";
+      if (name != key && name + "_deg" != key) text += value + "\n";
+    return text + last + "\n";
   };
   if (table == "trajectory.hold")
-    return machine + in("[trajectory]", {{"kind", "kind = \"hold\""},
-                                         {"position", "position = [0, 0, 1]"},
-                                         {"orientation", "orientation = [1, 0, 0, 0]"},
-                                         {"duration", "duration = 1"}});
+    return machine + in("[trajectory]",
+                        {{"kind", "kind = \"hold\""},
+                         {"position", "position = [0, 0, 1]"},
+                         {"orientation", "orientation = [1, 0, 0, 0]"},
+                         {"duration", "duration = 1"}},
+                        line);
   if (table == "trajectory.helix")
-    return machine + in("[trajectory]", {{"kind", "kind = \"helix\""},
-                                         {"duration", "duration = 3"},
-                                         {"radius", "radius = 0.2"},
-                                         {"pitch", "pitch = 1.2"},
-                                         {"start_angle", "start_angle = -1.5"},
-                                         {"end_angle", "end_angle = -1.0"}});
+    return machine + in("[trajectory]",
+                        {{"kind", "kind = \"helix\""},
+                         {"duration", "duration = 3"},
+                         {"radius", "radius = 0.2"},
+                         {"pitch", "pitch = 1.2"},
+                         {"start_angle", "start_angle = -1.5"},
+                         {"end_angle", "end_angle = -1.0"}},
+                        line);
   if (table == "trajectory.waypoints")
-    return machine + in("[trajectory]", {{"kind", "kind = \"waypoints\""}, {"points", points}});
-  if (table == "load") return good_scenario + in("[load]", {{"moment", "moment = [1, 2, 3]"}});
-  if (table == "simulation") return good_scenario + in("[simulation]", {});
+    return machine + in("[trajectory]", {{"kind", "kind = \"waypoints\""}, {"points", points}}, line);
+  const bool is_history = key == "file" || key == "table";
+  if (table == "load")
+    return good_scenario + in("[load]", is_history ? Lines{} : Lines{{"moment", "moment = [1, 2, 3]"}}, line);
+  if (table == "simulation") return good_scenario + in("[simulation]", {}, line);
   if (table == "acceptance.torque")
-    return good_scenario + in("[acceptance.torque]", {{"relative", "relative = 1"}, {"absolute", "absolute = 1"}});
-  if (table == "manipulator") return replaced(good_scenario, "[manipulator]\n", in("[manipulator]", {}));
+    return good_scenario +
+           in("[acceptance.torque]", {{"relative", "relative = 1"}, {"absolute", "absolute = 1"}}, line);
+  if (table == "manipulator") return replaced(good_scenario, "[manipulator]\n", in("[manipulator]", {}, line));
   if (table == "manipulator.platform")
     return good_scenario.substr(0, good_scenario.find("[manipulator.platform]")) +
-           in("[manipulator.platform]", {{"mass", "mass = 500"},
-                                         {"center_of_mass", "center_of_mass = [0, 0, 1.88]"},
-                                         {"inertia", "inertia = [800, 810, 820]"}}) +
+           in("[manipulator.platform]",
+              {{"mass", "mass = 500"},
+               {"center_of_mass", "center_of_mass = [0, 0, 1.88]"},
+               {"inertia", "inertia = [800, 810, 820]"}},
+              line) +
            good_scenario.substr(good_scenario.find("[manipulator.leg_defaults]"));
-  const std::string leg = "[[manipulator.leg]]\nbase_point = [-0.0953, -1.9682, 0.0]\n";
-  const std::string rest = good_scenario.substr(good_scenario.find("base_axis"));
-  const std::string before = good_scenario.substr(0, good_scenario.find("[[manipulator.leg]]"));
-  const std::string sub = table == "manipulator.leg.link" ? "proximal" : table.substr(table.rfind('.') + 1);
-  if (table == "manipulator.leg") return before + leg + line + "\n" + rest;
-  return before + leg + sub + " = { " + line + " }\n" + rest;
+  const auto first = good_scenario.find("[[manipulator.leg]]"),
+             second = good_scenario.find("[[manipulator.leg]]", first + 1);
+  const auto leg = [&](const std::string& last) {
+    return good_scenario.substr(0, first) +
+           in("[[manipulator.leg]]",
+              {{"base_point", "base_point = [-0.0953, -1.9682, 0.0]"},
+               {"base_axis", "base_axis = [-0.9397, 0.0, 0.3420]"},
+               {"platform_point", "platform_point = [-0.0667, -1.3847, 0.0]"}},
+              last) +
+           good_scenario.substr(second);
+  };
+  if (table == "manipulator.leg") return leg(line);
+  const std::string part = table == "manipulator.leg.link" ? "proximal" : table.substr(table.rfind('.') + 1);
+  return leg(part + " = { " + line + " }");
 }
 
 bool isTried(const std::string& table) {
@@ -177,7 +195,9 @@ TEST(ScenarioKeys, haveTheBoundsThatTheReaderHolds) {
 TEST(ScenarioKeys, ofSubtablesAreThere) {
   for (const ScenarioTable& table : scenarioTables())
     for (const ScenarioKey& key : table.keys)
-      if (key.of[0] != '\0') EXPECT_NO_THROW(scenarioTable(key.of)) << key.name;
+      if (key.of[0] != '\0') {
+        EXPECT_NO_THROW(scenarioTable(key.of)) << key.name;
+      }
   EXPECT_THROW(scenarioTable("none"), std::out_of_range);
   EXPECT_THROW(scenarioTable("load").key("none"), std::out_of_range);
 }
