@@ -16,6 +16,7 @@
 #include "validation/findings/in_si.h"
 #include "validation/findings/run_provenance.h"
 #include "validation/findings/timeseries.h"
+#include "validation/picture/picture.h"
 #include "validation/subject/motion_check.h"
 #include "validation/subject/presentation.h"
 
@@ -24,6 +25,7 @@ namespace {
 
 void addDiagnosis(const Diagnosis& diagnosis, ValidationResult& result) {
   if (diagnosis.summary.empty()) return;
+  result.likely_cause = LikelyCause{diagnosis.deviation, diagnosis.cause};
   result.findings.emplace_back("torques that are off", diagnosis.deviation);
   result.findings.emplace_back("likely cause", diagnosis.cause);
   for (Check& check : result.checks)
@@ -100,6 +102,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   result.checks = judgeAll(evidence);
   addFacts(evidence, result);
   seriesInSi(natural, result);
+  addPicture(scenario, result);
   result.deviation = effortDeviation(evidence, result.checks);
   listEveryCheck(scenario, evidence.has, result);
   judgeByTolerance(scenario, replay.covered, result);
