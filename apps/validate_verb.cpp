@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "apps/suite_progress.h"
+#include "apps/torque_option.h"
 #include "apps/verbs.h"
 #include "model/scenario.h"
 #include "validation/outside/external_solver.h"
@@ -22,7 +23,7 @@ namespace ursula {
 namespace {
 
 struct ValidateOptions {
-  std::vector<std::string> scenarios;
+  std::vector<std::string> scenarios, map;
   std::string torques, out;
   ExternalSolverOptions solver;  ///< with a command, it is judged
   double rtol = 0, atol = 0;     ///< 0: not given
@@ -82,19 +83,11 @@ void printReasons(const ValidationResult& result) {
 /// Judges this program's solver, somebody else's, or the torques of a file.
 ValidationResult judge(const Scenario& scenario, const ValidateOptions& options) {
   if (!options.solver.command.empty()) return validateExternalSolver(scenario, options.solver);
-  return options.torques.empty() ? validate(scenario)
-                                 : validateExternal(scenario, std::filesystem::path(options.torques));
-}
-
-void nameIgnoredColumns(const std::string& torques) {
-  const TorqueFile file = readTorqueFile(torques);
-  if (!file.ignored.empty())
-    fmt::print(stderr, "{}: ignoring columns that are none of t_s, tau_1_Nm … tau_6_Nm: {}\n", torques,
-               fmt::join(file.ignored, ", "));
+  if (options.torques.empty()) return validate(scenario);
+  return validateExternal(scenario, readTorquesAloud(options.torques, options.map));
 }
 
 int validateOne(const Scenario& scenario, const ValidateOptions& options, const std::filesystem::path& dir) {
-  if (!options.torques.empty()) nameIgnoredColumns(options.torques);
   const ValidationResult result = judge(scenario, options);
   writeResults(result, dir);
   printChecks(result);
@@ -153,6 +146,8 @@ int validateAll(const ValidateOptions& options) {
   for (const auto& [option, value] : {std::pair("--torques", options.torques), {"--solver", options.solver.command}})
     if (is_suite && !value.empty())
       throw UsageError(fmt::format("{} judges one motion, expected one scenario, not {}", option, scenarios.size()));
+  if (!options.map.empty() && options.torques.empty())
+    throw UsageError("--map names columns, expected --torques FILE.csv");
   const std::filesystem::path by_name = is_suite ? "suite" : scenarios.front().name;
   const std::filesystem::path dir = options.out.empty() ? "results" / by_name : std::filesystem::path(options.out);
   if (std::filesystem::exists(dir) && !std::filesystem::is_directory(dir))
@@ -184,6 +179,7 @@ void addValidate(CLI::App& app, std::function<int()>& run) {
       ->check(CLI::Range(1e-3, 1e6))
       ->capture_default_str()
       ->needs(solver);
+  addMapOption(*verb, options->map);
   verb->add_option("--rtol", options->rtol,
                    "Torques pass that are off by no more, relative to the largest effort of the motion; wins over\n"
                    "[acceptance] torque")

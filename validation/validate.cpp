@@ -13,6 +13,7 @@
 #include "validation/findings/in_si.h"
 #include "validation/findings/run_provenance.h"
 #include "validation/findings/timeseries.h"
+#include "validation/picture/picture.h"
 
 namespace ursula {
 namespace {
@@ -38,6 +39,7 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   result.checks = judgeAll(evidence);
   addFacts(evidence, options.budget, result);
   seriesInSi(evidence.natural, result);
+  addPicture(scenario, result);
   result.deviation = effortDeviation(evidence, result.checks);
   listEveryCheck(scenario, evidence.has, result);
   judgeByTolerance(scenario, true, result);

@@ -16,6 +16,7 @@
 #include "validation/findings/in_si.h"
 #include "validation/findings/run_provenance.h"
 #include "validation/findings/timeseries.h"
+#include "validation/picture/picture.h"
 #include "validation/subject/motion_check.h"
 #include "validation/subject/presentation.h"
 
@@ -34,6 +35,7 @@ void addDiagnosis(const Diagnosis& diagnosis, ValidationResult& result) {
 void addFileFindings(const TorqueFile& file, ValidationResult& result) {
   result.findings.emplace_back("torque file", fmt::format("{} instants from {:.6g} to {:.6g} s, up to {} digits",
                                                           file.rows(), file.t.front(), file.t.back(), file.digits));
+  if (!file.read_as.empty()) result.findings.emplace_back("torque file read as", file.read_as);
   if (!file.ignored.empty()) {
     std::string names;
     for (const std::string& name : file.ignored) names += (names.empty() ? "" : ", ") + name;
@@ -99,6 +101,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   result.checks = judgeAll(evidence);
   addFacts(evidence, result);
   seriesInSi(natural, result);
+  addPicture(scenario, result);
   result.deviation = effortDeviation(evidence, result.checks);
   listEveryCheck(scenario, evidence.has, result);
   judgeByTolerance(scenario, replay.covered, result);

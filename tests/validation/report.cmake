@@ -2,6 +2,7 @@
 
 add_library(report_samples_data STATIC ${CMAKE_CURRENT_LIST_DIR}/report_samples.cpp)
 target_link_libraries(report_samples_data PUBLIC test_rooms)
+target_compile_definitions(report_samples_data PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
 
 add_executable(report_tests ${CMAKE_CURRENT_LIST_DIR}/report_test.cpp ${CMAKE_CURRENT_LIST_DIR}/result_test.cpp)
 target_link_libraries(report_tests PRIVATE

@@ -13,12 +13,12 @@ namespace ursula {
 /// What is replayed, and the errors that it may carry: they decide how long a window may be.
 struct ReplayPlan {
   SimbodyLoop::TorqueHistory torques;
-  std::function<void(const std::vector<double>&)> foresee;  ///< as ReplaySettings has it; may be empty
   std::function<double(double)> acceleration;  ///< error that the platform's acceleration may have at t, m/s²
   double position_scale = 0;                   ///< as errorPerStep has it, m
   double step_rate = 0;                        ///< steps a second that the replay is taken to need, for planning only
   long max_evaluations = 200000;               ///< of the derivatives in one window; more is giving up
   double tolerance = 1e-14;                    ///< of the integrator: reachableTolerance
+  std::function<void(const std::vector<double>&)> foresee = nullptr;  ///< as ReplaySettings has it; may be empty
 };
 
 /// The growth of deviations along the scenario's motion: 300 intervals, and 40 a second where that is more.

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace ursula {
+
+struct Picture;
 
 /// `not_applicable` is of checks alone: it needs what is not there, and counts neither as passed nor as failed.
 enum class Verdict { pass, fail, inconclusive, not_applicable };
@@ -87,6 +90,12 @@ struct TimeSeries {
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
 };
 
+/// Something that happened at one instant, to be marked where things are drawn over time.
+struct Event {
+  double t = 0;  ///< s
+  std::string what;
+};
+
 /// How far the efforts on trial are from the expected ones, at most.
 struct EffortDeviation {
   double largest = 0;         ///< N·m
@@ -117,6 +126,8 @@ struct ValidationResult {
   /// Curves for the report beside the time series, each with columns of its own (work against precision, amplification,
   /// …).
   std::vector<std::pair<std::string, TimeSeries>> curves;
+  std::vector<Event> events;               ///< replays that start anew or stop, the poses nearest to a limit
+  std::shared_ptr<const Picture> picture;  ///< the machine and what it was asked; null where none was made
 };
 
 }  // namespace ursula
