@@ -18,7 +18,7 @@ TEST(CompareVerb, whatShipsComparesWithAFreshRunWhateverItsSampling) {
   ASSERT_EQ(ursula("inverse " + helix + " --out fresh.csv").exit_code, 0);
   const UrsulaRun same = ursula("compare " + shipped_results + " fresh.csv");
   EXPECT_EQ(same.exit_code, 0) << same.out << same.err;
-  ASSERT_EQ(ursula("inverse " + helix + " --samples 111 --out coarse.csv").exit_code, 0);
+  ASSERT_EQ(ursula("inverse " + helix + " --samples 121 --out coarse.csv").exit_code, 0);
   const UrsulaRun coarse = ursula("compare " + shipped_results + " coarse.csv --columns 'tau_*,q_*'");
   EXPECT_EQ(coarse.exit_code, 0) << coarse.out << coarse.err;
   EXPECT_THAT(coarse.out, HasSubstr("the reference was interpolated at "));
