@@ -1,4 +1,4 @@
-#include "model/scenario_keys.h"
+#include "model/scenario_keys_motion.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -6,23 +6,24 @@
 namespace ursula {
 namespace {
 
-constexpr double least_positive = std::numeric_limits<double>::denorm_min();
-constexpr KeyBound positive{"> 0", least_positive};
-constexpr KeyBound not_negative{">= 0", 0};
-constexpr KeyBound not_zero{"not 0", -std::numeric_limits<double>::max(), std::numeric_limits<double>::max(), false};
-constexpr const char* required = "!";
-constexpr const char* none = "";
-
 ScenarioTable document() {
-  return {"",
-          "(the top of the file)",
-          "A machine, its motion and how that is judged. SI units throughout; B is the base's frame, M the platform's.",
-          {{"name", KeyType::string, "", required, "results go to results/NAME; a name that a folder can have"},
-           {"manipulator", KeyType::table, "", required, "the machine", {}, {}, "manipulator"},
-           {"trajectory", KeyType::table, "", required, "the commanded motion of the platform", {}, {}, "trajectory"},
-           {"load", KeyType::table, "", none, "what acts on the platform from outside", {}, {}, "load"},
-           {"simulation", KeyType::table, "", none, "how finely it is looked at and integrated", {}, {}, "simulation"},
-           {"acceptance", KeyType::table, "", none, "limits of your own", {}, {}, "acceptance"}}};
+  return {
+      "",
+      "(the top of the file)",
+      "A machine, its motion and how that is judged. SI units throughout; B is the base's frame, M the platform's.",
+      {{"name", KeyType::string, "", required_key, "results go to results/NAME; a name that a folder can have"},
+       {"manipulator", KeyType::table, "", required_key, "the machine", {}, {}, "manipulator"},
+       {"trajectory", KeyType::table, "", required_key, "the commanded motion of the platform", {}, {}, "trajectory"},
+       {"load", KeyType::table, "", no_default, "what acts on the platform from outside", {}, {}, "load"},
+       {"simulation",
+        KeyType::table,
+        "",
+        no_default,
+        "how finely it is looked at and integrated",
+        {},
+        {},
+        "simulation"},
+       {"acceptance", KeyType::table, "", no_default, "limits of your own", {}, {}, "acceptance"}}};
 }
 
 ScenarioTable manipulator() {
@@ -33,7 +34,7 @@ ScenarioTable manipulator() {
            {"platform",
             KeyType::table,
             "",
-            required,
+            required_key,
             "the platform with all that it carries",
             {},
             {},
@@ -41,61 +42,69 @@ ScenarioTable manipulator() {
            {"leg_defaults",
             KeyType::table,
             "",
-            none,
+            no_default,
             "what all legs share; takes every key of a leg",
             {},
             {},
             "manipulator.leg"},
-           {"leg", KeyType::tables, "", required, "exactly six, in leg order", {}, {}, "manipulator.leg"}}};
+           {"leg", KeyType::tables, "", required_key, "exactly six, in leg order", {}, {}, "manipulator.leg"}}};
 }
 
 ScenarioTable platform() {
   return {"manipulator.platform",
           "[manipulator.platform]",
           "",
-          {{"mass", KeyType::number, "kg", required, "m", positive},
-           {"center_of_mass", KeyType::vector, "m", required, "ρ: from P, the platform's origin, in M"},
-           {"inertia", KeyType::inertia, "kg·m²", required,
+          {{"mass", KeyType::number, "kg", required_key, "m", positive},
+           {"center_of_mass", KeyType::vector, "m", required_key, "ρ: from P, the platform's origin, in M"},
+           {"inertia", KeyType::inertia, "kg·m²", required_key,
             "about the mass centre, in M: `[xx, yy, zz]` or `[xx, yy, zz, xy, xz, yz]`, entries of the tensor"}}};
 }
 
 ScenarioTable leg() {
-  return {"manipulator.leg",
-          "[[manipulator.leg]]",
-          "One of six; also `[manipulator.leg_defaults]`, whose keys a leg may override one by one. Required keys must "
-          "stand in one of the two.",
-          {{"base_point", KeyType::vector, "m", required, "aᵢ: the base joint A, in B"},
-           {"base_axis", KeyType::vector, "", required,
-            "uᵢ: the motor's axis, in B; normalised on reading. φ is positive about −uᵢ"},
-           {"platform_point", KeyType::vector, "m", required, "bᵢ: the platform joint B, in M"},
-           {"proximal", KeyType::table, "", required, "the link from A to the knee R", {}, {}, "manipulator.leg.link"},
-           {"distal", KeyType::table, "", required, "the link from the knee R to B", {}, {}, "manipulator.leg.link"},
-           {"knee",
-            KeyType::choice,
-            "",
-            "\"positive\"",
-            "sign of sin θ: which of the two bends of the knee",
-            {},
-            {"positive", "negative"}},
-           {"friction", KeyType::table, "", none, "viscous friction in the joints", {}, {}, "manipulator.leg.friction"},
-           {"coulomb",
-            KeyType::table,
-            "",
-            none,
-            "Coulomb friction in the joints, smoothed",
-            {},
-            {},
-            "manipulator.leg.coulomb"}}};
+  return {
+      "manipulator.leg",
+      "[[manipulator.leg]]",
+      "One of six; also `[manipulator.leg_defaults]`, whose keys a leg may override one by one. Required keys must "
+      "stand in one of the two.",
+      {{"base_point", KeyType::vector, "m", required_key, "aᵢ: the base joint A, in B"},
+       {"base_axis", KeyType::vector, "", required_key,
+        "uᵢ: the motor's axis, in B; normalised on reading. φ is positive about −uᵢ"},
+       {"platform_point", KeyType::vector, "m", required_key, "bᵢ: the platform joint B, in M"},
+       {"proximal", KeyType::table, "", required_key, "the link from A to the knee R", {}, {}, "manipulator.leg.link"},
+       {"distal", KeyType::table, "", required_key, "the link from the knee R to B", {}, {}, "manipulator.leg.link"},
+       {"knee",
+        KeyType::choice,
+        "",
+        "\"positive\"",
+        "sign of sin θ: which of the two bends of the knee",
+        {},
+        {"positive", "negative"}},
+       {"friction",
+        KeyType::table,
+        "",
+        no_default,
+        "viscous friction in the joints",
+        {},
+        {},
+        "manipulator.leg.friction"},
+       {"coulomb",
+        KeyType::table,
+        "",
+        no_default,
+        "Coulomb friction in the joints, smoothed",
+        {},
+        {},
+        "manipulator.leg.coulomb"}}};
 }
 
 ScenarioTable link() {
   return {"manipulator.leg.link",
           "proximal = { … }, distal = { … }",
           "A link of a leg: from its first joint along its length to the second.",
-          {{"length", KeyType::number, "m", required, "l of the proximal, s of the distal link", positive},
-           {"mass", KeyType::number, "kg", required, "", positive},
-           {"center_of_mass", KeyType::number, "m", required, "distance along the link from its first joint"},
-           {"inertia", KeyType::inertia, "kg·m²", required,
+          {{"length", KeyType::number, "m", required_key, "l of the proximal, s of the distal link", positive},
+           {"mass", KeyType::number, "kg", required_key, "", positive},
+           {"center_of_mass", KeyType::number, "m", required_key, "distance along the link from its first joint"},
+           {"inertia", KeyType::inertia, "kg·m²", required_key,
             "about the mass centre, in the link's frame, whose third axis is along the link"}}};
 }
 
@@ -123,91 +132,6 @@ ScenarioTable coulomb() {
            {"smoothing_speed", KeyType::number, "rad/s", "0.01", "at which 76 % of the friction acts", positive}}};
 }
 
-const std::vector<std::string> kinds = {"helix", "waypoints", "samples", "hold"};
-
-ScenarioKey kindKey() { return {"kind", KeyType::choice, "", required, "what the motion is made of", {}, kinds}; }
-
-ScenarioTable trajectory() {
-  return {"trajectory", "[trajectory]", "Its other keys depend on `kind`, see below.", {kindKey()}};
-}
-
-ScenarioKey angle(const char* name, const char* fallback, const char* meaning) {
-  return {name, KeyType::number, "rad", fallback, meaning};
-}
-
-ScenarioKey inDegrees(const char* name, const char* meaning) { return {name, KeyType::number, "°", none, meaning}; }
-
-ScenarioTable helix() {
-  return {
-      "trajectory.helix",
-      "[trajectory], kind = \"helix\"",
-      "P on a helix about the z axis of B, the platform along with its triad. The helix' angle is a quintic in time "
-      "between the values, rates and accelerations given at both ends.",
-      {kindKey(),
-       {"duration", KeyType::number, "s", required, "t_f", positive},
-       {"radius", KeyType::number, "m", required, "a", positive},
-       {"pitch", KeyType::number, "m/rad", required, "b: the rise for an angle of 1 rad", not_zero},
-       angle("start_angle", required, "β₀"),
-       inDegrees("start_angle_deg", "instead of `start_angle`"),
-       angle("end_angle", required, "β_f"),
-       inDegrees("end_angle_deg", "instead of `end_angle`"),
-       angle("phase", "0.0", "ω"),
-       inDegrees("phase_deg", "instead of `phase`"),
-       angle("height_phase", "0.0", "ω̄: adds its own times b to the height"),
-       inDegrees("height_phase_deg", "instead of `height_phase`"),
-       {"start_rate", KeyType::number, "rad/s", "0.0", "at t = 0"},
-       {"end_rate", KeyType::number, "rad/s", "0.0", "at t_f"},
-       {"start_acceleration", KeyType::number, "rad/s²", "0.0", "at t = 0"},
-       {"end_acceleration", KeyType::number, "rad/s²", "0.0", "at t_f"}}};
-}
-
-ScenarioKey orientation() {
-  return {"orientation", KeyType::quaternion, "", required,
-          "unit quaternion `[w, x, y, z]` of M in B, either sign; w, the scalar, comes first"};
-}
-
-ScenarioKey rollPitchYaw() {
-  return {"rpy_deg", KeyType::vector, "°", none, "`[roll, pitch, yaw]` instead of `orientation`, see Angles"};
-}
-
-ScenarioKey position() { return {"position", KeyType::vector, "m", required, "of P, in B"}; }
-
-ScenarioTable waypoints() {
-  return {
-      "trajectory.waypoints",
-      "[trajectory], kind = \"waypoints\"",
-      "Through poses, at rest at both ends, four times continuously differentiable.",
-      {kindKey(), {"points", KeyType::tables, "", required, "at least two", {}, {}, "trajectory.waypoints.points"}}};
-}
-
-ScenarioTable points() {
-  return {"trajectory.waypoints.points",
-          "points = [{ … }, …]",
-          "The first at time 0; neighbours less than 170° apart.",
-          {{"time", KeyType::number, "s", required, "increasing"}, position(), orientation(), rollPitchYaw()}};
-}
-
-ScenarioTable samples() {
-  return {"trajectory.samples",
-          "[trajectory], kind = \"samples\"",
-          "Through the poses of a motion sampled densely.",
-          {kindKey(),
-           {"file", KeyType::string, "", required,
-            "a CSV with `t_s`, `p_{x,y,z}_m`, `q_{w,x,y,z}`, at least six rows; a relative path is taken from the "
-            "scenario's folder"}}};
-}
-
-ScenarioTable hold() {
-  return {"trajectory.hold",
-          "[trajectory], kind = \"hold\"",
-          "Stays where it is.",
-          {kindKey(),
-           position(),
-           orientation(),
-           rollPitchYaw(),
-           {"duration", KeyType::number, "s", required, "", positive}}};
-}
-
 ScenarioKey force(const char* meaning) { return {"force", KeyType::vector, "N", "[0.0, 0.0, 0.0]", meaning}; }
 
 ScenarioKey moment() {
@@ -224,16 +148,16 @@ ScenarioTable load() {
        moment(),
        {"point", KeyType::vector, "m", "[0.0, 0.0, 0.0]", "where the force acts, in M; zero is P"},
        {"frame", KeyType::choice, "", "\"base\"", "in which force and moment are given", {}, {"base", "platform"}},
-       {"file", KeyType::string, "", none,
+       {"file", KeyType::string, "", no_default,
         "a CSV with `t_s`, `f_{x,y,z}_N`, `m_{x,y,z}_Nm`; a relative path is taken from the scenario's folder"},
-       {"table", KeyType::tables, "", none, "rows over time, at least two", {}, {}, "load.table"}}};
+       {"table", KeyType::tables, "", no_default, "rows over time, at least two", {}, {}, "load.table"}}};
 }
 
 ScenarioTable loadTable() {
   return {"load.table",
           "table = [{ … }, …]",
           "",
-          {{"time", KeyType::number, "s", required, "increasing"}, force("at that time"), moment()}};
+          {{"time", KeyType::number, "s", required_key, "increasing"}, force("at that time"), moment()}};
 }
 
 ScenarioTable simulation() {
@@ -270,7 +194,7 @@ ScenarioTable acceptance() {
       {{"torque",
         KeyType::limits,
         "",
-        none,
+        no_default,
         "a tolerance for efforts, as `--rtol` and `--atol`; both are added",
         {},
         {},
@@ -281,8 +205,8 @@ ScenarioTable tolerance() {
   return {"acceptance.torque",
           "torque = { … }",
           "At least one of the two.",
-          {{"relative", KeyType::number, "", none, "of the largest effort of the motion", positive},
-           {"absolute", KeyType::number, "N·m or N", none, "", positive}}};
+          {{"relative", KeyType::number, "", no_default, "of the largest effort of the motion", positive},
+           {"absolute", KeyType::number, "N·m or N", no_default, "", positive}}};
 }
 
 }  // namespace
@@ -300,9 +224,13 @@ const ScenarioKey& ScenarioTable::key(const std::string& wanted) const {
 }
 
 const std::vector<ScenarioTable>& scenarioTables() {
-  static const std::vector<ScenarioTable> tables = {
-      document(),  manipulator(), platform(), leg(),  link(), friction(),  coulomb(),    trajectory(), helix(),
-      waypoints(), points(),      samples(),  hold(), load(), loadTable(), simulation(), acceptance(), tolerance()};
+  static const std::vector<ScenarioTable> tables = [] {
+    std::vector<ScenarioTable> all = {document(), manipulator(), platform(), leg(), link(), friction(), coulomb()};
+    for (ScenarioTable& each : motionTables()) all.push_back(std::move(each));
+    for (ScenarioTable each : {load(), loadTable(), simulation(), acceptance(), tolerance()})
+      all.push_back(std::move(each));
+    return all;
+  }();
   return tables;
 }
 
