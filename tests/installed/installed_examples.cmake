@@ -52,7 +52,7 @@ run(0 "[0-9]" ${prefix}/bin/ursula --version)
 run(0 "verdict: pass" ${prefix}/bin/ursula validate ${helix} --solver ${bin}/solver_process --out ${WORK}/process)
 run(1 "verdict: fail" ${prefix}/bin/ursula validate ${helix} --solver "${bin}/solver_process 1e-10" --out ${WORK}/process)
 if(PYTHON)
-  file(GLOB_RECURSE module ${prefix}/lib*/python*/ursula/__init__.py)
+  file(GLOB module ${prefix}/lib*/python*/*-packages/ursula/__init__.py)
   cmake_path(GET module PARENT_PATH module)
   cmake_path(GET module PARENT_PATH module)
   run(0 "ursula.Scenario 'paper-helix'" ${CMAKE_COMMAND} -E env PYTHONPATH=${module} PYTHONDONTWRITEBYTECODE=1 ${PYTHON} -c
