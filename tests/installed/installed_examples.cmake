@@ -56,5 +56,5 @@ if(PYTHON)
   cmake_path(GET module PARENT_PATH module)
   cmake_path(GET module PARENT_PATH module)
   run(0 "ursula.Scenario 'paper-helix'" ${CMAKE_COMMAND} -E env PYTHONPATH=${module} PYTHONDONTWRITEBYTECODE=1 ${PYTHON} -c
-    "import ursula, sys; print(ursula.read_scenario(sys.argv[1]))" ${helix})
+    "print(__import__('ursula').read_scenario(__import__('sys').argv[1]))" ${helix})
 endif()
