@@ -1,35 +1,35 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cstdio>
 #include <map>
 #include <memory>
 
+#include "apps/torque_option.h"
 #include "apps/verbs.h"
 #include "model/csv.h"
 #include "model/scenario.h"
 #include "validation/external/torque_spline.h"
 #include "validation/findings/timeseries.h"
 #include "validation/simulate/simulate.h"
-#include "validation/subject/torque_file.h"
 
 namespace ursula {
 namespace {
 
 struct SimulateOptions {
   std::string scenario, torques, out = "-";
+  std::vector<std::string> map;
   Engine engine = Engine::simbody;
 };
 
 int simulateVerb(const SimulateOptions& options) {
   const Scenario scenario = readScenario(options.scenario);
-  const TorqueFile file = within(readTorqueFile(options.torques), scenario.trajectory->duration());
-  if (!file.ignored.empty()) fmt::print(stderr, "ignored columns: {}\n", fmt::join(file.ignored, ", "));
+  const TorqueFile file = within(readTorquesAloud(options.torques, options.map), scenario.trajectory->duration());
   if (file.rows() < TorqueSpline::least_samples)
     throw UsageError(fmt::format("{}: {} instants, expected at least {} to interpolate between", options.torques,
                                  file.rows(), TorqueSpline::least_samples));
   const TorqueSpline spline(file.t, file.torques);
-  const Simulation run = simulate(scenario, options.engine, spline, file.t, scenario.simulation.tolerance);
+  const Simulation run = alongMotion(
+      scenario, [&] { return simulate(scenario, options.engine, spline, file.t, scenario.simulation.tolerance); });
   const TimeSeries series = simulatedSeries(run.motions, run.torques);
   writeOutput(options.out, csvText(series.names, series.columns));
   if (run.gave_up.empty()) return exit_passed;
@@ -46,6 +46,7 @@ void addSimulate(CLI::App& app, std::function<int()>& run) {
   verb->add_option("scenario", options->scenario, "Scenario file (TOML); the motion starts in its commanded state")
       ->required();
   verb->add_option("--torques", options->torques, "CSV file with t_s and tau_{1..6}_Nm")->required();
+  addMapOption(*verb, options->map);
   const std::map<std::string, Engine> engines{{"noc", Engine::noc}, {"simbody", Engine::simbody}};
   verb->add_option("--engine", options->engine, "noc: (36); simbody: the closed loop. Default: simbody")
       ->transform(CLI::CheckedTransformer(engines));

@@ -10,8 +10,10 @@
 #include <thread>
 
 #include "apps/suite_progress.h"
+#include "apps/torque_option.h"
 #include "apps/verbs.h"
 #include "model/scenario.h"
+#include "validation/outside/external_solver.h"
 #include "validation/report/report.h"
 #include "validation/suite/suite.h"
 #include "validation/validate.h"
@@ -21,8 +23,10 @@ namespace ursula {
 namespace {
 
 struct ValidateOptions {
-  std::vector<std::string> scenarios;
+  std::vector<std::string> scenarios, map;
   std::string torques, out;
+  ExternalSolverOptions solver;  ///< with a command, it is judged
+  double rtol = 0, atol = 0;     ///< 0: not given
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };
 
@@ -45,54 +49,52 @@ void printChecks(const ValidationResult& result) {
     if (check.verdict != Verdict::not_applicable)
       fmt::print("  {:<12} {:<32} {:>10.3g} of {:>10.3g} {}\n", name(check.verdict), check.name, check.value,
                  check.limit, check.unit);
+  for (const Check& check : result.checks)
+    if (check.reason == Reason::reported)
+      fmt::print("  {:<12} {:<32} {:>10.3g} {}\n", "not judged", check.name, check.value, check.unit);
   std::map<std::string, std::vector<std::string>> not_applicable;  // by reason
   for (const Check& check : result.checks)
-    if (check.verdict == Verdict::not_applicable) not_applicable[check.why].push_back(check.name);
+    if (check.reason == Reason::not_applicable) not_applicable[check.why].push_back(check.name);
   for (const auto& [why, checks] : not_applicable)
     fmt::print("  not applicable, since {}: {}\n", why, fmt::join(checks, ", "));
 }
 
-/// "" where the result has no such finding.
-std::string finding(const ValidationResult& result, const std::string& key) {
-  for (const auto& [name, value] : result.findings)
-    if (name == key) return value;
-  return "";
+std::string text(const SourceOfError& source) {
+  return fmt::format("{:.3g} m +- {:.2g} m", source.error, source.uncertainty);
 }
 
-/// What dominates, with numbers, and what is known of torques that are wrong.
+/// What moved the replay off the path, and what is known of torques that are wrong. A clean pass needs neither.
 void printReasons(const ValidationResult& result) {
-  fmt::print("dominant error: {}", finding(result, "dominant error"));
-  const std::string observed = finding(result, "replay, error in position");
-  if (!observed.empty())
-    fmt::print("; replay off by {}; of it by rounding {}, integration {}, gaps {}, torques {}; deviations grow {}-fold",
-               observed, finding(result, "of it by rounding"), finding(result, "of it by the integration"),
-               finding(result, "of it by the loops' gaps"), finding(result, "of it by the torques"),
-               finding(result, "amplification of a deviation at the start"));
-  fmt::print("\n");
-  for (const char* key : {"torques that are off", "likely cause"})
-    if (const std::string value = finding(result, key); !value.empty()) fmt::print("{}: {}\n", key, value);
+  if (result.replay_error && result.verdict != Verdict::pass) {
+    const ReplayError& found = *result.replay_error;
+    fmt::print("dominant error: {}", found.dominant);
+    if (found.measured)
+      fmt::print(
+          "; replay off by {:.3g} m at t = {:.6g} s; of it by rounding {}, integration {}, gaps {}, torques {}; "
+          "deviations grow {:.4g}-fold",
+          found.observed, found.t, text(found.rounding), text(found.integration), text(found.closure),
+          text(found.model), found.amplification);
+    fmt::print("\n");
+  }
+  if (result.likely_cause)
+    fmt::print("torques that are off: {}\nlikely cause: {}\n", result.likely_cause->off, result.likely_cause->cause);
 }
 
-/// Judges the solver, or the torques of a file where there is one.
-ValidationResult judge(const Scenario& scenario, const std::string& torques) {
-  return torques.empty() ? validate(scenario) : validateExternal(scenario, std::filesystem::path(torques));
+/// Judges this program's solver, somebody else's, or the torques of a file.
+ValidationResult judge(const Scenario& scenario, const ValidateOptions& options) {
+  if (!options.solver.command.empty()) return validateExternalSolver(scenario, options.solver);
+  if (options.torques.empty()) return validate(scenario);
+  return validateExternal(scenario, readTorquesAloud(options.torques, options.map));
 }
 
-void nameIgnoredColumns(const std::string& torques) {
-  const TorqueFile file = readTorqueFile(torques);
-  if (!file.ignored.empty())
-    fmt::print(stderr, "{}: ignoring columns that are none of t_s, tau_1_Nm … tau_6_Nm: {}\n", torques,
-               fmt::join(file.ignored, ", "));
-}
-
-int validateOne(const Scenario& scenario, const std::string& torques, const std::filesystem::path& dir) {
-  if (!torques.empty()) nameIgnoredColumns(torques);
-  const ValidationResult result = judge(scenario, torques);
+int validateOne(const Scenario& scenario, const ValidateOptions& options, const std::filesystem::path& dir) {
+  const ValidationResult result = judge(scenario, options);
   writeResults(result, dir);
   printChecks(result);
   printReasons(result);
-  fmt::print("verdict: {} — {}\nreport: {}\n", name(result.verdict), reason(result.verdict, result.checks),
-             (dir / "report.html").string());
+  fmt::print("verdict: {} — {}\n", name(result.verdict), reason(result.verdict, result.checks));
+  if (result.deviation) fmt::print("{}\n", sentence(*result.deviation));
+  fmt::print("report: {}\n", (dir / "report.html").string());
   return exitCode(result.verdict);
 }
 
@@ -137,15 +139,20 @@ int validateSuite(const std::vector<Scenario>& scenarios, int jobs, const std::f
 
 /// Everything that can be refused is refused here, before anything is computed or written.
 int validateAll(const ValidateOptions& options) {
-  const std::vector<Scenario> scenarios = readSuite({options.scenarios.begin(), options.scenarios.end()});
+  std::vector<Scenario> scenarios = readSuite({options.scenarios.begin(), options.scenarios.end()});
+  if (options.rtol > 0 || options.atol > 0)
+    for (Scenario& scenario : scenarios) scenario.tolerance = EffortTolerance{options.rtol, options.atol};
   const bool is_suite = scenarios.size() > 1;
-  if (is_suite && !options.torques.empty())
-    throw UsageError(fmt::format("--torques judges one motion, expected one scenario, not {}", scenarios.size()));
+  for (const auto& [option, value] : {std::pair("--torques", options.torques), {"--solver", options.solver.command}})
+    if (is_suite && !value.empty())
+      throw UsageError(fmt::format("{} judges one motion, expected one scenario, not {}", option, scenarios.size()));
+  if (!options.map.empty() && options.torques.empty())
+    throw UsageError("--map names columns, expected --torques FILE.csv");
   const std::filesystem::path by_name = is_suite ? "suite" : scenarios.front().name;
   const std::filesystem::path dir = options.out.empty() ? "results" / by_name : std::filesystem::path(options.out);
   if (std::filesystem::exists(dir) && !std::filesystem::is_directory(dir))
     throw UsageError(fmt::format("--out {}: is a file, expected a folder", dir.string()));
-  return is_suite ? validateSuite(scenarios, options.jobs, dir) : validateOne(scenarios.front(), options.torques, dir);
+  return is_suite ? validateSuite(scenarios, options.jobs, dir) : validateOne(scenarios.front(), options, dir);
 }
 
 }  // namespace
@@ -160,8 +167,24 @@ void addValidate(CLI::App& app, std::function<int()>& run) {
   verb->add_option("--jobs", options->jobs, "Scenarios judged at a time; results are the same for any number")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  verb->add_option("--torques", options->torques,
-                   "CSV of somebody else's torques to judge instead: t_s and tau_1_Nm … tau_6_Nm");
+  CLI::Option* torques = verb->add_option(
+      "--torques", options->torques, "CSV of somebody else's torques to judge instead: t_s and tau_1_Nm … tau_6_Nm");
+  CLI::Option* solver = verb->add_option(
+      "--solver", options->solver.command,
+      "Command to judge instead: started once by sh, it answers each line of a motion on its standard\n"
+      "input (t,p,q,v,w,a,alpha: 20 values with commas) with a line of six torques");
+  solver->excludes(torques)->check(
+      [](const std::string& command) { return command.empty() ? std::string("expected a command") : std::string(); });
+  verb->add_option("--solver-timeout", options->solver.timeout, "For an answer of that command, s")
+      ->check(CLI::Range(1e-3, 1e6))
+      ->capture_default_str()
+      ->needs(solver);
+  addMapOption(*verb, options->map);
+  verb->add_option("--rtol", options->rtol,
+                   "Torques pass that are off by no more, relative to the largest effort of the motion; wins over\n"
+                   "[acceptance] torque")
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--atol", options->atol, "The same in N m; both are added")->check(CLI::PositiveNumber);
   verb->footer(
       "Several scenarios: one folder each under DIR, with index.html and one junit.xml over all. All are read and\n"
       "their motions tried before anything is computed or written: if one is wrong, out of reach or singular, or two\n"

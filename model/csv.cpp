@@ -18,47 +18,16 @@ namespace {
   throw CsvError(fmt::format("{}:{}: error: {}", file.string(), line, what));
 }
 
-std::string_view trimmed(std::string_view cell) {
-  const auto first = cell.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return cell.substr(first, cell.find_last_not_of(" \t") - first + 1);
-}
-
-std::vector<std::string_view> splitCells(std::string_view line) {
-  std::vector<std::string_view> cells;
-  for (;;) {
-    const auto comma = line.find(',');
-    cells.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
-  }
-}
-
-/// Lines without their ends (LF or CRLF), without a byte order mark and without blank lines at the end.
-std::vector<std::string_view> splitLines(std::string_view text) {
-  if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
-  std::vector<std::string_view> lines;
-  while (!text.empty()) {
-    const auto end = text.find('\n');
-    std::string_view line = text.substr(0, end);
-    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-    lines.push_back(line);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  }
-  while (!lines.empty() && trimmed(lines.back()).empty()) lines.pop_back();
-  return lines;
-}
-
 /// The places of the wanted columns among all.
-std::vector<std::size_t> readHeader(const std::vector<std::string_view>& cells, const CsvOptions& options,
-                                    CsvTable& table) {
+std::vector<std::size_t> readHeader(const std::vector<std::string>& cells, const CsvOptions& options, CsvTable& table) {
+  const int line = std::max(1, options.dialect.header);
   std::vector<std::size_t> wanted;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const std::string name(cells[i]);
-    if (name.empty()) fail(table.file, 1, "a column without a name, expected quantity_index_unit in each");
+    const std::string& name = cells[i];
+    if (name.empty()) fail(table.file, line, "a column without a name, expected quantity_index_unit in each");
     const auto here = cells.begin() + static_cast<std::ptrdiff_t>(i);
     if (std::find(cells.begin(), here, cells[i]) != here)
-      fail(table.file, 1, "duplicate column '" + name + "', expected each name once");
+      fail(table.file, line, "duplicate column '" + name + "', expected each name once");
     const bool is_wanted = !options.wanted || options.wanted(name);
     (is_wanted ? table.names : table.ignored).push_back(name);
     if (is_wanted) wanted.push_back(i);
@@ -95,15 +64,17 @@ double readNumber(std::string_view cell, const CsvTable& table, bool finite, int
   fail(table.file, line, fmt::format("{} in column '{}', expected a {}number", shown, column, finite ? "finite " : ""));
 }
 
-void readRow(std::string_view text, int line, const std::vector<std::size_t>& wanted, bool finite, CsvTable& table) {
-  const std::vector<std::string_view> cells = splitCells(text);
+void readRow(std::string_view text, int line, const std::vector<std::size_t>& wanted, const CsvOptions& options,
+             CsvTable& table) {
+  const std::vector<std::string_view> cells = splitCells(text, options.dialect.separator);
   const std::size_t width = table.names.size() + table.ignored.size();
   if (cells.size() != width)
     fail(table.file, line,
          fmt::format("{} cells, expected {}, one for each column of the header", cells.size(), width));
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    const std::string_view cell = cells[wanted[i]];
-    table.columns[i].push_back(readNumber(cell, table, finite, line, table.names[i]));
+    std::string cell(cells[wanted[i]]);
+    if (options.dialect.decimal_comma) std::replace(cell.begin(), cell.end(), ',', '.');
+    table.columns[i].push_back(readNumber(cell, table, options.finite, line, table.names[i]));
     table.last_places[i].push_back(std::isfinite(table.columns[i].back()) ? lastPlace(cell) : 0);
   }
   table.lines.push_back(line);
@@ -141,20 +112,26 @@ CsvTable parseCsv(const std::string& text, const std::filesystem::path& file, co
   table.file = file;
   const std::vector<std::string_view> lines = splitLines(text);
   if (lines.empty()) fail(file, 1, "an empty file, expected a header line and rows of numbers");
-  const std::vector<std::size_t> wanted = readHeader(splitCells(lines.front()), options, table);
-  for (std::size_t i = 1; i < lines.size(); ++i)
-    readRow(lines[i], static_cast<int>(i) + 1, wanted, options.finite, table);
+  std::vector<std::string> names = options.dialect.header_cells;
+  if (names.empty())
+    for (std::string_view cell : splitCells(lines.front(), ',')) names.emplace_back(cell);
+  const std::vector<std::size_t> wanted = readHeader(names, options, table);
+  for (auto i = static_cast<std::size_t>(options.dialect.header); i < lines.size(); ++i)
+    if (!isPassedOver(lines[i], options.dialect)) readRow(lines[i], static_cast<int>(i) + 1, wanted, options, table);
   if (table.lines.empty()) fail(file, 1, "no rows, expected at least one below the header");
   return table;
 }
 
-CsvTable readCsv(const std::filesystem::path& file, const CsvOptions& options) {
+std::string readCsvText(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error)) fail(file, 1, "a folder, expected a CSV file");
   std::ifstream in(file, std::ios::binary);
   if (!in) fail(file, 1, "cannot be read, expected a CSV file");
-  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  return parseCsv(text, file, options);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+CsvTable readCsv(const std::filesystem::path& file, const CsvOptions& options) {
+  return parseCsv(readCsvText(file), file, options);
 }
 
 std::string csvText(const std::vector<std::string>& names, const std::vector<std::vector<double>>& columns, NanAs nan) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "model/csv_dialect.h"
+
 namespace ursula {
 
 /// `file:line: error: what, what was expected`
@@ -35,7 +37,11 @@ struct CsvTable {
 struct CsvOptions {
   std::function<bool(const std::string&)> wanted;  ///< by name; cells of other columns are not looked at. Empty: all
   bool finite = true;                              ///< whether NaN, infinities and empty cells (NaN) are refused
+  CsvDialect dialect = {};                         ///< how the file is written
 };
+
+/// All of a file; throws CsvError where it cannot be read.
+std::string readCsvText(const std::filesystem::path& file);
 
 /// Reads a comma-separated file; a byte order mark, CRLF and blanks around a cell are tolerated. Throws CsvError for an
 /// unreadable or empty file, unnamed or duplicate columns, missing or surplus cells and anything but (finite) numbers.

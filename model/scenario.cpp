@@ -33,26 +33,41 @@ std::string readName(const TomlSection& document) {
 }
 
 SimulationSettings readSimulation(const TomlSection& table) {
-  constexpr int most_samples = 1000000;
-  table.allowOnly({"samples", "integrator", "tolerance"});
+  const ScenarioTable& keys = scenarioTable("simulation");
+  table.allowOnly(keys);
   SimulationSettings settings;
   table.read("samples", settings.samples);
-  if (!(settings.samples >= 2 && settings.samples <= most_samples))
-    table.fail("samples", fmt::format("{}, expected an integer from 2 to {}", settings.samples, most_samples));
-  if (const auto integrator = table.readChoice("integrator", {"rkf78", "rk_merson"}))
+  table.requireBound(keys.key("samples"), settings.samples);
+  if (const auto integrator = table.readChoice(keys.key("integrator")))
     settings.integrator = *integrator == 0 ? Integrator::rkf78 : Integrator::rk_merson;
   table.read("tolerance", settings.tolerance);
-  if (!(settings.tolerance >= 1e-15 && settings.tolerance <= 1e-3))
-    table.fail("tolerance", fmt::format("{}, expected a number from 1e-15 to 1e-3", settings.tolerance));
+  table.requireBound(keys.key("tolerance"), settings.tolerance);
   return settings;
 }
 
+/// `torque = { relative = X, absolute = Y }`, either alone or both.
+EffortTolerance readTolerance(const TomlSection& table) {
+  EffortTolerance tolerance;
+  for (const auto& [key, member] :
+       {std::pair("relative", &EffortTolerance::relative), {"absolute", &EffortTolerance::absolute}}) {
+    if (!table.table().contains(key)) continue;
+    table.require(key, tolerance.*member);
+    table.requireBound(scenarioTable("acceptance.torque").key(key), tolerance.*member);
+  }
+  return tolerance;
+}
+
 /// Names of checks have dots of their own: "a.b" = 1, a.b = 1 and [acceptance.a] b = 1 all name the check a.b.
-void readAcceptance(const TomlSection& table, const std::string& prefix, std::vector<AcceptanceLimit>& limits) {
+void readAcceptance(const TomlSection& table, const std::string& prefix, Scenario& scenario) {
+  std::vector<AcceptanceLimit>& limits = scenario.acceptance;
   for (const auto& [key, node] : table.table()) {
     const std::string name(key.str());
+    if (prefix == "torque." && (name == "relative" || name == "absolute")) {
+      scenario.tolerance = readTolerance(table);
+      continue;
+    }
     if (node.is_table()) {
-      readAcceptance(*table.section(name), prefix + name + ".", limits);
+      readAcceptance(*table.section(name), prefix + name + ".", scenario);
       continue;
     }
     AcceptanceLimit limit;
@@ -69,14 +84,14 @@ void readAcceptance(const TomlSection& table, const std::string& prefix, std::ve
 }
 
 Scenario assemble(const TomlSection& document) {
-  document.allowOnly({"name", "manipulator", "trajectory", "load", "simulation", "acceptance"});
+  document.allowOnly(scenarioTable(""));
   Scenario scenario;
   scenario.name = readName(document);
   scenario.manipulator = std::make_shared<Manipulator>(readManipulator(document.requiredSection("manipulator")));
   scenario.trajectory = readTrajectory(document.requiredSection("trajectory"));
   if (const auto table = document.section("load")) scenario.load = readLoad(*table);
   if (const auto table = document.section("simulation")) scenario.simulation = readSimulation(*table);
-  if (const auto table = document.section("acceptance")) readAcceptance(*table, "", scenario.acceptance);
+  if (const auto table = document.section("acceptance")) readAcceptance(*table, "", scenario);
   return scenario;
 }
 

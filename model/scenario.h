@@ -35,6 +35,12 @@ struct AcceptanceLimit {
   double limit = 0;
 };
 
+/// What efforts may be off by, when their user says so: `relative` to the largest effort of the motion, and `absolute`
+/// (N·m or N); both are added.
+struct EffortTolerance {
+  double relative = 0, absolute = 0;
+};
+
 /// A machine, what it is asked to do, and how that is judged; read from a file, or made by a program.
 struct Scenario {
   std::string name;
@@ -45,6 +51,7 @@ struct Scenario {
   std::shared_ptr<const Load> load;  ///< null where none
   SimulationSettings simulation;
   std::vector<AcceptanceLimit> acceptance;
+  std::optional<EffortTolerance> tolerance;  ///< `[acceptance] torque`
 
   /// Says that machine, trajectory and load are those that `text` gives.
   void markAsRead() { read_ = {manipulator.get(), trajectory.get(), load.get()}; }

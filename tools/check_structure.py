@@ -23,11 +23,13 @@ ALLOWED = {
     "apps": {"apps", "validation", "nocsolver", "model"},
     "include": {"include", "validation", "nocsolver", "model"},
     "examples": set(),
+    "python": {"python"},
     "tests": {"tests", "validation", "nocsolver", "model"},
     "bench": {"bench", "tests", "validation", "nocsolver", "model"},
 }
 ENGINE_HEADER = re.compile(r"(?i)^(simbody|simtk|simmath|mujoco/)|/(simbody|simtk|simmath)")
 # What users of the library have: the standard library, Eigen and the library itself.
+PYTHONS_HEADER = re.compile(r"pybind11/[\w/]+\.h")
 USERS_HEADER = re.compile(r"[a-z_]+|Eigen/\w+|ursula/\w+\.h")
 OTHER_ROAD = re.compile(r"^model/loops/(\w+)/")
 
@@ -58,7 +60,7 @@ def check_includes(root):
             if sources.is_internal(name) and sources.is_header(path) and not sources.is_internal(path):
                 findings.append(f"{place}: a header that others include may not include {name}, which is internal")
         findings += check_roads(root, path)
-        if folder in ("include", "examples"):
+        if folder in ("include", "examples", "python"):
             findings += check_users(root, path)
         if sources.is_header(path) and not sources.is_internal(path):
             findings += check_no_simtk(path, text)
@@ -83,7 +85,8 @@ def check_users(root, path):
     """A public header, with all that it includes, and an example ask for nothing that users do not have."""
     return [f"{path}: users of the library do not have {name} ({' -> '.join(chain)})"
             for name, chain in sources.reach(root, path).items()
-            if not (root / name).is_file() and not USERS_HEADER.fullmatch(name)]
+            if not (root / name).is_file() and not USERS_HEADER.fullmatch(name)
+            and not (path.startswith("python/") and PYTHONS_HEADER.fullmatch(name))]
 
 
 def check_no_simtk(path, text):

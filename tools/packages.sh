@@ -4,15 +4,16 @@
 # What a verb needs: a command and the package that brings it where the command is not there already, or a library's package.
 declare -A needs=(
   [program]='g++:g++ cmake:cmake ninja:ninja-build libeigen3-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev'
-  [test]='libgtest-dev libgmock-dev python3:python3 node:nodejs npm:npm chromium:chromium'
+  [test]='libgtest-dev libgmock-dev python3 python3-dev python3-numpy python3-pytest pybind11-dev octave-cli:octave node:nodejs npm:npm chromium:chromium'
   [prove]='libgtest-dev libgmock-dev'
   [bench]='libbenchmark-dev'
   [format]='git:git clang-format:clang-format'
   [lint]='git:git clang-format:clang-format shellcheck:shellcheck python3:python3'
+  [sanitize]='clang++:clang libclang-rt-14-dev libgtest-dev libgmock-dev'
   [tidy]='libgtest-dev libgmock-dev libbenchmark-dev clang-tidy:clang-tidy python3:python3'
   [results]='git:git gnuplot:gnuplot-nox chromium:chromium python3:python3'
   [docs]='doxygen:doxygen python3:python3'
-  [package]='dpkg-shlibdeps:dpkg-dev file:file python3:python3'
+  [package]='dpkg-shlibdeps:dpkg-dev file:file python3 python3-dev python3-numpy pybind11-dev'
   [bundle]='node:nodejs npm:npm'
   [fresh]='git:git debootstrap:debootstrap'
 )

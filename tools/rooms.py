@@ -7,6 +7,7 @@ import sources
 # A room may see those named, which stand above it in this list: so there is no circle and no arrow back up.
 ROOMS = {
     "verdict": "",
+    "picture": "verdict",
     "subject": "",
     "limits": "verdict subject",
     "samples": "verdict subject limits",
@@ -15,15 +16,18 @@ ROOMS = {
     "checks": "verdict subject limits samples replay evidence",
     "findings": "verdict subject limits samples replay",
     "external": "subject limits samples replay evidence",
-    "report": "verdict",
-    "": "verdict subject samples evidence checks findings external",  # the front door: validation/*.cpp
+    "report": "verdict picture",
+    "": "verdict picture subject samples evidence checks findings external",  # the front door: validation/*.cpp
+    "outside": "verdict subject",  # and the front door
     "prove": "verdict subject limits samples evidence checks ",  # and the front door
     "audit": "subject replay",
-    "compare": "verdict",
+    "check_scenario": "subject",
+    "scenario_docs": "",
+    "compare": "verdict report",
     "simulate": "verdict subject",
     "suite": "verdict subject report",
 }
-USE_THE_FRONT_DOOR = {"prove"}
+USE_THE_FRONT_DOOR = {"outside", "prove"}
 LARGEST_SHARE = 0.25  # of validation's lines, in one room
 
 

@@ -4,7 +4,7 @@ import posixpath
 import re
 from pathlib import Path
 
-FOLDERS = ("model", "nocsolver", "validation", "apps", "include", "examples", "tests", "bench")
+FOLDERS = ("model", "nocsolver", "validation", "apps", "include", "examples", "python", "tests", "bench")
 SUFFIXES = (".h", ".hpp", ".inl", ".cpp")
 HEADER_SUFFIXES = (".h", ".hpp", ".inl")
 

@@ -38,6 +38,7 @@ def sound_tree():
         "validation/replay/replay.h": "// Replays.\n",
         "include/ursula/solver.h": '#include <ursula/build.h>\n#include "nocsolver/leg.h"\n',
         "examples/loop.cpp": "#include <ursula/solver.h>\n#include <vector>\n",
+        "python/module.cpp": "#include <pybind11/pybind11.h>\n#include <ursula/solver.h>\n",
         "apps/main.cpp": '#include "model/machine.h"\n',
         "tests/support.h": '#include "nocsolver/leg.h"\n',
         "tests/leg_test.cpp": '#include "support.h"\nTEST(Leg, Rates) {}\n',
@@ -92,6 +93,10 @@ class CheckStructure(unittest.TestCase):
                            "boost/version.hpp)", nocsolver__leg_DOT_h=("", "#include <boost/version.hpp>\n"))
         self.assert_caught("users of the library do not have fmt/format.h", examples__loop_DOT_cpp=("", "#include <fmt/format.h>\n"))
         self.assert_caught("examples/ may not include nocsolver/", examples__loop_DOT_cpp=("", '#include "nocsolver/leg.h"\n'))
+        self.assert_caught("users of the library do not have fmt/format.h", python__module_DOT_cpp=("", "#include <fmt/format.h>\n"))
+        self.assert_caught("users of the library do not have pybind11/numpy.h",
+                           examples__loop_DOT_cpp=("", "#include <pybind11/numpy.h>\n"))
+        self.assert_caught("python/ may not include nocsolver/", python__module_DOT_cpp=("", '#include "nocsolver/leg.h"\n'))
         self.assert_caught("model/ may not include include/", model__machine_DOT_h=("", '#include "include/ursula/solver.h"\n'))
 
     def test_simtk_in_headers(self):

@@ -4,6 +4,7 @@
 #include "validation/checks/every_check.h"
 #include "validation/checks/families.h"
 #include "validation/checks/road_checks.h"
+#include "validation/checks/tolerance.h"
 #include "validation/evidence/evidence.h"
 #include "validation/evidence/reference.h"
 #include "validation/findings/attribution.h"
@@ -12,6 +13,7 @@
 #include "validation/findings/in_si.h"
 #include "validation/findings/run_provenance.h"
 #include "validation/findings/timeseries.h"
+#include "validation/picture/picture.h"
 
 namespace ursula {
 namespace {
@@ -37,7 +39,10 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   result.checks = judgeAll(evidence);
   addFacts(evidence, options.budget, result);
   seriesInSi(evidence.natural, result);
+  addPicture(scenario, result);
+  result.deviation = effortDeviation(evidence, result.checks);
   listEveryCheck(scenario, evidence.has, result);
+  judgeByTolerance(scenario, true, result);
   judgeByUser(scenario.acceptance, result);
   addProvenance(scenario, subject.name, result);
   return result;

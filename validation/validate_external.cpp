@@ -5,6 +5,7 @@
 #include "validation/checks/acceptance.h"
 #include "validation/checks/every_check.h"
 #include "validation/checks/families.h"
+#include "validation/checks/tolerance.h"
 #include "validation/evidence/evidence.h"
 #include "validation/external/diagnosis.h"
 #include "validation/external/external_replay.h"
@@ -15,6 +16,7 @@
 #include "validation/findings/in_si.h"
 #include "validation/findings/run_provenance.h"
 #include "validation/findings/timeseries.h"
+#include "validation/picture/picture.h"
 #include "validation/subject/motion_check.h"
 #include "validation/subject/presentation.h"
 
@@ -23,6 +25,7 @@ namespace {
 
 void addDiagnosis(const Diagnosis& diagnosis, ValidationResult& result) {
   if (diagnosis.summary.empty()) return;
+  result.likely_cause = LikelyCause{diagnosis.deviation, diagnosis.cause};
   result.findings.emplace_back("torques that are off", diagnosis.deviation);
   result.findings.emplace_back("likely cause", diagnosis.cause);
   for (Check& check : result.checks)
@@ -33,6 +36,7 @@ void addDiagnosis(const Diagnosis& diagnosis, ValidationResult& result) {
 void addFileFindings(const TorqueFile& file, ValidationResult& result) {
   result.findings.emplace_back("torque file", fmt::format("{} instants from {:.6g} to {:.6g} s, up to {} digits",
                                                           file.rows(), file.t.front(), file.t.back(), file.digits));
+  if (!file.read_as.empty()) result.findings.emplace_back("torque file read as", file.read_as);
   if (!file.ignored.empty()) {
     std::string names;
     for (const std::string& name : file.ignored) names += (names.empty() ? "" : ", ") + name;
@@ -98,7 +102,10 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   result.checks = judgeAll(evidence);
   addFacts(evidence, result);
   seriesInSi(natural, result);
+  addPicture(scenario, result);
+  result.deviation = effortDeviation(evidence, result.checks);
   listEveryCheck(scenario, evidence.has, result);
+  judgeByTolerance(scenario, replay.covered, result);
   judgeByUser(scenario.acceptance, result);
   addFileFindings(file, result);
   if (result.verdict == Verdict::fail || result.limits == LimitBy::user) {

@@ -5,3 +5,4 @@
 
 #include "include/ursula/abi.h"
 #include "validation/report/report.h"
+#include "validation/report/summary.h"

@@ -6,5 +6,6 @@
 #include "include/ursula/abi.h"
 #include "model/errors.h"
 #include "model/instants.h"
+#include "model/quaternions.h"
 #include "model/scenario.h"
 #include "model/trajectories.h"

@@ -4,5 +4,6 @@
 /// The verdict: validate() on a Scenario and a Subject gives a ValidationResult.
 
 #include "include/ursula/abi.h"
+#include "validation/outside/outside_solver.h"
 #include "validation/validate.h"
 #include "validation/validate_external.h"

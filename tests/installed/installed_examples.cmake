@@ -1,5 +1,5 @@
 # Installs into an empty folder, builds the examples there against what was installed, with warnings as errors in our
-# headers too, and runs them. cmake -D BUILD=… -D CXX=… -D GENERATOR=… -D WORK=… -P installed_examples.cmake
+# headers too, and runs them. cmake -D BUILD=… -D CXX=… -D GENERATOR=… [-D PYTHON=…] -D WORK=… -P installed_examples.cmake
 cmake_policy(VERSION 3.25)
 
 # run(EXIT_CODE PATTERN COMMAND…): the command's output has to match.
@@ -49,3 +49,12 @@ foreach(file summary.json timeseries.csv report.html junit.xml)
   endif()
 endforeach()
 run(0 "[0-9]" ${prefix}/bin/ursula --version)
+run(0 "verdict: pass" ${prefix}/bin/ursula validate ${helix} --solver ${bin}/solver_process --out ${WORK}/process)
+run(1 "verdict: fail" ${prefix}/bin/ursula validate ${helix} --solver "${bin}/solver_process 1e-10" --out ${WORK}/process)
+if(PYTHON)
+  file(GLOB_RECURSE module ${prefix}/lib*/python*/ursula/__init__.py)
+  cmake_path(GET module PARENT_PATH module)
+  cmake_path(GET module PARENT_PATH module)
+  run(0 "ursula.Scenario 'paper-helix'" ${CMAKE_COMMAND} -E env PYTHONPATH=${module} PYTHONDONTWRITEBYTECODE=1 ${PYTHON} -c
+    "import ursula, sys; print(ursula.read_scenario(sys.argv[1]))" ${helix})
+endif()

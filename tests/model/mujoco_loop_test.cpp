@@ -10,6 +10,7 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <cstdlib>
 #include <functional>
 #include <iostream>
 #include <limits>
@@ -46,6 +47,12 @@ const auto asName = [](const auto& name) {
     if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
   return text;
 };
+
+/// Where every test is asked for, none of these is passed over in silence.
+TEST(Mujoco, isThereInContinuousIntegration) {
+  const char* ci = std::getenv("CI");
+  if (ci != nullptr && std::string(ci) == "true") EXPECT_TRUE(mujocoAvailable());
+}
 
 /// All that is tested here is optional.
 class Named : public testing::TestWithParam<std::string> {

@@ -3,6 +3,7 @@
 #include "validation/external/diagnosis.h"
 #include "model/instants.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +13,7 @@
 namespace ursula {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
@@ -88,9 +90,37 @@ TEST(Diagnosis, namesFriction) {
 
 TEST(Diagnosis, namesMasses) {
   EXPECT_THAT(diagnosed(ofAnother([](auto& machine) { machine.platform.mass *= 1.02; })).cause,
-              StartsWith("the platform's mass scaled by 1.02,"));
+              AllOf(StartsWith("platform mass 510 +- "), HasSubstr(" kg instead of 500, which explains more than")));
   EXPECT_THAT(diagnosed(ofAnother([](auto& machine) { machine.platform.inertia *= 0.9; })).cause,
-              StartsWith("the platform's inertia tensor scaled by 0.9,"));
+              StartsWith("platform inertia tensor scaled by 0.9 +- "));
+}
+
+TEST(Diagnosis, knowsStandardGravity) {
+  EXPECT_THAT(diagnosed(ofAnother([](auto& machine) { machine.gravity.z() = -9.80665; })).cause,
+              StartsWith("gravity scaled by 1 - 0.0003415 (9.80665 m/s^2, standard gravity), which"));
+}
+
+TEST(Diagnosis, givesAParameterAsManyDigitsAsTheFileHas) {
+  const TorqueTable heavier = ofAnother([](auto& machine) { machine.platform.mass = 499.31; });
+  std::string text = "t_s,tau_1_Nm,tau_2_Nm,tau_3_Nm,tau_4_Nm,tau_5_Nm,tau_6_Nm\n";
+  for (std::size_t k = 0; k < heavier.t.size(); ++k) {
+    text += fmt::format("{:.17g}", heavier.t[k]);
+    for (int i = 0; i < leg_count; ++i) text += fmt::format(",{:.1f}", heavier.torques[k](i));
+    text += '\n';
+  }
+  const TorqueFile file = parseTorqueFile(text, "rounded.csv");
+  const std::string cause = diagnose(helix(), runExternal(helix(), file)).cause;
+  EXPECT_THAT(cause, HasSubstr("platform mass 499.3"));
+  EXPECT_THAT(cause, HasSubstr(" kg instead of 500"));
+}
+
+TEST(Diagnosis, namesAPartAsAPart) {
+  // Two causes: the larger one is a part, and the rest is far beyond the file's precision.
+  TorqueTable torques = ofAnother([](auto& machine) { machine.platform.mass *= 1.05; });
+  Dice dice(3);
+  for (Vector6d& tau : torques.torques) tau(1) += dice.between(-1, 1);
+  EXPECT_THAT(diagnosed(torques).cause,
+              AllOf(StartsWith("a likely part: platform mass 52"), HasSubstr("times the file's precision")));
 }
 
 TEST(Diagnosis, namesSwappedLegs) {

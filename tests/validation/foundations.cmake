@@ -9,6 +9,7 @@ add_executable(foundation_tests
   second_look_test.cpp
   shared_answers_test.cpp
   subject_test.cpp
+  tolerance_test.cpp
   worst_test.cpp
 )
 add_executable(profile_tests

@@ -2,6 +2,7 @@
 
 add_library(report_samples_data STATIC ${CMAKE_CURRENT_LIST_DIR}/report_samples.cpp)
 target_link_libraries(report_samples_data PUBLIC test_rooms)
+target_compile_definitions(report_samples_data PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
 
 add_executable(report_tests ${CMAKE_CURRENT_LIST_DIR}/report_test.cpp ${CMAKE_CURRENT_LIST_DIR}/result_test.cpp)
 target_link_libraries(report_tests PRIVATE
@@ -19,4 +20,4 @@ set_tests_properties(report.write_samples PROPERTIES FIXTURES_SETUP report_sampl
 add_test(NAME report.browser
   COMMAND ${PROJECT_SOURCE_DIR}/tests/browser/run.sh
     ${samples_dir} ${PROJECT_BINARY_DIR}/tests/browser ${URSULA_CHROMIUM})
-set_tests_properties(report.browser PROPERTIES FIXTURES_REQUIRED report_samples TIMEOUT 300 SKIP_RETURN_CODE 77)
+set_tests_properties(report.browser PROPERTIES FIXTURES_REQUIRED report_samples TIMEOUT 900 SKIP_RETURN_CODE 77)

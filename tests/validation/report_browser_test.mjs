@@ -1,55 +1,30 @@
-// Opens written reports in Chromium, as a reader would: from a folder, offline.
+// The pages of a validation in a browser.
 // usage: node report_browser_test.mjs SAMPLES_DIR PACKAGE_DIR CHROMIUM
-//   SAMPLES_DIR  what report_samples wrote;  PACKAGE_DIR  where node_modules/playwright-core is
 import assert from "node:assert/strict";
-import { createRequire } from "node:module";
-import path from "node:path";
-import { after, before, test } from "node:test";
-import { pathToFileURL } from "node:url";
+import { after, afterEach, before, test } from "node:test";
+import { assertQuietAndOffline, close, closePages, colorsOf, drawAll, launch, machineSeen, opened, sample, seriousFindings } from "../browser/pages.mjs";
 
-const [samples, packages, chromium_path] = process.argv.slice(2).map((argument) => path.resolve(argument));
-const { chromium } = createRequire(path.join(packages, "package.json"))("playwright-core");
-const args = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking"];
+before(launch);
+after(close);
+afterEach(closePages);
 
-let browser;
-before(async () => (browser = await chromium.launch({ executablePath: chromium_path, args })));
-after(() => browser?.close());
+const setTime = (page, t) =>
+  page.locator("[data-role=time]").evaluate((slider, value) => {
+    slider.value = value;
+    slider.dispatchEvent(new Event("input"));
+  }, t);
 
-// A page at `file`, with all that it complained of and asked for.
-async function opened(file, options = {}) {
-  const page = await browser.newPage(options);
-  const complaints = [];
-  const requests = [];
-  page.on("console", (message) => message.type() !== "log" && complaints.push(message.text()));
-  page.on("pageerror", (error) => complaints.push(String(error)));
-  page.on("dialog", (dialog) => complaints.push(`dialog ${dialog.message()}`) && dialog.dismiss());
-  page.on("request", (request) => requests.push(request.url()));
-  const url = String(pathToFileURL(path.join(samples, file)));
-  await page.goto(url);
-  return { page, url, complaints, requests };
-}
-
-function assertQuietAndOffline({ url, complaints, requests }) {
-  assert.deepEqual(complaints, []);
-  assert.deepEqual(requests.filter((request) => request !== url && !request.startsWith("data:")), []);
-}
-
-const rowsOf = (page, selector = "tr.check") => page.locator(selector).count();
-
-// How many colours a canvas holds: 1 is an empty one.
-const colorsOf = (canvas) => {
-  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-  return new Set(new Uint32Array(data.buffer)).size;
-};
-
-test("a passed report shows verdict, checks and charts", async () => {
+test("a passed report says what was found, with checks and charts", async () => {
   const report = await opened("passed/report.html");
   const { page } = report;
-  assert.match(await page.locator("header .verdict").innerText(), /PASS.*8 of 8 checks held/s);
-  assert.equal(await rowsOf(page), 8);
-  assert.equal(await page.locator("figure").count(), 6);
+  assert.match(await page.locator("header .verdict").innerText(), /PASS/);
+  assert.match(await page.locator("header .sentence").innerText(), /drive Simbody's loop along the helix to 2\.9.nm in 3.s/);
+  assert.match(await page.locator("header .machine-line").innerText(), /Six URS legs .* 500 kg · helix, 3.s/);
+  assert.equal(await page.locator("details.check").count(), 8);
+  assert.equal(await page.locator("details.group[open]").count(), 0);
+  await drawAll(page);
   const canvases = page.locator("figure canvas");
-  assert.equal(await canvases.count(), 6);
+  assert.equal(await canvases.count(), await page.locator("figure").count());
   for (const canvas of await canvases.all()) {
     assert.ok((await canvas.evaluate(colorsOf)) > 20, await canvas.getAttribute("aria-label"));
     assert.match(await canvas.getAttribute("aria-label"), /Largest: /);
@@ -63,38 +38,125 @@ test("the emptiness check of canvases can fail", async () => {
   assert.equal(await blank.evaluate(colorsOf), 1);
 });
 
-test("a row opens and closes by click and by keyboard", async () => {
+for (const [folder, legs] of [["passed", "six URS legs"], ["external", "three UPS legs"]])
+  test(`the machine of ${legs} is drawn, moves and can be turned`, async () => {
+    const report = await opened(`${folder}/report.html`);
+    const { page } = report;
+    const screen = page.locator(".screen canvas");
+    await screen.waitFor();
+    const hide = (hidden) => screen.evaluate((canvas, value) => (canvas.style.opacity = value), hidden ? 0 : 1);
+    await hide(true);
+    const blank = await machineSeen(page);
+    await hide(false);
+    const start = await machineSeen(page);
+    assert.ok(!start.equals(blank), "the canvas is blank");
+    assert.ok(start.equals(await machineSeen(page)), "what stands still looks the same");
+    await page.locator("[data-role=play]").click();
+    await page.waitForFunction(() => Number.parseFloat(document.querySelector("[data-role=now]").value) > 0.5);
+    await page.locator("[data-role=play]").click();
+    const later = await machineSeen(page);
+    assert.ok(!start.equals(later), "nothing moved");
+    const canvas = await screen.boundingBox();
+    await page.mouse.move(canvas.x + 200, canvas.y + 200);
+    await page.mouse.down();
+    await page.mouse.move(canvas.x + 300, canvas.y + 220, { steps: 3 });
+    await page.mouse.up();
+    assert.ok(!(await machineSeen(page)).equals(later), "the view did not turn");
+    for (const layer of await page.locator("[data-layer]").all()) await layer.setChecked(true);
+    assertQuietAndOffline(report);
+  });
+
+test("one time for the machine and all charts", async () => {
   const { page } = await opened("passed/report.html");
-  const detail = page.locator("#detail-2");
-  const button = page.locator('button[aria-controls="detail-2"]');
-  assert.equal(await detail.isVisible(), false);
-  await button.click();
-  assert.match(await detail.innerText(), /Limit from\s+integration error/);
-  assert.equal(await button.getAttribute("aria-expanded"), "true");
-  await button.press("Enter");
-  assert.equal(await detail.isVisible(), false);
-  await page.getByText("Show all details").click();
-  assert.equal(await rowsOf(page, "tr.detail:not(.closed)"), 8);
-  await page.getByText("Hide all details").click();
-  assert.equal(await rowsOf(page, "tr.detail:not(.closed)"), 0);
+  await drawAll(page);
+  await setTime(page, 1.2);
+  const marks = () => page.locator(".now").evaluateAll((all) => all.map((mark) => Number(mark.dataset.t)));
+  const shown = await marks();
+  assert.ok(shown.length > 8);
+  assert.ok(shown.every((t) => Math.abs(t - 1.2) < 0.01), String(shown));
+  assert.match(await page.locator("[data-role=now]").innerText(), /^1\.200 s$/);
+  const over = page.locator("#errors .u-over").first();
+  await over.scrollIntoViewIfNeeded();
+  const { width } = await over.boundingBox();
+  await over.click({ position: { x: width / 2, y: 60 } });
+  assert.ok((await marks()).every((t) => Math.abs(t - 1.5) < 0.05), "a click in a chart is a jump");
+  await page.getByRole("button", { name: /nearest to a singular pose/ }).click();
+  assert.ok((await marks()).every((t) => Math.abs(t - 1.88) < 0.01));
+});
+
+test("charts are zoomed together, hide lines and are saved", async () => {
+  const { page } = await opened("passed/report.html");
+  await drawAll(page);
+  const figure = page.locator("#errors figure").first();
+  const over = figure.locator(".u-over");
+  await over.scrollIntoViewIfNeeded();
+  const box = await over.boundingBox();
+  await page.mouse.move(box.x + 0.25 * box.width, box.y + 50);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.5 * box.width, box.y + 50, { steps: 4 });
+  await page.mouse.up();
+  await setTime(page, 2.9); // now out of every time chart
+  const hidden = await page.locator(".now").evaluateAll((all) => all.filter((mark) => mark.hidden).length);
+  assert.ok(hidden > 8, `${hidden} charts follow the zoom`);
+  await figure.getByRole("button", { name: "Whole range" }).click();
+  const line = figure.locator(".u-legend button").first();
+  await line.press("Enter");
+  assert.equal(await line.getAttribute("aria-pressed"), "false");
+  for (const [name, ending, content] of [["CSV", ".csv", /^t \(s\),/], ["SVG", ".svg", /^<svg/], ["PNG", ".png", /PNG/]]) {
+    const [download] = await Promise.all([page.waitForEvent("download"), figure.getByRole("button", { name }).click()]);
+    assert.ok(download.suggestedFilename().endsWith(ending));
+    const { readFile } = await import("node:fs/promises");
+    assert.match(await readFile(await download.path(), "latin1"), content);
+  }
+});
+
+test("groups and checks open by click and by keyboard", async () => {
+  const { page } = await opened("passed/report.html");
+  const group = page.locator("details.group").first();
+  await group.locator("> summary").press("Enter");
+  const check = group.locator("details.check").first();
+  await check.locator("> summary").click();
+  assert.match(await check.innerText(), /Means[\s\S]*Limit from/);
+  await check.locator("> summary").press("Enter");
+  assert.equal(await check.evaluate((details) => details.open), false);
+});
+
+test("all that can be done can be done by keyboard", async () => {
+  const { page } = await opened("passed/report.html");
+  await page.locator("[data-role=play]").focus();
+  await page.keyboard.press("Enter");
+  await page.waitForFunction(() => Number.parseFloat(document.querySelector("[data-role=now]").value) > 0.1);
+  await page.keyboard.press("Enter");
+  await page.keyboard.press("Tab");
+  await page.keyboard.press("Home");
+  assert.match(await page.locator("[data-role=now]").innerText(), /^0\.000 s$/);
+  await page.keyboard.press("Tab");
+  assert.equal(await page.evaluate(() => document.activeElement.dataset.role), "speed");
 });
 
 test("a failed report says so, first and unfolded", async () => {
   const report = await opened("failed/report.html");
   const { page } = report;
-  const verdict = await page.locator("header .verdict").innerText();
-  assert.match(verdict, /FAIL.*3 of 9 checks failed/s);
-  assert.doesNotMatch(verdict, /PASS/);
-  assert.equal(await rowsOf(page, "tr.check.fail"), 3);
-  assert.equal(await page.locator("tr.check").first().locator(".badge").innerText(), "✗ FAIL");
-  assert.equal(await page.locator("tr.check.fail + tr.detail").first().isVisible(), true);
-  assert.equal(await page.locator("figure").count(), 1);
+  const header = await page.locator("header").innerText();
+  assert.match(header, /FAIL[\s\S]*Efforts against Simbody: off by 41\.3.N·m[\s\S]*leg 2 is off/i);
+  assert.doesNotMatch(header, /PASS/);
+  assert.equal(await page.locator("details.check.fail[open]").count(), 3);
+  assert.match(await page.locator("details.group").first().innerText(), /FAIL/);
+  assertQuietAndOffline(report);
+});
+
+test("wrong efforts of a file lead with the likely cause", async () => {
+  const report = await opened("external/report.html");
+  const header = await report.page.locator("header").innerText();
+  assert.match(header, /The efforts of leg3\.csv are wrong\. Likely cause: a factor of 1\.001 on leg 3\./);
+  assert.equal(header.match(/Likely cause/g).length, 1);
+  assert.match(await report.page.locator("#provenance").innerText(), /--torques leg3\.csv/);
   assertQuietAndOffline(report);
 });
 
 test("an inconclusive report is neither", async () => {
   const report = await opened("not judgeable/report.html");
-  assert.match(await report.page.locator("header .verdict").innerText(), /INCONCLUSIVE.*Nothing failed/s);
+  assert.match(await report.page.locator("header").innerText(), /INCONCLUSIVE\s+Nothing failed, but one check/);
   assertQuietAndOffline(report);
 });
 
@@ -103,47 +165,67 @@ test("hostile texts and numbers stay texts and gaps", async () => {
   assert.match(await report.page.locator("h1").innerText(), /^<\/script><script>alert\('x'\)<\/script>/);
   assert.equal(await report.page.locator("script").count(), 2);
   assert.equal(await report.page.locator("figure").count(), 3);
+  await drawAll(report.page);
   assert.equal(await report.page.locator("figure canvas").count(), 2);
   assertQuietAndOffline(report);
 });
 
-test("verdict and checks need no script", async () => {
-  const report = await opened("failed/report.html", { javaScriptEnabled: false });
-  assert.match(await report.page.locator("header .verdict").innerText(), /FAIL/);
-  assert.equal(await report.page.locator("tr.detail").first().isVisible(), true);
-  assert.match(await report.page.locator("noscript").first().innerText(), /timeseries\.csv/);
+test("verdict, checks, charts and machine need no script", async () => {
+  const { page } = await opened("passed/report.html", { javaScriptEnabled: false });
+  assert.match(await page.locator("header .verdict").innerText(), /PASS/);
+  assert.equal(await page.locator("svg.machine").isVisible(), true);
+  assert.equal(await page.locator("figure svg.static").last().isVisible(), true);
+  assert.equal(await page.locator("details.check").count(), 8);
 });
 
 test("charts follow theme, width and paper", async () => {
   const { page, complaints } = await opened("passed/report.html", { colorScheme: "dark" });
-  const marker = "figure svg path";
-  const dark = await page.locator(marker).first().getAttribute("stroke");
+  await drawAll(page);
+  const stroke = () => page.locator(".u-legend svg path").first().getAttribute("stroke");
+  const dark = await stroke();
   await page.emulateMedia({ colorScheme: "light" });
-  const differs = ([selector, color]) => document.querySelector(selector).getAttribute("stroke") !== color;
-  await page.waitForFunction(differs, [marker, dark]);
-  await page.setViewportSize({ width: 420, height: 800 });
-  await page.waitForFunction(() => document.documentElement.scrollWidth <= 420);
-  await page.pdf();
+  await page.waitForFunction((color) => document.querySelector(".u-legend svg path").getAttribute("stroke") !== color, dark);
+  await page.setViewportSize({ width: 400, height: 800 });
+  await page.waitForFunction(() => document.documentElement.scrollWidth <= 400);
+  const pdf = (await page.pdf({ format: "A4" })).toString("latin1");
+  const pages = pdf.match(/\/Type\s*\/Page\b/g).length;
+  assert.ok(pages <= 6, `${pages} pages of A4`);
   assert.deepEqual(complaints, []);
 });
 
-test("the index leads to every report", async () => {
+test("the index leads to every report, sorts and filters", async () => {
   const index = await opened("index.html");
   const { page } = index;
-  assert.match(await page.locator("h1").innerText(), /1 of 5 scenarios passed, 3 failed, 1 inconclusive/);
-  assert.equal(await rowsOf(page, "tr.scenario"), 5);
-  assert.match(await page.locator("tr.scenario.fail").last().innerText(), /expected a value/);
+  assert.match(await page.locator("h1").innerText(), /1 of 6 scenarios passed, 4 failed, 1 inconclusive/);
+  assert.equal(await page.locator("tr.scenario").count(), 6);
+  assert.match(await page.locator("tr.scenario").first().innerText(), /FAIL/);
+  assert.match(await page.locator("tbody").innerText(), /expected a value/);
+  await page.getByLabel("Find").fill("helix");
+  assert.equal(await page.locator("tr.scenario:visible").count(), 1);
+  await page.getByLabel("Find").fill("");
+  await page.getByLabel("Verdict").selectOption("inconclusive");
+  assert.equal(await page.locator("tr.scenario:visible").count(), 1);
+  await page.getByLabel("Verdict").selectOption("");
+  await page.getByRole("button", { name: "Verdict" }).click();
+  await page.getByRole("button", { name: "Verdict" }).click();
+  assert.match(await page.locator("tr.scenario").first().innerText(), /PASS/);
   assertQuietAndOffline(index);
-  await page.getByText("near-singular").click();
+  await page.getByRole("link", { name: "near-singular" }).click();
   assert.equal(await page.locator("h1").innerText(), "near-singular");
 });
 
+for (const file of ["passed/report.html", "failed/report.html", "not judgeable/report.html", "external/report.html", "index.html"])
+  for (const colorScheme of ["light", "dark"])
+    test(`axe finds nothing serious in ${file}, ${colorScheme}`, async () => {
+      const { page } = await opened(file, { colorScheme });
+      for (const details of await page.locator("details").all()) await details.evaluate((element) => (element.open = true));
+      assert.deepEqual(await seriousFindings(page), []);
+    });
+
 test("the parsers of a browser accept the JUnit files", async () => {
   const { page } = await opened("index.html");
-  const { readFile } = await import("node:fs/promises");
   for (const file of ["junit.xml", "hostile/junit.xml"]) {
-    const xml = await readFile(path.join(samples, file), "utf8");
     const parse = (text) => new DOMParser().parseFromString(text, "text/xml").querySelectorAll("parsererror").length;
-    assert.equal(await page.evaluate(parse, xml), 0, file);
+    assert.equal(await page.evaluate(parse, await sample(file)), 0, file);
   }
 });

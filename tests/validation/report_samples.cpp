@@ -1,8 +1,12 @@
 #include "tests/validation/report_samples.h"
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
+
+#include "validation/picture/picture.h"
 
 namespace ursula::test {
 namespace {
@@ -26,12 +30,26 @@ void addTorques(TimeSeries& series) {
   }
 }
 
+void addExpected(TimeSeries& series, double off) {
+  for (int leg = 1; leg <= 6; ++leg) {
+    std::vector<double> expected = *series.find("tau_" + std::to_string(leg) + "_Nm");
+    for (double& value : expected) value /= 1 + (leg == 3 ? off : 1e-15);
+    series.add("simbody_tau_" + std::to_string(leg) + "_Nm", expected);
+  }
+  series.add("limit_tau_Nm", sampled([](double t) { return 4e-10 * (1.1 + std::sin(t)); }));
+}
+
 void addMotion(TimeSeries& series) {
   const char* const axes[] = {"x", "y", "z"};
   for (int i = 0; i < 3; ++i) {
     const auto commanded = [i](double t) { return i == 2 ? 1.2 + 0.2 * t : 0.2 * std::sin(0.5 * t + i); };
     series.add(std::string("p_") + axes[i] + "_m", sampled(commanded));
     series.add(std::string("sim_p_") + axes[i] + "_m", sampled([commanded](double t) { return commanded(t) + 1e-9; }));
+  }
+  for (const std::string prefix : {"", "sim_"}) {
+    series.add(prefix + "q_w", sampled([](double t) { return std::cos(0.05 * t); }));
+    series.add(prefix + "q_x", sampled([](double t) { return std::sin(0.05 * t); }));
+    for (const char* part : {"q_y", "q_z"}) series.add(prefix + part, std::vector<double>(rows, 0.0));
   }
   // Zero or nearly so at the start, as in every replay, then the growth of an unstable motion.
   const auto grown = [](double scale, double start) {
@@ -52,11 +70,63 @@ TimeSeries workAgainstPrecision() {
   return curve;
 }
 
+TimeSeries sources() {
+  TimeSeries curve;
+  curve.add("t_s", sampled([](double t) { return t; }));
+  const auto add = [&curve](const char* name, double scale) {
+    curve.add(name, sampled([scale](double t) { return scale * std::exp(4.6 * t); }));
+  };
+  add("observed (m)", 3e-15);
+  add("rounding (m)", 1e-15);
+  add("integration (m)", 2.4e-15);
+  add("loop closure (m)", 3e-16);
+  add("torques (m)", 5e-17);
+  add("unexplained (m)", 2e-16);
+  add("limit (m)", 4e-15);
+  return curve;
+}
+
 TimeSeries amplification() {
   TimeSeries curve;
   curve.add("t_s", sampled([](double t) { return t; }));
   curve.add("amplification", sampled([](double t) { return std::exp(4.6 * t); }));
   return curve;
+}
+
+Picture::Leg leg(const std::string& kind, const Leg& machine, const Picture& picture) {
+  Picture::Track base, middle, top, u, x;
+  for (std::size_t k = 0; k < picture.t.size(); ++k) {
+    const Eigen::Vector4d& q = picture.q[k];
+    const Matrix3d Q = Eigen::Quaterniond(q(0), q(1), q(2), q(3)).toRotationMatrix();
+    base.push_back(machine.base_point - picture.origin);
+    top.push_back(picture.p[k] + Q * machine.platform_point);
+    middle.push_back(0.5 * (base.back() + top.back()) + (kind == "URS" ? 0.5 : 0.0) * base.back().normalized());
+    u.push_back(machine.base_axis.normalized());
+    x.push_back(Vector3d::UnitZ());
+  }
+  if (kind == "UPS")
+    return {
+        kind, {{base, middle}, {middle, top}}, {{"universal joint", base, {u, x}, false}, {"ball", top, {}, false}}};
+  return {kind,
+          {{base, middle}, {middle, top}},
+          {{"universal joint", base, {u, x}, true}, {"pin", middle, {x}, false}, {"ball", top, {}, false}}};
+}
+
+/// Made-up legs of the paper's machine, which do not close: `count` of them.
+std::shared_ptr<const Picture> picture(const std::string& kind, int count) {
+  auto out = std::make_shared<Picture>();
+  out->scenario = readScenario(std::string(URSULA_SCENARIOS) + "/paper-helix.toml");
+  out->t = sampled([](double t) { return t; });
+  for (const double t : out->t) {
+    out->p.emplace_back(0.2 * std::sin(0.5 * t), 0.2 * std::sin(0.5 * t + 1), 1.2 + 0.2 * t);
+    out->q.emplace_back(std::cos(0.05 * t), std::sin(0.05 * t), 0, 0);
+  }
+  for (int i = 0; i < count; ++i) {
+    const Leg& machine = out->scenario.manipulator->leg(i * leg_count / count);
+    out->platform_points.push_back(machine.platform_point);
+    out->legs.push_back(leg(kind, machine, *out));
+  }
+  return out;
 }
 
 }  // namespace
@@ -80,10 +150,15 @@ ValidationResult passedSample() {
       judged("solver.orthogonality", 0.0, 6.1e-15, "", "K·T = 0 to 64 eps with |K| = 1.9 and |T| = 2.2", "exactly 0"),
   };
   result.verdict = overall(result.checks);
+  result.replay_error = ReplayError{};
+  result.replay_error->dominant = "amplification of integration error (81 %)";
   result.findings = {{"dominant error", "amplification of integration error (81 %)"},
                      {"largest condition number of K", "5.6e3 at t = 1.88 s"},
                      {"integrator", "RKF78: 412 steps, 5 rejected, 5421 evaluations"}};
   result.provenance = {{"scenario sha256", "b1946ac92492d2347c6235b4d2611184f2c0a9e9c8a4f4bb1c2cb7d9b6e5f0aa"},
+                       {"scenario file", "paper-helix.toml"},
+                       {"subject", "noc"},
+                       {"trajectory", "helix"},
                        {"commit", "478470f"},
                        {"compiler", "GCC 12.2.0, -O3 -DNDEBUG"},
                        {"libraries", "Simbody 3.7, Eigen 3.4.0, Boost 1.74"},
@@ -91,7 +166,12 @@ ValidationResult passedSample() {
                        {"seed", "20240611"}};
   addTorques(result.timeseries);
   addMotion(result.timeseries);
-  result.curves = {{"Work against precision", workAgainstPrecision()}, {"Amplification", amplification()}};
+  addExpected(result.timeseries, 1e-15);
+  result.curves = {{"Sources of the replay's error", sources()},
+                   {"Work against precision", workAgainstPrecision()},
+                   {"Amplification", amplification()}};
+  result.events = {{1.88, "nearest to a singular pose"}};
+  result.picture = picture("URS", 6);
   return result;
 }
 
@@ -108,6 +188,8 @@ ValidationResult failedSample() {
   result.timeseries = {};
   addTorques(result.timeseries);
   result.curves.clear();
+  result.events.clear();
+  result.picture = nullptr;
   return result;
 }
 
@@ -118,6 +200,30 @@ ValidationResult inconclusiveSample() {
                                   "integration error · amplification 3.1e14",
                                   "amplification 3.1e14 leaves no digit of a double to judge by");
   result.verdict = overall(result.checks);
+  return result;
+}
+
+ValidationResult externalSample() {
+  ValidationResult result = passedSample();
+  result.scenario = "leg-3-off";
+  result.checks[0] = judged("torque.pointwise", 1.9, 4.1e-10, "N·m", result.checks[0].basis, "leg 3, t = 2.2 s");
+  result.checks.push_back(notApplicable("torque.twin", "N·m", "a file gives torques alone, at its own instants"));
+  result.verdict = overall(result.checks);
+  result.findings.emplace_back("torques that are off", "leg 3 by up to 1.9 N m; within their limits: 1, 2, 4, 5, 6");
+  result.findings.emplace_back("likely cause", "a factor of 1.001 on leg 3");
+  result.likely_cause =
+      LikelyCause{"leg 3 by up to 1.9 N m; within their limits: 1, 2, 4, 5, 6", "a factor of 1.001 on leg 3"};
+  result.provenance[2].second = "leg3.csv";
+  for (std::size_t k = 0; k < result.timeseries.names.size(); ++k) {
+    std::vector<double>& column = result.timeseries.columns[k];
+    const std::string& name = result.timeseries.names[k];
+    if (name == "tau_3_Nm")
+      for (double& value : column) value *= 1.001;
+    if (name.rfind("sim_", 0) == 0 || name.rfind("error_", 0) == 0)
+      std::fill(column.begin() + rows / 2, column.end(), std::numeric_limits<double>::quiet_NaN());
+  }
+  result.events.push_back({1.5, "the replay left the path"});
+  result.picture = picture("UPS", 3);
   return result;
 }
 

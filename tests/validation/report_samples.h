@@ -9,6 +9,9 @@ ValidationResult passedSample();
 /// Two checks beyond their limits, one that was not made, and torques alone.
 ValidationResult failedSample();
 ValidationResult inconclusiveSample();
+/// A file's efforts with a factor on one motor: what is off and why is known. Three telescopic legs carry the platform,
+/// and the replay stopped on the way.
+ValidationResult externalSample();
 /// Markup, control characters and broken UTF-8 wherever text goes, numbers that are not finite wherever numbers go.
 ValidationResult hostileSample();
 

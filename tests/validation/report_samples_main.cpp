@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   add(test::passedSample(), "passed", 4.2);
   add(test::failedSample(), "failed", 3.9);
   add(test::inconclusiveSample(), "not judgeable", 4.4);
+  add(test::externalSample(), "external", 2.1);
   add(test::hostileSample(), "hostile", 0.1);
   entries.push_back({"unreadable", Verdict::fail, "", {}, "scenario.toml:3:1: error: expected a value", 0, ""});
   writeSuiteIndex(entries, dir);

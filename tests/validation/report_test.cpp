@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/property_tree/xml_parser.hpp>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -13,9 +15,11 @@
 
 #include "model/csv.h"
 #include "tests/validation/report_samples.h"
+#include "validation/report/found.h"
 #include "validation/report/html.h"
 #include "validation/report/junit.h"
 #include "validation/report/plots.h"
+#include "validation/report/quantity.h"
 #include "validation/report/summary.h"
 #include "validation/report/text.h"
 
@@ -79,7 +83,7 @@ TEST_F(ReportFiles, ofASuiteAreIndexAndJunit) {
   const std::string index = contentOf(dir_ / "index.html");
   EXPECT_NE(index.find("href=\"sub%20folder/%C3%A4%26b/report.html\""), std::string::npos);
   EXPECT_NE(index.find("1 of 1 scenario passed"), std::string::npos);
-  EXPECT_NE(index.find("replay.position"), std::string::npos);                     // the check closest to its limit
+  EXPECT_NE(index.find("Position along the motion"), std::string::npos);           // the check closest to its limit
   EXPECT_NE(index.find("amplification of integration error"), std::string::npos);  // what dominates
   const ptree suite = parsedXml(contentOf(dir_ / "junit.xml")).get_child("testsuites.testsuite.<xmlattr>");
   EXPECT_EQ(suite.get<std::string>("name"), "paper-helix");
@@ -184,20 +188,26 @@ TEST(Plots, areThoseWhoseColumnsAreThere) {
     for (const report::Plot& plot : report::plots(result)) found.push_back(plot.title);
     return found;
   };
-  EXPECT_EQ(
-      titles(test::passedSample()),
-      (std::vector<std::string>{"Actuator torques", "Replay: simulated against commanded pose", "Closure of the loops",
-                                "Position of P", "Work against precision", "Amplification"}));
-  EXPECT_EQ(titles(test::failedSample()), std::vector<std::string>{"Actuator torques"});
+  EXPECT_EQ(titles(test::passedSample()),
+            (std::vector<std::string>{
+                "Sources of the replay's error", "Efforts against Simbody's, each motor",
+                "Replay: simulated against commanded pose", "Closure of the loops", "Efforts of the motors",
+                "Motor 1: effort less expected", "Motor 2: effort less expected", "Motor 3: effort less expected",
+                "Motor 4: effort less expected", "Motor 5: effort less expected", "Motor 6: effort less expected",
+                "Position of P", "Orientation of the platform", "Work against precision", "Amplification"}));
+  EXPECT_EQ(titles(test::failedSample()), std::vector<std::string>{"Efforts of the motors"});
   EXPECT_TRUE(titles({}).empty());
 }
 
 TEST(Plots, chooseLogarithmicAxesByTheData) {
   const std::vector<report::Plot> plots = report::plots(test::passedSample());
-  EXPECT_FALSE(plots[0].log_y);
-  EXPECT_TRUE(plots[1].log_y);
-  EXPECT_TRUE(plots[4].log_x && plots[4].log_y);   // powers of ten in both
-  EXPECT_TRUE(!plots[5].log_x && plots[5].log_y);  // over time
+  const auto plot = [&plots](const std::string& title) {
+    return *std::find_if(plots.begin(), plots.end(), [&title](const auto& each) { return each.title == title; });
+  };
+  EXPECT_FALSE(plot("Efforts of the motors").log_y);
+  EXPECT_TRUE(plot("Closure of the loops").log_y);
+  EXPECT_TRUE(plot("Work against precision").log_x && plot("Work against precision").log_y);  // powers of ten in both
+  EXPECT_TRUE(!plot("Amplification").log_x && plot("Amplification").log_y);                   // over time
   ValidationResult narrow;
   narrow.curves.emplace_back();
   narrow.curves.back().second.add("n", {1, 2});
@@ -210,15 +220,16 @@ TEST(Plots, ascendInXAndDropWhatHasNone) {
   ASSERT_EQ(plots.size(), 3u);
   EXPECT_EQ(plots[2].x, (std::vector<double>{1, 3}));
   EXPECT_EQ(plots[2].lines[0].values[1], 1);
-  EXPECT_EQ(report::inWords(plots[1]), "Nothing to draw: every value is zero or not finite.");
+  EXPECT_EQ(report::inWords(plots[0]), "Nothing to draw: every value is zero or not finite.");
 }
 
 TEST(Html, holdsVerdictAndChecksWithoutScript) {
   const std::string html = report::reportHtml(test::failedSample());
   EXPECT_NE(html.find("FAIL"), std::string::npos);
-  EXPECT_EQ(countOf(html, "<tr class=\"check "), 9u);
-  EXPECT_EQ(countOf(html, "<tr class=\"check fail\""), 3u);
-  EXPECT_LT(html.find("<tr class=\"check fail\""), html.find("<tr class=\"check pass\""));
+  EXPECT_EQ(countOf(html, "<details class=\"check "), 9u);
+  EXPECT_EQ(countOf(html, "<details class=\"check fail\" open"), 3u);
+  EXPECT_LT(html.find("<details class=\"check fail\""), html.find("<details class=\"check pass\""));
+  EXPECT_NE(html.find("<svg class=\"static\""), std::string::npos) << "no chart without script";
 }
 
 TEST(Html, neverLetsTextBecomeMarkup) {
@@ -226,6 +237,58 @@ TEST(Html, neverLetsTextBecomeMarkup) {
   EXPECT_EQ(countOf(html, "<script>alert"), 0u);
   EXPECT_EQ(countOf(html, "</script>"), 2u);
   EXPECT_EQ(countOf(html, "<!--"), 0u);
+}
+
+TEST(Plots, areThinnedForTheEyeWithoutLosingAPeak) {
+  report::Plot plot;
+  plot.lines.emplace_back();
+  for (int i = 0; i < 60000; ++i) {
+    plot.x.push_back(i);
+    plot.lines[0].values.push_back(i == 34567 ? 1e3 : i == 45678 ? nan : std::sin(i));
+  }
+  const report::Plot thin = report::thinned(plot, 500);
+  ASSERT_EQ(thin.x.size(), 1000u);
+  EXPECT_EQ(thin.x.front(), 0);
+  EXPECT_EQ(thin.x.back(), 59999);
+  EXPECT_EQ(*std::max_element(thin.lines[0].values.begin(), thin.lines[0].values.end()), 1e3);
+  EXPECT_TRUE(std::is_sorted(thin.x.begin(), thin.x.end()));
+  EXPECT_EQ(report::thinned(plot, 30000).x.size(), 60000u);
+}
+
+/// With plain spaces for the no-break ones that join a number to its unit.
+std::string plain(std::string text) {
+  const std::string joined = "\u00A0";
+  for (auto at = text.find(joined); at != std::string::npos; at = text.find(joined))
+    text.replace(at, joined.size(), " ");
+  return text;
+}
+
+TEST(Quantity, takesAPrefixAndSaysWhatIsNoNumber) {
+  const auto quantity = [](double value, const char* unit) { return plain(report::quantity(value, unit)); };
+  EXPECT_EQ(quantity(7.7e-12, "m"), "7.7 pm");
+  EXPECT_EQ(quantity(0.0163, "N m"), "16.3 mN·m");
+  EXPECT_EQ(quantity(2306, "N m"), "2.31 kN·m");
+  EXPECT_EQ(quantity(999.96, "N"), "1 kN");
+  EXPECT_EQ(quantity(60, "s"), "60 s");
+  EXPECT_EQ(quantity(3600, "s"), "3600 s");
+  EXPECT_EQ(quantity(1e-20, "m"), "10⁻²⁰ m");
+  EXPECT_EQ(quantity(3.2e-15, ""), "3.2 × 10⁻¹⁵");
+  EXPECT_EQ(quantity(0, "m/s^2"), "0 m/s²");
+  EXPECT_EQ(quantity(nan, "m"), "none");
+}
+
+TEST(Sentence, saysWhatWasFound) {
+  EXPECT_EQ(plain(report::sentence(test::passedSample())),
+            "The NOC's efforts drive Simbody's loop along the helix to 2.9 nm in 3 s; Simbody's own inverse dynamics "
+            "agree to 1.3 × 10⁻¹⁵ of the largest effort.");
+  ValidationResult wrong = test::failedSample();
+  EXPECT_EQ(plain(report::sentence(wrong)),
+            "The NOC's efforts do not hold. Efforts against Simbody: off by 41.3 N·m, where 410 pN·m is the limit.");
+  wrong.likely_cause = LikelyCause{"", "a factor of 1.001 on leg 3"};
+  EXPECT_EQ(plain(report::sentence(wrong)), "The NOC's efforts are wrong. Likely cause: a factor of 1.001 on leg 3.");
+  EXPECT_EQ(report::sentence(test::inconclusiveSample()),
+            "Nothing failed, but one check cannot be judged here: amplification 3.1e14 leaves no digit of a double to "
+            "judge by.");
 }
 
 TEST(Text, isFilledOnceAndCompletely) {

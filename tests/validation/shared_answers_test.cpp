@@ -6,12 +6,14 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <thread>
 
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/checks/stabilised_check.h"
+#include "validation/evidence/evidence.h"
 #include "validation/evidence/reference.h"
 #include "validation/replay/asked_torques.h"
 #include "validation/replay/lazily.h"
@@ -150,7 +152,10 @@ TEST_P(Shared, replaysAskAtAllThatTheyDependOn) {
 }
 
 TEST_P(Shared, theLadderIsTheOneClimbedAlone) {
-  const Ladder alone = climb(here(), reference_->plan.torques, reference_->windows.front());
+  WindowedReplay window = reference_->windows.front();
+  ASSERT_NE(window.coarse, nullptr);
+  window.coarse = nullptr;  // no rung is known
+  const Ladder alone = climb(here(), reference_->plan.torques, window);
   const Ladder& shared = reference_->ladder();
   ASSERT_EQ(alone.rungs.size(), shared.rungs.size());
   for (std::size_t k = 0; k < alone.rungs.size(); ++k) {
@@ -206,6 +211,18 @@ TEST_P(Shared, everyCheckIsTheOneOfAValidationAlone) {
       if (!std::isnan(alone[k].value)) EXPECT_EQ(alone[k].value, shared[k].value) << alone[k].name;
     }
   }
+}
+
+/// A subject that answers many questions at once is told of each step: not asked one by one whether it answers alike.
+TEST_P(Shared, whoeverWantsToForeseeHasReplaysOfHisOwn) {
+  Subject subject = solverOf(here());
+  const auto told = std::make_shared<int>(0);
+  subject.foresee = [told](const std::vector<Motion<double>>&) { ++*told; };
+  const Evidence evidence = gather(given_, *reference_, subject, false, {}, {});
+  EXPECT_GE(*told, evidence.windows.front().replay.accepted + evidence.stabilised->steps);
+  EXPECT_EQ(evidence.windows.front().replay.steps.back().position_error,
+            reference_->windows.front().replay.steps.back().position_error);
+  EXPECT_EQ(evidence.stabilised->torque, reference_->stabilised().torque);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenarios, Shared, testing::Values("paper-helix", "proving-ground"),

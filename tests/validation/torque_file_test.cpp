@@ -65,11 +65,9 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return test.param.name; });
 
 TEST(TorqueFile, refusesAMissingColumn) {
-  EXPECT_EQ(refusal<CsvError>([] { parseTorqueFile("t_s,tau_1_Nm\n0,1\n", "a.csv"); }),
-            "a.csv:1: error: missing column 'tau_2_Nm', expected it in the header");
-  EXPECT_EQ(refusal<CsvError>([] {
-              parseTorqueFile("time_s,tau_1_Nm,tau_2_Nm,tau_3_Nm,tau_4_Nm,tau_5_Nm,tau_6_Nm\n0,1,1,1,1,1,1\n", "a.csv");
-            }).find("a.csv:1: error: missing column 't_s'"),
+  EXPECT_EQ(refusal<CsvError>([] { parseTorqueFile("t_s,tau_1_Nm\n0,1\n", "a.csv"); })
+                .find("a.csv:1: error: missing column 'tau_2_Nm', expected it in the header; separated by ',' it has: "
+                      "t_s, tau_1_Nm"),
             0U);
 }
 

@@ -5,27 +5,24 @@
 #include <algorithm>
 
 namespace ursula {
-namespace {
 
 /// A wider limit decides only where there is a finished value to hold against it.
-void judgeByUser(double limit, Check& check) {
+void judgeByUser(double limit, const std::string& whose, Check& check) {
   const bool finished = check.reason == Reason::none || check.reason == Reason::limit_useless;
   if (!finished) {
-    check.why += fmt::format("; [acceptance] allows {:.3g} {}, but there is no finished value to hold against it",
-                             limit, check.unit);
+    check.why += fmt::format("; {} allows {:.3g} {}, but there is no finished value to hold against it", whose, limit,
+                             check.unit);
     return;
   }
   const bool wider = !(limit <= check.limit) || check.reason == Reason::limit_useless;
   const Largest largest = check.largest;
   const std::string where = largest.where.empty() ? "" : ", " + largest.where;
   check = judged(check.name, largest.value, limit, check.unit,
-                 fmt::format("[acceptance] of the scenario; derived: {:.3g}, {}", check.limit, check.basis),
+                 fmt::format("{}; derived: {:.3g}, {}", whose, check.limit, check.basis),
                  fmt::format("{}; the largest value, at t = {:.6g} s{}", check.why, largest.t, where));
   check.largest = largest;
   check.limit_by = wider ? LimitBy::user : LimitBy::derived;
 }
-
-}  // namespace
 
 void judgeByUser(const std::vector<AcceptanceLimit>& acceptance, ValidationResult& result) {
   for (const AcceptanceLimit& wanted : acceptance) {
@@ -34,7 +31,7 @@ void judgeByUser(const std::vector<AcceptanceLimit>& acceptance, ValidationResul
     if (found == result.checks.end())
       result.checks.push_back(notMade(wanted.check, "", "[acceptance] names a check that is none"));
     else if (found->verdict != Verdict::not_applicable)
-      judgeByUser(wanted.limit, *found);
+      judgeByUser(wanted.limit, "[acceptance] of the scenario", *found);
   }
   for (const Check& check : result.checks)
     if (check.limit_by == LimitBy::user) result.limits = LimitBy::user;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "model/scenario.h"
@@ -11,5 +12,8 @@ namespace ursula {
 /// verdict. Of what could not be judged a limit of the user's lifts only what had no useful limit; naming a check that
 /// was not made is a failure.
 void judgeByUser(const std::vector<AcceptanceLimit>& acceptance, ValidationResult& result);
+
+/// One check by a limit of the user's; `whose` is its basis, in words. Of an unfinished one only the words change.
+void judgeByUser(double limit, const std::string& whose, Check& check);
 
 }  // namespace ursula

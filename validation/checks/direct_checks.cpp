@@ -72,7 +72,8 @@ Check judgeDirect(const std::vector<DirectSample>& direct, const Subject& subjec
       fmt::format("platform accelerations by (36) against Simbody's, under seven sets of torques each; shown for "
                   "t = {:.6g} s, torques {}",
                   shown.t * units.time, motor(shown.where)),
-      fmt::format("it exceeds {:g} of the largest acceleration", useful_share));
+      fmt::format("it exceeds {:g} of the largest acceleration: {}", useful_share,
+                  causeOfRounding(samples, shown.widest_t)));
   out.largest = {shown.largest, shown.largest_t * units.time, motor(shown.largest_where)};
   return out;
 }

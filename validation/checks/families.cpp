@@ -52,7 +52,11 @@ std::vector<Check> judgeDirectDynamics(const Evidence& e) {
 }
 
 std::vector<Check> judgeWindows(const Evidence& e, const std::vector<WindowedReplay>& windows) {
-  return judgeReplay(windows, e.scales.position, e.scales.length, e.scales.forces, e.units());
+  const auto noisiest = std::max_element(e.samples.begin(), e.samples.end(), [](const auto& a, const auto& b) {
+    return a.conditioning.accelerationRounding() < b.conditioning.accelerationRounding();
+  });
+  const std::string cause = noisiest == e.samples.end() ? "" : causeOfRounding(noisiest->conditioning);
+  return judgeReplay(windows, e.scales.position, e.scales.length, e.scales.forces, e.units(), cause);
 }
 
 std::vector<Check> notReplayed(double value, double limit, const std::string& basis, const std::string& why) {
@@ -96,7 +100,7 @@ void lookAtLadder(Evidence& e) {
   const bool torques_hold = std::all_of(e.samples.begin(), e.samples.end(), [](const PointwiseSample& sample) {
     return sample.torque.error <= sample.torque.limit;
   });
-  if (torques_hold) climbOn(*e.scenario, e.plan.torques, e.windows.front(), e.spoil.ladder, e.ladder);
+  if (torques_hold) climbOn(*e.scenario, e.plan.torques, e.windows.front(), rungSettings(e), e.ladder);
 }
 
 std::vector<Check> judgeStabilisedReplay(const Evidence& e) {

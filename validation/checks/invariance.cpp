@@ -79,11 +79,12 @@ Check judgeInvariance(const Invariance& invariance, const std::vector<PointwiseS
     return notMade(invariance.name, "N m", std::string("no answer: ") + refusal.what());
   }
   if (!worst.any) return notMade(invariance.name, "N m", "no instant was compared");
-  Check check = judgedIfUseful(invariance.name, worst.value, limitToJudge(worst, useful_share * torque),
-                               useful_share * torque, "N m", "twice the solver's own rounding: both sides round",
-                               fmt::format("{}, at {} instants; shown for t = {:.6g} s, leg {}", invariance.what,
-                                           samples.size(), worst.t * units.time, worst.where + 1),
-                               fmt::format("it exceeds {:g} of the largest torque", useful_share));
+  Check check = judgedIfUseful(
+      invariance.name, worst.value, limitToJudge(worst, useful_share * torque), useful_share * torque, "N m",
+      "twice the solver's own rounding: both sides round",
+      fmt::format("{}, at {} instants; shown for t = {:.6g} s, leg {}", invariance.what, samples.size(),
+                  worst.t * units.time, worst.where + 1),
+      fmt::format("it exceeds {:g} of the largest torque: {}", useful_share, causeOfRounding(samples, worst.widest_t)));
   check.largest = {worst.largest, worst.largest_t * units.time, placeName(worst.largest_where, false)};
   return check;
 }

@@ -40,7 +40,7 @@ Check judgeReactions(const std::vector<ReactionSample>& reactions, const std::ve
       fmt::format("forces, and moments over the machine's length, at 18 joints against Simbody's mobilizer and "
                   "constraint reactions, at {} instants; shown for t = {:.6g} s, leg {}; the largest is {:.6g} N",
                   samples.size(), worst.t * units.time, worst.where + 1, size * units.force()),
-      fmt::format("it exceeds {:g} of the largest", useful_share));
+      fmt::format("it exceeds {:g} of the largest: {}", useful_share, causeOfRounding(samples, worst.widest_t)));
   check.largest = {worst.largest, worst.largest_t * units.time, placeName(worst.largest_where, false)};
   return check;
 }

@@ -34,14 +34,19 @@ std::size_t stepsOf(const std::vector<WindowedReplay>& windows) {
   return steps;
 }
 
+/// Deviations that grow less within a window are not what makes its limit large.
+constexpr double notable_growth = 100;
+
 /// Which of a limit's parts makes it large at t.
-std::string causeOf(const std::vector<WindowedReplay>& windows, double t) {
+std::string causeOf(const std::vector<WindowedReplay>& windows, double t, const std::string& of_rounding) {
   for (const WindowedReplay& each : windows) {
     if (t > each.window.end()) continue;
     const double integration = each.integration.measured() ? each.integration.at(t).position : 0;
     const double bound = each.window.bound(t, 0, 0);
     if (integration_safety * integration > bound) return "the integration does not converge to that";
-    return fmt::format("deviations grow {:.2g} times within the window", each.window.from_start.back());
+    const double growth = each.window.from_start.back();
+    if (growth < notable_growth && !of_rounding.empty()) return of_rounding;
+    return fmt::format("deviations grow {:.2g} times within the window", growth);
   }
   return "";
 }
@@ -49,7 +54,8 @@ std::string causeOf(const std::vector<WindowedReplay>& windows, double t) {
 /// `useful` 0: any limit says something, but for an infinite one.
 bool isUseless(double limit, double useful) { return useful > 0 ? !(limit <= useful) : !std::isfinite(limit); }
 
-Check judgeMeasure(const std::vector<WindowedReplay>& windows, const Measure& measure, const Units& units) {
+Check judgeMeasure(const std::vector<WindowedReplay>& windows, const Measure& measure, const Units& units,
+                   const std::string& cause) {
   std::string unfinished;
   for (const WindowedReplay& window : windows) {
     if (window.replay.gave_up.empty()) continue;
@@ -73,7 +79,7 @@ Check judgeMeasure(const std::vector<WindowedReplay>& windows, const Measure& me
         notJudgeable(Reason::limit_useless, measure.name, shown.value, shown.widest_limit, measure.unit, measure.basis,
                      fmt::format("{}; at t = {:.6g} s the limit exceeds {:.3g} {}, beyond which it says nothing: {}",
                                  why, shown.widest_t * units.time, measure.useful * units.of(measure.unit),
-                                 measure.unit, causeOf(windows, shown.widest_t)));
+                                 measure.unit, causeOf(windows, shown.widest_t, cause)));
   check.largest = {shown.largest, shown.largest_t * units.time, ""};
   return check;
 }
@@ -85,7 +91,7 @@ double span(const WindowedReplay& window) { return window.window.end() - window.
 }  // namespace
 
 std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, double position_scale, double length,
-                               const LoopForces& forces, const Units& units) {
+                               const LoopForces& forces, const Units& units, const std::string& cause) {
   if (windows.empty()) return {notMade("replay.position", "m", "there was no replay")};
   const auto per_step = [position_scale](const WindowedReplay& window) {
     return errorPerStep(window.integration.measured() ? 0 : window.replay.tolerance, position_scale);
@@ -138,7 +144,7 @@ std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, doubl
   };
   std::vector<Check> checks;
   checks.reserve(measures.size());
-  for (const Measure& measure : measures) checks.push_back(judgeMeasure(windows, measure, units));
+  for (const Measure& measure : measures) checks.push_back(judgeMeasure(windows, measure, units, cause));
   return checks;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "validation/replay/windowed_replay.h"
@@ -9,7 +10,8 @@
 namespace ursula {
 
 /// `replay.position`, `replay.orientation`, `closure.position`, `closure.velocity`, `energy.balance`, over all windows.
+/// `cause`: what makes the accelerations' rounding large, for limits that say nothing because of it.
 std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, double position_scale, double length,
-                               const LoopForces& forces, const Units& units = {});
+                               const LoopForces& forces, const Units& units = {}, const std::string& cause = "");
 
 }  // namespace ursula

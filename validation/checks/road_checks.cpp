@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "model/loops/mujoco/mujoco_loop.h"
+#include "validation/limits/conditioning.h"
 #include "validation/limits/rounding_profile.h"
 #include "validation/samples/place_name.h"
 #include "validation/verdict/worst_share.h"
@@ -37,7 +38,11 @@ Check judgeRoad(const std::vector<RoadSample>& samples, const char* check_name, 
   if (samples.empty()) return notMade(check_name, "N m", "no instant was compared");
   const Worst shown = compareRoads(samples, subjectOf, road, limit);
   double torque = 0;
-  for (const RoadSample& sample : samples) torque = std::max(torque, road(sample).cwiseAbs().maxCoeff());
+  std::string cause;
+  for (const RoadSample& sample : samples) {
+    torque = std::max(torque, road(sample).cwiseAbs().maxCoeff());
+    if (sample.t == shown.widest_t) cause = causeOfRounding(sample.conditioning);
+  }
   Check check = judgedIfUseful(
       check_name, shown.value, limitToJudge(shown, useful_share * torque), useful_share * torque, "N m",
       fmt::format("eps kappa(B) kappa(legs) x || |T|' |w| || x {:g} x the spread measured in turned and rescaled "
@@ -45,7 +50,7 @@ Check judgeRoad(const std::vector<RoadSample>& samples, const char* check_name, 
                   rounding_safety),
       fmt::format("torques against {}, at {} instants; shown for t = {:.6g} s, leg {}", what, samples.size(),
                   shown.t * units.time, shown.where + 1),
-      fmt::format("it exceeds {:g} of the largest torque", useful_share));
+      fmt::format("it exceeds {:g} of the largest torque: {}", useful_share, cause));
   check.largest = {shown.largest, shown.largest_t * units.time, placeName(shown.largest_where, false)};
   return check;
 }

@@ -121,13 +121,17 @@ Check judgeBetween(const Scenario& scenario, const Subject& subject, const std::
   double gap = 0, before = 0;
   try {
     // In that order, not in time: what is largest is then met early.
-    for (double t : goldenInstants(duration, count)) instants.push_back(comparison.at(t));
+    const std::vector<double> golden = goldenInstants(duration, count);
+    foresee(subject, *scenario.trajectory, golden);
+    for (double t : golden) instants.push_back(comparison.at(t));
     std::sort(instants.begin(), instants.end(), [](const Instant& a, const Instant& b) { return a.t < b.t; });
     for (const Instant& instant : instants) {
       gap = std::max(gap, instant.t - before);
       before = instant.t;
     }
-    for (double t : curvedInstants(instants)) comparison.at(t);
+    const std::vector<double> curved = curvedInstants(instants);
+    foresee(subject, *scenario.trajectory, curved);
+    for (double t : curved) comparison.at(t);
   } catch (const PoseError& error) {
     return notMade(check, "N m", std::string("no answer: ") + error.what());
   }

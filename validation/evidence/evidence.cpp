@@ -28,9 +28,10 @@ std::vector<ReactionSample> reactionSamples(const Evidence& evidence) {
   return out;
 }
 
-/// The torques on trial are the right ones to the last bit, wherever somebody asked.
+/// The torques on trial are the right ones to the last bit, wherever somebody asked. Of a subject that wants to
+/// foresee, to whom each question is dear, that is not asked.
 bool answersAs(const AskedTorques& asked, const Evidence& evidence) {
-  return evidence.right || asked.sameFrom(evidence.plan.torques);
+  return evidence.right || (!evidence.plan.foresee && asked.sameFrom(evidence.plan.torques));
 }
 
 /// In the windows of the right torques, with what those say of the integration. True where the first window's is the
@@ -56,8 +57,9 @@ void runReplays(bool ladder, Evidence& evidence) {
   const bool first_is_right = replayWindows(evidence);
   if (ladder) {
     const bool climbed = first_is_right && !spoil.ladder && answersAs(reference.ladder().asked, evidence);
-    evidence.ladder =
-        climbed ? reference.ladder() : climb(scenario, evidence.plan.torques, evidence.windows.front(), spoil.ladder);
+    evidence.ladder = climbed
+                          ? reference.ladder()
+                          : climb(scenario, evidence.plan.torques, evidence.windows.front(), rungSettings(evidence));
     evidence.orders = spoil.lower_order ? observedOrders(scenario, true) : reference.orders();
   }
   evidence.stabilised =
@@ -91,6 +93,10 @@ Evidence gather(const Scenario& given, const Reference& reference, const Subject
   out.plan = reference.plan;
   const auto trajectory = reference.scenario.trajectory;
   out.plan.torques = [subject, trajectory](double t) { return subject.torques(trajectory->at(t)); };
+  if (subject.foresee)
+    out.plan.foresee = [subject, trajectory](const std::vector<double>& instants) {
+      foresee(subject, *trajectory, instants);
+    };
   out.scales = {reference.position_scale, reference.amplification.length(), reference.forces};
 
   out.samples = runPointwise(*out.scenario, subject, reference.instants, reference.profile, reference.simbody());
@@ -100,6 +106,16 @@ Evidence gather(const Scenario& given, const Reference& reference, const Subject
   if (experiments.reactions) out.reactions = reactionSamples(out);
   runReplays(experiments.ladder, out);
   return out;
+}
+
+std::function<void(ReplaySettings&)> rungSettings(const Evidence& evidence) {
+  const auto& spoil = evidence.spoil.ladder;
+  const auto& foresee = evidence.plan.foresee;
+  if (!foresee) return spoil;
+  return [spoil, foresee](ReplaySettings& settings) {
+    settings.foresee = foresee;
+    if (spoil) spoil(settings);
+  };
 }
 
 void lookCloser(Evidence& evidence, std::size_t window) {

@@ -70,6 +70,9 @@ struct Experiments {
 Evidence gather(const Scenario& given, const Reference& reference, const Subject& subject, bool right,
                 const Spoil& spoil, const Experiments& experiments);
 
+/// What is changed in the settings of the ladder's rungs: foreseen where the subject wants that, spoilt for controls.
+std::function<void(ReplaySettings&)> rungSettings(const Evidence& evidence);
+
 /// What a second look at the judged replay of `window` finds: what steps and rounding really do there.
 void lookCloser(Evidence& evidence, std::size_t window);
 

@@ -10,8 +10,12 @@
 namespace ursula {
 namespace {
 
-/// An explanation must leave less than this part of the residual.
+/// A likely part leaves less than this part of the residual.
 constexpr double may_remain = 0.01;
+/// An explanation leaves no more than these limits anywhere (one of the torques found, one of those that the cause
+/// makes), and so little that this is no matter of chance.
+constexpr double may_be_beyond = 2, may_be_chance = 0.1;
+constexpr std::size_t most_named = 4;
 
 /// Where one leg's torque is beyond its limit.
 struct LegDeviation {
@@ -94,6 +98,7 @@ TorqueResidual residualOf(const Scenario& scenario, const ExternalTorques& torqu
     out.motions.push_back(scenario.trajectory->at(torques.file.t[k]));
     out.exact.push_back(torques.noc[k]);
     out.residual.push_back(torques.file.torques[k] - torques.noc[k]);
+    out.limit.push_back(torques.precision[k].array() + torques.samples[k].conditioning.torqueRounding());
   }
   return out;
 }
@@ -123,31 +128,49 @@ std::string percent(double explained) {
   return fmt::format("{:.4f} % of the deviation", 100 * std::max(0.0, explained));
 }
 
+bool explains(const Hypothesis& one) { return one.beyond <= may_be_beyond && one.unexplained <= may_be_chance; }
+
+/// Those that do as well as the best: all that explain everything, else all near the least that remains. First the ones
+/// with the fewest numbers that were fitted, then in the order in which a person would believe them.
+std::vector<Hypothesis> bestOf(const std::vector<Hypothesis>& fitted) {
+  const auto least = std::min_element(fitted.begin(), fitted.end(), [](const Hypothesis& a, const Hypothesis& b) {
+    return a.unexplained < b.unexplained;
+  });
+  const bool any = std::any_of(fitted.begin(), fitted.end(), explains);
+  std::vector<Hypothesis> out;
+  for (const Hypothesis& one : fitted)
+    if (any ? explains(one) : one.unexplained <= 2 * least->unexplained + 1e-9) out.push_back(one);
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.free_numbers < b.free_numbers; });
+  while (out.back().free_numbers > std::max(1, out.front().free_numbers)) out.pop_back();
+  return out;
+}
+
+std::string othersText(const std::vector<Hypothesis>& best) {
+  std::string out;
+  for (std::size_t k = 1; k < best.size() && k < most_named; ++k)
+    out += (k == 1 ? "; as well explained by: " : "; ") + best[k].text;
+  if (best.size() > most_named) out += fmt::format("; and {} more", best.size() - most_named);
+  return out;
+}
+
 std::string causeText(const Scenario& scenario, const ExternalTorques& torques) {
   const TorqueResidual data = residualOf(scenario, torques);
   if (isSinglePrecision(torques))
     return "single precision: every torque is a 24-bit number, off by no more than such numbers are";
   const std::vector<Hypothesis> fitted = fitHypotheses(scenario, data);
   if (fitted.empty()) return "no simple explanation";
-  const auto least = std::min_element(fitted.begin(), fitted.end(), [](const Hypothesis& a, const Hypothesis& b) {
-    return a.unexplained < b.unexplained;
-  });
-  // The first that does as well as the best: they stand in the order in which a person would believe them.
-  std::string others;
-  const Hypothesis* best = nullptr;
-  for (const Hypothesis& hypothesis : fitted) {
-    if (!(hypothesis.unexplained <= 2 * least->unexplained + 1e-9)) continue;
-    if (best == nullptr)
-      best = &hypothesis;
-    else if (hypothesis.free_numbers <= best->free_numbers)
-      others += (others.empty() ? "; as well explained by: " : "; ") + hypothesis.text;
-  }
-  if (best->unexplained < may_remain)
-    return fmt::format("{}, which explains {}{}", best->text, percent(best->explained()), others);
+  const std::vector<Hypothesis> best = bestOf(fitted);
+  const Hypothesis& first = best.front();
+  const std::string how_much = fmt::format("{}, which explains {}", first.text, percent(first.explained()));
+  if (explains(first)) return how_much + othersText(best);
+  if (first.unexplained < may_remain)
+    return fmt::format("a likely part: {}; what remains is up to {:.3g} times the file's precision{}", how_much,
+                       first.beyond, othersText(best));
   const std::string noise = isNoise(data) ? "no pattern from one instant to the next, as of noise or too few digits"
                                           : "no simple explanation";
-  return fmt::format("{}; the best, {}, explains only {}", noise, best->text,
-                     percent(std::max(0.0, best->explained())));
+  return fmt::format("{}; the best, {}, explains only {}", noise, first.text,
+                     percent(std::max(0.0, first.explained())));
 }
 
 }  // namespace

@@ -70,15 +70,18 @@ class SplineLimit {
   LoopForces forces_;
 };
 
+bool covers(const TorqueFile& file, double duration) {
+  const double rounding = timeRounding(file, duration);
+  return !file.t.empty() && file.t.front() <= file.time_precision.front() + rounding &&
+         file.t.back() >= duration - file.time_precision.back() - rounding;
+}
+
 /// Why no spline can stand for the torques over the whole motion; empty where one can.
 std::string missing(const ExternalTorques& torques, double duration, const Units& units) {
   const TorqueFile& file = torques.file;
   if (file.rows() < TorqueSpline::least_samples)
     return fmt::format("too few samples, {}; a quintic spline needs {}", file.rows(), TorqueSpline::least_samples);
-  const double rounding = timeRounding(file, duration);
-  const bool begins = file.t.front() <= file.time_precision.front() + rounding;
-  const bool ends = file.t.back() >= duration - file.time_precision.back() - rounding;
-  if (begins && ends) return "";
+  if (covers(file, duration)) return "";
   return fmt::format("the samples cover {:.6g} to {:.6g} s of a motion from 0 to {:.6g} s", file.t.front() * units.time,
                      file.t.back() * units.time, duration * units.time);
 }
@@ -105,14 +108,13 @@ std::string splineBasis(const SplineLimit& limit, std::size_t rows, const Units&
 
 ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& torques, const Units& units) {
   const double duration = scenario.trajectory->duration();
-  const std::string why = missing(torques, duration, units);
-  if (!why.empty()) {
-    ExternalReplay out;
-    out.not_replayed = why;
-    return out;
-  }
+  ExternalReplay out;
+  out.amplification = std::make_shared<const Amplification>(linearised(scenario));
+  out.covered = covers(torques.file, duration);
+  out.not_replayed = missing(torques, duration, units);
+  if (!out.not_replayed.empty()) return out;
 
-  const Amplification amplification = linearised(scenario);
+  const Amplification& amplification = *out.amplification;
   const auto limit = std::make_shared<const SplineLimit>(scenario, torques, amplification.instants());
   const auto spline = std::make_shared<const TorqueSpline>(torques.file.t, torques.file.torques);
   const double knot_rate = static_cast<double>(torques.file.rows()) / duration;
@@ -126,21 +128,18 @@ ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& t
   const std::vector<GrowthWindow> windows = planWindows(amplification, plan);
   const double useful = useful_replay_limit * limit->length();
   const std::string basis = splineBasis(*limit, torques.file.rows(), units);
-  ExternalReplay out;
   if (const GrowthWindow* window = hopeless(plan, windows, useful)) {
     const double bound = plannedBound(plan, *window);
-    const std::string text = fmt::format(
+    out.not_replayed = fmt::format(
         "too few samples or digits; from t = {:.6g} s the torques' error between samples may move P by "
         "{:.3g} m within {:.3g} s, beyond {:.3g} m a limit says nothing",
         window->start() * units.time, bound * units.length, (window->end() - window->start()) * units.time,
         useful * units.length);
-    out.not_replayed = text;
     out.bound = bound;
     out.spline = basis;
     return out;
   }
   out.plan = plan;
-  out.amplification = std::make_shared<const Amplification>(amplification);
   out.windows = replayInWindows(scenario, plan, windows);
   measureOpening(torques.samples, out.windows);
   out.scales = {limit->positionScale(), limit->length(), limit->forces()};

@@ -18,6 +18,7 @@ struct ExternalReplay {
   std::shared_ptr<const Amplification> amplification;
   ReplayScales scales;
   std::string spline;        ///< what the torques may be off by between the samples, in words
+  bool covered = true;       ///< the instants reach from the start of the motion to its end
   std::string not_replayed;  ///< why the replay cannot be judged, else empty
   double bound = std::numeric_limits<double>::quiet_NaN();  ///< where the limit is why, that limit, m
 };

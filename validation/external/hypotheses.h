@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -12,23 +13,27 @@ struct TorqueResidual {
   std::vector<Motion<double>> motions;
   std::vector<Vector6d> exact;     ///< of the NOC, N·m
   std::vector<Vector6d> residual;  ///< torques on trial less exact, N·m
+  std::vector<Vector6d> limit;     ///< by how much right ones may differ: rounding and the file's digits, N·m
 
   double norm() const;
+  /// The largest share of its limit that an entry of `left`, one row for each instant, has.
+  double beyond(const std::vector<Vector6d>& left) const;
 };
 
 /// One way in which torques may have come to differ.
 struct Hypothesis {
-  std::string text;        ///< "gravity left out"
-  double unexplained = 1;  ///< ‖residual − predicted‖ / ‖residual‖
-  int free_numbers = 0;    ///< that were fitted
+  std::string text;                                         ///< "gravity left out"
+  double unexplained = 1;                                   ///< ‖residual − predicted‖ / ‖residual‖
+  int free_numbers = 0;                                     ///< that were fitted
+  double beyond = std::numeric_limits<double>::infinity();  ///< what remains, in limits, where that is largest
   double explained() const { return 1 - unexplained; }
 };
 
 /// Everything that a person would try, likely and simple ones first, each fitted to the residual by least squares:
-/// terms left out or scaled (gravity, inertia, velocity terms, friction, load, masses), signs and legs swapped, a time
-/// shift, scale factors, offsets, and the formulas as printed. Left out are those that have no effect on this motion
-/// and those with as many free numbers as there are data. The regressors are the NOC's own torques with parameters
-/// changed.
+/// terms left out or scaled (gravity, inertia, velocity terms, friction, load), signs, orders of the legs and units, a
+/// time shift, scale factors, offsets, the formulas as printed, every parameter of the machine and the motion read
+/// otherwise. Left out are those that have no effect on this motion and those with as many free numbers as there are
+/// data. The regressors are the NOC's own torques with parameters changed.
 std::vector<Hypothesis> fitHypotheses(const Scenario& scenario, const TorqueResidual& data);
 
 /// How a scale factor is known to people ("kN m for N m"); empty for one that is not.

@@ -80,6 +80,11 @@ class Collector {
     });
   }
 
+  /// Of the term last added.
+  void setSize(double size) {
+    if (!terms_.empty()) terms_.back().size = size;
+  }
+
   void addLoad() {
     if (scenario_.load)
       add("the load", {}, 1, [&] { return torquesOf(nocSubject(*scenario_.manipulator, nullptr), motions_); });
@@ -120,15 +125,7 @@ void withoutFriction(ManipulatorParameters& machine) {
   }
 }
 
-template <class F>
-void forLinks(ManipulatorParameters& machine, F&& change) {
-  for (Leg& leg : machine.legs) {
-    change(leg.proximal);
-    change(leg.distal);
-  }
-}
-
-void addParts(Collector& out) {
+void addParts(Collector& out, double scenario_gravity) {
   const auto same = [](Motion<double>&) {};
   const auto unaccelerated = [](Motion<double>& motion) {
     motion.omega_dot.setZero();
@@ -141,6 +138,7 @@ void addParts(Collector& out) {
   };
   out.addChange(
       "gravity", [](ManipulatorParameters& machine) { machine.gravity.setZero(); }, 1);
+  out.setSize(scenario_gravity);
   out.addMotionChange("everything that moves (all but statics)", same, at_rest);
   out.addMotionChange("the torques of acceleration (inertia)", same, unaccelerated);
   out.addMotionChange("the torques of velocity (Coriolis, centrifugal, gyroscopic, friction)", unaccelerated, at_rest);
@@ -148,28 +146,13 @@ void addParts(Collector& out) {
   out.addLoad();
 }
 
-/// The torques are linear in masses and inertias: what doubling adds is their part.
-void addMasses(Collector& out) {
-  out.addChange(
-      "the platform's mass", [](ManipulatorParameters& machine) { machine.platform.mass *= 2; }, -1);
-  out.addChange(
-      "the platform's inertia tensor", [](ManipulatorParameters& machine) { machine.platform.inertia *= 2; }, -1);
-  out.addChange(
-      "the links' masses",
-      [](ManipulatorParameters& machine) { forLinks(machine, [](Link& link) { link.mass *= 2; }); }, -1);
-  out.addChange(
-      "the links' inertia tensors",
-      [](ManipulatorParameters& machine) { forLinks(machine, [](Link& link) { link.inertia *= 2; }); }, -1);
-}
-
 }  // namespace
 
 std::vector<TorqueTerm> torqueTerms(const Scenario& scenario, const std::vector<Motion<double>>& motions,
                                     const std::vector<Vector6d>& exact) {
   Collector out(scenario, motions, exact);
-  addParts(out);
+  addParts(out, scenario.manipulator->gravity().norm());
   for (const WrongFormula& part : parts) out.addSlip(part, {}, 1);
-  addMasses(out);
   for (const WrongFormula& formula : printed) out.addSlip(formula, 1.0, -1);
   return out.terms();
 }

@@ -13,9 +13,10 @@ struct TorqueTerm {
   std::string name;
   std::vector<Vector6d> torques;  ///< N·m, one for each motion
   std::optional<double> fixed;    ///< how often it must show in the residual; empty where that is to be found
+  double size = 0;                ///< of what makes it, where people know that: of gravity, m/s²
 };
 
-/// Gravity, inertia, velocity terms, friction, load, masses and inertias as parts; formulas as printed or with terms
+/// Gravity, inertia, velocity terms, friction and load as parts; formulas as printed or with terms
 /// dropped as differences. By the NOC with parameters or motions changed. Those that throw for this motion are left
 /// out.
 std::vector<TorqueTerm> torqueTerms(const Scenario& scenario, const std::vector<Motion<double>>& motions,

@@ -30,9 +30,38 @@ Vector3d endOf(const Replay& replay) {
   return replay.steps.empty() ? Vector3d::Constant(std::nan("")) : replay.steps.back().position_error;
 }
 
-/// The window's replay with the gaps projected away, seen from `presentation`; the error of its end, in B.
-Vector3d projectedEnd(const Scenario& scenario, const ReplayPlan& plan, const WindowedReplay& window,
-                      const Presentation& presentation, std::mutex& asking) {
+/// Instants in a window at which its errors are taken apart, to be drawn.
+constexpr int drawn = 60;
+
+std::vector<double> drawnInstants(const WindowedReplay& window) {
+  const double start = window.window.start(), end = window.replay.steps.back().t;
+  std::vector<double> out;
+  for (int k = 0; k <= drawn; ++k) out.push_back(k == drawn ? end : start + (end - start) * k / drawn);
+  return out;
+}
+
+/// Errors of P at the end of a replay and at the instants that are drawn; in m and B.
+struct Track {
+  Vector3d end;
+  std::vector<Vector3d> along;
+
+  Track(const Replay& replay, const std::vector<double>& instants, const Presentation& from = {}) {
+    const auto back = [&from](const Vector3d& error) -> Vector3d {
+      return from.turn.transpose() * error * from.units.length;
+    };
+    end = back(endOf(replay));
+    for (const double t : instants) {
+      const double there = t / from.units.time;
+      const bool reached = !replay.steps.empty() && there <= replay.steps.back().t * (1 + 1e-12);
+      along.push_back(reached ? back(interpolated(replay, there).position_error)
+                              : Vector3d::Constant(std::nan("")).eval());
+    }
+  }
+};
+
+/// The window's replay with the gaps projected away, seen from `presentation`.
+Track projected(const Scenario& scenario, const ReplayPlan& plan, const WindowedReplay& window,
+                const Presentation& presentation, std::mutex& asking) {
   const Scenario there = presentation.of(scenario);
   const Units& units = presentation.units;
   ReplaySettings settings = settingsOf(scenario, plan, window.window, 1);
@@ -43,7 +72,13 @@ Vector3d projectedEnd(const Scenario& scenario, const ReplayPlan& plan, const Wi
     const std::lock_guard<std::mutex> one_at_a_time(asking);  // the subject may be anybody's
     return presentation.of(plan.torques(t * units.time));
   };
-  return presentation.turn.transpose() * endOf(replay(there, torques, settings)) * units.length;
+  if (plan.foresee)
+    settings.foresee = [&](std::vector<double> instants) {
+      const std::lock_guard<std::mutex> one_at_a_time(asking);
+      for (double& t : instants) t *= units.time;
+      plan.foresee(instants);
+    };
+  return Track(replay(there, torques, settings), drawnInstants(window), presentation);
 }
 
 /// The torques' errors at the samples as accelerations of the platform, [p̈; L ω̇]: linear between the samples.
@@ -92,11 +127,56 @@ ErrorShare integrationShare(const Vector3d& fine, const Vector3d& coarse) {
   return {change / (coarser - 1), change.norm() / (std::sqrt(coarser) - 1)};
 }
 
-Vector3d coarseEnd(const Scenario& scenario, const ReplayPlan& plan, const WindowedReplay& window) {
+Track coarse(const Scenario& scenario, const ReplayPlan& plan, const WindowedReplay& window) {
   ReplaySettings settings = settingsOf(scenario, plan, window.window, coarser);
   settings.end = window.replay.steps.back().t;
   settings.project = true;
-  return endOf(replay(scenario, plan.torques, settings));
+  return Track(replay(scenario, plan.torques, settings), drawnInstants(window));
+}
+
+/// What the shares come from: the judged replay, the projected ones (as judged, then in other presentations), and that
+/// with a coarser tolerance.
+struct Tracks {
+  Track judged, plain;
+  std::vector<Track> turned;
+  Track coarse;
+};
+
+std::vector<ErrorsAt> sharesAlong(const Tracks& tracks, const std::vector<PointwiseSample>& samples,
+                                  const WindowedReplay& window, const Amplification& amplification) {
+  const std::vector<double> instants = drawnInstants(window);
+  const Residual residual(samples);
+  const double scale = positionScale(samples);
+  std::vector<ErrorsAt> out;
+  for (std::size_t k = 0; k < instants.size(); ++k) {
+    const Vector3d observed = tracks.judged.along[k], plain = tracks.plain.along[k];
+    Vector3d mean = Vector3d::Zero();
+    for (const Track& each : tracks.turned) mean += each.along[k] / presentations;
+    const Vector3d integration = integrationShare(plain, tracks.coarse.along[k]).error;
+    const Vector3d model = amplification.carried(window.window.start(), instants[k], residual).head<3>();
+    out.push_back({instants[k], observed.norm(), (plain - mean).norm(), integration.norm(), (observed - plain).norm(),
+                   model.norm(), (mean - integration - model).norm(), replayLimit(window, scale, instants[k])});
+  }
+  return out;
+}
+
+TimeSeries curveOf(const std::vector<ErrorsAt>& along) {
+  const std::pair<const char*, double ErrorsAt::*> columns[] = {{"t_s", &ErrorsAt::t},
+                                                                {"observed (m)", &ErrorsAt::observed},
+                                                                {"rounding (m)", &ErrorsAt::rounding},
+                                                                {"integration (m)", &ErrorsAt::integration},
+                                                                {"loop closure (m)", &ErrorsAt::closure},
+                                                                {"torques (m)", &ErrorsAt::model},
+                                                                {"unexplained (m)", &ErrorsAt::unexplained},
+                                                                {"limit (m)", &ErrorsAt::limit}};
+  TimeSeries curve;
+  for (const auto& [name, member] : columns) {
+    std::vector<double> values;
+    values.reserve(along.size());
+    for (const ErrorsAt& at : along) values.push_back(at.*member);
+    curve.add(name, std::move(values));
+  }
+  return curve;
 }
 
 ErrorSource dominantOf(const ErrorBudget& budget) {
@@ -112,8 +192,39 @@ ErrorSource dominantOf(const ErrorBudget& budget) {
       ->first;
 }
 
-std::string shareText(const ErrorShare& share, const Units& units) {
-  return fmt::format("{:.3g} m +- {:.2g} m", share.error.norm() * units.length, share.uncertainty * units.length);
+std::string shareText(const SourceOfError& source) {
+  return fmt::format("{:.3g} m +- {:.2g} m", source.error, source.uncertainty);
+}
+
+/// In SI.
+ReplayError replayErrorOf(const ErrorBudget& budget, const Units& units) {
+  const auto source = [&units](const ErrorShare& share) {
+    return SourceOfError{share.error.norm() * units.length, share.uncertainty * units.length};
+  };
+  ReplayError out;
+  out.measured = budget.measured;
+  out.t = budget.t * units.time;
+  out.observed = budget.observed.norm() * units.length;
+  out.rounding = source(budget.rounding);
+  out.integration = source(budget.integration);
+  out.closure = source(budget.closure);
+  out.model = source(budget.model);
+  out.unexplained = budget.unexplained().norm() * units.length;
+  out.uncertainty = budget.uncertainty() * units.length;
+  out.amplification = budget.amplification;
+  return out;
+}
+
+void addSources(const ReplayError& found, ValidationResult& result) {
+  const auto add = [&result](const char* what, const std::string& text) { result.findings.emplace_back(what, text); };
+  add("replay, error in position", fmt::format("{:.3g} m at t = {:.6g} s", found.observed, found.t));
+  add("of it by rounding", shareText(found.rounding));
+  add("of it by the integration", shareText(found.integration));
+  add("of it by the loops' gaps", shareText(found.closure));
+  add("of it by the torques", shareText(found.model));
+  add("of it unexplained",
+      fmt::format("{:.3g} m, of an uncertainty of {:.3g} m", found.unexplained, found.uncertainty));
+  add("amplification of a deviation at the start", fmt::format("{:.4g}", found.amplification));
 }
 
 }  // namespace
@@ -158,22 +269,26 @@ ErrorBudget attribute(const Scenario& scenario, const std::vector<PointwiseSampl
   std::vector<Presentation> from = {Presentation{}};
   for (unsigned k = 0; k < presentations; ++k) from.push_back(randomPresentation(k + 101, amplification.length()));
   std::mutex asking;
-  std::vector<std::future<Vector3d>> running;
+  std::vector<std::future<Track>> running;
   for (const Presentation& presentation : from)
     running.push_back(std::async(std::launch::async, [&scenario, &plan, &asking, window, presentation] {
-      return projectedEnd(scenario, plan, *window, presentation, asking);
+      return projected(scenario, plan, *window, presentation, asking);
     }));
-  std::vector<Vector3d> ends;
-  for (auto& each : running) ends.push_back(each.get());
-  const Vector3d coarse = coarseEnd(scenario, plan, *window);
+  std::vector<Track> seen;
+  for (auto& each : running) seen.push_back(each.get());
+  const Tracks tracks{Track(window->replay, drawnInstants(*window)),
+                      seen[0],
+                      {seen.begin() + 1, seen.end()},
+                      coarse(scenario, plan, *window)};
   Vector3d mean = Vector3d::Zero();
-  for (unsigned k = 1; k <= presentations; ++k) mean += ends[k] / presentations;
+  for (const Track& each : tracks.turned) mean += each.end / presentations;
   double spread = 0;
-  for (const Vector3d& end : ends) spread = std::max(spread, (end - mean).norm());
-  budget.closure.error = budget.observed - ends[0];
-  budget.rounding = {ends[0] - mean, spread};  // of the mean of three, and of the judged replay against it
+  for (const Track& each : seen) spread = std::max(spread, (each.end - mean).norm());
+  budget.closure.error = budget.observed - tracks.plain.end;
+  budget.rounding = {tracks.plain.end - mean, spread};  // of the mean of three, and of the judged replay against it
   budget.closure.uncertainty = spread;
-  budget.integration = integrationShare(ends[0], coarse);
+  budget.integration = integrationShare(tracks.plain.end, tracks.coarse.end);
+  budget.along = sharesAlong(tracks, samples, *window, amplification);
   budget.model = modelShare(samples, *window, amplification);
   budget.dominant = dominantOf(budget);
   return budget;
@@ -186,19 +301,14 @@ void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units&
   const ErrorSource dominant = limit_too_large   ? ErrorSource::amplification
                                : budget.measured ? budget.dominant
                                                  : ErrorSource::model;
-  result.findings.emplace_back("dominant error", name(dominant));
-  if (!budget.measured) return;
-  const auto add = [&result](const char* what, const std::string& text) { result.findings.emplace_back(what, text); };
-  add("replay, error in position",
-      fmt::format("{:.3g} m at t = {:.6g} s", budget.observed.norm() * units.length, budget.t * units.time));
-  add("of it by rounding", shareText(budget.rounding, units));
-  add("of it by the integration", shareText(budget.integration, units));
-  add("of it by the loops' gaps", shareText(budget.closure, units));
-  add("of it by the torques", shareText(budget.model, units));
-  add("of it unexplained",
-      fmt::format("{:.3g} m, of an uncertainty of {:.3g} m", budget.unexplained().norm() * units.length,
-                  budget.uncertainty() * units.length));
-  add("amplification of a deviation at the start", fmt::format("{:.4g}", budget.amplification));
+  ReplayError found = replayErrorOf(budget, units);
+  found.dominant = name(dominant);
+  result.findings.emplace_back("dominant error", found.dominant);
+  if (budget.measured) {
+    result.curves.emplace_back("Sources of the replay's error", curveOf(budget.along));
+    addSources(found, result);
+  }
+  result.replay_error = std::move(found);
 }
 
 }  // namespace ursula

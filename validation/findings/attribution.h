@@ -22,6 +22,13 @@ struct ErrorShare {
   double uncertainty = 0;             ///< m
 };
 
+/// The sizes of the shares at one instant, all in m; NaN where a replay did not get there.
+struct ErrorsAt {
+  double t = 0;  ///< s
+  double observed = 0, rounding = 0, integration = 0, closure = 0, model = 0, unexplained = 0;
+  double limit = 0;  ///< of the judged replay
+};
+
 /// What moved the replay off the path, at the instant where it was furthest off among the windows' ends. The shares are
 /// differences of one replay and the next in the row
 ///   the judged replay → the loops' gaps projected away after each step → the same in other presentations, their mean →
@@ -36,7 +43,8 @@ struct ErrorBudget {
   ErrorShare closure;                    ///< from what projecting the gaps away changes
   double amplification = 0;              ///< by which a deviation at the window's start grows: no error of its own
   ErrorSource dominant = ErrorSource::unexplained;
-  bool measured = false;  ///< false where there was no replay to take apart
+  bool measured = false;        ///< false where there was no replay to take apart
+  std::vector<ErrorsAt> along;  ///< the same from the window's start to t, to be drawn
 
   Vector3d unexplained() const;
   /// Of the sum of the shares, m.
@@ -49,7 +57,8 @@ ErrorBudget attribute(const Scenario& scenario, const std::vector<PointwiseSampl
                       const std::vector<WindowedReplay>& windows, const Amplification& amplification,
                       const ReplayPlan& plan);
 
-/// Where a replay's limit, not an error, is what prevents a judgement, amplification dominates.
+/// The findings, and `along` as a curve. Where a replay's limit, not an error, is what prevents a judgement,
+/// amplification dominates.
 void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units& units = {});
 
 }  // namespace ursula

@@ -1,5 +1,6 @@
 #include "validation/findings/curves.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -55,10 +56,30 @@ TimeSeries distances(const std::vector<PointwiseSample>& samples) {
       {{"t_s", t}, {"1/κ(B): 0 in a singular pose", singular}, {"|sin θ|: 0 in a stretched or folded leg", edge}});
 }
 
+void addEvents(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
+               ValidationResult& result) {
+  for (const WindowedReplay& window : windows) {
+    if (&window != &windows.front()) result.events.push_back({window.window.start(), "the replay starts anew"});
+    const Replay& replay = window.replay;
+    if (!replay.gave_up.empty()) result.events.push_back({replay.stopped_at, "the replay stopped"});
+    if (replay.left_path) result.events.push_back({replay.steps.back().t, "the replay left the path"});
+  }
+  if (samples.empty()) return;
+  const auto singular = std::max_element(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
+    return a.conditioning.kappa_B < b.conditioning.kappa_B;
+  });
+  const auto edge = std::min_element(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
+    return a.conditioning.smallest_sine < b.conditioning.smallest_sine;
+  });
+  result.events.push_back({singular->motion.t, "nearest to a singular pose"});
+  result.events.push_back({edge->motion.t, "a leg is nearest to stretched or folded"});
+}
+
 }  // namespace
 
 void addCurves(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
                ValidationResult& result) {
+  addEvents(samples, windows, result);
   if (!windows.empty()) {
     result.curves.emplace_back("Replay against its derived limit", replayAndLimit(windows, positionScale(samples)));
     result.curves.emplace_back("Growth of a deviation at the start of its window", growth(windows));

@@ -10,7 +10,7 @@
 namespace ursula {
 
 /// Curves for the report: the replay's error with its derived limit, how a deviation grows in each window, and the
-/// distance to singular poses and to the workspace's edge along the path.
+/// distance to singular poses and to the workspace's edge along the path; and the events of the replay.
 void addCurves(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
                ValidationResult& result);
 

@@ -33,6 +33,7 @@ void restoreColumns(const Presentation& from, TimeSeries& series) {
 void seriesInSi(const Presentation& from, ValidationResult& result) {
   restoreColumns(from, result.timeseries);
   for (auto& [title, curve] : result.curves) restoreColumns(from, curve);
+  for (Event& event : result.events) event.t *= from.units.time;
 }
 
 }  // namespace ursula

@@ -9,6 +9,8 @@
 #include <functional>
 #include <string>
 
+#include "model/quaternions.h"
+
 namespace ursula {
 namespace {
 
@@ -34,18 +36,6 @@ template <class Rows, class F>
 void addLegs(TimeSeries& series, const std::string& pattern, const Rows& rows, F&& values) {
   for (int i = 0; i < leg_count; ++i)
     addColumn(series, fmt::format(fmt::runtime(pattern), i + 1), rows, [&](const auto& row) { return values(row)(i); });
-}
-
-/// Quaternions [w, x, y, z] of the orientations, w >= 0 at the start and continuous from there.
-std::vector<Eigen::Vector4d> quaternions(const std::vector<Motion<double>>& motions) {
-  std::vector<Eigen::Vector4d> out;
-  for (const Motion<double>& motion : motions) {
-    const Eigen::Quaterniond q(motion.Q);
-    Eigen::Vector4d next(q.w(), q.x(), q.y(), q.z());
-    if (out.empty() ? next(0) < 0 : next.dot(out.back()) < 0) next = -next;
-    out.push_back(next);
-  }
-  return out;
 }
 
 void addMotion(TimeSeries& series, const std::vector<Motion<double>>& motions) {

@@ -211,9 +211,21 @@ Conditioning ConditioningProbe::at(const Motion<double>& motion) {
 }
 
 std::string causeOfRounding(const Conditioning& at) {
-  if (at.weight_ratio > at.kappa_B * at.kappa_legs)
+  const double platform = at.compliance * at.largest_mass, link = at.leg_compliance * at.largest_mass;
+  const double largest = std::max({at.weight_ratio, at.kappa_B, at.kappa_legs, platform, link});
+  if (largest == at.weight_ratio)
     return fmt::format("the forces that close the loops are {:.2g} times the platform's weight", at.weight_ratio);
-  if (at.kappa_B > at.kappa_legs) return fmt::format("a singular pose is near, kappa(B) = {:.2g}", at.kappa_B);
+  if (largest == platform)
+    return fmt::format(
+        "at its joints the platform gives way {:.2g} times as easily as the heaviest body's mass: its mass "
+        "or moments of inertia are small beside the links",
+        platform);
+  if (largest == link)
+    return fmt::format(
+        "at its joint a distal link gives way {:.2g} times as easily as the heaviest body's mass: its mass "
+        "or moments of inertia are small",
+        link);
+  if (largest == at.kappa_B) return fmt::format("a singular pose is near, kappa(B) = {:.2g}", at.kappa_B);
   return fmt::format("leg {} is nearly stretched or folded, |sin theta| = {:.2g}, kappa(legs) = {:.2g}",
                      at.smallest_sine_leg + 1, at.smallest_sine, at.kappa_legs);
 }

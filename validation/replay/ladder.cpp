@@ -15,7 +15,7 @@ constexpr double second_accuracy = 1e-9;
 /// Of the tolerance, at a further rung, where one may have met a kink of the friction by bad luck.
 constexpr double last_rung = 10;
 
-using SpoilSettings = std::function<void(ReplaySettings&)>;
+using ChangeSettings = std::function<void(ReplaySettings&)>;
 
 ReplaySettings settingsOf(const WindowedReplay& finest, Integrator integrator, double tolerance) {
   ReplaySettings settings;
@@ -46,8 +46,8 @@ Rung rungOf(const ReplaySettings& settings, const Replay& run, const Replay& fin
 
 /// One replay beside the judged one.
 Replay replayBeside(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, ReplaySettings settings,
-                    const SpoilSettings& spoil) {
-  if (spoil) spoil(settings);
+                    const ChangeSettings& change) {
+  if (change) change(settings);
   return replay(scenario, torques, settings);
 }
 
@@ -58,14 +58,14 @@ void addRung(const ReplaySettings& settings, const Replay& run, const Replay& fi
 }
 
 void makeRung(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-              double tolerance, const SpoilSettings& spoil, Ladder& ladder) {
+              double tolerance, const ChangeSettings& change, Ladder& ladder) {
   const ReplaySettings settings = settingsOf(finest, Integrator::rkf78, tolerance);
-  addRung(settings, replayBeside(scenario, torques, settings, spoil), finest.replay, ladder.rungs, ladder.asked);
+  addRung(settings, replayBeside(scenario, torques, settings, change), finest.replay, ladder.rungs, ladder.asked);
 }
 
 /// Over the first steps only, a tenth of them at least: it is another integrator that is wanted, not another replay.
 void climbSecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-                 const SpoilSettings& spoil, Ladder& ladder) {
+                 const ChangeSettings& change, Ladder& ladder) {
   const std::vector<ReplayStep>& steps = finest.replay.steps;
   if (steps.size() < 2) return;
   const std::size_t last = std::min(steps.size() - 1, std::max<std::size_t>(20, steps.size() / 10));
@@ -73,7 +73,7 @@ void climbSecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& tor
   const auto run = [&](double accuracy) {
     ReplaySettings settings = settingsOf(finest, Integrator::rk_merson, accuracy);
     settings.end = ladder.second_end;
-    Replay out = replayBeside(scenario, torques, settings, spoil);
+    Replay out = replayBeside(scenario, torques, settings, change);
     addRung(settings, out, finest.replay, ladder.second, ladder.asked);
     return out;
   };
@@ -97,17 +97,17 @@ double order(const Rung& coarse, const Rung& fine) {
 }  // namespace
 
 Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-             const SpoilSettings& spoil) {
+             const ChangeSettings& change) {
   Ladder ladder;
   for (double factor : {1e6, 1e4, coarser}) {
     const double tolerance = std::min(1e-4, factor * finest.replay.tolerance);
-    const bool known = !spoil && finest.coarse && finest.coarse->integrator == Integrator::rkf78 &&
+    const bool known = !change && finest.coarse && finest.coarse->integrator == Integrator::rkf78 &&
                        finest.coarse->tolerance == tolerance && finest.coarse->asked.sameFrom(torques);
     const ReplaySettings settings = settingsOf(finest, Integrator::rkf78, tolerance);
     if (known)
       addRung(settings, *finest.coarse, finest.replay, ladder.rungs, ladder.asked);
     else
-      makeRung(scenario, torques, finest, tolerance, spoil, ladder);
+      makeRung(scenario, torques, finest, tolerance, change, ladder);
   }
   for (std::size_t k = 0; k + 1 < ladder.rungs.size(); ++k)
     ladder.observed_orders.push_back(order(ladder.rungs[k], ladder.rungs[k + 1]));
@@ -119,14 +119,14 @@ Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques
   const double p = ladder.asymptotic ? ladder.observed_orders.back() : 0;
   ladder.extrapolated = last.distance * std::pow(ratio, -p);
   ladder.uncertainty = integration_safety * ladder.extrapolated;
-  climbSecond(scenario, torques, finest, spoil, ladder);
+  climbSecond(scenario, torques, finest, change, ladder);
   ladder.passes_knots = allKnots(scenario).size() > most_knots;
   return ladder;
 }
 
 void climbOn(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-             const SpoilSettings& spoil, Ladder& ladder) {
-  makeRung(scenario, torques, finest, last_rung * finest.replay.tolerance, spoil, ladder);
+             const ChangeSettings& change, Ladder& ladder) {
+  makeRung(scenario, torques, finest, last_rung * finest.replay.tolerance, change, ladder);
 }
 
 }  // namespace ursula

@@ -37,12 +37,12 @@ struct Ladder {
 };
 
 /// `finest` is the judged replay of the window; where its coarser replay would be the same under `torques` it is a rung
-/// already. `spoil`, for controls that must fail, changes the settings of all others.
+/// already. `change`, of the settings of all others.
 Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-             const std::function<void(ReplaySettings&)>& spoil = nullptr);
+             const std::function<void(ReplaySettings&)>& change = nullptr);
 
 /// One rung more, at ten times the judged tolerance.
 void climbOn(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-             const std::function<void(ReplaySettings&)>& spoil, Ladder& ladder);
+             const std::function<void(ReplaySettings&)>& change, Ladder& ladder);
 
 }  // namespace ursula

@@ -36,6 +36,14 @@ Vector3d rotationVector(const Matrix3d& R) {
   return (2 * std::atan2(sine, q.w()) / sine) * q.vec();
 }
 
+/// The instants at which Fehlberg's pair asks for derivatives in a step of h, to the bit.
+std::vector<double> stagesOf(double t, double h) {
+  static const odeint::rk78_coefficients_c<double> nodes;
+  std::vector<double> out;
+  for (double node : nodes) out.push_back(t + node * h);
+  return out;
+}
+
 Motion<double> startOf(const Scenario& scenario, const ReplaySettings& settings) {
   Motion<double> motion = scenario.trajectory->at(settings.start);
   if (settings.deviation.isZero(0)) return motion;
@@ -130,6 +138,7 @@ class Run {
     for (int rejected = 0;; ++rejected) {
       const bool last = t + h * (1 + 1e-12) >= stop;
       if (last) h = stop - t;
+      if (settings_.foresee) settings_.foresee(stagesOf(t, h));
       if (stepper.try_step(rate, x, t, h) == odeint::success) {
         if (last) t = stop;  // not stop's neighbour
         break;

@@ -52,6 +52,7 @@ struct ReplaySettings {
   int instants = 101;            ///< rk_merson only: equally spaced instants at which it is compared
   long max_evaluations = 20000;  ///< more than this is giving up
   bool project = false;          ///< rkf78 only: after each step the legs follow the platform, so that no gap is left
+  std::function<void(const std::vector<double>&)> foresee;  ///< rkf78 only: told what each step will ask torques for, s
   /// rkf78 only, for controls that must fail: spoils the state x = [q, u, …] after each step.
   std::function<void(double t, std::vector<double>& x)> spoil;
   /// The same for the power that the energy is held against: what is added to it, W.

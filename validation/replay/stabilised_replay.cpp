@@ -80,6 +80,13 @@ class Stabilised {
 
   long evaluations() const { return evaluations_; }
 
+  /// A step of Dormand and Prince's pair from t comes.
+  void foreseeStep(const Subject& subject, double t, double h) const {
+    if (subject.foresee)
+      foresee(subject, trajectory_,
+              {t, t + h * (1.0 / 5), t + h * (3.0 / 10), t + h * (4.0 / 5), t + h * (8.0 / 9), t + h});
+  }
+
   void rate(const SimbodyLoop::TorqueHistory& torques, const Deviation& x, Deviation& out, double t) {
     ++evaluations_;
     const Motion<double> commanded = trajectory_.at(t);
@@ -126,9 +133,10 @@ class Stabilised {
   long evaluations_ = 0;
 };
 
-/// From the commanded state to the end of the motion, at the tolerance and the limit of `found`.
-void follow(Stabilised& loop, const SimbodyLoop::TorqueHistory& torques, const Trajectory& trajectory,
-            StabilisedReplay& found) {
+/// From the commanded state to the end of the motion, at the tolerance and the limit of `found`. `torques` are the
+/// subject's.
+void follow(Stabilised& loop, const Subject& subject, const SimbodyLoop::TorqueHistory& torques,
+            const Trajectory& trajectory, StabilisedReplay& found) {
   const auto stepperOf = [](double absolute) {
     return odeint::make_controlled(absolute, three_digits, odeint::runge_kutta_dopri5<Deviation>());
   };
@@ -142,6 +150,7 @@ void follow(Stabilised& loop, const SimbodyLoop::TorqueHistory& torques, const T
   // other, unless no shorter one helps.
   const auto accepted = [&](double& at, double& h) {
     const double tried = h;
+    loop.foreseeStep(subject, at, h);
     try {
       return stepper.try_step(rate, deviation, at, h) == odeint::success;
     } catch (const std::exception&) {
@@ -204,7 +213,7 @@ StabilisedReplay stabilisedReplay(const Scenario& scenario, const Subject& subje
     return found;
   }
   try {
-    follow(loop, found.asked.of(torques), *scenario.trajectory, found);
+    follow(loop, subject, found.asked.of(torques), *scenario.trajectory, found);
   } catch (const std::exception& error) {  // what was found before is kept
     found.stopped = error.what();
     found.gave_up = true;

@@ -113,6 +113,7 @@ ReplaySettings settingsOf(const Scenario& scenario, const ReplayPlan& plan, cons
   settings.start = window.start();
   settings.end = window.end();
   settings.max_evaluations = plan.max_evaluations;
+  settings.foresee = plan.foresee;
   return settings;
 }
 

@@ -18,6 +18,7 @@ struct ReplayPlan {
   double step_rate = 0;                        ///< steps a second that the replay is taken to need, for planning only
   long max_evaluations = 200000;               ///< of the derivatives in one window; more is giving up
   double tolerance = 1e-14;                    ///< of the integrator: reachableTolerance
+  std::function<void(const std::vector<double>&)> foresee = nullptr;  ///< as ReplaySettings has it; may be empty
 };
 
 /// The growth of deviations along the scenario's motion: 300 intervals, and 40 a second where that is more.

@@ -8,6 +8,7 @@ namespace ursula::report {
 extern const std::string_view report_template;  ///< web/report.html
 extern const std::string_view index_template;   ///< web/index.html
 extern const std::string_view report_style;     ///< web/style.css with that of uPlot
-extern const std::string_view report_script;    ///< web/main.js with uPlot
+extern const std::string_view report_script;    ///< web/main.js with uPlot and three.js
+extern const std::string_view index_script;     ///< web/suite.js
 
 }  // namespace ursula::report

@@ -7,10 +7,11 @@
 
 namespace ursula::report {
 
-/// `report.html`: one file that needs no network. Verdict and checks are plain HTML; only the charts need its script.
+/// `report.html`: one file that needs no network. Verdict, checks, drawings and tables are plain
+/// HTML; its script makes the charts and the machine move.
 std::string reportHtml(const ValidationResult& result);
 
-/// `index.html` of a suite; no script at all.
+/// `index.html` of a suite; its script only sorts and filters.
 std::string indexHtml(const std::vector<SuiteEntry>& entries);
 
 }  // namespace ursula::report

@@ -5,76 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
+#include "validation/report/found.h"
+#include "validation/report/plot_builder.h"
 #include "validation/report/text.h"
 
 namespace ursula::report {
 namespace {
 
 constexpr double decades_for_log = 3;
-const char* const time_label = "t (s)";
-
-struct Wanted {
-  std::string column, label, unit;
-  int color = 0;
-  bool ghost = false;
-};
-
-// Without a point of x there is no place to draw at; the charts need x ascending.
-std::vector<std::size_t> order(const std::vector<double>& x) {
-  std::vector<std::size_t> rows;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    if (std::isfinite(x[i])) rows.push_back(i);
-  }
-  std::stable_sort(rows.begin(), rows.end(), [&x](std::size_t a, std::size_t b) { return x[a] < x[b]; });
-  return rows;
-}
-
-std::vector<double> picked(const std::vector<double>& values, const std::vector<std::size_t>& rows) {
-  std::vector<double> result;
-  result.reserve(rows.size());
-  for (const std::size_t row : rows) {
-    result.push_back(row < values.size() ? values[row] : std::numeric_limits<double>::quiet_NaN());
-  }
-  return result;
-}
-
-void addOverTime(const TimeSeries& series, Plot plot, const std::vector<Wanted>& wanted, std::vector<Plot>& plots) {
-  const std::vector<double>* t = series.find("t_s");
-  if (t == nullptr) return;
-  const std::vector<std::size_t> rows = order(*t);
-  plot.x_label = time_label;
-  plot.over_time = true;
-  plot.x = picked(*t, rows);
-  for (const Wanted& line : wanted) {
-    const std::vector<double>* values = series.find(line.column);
-    if (values == nullptr) continue;
-    plot.lines.push_back({line.label, line.unit, line.color, line.ghost, picked(*values, rows)});
-  }
-  if (!plot.lines.empty() && !plot.x.empty()) plots.push_back(std::move(plot));
-}
-
-std::vector<Wanted> torqueLines() {
-  const char* const subscripts[] = {"₁", "₂", "₃", "₄", "₅", "₆"};
-  std::vector<Wanted> lines;
-  lines.reserve(6);
-  for (int leg = 0; leg < 6; ++leg) {
-    lines.push_back({fmt::format("tau_{}_Nm", leg + 1), std::string("τ") + subscripts[leg], "N·m", leg});
-  }
-  return lines;
-}
-
-std::vector<Wanted> positionLines() {
-  const char* const axes[] = {"x", "y", "z"};
-  std::vector<Wanted> lines;
-  for (int i = 0; i < 3; ++i) {
-    const std::string axis = axes[i];
-    lines.push_back({"p_" + axis + "_m", axis + " commanded", "m", i, true});
-    lines.push_back({"sim_p_" + axis + "_m", axis + " simulated", "m", i});
-  }
-  return lines;
-}
 
 /// Zero, where an error starts from, has no place on a logarithmic axis and is left out.
 struct Span {
@@ -92,51 +31,95 @@ struct Span {
   bool isWide() const { return positive && most > least && std::log10(most / least) > decades_for_log; }
 };
 
+/// "rounding (m)" → "rounding", "m".
+Line lineOf(const std::string& column, int color) {
+  const std::size_t open = column.rfind(" (");
+  const bool has_unit = open != std::string::npos && column.back() == ')';
+  Line line;
+  line.label = has_unit ? column.substr(0, open) : column;
+  line.unit = has_unit ? column.substr(open + 2, column.size() - open - 3) : "";
+  line.color = color;
+  const bool is_limit = line.label.find("limit") != std::string::npos;
+  line.stroke = is_limit ? Stroke::limit : line.label == "observed" ? Stroke::ghost : Stroke::line;
+  return line;
+}
+
+/// The unit that all lines share, or "" where they do not.
+std::string commonUnit(const Plot& plot) {
+  for (const Line& line : plot.lines)
+    if (line.unit != plot.lines.front().unit) return "";
+  return plot.lines.front().unit;
+}
+
 Plot curvePlot(const std::string& title, const TimeSeries& curve) {
   Plot plot;
   plot.title = title;
-  const std::vector<std::size_t> rows = order(curve.columns.front());
+  plot.group = title == sources_curve                     ? PlotGroup::sources
+               : title.find("limit") != std::string::npos ? PlotGroup::errors
+                                                          : PlotGroup::numerics;
+  const std::vector<std::size_t> rows = ascending(curve.columns.front());
   plot.x_label = curve.names.front();
   plot.x = picked(curve.columns.front(), rows);
+  plot.rows = rows.size();
   Span x, y;
   x.include(plot.x);
   for (std::size_t i = 1; i < curve.columns.size(); ++i) {
-    plot.lines.push_back({curve.names[i], "", static_cast<int>(i) - 1, false, picked(curve.columns[i], rows)});
+    plot.lines.push_back(lineOf(curve.names[i], static_cast<int>(i) - 1));
+    plot.lines.back().values = picked(curve.columns[i], rows);
     y.include(plot.lines.back().values);
   }
-  if (plot.lines.size() == 1) plot.y_label = plot.lines.front().label;
+  const std::string unit = commonUnit(plot);
+  plot.y_label = plot.lines.size() == 1 ? curve.names[1] : unit.empty() ? "" : (unit == "m" ? "error (m)" : unit);
   // Time is read evenly; any other x goes with a logarithmic y, so that a power law is a straight line.
   plot.over_time = plot.x_label == "t_s";
-  if (plot.over_time) plot.x_label = time_label;
+  if (plot.over_time) plot.x_label = "t (s)";
   plot.log_y = y.isWide() || (!plot.over_time && x.isWide() && y.positive);
   plot.log_x = !plot.over_time && x.positive && plot.log_y;
   return plot;
+}
+
+/// The least and the largest of values[from, to), in the order in which they come; NaN where there is none.
+std::pair<double, double> extremes(const std::vector<double>& values, std::size_t from, std::size_t to) {
+  std::size_t low = to, high = to;
+  for (std::size_t k = from; k < to; ++k) {
+    if (!std::isfinite(values[k])) continue;
+    if (low == to || values[k] < values[low]) low = k;
+    if (high == to || values[k] > values[high]) high = k;
+  }
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  if (low == to) return {none, none};
+  return low < high ? std::pair(values[low], values[high]) : std::pair(values[high], values[low]);
 }
 
 }  // namespace
 
 std::vector<Plot> plots(const ValidationResult& result) {
   std::vector<Plot> plots;
-  const TimeSeries& series = result.timeseries;
-  Plot errors;
-  errors.log_y = true;
-  Plot replay = errors, closure = errors, torques, position;
-  torques.title = "Actuator torques";
-  torques.y_label = "torque (N·m)";
-  replay.title = "Replay: simulated against commanded pose";
-  replay.y_label = "error (m, rad)";
-  closure.title = "Closure of the loops";
-  closure.y_label = "error (m, m/s)";
-  position.title = "Position of P";
-  position.y_label = "position (m)";
-  addOverTime(series, torques, torqueLines(), plots);
-  addOverTime(series, replay, {{"error_p_m", "position", "m", 0}, {"error_q_rad", "orientation", "rad", 1}}, plots);
-  addOverTime(series, closure, {{"closure_p_m", "position", "m", 0}, {"closure_v_m_s", "velocity", "m/s", 1}}, plots);
-  addOverTime(series, position, positionLines(), plots);
   for (const auto& [title, curve] : result.curves) {
     if (curve.columns.size() > 1 && curve.rows() > 0) plots.push_back(curvePlot(title, curve));
   }
+  addSeriesPlots(result.timeseries, plots);
+  std::stable_sort(plots.begin(), plots.end(), [](const Plot& a, const Plot& b) { return a.group < b.group; });
   return plots;
+}
+
+Plot thinned(const Plot& plot, std::size_t buckets) {
+  if (plot.x.size() <= 2 * buckets) return plot;
+  Plot out = plot;
+  out.x.clear();
+  for (Line& line : out.lines) line.values.clear();
+  const std::size_t rows = plot.x.size();
+  for (std::size_t bucket = 0; bucket < buckets; ++bucket) {
+    const std::size_t from = bucket * rows / buckets, to = (bucket + 1) * rows / buckets;
+    out.x.push_back(plot.x[from]);
+    out.x.push_back(plot.x[to - 1]);
+    for (std::size_t i = 0; i < plot.lines.size(); ++i) {
+      const auto [first, second] = extremes(plot.lines[i].values, from, to);
+      out.lines[i].values.push_back(first);
+      out.lines[i].values.push_back(second);
+    }
+  }
+  return out;
 }
 
 bool isDrawable(const Plot& plot, const Line& line) {
@@ -148,6 +131,7 @@ std::string inWords(const Plot& plot) {
   const Line* largest = nullptr;
   std::size_t row = 0;
   for (const Line& line : plot.lines) {
+    if (line.stroke == Stroke::limit && plot.lines.size() > 1) continue;
     for (std::size_t i = 0; i < line.values.size() && isDrawable(plot, line); ++i) {
       const double magnitude = std::abs(line.values[i]);
       if (!std::isfinite(magnitude)) continue;

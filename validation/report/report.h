@@ -25,6 +25,10 @@ SuiteEntry suiteEntry(const ValidationResult& result, std::filesystem::path fold
 /// The verdict's reason in one sentence: how many checks failed and the worst, or how close the closest came.
 std::string reason(Verdict verdict, const std::vector<Check>& checks);
 
+/// "Right to 0.03 %: the largest deviation is 7.4 N m of 25066 N m, leg 3 at t = 2.97 s; …": what errors of that size
+/// do, and the smallest --rtol that would pass.
+std::string sentence(const EffortDeviation& deviation);
+
 /// value / limit, 0 for values below zero; NaN without a value or without a finite limit that is not negative.
 double limitShare(const Check& check);
 

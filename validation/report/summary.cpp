@@ -23,6 +23,17 @@ Json checkJson(const Check& check) {
           {"largest", {{"value", check.largest.value}, {"t_s", check.largest.t}, {"where", check.largest.where}}}};
 }
 
+Json deviationJson(const EffortDeviation& deviation) {
+  return {{"largest", deviation.largest},
+          {"relative", deviation.relative()},
+          {"t_s", deviation.t},
+          {"where", deviation.where},
+          {"largest_effort", deviation.largest_effort},
+          {"smallest_rtol", deviation.smallestRelative()},
+          {"drift_m", deviation.drift},
+          {"allowed", deviation.allowed}};
+}
+
 // A key that comes twice keeps both texts.
 Json object(const std::vector<std::pair<std::string, std::string>>& facts) {
   Json json = Json::object();
@@ -37,13 +48,15 @@ Json object(const std::vector<std::pair<std::string, std::string>>& facts) {
 std::string summaryJson(const ValidationResult& result) {
   Json checks = Json::array();
   for (const Check& check : result.checks) checks.push_back(checkJson(check));
-  const Json summary = {{"scenario", result.scenario},
-                        {"verdict", name(result.verdict)},
-                        {"limits", name(result.limits)},
-                        {"reason", reason(result.verdict, result.checks)},
-                        {"checks", checks},
-                        {"findings", object(result.findings)},
-                        {"provenance", object(result.provenance)}};
+  const std::string deviation = result.deviation ? " " + sentence(*result.deviation) : "";
+  Json summary = {{"scenario", result.scenario},
+                  {"verdict", name(result.verdict)},
+                  {"limits", name(result.limits)},
+                  {"reason", reason(result.verdict, result.checks) + deviation},
+                  {"checks", checks},
+                  {"findings", object(result.findings)},
+                  {"provenance", object(result.provenance)}};
+  if (result.deviation) summary["deviation"] = deviationJson(*result.deviation);
   return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

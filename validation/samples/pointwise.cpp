@@ -181,6 +181,7 @@ std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subjec
   const Subject right = nocSubject(*scenario.manipulator, scenario.load);
   std::vector<PointwiseSample> samples;
   samples.reserve(instants.size());
+  foresee(subject, *scenario.trajectory, instants);
   std::bitset<std::size(deviations)> confirmed;  // by a second look: no further one is needed
   for (std::size_t k = 0; k < instants.size(); ++k) {
     const Motion<double> motion = scenario.trajectory->at(instants[k]);
@@ -204,6 +205,13 @@ std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subjec
                                           const std::vector<double>& instants) {
   return runPointwise(scenario, subject, instants,
                       RoundingProfile(scenario, profileInstants(static_cast<int>(instants.size()))));
+}
+
+std::string causeOfRounding(const std::vector<PointwiseSample>& samples, double t) {
+  if (samples.empty()) return "";
+  const auto at = std::lower_bound(samples.begin(), samples.end(), t,
+                                   [](const PointwiseSample& each, double x) { return each.motion.t < x; });
+  return causeOfRounding((at == samples.end() ? samples.back() : *at).conditioning);
 }
 
 }  // namespace ursula

@@ -32,6 +32,7 @@ std::vector<RoadSample> runRoads(const std::vector<RoadTorques>& roads, const st
     const PointwiseSample& sample = samples[k];
     RoadSample road;
     road.t = sample.motion.t;
+    road.conditioning = sample.conditioning;
     road.subject = sample.torques;
     road.simbody = sample.torques_simbody;
     road.twin = roads[k].twin;

@@ -15,6 +15,7 @@ struct RoadSample {
   double limit_twin = 0, limit_maximal = 0, limit_mujoco = 0;  ///< of rounding between subject and road, N·m
   std::optional<Vector6d> mujoco;                              ///< N·m; none in a build without MuJoCo
   double limit = 0;                                            ///< of rounding between any two, N·m
+  Conditioning conditioning;
 };
 
 /// Those of one instant that do not depend on the subject, N·m.

@@ -188,6 +188,11 @@ Subject presented(const Subject& subject, const Vector3d& origin, const Units& u
   Subject out;
   out.name = subject.name;
   out.torques = [=](const Motion<double>& motion) { return to.of(subject.torques(from.of(motion))); };
+  if (subject.foresee)
+    out.foresee = [=](std::vector<Motion<double>> motions) {
+      for (Motion<double>& motion : motions) motion = from.of(motion);
+      subject.foresee(motions);
+    };
   if (subject.kinematics)
     out.kinematics = [=](const Motion<double>& motion) {
       return answerIn(to, from, subject.kinematics(from.of(motion)));

@@ -52,6 +52,14 @@ Vector6d loadAtP(const Load* load, const Motion<double>& motion) {
   return out;
 }
 
+void foresee(const Subject& subject, const Trajectory& trajectory, const std::vector<double>& instants) {
+  if (!subject.foresee) return;
+  std::vector<Motion<double>> motions;
+  motions.reserve(instants.size());
+  for (double t : instants) motions.push_back(trajectory.at(t));
+  subject.foresee(motions);
+}
+
 Subject nocSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load) {
   return makeSubject("noc", manipulator, load, Corrected{});
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "model/joint_variables.h"
 #include "model/load.h"
@@ -29,6 +30,9 @@ struct Subject {
   std::function<KinematicAnswer(const Motion<double>&)> kinematics;  ///< empty where only torques are judged
   /// [ω̇; p̈] of the platform under torques, state as commanded; empty where the subject solves no direct dynamics.
   std::function<Vector6d(const Motion<double>&, const Vector6d& torques)> accelerations;
+  /// Told beforehand which motions torques will be asked for, for a subject that answers many at once sooner than one
+  /// by one; empty where that is of no use. Changes no answer.
+  std::function<void(const std::vector<Motion<double>>&)> foresee;
   /// The same solver for another machine, for invariances; empty where the subject is not a solver.
   std::function<Subject(const Manipulator&)> rebuilt;
 };
@@ -41,6 +45,9 @@ Subject nocSubject(const Manipulator& manipulator, const std::shared_ptr<const L
 
 /// The same with formulas that are wrong: a control that must fail.
 Subject slippedSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load, const WithSlips& slips);
+
+/// Tells the subject, where it wants to know, that it will be asked at these instants of the trajectory, s.
+void foresee(const Subject& subject, const Trajectory& trajectory, const std::vector<double>& instants);
 
 /// [moment about P; force], in B, of a load on the platform at `motion`; zero where `load` is null.
 Vector6d loadAtP(const Load* load, const Motion<double>& motion);

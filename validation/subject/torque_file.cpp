@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "model/csv.h"
 
@@ -16,13 +17,6 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr int no_digit = std::numeric_limits<int>::max();
 
 std::string torqueName(int leg) { return fmt::format("tau_{}_Nm", leg + 1); }
-
-bool isOurs(const std::string& name) {
-  if (name == "t_s") return true;
-  for (int i = 0; i < leg_count; ++i)
-    if (name == torqueName(i)) return true;
-  return false;
-}
 
 /// The power of ten of the first significant digit.
 int firstPlace(double value) { return static_cast<int>(std::floor(std::log10(std::abs(value)))); }
@@ -138,22 +132,48 @@ TorqueFile torquesOf(const CsvTable& table) {
 
 }  // namespace
 
-TorqueFile readTorqueFile(const std::filesystem::path& file) { return torquesOf(readCsv(file, {isOurs, true})); }
+TorqueFile readTorqueFile(const std::filesystem::path& file, const ColumnMap& map) {
+  return parseTorqueFile(readCsvText(file), file, map);
+}
 
-TorqueFile parseTorqueFile(const std::string& text, const std::filesystem::path& file) {
-  return torquesOf(parseCsv(text, file, {isOurs, true}));
+TorqueFile parseTorqueFile(const std::string& text, const std::filesystem::path& file, const ColumnMap& map) {
+  const TorqueColumns columns = readTorqueColumns(text, file, map);
+  TorqueFile out = torquesOf(columns.table);
+  out.read_as = columns.read_as;
+  return out;
 }
 
 double timeRounding(const TorqueFile& file, double duration) {
   return eps * duration * static_cast<double>(std::max<std::size_t>(4, file.rows()));
 }
 
+namespace {
+
+/// What instants look like that are not those of the motion, in words; empty where nothing does.
+std::string likelyInstants(const TorqueFile& file, double duration) {
+  const double first = file.t.front(), last = file.t.back(), rows = static_cast<double>(file.rows());
+  const auto near = [](double value, double expected) { return std::abs(value / expected - 1) < 0.01; };
+  for (const auto& [power, name, unit] : {std::tuple{1e3, "milliseconds", "t_ms"}, {1e6, "microseconds", "t_us"}})
+    if (near(last, power * duration))
+      return fmt::format(
+          "; they look like {}: the last one is {:g} times the motion's duration. If they are, say so: "
+          "--map {}=COLUMN",
+          name, power, unit);
+  if (file.rows() >= 3 && (first == 0 || first == 1) && last - first == rows - 1) return "; they look like row numbers";
+  if (first != 0 && near(last - first, duration))
+    return fmt::format("; they look shifted by {:.6g} s: they last as long as the motion", first);
+  return "";
+}
+
+}  // namespace
+
 TorqueFile within(TorqueFile file, double duration) {
+  const std::string likely = likelyInstants(file, duration);
   for (std::size_t k = 0; k < file.rows(); ++k) {
     const double rounding = file.time_precision[k] + timeRounding(file, duration);
     if (!(file.t[k] >= -rounding && file.t[k] <= duration + rounding))
-      throw CsvError(fmt::format("{}:{}: error: t_s = {} lies outside of the motion, expected 0 to {} s",
-                                 file.file.string(), file.lines[k], file.t[k], duration));
+      throw CsvError(fmt::format("{}:{}: error: t_s = {} lies outside of the motion, expected 0 to {} s{}",
+                                 file.file.string(), file.lines[k], file.t[k], duration, likely));
     file.t[k] = std::clamp(file.t[k], 0.0, duration);
   }
   return file;

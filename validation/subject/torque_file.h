@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/scalar.h"
+#include "validation/subject/torque_columns.h"
 
 namespace ursula {
 
@@ -24,25 +25,27 @@ struct TorqueFile {
   std::vector<Vector6d> torque_precision;  ///< N·m
   std::vector<int> lines;                  ///< of each row, 1-based
   std::vector<std::string> ignored;        ///< columns that are none of ours
+  std::string read_as;                     ///< what was taken for what; empty for a file as the contract has it
   int digits = 0;                          ///< most significant digits of a torque
   bool all_single = false;                 ///< every torque is a number of single precision
 
   std::size_t rows() const { return t.size(); }
 };
 
-/// Reads `t_s` and `tau_{1..6}_Nm`, in any order. Throws CsvError (`file:line: error: …`) as readCsv does, and for
-/// instants that repeat or do not increase.
-TorqueFile readTorqueFile(const std::filesystem::path& file);
+/// Reads `t_s` and `tau_{1..6}_Nm`, in any order, or what readTorqueColumns() takes for them. Throws CsvError
+/// (`file:line: error: …`) as that and readCsv do, and for instants that repeat or do not increase.
+TorqueFile readTorqueFile(const std::filesystem::path& file, const ColumnMap& map = {});
 
 /// The same from text; `file` names it in errors.
-TorqueFile parseTorqueFile(const std::string& text, const std::filesystem::path& file);
+TorqueFile parseTorqueFile(const std::string& text, const std::filesystem::path& file, const ColumnMap& map = {});
 
 /// What an instant near `duration` may be off by where its writer added one step to the instant before, s: half an eps
 /// for each row, and as much again for the step's own rounding. At least four eps.
 double timeRounding(const TorqueFile& file, double duration);
 
 /// The same torques with every instant in [0, duration]: those beyond by no more than rounding (of doubles, and as
-/// printed) are put on the end. Throws CsvError naming the line of one that is further out.
+/// printed) are put on the end. Throws CsvError naming the line of one that is further out,
+/// and what the instants look like.
 TorqueFile within(TorqueFile file, double duration);
 
 }  // namespace ursula

@@ -42,6 +42,8 @@ const char* name(Reason reason) {
       return "not_made";
     case Reason::not_applicable:
       return "not_applicable";
+    case Reason::reported:
+      return "reported";
   }
   throw std::logic_error("no such reason");
 }
@@ -86,6 +88,13 @@ Verdict overall(const std::vector<Check>& checks) {
   if (anyIs(checks, Verdict::fail)) return Verdict::fail;
   if (anyIs(checks, Verdict::inconclusive)) return Verdict::inconclusive;
   return anyIs(checks, Verdict::pass) ? Verdict::pass : Verdict::fail;  // of nothing judged
+}
+
+double EffortDeviation::smallestRelative() const {
+  const double least = relative();
+  if (!(least > 0)) return least;
+  const double digit = std::pow(10.0, std::floor(std::log10(least)) - 2);
+  return std::ceil(least / digit * (1 + 1e-12)) * digit;
 }
 
 void TimeSeries::add(std::string column_name, std::vector<double> values) {

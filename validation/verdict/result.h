@@ -1,10 +1,14 @@
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace ursula {
+
+struct Picture;
 
 /// `not_applicable` is of checks alone: it needs what is not there, and counts neither as passed nor as failed.
 enum class Verdict { pass, fail, inconclusive, not_applicable };
@@ -20,6 +24,7 @@ enum class Reason {
   not_covered,     ///< something that it needs is not there: samples, digits, a part of the motion
   not_made,        ///< it could not be made at all: a failure
   not_applicable,  ///< it needs what neither scenario nor subject nor build has
+  reported,        ///< shown, not judged: at a tolerance of the user's only the efforts are
 };
 
 /// "none", "limit_useless", …
@@ -85,6 +90,48 @@ struct TimeSeries {
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
 };
 
+/// Something that happened at one instant, to be marked where things are drawn over time.
+struct Event {
+  double t = 0;  ///< s
+  std::string what;
+};
+
+/// How far the efforts on trial are from the expected ones, at most.
+struct EffortDeviation {
+  double largest = 0;         ///< N·m
+  double t = 0;               ///< s
+  std::string where;          ///< "leg 3"
+  double largest_effort = 0;  ///< of the expected ones along the motion, N·m
+  double drift = 0;     ///< how far errors of that size may move the platform by the end, open loop, m; NaN: unknown
+  double duration = 0;  ///< of the motion, s
+  double length = 0;    ///< of the machine, m: a drift beyond says that the motion is lost
+  double allowed = 0;   ///< by a tolerance of the user's, N·m; 0 where there is none
+
+  double relative() const { return largest / largest_effort; }
+  /// The smallest `--rtol` that would pass alone; rounded up to three digits.
+  double smallestRelative() const;
+};
+
+/// What one source contributed to the replay's error in position, m.
+struct SourceOfError {
+  double error = 0, uncertainty = 0;
+};
+
+/// What moved the judged replay off the path.
+struct ReplayError {
+  std::string dominant;        ///< "model", "integration", "rounding", "closure", "amplification" or "unexplained"
+  bool measured = false;       ///< false where there was no replay to take apart: the rest is empty
+  double t = 0, observed = 0;  ///< where it ended furthest off, s and m
+  SourceOfError rounding, integration, closure, model;
+  double unexplained = 0, uncertainty = 0;  ///< of the sum of the sources, m
+  double amplification = 0;                 ///< by which a deviation at the window's start grows
+};
+
+/// Of torques that are wrong: which, and what may have made them so, in words.
+struct LikelyCause {
+  std::string off, cause;
+};
+
 /// What one scenario's validation found. Provenance keeps its order: (key, value as text).
 struct ValidationResult {
   std::string scenario;
@@ -94,10 +141,16 @@ struct ValidationResult {
   std::vector<std::pair<std::string, std::string>> provenance;
   /// Facts that are not judged: step counts, condition numbers, the dominant error, …
   std::vector<std::pair<std::string, std::string>> findings;
+  std::optional<ReplayError> replay_error;   ///< none where the caller left it out
+  std::optional<LikelyCause> likely_cause;   ///< none where none is known
+  std::size_t replay_windows = 0;            ///< in which the motion was replayed
+  std::optional<EffortDeviation> deviation;  ///< none where no effort was compared
   TimeSeries timeseries;
   /// Curves for the report beside the time series, each with columns of its own (work against precision, amplification,
   /// …).
   std::vector<std::pair<std::string, TimeSeries>> curves;
+  std::vector<Event> events;               ///< replays that start anew or stop, the poses nearest to a limit
+  std::shared_ptr<const Picture> picture;  ///< the machine and what it was asked; null where none was made
 };
 
 }  // namespace ursula

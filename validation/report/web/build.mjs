@@ -1,4 +1,4 @@
-// Bundles script and style of the report, and notes which sources they were made of.
+// Bundles scripts and style of the report, and notes which sources they were made of.
 // usage: node build.mjs FOLDER, with node_modules beside this file; ./dev bundle calls it
 import { build } from "esbuild";
 import { createHash } from "node:crypto";
@@ -16,22 +16,26 @@ async function bundled(entry, extra) {
     bundle: true,
     minify: true,
     write: false,
-    target: "es2020",
+    target: "es2022",
     legalComments: "inline",
     ...extra,
   });
   return result.outputFiles[0].text;
 }
 
-const license = `/*! uPlot\n${await read("node_modules/uplot/LICENSE")}*/`;
+const license = async (name) => `${name}\n${await read(`node_modules/${name}/LICENSE`)}`;
+const uplot = `/*! ${await license("uplot")}*/`;
+const both = `/*! ${await license("uplot")}\n${await license("three")}*/`;
+const script = { format: "iife", charset: "ascii" };
 const files = {
-  "report.css": await bundled("style.css", { banner: { css: license } }),
-  "report.js": await bundled("main.js", { format: "iife", charset: "ascii", banner: { js: license } }),
+  "report.css": await bundled("style.css", { banner: { css: uplot } }),
+  "report.js": await bundled("main.js", { ...script, banner: { js: both } }),
+  "index.js": await bundled("suite.js", script),
 };
 for (const [name, text] of Object.entries(files)) {
   if (text.includes(')ursula"')) throw new Error(`${name} holds the delimiter of its C++ literal`);
+  if (name.endsWith(".js") && /<\/script|<!--/i.test(text)) throw new Error(`${name} cannot stand inside <script>`);
 }
-if (/<\/script|<!--/i.test(files["report.js"])) throw new Error("the script cannot stand inside <script>");
 
 // What the bundle is made of; the templates go into the program as they are. CMake compares, so that it notices what is stale.
 const sources = (await readdir(here)).filter((name) => /\.(m?js|css|json)$/.test(name)).sort();

@@ -1,6 +1,17 @@
-// The report is complete without this script but for its charts: it only folds the details of checks and draws.
-import { foldDetails } from "./details.js";
-import { drawCharts } from "./charts.js";
+// The report is complete without this script: it makes charts live, lets the machine move and links both by one time.
+import { Clock } from "./clock.js";
+import { drawCharts } from "./plots.js";
+import { addPlayer } from "./player.js";
+import { addStage } from "./stage.js";
+import { watchTheme } from "./theme.js";
 
-foldDetails(document);
-drawCharts(document, JSON.parse(document.getElementById("plots").textContent));
+const data = JSON.parse(document.getElementById("data").textContent);
+const over_time = data.plots.filter((plot) => plot.overTime);
+const duration = data.machine ? data.machine.t.at(-1) : Math.max(0, ...over_time.map((plot) => plot.x.at(-1) ?? 0));
+const clock = new Clock(duration);
+
+document.documentElement.classList.add("live");
+drawCharts(document, data, clock);
+const stage = data.machine ? addStage(document.getElementById("stage"), data.machine, clock) : null;
+if (duration > 0) addPlayer(document, data.events, clock, stage);
+watchTheme(() => stage?.repaint());

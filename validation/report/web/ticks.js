@@ -6,7 +6,8 @@ export function isDecade(value) {
 
 const superscripts = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 
-function powerOfTen(exponent) {
+/** "10⁻³" */
+export function powerOfTen(exponent) {
   const digits = [...String(Math.abs(exponent))].map((digit) => superscripts[digit]).join("");
   return `10${exponent < 0 ? "⁻" : ""}${digits}`;
 }

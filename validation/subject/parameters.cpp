@@ -1,9 +1,9 @@
+#include "validation/subject/parameters.h"
+
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
 #include <array>
-
-#include "validation/prove/defects.h"
 
 namespace ursula {
 namespace {
@@ -13,8 +13,17 @@ using VectorOf = std::function<Vector3d&(Machine&)>;
 using NumberOf = std::function<double&(Machine&)>;
 using TensorOf = std::function<Matrix3d&(Machine&)>;
 
+/// What `of` reads of a machine that stays as it is.
+template <class Of>
+std::function<double(const Machine&)> reading(const Of& of) {
+  return [of](const Machine& machine) {
+    Machine copy = machine;
+    return static_cast<double>(of(copy));
+  };
+}
+
 void addNumber(std::vector<Parameter>& out, const std::string& name, const std::string& group, const NumberOf& of) {
-  out.push_back({name, group, [of](Machine& machine, double relative) { of(machine) *= 1 + relative; }});
+  out.push_back({name, group, [of](Machine& machine, double relative) { of(machine) *= 1 + relative; }, reading(of)});
 }
 
 void addVector(std::vector<Parameter>& out, const std::string& name, const std::string& group, const VectorOf& of) {
@@ -24,7 +33,8 @@ void addVector(std::vector<Parameter>& out, const std::string& name, const std::
                    [of, k](Machine& machine, double relative) {
                      const double size = of(machine).norm();
                      of(machine)(k) += relative * (size > 0 ? size : 1);  // of one metre where the vector is zero
-                   }});
+                   },
+                   reading([of, k](Machine& machine) { return of(machine)(k); })});
 }
 
 void addTensor(std::vector<Parameter>& out, const std::string& name, const TensorOf& of) {
@@ -35,24 +45,27 @@ void addTensor(std::vector<Parameter>& out, const std::string& name, const Tenso
   const std::array<Entry, 6> entries{
       {{"xx", 0, 0}, {"yy", 1, 1}, {"zz", 2, 2}, {"xy", 0, 1}, {"xz", 0, 2}, {"yz", 1, 2}}};
   for (const Entry& entry : entries)
-    out.push_back({name + "." + entry.name, "inertia", [of, entry](Machine& machine, double relative) {
+    out.push_back({name + "." + entry.name, "inertia",
+                   [of, entry](Machine& machine, double relative) {
                      Matrix3d& I = of(machine);
                      const double change = relative * I.cwiseAbs().maxCoeff();
                      I(entry.i, entry.j) += change;
                      if (entry.i != entry.j) I(entry.j, entry.i) += change;
-                   }});
+                   },
+                   reading([of, entry](Machine& machine) { return of(machine)(entry.i, entry.j); })});
 }
 
 /// The axis turned about two directions across it.
 void addAxis(std::vector<Parameter>& out, const std::string& name, std::size_t leg) {
   for (int k = 0; k < 2; ++k)
-    out.push_back(
-        {fmt::format("{}.{}", name, k == 0 ? "across" : "along"), "axis", [leg, k](Machine& machine, double relative) {
-           Vector3d& u = machine.legs[leg].base_axis;
-           const Vector3d across = u.unitOrthogonal();
-           const Vector3d about = k == 0 ? across : Vector3d(u.normalized().cross(across));
-           u = Eigen::AngleAxisd(relative, about) * u;
-         }});
+    out.push_back({fmt::format("{}.{}", name, k == 0 ? "across" : "along"), "axis",
+                   [leg, k](Machine& machine, double relative) {
+                     Vector3d& u = machine.legs[leg].base_axis;
+                     const Vector3d across = u.unitOrthogonal();
+                     const Vector3d about = k == 0 ? across : Vector3d(u.normalized().cross(across));
+                     u = Eigen::AngleAxisd(relative, about) * u;
+                   },
+                   nullptr});
 }
 
 void addLink(std::vector<Parameter>& out, const std::string& name, const std::function<Link&(Machine&)>& of) {
@@ -97,17 +110,6 @@ std::vector<Parameter> allParameters() {
   addTensor(out, "platform.inertia", [](Machine& m) -> Matrix3d& { return m.platform.inertia; });
   for (std::size_t i = 0; i < leg_count; ++i) addLeg(out, i);
   return out;
-}
-
-Subject disturbedSubject(const Scenario& scenario, const Parameter& parameter, double relative) {
-  const auto rebuilt = [&parameter, relative](const Manipulator& manipulator) {
-    ManipulatorParameters machine = manipulator.parameters();
-    parameter.disturb(machine, relative);
-    return Manipulator(machine);
-  };
-  Subject subject = nocSubject(rebuilt(*scenario.manipulator), scenario.load);
-  subject.name = fmt::format("noc with {} off by {:g}", parameter.name, relative);
-  return subject;
 }
 
 }  // namespace ursula

@@ -1,0 +1,28 @@
+#include "apps/torque_option.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstdio>
+
+namespace ursula {
+
+void addMapOption(CLI::App& verb, std::vector<std::string>& map) {
+  verb.add_option("--map", map,
+                  "A torque file's own name for a column, as in tau_1_Nm=tau1 or t_ms=Time; may be repeated")
+      ->type_name("NAME=COLUMN")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
+}
+
+TorqueFile readTorquesAloud(const std::string& file, const std::vector<std::string>& map) {
+  const TorqueFile torques = readTorqueFile(file, parseColumnMap(map));
+  if (!torques.read_as.empty()) fmt::print(stderr, "{}: read as: {}\n", file, torques.read_as);
+  if (!torques.ignored.empty())
+    fmt::print(stderr, "{}: ignoring columns that are none of t_s, tau_1_Nm … tau_6_Nm: {}\n", file,
+               fmt::join(torques.ignored, ", "));
+  return torques;
+}
+
+}  // namespace ursula

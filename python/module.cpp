@@ -1,0 +1,58 @@
+#include <pybind11/pybind11.h>
+#include <ursula/build.h>
+#include <ursula/scenario.h>
+#include <ursula/solver.h>
+
+#include <exception>
+
+#include "python/motion.h"
+#include "python/scenario.h"
+#include "python/validation.h"
+#include "python/words.h"
+
+namespace {
+
+namespace py = pybind11;
+
+/// Python's PoseError, with the numbers of ours.
+void raisePoseError(const ursula::PoseError& error) {
+  const py::object type = py::module_::import("ursula._ursula").attr("PoseError");
+  py::object out = type(error.what());
+  out.attr("leg") = error.leg() < 0 ? py::object(py::none()) : py::int_(error.leg() + 1);
+  out.attr("instant") = error.instant();
+  out.attr("measure") = error.measure();
+  out.attr("bound") = error.bound();
+  PyErr_SetObject(type.ptr(), out.ptr());
+}
+
+void addErrors(py::module_& module) {
+  py::register_exception<ursula::ScenarioError>(module, "ScenarioError", PyExc_ValueError).doc() =
+      "A scenario that cannot be read: file, line, column, what, and what was expected.";
+  py::register_exception<ursula::UndeterminedPose>(module, "UndeterminedPose", PyExc_ValueError).doc() =
+      "Actuated angles that do not determine the platform's pose.";
+  py::register_exception<ursula::PoseError>(module, "PoseError", PyExc_ValueError).doc() =
+      "A pose that the legs cannot take, or that is singular. leg: 1 to 6, or None; instant, s; measure and bound: "
+      "the\n"
+      "number that tells, and what it had to keep to.";
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    if (!thrown) return;
+    try {
+      std::rethrow_exception(thrown);
+    } catch (const ursula::PoseError& error) {
+      raisePoseError(error);
+    } catch (const ursula::CsvError& error) {  // of a table that a scenario names
+      PyErr_SetString(py::module_::import("ursula._ursula").attr("ScenarioError").ptr(), error.what());
+    }
+  });
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_ursula, module) {
+  module.doc() = ursula::python::words::module;
+  module.attr("__version__") = URSULA_VERSION;
+  addErrors(module);
+  ursula::python::addMotion(module);
+  ursula::python::addScenario(module);
+  ursula::python::addValidation(module);
+}

@@ -1,0 +1,161 @@
+#include "python/motion.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <string>
+
+#include "python/words.h"
+
+namespace ursula::python {
+namespace py = pybind11;
+namespace {
+
+using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+Array numbers(const py::handle& values, const char* what) {
+  const Array out = Array::ensure(values);
+  if (!out) {
+    PyErr_Clear();
+    throw py::value_error(std::string(what) + ": expected numbers");
+  }
+  return out;
+}
+
+std::string shapeOf(const py::array& array) { return py::str(array.attr("shape")); }
+
+/// Entries of every row, without a copy: `first` points to those of row 0. Keeps `self` alive, cannot be written to.
+py::array view(const py::object& self, const double* first, std::vector<py::ssize_t> shape,
+               std::vector<py::ssize_t> strides) {
+  const auto& rows = self.cast<const Motions&>().rows;
+  shape.insert(shape.begin(), static_cast<py::ssize_t>(rows.size()));
+  strides.insert(strides.begin(), sizeof(Motion<double>));
+  py::array out(py::dtype::of<double>(), shape, strides, first, self);
+  py::detail::array_proxy(out.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return out;
+}
+
+const double* dataOf(const double& value) { return &value; }
+template <class Matrix>
+const double* dataOf(const Matrix& value) {
+  return value.data();
+}
+
+template <class Member>
+auto member(Member Motion<double>::*which, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides) {
+  return [=](const py::object& self) {
+    static const Motion<double> none;
+    const auto& rows = self.cast<const Motions&>().rows;
+    return view(self, dataOf((rows.empty() ? none : rows.front()).*which), shape, strides);
+  };
+}
+
+Matrix3d orientationOf(const double* q, std::size_t row) {
+  const Eigen::Quaterniond given(q[0], q[1], q[2], q[3]);
+  if (!(std::abs(given.norm() - 1) <= 1e-3))
+    throw py::value_error("q[" + std::to_string(row) + "]: length " + std::to_string(given.norm()) +
+                          ", expected a unit quaternion [w, x, y, z]");
+  return given.normalized().toRotationMatrix();
+}
+
+/// As many rows as `count`; nothing given is zero.
+void fill(std::vector<Motion<double>>& rows, const py::object& values, Vector3d Motion<double>::*which,
+          const char* what) {
+  if (values.is_none()) return;
+  const Array given = rowsOf(values, 3, what);
+  if (static_cast<std::size_t>(given.shape(0)) != rows.size())
+    throw py::value_error(std::string(what) + ": shape " + shapeOf(given) + ", expected (" +
+                          std::to_string(rows.size()) + ", 3) as there are so many instants");
+  for (std::size_t k = 0; k < rows.size(); ++k) rows[k].*which = Eigen::Map<const Vector3d>(given.data() + 3 * k);
+}
+
+void refuseNoNumbers(const std::vector<Motion<double>>& rows) {
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const Motion<double>& row = rows[k];
+    if (!std::isfinite(row.t) || !row.p.allFinite() || !row.p_dot.allFinite() || !row.omega.allFinite() ||
+        !row.p_ddot.allFinite() || !row.omega_dot.allFinite())
+      throw py::value_error("row " + std::to_string(k) + " of the motion holds a value that is not finite");
+  }
+}
+
+Motions made(const py::object& t, const py::object& p, const py::object& q, const py::object& v, const py::object& w,
+             const py::object& a, const py::object& alpha) {
+  const Array instants = columnOf(t, "t"), orientations = rowsOf(q, 4, "q");
+  Motions out;
+  out.rows.resize(static_cast<std::size_t>(instants.shape(0)));
+  if (orientations.shape(0) != instants.shape(0))
+    throw py::value_error("q: shape " + shapeOf(orientations) + ", expected as many rows as t has");
+  for (std::size_t k = 0; k < out.rows.size(); ++k) {
+    out.rows[k].t = instants.data()[k];
+    out.rows[k].Q = orientationOf(orientations.data() + 4 * k, k);
+  }
+  fill(out.rows, p, &Motion<double>::p, "p");
+  fill(out.rows, v, &Motion<double>::p_dot, "v");
+  fill(out.rows, w, &Motion<double>::omega, "w");
+  fill(out.rows, a, &Motion<double>::p_ddot, "a");
+  fill(out.rows, alpha, &Motion<double>::omega_dot, "alpha");
+  refuseNoNumbers(out.rows);
+  return out;
+}
+
+Motions row(const Motions& motion, py::ssize_t k) {
+  const auto count = static_cast<py::ssize_t>(motion.rows.size());
+  if (k < -count || k >= count) throw py::index_error("no such row of the motion");
+  return {{motion.rows[static_cast<std::size_t>(k < 0 ? k + count : k)]}};
+}
+
+Motions slice(const Motions& motion, const py::slice& which) {
+  std::size_t start = 0, stop = 0, step = 0, count = 0;
+  if (!which.compute(motion.rows.size(), &start, &stop, &step, &count)) throw py::error_already_set();
+  Motions out;
+  for (std::size_t k = 0; k < count; ++k, start += step) out.rows.push_back(motion.rows[start]);
+  return out;
+}
+
+}  // namespace
+
+py::array_t<double> rowsOf(const py::handle& values, py::ssize_t width, const char* what) {
+  Array given = numbers(values, what);
+  if (given.ndim() == 1 && given.shape(0) == width) given = given.reshape({py::ssize_t{1}, width});
+  if (given.ndim() != 2 || given.shape(1) != width)
+    throw py::value_error(std::string(what) + ": shape " + shapeOf(given) + ", expected (N, " + std::to_string(width) +
+                          ")");
+  return given;
+}
+
+py::array_t<double> columnOf(const py::handle& values, const char* what) {
+  Array given = numbers(values, what);
+  if (given.ndim() == 0) given = given.reshape({py::ssize_t{1}});
+  if (given.ndim() != 1)
+    throw py::value_error(std::string(what) + ": shape " + shapeOf(given) + ", expected (N,) or a number");
+  return given;
+}
+
+void addMotion(py::module_& module) {
+  using M = Motion<double>;
+  constexpr py::ssize_t size = sizeof(double);
+  py::class_<Motions>(module, "Motion", words::motion)
+      .def(py::init(&made), py::arg("t"), py::arg("p"), py::arg("q"), py::arg("v") = py::none(),
+           py::arg("w") = py::none(), py::arg("a") = py::none(), py::arg("alpha") = py::none())
+      .def_property_readonly("t", member(&M::t, {}, {}), "Instants, s: (N,).")
+      .def_property_readonly("p", member(&M::p, {3}, {size}), "Position of P in B, m: (N, 3).")
+      .def_property_readonly("Q", member(&M::Q, {3, 3}, {size, 3 * size}), "Orientation of M in B: (N, 3, 3).")
+      .def_property_readonly(
+          "q",
+          [](const Motions& motion) {
+            return table(quaternions(motion.rows), 4,
+                         [](const Eigen::Vector4d& q, double* to) { Eigen::Map<Eigen::Vector4d>{to} = q; });
+          },
+          words::q)
+      .def_property_readonly("v", member(&M::p_dot, {3}, {size}), "Velocity of P in B, m/s: (N, 3).")
+      .def_property_readonly("w", member(&M::omega, {3}, {size}), "Angular velocity in B, rad/s: (N, 3).")
+      .def_property_readonly("a", member(&M::p_ddot, {3}, {size}), "Acceleration of P in B, m/s²: (N, 3).")
+      .def_property_readonly("alpha", member(&M::omega_dot, {3}, {size}), "Angular acceleration in B, rad/s²: (N, 3).")
+      .def("__len__", [](const Motions& motion) { return motion.rows.size(); })
+      .def("__getitem__", &row, py::arg("row"))
+      .def("__getitem__", &slice, py::arg("rows"))
+      .def("__repr__", [](const Motions& motion) {
+        return "<ursula.Motion of " + std::to_string(motion.rows.size()) + " instants>";
+      });
+}
+
+}  // namespace ursula::python

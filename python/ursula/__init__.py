@@ -1,0 +1,42 @@
+"""Whether the closed-form dynamics of a six-legged U-R-S parallel manipulator are right, and why.
+
+NumPy in and out; rows are instants; SI units; frames: B is the base's, M the platform's.
+
+    s = ursula.read_scenario("scenarios/paper-helix.toml")
+    m = s.motion(numpy.linspace(0, s.duration, 301))
+    tau = s.inverse_dynamics(m)                    # (301, 6), N m
+    r = ursula.validate(s, solver=my_torques)      # my_torques(m) -> (N, 6)
+    print(r.verdict, r.reason)
+"""
+
+from ._ursula import (
+    Check,
+    Motion,
+    Pose,
+    PoseError,
+    Result,
+    Scenario,
+    ScenarioError,
+    UndeterminedPose,
+    __version__,
+    read_scenario,
+    validate,
+)
+
+__all__ = [
+    "Check",
+    "Motion",
+    "Pose",
+    "PoseError",
+    "Result",
+    "Scenario",
+    "ScenarioError",
+    "UndeterminedPose",
+    "__version__",
+    "read_scenario",
+    "validate",
+]
+
+for _each in (Check, Motion, Pose, PoseError, Result, Scenario, ScenarioError, UndeterminedPose):
+    _each.__module__ = __name__
+del _each

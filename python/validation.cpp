@@ -1,0 +1,158 @@
+#include "python/validation.h"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+#include <ursula/report.h>
+#include <ursula/validate.h>
+
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "python/motion.h"
+#include "python/scenario.h"
+#include "python/words.h"
+
+namespace ursula::python {
+namespace py = pybind11;
+namespace {
+
+std::string atInstant(const Motion<double>& motion) { return " at t = " + std::to_string(motion.t) + " s"; }
+
+/// The solver's answer to `motions`: N × 6 finite numbers, and nothing else.
+std::vector<Vector6d> torquesOf(const py::object& answer, const std::vector<Motion<double>>& motions) {
+  const std::string expected = ", expected (" + std::to_string(motions.size()) + ", 6)";
+  const py::array any = py::array::ensure(answer);
+  if (!any) PyErr_Clear();
+  if (!any || std::string("fiu").find(any.dtype().kind()) == std::string::npos)
+    throw py::value_error("the solver's answer" + atInstant(motions.front()) + " is of type " +
+                          std::string(py::str(py::type::of(answer).attr("__name__"))) + " and no array of numbers" +
+                          expected);
+  const auto given = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(any);
+  if (given.ndim() != 2 || static_cast<std::size_t>(given.shape(0)) != motions.size() || given.shape(1) != leg_count)
+    throw py::value_error("the solver's answer to " + std::to_string(motions.size()) + " instants has shape " +
+                          std::string(py::str(given.attr("shape"))) + expected);
+  std::vector<Vector6d> out;
+  out.reserve(motions.size());
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    out.emplace_back(Eigen::Map<const Vector6d>(given.data() + leg_count * k));
+    for (int i = 0; i < leg_count; ++i)
+      if (!std::isfinite(out.back()(i)))
+        throw py::value_error("the solver's torque " + std::to_string(i + 1) + atInstant(motions[k]) + " is " +
+                              std::to_string(out.back()(i)) + ", expected a finite number, N m");
+  }
+  return out;
+}
+
+std::string nameOf(const py::object& solver) {
+  return py::str(py::getattr(solver, "__qualname__", py::type::of(solver).attr("__name__")));
+}
+
+/// The scenario with the tolerance given, if any.
+Scenario tolerant(Scenario scenario, std::optional<double> rtol, std::optional<double> atol) {
+  for (const auto& [name, value] : {std::pair("rtol", rtol), {"atol", atol}})
+    if (value && !(*value > 0 && std::isfinite(*value)))
+      throw py::value_error(std::string(name) + " is " + std::to_string(*value) + ", expected a positive number");
+  if (rtol || atol) scenario.tolerance = EffortTolerance{rtol.value_or(0), atol.value_or(0)};
+  return scenario;
+}
+
+ValidationResult validated(const ScenarioWithSolver& given, const py::object& solver, std::optional<double> rtol,
+                           std::optional<double> atol, const py::object& name) {
+  const Scenario scenario = tolerant(given.scenario, rtol, atol);
+  if (solver.is_none()) {
+    const py::gil_scoped_release unlocked;
+    return validate(scenario);
+  }
+  if (PyCallable_Check(solver.ptr()) == 0) throw py::type_error("solver: expected a function of a Motion");
+  OutsideSolver outside;
+  outside.name = name.is_none() ? nameOf(solver) : std::string(py::str(name));
+  // By reference: what copies this holds no lock.
+  outside.torques = [&solver](const std::vector<Motion<double>>& motions) {
+    const py::gil_scoped_acquire locked;
+    return torquesOf(solver(Motions{motions}), motions);
+  };
+  const py::gil_scoped_release unlocked;
+  return validateOutside(scenario, outside);
+}
+
+py::dict seriesOf(const ValidationResult& result) {
+  py::dict out;
+  for (std::size_t k = 0; k < result.timeseries.names.size(); ++k) {
+    const std::vector<double>& column = result.timeseries.columns[k];
+    out[py::str(result.timeseries.names[k])] =
+        py::array_t<double>(static_cast<py::ssize_t>(column.size()), column.data());
+  }
+  return out;
+}
+
+template <class Pairs>
+py::dict dictOf(const Pairs& pairs) {
+  py::dict out;
+  for (const auto& [key, value] : pairs) out[py::str(key)] = value;
+  return out;
+}
+
+void addCheck(py::module_& module) {
+  py::class_<Check>(module, "Check", words::check)
+      .def_readonly("name", &Check::name, "`group.what`, as in \"torque.pointwise\".")
+      .def_readonly("value", &Check::value, "In `unit`.")
+      .def_readonly("limit", &Check::limit, "In `unit`.")
+      .def_readonly("unit", &Check::unit)
+      .def_property_readonly(
+          "verdict", [](const Check& check) { return ursula::name(check.verdict); },
+          "\"pass\", \"fail\", \"inconclusive\" or \"not_applicable\".")
+      .def_readonly("basis", &Check::basis, "Where the limit comes from.")
+      .def_readonly("why", &Check::why, "What was found: which leg or body, when, how much.")
+      .def_property_readonly(
+          "reason", [](const Check& check) { return ursula::name(check.reason); },
+          "Why it is not judged by value and limit: \"none\" where it is.")
+      .def("__repr__",
+           [](const Check& check) { return "<ursula.Check " + check.name + ": " + ursula::name(check.verdict) + ">"; });
+}
+
+void addResult(py::module_& module) {
+  using Result = ValidationResult;
+  py::class_<Result>(module, "Result", words::result)
+      .def_readonly("scenario", &Result::scenario, "Its name.")
+      .def_property_readonly(
+          "verdict", [](const Result& result) { return ursula::name(result.verdict); },
+          "\"pass\", \"fail\" or \"inconclusive\".")
+      .def_property_readonly(
+          "reason", [](const Result& result) { return ursula::reason(result.verdict, result.checks); },
+          "The verdict's, in one sentence.")
+      .def_property_readonly(
+          "checks", [](const Result& result) { return result.checks; }, "All checks, in their order: a list of Check.")
+      .def_property_readonly(
+          "findings", [](const Result& result) { return dictOf(result.findings); }, "Facts that are not judged.")
+      .def_property_readonly("timeseries", &seriesOf,
+                             "The columns of timeseries.csv, each (N,): motion, torques, errors.")
+      .def_property_readonly(
+          "summary",
+          [](const Result& result) { return py::module_::import("json").attr("loads")(report::summaryJson(result)); },
+          "What summary.json holds, as a dict.")
+      .def(
+          "write",
+          [](const Result& result, const std::filesystem::path& dir) {
+            const py::gil_scoped_release unlocked;
+            writeResults(result, dir);
+          },
+          py::arg("dir"), "Writes summary.json, timeseries.csv, report.html and junit.xml into a folder.")
+      .def("__repr__", [](const Result& result) {
+        return "<ursula.Result " + result.scenario + ": " + ursula::name(result.verdict) + ">";
+      });
+}
+
+}  // namespace
+
+void addValidation(py::module_& module) {
+  addCheck(module);
+  addResult(module);
+  module.def("validate", &validated, py::arg("s"), py::arg("solver") = py::none(), py::kw_only(),
+             py::arg("rtol") = py::none(), py::arg("atol") = py::none(), py::arg("name") = py::none(), words::validate);
+}
+
+}  // namespace ursula::python

@@ -1,0 +1,70 @@
+#pragma once
+
+// What `help(ursula)` says.
+
+namespace ursula::python::words {
+
+constexpr const char* module =
+    "Whether the closed-form dynamics of a six-legged U-R-S parallel manipulator are right, and why.\n\n"
+    "NumPy in and out; rows are instants; SI units; frames: B is the base's, M the platform's.";
+
+constexpr const char* motion =
+    "Motion(t, p, q, v=None, w=None, a=None, alpha=None)\n\n"
+    "Pose, twist and twist rate of the platform at N instants. Arrays are views that cannot be written to.\n\n"
+    "t: instants, s, (N,) or a number. p: position of P in B, m, (N, 3). q: unit quaternions [w, x, y, z] of M in B,\n"
+    "(N, 4), normalised. v, w, a, alpha: velocity of P, m/s, angular velocity, rad/s, and their rates, in B, (N, 3);\n"
+    "zero where left out. m[k] and m[i:j] are motions, too. Raises ValueError for other shapes and what is not finite.";
+
+constexpr const char* q =
+    "Orientation of M in B as unit quaternions [w, x, y, z]: (N, 4). w >= 0 in the first, and each on the side of the "
+    "one "
+    "before.";
+
+constexpr const char* read_scenario =
+    "Reads and checks a scenario file (TOML). Raises ScenarioError, with file, line and column.";
+
+constexpr const char* scenario = "A machine, what it is asked to do, and how that is judged; made by read_scenario.";
+
+constexpr const char* at =
+    "The commanded motion at t, s: (N,) or a number. Instants outside of [0, duration] are those of the\n"
+    "motion's smooth continuation. Raises ValueError for what is not finite.";
+
+constexpr const char* inverse_dynamics =
+    "Torques of the motors for a motion of N instants, N m: (N, 6), by (37). Positive about -u_i, conjugate to the "
+    "rate of\n"
+    "phi_i. The scenario's load acts at each t. The same numbers, to the last bit, as `ursula inverse` writes.\n"
+    "Raises PoseError where the legs cannot take a pose, or it is singular.";
+
+constexpr const char* forward_dynamics =
+    "Accelerations (a, alpha) of the platform under torques tau, N m, (N, 6), in the states of a motion of N "
+    "instants,\n"
+    "by (36): of P, m/s², and angular, rad/s², in B, each (N, 3). The motion's own a and alpha are not read.\n"
+    "Raises PoseError as inverse_dynamics does.";
+
+constexpr const char* inverse_kinematics =
+    "Joint variables for a motion of N instants, as a dict of arrays (N, 6): phi, psi, theta, rad; phidot, psidot,\n"
+    "thetadot, rad/s; phiddot, psiddot, thetaddot, rad/s². Raises PoseError as inverse_dynamics does.";
+
+constexpr const char* direct_kinematics =
+    "Every real pose of the platform for six actuated angles phi, rad, at most eight, as a list of Pose: first those\n"
+    "that assemble. Raises UndeterminedPose where the angles leave the platform free to move, ValueError unless they\n"
+    "are six finite numbers, and RuntimeError where a pose may be missing.";
+
+constexpr const char* validate =
+    "The whole validation of a scenario: a Result.\n\n"
+    "solver: what is judged instead of this program's own solver, a function f(m) that gives the torques (N, 6),\n"
+    "N m, for a Motion of N instants, any number. It is called by one thread at a time, in any order of instants.\n"
+    "What needs a second machine, kinematics or direct dynamics is not applicable then.\n\n"
+    "rtol, atol: torques pass that are off by no more, relative to the largest effort of the motion, and N m; both\n"
+    "are added. Where both are left out, [acceptance] torque of the scenario holds, else rounding. name: of the\n"
+    "solver, for the results; its own where left out.\n\n"
+    "Raises what the solver raises, as it was raised; ValueError where it answers with another shape or with what is\n"
+    "not finite; PoseError where the commanded motion is out of reach or singular.";
+
+constexpr const char* result = "What one validation found.";
+
+constexpr const char* check =
+    "One statement that was judged. It passes exactly if value <= limit; basis says where the limit comes from, why\n"
+    "what was found.";
+
+}  // namespace ursula::python::words

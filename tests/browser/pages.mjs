@@ -1,0 +1,69 @@
+// Opens written reports in Chromium, as a reader would: from a folder, offline. What the browser tests share.
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import { createRequire } from "node:module";
+import path from "node:path";
+import { pathToFileURL } from "node:url";
+
+// SAMPLES_DIR: what report_samples wrote; PACKAGE_DIR: where node_modules is.
+const [samples, packages, chromium_path] = process.argv.slice(2).map((argument) => path.resolve(argument));
+const require = createRequire(path.join(packages, "package.json"));
+const { chromium } = require("playwright-core");
+const args = ["--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-background-networking"];
+
+let browser;
+const pages = [];
+export const launch = async () => (browser = await chromium.launch({ executablePath: chromium_path, args }));
+export const close = () => browser?.close();
+export const closePages = () => Promise.all(pages.splice(0).map((page) => page.close()));
+export const sample = (file) => readFile(path.join(samples, file), "utf8");
+
+// What the driver says of its own software renderer is no complaint of the page.
+const of_driver = /GL Driver Message|GPU stall due to ReadPixels/;
+
+/** A page at `file`, with all that it complained of and asked for. */
+export async function opened(file, options = {}) {
+  const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, ...options });
+  pages.push(page);
+  page.setDefaultTimeout(60000);
+  const complaints = [];
+  const requests = [];
+  page.on("console", (message) => message.type() !== "log" && !of_driver.test(message.text()) && complaints.push(message.text()));
+  page.on("pageerror", (error) => complaints.push(String(error)));
+  page.on("dialog", (dialog) => complaints.push(`dialog ${dialog.message()}`) && dialog.dismiss());
+  page.on("request", (request) => requests.push(request.url()));
+  const url = String(pathToFileURL(path.join(samples, file)));
+  await page.goto(url);
+  return { page, url, complaints, requests };
+}
+
+export function assertQuietAndOffline({ url, complaints, requests }) {
+  assert.deepEqual(complaints, []);
+  assert.deepEqual(requests.filter((request) => request !== url && !/^(data|blob):/.test(request)), []);
+}
+
+/** How many colours a canvas holds: 1 is an empty one. */
+export const colorsOf = (canvas) => {
+  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+  return new Set(new Uint32Array(data.buffer)).size;
+};
+
+/** Every chart is made when it comes near the screen: goes there. */
+export async function drawAll(page) {
+  for (const host of await page.locator("[data-plot]").all()) {
+    await host.scrollIntoViewIfNeeded();
+    await host.locator("canvas").waitFor();
+  }
+}
+
+/** A picture of the machine as it is seen. */
+export const machineSeen = (page) => page.locator(".screen").screenshot();
+
+/** What axe finds serious or worse. */
+export async function seriousFindings(page) {
+  await page.evaluate(await readFile(require.resolve("axe-core/axe.min.js"), "utf8"));
+  const { violations } = await page.evaluate(() => globalThis.axe.run(document));
+  return violations
+    .filter(({ impact }) => impact === "serious" || impact === "critical")
+    .map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 120)).join(" | ")}`);
+}

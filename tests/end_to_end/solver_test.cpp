@@ -1,0 +1,139 @@
+// `ursula validate --solver`: somebody else's solver as a process, right, wrong and against the protocol.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/end_to_end/program.h"
+
+namespace ursula {
+namespace {
+
+using testing::AllOf;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// The program in a folder with the helix, at fewer instants for speed.
+class SolverRun : public testing::Test {
+ protected:
+  SolverRun() { ursula_.write("quick.toml", Program::shipped("paper-helix.toml") + "\n[simulation]\nsamples = 11\n"); }
+
+  UrsulaRun judge(const std::string& command, const std::string& more = "") const {
+    return ursula_("validate quick.toml --out out --solver '" + command + "' " + more);
+  }
+  /// What is said where nothing may be written.
+  std::string refused(const std::string& command, const std::string& more = "") const {
+    const UrsulaRun run = judge(command, more);
+    EXPECT_EQ(run.exit_code, 2) << run.out << run.err;
+    EXPECT_EQ(run.out, "");
+    EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
+    return run.err;
+  }
+  std::filesystem::path folder() const { return ursula_.folder(); }
+
+  Program ursula_;
+};
+
+constexpr const char* question = "\n  asked: 0,[^,]+(,[^,\n]+){18}\n  got:   ";
+
+TEST_F(SolverRun, aRightOnePasses) {
+  const UrsulaRun run = judge("echo started >&2; exec " URSULA_EXAMPLE_SOLVER);
+  EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+  EXPECT_THAT(run.out,
+              AllOf(StartsWith("paper-helix: pass"), HasSubstr("replay.position"), HasSubstr("integration.ladder")));
+  EXPECT_EQ(run.err, "started\n") << "once, and its standard error is ours";
+  const auto summary = nlohmann::json::parse(TemporaryFolder::read(folder() / "out/summary.json"));
+  EXPECT_EQ(summary.at("verdict"), "pass");
+  EXPECT_EQ(summary.at("provenance").at("subject"), "echo started >&2; exec " URSULA_EXAMPLE_SOLVER);
+  for (const auto& check : summary.at("checks")) {
+    const std::string name = check.at("name");
+    if (name.rfind("invariance.", 0) == 0) EXPECT_EQ(check.at("verdict"), "not_applicable") << name;
+    if (name.rfind("torque.between", 0) == 0) EXPECT_EQ(check.at("verdict"), "pass") << name;
+  }
+}
+
+TEST_F(SolverRun, aWrongOneFails) {
+  const UrsulaRun run = judge(URSULA_EXAMPLE_SOLVER " 1e-10");
+  EXPECT_EQ(run.exit_code, 1) << run.out << run.err;
+  EXPECT_THAT(run.out, ContainsRegex("fail +torque.pointwise"));
+  EXPECT_TRUE(std::filesystem::exists(folder() / "out/summary.json"));
+}
+
+TEST_F(SolverRun, whatIsNoAnswerIsRefusedWithQuestionAndAnswer) {
+  const auto saying = [](const std::string& answer) { return "while read line; do echo \"" + answer + "\"; done"; };
+  EXPECT_THAT(refused(saying("1,2,3,4,5")), AllOf(HasSubstr("5 values, expected six with commas between"),
+                                                  ContainsRegex(question + std::string("1,2,3,4,5\n"))));
+  EXPECT_THAT(refused(saying("1,2,3,4,5,6,7")), HasSubstr("7 values"));
+  EXPECT_THAT(refused(saying("")), HasSubstr("1 value, expected six"));
+  EXPECT_THAT(refused(saying("1,2,3,4,5 N m,6")),
+              AllOf(HasSubstr("effort 5 is '5 N m', expected a finite number"), ContainsRegex(question)));
+  EXPECT_THAT(refused(saying("1,nan,3,4,5,6")), HasSubstr("effort 2 is 'nan', expected a finite number"));
+  EXPECT_THAT(refused(saying("1,2,3,4,5,inf")), HasSubstr("effort 6 is 'inf'"));
+  EXPECT_THAT(refused("while read line; do echo 1,2,3,4,5,6; echo 1,2,3,4,5,6; done"),
+              HasSubstr("wrote more than one line for each that it was asked"));
+}
+
+TEST_F(SolverRun, anEarlyEndIsRefused) {
+  EXPECT_THAT(refused("exit 3"), AllOf(HasSubstr("the solver 'exit 3' ended with exit code 3 before it had answered"),
+                                       ContainsRegex(question + std::string("nothing\n"))));
+  EXPECT_THAT(refused("read line; echo 1,2,3,4,5,6; read line; printf 1,2"),
+              AllOf(HasSubstr("ended with exit code 0 before it had answered"), HasSubstr("got:   1,2\n")));
+  EXPECT_THAT(refused("read line; kill -9 $$"), HasSubstr("was ended by signal 9 before it had answered"));
+  EXPECT_THAT(refused("no-such-program-anywhere"),
+              AllOf(HasSubstr("not found"), HasSubstr("ended with exit code 127")));
+}
+
+/// A process that is not, or is dead and only not yet waited for, does not run.
+bool runs(const std::string& pid) {
+  std::ifstream stat("/proc/" + pid + "/stat");
+  std::string number, name, state;
+  return stat >> number >> name >> state && state != "Z" && state != "X";
+}
+
+/// Whether the process whose number is in `file` is gone, or goes.
+bool ends(const std::filesystem::path& file) {
+  std::string pid = TemporaryFolder::read(file);
+  pid.erase(pid.find_last_not_of('\n') + 1);
+  EXPECT_FALSE(pid.empty());
+  for (int k = 0; runs(pid) && k < 1000; ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  return !runs(pid);
+}
+
+TEST_F(SolverRun, oneThatHangsIsEndedWithItsChildren) {
+  EXPECT_THAT(refused("sleep 1000 & echo $! > child; echo $$ > self; wait", "--solver-timeout 0.3"),
+              AllOf(HasSubstr("gave no answer within 0.3 s"), ContainsRegex(question + std::string("nothing\n"))));
+  EXPECT_TRUE(ends(folder() / "child"));
+  EXPECT_TRUE(ends(folder() / "self"));
+}
+
+TEST_F(SolverRun, oneIsEndedWithAProgramThatIsInterrupted) {
+  const UrsulaRun run = judge("echo $$ > self; kill -INT $PPID; exec sleep 1000");
+  EXPECT_NE(run.exit_code, 0);
+  EXPECT_EQ(run.out, "");
+  EXPECT_TRUE(ends(folder() / "self"));
+  EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
+}
+
+TEST_F(SolverRun, whatCannotBeMeantIsRefused) {
+  EXPECT_THAT(refused("cat", "--torques tau.csv"), HasSubstr("--torques excludes --solver"));
+  EXPECT_THAT(refused(""), HasSubstr("expected a command"));
+  EXPECT_THAT(refused("cat", "--solver-timeout 0"), HasSubstr("--solver-timeout"));
+  EXPECT_EQ(ursula_("validate quick.toml --solver-timeout 3").exit_code, 2);
+  ursula_.write("other.toml", Program::shipped("proving-ground.toml"));
+  const UrsulaRun run = ursula_("validate quick.toml other.toml --out out --solver cat");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("--solver judges one motion, expected one scenario, not 2"));
+}
+
+TEST_F(SolverRun, theScenariosPathIsInTheEnvironment) {
+  EXPECT_THAT(refused("read line; echo \"$URSULA_SCENARIO\""),
+              HasSubstr("got:   " + std::filesystem::canonical(folder()).string() + "/quick.toml"));
+}
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,126 @@
+"""Motions, dynamics and kinematics: the program's numbers to the last bit, and clear errors."""
+
+import csv
+import io
+import threading
+
+import numpy as np
+import pytest
+
+import ursula
+
+MOTION = {"p": "p_{}_m", "v": "v_{}_m_s", "w": "w_{}_rad_s", "a": "a_{}_m_s2", "alpha": "alpha_{}_rad_s2"}
+JOINTS = {"": "rad", "dot": "rad_s", "ddot": "rad_s2"}
+
+
+def table(program, helix, samples=37):
+    run = program("inverse", helix, "--samples", samples)
+    assert run.returncode == 0, run.stderr
+    rows = list(csv.DictReader(io.StringIO(run.stdout)))
+    return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
+
+
+def instants(s, samples=37):
+    return np.array([s.duration * k / (samples - 1) for k in range(samples)])
+
+
+def test_the_programs_numbers_to_the_last_bit(program, helix):
+    s, of_program = ursula.read_scenario(helix), table(program, helix)
+    m = s.motion(instants(s))
+    for k in range(3):
+        for name, column in MOTION.items():
+            assert np.array_equal(getattr(m, name)[:, k], of_program[column.format("xyz"[k])]), name
+    assert np.array_equal(m.t, of_program["t_s"])
+    for k in range(4):
+        assert np.array_equal(m.q[:, k], of_program[f"q_{'wxyz'[k]}"])
+    tau, joints = s.inverse_dynamics(m), s.inverse_kinematics(m)
+    for i in range(6):
+        assert np.array_equal(tau[:, i], of_program[f"tau_{i + 1}_Nm"])
+        for rate, unit in JOINTS.items():
+            for angle in ("phi", "psi", "theta"):
+                assert np.array_equal(joints[angle + rate][:, i], of_program[f"{angle}{rate}_{i + 1}_{unit}"])
+    assert np.abs(np.diff(tau, axis=0)).max() > 1, "torques that change nothing would compare equal in any order"
+
+
+def test_direct_dynamics_undo_inverse_dynamics(helix):
+    s = ursula.read_scenario(helix)
+    m = s.motion(instants(s))
+    tau = s.inverse_dynamics(m)
+    a, alpha = s.forward_dynamics(m, tau)
+    assert a.shape == alpha.shape == (len(m), 3)
+    assert np.allclose(a, m.a, rtol=0, atol=1e-12) and np.allclose(alpha, m.alpha, rtol=0, atol=1e-12)
+    a, _ = s.forward_dynamics(m, 1.001 * tau)
+    assert not np.allclose(a, m.a, rtol=0, atol=1e-6)
+
+
+def test_direct_kinematics_find_the_pose(helix):
+    s = ursula.read_scenario(helix)
+    m = s.motion(1.2)
+    poses = s.direct_kinematics(s.inverse_kinematics(m)["phi"][0])
+    assert min(np.abs(pose.p - m.p[0]).max() + np.abs(pose.Q - m.Q[0]).max() for pose in poses) < 1e-9
+    assert poses[0].assembles and poses[0].q.shape == (4,)
+    with pytest.raises(ValueError, match=r"phi: shape \(5,\), expected \(N, 6\)"):
+        s.direct_kinematics(np.zeros(5))
+
+
+def test_motions_are_what_was_given_and_stay_it(helix):
+    s = ursula.read_scenario(helix)
+    m = s.motion(instants(s))
+    again = ursula.Motion(m.t, m.p, m.q, m.v, m.w, m.a, m.alpha)
+    for name in ("t", *MOTION):
+        assert np.array_equal(getattr(again, name), getattr(m, name))
+        with pytest.raises(ValueError, match="read-only"):
+            getattr(m, name)[0] = 1
+    assert np.allclose(again.Q, m.Q, rtol=0, atol=1e-15)
+    assert np.allclose(np.einsum("nij,nkj->nik", m.Q, m.Q), np.eye(3), rtol=0, atol=1e-14)
+    assert np.array_equal(m[5:9].p, m.p[5:9]) and np.array_equal(m[-1].t, m.t[-1:])
+    with pytest.raises(IndexError):
+        m[len(m)]
+    p = s.motion(1.0).p  # outlives its motion
+    assert np.array_equal(p, s.motion([1.0]).p)
+    assert len(s.motion([])) == 0 and s.motion([]).p.shape == (0, 3)
+    assert s.inverse_dynamics(s.motion([])).shape == (0, 6)
+
+
+def test_wrong_motions_are_refused(helix):
+    s = ursula.read_scenario(helix)
+    with pytest.raises(ValueError, match=r"t\[1\] is not finite"):
+        s.motion([0, np.nan])
+    with pytest.raises(ValueError, match="expected numbers"):
+        s.motion("soon")
+    with pytest.raises(ValueError, match=r"p: shape \(2, 2\), expected \(N, 3\)"):
+        ursula.Motion(0, [[0, 0], [0, 0]], [1, 0, 0, 0])
+    with pytest.raises(ValueError, match="expected a unit quaternion"):
+        ursula.Motion(0, [0, 0, 1], [0, 0, 0, 0])
+    with pytest.raises(ValueError, match="not finite"):
+        ursula.Motion(0, [0, np.inf, 1], [1, 0, 0, 0])
+    with pytest.raises(ValueError, match="2 rows, expected one for each of the motion's 1"):
+        s.forward_dynamics(s.motion(0), np.zeros((2, 6)))
+
+
+def test_errors_are_the_programs(program, helix, tmp_path):
+    wrong = tmp_path / "wrong.toml"
+    wrong.write_text(helix.read_text().replace("mass = 500.0", "mass = -500.0"))
+    with pytest.raises(ursula.ScenarioError) as refused:
+        ursula.read_scenario(wrong)
+    assert isinstance(refused.value, ValueError)
+    run = program("inverse", wrong)
+    assert run.returncode == 2 and run.stderr.strip() == str(refused.value)
+    with pytest.raises(ursula.ScenarioError, match="no-such.toml"):
+        ursula.read_scenario("no-such.toml")
+    with pytest.raises(ursula.PoseError, match="leg 1 is out of reach at t = 2 s") as refused:
+        s = ursula.read_scenario(helix)
+        s.inverse_dynamics(ursula.Motion([2.0], [[0, 0, 9]], [[1, 0, 0, 0]]))
+    assert isinstance(refused.value, ValueError)
+    assert refused.value.leg == 1 and refused.value.instant == 2.0 and refused.value.measure > refused.value.bound
+
+
+def test_other_threads_run_while_it_computes(helix):
+    s = ursula.read_scenario(helix)
+    m = s.motion(np.linspace(0, s.duration, 300000))
+    thread = threading.Thread(target=s.inverse_dynamics, args=(m,))
+    thread.start()
+    turns = 0
+    while thread.is_alive():
+        turns += 1
+    assert turns > 100, "the lock was held"

@@ -1,0 +1,126 @@
+"""validate() with this program's solver and with functions of one's own."""
+
+import filecmp
+import json
+import threading
+
+import numpy as np
+import pytest
+
+import ursula
+
+FILES = ("summary.json", "timeseries.csv", "report.html", "junit.xml")
+
+
+def test_the_result_and_its_files_are_the_programs(program, quick, tmp_path):
+    assert program("validate", quick, "--out", tmp_path / "program").returncode == 0
+    r = ursula.validate(ursula.read_scenario(quick))
+    r.write(tmp_path / "python")
+    match, mismatch, errors = filecmp.cmpfiles(tmp_path / "program", tmp_path / "python", FILES, shallow=False)
+    assert sorted(match) == sorted(FILES), (mismatch, errors)
+    assert r.verdict == "pass" and r.summary == json.loads((tmp_path / "program" / "summary.json").read_text())
+    by_name = {check["name"]: check for check in r.summary["checks"]}
+    assert [check.name for check in r.checks] == list(by_name)
+    for check in r.checks:
+        assert check.verdict == by_name[check.name]["verdict"] and check.why == by_name[check.name]["why"]
+        assert check.basis == by_name[check.name]["basis"] and check.unit == by_name[check.name]["unit"]
+        if check.verdict == "pass":
+            assert check.value <= check.limit and check.value == by_name[check.name]["value"]
+    assert r.timeseries["t_s"].shape == (11,)
+
+
+def test_a_right_solver_passes_and_is_asked_for_many_instants_at_once(quick):
+    s, asked = ursula.read_scenario(quick), []
+
+    def mine(m):
+        asked.append(len(m))
+        return s.inverse_dynamics(m)
+
+    r = ursula.validate(s, solver=mine, name="mine")
+    assert r.verdict == "pass", r.reason
+    assert r.summary["provenance"]["subject"] == "mine"
+    assert 11 in asked and max(asked) > 1000 and sum(asked) > 8 * len(asked)
+    verdicts = {check.name: check.verdict for check in r.checks}
+    for name in ("torque.pointwise", "torque.between", "replay.position", "integration.ladder", "feedback.torque"):
+        assert verdicts[name] == "pass"
+    for name in ("invariance.rotation", "kinematics.joint_angles", "direct.pointwise"):
+        assert verdicts[name] == "not_applicable"
+
+
+def test_a_wrong_solver_fails(quick):
+    s = ursula.read_scenario(quick)
+    r = ursula.validate(s, lambda m: (1 + 1e-11) * s.inverse_dynamics(m))
+    assert r.verdict == "fail"
+    assert "torque.pointwise" in [check.name for check in r.checks if check.verdict == "fail"]
+
+
+def test_a_tolerance_of_ones_own(quick):
+    s = ursula.read_scenario(quick)
+
+    def single(m):
+        return s.inverse_dynamics(m).astype(np.float32)
+
+    assert ursula.validate(s, single).verdict == "fail"
+    assert ursula.validate(s, single, rtol=1e-6).verdict == "pass"
+    assert ursula.validate(s, single, atol=1e-4).verdict == "fail"
+    with pytest.raises(ValueError, match="rtol is -1.000000, expected a positive number"):
+        ursula.validate(s, rtol=-1)
+
+
+@pytest.mark.parametrize("answer, words", [
+    (lambda m: np.zeros((len(m), 5)), r"to 11 instants has shape \(11, 5\), expected \(11, 6\)"),
+    (lambda m: np.zeros((len(m) + 1, 6)), r"to 11 instants has shape \(12, 6\), expected \(11, 6\)"),
+    (lambda m: np.where(np.arange(6) == 2, np.nan, np.ones((len(m), 6))), "torque 3 at t = 0.000000 s is nan"),
+    (lambda m: np.full((len(m), 6), -np.inf), "torque 1 at t = 0.000000 s is -inf"),
+    (lambda m: None, "of type NoneType and no array of numbers"),
+    (lambda m: "torques", "of type str and no array of numbers"),
+    (lambda m: np.zeros((len(m), 6), complex), "of type ndarray and no array of numbers"),
+])
+def test_what_is_no_answer_is_refused(quick, answer, words):
+    with pytest.raises(ValueError, match=words):
+        ursula.validate(ursula.read_scenario(quick), solver=answer)
+
+
+def test_what_is_no_function_is_refused(quick):
+    with pytest.raises(TypeError, match="solver: expected a function"):
+        ursula.validate(ursula.read_scenario(quick), solver=3)
+
+
+class Broken(Exception):
+    pass
+
+
+@pytest.mark.parametrize("share", [0, 0.3, 0.6, 0.95])
+def test_an_exception_arrives_as_it_was_raised(quick, share):
+    """Wherever in the validation it is raised: in its threads, within the integrators."""
+    s, calls, most = ursula.read_scenario(quick), 0, int(share * 800)
+    raised = Broken("at that call")
+
+    def mine(m):
+        nonlocal calls
+        calls += 1
+        if calls > most:
+            raise raised
+        return s.inverse_dynamics(m)
+
+    with pytest.raises(Broken) as caught:
+        ursula.validate(s, solver=mine)
+    assert caught.value is raised
+    assert calls == most + 1, "it was asked again after that"
+
+
+def test_two_threads_at_once(quick):
+    s, verdicts = ursula.read_scenario(quick), {}
+
+    def judge(name, factor):
+        try:
+            verdicts[name] = ursula.validate(s, lambda m: factor * s.inverse_dynamics(m)).verdict
+        except Broken as error:
+            verdicts[name] = error
+
+    threads = [threading.Thread(target=judge, args=each) for each in (("right", 1.0), ("wrong", 1.01))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert verdicts == {"right": "pass", "wrong": "fail"}

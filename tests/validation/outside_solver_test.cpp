@@ -1,0 +1,132 @@
+// Solvers that are no part of this program: asked in batches, never changed by that, and what they throw.
+
+#include "validation/outside/outside_solver.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "tests/support/vectors.h"
+#include "tests/validation/checks.h"
+#include "validation/outside/external_solver.h"
+#include "validation/subject/subject.h"
+
+namespace ursula {
+namespace {
+
+using testing::HasSubstr;
+
+struct Case {
+  Scenario scenario = vectorScenario("random-2");
+  Subject right;
+
+  Case() {
+    scenario.simulation.samples = 11;
+    right = nocSubject(*scenario.manipulator, scenario.load);
+  }
+
+  OutsideSolver solver(std::function<void(std::size_t)> before = nullptr) const {
+    const auto answer = [right = right, before](const std::vector<Motion<double>>& motions) {
+      if (before) before(motions.size());
+      std::vector<Vector6d> out;
+      for (const Motion<double>& motion : motions) out.push_back(right.torques(motion));
+      return out;
+    };
+    return {"outside", answer};
+  }
+};
+
+TEST(OutsideSolver, isJudgedAsWhatIsAskedOneByOne) {
+  const Case here;
+  std::size_t calls = 0, instants = 0;
+  const ValidationResult many = validateOutside(here.scenario, here.solver([&](std::size_t count) {
+    ++calls;
+    instants += count;
+  }));
+  EXPECT_GT(instants, 8 * calls) << "it was asked one by one";
+  Subject single;
+  single.name = "outside";
+  single.torques = here.right.torques;
+  const ValidationResult one_by_one = validate(here.scenario, single);
+  ASSERT_EQ(many.checks.size(), one_by_one.checks.size());
+  int judged = 0;
+  for (std::size_t k = 0; k < many.checks.size(); ++k) {
+    const Check &a = many.checks[k], &b = one_by_one.checks[k];
+    EXPECT_EQ(a.verdict, b.verdict) << a.name;
+    EXPECT_EQ(a.why, b.why);
+    if (a.verdict == Verdict::not_applicable) continue;
+    ++judged;
+    EXPECT_EQ(a.value, b.value) << a.name;
+    EXPECT_EQ(a.limit, b.limit) << a.name;
+  }
+  EXPECT_GE(judged, 15);
+}
+
+struct Broke {
+  int what;
+};
+
+TEST(OutsideSolver, whatItThrowsArrivesWhereverItIsThrown) {
+  const Case here;
+  int all = 0;
+  validateOutside(here.scenario, here.solver([&all](std::size_t) { ++all; }));
+  ASSERT_GT(all, 100);
+  for (int last : {1, 3, all / 3, 2 * all / 3, all - 2}) {
+    int calls = 0;
+    const auto breaks = [&](std::size_t) {
+      if (++calls >= last) throw Broke{last};
+    };
+    try {
+      validateOutside(here.scenario, here.solver(breaks));
+      ADD_FAILURE() << "nothing was thrown at call " << last;
+    } catch (const Broke& broke) {
+      EXPECT_EQ(broke.what, last);
+    }
+    EXPECT_EQ(calls, last) << "it was asked again";
+  }
+}
+
+TEST(OutsideSolver, anErrorOfThisProgramsKindIsNoAnswerEither) {
+  const Case here;
+  int calls = 0;
+  const auto breaks = [&calls](std::size_t) {
+    if (++calls > 40) throw std::runtime_error("mine");  // in a replay, where the loop's own make a result
+  };
+  EXPECT_THAT([&] { validateOutside(here.scenario, here.solver(breaks)); },
+              testing::ThrowsMessage<std::runtime_error>("mine"));
+}
+
+TEST(OutsideSolver, aWrongNumberOfAnswersIsRefused) {
+  const Case here;
+  OutsideSolver few = here.solver();
+  few.torques = [](const std::vector<Motion<double>>&) { return std::vector<Vector6d>(1, Vector6d::Zero()); };
+  EXPECT_THAT([&] { validateOutside(here.scenario, few); },
+              testing::ThrowsMessage<std::invalid_argument>(HasSubstr("outside: 1 answers to 11 motions")));
+}
+
+TEST(ExternalSolver, questionsAreTheMotionToTheLastBit) {
+  Motion<double> motion;
+  motion.t = 0.1;
+  motion.p = {1.0 / 3, -2, 3e-300};
+  motion.Q << 1, 0, 0, 0, -1, 0, 0, 0, -1;  // half a turn about x
+  motion.p_dot = {4, 5, 6};
+  motion.omega = {7, 8, 9};
+  motion.p_ddot = {10, 11, 12};
+  motion.omega_dot = {13, 14, 15};
+  EXPECT_EQ(solverQuestion(motion),
+            "0.10000000000000001,0.33333333333333331,-2,3.0000000000000002e-300,0,1,0,0,"
+            "4,5,6,7,8,9,10,11,12,13,14,15");
+}
+
+TEST(ExternalSolver, answersAreSixNumbers) {
+  Vector6d expected;
+  expected << 1, -2.5, 3e2, 0.1, 5, 6;
+  EXPECT_EQ(solverAnswer("1,-2.5,+3e2, 0.1 ,5,6\r"), expected);
+  for (const char* bad : {"", "1,2,3,4,5", "1,2,3,4,5,6,", "1,2,3,4,5,six", "1,2,,4,5,6", "1,2,3,4,5,0x6",
+                          "1;2;3;4;5;6", "1,2,3,4,5,1e999", "1,2,3,4,5,6 7"})
+    EXPECT_THROW(solverAnswer(bad), SolverProcessError) << bad;
+}
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,151 @@
+// A tolerance of the user's: torques are held against it, what they do to the motion is reported.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/validation/checks.h"
+#include "tests/validation/external_torques.h"
+#include "tests/validation/scenario_files.h"
+#include "validation/report/report.h"
+#include "validation/validate.h"
+#include "validation/validate_external.h"
+
+namespace ursula {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// The paper's helix under torques of leg 3 that are too large by a share.
+ValidationResult judgedWith(double error, std::optional<EffortTolerance> tolerance) {
+  Scenario scenario = scenarioOf("paper-helix");
+  scenario.tolerance = tolerance;
+  Subject subject = solverOf(scenario);
+  subject.rebuilt = nullptr;
+  const auto right = subject.torques;
+  subject.torques = [right, error](const Motion<double>& motion) {
+    Vector6d torques = right(motion);
+    torques(2) *= 1 + error;
+    return torques;
+  };
+  ValidationOptions quick;
+  quick.ladder = quick.reactions = quick.budget = false;
+  return validate(scenario, subject, quick);
+}
+
+TEST(Tolerance, passesWhatIsWithinAndSaysWhose) {
+  const ValidationResult result = judgedWith(1e-3, EffortTolerance{1.1e-3, 0});
+  EXPECT_EQ(result.verdict, Verdict::pass);
+  EXPECT_EQ(result.limits, LimitBy::user);
+  ASSERT_TRUE(result.deviation);
+  EXPECT_GT(result.deviation->largest, 1);
+  EXPECT_LE(result.deviation->relative(), 1e-3 * (1 + 1e-9));
+  EXPECT_EQ(result.deviation->where, "leg 3");
+  EXPECT_GT(result.deviation->drift, 0);
+  const Check* replay = findCheck(result.checks, "replay.position");
+  EXPECT_EQ(replay->verdict, Verdict::not_applicable);
+  EXPECT_EQ(replay->reason, Reason::reported);
+}
+
+TEST(Tolerance, failsWhatIsBeyond) {
+  EXPECT_EQ(judgedWith(1e-3, EffortTolerance{1e-5, 0}).verdict, Verdict::fail);
+  EXPECT_EQ(judgedWith(1e-3, std::nullopt).verdict, Verdict::fail);
+}
+
+TEST(Tolerance, theSmallestThatIsNamedPassesAndALittleLessDoesNot) {
+  const ValidationResult result = judgedWith(1e-4, std::nullopt);
+  ASSERT_TRUE(result.deviation);
+  const double smallest = result.deviation->smallestRelative();
+  ASSERT_GT(smallest, 0);
+  EXPECT_EQ(judgedWith(1e-4, EffortTolerance{smallest, 0}).verdict, Verdict::pass);
+  EXPECT_EQ(judgedWith(1e-4, EffortTolerance{0.98 * smallest, 0}).verdict, Verdict::fail);
+}
+
+TEST(Tolerance, addsBothParts) {
+  const ValidationResult result = judgedWith(1e-3, std::nullopt);
+  const double largest = result.deviation->largest, effort = result.deviation->largest_effort;
+  EXPECT_EQ(judgedWith(1e-3, EffortTolerance{0.6 * largest / effort, 0.6 * largest}).verdict, Verdict::pass);
+  EXPECT_EQ(judgedWith(1e-3, EffortTolerance{0.4 * largest / effort, 0.4 * largest}).verdict, Verdict::fail);
+}
+
+TEST(Tolerance, noNumberIsNeverWithin) {
+  const ValidationResult result = judgedWith(std::nan(""), EffortTolerance{1, 1e9});
+  EXPECT_EQ(result.verdict, Verdict::fail);
+}
+
+TEST(Tolerance, aReplayThatAcceptanceNamesIsJudged) {
+  Scenario scenario = scenarioOf("paper-helix");
+  scenario.tolerance = EffortTolerance{1e-3, 0};
+  scenario.acceptance = {{"replay.position", 1e-30}};
+  const ValidationResult result = validate(scenario);
+  EXPECT_EQ(verdictOf(result.checks, "replay.position"), "fail");
+}
+
+TEST(Tolerance, isReadFromAcceptance) {
+  const auto read = [](const std::string& acceptance) {
+    const Scenario helix = scenarioOf("paper-helix");
+    return parseScenario(helix.text + "\n[acceptance]\n" + acceptance + "\n", helix.file);
+  };
+  const Scenario both = read("torque = { relative = 1e-3, absolute = 2 }");
+  ASSERT_TRUE(both.tolerance);
+  EXPECT_EQ(both.tolerance->relative, 1e-3);
+  EXPECT_EQ(both.tolerance->absolute, 2);
+  const Scenario beside = read("torque.absolute = 3\ntorque.pointwise = 4");
+  EXPECT_EQ(beside.tolerance->absolute, 3);
+  EXPECT_EQ(beside.acceptance.size(), 1u);
+  EXPECT_THROW(read("torque = { relative = 0 }"), ScenarioError);
+  EXPECT_THROW(read("torque = { relativ = 1e-3 }"), ScenarioError);
+}
+
+/// Four digits at 31 instants, which no replay can judge.
+TEST(Tolerance, judgesAFileOfFewDigits) {
+  Scenario scenario = scenarioOf("paper-helix");
+  std::string text = "t_s,tau_1_Nm,tau_2_Nm,tau_3_Nm,tau_4_Nm,tau_5_Nm,tau_6_Nm\n";
+  const TorqueTable exact = exactTorques(scenario, 31);
+  for (std::size_t k = 0; k < exact.t.size(); ++k) {
+    text += fmt::format("{:.1f}", exact.t[k]);
+    for (int i = 0; i < leg_count; ++i) text += fmt::format(",{:.3e}", exact.torques[k](i));
+    text += "\n";
+  }
+  const auto judged = [&] { return validateExternal(scenario, parseTorqueFile(text, "four.csv")); };
+  EXPECT_EQ(judged().verdict, Verdict::inconclusive);
+  scenario.tolerance = EffortTolerance{1e-3, 0};
+  const ValidationResult tolerant = judged();
+  EXPECT_EQ(tolerant.verdict, Verdict::pass);
+  EXPECT_EQ(tolerant.limits, LimitBy::user);
+  scenario.tolerance = EffortTolerance{1e-6, 0};
+  EXPECT_EQ(judged().verdict, Verdict::fail) << "four digits are not right to a millionth";
+}
+
+/// What is not there cannot be right to anything.
+TEST(Tolerance, doesNotCoverWhatTheFileLeavesOut) {
+  Scenario scenario = scenarioOf("paper-helix");
+  scenario.tolerance = EffortTolerance{1e-3, 0};
+  TorqueTable half = exactTorques(scenario, 31);
+  half.t.resize(16);
+  half.torques.resize(16);
+  EXPECT_EQ(validateExternal(scenario, half.file()).verdict, Verdict::inconclusive);
+}
+
+TEST(Sentence, saysHowRightWhereAndWhatFollows) {
+  EffortDeviation deviation;
+  deviation.largest = 7.4;
+  deviation.largest_effort = 25066;
+  deviation.where = "leg 3";
+  deviation.t = 2.97;
+  deviation.drift = 0.041;
+  deviation.duration = 3;
+  deviation.length = 1;
+  EXPECT_EQ(sentence(deviation),
+            "Right to 0.03 %: the largest deviation is 7.4 N m of 25066 N m, leg 3 at t = 2.97 s; from errors of this "
+            "size the open-loop motion would drift by up to 41 mm in 3 s; the smallest --rtol that would pass is "
+            "0.000296.");
+  deviation.drift = 2;
+  EXPECT_THAT(sentence(deviation), HasSubstr("may be lost within 3 s"));
+  deviation.drift = std::nan("");
+  EXPECT_THAT(sentence(deviation), Not(HasSubstr("open-loop")));
+}
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,193 @@
+// Torque files as other programs write them: what is certain is read and said, what is not is refused with the option
+// that would read it.
+
+#include "validation/subject/torque_columns.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/model/refusals.h"
+#include "validation/subject/torque_file.h"
+
+namespace ursula {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// t = 0, 0.5, 1.5; torques 1.25 to 6.25, and the same doubled and tripled.
+struct Foreign {
+  const char* name;
+  std::string text, read_as;
+};
+
+const std::string plain_header = "t_s,tau_1_Nm,tau_2_Nm,tau_3_Nm,tau_4_Nm,tau_5_Nm,tau_6_Nm\n";
+const std::string plain_rows =
+    "0,1.25,2.25,3.25,4.25,5.25,6.25\n0.5,2.5,4.5,6.5,8.5,10.5,12.5\n1.5,3.75,6.75,9.75,12.75,15.75,18.75\n";
+
+std::string with(std::string text, char from, char to) {
+  std::replace(text.begin(), text.end(), from, to);
+  return text;
+}
+
+std::string crlf(const std::string& text) {
+  std::string out;
+  for (char c : text) out += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  return out;
+}
+
+/// With points for commas' sake swapped: "0;1,25;…".
+std::string german(const std::string& text) { return with(with(text, ',', ';'), '.', ','); }
+
+class ForeignTorques : public testing::TestWithParam<Foreign> {};
+
+TEST_P(ForeignTorques, areRead) {
+  const TorqueFile file = parseTorqueFile(GetParam().text, "a.csv");
+  ASSERT_THAT(file.t, ElementsAre(0, 0.5, 1.5));
+  const Vector6d first = (Vector6d() << 1.25, 2.25, 3.25, 4.25, 5.25, 6.25).finished();
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(file.torques[static_cast<std::size_t>(k)], (k + 1) * first);
+  EXPECT_EQ(file.read_as, GetParam().read_as);
+  EXPECT_EQ(file.torque_precision[0](1), 0.005) << "as finely as printed";
+}
+
+const std::string tau_names =
+    "tau_1_Nm = 'tau1', tau_2_Nm = 'tau2', tau_3_Nm = 'tau3', tau_4_Nm = 'tau4', tau_5_Nm = 'tau5', tau_6_Nm = 'tau6'";
+
+INSTANTIATE_TEST_SUITE_P(
+    All, ForeignTorques,
+    testing::Values(
+        Foreign{"own", plain_header + plain_rows, ""},
+        Foreign{"own_crlf", crlf("\xEF\xBB\xBF" + plain_header + plain_rows), ""},
+        Foreign{"quoted",
+                "\"t_s\",\"tau_1_Nm\",\"tau_2_Nm\",\"tau_3_Nm\",\"tau_4_Nm\",\"tau_5_Nm\",\"tau_6_Nm\"\n" + plain_rows,
+                ""},
+        Foreign{"semicolons", with(plain_header + plain_rows, ',', ';'), "';' between"},
+        Foreign{"decimal_commas", german(plain_header + plain_rows), "';' between, decimal commas"},
+        Foreign{"tabs", with(plain_header + plain_rows, ',', '\t'), "tabs between"},
+        Foreign{"blanks", with(plain_header + plain_rows, ',', ' '), "blanks between"},
+        Foreign{"numpy", "# solver 3\n# " + with(plain_header + plain_rows, ',', ' '),
+                "blanks between, lines after # passed over, the header in line 2"},
+        Foreign{"numpy_commas_in_the_header", "# " + plain_header + with(plain_rows, ',', ' '),
+                "blanks between, lines after # passed over"},
+        Foreign{"pandas_index",
+                "," + plain_header +
+                    "0,0,1.25,2.25,3.25,4.25,5.25,6.25\n1,0.5,2.5,4.5,6.5,8.5,10.5,12.5\n"
+                    "2,1.5,3.75,6.75,9.75,12.75,15.75,18.75\n",
+                ""},
+        Foreign{"r_row_names",
+                plain_header + "1,0,1.25,2.25,3.25,4.25,5.25,6.25\n2,0.5,2.5,4.5,6.5,8.5,10.5,12.5\n"
+                               "3,1.5,3.75,6.75,9.75,12.75,15.75,18.75\n",
+                ""},
+        Foreign{"names", "time,tau1,tau2,tau3,tau4,tau5,tau6\n" + plain_rows, "t_s = 'time', " + tau_names},
+        Foreign{
+            "units", "Time [s],Tau 1 [Nm],Torque_2 (N m),tau[3],tau_4,TAU5,torque-6\n" + plain_rows,
+            "t_s = 'Time [s]', tau_1_Nm = 'Tau 1 [Nm]', tau_2_Nm = 'Torque_2 (N m)', tau_3_Nm = 'tau[3]', tau_4_Nm = "
+            "'tau_4', tau_5_Nm = 'TAU5', tau_6_Nm = 'torque-6'"},
+        Foreign{"from_zero", "t,tau_0,tau_1,tau_2,tau_3,tau_4,tau_5\n" + plain_rows,
+                "t_s = 't', tau_1_Nm = 'tau_0', tau_2_Nm = 'tau_1', tau_3_Nm = 'tau_2', tau_4_Nm = 'tau_3', tau_5_Nm = "
+                "'tau_4', tau_6_Nm = 'tau_5'"},
+        Foreign{"milliseconds",
+                "time_ms,tau1,tau2,tau3,tau4,tau5,tau6\n0,1.25,2.25,3.25,4.25,5.25,6.25\n"
+                "500,2.5,4.5,6.5,8.5,10.5,12.5\n1500,3.75,6.75,9.75,12.75,15.75,18.75\n",
+                "t_s = 'time_ms' times 1e-3, " + tau_names}),
+    [](const auto& test) { return test.param.name; });
+
+TEST(TorqueColumns, takesUnitsThatANameTells) {
+  const TorqueFile file = parseTorqueFile(
+      "t,tau1_kNm,tau2_kNm,tau3_kNm,tau4_kNm,tau5 [mNm],tau6 [N mm]\n0,1.25,2,3,4,5,6\n1,1,2,3,4,5,6.5\n", "a.csv");
+  EXPECT_EQ(file.torques[0], (Vector6d() << 1250, 2000, 3000, 4000, 0.005, 0.006).finished());
+  EXPECT_EQ(file.torque_precision[0](0), 5) << "half a unit of the last digit, in N m";
+}
+
+TEST(TorqueColumns, withoutAHeaderOnlyEqualStepsFromZeroAreTheTime) {
+  const auto rows = [](const char* t2) {
+    return std::string("0 1 2 3 4 5 6\n0.5 1 3 2 4 5 7\n") + t2 + " 1 2 3 4 5 6\n";
+  };
+  EXPECT_THAT(parseTorqueFile(rows("1"), "a.csv").read_as,
+              StartsWith("blanks between, no header, t_s = '1', tau_1_Nm = '2'"));
+  EXPECT_THAT(refusal<CsvError>([&] { parseTorqueFile(rows("1.3"), "a.csv"); }),
+              AllOf(HasSubstr("there is no header, and 7 columns (by blanks)"),
+                    EndsWith("--map t_s=1 --map tau_1_Nm=2 --map tau_2_Nm=3 --map tau_3_Nm=4 --map tau_4_Nm=5 --map "
+                             "tau_5_Nm=6 --map tau_6_Nm=7")));
+  // Two columns that may be the time.
+  EXPECT_THROW(parseTorqueFile("0,0,2,3,4,5,6\n1,1,2,3,4,5,6\n2,2,2,3,4,5,6\n", "a.csv"), CsvError);
+}
+
+TEST(TorqueColumns, refusesANumberThatMayBeEither) {
+  std::string text = with(plain_header, ',', ';') + "1;1,250;2;3;4;5;6\n";
+  EXPECT_EQ(refusal<CsvError>([&] { parseTorqueFile(text, "a.csv"); }),
+            "a.csv:2: error: '1,250' may be 1.250 or 1250, expected decimal points");
+  EXPECT_EQ(parseTorqueFile(text + "2;0,250;2;3;4;5;6\n", "a.csv").torques[0](0), 1.25);
+  text = with(plain_header, ',', ';') + "1;1,250.5;2;3;4;5;6\n";
+  EXPECT_THAT(refusal<CsvError>([&] { parseTorqueFile(text, "a.csv"); }), HasSubstr("'1,250.5' in column 'tau_1_Nm'"));
+}
+
+TEST(TorqueColumns, refusesUtf16) {
+  EXPECT_EQ(refusal<CsvError>([] { parseTorqueFile("\xFF\xFEt", "a.csv"); }),
+            "a.csv:1: error: UTF-16, expected UTF-8 or plain text");
+}
+
+const std::string uncertain = "zeit;T1;T2;T3;T4;T5;T6\n0;1,25;2;3;4;5;6\n";
+
+TEST(TorqueColumns, refusesWhatIsNotCertainWithTheOptionThatReadsIt) {
+  const std::string said = refusal<CsvError>([] { parseTorqueFile(uncertain, "a.csv"); });
+  EXPECT_THAT(said, AllOf(StartsWith("a.csv:1: error: missing column 't_s', expected it in the header"),
+                          HasSubstr("separated by ';' it has: zeit, T1, T2, T3, T4, T5, T6"),
+                          EndsWith("say so: --map t_s=zeit --map tau_1_Nm=T1 --map tau_2_Nm=T2 --map tau_3_Nm=T3 "
+                                   "--map tau_4_Nm=T4 --map tau_5_Nm=T5 --map tau_6_Nm=T6")));
+  // And it does.
+  const ColumnMap map = parseColumnMap(
+      {"t_s=zeit", "tau_1_Nm=T1", "tau_2_Nm=T2", "tau_3_Nm=T3", "tau_4_Nm=T4", "tau_5_Nm=T5", "tau_6_Nm = T6"});
+  EXPECT_EQ(parseTorqueFile(uncertain, "a.csv", map).torques[0], (Vector6d() << 1.25, 2, 3, 4, 5, 6).finished());
+}
+
+TEST(TorqueColumns, refusesTwoThatMayBeTheSame) {
+  const std::string text = "t,time,tau1,tau2,tau3,tau4,tau5,tau6\n0,0,1,2,3,4,5,6\n";
+  EXPECT_EQ(refusal<CsvError>([&] { parseTorqueFile(text, "a.csv"); }),
+            "a.csv:1: error: 't' and 'time' may both be t_s, expected one; choose by --map t_s=time");
+  EXPECT_EQ(parseTorqueFile(text, "a.csv", parseColumnMap({"t_s=time"})).ignored, std::vector<std::string>{"t"});
+}
+
+TEST(TorqueColumns, aMapWinsAndMayHaveAUnit) {
+  const TorqueFile file =
+      parseTorqueFile("raw," + plain_header + "7," + plain_rows.substr(0, plain_rows.find('\n') + 1), "a.csv",
+                      parseColumnMap({"tau_2_kNm=raw"}));
+  EXPECT_EQ(file.torques[0](1), 7000);
+  EXPECT_EQ(file.torques[0](2), 3.25);
+  EXPECT_THAT(file.ignored, ElementsAre("tau_2_Nm"));
+}
+
+TEST(TorqueColumns, aWrongMapIsRefused) {
+  const auto said = [](const std::vector<std::string>& texts) {
+    return refusal<CsvError>([&] { parseTorqueFile(plain_header + plain_rows, "a.csv", parseColumnMap(texts)); });
+  };
+  EXPECT_EQ(said({"tau_1_Nm"}), "--map tau_1_Nm: expected NAME=COLUMN, as in tau_1_Nm=tau1");
+  EXPECT_EQ(said({"tau_7_Nm=x"}),
+            "--map tau_7_Nm=x: 'tau_7_Nm' is no column of a torque file, expected t_s or tau_1_Nm "
+            "to tau_6_Nm, did you mean 'tau_1_Nm'?");
+  EXPECT_EQ(said({"t_s=a", "t_ms=b"}), "--map t_ms=b: t_ms is mapped twice");
+  EXPECT_EQ(said({"t_s=a", "tau_1_Nm=a"}), "--map tau_1_Nm=a: column 'a' is mapped to t_s already");
+  EXPECT_THAT(said({"t_s=t_S"}), StartsWith("a.csv:1: error: no column 't_S' (--map t_s=t_S), the header has t_s, "));
+}
+
+TEST(TorqueColumns, instantsOutsideOfTheMotionSayWhatTheyLookLike) {
+  const auto said = [](const std::string& a, const std::string& b, const std::string& c) {
+    const std::string rest = ",1,1,1,1,1,1\n";
+    return refusal<CsvError>(
+        [&] { within(parseTorqueFile(plain_header + a + rest + b + rest + c + rest, "a.csv"), 3); });
+  };
+  EXPECT_THAT(said("0", "1500", "3000"),
+              EndsWith("t_s = 1500 lies outside of the motion, expected 0 to 3 s; they look "
+                       "like milliseconds: the last one is 1000 times the motion's duration. "
+                       "If they are, say so: --map t_ms=COLUMN"));
+  EXPECT_THAT(said("10", "11", "13"), EndsWith("; they look shifted by 10 s: they last as long as the motion"));
+  EXPECT_THAT(said("2", "3", "4"), EndsWith("expected 0 to 3 s"));
+}
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,86 @@
+#include "validation/checks/tolerance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "validation/checks/acceptance.h"
+
+namespace ursula {
+namespace {
+
+bool startsWith(const std::string& text, const char* with) { return text.rfind(with, 0) == 0; }
+
+bool isOfTorques(const Check& check) {
+  return startsWith(check.name, "torque.") && check.verdict != Verdict::not_applicable;
+}
+
+/// What errors of the torques do to the motion, and what only shows how torques are computed.
+bool isReported(const Check& check) {
+  for (const char* group : {"acceleration.", "replay.", "closure.", "energy.", "feedback.", "invariance."})
+    if (startsWith(check.name, group)) return true;
+  return check.name == "integration.ladder" || check.name == "integration.second";
+}
+
+bool isNamed(const std::vector<AcceptanceLimit>& acceptance, const std::string& check) {
+  return std::any_of(acceptance.begin(), acceptance.end(),
+                     [&check](const AcceptanceLimit& limit) { return limit.check == check; });
+}
+
+/// Errors of `size` on the motors, carried along the motion and aligned for the worst, in natural units.
+double driftOf(const Evidence& evidence, double size) {
+  if (evidence.amplification == nullptr || evidence.samples.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const std::vector<PointwiseSample>& samples = evidence.samples;
+  const auto response = [&samples](double t) {
+    const auto after = std::lower_bound(samples.begin(), samples.end(), t,
+                                        [](const PointwiseSample& each, double x) { return each.motion.t < x; });
+    return (after == samples.end() ? samples.back() : *after).conditioning.response;
+  };
+  return evidence.amplification->carriedBound(0, evidence.scenario->trajectory->duration(),
+                                              [&](double t) { return response(t) * size; });
+}
+
+}  // namespace
+
+std::optional<EffortDeviation> effortDeviation(const Evidence& evidence, const std::vector<Check>& checks) {
+  const Units& units = evidence.units();
+  EffortDeviation out;
+  bool any = false;
+  for (const Check& check : checks) {
+    if (!isOfTorques(check) || check.reason == Reason::not_made) continue;
+    if (any && !(check.largest.value > out.largest) && !std::isnan(check.largest.value)) continue;
+    out.largest = check.largest.value;
+    out.t = check.largest.t;
+    out.where = check.largest.where;
+    any = true;
+  }
+  if (!any || !evidence.answered()) return std::nullopt;
+  for (const PointwiseSample& sample : evidence.samples) {
+    out.largest_effort = std::max(out.largest_effort, sample.torques_simbody.cwiseAbs().maxCoeff() * units.torque());
+    out.length = sample.conditioning.length * units.length;
+  }
+  out.drift = driftOf(evidence, out.largest / units.torque()) * units.length;
+  out.duration = evidence.given->trajectory->duration();
+  return out;
+}
+
+void judgeByTolerance(const Scenario& scenario, bool covered, ValidationResult& result) {
+  if (!scenario.tolerance || !result.deviation) return;  // nothing was compared: the checks say why
+  const EffortTolerance& tolerance = *scenario.tolerance;
+  EffortDeviation& deviation = *result.deviation;
+  deviation.allowed = tolerance.relative * deviation.largest_effort + tolerance.absolute;
+  const std::string whose = fmt::format("the user's tolerance, {:g} of the largest effort, {:.6g} N m, and {:g} N m",
+                                        tolerance.relative, deviation.largest_effort, tolerance.absolute);
+  for (Check& check : result.checks) {
+    if (isOfTorques(check)) judgeByUser(deviation.allowed, whose, check);
+    if (!isReported(check) || check.verdict == Verdict::not_applicable) continue;
+    if (isNamed(scenario.acceptance, check.name) || (check.reason == Reason::not_covered && !covered)) continue;
+    check.verdict = Verdict::not_applicable;
+    check.reason = Reason::reported;
+    check.why = "reported, not judged, for at a tolerance of the user's the torques alone are: " + check.why;
+  }
+}
+
+}  // namespace ursula

@@ -1,0 +1,236 @@
+#include "validation/external/machine_causes.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <utility>
+
+#include "validation/external/parameter_ties.h"
+#include "validation/subject/subject.h"
+
+namespace ursula {
+namespace {
+
+using Machine = ManipulatorParameters;
+using Rows = std::vector<Vector6d>;
+using Change = std::function<void(Machine&, double)>;
+using Words = std::function<std::string(double, double)>;
+
+Rows torquesOf(const Machine& machine, const Scenario& scenario, const std::vector<Motion<double>>& motions) {
+  const Subject noc = nocSubject(Manipulator(machine), scenario.load);
+  Rows out;
+  out.reserve(motions.size());
+  for (const Motion<double>& motion : motions) out.push_back(noc.torques(motion));
+  return out;
+}
+
+/// Torques are linear in inertias: of a machine with round ones besides, so that also such can be tried that no body
+/// can have. `change` alters inertias alone.
+Rows torquesOfInertias(const Scenario& scenario, const Change& change, double x,
+                       const std::vector<Motion<double>>& motions) {
+  Machine round = scenario.manipulator->parameters();
+  const auto add = [](Matrix3d& inertia) { inertia.diagonal().array() += 10 * inertia.cwiseAbs().maxCoeff(); };
+  Rows out = torquesOf(round, scenario, motions);
+  add(round.platform.inertia);
+  for (Leg& leg : round.legs) {
+    add(leg.proximal.inertia);
+    add(leg.distal.inertia);
+  }
+  const Rows without = torquesOf(round, scenario, motions);
+  change(round, x / 11);  // relative errors are of the largest moment, which is eleven times as large
+  const Rows with = torquesOf(round, scenario, motions);
+  for (std::size_t k = 0; k < out.size(); ++k) out[k] += with[k] - without[k];
+  return out;
+}
+
+/// Collects causes; `scenario` outlives them.
+class Collector {
+ public:
+  explicit Collector(const Scenario& scenario) : scenario_(scenario) {}
+
+  void addFitted(const Change& change, const Words& words) { add(true, change, words); }
+
+  void addTied(const TiedParameters& tied) {
+    const Machine& machine = scenario_.manipulator->parameters();
+    const Change change = [tied](Machine& changed, double x) { tied.disturb(changed, x); };
+    addFitted(change, [tied, machine](double x, double deviation) { return tied.text(machine, x, deviation); });
+    if (tied.members.front().group != "inertia") return;
+    const Scenario& scenario = scenario_;
+    causes.back().torques = [&scenario, change](double x, const std::vector<Motion<double>>& motions) {
+      return torquesOfInertias(scenario, change, x, motions);
+    };
+  }
+
+  void addFixed(const std::string& text, const std::function<void(Machine&)>& change) {
+    add(
+        false, [change](Machine& machine, double) { change(machine); }, [text](double, double) { return text; });
+  }
+
+  /// A change of one link, for the proximal links, the distal ones, and all.
+  void addLinks(const std::string& before, const std::string& after, const std::function<void(Link&)>& change) {
+    for (const int which : {2, 0, 1})
+      addFixed(before +
+                   (which == 0   ? "the proximal links"
+                    : which == 1 ? "the distal links"
+                                 : "all links") +
+                   after,
+               [change, which](Machine& machine) {
+                 for (Leg& leg : machine.legs) {
+                   if (which != 1) change(leg.proximal);
+                   if (which != 0) change(leg.distal);
+                 }
+               });
+  }
+
+  std::vector<Cause> causes;
+
+ private:
+  void add(bool fitted, const Change& change, const Words& words) {
+    const Scenario& scenario = scenario_;
+    causes.push_back({fitted,
+                      [&scenario, change](double x, const std::vector<Motion<double>>& motions) {
+                        Machine machine = scenario.manipulator->parameters();
+                        change(machine, x);
+                        return torquesOf(machine, scenario, motions);
+                      },
+                      words});
+  }
+
+  const Scenario& scenario_;
+};
+
+/// I of the mass centre with m (r² 1 − r rᵀ) added or taken away.
+Matrix3d moved(const Matrix3d& inertia, double mass, const Vector3d& r, double sign) {
+  return inertia + sign * mass * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
+}
+
+void addInertias(Collector& out) {
+  const auto link = [](double sign, bool from_end) {
+    return [sign, from_end](Link& one) {
+      const double r = from_end ? one.length - one.center_of_mass : one.center_of_mass;
+      one.inertia = moved(one.inertia, one.mass, Vector3d(0, 0, r), sign);
+    };
+  };
+  out.addLinks("inertias of ", " about the first joint used as about the mass centre", link(1, false));
+  out.addLinks("inertias of ", ", about the mass centre, taken for such about the first joint", link(-1, false));
+  out.addFixed("inertia of the platform about P used as about its mass centre", [](Machine& machine) {
+    Platform& one = machine.platform;
+    one.inertia = moved(one.inertia, one.mass, one.center_of_mass, 1);
+  });
+  out.addFixed("inertia of the platform, about its mass centre, taken for such about P", [](Machine& machine) {
+    Platform& one = machine.platform;
+    one.inertia = moved(one.inertia, one.mass, one.center_of_mass, -1);
+  });
+  out.addLinks("inertias of ", " with x and y exchanged", [](Link& one) {
+    one.inertia.row(0).swap(one.inertia.row(1));
+    one.inertia.col(0).swap(one.inertia.col(1));
+  });
+  out.addLinks("inertias of ", " with x and z exchanged", [](Link& one) {
+    one.inertia.row(0).swap(one.inertia.row(2));
+    one.inertia.col(0).swap(one.inertia.col(2));
+  });
+  out.addLinks("inertias of ", " without products of inertia",
+               [](Link& one) { one.inertia = one.inertia.diagonal().asDiagonal().toDenseMatrix(); });
+  out.addLinks("products of inertia of ", " with the wrong sign",
+               [](Link& one) { one.inertia = 2 * one.inertia.diagonal().asDiagonal().toDenseMatrix() - one.inertia; });
+}
+
+void addExchanged(Collector& out) {
+  out.addLinks("mass centres of ", " measured from the other end",
+               [](Link& one) { one.center_of_mass = one.length - one.center_of_mass; });
+  out.addLinks("mass centres of ", " at their first joints", [](Link& one) { one.center_of_mass = 0; });
+  out.addFixed("mass centre of the platform taken at P",
+               [](Machine& machine) { machine.platform.center_of_mass.setZero(); });
+  out.addFixed("mass centre of the platform on the other side of P",
+               [](Machine& machine) { machine.platform.center_of_mass *= -1; });
+  out.addFixed("proximal and distal links exchanged, but for their lengths", [](Machine& machine) {
+    for (Leg& leg : machine.legs) {
+      std::swap(leg.proximal, leg.distal);
+      std::swap(leg.proximal.length, leg.distal.length);
+    }
+  });
+  out.addFixed("proximal and distal inertias exchanged", [](Machine& machine) {
+    for (Leg& leg : machine.legs) std::swap(leg.proximal.inertia, leg.distal.inertia);
+  });
+  out.addFixed("base axes without their part along z", [](Machine& machine) {
+    for (Leg& leg : machine.legs) leg.base_axis.z() = 0;
+  });
+  out.addFixed("base axes with the wrong sign of z", [](Machine& machine) {
+    for (Leg& leg : machine.legs) leg.base_axis.z() *= -1;
+  });
+}
+
+void addKnees(Collector& out) {
+  for (int legs = 1; legs < 1 << leg_count; ++legs) {
+    std::string names;
+    int count = 0;
+    for (int i = 0; i < leg_count; ++i)
+      if (legs >> i & 1) names += fmt::format("{}{}", count++ == 0 ? "" : ", ", i + 1);
+    out.addFixed(count == leg_count ? std::string("the other knee on every leg")
+                                    : fmt::format("the other knee on leg{} {}", count == 1 ? "" : "s", names),
+                 [legs](Machine& machine) {
+                   for (std::size_t i = 0; i < leg_count; ++i) {
+                     Knee& knee = machine.legs[i].knee;
+                     if (legs >> i & 1) knee = knee == Knee::positive ? Knee::negative : Knee::positive;
+                   }
+                 });
+  }
+}
+
+/// Friction that the scenario does not have: a fit of its coefficients, of every leg.
+void addFriction(Collector& out) {
+  const std::pair<const char*, double JointFriction::*> joints[] = {
+      {"phi", &JointFriction::actuated}, {"psi", &JointFriction::universal}, {"theta", &JointFriction::knee}};
+  for (const auto& [name, member] : joints) {
+    const std::string joint = name;
+    out.addFitted(
+        [member = member](Machine& machine, double x) {
+          for (Leg& leg : machine.legs) leg.friction.*member += x;
+        },
+        [joint](double x, double deviation) {
+          return fmt::format("viscous friction on every {} of {} N m s/rad more than the scenario's", joint,
+                             withDeviation(x, deviation));
+        });
+    out.addFitted(
+        [member = member](Machine& machine, double x) {
+          for (Leg& leg : machine.legs) leg.coulomb.*member += x;
+        },
+        [joint](double x, double deviation) {
+          return fmt::format("Coulomb friction on every {} of {} N m more than the scenario's", joint,
+                             withDeviation(x, deviation));
+        });
+  }
+}
+
+void addPlatform(Collector& out) {
+  out.addFitted([](Machine& machine, double x) { machine.platform.inertia *= 1 + x; },
+                [](double x, double deviation) {
+                  return fmt::format("platform inertia tensor scaled by {}", withDeviation(1 + x, deviation));
+                });
+  out.addFitted(
+      [](Machine& machine, double x) {  // in units of the platform's mass
+        Platform& one = machine.platform;
+        const Vector3d before = one.center_of_mass, after = before / (1 + x), to_load = after, to_old = before - after;
+        one.inertia = moved(moved(one.inertia, one.mass, to_old, 1), x * one.mass, to_load, 1);
+        one.mass *= 1 + x;
+        one.center_of_mass = after;
+      },
+      [](double x, double deviation) {
+        return fmt::format("a point mass at P of {} times the platform's mass", withDeviation(x, deviation));
+      });
+}
+
+}  // namespace
+
+std::vector<Cause> machineCauses(const Scenario& scenario) {
+  Collector out(scenario);
+  addPlatform(out);
+  for (const TiedParameters& tied : tiedParameters()) out.addTied(tied);
+  addInertias(out);
+  addExchanged(out);
+  addKnees(out);
+  addFriction(out);
+  return std::move(out.causes);
+}
+
+}  // namespace ursula

@@ -1,0 +1,105 @@
+#include "validation/outside/outside_solver.h"
+
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <unordered_map>
+
+#include "validation/subject/subject.h"
+
+namespace ursula {
+namespace {
+
+/// Thrown through the experiments once the solver has thrown. No std::exception, for of those an experiment makes a
+/// result of its own.
+struct SolverStopped {};
+
+bool same(const Motion<double>& a, const Motion<double>& b) {
+  return a.t == b.t && a.p == b.p && a.Q == b.Q && a.omega == b.omega && a.p_dot == b.p_dot &&
+         a.omega_dot == b.omega_dot && a.p_ddot == b.p_ddot;
+}
+
+/// Asks the solver, remembers what it was asked last, and keeps what it threw.
+class Asking {
+ public:
+  explicit Asking(const OutsideSolver& solver) : solver_(solver) {}
+
+  Vector6d one(const Motion<double>& motion) {
+    const std::lock_guard<std::mutex> one_at_a_time(mutex_);
+    if (const Vector6d* known = find(motion)) return *known;
+    if (known_.size() > most_foreseen) known_.clear();
+    return ask({motion}).front();
+  }
+
+  void foresee(const std::vector<Motion<double>>& motions) {
+    const std::lock_guard<std::mutex> one_at_a_time(mutex_);
+    std::vector<Motion<double>> unknown;
+    for (const Motion<double>& motion : motions)
+      if (find(motion) == nullptr && (unknown.empty() || !same(unknown.back(), motion))) unknown.push_back(motion);
+    if (unknown.empty()) return;
+    if (known_.size() > most_kept) known_.clear();
+    ask(unknown);
+  }
+
+  /// Throws what the solver threw, if it did.
+  void rethrow() const {
+    if (thrown_) std::rethrow_exception(thrown_);
+  }
+
+ private:
+  struct Answer {
+    Motion<double> motion;
+    Vector6d torques;
+  };
+  /// Of answers kept when others are foreseen: more than any step of an integrator asks again; and at all: more than
+  /// are ever foreseen at once.
+  static constexpr std::size_t most_kept = 1024, most_foreseen = 1 << 18;
+
+  const Vector6d* find(const Motion<double>& motion) const {
+    const auto found = known_.find(motion.t);
+    return found != known_.end() && same(found->second.motion, motion) ? &found->second.torques : nullptr;
+  }
+
+  std::vector<Vector6d> ask(const std::vector<Motion<double>>& motions) {
+    if (thrown_) throw SolverStopped{};
+    std::vector<Vector6d> answers;
+    try {
+      answers = solver_.torques(motions);
+      if (answers.size() != motions.size())
+        throw std::invalid_argument(solver_.name + ": " + std::to_string(answers.size()) + " answers to " +
+                                    std::to_string(motions.size()) + " motions");
+    } catch (...) {
+      thrown_ = std::current_exception();
+      throw SolverStopped{};
+    }
+    for (std::size_t k = 0; k < motions.size(); ++k) known_[motions[k].t] = {motions[k], answers[k]};
+    return answers;
+  }
+
+  OutsideSolver solver_;
+  std::mutex mutex_;
+  std::unordered_map<double, Answer> known_;  ///< by instant: a solver is asked along one motion
+  std::exception_ptr thrown_;
+};
+
+}  // namespace
+
+ValidationResult validateOutside(const Scenario& scenario, const OutsideSolver& solver,
+                                 const ValidationOptions& options) {
+  const auto asking = std::make_shared<Asking>(solver);
+  Subject subject;
+  subject.name = solver.name;
+  subject.torques = [asking](const Motion<double>& motion) { return asking->one(motion); };
+  subject.foresee = [asking](const std::vector<Motion<double>>& motions) { asking->foresee(motions); };
+  try {
+    ValidationResult result = validate(scenario, subject, options);
+    asking->rethrow();  // an engine may have kept it to itself
+    return result;
+  } catch (...) {
+    asking->rethrow();  // that came first
+    throw;
+  }
+}
+
+}  // namespace ursula

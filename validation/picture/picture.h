@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/scenario.h"
+#include "validation/verdict/result.h"
+
+namespace ursula {
+
+/// What it takes to draw a machine along its motion, and what it was asked: points and directions only, so that legs
+/// of any kind are drawn by the same code. Points are in m, in B, from `origin`.
+struct Picture {
+  using Track = std::vector<Vector3d>;  ///< one entry for each instant
+
+  struct Link {
+    Track from, to;
+  };
+
+  struct Joint {
+    std::string name;         ///< what it is, for people: "universal", "revolute", …
+    Track at;                 ///< its point
+    std::vector<Track> axes;  ///< unit vectors, the driven one first; empty for a ball
+    bool driven = false;      ///< about or along the first axis
+  };
+
+  struct Leg {
+    std::string kind;
+    std::vector<Link> links;
+    std::vector<Joint> joints;
+  };
+
+  Vector3d origin = Vector3d::Zero();
+  std::vector<double> t;
+  std::vector<Leg> legs;
+  Track p;                                ///< P, commanded
+  std::vector<Eigen::Vector4d> q;         ///< orientation [w, x, y, z], commanded, continuous
+  std::vector<Vector3d> platform_points;  ///< where the legs hold the platform, in M
+  Scenario scenario;
+};
+
+/// The machine of `scenario` at these instants. Throws PoseError.
+std::shared_ptr<const Picture> makePicture(const Scenario& scenario, const std::vector<double>& instants);
+
+/// The same along the time series of `result`, at most so many of its instants as an eye can tell apart.
+void addPicture(const Scenario& scenario, ValidationResult& result);
+
+}  // namespace ursula

@@ -1,0 +1,47 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "validation/report/report.h"
+
+namespace ursula {
+namespace {
+
+/// 0.041 → "41 mm".
+std::string lengthText(double metres) {
+  static constexpr struct {
+    double size;
+    const char* name;
+  } units[] = {{1, "m"}, {1e-3, "mm"}, {1e-6, "µm"}, {1e-9, "nm"}};
+  for (const auto& unit : units)
+    if (metres >= unit.size) return fmt::format("{:.2g} {}", metres / unit.size, unit.name);
+  return fmt::format("{:.2g} pm", metres / 1e-12);
+}
+
+/// "0.03 %"; below a millionth as a number, for nobody reads 0.0000003 %.
+std::string shareText(double share) {
+  return share >= 1e-6 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.1e} of the largest", share);
+}
+
+std::string driftText(const EffortDeviation& deviation) {
+  if (!std::isfinite(deviation.drift) || deviation.largest == 0) return "";
+  if (deviation.drift > deviation.length)
+    return fmt::format("from errors of this size the open-loop motion may be lost within {:.3g} s; ",
+                       deviation.duration);
+  return fmt::format("from errors of this size the open-loop motion would drift by up to {} in {:.3g} s; ",
+                     lengthText(deviation.drift), deviation.duration);
+}
+
+}  // namespace
+
+std::string sentence(const EffortDeviation& deviation) {
+  if (std::isnan(deviation.largest)) return "The largest deviation is unknown: a torque is no number.";
+  const std::string share = deviation.largest_effort > 0 ? shareText(deviation.relative()) : "no known share";
+  return fmt::format(
+      "Right to {}: the largest deviation is {:.3g} N m of {:.6g} N m, {} at t = {:.4g} s; {}the smallest --rtol that "
+      "would pass is {:.3g}.",
+      share, deviation.largest, deviation.largest_effort, deviation.where, deviation.t, driftText(deviation),
+      deviation.smallestRelative());
+}
+
+}  // namespace ursula

@@ -1,0 +1,115 @@
+#include "validation/report/input_card.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <set>
+
+#include "validation/report/quantity.h"
+#include "validation/report/text.h"
+
+namespace ursula::report {
+namespace {
+
+std::string digits(double value) { return fmt::format("{:.6g}", value); }
+
+std::string vectorText(const Vector3d& v) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x(), v.y(), v.z()); }
+
+std::string inertiaText(const Matrix3d& I) {
+  const std::string diagonal = fmt::format("[{:.6g}, {:.6g}, {:.6g}", I(0, 0), I(1, 1), I(2, 2));
+  if (I(0, 1) == 0 && I(0, 2) == 0 && I(1, 2) == 0) return diagonal + "]";
+  return diagonal + fmt::format(", {:.6g}, {:.6g}, {:.6g}]", I(0, 1), I(0, 2), I(1, 2));
+}
+
+std::string fact(const std::string& what, const std::string& value) {
+  return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", what, escaped(value));
+}
+
+std::string linkText(const Link& link) {
+  return fmt::format("length {} m, mass {} kg, mass centre at {} m, inertia {} kg·m²", digits(link.length),
+                     digits(link.mass), digits(link.center_of_mass), inertiaText(link.inertia));
+}
+
+std::string frictionText(const JointFriction& f, const char* unit) {
+  if (f.actuated == 0 && f.universal == 0 && f.knee == 0) return "none";
+  return fmt::format("φ {}, ψ {}, θ {} {}", digits(f.actuated), digits(f.universal), digits(f.knee), unit);
+}
+
+std::string loadText(const Load* load) {
+  if (load == nullptr) return "none";
+  if (load->history) return fmt::format("a table of {} rows", load->history->rows().size());
+  return fmt::format("force {} N, moment {} N·m, at {} m of M", vectorText(load->force), vectorText(load->moment),
+                     vectorText(load->point));
+}
+
+/// Legs that share a text share a row.
+template <class Text>
+std::string byLegs(const char* what, const Manipulator& machine, const Text& text) {
+  std::string rows;
+  std::set<std::string> done;
+  for (int i = 0; i < leg_count; ++i) {
+    const std::string mine = text(machine.leg(i));
+    if (!done.insert(mine).second) continue;
+    std::string legs;
+    for (int k = 0; k < leg_count; ++k)
+      if (text(machine.leg(k)) == mine) legs += (legs.empty() ? "" : ", ") + std::to_string(k + 1);
+    const bool all = done.size() == 1 && legs.size() == 3 * leg_count - 2;
+    rows += fact(all ? std::string(what) + ", every leg" : fmt::format("{}, leg {}", what, legs), mine);
+  }
+  return rows;
+}
+
+std::string legRows(const Manipulator& machine) {
+  std::string rows;
+  for (int i = 0; i < leg_count; ++i) {
+    const Leg& leg = machine.leg(i);
+    rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", i + 1,
+                        vectorText(leg.base_point), vectorText(leg.base_axis), vectorText(leg.platform_point),
+                        leg.knee == Knee::positive ? "positive" : "negative");
+  }
+  return "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"Where the legs are held\"><table>"
+         "<caption>Where the legs are held: base point and axis in B, platform point in M, m</caption>"
+         "<thead><tr><th scope=\"col\">Leg</th><th scope=\"col\">Base point</th><th scope=\"col\">Base axis</th><th "
+         "scope=\"col\">Platform point</th><th scope=\"col\">Knee</th></tr></thead><tbody>\n" +
+         rows + "</tbody></table></div>";
+}
+
+}  // namespace
+
+std::string machineLine(const Picture& picture) {
+  const Scenario& scenario = picture.scenario;
+  std::set<std::string> kinds;
+  for (const Picture::Leg& leg : picture.legs) kinds.insert(leg.kind);
+  std::string kind;
+  for (const std::string& each : kinds) kind += (kind.empty() ? "" : " and ") + each;
+  std::string line = fmt::format("{} {} legs carry a platform of {} kg", inWords(static_cast<int>(picture.legs.size())),
+                                 kind, digits(scenario.manipulator->platform().mass));
+  line[0] = static_cast<char>(line[0] - 'a' + 'A');
+  return line + fmt::format(" · {}, {}", scenario.trajectory->kind(), quantity(scenario.trajectory->duration(), "s")) +
+         (scenario.load ? " · under a load" : "");
+}
+
+std::string inputCard(const Picture& picture) {
+  const Scenario& scenario = picture.scenario;
+  const Manipulator& machine = *scenario.manipulator;
+  const Platform& platform = machine.platform();
+  std::string rows =
+      fact("Gravity", vectorText(machine.gravity()) + " m/s²") +
+      fact("Platform", fmt::format("mass {} kg, mass centre {} m in M, inertia {} kg·m²", digits(platform.mass),
+                                   vectorText(platform.center_of_mass), inertiaText(platform.inertia)));
+  rows += byLegs("Proximal link", machine, [](const Leg& leg) { return linkText(leg.proximal); });
+  rows += byLegs("Distal link", machine, [](const Leg& leg) { return linkText(leg.distal); });
+  rows += byLegs("Viscous friction", machine, [](const Leg& leg) { return frictionText(leg.friction, "N·m·s/rad"); });
+  rows += byLegs("Coulomb friction", machine, [](const Leg& leg) { return frictionText(leg.coulomb, "N·m"); });
+  rows += fact("Load", loadText(scenario.load.get()));
+  rows += fact("Motion", fmt::format("{}, {} s, judged at {} instants", scenario.trajectory->kind(),
+                                     digits(scenario.trajectory->duration()), scenario.simulation.samples));
+  return fmt::format(
+      "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"Machine and motion\"><table "
+      "class=\"facts\"><caption>Machine and motion, SI units, inertias as [xx, yy, zz] or with xy, xz, "
+      "yz</caption><tbody>\n{}</tbody></table></div>\n{}",
+      rows, legRows(machine));
+}
+
+}  // namespace ursula::report

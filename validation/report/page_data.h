@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "validation/report/plots.h"
+#include "validation/verdict/result.h"
+
+namespace ursula::report {
+
+/// What the page's script draws, as JSON that can stand in a <script> block: charts, the machine along its motion,
+/// events. Thinned for the eye; numbers with six digits.
+std::string pageData(const ValidationResult& result, const std::vector<Plot>& plots);
+
+}  // namespace ursula::report

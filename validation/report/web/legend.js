@@ -1,0 +1,32 @@
+import { colorOf, dashOf, widthOf } from "./plots.js";
+
+const sample = (line) =>
+  `<svg width="26" height="8" aria-hidden="true"><path d="M0 4H26" fill="none" stroke="${colorOf(line)}"
+    stroke-width="${widthOf(line)}" stroke-dasharray="${dashOf(line).join(" ")}"/></svg>`;
+
+// uPlot's own markers are squares; a sample of the line shows its dashes. A button hides the line by keyboard, too.
+function makeButton(label, chart, index) {
+  const button = document.createElement("button");
+  button.type = "button";
+  button.title = "Hide or show this line";
+  button.textContent = label.textContent;
+  button.addEventListener("click", (event) => {
+    event.stopPropagation();
+    chart.setSeries(index, { show: !chart.series[index].show });
+    button.setAttribute("aria-pressed", String(chart.series[index].show));
+  });
+  button.setAttribute("aria-pressed", "true");
+  label.replaceChildren(button);
+  return button;
+}
+
+/** Draws the samples of all lines, in the colours of the theme. */
+export function drawLegend(chart, plot) {
+  const labels = chart.root.querySelectorAll(".u-series th");
+  plot.lines.forEach((line, i) => {
+    const label = labels[i + 1];
+    const button = label.querySelector("button") ?? makeButton(label, chart, i + 1);
+    button.querySelector("svg")?.remove();
+    button.insertAdjacentHTML("afterbegin", sample(line));
+  });
+}

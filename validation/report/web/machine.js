@@ -1,0 +1,76 @@
+import { BufferGeometry, EdgesGeometry, Group, Line, LineBasicMaterial, LineSegments, Mesh, Vector3 } from "three";
+import { ConvexGeometry } from "three/examples/jsm/geometries/ConvexGeometry.js";
+import { ball, between, drum, paint, rod, turnTo } from "./shapes.js";
+import { color, lineColor } from "./theme.js";
+import { quaternionAt, vectorAt } from "./tracks.js";
+
+/** All points of a track. */
+export const points = (track) =>
+  Array.from({ length: Math.floor(track.length / 3) }, (_, k) => new Vector3(...track.slice(3 * k, 3 * k + 3)));
+
+// A plate through points that need not lie in a plane.
+export function plate(corners, thickness) {
+  const middle = corners.reduce((sum, point) => sum.add(point), new Vector3()).divideScalar(corners.length);
+  const normal = new Vector3();
+  corners.forEach((point, k) => {
+    const next = corners[(k + 1) % corners.length];
+    normal.add(point.clone().sub(middle).cross(next.clone().sub(middle)));
+  });
+  if (normal.length() === 0) normal.set(0, 0, 1);
+  normal.normalize().multiplyScalar(thickness / 2);
+  return new ConvexGeometry(corners.flatMap((point) => [point.clone().add(normal), point.clone().sub(normal)]));
+}
+
+function makeJoint(joint, size, material) {
+  const group = new Group();
+  if (joint.axes.length === 0) group.add(ball(0.022 * size, material));
+  joint.axes.forEach((_, k) => {
+    const driven = joint.driven && k === 0;
+    group.add(drum((driven ? 0.034 : 0.02) * size, (driven ? 0.085 : 0.07) * size, material));
+  });
+  return group;
+}
+
+function makeLeg(leg, index, size) {
+  const group = new Group();
+  const material = paint(lineColor(index));
+  const metal = paint(color("metal"));
+  const links = leg.links.map((_, k) => rod((k === 0 ? 0.016 : 0.011) * size, material));
+  const joints = leg.joints.map((joint) => makeJoint(joint, size, joint.driven ? material : metal));
+  group.add(...links, ...joints);
+  const update = (place) => {
+    leg.links.forEach((link, k) => between(links[k], vectorAt(link.from, place), vectorAt(link.to, place)));
+    leg.joints.forEach((joint, k) => {
+      joints[k].position.copy(vectorAt(joint.at, place));
+      joint.axes.forEach((axis, i) => turnTo(joints[k].children[i], vectorAt(axis, place).normalize()));
+    });
+  };
+  return { group, update };
+}
+
+function outlined(geometry, material, edges) {
+  const group = new Group();
+  group.add(new Mesh(geometry, material), new LineSegments(new EdgesGeometry(geometry, 20), new LineBasicMaterial({ color: edges })));
+  return group;
+}
+
+/** Base, legs, platform and path, drawn from points alone: legs of any kind. */
+export function makeMachine(machine, size) {
+  const group = new Group();
+  const start = { index: 0, share: 0 };
+  const base_points = machine.legs.map((leg) => vectorAt(leg.links[0].from, start));
+  const translucent = { transparent: true, opacity: 0.35, depthWrite: false };
+  group.add(outlined(plate(base_points, 0.02 * size), paint(color("metal"), translucent), color("quiet")));
+  const platform = outlined(plate(points(machine.hold), 0.04 * size), paint(color("plate"), { transparent: true, opacity: 0.85 }), color("quiet"));
+  const legs = machine.legs.map((leg, k) => makeLeg(leg, k, size));
+  const path = new Line(new BufferGeometry().setFromPoints(points(machine.p)), new LineBasicMaterial({ color: color("text") }));
+  const P = ball(0.016 * size, paint(color("text")));
+  group.add(platform, path, P, ...legs.map((leg) => leg.group));
+  const update = (place) => {
+    for (const leg of legs) leg.update(place);
+    platform.position.copy(vectorAt(machine.p, place));
+    platform.quaternion.copy(quaternionAt(machine.q, place));
+    P.position.copy(platform.position);
+  };
+  return { group, update };
+}

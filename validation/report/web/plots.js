@@ -1,0 +1,195 @@
+import uPlot from "uplot";
+import { addTools } from "./plot_tools.js";
+import { drawLegend } from "./legend.js";
+import { color, lineColor, watchTheme } from "./theme.js";
+import { isDecade, linearTicks, logTicks, shortNumber } from "./ticks.js";
+
+// Distinct without colour too: every line has its own dashes.
+const dashes = [[], [8, 4], [2, 3], [10, 3, 2, 3], [14, 5], [5, 2], [3, 2]];
+// Zero has no place on a logarithmic axis; it becomes a gap. So does what is as good as zero: uPlot throws at less than
+// 1e-32.
+const least_on_log = 1e-30;
+
+export const dashOf = (line) => (line.stroke === "ghost" ? [] : line.stroke === "limit" ? [6, 4] : dashes[line.color % 7]);
+export const widthOf = (line) => (line.stroke === "ghost" ? 5 : line.stroke === "limit" ? 1.5 : 1.75);
+export const colorOf = (line) =>
+  line.stroke === "limit" ? color("limit") : lineColor(line.color) + (line.stroke === "ghost" ? "66" : "");
+
+function seriesOptions(line, plot, few) {
+  const said = !line.unit || plot.yLabel.endsWith(`(${line.unit})`); // by the axis
+  return {
+    label: said ? line.label : `${line.label} (${line.unit})`,
+    stroke: () => colorOf(line),
+    width: widthOf(line),
+    dash: dashOf(line),
+    spanGaps: few,
+    points: { show: few || undefined, size: 7, stroke: () => colorOf(line), fill: () => colorOf(line) },
+    value: (_, value) => shortNumber(value),
+  };
+}
+
+// uPlot would rule all of 2, 3, … 9 × 10ⁿ; over many decades that is a grey wall.
+const onlyDecades = (_, splits) => splits.map((split) => (isDecade(split) ? split : null));
+
+function axisOptions(label, log, size) {
+  return {
+    label: label || undefined,
+    labelSize: 20,
+    labelFont: "12px system-ui, sans-serif",
+    font: "12px system-ui, sans-serif",
+    size,
+    stroke: () => color("quiet"),
+    grid: { stroke: () => color("rule"), width: 1, ...(log && { filter: onlyDecades }) },
+    ticks: { stroke: () => color("rule"), width: 1, size: 5, ...(log && { filter: onlyDecades }) },
+    values: (_, splits, __, ___, increment) => (log ? logTicks(splits) : linearTicks(splits, increment)),
+  };
+}
+
+const drawable = (values, log) => (log ? values.map((value) => (value > least_on_log ? value : null)) : values);
+
+// Charts over time are zoomed together.
+class Together {
+  charts = new Set();
+  #busy = false;
+
+  zoomed(chart) {
+    if (this.#busy) return;
+    this.#busy = true;
+    const { min, max } = chart.scales.x;
+    this.range = { min, max };
+    for (const other of this.charts) if (other !== chart) other.setScale("x", this.range);
+    this.#busy = false;
+  }
+}
+
+function drawEvents(chart, events) {
+  const { ctx, bbox } = chart;
+  ctx.save();
+  ctx.strokeStyle = ctx.fillStyle = color("quiet");
+  ctx.setLineDash([2, 4]);
+  for (const { t } of events) {
+    if (t < chart.scales.x.min || t > chart.scales.x.max) continue;
+    const x = Math.round(chart.valToPos(t, "x", true));
+    ctx.beginPath();
+    ctx.moveTo(x, bbox.top);
+    ctx.lineTo(x, bbox.top + bbox.height);
+    ctx.stroke();
+    ctx.beginPath();
+    ctx.moveTo(x - 5, bbox.top);
+    ctx.lineTo(x + 5, bbox.top);
+    ctx.lineTo(x, bbox.top + 8);
+    ctx.fill();
+  }
+  ctx.restore();
+}
+
+// The event beside the pointer, in words.
+function nameEvent(chart, events) {
+  const { left } = chart.cursor;
+  const near = left < 0 ? null : events.find(({ t }) => Math.abs(chart.valToPos(t, "x") - left) < 6);
+  chart.over.title = near ? `${near.what}, t = ${Number(near.t.toPrecision(4))} s` : "";
+}
+
+function timeHooks(plot, events, together) {
+  if (!plot.overTime) return {};
+  return {
+    draw: [(chart) => drawEvents(chart, events)],
+    setCursor: [(chart) => nameEvent(chart, events)],
+    setScale: [(chart, key) => key === "x" && chart.status === 1 && together.zoomed(chart)],
+  };
+}
+
+function options(plot, width, events, together) {
+  const few = !plot.overTime && plot.x.length <= 60;
+  const [x0, x1] = [plot.x[0], plot.x.at(-1)];
+  return {
+    width,
+    height: 250,
+    scales: {
+      x: { time: false, distr: plot.logX ? 3 : 1, ...(plot.overTime && together.range) },
+      y: { distr: plot.logY ? 3 : 1 },
+    },
+    axes: [axisOptions(plot.xLabel, plot.logX, 30), axisOptions(plot.yLabel, plot.logY, 60)],
+    series: [
+      { label: plot.xLabel, value: (_, value) => shortNumber(value) },
+      ...plot.lines.map((line) => seriesOptions(line, plot, few)),
+    ],
+    cursor: { drag: { x: x1 > x0, y: false }, ...(plot.overTime && { sync: { key: "time", setSeries: false } }) },
+    hooks: timeHooks(plot, events, together),
+  };
+}
+
+// The instant that the machine shows: a line over the chart, and while nothing hovers, the values in the legend.
+function follow(chart, plot, clock) {
+  const mark = document.createElement("div");
+  mark.className = "now";
+  chart.over.append(mark);
+  const move = () => {
+    const left = chart.valToPos(clock.t, "x");
+    mark.hidden = !(left >= 0 && left <= chart.over.clientWidth);
+    mark.style.transform = `translateX(${left}px)`;
+    mark.dataset.t = clock.t;
+    if (chart.cursor.left < 0 && !clock.playing) chart.setLegend({ idx: nearest(plot.x, clock.t) }, false);
+  };
+  clock.onChange(move);
+  setTimeout(move); // once more when uPlot, too, has filled its legend
+  let down = 0;
+  chart.over.addEventListener("mousedown", (event) => (down = event.clientX));
+  chart.over.addEventListener("click", (event) => {
+    if (Math.abs(event.clientX - down) > 3) return; // that was a zoom
+    clock.pause();
+    clock.set(chart.posToVal(event.offsetX, "x"));
+  });
+}
+
+function nearest(x, t) {
+  let low = 0;
+  let high = x.length - 1;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (x[middle] < t) low = middle;
+    else high = middle;
+  }
+  return t - x[low] <= x[high] - t ? low : high;
+}
+
+function drawChart(host, plot, data, clock, together) {
+  const still = host.querySelector("svg.static");
+  const lines = [plot.x, ...plot.lines.map((line) => drawable(line.values, plot.logY))];
+  const chart = new uPlot(options(plot, host.clientWidth, data.events, together), lines, host);
+  host.classList.add("drawn");
+  chart.ctx.canvas.setAttribute("role", "img");
+  chart.ctx.canvas.setAttribute("aria-label", plot.description);
+  drawLegend(chart, plot);
+  if (plot.overTime) together.charts.add(chart);
+  addTools(host, chart, plot, still, data.scenario);
+  if (plot.overTime) follow(chart, plot, clock);
+  return () => {
+    drawLegend(chart, plot);
+    if (host.clientWidth !== chart.width) chart.setSize({ width: host.clientWidth, height: chart.height });
+    chart.redraw(false);
+  };
+}
+
+/** Draws each chart when it comes near the screen, and again whenever width or theme change. */
+export function drawCharts(document, data, clock) {
+  const together = new Together();
+  const redraws = [];
+  const watcher = new IntersectionObserver(
+    (entries) => {
+      for (const { isIntersecting, target } of entries) {
+        if (!isIntersecting) continue;
+        watcher.unobserve(target);
+        redraws.push(drawChart(target, data.plots[target.dataset.plot], data, clock, together));
+      }
+    },
+    { rootMargin: "200px" },
+  );
+  for (const host of document.querySelectorAll("[data-plot]")) watcher.observe(host);
+  const redrawAll = () => {
+    redraws.forEach((redraw) => redraw());
+    clock.set(clock.t); // puts the marks where the time now is
+  };
+  window.addEventListener("resize", redrawAll);
+  watchTheme(redrawAll);
+}

@@ -1,0 +1,147 @@
+import { AmbientLight, Box3, DirectionalLight, Group, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { axesLayer, effortsLayer, errorLayer, framesLayer, reactionsLayer } from "./layers.js";
+import { makeMachine, points } from "./machine.js";
+import { largestVector, placeAt, resolved } from "./tracks.js";
+
+const makers = [
+  ["error", "errors, enlarged", true, errorLayer],
+  ["efforts", "efforts", false, effortsLayer],
+  ["reactions", "reactions", false, reactionsLayer],
+  ["axes", "joint axes", false, axesLayer],
+  ["frames", "frames", false, framesLayer],
+];
+const view = new Vector3(0.75, -1.15, 0.5);
+
+/** What the machine sweeps over the whole motion. */
+function room(machine) {
+  const box = new Box3();
+  for (const leg of machine.legs) for (const link of leg.links) box.setFromPoints([...points(link.from), ...points(link.to), ...corners(box)]);
+  return box;
+}
+const corners = (box) => (box.isEmpty() ? [] : [box.min.clone(), box.max.clone()]);
+
+/** Powers of ten that make the largest error visible, the first of them by default; 1 where it can be seen as it is. */
+function factorsFor(machine, size) {
+  const largest = machine.error.length ? largestVector(machine.error, 6) : 0;
+  if (largest === 0) return machine.error.length ? [1] : [];
+  const best = Math.max(0, Math.floor(Math.log10((0.3 * size) / largest)));
+  const out = [10 ** best];
+  for (const lower of [1, 2, 3]) if (best - lower > 0) out.push(10 ** (best - lower));
+  return [...new Set([...out, 1])];
+}
+
+function lights() {
+  const group = new Group();
+  const sun = new DirectionalLight(0xffffff, 2.2);
+  sun.position.set(3, -4, 6);
+  const fill = new DirectionalLight(0xffffff, 0.8);
+  fill.position.set(-4, 3, 2);
+  group.add(new AmbientLight(0xffffff, 1.1), sun, fill);
+  return group;
+}
+
+class Stage {
+  #machine;
+  #size;
+  #layers = new Map();
+  #shown = new Map(makers.map(([key, , on]) => [key, on]));
+  #asked = false;
+
+  constructor(host, machine, clock, renderer) {
+    const box = room(machine);
+    this.#machine = machine;
+    this.#size = box.getSize(new Vector3()).length() / 1.8;
+    this.middle = box.getCenter(new Vector3());
+    this.clock = clock;
+    this.host = host;
+    this.renderer = renderer;
+    this.camera = new PerspectiveCamera(35, 1, 0.01 * this.#size, 50 * this.#size);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, renderer.domElement);
+    this.controls.addEventListener("change", () => this.render());
+    this.factors = factorsFor(machine, this.#size);
+    this.factor = this.factors[0] ?? 1;
+    this.repaint();
+    this.layers = makers.filter(([key]) => this.#layers.get(key)).map(([key, text, on]) => [key, text, on]);
+    this.resetView();
+    clock.onChange(() => this.render());
+    new ResizeObserver(() => this.#fit()).observe(renderer.domElement.parentElement);
+  }
+
+  /** Makes all anew, in the colours of the style sheet. */
+  repaint() {
+    this.scene = new Scene();
+    this.drawn = makeMachine(this.#machine, this.#size);
+    this.scene.add(lights(), this.drawn.group);
+    for (const [key, , , make] of makers) {
+      const layer = make(this.#machine, this.#size);
+      this.#layers.set(key, layer);
+      if (!layer) continue;
+      layer.group.visible = this.#shown.get(key);
+      this.scene.add(layer.group);
+    }
+    this.magnify(this.factor);
+  }
+
+  show(key, on) {
+    this.#shown.set(key, on);
+    this.#layers.get(key).group.visible = on;
+    this.render();
+  }
+
+  magnify(factor) {
+    this.factor = factor;
+    this.#layers.get("error")?.magnify(factor);
+    this.render();
+  }
+
+  resetView() {
+    this.controls.target.copy(this.middle);
+    this.camera.position.copy(this.middle).addScaledVector(view, 1.5 * this.#size);
+    this.controls.update();
+    this.render();
+  }
+
+  #fit() {
+    const { clientWidth: width, clientHeight: height } = this.renderer.domElement.parentElement;
+    if (width === 0 || height === 0) return;
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.setSize(width, height);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.render();
+  }
+
+  /** Once a frame at most. */
+  render() {
+    if (this.#asked) return;
+    this.#asked = true;
+    requestAnimationFrame(() => {
+      this.#asked = false;
+      const place = placeAt(this.#machine.t, this.clock.t);
+      this.drawn.update(place);
+      for (const layer of this.#layers.values()) if (layer?.group.visible) layer.update(place);
+      this.renderer.render(this.scene, this.camera);
+    });
+  }
+}
+
+/** The moving machine in place of its drawing; null, and the drawing stays, where there is no WebGL. */
+export function addStage(host, machine, clock) {
+  let renderer;
+  try {
+    renderer = new WebGLRenderer({ antialias: true, alpha: true });
+  } catch {
+    return null;
+  }
+  const frame = document.createElement("div");
+  frame.className = "screen";
+  const canvas = renderer.domElement;
+  canvas.setAttribute("role", "img");
+  canvas.setAttribute("aria-label", "The machine along its motion; drag to turn it, scroll or pinch to zoom");
+  frame.append(canvas);
+  host.append(frame);
+  host.classList.add("moving");
+  return new Stage(host, resolved(machine), clock, renderer);
+}

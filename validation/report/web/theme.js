@@ -1,0 +1,12 @@
+const darkness = window.matchMedia("(prefers-color-scheme: dark)");
+
+/** A colour of the style sheet, as it is now: "c0" … "c6", "text", "rule", … */
+export function color(name) {
+  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+}
+
+export const lineColor = (index) => color(`c${index % 7}`);
+
+export function watchTheme(listener) {
+  darkness.addEventListener("change", listener);
+}

@@ -1,0 +1,273 @@
+#include "validation/subject/torque_columns.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <regex>
+
+#include "model/nearest.h"
+#include "model/scalar.h"
+
+namespace ursula {
+namespace {
+
+constexpr std::size_t wanted_columns = 1 + leg_count;
+
+/// The time, or the torque of a leg, by a name that can mean nothing else.
+struct Meaning {
+  int leg = 0;  ///< −1: the time; else as counted by the file
+  int power = 0;
+};
+
+std::string targetName(int leg) { return leg < 0 ? "t_s" : fmt::format("tau_{}_Nm", leg + 1); }
+
+std::optional<int> timePower(const std::string& unit) {
+  if (unit == "ms") return -3;
+  if (unit == "us" || unit == "µs") return -6;
+  if (unit == "ns") return -9;
+  return 0;
+}
+
+/// Of "Nm", "kN·m", "N mm", "mN.m"; none for mega, which nobody can tell from milli in lower case.
+std::optional<int> torquePower(std::string unit) {
+  for (const char* between : {" ", ".", "*", "·", "_", "-"})
+    for (auto at = unit.find(between); at != std::string::npos; at = unit.find(between))
+      unit.erase(at, std::string(between).size());
+  if (unit.empty() || unit == "Nm" || unit == "nm") return 0;
+  if (unit == "kNm" || unit == "knm" || unit == "KNm") return 3;
+  if (unit == "mNm" || unit == "mnm" || unit == "Nmm" || unit == "nmm") return -3;
+  return std::nullopt;
+}
+
+std::optional<Meaning> meaningOf(const std::string& name) {
+  static const std::string open = R"((?:[ _]*[\[(/_ ,][ ]*()", close = R"()[ ]*[\])]?)?)";
+  static const std::regex time("(?:t|time)" + open + "s|sec|seconds?|ms|us|µs|ns" + close, std::regex::icase);
+  static const std::regex torque(
+      R"((?:tau|τ|torque|trq|(?:motor|actuator|joint|leg)[ _]?torque)[ _.\-]*[\[({]?([0-6])[\])}]?)" + open +
+          R"([km]?N[ .*·_\-]*m?m)" + close,
+      std::regex::icase);
+  std::smatch found;
+  if (std::regex_match(name, found, time)) {
+    std::string unit = found[1];
+    std::transform(unit.begin(), unit.end(), unit.begin(), [](unsigned char c) { return std::tolower(c); });
+    return Meaning{-1, timePower(unit).value_or(0)};
+  }
+  if (!std::regex_match(name, found, torque)) return std::nullopt;
+  const std::optional<int> power = torquePower(found[2]);
+  if (!power) return std::nullopt;
+  return Meaning{found[1].str()[0] - '0', *power};
+}
+
+/// A name of the contract, which may have another unit: `tau_1_kNm`.
+std::optional<Meaning> meaningOfTarget(const std::string& name) {
+  static const std::regex target(R"(t_(s|ms|us|ns)|tau_([1-6])_(k?Nm|mNm|Nmm))");
+  if (!std::regex_match(name, target)) return std::nullopt;
+  std::optional<Meaning> meaning = meaningOf(name);
+  if (meaning && meaning->leg >= 0) --meaning->leg;
+  return meaning;
+}
+
+std::string quoted(const std::string& text) {
+  return text.find_first_of(" \t[](){}*;&|<>$`\"\\#?") == std::string::npos ? text : "'" + text + "'";
+}
+
+std::string separatorWords(const CsvDialect& dialect) {
+  if (dialect.separator == '\t') return "tabs";
+  return dialect.separator == ' ' ? "blanks" : fmt::format("'{}'", dialect.separator);
+}
+
+std::vector<std::string> targets() {
+  std::vector<std::string> out;
+  for (int leg = -1; leg < leg_count; ++leg) out.push_back(targetName(leg));
+  return out;
+}
+
+/// Collects which column holds what.
+class Finder {
+ public:
+  Finder(const CsvDialect& dialect, const std::filesystem::path& file) : dialect_(dialect), file_(file) {}
+
+  std::vector<TorqueColumn> find(const ColumnMap& map) {
+    for (const auto& [name, column] : map) take(name, column);
+    for (const std::string& name : targets())
+      if (has(name)) found_.emplace(name, TorqueColumn{name, name, 0});
+    takeCertain();
+    std::vector<TorqueColumn> out;
+    for (const std::string& name : targets()) {
+      const auto column = found_.find(name);
+      if (column == found_.end()) fail(missingText(name));
+      out.push_back(column->second);
+    }
+    return out;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw CsvError(fmt::format("{}:{}: error: {}", file_.string(), std::max(1, dialect_.header), what));
+  }
+
+  bool has(const std::string& column) const {
+    return std::find(dialect_.header_cells.begin(), dialect_.header_cells.end(), column) != dialect_.header_cells.end();
+  }
+
+  bool isTaken(const std::string& column) const {
+    return std::any_of(found_.begin(), found_.end(), [&](const auto& pair) { return pair.second.source == column; });
+  }
+
+  void take(const std::string& name, const std::string& column) {
+    if (!has(column))
+      fail(fmt::format("no column '{}' (--map {}), the header has {}{}", column, quoted(name + "=" + column),
+                       fmt::join(dialect_.header_cells, ", "), didYouMean(column, dialect_.header_cells)));
+    const Meaning meaning = *meaningOfTarget(name);
+    found_.emplace(targetName(meaning.leg), TorqueColumn{targetName(meaning.leg), column, meaning.power});
+  }
+
+  void takeCertain() {
+    std::vector<std::pair<std::string, Meaning>> certain;
+    bool zero = false, six = false;
+    for (const std::string& column : dialect_.header_cells) {
+      const std::optional<Meaning> meaning = isTaken(column) ? std::nullopt : meaningOf(column);
+      if (!meaning) continue;
+      certain.emplace_back(column, *meaning);
+      zero = zero || meaning->leg == 0;
+      six = six || meaning->leg == 6;
+    }
+    if (zero && six) return;  // seven torques: of which the first is none can not be told
+    const auto by_map_or_name = found_;
+    for (auto& [column, meaning] : certain) {
+      const std::string name = targetName(meaning.leg < 0 || zero ? meaning.leg : meaning.leg - 1);
+      if (by_map_or_name.count(name) > 0) continue;
+      if (!found_.emplace(name, TorqueColumn{name, column, meaning.power}).second)
+        fail(fmt::format("'{}' and '{}' may both be {}, expected one; choose by --map {}", found_.at(name).source,
+                         column, name, quoted(name + "=" + column)));
+    }
+  }
+
+  /// With the options that would read the file, where columns that nobody took end in the leg's number.
+  std::string missingText(const std::string& name) const {
+    std::string text = fmt::format("missing column '{}', expected it in the header", name);
+    std::vector<std::string> free;
+    for (const std::string& column : dialect_.header_cells)
+      if (!isTaken(column)) free.push_back(column);
+    text += didYouMean(name, likeliest(name, free));
+    text += dialect_.header == 0 ? fmt::format("; there is no header, and {} columns (by {})",
+                                               dialect_.header_cells.size(), separatorWords(dialect_))
+                                 : fmt::format("; separated by {} it has: {}", separatorWords(dialect_),
+                                               fmt::join(dialect_.header_cells, ", "));
+    return text + options(free);
+  }
+
+  /// Never a column that differs in its index alone.
+  static std::vector<std::string> likeliest(const std::string& name, const std::vector<std::string>& columns) {
+    std::vector<std::string> out;
+    std::copy_if(columns.begin(), columns.end(), std::back_inserter(out),
+                 [&](const std::string& column) { return column.size() != name.size() || name == "t_s"; });
+    return out;
+  }
+
+  std::string options(const std::vector<std::string>& free) const {
+    std::string out;
+    std::size_t next = 0;
+    for (const std::string& name : targets()) {
+      if (found_.count(name) > 0) continue;
+      const std::string number = name == "t_s" ? "" : name.substr(4, 1);
+      const auto column =
+          dialect_.header == 0 || (name == "t_s" && dialect_.header_cells.size() == wanted_columns)
+              ? std::find(free.begin(), free.end(), next < free.size() ? free[next++] : "")
+              : std::find_if(free.begin(), free.end(), [&](const std::string& cell) {
+                  const auto digit = cell.find_first_of("0123456789");
+                  return number.empty() ? false : digit != std::string::npos && cell.substr(digit, 1) == number;
+                });
+      out += fmt::format(" --map {}", column == free.end() ? name + "=COLUMN" : quoted(name + "=" + *column));
+    }
+    return "; if that is what its columns hold, say so:" + out;
+  }
+
+  const CsvDialect& dialect_;
+  const std::filesystem::path& file_;
+  std::map<std::string, TorqueColumn> found_;
+};
+
+/// Seven columns without a header: whether the first, and no other, can be the time.
+bool isTimeThenTorques(const CsvTable& table) {
+  const auto looksLikeTime = [](const std::vector<double>& column) {
+    const double step =
+        column.size() < 3 ? 0 : (column.back() - column.front()) / static_cast<double>(column.size() - 1);
+    if (!(step > 0 && std::abs(column.front()) <= 1e-9 * step)) return false;
+    for (std::size_t k = 1; k < column.size(); ++k)
+      if (!(std::abs(column[k] - column[k - 1] - step) <= 0.01 * step)) return false;
+    return true;
+  };
+  return table.columns.size() == wanted_columns && looksLikeTime(table.columns.front()) &&
+         std::none_of(table.columns.begin() + 1, table.columns.end(), looksLikeTime);
+}
+
+void useOwnNames(const std::vector<TorqueColumn>& columns, CsvTable& table) {
+  for (std::size_t i = 0; i < table.names.size(); ++i) {
+    const auto column = std::find_if(columns.begin(), columns.end(),
+                                     [&](const TorqueColumn& one) { return one.source == table.names[i]; });
+    table.names[i] = column->name;
+    const double unit = std::pow(10.0, std::abs(column->power));
+    for (double& value : table.columns[i]) value = column->power < 0 ? value / unit : value * unit;
+    for (int& place : table.last_places[i]) place += column->power;
+  }
+}
+
+std::string readAs(const CsvDialect& dialect, const std::vector<TorqueColumn>& columns) {
+  std::string out = dialect.words();
+  for (const TorqueColumn& column : columns)
+    if (column.source != column.name)
+      out += fmt::format("{}{} = '{}'{}", out.empty() ? "" : ", ", column.name, column.source,
+                         column.power == 0 ? "" : fmt::format(" times 1e{}", column.power));
+  return out;
+}
+
+}  // namespace
+
+ColumnMap parseColumnMap(const std::vector<std::string>& texts) {
+  ColumnMap out;
+  for (const std::string& text : texts) {
+    const auto fail = [&text](const std::string& what) {
+      throw CsvError(fmt::format("--map {}: {}", quoted(text), what));
+    };
+    const auto equals = text.find('=');
+    const std::string name(trimmedCell(text.substr(0, equals)));
+    const std::string column(equals == std::string::npos ? "" : trimmedCell(std::string_view(text).substr(equals + 1)));
+    if (name.empty() || column.empty()) fail("expected NAME=COLUMN, as in tau_1_Nm=tau1");
+    const std::optional<Meaning> meaning = meaningOfTarget(name);
+    if (!meaning)
+      fail(fmt::format("'{}' is no column of a torque file, expected t_s or tau_1_Nm to tau_6_Nm{}", name,
+                       didYouMean(name, targets())));
+    for (const auto& [other, its_column] : out) {
+      if (meaningOfTarget(other)->leg == meaning->leg) fail(fmt::format("{} is mapped twice", name));
+      if (its_column == column) fail(fmt::format("column '{}' is mapped to {} already", column, other));
+    }
+    out.emplace_back(name, column);
+  }
+  return out;
+}
+
+TorqueColumns readTorqueColumns(const std::string& text, const std::filesystem::path& file, const ColumnMap& map) {
+  CsvOptions options;
+  options.dialect = guessDialect(text, file);
+  std::vector<TorqueColumn> columns;
+  if (options.dialect.header == 0 && map.empty() && isTimeThenTorques(parseCsv(text, file, options))) {
+    for (int leg = -1; leg < leg_count; ++leg) columns.push_back({targetName(leg), std::to_string(leg + 2), 0});
+  } else if (options.dialect.header_cells.empty()) {
+    parseCsv(text, file);  // says what is wrong with an empty file
+  } else {
+    columns = Finder(options.dialect, file).find(map);
+  }
+  options.wanted = [&columns](const std::string& name) {
+    return std::any_of(columns.begin(), columns.end(), [&](const TorqueColumn& one) { return one.source == name; });
+  };
+  TorqueColumns out{parseCsv(text, file, options), readAs(options.dialect, columns)};
+  useOwnNames(columns, out.table);
+  return out;
+}
+
+}  // namespace ursula
