@@ -31,11 +31,11 @@ class Direct : public testing::TestWithParam<std::string> {
     subject.accelerations = accelerations;
     return subject;
   }
-  Check pointwise(const Subject& subject) const { return judgeDirect(here(), subject, samples_, reference_->profile); }
+  Check pointwise(const Subject& subject) const {
+    return judgeDirect(reference_->direct(), subject, samples_, reference_->profile);
+  }
   Check growth(const Subject& subject) const {
-    const ReplayPlan& plan = reference_->plan;
-    return judgeGrowth(here(), subject, plan.torques, reference_->amplification, plan.acceleration,
-                       coarser * plan.tolerance);
+    return judgeGrowth(reference_->beside().growthOf(subject.accelerations), reference_->beside());
   }
   /// M (1 + share) for M: the acceleration that torques give is smaller by as much.
   Subject heavier(double share) const {
@@ -97,6 +97,28 @@ TEST_P(Direct, aStiffnessOffByAHundredthFailsTheGrowthAlone) {
   EXPECT_EQ(growth(stiffer(0)).verdict, Verdict::pass);
 }
 
+/// How far off the path Simbody is put, and so all that the limit is made of but the subject's own resolution, is none
+/// of the subject's business.
+TEST_P(Direct, theDeviationIsTheRightSolversWhoeverIsOnTrial) {
+  const BesidePath& path = reference_->beside();
+  const Growth own = path.growthOf(right_.accelerations), other = path.growthOf(stiffer(0.5).accelerations);
+  EXPECT_EQ(own.Phi, path.right().Phi);
+  ASSERT_GT((other.Phi - own.Phi).norm(), 0.01 * own.Phi.norm()) << "the control changes nothing";
+  const auto deviation = [](const Check& check) { return check.why.substr(0, check.why.find(" grows")); };
+  EXPECT_EQ(deviation(growth(stiffer(0.5))), deviation(growth(right_)));
+  EXPECT_NEAR(path.size() * path.right().Phi.topRows<6>().norm(), 1e-5 * reference_->amplification.length(), 1e-12);
+}
+
+TEST_P(Direct, replaysBesideThePathAreTheSameMadeAfresh) {
+  const ReplayPlan& plan = reference_->plan;
+  const BesidePath afresh(here(), plan.torques, reference_->amplification, plan.acceleration,
+                          10 * coarser * plan.tolerance);
+  EXPECT_EQ(afresh.size(), reference_->beside().size());
+  EXPECT_EQ(afresh.ends().whole_apart, reference_->beside().ends().whole_apart);
+  EXPECT_EQ(afresh.ends().above, reference_->beside().ends().above);
+  EXPECT_NE(afresh.ends().above, afresh.ends().below);
+}
+
 TEST_P(Direct, noNumberIsNoAgreement) {
   const Subject none =
       with([](const Motion<double>&, const Vector6d&) { return Vector6d(Vector6d::Constant(std::nan(""))); });
@@ -109,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, Direct, testing::Values("paper-helix", "prov
 
 TEST(DirectChecks, noSampleFails) {
   const Scenario scenario = scenarioOf("paper-helix");
-  EXPECT_EQ(judgeDirect(scenario, solverOf(scenario), {}, RoundingProfile(scenario, 2)).verdict, Verdict::fail);
+  EXPECT_EQ(judgeDirect({}, solverOf(scenario), {}, RoundingProfile(scenario, 2)).verdict, Verdict::fail);
 }
 
 }  // namespace

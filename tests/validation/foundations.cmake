@@ -7,6 +7,7 @@ add_executable(foundation_tests
   presentation_test.cpp
   relocation_test.cpp
   second_look_test.cpp
+  shared_answers_test.cpp
   subject_test.cpp
   tolerance_test.cpp
   worst_test.cpp

@@ -43,10 +43,11 @@ std::vector<Check> judgeSamples(const Evidence& e) {
 
 /// Under the torques that are right; a second look at its growth only where its answers are.
 std::vector<Check> judgeDirectDynamics(const Evidence& e) {
-  std::vector<Check> checks = {judgeDirect(*e.scenario, *e.subject, e.samples, profileOf(e), e.units())};
+  std::vector<Check> checks = {judgeDirect(e.reference->direct(), *e.subject, e.samples, profileOf(e), e.units())};
   const bool right_here = checks.back().verdict != Verdict::fail;  // else what is wrong is known
-  checks.push_back(judgeGrowth(*e.scenario, *e.subject, e.reference->plan.torques, *e.amplification,
-                               e.plan.acceleration, 10 * coarser * e.plan.tolerance, e.units(), right_here));
+  const BesidePath& path = e.reference->beside();
+  const Growth growth = e.right ? path.right() : path.growthOf(e.subject->accelerations);
+  checks.push_back(judgeGrowth(growth, path, e.units(), right_here));
   return checks;
 }
 

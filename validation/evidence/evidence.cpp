@@ -9,7 +9,7 @@ namespace {
 std::vector<RoadSample> roadSamples(const Evidence& evidence) {
   const Scenario& scenario = *evidence.scenario;
   const RoundingProfile& profile = evidence.reference->profile;
-  std::vector<RoadSample> out = runRoads(scenario, evidence.samples, profile);
+  std::vector<RoadSample> out = runRoads(evidence.reference->roads(), evidence.samples, profile);
   const auto replace = [&](const Spoil::Seen& seen, auto RoadSample::*road) {
     if (!seen) return;
     const std::vector<RoadSample> spoilt = runRoads(seen(scenario), evidence.samples, profile);
@@ -21,28 +21,50 @@ std::vector<RoadSample> roadSamples(const Evidence& evidence) {
   return out;
 }
 
-/// In the windows of the right torques, with what those say of the integration.
-std::vector<WindowedReplay> replayed(const Evidence& evidence) {
-  std::vector<WindowedReplay> out = evidence.reference->windows;
-  for (WindowedReplay& window : out) {
+std::vector<ReactionSample> reactionSamples(const Evidence& evidence) {
+  std::vector<ReactionSample> out = evidence.reference->reactions();
+  for (ReactionSample& sample : out)
+    if (evidence.spoil.reactions) evidence.spoil.reactions(sample.recovered);
+  return out;
+}
+
+/// The torques on trial are the right ones to the last bit, wherever somebody asked. Of a subject that wants to
+/// foresee, to whom each question is dear, that is not asked.
+bool answersAs(const AskedTorques& asked, const Evidence& evidence) {
+  return evidence.right || (!evidence.plan.foresee && asked.sameFrom(evidence.plan.torques));
+}
+
+/// In the windows of the right torques, with what those say of the integration. True where the first window's is the
+/// right torques' own.
+bool replayWindows(Evidence& evidence) {
+  bool first_is_right = true;
+  evidence.windows = evidence.reference->windows;
+  for (WindowedReplay& window : evidence.windows) {
+    if (!evidence.spoil.replay && answersAs(window.replay.asked, evidence)) continue;
+    if (&window == &evidence.windows.front()) first_is_right = false;
     ReplaySettings settings = settingsOf(*evidence.scenario, evidence.plan, window.window, 1);
     if (evidence.spoil.replay) evidence.spoil.replay(settings);
     window.replay = replay(*evidence.scenario, evidence.plan.torques, settings);
     window.replay.tolerance = evidence.plan.tolerance;  // that it is taken to have
   }
-  return out;
+  return first_is_right;
 }
 
-void runReplays(bool right, bool ladder, Evidence& evidence) {
+void runReplays(bool ladder, Evidence& evidence) {
   const Scenario& scenario = *evidence.scenario;
+  const Reference& reference = *evidence.reference;
   const Spoil& spoil = evidence.spoil;
-  evidence.windows = right && !spoil.replay ? evidence.reference->windows : replayed(evidence);
+  const bool first_is_right = replayWindows(evidence);
   if (ladder) {
-    evidence.ladder = climb(scenario, evidence.plan.torques, evidence.windows.front(), right, rungSettings(evidence));
-    evidence.orders = spoil.lower_order ? observedOrders(scenario, true) : evidence.reference->orders();
+    const bool climbed = first_is_right && !spoil.ladder && answersAs(reference.ladder().asked, evidence);
+    evidence.ladder = climbed
+                          ? reference.ladder()
+                          : climb(scenario, evidence.plan.torques, evidence.windows.front(), rungSettings(evidence));
+    evidence.orders = spoil.lower_order ? observedOrders(scenario, true) : reference.orders();
   }
-  evidence.stabilised = stabilisedReplay(spoil.feedback ? spoil.feedback(scenario) : scenario, *evidence.subject,
-                                         evidence.reference->amplification, evidence.samples);
+  evidence.stabilised =
+      stabilisedReplay(spoil.feedback ? spoil.feedback(scenario) : scenario, *evidence.subject, reference.amplification,
+                       evidence.samples, first_is_right && !spoil.feedback ? &reference.stabilised() : nullptr);
 }
 
 }  // namespace
@@ -61,6 +83,7 @@ Evidence gather(const Scenario& given, const Reference& reference, const Subject
   out.subject = &subject;
   out.reference = &reference;
   out.amplification = &reference.amplification;
+  out.right = right;
   out.spoil = spoil;
   out.has.kinematics = static_cast<bool>(subject.kinematics);
   out.has.direct_dynamics = static_cast<bool>(subject.accelerations);
@@ -76,12 +99,12 @@ Evidence gather(const Scenario& given, const Reference& reference, const Subject
     };
   out.scales = {reference.position_scale, reference.amplification.length(), reference.forces};
 
-  out.samples = runPointwise(*out.scenario, subject, reference.instants, reference.profile);
+  out.samples = runPointwise(*out.scenario, subject, reference.instants, reference.profile, reference.simbody());
   if (spoil.sample) std::for_each(out.samples.begin(), out.samples.end(), spoil.sample);
   if (!out.answered()) return out;
   out.roads = roadSamples(out);
-  if (experiments.reactions) out.reactions = runReactions(*out.scenario, out.samples, spoil.reactions);
-  runReplays(right, experiments.ladder, out);
+  if (experiments.reactions) out.reactions = reactionSamples(out);
+  runReplays(experiments.ladder, out);
   return out;
 }
 

@@ -38,6 +38,7 @@ struct Evidence {
   const ExternalTorques* external = nullptr;     ///< null for a subject
   const Amplification* amplification = nullptr;  ///< null where nothing was replayed
   SubjectHas has;
+  bool right = false;  ///< the subject is the right solver
   Spoil spoil;
 
   std::vector<PointwiseSample> samples;
@@ -65,7 +66,7 @@ struct Experiments {
 };
 
 /// All experiments on `subject`, which is asked in natural's units. `right`: it is the one whose replays the reference
-/// holds. Keeps pointers to its arguments.
+/// holds; others have them where they answer the same to the last bit. Keeps pointers to its arguments.
 Evidence gather(const Scenario& given, const Reference& reference, const Subject& subject, bool right,
                 const Spoil& spoil, const Experiments& experiments);
 

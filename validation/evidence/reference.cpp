@@ -49,8 +49,7 @@ Reference::Reference(const Scenario& given)
 }
 
 const std::vector<double>& Reference::orders() const {
-  std::call_once(observed_, [this] { orders_ = observedOrders(scenario); });
-  return orders_;
+  return orders_.get([this] { return observedOrders(scenario); });
 }
 
 const IntegrationError& Reference::closer(std::size_t window) const {
@@ -59,6 +58,48 @@ const IntegrationError& Reference::closer(std::size_t window) const {
   if (known != closer_.end()) return known->second;
   const WindowedReplay& here = windows[window];
   return closer_[window] = closerLook(scenario, plan, here.window, here.replay);
+}
+
+std::vector<PointwiseSample> Reference::rightSamples() const {
+  std::vector<PointwiseSample> out = conditions;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    out[k].torques_simbody = simbody()[k].torques;
+    out[k].torque.limit = out[k].conditioning.rounding(Rounded::torque);
+  }
+  return out;
+}
+
+const std::vector<SimbodyAnswer>& Reference::simbody() const {
+  return simbody_.get([this] { return simbodyAnswers(scenario, instants); });
+}
+
+const std::vector<RoadTorques>& Reference::roads() const {
+  return roads_.get([this] { return roadTorques(scenario, conditions); });
+}
+
+const std::vector<ReactionSample>& Reference::reactions() const {
+  return reactions_.get([this] { return runReactions(scenario, conditions); });
+}
+
+const std::vector<DirectSample>& Reference::direct() const {
+  return direct_.get([this] { return runDirect(scenario, rightSamples()); });
+}
+
+const BesidePath& Reference::beside() const {
+  return beside_.get([this] {
+    return BesidePath(scenario, plan.torques, amplification, plan.acceleration, 10 * coarser * plan.tolerance);
+  });
+}
+
+const Ladder& Reference::ladder() const {
+  return ladder_.get([this] { return climb(scenario, plan.torques, windows.front()); });
+}
+
+const StabilisedReplay& Reference::stabilised() const {
+  return stabilised_.get([this] {
+    const Subject right = nocSubject(*scenario.manipulator, scenario.load);
+    return stabilisedReplay(scenario, right, amplification, rightSamples());
+  });
 }
 
 }  // namespace ursula

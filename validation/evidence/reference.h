@@ -8,8 +8,15 @@
 #include "model/scenario.h"
 #include "validation/limits/amplification.h"
 #include "validation/limits/rounding_profile.h"
+#include "validation/replay/beside_path.h"
+#include "validation/replay/ladder.h"
+#include "validation/replay/lazily.h"
+#include "validation/replay/stabilised_replay.h"
 #include "validation/replay/windows.h"
+#include "validation/samples/direct_samples.h"
 #include "validation/samples/pointwise.h"
+#include "validation/samples/reaction_samples.h"
+#include "validation/samples/roads.h"
 #include "validation/subject/presentation.h"
 
 namespace ursula {
@@ -40,11 +47,29 @@ struct Reference {
   /// closerLook at one of `windows`, when first asked for.
   const IntegrationError& closer(std::size_t window) const;
 
+  // What the engines say of the scenario alone, and of the right torques: asked when first needed.
+  const std::vector<SimbodyAnswer>& simbody() const;     ///< at the instants
+  const std::vector<RoadTorques>& roads() const;         ///< at the instants
+  const std::vector<ReactionSample>& reactions() const;  ///< at the instants
+  const std::vector<DirectSample>& direct() const;       ///< at some of the instants
+  const BesidePath& beside() const;
+  const Ladder& ladder() const;  ///< of the first window
+  const StabilisedReplay& stabilised() const;
+
  private:
-  mutable std::once_flag observed_;
-  mutable std::vector<double> orders_;
+  /// Conditions, and Simbody's torques.
+  std::vector<PointwiseSample> rightSamples() const;
+
   mutable std::mutex measuring_;
   mutable std::map<std::size_t, IntegrationError> closer_;
+  Lazily<std::vector<double>> orders_;
+  Lazily<std::vector<SimbodyAnswer>> simbody_;
+  Lazily<std::vector<RoadTorques>> roads_;
+  Lazily<std::vector<ReactionSample>> reactions_;
+  Lazily<std::vector<DirectSample>> direct_;
+  Lazily<BesidePath> beside_;
+  Lazily<Ladder> ladder_;
+  Lazily<StabilisedReplay> stabilised_;
 };
 
 /// Motion and conditioning alone.

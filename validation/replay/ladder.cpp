@@ -51,10 +51,16 @@ Replay replayBeside(const Scenario& scenario, const SimbodyLoop::TorqueHistory& 
   return replay(scenario, torques, settings);
 }
 
-Rung makeRung(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-              double tolerance, const ChangeSettings& change) {
+void addRung(const ReplaySettings& settings, const Replay& run, const Replay& finest, std::vector<Rung>& to,
+             AskedTorques& asked) {
+  to.push_back(rungOf(settings, run, finest));
+  asked.add(run.asked);
+}
+
+void makeRung(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
+              double tolerance, const ChangeSettings& change, Ladder& ladder) {
   const ReplaySettings settings = settingsOf(finest, Integrator::rkf78, tolerance);
-  return rungOf(settings, replayBeside(scenario, torques, settings, change), finest.replay);
+  addRung(settings, replayBeside(scenario, torques, settings, change), finest.replay, ladder.rungs, ladder.asked);
 }
 
 /// Over the first steps only, a tenth of them at least: it is another integrator that is wanted, not another replay.
@@ -68,7 +74,7 @@ void climbSecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& tor
     ReplaySettings settings = settingsOf(finest, Integrator::rk_merson, accuracy);
     settings.end = ladder.second_end;
     Replay out = replayBeside(scenario, torques, settings, change);
-    ladder.second.push_back(rungOf(settings, out, finest.replay));
+    addRung(settings, out, finest.replay, ladder.second, ladder.asked);
     return out;
   };
   Replay coarse = run(10 * second_accuracy), fine = run(second_accuracy);
@@ -91,15 +97,17 @@ double order(const Rung& coarse, const Rung& fine) {
 }  // namespace
 
 Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-             bool torques_are_right, const ChangeSettings& change) {
+             const ChangeSettings& change) {
   Ladder ladder;
   for (double factor : {1e6, 1e4, coarser}) {
     const double tolerance = std::min(1e-4, factor * finest.replay.tolerance);
-    const bool known = torques_are_right && !change && finest.coarse &&
-                       finest.coarse->integrator == Integrator::rkf78 && finest.coarse->tolerance == tolerance;
-    ladder.rungs.push_back(known
-                               ? rungOf(settingsOf(finest, Integrator::rkf78, tolerance), *finest.coarse, finest.replay)
-                               : makeRung(scenario, torques, finest, tolerance, change));
+    const bool known = !change && finest.coarse && finest.coarse->integrator == Integrator::rkf78 &&
+                       finest.coarse->tolerance == tolerance && finest.coarse->asked.sameFrom(torques);
+    const ReplaySettings settings = settingsOf(finest, Integrator::rkf78, tolerance);
+    if (known)
+      addRung(settings, *finest.coarse, finest.replay, ladder.rungs, ladder.asked);
+    else
+      makeRung(scenario, torques, finest, tolerance, change, ladder);
   }
   for (std::size_t k = 0; k + 1 < ladder.rungs.size(); ++k)
     ladder.observed_orders.push_back(order(ladder.rungs[k], ladder.rungs[k + 1]));
@@ -118,7 +126,7 @@ Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques
 
 void climbOn(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
              const ChangeSettings& change, Ladder& ladder) {
-  ladder.rungs.push_back(makeRung(scenario, torques, finest, last_rung * finest.replay.tolerance, change));
+  makeRung(scenario, torques, finest, last_rung * finest.replay.tolerance, change, ladder);
 }
 
 }  // namespace ursula

@@ -33,12 +33,13 @@ struct Ladder {
   bool asymptotic = false;              ///< both orders within 2 of 8
   double extrapolated = 0;              ///< estimated integration error of the finest replay at its end, m
   double uncertainty = 0;               ///< of that estimate, m
+  AskedTorques asked;                   ///< by all of its replays
 };
 
-/// `finest` is the judged replay of the window. `torques_are_right`: its coarser replay is a rung already. `change`,
-/// of the settings of all others.
+/// `finest` is the judged replay of the window; where its coarser replay would be the same under `torques` it is a rung
+/// already. `change`, of the settings of all others.
 Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-             bool torques_are_right = false, const std::function<void(ReplaySettings&)>& change = nullptr);
+             const std::function<void(ReplaySettings&)>& change = nullptr);
 
 /// One rung more, at ten times the judged tolerance.
 void climbOn(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,

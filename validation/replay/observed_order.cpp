@@ -4,6 +4,7 @@
 #include <boost/numeric/odeint.hpp>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "model/loops/simbody/simbody_loop.h"
@@ -47,13 +48,18 @@ class LetGo {
     return out;
   }
 
-  /// Between the ends with `steps` and with twice as many; infinite where the machine flies apart.
-  double difference(double duration, int steps) {
+  /// With so many steps; none where the machine flies apart.
+  std::optional<OdeState> reached(double duration, int steps) {
     try {
-      return distance(endOf(duration, steps), endOf(duration, 2 * steps));
+      return endOf(duration, steps);
     } catch (const std::exception&) {
-      return std::numeric_limits<double>::infinity();
+      return std::nullopt;
     }
+  }
+
+  /// Between two ends; infinite where there is none.
+  static double difference(const std::optional<OdeState>& a, const std::optional<OdeState>& b) {
+    return a && b ? distance(*a, *b) : std::numeric_limits<double>::infinity();
   }
 
  private:
@@ -90,7 +96,9 @@ int firstStretch(LetGo<Stepper>& loop) {
   int too_long = -1, short_enough = attempts;
   while (short_enough - too_long > 1) {
     const int k = (too_long + short_enough) / 2;
-    (loop.difference(longest * std::pow(shorter, k), 4) <= most_difference ? short_enough : too_long) = k;
+    const double duration = longest * std::pow(shorter, k);
+    const double difference = loop.difference(loop.reached(duration, 4), loop.reached(duration, 8));
+    (difference <= most_difference ? short_enough : too_long) = k;
   }
   return short_enough;
 }
@@ -103,7 +111,8 @@ std::vector<double> ordersOf(const Scenario& scenario) {
   double duration = longest * std::pow(shorter, firstStretch(loop));
   const double noise = above_noise * loop.noise(duration);  // the larger, the longer
   for (; orders.size() < most_stretches; duration *= shorter) {
-    const double first = loop.difference(duration, 4), second = loop.difference(duration, 8);
+    const auto four = loop.reached(duration, 4), eight = loop.reached(duration, 8), more = loop.reached(duration, 16);
+    const double first = loop.difference(four, eight), second = loop.difference(eight, more);
     if (!(second >= noise)) break;  // and the less so over less
     if (first <= most_difference) orders.push_back(std::log2(first / second));
   }

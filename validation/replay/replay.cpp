@@ -61,7 +61,7 @@ class Run {
  public:
   Run(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const ReplaySettings& settings)
       : trajectory_(*scenario.trajectory),
-        torques_(torques),
+        torques_(result_.asked.of(torques)),
         settings_(settings),
         stops_(knotsWithin(scenario, settings.start, settings.end)),
         loop_(*scenario.manipulator, settings.topology, scenario.load) {
@@ -83,6 +83,9 @@ class Run {
     const SimbodyLoop::Energy energy = loop_.energy();
     start_energy_ = energy.kinetic + energy.potential;
   }
+
+  Run(const Run&) = delete;  // result_ listens
+  Run& operator=(const Run&) = delete;
 
   Replay result() {
     if (settings_.integrator == Integrator::rkf78 && !result_.steps.empty())
@@ -194,11 +197,11 @@ class Run {
   }
 
   const Trajectory& trajectory_;
-  const SimbodyLoop::TorqueHistory& torques_;
+  Replay result_;
+  SimbodyLoop::TorqueHistory torques_;  ///< as asked of result_
   ReplaySettings settings_;
   std::vector<double> stops_;  ///< the integrator's order holds from one to the next
   SimbodyLoop loop_;
-  Replay result_;
   double start_energy_ = 0;
   double next_step_ = 0;  ///< that the step control proposes
   double weight_ = 0;     ///< N

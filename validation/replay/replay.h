@@ -5,6 +5,7 @@
 
 #include "model/loops/simbody/simbody_loop.h"
 #include "model/scenario.h"
+#include "validation/replay/asked_torques.h"
 
 namespace ursula {
 
@@ -31,6 +32,7 @@ struct Replay {
   double stopped_at = 0;          ///< when it could not go on, s
   bool too_long = false;          ///< gave up after too many evaluations: what is missing proves nothing
   bool left_path = false;         ///< stopped where P was off by more than the platform's size: no use to go on
+  AskedTorques asked;             ///< and of nobody else: under torques that are the same there, this is the replay
 
   double maxPositionError() const;  ///< m
   double maxRotationError() const;  ///< rad

@@ -56,14 +56,12 @@ Vector3d rotationVectorRate(const Vector3d& theta, const Vector3d& spin) {
   return spin - 0.5 * across + third * theta.cross(across);
 }
 
-/// The platform's deviation under the torques on trial and the stabilising term. The legs follow the platform, so the
+/// The platform's deviation under somebody's torques and the stabilising term. The legs follow the platform, so the
 /// loops stay closed and no gap can pile up.
 class Stabilised {
  public:
-  Stabilised(const Scenario& scenario, const Subject& subject, const Amplification& amplification,
-             const std::vector<PointwiseSample>& samples)
+  Stabilised(const Scenario& scenario, const Amplification& amplification, const std::vector<PointwiseSample>& samples)
       : trajectory_(*scenario.trajectory),
-        subject_(subject),
         amplification_(amplification),
         loop_(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load),
         solver_(*scenario.manipulator) {
@@ -83,13 +81,13 @@ class Stabilised {
   long evaluations() const { return evaluations_; }
 
   /// A step of Dormand and Prince's pair from t comes.
-  void foreseeStep(double t, double h) const {
-    if (subject_.foresee)
-      foresee(subject_, trajectory_,
+  void foreseeStep(const Subject& subject, double t, double h) const {
+    if (subject.foresee)
+      foresee(subject, trajectory_,
               {t, t + h * (1.0 / 5), t + h * (3.0 / 10), t + h * (4.0 / 5), t + h * (8.0 / 9), t + h});
   }
 
-  void rate(const Deviation& x, Deviation& out, double t) {
+  void rate(const SimbodyLoop::TorqueHistory& torques, const Deviation& x, Deviation& out, double t) {
     ++evaluations_;
     const Motion<double> commanded = trajectory_.at(t);
     const Vector3d theta = offset(x, 0);
@@ -99,7 +97,7 @@ class Stabilised {
     motion.omega += part(x, 2);
     motion.p_dot += part(x, 3);
     loop_.place(motion);
-    loop_.accelerate(subject_.torques(commanded) + term(x, commanded));
+    loop_.accelerate(torques(t) + term(x, commanded));
     const Motion<double> moved = loop_.platform();
     Eigen::Map<Eigen::Matrix<double, 12, 1>>(out.data())
         << scale_ * rotationVectorRate(theta, part(x, 2) - turned(theta, commanded.omega)),
@@ -127,7 +125,6 @@ class Stabilised {
   Vector3d offset(const Deviation& x, int k) const { return part(x, k) / scale_; }
 
   const Trajectory& trajectory_;
-  const Subject& subject_;
   const Amplification& amplification_;
   SimbodyLoop loop_;
   Solver<double> solver_;
@@ -136,21 +133,24 @@ class Stabilised {
   long evaluations_ = 0;
 };
 
-/// From the commanded state to the end of the motion. `tolerance` is absolute, of a step; torques above `limit` are
-/// wrong.
-void follow(Stabilised& loop, const Trajectory& trajectory, double tolerance, double limit, StabilisedReplay& found) {
+/// From the commanded state to the end of the motion, at the tolerance and the limit of `found`. `torques` are the
+/// subject's.
+void follow(Stabilised& loop, const Subject& subject, const SimbodyLoop::TorqueHistory& torques,
+            const Trajectory& trajectory, StabilisedReplay& found) {
   const auto stepperOf = [](double absolute) {
     return odeint::make_controlled(absolute, three_digits, odeint::runge_kutta_dopri5<Deviation>());
   };
+  double tolerance = found.tolerance;
+  const double limit = found.limit;
   auto stepper = stepperOf(tolerance);
-  const auto rate = [&loop](const Deviation& x, Deviation& out, double at) { loop.rate(x, out, at); };
+  const auto rate = [&](const Deviation& x, Deviation& out, double at) { loop.rate(torques, x, out, at); };
   Deviation deviation{};
   const double end = trajectory.duration();
   // A stiff right-hand side can throw a stage of too long a step out of the machine's reach: a rejected step like any
   // other, unless no shorter one helps.
   const auto accepted = [&](double& at, double& h) {
     const double tried = h;
-    loop.foreseeStep(at, h);
+    loop.foreseeStep(subject, at, h);
     try {
       return stepper.try_step(rate, deviation, at, h) == odeint::success;
     } catch (const std::exception&) {
@@ -183,37 +183,42 @@ void follow(Stabilised& loop, const Trajectory& trajectory, double tolerance, do
   }
 }
 
-/// The same, where what was found before an error is kept.
-StabilisedReplay answerOf(Stabilised& loop, const Trajectory& trajectory, double tolerance, double limit) {
-  StabilisedReplay found;
-  try {
-    follow(loop, trajectory, tolerance, limit, found);
-  } catch (const std::exception& error) {
-    found.stopped = error.what();
-    found.gave_up = true;
+/// What the samples say of the limit and the tolerance.
+StabilisedReplay planned(Stabilised& loop, const std::vector<PointwiseSample>& samples) {
+  StabilisedReplay out;
+  double gain = 0;
+  for (const PointwiseSample& sample : samples) {
+    const double here = 2 * sample.torque.limit + sample.conditioning.rounding(Rounded::effort);
+    if (!out.noisiest || !(here <= out.rounding)) out.noisiest = sample.conditioning, out.rounding = here;
+    gain = std::max(gain, loop.gain(sample.motion));
   }
-  return found;
+  out.answer = answer;
+  out.limit = (answer + 0.5) * out.rounding;
+  out.tolerance = 0.5 * out.rounding / gain;
+  return out;
 }
 
 }  // namespace
 
 StabilisedReplay stabilisedReplay(const Scenario& scenario, const Subject& subject, const Amplification& amplification,
-                                  const std::vector<PointwiseSample>& samples) {
-  Stabilised loop(scenario, subject, amplification, samples);
-  double rounding = 0, gain = 0;
-  const PointwiseSample* noisiest = nullptr;
-  for (const PointwiseSample& sample : samples) {
-    const double here = 2 * sample.torque.limit + sample.conditioning.rounding(Rounded::effort);
-    if (noisiest == nullptr || !(here <= rounding)) noisiest = &sample, rounding = here;
-    gain = std::max(gain, loop.gain(sample.motion));
+                                  const std::vector<PointwiseSample>& samples, const StabilisedReplay* known) {
+  Stabilised loop(scenario, amplification, samples);
+  const SimbodyLoop::TorqueHistory torques = [&](double t) { return subject.torques(scenario.trajectory->at(t)); };
+  StabilisedReplay found = planned(loop, samples);
+  if (known != nullptr && known->tolerance == found.tolerance && known->limit == found.limit &&
+      known->asked.sameFrom(torques)) {
+    const std::optional<Conditioning> noisiest = found.noisiest;
+    found = *known;
+    found.noisiest = noisiest;
+    return found;
   }
-  const double limit = (answer + 0.5) * rounding;
-  StabilisedReplay found = answerOf(loop, *scenario.trajectory, 0.5 * rounding / gain, limit);
-  found.rounding = rounding;
-  found.answer = answer;
-  found.limit = limit;
+  try {
+    follow(loop, subject, found.asked.of(torques), *scenario.trajectory, found);
+  } catch (const std::exception& error) {  // what was found before is kept
+    found.stopped = error.what();
+    found.gave_up = true;
+  }
   found.evaluations = loop.evaluations();
-  if (noisiest != nullptr) found.noisiest = noisiest->conditioning;
   return found;
 }
 

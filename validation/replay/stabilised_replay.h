@@ -6,6 +6,7 @@
 
 #include "model/scenario.h"
 #include "validation/limits/amplification.h"
+#include "validation/replay/asked_torques.h"
 #include "validation/samples/pointwise.h"
 #include "validation/subject/subject.h"
 
@@ -22,7 +23,9 @@ struct StabilisedReplay {
   double rounding = 0;                   ///< twice the torque's largest rounding and the loops' as torque, N·m
   double answer = 0;                     ///< the term's torque for a lasting torque error of one
   double limit = 0;                      ///< torques above this are wrong, N·m
+  double tolerance = 0;                  ///< absolute, of a step
   std::optional<Conditioning> noisiest;  ///< where the rounding is largest
+  AskedTorques asked;
 };
 
 /// A further witness over the whole motion, whatever its amplification: the replay with a weak stabilising term, and
@@ -32,7 +35,10 @@ struct StabilisedReplay {
 /// they decay instead. Integrated is the deviation from the commanded motion (Encke's form: Battin, An Introduction to
 /// the Mathematics and Methods of Astrodynamics, 1999, chapter 9), so that its errors are relative to the deviation and
 /// not to the motion.
+///
+/// Of `samples` motion, conditioning and the torque's limit count. `known`, which may be null, is a replay of the same
+/// scenario at the same instants: it stands for the subject's own where that could not differ from it in any bit.
 StabilisedReplay stabilisedReplay(const Scenario& scenario, const Subject& subject, const Amplification& amplification,
-                                  const std::vector<PointwiseSample>& samples);
+                                  const std::vector<PointwiseSample>& samples, const StabilisedReplay* known = nullptr);
 
 }  // namespace ursula

@@ -114,8 +114,8 @@ std::optional<int> unplaceable(const JointVariables<double>& q) {
   return std::nullopt;
 }
 
-void runKinematics(const Scenario& scenario, const Subject& subject, const Subject& right, SimbodyLoop& loop,
-                   PointwiseSample& sample) {
+void runKinematics(const Scenario& scenario, const Subject& subject, const Subject& right, const SimbodyAnswer& simbody,
+                   SimbodyLoop& loop, PointwiseSample& sample) {
   const KinematicAnswer answer = subject.kinematics(sample.motion);
   compareJoints(answer.joints, sample);
   compareJacobians(answer, sample);
@@ -125,33 +125,31 @@ void runKinematics(const Scenario& scenario, const Subject& subject, const Subje
       raise(*deviation, std::nan(""), *leg);
     return;
   }
-  loop.place(sample.motion, answer.joints);
-  compareBodies(answer.bodies, loop.bodies(), sample);
+  compareBodies(answer.bodies, simbody.bodiesIn(answer.joints, loop, sample.motion), sample);
 }
 
-void runDynamics(SimbodyLoop& loop, PointwiseSample& sample) {
-  loop.place(sample.motion);
-  sample.torques_simbody = loop.inverseDynamics();
+void runDynamics(const SimbodyAnswer& simbody, SimbodyLoop& loop, PointwiseSample& sample) {
+  sample.torques_simbody = simbody.torques;
   for (int i = 0; i < leg_count; ++i) raise(sample.torque, std::abs(sample.torques(i) - sample.torques_simbody(i)), i);
   const double length = sample.conditioning.length;
-  loop.accelerate(sample.torques);
-  const Motion<double> found = loop.platform();
+  const Motion<double> found = simbody.platformUnder(sample.torques, loop, sample.motion);
   sample.acceleration_error << found.omega_dot - sample.motion.omega_dot, found.p_ddot - sample.motion.p_ddot;
   raise(sample.acceleration,
         (found.p_ddot - sample.motion.p_ddot).norm() + length * (found.omega_dot - sample.motion.omega_dot).norm(), -1);
 }
 
 PointwiseSample runInstant(const Scenario& scenario, const Subject& subject, const Subject& right,
-                           const Conditioning& conditioning, SimbodyLoop& loop, const Motion<double>& motion) {
+                           const Conditioning& conditioning, const SimbodyAnswer& simbody, SimbodyLoop& loop,
+                           const Motion<double>& motion) {
   PointwiseSample sample;
   sample.motion = motion;
   sample.conditioning = conditioning;
-  sample.joints = loop.place(sample.motion);
+  sample.joints = simbody.joints;
   setLimits(sample);
   try {
     sample.torques = subject.torques(sample.motion);
-    if (subject.kinematics) runKinematics(scenario, subject, right, loop, sample);
-    runDynamics(loop, sample);
+    if (subject.kinematics) runKinematics(scenario, subject, right, simbody, loop, sample);
+    runDynamics(simbody, loop, sample);
   } catch (const PoseError& error) {
     sample.refused = error.what();
   }
@@ -177,17 +175,18 @@ std::bitset<std::size(deviations)> beyond(const PointwiseSample& sample) {
 }  // namespace
 
 std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
-                                          const std::vector<double>& instants, const RoundingProfile& profile) {
+                                          const std::vector<double>& instants, const RoundingProfile& profile,
+                                          const std::vector<SimbodyAnswer>& simbody) {
   SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
   const Subject right = nocSubject(*scenario.manipulator, scenario.load);
   std::vector<PointwiseSample> samples;
   samples.reserve(instants.size());
   foresee(subject, *scenario.trajectory, instants);
   std::bitset<std::size(deviations)> confirmed;  // by a second look: no further one is needed
-  for (double t : instants) {
-    const Motion<double> motion = scenario.trajectory->at(t);
+  for (std::size_t k = 0; k < instants.size(); ++k) {
+    const Motion<double> motion = scenario.trajectory->at(instants[k]);
     const auto run = [&](const Conditioning& conditioning) {
-      return runInstant(scenario, subject, right, conditioning, loop, motion);
+      return runInstant(scenario, subject, right, conditioning, simbody[k], loop, motion);
     };
     samples.push_back(run(profile.at(motion)));
     if ((beyond(samples.back()) & ~confirmed).none() || !samples.back().refused.empty()) continue;
@@ -195,6 +194,11 @@ std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subjec
     confirmed |= beyond(samples.back());
   }
   return samples;
+}
+
+std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
+                                          const std::vector<double>& instants, const RoundingProfile& profile) {
+  return runPointwise(scenario, subject, instants, profile, simbodyAnswers(scenario, instants));
 }
 
 std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,

@@ -5,6 +5,7 @@
 
 #include "model/scenario.h"
 #include "validation/limits/rounding_profile.h"
+#include "validation/samples/simbody_answers.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {
@@ -34,7 +35,11 @@ struct PointwiseSample {
 };
 
 /// Solver and Simbody at the same instants: joint state, 13 bodies, torques, accelerations. `profile` is the
-/// scenario's.
+/// scenario's, `simbody` what Simbody says at the instants.
+std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
+                                          const std::vector<double>& instants, const RoundingProfile& profile,
+                                          const std::vector<SimbodyAnswer>& simbody);
+/// Where Simbody was not asked before.
 std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
                                           const std::vector<double>& instants, const RoundingProfile& profile);
 /// With a profile of its own.

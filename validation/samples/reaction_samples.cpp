@@ -6,8 +6,7 @@
 
 namespace ursula {
 
-std::vector<ReactionSample> runReactions(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
-                                         const std::function<void(Reactions&)>& spoil) {
+std::vector<ReactionSample> runReactions(const Scenario& scenario, const std::vector<PointwiseSample>& samples) {
   const Solver<double> solver(*scenario.manipulator);
   Workspace<double> work;
   SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
@@ -17,7 +16,6 @@ std::vector<ReactionSample> runReactions(const Scenario& scenario, const std::ve
     const Vector6d torques = solver.inverseDynamics(sample.motion, work, loadAtP(scenario.load.get(), sample.motion));
     ReactionSample reactions;
     reactions.recovered = recoverReactions(solver, sample.motion, torques, work);
-    if (spoil) spoil(reactions.recovered);
     loop.place(sample.motion);
     loop.accelerate(torques);
     reactions.simbody = loop.reactions();

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "model/joint_reactions.h"
@@ -13,8 +12,7 @@ struct ReactionSample {
   Reactions recovered, simbody;  ///< from the solver's road; Simbody's mobilizer and constraint reactions
 };
 
-/// At the instants of `samples`. `spoil`, for controls that must fail, changes those recovered.
-std::vector<ReactionSample> runReactions(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
-                                         const std::function<void(Reactions&)>& spoil = nullptr);
+/// At the motions of `samples`. Throws PoseError as the solver does.
+std::vector<ReactionSample> runReactions(const Scenario& scenario, const std::vector<PointwiseSample>& samples);
 
 }  // namespace ursula

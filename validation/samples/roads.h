@@ -18,6 +18,18 @@ struct RoadSample {
   Conditioning conditioning;
 };
 
+/// Those of one instant that do not depend on the subject, N·m.
+struct RoadTorques {
+  Vector6d twin, maximal;
+  std::optional<Vector6d> mujoco;
+};
+
+/// At the motions of `samples`.
+std::vector<RoadTorques> roadTorques(const Scenario& scenario, const std::vector<PointwiseSample>& samples);
+
+/// `roads` are those at the instants of `samples`.
+std::vector<RoadSample> runRoads(const std::vector<RoadTorques>& roads, const std::vector<PointwiseSample>& samples,
+                                 const RoundingProfile& profile);
 /// Simbody's twin (tree through leg 1, five balls), the maximal coordinates and MuJoCo at the instants of `samples`.
 std::vector<RoadSample> runRoads(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
                                  const RoundingProfile& profile);

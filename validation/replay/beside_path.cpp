@@ -1,0 +1,85 @@
+#include "validation/replay/beside_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/replay/windows.h"
+
+namespace ursula {
+namespace {
+
+/// Deviations grow this many times over the time compared, or as often as they do at all.
+constexpr double wanted_growth = 100;
+/// A deviation at the end of that, over the machine's length: linear to its square.
+constexpr double wanted_deviation = 1e-5;
+
+/// The last instant of the first window in which deviations have grown by no more than wanted, at least one interval.
+std::size_t lastOf(const Amplification& amplification) {
+  const auto none = [](double) { return 0.0; };
+  const GrowthWindow window = amplification.window(0, none, 1, wanted_growth);  // no longer than it takes
+  std::size_t last = 1;
+  while (last + 1 < window.t.size() && window.from_start[last + 1] <= wanted_growth) ++last;
+  return last;
+}
+
+Vector6d deviationAtEnd(const Replay& replay, double length) {
+  Vector6d out;
+  out << replay.steps.back().position_error, length * replay.steps.back().rotation_error;
+  return out;
+}
+
+}  // namespace
+
+BesidePath::BesidePath(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques,
+                       const Amplification& amplification, const std::function<double(double)>& acceleration_rounding,
+                       double tolerance)
+    : scenario_(scenario), torques_(torques), tolerance_(tolerance), length_(amplification.length()) {
+  const std::size_t last = lastOf(amplification);
+  intervals_ = static_cast<int>(last);
+  end_ = amplification.instants()[last];
+  right_ = growthOf(nocSubject(*scenario.manipulator, scenario.load).accelerations);
+  size_ = wanted_deviation * length_ / std::max(1.0, right_.Phi.topRows<6>().norm());
+  rounding_ = amplification.carriedBound(0, end_, acceleration_rounding) / size_;
+}
+
+/// No coordinate is special.
+BesidePath::Vector12 BesidePath::direction() const {
+  Vector12 out;
+  for (int i = 0; i < 12; ++i) out(i) = std::cos(1.0 + 2.3 * i);
+  return out.normalized();
+}
+
+Growth BesidePath::growthOf(const AccelerationUnder& accelerations) const {
+  return ursula::growthOf(scenario_, accelerations, end_, intervals_);
+}
+
+EndsBeside BesidePath::replayed(const std::vector<double>& stops) const {
+  ReplaySettings settings;
+  settings.end = end_;
+  settings.stops = stops;
+  settings.max_evaluations = enoughEvaluations(scenario_, plannedStepRate(scenario_.trajectory->duration()));
+  EndsBeside out;
+  const auto endOf = [&](double share, double finer_by) {
+    settings.deviation = share * size_ * direction();
+    settings.tolerance = tolerance_ / finer_by;
+    const Replay run = replay(scenario_, torques_, settings);
+    if (run.gave_up.empty() && !run.left_path && !run.steps.empty()) return deviationAtEnd(run, length_);
+    if (out.gave_up.empty()) out.gave_up = "the replay from beside the path gave up: " + run.gave_up;
+    return Vector6d(Vector6d::Constant(std::nan("")));
+  };
+  out.on_path = endOf(0, 1);
+  out.above = endOf(0.5, 1);
+  out.below = endOf(-0.5, 1);
+  out.whole_apart = endOf(1, coarser) - endOf(-1, coarser);
+  return out;
+}
+
+const EndsBeside& BesidePath::ends() const {
+  return ends_.get([this] { return replayed({}); });
+}
+
+const EndsBeside& BesidePath::endsWithStops() const {
+  return ends_with_stops_.get([this] { return replayed(right_.halved_at); });
+}
+
+}  // namespace ursula
