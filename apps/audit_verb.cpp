@@ -14,7 +14,8 @@ struct AuditOptions {
 int audit(const AuditOptions& options) {
   if (options.json == "-" && options.markdown == "-")
     throw UsageError("--json and --markdown both go to standard output");
-  const Audit result = runAudit(options.scenario.empty() ? paperHelix() : readScenario(options.scenario));
+  const Scenario scenario = options.scenario.empty() ? paperHelix() : readScenario(options.scenario);
+  const Audit result = alongMotion(scenario, [&] { return runAudit(scenario); });
   if (options.json != "-" && options.markdown != "-") writeOutput("-", auditText(result));
   if (!options.json.empty()) writeOutput(options.json, auditJson(result));
   if (!options.markdown.empty()) writeOutput(options.markdown, auditMarkdown(result));

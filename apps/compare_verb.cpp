@@ -5,20 +5,24 @@
 
 #include "apps/verbs.h"
 #include "validation/compare/compare.h"
+#include "validation/report/junit.h"
 
 namespace ursula {
 namespace {
 
 struct Options {
-  std::string reference, test, out;
+  std::string reference, test, out, junit;
   CompareOptions tolerances;
 };
 
 int compareFiles(const Options& options) {
   const Comparison comparison = compare(readHistory(options.reference), readHistory(options.test), options.tolerances);
+  if (!options.junit.empty())
+    writeOutput(options.junit,
+                report::junitXml({comparisonSuite(comparison, options.reference + " : " + options.test)}));
   if (!options.out.empty()) writeOutput(options.out, comparisonCsv(comparison));
   // Data alone goes to standard output: where that is the CSV, the table is for the terminal.
-  fmt::print(options.out == "-" ? stderr : stdout, "{}", comparisonText(comparison));
+  fmt::print(options.out == "-" || options.junit == "-" ? stderr : stdout, "{}", comparisonText(comparison));
   switch (comparison.verdict) {
     case Verdict::pass:
       return exit_passed;
@@ -45,7 +49,14 @@ void addCompare(CLI::App& app, std::function<int()>& run) {
   verb->add_option("--time-tolerance", options->tolerances.time_tolerance, "Tolerance in time, s")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  verb->add_flag_function(
+      "--interpolate,!--no-interpolate", [options](std::int64_t given) { options->tolerances.interpolate = given > 0; },
+      "Interpolate the reference between its instants, or leave such instants out. Default: interpolate where it is at "
+      "least as fine as the test");
+  verb->add_option("--columns", options->tolerances.columns, "Columns to compare, such as tau_*,p_x_m. Default: all")
+      ->delimiter(',');
   verb->add_option("--out", options->out, "Table as CSV; - for standard output");
+  verb->add_option("--junit", options->junit, "JUnit XML, a case for each channel");
   verb->callback([options, &run] { run = [options] { return compareFiles(*options); }; });
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "model/scenario.h"
 
 namespace ursula {
@@ -9,5 +11,8 @@ Scenario paperHelix();
 
 /// scenarios/proving-ground.toml as built in: what `ursula prove` injects defects into.
 Scenario provingGround();
+
+/// apps/starting_scenario.toml, the text that `ursula init` writes.
+std::string startingScenario();
 
 }  // namespace ursula

@@ -17,19 +17,23 @@ struct InverseOptions {
   int samples = 301;
 };
 
-int inverse(const InverseOptions& options) {
-  const Scenario scenario = readScenario(options.scenario);
+TimeSeries inverseAlong(const Scenario& scenario, int samples) {
   const Solver<double> solver(*scenario.manipulator);
   Workspace<double> work;
   std::vector<Motion<double>> motions;
   std::vector<JointMotion> joints;
   std::vector<Vector6d> torques;
-  for (double t : equallySpaced(scenario.trajectory->duration(), options.samples)) {
+  for (double t : equallySpaced(scenario.trajectory->duration(), samples)) {
     motions.push_back(scenario.trajectory->at(t));
     torques.push_back(solver.inverseDynamics(motions.back(), work, loadAtP(scenario.load.get(), motions.back())));
     joints.push_back({solver.angles(work), solver.rates(work), solver.accelerations(work)});
   }
-  const TimeSeries series = inverseSeries(motions, joints, torques);
+  return inverseSeries(motions, joints, torques);
+}
+
+int inverse(const InverseOptions& options) {
+  const Scenario scenario = readScenario(options.scenario);
+  const TimeSeries series = alongMotion(scenario, [&] { return inverseAlong(scenario, options.samples); });
   writeOutput(options.out, csvText(series.names, series.columns));
   return exit_passed;
 }

@@ -40,12 +40,15 @@ int runProgram(int argc, char** argv) {
   std::function<int()> run;
   ursula::addValidate(app, run);
   ursula::addInverse(app, run);
+  ursula::addInit(app, run);
+  ursula::addCheck(app, run);
   ursula::addCompare(app, run);
   ursula::addDirect(app, run);
   ursula::addProve(app, run);
   ursula::addSimulate(app, run);
   ursula::addAudit(app, run);
   ursula::addPoses(app, run);
+  ursula::addDocs(app, run);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

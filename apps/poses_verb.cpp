@@ -25,7 +25,8 @@ void addPoses(CLI::App& app, std::function<int()>& run) {
   verb->add_option("--out", options->out, "CSV file; - for standard output")->capture_default_str();
   verb->callback([options, &run] {
     run = [options] {
-      const TimeSeries series = poseSeries(readScenario(options->scenario), options->samples);
+      const Scenario scenario = readScenario(options->scenario);
+      const TimeSeries series = alongMotion(scenario, [&] { return poseSeries(scenario, options->samples); });
       writeOutput(options->out, csvText(series.names, series.columns));
       return exit_passed;
     };

@@ -145,7 +145,8 @@ void printRandom(const RandomOutcomes& random, std::uint64_t seed) {
 /// Whether the right solver passes, every defect is caught and every check is needed.
 bool proveChecks(const ProveOptions& options) {
   const Scenario scenario = options.scenario.empty() ? provingGround() : readScenario(options.scenario);
-  const DefectProof proof = proveDefects(scenario, options.jobs, progress("defects"));
+  const DefectProof proof =
+      alongMotion(scenario, [&] { return proveDefects(scenario, options.jobs, progress("defects")); });
   const int weak = printMatrix(proof.outcomes);
   printSensitivities(proveSensitivities(scenario));
   const int without = printChecks(proof.checks);

@@ -28,7 +28,8 @@ int simulateVerb(const SimulateOptions& options) {
     throw UsageError(fmt::format("{}: {} instants, expected at least {} to interpolate between", options.torques,
                                  file.rows(), TorqueSpline::least_samples));
   const TorqueSpline spline(file.t, file.torques);
-  const Simulation run = simulate(scenario, options.engine, spline, file.t, scenario.simulation.tolerance);
+  const Simulation run = alongMotion(
+      scenario, [&] { return simulate(scenario, options.engine, spline, file.t, scenario.simulation.tolerance); });
   const TimeSeries series = simulatedSeries(run.motions, run.torques);
   writeOutput(options.out, csvText(series.names, series.columns));
   if (run.gave_up.empty()) return exit_passed;

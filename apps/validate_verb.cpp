@@ -59,25 +59,25 @@ void printChecks(const ValidationResult& result) {
     fmt::print("  not applicable, since {}: {}\n", why, fmt::join(checks, ", "));
 }
 
-/// "" where the result has no such finding.
-std::string finding(const ValidationResult& result, const std::string& key) {
-  for (const auto& [name, value] : result.findings)
-    if (name == key) return value;
-  return "";
+std::string text(const SourceOfError& source) {
+  return fmt::format("{:.3g} m +- {:.2g} m", source.error, source.uncertainty);
 }
 
-/// What dominates, with numbers, and what is known of torques that are wrong.
+/// What moved the replay off the path, and what is known of torques that are wrong. A clean pass needs neither.
 void printReasons(const ValidationResult& result) {
-  fmt::print("dominant error: {}", finding(result, "dominant error"));
-  const std::string observed = finding(result, "replay, error in position");
-  if (!observed.empty())
-    fmt::print("; replay off by {}; of it by rounding {}, integration {}, gaps {}, torques {}; deviations grow {}-fold",
-               observed, finding(result, "of it by rounding"), finding(result, "of it by the integration"),
-               finding(result, "of it by the loops' gaps"), finding(result, "of it by the torques"),
-               finding(result, "amplification of a deviation at the start"));
-  fmt::print("\n");
-  for (const char* key : {"torques that are off", "likely cause"})
-    if (const std::string value = finding(result, key); !value.empty()) fmt::print("{}: {}\n", key, value);
+  if (result.replay_error && result.verdict != Verdict::pass) {
+    const ReplayError& found = *result.replay_error;
+    fmt::print("dominant error: {}", found.dominant);
+    if (found.measured)
+      fmt::print(
+          "; replay off by {:.3g} m at t = {:.6g} s; of it by rounding {}, integration {}, gaps {}, torques {}; "
+          "deviations grow {:.4g}-fold",
+          found.observed, found.t, text(found.rounding), text(found.integration), text(found.closure),
+          text(found.model), found.amplification);
+    fmt::print("\n");
+  }
+  if (result.likely_cause)
+    fmt::print("torques that are off: {}\nlikely cause: {}\n", result.likely_cause->off, result.likely_cause->cause);
 }
 
 /// Judges this program's solver, somebody else's, or the torques of a file.

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "validation/subject/motion_check.h"
+
 namespace ursula {
 
 /// The program's answers, as interface.md gives them.
@@ -19,11 +21,24 @@ struct UsageError : std::runtime_error {
 void addAudit(CLI::App& app, std::function<int()>& run);
 void addValidate(CLI::App& app, std::function<int()>& run);
 void addDirect(CLI::App& app, std::function<int()>& run);
+void addCheck(CLI::App& app, std::function<int()>& run);
 void addCompare(CLI::App& app, std::function<int()>& run);
+void addDocs(CLI::App& app, std::function<int()>& run);
+void addInit(CLI::App& app, std::function<int()>& run);
 void addInverse(CLI::App& app, std::function<int()>& run);
 void addPoses(CLI::App& app, std::function<int()>& run);
 void addProve(CLI::App& app, std::function<int()>& run);
 void addSimulate(CLI::App& app, std::function<int()>& run);
+
+/// What `run` returns. A pose on the way that the machine cannot take is refused at the scenario's trajectory.
+template <class Run>
+auto alongMotion(const Scenario& scenario, Run&& run) {
+  try {
+    return run();
+  } catch (const PoseError& refusal) {
+    throw unmade(scenario, refusal);
+  }
+}
 
 /// Writes to `file` atomically, or to standard output where it is "-" or empty.
 void writeOutput(const std::string& file, const std::string& content);

@@ -33,17 +33,15 @@ std::string readName(const TomlSection& document) {
 }
 
 SimulationSettings readSimulation(const TomlSection& table) {
-  constexpr int most_samples = 1000000;
-  table.allowOnly({"samples", "integrator", "tolerance"});
+  const ScenarioTable& keys = scenarioTable("simulation");
+  table.allowOnly(keys);
   SimulationSettings settings;
   table.read("samples", settings.samples);
-  if (!(settings.samples >= 2 && settings.samples <= most_samples))
-    table.fail("samples", fmt::format("{}, expected an integer from 2 to {}", settings.samples, most_samples));
-  if (const auto integrator = table.readChoice("integrator", {"rkf78", "rk_merson"}))
+  table.requireBound(keys.key("samples"), settings.samples);
+  if (const auto integrator = table.readChoice(keys.key("integrator")))
     settings.integrator = *integrator == 0 ? Integrator::rkf78 : Integrator::rk_merson;
   table.read("tolerance", settings.tolerance);
-  if (!(settings.tolerance >= 1e-15 && settings.tolerance <= 1e-3))
-    table.fail("tolerance", fmt::format("{}, expected a number from 1e-15 to 1e-3", settings.tolerance));
+  table.requireBound(keys.key("tolerance"), settings.tolerance);
   return settings;
 }
 
@@ -54,7 +52,7 @@ EffortTolerance readTolerance(const TomlSection& table) {
        {std::pair("relative", &EffortTolerance::relative), {"absolute", &EffortTolerance::absolute}}) {
     if (!table.table().contains(key)) continue;
     table.require(key, tolerance.*member);
-    if (!(tolerance.*member > 0)) table.fail(key, fmt::format("{}, expected a number > 0", tolerance.*member));
+    table.requireBound(scenarioTable("acceptance.torque").key(key), tolerance.*member);
   }
   return tolerance;
 }
@@ -86,7 +84,7 @@ void readAcceptance(const TomlSection& table, const std::string& prefix, Scenari
 }
 
 Scenario assemble(const TomlSection& document) {
-  document.allowOnly({"name", "manipulator", "trajectory", "load", "simulation", "acceptance"});
+  document.allowOnly(scenarioTable(""));
   Scenario scenario;
   scenario.name = readName(document);
   scenario.manipulator = std::make_shared<Manipulator>(readManipulator(document.requiredSection("manipulator")));

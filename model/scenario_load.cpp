@@ -8,7 +8,7 @@ namespace {
 std::vector<TimedWrench> rowsOf(const std::vector<TomlSection>& table) {
   std::vector<TimedWrench> rows;
   for (const TomlSection& entry : table) {
-    entry.allowOnly({"time", "force", "moment"});
+    entry.allowOnly(scenarioTable("load.table"));
     TimedWrench row;
     entry.require("time", row.time);
     entry.read("force", row.wrench.force);
@@ -38,7 +38,8 @@ std::vector<TimedWrench> rowsOf(const CsvTable& table) {
 }  // namespace
 
 std::shared_ptr<const Load> readLoad(const TomlSection& table) {
-  table.allowOnly({"force", "moment", "point", "frame", "file", "table"});
+  const ScenarioTable& keys = scenarioTable("load");
+  table.allowOnly(keys);
   const bool constant = table.has("force") || table.has("moment");
   const int ways = (constant ? 1 : 0) + (table.has("file") ? 1 : 0) + (table.has("table") ? 1 : 0);
   if (ways != 1)
@@ -48,7 +49,7 @@ std::shared_ptr<const Load> readLoad(const TomlSection& table) {
   table.read("force", load->force);
   table.read("moment", load->moment);
   table.read("point", load->point);
-  if (const auto frame = table.readChoice("frame", {"base", "platform"}))
+  if (const auto frame = table.readChoice(keys.key("frame")))
     load->frame = *frame == 0 ? Load::Frame::base : Load::Frame::platform;
   if (table.has("file")) load->history = std::make_shared<LoadHistory>(rowsOf(readCsvBeside(table, "file")));
   if (table.has("table")) load->history = std::make_shared<LoadHistory>(rowsOf(table.sections("table")));

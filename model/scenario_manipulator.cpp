@@ -11,20 +11,20 @@ namespace {
 class LegReader {
  public:
   void apply(const TomlSection& table) {
-    table.allowOnly({"base_point", "base_axis", "platform_point", "proximal", "distal", "knee", "friction", "coulomb"});
+    const ScenarioTable& keys = scenarioTable("manipulator.leg");
+    table.allowOnly(keys);
     note("base_point", table.read("base_point", leg_.base_point));
     note("base_axis", table.read("base_axis", leg_.base_axis));
     note("platform_point", table.read("platform_point", leg_.platform_point));
     if (const auto link = table.section("proximal")) applyLink(*link, "proximal", leg_.proximal);
     if (const auto link = table.section("distal")) applyLink(*link, "distal", leg_.distal);
-    if (const auto knee = table.readChoice("knee", {"positive", "negative"}))
-      leg_.knee = *knee == 0 ? Knee::positive : Knee::negative;
+    if (const auto knee = table.readChoice(keys.key("knee"))) leg_.knee = *knee == 0 ? Knee::positive : Knee::negative;
     if (const auto friction = table.section("friction")) {
-      friction->allowOnly({"actuated", "universal", "knee"});
+      friction->allowOnly(scenarioTable("manipulator.leg.friction"));
       applyFriction(*friction, leg_.friction);
     }
     if (const auto coulomb = table.section("coulomb")) {
-      coulomb->allowOnly({"actuated", "universal", "knee", "smoothing_speed"});
+      coulomb->allowOnly(scenarioTable("manipulator.leg.coulomb"));
       applyFriction(*coulomb, leg_.coulomb);
       coulomb->read("smoothing_speed", leg_.coulomb.smoothing_speed);
     }
@@ -46,7 +46,7 @@ class LegReader {
   }
 
   void applyLink(const TomlSection& table, const std::string& name, Link& link) {
-    table.allowOnly({"length", "mass", "center_of_mass", "inertia"});
+    table.allowOnly(scenarioTable("manipulator.leg.link"));
     note(name + ".length", table.read("length", link.length));
     note(name + ".mass", table.read("mass", link.mass));
     note(name + ".center_of_mass", table.read("center_of_mass", link.center_of_mass));
@@ -69,7 +69,7 @@ class LegReader {
 };
 
 Platform readPlatform(const TomlSection& table) {
-  table.allowOnly({"mass", "center_of_mass", "inertia"});
+  table.allowOnly(scenarioTable("manipulator.platform"));
   Platform platform;
   table.require("mass", platform.mass);
   table.require("center_of_mass", platform.center_of_mass);
@@ -87,7 +87,7 @@ void requireSixLegs(const TomlSection& manipulator, const std::vector<TomlSectio
 }  // namespace
 
 ManipulatorParameters readManipulator(const TomlSection& manipulator) {
-  manipulator.allowOnly({"gravity", "platform", "leg_defaults", "leg"});
+  manipulator.allowOnly(scenarioTable("manipulator"));
   ManipulatorParameters parameters;
   manipulator.read("gravity", parameters.gravity);
   parameters.platform = readPlatform(manipulator.requiredSection("platform"));

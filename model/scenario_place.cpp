@@ -1,3 +1,5 @@
+#include "model/scenario_place.h"
+
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -52,23 +54,45 @@ Reached walk(const toml::node& document, const std::vector<Step>& steps) {
   return reached;
 }
 
-}  // namespace
+/// The node that a dotted key leads to, and the key under which it was found.
+struct Found {
+  const toml::node* node;
+  std::string key;
+  bool given;
+};
 
-ScenarioError located(const InvalidParameter& refusal, const TomlSection& document) {
-  std::vector<Step> steps = stepsOf(refusal.place());
-  std::string place = refusal.place();
-  Reached reached = walk(document.table(), steps);
+/// A leg's own key, or that of manipulator.leg_defaults where it inherits it, or the nearest table around it.
+Found find(const toml::table& document, const std::string& key) {
+  std::vector<Step> steps = stepsOf(key);
+  const Reached reached = walk(document, steps);
   const bool of_leg = steps.size() > 2 && steps[0].key == "manipulator" && steps[1].key == "leg";
   if (of_leg && reached.steps < steps.size()) {
     const std::size_t leg = steps[1].index;
     steps[1] = {"leg_defaults", 0};
-    if (const Reached inherited = walk(document.table(), steps); inherited.steps == steps.size()) {
-      reached = inherited;
-      place = fmt::format("manipulator.leg_defaults{} (of leg {})", place.substr(place.find(']') + 1), leg);
-    }
+    if (const Reached inherited = walk(document, steps); inherited.steps == steps.size())
+      return {inherited.node, fmt::format("manipulator.leg_defaults{} (of leg {})", key.substr(key.find(']') + 1), leg),
+              true};
   }
-  return errorAt(document.file(), reached.node->source().begin,
-                 fmt::format("{}: {}, expected {}", place, refusal.value(), refusal.bound()));
+  return {reached.node, key, reached.steps == steps.size()};
+}
+
+}  // namespace
+
+ScenarioError located(const InvalidParameter& refusal, const TomlSection& document) {
+  const Found found = find(document.table(), refusal.place());
+  return errorAt(document.file(), found.node->source().begin,
+                 fmt::format("{}: {}, expected {}", found.key, refusal.value(), refusal.bound()));
+}
+
+KeyPlace placeInFile(const Scenario& scenario, const std::string& key) {
+  try {
+    const toml::table document = toml::parse(std::string_view(scenario.text));
+    const Found found = find(document, key);
+    return {placeAt(scenario.file.string(), found.node->source().begin), found.key, found.given,
+            found.node->value<double>()};
+  } catch (const toml::parse_error&) {
+    return {placeAt(scenario.file.string(), {}), key, false, std::nullopt};
+  }
 }
 
 }  // namespace ursula

@@ -1,20 +1,33 @@
+#include "model/scenario_orientation.h"
 #include "model/scenario_sections.h"
 #include "model/trajectories.h"
 
 namespace ursula {
 namespace {
 
+/// `orientation`, a quaternion, or `rpy_deg`.
+Eigen::Vector4d readOrientation(const TomlSection& table) {
+  Eigen::Vector4d orientation;
+  Vector3d angles;
+  const bool by_angles = table.read("rpy_deg", angles);
+  if (by_angles && table.has("orientation"))
+    table.fail("rpy_deg", "given beside 'orientation', expected one of the two");
+  if (by_angles) return quaternionOf(angles);
+  if (!table.read("orientation", orientation))
+    table.missing("orientation", "an array of 4 numbers, or 'rpy_deg', an array of 3");
+  return orientation;
+}
+
 std::shared_ptr<const Trajectory> readHelix(const TomlSection& table) {
-  table.allowOnly({"kind", "duration", "radius", "pitch", "start_angle", "end_angle", "phase", "height_phase",
-                   "start_rate", "end_rate", "start_acceleration", "end_acceleration"});
+  table.allowOnly(scenarioTable("trajectory.helix"));
   HelixParameters helix;
   table.require("duration", helix.duration);
   table.require("radius", helix.radius);
   table.require("pitch", helix.pitch);
-  table.require("start_angle", helix.start_angle);
-  table.require("end_angle", helix.end_angle);
-  table.read("phase", helix.phase);
-  table.read("height_phase", helix.height_phase);
+  table.requireAngle("start_angle", helix.start_angle);
+  table.requireAngle("end_angle", helix.end_angle);
+  table.readAngle("phase", helix.phase);
+  table.readAngle("height_phase", helix.height_phase);
   table.read("start_rate", helix.start_rate);
   table.read("end_rate", helix.end_rate);
   table.read("start_acceleration", helix.start_acceleration);
@@ -23,31 +36,31 @@ std::shared_ptr<const Trajectory> readHelix(const TomlSection& table) {
 }
 
 std::shared_ptr<const Trajectory> readWaypoints(const TomlSection& table) {
-  table.allowOnly({"kind", "points"});
+  table.allowOnly(scenarioTable("trajectory.waypoints"));
   if (!table.has("points")) table.missing("points", "an array of tables { time, position, orientation }");
   std::vector<TimedPose> poses;
   for (const TomlSection& point : table.sections("points")) {
-    point.allowOnly({"time", "position", "orientation"});
+    point.allowOnly(scenarioTable("trajectory.waypoints.points"));
     TimedPose pose;
     point.require("time", pose.time);
     point.require("position", pose.position);
-    point.require("orientation", pose.orientation);
+    pose.orientation = readOrientation(point);
     poses.push_back(pose);
   }
   return makeWaypoints(poses);
 }
 
 std::shared_ptr<const Trajectory> readSamples(const TomlSection& table) {
-  table.allowOnly({"kind", "file"});
+  table.allowOnly(scenarioTable("trajectory.samples"));
   return makeSamples(readCsvBeside(table, "file"));
 }
 
 std::shared_ptr<const Trajectory> readHold(const TomlSection& table) {
-  table.allowOnly({"kind", "position", "orientation", "duration"});
+  table.allowOnly(scenarioTable("trajectory.hold"));
   TimedPose pose;
   double duration = 0;
   table.require("position", pose.position);
-  table.require("orientation", pose.orientation);
+  pose.orientation = readOrientation(table);
   table.require("duration", duration);
   return makeHold(pose.position, pose.orientation, duration);
 }
@@ -65,7 +78,7 @@ CsvTable readCsvBeside(const TomlSection& table, const std::string& key) {
 }
 
 std::shared_ptr<const Trajectory> readTrajectory(const TomlSection& trajectory) {
-  const auto kind = trajectory.readChoice("kind", {"helix", "waypoints", "samples", "hold"});
+  const auto kind = trajectory.readChoice(scenarioTable("trajectory").key("kind"));
   if (!kind) trajectory.missing("kind", "'helix', 'waypoints', 'samples' or 'hold'");
   switch (*kind) {
     case 0:

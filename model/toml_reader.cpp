@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "model/nearest.h"
+#include "model/scenario_orientation.h"
 
 namespace ursula {
 namespace {
@@ -41,10 +42,13 @@ std::string quotedList(const std::vector<std::string>& words) {
 
 }  // namespace
 
-ScenarioError errorAt(const std::string& file, const toml::source_position& position, const std::string& message) {
+std::string placeAt(const std::string& file, const toml::source_position& position) {
   // A default position is line 0; people and editors count from 1.
-  return ScenarioError(
-      fmt::format("{}:{}:{}: error: {}", file, std::max(position.line, 1U), std::max(position.column, 1U), message));
+  return fmt::format("{}:{}:{}", file, std::max(position.line, 1U), std::max(position.column, 1U));
+}
+
+ScenarioError errorAt(const std::string& file, const toml::source_position& position, const std::string& message) {
+  return ScenarioError(placeAt(file, position) + ": error: " + message);
 }
 
 void TomlSection::failAt(const toml::node& node, const std::string& message) const {
@@ -61,7 +65,8 @@ void TomlSection::missing(const std::string& key, const std::string& expected) c
   failAt(*table_, fmt::format("missing key '{}'{}, expected {}", key, inPlace(), expected));
 }
 
-void TomlSection::allowOnly(const std::vector<std::string>& keys) const {
+void TomlSection::allowOnly(const ScenarioTable& allowed) const {
+  const std::vector<std::string> keys = allowed.names();
   // toml++ orders keys by name; the first in the file is the one to report.
   const toml::key* first = nullptr;
   for (const auto& [key, node] : *table_) {
@@ -152,13 +157,27 @@ bool TomlSection::readInertia(const std::string& key, Matrix3d& value) const {
   return true;
 }
 
-std::optional<std::size_t> TomlSection::readChoice(const std::string& key,
-                                                   const std::vector<std::string>& choices) const {
+void TomlSection::requireBound(const ScenarioKey& key, double value) const {
+  if (has(key.name) && !key.bound.holds(value)) fail(key.name, fmt::format("{}, expected {}", value, key.bound.words));
+}
+
+bool TomlSection::readAngle(const std::string& key, double& value) const {
+  const std::string in_degrees = key + "_deg";
+  if (!has(in_degrees)) return read(key, value);
+  if (has(key)) fail(in_degrees, "given beside '" + key + "', expected one of the two");
+  double degrees = 0;
+  require(in_degrees, degrees);
+  value = radians(degrees);
+  return true;
+}
+
+std::optional<std::size_t> TomlSection::readChoice(const ScenarioKey& key) const {
+  const std::vector<std::string>& choices = key.choices;
   std::string given;
-  if (!read(key, given)) return std::nullopt;
+  if (!read(key.name, given)) return std::nullopt;
   const auto found = std::find(choices.begin(), choices.end(), given);
   if (found == choices.end())
-    fail(key, fmt::format("'{}', expected {}{}", given, quotedList(choices), didYouMean(given, choices)));
+    fail(key.name, fmt::format("'{}', expected {}{}", given, quotedList(choices), didYouMean(given, choices)));
   return static_cast<std::size_t>(found - choices.begin());
 }
 

@@ -8,8 +8,12 @@
 
 #include "model/scalar.h"
 #include "model/scenario.h"
+#include "model/scenario_keys.h"
 
 namespace ursula {
+
+/// `file:line:column` of a node.
+std::string placeAt(const std::string& file, const toml::source_position& position);
 
 /// The error `file:line:column: error: message` at a node's place.
 ScenarioError errorAt(const std::string& file, const toml::source_position& position, const std::string& message);
@@ -26,8 +30,8 @@ class TomlSection {
   const std::string& file() const { return file_; }
   const toml::table& table() const { return *table_; }
 
-  /// Throws for the first key that is none of these, naming the nearest of them.
-  void allowOnly(const std::vector<std::string>& keys) const;
+  /// Throws for the first key that is none of the table's, naming the nearest of them.
+  void allowOnly(const ScenarioTable& keys) const;
   bool has(const std::string& key) const { return table_->contains(key); }
 
   bool read(const std::string& key, double& value) const;
@@ -37,8 +41,16 @@ class TomlSection {
   bool read(const std::string& key, Eigen::Vector4d& value) const;
   /// [xx, yy, zz] or [xx, yy, zz, xy, xz, yz], tensor entries, into a symmetric matrix.
   bool readInertia(const std::string& key, Matrix3d& value) const;
-  /// The index among `choices` of the string given.
-  std::optional<std::size_t> readChoice(const std::string& key, const std::vector<std::string>& choices) const;
+  /// The index among the key's choices of the string given.
+  std::optional<std::size_t> readChoice(const ScenarioKey& key) const;
+  /// Throws where the key is given and its number is not within its bound.
+  void requireBound(const ScenarioKey& key, double value) const;
+
+  /// An angle, rad, from `key`, or in degrees from `key`_deg, correctly rounded; both are refused.
+  bool readAngle(const std::string& key, double& value) const;
+  void requireAngle(const std::string& key, double& value) const {
+    if (!readAngle(key, value)) missing(key, "a number, rad, or '" + key + "_deg' in degrees");
+  }
 
   template <class T>
   void require(const std::string& key, T& value) const {

@@ -21,7 +21,9 @@ ROOMS = {
     "outside": "verdict subject",  # and the front door
     "prove": "verdict subject limits samples evidence checks ",  # and the front door
     "audit": "subject replay",
-    "compare": "verdict",
+    "check_scenario": "subject",
+    "scenario_docs": "",
+    "compare": "verdict report",
     "simulate": "verdict subject",
     "suite": "verdict subject report",
 }

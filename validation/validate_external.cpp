@@ -25,6 +25,7 @@ namespace {
 
 void addDiagnosis(const Diagnosis& diagnosis, ValidationResult& result) {
   if (diagnosis.summary.empty()) return;
+  result.likely_cause = LikelyCause{diagnosis.deviation, diagnosis.cause};
   result.findings.emplace_back("torques that are off", diagnosis.deviation);
   result.findings.emplace_back("likely cause", diagnosis.cause);
   for (Check& check : result.checks)

@@ -106,7 +106,13 @@ end
 wrong = 0;
 if numel(argv()) > 0, wrong = str2double(argv(){end}); end
 machine = read_machine(getenv('URSULA_SCENARIO'));
-while ischar(line = fgetl(stdin))
+while true
+  % fgetl would look one character beyond the line, for which there is nothing before this one is answered.
+  try
+    line = input('', 's');
+  catch
+    break  % no more questions
+  end
   tau = (1 + wrong) * torques(machine, sscanf(strrep(line, ',', ' '), '%f'));
   printf('%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n', tau);
   fflush(stdout);

@@ -10,6 +10,7 @@ namespace ursula {
 namespace {
 
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
@@ -79,8 +80,8 @@ TEST(SuiteRun, oneBadScenarioAmongGoodOnesExitsWith2AndWritesNothing) {
         runProgram(folder, {"validate", "good.toml", "reach.toml", "key.toml", "--jobs", jobs, "--out", "out"});
     EXPECT_EQ(run.exit_code, 2);
     EXPECT_EQ(run.out, "");
-    EXPECT_THAT(run.err,
-                AllOf(HasSubstr("reach.toml: error: the motion cannot be made"), HasSubstr("key.toml:5:1: error: ")));
+    EXPECT_THAT(run.err, AllOf(ContainsRegex("reach.toml:[0-9]+:1: error: the motion cannot be made"),
+                               HasSubstr("key.toml:5:1: error: ")));
     EXPECT_FALSE(isThere(folder, "out"));
   }
 }

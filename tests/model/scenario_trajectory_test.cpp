@@ -119,10 +119,10 @@ TEST(ScenarioTrajectory, refusesMissingAndMistypedKeys) {
             "missing key 'points' in trajectory, expected an array of tables { time, position, orientation }");
   EXPECT_EQ(refusalAtMark(with(replaced(two_points, "{ time = 0,", "@{"))),
             "missing key 'time' in trajectory.points[1], expected a number");
-  EXPECT_EQ(
-      refusalAtMark(with(replaced(two_points, "orientation", "@orientaton"))),
-      "unknown key 'orientaton' in trajectory.points[1], expected 'time', 'position' or 'orientation', did you mean "
-      "'orientation'?");
+  EXPECT_EQ(refusalAtMark(with(replaced(two_points, "orientation", "@orientaton"))),
+            "unknown key 'orientaton' in trajectory.points[1], expected 'time', 'position', 'orientation' or "
+            "'rpy_deg', did you "
+            "mean 'orientation'?");
   EXPECT_EQ(refusalAtMark(with("[trajectory]\nkind = \"waypoints\"\npoints = [@3]\n")),
             "trajectory.points[1]: an integer, expected a table");
   EXPECT_EQ(refusalAtMark(with("[trajectory]\nkind = \"waypoints\"\npoints = @3\n")),

@@ -116,15 +116,109 @@ TEST(Compare, nanNeverPasses) {
   }
 }
 
-TEST(Compare, otherInstantsAreInterpolatedAndWhatTheLinesMissIsLeftOpen) {
+CompareOptions interpolating(double tolerance) {
+  CompareOptions options;
+  options.tolerance = tolerance;
+  options.interpolate = true;
+  return options;
+}
+
+TEST(Compare, otherInstantsAreInterpolatedAndWhatThatMissesIsLeftOpen) {
   const std::vector<double> finer = equallySpaced(1, 151);
-  const Comparison result = compare(history(t_101), history(finer), {});
+  const Comparison result = compare(history(t_101), history(finer), interpolating(1e-15));
   EXPECT_EQ(result.interpolated, 100U);
   EXPECT_EQ(result.channels[0].verdict, Verdict::inconclusive);
   EXPECT_EQ(result.channels[1].verdict, Verdict::pass);
   EXPECT_EQ(result.verdict, Verdict::inconclusive);
-  EXPECT_EQ(compare(history(t_101), history(finer), {1e-3, 0}).verdict, Verdict::pass);
-  EXPECT_EQ(compare(history(t_101), history(finer, 0.01), {}).verdict, Verdict::fail);
+  EXPECT_EQ(compare(history(t_101), history(finer), interpolating(1e-7)).verdict, Verdict::pass);
+  EXPECT_EQ(compare(history(t_101), history(finer, 0.01), interpolating(1e-7)).verdict, Verdict::fail);
+}
+
+TEST(Compare, statesWhatInterpolationMayMissAndItMissesLess) {
+  const Comparison result = compare(history(equallySpaced(1, 21)), history(equallySpaced(1, 34)), interpolating(1e-9));
+  const ChannelComparison& channel = result.channels[0];
+  EXPECT_GT(channel.interpolation, 1e-8);
+  EXPECT_LT(channel.interpolation, 1e-3);
+  EXPECT_GT(channel.max_error, 0);
+  EXPECT_LE(channel.max_error, channel.interpolation);
+  EXPECT_THAT(comparisonText(result), HasSubstr("which may miss "));
+}
+
+TEST(Compare, aFinerReferenceIsInterpolatedAndACoarserOneOnlyWhenAsked) {
+  const TimeSeries coarse = history(equallySpaced(1, 68)), fine = history(t_101);
+  const Comparison by_default = compare(fine, coarse, {1e-6, 0});
+  EXPECT_GT(by_default.interpolated, 0U);
+  EXPECT_EQ(by_default.verdict, Verdict::pass);
+  const Comparison left_out = compare(coarse, fine, {1e-6, 0});
+  EXPECT_EQ(left_out.interpolated, 0U);
+  EXPECT_GT(left_out.left_out, 0U);
+  EXPECT_EQ(left_out.verdict, Verdict::inconclusive);
+  EXPECT_THAT(comparisonText(left_out), HasSubstr("--interpolate"));
+  EXPECT_EQ(compare(coarse, fine, interpolating(1e-5)).verdict, Verdict::pass);
+}
+
+/// A turn about z by more than half a revolution, whose w changes sign.
+TimeSeries turning(const std::vector<double>& t, double sign) {
+  TimeSeries out{{"t_s", "q_w", "q_x", "q_y", "q_z"}, {t, {}, {}, {}, {}}};
+  for (const double at : t)
+    for (std::size_t k = 1; k < 5; ++k)
+      out.columns[k].push_back(sign * (k == 1 ? std::cos(2 * at) : k == 4 ? std::sin(2 * at) : 0));
+  return out;
+}
+
+TEST(Compare, quaternionsAreRotations) {
+  TimeSeries flipping = turning(t_101, 1);
+  for (std::size_t k = 1; k < 5; ++k)
+    for (std::size_t row = 0; row < 101; row += 3) flipping.columns[k][row] *= -1;
+  EXPECT_EQ(compare(turning(t_101, 1), turning(t_101, -1), {}).verdict, Verdict::pass);
+  EXPECT_EQ(compare(turning(t_101, 1), flipping, {}).verdict, Verdict::pass);
+  EXPECT_EQ(compare(flipping, turning(equallySpaced(1, 68), 1), {1e-7, 0}).verdict, Verdict::pass);
+  TimeSeries other = turning(t_101, 1);
+  for (double& z : other.columns[4]) z *= -1;  // the conjugate is another rotation
+  EXPECT_EQ(compare(turning(t_101, 1), other, {}).verdict, Verdict::fail);
+}
+
+TEST(Compare, columnsAreChosenByName) {
+  CompareOptions options;
+  options.columns = {"tau_*_Nm"};
+  TimeSeries reference = history(t_101), test = history(t_101);
+  reference.add("p_x_m", std::vector<double>(101, 0));
+  test.add("p_x_m", std::vector<double>(101, 1));
+  EXPECT_EQ(compare(reference, test, {}).verdict, Verdict::fail);
+  EXPECT_EQ(compare(reference, test, options).verdict, Verdict::pass);
+  EXPECT_EQ(compare(reference, test, options).channels.size(), 2U);
+  options.columns = {"tau_2_Nm"};
+  EXPECT_EQ(compare(reference, test, options).channels.size(), 1U);
+  options.columns = {"nothing*"};
+  EXPECT_EQ(compare(reference, test, options).verdict, Verdict::fail);
+}
+
+TEST(Compare, hundredsOfColumnsAreCounted) {
+  TimeSeries test = history(t_101);
+  for (int k = 0; k < 300; ++k) test.add("reaction_" + std::to_string(k), std::vector<double>(101, 0));
+  const std::string text = comparisonText(compare(history(t_101), test, {}));
+  EXPECT_THAT(text, HasSubstr("300 channels only in the test: reaction_0, "));
+  EXPECT_EQ(text.find("reaction_100"), std::string::npos);
+}
+
+TEST(Compare, junitHasACaseForEachChannel) {
+  TimeSeries reference = history(t_101), test = history(t_101);
+  reference.add("p_x_m", std::vector<double>(101, 0));
+  test.columns[1][50] += 3;
+  const SuiteEntry entry = comparisonSuite(compare(reference, test, {}), "a : b");
+  ASSERT_EQ(entry.checks.size(), 3U);
+  EXPECT_EQ(entry.verdict, Verdict::fail);
+  EXPECT_EQ(entry.checks[0].verdict, Verdict::fail);
+  EXPECT_EQ(entry.checks[1].verdict, Verdict::pass);
+  EXPECT_EQ(entry.checks[2].verdict, Verdict::inconclusive);
+}
+
+TEST(Compare, aFolderThatHoldsOnlyWhatShipsGivesItsInverseDynamics) {
+  const TemporaryFolder folder;
+  folder.write("inverse.csv", "t_s,x\n0,1\n1,2\n");
+  EXPECT_EQ(readHistory(folder.path()).columns[1][1], 2);
+  folder.write("timeseries.csv", "t_s,x\n0,1\n1,5\n");
+  EXPECT_EQ(readHistory(folder.path()).columns[1][1], 5);
 }
 
 TEST(Compare, namesTheChannelsOfOneFileOnly) {
@@ -138,8 +232,8 @@ TEST(Compare, namesTheChannelsOfOneFileOnly) {
   EXPECT_THAT(result.only_in_test, ElementsAre("note"));
   const std::string text = comparisonText(result);
   EXPECT_THAT(text, HasSubstr("compared 2 of 3 channels"));
-  EXPECT_THAT(text, HasSubstr("only in the reference: p_x_m\n"));
-  EXPECT_THAT(text, HasSubstr("only in the test: note\n"));
+  EXPECT_THAT(text, HasSubstr("1 channel only in the reference: p_x_m\n"));
+  EXPECT_THAT(text, HasSubstr("1 channel only in the test: note\n"));
 }
 
 TEST(Compare, nothingInCommonFails) {

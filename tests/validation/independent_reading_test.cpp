@@ -75,6 +75,31 @@ TEST(IndependentReading, seesKneesAndDefaultsThatWereNotOverridden) {
   EXPECT_THAT(inertia.why, HasSubstr("leg[2].proximal.inertia"));
 }
 
+std::string trajectoryText(const std::string& keys) {
+  return good_scenario.substr(0, good_scenario.find("[trajectory]")) + "[trajectory]\n" + keys;
+}
+
+TEST(IndependentReading, readsDegreesByItself) {
+  for (const char* rpy :
+       {"[10.3, -20.7, 33.1]", "[0, 0, 180]", "[180, 0, 0]", "[90, 90, -170]", "[-179.9, 12, 0.001]"}) {
+    const std::string pose = "{ time = 0, position = [0, 0, 1], rpy_deg = " + std::string(rpy) + " }";
+    const std::string end = "{ time = 2, position = [0, 0.1, 1], rpy_deg = " + std::string(rpy) + " }";
+    const Check check = readingOf(
+        parseScenario(trajectoryText("kind = \"waypoints\"\npoints = [" + pose + ", " + end + "]\n"), "a.toml"));
+    EXPECT_EQ(check.verdict, Verdict::pass) << rpy << check.why;
+  }
+  const std::string helix = "kind = \"helix\"\nduration = 3\nradius = 0.2\npitch = 1.2\n";
+  const Scenario scenario = parseScenario(
+      trajectoryText(helix +
+                     "start_angle_deg = -91.3\nend_angle_deg = -60.7\nphase_deg = 0.1\nheight_phase_deg = 126.3\n"),
+      "a.toml");
+  EXPECT_EQ(readingOf(scenario).verdict, Verdict::pass) << readingOf(scenario).why;
+  Scenario wrong = scenario;
+  wrong.trajectory =
+      parseScenario(trajectoryText(helix + "start_angle = -91.3\nend_angle_deg = -60.7\n"), "a.toml").trajectory;
+  EXPECT_EQ(readingOf(wrong).verdict, Verdict::fail);
+}
+
 Scenario withTrajectory(const std::string& name, std::shared_ptr<const Trajectory> trajectory) {
   Scenario scenario = scenarioOf(name);
   scenario.trajectory = std::move(trajectory);

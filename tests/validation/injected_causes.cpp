@@ -264,9 +264,9 @@ bool InjectedCause::isNamedFirst() const {
 }
 
 bool InjectedCause::isClaimed() const {
-  for (const char* unclaimed : {"one of ", "a likely part", "no ", "single precision"})
+  for (const char* unclaimed : {"a likely part", "no ", "single precision"})
     if (said.rfind(unclaimed, 0) == 0) return false;
-  return !said.empty();
+  return !said.empty() && said.find("; as well explained by: ") == std::string::npos;
 }
 
 std::vector<InjectedCause> diagnoseInjectedCauses() {

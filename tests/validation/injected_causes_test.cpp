@@ -26,7 +26,7 @@ TEST(InjectedCauses, areHeldAgainstWhatWasSaid) {
   const InjectedCause right{"s", "p", "platform mass", "platform mass 510 kg, which explains 100 %"};
   const InjectedCause wrong{"s", "p", "platform mass", "gravity left out, which explains 100 %"};
   const InjectedCause careful{"s", "p", "platform mass", "a likely part: gravity left out"};
-  const InjectedCause second{"s", "p", "mass", "one of 2: gravity; as well explained by: mass"};
+  const InjectedCause second{"s", "p", "mass", "gravity; as well explained by: mass"};
   EXPECT_TRUE(right.isNamedFirst());
   EXPECT_FALSE(right.isWrong());
   EXPECT_TRUE(wrong.isWrong());

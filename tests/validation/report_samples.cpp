@@ -150,6 +150,8 @@ ValidationResult passedSample() {
       judged("solver.orthogonality", 0.0, 6.1e-15, "", "K·T = 0 to 64 eps with |K| = 1.9 and |T| = 2.2", "exactly 0"),
   };
   result.verdict = overall(result.checks);
+  result.replay_error = ReplayError{};
+  result.replay_error->dominant = "amplification of integration error (81 %)";
   result.findings = {{"dominant error", "amplification of integration error (81 %)"},
                      {"largest condition number of K", "5.6e3 at t = 1.88 s"},
                      {"integrator", "RKF78: 412 steps, 5 rejected, 5421 evaluations"}};
@@ -209,6 +211,8 @@ ValidationResult externalSample() {
   result.verdict = overall(result.checks);
   result.findings.emplace_back("torques that are off", "leg 3 by up to 1.9 N m; within their limits: 1, 2, 4, 5, 6");
   result.findings.emplace_back("likely cause", "a factor of 1.001 on leg 3");
+  result.likely_cause =
+      LikelyCause{"leg 3 by up to 1.9 N m; within their limits: 1, 2, 4, 5, 6", "a factor of 1.001 on leg 3"};
   result.provenance[2].second = "leg3.csv";
   for (std::size_t k = 0; k < result.timeseries.names.size(); ++k) {
     std::vector<double>& column = result.timeseries.columns[k];

@@ -19,6 +19,7 @@ namespace ursula {
 namespace {
 
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
@@ -170,10 +171,11 @@ TEST(SuiteInput, everyBadScenarioIsNamedAtOnce) {
   const auto none = folder.path() / "none.toml", empty = folder.path() / "empty";
   std::filesystem::create_directory(empty);
   const std::string errors = refusal<ScenarioError>([&] { readSuite({good, key, reach, none, empty}); });
-  EXPECT_THAT(errors, AllOf(HasSubstr("key.toml:5:1: error: "), HasSubstr("none.toml:1:1: error: cannot be read"),
-                            HasSubstr("reach.toml: error: the motion cannot be made: leg "),
-                            HasSubstr("empty: error: no scenario in this folder, expected *.toml"),
-                            Not(HasSubstr("good.toml"))));
+  EXPECT_THAT(
+      errors,
+      AllOf(HasSubstr("key.toml:5:1: error: "), HasSubstr("none.toml:1:1: error: cannot be read"),
+            ContainsRegex("reach.toml:[0-9]+:1: error: the motion cannot be made: leg [1-6] is out of reach at t = "),
+            HasSubstr("empty: error: no scenario in this folder, expected *.toml"), Not(HasSubstr("good.toml"))));
 }
 
 /// Through the pose that is turned by about 45.26° about e_z, between instants, where no instant is singular itself.
@@ -190,7 +192,7 @@ points = [
 )";
   const auto turned = [&](const std::string& q) { return folder.write("t.toml", text + replaced(poses, "SECOND", q)); };
   EXPECT_THAT(refusal<ScenarioError>([&] { readSuite({turned("0.9063, 0.0, 0.0, 0.4226")}); }),  // 50°
-              HasSubstr("t.toml: error: the motion cannot be made: B has crossed a singular pose"));
+              ContainsRegex("t.toml:[0-9]+:1: error: the motion cannot be made: at t = .* s the pose is singular"));
   EXPECT_EQ(readSuite({turned("0.9397, 0.0, 0.0, 0.3420")}).size(), 1u);  // 40°
 }
 

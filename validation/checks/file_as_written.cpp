@@ -9,6 +9,8 @@
 #include <map>
 #include <sstream>
 
+#include "model/real50.h"
+
 namespace ursula {
 namespace {
 
@@ -146,15 +148,66 @@ Vector3d axes(const std::map<std::string, double>& row, const std::string& befor
 // --- motion and load
 // --------------------------------------------------------------------------------------------------
 
+/// π to more digits than are kept of anything here.
+const Real50 pi("3.14159265358979323846264338327950288419716939937510582097494");
+
+Real50 inRadians(const View& degrees) { return Real50(number(degrees)) * pi / 180; }
+
+/// An angle, rad, by its own key or by that of degrees.
+double angleOr(const View& table, const std::string& key, double otherwise) {
+  const View degrees = table[key + "_deg"];
+  return degrees ? static_cast<double>(inRadians(degrees)) : numberOr(table[key], otherwise);
+}
+
+/// A turn by `angle` that takes axis j to axis k.
+Matrix3<Real50> turn(int j, int k, const Real50& angle) {
+  Matrix3<Real50> out = Matrix3<Real50>::Identity();
+  out(j, j) = out(k, k) = cos(angle);
+  out(k, j) = sin(angle);
+  out(j, k) = -out(k, j);
+  return out;
+}
+
+/// Of which entry is largest, from the squares that trace and diagonal give; the others from the entries beside it.
+Eigen::Vector4d quaternionOf(const Matrix3<Real50>& Q) {
+  Eigen::Matrix<Real50, 4, 1> squares;  // 4 w², 4 x², …
+  squares(0) = 1 + Q.trace();
+  for (int k = 0; k < 3; ++k) squares(k + 1) = 1 - Q.trace() + 2 * Q(k, k);
+  Eigen::Index largest = 0;
+  squares.maxCoeff(&largest);
+  Eigen::Matrix<Real50, 4, 1> q;
+  const Real50 four = 2 * sqrt(squares(largest));
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    const Real50 with_w = Q(j, i) - Q(i, j), across = Q(i, j) + Q(j, i);
+    if (largest == 0) q(k + 1) = with_w / four;
+    if (largest == k + 1) q(0) = with_w / four;
+    if (largest == i + 1) q(j + 1) = across / four;
+    if (largest == j + 1) q(i + 1) = across / four;
+  }
+  q(largest) = four / 4;
+  Eigen::Vector4d out;
+  for (int k = 0; k < 4; ++k) out(k) = abs(q(k)) < Real50(1e-40) ? 0 : static_cast<double>(q(k));
+  return out;
+}
+
+/// [w, x, y, z], or roll, pitch and yaw about x, y and z of B, one after the other.
+Eigen::Vector4d orientationOf(const View& table) {
+  const View angles = table["rpy_deg"];
+  if (!angles) return numbers<4>(table["orientation"]);
+  const Matrix3<Real50> roll = turn(1, 2, inRadians(angles[0])), pitch = turn(2, 0, inRadians(angles[1]));
+  return quaternionOf(turn(0, 1, inRadians(angles[2])) * pitch * roll);
+}
+
 HelixParameters helixOf(const View& table) {
   HelixParameters helix;
   helix.duration = number(table["duration"]);
   helix.radius = number(table["radius"]);
   helix.pitch = number(table["pitch"]);
-  helix.start_angle = number(table["start_angle"]);
-  helix.end_angle = number(table["end_angle"]);
-  helix.phase = numberOr(table["phase"], 0);
-  helix.height_phase = numberOr(table["height_phase"], 0);
+  helix.start_angle = angleOr(table, "start_angle", none);
+  helix.end_angle = angleOr(table, "end_angle", none);
+  helix.phase = angleOr(table, "phase", 0);
+  helix.height_phase = angleOr(table, "height_phase", 0);
   helix.start_rate = numberOr(table["start_rate"], 0);
   helix.end_rate = numberOr(table["end_rate"], 0);
   helix.start_acceleration = numberOr(table["start_acceleration"], 0);
@@ -162,9 +215,7 @@ HelixParameters helixOf(const View& table) {
   return helix;
 }
 
-TimedPose poseOf(const View& table, double time) {
-  return {time, numbers<3>(table["position"]), numbers<4>(table["orientation"])};
-}
+TimedPose poseOf(const View& table, double time) { return {time, numbers<3>(table["position"]), orientationOf(table)}; }
 
 std::size_t sizeOf(const View& node) { return node.is_array() ? node.as_array()->size() : 0; }
 

@@ -6,9 +6,14 @@
 #include <sstream>
 
 #include "model/csv.h"
+#include "validation/compare/history_line.h"
+#include "validation/compare/rotations.h"
 
 namespace ursula {
 namespace {
+
+using compare_parts::alignQuaternions;
+using compare_parts::isChosen;
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 const char* const work_group = "tau_*_Nm x phi_*_rad";
@@ -56,81 +61,24 @@ std::map<std::string, double> scalesOf(const TimeSeries& series) {
   return scales;
 }
 
-/// A history with straight lines between its instants.
-class Polyline {
- public:
-  Polyline(const std::vector<double>& t, const std::vector<double>& values) : t_(t), values_(values) {}
-
-  double at(double t) const {
-    const std::size_t i = before(t);
-    if (i + 1 == t_.size()) return values_[i];
-    const double s = std::clamp((t - t_[i]) / (t_[i + 1] - t_[i]), 0.0, 1.0);
-    if (s == 0) return values_[i];
-    return s == 1 ? values_[i + 1] : (1 - s) * values_[i] + s * values_[i + 1];
-  }
-
-  /// Distance of `value` from the range of the line over [from, to]; NaN where the line or the value is.
-  double distance(double value, double from, double to) const {
-    double low = at(from), high = low;
-    const auto include = [&](double found) {
-      low = std::isnan(found) || std::isnan(low) ? nan : std::min(low, found);
-      high = std::isnan(low) ? nan : std::max(high, found);
-    };
-    include(at(to));
-    for (std::size_t i = before(from) + 1; i < t_.size() && t_[i] < to; ++i) include(values_[i]);
-    if (std::isnan(low) || std::isnan(value)) return nan;
-    if (value >= low && value <= high) return 0;
-    return value < low ? low - value : value - high;
-  }
-
-  /// What the chord at t may miss: h²/8 times the larger second derivative beside it, doubled since that is estimated.
-  double chordError(double t) const {
-    const std::size_t i = before(t);
-    if (i + 1 == t_.size() || t_.size() < 3) return 0;
-    const double h = t_[i + 1] - t_[i];
-    double bend = 0;
-    for (std::size_t k = std::max<std::size_t>(i, 1); k <= i + 1 && k + 1 < t_.size(); ++k) {
-      const double left = (values_[k] - values_[k - 1]) / (t_[k] - t_[k - 1]);
-      const double right = (values_[k + 1] - values_[k]) / (t_[k + 1] - t_[k]);
-      bend = std::max(bend, std::abs(2 * (right - left) / (t_[k + 1] - t_[k - 1])));
-    }
-    return 2 * bend * h * h / 8;
-  }
-
-  bool isKnot(double t) const {
-    const std::size_t i = before(t);
-    const double rounding = 4 * eps * std::abs(t);
-    return std::abs(t - t_[i]) <= rounding || (i + 1 < t_.size() && std::abs(t_[i + 1] - t) <= rounding);
-  }
-
- private:
-  std::size_t before(double t) const {
-    const auto after = std::upper_bound(t_.begin(), t_.end(), t) - t_.begin();
-    return static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - 1, 0));
-  }
-
-  const std::vector<double>& t_;
-  const std::vector<double>& values_;
-};
-
 double larger(double a, double b) { return std::isnan(a) || std::isnan(b) ? nan : std::max(a, b); }
 
 /// Errors at the test's instants `rows`, and how far they leave the tube.
-void judgeRows(const Polyline& reference, const std::vector<double>& t, const std::vector<double>& values,
+void judgeRows(const HistoryLine& reference, const std::vector<double>& t, const std::vector<double>& values,
                const std::vector<std::size_t>& rows, double time_tolerance, ChannelComparison& out) {
   double squares = 0;
-  bool exceeds_chord = false;
+  bool exceeds = false;
   for (const std::size_t k : rows) {
     const double error = std::abs(values[k] - reference.at(t[k]));
     const double distance = reference.distance(values[k], t[k] - time_tolerance, t[k] + time_tolerance);
-    const double chord = reference.isKnot(t[k]) ? 0 : reference.chordError(t[k]);
+    const double missed = reference.interpolationError(t[k]);
     if (error > out.max_error || k == rows.front() || std::isnan(error)) out.max_at = t[k];
     out.max_error = larger(out.max_error, error);
     out.outside = larger(out.outside, distance);
-    out.interpolation = std::max(out.interpolation, chord);
+    out.interpolation = larger(out.interpolation, missed);
     out.final_error = error;
     squares += error * error;
-    if (!(distance <= out.tolerance + chord)) exceeds_chord = true;
+    if (!(distance <= out.tolerance + missed)) exceeds = true;
     if (std::isnan(error)) break;
   }
   out.rms_error = std::sqrt(squares / static_cast<double>(rows.size()));
@@ -138,7 +86,7 @@ void judgeRows(const Polyline& reference, const std::vector<double>& t, const st
   if (out.outside <= out.tolerance)
     out.verdict = Verdict::pass;
   else
-    out.verdict = exceeds_chord || rows.empty() ? Verdict::fail : Verdict::inconclusive;
+    out.verdict = exceeds || rows.empty() ? Verdict::fail : Verdict::inconclusive;
 }
 
 void setTimes(const std::vector<double>& reference, const std::vector<double>& test, double rounding, Comparison& out) {
@@ -162,9 +110,35 @@ std::size_t skippedOf(const std::vector<double>& reference, const std::vector<do
   return skipped;
 }
 
+/// The test's instants within the reference's; those between two of the reference only where it is interpolated.
+std::vector<std::size_t> rowsToCompare(const std::vector<double>& reference, const std::vector<double>& test,
+                                       double rounding, const CompareOptions& options, Comparison& out) {
+  const HistoryLine times(reference, reference);
+  std::vector<std::size_t> within;
+  for (std::size_t k = 0; k < test.size(); ++k)
+    if (test[k] >= reference.front() - rounding && test[k] <= reference.back() + rounding) within.push_back(k);
+  const auto first = std::lower_bound(reference.begin(), reference.end(), out.from - rounding);
+  const auto last = std::upper_bound(reference.begin(), reference.end(), out.to + rounding);
+  // No less dense than the test: what lies between its instants is then well known.
+  const bool is_finer = !within.empty() && last - first >= static_cast<std::ptrdiff_t>(within.size());
+  std::vector<std::size_t> rows;
+  for (const std::size_t k : within) {
+    const bool between = !times.isKnot(test[k]);
+    if (between && !options.interpolate.value_or(is_finer)) {
+      ++out.left_out;
+      continue;
+    }
+    out.interpolated += between ? 1 : 0;
+    rows.push_back(k);
+  }
+  out.instants = rows.size();
+  return rows;
+}
+
 Verdict verdictOf(const Comparison& comparison) {
-  if (comparison.channels.empty() || comparison.instants == 0) return Verdict::fail;
-  bool is_whole = comparison.only_in_reference.empty() && comparison.covers_reference && comparison.skipped == 0;
+  if (comparison.channels.empty() || comparison.instants + comparison.left_out == 0) return Verdict::fail;
+  bool is_whole = comparison.only_in_reference.empty() && comparison.covers_reference && comparison.skipped == 0 &&
+                  comparison.left_out == 0;
   for (const ChannelComparison& channel : comparison.channels) {
     if (channel.verdict == Verdict::fail) return Verdict::fail;
     is_whole = is_whole && channel.verdict == Verdict::pass;
@@ -172,12 +146,20 @@ Verdict verdictOf(const Comparison& comparison) {
   return is_whole ? Verdict::pass : Verdict::inconclusive;
 }
 
+/// What `validate` leaves, or what ships of it.
+std::filesystem::path historyIn(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  const bool is_short = !std::filesystem::exists(folder / "timeseries.csv", ignored) &&
+                        std::filesystem::exists(folder / "inverse.csv", ignored);
+  return folder / (is_short ? "inverse.csv" : "timeseries.csv");
+}
+
 }  // namespace
 
 TimeSeries readHistory(const std::filesystem::path& file_or_folder) {
   std::error_code ignored;
   const bool is_folder = std::filesystem::is_directory(file_or_folder, ignored);
-  const CsvTable table = readCsv(is_folder ? file_or_folder / "timeseries.csv" : file_or_folder, {{}, false});
+  const CsvTable table = readCsv(is_folder ? historyIn(file_or_folder) : file_or_folder, {{}, false});
   const std::vector<double>& t = table.at("t_s");
   for (std::size_t k = 0; k < t.size(); ++k)
     if (!std::isfinite(t[k]) || (k > 0 && !(t[k] > t[k - 1])))
@@ -191,17 +173,14 @@ Comparison compare(const TimeSeries& reference, const TimeSeries& test, const Co
   const double rounding = options.time_tolerance + 4 * eps * std::max(std::abs(t_reference.back()), std::abs(t.back()));
   setTimes(t_reference, t, rounding, out);
   out.skipped = skippedOf(t_reference, t, rounding);
-  std::vector<std::size_t> rows;
-  for (std::size_t k = 0; k < t.size(); ++k)
-    if (t[k] >= t_reference.front() - rounding && t[k] <= t_reference.back() + rounding) rows.push_back(k);
-  out.instants = rows.size();
-  const Polyline times(t_reference, t_reference);
-  for (const std::size_t k : rows) out.interpolated += times.isKnot(t[k]) ? 0 : 1;
+  const std::vector<std::size_t> rows = rowsToCompare(t_reference, t, rounding, options, out);
+  const TimeSeries aligned = alignQuaternions(reference, test, rows);
+  const TimeSeries continuous = alignQuaternions(reference);
   const std::map<std::string, double> scales = scalesOf(reference);
   for (std::size_t i = 0; i < reference.names.size(); ++i) {
     const std::string& name = reference.names[i];
-    if (name == "t_s") continue;
-    const std::vector<double>* values = test.find(name);
+    if (name == "t_s" || !isChosen(name, options.columns)) continue;
+    const std::vector<double>* values = aligned.find(name);
     if (values == nullptr) {
       out.only_in_reference.push_back(name);
       continue;
@@ -211,12 +190,13 @@ Comparison compare(const TimeSeries& reference, const TimeSeries& test, const Co
     channel.group = scales.count(scaleGroupOf(name)) != 0 ? scaleGroupOf(name) : groupOf(name);
     channel.scale = scales.at(channel.group);
     channel.tolerance = options.tolerance * channel.scale;
+    if (rows.empty() && out.left_out > 0) channel.verdict = Verdict::inconclusive;
     if (!rows.empty())
-      judgeRows(Polyline(t_reference, reference.columns[i]), t, *values, rows, options.time_tolerance, channel);
+      judgeRows(HistoryLine(t_reference, continuous.columns[i]), t, *values, rows, options.time_tolerance, channel);
     out.channels.push_back(channel);
   }
   for (const std::string& name : test.names)
-    if (reference.find(name) == nullptr) out.only_in_test.push_back(name);
+    if (reference.find(name) == nullptr && isChosen(name, options.columns)) out.only_in_test.push_back(name);
   out.verdict = verdictOf(out);
   return out;
 }

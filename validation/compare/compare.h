@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "validation/report/report.h"
 #include "validation/verdict/result.h"
 
 namespace ursula {
@@ -15,6 +17,10 @@ struct CompareOptions {
   /// that must be seen (1e-8).
   double tolerance = 1e-9;
   double time_tolerance = 0;  ///< s
+  /// Between its instants the reference is interpolated, or what the test has there is left out. Where nothing is said:
+  /// interpolated where it has at least as many instants as the test.
+  std::optional<bool> interpolate = std::nullopt;
+  std::vector<std::string> columns = {};  ///< patterns of what is compared, with one `*` each at most; empty: all
 };
 
 /// Two histories of one channel.
@@ -27,7 +33,7 @@ struct ChannelComparison {
   double max_at = 0;     ///< s
   double rms_error = 0, final_error = 0;
   double outside = 0;        ///< the largest distance from the tube about the reference, in the channel's unit
-  double interpolation = 0;  ///< what a chord between two instants of the reference may miss, in the channel's unit
+  double interpolation = 0;  ///< what interpolation of the reference may miss, in the channel's unit
   Verdict verdict = Verdict::fail;
 };
 
@@ -36,6 +42,7 @@ struct Comparison {
   std::vector<std::string> only_in_reference, only_in_test;
   std::size_t instants = 0;      ///< of the test that were compared
   std::size_t interpolated = 0;  ///< of them, between two of the reference
+  std::size_t left_out = 0;      ///< instants of the test between two of the reference, where it is not interpolated
   std::size_t skipped = 0;       ///< instants of the reference in gaps of the test, each over three or more of them
   double from = std::numeric_limits<double>::quiet_NaN(), to = from;        ///< overlap, s
   double reference_from = 0, reference_to = 0, test_from = 0, test_to = 0;  ///< s
@@ -45,16 +52,16 @@ struct Comparison {
   std::size_t referenceChannels() const { return channels.size() + only_in_reference.size(); }
 };
 
-/// Reads a CSV, or `timeseries.csv` of a result folder: `t_s`, increasing, and channels that may hold NaN. Throws
-/// CsvError.
+/// Reads a CSV, or `timeseries.csv` of a result folder, or `inverse.csv` where it has only that: `t_s`, increasing, and
+/// channels that may hold NaN. Throws CsvError.
 TimeSeries readHistory(const std::filesystem::path& file_or_folder);
 
-/// Channel by channel, at the test's own instants within the reference's. A value is accepted where the reference, with
-/// straight lines between its instants, comes within `tolerance` of it anywhere within ± `time_tolerance`; NaN never
-/// is.
+/// Channel by channel, at the test's own instants within the reference's. A value is accepted where the reference comes
+/// within `tolerance` of it anywhere within ± `time_tolerance`; NaN never is. Quaternions are compared as rotations: q
+/// and −q are the same.
 ///
-/// Errors are those at the same instant. A channel is inconclusive where it leaves the tube by no more than a straight
-/// line may miss (by second differences, where instants differ). The whole fails where a channel does or where nothing
+/// Errors are those at the same instant. A channel is inconclusive where it leaves the tube by no more than
+/// interpolation may miss. The whole fails where a channel does or where nothing
 /// is common, and is inconclusive where a channel or a part of the reference's time is missing from the test, at its
 /// ends or by gaps.
 Comparison compare(const TimeSeries& reference, const TimeSeries& test, const CompareOptions& options);
@@ -64,5 +71,8 @@ std::string comparisonText(const Comparison& comparison);
 
 /// One row for each channel.
 std::string comparisonCsv(const Comparison& comparison);
+
+/// Each channel as a check of the suite `name`, for JUnit; what only the reference has is one that could not be judged.
+SuiteEntry comparisonSuite(const Comparison& comparison, const std::string& name);
 
 }  // namespace ursula

@@ -7,12 +7,30 @@
 namespace ursula {
 namespace {
 
-std::string list(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
+/// "3 channels only in the test: a, b, c\n"; of hundreds the first few and the count.
+std::string onlyIn(const char* side, const std::vector<std::string>& names) {
+  constexpr std::size_t shown = 6;
+  if (names.empty()) return "";
+  const auto end = names.begin() + static_cast<std::ptrdiff_t>(std::min(shown, names.size()));
+  return fmt::format("{} channel{} only in the {}: {}{}\n", names.size(), names.size() == 1 ? "" : "s", side,
+                     fmt::join(names.begin(), end, ", "), names.size() > shown ? ", …" : "");
+}
+
+double largestInterpolation(const Comparison& comparison, std::string& channel) {
+  double most = 0;
+  for (const ChannelComparison& each : comparison.channels) {
+    const double share = each.scale > 0 ? each.interpolation / each.scale : 0;
+    if (!(share > most)) continue;
+    most = share;
+    channel = each.name;
+  }
+  return most;
+}
 
 /// What was not compared, and why the verdict may be less than a pass.
 std::string remarks(const Comparison& c) {
   std::string out;
-  if (c.instants == 0)
+  if (c.instants + c.left_out == 0)
     out += fmt::format("nothing to compare: the reference spans {:.6g} to {:.6g} s, the test {:.6g} to {:.6g} s\n",
                        c.reference_from, c.reference_to, c.test_from, c.test_to);
   else if (c.from != c.reference_from || c.to != c.reference_to || c.from != c.test_from || c.to != c.test_to)
@@ -21,12 +39,21 @@ std::string remarks(const Comparison& c) {
         "{:.6g} s{}\n",
         c.from, c.to, c.reference_from, c.reference_to, c.test_from, c.test_to,
         c.covers_reference ? "" : "; the reference is not covered");
-  if (c.interpolated > 0)
-    out += fmt::format("the reference was interpolated linearly at {} of {} instants\n", c.interpolated, c.instants);
+  if (c.interpolated > 0) {
+    std::string channel = "all";
+    const double missed = largestInterpolation(c, channel);
+    out += fmt::format(
+        "the reference was interpolated at {} of {} instants, which may miss {:.2g} of a channel's scale ({})\n",
+        c.interpolated, c.instants, missed, channel);
+  }
+  if (c.left_out > 0)
+    out += fmt::format(
+        "not compared are {} instants of the test between two of the reference, which is coarser: "
+        "--interpolate\n",
+        c.left_out);
   if (c.skipped > 0)
     out += fmt::format("not compared are {} instants of the reference in gaps of the test\n", c.skipped);
-  if (!c.only_in_reference.empty()) out += "only in the reference: " + list(c.only_in_reference) + "\n";
-  if (!c.only_in_test.empty()) out += "only in the test: " + list(c.only_in_test) + "\n";
+  out += onlyIn("reference", c.only_in_reference) + onlyIn("test", c.only_in_test);
   if (c.channels.empty()) out += "no channel is common to both\n";
   return out;
 }
@@ -56,6 +83,26 @@ std::string comparisonCsv(const Comparison& comparison) {
     out += fmt::format("{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{}\n", c.name, name(c.verdict),
                        c.max_error, c.max_at, c.rms_error, c.final_error, c.outside, c.tolerance, c.scale, c.group);
   return out;
+}
+
+SuiteEntry comparisonSuite(const Comparison& comparison, const std::string& suite) {
+  SuiteEntry entry;
+  entry.scenario = suite;
+  entry.verdict = comparison.verdict;
+  for (const ChannelComparison& c : comparison.channels) {
+    Check check;
+    check.name = c.name;
+    check.value = c.outside;
+    check.limit = c.tolerance;
+    check.verdict = c.verdict;
+    check.basis = fmt::format("the tolerance times {:.6g}, the largest magnitude of {}", c.scale, c.group);
+    check.why = fmt::format("largest deviation {:.3g} at t = {:.6g} s, RMS {:.3g}; interpolation may miss {:.2g}",
+                            c.max_error, c.max_at, c.rms_error, c.interpolation);
+    entry.checks.push_back(check);
+  }
+  for (const std::string& missing : comparison.only_in_reference)
+    entry.checks.push_back(notJudgeable(Reason::not_covered, missing, 0, 0, "", "", "only the reference has it"));
+  return entry;
 }
 
 }  // namespace ursula

@@ -45,7 +45,7 @@ class Fit {
 
   /// Cosine between the residual and what a small x does; 0 where it does nothing.
   double likeness() {
-    if (!cause_.fitted) return 1 - std::min(1.0, unexplained_);
+    if (!cause_.fitted) return std::sqrt(1 - std::min(1.0, unexplained_ * unexplained_));
     const Rows slope = slopeAt(0);
     const double size = std::sqrt(dot(slope, slope));
     if (!(size * difference_step > 1e-12 * std::sqrt(dot(data_.exact, data_.exact)))) return 0;
@@ -179,14 +179,16 @@ std::vector<Hypothesis> fitCauses(const std::vector<Cause>& causes, const Torque
     Fit fit(causes[candidate.place], all);
     fit.start(candidate.x);
     fit.improve(3);
-    if (std::isfinite(fit.unexplained())) out.push_back(fit.hypothesis());
+    Fit whole(causes[candidate.place], data);  // what is claimed must hold at every instant
+    whole.start(fit.x());
+    if (std::isfinite(whole.unexplained())) out.push_back(whole.hypothesis());
   }
   return out;
 }
 
 std::string withDeviation(double value, double deviation) {
   const double size = std::abs(value);
-  if (!(deviation > 1e-9 * size)) return fmt::format("{:.9g} +- {:.1g}", value, deviation);
+  if (!(deviation > 1e-9 * size && std::isfinite(deviation))) return fmt::format("{:.9g} +- {:.1g}", value, deviation);
   const int place = static_cast<int>(std::floor(std::log10(deviation)));
   return fmt::format("{:.{}f} +- {:.1g}", value, std::clamp(-place, 0, 15), deviation);
 }

@@ -163,9 +163,7 @@ std::string causeText(const Scenario& scenario, const ExternalTorques& torques) 
   const std::vector<Hypothesis> best = bestOf(fitted);
   const Hypothesis& first = best.front();
   const std::string how_much = fmt::format("{}, which explains {}", first.text, percent(first.explained()));
-  if (explains(first))
-    return (best.size() > 1 ? fmt::format("one of {} that this file cannot tell apart: ", best.size()) : "") +
-           how_much + othersText(best);
+  if (explains(first)) return how_much + othersText(best);
   if (first.unexplained < may_remain)
     return fmt::format("a likely part: {}; what remains is up to {:.3g} times the file's precision{}", how_much,
                        first.beyond, othersText(best));

@@ -71,10 +71,13 @@ std::optional<Hypothesis> scaledTerm(const TorqueResidual& data, const TorqueTer
 
 std::optional<Hypothesis> scaled(const TorqueResidual& data) {
   const double c = dot(data.residual, data.exact) / std::max(dot(data.exact, data.exact), 1e-300);
+  if (std::abs(c + 2) < 1e-9) return std::nullopt;  // the sign of every leg, which is tried by itself
   const std::string unit = unitOf(1 + c);
-  return hypothesis(data,
-                    fmt::format("every torque scaled by {}{}", factorText(c), unit.empty() ? "" : " (" + unit + ")"),
-                    minus(data.residual, data.exact, c), 1);
+  Hypothesis out =
+      hypothesis(data, fmt::format("every torque scaled by {}{}", factorText(c), unit.empty() ? "" : " (" + unit + ")"),
+                 minus(data.residual, data.exact, c), 1);
+  out.beyond /= std::max(1.0, std::abs(1 + c));  // rounding grows with the torques
+  return out;
 }
 
 /// What a fit of one number for each leg found, with the legs in which it matters.

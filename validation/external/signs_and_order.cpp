@@ -112,7 +112,7 @@ std::optional<Hypothesis> signsAndOrder(const TorqueResidual& data) {
     text += "the sign of " + plural(flipped) + legNames(flipped) + " flipped";
   if (unit != 1) text += fmt::format(", and {}", unitOf(unit));
   Hypothesis out{text, std::sqrt(least) / data.norm(), 0};
-  out.beyond = beyondOf(data, best, sign, unit);
+  out.beyond = beyondOf(data, best, sign, unit) / std::max(1.0, unit);  // rounding grows with the torques
   return out;
 }
 

@@ -192,8 +192,39 @@ ErrorSource dominantOf(const ErrorBudget& budget) {
       ->first;
 }
 
-std::string shareText(const ErrorShare& share, const Units& units) {
-  return fmt::format("{:.3g} m +- {:.2g} m", share.error.norm() * units.length, share.uncertainty * units.length);
+std::string shareText(const SourceOfError& source) {
+  return fmt::format("{:.3g} m +- {:.2g} m", source.error, source.uncertainty);
+}
+
+/// In SI.
+ReplayError replayErrorOf(const ErrorBudget& budget, const Units& units) {
+  const auto source = [&units](const ErrorShare& share) {
+    return SourceOfError{share.error.norm() * units.length, share.uncertainty * units.length};
+  };
+  ReplayError out;
+  out.measured = budget.measured;
+  out.t = budget.t * units.time;
+  out.observed = budget.observed.norm() * units.length;
+  out.rounding = source(budget.rounding);
+  out.integration = source(budget.integration);
+  out.closure = source(budget.closure);
+  out.model = source(budget.model);
+  out.unexplained = budget.unexplained().norm() * units.length;
+  out.uncertainty = budget.uncertainty() * units.length;
+  out.amplification = budget.amplification;
+  return out;
+}
+
+void addSources(const ReplayError& found, ValidationResult& result) {
+  const auto add = [&result](const char* what, const std::string& text) { result.findings.emplace_back(what, text); };
+  add("replay, error in position", fmt::format("{:.3g} m at t = {:.6g} s", found.observed, found.t));
+  add("of it by rounding", shareText(found.rounding));
+  add("of it by the integration", shareText(found.integration));
+  add("of it by the loops' gaps", shareText(found.closure));
+  add("of it by the torques", shareText(found.model));
+  add("of it unexplained",
+      fmt::format("{:.3g} m, of an uncertainty of {:.3g} m", found.unexplained, found.uncertainty));
+  add("amplification of a deviation at the start", fmt::format("{:.4g}", found.amplification));
 }
 
 }  // namespace
@@ -270,20 +301,14 @@ void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units&
   const ErrorSource dominant = limit_too_large   ? ErrorSource::amplification
                                : budget.measured ? budget.dominant
                                                  : ErrorSource::model;
-  result.findings.emplace_back("dominant error", name(dominant));
-  if (!budget.measured) return;
-  result.curves.emplace_back("Sources of the replay's error", curveOf(budget.along));
-  const auto add = [&result](const char* what, const std::string& text) { result.findings.emplace_back(what, text); };
-  add("replay, error in position",
-      fmt::format("{:.3g} m at t = {:.6g} s", budget.observed.norm() * units.length, budget.t * units.time));
-  add("of it by rounding", shareText(budget.rounding, units));
-  add("of it by the integration", shareText(budget.integration, units));
-  add("of it by the loops' gaps", shareText(budget.closure, units));
-  add("of it by the torques", shareText(budget.model, units));
-  add("of it unexplained",
-      fmt::format("{:.3g} m, of an uncertainty of {:.3g} m", budget.unexplained().norm() * units.length,
-                  budget.uncertainty() * units.length));
-  add("amplification of a deviation at the start", fmt::format("{:.4g}", budget.amplification));
+  ReplayError found = replayErrorOf(budget, units);
+  found.dominant = name(dominant);
+  result.findings.emplace_back("dominant error", found.dominant);
+  if (budget.measured) {
+    result.curves.emplace_back("Sources of the replay's error", curveOf(budget.along));
+    addSources(found, result);
+  }
+  result.replay_error = std::move(found);
 }
 
 }  // namespace ursula

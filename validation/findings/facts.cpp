@@ -38,6 +38,7 @@ void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<
     acceleration = std::max(acceleration, sample.motion.p_ddot.norm() + length * sample.motion.omega_dot.norm());
     acceleration_error = larger(acceleration_error, sample.acceleration.error);
   }
+  result.replay_windows = windows.size();
   long evaluations = 0;
   std::size_t steps = 0;
   double growth = 0;

@@ -94,6 +94,23 @@ void endWithUs(pid_t leader) {
   }
 }
 
+/// Signals that end this process wait while this is there.
+class EndingHeld {
+ public:
+  EndingHeld() {
+    sigset_t held;
+    sigemptyset(&held);
+    for (int signal : ends_process) sigaddset(&held, signal);
+    pthread_sigmask(SIG_BLOCK, &held, &before_);
+  }
+  ~EndingHeld() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  EndingHeld(const EndingHeld&) = delete;
+  EndingHeld& operator=(const EndingHeld&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
 /// `NAME=value` of ours, but for those set anew.
 std::vector<std::string> environmentWith(const LineProcess::Environment& more) {
   std::vector<std::string> out;
@@ -156,12 +173,13 @@ bool ready(int end, short events, double deadline) {
 
 LineProcess::LineProcess(const std::string& command, const Environment& environment) {
   Pipe there, back;
+  const EndingHeld held;  // until it is known what a signal has to end
   pid_ = spawn(command, environment, there.read, back.write);
+  endWithUs(pid_);
   to_ = release(there.write);
   from_ = release(back.read);
   ::fcntl(to_, F_SETFL, O_NONBLOCK);
   ::fcntl(from_, F_SETFL, O_NONBLOCK);
-  endWithUs(pid_);
 }
 
 LineProcess::~LineProcess() {

@@ -121,12 +121,10 @@ Found found(const ValidationResult& result) {
   const Check* replay = find(result, "replay.position");
   out.replay = replay == nullptr ? none : replay->largest.value;
   out.replay_limit = replay == nullptr ? none : limitAtEnd(result, *replay);
-  const std::string windows = fact(result.findings, "replay windows");
-  out.windows = windows.empty() ? 1 : std::atoi(windows.c_str());
+  out.windows = std::max<int>(1, static_cast<int>(result.replay_windows));
   addRoads(result, out);
-  out.dominant = fact(result.findings, "dominant error");
-  out.off = fact(result.findings, "torques that are off");
-  out.cause = fact(result.findings, "likely cause");
+  if (result.replay_error) out.dominant = result.replay_error->dominant;
+  if (result.likely_cause) out.off = result.likely_cause->off, out.cause = result.likely_cause->cause;
   return out;
 }
 

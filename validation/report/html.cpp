@@ -84,7 +84,7 @@ struct Part {
 };
 
 std::vector<Part> parts(const ValidationResult& result, const std::vector<Plot>& plots) {
-  return {{"checks", "Checks", checksList(result.checks, fact(result.findings, "likely cause"))},
+  return {{"checks", "Checks", checksList(result.checks, result.likely_cause ? result.likely_cause->cause : "")},
           {"errors", "Errors along the motion", figures(plots, PlotGroup::errors)},
           {"efforts", "Efforts", figures(plots, PlotGroup::efforts)},
           {"motion", "Motion", figures(plots, PlotGroup::motion)},

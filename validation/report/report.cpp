@@ -10,8 +10,7 @@ namespace ursula {
 
 SuiteEntry suiteEntry(const ValidationResult& result, std::filesystem::path folder, double seconds) {
   SuiteEntry entry{result.scenario, result.verdict, std::move(folder), result.checks, "", seconds, ""};
-  for (const auto& [key, value] : result.findings)
-    if (key == "dominant error") entry.dominant = value;
+  if (result.replay_error) entry.dominant = result.replay_error->dominant;
   return entry;
 }
 

@@ -1,9 +1,14 @@
 #include "validation/subject/motion_check.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "model/instants.h"
+#include "model/scenario_place.h"
 #include "nocsolver/solver.h"
 
 namespace ursula {
@@ -15,6 +20,75 @@ std::vector<double> instantsToCheck(const Scenario& scenario) {
   const int intervals = scenario.simulation.samples - 1;
   const int parts = (least_intervals + intervals - 1) / intervals;
   return equallySpaced(scenario.trajectory->duration(), intervals * parts + 1);
+}
+
+/// Distance AB of a leg, and by how much its links cannot span it, m.
+struct Span {
+  double distance, least, most;
+
+  double missed() const { return std::max({distance - most, least - distance, 0.0}); }
+};
+
+Span spanOf(const Leg& leg, const Motion<double>& motion) {
+  return {(motion.p - leg.base_point + motion.Q * leg.platform_point).norm(),
+          std::abs(leg.proximal.length - leg.distal.length), leg.proximal.length + leg.distal.length};
+}
+
+/// ", and by up to 0.3 m, leg 2 at t = 3 s": where the motion misses most, if that is more than `already`.
+std::string worstMiss(const Scenario& scenario, double already) {
+  double most = already, at = 0;
+  int worst = -1;
+  for (double t : instantsToCheck(scenario)) {
+    const Motion<double> motion = scenario.trajectory->at(t);
+    for (int i = 0; i < leg_count; ++i) {
+      const double missed = spanOf(scenario.manipulator->leg(i), motion).missed();
+      if (!(missed > most)) continue;
+      most = missed;
+      at = t;
+      worst = i;
+    }
+  }
+  return worst < 0 ? "" : fmt::format(", and by up to {:.4g} m, leg {} at t = {:.6g} s", most, worst + 1, at);
+}
+
+std::string outOfReach(const Scenario& scenario, const PoseError& refusal) {
+  const Span span = spanOf(scenario.manipulator->leg(refusal.leg()), scenario.trajectory->at(refusal.instant()));
+  const bool too_far = refusal.measure() > refusal.bound();
+  const double missed = std::abs(refusal.measure() - refusal.bound());
+  return fmt::format(
+      "leg {} is out of reach at t = {:.6g} s: its base and platform points are {:.6g} m apart, and its two links span "
+      "{} {:.6g} m; it misses by {:.4g} m{}",
+      refusal.leg() + 1, refusal.instant(), refusal.measure(), too_far ? "at most" : "at least",
+      too_far ? span.most : span.least, missed, worstMiss(scenario, missed));
+}
+
+/// A knee within √eps of straight: as a length, the links' sum less the distance.
+std::string stretched(const Scenario& scenario, const PoseError& refusal) {
+  const Span span = spanOf(scenario.manipulator->leg(refusal.leg()), scenario.trajectory->at(refusal.instant()));
+  const bool is_straight = span.most - span.distance < span.distance - span.least;
+  return fmt::format(
+      "leg {} is {} at t = {:.6g} s: its base and platform points are {:.6g} m apart, {:.3g} m from where its knee can "
+      "bend neither way, and there its speed is not determined",
+      refusal.leg() + 1, is_straight ? "stretched straight" : "folded flat", refusal.instant(), span.distance,
+      is_straight ? span.most - span.distance : span.distance - span.least);
+}
+
+std::string onAxis(const PoseError& refusal) {
+  return fmt::format(
+      "leg {} has its platform point on the axis of its motor at t = {:.6g} s: {:.3g} m from it, expected more than "
+      "{:.3g} m, for there the motor's angle is not determined",
+      refusal.leg() + 1, refusal.instant(), refusal.measure(), refusal.bound());
+}
+
+std::string inWords(const Scenario& scenario, const PoseError& refusal) {
+  if (dynamic_cast<const OutOfReach*>(&refusal) != nullptr) return outOfReach(scenario, refusal);
+  if (dynamic_cast<const StretchedLeg*>(&refusal) != nullptr) return stretched(scenario, refusal);
+  if (dynamic_cast<const PointOnAxis*>(&refusal) != nullptr) return onAxis(refusal);
+  return fmt::format(
+      "at t = {:.6g} s the pose is singular, or was passed just before: with all six motors held the platform can "
+      "still "
+      "move, so that no torques hold it; keep the motion on one side of it",
+      refusal.instant());
 }
 
 }  // namespace
@@ -32,6 +106,19 @@ void checkMotion(const Scenario& scenario) {
     if (before * determinant < 0)
       throw SingularJacobian("B has crossed a singular pose: its determinant changed sign", -1, t, determinant, 0, "");
     before = std::copysign(1.0, determinant);
+  }
+}
+
+ScenarioError unmade(const Scenario& scenario, const PoseError& refusal) {
+  return ScenarioError(fmt::format("{}: error: the motion cannot be made: {}",
+                                   placeInFile(scenario, "trajectory").place, inWords(scenario, refusal)));
+}
+
+void tryMotion(const Scenario& scenario) {
+  try {
+    checkMotion(scenario);
+  } catch (const PoseError& refusal) {
+    throw unmade(scenario, refusal);
   }
 }
 

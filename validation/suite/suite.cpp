@@ -14,7 +14,6 @@
 #include <string>
 #include <thread>
 
-#include "nocsolver/errors.h"
 #include "validation/subject/motion_check.h"
 
 namespace ursula {
@@ -125,11 +124,9 @@ std::vector<Scenario> readSuite(const std::vector<std::filesystem::path>& argume
   for (const std::filesystem::path& file : scenarioFiles(arguments, errors)) {
     try {
       scenarios.push_back(readScenario(file));
-      checkMotion(scenarios.back());
+      tryMotion(scenarios.back());
     } catch (const ScenarioError& error) {
       errors.emplace_back(error.what());  // begins with file:line:column
-    } catch (const PoseError& error) {
-      errors.push_back(fmt::format("{}: error: the motion cannot be made: {}", file.string(), error.what()));
     }
   }
   checkNames(scenarios, errors);

@@ -112,6 +112,26 @@ struct EffortDeviation {
   double smallestRelative() const;
 };
 
+/// What one source contributed to the replay's error in position, m.
+struct SourceOfError {
+  double error = 0, uncertainty = 0;
+};
+
+/// What moved the judged replay off the path.
+struct ReplayError {
+  std::string dominant;        ///< "model", "integration", "rounding", "closure", "amplification" or "unexplained"
+  bool measured = false;       ///< false where there was no replay to take apart: the rest is empty
+  double t = 0, observed = 0;  ///< where it ended furthest off, s and m
+  SourceOfError rounding, integration, closure, model;
+  double unexplained = 0, uncertainty = 0;  ///< of the sum of the sources, m
+  double amplification = 0;                 ///< by which a deviation at the window's start grows
+};
+
+/// Of torques that are wrong: which, and what may have made them so, in words.
+struct LikelyCause {
+  std::string off, cause;
+};
+
 /// What one scenario's validation found. Provenance keeps its order: (key, value as text).
 struct ValidationResult {
   std::string scenario;
@@ -121,6 +141,9 @@ struct ValidationResult {
   std::vector<std::pair<std::string, std::string>> provenance;
   /// Facts that are not judged: step counts, condition numbers, the dominant error, …
   std::vector<std::pair<std::string, std::string>> findings;
+  std::optional<ReplayError> replay_error;   ///< none where the caller left it out
+  std::optional<LikelyCause> likely_cause;   ///< none where none is known
+  std::size_t replay_windows = 0;            ///< in which the motion was replayed
   std::optional<EffortDeviation> deviation;  ///< none where no effort was compared
   TimeSeries timeseries;
   /// Curves for the report beside the time series, each with columns of its own (work against precision, amplification,

@@ -1,0 +1,58 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <vector>
+
+#include "apps/verbs.h"
+#include "model/csv.h"
+#include "model/scenario.h"
+#include "validation/check_scenario/check_scenario.h"
+#include "validation/subject/motion_check.h"
+
+namespace ursula {
+namespace {
+
+struct CheckOptions {
+  std::vector<std::string> scenarios;
+  std::string picture;
+};
+
+/// Warnings go to standard output, what is wrong to standard error; false where anything is.
+bool checkOne(const std::string& file, const CheckOptions& options) {
+  try {
+    const Scenario scenario = readScenario(file);
+    const std::vector<std::string> odd = warnings(scenario);
+    std::FILE* const out = options.picture == "-" ? stderr : stdout;
+    for (const std::string& line : odd) fmt::print(out, "{}\n", line);
+    if (!options.picture.empty()) writeOutput(options.picture, picture(scenario));
+    tryMotion(scenario);
+    fmt::print(out, "{}: can be read and its motion be made; {} warning{}\n", file, odd.size(),
+               odd.size() == 1 ? "" : "s");
+    return true;
+  } catch (const ScenarioError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return false;
+  }
+}
+
+int check(const CheckOptions& options) {
+  if (!options.picture.empty() && options.scenarios.size() > 1)
+    throw UsageError(fmt::format("--picture: {} scenarios, expected one", options.scenarios.size()));
+  bool good = true;
+  for (const std::string& file : options.scenarios) good = checkOne(file, options) && good;
+  return good ? exit_passed : exit_bad_input;
+}
+
+}  // namespace
+
+void addCheck(CLI::App& app, std::function<int()>& run) {
+  const auto options = std::make_shared<CheckOptions>();
+  CLI::App* verb = app.add_subcommand("check", "Reads and tries the motion only: errors, and warnings of what is odd");
+  verb->add_option("scenarios", options->scenarios, "Scenario files (TOML)")->required();
+  verb->add_option("--picture", options->picture,
+                   "Draws the machine at the start of the motion, also where that is out of reach: SVG file; - for "
+                   "standard output");
+  verb->callback([options, &run] { run = [options] { return check(*options); }; });
+}
+
+}  // namespace ursula

@@ -1,0 +1,29 @@
+#include "model/scenario_orientation.h"
+
+#include "model/real50.h"
+
+namespace ursula {
+namespace {
+
+Real50 inRadians(double degrees) { return Real50(degrees) * acos(Real50(-1)) / 180; }
+
+/// What is left of π's 50 digits where an entry is zero is no angle.
+double entry(const Real50& value) { return abs(value) < Real50(1e-40) ? 0 : static_cast<double>(value); }
+
+}  // namespace
+
+double radians(double degrees) { return static_cast<double>(inRadians(degrees)); }
+
+/// With half the angles: q = q_z(yaw) q_y(pitch) q_x(roll), multiplied out.
+Eigen::Vector4d quaternionOf(const Vector3d& roll_pitch_yaw) {
+  Real50 c[3], s[3];
+  for (int k = 0; k < 3; ++k) {
+    const Real50 half = inRadians(roll_pitch_yaw(k)) / 2;
+    c[k] = cos(half);
+    s[k] = sin(half);
+  }
+  return {entry(c[2] * c[1] * c[0] + s[2] * s[1] * s[0]), entry(c[2] * c[1] * s[0] - s[2] * s[1] * c[0]),
+          entry(c[2] * s[1] * c[0] + s[2] * c[1] * s[0]), entry(s[2] * c[1] * c[0] - c[2] * s[1] * s[0])};
+}
+
+}  // namespace ursula

@@ -1,0 +1,43 @@
+// `ursula compare` as people call it: what ships against a fresh run, chosen columns, JUnit, exit codes.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/end_to_end/program.h"
+
+namespace ursula {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string shipped_results = "'" URSULA_RESULTS "/paper-helix/inverse.csv'";
+const std::string helix = "'" URSULA_SCENARIOS "/paper-helix.toml'";
+
+TEST(CompareVerb, whatShipsComparesWithAFreshRunWhateverItsSampling) {
+  const Program ursula;
+  ASSERT_EQ(ursula("inverse " + helix + " --out fresh.csv").exit_code, 0);
+  const UrsulaRun same = ursula("compare " + shipped_results + " fresh.csv");
+  EXPECT_EQ(same.exit_code, 0) << same.out << same.err;
+  ASSERT_EQ(ursula("inverse " + helix + " --samples 121 --out coarse.csv").exit_code, 0);
+  const UrsulaRun coarse = ursula("compare " + shipped_results + " coarse.csv --columns 'tau_*,q_*'");
+  EXPECT_EQ(coarse.exit_code, 0) << coarse.out << coarse.err;
+  EXPECT_THAT(coarse.out, HasSubstr("the reference was interpolated at "));
+  EXPECT_THAT(coarse.out, HasSubstr("compared 10 of 10 channels"));
+}
+
+TEST(CompareVerb, exitsAsEveryVerbDoesAndWritesJUnit) {
+  const Program ursula;
+  ursula.write("a.csv", "t_s,x,y\n0,1,1\n1,2,1\n");
+  ursula.write("b.csv", "t_s,x\n0,1\n1,2\n");
+  ursula.write("c.csv", "t_s,x,y\n0,1,1\n1,3,1\n");
+  EXPECT_EQ(ursula("compare a.csv a.csv").exit_code, 0);
+  EXPECT_EQ(ursula("compare a.csv c.csv --junit junit.xml").exit_code, 1);
+  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "junit.xml"),
+              testing::AllOf(HasSubstr("tests=\"2\" failures=\"1\""), HasSubstr("name=\"x\"><failure")));
+  EXPECT_EQ(ursula("compare a.csv none.csv").exit_code, 2);
+  EXPECT_EQ(ursula("compare a.csv b.csv").exit_code, 3);
+  EXPECT_EQ(ursula("compare a.csv b.csv --columns x").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,88 @@
+// `ursula init` and `ursula check`, and what is said of a motion that cannot be made.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/end_to_end/program.h"
+#include "tests/model/scenario_text.h"
+
+namespace ursula {
+namespace {
+
+using testing::AllOf;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+
+TEST(Init, writesAScenarioThatPassesTheCheckAndCanBeComputed) {
+  const Program ursula;
+  EXPECT_EQ(ursula("init robot.toml").exit_code, 0);
+  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "robot.toml"), HasSubstr("name = \"robot\""));
+  const UrsulaRun check = ursula("check robot.toml");
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+  EXPECT_EQ(check.out, "robot.toml: can be read and its motion be made; 0 warnings\n");
+  EXPECT_EQ(ursula("inverse robot.toml --samples 3").exit_code, 0);
+  EXPECT_EQ(ursula("init - --kind URS").out.substr(0, 2), "# ");
+  EXPECT_EQ(ursula.files(), 1u);
+}
+
+TEST(Init, neverOverwrites) {
+  const Program ursula;
+  ursula.write("mine.toml", "mine");
+  const UrsulaRun run = ursula("init mine.toml");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("mine.toml: is there already"));
+  EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "mine.toml"), "mine");
+}
+
+TEST(Init, refusesKindsThatItCannotMake) {
+  const Program ursula;
+  const UrsulaRun known = ursula("init a.toml --kind UPS"), unknown = ursula("init a.toml --kind UPZ");
+  EXPECT_EQ(known.exit_code, 2);
+  EXPECT_THAT(known.err, HasSubstr("--kind UPS: legs of this kind are not supported yet, expected URS"));
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("no such kind of leg"));
+  EXPECT_EQ(ursula.files(), 0u);
+}
+
+TEST(CheckVerb, warnsAndPasses) {
+  const Program ursula;
+  ursula.write("a.toml", replaced(good_scenario, "[manipulator]\n", "[manipulator]\ngravity = [0, 0, 9.81]\n"));
+  const UrsulaRun run = ursula("check a.toml --picture a.svg");
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.out, AllOf(HasSubstr("a.toml:4:11: warning: manipulator.gravity: its z is +9.81 m/s2"),
+                             HasSubstr("a.toml: can be read and its motion be made; 1 warning\n")));
+  EXPECT_EQ(run.err, "");
+  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "a.svg"), HasSubstr("</svg>"));
+}
+
+TEST(CheckVerb, exitsWithTwoForErrorsOfAnyScenarioAndNamesThemAll) {
+  const Program ursula;
+  ursula.write("good.toml", good_scenario);
+  ursula.write("key.toml", replaced(good_scenario, "mass = 500.0", "weight = 500.0"));
+  ursula.write("far.toml", replaced(good_scenario, "height_phase = 2.2", "height_phase = 6"));
+  const UrsulaRun run = ursula("check key.toml far.toml good.toml");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("key.toml:5:1: error: unknown key 'weight'"),
+                             ContainsRegex("far.toml:44:1: error: the motion cannot be made: leg [1-6] is out of reach "
+                                           "at t = 0 s: .* it misses by [0-9.]+ m")));
+  EXPECT_THAT(run.out, HasSubstr("good.toml: can be read"));
+  EXPECT_EQ(ursula("check good.toml").exit_code, 0);
+  EXPECT_EQ(ursula("check good.toml key.toml --picture x.svg").exit_code, 2);
+}
+
+/// Every verb that follows the motion says the same.
+TEST(UnreachableMotion, namesPlaceInstantLegAndMetres) {
+  const Program ursula;
+  ursula.write("far.toml", replaced(good_scenario, "height_phase = 2.2", "height_phase = 3.3"));
+  for (const char* verb : {"inverse", "poses", "check", "validate", "audit"}) {
+    const UrsulaRun run = ursula(std::string(verb) + " far.toml");
+    EXPECT_EQ(run.exit_code, 2) << verb;
+    EXPECT_THAT(run.err,
+                ContainsRegex("far.toml:44:1: error: the motion cannot be made: leg [1-6] is out of reach at t "
+                              "= [0-9.]+ s: .* m apart.* span at most 2.7 m; it misses by [0-9.e-]+ m"))
+        << verb;
+  }
+}
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,70 @@
+// Degrees where the key says so.
+
+#include <gmock/gmock.h>
+
+#include <Eigen/Geometry>
+
+#include "model/scenario.h"
+#include "model/scenario_orientation.h"
+#include "tests/model/refusals.h"
+#include "tests/model/scenario_text.h"
+
+namespace ursula {
+namespace {
+
+using testing::EndsWith;
+
+std::string hold(const std::string& orientation) {
+  return good_scenario.substr(0, good_scenario.find("[trajectory]")) +
+         "[trajectory]\nkind = \"hold\"\nposition = [0, 0, 1]\nduration = 1\n" + orientation + "\n";
+}
+
+Matrix3d orientationOf(const std::string& line) { return parseScenario(hold(line), "a.toml").trajectory->at(0.0).Q; }
+
+TEST(ScenarioAngles, degreesAreTheNearestDoubles) {
+  EXPECT_EQ(radians(90), 1.5707963267948966);
+  EXPECT_EQ(radians(-60), -1.04719755119659774615421446);
+  EXPECT_EQ(radians(12.5), 0.218166156499291197114115);
+  EXPECT_EQ(radians(0), 0);
+}
+
+TEST(ScenarioAngles, aHelixInDegreesIsTheSameMotion) {
+  std::string text = replaced(good_scenario, "start_angle = -1.5707963267948966", "start_angle_deg = -90");
+  text = replaced(text, "end_angle = -1.0471975511965976", "end_angle_deg = -60\nphase_deg = 0");
+  const Scenario a = parseScenario(good_scenario, "a.toml"), b = parseScenario(text, "a.toml");
+  // The end angle in radians is off in its last digit, and β adds up terms of 31 times the rise.
+  constexpr double rounding = 31 * 2.3e-16;
+  for (double t : {0.0, 1.1, 3.0}) {
+    EXPECT_LE((a.trajectory->at(t).p - b.trajectory->at(t).p).norm(), rounding);
+    EXPECT_LE((a.trajectory->at(t).Q - b.trajectory->at(t).Q).norm(), rounding);
+  }
+}
+
+TEST(ScenarioAngles, rollPitchAndYawTurnAboutFixedAxes) {
+  const auto turn = [](double degrees, const Vector3d& axis) { return Eigen::AngleAxisd(radians(degrees), axis); };
+  const Matrix3d expected =
+      (turn(30, Vector3d::UnitZ()) * turn(-20, Vector3d::UnitY()) * turn(10, Vector3d::UnitX())).toRotationMatrix();
+  EXPECT_LE((orientationOf("rpy_deg = [10, -20, 30]") - expected).norm(), 1e-15);
+  // Another order is another orientation.
+  const Matrix3d other =
+      (turn(10, Vector3d::UnitX()) * turn(-20, Vector3d::UnitY()) * turn(30, Vector3d::UnitZ())).toRotationMatrix();
+  EXPECT_GE((expected - other).norm(), 0.1);
+  EXPECT_EQ(orientationOf("rpy_deg = [0, 0, 180]"), Matrix3d(Vector3d(-1, -1, 1).asDiagonal()));
+}
+
+TEST(ScenarioAngles, bothFormsAreRefused) {
+  const auto refused = [](const std::string& text) {
+    return refusal<ScenarioError>([&] { parseScenario(text, "a.toml"); });
+  };
+  EXPECT_THAT(refused(good_scenario + "start_angle_deg = -90\n"),
+              EndsWith("trajectory.start_angle_deg: given beside 'start_angle', expected one of the two"));
+  EXPECT_THAT(refused(hold("orientation = [1, 0, 0, 0]\nrpy_deg = [0, 0, 0]")),
+              EndsWith("trajectory.rpy_deg: given beside 'orientation', expected one of the two"));
+  EXPECT_THAT(refused(hold("")), EndsWith("missing key 'orientation' in trajectory, expected an array of 4 numbers, or "
+                                          "'rpy_deg', an array of 3"));
+  EXPECT_THAT(refused(replaced(good_scenario, "end_angle = -1.0471975511965976", "")),
+              EndsWith("missing key 'end_angle' in trajectory, expected a number, rad, or 'end_angle_deg' in degrees"));
+}
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/scenario.h"
+
+namespace ursula {
+
+/// A value that a machine or motion can have, but seldom has.
+struct Oddity {
+  std::string key;   ///< dotted, of the scenario: `manipulator.leg[2].proximal.mass`
+  std::string what;  ///< the number, what is usual, and what may have been meant
+};
+
+std::vector<Oddity> oddMachine(const Scenario& scenario);
+std::vector<Oddity> oddMotion(const Scenario& scenario);
+
+}  // namespace ursula
