@@ -189,7 +189,7 @@ test("charts follow theme, width and paper", async () => {
   await page.waitForFunction(() => document.documentElement.scrollWidth <= 400);
   const pdf = (await page.pdf({ format: "A4" })).toString("latin1");
   const pages = pdf.match(/\/Type\s*\/Page\b/g).length;
-  assert.ok(pages <= 6, `${pages} pages of A4`);
+  assert.ok(pages <= 4, `${pages} pages of A4`);
   assert.deepEqual(complaints, []);
 });
 
