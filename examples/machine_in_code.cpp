@@ -63,6 +63,8 @@ int judge(const char* folder, double error) {
   ursula::writeResults(result, folder);
   //! [scenario]
   std::printf("%s: %s, report at %s/report.html\n", result.scenario.c_str(), ursula::name(result.verdict), folder);
+  for (const ursula::Check& check : result.checks)
+    if (check.verdict != ursula::Verdict::pass) std::printf("%s: %s\n", check.name.c_str(), check.why.c_str());
   return result.verdict == ursula::Verdict::pass ? 0 : 1;
 }
 

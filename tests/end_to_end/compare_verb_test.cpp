@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::string shipped_results = "'" URSULA_RESULTS "/paper-helix'";
+const std::string shipped_results = "'" URSULA_RESULTS "/paper-helix/inverse.csv'";
 const std::string helix = "'" URSULA_SCENARIOS "/paper-helix.toml'";
 
 TEST(CompareVerb, whatShipsComparesWithAFreshRunWhateverItsSampling) {

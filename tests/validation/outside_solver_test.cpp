@@ -72,7 +72,8 @@ TEST(OutsideSolver, whatItThrowsArrivesWhereverItIsThrown) {
   int all = 0;
   validateOutside(here.scenario, here.solver([&all](std::size_t) { ++all; }));
   ASSERT_GT(all, 100);
-  for (int last : {1, 3, all / 3, 2 * all / 3, all - 2}) {
+  // Not nearer to the end: how many questions a replay in several threads asks together differs from run to run.
+  for (int last : {1, 3, all / 3, 2 * all / 3, 9 * all / 10}) {
     int calls = 0;
     const auto breaks = [&](std::size_t) {
       if (++calls >= last) throw Broke{last};

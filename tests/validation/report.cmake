@@ -20,4 +20,4 @@ set_tests_properties(report.write_samples PROPERTIES FIXTURES_SETUP report_sampl
 add_test(NAME report.browser
   COMMAND ${PROJECT_SOURCE_DIR}/tests/browser/run.sh
     ${samples_dir} ${PROJECT_BINARY_DIR}/tests/browser ${URSULA_CHROMIUM})
-set_tests_properties(report.browser PROPERTIES FIXTURES_REQUIRED report_samples TIMEOUT 300 SKIP_RETURN_CODE 77)
+set_tests_properties(report.browser PROPERTIES FIXTURES_REQUIRED report_samples TIMEOUT 900 SKIP_RETURN_CODE 77)
