@@ -12,9 +12,15 @@ unset(CMAKE_REQUIRED_LIBRARIES)
 
 set(public_include ${PROJECT_BINARY_DIR}/include)
 configure_file(include/ursula/build.h.in ${public_include}/ursula/build.h @ONLY)
+# Laid out now as well, for their names: what is compiled against them is only then compiled anew with them.
+set(lay_out_headers ${CMAKE_COMMAND} -D SOURCE_DIR=${PROJECT_SOURCE_DIR} -D OUTPUT=${public_include}
+  -P ${PROJECT_SOURCE_DIR}/cmake/public_headers.cmake)
+execute_process(COMMAND ${lay_out_headers} COMMAND_ERROR_IS_FATAL ANY)
+file(GLOB_RECURSE public_headers ${public_include}/ursula/*.h)
+list(REMOVE_ITEM public_headers ${public_include}/ursula/build.h)
 add_custom_target(ursula_headers ALL
-  COMMAND ${CMAKE_COMMAND} -D SOURCE_DIR=${PROJECT_SOURCE_DIR} -D OUTPUT=${public_include}
-          -P ${PROJECT_SOURCE_DIR}/cmake/public_headers.cmake
+  COMMAND ${lay_out_headers}
+  BYPRODUCTS ${public_headers}
   COMMENT "Laying out the public headers" VERBATIM)
 
 # All objects of the static parts, and one source that sees the headers as users do. The parts are linked as well, for

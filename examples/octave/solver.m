@@ -106,14 +106,9 @@ end
 wrong = 0;
 if numel(argv()) > 0, wrong = str2double(argv(){end}); end
 machine = read_machine(getenv('URSULA_SCENARIO'));
-while true
-  % fgetl would look one character beyond the line, for which there is nothing before this one is answered.
-  try
-    line = input('', 's');
-  catch
-    break  % no more questions
-  end
-  tau = (1 + wrong) * torques(machine, sscanf(strrep(line, ',', ' '), '%f'));
+% Not fgetl: that waits for the line after before it gives one.
+while numel(motion = fscanf(stdin, '%f,', 20)) == 20
+  tau = (1 + wrong) * torques(machine, motion);
   printf('%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n', tau);
   fflush(stdout);
 end
