@@ -24,7 +24,7 @@ const std::vector<CheckName>& checkNames() {
       {"torque.against_noc", "N m", N::torque_file},
       {"torque.twin", "N m", N::any_instant},
       {"torque.maximal", "N m", N::any_instant},
-      {"torque.mujoco", "N m", N::mujoco},
+      {"torque.mujoco", "N m", N::further_road},
       {"invariance.rotation", "N m", N::other_machines},
       {"invariance.labels", "N m", N::other_machines},
       {"invariance.mass", "N m", N::other_machines},

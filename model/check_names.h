@@ -15,7 +15,7 @@ enum class CheckNeeds {
   direct_dynamics,  ///< a subject that solves (36)
   other_machines,   ///< a subject that can be made for another machine
   own_reactions,    ///< this program's own solver
-  mujoco,           ///< a build with MuJoCo
+  further_road,     ///< a build that has this road
   torque_file,      ///< torques that come from a file
 };
 

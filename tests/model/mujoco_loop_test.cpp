@@ -16,6 +16,7 @@
 #include <limits>
 #include <thread>
 
+#include "model/loops/further_roads.h"
 #include "model/loops/maximal/maximal_loop.h"
 #include "model/loops/simbody/simbody_loop.h"
 #include "tests/support/motions.h"
@@ -246,7 +247,7 @@ TEST(MujocoLoops, refuseAPoseOutOfReachAndOneThatIsNoNumber) {
 
 TEST(MujocoLoops, areMadeWhereMujocoIsThere) {
   const Scenario scenario = shipped("paper-helix");
-  EXPECT_EQ(makeMujocoLoop(*scenario.manipulator) != nullptr, mujocoAvailable());
+  EXPECT_EQ(makeFurtherRoads(*scenario.manipulator, nullptr)[2] != nullptr, mujocoAvailable());
   EXPECT_EQ(mujocoVersion() != "none", mujocoAvailable());
   if (!mujocoAvailable()) {
     EXPECT_THROW(MujocoLoop(*scenario.manipulator), std::runtime_error);

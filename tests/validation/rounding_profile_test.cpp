@@ -26,7 +26,8 @@ std::vector<Rounded> quantities(const RoundingProfile& profile) {
   std::vector<Rounded> out;
   for (std::size_t q = 0; q < rounded_count; ++q) {
     const auto spreads = profile.spreads(static_cast<Rounded>(q));
-    if (static_cast<Rounded>(q) == Rounded::mujoco && *std::max_element(spreads.begin(), spreads.end()) == 0) continue;
+    if (static_cast<Rounded>(q) > Rounded::further_road && *std::max_element(spreads.begin(), spreads.end()) == 0)
+      continue;
     out.push_back(static_cast<Rounded>(q));
   }
   return out;

@@ -1,18 +1,18 @@
 #include "validation/checks/every_check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "model/check_names.h"
-#include "model/loops/mujoco/mujoco_loop.h"
+#include "model/loops/further_roads.h"
 
 namespace ursula {
 namespace {
 
 /// Why a check that was not made does not apply.
 std::string whyNot(const CheckName& check, const Scenario& scenario, const SubjectHas& has) {
-  const auto unless = [&](bool there, const char* why) {
-    return std::string(there ? "the subject has no answer" : why);
-  };
+  const auto unless = [](bool there, const std::string& why) { return there ? "the subject has no answer" : why; };
   if (!has.any_instant && check.needs != CheckNeeds::load_history && check.needs != CheckNeeds::scenario_file)
     return "a file gives torques alone, at its own instants";
   switch (check.needs) {
@@ -28,8 +28,10 @@ std::string whyNot(const CheckName& check, const Scenario& scenario, const Subje
       return unless(has.other_machines, "the subject cannot be made for another machine");
     case CheckNeeds::own_reactions:
       return unless(!has.left_out_reactions, "left out by the caller's options");
-    case CheckNeeds::mujoco:
-      return unless(mujocoAvailable(), "this build has no MuJoCo");
+    case CheckNeeds::further_road: {
+      const RoadKind& road = *furtherRoadOf(check.name);
+      return unless(road.available(), fmt::format("this build has no {}", road.name));
+    }
     case CheckNeeds::torque_file:
       return "the torques do not come from a file";
     case CheckNeeds::nothing:

@@ -46,8 +46,7 @@ std::vector<Check> judgeDirectDynamics(const Evidence& e) {
   std::vector<Check> checks = {judgeDirect(e.reference->direct(), *e.subject, e.samples, profileOf(e), e.units())};
   const bool right_here = checks.back().verdict != Verdict::fail;  // else what is wrong is known
   const BesidePath& path = e.reference->beside();
-  const Growth growth = e.right ? path.right() : path.growthOf(e.subject->accelerations);
-  checks.push_back(judgeGrowth(growth, path, e.units(), right_here));
+  checks.push_back(judgeGrowth(path.growthOf(e.subject->accelerations), path, e.units(), right_here));
   return checks;
 }
 

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
-#include "model/loops/mujoco/mujoco_loop.h"
+#include "model/loops/further_roads.h"
 #include "validation/limits/conditioning.h"
 #include "validation/limits/rounding_profile.h"
 #include "validation/samples/place_name.h"
@@ -13,89 +14,98 @@
 namespace ursula {
 namespace {
 
-using Road = const Vector6d& (*)(const RoadSample&);
+/// Torques and limit of a pair of roads at one instant.
+struct Pair {
+  const Vector6d *a, *b;
+  double limit;
+};
+using PairOf = std::function<Pair(const RoadSample&)>;
 
-const Vector6d& subjectOf(const RoadSample& sample) { return sample.subject; }
-const Vector6d& simbodyOf(const RoadSample& sample) { return sample.simbody; }
-const Vector6d& twinOf(const RoadSample& sample) { return sample.twin; }
-const Vector6d& maximalOf(const RoadSample& sample) { return sample.maximal; }
-const Vector6d& mujocoOf(const RoadSample& sample) { return sample.mujoco.value(); }
+const Vector6d* given(const std::optional<Vector6d>& torques) { return torques ? &*torques : nullptr; }
 
-using Limit = double RoadSample::*;
-
-Worst compareRoads(const std::vector<RoadSample>& samples, Road a, Road b, Limit limit) {
+Worst compareRoads(const std::vector<RoadSample>& samples, const PairOf& pairOf) {
   Worst worst;
   for (const RoadSample& sample : samples) {
+    const Pair pair = pairOf(sample);
     Eigen::Index leg = 0;
-    const double distance = (a(sample) - b(sample)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(&leg);
-    worst.add(distance, sample.*limit, sample.t, static_cast<int>(leg));
+    const double distance = (*pair.a - *pair.b).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(&leg);
+    worst.add(distance, pair.limit, sample.t, static_cast<int>(leg));
   }
   return worst;
 }
 
-Check judgeRoad(const std::vector<RoadSample>& samples, const char* check_name, const char* what, Road road,
-                Limit limit, const Units& units) {
-  if (samples.empty()) return notMade(check_name, "N m", "no instant was compared");
-  const Worst shown = compareRoads(samples, subjectOf, road, limit);
+/// The k-th further road.
+Check judgeRoad(const std::vector<RoadSample>& samples, std::size_t k, const Units& units) {
+  const RoadKind& kind = furtherRoads()[k];
+  if (samples.empty()) return notMade(kind.check, "N m", "no instant was compared");
+  const Worst shown = compareRoads(samples, [k](const RoadSample& sample) {
+    return Pair{&sample.subject, given(sample.further[k]), sample.limits[k]};
+  });
   double torque = 0;
   std::string cause;
   for (const RoadSample& sample : samples) {
-    torque = std::max(torque, road(sample).cwiseAbs().maxCoeff());
+    torque = std::max(torque, sample.further[k]->cwiseAbs().maxCoeff());
     if (sample.t == shown.widest_t) cause = causeOfRounding(sample.conditioning);
   }
   Check check = judgedIfUseful(
-      check_name, shown.value, limitToJudge(shown, useful_share * torque), useful_share * torque, "N m",
+      kind.check, shown.value, limitToJudge(shown, useful_share * torque), useful_share * torque, "N m",
       fmt::format("eps kappa(B) kappa(legs) x || |T|' |w| || x {:g} x the spread measured in turned and rescaled "
                   "frames",
                   rounding_safety),
-      fmt::format("torques against {}, at {} instants; shown for t = {:.6g} s, leg {}", what, samples.size(),
+      fmt::format("torques against {}, at {} instants; shown for t = {:.6g} s, leg {}", kind.made_of, samples.size(),
                   shown.t * units.time, shown.where + 1),
       fmt::format("it exceeds {:g} of the largest torque: {}", useful_share, cause));
   check.largest = {shown.largest, shown.largest_t * units.time, placeName(shown.largest_where, false)};
   return check;
 }
 
+/// A road by name, as those of oddOneOut.
+struct Named {
+  const char* name;
+  std::function<const Vector6d*(const RoadSample&)> torques;
+};
+
+std::vector<Named> roadsOf(const RoadSample& first) {
+  std::vector<Named> roads{{"the torques on trial", [](const RoadSample& sample) { return &sample.subject; }},
+                           {"Simbody, six balls", [](const RoadSample& sample) { return &sample.simbody; }}};
+  for (std::size_t k = 0; k < further_road_count; ++k)
+    if (first.further[k])
+      roads.push_back({furtherRoads()[k].name, [k](const RoadSample& sample) { return given(sample.further[k]); }});
+  return roads;
+}
+
 }  // namespace
 
 std::vector<Check> judgeRoads(const std::vector<RoadSample>& samples, const Units& units) {
-  std::vector<Check> checks{
-      judgeRoad(samples, "torque.twin", "Simbody's loop grown through leg 1, five balls", twinOf,
-                &RoadSample::limit_twin, units),
-      judgeRoad(samples, "torque.maximal", "13 bodies in maximal coordinates with Lagrange multipliers", maximalOf,
-                &RoadSample::limit_maximal, units)};
-  if (samples.empty() ? mujocoAvailable() : samples.front().mujoco.has_value())
-    checks.push_back(judgeRoad(samples, "torque.mujoco", "MuJoCo's trees, closed by Lagrange multipliers", mujocoOf,
-                               &RoadSample::limit_mujoco, units));
+  std::vector<Check> checks;
+  for (std::size_t k = 0; k < further_road_count; ++k)
+    if (samples.empty() ? furtherRoads()[k].available() : samples.front().further[k].has_value())
+      checks.push_back(judgeRoad(samples, k, units));
   return checks;
 }
 
 std::string oddOneOut(const std::vector<RoadSample>& samples) {
   if (samples.empty()) return "unknown: no instant was compared";
-  struct Named {
-    const char* name;
-    Road road;
-  };
-  std::vector<Named> roads{{"the torques on trial", subjectOf},
-                           {"Simbody, six balls", simbodyOf},
-                           {"Simbody, tree through leg 1", twinOf},
-                           {"maximal coordinates", maximalOf}};
-  if (samples.front().mujoco) roads.push_back({"MuJoCo", mujocoOf});
+  const std::vector<Named> roads = roadsOf(samples.front());
   const auto agree = [&samples](const Named& a, const Named& b) {
-    return !compareRoads(samples, a.road, b.road, &RoadSample::limit).beyond();
+    const auto pair = [&](const RoadSample& sample) {
+      return Pair{a.torques(sample), b.torques(sample), sample.limit};
+    };
+    return !compareRoads(samples, pair).beyond();
   };
   for (const Named& odd : roads) {
     bool others_agree = true, alone = true;
     for (const Named& a : roads)
       for (const Named& b : roads) {
-        if (a.road == b.road) continue;
+        if (&a == &b) continue;
         const bool pair_agrees = agree(a, b);
-        if (a.road != odd.road && b.road != odd.road) others_agree &= pair_agrees;
-        if (a.road == odd.road) alone &= !pair_agrees;
+        if (&a != &odd && &b != &odd) others_agree &= pair_agrees;
+        if (&a == &odd) alone &= !pair_agrees;
       }
     if (others_agree && alone) return odd.name;
   }
   const bool all = std::all_of(roads.begin(), roads.end(), [&](const Named& road) { return agree(roads[0], road); });
-  return all ? fmt::format("none: {} roads agree", roads.size() == 5 ? "five" : "four")
+  return all ? fmt::format("none: {} roads agree", roads.size())
              : "not one alone: the roads disagree in more than one way";
 }
 

@@ -9,8 +9,7 @@
 
 namespace ursula {
 
-/// `torque.twin`, `torque.maximal`, and `torque.mujoco` where MuJoCo is built in: the subject against each further
-/// road.
+/// The subject against each further road that this build has: `torque.twin`, `torque.maximal`, `torque.mujoco`.
 std::vector<Check> judgeRoads(const std::vector<RoadSample>& samples, const Units& units = {});
 
 /// Which road stands alone when the others agree, in words; "none" where all agree.

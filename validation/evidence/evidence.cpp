@@ -10,14 +10,11 @@ std::vector<RoadSample> roadSamples(const Evidence& evidence) {
   const Scenario& scenario = *evidence.scenario;
   const RoundingProfile& profile = evidence.reference->profile;
   std::vector<RoadSample> out = runRoads(evidence.reference->roads(), evidence.samples, profile);
-  const auto replace = [&](const Spoil::Seen& seen, auto RoadSample::*road) {
-    if (!seen) return;
-    const std::vector<RoadSample> spoilt = runRoads(seen(scenario), evidence.samples, profile);
-    for (std::size_t k = 0; k < out.size(); ++k) out[k].*road = spoilt[k].*road;
-  };
-  replace(evidence.spoil.twin, &RoadSample::twin);
-  replace(evidence.spoil.maximal, &RoadSample::maximal);
-  replace(evidence.spoil.mujoco, &RoadSample::mujoco);
+  for (std::size_t k = 0; k < further_road_count; ++k) {
+    if (!evidence.spoil.further[k]) continue;
+    const std::vector<RoadSample> spoilt = runRoads(evidence.spoil.further[k](scenario), evidence.samples, profile);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i].further[k] = spoilt[i].further[k];
+  }
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "model/joint_reactions.h"
+#include "model/loops/further_roads.h"
 #include "model/scenario.h"
 #include "validation/replay/replay.h"
 #include "validation/samples/pointwise.h"
@@ -16,7 +17,7 @@ struct Spoil {
   using Seen = std::function<Scenario(const Scenario&)>;
   using Settings = std::function<void(ReplaySettings&)>;
 
-  Seen twin, maximal, mujoco;                    ///< what that road's engine is built of
+  OfFurtherRoads<Seen> further;                  ///< what each further road is built of
   Seen feedback;                                 ///< what the loop of the stabilised replay is built of
   std::function<void(PointwiseSample&)> sample;  ///< what was measured at one instant
   std::function<void(Reactions&)> reactions;     ///< those recovered from the solver's road

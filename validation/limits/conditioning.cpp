@@ -153,9 +153,6 @@ double Conditioning::shape(Rounded quantity) const {
       return eps * kappa_B * kappa_B * kappa_legs * kappa_legs * shaping_scale * twist_scale / length;
     case Rounded::torque:
     case Rounded::solver:
-    case Rounded::twin:
-    case Rounded::maximal:
-    case Rounded::mujoco:
       return eps * torque;
     case Rounded::acceleration:
     case Rounded::direct:
@@ -166,10 +163,10 @@ double Conditioning::shape(Rounded quantity) const {
       return eps * (compliance + leg_compliance) * force_scale;
     case Rounded::reactions:
       return eps * (torque / length * kappa_B + largest_mass * platform);
-    case Rounded::count:
+    case Rounded::further_road:  // and all after it
       break;
   }
-  return 0;
+  return eps * torque;
 }
 
 ConditioningProbe::ConditioningProbe(const Manipulator& manipulator, std::shared_ptr<const Load> load)

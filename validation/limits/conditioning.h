@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "model/load.h"
+#include "model/loops/further_roads.h"
 #include "model/manipulator.h"
 #include "model/motion.h"
 #include "nocsolver/solver.h"
@@ -30,17 +31,19 @@ enum class Rounded {
   shaping_rate,   ///< Ṫ, m/s
   torque,         ///< solver's and Simbody's, N·m
   solver,         ///< the solver's torque alone, N·m
-  twin,           ///< solver's torque and that of the tree through leg 1, N·m
-  maximal,        ///< solver's torque and that of the maximal coordinates, N·m
-  mujoco,         ///< solver's torque and MuJoCo's, N·m
   acceleration,   ///< Simbody's of the platform under the solver's torques, m/s²
   effort,         ///< the same as torques, N·m
   gaps,           ///< accelerations at which the loops' gaps open, m/s²
   reactions,      ///< forces at the joints and moments over the machine's length, N
   direct,         ///< solver's and Simbody's direct dynamics under the same torques, m/s²
-  count
+  further_road,   ///< solver's torque and that of the first further road, N·m; of the others: ofFurtherRoad
 };
-constexpr std::size_t rounded_count = static_cast<std::size_t>(Rounded::count);
+constexpr std::size_t rounded_count = static_cast<std::size_t>(Rounded::further_road) + further_road_count;
+
+/// The solver's torque and that of the k-th further road, N·m.
+constexpr Rounded ofFurtherRoad(std::size_t k) {
+  return static_cast<Rounded>(static_cast<std::size_t>(Rounded::further_road) + k);
+}
 
 /// How far a quantity's rounding goes, in units of its shape (Conditioning::shape).
 using RoundingLevels = std::array<double, rounded_count>;

@@ -91,10 +91,9 @@ void spreadOfDynamics(const View& a, const View& b, const Matrix6d& effort, doub
   const double solver = torqueDistance(a.torques_solver, b.torques_solver);
   set(out, Rounded::solver, solver);
   set(out, Rounded::torque, solver + torqueDistance(a.torques_simbody, b.torques_simbody));
-  set(out, Rounded::twin, solver + torqueDistance(a.torques_twin, b.torques_twin));
-  set(out, Rounded::maximal, solver + torqueDistance(a.torques_maximal, b.torques_maximal));
-  if (a.torques_mujoco && b.torques_mujoco)
-    set(out, Rounded::mujoco, solver + torqueDistance(*a.torques_mujoco, *b.torques_mujoco));
+  for (std::size_t k = 0; k < further_road_count; ++k)
+    if (a.torques_further[k] && b.torques_further[k])
+      set(out, ofFurtherRoad(k), solver + torqueDistance(*a.torques_further[k], *b.torques_further[k]));
   set(out, Rounded::acceleration, spin(a.acceleration - b.acceleration, length));
   set(out, Rounded::effort, (effort * (a.acceleration - b.acceleration)).norm());
   set(out, Rounded::direct,

@@ -1,7 +1,5 @@
 #include "validation/limits/viewpoint.h"
 
-#include "model/loops/maximal/maximal_loop.h"
-#include "model/loops/mujoco/mujoco_loop.h"
 #include "model/loops/simbody/simbody_loop.h"
 #include "nocsolver/reactions.h"
 #include "nocsolver/solver.h"
@@ -14,16 +12,13 @@ struct Viewpoint::Roads {
       : solver(machine),
         load(std::move(load_)),
         six_balls(machine, SimbodyLoop::Topology::six_balls, load),
-        twin(machine, SimbodyLoop::Topology::tree_through_leg_1, load),
-        maximal(machine, load),
-        mujoco(makeMujocoLoop(machine, load)) {}
+        further(makeFurtherRoads(machine, load)) {}
 
   Solver<double> solver;
   Workspace<double> work;
   std::shared_ptr<const Load> load;
-  SimbodyLoop six_balls, twin;
-  MaximalLoop maximal;
-  std::unique_ptr<MujocoLoop> mujoco;
+  SimbodyLoop six_balls;
+  OfFurtherRoads<std::unique_ptr<Road>> further;
 };
 
 namespace {
@@ -98,10 +93,8 @@ View Viewpoint::at(const Motion<double>& motion, const Vector6d& torques) {
   r.six_balls.accelerate(p.of(torques));
   out.direct_simbody = twistBack(p, rates(r.six_balls.platform()), 2);
 
-  r.twin.place(there);
-  out.torques_twin = p.torquesBack(r.twin.inverseDynamics());
-  out.torques_maximal = p.torquesBack(r.maximal.inverseDynamics(there));
-  if (r.mujoco) out.torques_mujoco = p.torquesBack(r.mujoco->inverseDynamics(there));
+  for (std::size_t k = 0; k < further_road_count; ++k)
+    if (r.further[k]) out.torques_further[k] = p.torquesBack(r.further[k]->inverseDynamics(there));
   return out;
 }
 

@@ -5,6 +5,7 @@
 
 #include "model/joint_reactions.h"
 #include "model/joint_variables.h"
+#include "model/loops/further_roads.h"
 #include "model/scenario.h"
 #include "validation/subject/presentation.h"
 
@@ -14,10 +15,10 @@ namespace ursula {
 struct View {
   JointMotion joints_solver, joints_simbody;
   BodyMotions<double> bodies_solver, bodies_simbody;  ///< Simbody's where it is put into the solver's joint state
-  Vector6d jacobian, jacobian_rate;  ///< T φ̇, T φ̈ + Ṫ φ̇ with Simbody's joint motion: [ω; v] at P
-  Matrix6d T, T_rate;                ///< the solver's
-  Vector6d torques_solver, torques_simbody, torques_twin, torques_maximal;  ///< N·m
-  std::optional<Vector6d> torques_mujoco;                                   ///< where it is built in
+  Vector6d jacobian, jacobian_rate;          ///< T φ̇, T φ̈ + Ṫ φ̇ with Simbody's joint motion: [ω; v] at P
+  Matrix6d T, T_rate;                        ///< the solver's
+  Vector6d torques_solver, torques_simbody;  ///< N·m
+  OfFurtherRoads<std::optional<Vector6d>> torques_further;  ///< those that are built in
   Vector6d acceleration;                   ///< Simbody's of the platform under the solver's torques, [ω̇; p̈]
   Vector6d direct_solver, direct_simbody;  ///< both under torques given from outside
   double gap_acceleration = 0;             ///< of the loops, m/s²

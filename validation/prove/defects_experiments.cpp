@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include "model/loops/further_roads.h"
 #include "validation/prove/defects_kit.h"
 
 namespace ursula {
@@ -34,10 +35,17 @@ Spoil::Seen another(const ChangeMachine& change) {
   };
 }
 
-/// An engine built of another machine.
-Defect engine(const char* name, Spoil::Seen Spoil::*of, const ChangeMachine& change) {
+/// The engine of the further road of `check`, built of another machine.
+Defect engine(const char* name, const char* check, const ChangeMachine& change) {
   Spoil spoil;
-  spoil.*of = another(change);
+  for (std::size_t k = 0; k < further_road_count; ++k)
+    if (furtherRoads()[k].check == std::string(check)) spoil.further[k] = another(change);
+  return spoilt(name, spoil);
+}
+
+Defect stabilised(const char* name, const ChangeMachine& change) {
+  Spoil spoil;
+  spoil.feedback = another(change);
   return spoilt(name, spoil);
 }
 
@@ -102,19 +110,19 @@ Defect lowerOrder() {
 
 std::vector<Defect> wrongEngines() {
   using P = ManipulatorParameters;
-  return {engine("Simbody's second loop: a mass off by 1e-8", &Spoil::twin,
+  return {engine("Simbody's second loop: a mass off by 1e-8", "torque.twin",
                  [](P& m) { m.legs[0].proximal.mass *= 1 + 1e-8; }),
-          engine("Simbody's second loop: a platform point off by 1e-10 m", &Spoil::twin,
+          engine("Simbody's second loop: a platform point off by 1e-10 m", "torque.twin",
                  [](P& m) { m.legs[4].platform_point.x() += 1e-10; }),
-          engine("maximal coordinates: a tensor off by 1e-6", &Spoil::maximal,
+          engine("maximal coordinates: a tensor off by 1e-6", "torque.maximal",
                  [](P& m) { m.legs[2].distal.inertia *= 1 + 1e-6; }),
-          engine("maximal coordinates: no Coulomb friction in one knee", &Spoil::maximal,
+          engine("maximal coordinates: no Coulomb friction in one knee", "torque.maximal",
                  [](P& m) { m.legs[5].coulomb.knee = 0; }),
-          engine("MuJoCo: gravity off by 1e-9", &Spoil::mujoco, [](P& m) { m.gravity *= 1 + 1e-9; }),
-          engine("MuJoCo: a link longer by 1e-9", &Spoil::mujoco, [](P& m) { m.legs[3].proximal.length *= 1 + 1e-9; }),
-          engine("stabilised replay: a mass off by 1e-7", &Spoil::feedback, [](P& m) { m.platform.mass *= 1 + 1e-7; }),
-          engine("stabilised replay: friction of one motor off by 1e-5", &Spoil::feedback,
-                 [](P& m) { m.legs[1].friction.actuated *= 1 + 1e-5; }),
+          engine("MuJoCo: gravity off by 1e-9", "torque.mujoco", [](P& m) { m.gravity *= 1 + 1e-9; }),
+          engine("MuJoCo: a link longer by 1e-9", "torque.mujoco", [](P& m) { m.legs[3].proximal.length *= 1 + 1e-9; }),
+          stabilised("stabilised replay: a mass off by 1e-7", [](P& m) { m.platform.mass *= 1 + 1e-7; }),
+          stabilised("stabilised replay: friction of one motor off by 1e-5",
+                     [](P& m) { m.legs[1].friction.actuated *= 1 + 1e-5; }),
           wrongSample("Simbody's acceleration of the platform off by 1e-8",
                       [](PointwiseSample& sample) { sample.acceleration.error += 1e-8; })};
 }

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "model/errors.h"
+#include "model/loops/further_roads.h"
 #include "nocsolver/errors.h"
 #include "validation/checks/commanded_motion.h"
 #include "validation/prove/defects.h"
@@ -136,13 +137,12 @@ std::vector<CheckProof> proofsOf(const std::vector<Check>& checks, const std::ve
 }  // namespace
 
 std::string roadOf(const std::string& check) {
-  if (check == "torque.maximal") return "maximal coordinates";
-  if (check == "torque.mujoco") return "MuJoCo";
+  if (const RoadKind* further = furtherRoadOf(check)) return further->engine;
   const auto begins = [&check](const char* with) { return check.rfind(with, 0) == 0; };
   // Against the solver's own formulas, the pose in 50 digits, a second reading.
   const bool alone = check == "kinematics.jacobian_difference" || check == "torque.between";
   if (alone || begins("invariance.") || begins("motion.")) return check;
-  return "Simbody";  // torque.twin, too: another topology, by the same builder in the same engine
+  return "Simbody";
 }
 
 int DefectOutcome::roads() const {

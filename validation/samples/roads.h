@@ -3,25 +3,23 @@
 #include <optional>
 #include <vector>
 
+#include "model/loops/further_roads.h"
 #include "model/scenario.h"
 #include "validation/samples/pointwise.h"
 
 namespace ursula {
 
+/// The torques of the further roads at one instant, N·m; none where a road is not in this build.
+using RoadTorques = OfFurtherRoads<std::optional<Vector6d>>;
+
 /// The torques of all roads at one instant, for one subject.
 struct RoadSample {
   double t = 0;
-  Vector6d subject, simbody, twin, maximal;                    ///< N·m
-  double limit_twin = 0, limit_maximal = 0, limit_mujoco = 0;  ///< of rounding between subject and road, N·m
-  std::optional<Vector6d> mujoco;                              ///< N·m; none in a build without MuJoCo
-  double limit = 0;                                            ///< of rounding between any two, N·m
+  Vector6d subject, simbody;  ///< N·m
+  RoadTorques further;
+  OfFurtherRoads<double> limits{};  ///< of rounding between the subject and each further road, N·m
+  double limit = 0;                 ///< of rounding between any two, N·m
   Conditioning conditioning;
-};
-
-/// Those of one instant that do not depend on the subject, N·m.
-struct RoadTorques {
-  Vector6d twin, maximal;
-  std::optional<Vector6d> mujoco;
 };
 
 /// At the motions of `samples`.
@@ -30,7 +28,7 @@ std::vector<RoadTorques> roadTorques(const Scenario& scenario, const std::vector
 /// `roads` are those at the instants of `samples`.
 std::vector<RoadSample> runRoads(const std::vector<RoadTorques>& roads, const std::vector<PointwiseSample>& samples,
                                  const RoundingProfile& profile);
-/// Simbody's twin (tree through leg 1, five balls), the maximal coordinates and MuJoCo at the instants of `samples`.
+/// The further roads at the instants of `samples`.
 std::vector<RoadSample> runRoads(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
                                  const RoundingProfile& profile);
 

@@ -2,22 +2,18 @@
 
 #include <memory>
 
-#include "model/joint_variables.h"
-#include "model/load.h"
-#include "model/manipulator.h"
-#include "model/motion.h"
+#include "model/loops/road.h"
 
 namespace ursula {
 
 /// The third road: the 13 bodies in maximal coordinates, Newton–Euler equations with Lagrange multipliers for the 72
 /// joint constraints (Shabana, Computational Dynamics, 3rd ed., sect. 3.4 and 6.3). Made of raw parameters and vector
 /// geometry alone; it knows neither the solver nor Simbody.
-class MaximalLoop {
+class MaximalLoop : public Road {
  public:
   explicit MaximalLoop(const Manipulator& manipulator, std::shared_ptr<const Load> load = nullptr);
 
-  /// Actuator torques for the motion, N·m, conjugate to φ̇. Throws std::domain_error where a leg cannot reach.
-  Vector6d inverseDynamics(const Motion<double>& motion);
+  Vector6d inverseDynamics(const Motion<double>& motion) override;
 
   /// Pose, twist and twist rate of the bodies at the motion last asked for.
   const BodyMotions<double>& bodies() const { return bodies_; }

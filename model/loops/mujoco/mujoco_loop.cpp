@@ -186,8 +186,4 @@ bool mujocoAvailable() { return true; }
 
 std::string mujocoVersion() { return mj_versionString(); }
 
-std::unique_ptr<MujocoLoop> makeMujocoLoop(const Manipulator& manipulator, std::shared_ptr<const Load> load) {
-  return std::make_unique<MujocoLoop>(manipulator, std::move(load));
-}
-
 }  // namespace ursula

@@ -22,6 +22,4 @@ bool mujocoAvailable() { return false; }
 
 std::string mujocoVersion() { return "none"; }
 
-std::unique_ptr<MujocoLoop> makeMujocoLoop(const Manipulator&, std::shared_ptr<const Load>) { return nullptr; }
-
 }  // namespace ursula

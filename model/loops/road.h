@@ -1,0 +1,23 @@
+#pragma once
+
+#include "model/joint_variables.h"
+#include "model/load.h"
+#include "model/manipulator.h"
+#include "model/motion.h"
+
+namespace ursula {
+
+/// A further road to the torques, beside the solver's and Simbody's six-ball loop: another engine or formulation, made
+/// of raw parameters and geometry of its own. Not thread-safe: one for each thread.
+class Road {
+ public:
+  Road() = default;
+  virtual ~Road() = default;
+  Road(const Road&) = delete;
+  Road& operator=(const Road&) = delete;
+
+  /// Actuator torques for the motion, N·m, conjugate to φ̇. Throws std::domain_error where a leg cannot reach.
+  virtual Vector6d inverseDynamics(const Motion<double>& motion) = 0;
+};
+
+}  // namespace ursula
