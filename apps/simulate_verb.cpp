@@ -21,6 +21,17 @@ struct SimulateOptions {
   Engine engine = Engine::simbody;
 };
 
+/// Why the motion is not whole; empty where it is.
+std::string whatIsMissing(const Simulation& run, const TorqueFile& file, double duration) {
+  if (!run.gave_up.empty())
+    return fmt::format("stopped at t = {} s of {} s: {}", run.motions.empty() ? 0 : run.motions.back().t, file.t.back(),
+                       run.gave_up);
+  if (covers(file, duration)) return "";
+  return fmt::format(
+      "{}: the torques reach from t = {} s to {} s of a motion from 0 to {} s; the rest is not simulated",
+      file.file.string(), file.t.front(), file.t.back(), duration);
+}
+
 int simulateVerb(const SimulateOptions& options) {
   const Scenario scenario = readScenario(options.scenario);
   const TorqueFile file = within(readTorquesAloud(options.torques, options.map), scenario.trajectory->duration());
@@ -32,9 +43,9 @@ int simulateVerb(const SimulateOptions& options) {
       scenario, [&] { return simulate(scenario, options.engine, spline, file.t, scenario.simulation.tolerance); });
   const TimeSeries series = simulatedSeries(run.motions, run.torques);
   writeOutput(options.out, csvText(series.names, series.columns));
-  if (run.gave_up.empty()) return exit_passed;
-  fmt::print(stderr, "stopped at t = {} s of {} s: {}\n", run.motions.empty() ? 0 : run.motions.back().t, file.t.back(),
-             run.gave_up);
+  const std::string missing = whatIsMissing(run, file, scenario.trajectory->duration());
+  if (missing.empty()) return exit_passed;
+  fmt::print(stderr, "{}\n", missing);
   return exit_failed;
 }
 

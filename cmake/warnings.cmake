@@ -10,6 +10,8 @@ target_compile_options(ursula_options INTERFACE -fno-semantic-interposition)
 target_compile_options(ursula_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
 # GCC 12 warns of fixed-size Eigen and Boost.Multiprecision code that it inlines (PR 105562 and kin); false alarms.
 target_compile_options(ursula_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overread>)
+# GoogleTest's own macros ask for it.
+target_compile_options(ursula_options INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-gnu-zero-variadic-macro-arguments>)
 if(URSULA_WERROR)
   target_compile_options(ursula_options INTERFACE -Werror)
 endif()

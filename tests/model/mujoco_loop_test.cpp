@@ -52,7 +52,9 @@ const auto asName = [](const auto& name) {
 /// Where every test is asked for, none of these is passed over in silence.
 TEST(Mujoco, isThereInContinuousIntegration) {
   const char* ci = std::getenv("CI");
-  if (ci != nullptr && std::string(ci) == "true") EXPECT_TRUE(mujocoAvailable());
+  if (ci != nullptr && std::string(ci) == "true") {
+    EXPECT_TRUE(mujocoAvailable());
+  }
 }
 
 /// All that is tested here is optional.

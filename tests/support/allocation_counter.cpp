@@ -12,7 +12,15 @@ thread_local long count = 0;
 
 long ursula::allocations() { return count; }
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)  // clang's way to say it
+#define URSULA_ADDRESS_SANITIZER
+#endif
+#elif defined(__SANITIZE_ADDRESS__)
+#define URSULA_ADDRESS_SANITIZER
+#endif
+
+#if defined(URSULA_ADDRESS_SANITIZER)
 
 // <sanitizer/allocator_interface.h>, which GCC does not always bring
 extern "C" int __sanitizer_install_malloc_and_free_hooks(  // NOLINT

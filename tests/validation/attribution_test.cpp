@@ -77,7 +77,9 @@ TEST_P(Budget, isWholeAndLeavesNoMoreThanIsNotKnown) {
   EXPECT_LE(budget.unexplained().norm(), budget.uncertainty());
   EXPECT_NE(budget.dominant, ErrorSource::model) << "the torques are right";
   // Known to no more than a few times what there is, or the bar says nothing; but for what is hardly above rounding.
-  if (budget.observed.norm() > 1e-13) EXPECT_LT(budget.uncertainty(), 100 * size);
+  if (budget.observed.norm() > 1e-13) {
+    EXPECT_LT(budget.uncertainty(), 100 * size);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenarios, Budget, testing::ValuesIn(shippedScenarios()),

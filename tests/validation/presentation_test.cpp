@@ -261,7 +261,9 @@ TEST(Viewpoints, seeTheSame) {
     const std::optional<Vector6d>&of_a = a.torques_further[k], &of_b = b.torques_further[k];
     ASSERT_EQ(of_a.has_value(), furtherRoads()[k].available());
     ASSERT_EQ(of_b.has_value(), of_a.has_value());
-    if (of_a) EXPECT_LE((*of_a - *of_b).norm(), 1e-10 * a.torques_solver.norm()) << furtherRoads()[k].name;
+    if (of_a) {
+      EXPECT_LE((*of_a - *of_b).norm(), 1e-10 * a.torques_solver.norm()) << furtherRoads()[k].name;
+    }
   }
   EXPECT_LE((a.direct_solver - a.direct_simbody).norm(), 1e-10 * a.direct_solver.norm());
   EXPECT_GT((a.direct_solver - a.acceleration).norm(), 0.1) << "other torques are to move it otherwise";

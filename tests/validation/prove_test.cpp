@@ -126,13 +126,14 @@ TEST(NoDefect, changesNothing) {
 }
 
 TEST(DefectOutcome, countsRoadsAndNotChecks) {
-  DefectOutcome outcome{"", "", {"torque.pointwise", "torque.twin"}};
+  DefectOutcome outcome;
+  outcome.caught_by = {"torque.pointwise", "torque.twin"};
   EXPECT_EQ(outcome.roads(), 1);
   EXPECT_FALSE(outcome.caught());
   outcome.caught_by.emplace_back("torque.maximal");
   EXPECT_TRUE(outcome.caught());
-  EXPECT_TRUE((DefectOutcome{"", "", {"motion.pose"}, 1}.caught()));
-  EXPECT_FALSE((DefectOutcome{"", "", {}, 1}.caught()));
+  EXPECT_TRUE((DefectOutcome{"", "", {"motion.pose"}, 1, false, ""}.caught()));
+  EXPECT_FALSE((DefectOutcome{"", "", {}, 1, false, ""}.caught()));
   EXPECT_TRUE((DefectOutcome{"", "", {}, 2, true, "no such machine"}.caught()));
 }
 

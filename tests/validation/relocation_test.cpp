@@ -35,8 +35,9 @@ void expectExact(const Scenario& scenario, const Presentation& natural) {
   EXPECT_EQ(natural.platform_turn, Matrix3d::Identity());
   const Manipulator& machine = *scenario.manipulator;
   EXPECT_TRUE(numbersOf(inverse(natural).of(natural.of(machine))) == numbersOf(machine));
-  if (scenario.load)
+  if (scenario.load) {
     EXPECT_TRUE(numbersOf(*inverse(natural).of(natural.of(scenario.load))) == numbersOf(*scenario.load));
+  }
   const double length = SolverModel<double>(machine).length;
   EXPECT_LT(length, 2 * natural.units.length);
   EXPECT_GE(length, natural.units.length);

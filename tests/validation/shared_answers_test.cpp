@@ -208,7 +208,9 @@ TEST_P(Shared, everyCheckIsTheOneOfAValidationAlone) {
     for (std::size_t k = 0; k < alone.size(); ++k) {
       EXPECT_EQ(alone[k].verdict, shared[k].verdict) << alone[k].name;
       EXPECT_EQ(alone[k].why, shared[k].why) << alone[k].name;
-      if (!std::isnan(alone[k].value)) EXPECT_EQ(alone[k].value, shared[k].value) << alone[k].name;
+      if (!std::isnan(alone[k].value)) {
+        EXPECT_EQ(alone[k].value, shared[k].value) << alone[k].name;
+      }
     }
   }
 }

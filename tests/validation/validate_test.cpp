@@ -74,7 +74,9 @@ TEST_P(Validate, theSolverPasses) {
     EXPECT_EQ(verdictOf(result.checks, name), whole ? "pass" : "not_applicable") << name;
   EXPECT_EQ(result.limits, LimitBy::derived);
   for (const Check& check : result.checks) {
-    if (check.verdict != Verdict::not_applicable) EXPECT_NE(check.basis, "") << check.name;
+    if (check.verdict != Verdict::not_applicable) {
+      EXPECT_NE(check.basis, "") << check.name;
+    }
     EXPECT_NE(check.why, "") << check.name;
   }
 }

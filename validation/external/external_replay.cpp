@@ -70,12 +70,6 @@ class SplineLimit {
   LoopForces forces_;
 };
 
-bool covers(const TorqueFile& file, double duration) {
-  const double rounding = timeRounding(file, duration);
-  return !file.t.empty() && file.t.front() <= file.time_precision.front() + rounding &&
-         file.t.back() >= duration - file.time_precision.back() - rounding;
-}
-
 /// Why no spline can stand for the torques over the whole motion; empty where one can.
 std::string missing(const ExternalTorques& torques, double duration, const Units& units) {
   const TorqueFile& file = torques.file;

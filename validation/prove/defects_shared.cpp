@@ -87,11 +87,11 @@ Wrench<double> between(const TimedWrench& a, const TimedWrench& b, double share)
 }
 
 std::vector<TimedWrench> interpolatedLinearly(const std::vector<TimedWrench>& rows, const Scenario&) {
-  constexpr int parts = 20;
+  constexpr int pieces = 20;
   std::vector<TimedWrench> out;
   for (std::size_t i = 0; i + 1 < rows.size(); ++i)
-    for (int k = 0; k < parts; ++k) {
-      const double share = static_cast<double>(k) / parts;
+    for (int k = 0; k < pieces; ++k) {
+      const double share = static_cast<double>(k) / pieces;
       out.push_back({rows[i].time + share * (rows[i + 1].time - rows[i].time), between(rows[i], rows[i + 1], share)});
     }
   out.push_back(rows.back());

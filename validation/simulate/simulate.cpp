@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <boost/numeric/odeint.hpp>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "nocsolver/solver.h"
@@ -42,6 +44,11 @@ class NocSystem {
     return motion;
   }
 
+  /// Of the state last differentiated.
+  Vector6d theta() const { return solver_.angles(work_).theta; }
+  /// Of an accepted step: where a leg does not reach, the solver has refused before.
+  void check(double, const OdeState&) const {}
+
   void derivative(double t, const OdeState& x, const Vector6d& torques, OdeState& rate) {
     const Motion<double> now = motion(t, x, torques);
     const Eigen::Quaterniond q(x[3], x[4], x[5], x[6]);
@@ -57,13 +64,33 @@ class NocSystem {
   Workspace<double> work_;
 };
 
+std::runtime_error outOfReach(int leg, double theta, double t) {
+  return std::runtime_error(fmt::format("the motion leaves what leg {} reaches: it is {} at t = {:.9g} s", leg + 1,
+                                        std::cos(theta) < 0 ? "stretched" : "folded", t));
+}
+
+/// A leg whose knee bends the other way has come through where it was stretched or folded, the end of what it reaches.
+void checkKnees(const Vector6d& before, const Vector6d& now, double t) {
+  for (int i = 0; i < leg_count; ++i)
+    if (std::sin(before(i)) * std::sin(now(i)) <= 0) throw outOfReach(i, now(i), t);
+}
+
+/// Within this of 0, sin θ is what shrinks the steps.
+constexpr double at_edge = 1e-3;
+
+void stopped(const Vector6d& theta, double t) {
+  for (int i = 0; i < leg_count; ++i)
+    if (std::abs(std::sin(theta(i))) < at_edge) throw outOfReach(i, theta(i), t);
+  throw std::runtime_error(fmt::format("the steps shrink to nothing at t = {:.9g} s", t));
+}
+
 class SimbodySystem {
  public:
   SimbodySystem(const Scenario& scenario)
       : loop_(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load) {}
 
   OdeState start(const Motion<double>& motion) {
-    loop_.place(motion);
+    start_ = loop_.place(motion).q.theta;
     return loop_.state();
   }
 
@@ -77,8 +104,37 @@ class SimbodySystem {
     loop_.derivative(t, x.data(), torques, rate.data());
   }
 
+  /// Of the state last differentiated.
+  Vector6d theta() const { return loop_.joints().q.theta; }
+  /// Of an accepted step.
+  void check(double t, const OdeState& x) {
+    loop_.setState(t, x.data());
+    checkKnees(start_, theta(), t);
+  }
+
  private:
   SimbodyLoop loop_;
+  Vector6d start_;  ///< θ in the commanded state
+};
+
+/// Steps that shrink to nothing end the run.
+class Progress {
+ public:
+  explicit Progress(const std::vector<double>& instants)
+      : since_(instants.front()), least_(1e-3 * (instants.back() - instants.front())) {}
+
+  /// Called for each evaluation: false where `patience` of them gained less than a thousandth of the time.
+  bool goesOn(double t) {
+    if (++evaluations_ % patience != 0) return true;
+    const double gained = t - since_;
+    since_ = t;
+    return gained > least_;
+  }
+
+ private:
+  static constexpr long patience = 20'000;
+  double since_, least_;
+  long evaluations_ = 0;
 };
 
 template <class System>
@@ -86,20 +142,28 @@ Simulation integrate(System system, const Scenario& scenario, const SimbodyLoop:
                      const std::vector<double>& instants, double tolerance) {
   Simulation out;
   OdeState x = system.start(scenario.trajectory->at(instants.front()));
-  const auto stepper = odeint::make_controlled(tolerance, tolerance, odeint::runge_kutta_fehlberg78<OdeState>());
+  auto stepper = odeint::make_controlled(tolerance, tolerance, odeint::runge_kutta_fehlberg78<OdeState>());
+  Progress progress(instants);
   const auto derivative = [&](const OdeState& at, OdeState& rate, double t) {
     ++out.evaluations;
     system.derivative(t, at, torques(t), rate);
     for (double value : rate)
       if (!std::isfinite(value)) throw std::runtime_error(fmt::format("derivatives not finite at t = {} s", t));
+    if (!progress.goesOn(t)) stopped(system.theta(), t);
   };
-  const auto observe = [&](const OdeState& at, double t) {
-    out.torques.push_back(torques(t));
-    out.motions.push_back(system.motion(t, at, out.torques.back()));
-  };
+  double t = instants.front(), dt = (instants.back() - instants.front()) / 128;
   try {
-    odeint::integrate_times(stepper, derivative, x, instants.begin(), instants.end(),
-                            (instants.back() - instants.front()) / 128, observe);
+    for (double instant : instants) {
+      while (instant - t > std::numeric_limits<double>::epsilon() * std::abs(instant)) {
+        double step = std::min(dt, instant - t);
+        const bool cut = step < dt;
+        const auto outcome = stepper.try_step(derivative, x, t, step);
+        dt = cut && outcome == odeint::success ? std::max(dt, step) : step;
+        if (outcome == odeint::success) system.check(t, x);
+      }
+      out.torques.push_back(torques(instant));
+      out.motions.push_back(system.motion(instant, x, out.torques.back()));
+    }
   } catch (const std::exception& error) {
     out.gave_up = error.what();  // what was reached is still reported
   }

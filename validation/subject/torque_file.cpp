@@ -179,4 +179,10 @@ TorqueFile within(TorqueFile file, double duration) {
   return file;
 }
 
+bool covers(const TorqueFile& file, double duration) {
+  const double rounding = timeRounding(file, duration);
+  return !file.t.empty() && file.t.front() <= file.time_precision.front() + rounding &&
+         file.t.back() >= duration - file.time_precision.back() - rounding;
+}
+
 }  // namespace ursula

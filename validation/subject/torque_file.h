@@ -48,4 +48,7 @@ double timeRounding(const TorqueFile& file, double duration);
 /// and what the instants look like.
 TorqueFile within(TorqueFile file, double duration);
 
+/// The instants reach from the start of a motion to its end, within the rounding of their digits and of sums.
+bool covers(const TorqueFile& file, double duration);
+
 }  // namespace ursula

@@ -1,0 +1,75 @@
+// `ursula simulate`: the commanded motion comes back, and what does not reach its end says so.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "model/csv.h"
+#include "tests/end_to_end/program.h"
+
+namespace ursula {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string helix = "'" URSULA_SCENARIOS "/paper-helix.toml'";
+
+class Simulate : public testing::TestWithParam<std::string> {
+ protected:
+  /// The right torques times `factor`, up to `end`, s.
+  std::string torquesTimes(double factor, double end = 3) const {
+    const CsvTable right = parseCsv(ursula_("inverse " + helix + " --samples 61").out, "stdout");
+    std::ofstream out(file_);
+    out.precision(17);
+    out << "t_s,tau_1_Nm,tau_2_Nm,tau_3_Nm,tau_4_Nm,tau_5_Nm,tau_6_Nm\n";
+    for (std::size_t k = 0; k < right.rows() && right.at("t_s")[k] <= end; ++k) {
+      out << right.at("t_s")[k];
+      for (int i = 1; i <= 6; ++i) out << ',' << factor * right.at("tau_" + std::to_string(i) + "_Nm")[k];
+      out << '\n';
+    }
+    return "'" + file_ + "'";
+  }
+  UrsulaRun simulate(const std::string& torques) const {
+    return ursula_("simulate " + helix + " --engine " + GetParam() + " --torques " + torques);
+  }
+
+  const Program ursula_;
+  const std::string file_ = testing::TempDir() + "/simulate_" + GetParam() + ".csv";
+};
+
+TEST_P(Simulate, theRightTorquesMakeTheMotion) {
+  const UrsulaRun run = simulate(torquesTimes(1));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const CsvTable motion = parseCsv(run.out, "stdout");
+  ASSERT_EQ(motion.rows(), 61u);
+  const CsvTable commanded = parseCsv(ursula_("inverse " + helix + " --samples 61").out, "stdout");
+  for (const char* axis : {"p_x_m", "p_y_m", "p_z_m"})
+    EXPECT_NEAR(motion.at(axis).back(), commanded.at(axis).back(), 1e-4);  // of the spline between 61
+}
+
+TEST_P(Simulate, aFileThatEndsBeforeTheMotionIsSaidSo) {
+  const UrsulaRun run = simulate(torquesTimes(1, 1.5));
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("to 1.5 s of a motion from 0 to 3 s"));
+  EXPECT_EQ(parseCsv(run.out, "stdout").at("t_s").back(), 1.5) << "what was reached is kept";
+}
+
+/// Torques larger by a third lift the platform until a leg is stretched: neither engine goes on, or on for ever.
+TEST_P(Simulate, aMotionThatLeavesWhatTheLegsReachStopsThere) {
+  const UrsulaRun run = simulate(torquesTimes(1.3));
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("reach"));
+  EXPECT_THAT(run.err, HasSubstr("leg 5"));
+  EXPECT_THAT(run.err, HasSubstr("stretched"));
+  const CsvTable motion = parseCsv(run.out, "stdout");
+  EXPECT_GT(motion.at("t_s").back(), 1);
+  EXPECT_LT(motion.at("t_s").back(), 1.3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, Simulate, testing::Values("noc", "simbody"),
+                         [](const auto& engine) { return engine.param; });
+
+}  // namespace
+}  // namespace ursula
