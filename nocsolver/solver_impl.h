@@ -93,7 +93,7 @@ void Solver<S, R>::jacobians(const Motion<S>& motion, Workspace<S>& work) const 
   const S ratio = pivots.minCoeff() / pivots.maxCoeff();
   const S bound = S(16) * Eigen::NumTraits<S>::epsilon();
   if (!(ratio > bound))
-    throw SingularJacobian("B is singular, its pivots' ratio", -1, static_cast<double>(motion.t),
+    throw SingularJacobian("B is singular, its smallest pivot over its largest", -1, static_cast<double>(motion.t),
                            static_cast<double>(ratio), static_cast<double>(bound), "");
 }
 

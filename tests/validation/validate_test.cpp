@@ -196,7 +196,7 @@ TEST(ValidateControl, aSubjectThatRefusesFailsWithItsReason) {
   const Scenario scenario = quick("paper-helix");
   Subject subject = nocSubject(*scenario.manipulator, nullptr);
   subject.torques = [](const Motion<double>& motion) -> Vector6d {
-    throw SingularJacobian("B is singular, its pivots' ratio", -1, motion.t, 0, 1e-15, "");
+    throw SingularJacobian("B is singular, its smallest pivot over its largest", -1, motion.t, 0, 1e-15, "");
   };
   ValidationResult result = validate(scenario, subject);
   EXPECT_EQ(result.verdict, Verdict::fail);

@@ -100,6 +100,7 @@ Evidence gather(const Scenario& given, const Reference& reference, const Subject
   if (spoil.sample) std::for_each(out.samples.begin(), out.samples.end(), spoil.sample);
   if (!out.answered()) return out;
   out.roads = roadSamples(out);
+  out.invariances = runInvariances(*out.scenario, subject, out.samples);
   if (experiments.reactions) out.reactions = reactionSamples(out);
   runReplays(experiments.ladder, out);
   return out;

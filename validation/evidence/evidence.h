@@ -12,6 +12,7 @@
 #include "validation/replay/ladder.h"
 #include "validation/replay/stabilised_replay.h"
 #include "validation/replay/windows.h"
+#include "validation/samples/invariance_samples.h"
 #include "validation/samples/pointwise.h"
 #include "validation/samples/reaction_samples.h"
 #include "validation/samples/roads.h"
@@ -43,6 +44,7 @@ struct Evidence {
 
   std::vector<PointwiseSample> samples;
   std::vector<RoadSample> roads;
+  std::vector<InvarianceSamples> invariances;
   std::vector<ReactionSample> reactions;
   ReplayPlan plan;  ///< under the torques on trial
   ReplayScales scales;

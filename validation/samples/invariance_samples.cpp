@@ -1,0 +1,99 @@
+#include "validation/samples/invariance_samples.h"
+
+#include <Eigen/Geometry>
+#include <functional>
+
+#include "model/manipulator.h"
+#include "nocsolver/errors.h"
+#include "validation/subject/presentation.h"
+
+namespace ursula {
+namespace {
+
+/// No angle of it is special to any leg.
+Presentation worldTurned() {
+  Presentation out;
+  out.turn = Eigen::AngleAxisd(0.7, Vector3d(0.36, -0.48, 0.8)).toRotationMatrix();
+  return out;
+}
+
+/// Leg i becomes leg (i + 1) mod 6.
+Presentation relabelled() {
+  Presentation out;
+  for (int i = 0; i < leg_count; ++i) out.leg[static_cast<std::size_t>((i + 1) % leg_count)] = i;
+  return out;
+}
+
+/// Masses, inertias and friction doubled: a power of two, so that no rounding differs.
+Manipulator doubled(const Manipulator& manipulator) {
+  ManipulatorParameters machine = manipulator.parameters();
+  machine.platform.mass *= 2;
+  machine.platform.inertia *= 2;
+  for (Leg& leg : machine.legs) {
+    for (Link* link : {&leg.proximal, &leg.distal}) {
+      link->mass *= 2;
+      link->inertia *= 2;
+    }
+    for (JointFriction* friction : {&leg.friction, static_cast<JointFriction*>(&leg.coulomb)}) {
+      friction->actuated *= 2;
+      friction->universal *= 2;
+      friction->knee *= 2;
+    }
+  }
+  return Manipulator(machine);
+}
+
+Motion<double> reversed(const Motion<double>& motion) {
+  Motion<double> out = motion;
+  out.omega = -motion.omega;
+  out.p_dot = -motion.p_dot;
+  return out;
+}
+
+using TorquesOf = std::function<Vector6d(const Motion<double>&)>;
+
+InvarianceSamples sampled(Symmetry symmetry, const TorquesOf& expected, const TorquesOf& found,
+                          const std::vector<PointwiseSample>& samples) {
+  InvarianceSamples out{symmetry, {}, {}, ""};
+  try {
+    for (const PointwiseSample& sample : samples) {
+      const Vector6d one_side = expected(sample.motion), other_side = found(sample.motion);
+      out.expected.push_back(one_side);
+      out.found.push_back(other_side);
+    }
+  } catch (const PoseError& refusal) {
+    out.refused = refusal.what();
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<InvarianceSamples> runInvariances(const Scenario& scenario, const Subject& subject,
+                                              const std::vector<PointwiseSample>& samples) {
+  if (!subject.rebuilt) return {};
+  const Manipulator& machine = *scenario.manipulator;
+  const Presentation turned = worldTurned(), labels = relabelled();
+  const Subject own = subject.rebuilt(machine), in_turned = subject.rebuilt(turned.of(machine)),
+                with_other_labels = subject.rebuilt(labels.of(machine)),
+                with_double = subject.rebuilt(doubled(machine)),
+                without_friction = subject.rebuilt(frictionless(machine));
+  using M = Motion<double>;
+  return {
+      sampled(
+          Symmetry::rotation, own.torques, [&](const M& motion) { return in_turned.torques(turned.of(motion)); },
+          samples),
+      sampled(
+          Symmetry::labels, [&](const M& motion) { return labels.of(own.torques(motion)); }, with_other_labels.torques,
+          samples),
+      sampled(
+          Symmetry::mass, [&](const M& motion) { return Vector6d(2 * own.torques(motion)); }, with_double.torques,
+          samples),
+      sampled(
+          Symmetry::time_reversal, without_friction.torques,
+          [&](const M& motion) { return Vector6d((own.torques(motion) + own.torques(reversed(motion))) / 2); },
+          samples),
+  };
+}
+
+}  // namespace ursula
