@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # tools/try_package.sh PACKAGE.deb: installs the package into an empty Debian and validates the paper's helix there.
-# As root, with debootstrap. Takes suite, mirrors and keys from this machine's own apt.
+# As root, with debootstrap; exits with 77 where no empty Debian can be made. Takes suite, mirrors and keys from this
+# machine's own apt.
 set -euo pipefail
 
-(($# == 1)) || { sed -n '2,3s/^# //p' "$0" >&2; exit 2; }
+(($# == 1)) || { sed -n '2,4s/^# //p' "$0" >&2; exit 2; }
 package=$(realpath "$1")
 root=$(mktemp -d)
 trap 'rm -rf --one-file-system "$root"' EXIT
@@ -15,7 +16,7 @@ suite=$(. /etc/os-release && echo "$VERSION_CODENAME")
 mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' "Codename: $suite" | head -n 1)
 [[ -n $mirror ]] || { echo "try_package: apt knows no mirror of $suite; apt-get update?" >&2; exit 2; }
 
-debootstrap --variant=minbase "$suite" "$root" "$mirror" >"$root.log" 2>&1 || { tail -n 20 "$root.log" >&2; exit 1; }
+debootstrap --variant=minbase "$suite" "$root" "$mirror" >"$root.log" 2>&1 || { tail -n 20 "$root.log" >&2; exit 77; }
 rm -f "$root.log"
 
 # The root asks the same mirrors, with the same keys and certificates.
