@@ -105,6 +105,16 @@ TEST(Attribution, namesTheModelWhereOneLegIsOffByABillionth) {
   EXPECT_LE(wrong.unexplained().norm(), wrong.uncertainty());
 }
 
+/// Where the variational equations hold no more, the torques are still what moved the replay.
+TEST(Attribution, namesTheModelWhereTheMotionIsLost) {
+  const ErrorBudget wrong = budgetOf("paper-helix", [](const auto&, Vector6d torques) {
+    torques(2) *= 1.001;
+    return torques;
+  });
+  EXPECT_GT(wrong.observed.norm(), 0.01) << "nothing was lost";
+  EXPECT_EQ(wrong.dominant, ErrorSource::model);
+}
+
 /// A state that is spoilt after each step is no error of the torques'.
 TEST(Attribution, doesNotNameTheModelWhereTheIntegratorIsSpoilt) {
   const ErrorBudget spoilt = budgetOf("paper-helix", nullptr, [](double, std::vector<double>& x) {

@@ -105,19 +105,17 @@ class Residual {
   const std::vector<PointwiseSample>& samples_;
 };
 
-ErrorShare modelShare(const std::vector<PointwiseSample>& samples, const WindowedReplay& window,
-                      const Amplification& amplification) {
+void addModel(const std::vector<PointwiseSample>& samples, const WindowedReplay& window,
+              const Amplification& amplification, ErrorBudget& budget) {
   const Residual residual(samples);
   const double end = window.replay.steps.back().t;
   const double length = amplification.length();
-  ErrorShare out;
-  out.error = amplification.carried(window.window.start(), end, residual).head<3>();
+  budget.model.error = amplification.carried(window.window.start(), end, residual).head<3>();
   // Rounding of each residual, as if all were the same way; and what is not linear in the error.
-  const double rounding = amplification.carriedBound(
+  budget.model_rounding = amplification.carriedBound(
       window.window.start(), end, [&samples](double t) { return SampledLimit(samples)(t) / rounding_safety; });
-  const double size = out.error.norm();
-  out.uncertainty = rounding + size * std::min(1.0, 100 * size / length);
-  return out;
+  const double size = budget.model.error.norm();
+  budget.model.uncertainty = budget.model_rounding + size * std::min(1.0, 100 * size / length);
 }
 
 /// err(100 tolerance) − err(tolerance), over 99 where the error is proportional to the tolerance, as control of it
@@ -182,7 +180,7 @@ TimeSeries curveOf(const std::vector<ErrorsAt>& along) {
 ErrorSource dominantOf(const ErrorBudget& budget) {
   // Torques that are right to rounding leave residuals of rounding: no error of theirs.
   const double model = budget.model.error.norm();
-  const std::pair<ErrorSource, double> shares[] = {{ErrorSource::model, model > budget.model.uncertainty ? model : 0},
+  const std::pair<ErrorSource, double> shares[] = {{ErrorSource::model, model > budget.model_rounding ? model : 0},
                                                    {ErrorSource::integration, budget.integration.error.norm()},
                                                    {ErrorSource::rounding, budget.rounding.error.norm()},
                                                    {ErrorSource::closure, budget.closure.error.norm()},
@@ -289,7 +287,7 @@ ErrorBudget attribute(const Scenario& scenario, const std::vector<PointwiseSampl
   budget.closure.uncertainty = spread;
   budget.integration = integrationShare(tracks.plain.end, tracks.coarse.end);
   budget.along = sharesAlong(tracks, samples, *window, amplification);
-  budget.model = modelShare(samples, *window, amplification);
+  addModel(samples, *window, amplification, budget);
   budget.dominant = dominantOf(budget);
   return budget;
 }

@@ -38,6 +38,7 @@ struct ErrorBudget {
   double t = 0;                          ///< s
   Vector3d observed = Vector3d::Zero();  ///< m, in B
   ErrorShare model;                      ///< pointwise errors of the acceleration, carried by the variational equations
+  double model_rounding = 0;             ///< m; of the residuals alone, carried alike
   ErrorShare integration;                ///< from what a hundredfold tolerance changes
   ErrorShare rounding;                   ///< from what turned, relabelled and rescaled frames change
   ErrorShare closure;                    ///< from what projecting the gaps away changes
