@@ -1,7 +1,9 @@
 #include <memory>
 
 #include "apps/embedded_scenario.h"
+#include "apps/progress.h"
 #include "apps/verbs.h"
+#include "model/scenario_input.h"
 #include "validation/audit/audit.h"
 
 namespace ursula {
@@ -14,8 +16,11 @@ struct AuditOptions {
 int audit(const AuditOptions& options) {
   if (options.json == "-" && options.markdown == "-")
     throw UsageError("--json and --markdown both go to standard output");
-  const Scenario scenario = options.scenario.empty() ? paperHelix() : readScenario(options.scenario);
-  const Audit result = alongMotion(scenario, [&] { return runAudit(scenario); });
+  const Scenario scenario = options.scenario.empty() ? paperHelix() : readScenarioOrInput(options.scenario);
+  const Audit result = alongMotion(scenario, [&] {
+    const Progress progress("audit");
+    return runAudit(scenario);
+  });
   if (options.json != "-" && options.markdown != "-") writeOutput("-", auditText(result));
   if (!options.json.empty()) writeOutput(options.json, auditJson(result));
   if (!options.markdown.empty()) writeOutput(options.markdown, auditMarkdown(result));
@@ -27,7 +32,8 @@ int audit(const AuditOptions& options) {
 void addAudit(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<AuditOptions>();
   CLI::App* verb = app.add_subcommand("audit", "Every printed formula of the paper against what holds, with residuals");
-  verb->add_option("scenario", options->scenario, "Scenario file (TOML); default: the paper's helix, built in");
+  verb->add_option("scenario", options->scenario,
+                   "Scenario file (TOML), - for standard input; default: the paper's helix, built in");
   verb->add_option("--json", options->json, "The numbers as JSON; - for standard output");
   verb->add_option("--markdown", options->markdown, "The page docs/audit.md; - for standard output");
   verb->callback([options, &run] { run = [options] { return audit(*options); }; });

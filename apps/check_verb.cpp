@@ -5,7 +5,7 @@
 
 #include "apps/verbs.h"
 #include "model/csv.h"
-#include "model/scenario.h"
+#include "model/scenario_input.h"
 #include "validation/check_scenario/check_scenario.h"
 #include "validation/subject/motion_check.h"
 
@@ -20,13 +20,13 @@ struct CheckOptions {
 /// Warnings go to standard output, what is wrong to standard error; false where anything is.
 bool checkOne(const std::string& file, const CheckOptions& options) {
   try {
-    const Scenario scenario = readScenario(file);
+    const Scenario scenario = readScenarioOrInput(file);
     const std::vector<std::string> odd = warnings(scenario);
     std::FILE* const out = options.picture == "-" ? stderr : stdout;
     for (const std::string& line : odd) fmt::print(out, "{}\n", line);
     if (!options.picture.empty()) writeOutput(options.picture, picture(scenario));
     tryMotion(scenario);
-    fmt::print(out, "{}: can be read and its motion be made; {} warning{}\n", file, odd.size(),
+    fmt::print(out, "{}: can be read and its motion be made; {} warning{}\n", scenario.file.string(), odd.size(),
                odd.size() == 1 ? "" : "s");
     return true;
   } catch (const ScenarioError& error) {
@@ -48,7 +48,7 @@ int check(const CheckOptions& options) {
 void addCheck(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<CheckOptions>();
   CLI::App* verb = app.add_subcommand("check", "Reads and tries the motion only: errors, and warnings of what is odd");
-  verb->add_option("scenarios", options->scenarios, "Scenario files (TOML)")->required();
+  verb->add_option("scenarios", options->scenarios, "Scenario files (TOML), - for standard input")->required();
   verb->add_option("--picture", options->picture,
                    "Draws the machine at the start of the motion, also where that is out of reach: SVG file; - for "
                    "standard output");

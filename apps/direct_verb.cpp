@@ -10,7 +10,7 @@
 
 #include "apps/verbs.h"
 #include "model/csv.h"
-#include "model/scenario.h"
+#include "model/scenario_input.h"
 #include "nocsolver/direct_kinematics.h"
 
 namespace ursula {
@@ -112,7 +112,7 @@ void summarise(const PlatformPoses& poses) {
 
 int direct(const DirectOptions& options) {
   const Vector6d phi = readAngles(options.phi);
-  const Scenario scenario = readScenario(options.scenario);
+  const Scenario scenario = readScenarioOrInput(options.scenario);
   PlatformPoses poses;
   try {
     poses = DirectKinematics(*scenario.manipulator).poses(phi);
@@ -132,7 +132,7 @@ int direct(const DirectOptions& options) {
 void addDirect(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<DirectOptions>();
   CLI::App* verb = app.add_subcommand("direct", "Every real pose of the platform for given actuated angles, as CSV");
-  verb->add_option("scenario", options->scenario, "Scenario file (TOML)")->required();
+  verb->add_option("scenario", options->scenario, "Scenario file (TOML), - for standard input")->required();
   verb->add_option("--phi", options->phi, "Six angles with commas between, rad: phi_1,...,phi_6")->required();
   verb->add_option("--out", options->out, "CSV file; - for standard output")->capture_default_str();
   verb->footer(

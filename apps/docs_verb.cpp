@@ -1,22 +1,45 @@
 #include <memory>
 
+#include "apps/call_words.h"
 #include "apps/verbs.h"
 #include "validation/scenario_docs/scenario_docs.h"
 
 namespace ursula {
+namespace {
+
+struct DocsOptions {
+  std::string folder, shell;
+  bool man = false;
+};
+
+std::string completion(const ProgramWords& words, const std::string& shell) {
+  if (shell == "bash") return bashCompletion(words);
+  return shell == "zsh" ? zshCompletion(words) : fishCompletion(words);
+}
+
+int docs(const DocsOptions& options, const CLI::App& app) {
+  if (options.folder.empty() && options.shell.empty() && !options.man)
+    throw UsageError("docs: nothing to write, expected a folder, --completion or --man");
+  if (!options.folder.empty()) {
+    writeOutput(options.folder + "/scenario.md", scenarioMarkdown());
+    writeOutput(options.folder + "/scenario.schema.json", scenarioSchema());
+  }
+  if (!options.shell.empty()) writeOutput("-", completion(wordsOf(app), options.shell));
+  if (options.man) writeOutput("-", manPage(wordsOf(app)));
+  return exit_passed;
+}
+
+}  // namespace
 
 void addDocs(CLI::App& app, std::function<int()>& run) {
-  const auto folder = std::make_shared<std::string>();
-  CLI::App* verb = app.add_subcommand("docs", "Writes scenario.md and scenario.schema.json, for ./dev docs");
+  const auto options = std::make_shared<DocsOptions>();
+  CLI::App* verb = app.add_subcommand("docs", "Writes what is made of the program's own definitions");
   verb->group("");  // for those who work on the program: not listed
-  verb->add_option("folder", *folder, "Where to")->required();
-  verb->callback([folder, &run] {
-    run = [folder] {
-      writeOutput(*folder + "/scenario.md", scenarioMarkdown());
-      writeOutput(*folder + "/scenario.schema.json", scenarioSchema());
-      return exit_passed;
-    };
-  });
+  verb->add_option("folder", options->folder, "Where scenario.md and scenario.schema.json go, for ./dev docs");
+  verb->add_option("--completion", options->shell, "The completion for bash, zsh or fish, on standard output")
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  verb->add_flag("--man", options->man, "The man page, on standard output");
+  verb->callback([options, &app, &run] { run = [options, &app] { return docs(*options, app); }; });
 }
 
 }  // namespace ursula

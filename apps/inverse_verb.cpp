@@ -3,7 +3,7 @@
 #include "apps/verbs.h"
 #include "model/csv.h"
 #include "model/instants.h"
-#include "model/scenario.h"
+#include "model/scenario_input.h"
 #include "nocsolver/solver.h"
 #include "validation/findings/timeseries.h"
 #include "validation/subject/subject.h"
@@ -32,7 +32,7 @@ TimeSeries inverseAlong(const Scenario& scenario, int samples) {
 }
 
 int inverse(const InverseOptions& options) {
-  const Scenario scenario = readScenario(options.scenario);
+  const Scenario scenario = readScenarioOrInput(options.scenario);
   const TimeSeries series = alongMotion(scenario, [&] { return inverseAlong(scenario, options.samples); });
   writeOutput(options.out, csvText(series.names, series.columns));
   return exit_passed;
@@ -43,7 +43,7 @@ int inverse(const InverseOptions& options) {
 void addInverse(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<InverseOptions>();
   CLI::App* verb = app.add_subcommand("inverse", "Motion, joint variables and torques along the trajectory, as CSV");
-  verb->add_option("scenario", options->scenario, "Scenario file (TOML)")->required();
+  verb->add_option("scenario", options->scenario, "Scenario file (TOML), - for standard input")->required();
   verb->add_option("--samples", options->samples, "Equally spaced instants from 0 to t_f")
       ->check(CLI::Range(2, 10000000))
       ->capture_default_str();

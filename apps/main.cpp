@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <functional>
 
+#include "apps/usage.h"
 #include "apps/verbs.h"
 #include "model/csv.h"
 #include "model/errors.h"
@@ -33,26 +34,21 @@ int runVerb(const std::function<int()>& run) {
 }
 
 int runProgram(int argc, char** argv) {
-  CLI::App app("ursula: are the closed-form dynamics of a six-legged U-R-S parallel manipulator right, and why");
+  CLI::App app("ursula: are the closed-form dynamics of a six-legged U-R-S parallel manipulator right, and why",
+               "ursula");
   app.set_version_flag("--version", ursula::buildProvenance().version + " (" + ursula::buildProvenance().commit + ")");
   app.require_subcommand(1);
-  app.failure_message(CLI::FailureMessage::help);
   std::function<int()> run;
-  ursula::addValidate(app, run);
-  ursula::addInverse(app, run);
-  ursula::addInit(app, run);
-  ursula::addCheck(app, run);
-  ursula::addCompare(app, run);
-  ursula::addDirect(app, run);
-  ursula::addProve(app, run);
-  ursula::addSimulate(app, run);
-  ursula::addAudit(app, run);
-  ursula::addPoses(app, run);
-  ursula::addDocs(app, run);
+  for (const auto add : {ursula::addValidate, ursula::addInverse, ursula::addInit, ursula::addCheck, ursula::addCompare,
+                         ursula::addDirect, ursula::addProve, ursula::addSimulate, ursula::addAudit, ursula::addPoses,
+                         ursula::addExplain, ursula::addOpen, ursula::addDocs})
+    add(app, run);
+  if (argc < 2) return complain(app.help());
+  if (const std::string unknown = ursula::unknownVerb(app, argc, argv); !unknown.empty()) return complain(unknown);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? ursula::exit_passed : ursula::exit_bad_input;
+    return error.get_exit_code() == 0 ? app.exit(error) : complain(ursula::misuse(app, error));
   }
   return runVerb(run);
 }

@@ -2,7 +2,7 @@
 
 #include "apps/verbs.h"
 #include "model/csv.h"
-#include "model/scenario.h"
+#include "model/scenario_input.h"
 #include "validation/simulate/pose_series.h"
 
 namespace ursula {
@@ -18,14 +18,14 @@ struct PosesOptions {
 void addPoses(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<PosesOptions>();
   CLI::App* verb = app.add_subcommand("poses", "Points A, R, B of every leg along the trajectory, as CSV: to draw it");
-  verb->add_option("scenario", options->scenario, "Scenario file (TOML)")->required();
+  verb->add_option("scenario", options->scenario, "Scenario file (TOML), - for standard input")->required();
   verb->add_option("--samples", options->samples, "Equally spaced instants from 0 to t_f")
       ->check(CLI::Range(2, 1000000))
       ->capture_default_str();
   verb->add_option("--out", options->out, "CSV file; - for standard output")->capture_default_str();
   verb->callback([options, &run] {
     run = [options] {
-      const Scenario scenario = readScenario(options->scenario);
+      const Scenario scenario = readScenarioOrInput(options->scenario);
       const TimeSeries series = alongMotion(scenario, [&] { return poseSeries(scenario, options->samples); });
       writeOutput(options->out, csvText(series.names, series.columns));
       return exit_passed;

@@ -9,8 +9,9 @@
 #include <thread>
 
 #include "apps/embedded_scenario.h"
+#include "apps/progress.h"
 #include "apps/verbs.h"
-#include "model/scenario.h"
+#include "model/scenario_input.h"
 #include "validation/prove/prove.h"
 
 namespace ursula {
@@ -24,12 +25,13 @@ struct ProveOptions {
   bool only_random = false;
 };
 
-/// One line each tenth on stderr.
+/// How many are done, told from any thread with the number of all.
 std::function<void(int)> progress(const char* what) {
+  const auto bar = std::make_shared<Progress>(what);
   const auto count = std::make_shared<std::atomic<int>>(0);
-  return [count, what](int total) {
+  return [bar, count](int total) {
     const int done = ++*count;
-    if (done * 10 / total != (done - 1) * 10 / total) fmt::print(stderr, "{}: {} of {}\n", what, done, total);
+    bar->at(static_cast<double>(done) / total, fmt::format("{} of {}", done, total));
   };
 }
 
@@ -144,7 +146,7 @@ void printRandom(const RandomOutcomes& random, std::uint64_t seed) {
 
 /// Whether the right solver passes, every defect is caught and every check is needed.
 bool proveChecks(const ProveOptions& options) {
-  const Scenario scenario = options.scenario.empty() ? provingGround() : readScenario(options.scenario);
+  const Scenario scenario = options.scenario.empty() ? provingGround() : readScenarioOrInput(options.scenario);
   const DefectProof proof =
       alongMotion(scenario, [&] { return proveDefects(scenario, options.jobs, progress("defects")); });
   const int weak = printMatrix(proof.outcomes);
@@ -166,7 +168,8 @@ int prove(const ProveOptions& options) {
 void addProve(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<ProveOptions>();
   CLI::App* verb = app.add_subcommand("prove", "Inject defects into the solver and show which check catches each");
-  verb->add_option("scenario", options->scenario, "Scenario file (TOML); default: the built-in proving ground");
+  verb->add_option("scenario", options->scenario,
+                   "Scenario file (TOML), - for standard input; default: the built-in proving ground");
   verb->add_option("--jobs", options->jobs, "Threads")->check(CLI::Range(1, 1024))->capture_default_str();
   verb->add_option("--random", options->random, "Random valid scenarios, none of which may fail")
       ->check(CLI::Range(0, 1000000))

@@ -7,7 +7,7 @@
 #include "apps/torque_option.h"
 #include "apps/verbs.h"
 #include "model/csv.h"
-#include "model/scenario.h"
+#include "model/scenario_input.h"
 #include "validation/external/torque_spline.h"
 #include "validation/findings/timeseries.h"
 #include "validation/simulate/simulate.h"
@@ -33,7 +33,7 @@ std::string whatIsMissing(const Simulation& run, const TorqueFile& file, double 
 }
 
 int simulateVerb(const SimulateOptions& options) {
-  const Scenario scenario = readScenario(options.scenario);
+  const Scenario scenario = readScenarioOrInput(options.scenario);
   const TorqueFile file = within(readTorquesAloud(options.torques, options.map), scenario.trajectory->duration());
   if (file.rows() < TorqueSpline::least_samples)
     throw UsageError(fmt::format("{}: {} instants, expected at least {} to interpolate between", options.torques,
@@ -54,7 +54,8 @@ int simulateVerb(const SimulateOptions& options) {
 void addSimulate(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<SimulateOptions>();
   CLI::App* verb = app.add_subcommand("simulate", "The motion that a torque history produces, as CSV");
-  verb->add_option("scenario", options->scenario, "Scenario file (TOML); the motion starts in its commanded state")
+  verb->add_option("scenario", options->scenario,
+                   "Scenario file (TOML), - for standard input; the motion starts in its commanded state")
       ->required();
   verb->add_option("--torques", options->torques, "CSV file with t_s and tau_{1..6}_Nm")->required();
   addMapOption(*verb, options->map);

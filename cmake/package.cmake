@@ -1,13 +1,22 @@
 # The Debian package: `cmake --build build --target package`, or cpack in the build folder.
-if(Python3_FOUND AND NOT CMAKE_CROSSCOMPILING)
-  set(man_page ${PROJECT_BINARY_DIR}/ursula.1)
-  add_custom_command(OUTPUT ${man_page}
-    COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tools/man_page.py $<TARGET_FILE:ursula> ${man_page}
-    DEPENDS ursula ${PROJECT_SOURCE_DIR}/tools/man_page.py COMMENT "Writing the man page" VERBATIM)
-  add_custom_target(man_page ALL DEPENDS ${man_page})
-  install(FILES ${man_page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+if(NOT CMAKE_CROSSCOMPILING)
+  # The man page and the completions, of the definitions that --help shows.
+  set(call_docs ${PROJECT_BINARY_DIR}/call_docs)
+  set(wanted --man "--completion bash" "--completion zsh" "--completion fish")
+  set(call_files ${call_docs}/ursula.1 ${call_docs}/ursula ${call_docs}/_ursula ${call_docs}/ursula.fish)
+  foreach(options file IN ZIP_LISTS wanted call_files)
+    separate_arguments(options)
+    add_custom_command(OUTPUT ${file}
+      COMMAND ${CMAKE_COMMAND} -E make_directory ${call_docs}
+      COMMAND ursula docs ${options} > ${file}
+      DEPENDS ursula COMMENT "Writing ${file}" VERBATIM)
+  endforeach()
+  add_custom_target(call_docs ALL DEPENDS ${call_files})
+  install(FILES ${call_docs}/ursula.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  install(FILES ${call_docs}/ursula DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+  install(FILES ${call_docs}/_ursula DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+  install(FILES ${call_docs}/ursula.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 endif()
-install(FILES apps/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ursula)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 

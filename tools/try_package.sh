@@ -35,7 +35,8 @@ inside ursula --version
 inside ursula validate /usr/share/ursula/scenarios/paper-helix.toml --out /tmp/helix
 inside test -s /tmp/helix/report.html
 inside sh -c 'ldconfig -p | grep -q libursula.so'
-for file in share/man/man1/ursula.1 share/doc/ursula/copyright share/doc/ursula/examples/CMakeLists.txt include/ursula/ursula.h; do
+for file in share/man/man1/ursula.1 share/bash-completion/completions/ursula share/zsh/vendor-completions/_ursula \
+  share/fish/vendor_completions.d/ursula.fish share/doc/ursula/copyright share/doc/ursula/examples/CMakeLists.txt include/ursula/ursula.h; do
   [[ -s $root/usr/$file || -s $root/usr/$file.gz ]] || { echo "try_package: the package has no /usr/$file" >&2; exit 1; }
 done
 echo "try_package: $(basename "$package") works in an empty $suite; installed there: $(du -sm "$root" | cut -f1) MB"

@@ -30,13 +30,21 @@ void addFacts(const Evidence& evidence, bool budget, ValidationResult& result) {
   if (!evidence.ladder.rungs.empty()) result.curves.emplace_back("Work and precision", workPrecision(evidence.ladder));
 }
 
+/// The shares are about those of the scenarios that ship.
+void tell(const ValidationOptions& options, double share, const char* now) {
+  if (options.progress) options.progress(share, now);
+}
+
 ValidationResult run(const Scenario& scenario, const Reference& reference, const Subject& subject, bool right,
                      const ValidationOptions& options) {
+  tell(options, 0.35, "experiments");
   Evidence evidence = gather(scenario, reference, subject, right, options.spoil ? *options.spoil : Spoil{},
                              {options.ladder, options.reactions});
   ValidationResult result;
   result.scenario = scenario.name;
+  tell(options, 0.8, "checks");
   result.checks = judgeAll(evidence);
+  tell(options, 0.9, "sources of the error");
   addFacts(evidence, options.budget, result);
   seriesInSi(evidence.natural, result);
   addPicture(scenario, result);
@@ -49,6 +57,7 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
 }
 
 std::shared_ptr<const Reference> referenceOf(const Scenario& scenario, const ValidationOptions& options) {
+  tell(options, 0, "the right motion");
   return options.reference ? options.reference : makeReference(scenario);
 }
 

@@ -20,6 +20,8 @@ struct ValidationOptions {
   /// What depends on the scenario alone, made before, for many subjects on one scenario; null: made afresh.
   std::shared_ptr<const Reference> reference = nullptr;
   std::shared_ptr<const Spoil> spoil = nullptr;  ///< for controls that must fail; null: nothing is spoilt
+  /// Told what begins, and about which share of the time is over by then; may be empty.
+  std::function<void(double share, const char* now)> progress = nullptr;
 };
 
 /// The whole validation of one scenario: pointwise, replay, closure, energy, and the verdict. Deterministic: the same

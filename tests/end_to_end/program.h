@@ -17,11 +17,11 @@ struct UrsulaRun {
   std::string out, err;
 };
 
-/// `arguments` as a shell reads them, called in `folder`.
+/// `arguments` as a shell reads them, called in `folder`; standard input is empty unless they say <file.
 inline UrsulaRun callProgram(const TemporaryFolder& folder, const std::string& arguments) {
   const std::filesystem::path& path = folder.path();
   const std::string command =
-      "cd '" + path.string() + "' && '" URSULA_PROGRAM "' " + arguments + " >.out 2>.err </dev/null";
+      "cd '" + path.string() + "' && '" URSULA_PROGRAM "' </dev/null " + arguments + " >.out 2>.err";
   const int status = std::system(command.c_str());
   UrsulaRun run;
   if (WIFEXITED(status)) run.exit_code = WEXITSTATUS(status);

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/end_to_end/program.h"
 #include "tests/model/scenario_text.h"
 
@@ -70,20 +72,64 @@ TEST(SuiteRun, oneThatFailsMakesTheExitCode1) {
   EXPECT_THAT(TemporaryFolder::read(folder.path() / "out/junit.xml"), HasSubstr("<failure "));
 }
 
-TEST(SuiteRun, oneBadScenarioAmongGoodOnesExitsWith2AndWritesNothing) {
-  const TemporaryFolder folder;
+void writeOneGoodAndTwoBad(const TemporaryFolder& folder) {
   folder.write("good.toml", shortScenario("good"));
   folder.write("reach.toml", replaced(shortScenario("reach"), "height_phase = 2.2", "height_phase = 5"));
   folder.write("key.toml", replaced(shortScenario("key"), "mass = 500.0", "weight = 500.0"));
-  for (const std::string jobs : {"1", "2"}) {
-    const ProgramRun run =
-        runProgram(folder, {"validate", "good.toml", "reach.toml", "key.toml", "--jobs", jobs, "--out", "out"});
+}
+
+TEST(SuiteRun, oneBadScenarioIsItsOwnErrorAndNotTheEndOfTheSuite) {
+  const TemporaryFolder folder;
+  writeOneGoodAndTwoBad(folder);
+  const ProgramRun run = runProgram(folder, {"validate", "key.toml", "good.toml", "reach.toml", "--out", "out"});
+  EXPECT_EQ(run.exit_code, 1) << "2 would say that nothing is written";
+  EXPECT_THAT(run.out, AllOf(StartsWith("error         key.toml  key.toml:5:1: error: "),
+                             HasSubstr("\npass          good      "), HasSubstr("\nerror         reach     "),
+                             HasSubstr("1 passed, 0 failed, 0 inconclusive, 2 in error\n")));
+  EXPECT_THAT(run.err, AllOf(StartsWith("key.toml:5:1: error: "), HasSubstr("] error key.toml, ")));
+  EXPECT_TRUE(isThere(folder, "out/good/summary.json"));
+  EXPECT_FALSE(isThere(folder, "out/reach"));
+  for (const char* file : {"out/junit.xml", "out/index.html"})
+    EXPECT_THAT(TemporaryFolder::read(folder.path() / file), HasSubstr("key.toml:5:1: error: ")) << file;
+}
+
+TEST(SuiteRun, strictlyOrWhereAllAreBadNothingIsWritten) {
+  const TemporaryFolder folder;
+  writeOneGoodAndTwoBad(folder);
+  for (const std::vector<std::string>& call :
+       {std::vector<std::string>{"validate", "good.toml", "reach.toml", "key.toml", "--strict", "--out", "out"},
+        {"validate", "good.toml", "reach.toml", "key.toml", "--strict", "--jobs", "2", "--out", "out"},
+        {"validate", "reach.toml", "key.toml", "--out", "out"}}) {
+    const ProgramRun run = runProgram(folder, call);
     EXPECT_EQ(run.exit_code, 2);
     EXPECT_EQ(run.out, "");
     EXPECT_THAT(run.err, AllOf(ContainsRegex("reach.toml:[0-9]+:1: error: the motion cannot be made"),
                                HasSubstr("key.toml:5:1: error: ")));
     EXPECT_FALSE(isThere(folder, "out"));
   }
+}
+
+TEST(SuiteRun, asJsonIsAnArrayOfTheSummaries) {
+  const TemporaryFolder folder;
+  writeOneGoodAndTwoBad(folder);
+  const ProgramRun run = runProgram(folder, {"validate", "good.toml", "key.toml", "--json", "--out", "out"});
+  const auto json = nlohmann::json::parse(run.out);
+  ASSERT_EQ(json.size(), 2u);
+  EXPECT_EQ(json[0], nlohmann::json::parse(TemporaryFolder::read(folder.path() / "out/good/summary.json")));
+  EXPECT_EQ(json[1]["scenario"], "key.toml");
+  EXPECT_EQ(json[1]["verdict"], "error");
+  EXPECT_THAT(json[1]["error"].get<std::string>(), StartsWith("key.toml:5:1: error: "));
+}
+
+TEST(SuiteRun, quietlyIsALineForEachThatPasses) {
+  const TemporaryFolder folder;
+  folder.write("a.toml", shortScenario("first"));
+  folder.write("b.toml", tooTight("second"));
+  const ProgramRun run = runProgram(folder, {"validate", "a.toml", "b.toml", "--quiet", "--out", "out"});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.out, AllOf(StartsWith("first: pass — "), HasSubstr("\nsecond: fail — 1 of "),
+                             HasSubstr("\n  torque.pointwise: ")));
+  EXPECT_EQ(run.err, "");
 }
 
 TEST(SuiteRun, badUsageExitsWith2AndWritesNothing) {

@@ -64,6 +64,28 @@ TEST(Usage, misuseExitsWithTwoAndSaysSoOnStandardError) {
   EXPECT_EQ(ursula.files(), 0u);
 }
 
+TEST(Usage, aMisspeltVerbOrOptionGetsOneLineWithTheNearest) {
+  const Program ursula;
+  for (const auto& [call, line] : std::vector<std::pair<std::string, std::string>>{
+           {"validat a.toml", "ursula: no verb \"validat\"; did you mean \"validate\"? (ursula --help lists all)\n"},
+           {"xyzzy", "ursula: no verb \"xyzzy\" (ursula --help lists all)\n"},
+           {"--versio", "ursula: no option \"--versio\"; did you mean \"--version\"? (ursula --help lists all)\n"},
+           {"validate a.toml --jbs 4",
+            "ursula validate: no option \"--jbs\"; did you mean \"--jobs\"? (ursula validate --help lists all)\n"},
+           {"inverse --sampels=3",
+            "ursula inverse: no option \"--sampels\"; did you mean \"--samples\"? (ursula inverse --help lists all)\n"},
+           {"inverse a.toml b.toml",
+            "ursula inverse: \"b.toml\" is one argument too many (ursula inverse --help says how it is called)\n"},
+           {"inverse", "ursula inverse: scenario is required (ursula inverse --help says how it is called)\n"},
+           {"explain torque.pontwise",
+            "error: no check 'torque.pontwise', did you mean 'torque.pointwise'? (ursula explain lists all)\n"}}) {
+    const UrsulaRun run = ursula(call);
+    EXPECT_EQ(run.exit_code, 2) << call;
+    EXPECT_EQ(run.err, line);
+    EXPECT_EQ(run.out, "") << call;
+  }
+}
+
 TEST(Usage, aFolderThatCannotBeWrittenIsAnError) {
   const Program ursula;
   ursula.write("file", "");

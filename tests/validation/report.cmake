@@ -4,9 +4,13 @@ add_library(report_samples_data STATIC ${CMAKE_CURRENT_LIST_DIR}/report_samples.
 target_link_libraries(report_samples_data PUBLIC test_rooms)
 target_compile_definitions(report_samples_data PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
 
-add_executable(report_tests ${CMAKE_CURRENT_LIST_DIR}/report_test.cpp ${CMAKE_CURRENT_LIST_DIR}/result_test.cpp)
+add_executable(report_tests
+  ${CMAKE_CURRENT_LIST_DIR}/junit_test.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/report_test.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/result_test.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/terminal_text_test.cpp)
 target_link_libraries(report_tests PRIVATE
-  report_samples_data ursula::model ursula::eigen nlohmann_json::nlohmann_json GTest::gtest_main)
+  report_samples_data ursula::model ursula::eigen nlohmann_json::nlohmann_json GTest::gmock GTest::gtest_main)
 gtest_discover_tests(report_tests TEST_PREFIX report.)
 
 add_executable(report_samples ${CMAKE_CURRENT_LIST_DIR}/report_samples_main.cpp)

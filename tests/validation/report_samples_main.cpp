@@ -19,13 +19,13 @@ int main(int argc, char** argv) {
   std::vector<SuiteEntry> entries;
   const auto add = [&](const ValidationResult& result, const char* folder, double seconds) {
     writeResults(result, dir / folder);
-    entries.push_back(suiteEntry(result, folder, seconds));
+    entries.push_back(suiteEntry(result, folder, {seconds, "2026-11-22T05:13:18"}));
   };
   add(test::passedSample(), "passed", 4.2);
   add(test::failedSample(), "failed", 3.9);
   add(test::inconclusiveSample(), "not judgeable", 4.4);
   add(test::externalSample(), "external", 2.1);
   add(test::hostileSample(), "hostile", 0.1);
-  entries.push_back({"unreadable", Verdict::fail, "", {}, "scenario.toml:3:1: error: expected a value", 0, ""});
+  entries.push_back({"unreadable", Verdict::fail, "", {}, "scenario.toml:3:1: error: expected a value", {}, ""});
   writeSuiteIndex(entries, dir);
 }

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "validation/report/check_words.h"
+#include "validation/report/found.h"
 #include "validation/report/quantity.h"
 #include "validation/report/report.h"
 #include "validation/report/text.h"
@@ -56,13 +57,6 @@ std::string numbers(const Check& check) {
   if (std::isnan(check.value) && std::isnan(check.limit)) return "no value";
   return fmt::format("{} <span class=\"aside\">of {}</span>", escaped(quantity(check.value, check.unit)),
                      escaped(quantity(check.limit, check.unit)));
-}
-
-/// What was found, up to the words on the likely cause.
-std::string without(const std::string& cause, const std::string& why) {
-  const std::size_t off = why.find(". Off: ");
-  const bool has = !cause.empty() && off != std::string::npos && why.find(cause, off) != std::string::npos;
-  return has ? why.substr(0, off) : why;
 }
 
 const char* sign(Verdict verdict) {
@@ -158,7 +152,7 @@ std::string verdictBadge(Verdict verdict) {
 std::string checksList(const std::vector<Check>& all, const std::string& cause) {
   if (all.empty()) return "<p>No check was made.</p>";
   std::vector<Check> checks = all;
-  for (Check& check : checks) check.why = without(cause, check.why);
+  for (Check& check : checks) check.why = withoutCause(cause, check.why);
   const Decades decades = decadesOf(checks);
   std::vector<std::vector<Check>> by_group(checkGroups().size() + 1);
   for (const Check& check : checks)

@@ -171,4 +171,10 @@ std::vector<KeyFigure> keyFigures(const ValidationResult& result) {
   return out;
 }
 
+std::string withoutCause(const std::string& cause, const std::string& why) {
+  const std::size_t off = why.find(". Off: ");
+  const bool has = !cause.empty() && off != std::string::npos && why.find(cause, off) != std::string::npos;
+  return has ? why.substr(0, off) : why;
+}
+
 }  // namespace ursula::report

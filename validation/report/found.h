@@ -39,4 +39,7 @@ std::vector<KeyFigure> keyFigures(const ValidationResult& result);
 /// The text of a finding or of the provenance; "" where there is none.
 std::string fact(const std::vector<std::pair<std::string, std::string>>& facts, const std::string& key);
 
+/// What a check found, up to the words on the likely cause, which are said elsewhere.
+std::string withoutCause(const std::string& cause, const std::string& why);
+
 }  // namespace ursula::report

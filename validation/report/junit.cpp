@@ -20,7 +20,7 @@ struct Counts {
     return *this;
   }
   std::string attributes() const {
-    return fmt::format(R"(tests="{}" failures="{}" errors="{}" skipped="{}")", tests, failures, errors, skipped);
+    return fmt::format(R"(tests="{}" failures="{}" errors="{}")", tests, failures, errors);
   }
 };
 
@@ -75,6 +75,20 @@ std::string suiteCases(const SuiteEntry& entry, Counts& counts) {
   return cases;
 }
 
+/// The time is the suite's: its checks are judged from experiments that they share.
+std::string when(const RunTime& time) {
+  if (time.started.empty()) return "";
+  return fmt::format(R"( time="{:.3f}" timestamp="{}")", time.seconds, escaped(time.started));
+}
+
+std::string properties(const SuiteEntry& entry) {
+  if (entry.properties.empty()) return "";
+  std::string out;
+  for (const auto& [key, value] : entry.properties)
+    out += fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", escaped(key), escaped(value));
+  return "    <properties>\n" + out + "    </properties>\n";
+}
+
 }  // namespace
 
 std::string junitXml(const std::vector<SuiteEntry>& entries) {
@@ -83,8 +97,9 @@ std::string junitXml(const std::vector<SuiteEntry>& entries) {
   for (const SuiteEntry& entry : entries) {
     Counts counts;
     const std::string cases = suiteCases(entry, counts);
-    suites += fmt::format("  <testsuite name=\"{}\" {}>\n{}  </testsuite>\n", escaped(entry.scenario),
-                          counts.attributes(), cases);
+    suites +=
+        fmt::format("  <testsuite name=\"{}\" {} skipped=\"{}\"{}>\n{}{}  </testsuite>\n", escaped(entry.scenario),
+                    counts.attributes(), counts.skipped, when(entry.time), properties(entry), cases);
     total += counts;
   }
   return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"ursula\" {}>\n{}</testsuites>\n",

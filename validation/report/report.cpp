@@ -1,5 +1,7 @@
 #include "validation/report/report.h"
 
+#include <ctime>
+
 #include "model/atomic_file.h"
 #include "model/csv.h"
 #include "validation/report/html.h"
@@ -8,17 +10,32 @@
 
 namespace ursula {
 
-SuiteEntry suiteEntry(const ValidationResult& result, std::filesystem::path folder, double seconds) {
-  SuiteEntry entry{result.scenario, result.verdict, std::move(folder), result.checks, "", seconds, ""};
+Stopwatch::Stopwatch() : start_(std::chrono::steady_clock::now()) {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  ::gmtime_r(&now, &utc);
+  char text[32] = "";
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%S", &utc);
+  started_ = text;
+}
+
+RunTime Stopwatch::time() const {
+  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(), started_};
+}
+
+SuiteEntry suiteEntry(const ValidationResult& result, std::filesystem::path folder, const RunTime& time) {
+  SuiteEntry entry{result.scenario, result.verdict, std::move(folder), result.checks, "", time, ""};
   if (result.replay_error) entry.dominant = result.replay_error->dominant;
+  entry.properties = {{"verdict", name(result.verdict)}, {"limits", name(result.limits)}};
+  entry.properties.insert(entry.properties.end(), result.provenance.begin(), result.provenance.end());
   return entry;
 }
 
-void writeResults(const ValidationResult& result, const std::filesystem::path& dir) {
+void writeResults(const ValidationResult& result, const std::filesystem::path& dir, const RunTime& time) {
   std::filesystem::remove(dir / "summary.json");
   writeFileAtomically(dir / "timeseries.csv",
                       csvText(result.timeseries.names, result.timeseries.columns, NanAs::empty_cell));
-  writeFileAtomically(dir / "junit.xml", report::junitXml({suiteEntry(result, "", 0)}));
+  writeFileAtomically(dir / "junit.xml", report::junitXml({suiteEntry(result, "", time)}));
   writeFileAtomically(dir / "report.html", report::reportHtml(result));
   writeFileAtomically(dir / "summary.json", report::summaryJson(result));
 }

@@ -1,12 +1,31 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "validation/verdict/result.h"
 
 namespace ursula {
+
+/// When something was run, for the JUnit files alone: nothing else that is written differs from run to run.
+struct RunTime {
+  double seconds = 0;   ///< wall time
+  std::string started;  ///< UTC, as in 2026-11-22T05:13:18; empty where nobody measured, then no time is written
+};
+
+/// Runs from its making on.
+class Stopwatch {
+ public:
+  Stopwatch();
+  RunTime time() const;
+
+ private:
+  std::chrono::steady_clock::time_point start_;
+  std::string started_;
+};
 
 /// One line of a suite: what the index needs to know of a scenario, without its time series.
 struct SuiteEntry {
@@ -14,13 +33,14 @@ struct SuiteEntry {
   Verdict verdict = Verdict::fail;
   std::filesystem::path folder;  ///< of its results, relative to the index
   std::vector<Check> checks;
-  std::string error;     ///< why there is no result: input that was refused, an exception; else empty
-  double seconds = 0;    ///< wall time, for progress; never written, so that two runs write the same
+  std::string error;  ///< why there is no result: input that was refused, an exception; else empty
+  RunTime time;
   std::string dominant;  ///< which error dominates: the finding "dominant error"; may be empty
+  std::vector<std::pair<std::string, std::string>> properties = {};  ///< for the JUnit file: limits, provenance
 };
 
 /// The line of `result` in a suite.
-SuiteEntry suiteEntry(const ValidationResult& result, std::filesystem::path folder, double seconds);
+SuiteEntry suiteEntry(const ValidationResult& result, std::filesystem::path folder, const RunTime& time = {});
 
 /// The verdict's reason in one sentence: how many checks failed and the worst, or how close the closest came.
 std::string reason(Verdict verdict, const std::vector<Check>& checks);
@@ -44,7 +64,7 @@ const Check* worstCheck(const std::vector<Check>& checks);
 
 /// Writes `timeseries.csv`, `junit.xml`, `report.html` and, last, `summary.json` into `dir`; an older summary is
 /// removed first, so that its presence means that all four belong together. Throws what writeFileAtomically throws.
-void writeResults(const ValidationResult& result, const std::filesystem::path& dir);
+void writeResults(const ValidationResult& result, const std::filesystem::path& dir, const RunTime& time = {});
 
 /// Writes `junit.xml` over all entries and, last, `index.html` into `dir`. Throws what writeFileAtomically throws.
 void writeSuiteIndex(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir);

@@ -60,4 +60,9 @@ std::string summaryJson(const ValidationResult& result) {
   return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string errorJson(const std::string& scenario, const std::string& error) {
+  const Json json = {{"scenario", scenario}, {"verdict", "error"}, {"error", error}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 }  // namespace ursula::report

@@ -10,9 +10,16 @@
 namespace ursula::report {
 namespace {
 
+constexpr const char* replacement = "\xEF\xBF\xBD";  // U+FFFD
+
+/// Without U+FFFE and U+FFFF, which are no characters of XML 1.0.
 std::string validUtf8(const std::string& text) {
   using Json = nlohmann::json;
-  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+  std::string out = Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+  for (const char* forbidden : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"})
+    for (std::size_t at = out.find(forbidden); at != std::string::npos; at = out.find(forbidden, at))
+      out.replace(at, 3, replacement);
+  return out;
 }
 
 std::string_view entity(const char& c) {
@@ -31,7 +38,7 @@ std::string_view entity(const char& c) {
       break;
   }
   const bool forbidden = static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t';
-  return forbidden ? std::string_view("\xEF\xBF\xBD") : std::string_view(&c, 1);
+  return forbidden ? std::string_view(replacement) : std::string_view(&c, 1);
 }
 
 bool unreserved(unsigned char c) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <exception>
 #include <map>
 #include <mutex>
@@ -14,6 +13,7 @@
 #include <string>
 #include <thread>
 
+#include "model/scenario_input.h"
 #include "validation/subject/motion_check.h"
 
 namespace ursula {
@@ -27,40 +27,49 @@ std::vector<std::filesystem::path> scenariosIn(const std::filesystem::path& fold
   return files;
 }
 
-std::vector<std::filesystem::path> scenarioFiles(const std::vector<std::filesystem::path>& arguments,
-                                                 std::vector<std::string>& errors) {
-  std::vector<std::filesystem::path> files;
-  for (const std::filesystem::path& argument : arguments) {
-    std::error_code ignored;
-    const bool is_folder = std::filesystem::is_directory(argument, ignored);
-    const auto found = is_folder ? scenariosIn(argument) : std::vector<std::filesystem::path>{argument};
-    if (found.empty())
-      errors.push_back(fmt::format("{}: error: no scenario in this folder, expected *.toml", argument.string()));
-    files.insert(files.end(), found.begin(), found.end());
+SuiteMember readMember(const std::filesystem::path& file) {
+  SuiteMember member{file.string(), {}, ""};
+  try {
+    member.scenario = readScenarioOrInput(file);
+    member.name = member.scenario->name;
+    tryMotion(*member.scenario);
+  } catch (const ScenarioError& error) {
+    member.error = error.what();  // begins with file:line:column
   }
-  return files;
+  return member;
+}
+
+void readFolder(const std::filesystem::path& folder, std::vector<SuiteMember>& members) {
+  const std::vector<std::filesystem::path> files = scenariosIn(folder);
+  for (const std::filesystem::path& file : files) members.push_back(readMember(file));
+  if (files.empty())
+    members.push_back({folder.string(), {}, folder.string() + ": error: no scenario in this folder, expected *.toml"});
 }
 
 /// Names of folders beside files of the suite's own.
-void checkNames(const std::vector<Scenario>& scenarios, std::vector<std::string>& errors) {
+void checkNames(const std::vector<SuiteMember>& members) {
   std::map<std::string, std::string> taken;
-  if (scenarios.size() > 1) taken = {{"index.html", "the suite's index"}, {"junit.xml", "the suite's JUnit file"}};
-  for (const Scenario& scenario : scenarios) {
-    const auto [holder, is_new] = taken.emplace(scenario.name, scenario.file.string());
+  std::vector<std::string> errors;
+  if (members.size() > 1) taken = {{"index.html", "the suite's index"}, {"junit.xml", "the suite's JUnit file"}};
+  for (const SuiteMember& member : members) {
+    if (!member.scenario) continue;
+    const std::string file = member.scenario->file.string();
+    const auto [holder, is_new] = taken.emplace(member.name, file);
     if (!is_new)
-      errors.push_back(fmt::format("{}: error: name = '{}' is also that of {}, expected a name for each",
-                                   scenario.file.string(), scenario.name, holder->second));
+      errors.push_back(fmt::format("{}: error: name = '{}' is also that of {}, expected a name for each", file,
+                                   member.name, holder->second));
   }
+  if (!errors.empty()) throw ScenarioError(fmt::format("{}", fmt::join(errors, "\n")));
 }
 
 /// Scenarios are handed out one by one to whichever thread is free; each writes where no other does.
 class SuiteRun {
  public:
-  SuiteRun(const std::vector<Scenario>& scenarios, const std::filesystem::path& dir, const SuiteOptions& options)
-      : scenarios_(scenarios), dir_(dir), options_(options), entries_(scenarios.size()) {}
+  SuiteRun(const std::vector<SuiteMember>& members, const std::filesystem::path& dir, const SuiteOptions& options)
+      : members_(members), dir_(dir), options_(options), entries_(members.size()) {}
 
   std::vector<SuiteEntry> run() {
-    const std::size_t count = std::min(static_cast<std::size_t>(options_.jobs), scenarios_.size());
+    const std::size_t count = std::min(static_cast<std::size_t>(options_.jobs), members_.size());
     std::vector<std::thread> threads;
     for (std::size_t i = 1; i < count; ++i) threads.emplace_back([this] { work(); });
     work();
@@ -72,41 +81,42 @@ class SuiteRun {
  private:
   void work() {
     try {
-      for (std::size_t i = next_++; i < scenarios_.size(); i = next_++) {
-        entries_[i] = judgeOne(scenarios_[i]);
+      for (std::size_t i = next_++; i < members_.size(); i = next_++) {
+        entries_[i] = judgeOne(members_[i]);
         const std::lock_guard<std::mutex> lock(mutex_);
         ++done_;
         if (options_.finished) options_.finished(entries_[i], done_);
       }
     } catch (...) {
-      next_ = scenarios_.size();  // the others stop after what they are at
+      next_ = members_.size();  // the others stop after what they are at
       const std::lock_guard<std::mutex> lock(mutex_);
       if (!broken_) broken_ = std::current_exception();
     }
   }
 
-  SuiteEntry judgeOne(const Scenario& scenario) const {
-    const auto start = std::chrono::steady_clock::now();
-    SuiteEntry entry;
+  SuiteEntry judgeOne(const SuiteMember& member) const {
+    const Stopwatch watch;
+    std::string error = member.error;
     std::optional<ValidationResult> result;
     try {
-      result = options_.judge(scenario);
-    } catch (const std::exception& error) {
-      entry.scenario = scenario.name;
-      entry.folder = scenario.name;
-      entry.error = error.what();
+      if (error.empty()) result = options_.judge(*member.scenario);
+    } catch (const std::exception& refusal) {
+      error = refusal.what();
     }
     if (result) {
-      writeResults(*result, dir_ / scenario.name);
-      entry = suiteEntry(*result, scenario.name, 0);
-    } else {
-      std::filesystem::remove(dir_ / scenario.name / "summary.json");  // of an older run
+      const RunTime time = watch.time();
+      writeResults(*result, dir_ / member.name, time);
+      return suiteEntry(*result, member.name, time);
     }
-    entry.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (member.scenario) std::filesystem::remove(dir_ / member.name / "summary.json");  // of an older run
+    SuiteEntry entry;
+    entry.scenario = member.name;
+    entry.error = error;
+    entry.time = watch.time();
     return entry;
   }
 
-  const std::vector<Scenario>& scenarios_;
+  const std::vector<SuiteMember>& members_;
   const std::filesystem::path& dir_;
   const SuiteOptions& options_;
   std::vector<SuiteEntry> entries_;
@@ -118,27 +128,32 @@ class SuiteRun {
 
 }  // namespace
 
-std::vector<Scenario> readSuite(const std::vector<std::filesystem::path>& arguments) {
-  std::vector<Scenario> scenarios;
-  std::vector<std::string> errors;
-  for (const std::filesystem::path& file : scenarioFiles(arguments, errors)) {
-    try {
-      scenarios.push_back(readScenario(file));
-      tryMotion(scenarios.back());
-    } catch (const ScenarioError& error) {
-      errors.emplace_back(error.what());  // begins with file:line:column
-    }
+std::vector<SuiteMember> readSuite(const std::vector<std::filesystem::path>& arguments) {
+  std::vector<SuiteMember> members;
+  for (const std::filesystem::path& argument : arguments) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(argument, ignored))
+      readFolder(argument, members);
+    else
+      members.push_back(readMember(argument));
   }
-  checkNames(scenarios, errors);
-  if (!errors.empty()) throw ScenarioError(fmt::format("{}", fmt::join(errors, "\n")));
-  return scenarios;
+  checkNames(members);
+  return members;
 }
 
-std::vector<SuiteEntry> runSuite(const std::vector<Scenario>& scenarios, const std::filesystem::path& dir,
+std::vector<SuiteMember> allOrNothing(std::vector<SuiteMember> members) {
+  std::vector<std::string> errors;
+  for (const SuiteMember& member : members)
+    if (!member.error.empty()) errors.push_back(member.error);
+  if (!errors.empty()) throw ScenarioError(fmt::format("{}", fmt::join(errors, "\n")));
+  return members;
+}
+
+std::vector<SuiteEntry> runSuite(const std::vector<SuiteMember>& members, const std::filesystem::path& dir,
                                  const SuiteOptions& options) {
   if (options.jobs < 1) throw std::invalid_argument(fmt::format("{} jobs, expected at least 1", options.jobs));
   std::filesystem::remove(dir / "index.html");  // until the new one there is none: its presence means all is there
-  std::vector<SuiteEntry> entries = SuiteRun(scenarios, dir, options).run();
+  std::vector<SuiteEntry> entries = SuiteRun(members, dir, options).run();
   writeSuiteIndex(entries, dir);
   return entries;
 }

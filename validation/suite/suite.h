@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "model/scenario.h"
@@ -11,11 +13,22 @@
 
 namespace ursula {
 
-/// Reads the scenarios that `arguments` name, in their order: a file stands for itself, a folder for every *.toml in
-/// it, sorted, not for those in folders below. Checks that every motion can be made (inverse kinematics and Jacobians
-/// at the instants judged and at many between them) and that each scenario has a name, thus a folder, of its own.
-/// Throws ScenarioError with every error found, a line each; a folder that holds none is one.
-std::vector<Scenario> readSuite(const std::vector<std::filesystem::path>& arguments);
+/// One scenario of a suite: read and tried, or what is wrong with it.
+struct SuiteMember {
+  std::string name;  ///< the scenario's, or the file's where that could not be read
+  std::optional<Scenario> scenario;
+  std::string error;  ///< why it cannot be judged, begins with file:line:column; else empty
+};
+
+/// Reads the scenarios that `arguments` name, in their order: a file stands for itself, - for standard input, a folder
+/// for every *.toml in it, sorted, not for those in folders below. Checks that every motion can be made (inverse
+/// kinematics and Jacobians at the instants judged and at many between them). What is wrong with one is its error
+/// alone; a folder that holds none is one. Throws ScenarioError where two share a name, thus a folder, or one has that
+/// of a file of the suite's own.
+std::vector<SuiteMember> readSuite(const std::vector<std::filesystem::path>& arguments);
+
+/// The same if all are good; else throws ScenarioError with every error found, a line each.
+std::vector<SuiteMember> allOrNothing(std::vector<SuiteMember> members);
 
 struct SuiteOptions {
   int jobs = 1;  ///< threads, >= 1
@@ -26,10 +39,10 @@ struct SuiteOptions {
 };
 
 /// Judges each scenario and writes its results into dir/NAME, then the index and one JUnit file over all into `dir`.
-/// What is written is the same to the byte for any number of jobs: wall times are in the entries returned, in no file.
-/// Where `judge` throws there is no result: that entry fails and holds the error. Entries keep the scenarios' order.
+/// What is written is the same to the byte for any number of jobs, but for the JUnit files' times. A member in error,
+/// or one where `judge` throws, has no result: that entry fails and holds the error. Entries keep the members' order.
 /// Throws std::invalid_argument for jobs < 1, and what writing throws.
-std::vector<SuiteEntry> runSuite(const std::vector<Scenario>& scenarios, const std::filesystem::path& dir,
+std::vector<SuiteEntry> runSuite(const std::vector<SuiteMember>& members, const std::filesystem::path& dir,
                                  const SuiteOptions& options);
 
 }  // namespace ursula

@@ -1,0 +1,83 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+
+#include "apps/verbs.h"
+
+namespace ursula {
+namespace {
+
+std::filesystem::path pageIn(const std::filesystem::path& folder) {
+  for (const char* page : {"report.html", "index.html"})
+    if (std::filesystem::is_regular_file(folder / page)) return std::filesystem::absolute(folder / page);
+  throw UsageError(
+      fmt::format("{}: neither report.html nor index.html in it, expected a folder of results", folder.string()));
+}
+
+bool isInPath(const std::string& program) {
+  const char* path = std::getenv("PATH");
+  std::string folders = path == nullptr ? "" : path;
+  for (std::size_t start = 0; start <= folders.size();) {
+    const std::size_t end = std::min(folders.find(':', start), folders.size());
+    const std::string file = folders.substr(start, end - start) + "/" + program;
+    if (::access(file.c_str(), X_OK) == 0) return true;
+    start = end + 1;
+  }
+  return false;
+}
+
+/// For `sh -c`, with the page as $1: the first of $BROWSER, which may have a %s for it, else xdg-open; "" where there
+/// is neither.
+std::string browserCommand() {
+  const char* browser = std::getenv("BROWSER");
+  std::string command = browser == nullptr ? "" : browser;
+  command.erase(std::min(command.find(':'), command.size()));
+  if (command.empty()) return isInPath("xdg-open") ? "exec xdg-open \"$1\"" : "";
+  const std::size_t place = command.find("%s");
+  return place == std::string::npos ? command + " \"$1\"" : command.replace(place, 2, "\"$1\"");
+}
+
+/// In a session of its own and without our streams, twice removed, so that nobody waits for it.
+void startDetached(const std::string& command, const std::string& page) {
+  const pid_t child = ::fork();
+  if (child < 0) throw std::runtime_error("no process could be started for the browser");
+  if (child > 0) {
+    ::waitpid(child, nullptr, 0);
+    return;
+  }
+  ::setsid();
+  if (::fork() != 0) ::_exit(0);
+  const int nothing = ::open("/dev/null", O_RDWR);
+  for (const int stream : std::array<int, 3>{0, 1, 2}) ::dup2(nothing, stream);
+  ::execl("/bin/sh", "sh", "-c", command.c_str(), "sh", page.c_str(), static_cast<char*>(nullptr));
+  ::_exit(127);
+}
+
+int openResults(const std::string& folder) {
+  const std::string page = pageIn(folder).string();
+  writeOutput("-", page + "\n");
+  const std::string command = browserCommand();
+  if (command.empty())
+    throw UsageError("no browser: neither $BROWSER nor xdg-open is there; open the page above yourself");
+  startDetached(command, page);
+  return exit_passed;
+}
+
+}  // namespace
+
+void addOpen(CLI::App& app, std::function<int()>& run) {
+  const auto folder = std::make_shared<std::string>();
+  CLI::App* verb = app.add_subcommand("open", "Shows the report of a results folder in the browser");
+  verb->add_option("folder", *folder, "Folder with report.html or, of a suite, index.html")->required();
+  verb->footer("Prints the page's path and starts $BROWSER, else xdg-open, without waiting for it.");
+  verb->callback([folder, &run] { run = [folder] { return openResults(*folder); }; });
+}
+
+}  // namespace ursula

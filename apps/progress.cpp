@@ -1,0 +1,74 @@
+#include "apps/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <utility>
+
+namespace ursula {
+namespace {
+
+constexpr double silent_seconds = 2;
+constexpr std::chrono::milliseconds redraw{250};
+
+/// A dumb terminal cannot go back on its line.
+bool canDraw() {
+  const char* term = std::getenv("TERM");
+  return ::isatty(::fileno(stderr)) == 1 && (term == nullptr || std::string(term) != "dumb");
+}
+
+}  // namespace
+
+Progress::Progress(std::string what, Lines lines)
+    : what_(std::move(what)), lines_(lines), on_terminal_(canDraw()), start_(Clock::now()) {
+  if (on_terminal_) drawing_ = std::thread([this] { keepDrawing(); });
+}
+
+Progress::~Progress() {
+  if (!on_terminal_) return;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ended_ = true;
+  }
+  ending_.notify_all();
+  drawing_.join();
+  if (drawn_) std::fputs("\r\033[K", stderr);  // what is on stdout says it all
+}
+
+void Progress::at(double share, const std::string& note) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const bool next_tenth = static_cast<int>(10 * share) != static_cast<int>(10 * share_);
+  share_ = share;
+  note_ = note;
+  at_seconds_ = seconds();
+  if (!on_terminal_ && lines_ == Lines::tenths && next_tenth && at_seconds_ > silent_seconds)
+    fmt::print(stderr, "{}: {}{}\n", what_, note_, timeText());
+}
+
+/// By a thread of its own: what is slow says nothing for long.
+void Progress::keepDrawing() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!ending_.wait_for(lock, redraw, [this] { return ended_; }))
+    if (seconds() > silent_seconds) draw();
+}
+
+void Progress::draw() {
+  constexpr std::size_t width = 30;
+  const auto filled = static_cast<std::size_t>(std::clamp(share_, 0.0, 1.0) * width);
+  fmt::print(stderr, "\r\033[K{} [{}{}] {}{}", what_, std::string(filled, '#'), std::string(width - filled, '.'), note_,
+             timeText());
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
+/// As the last share foretold, counted down since; of what has no share, how long it has taken.
+std::string Progress::timeText() const {
+  if (share_ <= 0) return fmt::format("{}{:.0f} s", note_.empty() ? "" : ", ", seconds());
+  const double left = at_seconds_ / share_ * (1 - share_) - (seconds() - at_seconds_);
+  return share_ < 1 ? fmt::format(", about {:.0f} s left", std::max(left, 1.0)) : "";
+}
+
+}  // namespace ursula

@@ -1,0 +1,67 @@
+#include "apps/usage.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "model/nearest.h"
+
+namespace ursula {
+namespace {
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
+  const std::string best = nearest(word, known);
+  return best.empty() ? "" : fmt::format("; did you mean \"{}\"?", best);
+}
+
+bool isOption(const std::string& argument) { return argument.size() > 1 && argument[0] == '-'; }
+
+std::vector<std::string> verbNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* verb : app.get_subcommands({}))
+    if (!verb->get_group().empty()) names.push_back(verb->get_name());
+  return names;
+}
+
+std::vector<std::string> optionNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::string unknownVerb(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || isOption(argv[1])) return "";
+  const std::string word = argv[1];
+  for (const CLI::App* verb : app.get_subcommands({}))
+    if (verb->get_name() == word) return "";
+  return fmt::format("ursula: no verb \"{}\"{} (ursula --help lists all)", word, suggestion(word, verbNames(app)));
+}
+
+std::string misuse(const CLI::App& app, const CLI::ParseError& error) {
+  const std::vector<const CLI::App*> called = [&app] {
+    std::vector<const CLI::App*> out;
+    for (const CLI::App* verb : app.get_subcommands({}))
+      if (verb->parsed()) out.push_back(verb);
+    return out;
+  }();
+  const CLI::App& verb = called.empty() ? app : *called.front();
+  const std::string who = called.empty() ? "ursula" : "ursula " + verb.get_name();
+  const std::vector<std::string> surplus = verb.remaining();
+  for (const std::string& argument : surplus) {
+    if (!isOption(argument)) continue;
+    const std::string name = argument.substr(0, argument.find('='));
+    return fmt::format("{}: no option \"{}\"{} ({} --help lists all)", who, name, suggestion(name, optionNames(verb)),
+                       who);
+  }
+  if (!surplus.empty())
+    return fmt::format("{}: \"{}\" is one argument too many ({} --help says how it is called)", who, surplus.front(),
+                       who);
+  return fmt::format("{}: {} ({} --help says how it is called)", who, error.what(), who);
+}
+
+}  // namespace ursula

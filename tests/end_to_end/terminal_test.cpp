@@ -1,0 +1,132 @@
+// What a person at a terminal asks for beside the verdict: JSON, few words, standard input, explanations, the browser.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "model/check_names.h"
+#include "tests/end_to_end/program.h"
+#include "tests/model/scenario_text.h"
+
+namespace ursula {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+std::string quick(const std::string& more = "") {
+  return replaced(good_scenario, "duration = 3.0", "duration = 0.3") + "\n[simulation]\nsamples = 3\n" + more;
+}
+
+TEST(Terminal, tableListsEveryCheckAndSaysWhatFailed) {
+  const Program ursula;
+  ursula.write("a.toml", quick("[acceptance]\n\"torque.pointwise\" = 1e-30\n"));
+  const UrsulaRun run = ursula("validate a.toml --out out");
+  EXPECT_EQ(run.exit_code, 1) << run.err;
+  for (const CheckName& check : checkNames()) EXPECT_THAT(run.out, HasSubstr(check.name));
+  EXPECT_THAT(run.out, AllOf(StartsWith("small: fail\n"), HasSubstr("\nMotors: the roads agree on the efforts\n"),
+                             HasSubstr("\n  fail          torque.pointwise"), HasSubstr("\nnot applicable, since "),
+                             HasSubstr("\nverdict: fail — 1 of "), Not(testing::ContainsRegex("[^a-z]nan[^a-z]")),
+                             Not(HasSubstr("\033"))));
+}
+
+TEST(Terminal, jsonIsTheSummaryAndNothingElse) {
+  const Program ursula;
+  ursula.write("a.toml", quick());
+  const UrsulaRun run = ursula("validate a.toml --json --out out");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(nlohmann::json::parse(run.out).at("verdict"), "pass");
+  EXPECT_EQ(run.out, TemporaryFolder::read(ursula.folder() / "out/summary.json"));
+  EXPECT_EQ(ursula("validate a.toml --json --quiet").exit_code, 2);
+}
+
+TEST(Terminal, quietIsTheVerdictsSentence) {
+  const Program ursula;
+  ursula.write("a.toml", quick());
+  const UrsulaRun run = ursula("validate a.toml --quiet --out out");
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.out, StartsWith("small: pass — "));
+  EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 1);
+  EXPECT_EQ(run.err, "");
+  EXPECT_TRUE(std::filesystem::exists(ursula.folder() / "out/report.html"));
+}
+
+TEST(Terminal, aScenarioMayComeFromStandardInput) {
+  const Program ursula;
+  ursula.write("a.toml", quick());
+  ursula.write("bad.toml", replaced(quick(), "mass = 500.0", "weight = 500.0"));
+  EXPECT_EQ(ursula("inverse - --samples 3 <a.toml").out, ursula("inverse a.toml --samples 3").out);
+  EXPECT_EQ(ursula("check - <a.toml").out, "<stdin>: can be read and its motion be made; 0 warnings\n");
+  EXPECT_EQ(ursula("validate - --quiet <a.toml").exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(ursula.folder() / "results/small/summary.json"));
+  const UrsulaRun bad = ursula("validate - <bad.toml");
+  EXPECT_EQ(bad.exit_code, 2);
+  EXPECT_THAT(bad.err, StartsWith("<stdin>:5:1: error: "));
+  EXPECT_THAT(ursula("validate - - <a.toml").err, HasSubstr("standard input can be read once"));
+  EXPECT_THAT(ursula("validate - --solver true <a.toml").err, HasSubstr("expected a file, not -"));
+}
+
+TEST(Terminal, aFolderIsNotStandardOutput) {
+  const Program ursula;
+  ursula.write("a.toml", quick());
+  const UrsulaRun run = ursula("validate a.toml --out -");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("--out -: expected a folder"));
+  EXPECT_EQ(ursula.files(), 1u);
+}
+
+TEST(Explain, hasAPageForEachCheckAndAListOfAll) {
+  const Program ursula;
+  const UrsulaRun all = ursula("explain");
+  EXPECT_EQ(all.exit_code, 0);
+  EXPECT_THAT(all.out, HasSubstr("Kinematics: solver and Simbody agree\n"));
+  for (const CheckName& check : checkNames()) {
+    EXPECT_THAT(all.out, HasSubstr(std::string("\n  ") + check.name + " "));
+    const UrsulaRun page = ursula(std::string("explain ") + check.name);
+    EXPECT_EQ(page.exit_code, 0);
+    EXPECT_THAT(page.out, AllOf(StartsWith(std::string(check.name) + ": "), HasSubstr("\nproves "),
+                                HasSubstr("\nlimit "), HasSubstr("\nif it fails ")));
+  }
+}
+
+/// A stand-in for a browser, which writes what it was given and goes on until the test's folder is gone.
+TEST(Open, startsTheBrowserWithTheReportAndDoesNotWait) {
+  const Program ursula;
+  ursula.write("browser",
+               "#!/bin/sh\necho \"$1\" > shown.part && mv shown.part shown\nwhile [ -e shown ]; do sleep 0.1; done\n");
+  std::filesystem::permissions(ursula.folder() / "browser", std::filesystem::perms::owner_all);
+  std::filesystem::create_directory(ursula.folder() / "out");
+  ursula.write("out/index.html", "");
+  ::setenv("BROWSER", (ursula.folder() / "browser").c_str(), 1);
+  const UrsulaRun run = ursula("open out");
+  ::unsetenv("BROWSER");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.out, (ursula.folder() / "out/index.html").string() + "\n");
+  while (!std::filesystem::exists(ursula.folder() / "shown")) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "shown"), run.out);
+}
+
+TEST(Open, saysWhereThereIsNoReportOrNoBrowser) {
+  const Program ursula;
+  std::filesystem::create_directory(ursula.folder() / "out");
+  const UrsulaRun none = ursula("open out");
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, HasSubstr("out: neither report.html nor index.html in it"));
+  ursula.write("out/report.html", "");
+  ::unsetenv("BROWSER");
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", "/nowhere", 1);
+  const UrsulaRun alone = ursula("open out");
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(alone.exit_code, 2);
+  EXPECT_THAT(alone.out, HasSubstr("out/report.html\n"));
+  EXPECT_THAT(alone.err, HasSubstr("neither $BROWSER nor xdg-open is there"));
+}
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "validation/verdict/result.h"
+
+namespace ursula::report {
+
+/// What one motor's efforts are off by.
+struct MotorDeviation {
+  int motor = 0;                 ///< 0-based
+  double largest = 0, t = 0;     ///< N·m, and when, s
+  std::optional<double> factor;  ///< that alone explains the deviation but for a hundredth of its norm
+  std::optional<double> offset;  ///< likewise, N·m
+};
+
+/// Of every motor, from the columns of efforts on trial and Simbody's; empty where none is wrong as far as checks say,
+/// or there are no such columns.
+std::vector<MotorDeviation> motorsOff(const ValidationResult& result);
+
+}  // namespace ursula::report
