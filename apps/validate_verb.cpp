@@ -150,8 +150,7 @@ int validateAll(const ValidateOptions& options) {
     throw UsageError("--map names columns, expected --torques FILE.csv");
   const std::filesystem::path by_name = is_suite ? "suite" : scenarios.front().name;
   const std::filesystem::path dir = options.out.empty() ? "results" / by_name : std::filesystem::path(options.out);
-  if (std::filesystem::exists(dir) && !std::filesystem::is_directory(dir))
-    throw UsageError(fmt::format("--out {}: is a file, expected a folder", dir.string()));
+  refuseFile(dir.string());
   return is_suite ? validateSuite(scenarios, options.jobs, dir) : validateOne(scenarios.front(), options, dir);
 }
 

@@ -1,6 +1,7 @@
 #include "apps/verbs.h"
 
 #include <cstdio>
+#include <filesystem>
 
 #include "model/atomic_file.h"
 
@@ -13,6 +14,11 @@ void writeOutput(const std::string& file, const std::string& content) {
   }
   if (std::fwrite(content.data(), 1, content.size(), stdout) != content.size() || std::fflush(stdout) != 0)
     throw std::runtime_error("standard output could not be written");
+}
+
+void refuseFile(const std::string& out) {
+  if (std::filesystem::exists(out) && !std::filesystem::is_directory(out))
+    throw UsageError("--out " + out + ": is a file, expected a folder");
 }
 
 }  // namespace ursula

@@ -42,5 +42,7 @@ auto alongMotion(const Scenario& scenario, Run&& run) {
 
 /// Writes to `file` atomically, or to standard output where it is "-" or empty.
 void writeOutput(const std::string& file, const std::string& content);
+/// Throws UsageError where `--out` names a file; it may be empty, or no folder yet.
+void refuseFile(const std::string& out);
 
 }  // namespace ursula

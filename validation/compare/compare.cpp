@@ -89,6 +89,20 @@ void judgeRows(const HistoryLine& reference, const std::vector<double>& t, const
     out.verdict = exceeds || rows.empty() ? Verdict::fail : Verdict::inconclusive;
 }
 
+ChannelCurves curvesOf(const HistoryLine& reference, const std::vector<double>& t, const std::vector<double>& values,
+                       const std::vector<std::size_t>& rows, double tolerance, double time_tolerance) {
+  ChannelCurves out;
+  for (const std::size_t k : rows) {
+    const auto [low, high] = reference.range(t[k] - time_tolerance, t[k] + time_tolerance);
+    out.t.push_back(t[k]);
+    out.reference.push_back(reference.at(t[k]));
+    out.test.push_back(values[k]);
+    out.low.push_back(low - tolerance);
+    out.high.push_back(high + tolerance);
+  }
+  return out;
+}
+
 void setTimes(const std::vector<double>& reference, const std::vector<double>& test, double rounding, Comparison& out) {
   out.reference_from = reference.front(), out.reference_to = reference.back();
   out.test_from = test.front(), out.test_to = test.back();
@@ -167,7 +181,8 @@ TimeSeries readHistory(const std::filesystem::path& file_or_folder) {
   return {table.names, table.columns};
 }
 
-Comparison compare(const TimeSeries& reference, const TimeSeries& test, const CompareOptions& options) {
+Comparison compare(const TimeSeries& reference, const TimeSeries& test, const CompareOptions& options,
+                   const CurveSink& curves) {
   Comparison out;
   const std::vector<double>&t = *test.find("t_s"), &t_reference = *reference.find("t_s");
   const double rounding = options.time_tolerance + 4 * eps * std::max(std::abs(t_reference.back()), std::abs(t.back()));
@@ -191,8 +206,9 @@ Comparison compare(const TimeSeries& reference, const TimeSeries& test, const Co
     channel.scale = scales.at(channel.group);
     channel.tolerance = options.tolerance * channel.scale;
     if (rows.empty() && out.left_out > 0) channel.verdict = Verdict::inconclusive;
-    if (!rows.empty())
-      judgeRows(HistoryLine(t_reference, continuous.columns[i]), t, *values, rows, options.time_tolerance, channel);
+    const HistoryLine line(t_reference, continuous.columns[i]);
+    if (!rows.empty()) judgeRows(line, t, *values, rows, options.time_tolerance, channel);
+    if (curves) curves(channel, curvesOf(line, t, *values, rows, channel.tolerance, options.time_tolerance));
     out.channels.push_back(channel);
   }
   for (const std::string& name : test.names)

@@ -14,9 +14,10 @@ struct SuiteEntry {
   Verdict verdict = Verdict::fail;
   std::filesystem::path folder;  ///< of its results, relative to the index
   std::vector<Check> checks;
-  std::string error;     ///< why there is no result: input that was refused, an exception; else empty
-  double seconds = 0;    ///< wall time, for progress; never written, so that two runs write the same
-  std::string dominant;  ///< which error dominates: the finding "dominant error"; may be empty
+  std::string error;          ///< why there is no result: input that was refused, an exception; else empty
+  double seconds = 0;         ///< wall time: the one thing of a suite that two runs write differently
+  std::string dominant;       ///< which error dominates: the finding "dominant error"; may be empty
+  std::vector<double> trend;  ///< the replay's error along the motion, m, in few steps; empty where none was made
 };
 
 /// The line of `result` in a suite.
@@ -42,11 +43,15 @@ std::ptrdiff_t judgedCount(const std::vector<Check>& checks);
 /// counts as 1; the first of equals. nullptr where there is no check.
 const Check* worstCheck(const std::vector<Check>& checks);
 
+/// Whether a result stands alone or is one of a suite, whose index is in the folder above.
+enum class Place { alone, in_suite };
+
 /// Writes `timeseries.csv`, `junit.xml`, `report.html` and, last, `summary.json` into `dir`; an older summary is
 /// removed first, so that its presence means that all four belong together. Throws what writeFileAtomically throws.
-void writeResults(const ValidationResult& result, const std::filesystem::path& dir);
+void writeResults(const ValidationResult& result, const std::filesystem::path& dir, Place place = Place::alone);
 
-/// Writes `junit.xml` over all entries and, last, `index.html` into `dir`. Throws what writeFileAtomically throws.
+/// Writes `junit.xml` and `suite.json` over all entries and, last, `index.html` into `dir`. Throws what
+/// writeFileAtomically throws.
 void writeSuiteIndex(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir);
 
 }  // namespace ursula

@@ -44,7 +44,10 @@ std::vector<std::filesystem::path> scenarioFiles(const std::vector<std::filesyst
 /// Names of folders beside files of the suite's own.
 void checkNames(const std::vector<Scenario>& scenarios, std::vector<std::string>& errors) {
   std::map<std::string, std::string> taken;
-  if (scenarios.size() > 1) taken = {{"index.html", "the suite's index"}, {"junit.xml", "the suite's JUnit file"}};
+  if (scenarios.size() > 1)
+    taken = {{"index.html", "the suite's index"},
+             {"junit.xml", "the suite's JUnit file"},
+             {"suite.json", "the suite's summary"}};
   for (const Scenario& scenario : scenarios) {
     const auto [holder, is_new] = taken.emplace(scenario.name, scenario.file.string());
     if (!is_new)
@@ -97,7 +100,7 @@ class SuiteRun {
       entry.error = error.what();
     }
     if (result) {
-      writeResults(*result, dir_ / scenario.name);
+      writeResults(*result, dir_ / scenario.name, Place::in_suite);
       entry = suiteEntry(*result, scenario.name, 0);
     } else {
       std::filesystem::remove(dir_ / scenario.name / "summary.json");  // of an older run

@@ -25,8 +25,9 @@ struct SuiteOptions {
   std::function<void(const SuiteEntry&, std::size_t done)> finished;
 };
 
-/// Judges each scenario and writes its results into dir/NAME, then the index and one JUnit file over all into `dir`.
-/// What is written is the same to the byte for any number of jobs: wall times are in the entries returned, in no file.
+/// Judges each scenario and writes its results into dir/NAME, then one JUnit file, `suite.json` and the index over all
+/// into `dir`. What is written is the same to the byte for any number of jobs, but for wall times, which are in
+/// `suite.json` and the index alone.
 /// Where `judge` throws there is no result: that entry fails and holds the error. Entries keep the scenarios' order.
 /// Throws std::invalid_argument for jobs < 1, and what writing throws.
 std::vector<SuiteEntry> runSuite(const std::vector<Scenario>& scenarios, const std::filesystem::path& dir,
