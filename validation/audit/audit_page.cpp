@@ -54,15 +54,21 @@ const char* const holds_badge = "<span class=\"badge pass\"><span aria-hidden=\"
 
 std::string signedResidual(const char* badge, const std::string& text) { return badge + escaped(text) + "</span>"; }
 
+/// Both readings, one below the other, each beside its residual.
+std::string pairOf(const AuditRow& row) {
+  return fmt::format(
+      "<tr><th scope=\"rowgroup\" rowspan=\"2\">{}</th><td>printed</td><td>{}</td><td>{}</td><td "
+      "rowspan=\"2\">{}</td>"
+      "</tr>\n<tr><td>holds</td><td>{}</td><td>{}</td></tr>\n",
+      escaped(row.equation), formula(row.printed), signedResidual(fails_badge, residualOf(row.residual_printed, row)),
+      escaped(row.note), formula(row.holds), signedResidual(holds_badge, number(row.residual_holds)));
+}
+
 std::string corrected(const Audit& result, AuditRow::Kind kind, const char* caption) {
   std::string rows;
   for (const AuditRow& row : result.rows)
-    if (row.kind == kind)
-      rows += line(row.equation,
-                   {formula(row.printed), signedResidual(fails_badge, residualOf(row.residual_printed, row)),
-                    formula(row.holds), signedResidual(holds_badge, number(row.residual_holds)), escaped(row.note)});
-  return table(caption, {"Equation", "As printed in our source", "Its residual", "What holds", "Its residual", "Note"},
-               rows);
+    if (row.kind == kind) rows += pairOf(row);
+  return table(caption, {"Equation", "Reading", "Formula", "Residual", "Note"}, rows);
 }
 
 std::string holding(const Audit& result) {
