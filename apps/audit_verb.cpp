@@ -1,3 +1,7 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "apps/embedded_scenario.h"
@@ -10,17 +14,24 @@ namespace ursula {
 namespace {
 
 struct AuditOptions {
-  std::string scenario, json, markdown;
+  std::string scenario, json, markdown, out;
 };
 
 int audit(const AuditOptions& options) {
   if (options.json == "-" && options.markdown == "-")
     throw UsageError("--json and --markdown both go to standard output");
+  refuseFile(options.out);
   const Scenario scenario = options.scenario.empty() ? paperHelix() : readScenarioOrInput(options.scenario);
   const Audit result = alongMotion(scenario, [&] {
     const Progress progress("audit");
     return runAudit(scenario);
   });
+  if (!options.out.empty()) {
+    const std::filesystem::path dir = options.out;
+    writeOutput((dir / "audit.json").string(), auditJson(result));
+    writeOutput((dir / "audit.html").string(), auditHtml(result));
+    fmt::print(stderr, "page: {}\n", (dir / "audit.html").string());
+  }
   if (options.json != "-" && options.markdown != "-") writeOutput("-", auditText(result));
   if (!options.json.empty()) writeOutput(options.json, auditJson(result));
   if (!options.markdown.empty()) writeOutput(options.markdown, auditMarkdown(result));
@@ -34,6 +45,7 @@ void addAudit(CLI::App& app, std::function<int()>& run) {
   CLI::App* verb = app.add_subcommand("audit", "Every printed formula of the paper against what holds, with residuals");
   verb->add_option("scenario", options->scenario,
                    "Scenario file (TOML), - for standard input; default: the paper's helix, built in");
+  verb->add_option("--out", options->out, "Folder for the page and the numbers");
   verb->add_option("--json", options->json, "The numbers as JSON; - for standard output");
   verb->add_option("--markdown", options->markdown, "The page docs/audit.md; - for standard output");
   verb->callback([options, &run] { run = [options] { return audit(*options); }; });

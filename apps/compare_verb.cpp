@@ -1,10 +1,11 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "apps/verbs.h"
-#include "validation/compare/compare.h"
+#include "validation/compare/compare_page.h"
 #include "validation/report/junit.h"
 
 namespace ursula {
@@ -15,14 +16,27 @@ struct Options {
   CompareOptions tolerances;
 };
 
+/// `--out` names the table alone, as CSV, or a folder for page, table and JUnit.
+bool isTable(const std::string& out) { return out == "-" || std::filesystem::path(out).extension() == ".csv"; }
+
+Comparison compareAndWrite(const Options& options) {
+  const TimeSeries reference = readHistory(options.reference), test = readHistory(options.test);
+  if (options.out.empty() || isTable(options.out)) return compare(reference, test, options.tolerances);
+  refuseFile(options.out);
+  return writeComparison(reference, test, options.tolerances, {options.reference, options.test}, options.out);
+}
+
 int compareFiles(const Options& options) {
-  const Comparison comparison = compare(readHistory(options.reference), readHistory(options.test), options.tolerances);
+  const Comparison comparison = compareAndWrite(options);
   if (!options.junit.empty())
     writeOutput(options.junit,
                 report::junitXml({comparisonSuite(comparison, options.reference + " : " + options.test)}));
-  if (!options.out.empty()) writeOutput(options.out, comparisonCsv(comparison));
+  if (isTable(options.out)) writeOutput(options.out, comparisonCsv(comparison));
   // Data alone goes to standard output: where that is the CSV, the table is for the terminal.
-  fmt::print(options.out == "-" || options.junit == "-" ? stderr : stdout, "{}", comparisonText(comparison));
+  std::FILE* const stream = options.out == "-" || options.junit == "-" ? stderr : stdout;
+  fmt::print(stream, "{}", comparisonText(comparison));
+  if (!options.out.empty() && !isTable(options.out))
+    fmt::print(stream, "page: {}\n", (std::filesystem::path(options.out) / "compare.html").string());
   switch (comparison.verdict) {
     case Verdict::pass:
       return exit_passed;
@@ -44,10 +58,10 @@ void addCompare(CLI::App& app, std::function<int()>& run) {
   verb->add_option("test", options->test, "What is compared with it")->required();
   verb->add_option("--tolerance", options->tolerances.tolerance,
                    "Tolerance in value, relative to the largest of the channel's group (all tau_*, …)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(finiteNotNegative())
       ->capture_default_str();
   verb->add_option("--time-tolerance", options->tolerances.time_tolerance, "Tolerance in time, s")
-      ->check(CLI::NonNegativeNumber)
+      ->check(finiteNotNegative())
       ->capture_default_str();
   verb->add_flag_function(
       "--interpolate,!--no-interpolate", [options](std::int64_t given) { options->tolerances.interpolate = given > 0; },
@@ -55,7 +69,9 @@ void addCompare(CLI::App& app, std::function<int()>& run) {
       "least as fine as the test");
   verb->add_option("--columns", options->tolerances.columns, "Columns to compare, such as tau_*,p_x_m. Default: all")
       ->delimiter(',');
-  verb->add_option("--out", options->out, "Table as CSV; - for standard output");
+  verb->add_option("--out", options->out,
+                   "Folder for a page with every channel drawn, the table and JUnit; or FILE.csv, - for standard "
+                   "output: the table alone");
   verb->add_option("--junit", options->junit, "JUnit XML, a case for each channel");
   verb->callback([options, &run] { run = [options] { return compareFiles(*options); }; });
 }

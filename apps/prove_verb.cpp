@@ -4,7 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdio>
-#include <map>
+#include <filesystem>
 #include <memory>
 #include <thread>
 
@@ -12,13 +12,14 @@
 #include "apps/progress.h"
 #include "apps/verbs.h"
 #include "model/scenario_input.h"
-#include "validation/prove/prove.h"
+#include "validation/prove/prove_page.h"
+#include "validation/prove/summary.h"
 
 namespace ursula {
 namespace {
 
 struct ProveOptions {
-  std::string scenario;
+  std::string scenario, out;
   int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   int random = 24;
   std::uint64_t seed = 1;
@@ -35,15 +36,6 @@ std::function<void(int)> progress(const char* what) {
   };
 }
 
-/// Columns: every check that caught anything, in the order of its first catch.
-std::vector<std::string> columnsOf(const std::vector<DefectOutcome>& outcomes) {
-  std::vector<std::string> columns;
-  for (const DefectOutcome& outcome : outcomes)
-    for (const std::string& check : outcome.caught_by)
-      if (std::find(columns.begin(), columns.end(), check) == columns.end()) columns.push_back(check);
-  return columns;
-}
-
 std::string remark(const DefectOutcome& outcome) {
   if (!outcome.refused.empty()) return "  refused: " + outcome.refused;
   if (!outcome.shows) return "  changes nothing here";
@@ -51,15 +43,14 @@ std::string remark(const DefectOutcome& outcome) {
   return outcome.roads_wanted == 1 ? "  of 1 that can" : "";
 }
 
-/// Returns how many defects that show were caught on fewer roads than they must.
-int printMatrix(const std::vector<DefectOutcome>& outcomes) {
-  const std::vector<std::string> columns = columnsOf(outcomes);
+void printMatrix(const std::vector<DefectOutcome>& outcomes) {
+  const std::vector<std::string> columns = catchingChecks(outcomes);
   fmt::print("Defect by check: x where the check failed, as it should.\n\n");
   for (std::size_t k = 0; k < columns.size(); ++k) fmt::print("  {:>2} {}\n", k + 1, columns[k]);
   fmt::print("\n{:<70}", "");
   for (std::size_t k = 0; k < columns.size(); ++k) fmt::print("{:>3}", k + 1);
   fmt::print(" roads\n");
-  int shown = 0, weak = 0, on_one = 0;
+  int shown = 0, on_one = 0;
   for (const DefectOutcome& outcome : outcomes) {
     fmt::print("{:<70}", outcome.name);
     for (const std::string& column : columns) {
@@ -69,14 +60,12 @@ int printMatrix(const std::vector<DefectOutcome>& outcomes) {
     }
     shown += outcome.shows;
     on_one += outcome.shows && outcome.roads_wanted == 1;
-    weak += outcome.shows && !outcome.caught();
     fmt::print("{:>4}{}\n", outcome.roads(), remark(outcome));
   }
   fmt::print(
       "\n{} defects, {} of them change something here; {} of these show on one road by their nature; {} caught on "
       "fewer than they must, which is two for the others\n\n",
-      outcomes.size(), shown, on_one, weak);
-  return weak;
+      outcomes.size(), shown, on_one, weakDefects(outcomes));
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -86,44 +75,23 @@ std::string listed(const std::vector<std::string>& names) {
   return names.size() > most ? out + fmt::format("; and {} more", names.size() - most) : out;
 }
 
-/// Returns how many checks catch nothing that those before them do not.
-int printChecks(const std::vector<CheckProof>& checks) {
+void printChecks(const std::vector<CheckProof>& checks) {
   fmt::print("Check: the defects that it alone catches, and those that it catches first, in the result's order.\n\n");
   fmt::print("{:<30} {:>5} {:>5}\n", "", "alone", "first");
-  int without = 0;
   for (const CheckProof& proof : checks) {
     fmt::print("{:<30} {:>5} {:>5}  ", proof.check, proof.alone.size(), proof.first.size());
-    const bool none = proof.alone.empty() && proof.first.empty();
-    without += none;
-    fmt::print("{}\n", none ? "NONE" : listed(proof.alone.empty() ? proof.first : proof.alone));
+    fmt::print("{}\n", !isNeeded(proof) ? "NONE" : listed(proof.alone.empty() ? proof.first : proof.alone));
   }
-  fmt::print("\n{} checks, {} of them without a defect that they alone or first catch\n\n", checks.size(), without);
-  return without;
+  fmt::print("\n{} checks, {} of them without a defect that they alone or first catch\n\n", checks.size(),
+             idleChecks(checks));
 }
 
 void printSensitivities(const std::vector<Sensitivity>& sensitivities) {
-  struct Group {
-    int count = 0, unseen = 0;
-    Sensitivity worst;
-    double smallest = 1, largest_change = 0;
-  };
-  std::map<std::string, Group> groups;
-  for (const Sensitivity& each : sensitivities) {
-    Group& group = groups[each.group];
-    ++group.count;
-    if (std::isinf(each.smallest_caught)) {
-      ++group.unseen;
-      continue;
-    }
-    group.smallest = std::min(group.smallest, each.smallest_caught);
-    group.largest_change = std::max(group.largest_change, each.torque_change);
-    if (each.smallest_caught > group.worst.smallest_caught) group.worst = each;
-  }
   fmt::print("Smallest relative error that torque.pointwise still catches, over each kind of parameter:\n\n");
   fmt::print("{:<10} {:>5} {:>7}  {:>10} {:>10}  {:<34} {}\n", "kind", "count", "unseen", "best", "worst", "the worst",
              "torque change caught, at most");
-  for (const auto& [name, group] : groups)
-    fmt::print("{:<10} {:>5} {:>7}  {:>10.1e} {:>10.1e}  {:<34} {:.1e}\n", name, group.count, group.unseen,
+  for (const SensitivityGroup& group : groupsOf(sensitivities))
+    fmt::print("{:<10} {:>5} {:>7}  {:>10.1e} {:>10.1e}  {:<34} {:.1e}\n", group.name, group.count, group.unseen,
                group.smallest, group.worst.smallest_caught, group.worst.parameter, group.largest_change);
   fmt::print("\nThe same for each parameter (relative error; change of torque over the largest torque):\n\n");
   for (const Sensitivity& each : sensitivities)
@@ -144,23 +112,30 @@ void printRandom(const RandomOutcomes& random, std::uint64_t seed) {
   for (const std::string& why : random.inconclusive) fmt::print("  inconclusive: {}\n", why);
 }
 
-/// Whether the right solver passes, every defect is caught and every check is needed.
-bool proveChecks(const ProveOptions& options) {
-  const Scenario scenario = options.scenario.empty() ? provingGround() : readScenarioOrInput(options.scenario);
-  const DefectProof proof =
-      alongMotion(scenario, [&] { return proveDefects(scenario, options.jobs, progress("defects")); });
-  const int weak = printMatrix(proof.outcomes);
-  printSensitivities(proveSensitivities(scenario));
-  const int without = printChecks(proof.checks);
-  for (const std::string& check : proof.without_defect) fmt::print("The right solver fails {}.\n", check);
-  return weak == 0 && without == 0 && proof.without_defect.empty();
+void proveChecks(const ProveOptions& options, const Scenario& scenario, ProveFound& found) {
+  found.proof = alongMotion(scenario, [&] { return proveDefects(scenario, options.jobs, progress("defects")); });
+  printMatrix(found.proof->outcomes);
+  found.sensitivities = proveSensitivities(scenario);
+  printSensitivities(found.sensitivities);
+  printChecks(found.proof->checks);
+  for (const std::string& check : found.proof->without_defect) fmt::print("The right solver fails {}.\n", check);
 }
 
 int prove(const ProveOptions& options) {
-  const bool proved = options.only_random || proveChecks(options);
-  const RandomOutcomes random = proveRandom(options.seed, options.random, options.jobs, progress("random scenarios"));
-  printRandom(random, options.seed);
-  return proved && random.failed.empty() ? exit_passed : exit_failed;
+  refuseFile(options.out);
+  const Scenario scenario = options.scenario.empty() ? provingGround() : readScenarioOrInput(options.scenario);
+  ProveFound found;
+  found.scenario = scenario.name;
+  found.seed = options.seed;
+  if (!options.only_random) proveChecks(options, scenario, found);
+  found.random = proveRandom(options.seed, options.random, options.jobs, progress("random scenarios"));
+  printRandom(found.random, options.seed);
+  if (!options.out.empty()) {
+    const std::filesystem::path page = std::filesystem::path(options.out) / "prove.html";
+    writeOutput(page.string(), proveHtml(found));
+    fmt::print("page: {}\n", page.string());
+  }
+  return isProved(found) ? exit_passed : exit_failed;
 }
 
 }  // namespace
@@ -170,6 +145,7 @@ void addProve(CLI::App& app, std::function<int()>& run) {
   CLI::App* verb = app.add_subcommand("prove", "Inject defects into the solver and show which check catches each");
   verb->add_option("scenario", options->scenario,
                    "Scenario file (TOML), - for standard input; default: the built-in proving ground");
+  verb->add_option("--out", options->out, "Folder for a page: defects against checks, thresholds");
   verb->add_option("--jobs", options->jobs, "Threads")->check(CLI::Range(1, 1024))->capture_default_str();
   verb->add_option("--random", options->random, "Random valid scenarios, none of which may fail")
       ->check(CLI::Range(0, 1000000))

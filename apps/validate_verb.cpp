@@ -108,8 +108,7 @@ std::filesystem::path folderOf(const ValidateOptions& options, const std::vector
     throw UsageError("--out -: expected a folder, not standard output; --json puts the summary there");
   const std::filesystem::path by_name = members.size() > 1 ? "suite" : members.front().name;
   const std::filesystem::path dir = options.out.empty() ? "results" / by_name : std::filesystem::path(options.out);
-  if (std::filesystem::exists(dir) && !std::filesystem::is_directory(dir))
-    throw UsageError(fmt::format("--out {}: is a file, expected a folder", dir.string()));
+  refuseFile(dir.string());
   return dir;
 }
 
@@ -152,6 +151,7 @@ void addOtherSolvers(CLI::App& verb, ValidateOptions& options) {
   solver->excludes(torques)->check(
       [](const std::string& command) { return command.empty() ? std::string("expected a command") : std::string(); });
   verb.add_option("--solver-timeout", options.solver.timeout, "For an answer of that command, s")
+      ->check(finitePositive())
       ->check(CLI::Range(1e-3, 1e6))
       ->capture_default_str()
       ->needs(solver);
@@ -176,8 +176,8 @@ void addValidate(CLI::App& app, std::function<int()>& run) {
   verb->add_option("--rtol", options->rtol,
                    "Torques pass that are off by no more, relative to the largest effort of the motion; wins over\n"
                    "[acceptance] torque")
-      ->check(CLI::PositiveNumber);
-  verb->add_option("--atol", options->atol, "The same in N m; both are added")->check(CLI::PositiveNumber);
+      ->check(finitePositive());
+  verb->add_option("--atol", options->atol, "The same in N m; both are added")->check(finitePositive());
   verb->footer(
       "Several scenarios: one folder each under DIR, with index.html and one junit.xml over all. One that cannot be\n"
       "read, is out of reach or singular is in error there, and the others are judged; with --strict, where all are\n"

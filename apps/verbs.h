@@ -17,6 +17,10 @@ struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// For options: a finite number above 0, or not below it. CLI11's own let nan through.
+CLI::Validator finitePositive();
+CLI::Validator finiteNotNegative();
+
 /// Each registers its verb and leaves in `run` what to do when it was called; the value is the exit code.
 void addAudit(CLI::App& app, std::function<int()>& run);
 void addValidate(CLI::App& app, std::function<int()>& run);
@@ -44,5 +48,7 @@ auto alongMotion(const Scenario& scenario, Run&& run) {
 
 /// Writes to `file` atomically, or to standard output where it is "-" or empty.
 void writeOutput(const std::string& file, const std::string& content);
+/// Throws UsageError where `--out` names a file; it may be empty, or no folder yet.
+void refuseFile(const std::string& out);
 
 }  // namespace ursula

@@ -19,8 +19,8 @@ ROOMS = {
     "report": "verdict picture",
     "": "verdict picture subject samples evidence checks findings external",  # the front door: validation/*.cpp
     "outside": "verdict subject",  # and the front door
-    "prove": "verdict subject limits samples evidence checks ",  # and the front door
-    "audit": "subject replay",
+    "prove": "verdict subject limits samples evidence checks report ",  # and the front door
+    "audit": "subject replay report",
     "check_scenario": "subject",
     "scenario_docs": "",
     "compare": "verdict report",

@@ -108,7 +108,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   judgeByTolerance(scenario, replay.covered, result);
   judgeByUser(scenario.acceptance, result);
   addFileFindings(file, result);
-  if (result.verdict == Verdict::fail || result.limits == LimitBy::user) {
+  if (result.verdict == Verdict::fail) {
     const Scenario relocated = ursula::relocated(scenario, natural.origin);  // in SI: its words are
     addDiagnosis(diagnose(relocated, runExternal(relocated, file)), result);
   }

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs the browser test; what npm must bring for it is installed first, beside the build.
+# Runs the browser tests; what npm must bring for it is installed first, beside the build.
 # usage: run.sh SAMPLES_DIR WORK_DIR [CHROMIUM]
 # Exits with 77 (ctest: skipped) where npm's registry does not answer; in CI that is a failure.
 set -uo pipefail
@@ -15,4 +15,8 @@ if ! cmp -s "$here/package-lock.json" "$work/installed.json"; then
   fi
   cp "$here/package-lock.json" "$work/installed.json" || exit 1
 fi
-exec node "$here/../validation/report_browser_test.mjs" "$samples" "$work" "$chromium"
+status=0
+for test in report pages; do
+  node "$here/../validation/${test}_browser_test.mjs" "$samples" "$work" "$chromium" || status=$?
+done
+exit "$status"

@@ -39,5 +39,24 @@ TEST(CompareVerb, exitsAsEveryVerbDoesAndWritesJUnit) {
   EXPECT_EQ(ursula("compare a.csv b.csv --columns x").exit_code, 0);
 }
 
+TEST(CompareVerb, writesAPageIntoAFolderAndTheTableAloneIntoAFile) {
+  const Program ursula;
+  ursula.write("a.csv", "t_s,x\n0,1\n1,2\n2,3\n");
+  ursula.write("b.csv", "t_s,x\n0,1\n1,2\n2,4\n");
+  const UrsulaRun run = ursula("compare a.csv b.csv --out out");
+  EXPECT_EQ(run.exit_code, 1) << run.err;
+  EXPECT_THAT(run.out, testing::EndsWith("page: out/compare.html\n"));
+  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "out/compare.html"),
+              HasSubstr("The test differs from the reference in 1 of 1 channels at 3 instants"));
+  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "out/junit.xml"), HasSubstr("failures=\"1\""));
+  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "out/compare.csv"), testing::StartsWith("channel,verdict,"));
+  EXPECT_EQ(ursula("compare a.csv a.csv --out table.csv").exit_code, 0);
+  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "table.csv"), testing::StartsWith("channel,verdict,"));
+  ursula.write("file", "in the way");
+  EXPECT_EQ(ursula("compare a.csv a.csv --out file").exit_code, 2);
+  EXPECT_EQ(ursula("audit --out file").exit_code, 2);
+  EXPECT_EQ(ursula("prove --out file").exit_code, 2);
+}
+
 }  // namespace
 }  // namespace ursula

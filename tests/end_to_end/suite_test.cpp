@@ -45,8 +45,8 @@ TEST(SuiteRun, aFolderThatPassesExitsWith0AndWritesEverything) {
                              EndsWith("2 passed, 0 failed, 0 inconclusive\nindex: results/suite/index.html\n")));
   // Not on a terminal: a line for each, no bar.
   EXPECT_THAT(run.err, AllOf(HasSubstr("[1/2] pass "), HasSubstr("[2/2] pass "), Not(HasSubstr("\r"))));
-  for (const char* file : {"index.html", "junit.xml", "first/summary.json", "first/timeseries.csv", "first/report.html",
-                           "first/junit.xml", "second/summary.json"})
+  for (const char* file : {"index.html", "junit.xml", "suite.json", "first/summary.json", "first/timeseries.csv",
+                           "first/report.html", "first/junit.xml", "second/summary.json"})
     EXPECT_TRUE(isThere(folder, std::string("results/suite/") + file)) << file;
 }
 

@@ -8,7 +8,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 #include <sstream>
+
+#include "validation/report/assets.h"
 
 namespace ursula {
 namespace {
@@ -163,6 +166,28 @@ TEST(AuditPage, comparisonSeesADigit) {
   EXPECT_NE(firstDifference("x 4e-40", "x 4e-20"), "");
   EXPECT_NE(firstDifference("x 1", "z 1"), "");
   EXPECT_NE(firstDifference("x 1", "x 1 and 2"), "");
+}
+
+/// The table of LaTeX is written by hand: each formula of the audit is in it, and nothing else.
+TEST(Audit, pageHasMathmlForEachFormulaAndForNoOther) {
+  const auto table = nlohmann::json::parse(report::formulas_mathml);
+  std::set<std::string> texts;
+  for (const AuditRow& row : theAudit().rows)
+    for (const std::string& text : {row.printed, row.holds})
+      if (!text.empty()) texts.insert(text);
+  EXPECT_GE(texts.size(), 100u);
+  for (const std::string& text : texts) EXPECT_TRUE(table.contains(text)) << text;
+  for (const auto& [text, mathml] : table.items()) {
+    EXPECT_EQ(texts.count(text), 1u) << "of no row: " << text;
+    EXPECT_EQ(mathml.get<std::string>().rfind("<math ", 0), 0u) << text;
+  }
+}
+
+TEST(Audit, pageIsSmall) {
+  const std::string html = auditHtml(theAudit());
+  EXPECT_LT(html.size(), 1'000'000u);
+  for (const AuditRow& row : theAudit().rows)
+    EXPECT_NE(html.find(">" + row.equation + "<"), std::string::npos) << row.equation;
 }
 
 }  // namespace

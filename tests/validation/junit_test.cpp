@@ -94,7 +94,7 @@ TEST(Junit, keepsToTheSchemaWhateverTheVerdictAndTheTexts) {
                                             suiteEntry(test::inconclusiveSample(), "c"),
                                             suiteEntry(test::externalSample(), "d", time),
                                             suiteEntry(test::hostileSample(), "e", time),
-                                            {"f", Verdict::fail, "", {}, "\xEF\xBF\xBE\x01 & <", time, ""}});
+                                            {"f", Verdict::fail, "", {}, "\xEF\xBF\xBE\x01 & <", time, "", {}, {}}});
   EXPECT_GT(expectValid("testsuites", parsedXml(xml).get_child("testsuites")), 100u);
   expectCharacters(xml);
 }
@@ -123,7 +123,7 @@ TEST(Junit, countsAndShowsEveryKindOfCase) {
   const ptree tree = parsedXml(report::junitXml({suiteEntry(test::passedSample(), "a"),
                                                  suiteEntry(test::failedSample(), "b"),
                                                  suiteEntry(test::inconclusiveSample(), "c"),
-                                                 {"d", Verdict::fail, "", {}, "unreadable", {}, ""}}));
+                                                 {"d", Verdict::fail, "", {}, "unreadable", {}, "", {}, {}}}));
   const ptree& counts = tree.get_child("testsuites.<xmlattr>");
   EXPECT_EQ(counts.get<int>("tests"), 8 + 9 + 8 + 1);
   EXPECT_EQ(counts.get<int>("failures"), 3);
@@ -141,7 +141,7 @@ TEST(Junit, marksInconclusiveAsSkippedWithItsReason) {
 }
 
 TEST(Junit, neverLooksBetterThanTheVerdict) {
-  const ptree none = parsedXml(report::junitXml({{"empty", Verdict::fail, "", {}, "", {}, ""}}));
+  const ptree none = parsedXml(report::junitXml({{"empty", Verdict::fail, "", {}, "", {}, "", {}, {}}}));
   EXPECT_EQ(none.get<int>("testsuites.<xmlattr>.failures"), 1);
   ValidationResult harder = test::passedSample();
   harder.verdict = Verdict::inconclusive;

@@ -209,6 +209,10 @@ test("the index leads to every report, sorts and filters", async () => {
   await page.getByRole("button", { name: "Verdict" }).click();
   await page.getByRole("button", { name: "Verdict" }).click();
   assert.match(await page.locator("tr.scenario").first().innerText(), /PASS/);
+  await page.getByRole("button", { name: "Seconds" }).click();
+  await page.getByRole("button", { name: "Seconds" }).click();
+  assert.match(await page.locator("tr.scenario").first().innerText(), /near-singular[\s\S]*\t4\.4\t/);
+  assert.equal(await page.locator("tr.scenario svg.spark").count(), 3);
   assertQuietAndOffline(index);
   await page.getByRole("link", { name: "near-singular" }).click();
   assert.equal(await page.locator("h1").innerText(), "near-singular");

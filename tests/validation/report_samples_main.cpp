@@ -1,9 +1,10 @@
 // usage: report_samples DIR
-// Writes the sample results and an index over them, for the browser test.
+// Writes the sample results with an index over them, and the other pages, for the browser test.
 
 #include <filesystem>
 #include <iostream>
 
+#include "tests/validation/page_samples.h"
 #include "tests/validation/report_samples.h"
 #include "validation/report/report.h"
 
@@ -18,14 +19,19 @@ int main(int argc, char** argv) {
   const std::filesystem::path dir = argv[1];
   std::vector<SuiteEntry> entries;
   const auto add = [&](const ValidationResult& result, const char* folder, double seconds) {
-    writeResults(result, dir / folder);
-    entries.push_back(suiteEntry(result, folder, {seconds, "2026-11-22T05:13:18"}));
+    const ursula::RunTime time{seconds, "2026-11-22T05:13:18"};
+    writeResults(result, dir / folder, time, ursula::Place::in_suite);
+    entries.push_back(suiteEntry(result, folder, time));
   };
   add(test::passedSample(), "passed", 4.2);
   add(test::failedSample(), "failed", 3.9);
   add(test::inconclusiveSample(), "not judgeable", 4.4);
   add(test::externalSample(), "external", 2.1);
   add(test::hostileSample(), "hostile", 0.1);
-  entries.push_back({"unreadable", Verdict::fail, "", {}, "scenario.toml:3:1: error: expected a value", {}, ""});
+  entries.push_back(
+      {"unreadable", Verdict::fail, "", {}, "scenario.toml:3:1: error: expected a value", {}, "", {}, {}});
+  writeResults(test::passedSample(), dir / "alone");
+  writeResults(test::longSample(), dir / "long");
   writeSuiteIndex(entries, dir);
+  test::writePageSamples(dir);
 }

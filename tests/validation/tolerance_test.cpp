@@ -59,7 +59,7 @@ TEST(Tolerance, theSmallestThatIsNamedPassesAndALittleLessDoesNot) {
   const double smallest = result.deviation->smallestRelative();
   ASSERT_GT(smallest, 0);
   EXPECT_EQ(judgedWith(1e-4, EffortTolerance{smallest, 0}).verdict, Verdict::pass);
-  EXPECT_EQ(judgedWith(1e-4, EffortTolerance{0.98 * smallest, 0}).verdict, Verdict::fail);
+  EXPECT_EQ(judgedWith(1e-4, EffortTolerance{0.99999 * smallest, 0}).verdict, Verdict::fail);
 }
 
 TEST(Tolerance, addsBothParts) {

@@ -56,5 +56,7 @@ std::string auditText(const Audit& result);
 std::string auditJson(const Audit& result);
 /// The page docs/audit.md.
 std::string auditMarkdown(const Audit& result);
+/// The same as a page of the report's looks, formulas typeset; needs no script and no network.
+std::string auditHtml(const Audit& result);
 
 }  // namespace ursula

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/instants.h"
 #include "validation/checks/acceptance.h"
 
 namespace ursula {
@@ -42,6 +43,16 @@ double driftOf(const Evidence& evidence, double size) {
                                               [&](double t) { return response(t) * size; });
 }
 
+/// Of the whole motion, in natural units: whoever is judged, and at whatever instants, it is the same.
+double largestEffort(const Scenario& scenario) {
+  constexpr int instants = 2001;
+  const Subject right = nocSubject(*scenario.manipulator, scenario.load);
+  double largest = 0;
+  for (const double t : equallySpaced(scenario.trajectory->duration(), instants))
+    largest = std::max(largest, right.torques(scenario.trajectory->at(t)).cwiseAbs().maxCoeff());
+  return largest;
+}
+
 }  // namespace
 
 std::optional<EffortDeviation> effortDeviation(const Evidence& evidence, const std::vector<Check>& checks) {
@@ -56,11 +67,9 @@ std::optional<EffortDeviation> effortDeviation(const Evidence& evidence, const s
     out.where = check.largest.where;
     any = true;
   }
-  if (!any || !evidence.answered()) return std::nullopt;
-  for (const PointwiseSample& sample : evidence.samples) {
-    out.largest_effort = std::max(out.largest_effort, sample.torques_simbody.cwiseAbs().maxCoeff() * units.torque());
-    out.length = sample.conditioning.length * units.length;
-  }
+  if (!any || evidence.samples.empty() || !evidence.answered()) return std::nullopt;
+  out.largest_effort = largestEffort(*evidence.scenario) * units.torque();
+  out.length = evidence.samples.front().conditioning.length * units.length;
   out.drift = driftOf(evidence, out.largest / units.torque()) * units.length;
   out.duration = evidence.given->trajectory->duration();
   return out;

@@ -1,11 +1,15 @@
 #include "validation/compare/compare.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 
 #include "model/csv.h"
+#include "model/nearest.h"
 #include "validation/compare/history_line.h"
 #include "validation/compare/rotations.h"
 
@@ -89,6 +93,20 @@ void judgeRows(const HistoryLine& reference, const std::vector<double>& t, const
     out.verdict = exceeds || rows.empty() ? Verdict::fail : Verdict::inconclusive;
 }
 
+ChannelCurves curvesOf(const HistoryLine& reference, const std::vector<double>& t, const std::vector<double>& values,
+                       const std::vector<std::size_t>& rows, double tolerance, double time_tolerance) {
+  ChannelCurves out;
+  for (const std::size_t k : rows) {
+    const auto [low, high] = reference.range(t[k] - time_tolerance, t[k] + time_tolerance);
+    out.t.push_back(t[k]);
+    out.reference.push_back(reference.at(t[k]));
+    out.test.push_back(values[k]);
+    out.low.push_back(low - tolerance);
+    out.high.push_back(high + tolerance);
+  }
+  return out;
+}
+
 void setTimes(const std::vector<double>& reference, const std::vector<double>& test, double rounding, Comparison& out) {
   out.reference_from = reference.front(), out.reference_to = reference.back();
   out.test_from = test.front(), out.test_to = test.back();
@@ -154,6 +172,16 @@ std::filesystem::path historyIn(const std::filesystem::path& folder) {
   return folder / (is_short ? "inverse.csv" : "timeseries.csv");
 }
 
+/// A column of which neither side has any is a slip.
+void refuseUnknown(const std::vector<std::string>& patterns, const TimeSeries& reference, const TimeSeries& test) {
+  std::vector<std::string> names = reference.names;
+  names.insert(names.end(), test.names.begin(), test.names.end());
+  for (const std::string& pattern : patterns)
+    if (std::none_of(names.begin(), names.end(), [&](const std::string& name) { return isChosen(name, {pattern}); }))
+      throw std::invalid_argument(
+          fmt::format("--columns {}: neither side has such a column{}", pattern, didYouMean(pattern, names)));
+}
+
 }  // namespace
 
 TimeSeries readHistory(const std::filesystem::path& file_or_folder) {
@@ -167,8 +195,10 @@ TimeSeries readHistory(const std::filesystem::path& file_or_folder) {
   return {table.names, table.columns};
 }
 
-Comparison compare(const TimeSeries& reference, const TimeSeries& test, const CompareOptions& options) {
+Comparison compare(const TimeSeries& reference, const TimeSeries& test, const CompareOptions& options,
+                   const CurveSink& curves) {
   Comparison out;
+  refuseUnknown(options.columns, reference, test);
   const std::vector<double>&t = *test.find("t_s"), &t_reference = *reference.find("t_s");
   const double rounding = options.time_tolerance + 4 * eps * std::max(std::abs(t_reference.back()), std::abs(t.back()));
   setTimes(t_reference, t, rounding, out);
@@ -191,8 +221,9 @@ Comparison compare(const TimeSeries& reference, const TimeSeries& test, const Co
     channel.scale = scales.at(channel.group);
     channel.tolerance = options.tolerance * channel.scale;
     if (rows.empty() && out.left_out > 0) channel.verdict = Verdict::inconclusive;
-    if (!rows.empty())
-      judgeRows(HistoryLine(t_reference, continuous.columns[i]), t, *values, rows, options.time_tolerance, channel);
+    const HistoryLine line(t_reference, continuous.columns[i]);
+    if (!rows.empty()) judgeRows(line, t, *values, rows, options.time_tolerance, channel);
+    if (curves) curves(channel, curvesOf(line, t, *values, rows, channel.tolerance, options.time_tolerance));
     out.channels.push_back(channel);
   }
   for (const std::string& name : test.names)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -52,6 +53,16 @@ struct Comparison {
   std::size_t referenceChannels() const { return channels.size() + only_in_reference.size(); }
 };
 
+/// One channel at the instants compared, to be drawn; no instant where nothing was.
+struct ChannelCurves {
+  std::vector<double> t, reference, test;
+  /// The tube that the test may not leave: the reference's range over ± the time tolerance, widened by the tolerance.
+  std::vector<double> low, high;
+};
+
+/// Is given each channel of a comparison once, in their order.
+using CurveSink = std::function<void(const ChannelComparison&, const ChannelCurves&)>;
+
 /// Reads a CSV, or `timeseries.csv` of a result folder, or `inverse.csv` where it has only that: `t_s`, increasing, and
 /// channels that may hold NaN. Throws CsvError.
 TimeSeries readHistory(const std::filesystem::path& file_or_folder);
@@ -64,10 +75,14 @@ TimeSeries readHistory(const std::filesystem::path& file_or_folder);
 /// interpolation may miss. The whole fails where a channel does or where nothing
 /// is common, and is inconclusive where a channel or a part of the reference's time is missing from the test, at its
 /// ends or by gaps.
-Comparison compare(const TimeSeries& reference, const TimeSeries& test, const CompareOptions& options);
+Comparison compare(const TimeSeries& reference, const TimeSeries& test, const CompareOptions& options,
+                   const CurveSink& curves = nullptr);
 
 /// The table for people, ending in "compared n of m channels" and what was not.
 std::string comparisonText(const Comparison& comparison);
+
+/// What was not compared, and why the verdict may be less than a pass, a line each.
+std::string comparisonRemarks(const Comparison& comparison);
 
 /// One row for each channel.
 std::string comparisonCsv(const Comparison& comparison);

@@ -27,8 +27,9 @@ double largestInterpolation(const Comparison& comparison, std::string& channel) 
   return most;
 }
 
-/// What was not compared, and why the verdict may be less than a pass.
-std::string remarks(const Comparison& c) {
+}  // namespace
+
+std::string comparisonRemarks(const Comparison& c) {
   std::string out;
   if (c.instants + c.left_out == 0)
     out += fmt::format("nothing to compare: the reference spans {:.6g} to {:.6g} s, the test {:.6g} to {:.6g} s\n",
@@ -58,8 +59,6 @@ std::string remarks(const Comparison& c) {
   return out;
 }
 
-}  // namespace
-
 std::string comparisonText(const Comparison& comparison) {
   std::size_t width = 7;
   for (const ChannelComparison& channel : comparison.channels) width = std::max(width, channel.name.size());
@@ -70,7 +69,7 @@ std::string comparisonText(const Comparison& comparison) {
                        c.name, width, c.max_error, c.max_at, c.rms_error, c.final_error, c.tolerance, c.scale);
   std::size_t passed = 0;
   for (const ChannelComparison& c : comparison.channels) passed += c.verdict == Verdict::pass ? 1 : 0;
-  out += remarks(comparison);
+  out += comparisonRemarks(comparison);
   out += fmt::format("compared {} of {} channels at {} instants; {} within tolerance\nverdict: {}\n",
                      comparison.channels.size(), comparison.referenceChannels(), comparison.instants, passed,
                      name(comparison.verdict));

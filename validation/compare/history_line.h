@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace ursula {
@@ -20,15 +21,22 @@ class HistoryLine {
     return t_.size() < 6 ? through(t, 2) : through(t, 6);
   }
 
-  /// Distance of `value` from the range of the line over [from, to]; NaN where the line or the value is.
-  double distance(double value, double from, double to) const {
+  /// The least and the largest value of the line over [from, to]; NaN where one of them is.
+  std::pair<double, double> range(double from, double to) const {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     double low = at(from), high = low;
     const auto include = [&](double found) {
-      low = std::isnan(found) || std::isnan(low) ? std::numeric_limits<double>::quiet_NaN() : std::min(low, found);
+      low = std::isnan(found) || std::isnan(low) ? nan : std::min(low, found);
       high = std::isnan(low) ? low : std::max(high, found);
     };
     include(at(to));
     for (std::size_t i = before(from) + 1; i < t_.size() && t_[i] < to; ++i) include(values_[i]);
+    return {low, high};
+  }
+
+  /// Distance of `value` from that range; NaN where the line or the value is.
+  double distance(double value, double from, double to) const {
+    const auto [low, high] = range(from, to);
     if (std::isnan(low) || std::isnan(value)) return std::numeric_limits<double>::quiet_NaN();
     if (value >= low && value <= high) return 0;
     return value < low ? low - value : value - high;

@@ -154,6 +154,23 @@ std::string othersText(const std::vector<Hypothesis>& best) {
   return out;
 }
 
+/// Where one instant in twenty at most is off, as of a spoilt row; else empty.
+std::string loneInstants(const ExternalTorques& torques) {
+  const std::size_t rows = torques.file.rows();
+  std::size_t off = 0, first = 0;
+  for (std::size_t k = 0; k < rows; ++k) {
+    bool any = false;
+    for (int i = 0; i < leg_count; ++i) any = any || !(std::abs(residualAt(torques, k, i)) <= limitAt(torques, k, i));
+    if (any && off++ == 0) first = k;
+  }
+  if (off == 0 || 20 * off > rows) return "";
+  return fmt::format("{} of {} instants {} off, the first at t = {:.6g} s, and the others are right", off, rows,
+                     off == 1 ? "is" : "are", torques.file.t[first]);
+}
+
+/// Of the deviation: a cause that explains less is not worth a word.
+constexpr double worth_naming = 0.01;
+
 std::string causeText(const Scenario& scenario, const ExternalTorques& torques) {
   const TorqueResidual data = residualOf(scenario, torques);
   if (isSinglePrecision(torques))
@@ -167,8 +184,10 @@ std::string causeText(const Scenario& scenario, const ExternalTorques& torques) 
   if (first.unexplained < may_remain)
     return fmt::format("a likely part: {}; what remains is up to {:.3g} times the file's precision{}", how_much,
                        first.beyond, othersText(best));
+  if (const std::string alone = loneInstants(torques); !alone.empty()) return "no simple explanation: " + alone;
   const std::string noise = isNoise(data) ? "no pattern from one instant to the next, as of noise or too few digits"
                                           : "no simple explanation";
+  if (first.explained() < worth_naming) return noise;
   return fmt::format("{}; the best, {}, explains only {}", noise, first.text,
                      percent(std::max(0.0, first.explained())));
 }

@@ -32,6 +32,15 @@ std::string driftText(const EffortDeviation& deviation) {
                      lengthText(deviation.drift), deviation.duration);
 }
 
+/// Rounded up, so that it passes, too.
+std::string roundedUp(double value) {
+  if (!(value > 0 && std::isfinite(value))) return fmt::format("{:g}", value);
+  const double digit = std::pow(10.0, std::floor(std::log10(value)) - 4);
+  double steps = std::floor(value / digit);
+  while (std::stod(fmt::format("{:.5g}", steps * digit)) < value) ++steps;
+  return fmt::format("{:.5g}", steps * digit);
+}
+
 }  // namespace
 
 std::string sentence(const EffortDeviation& deviation) {
@@ -39,9 +48,9 @@ std::string sentence(const EffortDeviation& deviation) {
   const std::string share = deviation.largest_effort > 0 ? shareText(deviation.relative()) : "no known share";
   return fmt::format(
       "Right to {}: the largest deviation is {:.3g} N m of {:.6g} N m, {} at t = {:.4g} s; {}the smallest --rtol that "
-      "would pass is {:.3g}.",
+      "would pass is {}.",
       share, deviation.largest, deviation.largest_effort, deviation.where, deviation.t, driftText(deviation),
-      deviation.smallestRelative());
+      roundedUp(deviation.smallestRelative()));
 }
 
 }  // namespace ursula

@@ -2,43 +2,24 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "validation/picture/picture.h"
 #include "validation/report/assets.h"
 #include "validation/report/checks_list.h"
+#include "validation/report/figures.h"
 #include "validation/report/found.h"
 #include "validation/report/input_card.h"
 #include "validation/report/page_data.h"
 #include "validation/report/plots.h"
 #include "validation/report/statistics.h"
 #include "validation/report/svg_machine.h"
-#include "validation/report/svg_plot.h"
 #include "validation/report/text.h"
 
 namespace ursula::report {
 namespace {
 
-/// A chart with its static drawing; the script draws over that.
-std::string figure(const Plot& plot, std::size_t index, const char* heading) {
-  const bool drawable =
-      std::any_of(plot.lines.begin(), plot.lines.end(), [&plot](const Line& line) { return isDrawable(plot, line); });
-  return fmt::format(
-      "<figure><figcaption><{0}>{1}</{0}><p>{2}</p></figcaption>{3}</figure>\n", heading, escaped(plot.title),
-      escaped(inWords(plot)),
-      drawable ? fmt::format("<div class=\"chart\" data-plot=\"{}\">{}</div>", index, svgPlot(plot)) : "");
-}
-
 std::string section(const std::string& id, const std::string& title, const std::string& content) {
   if (content.empty()) return "";
   return fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n{}\n</section>\n", id, title, content);
-}
-
-std::string figures(const std::vector<Plot>& plots, PlotGroup group) {
-  std::string out;
-  for (std::size_t i = 0; i < plots.size(); ++i)
-    if (plots[i].group == group) out += figure(plots[i], i, "h3");
-  return out.empty() ? "" : "<div class=\"charts\">\n" + out + "</div>";
 }
 
 std::string factsTable(const char* caption, const std::vector<std::pair<std::string, std::string>>& facts) {
@@ -49,6 +30,8 @@ std::string factsTable(const char* caption, const std::vector<std::pair<std::str
   }
   return fmt::format("<table class=\"facts\">\n<caption>{}</caption>\n<tbody>\n{}</tbody>\n</table>", caption, rows);
 }
+
+constexpr const char* suite_link = "<a class=\"up\" href=\"../index.html\">← The suite</a>\n";
 
 /// As typed in the scenario's own folder.
 std::string command(const ValidationResult& result) {
@@ -70,7 +53,7 @@ std::string keyFiguresHtml(const ValidationResult& result) {
 /// The first screen's picture of the error's sources.
 std::string sources(const std::vector<Plot>& plots) {
   for (std::size_t i = 0; i < plots.size(); ++i)
-    if (plots[i].group == PlotGroup::sources) return figure(plots[i], i, "h2");
+    if (plots[i].group == PlotGroup::sources) return figureHtml(plots[i], i, "h2");
   return "";
 }
 
@@ -85,11 +68,11 @@ struct Part {
 
 std::vector<Part> parts(const ValidationResult& result, const std::vector<Plot>& plots) {
   return {{"checks", "Checks", checksList(result.checks, result.likely_cause ? result.likely_cause->cause : "")},
-          {"errors", "Errors along the motion", figures(plots, PlotGroup::errors)},
-          {"efforts", "Efforts", figures(plots, PlotGroup::efforts)},
-          {"motion", "Motion", figures(plots, PlotGroup::motion)},
-          {"reactions", "Reactions", figures(plots, PlotGroup::reactions)},
-          {"numerics", "Numerics", figures(plots, PlotGroup::numerics)},
+          {"errors", "Errors along the motion", figuresHtml(plots, PlotGroup::errors)},
+          {"efforts", "Efforts", figuresHtml(plots, PlotGroup::efforts)},
+          {"motion", "Motion", figuresHtml(plots, PlotGroup::motion)},
+          {"reactions", "Reactions", figuresHtml(plots, PlotGroup::reactions)},
+          {"numerics", "Numerics", figuresHtml(plots, PlotGroup::numerics)},
           {"statistics", "Error statistics", statisticsTable(result)},
           {"input", "Input", result.picture == nullptr ? "" : inputCard(*result.picture)},
           {"findings", "Findings", factsTable("Facts that are not judged", result.findings)},
@@ -99,7 +82,7 @@ std::vector<Part> parts(const ValidationResult& result, const std::vector<Plot>&
 
 }  // namespace
 
-std::string reportHtml(const ValidationResult& result) {
+std::string reportHtml(const ValidationResult& result, Place place) {
   const std::vector<Plot> charts = plots(result);
   std::string sections, links;
   for (const Part& part : parts(result, charts)) {
@@ -118,6 +101,7 @@ std::string reportHtml(const ValidationResult& result) {
                                   {"reason", escaped(reason(result.verdict, result.checks))},
                                   {"sources", sources(charts)},
                                   {"stage", stage(result)},
+                                  {"suite", place == Place::in_suite ? suite_link : ""},
                                   {"links", links},
                                   {"sections", sections},
                                   {"data", pageData(result, charts)},

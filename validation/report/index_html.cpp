@@ -8,15 +8,12 @@
 #include "validation/report/checks_list.h"
 #include "validation/report/html.h"
 #include "validation/report/quantity.h"
+#include "validation/report/sparkline.h"
+#include "validation/report/suite_json.h"
 #include "validation/report/text.h"
 
 namespace ursula::report {
 namespace {
-
-std::ptrdiff_t countOf(const std::vector<SuiteEntry>& entries, Verdict verdict) {
-  return std::count_if(entries.begin(), entries.end(),
-                       [verdict](const SuiteEntry& entry) { return entry.verdict == verdict; });
-}
 
 /// The checks that any scenario has, in groups.
 std::vector<std::string> columns(const std::vector<SuiteEntry>& entries) {
@@ -64,11 +61,12 @@ std::string row(const SuiteEntry& entry, const std::vector<std::string>& names) 
   for (const std::string& name : names) cells += cell(entry, name);
   return fmt::format(
       "<tr class=\"scenario {0}\" data-verdict=\"{0}\"><td>{1}</td><th scope=\"row\">{2}</th><td "
-      "class=\"number\">{3}</td><td>{4}</td><td>{5}</td>{6}</tr>\n",
+      "class=\"number\">{3}</td><td class=\"deciding\">{4}</td><td>{5}</td><td class=\"number\" "
+      "data-value=\"{6:.3f}\">{6:.1f}</td><td>{7}</td>{8}</tr>\n",
       name(entry.verdict), verdictBadge(entry.verdict),
       entry.error.empty() ? fmt::format("<a href=\"{}\">{}</a>", link, scenario) : scenario,
       fmt::format("{} of {}", passed, judgedCount(entry.checks)), deciding(entry),
-      entry.dominant.empty() ? "–" : escaped(entry.dominant), cells);
+      entry.dominant.empty() ? "–" : escaped(entry.dominant), entry.time.seconds, sparkline(entry.trend), cells);
 }
 
 int rank(Verdict verdict) { return verdict == Verdict::fail ? 0 : verdict == Verdict::inconclusive ? 1 : 2; }
@@ -93,16 +91,6 @@ std::string heads(const std::vector<std::string>& names) {
   return out;
 }
 
-// As for checks: nothing validated is not a success.
-Verdict suiteVerdict(const std::vector<SuiteEntry>& entries) {
-  std::vector<Check> verdicts;
-  for (const SuiteEntry& entry : entries) {
-    verdicts.emplace_back();
-    verdicts.back().verdict = entry.verdict;
-  }
-  return overall(verdicts);
-}
-
 }  // namespace
 
 std::string indexHtml(const std::vector<SuiteEntry>& entries) {
@@ -115,6 +103,7 @@ std::string indexHtml(const std::vector<SuiteEntry>& entries) {
                  {"counts", fmt::format("{} of {} scenario{} passed, {} failed, {} inconclusive.",
                                         countOf(entries, Verdict::pass), entries.size(), entries.size() == 1 ? "" : "s",
                                         countOf(entries, Verdict::fail), countOf(entries, Verdict::inconclusive))},
+                 {"seconds", fmt::format("{:.1f}", secondsOf(entries))},
                  {"heads", heads(names)},
                  {"rows", rows(entries, names)},
                  {"script", std::string(index_script)}});

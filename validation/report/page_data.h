@@ -12,4 +12,7 @@ namespace ursula::report {
 /// events. Thinned for the eye; numbers with six digits.
 std::string pageData(const ValidationResult& result, const std::vector<Plot>& plots);
 
+/// The same for a page of charts alone.
+std::string chartData(const std::string& title, const std::vector<Plot>& plots);
+
 }  // namespace ursula::report

@@ -29,6 +29,7 @@ struct Plot {
   std::string x_label, y_label;
   bool log_x = false, log_y = false;
   bool over_time = false;  ///< plots over time share their cursor
+  bool tube = false;       ///< the first two lines bound one, from above and from below
   std::size_t rows = 0;    ///< of the data; more than `x` holds where it was thinned for the eye
   std::vector<double> x;   ///< ascending and finite
   std::vector<Line> lines;

@@ -6,6 +6,8 @@
 #include "model/csv.h"
 #include "validation/report/html.h"
 #include "validation/report/junit.h"
+#include "validation/report/sparkline.h"
+#include "validation/report/suite_json.h"
 #include "validation/report/summary.h"
 
 namespace ursula {
@@ -24,25 +26,27 @@ RunTime Stopwatch::time() const {
 }
 
 SuiteEntry suiteEntry(const ValidationResult& result, std::filesystem::path folder, const RunTime& time) {
-  SuiteEntry entry{result.scenario, result.verdict, std::move(folder), result.checks, "", time, ""};
+  SuiteEntry entry{result.scenario, result.verdict, std::move(folder), result.checks, "", time, "", {}, {}};
   if (result.replay_error) entry.dominant = result.replay_error->dominant;
+  entry.trend = report::trendOf(result.timeseries);
   entry.properties = {{"verdict", name(result.verdict)}, {"limits", name(result.limits)}};
   entry.properties.insert(entry.properties.end(), result.provenance.begin(), result.provenance.end());
   return entry;
 }
 
-void writeResults(const ValidationResult& result, const std::filesystem::path& dir, const RunTime& time) {
+void writeResults(const ValidationResult& result, const std::filesystem::path& dir, const RunTime& time, Place place) {
   std::filesystem::remove(dir / "summary.json");
   writeFileAtomically(dir / "timeseries.csv",
                       csvText(result.timeseries.names, result.timeseries.columns, NanAs::empty_cell));
   writeFileAtomically(dir / "junit.xml", report::junitXml({suiteEntry(result, "", time)}));
-  writeFileAtomically(dir / "report.html", report::reportHtml(result));
+  writeFileAtomically(dir / "report.html", report::reportHtml(result, place));
   writeFileAtomically(dir / "summary.json", report::summaryJson(result));
 }
 
 void writeSuiteIndex(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir) {
   std::filesystem::remove(dir / "index.html");
   writeFileAtomically(dir / "junit.xml", report::junitXml(entries));
+  writeFileAtomically(dir / "suite.json", report::suiteJson(entries));
   writeFileAtomically(dir / "index.html", report::indexHtml(entries));
 }
 

@@ -33,9 +33,10 @@ struct SuiteEntry {
   Verdict verdict = Verdict::fail;
   std::filesystem::path folder;  ///< of its results, relative to the index
   std::vector<Check> checks;
-  std::string error;  ///< why there is no result: input that was refused, an exception; else empty
-  RunTime time;
-  std::string dominant;  ///< which error dominates: the finding "dominant error"; may be empty
+  std::string error;          ///< why there is no result: input that was refused, an exception; else empty
+  RunTime time;               ///< of computing: the one thing of a suite that two runs write differently
+  std::string dominant;       ///< which error dominates: the finding "dominant error"; may be empty
+  std::vector<double> trend;  ///< the replay's error along the motion, m, in few steps; empty where none was made
   std::vector<std::pair<std::string, std::string>> properties = {};  ///< for the JUnit file: limits, provenance
 };
 
@@ -62,11 +63,16 @@ std::ptrdiff_t judgedCount(const std::vector<Check>& checks);
 /// counts as 1; the first of equals. nullptr where there is no check.
 const Check* worstCheck(const std::vector<Check>& checks);
 
+/// Whether a result stands alone or is one of a suite, whose index is in the folder above.
+enum class Place { alone, in_suite };
+
 /// Writes `timeseries.csv`, `junit.xml`, `report.html` and, last, `summary.json` into `dir`; an older summary is
 /// removed first, so that its presence means that all four belong together. Throws what writeFileAtomically throws.
-void writeResults(const ValidationResult& result, const std::filesystem::path& dir, const RunTime& time = {});
+void writeResults(const ValidationResult& result, const std::filesystem::path& dir, const RunTime& time = {},
+                  Place place = Place::alone);
 
-/// Writes `junit.xml` over all entries and, last, `index.html` into `dir`. Throws what writeFileAtomically throws.
+/// Writes `junit.xml` and `suite.json` over all entries and, last, `index.html` into `dir`. Throws what
+/// writeFileAtomically throws.
 void writeSuiteIndex(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir);
 
 }  // namespace ursula

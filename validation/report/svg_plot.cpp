@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -111,6 +112,19 @@ std::string path(const Plot& plot, const Line& line, const Frame& frame) {
   return d.empty() ? "" : fmt::format("<path class=\"{}\" d=\"{}\"/>", classOf(line), d);
 }
 
+/// The tube between the first two lines, where both are drawn.
+std::string tube(const Plot& plot, const Frame& frame) {
+  if (!plot.tube || plot.lines.size() < 2) return "";
+  const std::vector<double>&high = plot.lines[0].values, &low = plot.lines[1].values;
+  std::string above, below;
+  for (std::size_t k = 0; k < plot.x.size(); ++k) {
+    if (!frame.x.takes(plot.x[k]) || !frame.y.takes(high[k]) || !frame.y.takes(low[k])) continue;
+    above += fmt::format("{}{:.1f} {:.1f}", above.empty() ? "M" : "L", frame.px(plot.x[k]), frame.py(high[k]));
+    below = fmt::format("L{:.1f} {:.1f}", frame.px(plot.x[k]), frame.py(low[k])) + below;
+  }
+  return above.empty() ? "" : fmt::format("<path class=\"tube\" d=\"{}{}Z\"/>", above, below);
+}
+
 /// One entry for each line that is drawn; those that do not fit are left out.
 std::string legend(const Plot& plot) {
   std::string out;
@@ -148,8 +162,10 @@ std::string svgPlot(const Plot& full) {
       std::any_of(plot.lines.begin(), plot.lines.end(), [&plot](const Line& line) { return isDrawable(plot, line); });
   if (!drawable) return "";
   const Frame frame = frameOf(plot);
-  std::string lines;
-  for (const Stroke stroke : {Stroke::ghost, Stroke::line, Stroke::limit})
+  std::string lines = tube(plot, frame);
+  const auto order = plot.tube ? std::array{Stroke::limit, Stroke::ghost, Stroke::line}
+                               : std::array{Stroke::ghost, Stroke::line, Stroke::limit};
+  for (const Stroke stroke : order)
     for (const Line& line : plot.lines)
       if (line.stroke == stroke) lines += path(plot, line, frame);
   return fmt::format(

@@ -93,8 +93,9 @@ class Finder {
 
   std::vector<TorqueColumn> find(const ColumnMap& map) {
     for (const auto& [name, column] : map) take(name, column);
+    const bool from_zero = has("tau_0_Nm") && !has("tau_6_Nm");  // then tau_1_Nm is leg 2's
     for (const std::string& name : targets())
-      if (has(name)) found_.emplace(name, TorqueColumn{name, name, 0});
+      if (has(name) && (!from_zero || name == "t_s")) found_.emplace(name, TorqueColumn{name, name, 0});
     takeCertain();
     std::vector<TorqueColumn> out;
     for (const std::string& name : targets()) {

@@ -50,7 +50,10 @@ void readFolder(const std::filesystem::path& folder, std::vector<SuiteMember>& m
 void checkNames(const std::vector<SuiteMember>& members) {
   std::map<std::string, std::string> taken;
   std::vector<std::string> errors;
-  if (members.size() > 1) taken = {{"index.html", "the suite's index"}, {"junit.xml", "the suite's JUnit file"}};
+  if (members.size() > 1)
+    taken = {{"index.html", "the suite's index"},
+             {"junit.xml", "the suite's JUnit file"},
+             {"suite.json", "the suite's summary"}};
   for (const SuiteMember& member : members) {
     if (!member.scenario) continue;
     const std::string file = member.scenario->file.string();
@@ -105,7 +108,7 @@ class SuiteRun {
     }
     if (result) {
       const RunTime time = watch.time();
-      writeResults(*result, dir_ / member.name, time);
+      writeResults(*result, dir_ / member.name, time, Place::in_suite);
       return suiteEntry(*result, member.name, time);
     }
     if (member.scenario) std::filesystem::remove(dir_ / member.name / "summary.json");  // of an older run

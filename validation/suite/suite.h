@@ -38,9 +38,10 @@ struct SuiteOptions {
   std::function<void(const SuiteEntry&, std::size_t done)> finished;
 };
 
-/// Judges each scenario and writes its results into dir/NAME, then the index and one JUnit file over all into `dir`.
-/// What is written is the same to the byte for any number of jobs, but for the JUnit files' times. A member in error,
-/// or one where `judge` throws, has no result: that entry fails and holds the error. Entries keep the members' order.
+/// Judges each scenario and writes its results into dir/NAME, then one JUnit file, `suite.json` and the index over all
+/// into `dir`. What is written is the same to the byte for any number of jobs, but for wall times, which are in these
+/// and the JUnit files alone. A member in error, or one where `judge` throws, has no result: that entry fails and holds
+/// the error. Entries keep the members' order.
 /// Throws std::invalid_argument for jobs < 1, and what writing throws.
 std::vector<SuiteEntry> runSuite(const std::vector<SuiteMember>& members, const std::filesystem::path& dir,
                                  const SuiteOptions& options);

@@ -91,10 +91,9 @@ Verdict overall(const std::vector<Check>& checks) {
 }
 
 double EffortDeviation::smallestRelative() const {
-  const double least = relative();
-  if (!(least > 0)) return least;
-  const double digit = std::pow(10.0, std::floor(std::log10(least)) - 2);
-  return std::ceil(least / digit * (1 + 1e-12)) * digit;
+  double least = relative();
+  while (least * largest_effort < largest) least = std::nextafter(least, std::numeric_limits<double>::infinity());
+  return least;
 }
 
 void TimeSeries::add(std::string column_name, std::vector<double> values) {

@@ -108,7 +108,7 @@ struct EffortDeviation {
   double allowed = 0;   ///< by a tolerance of the user's, N·m; 0 where there is none
 
   double relative() const { return largest / largest_effort; }
-  /// The smallest `--rtol` that would pass alone; rounded up to three digits.
+  /// The smallest `--rtol` that would pass alone.
   double smallestRelative() const;
 };
 

@@ -1,9 +1,11 @@
 // Bundles scripts and style of the report, and notes which sources they were made of.
 // usage: node build.mjs FOLDER, with node_modules beside this file; ./dev bundle calls it
 import { build } from "esbuild";
+import katex from "katex";
 import { createHash } from "node:crypto";
 import { mkdir, readFile, readdir, writeFile } from "node:fs/promises";
 import path from "node:path";
+import { formulas } from "./formulas.mjs";
 
 const here = new URL(".", import.meta.url);
 const out = path.resolve(process.argv[2]);
@@ -23,6 +25,26 @@ async function bundled(entry, extra) {
   return result.outputFiles[0].text;
 }
 
+// KaTeX wraps its MathML for a style sheet that is not there, and repeats the LaTeX, which no reader needs.
+function mathml(latex) {
+  const wrapped = katex.renderToString(latex, { output: "mathml", displayMode: false, strict: "error", throwOnError: true });
+  const [math] = wrapped.match(/<math[\s\S]*<\/math>/);
+  return math
+    .replace(/<annotation[\s\S]*?<\/annotation>/, "")
+    .replace(/<\/?semantics>/g, "")
+    // The thin spaces about functions' names, which browsers leave out.
+    .replace(/(<\/m(?:i|over|row|sup)>)<mi>(sin|cos)<\/mi>/g, '$1<mspace width="0.17em"/><mi>$2</mi>')
+    .replace(/<mo>\u2061<\/mo>(?=<m(?:i|over))/g, '<mo>\u2061</mo><mspace width="0.17em"/>')
+    .replace("<math", '<math display="inline" displaystyle="true"');
+}
+
+function mathmlTable() {
+  const texts = formulas.map(([text]) => text);
+  const twice = texts.filter((text, k) => texts.indexOf(text) !== k);
+  if (twice.length > 0) throw new Error(`formulas.mjs holds twice: ${twice.join("; ")}`);
+  return `${JSON.stringify(Object.fromEntries(formulas.map(([text, latex]) => [text, mathml(latex)])), null, 0)}\n`;
+}
+
 const license = async (name) => `${name}\n${await read(`node_modules/${name}/LICENSE`)}`;
 const uplot = `/*! ${await license("uplot")}*/`;
 const both = `/*! ${await license("uplot")}\n${await license("three")}*/`;
@@ -30,7 +52,9 @@ const script = { format: "iife", charset: "ascii" };
 const files = {
   "report.css": await bundled("style.css", { banner: { css: uplot } }),
   "report.js": await bundled("main.js", { ...script, banner: { js: both } }),
+  "charts.js": await bundled("charts.js", { ...script, banner: { js: uplot } }),
   "index.js": await bundled("suite.js", script),
+  "formulas.json": mathmlTable(),
 };
 for (const [name, text] of Object.entries(files)) {
   if (text.includes(')ursula"')) throw new Error(`${name} holds the delimiter of its C++ literal`);

@@ -1,4 +1,5 @@
 import { AxesHelper, BufferGeometry, EdgesGeometry, Group, Line, LineBasicMaterial, LineSegments, Mesh, Vector3 } from "three";
+import { ghostLegs } from "./ghost_legs.js";
 import { plate, points } from "./machine.js";
 import { aim, arrow, ball, between, paint, rod } from "./shapes.js";
 import { color, lineColor } from "./theme.js";
@@ -6,7 +7,7 @@ import { largestVector, numbersAt, quaternionAt, rotation, vectorAt } from "./tr
 
 const errorAt = (machine, place) => [vectorAt(machine.error, place, 6, 0), vectorAt(machine.error, place, 6, 1)];
 
-/** The simulated platform with its errors enlarged, and its path; the machine itself stands as commanded. */
+/** The simulated platform with its errors enlarged, the legs that hold it, and its path; the machine itself stands as commanded. */
 export function errorLayer(machine, size) {
   if (machine.error.length === 0) return null;
   const group = new Group();
@@ -17,7 +18,8 @@ export function errorLayer(machine, size) {
   ghost.add(new LineSegments(new EdgesGeometry(geometry, 20), new LineBasicMaterial({ color: shade })));
   const path = new Line(new BufferGeometry(), new LineBasicMaterial({ color: shade }));
   const P = ball(0.012 * size, paint(shade));
-  group.add(ghost, path, P);
+  const legs = ghostLegs(machine, shade);
+  group.add(ghost, path, P, legs.lines);
   let factor = 1;
   const drawPath = () => {
     const commanded = points(machine.p);
@@ -34,11 +36,12 @@ export function errorLayer(machine, size) {
     const [shift, turn] = errorAt(machine, place);
     // Where it cannot be told from the machine's own platform it would only stain that.
     const off = factor * (shift.length() + 0.3 * size * turn.length());
-    ghost.visible = P.visible = off > 2e-3 * size;
+    ghost.visible = P.visible = legs.lines.visible = off > 2e-3 * size;
     if (!ghost.visible) return;
     ghost.position.copy(vectorAt(machine.p, place)).addScaledVector(shift, factor);
     ghost.quaternion.copy(rotation(turn.multiplyScalar(factor))).multiply(quaternionAt(machine.q, place));
     P.position.copy(ghost.position);
+    legs.update(place, ghost);
   };
   magnify(1);
   return { group, update, magnify };

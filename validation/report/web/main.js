@@ -12,6 +12,28 @@ const clock = new Clock(duration);
 
 document.documentElement.classList.add("live");
 drawCharts(document, data, clock);
-const stage = data.machine ? addStage(document.getElementById("stage"), data.machine, clock) : null;
-if (duration > 0) addPlayer(document, data.events, clock, stage);
-watchTheme(() => stage?.repaint());
+
+function addMachine(host) {
+  const stage = addStage(host, data.machine, clock);
+  if (duration > 0) addPlayer(document, data.events, clock, stage);
+  watchTheme(() => stage?.repaint());
+  performance.mark("report:moving");
+}
+
+// The machine's drawing is there at once. What makes it move takes its time, and is made when it is near the screen and
+// the page has been painted.
+const host = document.getElementById("stage");
+if (!data.machine) {
+  if (duration > 0) addPlayer(document, data.events, clock, null);
+} else {
+  const watcher = new IntersectionObserver(
+    (entries) => {
+      if (!entries.some((entry) => entry.isIntersecting)) return;
+      watcher.disconnect();
+      requestAnimationFrame(() => setTimeout(() => addMachine(host)));
+    },
+    { rootMargin: "200px" },
+  );
+  watcher.observe(host);
+}
+performance.mark("report:ready");

@@ -114,25 +114,57 @@ function options(plot, width, events, together) {
       { label: plot.xLabel, value: (_, value) => shortNumber(value) },
       ...plot.lines.map((line) => seriesOptions(line, plot, few)),
     ],
+    bands: plot.tube ? [{ series: [1, 2], fill: () => `${color("limit")}1a` }] : [],
     cursor: { drag: { x: x1 > x0, y: false }, ...(plot.overTime && { sync: { key: "time", setSeries: false } }) },
     hooks: timeHooks(plot, events, together),
   };
 }
 
+/** Values in the legends of charts on the screen, once a frame: each changes the page's layout. */
+class Legends {
+  #shown = new Set();
+  #asked = false;
+  #watcher = new IntersectionObserver((entries) => {
+    for (const { isIntersecting, target } of entries) {
+      if (isIntersecting) this.#shown.add(target);
+      else this.#shown.delete(target);
+    }
+    this.ask();
+  });
+  #fill = new Map();
+
+  add(host, fill) {
+    this.#fill.set(host, fill);
+    this.#watcher.observe(host);
+  }
+
+  ask() {
+    if (this.#asked) return;
+    this.#asked = true;
+    requestAnimationFrame(() => {
+      this.#asked = false;
+      for (const host of this.#shown) this.#fill.get(host)();
+    });
+  }
+}
+
 // The instant that the machine shows: a line over the chart, and while nothing hovers, the values in the legend.
-function follow(chart, plot, clock) {
+function follow(host, chart, plot, clock, legends) {
   const mark = document.createElement("div");
   mark.className = "now";
   chart.over.append(mark);
   const move = () => {
     const left = chart.valToPos(clock.t, "x");
-    mark.hidden = !(left >= 0 && left <= chart.over.clientWidth);
+    const within = left >= 0 && left <= chart.bbox.width / uPlot.pxRatio; // asking the element would lay the page out
+    if (mark.hidden === within) mark.hidden = !within;
     mark.style.transform = `translateX(${left}px)`;
     mark.dataset.t = clock.t;
-    if (chart.cursor.left < 0 && !clock.playing) chart.setLegend({ idx: nearest(plot.x, clock.t) }, false);
+    legends.ask();
   };
+  legends.add(host, () => {
+    if (chart.cursor.left < 0 && !clock.playing) chart.setLegend({ idx: nearest(plot.x, clock.t) }, false);
+  });
   clock.onChange(move);
-  setTimeout(move); // once more when uPlot, too, has filled its legend
   let down = 0;
   chart.over.addEventListener("mousedown", (event) => (down = event.clientX));
   chart.over.addEventListener("click", (event) => {
@@ -153,7 +185,7 @@ function nearest(x, t) {
   return t - x[low] <= x[high] - t ? low : high;
 }
 
-function drawChart(host, plot, data, clock, together) {
+function drawChart(host, plot, data, clock, together, legends) {
   const still = host.querySelector("svg.static");
   const lines = [plot.x, ...plot.lines.map((line) => drawable(line.values, plot.logY))];
   const chart = new uPlot(options(plot, host.clientWidth, data.events, together), lines, host);
@@ -163,7 +195,7 @@ function drawChart(host, plot, data, clock, together) {
   drawLegend(chart, plot);
   if (plot.overTime) together.charts.add(chart);
   addTools(host, chart, plot, still, data.scenario);
-  if (plot.overTime) follow(chart, plot, clock);
+  if (plot.overTime) follow(host, chart, plot, clock, legends);
   return () => {
     drawLegend(chart, plot);
     if (host.clientWidth !== chart.width) chart.setSize({ width: host.clientWidth, height: chart.height });
@@ -174,13 +206,14 @@ function drawChart(host, plot, data, clock, together) {
 /** Draws each chart when it comes near the screen, and again whenever width or theme change. */
 export function drawCharts(document, data, clock) {
   const together = new Together();
+  const legends = new Legends();
   const redraws = [];
   const watcher = new IntersectionObserver(
     (entries) => {
       for (const { isIntersecting, target } of entries) {
         if (!isIntersecting) continue;
         watcher.unobserve(target);
-        redraws.push(drawChart(target, data.plots[target.dataset.plot], data, clock, together));
+        redraws.push(drawChart(target, data.plots[target.dataset.plot], data, clock, together, legends));
       }
     },
     { rootMargin: "200px" },

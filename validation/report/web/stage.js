@@ -2,6 +2,7 @@ import { AmbientLight, Box3, DirectionalLight, Group, PerspectiveCamera, Scene, 
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { axesLayer, effortsLayer, errorLayer, framesLayer, reactionsLayer } from "./layers.js";
 import { makeMachine, points } from "./machine.js";
+import { weakLayer } from "./weak_layer.js";
 import { largestVector, placeAt, resolved } from "./tracks.js";
 
 const makers = [
@@ -10,6 +11,7 @@ const makers = [
   ["reactions", "reactions", false, reactionsLayer],
   ["axes", "joint axes", false, axesLayer],
   ["frames", "frames", false, framesLayer],
+  ["weak", "singular directions", false, weakLayer],
 ];
 const view = new Vector3(0.75, -1.15, 0.5);
 

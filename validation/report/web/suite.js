@@ -1,11 +1,13 @@
-// Sorts and filters the index of a suite, which is complete without this script.
+// Sorts and filters the index of a suite, or the defects of a proof; both are complete without this script.
 const table = document.querySelector("table.suite");
 const body = table.tBodies[0];
 const rows = [...body.rows];
 
 function keyOf(row, column) {
+  const { value } = row.cells[column].dataset;
+  if (value !== undefined) return Number(value);
   const text = row.cells[column].textContent.trim();
-  if (column === 0) return ["fail", "inconclusive", "pass"].indexOf(row.dataset.verdict);
+  if (column === 0) return ["fail", "inconclusive", "pass", "not_applicable"].indexOf(row.dataset.verdict);
   return /^\d+ of \d+$/.test(text) ? Number.parseInt(text, 10) : text.toLowerCase();
 }
 
@@ -18,7 +20,8 @@ function sortBy(column, head) {
   body.append(...keyed.map(({ row }) => row));
 }
 
-[...table.tHead.rows[0].cells].slice(0, 5).forEach((head, column) => {
+const sorted = [...table.tHead.querySelectorAll(".sorts")]; // the first columns
+sorted.forEach((head, column) => {
   const button = document.createElement("button");
   button.type = "button";
   button.textContent = head.textContent;
@@ -26,12 +29,14 @@ function sortBy(column, head) {
   head.replaceChildren(button);
 });
 
+// The verdicts that there are, in the words of their badges.
+const word = (row) => row.cells[0].querySelector(".badge").lastChild.textContent.trim().toLowerCase();
+const choices = new Map(rows.map((row) => [row.dataset.verdict, word(row)]));
 const tools = document.createElement("div");
 tools.className = "filter";
 tools.innerHTML = `<label>Find <input type="search"></label>
-  <label>Verdict <select><option value="">all</option><option value="fail">failed</option>
-  <option value="inconclusive">inconclusive</option><option value="pass">passed</option></select></label>
-  <span role="status"></span>`;
+  <label>${sorted[0].textContent} <select><option value="">all</option></select></label> <span role="status"></span>`;
+for (const [value, text] of choices) tools.querySelector("select").add(new Option(text, value));
 table.parentElement.before(tools);
 const [text, verdict, shown] = [tools.querySelector("input"), tools.querySelector("select"), tools.querySelector("[role]")];
 
@@ -39,7 +44,7 @@ function filter() {
   const wanted = text.value.trim().toLowerCase();
   let count = 0;
   for (const row of rows) {
-    const words = [...row.cells].slice(0, 5).map((cell) => cell.textContent).join(" ").toLowerCase();
+    const words = [...row.cells].slice(0, sorted.length).map((cell) => cell.textContent).join(" ").toLowerCase();
     row.hidden = !(words.includes(wanted) && (!verdict.value || row.dataset.verdict === verdict.value));
     count += !row.hidden;
   }

@@ -1,0 +1,137 @@
+// The pages of compare, prove and audit, and what is printed of the paper's helix, in a browser.
+// usage: node pages_browser_test.mjs SAMPLES_DIR PACKAGE_DIR CHROMIUM
+import assert from "node:assert/strict";
+import { after, afterEach, before, test } from "node:test";
+import { assertQuietAndOffline, close, closePages, colorsOf, launch, opened, seriousFindings } from "../browser/pages.mjs";
+
+before(launch);
+after(close);
+afterEach(closePages);
+
+test("a comparison leads with the worst channel, both curves and the difference drawn", async () => {
+  const comparison = await opened("comparison/compare.html");
+  const { page } = comparison;
+  assert.match(await page.locator("header").innerText(), /FAIL[\s\S]*differs from the reference in 1 of 31 channels/);
+  assert.equal(await page.locator("h1").innerText(), "<b>tested</b>");
+  const worst = page.locator("details.group").first();
+  assert.match(await worst.innerText(), /FAIL\s+tau_3_Nm/);
+  for (const host of await worst.locator("[data-plot]").all()) {
+    await host.scrollIntoViewIfNeeded();
+    await host.locator("canvas").waitFor();
+    assert.ok((await host.locator("canvas").evaluate(colorsOf)) > 20);
+  }
+  assert.deepEqual(await worst.locator("figure").first().locator(".u-legend button").allInnerTexts(), ["upper limit", "lower limit", "reference", "test"]);
+  assert.equal(await worst.locator("figure").count(), 2);
+  assertQuietAndOffline(comparison);
+});
+
+test("a folded channel is drawn when it is opened, also by its link", async () => {
+  const { page } = await opened("comparison/compare.html");
+  const last = page.locator("details.group").last();
+  assert.equal(await last.locator("canvas").count(), 0);
+  await page.locator("#table tbody tr").last().locator("a").click();
+  await last.locator("canvas").first().waitFor();
+  assert.equal(await last.evaluate((details) => details.open), true);
+});
+
+test("what is the same is a pass, and needs no script", async () => {
+  const { page } = await opened("same/compare.html", { javaScriptEnabled: false });
+  assert.match(await page.locator("header").innerText(), /PASS\s+The test is the same as the reference in 32 of 32 channels/);
+  assert.equal(await page.locator("figure svg.static").first().isVisible(), true);
+});
+
+test("a proof's defects are filtered and sorted", async () => {
+  const proof = await opened("weak.html");
+  const { page } = proof;
+  assert.match(await page.locator("header").innerText(), /FAIL[\s\S]*1 of 3 defects were caught on fewer roads/);
+  const rows = page.locator("tr.scenario");
+  assert.match(await rows.first().innerText(), /✗ too few/);
+  await page.getByLabel("Outcome").selectOption({ label: "too few" });
+  assert.equal(await page.locator("tr.scenario:visible").count(), 1);
+  await page.getByLabel("Outcome").selectOption("");
+  await page.getByLabel("Find").fill("coriolis");
+  assert.equal(await page.locator("tr.scenario:visible").count(), 1);
+  assert.equal(await page.locator("tr.scenario:visible .cell").first().innerText(), "◆");
+  await page.getByLabel("Find").fill("");
+  await page.getByRole("button", { name: "Roads" }).click();
+  assert.match(await rows.first().innerText(), /0 of 2/);
+  assertQuietAndOffline(proof);
+});
+
+test("an audit's formulas are drawn as formulas", async () => {
+  const audit = await opened("audit.html");
+  const { page } = audit;
+  const fraction = page.locator("#failing mfrac").first();
+  const [above, below] = await fraction.evaluate((element) => [...element.children].map((part) => part.getBoundingClientRect().top));
+  assert.ok(below > above + 5, "a fraction is one above the other");
+  assert.match(await page.locator("#failing").innerText(), /✗ 4\.63 of 0\.33 rad\/s/);
+  assert.equal(await page.locator("script").count(), 0);
+  assertQuietAndOffline(audit);
+});
+
+test("one time for a minute at a kilohertz, too", async () => {
+  const report = await opened("long/report.html");
+  const { page } = report;
+  await page.locator("[data-role=time]").evaluate((slider) => {
+    slider.value = 30;
+    slider.dispatchEvent(new Event("input"));
+  });
+  assert.match(await page.locator("[data-role=now]").innerText(), /^30\.00 s$/);
+  assert.match(await page.locator("header").innerText(), /60.s/);
+  const chart = page.locator("#errors [data-plot]").first();
+  await chart.scrollIntoViewIfNeeded();
+  await chart.locator("canvas").waitFor();
+  assert.match(await chart.innerText(), /Least and largest of 60001 instants/);
+  assertQuietAndOffline(report);
+});
+
+test("the singular directions and the legs of the enlarged error are drawn on demand", async () => {
+  const report = await opened("helix/report.html");
+  const { page } = report;
+  await page.locator(".screen canvas").waitFor();
+  const seen = () => page.locator(".screen").screenshot();
+  await page.getByRole("button", { name: /nearest to a singular pose/ }).click();
+  await page.locator("[data-layer=error]").setChecked(false);
+  const before = await seen();
+  assert.ok(before.equals(await seen()), "what stands still looks the same");
+  await page.locator("[data-layer=weak]").setChecked(true);
+  const directions = await seen();
+  assert.ok(!before.equals(directions), "no direction is drawn");
+  await page.locator("[data-layer=weak]").setChecked(false);
+  await page.locator("[data-layer=error]").setChecked(true);
+  await page.locator("[data-role=time]").press("End");
+  const off = await seen();
+  await page.locator("[data-layer=error]").setChecked(false);
+  assert.ok(!off.equals(await seen()), "no error is drawn");
+  assertQuietAndOffline(report);
+});
+
+test("the paper's helix is printed on four pages of A4, charts first", async () => {
+  const { page, complaints } = await opened("helix/report.html");
+  const pdf = (await page.pdf({ format: "A4", preferCSSPageSize: true })).toString("latin1");
+  const pages = pdf.match(/\/Type\s*\/Page\b/g).length;
+  assert.ok(pages > 1 && pages <= 4, `${pages} pages of A4`);
+  await page.emulateMedia({ media: "print" });
+  const top = (id) => page.locator(id).evaluate((element) => element.getBoundingClientRect().top);
+  for (const charts of ["#errors", "#efforts", "#motion", "#reactions", "#numerics"])
+    for (const words of ["#checks", "#statistics", "#input", "#findings", "#provenance"])
+      assert.ok((await top(charts)) < (await top(words)), `${charts} before ${words}`);
+  assert.deepEqual(complaints, []);
+});
+
+test("a suite's reports lead back to it, a report alone nowhere", async () => {
+  const { page } = await opened("passed/report.html");
+  await page.getByRole("link", { name: "The suite" }).click();
+  assert.match(await page.locator("h1").innerText(), /scenarios passed/);
+  const alone = await opened("alone/report.html");
+  assert.equal(await alone.page.locator("a[href*='index.html']").count(), 0);
+});
+
+for (const file of ["comparison/compare.html", "prove.html", "weak.html", "audit.html"])
+  for (const colorScheme of ["light", "dark"])
+    test(`axe finds nothing serious in ${file}, ${colorScheme}, and 400 pixels hold it`, async () => {
+      const { page, complaints } = await opened(file, { colorScheme, viewport: { width: 400, height: 800 } });
+      assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 400);
+      assert.deepEqual(await seriousFindings(page), []);
+      assert.deepEqual(complaints, []);
+    });
