@@ -64,6 +64,16 @@ TEST(Usage, misuseExitsWithTwoAndSaysSoOnStandardError) {
   EXPECT_EQ(ursula.files(), 0u);
 }
 
+TEST(Usage, aToleranceIsAFiniteNumber) {
+  const Program ursula;
+  for (const char* tolerance : {"--rtol nan", "--rtol inf", "--rtol 0", "--rtol 1e-3x", "--atol nan", "--atol -1"}) {
+    const UrsulaRun run = ursula(std::string("validate '" URSULA_SCENARIOS "/paper-helix.toml' ") + tolerance);
+    EXPECT_EQ(run.exit_code, 2) << tolerance;
+    EXPECT_NE(run.err.find("finite number above 0"), std::string::npos) << run.err;
+  }
+  EXPECT_EQ(ursula.files(), 0u);
+}
+
 TEST(Usage, aMisspeltVerbOrOptionGetsOneLineWithTheNearest) {
   const Program ursula;
   for (const auto& [call, line] : std::vector<std::pair<std::string, std::string>>{

@@ -118,6 +118,22 @@ TEST(Tolerance, judgesAFileOfFewDigits) {
   EXPECT_EQ(judged().verdict, Verdict::fail) << "four digits are not right to a millionth";
 }
 
+/// The scale is the motion's, not that of the instants that a file happens to have.
+TEST(Tolerance, isRelativeToTheMotionsLargestEffortForAnyFile) {
+  const Scenario scenario = scenarioOf("paper-helix");
+  TorqueTable start = exactTorques(scenario, 301);
+  start.t.resize(11);
+  start.torques.resize(11);
+  const auto of = [&](const TorqueTable& table) { return validateExternal(scenario, table.file()).deviation; };
+  const auto short_one = of(start), whole = of(exactTorques(scenario, 31)), own = validate(scenario).deviation;
+  ASSERT_TRUE(short_one && whole && own);
+  EXPECT_EQ(short_one->largest_effort, own->largest_effort);
+  EXPECT_EQ(whole->largest_effort, own->largest_effort);
+  double largest_at_start = 0;
+  for (const Vector6d& row : start.torques) largest_at_start = std::max(largest_at_start, row.cwiseAbs().maxCoeff());
+  EXPECT_LT(largest_at_start, 0.99 * own->largest_effort) << "the start has the largest: nothing is shown";
+}
+
 /// What is not there cannot be right to anything.
 TEST(Tolerance, doesNotCoverWhatTheFileLeavesOut) {
   Scenario scenario = scenarioOf("paper-helix");
@@ -140,7 +156,7 @@ TEST(Sentence, saysHowRightWhereAndWhatFollows) {
   EXPECT_EQ(sentence(deviation),
             "Right to 0.03 %: the largest deviation is 7.4 N m of 25066 N m, leg 3 at t = 2.97 s; from errors of this "
             "size the open-loop motion would drift by up to 41 mm in 3 s; the smallest --rtol that would pass is "
-            "0.000296.");
+            "0.00029523.");
   deviation.drift = 2;
   EXPECT_THAT(sentence(deviation), HasSubstr("may be lost within 3 s"));
   deviation.drift = std::nan("");

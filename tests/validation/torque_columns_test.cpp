@@ -91,6 +91,9 @@ INSTANTIATE_TEST_SUITE_P(
         Foreign{"from_zero", "t,tau_0,tau_1,tau_2,tau_3,tau_4,tau_5\n" + plain_rows,
                 "t_s = 't', tau_1_Nm = 'tau_0', tau_2_Nm = 'tau_1', tau_3_Nm = 'tau_2', tau_4_Nm = 'tau_3', tau_5_Nm = "
                 "'tau_4', tau_6_Nm = 'tau_5'"},
+        Foreign{"own_names_from_zero", "t_s,tau_0_Nm,tau_1_Nm,tau_2_Nm,tau_3_Nm,tau_4_Nm,tau_5_Nm\n" + plain_rows,
+                "tau_1_Nm = 'tau_0_Nm', tau_2_Nm = 'tau_1_Nm', tau_3_Nm = 'tau_2_Nm', tau_4_Nm = 'tau_3_Nm', tau_5_Nm "
+                "= 'tau_4_Nm', tau_6_Nm = 'tau_5_Nm'"},
         Foreign{"milliseconds",
                 "time_ms,tau1,tau2,tau3,tau4,tau5,tau6\n0,1.25,2.25,3.25,4.25,5.25,6.25\n"
                 "500,2.5,4.5,6.5,8.5,10.5,12.5\n1500,3.75,6.75,9.75,12.75,15.75,18.75\n",
