@@ -2,17 +2,43 @@
 
 #include <array>
 
+#include "model/manipulator.h"
 #include "model/scalar.h"
 
 namespace ursula {
 
-/// φ, ψ, θ of the six legs, or their rates or accelerations; entry i is leg i.
+/// φ, ψ, θ, d of the legs, or their rates or accelerations; entry i is leg i. Zero where a leg has no such coordinate.
 template <class S>
 struct JointVariables {
-  Vector6<S> phi, psi, theta;
+  Vector6<S> phi = Vector6<S>::Zero(), psi = phi, theta = phi, d = phi;
+
+  Vector6<S>& of(Coordinate coordinate) {
+    switch (coordinate) {
+      case Coordinate::phi:
+        return phi;
+      case Coordinate::psi:
+        return psi;
+      case Coordinate::theta:
+        return theta;
+      case Coordinate::d:
+        break;
+    }
+    return d;
+  }
+  const Vector6<S>& of(Coordinate coordinate) const { return const_cast<JointVariables&>(*this).of(coordinate); }
+
+  /// Those that the motors drive, in their order.
+  Vector6<S> driven(const Motors& motors) const {
+    Vector6<S> out;
+    for (int k = 0; k < motor_count; ++k) {
+      const Motor& motor = motors[static_cast<std::size_t>(k)];
+      out(k) = of(motor.coordinate)(motor.leg);
+    }
+    return out;
+  }
 };
 
-/// Joint coordinates with rates and accelerations, rad, rad/s, rad/s².
+/// Joint coordinates with rates and accelerations, rad, rad/s, rad/s²; of d m, m/s, m/s².
 struct JointMotion {
   JointVariables<double> q, q_dot, q_ddot;
 };
@@ -20,9 +46,9 @@ struct JointMotion {
 /// Pose, twist and twist rate of a body's mass centre, in B; R is G or H of (40), or Q.
 template <class S>
 struct BodyMotion {
-  Vector3<S> c;                  ///< (39)
-  Matrix3<S> R;                  ///< (40)
-  Vector6<S> twist, twist_rate;  ///< [ω; ċ] of (16), (41); [ω̇; c̈] of (17), (43)
+  Vector3<S> c = Vector3<S>::Zero();                      ///< (39)
+  Matrix3<S> R = Matrix3<S>::Zero();                      ///< (40)
+  Vector6<S> twist = Vector6<S>::Zero(), twist_rate = twist;  ///< [ω; ċ] of (16), (41); [ω̇; c̈] of (17), (43)
 };
 
 /// Proximal links, distal links, platform: the order of (30a).

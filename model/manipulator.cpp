@@ -47,16 +47,16 @@ void requireInertia(const std::string& place, const Matrix3d& inertia) {
 }
 
 void requireLink(const std::string& place, const Link& link) {
-  requirePositive(place + ".length", link.length);
   requirePositive(place + ".mass", link.mass);
   requireFinite(place + ".center_of_mass", link.center_of_mass);
   requireInertia(place + ".inertia", link.inertia);
 }
 
 void requireFriction(const std::string& place, const JointFriction& friction) {
-  requireNotNegative(place + ".actuated", friction.actuated);
-  requireNotNegative(place + ".universal", friction.universal);
-  requireNotNegative(place + ".knee", friction.knee);
+  for (std::size_t k = 0; k < coordinate_count; ++k) {
+    const auto coordinate = static_cast<Coordinate>(k);
+    requireNotNegative(place + "." + nameOf(coordinate), friction.on(coordinate));
+  }
 }
 
 std::string legPlace(int i) { return fmt::format("manipulator.leg[{}]", i + 1); }
@@ -67,17 +67,44 @@ void requireLeg(const std::string& place, const Leg& leg) {
   if (!(leg.base_axis.stableNorm() > 0))
     throw InvalidParameter(place + ".base_axis", text(leg.base_axis), "a vector that is not zero");
   requireFinite(place + ".platform_point", leg.platform_point);
+  if (leg.kind == LegKind::PUS)  // a carriage's length is for drawing only
+    requireNotNegative(place + ".proximal.length", leg.proximal.length);
+  else
+    requirePositive(place + ".proximal.length", leg.proximal.length);
+  requirePositive(place + ".distal.length", leg.distal.length);
   requireLink(place + ".proximal", leg.proximal);
   requireLink(place + ".distal", leg.distal);
   requireFriction(place + ".friction", leg.friction);
   requireFriction(place + ".coulomb", leg.coulomb);
   requirePositive(place + ".coulomb.smoothing_speed", leg.coulomb.smoothing_speed);
+  requirePositive(place + ".coulomb.smoothing_speed", leg.coulomb.sliding_speed);
+}
+
+void requireLegCount(const ManipulatorParameters& machine) {
+  const std::size_t legs = machine.legs.size();
+  if (legs < 3 || legs > leg_count) throw InvalidParameter("manipulator.leg", fmt::format("{} legs", legs), "3 to 6");
+}
+
+Motors motorsOf(const ManipulatorParameters& machine) {
+  Motors out;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < machine.legs.size(); ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (!machine.legs[i].actuated[j]) continue;
+      if (count < out.size())
+        out[count] = {static_cast<int>(i), static_cast<int>(j), rowOf(machine.legs[i].kind).coordinates[j]};
+      ++count;
+    }
+  if (count != out.size())
+    throw InvalidParameter("manipulator.leg", fmt::format("{} actuated coordinates in all", count), "exactly 6");
+  return out;
 }
 
 /// Two legs and the platform edge between them must span the base edge, and the other way round; whatever the pose.
 void requireSpan(const ManipulatorParameters& machine, int i, int j) {
   const Leg& first = machine.legs[static_cast<std::size_t>(i)];
   const Leg& second = machine.legs[static_cast<std::size_t>(j)];
+  if (first.kind == LegKind::PUS || second.kind == LegKind::PUS) return;  // rails have no end
   const double base = (first.base_point - second.base_point).norm();
   const double platform = (first.platform_point - second.platform_point).norm();
   const double reach = first.proximal.length + first.distal.length + second.proximal.length + second.distal.length;
@@ -89,14 +116,37 @@ void requireSpan(const ManipulatorParameters& machine, int i, int j) {
 
 }  // namespace
 
+double& JointFriction::on(Coordinate coordinate) {
+  switch (coordinate) {
+    case Coordinate::phi:
+      return phi;
+    case Coordinate::psi:
+      return psi;
+    case Coordinate::theta:
+      return theta;
+    case Coordinate::d:
+      break;
+  }
+  return d;
+}
+
 Manipulator::Manipulator(const ManipulatorParameters& parameters) : parameters_(parameters) {
+  requireLegCount(parameters_);
   requireFinite("manipulator.gravity", parameters_.gravity);
   requirePositive("manipulator.platform.mass", parameters_.platform.mass);
   requireFinite("manipulator.platform.center_of_mass", parameters_.platform.center_of_mass);
   requireInertia("manipulator.platform.inertia", parameters_.platform.inertia);
-  for (int i = 0; i < leg_count; ++i) requireLeg(legPlace(i), leg(i));
-  for (int i = 0; i < leg_count; ++i)
-    for (int j = i + 1; j < leg_count; ++j) requireSpan(parameters_, i, j);
+  for (int i = 0; i < legCount(); ++i) requireLeg(legPlace(i), leg(i));
+  for (int i = 0; i < legCount(); ++i)
+    for (int j = i + 1; j < legCount(); ++j) requireSpan(parameters_, i, j);
+  motors_ = motorsOf(parameters_);
+}
+
+bool Manipulator::isOfThePaper() const {
+  if (legCount() != leg_count) return false;
+  for (const Leg& leg : parameters_.legs)
+    if (leg.kind != LegKind::URS || leg.actuated != std::array<bool, 3>{true, false, false}) return false;
+  return true;
 }
 
 Manipulator frictionless(const Manipulator& manipulator) {

@@ -2,33 +2,41 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
+#include "model/leg_kind.h"
 #include "model/scalar.h"
 
 namespace ursula {
 
-/// Which of the two bends of the knee: the sign of sin θ.
+/// Which of the two bends of the knee: the sign of sin θ for URS, of sin ψ for RUS, of cos θ for PUS.
 enum class Knee { positive, negative };
 
 /// One link of a leg. The proximal link runs from A to R along e, the distal one from R to B along s (paper, Fig. 3).
+/// Of UPS they are cylinder and rod, both along e; of PUS the first is the carriage, along u.
 struct Link {
   double length = 0;          ///< l or s, m
   double mass = 0;            ///< kg
-  double center_of_mass = 0;  ///< ρᵢ or σᵢ: distance along the link from its first joint, m
+  double center_of_mass = 0;  ///< ρᵢ or σᵢ: distance along the link from its first end, m
   /// [Iᵢ]_G or [I₆₊ᵢ]_H of (46): about the mass centre, in the link's frame of (40), kg·m².
   Matrix3d inertia = Matrix3d::Zero();
 };
 
-/// Coefficients of one friction law on the joint coordinates φ, ψ, θ of a leg.
+/// Coefficients of one friction law on the coordinates of a leg; those that the leg has not are zero.
 struct JointFriction {
-  double actuated = 0;   ///< on φ
-  double universal = 0;  ///< on ψ
-  double knee = 0;       ///< on θ
+  double phi = 0, psi = 0, theta = 0, d = 0;
+
+  double& on(Coordinate coordinate);
+  double on(Coordinate coordinate) const { return const_cast<JointFriction&>(*this).on(coordinate); }
+  bool any() const { return phi != 0 || psi != 0 || theta != 0 || d != 0; }
 };
 
-/// Coulomb friction smoothed to −c tanh(q̇ / smoothing_speed); coefficients in N·m.
+/// Coulomb friction smoothed to −c tanh(q̇ / speed); coefficients in N·m, on d in N.
 struct CoulombFriction : JointFriction {
-  double smoothing_speed = 1e-2;  ///< rad/s, > 0
+  double smoothing_speed = 1e-2;  ///< of the angles, rad/s, > 0
+  double sliding_speed = 1e-2;    ///< of d, m/s, > 0; files give both as one number
+
+  double speedOf(Coordinate coordinate) const { return slides(coordinate) ? sliding_speed : smoothing_speed; }
 };
 
 struct Leg {
@@ -37,9 +45,23 @@ struct Leg {
   Vector3d platform_point = Vector3d::Zero();  ///< bᵢ, m, in M
   Link proximal, distal;
   Knee knee = Knee::positive;
-  JointFriction friction;   ///< viscous, N·m·s/rad
-  CoulombFriction coulomb;  ///< N·m
+  JointFriction friction;   ///< viscous, N·m·s/rad, on d N·s/m
+  CoulombFriction coulomb;  ///< N·m, on d N
+  LegKind kind = LegKind::URS;
+  std::array<bool, 3> actuated = {true, false, false};  ///< which of the kind's coordinates a motor drives
 };
+
+/// A coordinate that is driven. Its effort is conjugate to the coordinate's rate: N·m, or N where it slides.
+struct Motor {
+  int leg = 0;    ///< 0-based
+  int joint = 0;  ///< which of the leg's three coordinates
+  Coordinate coordinate = Coordinate::phi;
+
+  bool slides() const { return ursula::slides(coordinate); }
+  /// "Nm" or "N", as columns write it.
+  const char* effortUnit() const { return slides() ? "N" : "Nm"; }
+};
+using Motors = std::array<Motor, motor_count>;
 
 struct Platform {
   double mass = 0;                             ///< m, kg
@@ -51,24 +73,31 @@ struct Platform {
 struct ManipulatorParameters {
   Vector3d gravity = {0.0, 0.0, -9.81};  ///< g, m/s², in B
   Platform platform;
-  std::array<Leg, leg_count> legs;
+  std::vector<Leg> legs = std::vector<Leg>(leg_count);  ///< three to six
 };
 
 /// Raw parameters that some machine can have; immutable.
 class Manipulator {
  public:
   /// Checks finiteness, positive masses and lengths, non-zero axes, inertias (symmetric, positive definite, within the
-  /// triangle inequality) and that every pair of legs is long enough to join base and platform.
+  /// triangle inequality), that there are six motors on three to six legs, and that every pair of legs is long enough to
+  /// join base and platform.
   /// Throws InvalidParameter with the key, the value and the bound.
   explicit Manipulator(const ManipulatorParameters& parameters);
 
   const ManipulatorParameters& parameters() const { return parameters_; }
   const Leg& leg(int i) const { return parameters_.legs[static_cast<std::size_t>(i)]; }
+  int legCount() const { return static_cast<int>(parameters_.legs.size()); }
+  /// In leg order, within a leg in the order of its coordinates: the order of efforts.
+  const Motors& motors() const { return motors_; }
+  /// Six URS legs with a motor on each φ: what the paper's equations are for.
+  bool isOfThePaper() const;
   const Platform& platform() const { return parameters_.platform; }
   const Vector3d& gravity() const { return parameters_.gravity; }
 
  private:
   ManipulatorParameters parameters_;
+  Motors motors_;
 };
 
 /// The same machine, but nothing rubs.

@@ -4,8 +4,11 @@
 
 namespace ursula {
 
+/// Legs of the paper's machine; the most that any machine has.
 constexpr int leg_count = 6;
-/// Two links a leg and the platform. Bodies are ordered as in (30a): proximal links, distal links, platform.
+constexpr int motor_count = 6;
+/// Two links a leg and the platform. Bodies are ordered as in (30a): proximal links, distal links, platform; the places
+/// of legs that a machine has not stay empty.
 constexpr int body_count = 2 * leg_count + 1;
 
 template <class S>

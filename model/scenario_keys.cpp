@@ -47,7 +47,7 @@ ScenarioTable manipulator() {
             {},
             {},
             "manipulator.leg"},
-           {"leg", KeyType::tables, "", required_key, "exactly six, in leg order", {}, {}, "manipulator.leg"}}};
+           {"leg", KeyType::tables, "", required_key, "three to six, in leg order", {}, {}, "manipulator.leg"}}};
 }
 
 ScenarioTable platform() {
@@ -64,19 +64,35 @@ ScenarioTable leg() {
   return {
       "manipulator.leg",
       "[[manipulator.leg]]",
-      "One of six; also `[manipulator.leg_defaults]`, whose keys a leg may override one by one. Required keys must "
+      "One of three to six; also `[manipulator.leg_defaults]`, whose keys a leg may override one by one. Required keys must "
       "stand in one of the two.",
-      {{"base_point", KeyType::vector, "m", required_key, "aᵢ: the base joint A, in B"},
+      {{"kind",
+        KeyType::choice,
+        "",
+        "\"URS\"",
+        "the joints from base to platform, where each leg ends in a spherical one: URS (the paper's), UPS (telescopic), "
+        "RUS (crank and rod), PUS (carriage and rod)",
+        {},
+        {"URS", "UPS", "RUS", "PUS"}},
+       {"actuated",
+        KeyType::choices,
+        "",
+        no_default,
+        "the coordinates that a motor drives, six in all the legs; by default the first of URS, RUS (phi, psi, theta) "
+        "and PUS (d, psi, theta), and the last of UPS (phi, psi, d)",
+        {},
+        {"phi", "psi", "theta", "d"}},
+       {"base_point", KeyType::vector, "m", required_key, "aᵢ: the base joint A, in B"},
        {"base_axis", KeyType::vector, "", required_key,
-        "uᵢ: the motor's axis, in B; normalised on reading. φ is positive about −uᵢ"},
+        "uᵢ: the axis of the first joint, in B; normalised on reading. φ is positive about −uᵢ, d of PUS along it"},
        {"platform_point", KeyType::vector, "m", required_key, "bᵢ: the platform joint B, in M"},
-       {"proximal", KeyType::table, "", required_key, "the link from A to the knee R", {}, {}, "manipulator.leg.link"},
-       {"distal", KeyType::table, "", required_key, "the link from the knee R to B", {}, {}, "manipulator.leg.link"},
+       {"proximal", KeyType::table, "", required_key, "the link from A to the knee R; the cylinder of UPS, the carriage of PUS", {}, {}, "manipulator.leg.link"},
+       {"distal", KeyType::table, "", required_key, "the link from the knee R to B; the rod", {}, {}, "manipulator.leg.link"},
        {"knee",
         KeyType::choice,
         "",
         "\"positive\"",
-        "sign of sin θ: which of the two bends of the knee",
+        "which of the two bends of the knee: sign of sin θ (URS), sin ψ (RUS), cos θ (PUS)",
         {},
         {"positive", "negative"}},
        {"friction",
@@ -101,35 +117,36 @@ ScenarioTable link() {
   return {"manipulator.leg.link",
           "proximal = { … }, distal = { … }",
           "A link of a leg: from its first joint along its length to the second.",
-          {{"length", KeyType::number, "m", required_key, "l of the proximal, s of the distal link", positive},
+          {{"length", KeyType::number, "m", required_key, "l of the proximal, s of the distal link; of the carriage of PUS for drawing only, and not required", not_negative},
            {"mass", KeyType::number, "kg", required_key, "", positive},
-           {"center_of_mass", KeyType::number, "m", required_key, "distance along the link from its first joint"},
+           {"center_of_mass", KeyType::number, "m", required_key, "distance along the link from its first end; of a rod of UPS from the end within the cylinder"},
            {"inertia", KeyType::inertia, "kg·m²", required_key,
             "about the mass centre, in the link's frame, whose third axis is along the link"}}};
 }
 
-ScenarioTable friction() {
-  const auto key = [](const char* name, const char* meaning) {
-    return ScenarioKey{name, KeyType::number, "N·m·s/rad", "0.0", meaning, not_negative};
+std::vector<ScenarioKey> perCoordinate(const char* turning, const char* sliding) {
+  const auto key = [](const char* name, const char* unit, const char* meaning) {
+    return ScenarioKey{name, KeyType::number, unit, "0.0", meaning, not_negative};
   };
-  return {"manipulator.leg.friction",
-          "friction = { … }",
-          "Viscous: a moment −c q̇ on a joint coordinate q.",
-          {key("actuated", "on φ, the motor's"), key("universal", "on ψ, between proximal link and its motor"),
-           key("knee", "on θ")}};
+  return {key("phi", turning, "on φ"),           key("psi", turning, "on ψ"),
+          key("theta", turning, "on θ"),         key("d", sliding, "on d"),
+          key("actuated", turning, "φ of URS"),  key("universal", turning, "ψ of URS"),
+          key("knee", turning, "θ of URS")};
+}
+
+ScenarioTable friction() {
+  return {"manipulator.leg.friction", "friction = { … }",
+          "Viscous: a moment (on d a force) −c q̇ on a joint coordinate q that the leg has.",
+          perCoordinate("N·m·s/rad", "N·s/m")};
 }
 
 ScenarioTable coulomb() {
-  const auto key = [](const char* name, const char* meaning) {
-    return ScenarioKey{name, KeyType::number, "N·m", "0.0", meaning, not_negative};
-  };
-  return {"manipulator.leg.coulomb",
-          "coulomb = { … }",
-          "A moment −c tanh(q̇ / smoothing_speed) on a joint coordinate q.",
-          {key("actuated", "on φ, the motor's"),
-           key("universal", "on ψ"),
-           key("knee", "on θ"),
-           {"smoothing_speed", KeyType::number, "rad/s", "0.01", "at which 76 % of the friction acts", positive}}};
+  ScenarioTable out = {"manipulator.leg.coulomb", "coulomb = { … }",
+                       "A moment (on d a force) −c tanh(q̇ / smoothing_speed) on a joint coordinate q that the leg has.",
+                       perCoordinate("N·m", "N")};
+  out.keys.push_back({"smoothing_speed", KeyType::number, "rad/s, m/s", "0.01", "at which 76 % of the friction acts",
+                      positive});
+  return out;
 }
 
 ScenarioKey force(const char* meaning) { return {"force", KeyType::vector, "N", "[0.0, 0.0, 0.0]", meaning}; }

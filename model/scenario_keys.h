@@ -6,7 +6,7 @@
 
 namespace ursula {
 
-enum class KeyType { number, integer, string, choice, vector, quaternion, inertia, table, tables, limits };
+enum class KeyType { number, integer, string, choice, choices, vector, quaternion, inertia, table, tables, limits };
 
 /// What numbers a key takes, and how refusals say so.
 struct KeyBound {
@@ -26,7 +26,7 @@ struct ScenarioKey {
   const char* fallback;  ///< as TOML writes it; "!" where the key is required, empty where there is no default
   const char* meaning;
   KeyBound bound = {};
-  std::vector<std::string> choices = {};  ///< of a choice, in the reader's order
+  std::vector<std::string> choices = {};  ///< of a choice or choices, in the reader's order
   const char* of = "";                    ///< of table and tables: the ScenarioTable that says what is in it
 
   bool isRequired() const { return fallback[0] == '!'; }

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
 #include <set>
 
 #include "model/scenario_sections.h"
@@ -7,45 +9,97 @@
 namespace ursula {
 namespace {
 
-/// Reads what tables give of one leg, the defaults first and the leg's own over them, and remembers which keys came.
+/// Names of friction coefficients: the coordinates', and those that the paper's legs had first.
+struct FrictionKey {
+  const char* name;
+  Coordinate coordinate;
+  bool of_urs_alone;
+};
+constexpr std::array<FrictionKey, 7> friction_keys = {{{"phi", Coordinate::phi, false},
+                                                       {"psi", Coordinate::psi, false},
+                                                       {"theta", Coordinate::theta, false},
+                                                       {"d", Coordinate::d, false},
+                                                       {"actuated", Coordinate::phi, true},
+                                                       {"universal", Coordinate::psi, true},
+                                                       {"knee", Coordinate::theta, true}}};
+
+bool takes(LegKind kind, const FrictionKey& key) {
+  const auto& has = rowOf(kind).coordinates;
+  return (!key.of_urs_alone || kind == LegKind::URS) && std::find(has.begin(), has.end(), key.coordinate) != has.end();
+}
+
+std::string coordinatesOf(LegKind kind) {
+  const auto& has = rowOf(kind).coordinates;
+  return fmt::format("'{}', '{}' or '{}'", nameOf(has[0]), nameOf(has[1]), nameOf(has[2]));
+}
+
+/// One leg, of the tables that say something of it: the defaults, then its own.
 class LegReader {
  public:
-  void apply(const TomlSection& table) {
-    const ScenarioTable& keys = scenarioTable("manipulator.leg");
-    table.allowOnly(keys);
-    note("base_point", table.read("base_point", leg_.base_point));
-    note("base_axis", table.read("base_axis", leg_.base_axis));
-    note("platform_point", table.read("platform_point", leg_.platform_point));
-    if (const auto link = table.section("proximal")) applyLink(*link, "proximal", leg_.proximal);
-    if (const auto link = table.section("distal")) applyLink(*link, "distal", leg_.distal);
-    if (const auto knee = table.readChoice(keys.key("knee"))) leg_.knee = *knee == 0 ? Knee::positive : Knee::negative;
-    if (const auto friction = table.section("friction")) {
-      friction->allowOnly(scenarioTable("manipulator.leg.friction"));
-      applyFriction(*friction, leg_.friction);
-    }
-    if (const auto coulomb = table.section("coulomb")) {
-      coulomb->allowOnly(scenarioTable("manipulator.leg.coulomb"));
-      applyFriction(*coulomb, leg_.coulomb);
-      coulomb->read("smoothing_speed", leg_.coulomb.smoothing_speed);
-    }
-  }
+  LegReader(std::optional<TomlSection> defaults, const TomlSection& own) : defaults_(std::move(defaults)), own_(own) {}
 
   /// Throws at the leg's table for the first required key that neither it nor the defaults gave.
-  const Leg& complete(const TomlSection& table) const {
-    require(table, {"base_point", "base_axis", "platform_point"}, "an array of 3 numbers");
-    for (const std::string link : {"proximal", "distal"}) {
-      require(table, {link + ".length", link + ".mass", link + ".center_of_mass"}, "a number");
-      require(table, {link + ".inertia"}, "an array of 3 or 6 numbers");
+  Leg read() {
+    readKind();
+    for (const TomlSection* table : tables()) {
+      table->allowOnly(keys_);
+      readGeometry(*table);
+      if (const auto friction = table->section("friction"))
+        readFriction(*friction, "manipulator.leg.friction", table == &own_, leg_.friction);
+      if (const auto coulomb = table->section("coulomb")) {
+        readFriction(*coulomb, "manipulator.leg.coulomb", table == &own_, leg_.coulomb);
+        coulomb->read("smoothing_speed", leg_.coulomb.smoothing_speed);
+        leg_.coulomb.sliding_speed = leg_.coulomb.smoothing_speed;
+      }
     }
+    requireAll();
     return leg_;
   }
 
  private:
+  std::vector<const TomlSection*> tables() const {
+    if (defaults_) return {&*defaults_, &own_};
+    return {&own_};
+  }
+
   void note(const std::string& key, bool given) {
     if (given) given_.insert(key);
   }
 
-  void applyLink(const TomlSection& table, const std::string& name, Link& link) {
+  /// `kind` first: what the other keys mean hangs on it.
+  void readKind() {
+    for (const TomlSection* table : tables())
+      if (const auto kind = table->readChoice(keys_.key("kind"))) leg_.kind = static_cast<LegKind>(*kind);
+    leg_.actuated.fill(false);
+    leg_.actuated[rowOf(leg_.kind).actuated] = true;
+    for (const TomlSection* table : tables())
+      if (const auto given = table->readStrings("actuated")) readActuated(*table, *given);
+  }
+
+  void readActuated(const TomlSection& table, const std::vector<std::string>& names) {
+    leg_.actuated.fill(false);
+    for (const std::string& name : names) {
+      const auto& has = rowOf(leg_.kind).coordinates;
+      const auto found = std::find_if(has.begin(), has.end(), [&](Coordinate c) { return name == nameOf(c); });
+      if (found == has.end())
+        table.fail("actuated", fmt::format("'{}' is no coordinate of a {} leg, expected {}", name,
+                                           rowOf(leg_.kind).name, coordinatesOf(leg_.kind)));
+      bool& driven = leg_.actuated[static_cast<std::size_t>(found - has.begin())];
+      if (driven) table.fail("actuated", fmt::format("'{}' twice", name));
+      driven = true;
+    }
+  }
+
+  void readGeometry(const TomlSection& table) {
+    note("base_point", table.read("base_point", leg_.base_point));
+    note("base_axis", table.read("base_axis", leg_.base_axis));
+    note("platform_point", table.read("platform_point", leg_.platform_point));
+    if (const auto link = table.section("proximal")) readLink(*link, "proximal", leg_.proximal);
+    if (const auto link = table.section("distal")) readLink(*link, "distal", leg_.distal);
+    if (const auto knee = table.readChoice(keys_.key("knee"))) leg_.knee = *knee == 0 ? Knee::positive : Knee::negative;
+  }
+
+  void readLink(const TomlSection& table, const std::string& name, Link& link) {
     table.allowOnly(scenarioTable("manipulator.leg.link"));
     note(name + ".length", table.read("length", link.length));
     note(name + ".mass", table.read("mass", link.mass));
@@ -53,20 +107,60 @@ class LegReader {
     note(name + ".inertia", table.readInertia("inertia", link.inertia));
   }
 
-  static void applyFriction(const TomlSection& table, JointFriction& friction) {
-    table.read("actuated", friction.actuated);
-    table.read("universal", friction.universal);
-    table.read("knee", friction.knee);
+  /// The defaults may speak of coordinates that other legs have.
+  void readFriction(const TomlSection& table, const char* name, bool own, JointFriction& friction) const {
+    table.allowOnly(scenarioTable(name));
+    std::set<Coordinate> given;
+    for (const FrictionKey& key : friction_keys) {
+      double value = 0;
+      if (!table.read(key.name, value)) continue;
+      if (takes(leg_.kind, key)) {
+        if (!given.insert(key.coordinate).second)
+          table.fail(key.name, fmt::format("given beside '{}', expected one of the two", nameOf(key.coordinate)));
+        friction.on(key.coordinate) = value;
+      } else if (own && value != 0) {
+        table.fail(key.name, fmt::format("{}, but a {} leg has no such coordinate, expected {}", value,
+                                         rowOf(leg_.kind).name, coordinatesOf(leg_.kind)));
+      }
+    }
   }
 
-  void require(const TomlSection& table, const std::vector<std::string>& keys, const std::string& expected) const {
+  void requireAll() const {
+    require({"base_point", "base_axis", "platform_point"}, "an array of 3 numbers");
+    for (const std::string link : {"proximal", "distal"}) {
+      if (leg_.kind != LegKind::PUS || link == "distal") require({link + ".length"}, "a number");
+      require({link + ".mass", link + ".center_of_mass"}, "a number");
+      require({link + ".inertia"}, "an array of 3 or 6 numbers");
+    }
+  }
+
+  void require(const std::vector<std::string>& keys, const std::string& expected) const {
     for (const std::string& key : keys)
-      if (given_.count(key) == 0) table.missing(key, expected + " here or in manipulator.leg_defaults");
+      if (given_.count(key) == 0) own_.missing(key, expected + " here or in manipulator.leg_defaults");
   }
 
+  std::optional<TomlSection> defaults_;
+  const TomlSection& own_;
+  const ScenarioTable& keys_ = scenarioTable("manipulator.leg");
   Leg leg_;
   std::set<std::string> given_;
 };
+
+/// What the defaults say of friction must mean something to some leg.
+void requireUse(const std::optional<TomlSection>& defaults, const std::vector<Leg>& legs) {
+  if (!defaults) return;
+  for (const char* name : {"friction", "coulomb"}) {
+    const auto table = defaults->section(name);
+    if (!table) continue;
+    for (const FrictionKey& key : friction_keys) {
+      double value = 0;
+      if (!table->read(key.name, value) || value == 0) continue;
+      if (std::none_of(legs.begin(), legs.end(), [&](const Leg& leg) { return takes(leg.kind, key); }))
+        table->fail(key.name, fmt::format("{}, but no leg has such a coordinate, expected {}", value,
+                                          coordinatesOf(legs.front().kind)));
+    }
+  }
+}
 
 Platform readPlatform(const TomlSection& table) {
   table.allowOnly(scenarioTable("manipulator.platform"));
@@ -77,11 +171,11 @@ Platform readPlatform(const TomlSection& table) {
   return platform;
 }
 
-void requireSixLegs(const TomlSection& manipulator, const std::vector<TomlSection>& legs) {
-  const std::string expected = "expected exactly six [[manipulator.leg]]";
-  if (legs.empty()) manipulator.missing("leg", "six [[manipulator.leg]]");
+void requireLegs(const TomlSection& manipulator, const std::vector<TomlSection>& legs) {
+  const std::string expected = "expected three to six [[manipulator.leg]]";
+  if (legs.empty()) manipulator.missing("leg", "three to six [[manipulator.leg]]");
   if (legs.size() > leg_count) legs[leg_count].fail("a surplus leg, " + expected);
-  if (legs.size() < leg_count) manipulator.fail("leg", fmt::format("only {} of the legs, {}", legs.size(), expected));
+  if (legs.size() < 3) manipulator.fail("leg", fmt::format("only {} of the legs, {}", legs.size(), expected));
 }
 
 }  // namespace
@@ -91,15 +185,12 @@ ManipulatorParameters readManipulator(const TomlSection& manipulator) {
   ManipulatorParameters parameters;
   manipulator.read("gravity", parameters.gravity);
   parameters.platform = readPlatform(manipulator.requiredSection("platform"));
-  LegReader defaults;
-  if (const auto table = manipulator.section("leg_defaults")) defaults.apply(*table);
+  const std::optional<TomlSection> defaults = manipulator.section("leg_defaults");
   const std::vector<TomlSection> legs = manipulator.sections("leg");
-  requireSixLegs(manipulator, legs);
-  for (std::size_t i = 0; i < leg_count; ++i) {
-    LegReader reader = defaults;
-    reader.apply(legs[i]);
-    parameters.legs[i] = reader.complete(legs[i]);
-  }
+  requireLegs(manipulator, legs);
+  parameters.legs.clear();
+  for (const TomlSection& leg : legs) parameters.legs.push_back(LegReader(defaults, leg).read());
+  requireUse(defaults, parameters.legs);
   return parameters;
 }
 

@@ -30,9 +30,20 @@ std::vector<Step> stepsOf(const std::string& place) {
   return steps;
 }
 
-const toml::node* child(const toml::node& node, const Step& step) {
+/// What else a file may call a coordinate's friction on a leg of the paper's.
+std::string otherNameOf(const std::string& key) {
+  if (key == "phi") return "actuated";
+  if (key == "psi") return "universal";
+  return key == "theta" ? "knee" : "";
+}
+
+const toml::node* child(const toml::node& node, Step& step) {
   const toml::table* table = node.as_table();
   const toml::node* found = table ? table->get(step.key) : nullptr;
+  if (const std::string other = otherNameOf(step.key); table && !found && !other.empty() && table->contains(other)) {
+    step.key = other;
+    found = table->get(other);
+  }
   if (!found || step.index == 0) return found;
   const toml::array* array = found->as_array();
   return array ? array->get(step.index - 1) : nullptr;
@@ -44,9 +55,10 @@ struct Reached {
   std::size_t steps;
 };
 
-Reached walk(const toml::node& document, const std::vector<Step>& steps) {
+/// Steps become those that the file has names for.
+Reached walk(const toml::node& document, std::vector<Step>& steps) {
   Reached reached{&document, 0};
-  for (const Step& step : steps) {
+  for (Step& step : steps) {
     const toml::node* next = child(*reached.node, step);
     if (!next) break;
     reached = {next, reached.steps + 1};
@@ -61,6 +73,16 @@ struct Found {
   bool given;
 };
 
+std::string joined(const std::vector<Step>& steps, std::size_t from) {
+  std::string out;
+  for (std::size_t k = from; k < steps.size(); ++k) {
+    if (k > 0) out += '.';
+    out += steps[k].key;
+    if (steps[k].index > 0) out += fmt::format("[{}]", steps[k].index);
+  }
+  return out;
+}
+
 /// A leg's own key, or that of manipulator.leg_defaults where it inherits it, or the nearest table around it.
 Found find(const toml::table& document, const std::string& key) {
   std::vector<Step> steps = stepsOf(key);
@@ -70,10 +92,10 @@ Found find(const toml::table& document, const std::string& key) {
     const std::size_t leg = steps[1].index;
     steps[1] = {"leg_defaults", 0};
     if (const Reached inherited = walk(document, steps); inherited.steps == steps.size())
-      return {inherited.node, fmt::format("manipulator.leg_defaults{} (of leg {})", key.substr(key.find(']') + 1), leg),
-              true};
+      return {inherited.node, fmt::format("manipulator.leg_defaults{} (of leg {})", joined(steps, 2), leg), true};
+    return {reached.node, key, false};
   }
-  return {reached.node, key, reached.steps == steps.size()};
+  return {reached.node, joined(steps, 0), reached.steps == steps.size()};
 }
 
 }  // namespace

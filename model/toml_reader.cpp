@@ -157,6 +157,19 @@ bool TomlSection::readInertia(const std::string& key, Matrix3d& value) const {
   return true;
 }
 
+std::optional<std::vector<std::string>> TomlSection::readStrings(const std::string& key) const {
+  const toml::node* node = table_->get(key);
+  if (!node) return std::nullopt;
+  const toml::array* array = node->as_array();
+  if (!array) fail(key, typeName(*node) + ", expected an array of strings");
+  std::vector<std::string> out;
+  for (const toml::node& element : *array) {
+    if (!element.is_string()) failAt(element, placeOf(key) + ": " + typeName(element) + ", expected a string");
+    out.push_back(element.as_string()->get());
+  }
+  return out;
+}
+
 void TomlSection::requireBound(const ScenarioKey& key, double value) const {
   if (has(key.name) && !key.bound.holds(value)) fail(key.name, fmt::format("{}, expected {}", value, key.bound.words));
 }

@@ -41,6 +41,8 @@ class TomlSection {
   bool read(const std::string& key, Eigen::Vector4d& value) const;
   /// [xx, yy, zz] or [xx, yy, zz, xy, xz, yz], tensor entries, into a symmetric matrix.
   bool readInertia(const std::string& key, Matrix3d& value) const;
+  /// An array of strings; none where the key is not given.
+  std::optional<std::vector<std::string>> readStrings(const std::string& key) const;
   /// The index among the key's choices of the string given.
   std::optional<std::size_t> readChoice(const ScenarioKey& key) const;
   /// Throws where the key is given and its number is not within its bound.

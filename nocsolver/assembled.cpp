@@ -60,7 +60,7 @@ AssembledDynamics<S>::AssembledDynamics(const Manipulator& manipulator, const Mo
 /// M, W, t, ṫ and w^g. (29), (30), (45), (46)
 template <class S>
 void AssembledDynamics<S>::setBodies(const BodyMotions<S>& bodies) {
-  const SolverModel<S>& model = solver_.model();
+  const PaperModel<S>& model = solver_.model();
   for (int b = 0; b < body_count; ++b) {
     const LegModel<S>& leg = model.legs[static_cast<std::size_t>(b % leg_count)];
     const bool is_platform = b == platform;

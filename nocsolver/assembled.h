@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/real50.h"
-#include "nocsolver/solver.h"
+#include "nocsolver/paper_solver.h"
 
 namespace ursula {
 
@@ -48,8 +48,8 @@ class AssembledDynamics {
   void setFriction();
   void setConstraints(const Motion<S>& motion, const BodyMotions<S>& bodies);
 
-  Solver<S> solver_;
-  Workspace<S> work_;
+  PaperSolver<S> solver_;
+  PaperWorkspace<S> work_;
   MatrixX M_, W_, D_;
   TwistShaping<S> T_, T_rate_;
   VectorX t_, t_rate_, w_g_, w_d_, w_e_;

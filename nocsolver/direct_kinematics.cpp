@@ -6,6 +6,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "nocsolver/chain_tracking.h"
 #include "nocsolver/direct_kinematics_planes.h"
 
 namespace ursula {
@@ -66,7 +67,7 @@ double readLeg(const LegModel<double>& leg, const Vector3d& AB, const Vector3d& 
   return worst;
 }
 
-PlatformPose makePose(const SolverModel<double>& model, const Planes& planes, const PlacedPlatform& placed) {
+PlatformPose makePose(const PaperModel<double>& model, const Planes& planes, const PlacedPlatform& placed) {
   PlatformPose pose;
   pose.p = placed.p;
   pose.q = withPositiveW(placed.q);
@@ -109,9 +110,15 @@ bool listedBefore(const PlatformPose& a, const PlatformPose& b) {
 UndeterminedPose::UndeterminedPose(const std::string& what, double measure, double bound)
     : std::runtime_error(describe(what, measure, bound)), measure_(measure), bound_(bound) {}
 
+const PaperSolver<double>& DirectKinematics::paper() const {
+  if (solver_.paper() == nullptr)
+    throw std::domain_error("all poses at once are known for six URS legs with a motor on each phi only");
+  return *solver_.paper();
+}
+
 PlatformPoses DirectKinematics::poses(const Vector6d& phi) const {
   if (!phi.allFinite()) throw std::invalid_argument("actuated angles must be finite");
-  const Planes planes(solver_.model(), phi);
+  const Planes planes(paper().model(), phi);
   const direct::Elimination elimination = planes.eliminateP();
   require(elimination.normals, "the planes of the legs leave the platform free to move along a line, pivot ratio");
   require(elimination.independence * elimination.normals,
@@ -128,7 +135,7 @@ PlatformPoses DirectKinematics::poses(const Vector6d& phi) const {
     PlacedPlatform placed{planes.p(q), q};
     polish(planes, placed);
     PlatformPose& pose = out.list[static_cast<std::size_t>(out.size++)];
-    pose = makePose(solver_.model(), planes, placed);
+    pose = makePose(paper().model(), planes, placed);
     pose.multiplicity = root.multiplicity;
   }
   std::sort(out.list.begin(), out.list.begin() + out.size, listedBefore);
@@ -139,14 +146,15 @@ PlatformPoses DirectKinematics::poses(const Vector6d& phi) const {
 /// det B (23) changes where poses merge: one that has the other sign is another branch.
 std::optional<PlatformPose> DirectKinematics::track(const Vector6d& phi, const PlatformPose& from) const {
   if (!phi.allFinite()) return std::nullopt;
-  const Planes planes(solver_.model(), phi);
+  if (solver_.paper() == nullptr) return chain::track(solver_.chain(), phi, from);
+  const Planes planes(paper().model(), phi);
   PlacedPlatform pose{from.p, from.q};
   double previous = std::numeric_limits<double>::infinity();
   int first_sign = 0, sign = 0;
   // Halving from a machine's length to its rounding takes no more steps than a double has bits.
   for (int i = 0; i < std::numeric_limits<double>::digits; ++i) {
     const Vector6d mismatch = planes.mismatch(pose);
-    if (mismatch.cwiseAbs().maxCoeff() <= planes.rounding(pose)) return makePose(solver_.model(), planes, pose);
+    if (mismatch.cwiseAbs().maxCoeff() <= planes.rounding(pose)) return makePose(paper().model(), planes, pose);
     const double step = planes.newtonStep(mismatch, pose, sign);
     if (i == 0) first_sign = sign;
     if (!(step <= previous / 2) || sign != first_sign) return std::nullopt;

@@ -63,10 +63,11 @@ class DirectKinematics {
   explicit DirectKinematics(const Manipulator& manipulator) : solver_(manipulator) {}
 
   /// Every real pose for φ, rad: the solutions of (27) with (13), and those in which legs do not reach.
-  /// Throws UndeterminedPose where there are infinitely many, or nearly so; std::invalid_argument unless φ is finite.
+  /// Throws UndeterminedPose where there are infinitely many, or nearly so; std::invalid_argument unless φ is finite;
+  /// std::domain_error unless the machine is of the paper's kind.
   PlatformPoses poses(const Vector6d& phi) const;
 
-  /// The pose for φ that continues `from`, by Newton. None where Newton's steps do not shrink as they must near a
+  /// The pose for φ, or what else the motors drive, that continues `from`, by Newton, for legs of any kinds. None where Newton's steps do not shrink as they must near a
   /// solution, or where it would cross a singular pose: then `from` is too far, or there is nothing to continue to.
   std::optional<PlatformPose> track(const Vector6d& phi, const PlatformPose& from) const;
 
@@ -78,6 +79,9 @@ class DirectKinematics {
   const Solver<double>& solver() const { return solver_; }
 
  private:
+  /// Throws std::domain_error where the machine is of another kind.
+  const PaperSolver<double>& paper() const;
+
   Solver<double> solver_;
 };
 

@@ -60,7 +60,7 @@ double pivotRatio(const Qr& qr) {
 
 Matrix3d rotation(const Eigen::Vector4d& q) { return Eigen::Quaterniond(q(0), q(1), q(2), q(3)).toRotationMatrix(); }
 
-Planes::Planes(const SolverModel<double>& model, const Vector6d& phi) : model_(model) {
+Planes::Planes(const PaperModel<double>& model, const Vector6d& phi) : model_(model) {
   for (int i = 0; i < leg_count; ++i) {
     const auto k = static_cast<std::size_t>(i);
     const LegModel<double>& leg = model.legs[k];

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "nocsolver/direct_kinematics_roots.h"
-#include "nocsolver/solver_model.h"
+#include "nocsolver/paper_model.h"
 
 // The six planes Πᵢ in which the motors hold the points Bᵢ. Internal to nocsolver/direct_kinematics*.
 
@@ -26,7 +26,7 @@ struct Elimination {
 class Planes {
  public:
   /// The planes for finite φ, rad.
-  Planes(const SolverModel<double>& model, const Vector6d& phi);
+  Planes(const PaperModel<double>& model, const Vector6d& phi);
 
   const Vector3d& x(int i) const { return x_[static_cast<std::size_t>(i)]; }  ///< xᵢ, normal to Πᵢ, in B
   const Vector3d& z(int i) const { return z_[static_cast<std::size_t>(i)]; }  ///< zᵢ, in Πᵢ across the axis
@@ -48,7 +48,7 @@ class Planes {
  private:
   Eigen::Matrix<double, leg_count, 3> normals() const;
 
-  const SolverModel<double>& model_;
+  const PaperModel<double>& model_;
   std::array<Vector3d, leg_count> x_, z_;
   double size_ = 0;  // largest ‖aᵢ‖, m
 };

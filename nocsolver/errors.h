@@ -22,12 +22,20 @@ class PoseError : public std::runtime_error {
   double instant_, measure_, bound_;
 };
 
-/// ‖AᵢBᵢ‖ is above l + s or below |l − s|; measure is the distance, m.
+/// ‖AᵢBᵢ‖ is above l + s or below |l − s|, or what is like it for other kinds of legs; measure is the distance, m.
 class OutOfReach : public PoseError {
+ public:
   using PoseError::PoseError;
 };
 
-/// sin θ vanishes: the leg is stretched or folded and its rates are not determined; measure is |sin θ|.
+/// The rod of a UPS leg leaves its cylinder or strikes its end; measure is d, m.
+class OutOfStroke : public OutOfReach {
+ public:
+  using OutOfReach::OutOfReach;
+};
+
+/// sin θ vanishes (of RUS sin ψ or cos θ, of PUS cos θ): the leg is stretched or folded and its rates are not
+/// determined; measure is its size.
 class StretchedLeg : public PoseError {
   using PoseError::PoseError;
 };

@@ -1,95 +1,118 @@
 #pragma once
 
-#include <array>
+#include <optional>
 
-#include <Eigen/LU>
-
-#include "model/joint_variables.h"
-#include "model/motion.h"
-#include "nocsolver/errors.h"
-#include "nocsolver/leg_state.h"
-#include "nocsolver/reading.h"
-#include "nocsolver/solver_model.h"
+#include "nocsolver/chain_solver.h"
+#include "nocsolver/paper_solver.h"
 
 namespace ursula {
 
-/// The twist-shaping matrix of (32a), 78 × 6, rows in the order of (30a).
-template <class S>
-using TwistShaping = Eigen::Matrix<S, 6 * body_count, leg_count>;
-
-/// Where the solver keeps what it finds; one for each thread. Fixed size: nothing is allocated.
+/// Where Solver keeps what it finds; one for each thread. Fixed size: nothing is allocated.
 template <class S>
 struct Workspace {
-  std::array<LegState<S>, leg_count> legs;
-  std::array<LinkMotion<S>, leg_count> proximal, distal;
-  Vector6<S> A;                                  ///< diagonal of A (23)
-  Matrix6<S> B;                                  ///< (23)
-  Eigen::PartialPivLU<Matrix6<S>> B_transposed;  ///< factors of Bᵀ
+  PaperWorkspace<S> paper;
+  ChainWorkspace<S> chain;
 };
 
-/// The paper's closed forms for one manipulator. Immutable: threads share it, each with a Workspace of its own.
-/// `Reading` is Corrected, or WithSlips for the formulas as printed. Nothing here allocates.
+/// Inverse and direct dynamics of any machine: by the paper's own equations where they are for it, else by
+/// ChainSolver, which has the same method for legs of all kinds. Both agree to rounding where both can be asked.
+/// Immutable: threads share it, each with a Workspace of its own. Nothing here allocates.
 ///
-/// Every function throws OutOfReach or PointOnAxis for poses that the legs cannot take, and from the rates on
-/// StretchedLeg; those that need B⁻¹ throw SingularJacobian.
-template <class S, class Reading = Corrected>
+/// Every function throws OutOfReach, OutOfStroke or PointOnAxis for poses that the legs cannot take, and from the rates
+/// on StretchedLeg; those that need B⁻¹ throw SingularJacobian.
+template <class S>
 class Solver {
  public:
-  explicit Solver(const Manipulator& manipulator, Reading reading = Reading{});
+  explicit Solver(const Manipulator& manipulator) : chain_(manipulator) {
+    if (manipulator.isOfThePaper()) paper_.emplace(manipulator);
+  }
 
-  const SolverModel<S>& model() const { return model_; }
+  /// The paper's equations; null where the machine is of another kind.
+  const PaperSolver<S>* paper() const { return paper_ ? &*paper_ : nullptr; }
+  /// The general road, for any machine.
+  const ChainSolver<S>& chain() const { return chain_; }
+  /// A length of the machine's size, m: the largest ‖bᵢ‖ or link.
+  const S& length() const { return chain_.length(); }
 
-  /// Displacements only: (3)–(5), (13), (14).
-  void displacements(const Motion<S>& motion, Workspace<S>& work) const;
+  /// Displacements only: (3)–(5), (13), (14) and what is like them.
+  void displacements(const Motion<S>& motion, Workspace<S>& work) const {
+    paper_ ? paper_->displacements(motion, work.paper) : chain_.displacements(motion, work.chain);
+  }
 
   /// Displacements, rates and accelerations of all joints, (1)–(19).
-  void inverseKinematics(const Motion<S>& motion, Workspace<S>& work) const;
+  void inverseKinematics(const Motion<S>& motion, Workspace<S>& work) const {
+    paper_ ? paper_->inverseKinematics(motion, work.paper) : chain_.inverseKinematics(motion, work.chain);
+  }
 
-  /// What `work` holds, as φ ∈ (−π, π], ψ of (14b), θ ∈ (−π, π) with the knee's sign.
-  JointVariables<S> angles(const Workspace<S>& work) const;
-  JointVariables<S> rates(const Workspace<S>& work) const;
-  JointVariables<S> accelerations(const Workspace<S>& work) const;
+  /// What `work` holds: angles in (−π, π] but for ψ of (14b), and d in m.
+  JointVariables<S> angles(const Workspace<S>& work) const {
+    return paper_ ? paper_->angles(work.paper) : chain_.angles(work.chain);
+  }
+  JointVariables<S> rates(const Workspace<S>& work) const {
+    return paper_ ? paper_->rates(work.paper) : chain_.rates(work.chain);
+  }
+  JointVariables<S> accelerations(const Workspace<S>& work) const {
+    return paper_ ? paper_->accelerations(work.paper) : chain_.accelerations(work.chain);
+  }
+
+  /// How near leg i is to where its rates are not determined. Needs displacements.
+  LegMargins<S> margins(const Workspace<S>& work, int i) const {
+    using std::abs;
+    const auto at = static_cast<std::size_t>(i);
+    if (!paper_) return work.chain.legs[at].margins;
+    const LegState<S>& leg = work.paper.legs[at];
+    return {abs(leg.sin_theta), leg.q / leg.r};
+  }
 
   /// A, B of (23) and the factors of Bᵀ, from the displacements in `work`.
-  void jacobians(const Motion<S>& motion, Workspace<S>& work) const;
+  void jacobians(const Motion<S>& motion, Workspace<S>& work) const {
+    paper_ ? paper_->jacobians(motion, work.paper) : chain_.jacobians(motion, work.chain);
+  }
+  const Matrix6<S>& B(const Workspace<S>& work) const { return paper_ ? work.paper.B : work.chain.B; }
 
-  /// T = B⁻¹A of (24), 6 × 6: t_P = T φ̇. Needs jacobians.
-  Matrix6<S> T(const Workspace<S>& work) const;
+  /// T = B⁻¹A of (24), 6 × 6: t_P = T q̇ of the driven coordinates. Needs jacobians.
+  Matrix6<S> T(const Workspace<S>& work) const { return paper_ ? paper_->T(work.paper) : chain_.T(work.chain); }
 
   /// Ṫ of (25), (26). Needs inverseKinematics and jacobians.
-  Matrix6<S> TRate(const Motion<S>& motion, const Workspace<S>& work) const;
+  Matrix6<S> TRate(const Motion<S>& motion, const Workspace<S>& work) const {
+    return paper_ ? paper_->TRate(motion, work.paper) : chain_.TRate(motion, work.chain);
+  }
 
-  /// Pose, twist and twist rate of all 13 bodies, (16), (17), (39)–(43). Needs inverseKinematics.
-  void bodyMotions(const Motion<S>& motion, Workspace<S>& work, BodyMotions<S>& bodies) const;
+  /// Pose, twist and twist rate of all bodies, (16), (17), (39)–(43). Needs inverseKinematics.
+  void bodyMotions(const Motion<S>& motion, Workspace<S>& work, BodyMotions<S>& bodies) const {
+    paper_ ? paper_->bodyMotions(motion, work.paper, bodies) : chain_.bodyMotions(motion, work.chain, bodies);
+  }
 
   /// The twist-shaping matrix by (48) and (47). Needs inverseKinematics and jacobians.
-  void twistShaping(const Motion<S>& motion, const Workspace<S>& work, TwistShaping<S>& shaping) const;
+  void twistShaping(const Motion<S>& motion, const Workspace<S>& work, TwistShaping<S>& shaping) const {
+    paper_ ? paper_->twistShaping(motion, work.paper, shaping) : chain_.twistShaping(motion, work.chain, shaping);
+  }
 
-  /// Its rate: ṫ = T φ̈ + Ṫ φ̇ (32b). Needs inverseKinematics and jacobians.
-  void twistShapingRate(const Motion<S>& motion, const Workspace<S>& work, TwistShaping<S>& shaping_rate) const;
-
-  /// Actuator torques τ^a, N·m, conjugate to φ̇ (positive about −uᵢ), by (37); `load` is an external wrench on the
-  /// platform, [moment about P; force], in B. Does all of inverseKinematics and jacobians on the way.
+  /// Efforts of the motors, N·m, or N where they push, conjugate to the rates of their coordinates, by (37); `load` is
+  /// an external wrench on the platform, [moment about P; force], in B. Does all of inverseKinematics and jacobians on
+  /// the way.
   Vector6<S> inverseDynamics(const Motion<S>& motion, Workspace<S>& work,
-                             const Vector6<S>& load = Vector6<S>::Zero()) const;
+                             const Vector6<S>& load = Vector6<S>::Zero()) const {
+    return paper_ ? paper_->inverseDynamics(motion, work.paper, load)
+                  : chain_.inverseDynamics(motion, work.chain, load);
+  }
 
-  /// The platform's twist rate [ω̇; p̈] under actuator torques, by (36) projected on t_P; accelerations in `motion` are
-  /// not read. Does not throw SingularJacobian: the torques act whether or not they determine the motion.
-  Vector6<S> directDynamics(const Motion<S>& motion, const Vector6<S>& torques, Workspace<S>& work,
-                            const Vector6<S>& load = Vector6<S>::Zero()) const;
+  /// The platform's twist rate [ω̇; p̈] under efforts, by (36) projected on t_P; accelerations in `motion` are not read.
+  /// Does not throw SingularJacobian: the motors act whether or not they determine the motion.
+  Vector6<S> directDynamics(const Motion<S>& motion, const Vector6<S>& efforts, Workspace<S>& work,
+                            const Vector6<S>& load = Vector6<S>::Zero()) const {
+    return paper_ ? paper_->directDynamics(motion, efforts, work.paper, load)
+                  : chain_.directDynamics(motion, efforts, work.chain, load);
+  }
 
-  /// M_P: the whole machine's mass matrix in the platform's twist at P. Needs displacements.
-  Matrix6<S> massMatrixAtP(const Motion<S>& motion, const Workspace<S>& work) const;
+  /// M_P: the whole machine's mass matrix in the platform's twist at P. Needs inverseKinematics.
+  Matrix6<S> massMatrixAtP(const Motion<S>& motion, const Workspace<S>& work) const {
+    return paper_ ? paper_->massMatrixAtP(motion, work.paper) : chain_.massMatrixAtP(motion, work.chain);
+  }
 
  private:
-  Vector6<S> wrenchAtP(const Motion<S>& motion, Workspace<S>& work, Vector6<S>& Q_phi) const;
-
-  SolverModel<S> model_;
-  Reading reading_;
+  std::optional<PaperSolver<S>> paper_;
+  ChainSolver<S> chain_;
 };
-
-extern template class Solver<double, Corrected>;
-extern template class Solver<double, WithSlips>;
-extern template class Solver<float, Corrected>;
 
 }  // namespace ursula

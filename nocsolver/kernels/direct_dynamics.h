@@ -10,7 +10,8 @@
 #include <Eigen/Cholesky>
 
 #include "nocsolver/kernels/dynamics.h"
-#include "nocsolver/solver.h"
+#include "nocsolver/kernels/platform_at_p.h"
+#include "nocsolver/paper_solver.h"
 
 namespace ursula::kernel {
 
@@ -67,21 +68,9 @@ Matrix3<S> legFrameInBase(const LegModel<S>& leg, const LegState<S>& state) {
   return F;
 }
 
-/// Adds a mass matrix at Bᵢ, in B, to one at P: Gᵀ M G with G = [−[Qb]×, 1].
-template <class S>
-void addAtP(const Matrix3<S>& M_B, const Vector3<S>& Qb, Matrix6<S>& M_P) {
-  Matrix3<S> arm;
-  arm << S(0), -Qb.z(), Qb.y(), Qb.z(), S(0), -Qb.x(), -Qb.y(), Qb.x(), S(0);
-  const Matrix3<S> arm_M = arm * M_B;
-  M_P.template topLeftCorner<3, 3>() -= arm_M * arm;
-  M_P.template topRightCorner<3, 3>() += arm_M;
-  M_P.template bottomLeftCorner<3, 3>() += arm_M.transpose();
-  M_P.template bottomRightCorner<3, 3>() += M_B;
-}
-
 /// M_P of (a): the whole machine's mass matrix in the platform's twist at P.
 template <class S>
-Matrix6<S> massMatrixAtP(const SolverModel<S>& model, const Motion<S>& motion, const Workspace<S>& work) {
+Matrix6<S> massMatrixAtP(const PaperModel<S>& model, const Motion<S>& motion, const PaperWorkspace<S>& work) {
   Matrix6<S> M_P = Matrix6<S>::Zero();
   addAtP<S>(model.mass * Matrix3<S>::Identity(), motion.Q * model.rho, M_P);
   M_P.template topLeftCorner<3, 3>() += motion.Q * model.I_M * motion.Q.transpose();

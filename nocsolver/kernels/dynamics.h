@@ -88,7 +88,7 @@ Vector3<S> forceAtB(const LegModel<S>& leg, const LegState<S>& state, const Join
 
 /// [moment about P; force], in B, that moves the platform as it moves against gravity. (38), (43c), (46c), (47)
 template <class S, class R>
-Vector6<S> platformWrench(const SolverModel<S>& model, const Motion<S>& motion, const R& reading) {
+Vector6<S> platformWrench(const PaperModel<S>& model, const Motion<S>& motion, const R& reading) {
   const Vector3<S> arm = motion.Q * model.rho;
   Vector3<S> c_ddot = motion.p_ddot + motion.omega_dot.cross(arm);  // (paper, eq. 43c)
   if (!reading.has(Slip::drop_platform_centripetal)) c_ddot += motion.omega.cross(motion.omega.cross(arm));

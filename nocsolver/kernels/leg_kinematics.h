@@ -20,7 +20,7 @@
 #include "nocsolver/errors.h"
 #include "nocsolver/leg_state.h"
 #include "nocsolver/reading.h"
-#include "nocsolver/solver_model.h"
+#include "nocsolver/paper_model.h"
 
 namespace ursula::kernel {
 

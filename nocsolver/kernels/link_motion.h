@@ -12,7 +12,7 @@
 
 #include "nocsolver/leg_state.h"
 #include "nocsolver/reading.h"
-#include "nocsolver/solver_model.h"
+#include "nocsolver/paper_model.h"
 
 namespace ursula::kernel {
 

@@ -4,7 +4,7 @@
 
 #include "nocsolver/kernels/leg_kinematics.h"
 #include "nocsolver/kernels/link_motion.h"
-#include "nocsolver/solver.h"
+#include "nocsolver/paper_solver.h"
 
 namespace ursula::kernel {
 
@@ -22,7 +22,7 @@ void toBase(const LegModel<S>& leg, const LegState<S>& state, const LinkMotion<S
 }
 
 template <class S>
-void platformMotion(const SolverModel<S>& model, const Motion<S>& motion, BodyMotion<S>& body) {
+void platformMotion(const PaperModel<S>& model, const Motion<S>& motion, BodyMotion<S>& body) {
   const Vector3<S> arm = motion.Q * model.rho;
   body.c = motion.p + arm;  // (paper, eq. 39c)
   body.R = motion.Q;
@@ -33,7 +33,7 @@ void platformMotion(const SolverModel<S>& model, const Motion<S>& motion, BodyMo
 
 /// T_P = B⁻¹A. `B_transposed` holds the factors of Bᵀ with its moment rows over `length`.
 template <class S>
-Matrix6<S> platformShaping(const Workspace<S>& work, const S& length) {
+Matrix6<S> platformShaping(const PaperWorkspace<S>& work, const S& length) {
   Matrix6<S> T = work.B_transposed.transpose().solve(Matrix6<S>(work.A.asDiagonal()));  // (paper, eq. 24)
   T.template topRows<3>() /= length;
   return T;
@@ -41,7 +41,7 @@ Matrix6<S> platformShaping(const Workspace<S>& work, const S& length) {
 
 /// Ṫ = B⁻¹(Ȧ − Ḃ T). (25), (26)
 template <class S, class R>
-Matrix6<S> platformShapingRate(const SolverModel<S>& model, const Motion<S>& motion, const Workspace<S>& work,
+Matrix6<S> platformShapingRate(const PaperModel<S>& model, const Motion<S>& motion, const PaperWorkspace<S>& work,
                                const Matrix6<S>& T, const R& reading) {
   Matrix6<S> B_dot;
   Vector6<S> A_dot;
@@ -76,7 +76,7 @@ void setColumn(TwistShaping<S>& shaping, int body, int column, const Vector3<S>&
 }
 
 template <class S, class R>
-void twistShaping(const SolverModel<S>& model, const Motion<S>& motion, const Workspace<S>& work, const R& reading,
+void twistShaping(const PaperModel<S>& model, const Motion<S>& motion, const PaperWorkspace<S>& work, const R& reading,
                   TwistShaping<S>& shaping) {
   const Matrix6<S> T = platformShaping(work, model.length);
   const Vector3<S> arm = reading.has(Slip::eq47) ? model.rho : Vector3<S>(motion.Q * model.rho);
@@ -101,7 +101,7 @@ void twistShaping(const SolverModel<S>& model, const Motion<S>& motion, const Wo
 
 /// Ṫ of (32b): the accelerations of (17), (43) at the actual motion for the rates of one column and their rates.
 template <class S, class R>
-void twistShapingRate(const SolverModel<S>& model, const Motion<S>& motion, const Workspace<S>& work, const R& reading,
+void twistShapingRate(const PaperModel<S>& model, const Motion<S>& motion, const PaperWorkspace<S>& work, const R& reading,
                       TwistShaping<S>& shaping_rate) {
   const Matrix6<S> T = platformShaping(work, model.length);
   const Matrix6<S> T_dot = platformShapingRate(model, motion, work, T, reading);

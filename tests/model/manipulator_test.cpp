@@ -83,14 +83,14 @@ INSTANTIATE_TEST_SUITE_P(
                             "manipulator.leg[2].distal.center_of_mass", "nan", "finite"},
                     Refusal{"link_inertia", [](Machine& m) { m.legs[4].proximal.inertia(2, 2) = 0; },
                             "manipulator.leg[5].proximal.inertia", "[0, 4.2, 4.2]", "> 0"},
-                    Refusal{"friction_actuated", [](Machine& m) { m.legs[3].friction.actuated = -1; },
-                            "manipulator.leg[4].friction.actuated", "-1", ">= 0"},
-                    Refusal{"friction_universal", [](Machine& m) { m.legs[3].friction.universal = nan; },
-                            "manipulator.leg[4].friction.universal", "nan", "finite"},
-                    Refusal{"friction_knee", [](Machine& m) { m.legs[3].friction.knee = -1e-300; },
-                            "manipulator.leg[4].friction.knee", "-1e-300", ">= 0"},
-                    Refusal{"coulomb", [](Machine& m) { m.legs[3].coulomb.knee = -1; },
-                            "manipulator.leg[4].coulomb.knee", "-1", ">= 0"},
+                    Refusal{"friction_actuated", [](Machine& m) { m.legs[3].friction.phi = -1; },
+                            "manipulator.leg[4].friction.phi", "-1", ">= 0"},
+                    Refusal{"friction_universal", [](Machine& m) { m.legs[3].friction.psi = nan; },
+                            "manipulator.leg[4].friction.psi", "nan", "finite"},
+                    Refusal{"friction_knee", [](Machine& m) { m.legs[3].friction.theta = -1e-300; },
+                            "manipulator.leg[4].friction.theta", "-1e-300", ">= 0"},
+                    Refusal{"coulomb", [](Machine& m) { m.legs[3].coulomb.theta = -1; },
+                            "manipulator.leg[4].coulomb.theta", "-1", ">= 0"},
                     Refusal{"smoothing", [](Machine& m) { m.legs[3].coulomb.smoothing_speed = 0; },
                             "manipulator.leg[4].coulomb.smoothing_speed", "0", "> 0"},
                     Refusal{"span", [](Machine& m) { m.legs[4].base_point.x() = 40; }, "manipulator.leg[1]",
@@ -99,10 +99,10 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Manipulator, keepsWhatItWasGiven) {
   Machine machine = good();
-  machine.legs[2].friction.knee = 0.75;
+  machine.legs[2].friction.theta = 0.75;
   machine.gravity = {1, 2, 3};
   const Manipulator manipulator(machine);
-  EXPECT_EQ(manipulator.leg(2).friction.knee, 0.75);
+  EXPECT_EQ(manipulator.leg(2).friction.theta, 0.75);
   EXPECT_EQ(manipulator.gravity(), Vector3d(1, 2, 3));
   EXPECT_EQ(manipulator.platform().mass, 500);
 }

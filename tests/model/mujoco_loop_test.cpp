@@ -166,12 +166,12 @@ const std::vector<Wrong> wrongs = {
     {"distal.mass", [](auto& m, double by) { m.legs[3].distal.mass *= 1 + by; }},
     {"distal.center_of_mass", [](auto& m, double by) { m.legs[3].distal.center_of_mass *= 1 + by; }},
     {"distal.inertia", [](auto& m, double by) { m.legs[3].distal.inertia(0, 0) *= 1 + by; }},
-    {"friction.actuated", [](auto& m, double by) { m.legs[3].friction.actuated += by; }},
-    {"friction.universal", [](auto& m, double by) { m.legs[3].friction.universal += by; }},
-    {"friction.knee", [](auto& m, double by) { m.legs[3].friction.knee += by; }},
-    {"coulomb.actuated", [](auto& m, double by) { m.legs[3].coulomb.actuated += by; }},
-    {"coulomb.universal", [](auto& m, double by) { m.legs[3].coulomb.universal += by; }},
-    {"coulomb.knee", [](auto& m, double by) { m.legs[3].coulomb.knee += by; }},
+    {"friction.phi", [](auto& m, double by) { m.legs[3].friction.phi += by; }},
+    {"friction.psi", [](auto& m, double by) { m.legs[3].friction.psi += by; }},
+    {"friction.theta", [](auto& m, double by) { m.legs[3].friction.theta += by; }},
+    {"coulomb.phi", [](auto& m, double by) { m.legs[3].coulomb.phi += by; }},
+    {"coulomb.psi", [](auto& m, double by) { m.legs[3].coulomb.psi += by; }},
+    {"coulomb.theta", [](auto& m, double by) { m.legs[3].coulomb.theta += by; }},
 };
 
 /// Control: every parameter has a say, and the same as in the other road.

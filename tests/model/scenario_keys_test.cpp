@@ -133,7 +133,7 @@ std::vector<double> numbersOf(const Scenario& scenario) {
   for (int k = 0; k < 3; ++k) out.push_back(machine.gravity(k));
   for (const Leg& leg : machine.legs)
     for (const JointFriction& friction : {leg.friction, static_cast<const JointFriction&>(leg.coulomb)})
-      out.insert(out.end(), {friction.actuated, friction.universal, friction.knee, leg.coulomb.smoothing_speed,
+      out.insert(out.end(), {friction.phi, friction.psi, friction.theta, leg.coulomb.smoothing_speed,
                              leg.knee == Knee::positive ? 1.0 : -1.0});
   for (double t : {0.0, 0.4, 1.0}) {
     const Motion<double> motion = scenario.trajectory->at(t);

@@ -46,7 +46,7 @@ TEST(Scenario, hasDefaults) {
     const Leg& leg = scenario.manipulator->leg(i);
     EXPECT_EQ(leg.knee, Knee::positive);
     EXPECT_THAT(leg.friction, FieldsAre(0, 0, 0));
-    EXPECT_EQ(leg.coulomb.actuated + leg.coulomb.universal + leg.coulomb.knee, 0);
+    EXPECT_EQ(leg.coulomb.phi + leg.coulomb.psi + leg.coulomb.theta, 0);
     EXPECT_EQ(leg.coulomb.smoothing_speed, 1e-2);
   }
   EXPECT_EQ(scenario.simulation.samples, 301);
@@ -78,13 +78,13 @@ TEST(Scenario, letsALegOverrideAnyKeyAndKeepsTheRest) {
   EXPECT_EQ(leg.proximal.mass, 11);
   EXPECT_EQ(leg.proximal.length, 1.4);
   EXPECT_THAT(leg.friction, FieldsAre(0.5, 0.75, 0.125));
-  EXPECT_EQ(leg.coulomb.knee, 2);
+  EXPECT_EQ(leg.coulomb.theta, 2);
   EXPECT_EQ(leg.coulomb.smoothing_speed, 0.5);
   const Leg& other = scenario.manipulator->leg(1);
   EXPECT_EQ(other.knee, Knee::positive);
   EXPECT_EQ(other.proximal.mass, 10);
   EXPECT_THAT(other.friction, FieldsAre(0.5, 0.25, 0.125));
-  EXPECT_EQ(other.coulomb.knee, 0);
+  EXPECT_EQ(other.coulomb.theta, 0);
 }
 
 TEST(Scenario, needsNoDefaultsWhereEveryLegIsComplete) {

@@ -229,8 +229,8 @@ TEST(LoopFriction, costsTorqueAndPower) {
   const Vector6d without = smooth.inverseDynamics();
 
   Leg& leg = parameters.legs[1];
-  leg.friction.actuated = 3;
-  leg.coulomb.actuated = 2;
+  leg.friction.phi = 3;
+  leg.coulomb.phi = 2;
   leg.coulomb.smoothing_speed = 0.1;
   SimbodyLoop rough{Manipulator(parameters)};
   rough.place(motion);

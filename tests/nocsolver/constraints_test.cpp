@@ -5,7 +5,7 @@
 
 #include <Eigen/QR>
 
-#include "nocsolver/solver.h"
+#include "nocsolver/paper_solver.h"
 #include "tests/nocsolver/mechanism.h"
 #include "tests/nocsolver/rounding.h"
 #include "tests/support/motions.h"
@@ -23,8 +23,8 @@ struct Found {
     solver.twistShaping(motion, work, T);
     D = constraintMatrix(manipulator, bodies);
   }
-  Solver<S, R> solver;
-  Workspace<S> work;
+  PaperSolver<S, R> solver;
+  PaperWorkspace<S> work;
   BodyMotions<S> bodies;
   TwistShaping<S> T;
   ConstraintMatrix<S> D;

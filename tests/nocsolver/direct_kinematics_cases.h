@@ -15,7 +15,7 @@ namespace ursula {
 constexpr double eps = Eigen::NumTraits<double>::epsilon();
 
 /// Lengths that the plane equations are made of, m.
-inline double sizeOf(const SolverModel<double>& model, const Vector3d& p) {
+inline double sizeOf(const PaperModel<double>& model, const Vector3d& p) {
   double size = p.norm() + model.length;
   for (const LegModel<double>& leg : model.legs) size = std::max(size, p.norm() + model.length + leg.a.norm());
   return size;
@@ -42,8 +42,8 @@ struct Conditioned {
   double determinant = 0;
 
   Conditioned(const DirectKinematics& kinematics, const Motion<double>& motion) {
-    Workspace<double> work;
-    const SolverModel<double>& model = kinematics.solver().model();
+    PaperWorkspace<double> work;
+    const PaperModel<double>& model = kinematics.solver().model();
     kinematics.solver().displacements(motion, work);
     phi = kinematics.solver().angles(work).phi;
     Matrix6d B;
@@ -96,7 +96,7 @@ inline Case feasibleCase(const Scenario& paper, Dice& dice, double spread) {
       made.kinematics = std::make_shared<DirectKinematics>(*made.manipulator);
       made.motion = displaced(paper.trajectory->at(dice.between(0, paper.trajectory->duration())),
                               dice.vector(5 * spread), dice.vector(8 * spread));
-      Workspace<double> work;
+      PaperWorkspace<double> work;
       made.kinematics->solver().displacements(made.motion, work);
       return made;
     } catch (const std::invalid_argument&) {  // no such machine: throw the dice again

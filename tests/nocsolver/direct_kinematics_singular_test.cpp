@@ -64,7 +64,7 @@ struct DoubleRoot {
 
   DoubleRoot(const DirectKinematics& kinematics, const Motion<double>& motion)
       : conditioned(kinematics, motion), left(conditioned.svd.matrixU().col(5)) {
-    const SolverModel<double>& model = kinematics.solver().model();
+    const PaperModel<double>& model = kinematics.solver().model();
     const direct::Planes planes(model, conditioned.phi);
     const direct::Elimination elimination = planes.eliminateP();
     const Vector3d omega = conditioned.svd.matrixV().col(5).head<3>() / model.length;
@@ -140,7 +140,7 @@ TEST(DirectKinematics, APairOfPosesVanishesAcrossAFoldAndTrackingSaysSo) {
     const DirectKinematics& kinematics = *fold->made.kinematics;
     const DoubleRoot root(kinematics, fold->motion());
     Vector6d step = root.left;
-    Workspace<double> work;
+    PaperWorkspace<double> work;
     kinematics.solver().displacements(fold->motion(), work);
     for (int i = 0; i < leg_count; ++i) step(i) /= work.legs[static_cast<std::size_t>(i)].a_ii;
     const Vector6d ahead = root.conditioned.phi + 1e-4 * step, behind = root.conditioned.phi - 1e-4 * step;

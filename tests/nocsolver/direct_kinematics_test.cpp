@@ -189,7 +189,7 @@ TEST(DirectKinematics, GivesTwistAndTwistRateOfTheVectors) {
       const PlatformPoses poses = kinematics.poses(doubles(row.q.phi));
       const PlatformPose* pose = nearestPose(poses, commanded);
       ASSERT_TRUE(pose != nullptr && poseError(*pose, commanded) <= Conditioned(kinematics, commanded).limit()) << name;
-      Workspace<double> work;
+      PaperWorkspace<double> work;
       const auto error = [&](const Vector6d& phi_ddot) {
         const Motion<double> found = kinematics.motion(*pose, doubles(row.q_dot.phi), phi_ddot, work);
         const double scale = commanded.omega.norm() + commanded.p_dot.norm() + commanded.omega_dot.norm() +

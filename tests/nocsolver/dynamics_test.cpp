@@ -8,7 +8,7 @@
 #include <iostream>
 
 #include "model/real50.h"
-#include "nocsolver/solver.h"
+#include "nocsolver/paper_solver.h"
 #include "tests/model/derivatives.h"
 #include "tests/nocsolver/newton_euler.h"
 #include "tests/nocsolver/rounding.h"
@@ -23,15 +23,15 @@ template <class S>
 struct Roads {
   Vector6<S> torques, assembled;
   Matrix6<S> T_P, M_P, inertia;
-  Workspace<S> work;
+  PaperWorkspace<S> work;
   double relative_limit, torque_limit;  ///< N·m
 
   template <class R = Corrected>
   Roads(const Manipulator& manipulator, const Motion<S>& motion, R reading = R{}) {
-    const Solver<S, R> solver(manipulator, reading);
+    const PaperSolver<S, R> solver(manipulator, reading);
     torques = solver.inverseDynamics(motion, work);
     M_P = solver.massMatrixAtP(motion, work);
-    const Solver<S> right(manipulator);
+    const PaperSolver<S> right(manipulator);
     BodyMotions<S> bodies;
     TwistShaping<S> T;
     right.inverseKinematics(motion, work);
@@ -59,7 +59,7 @@ class Dynamics : public testing::TestWithParam<std::string> {
   Dynamics() {
     ManipulatorParameters parameters = vectorScenario(GetParam()).manipulator->parameters();
     for (Leg& leg : parameters.legs) {  // smoothed so far that it is not just its sign
-      leg.coulomb.actuated = 3, leg.coulomb.universal = 5, leg.coulomb.knee = 7;
+      leg.coulomb.phi = 3, leg.coulomb.psi = 5, leg.coulomb.theta = 7;
       leg.coulomb.smoothing_speed = 0.5;
     }
     with_coulomb_ = std::make_unique<const Manipulator>(parameters);
@@ -102,8 +102,8 @@ TEST_P(Dynamics, aTermLeftOutIsSeen) {
 }
 
 TEST_P(Dynamics, aLoadIsCarriedByTheTransposedJacobian) {
-  const Solver<double> solver(*scenario_.manipulator);
-  Workspace<double> work;
+  const PaperSolver<double> solver(*scenario_.manipulator);
+  PaperWorkspace<double> work;
   const Motion<double> motion = randomState(scenario_, dice_);
   Vector6d load;
   load << dice_.vector(300), dice_.vector(2000);
@@ -121,8 +121,8 @@ TEST_P(Dynamics, directUndoesInverse) {
     const Motion<double> motion = randomState(scenario_, dice_);
     Vector6d load;
     load << dice_.vector(300), dice_.vector(2000);
-    const Solver<double> solver(*with_coulomb_);
-    Workspace<double> work;
+    const PaperSolver<double> solver(*with_coulomb_);
+    PaperWorkspace<double> work;
     const Vector6d torques = solver.inverseDynamics(motion, work, load);
     const Roads<double> roads(*with_coulomb_, motion);
     Motion<double> unread = motion;
@@ -172,9 +172,9 @@ Real50 dissipation(const Manipulator& manipulator, const JointVariables<Real50>&
   for (int i = 0; i < leg_count; ++i) {
     const Leg& leg = manipulator.leg(i);
     const double speed = leg.coulomb.smoothing_speed;
-    sum -= rates.phi(i) * frictionTorque(leg.friction.actuated, leg.coulomb.actuated, speed, rates.phi(i)) +
-           rates.psi(i) * frictionTorque(leg.friction.universal, leg.coulomb.universal, speed, rates.psi(i)) +
-           rates.theta(i) * frictionTorque(leg.friction.knee, leg.coulomb.knee, speed, rates.theta(i));
+    sum -= rates.phi(i) * frictionTorque(leg.friction.phi, leg.coulomb.phi, speed, rates.phi(i)) +
+           rates.psi(i) * frictionTorque(leg.friction.psi, leg.coulomb.psi, speed, rates.psi(i)) +
+           rates.theta(i) * frictionTorque(leg.friction.theta, leg.coulomb.theta, speed, rates.theta(i));
   }
   return sum;
 }
@@ -182,8 +182,8 @@ Real50 dissipation(const Manipulator& manipulator, const JointVariables<Real50>&
 /// τᵀφ̇ = d(energy)/dt + dissipation, the derivative by a central difference.
 TEST_P(Dynamics, powerOfTheTorquesBecomesEnergyAndHeat) {
   const auto trajectory = tumbling(scenario_, 3);
-  const Solver<Real50> solver(*with_coulomb_);
-  Workspace<Real50> work;
+  const PaperSolver<Real50> solver(*with_coulomb_);
+  PaperWorkspace<Real50> work;
   const auto energyAt = [&](const Real50& t) {
     BodyMotions<Real50> bodies;
     const Motion<Real50> motion = trajectory->at(t);
@@ -218,8 +218,8 @@ TEST(PaperHelix, hasItsReferenceTorques) {
         {24593.499943682222, 6729.2515146115527, 25065.531685212988, 13373.873533911844, 15845.632576113775,
          3305.8309418147462}}}};
   const Scenario scenario = vectorScenario("paper-helix");
-  const Solver<double> solver(*scenario.manipulator);
-  Workspace<double> work;
+  const PaperSolver<double> solver(*scenario.manipulator);
+  PaperWorkspace<double> work;
   for (const auto& [t, values] : reference) {
     const Vector6d expected = Eigen::Map<const Vector6d>(values.data());
     const Vector6d torques = solver.inverseDynamics(scenario.trajectory->at(t), work);

@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "model/real50.h"
-#include "nocsolver/solver.h"
+#include "nocsolver/paper_solver.h"
 #include "tests/model/derivatives.h"
 #include "tests/nocsolver/rounding.h"
 #include "tests/support/motions.h"
@@ -17,7 +17,7 @@ namespace {
 /// Everything that the solver says of one instant.
 struct Answer {
   Motion<Real50> motion;
-  Workspace<Real50> work;
+  PaperWorkspace<Real50> work;
   JointVariables<Real50> q, q_dot, q_ddot;
   Matrix6<Real50> T, T_rate;
   BodyMotions<Real50> bodies;
@@ -25,7 +25,7 @@ struct Answer {
 };
 
 template <class R>
-Answer answerAt(const Solver<Real50, R>& solver, const Motion<Real50>& motion) {
+Answer answerAt(const PaperSolver<Real50, R>& solver, const Motion<Real50>& motion) {
   Answer out;
   out.motion = motion;
   solver.inverseKinematics(motion, out.work);
@@ -82,7 +82,7 @@ void widenBodies(const Answer& before, const Answer& now, const Answer& after, M
 template <class R = Corrected>
 Mismatch mismatchOf(const std::string& name, R reading = R{}) {
   const Scenario scenario = vectorScenario(name);
-  const Solver<Real50, R> solver(*scenario.manipulator, reading);
+  const PaperSolver<Real50, R> solver(*scenario.manipulator, reading);
   const auto trajectory = tumbling(scenario, 20);
   Mismatch out;
   for (const double instant : instantsInside(trajectory->duration(), 3)) {

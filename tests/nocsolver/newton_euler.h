@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "nocsolver/solver.h"
+#include "nocsolver/paper_solver.h"
 #include "tests/nocsolver/mechanism.h"
 
 // The right-hand side of (37) as the paper writes it: one wrench for each body about its mass centre, in B, and the
@@ -68,9 +68,9 @@ void addFriction(const Manipulator& manipulator, const BodyMotions<S>& bodies, c
     const auto index = static_cast<std::size_t>(i);
     const LegJoints<S> joints = legJoints<S>(leg, bodies[index], bodies[leg_count + index]);
     const double speed = leg.coulomb.smoothing_speed;
-    const S phi = frictionTorque(leg.friction.actuated, leg.coulomb.actuated, speed, rates.phi(i));
-    const S psi = frictionTorque(leg.friction.universal, leg.coulomb.universal, speed, rates.psi(i));
-    const S theta = frictionTorque(leg.friction.knee, leg.coulomb.knee, speed, rates.theta(i));
+    const S phi = frictionTorque(leg.friction.phi, leg.coulomb.phi, speed, rates.phi(i));
+    const S psi = frictionTorque(leg.friction.psi, leg.coulomb.psi, speed, rates.psi(i));
+    const S theta = frictionTorque(leg.friction.theta, leg.coulomb.theta, speed, rates.theta(i));
     w.template segment<3>(6 * i) += -phi * joints.u + (psi - theta) * joints.x;
     w.template segment<3>(6 * (leg_count + i)) += theta * joints.x;
   }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/real50.h"
-#include "nocsolver/solver.h"
+#include "nocsolver/paper_solver.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/vectors.h"
 
@@ -47,9 +47,9 @@ Motion<S> castTo(const Motion<Real50>& motion) {
 TYPED_TEST(NoAllocation, inAnyFunctionOfTheSolver) {
   using S = TypeParam;
   const Scenario scenario = vectorScenario("random-4");
-  const Solver<S> solver(*scenario.manipulator);
+  const PaperSolver<S> solver(*scenario.manipulator);
   const Motion<S> motion = castTo<S>(vectorRows("random-4")[2].motion);
-  Workspace<S> work;
+  PaperWorkspace<S> work;
   BodyMotions<S> bodies;
   TwistShaping<S> shaping, shaping_rate;
   JointVariables<S> q, q_dot, q_ddot;
@@ -81,9 +81,9 @@ TYPED_TEST(NoAllocation, inAnyFunctionOfTheSolver) {
 
 TEST(NoAllocationWithSlips, either) {
   const Scenario scenario = vectorScenario("random-4");
-  const Solver<double, WithSlips> solver(*scenario.manipulator, WithSlips(Slip::eq15a));
+  const PaperSolver<double, WithSlips> solver(*scenario.manipulator, WithSlips(Slip::eq15a));
   const Motion<double> motion = rounded(vectorRows("random-4")[2].motion);
-  Workspace<double> work;
+  PaperWorkspace<double> work;
   Vector6d torques;
   EXPECT_EQ(allocationsIn([&] { torques = solver.inverseDynamics(motion, work); }), 0);
   EXPECT_GT(torques.norm(), 0);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "nocsolver/solver.h"
+#include "nocsolver/paper_solver.h"
 
 namespace ursula {
 
@@ -14,7 +14,7 @@ constexpr double chain_length = 64;
 /// number of B (moments over a length of the machine; Frobenius norms bound the spectral ones) times that of the worst
 /// leg, where rates go with 1/sin θ and q/r. Needs inverseKinematics and jacobians.
 template <class S>
-S conditionNumber(const Solver<S>& solver, const Workspace<S>& work) {
+S conditionNumber(const PaperSolver<S>& solver, const PaperWorkspace<S>& work) {
   Matrix6<S> B = work.B;
   B.template leftCols<3>() /= solver.model().length;
   const Matrix6<S> inverse = B.inverse();
@@ -26,7 +26,7 @@ S conditionNumber(const Solver<S>& solver, const Workspace<S>& work) {
 
 /// Relative rounding error that either of two roads to the same number may have at the motion in `work`.
 template <class S>
-double roundingLimit(const Solver<S>& solver, const Workspace<S>& work) {
+double roundingLimit(const PaperSolver<S>& solver, const PaperWorkspace<S>& work) {
   return static_cast<double>(S(chain_length * Eigen::NumTraits<S>::epsilon() * conditionNumber(solver, work)));
 }
 

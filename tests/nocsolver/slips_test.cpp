@@ -7,7 +7,7 @@
 #include <iostream>
 #include <map>
 
-#include "nocsolver/solver.h"
+#include "nocsolver/paper_solver.h"
 #include "tests/support/motions.h"
 #include "tests/support/vectors.h"
 
@@ -19,8 +19,8 @@ struct Answer {
   explicit Answer(std::string why) : refused(std::move(why)) {}
 
   template <class R>
-  Answer(const Solver<double, R>& solver, const Motion<double>& motion) {
-    Workspace<double> work;
+  Answer(const PaperSolver<double, R>& solver, const Motion<double>& motion) {
+    PaperWorkspace<double> work;
     BodyMotions<double> bodies;
     TwistShaping<double> shaping, shaping_rate;
     solver.inverseKinematics(motion, work);
@@ -57,7 +57,7 @@ struct Answer {
 
 Answer slipped(const Manipulator& manipulator, const Motion<double>& motion, const WithSlips& slips) {
   try {
-    return Answer(Solver<double, WithSlips>(manipulator, slips), motion);
+    return Answer(PaperSolver<double, WithSlips>(manipulator, slips), motion);
   } catch (const PoseError& error) {
     return Answer(error.what());
   }
@@ -80,7 +80,7 @@ TEST_P(EverySlip, makesADifference) {
   const Scenario scenario = vectorScenario("random-4");
   Dice dice(17);
   const Motion<double> motion = randomState(scenario, dice);
-  const Answer right(Solver<double>(*scenario.manipulator), motion);
+  const Answer right(PaperSolver<double>(*scenario.manipulator), motion);
   const Answer wrong = slipped(*scenario.manipulator, motion, WithSlips(static_cast<Slip>(GetParam())));
   const auto [kind, size] = largestEffect(right, wrong);
   std::cout << "slip " << GetParam() << ": " << kind << " off by " << size << '\n';
@@ -96,7 +96,7 @@ TEST_P(Corrections, areWhatIsReadWithNoSlipSet) {
   Dice dice(19);
   for (int k = 0; k < 5; ++k) {
     const Motion<double> motion = randomState(scenario, dice);
-    const Answer right(Solver<double>(*scenario.manipulator), motion);
+    const Answer right(PaperSolver<double>(*scenario.manipulator), motion);
     const Answer same = slipped(*scenario.manipulator, motion, WithSlips{});
     ASSERT_EQ(same.refused, "");
     for (const auto& [kind, values] : right.kinds)

@@ -110,7 +110,7 @@ TEST(FeedbackWitness, isAsStiffWithFrictionAsWithout) {
   Scenario scenario = scenarioOf("hold");
   const Amplification free(scenario, 10);
   ManipulatorParameters machine = scenario.manipulator->parameters();
-  for (Leg& leg : machine.legs) leg.friction.actuated = 3000;
+  for (Leg& leg : machine.legs) leg.friction.phi = 3000;
   scenario.manipulator = std::make_shared<const Manipulator>(machine);
   const Amplification slowed(scenario, 10);
   const auto growth = [](const Amplification& of) {

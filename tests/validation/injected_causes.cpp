@@ -212,13 +212,13 @@ void addMotions(Bench& out) {
 
 void addFriction(Bench& out) {
   out.machine("viscous friction of 5 on every phi", "viscous friction on every phi of 5",
-              ofLegs([](Leg& l) { l.friction.actuated += 5; }));
+              ofLegs([](Leg& l) { l.friction.phi += 5; }));
   out.machine("no friction", "friction left out", ofLegs([](Leg& l) {
                 l.friction = {};
-                l.coulomb.actuated = l.coulomb.universal = l.coulomb.knee = 0;
+                l.coulomb.phi = l.coulomb.psi = l.coulomb.theta = 0;
               }));
   out.machine("viscous friction on leg 1's psi + 10 %", "viscous friction on psi of leg 1",
-              [](Machine& m) { m.legs[0].friction.universal *= 1.1; });
+              [](Machine& m) { m.legs[0].friction.psi *= 1.1; });
   out.machine("inertia xy of the platform + 10 %", "platform inertia xy",
               [](Machine& m) { m.platform.inertia(0, 1) *= 1.1, m.platform.inertia(1, 0) *= 1.1; });
   out.machine("inertia zz of leg 2's proximal link + 10 %", "inertia zz of the proximal link of leg 2",

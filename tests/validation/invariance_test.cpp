@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(Machines, BrokenInvariance, testing::Values("paper-heli
 TEST(Invariance, frictionThatDoesNotTurnWithTheMotionFails) {
   const Extra extra = [](const Manipulator& machine, const Motion<double>& motion) {
     Vector6d out;
-    for (int i = 0; i < leg_count; ++i) out(i) = 1e-7 * machine.leg(i).friction.actuated * motion.p_dot.norm();
+    for (int i = 0; i < leg_count; ++i) out(i) = 1e-7 * machine.leg(i).friction.phi * motion.p_dot.norm();
     return out;
   };
   const std::vector<Check> checks = judge(scenarioOf("random-5"), broken(extra));

@@ -224,8 +224,8 @@ TEST(RandomScenario, isOfEveryKind) {
     kinds.insert(scenario.load ? "load" : "no load");
     for (const Leg& leg : scenario.manipulator->parameters().legs) {
       kinds.insert(leg.knee == Knee::positive ? "knee out" : "knee in");
-      kinds.insert(leg.friction.knee > 0 ? "viscous" : "smooth");
-      kinds.insert(leg.coulomb.knee > 0 ? "dry" : "oiled");
+      kinds.insert(leg.friction.theta > 0 ? "viscous" : "smooth");
+      kinds.insert(leg.coulomb.theta > 0 ? "dry" : "oiled");
     }
   }
   EXPECT_THAT(kinds, testing::UnorderedElementsAre("helix", "waypoints", "samples", "hold", "load", "no load",

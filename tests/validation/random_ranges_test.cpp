@@ -70,7 +70,7 @@ std::vector<double> frictionShares(const Scenario& scenario) {
   for (const Leg& leg : machine.legs) {
     const double mass = machine.platform.mass / leg_count + leg.proximal.mass + leg.distal.mass;
     const double torque = mass * machine.gravity.norm() * sizeOf(scenario);
-    if (leg.coulomb.knee > 0 && torque > 0) out.push_back(leg.coulomb.knee / torque);
+    if (leg.coulomb.theta > 0 && torque > 0) out.push_back(leg.coulomb.theta / torque);
   }
   return out;
 }
@@ -208,8 +208,8 @@ void addKindsOfMachine(const ManipulatorParameters& machine, std::set<std::strin
   bool viscous = false, dry = false;
   for (const Leg& leg : machine.legs) {
     kinds.insert(leg.knee == Knee::positive ? "knee out" : "knee in");
-    viscous |= leg.friction.knee > 0;
-    dry |= leg.coulomb.knee > 0;
+    viscous |= leg.friction.theta > 0;
+    dry |= leg.coulomb.theta > 0;
     for (const Link& link : {leg.proximal, leg.distal})
       if (link.center_of_mass == 0 || link.center_of_mass == link.length) kinds.insert("mass centre at an end");
     if (leg.base_axis.head<2>().isZero(0)) kinds.insert("axis along z");

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "nocsolver/assembled.h"
-#include "nocsolver/solver.h"
+#include "nocsolver/paper_solver.h"
 #include "validation/audit/formula.h"
 
 namespace ursula::audit {
@@ -17,7 +17,7 @@ class Shaping {
   explicit Shaping(const Manipulator& manipulator) : solver_(manipulator) {}
 
   TwistShaping<S> T(const Witness& at) const {
-    Workspace<S> work;
+    PaperWorkspace<S> work;
     solver_.inverseKinematics(at.motion, work);
     solver_.jacobians(at.motion, work);
     TwistShaping<S> T;
@@ -25,7 +25,7 @@ class Shaping {
     return T;
   }
   TwistShaping<S> TRate(const Witness& at) const {
-    Workspace<S> work;
+    PaperWorkspace<S> work;
     solver_.inverseKinematics(at.motion, work);
     solver_.jacobians(at.motion, work);
     TwistShaping<S> T_dot;
@@ -33,12 +33,12 @@ class Shaping {
     return T_dot;
   }
   Vector6<S> torques(const Witness& at) const {
-    Workspace<S> work;
+    PaperWorkspace<S> work;
     return solver_.inverseDynamics(at.motion, work);
   }
 
  private:
-  Solver<S> solver_;
+  PaperSolver<S> solver_;
 };
 
 /// Tᵀ (M x + W M y) over all bodies, for twist-like x and y.

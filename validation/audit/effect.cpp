@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "model/instants.h"
-#include "nocsolver/solver.h"
+#include "nocsolver/paper_solver.h"
 #include "validation/replay/replay.h"
 #include "validation/subject/subject.h"
 
@@ -51,8 +51,8 @@ class DynamicsBy36 {
   }
 
   Manipulator manipulator_;
-  Solver<double, WithSlips> solver_;
-  Workspace<double> work_;
+  PaperSolver<double, WithSlips> solver_;
+  PaperWorkspace<double> work_;
   TwistShaping<double> T_, T_dot_;
   BodyMotions<double> bodies_;
 };
@@ -70,8 +70,8 @@ double firstBeyond(const Replay& replay, double far) {
 }
 
 Vector6d torquesThatHold(const Scenario& scenario, const Motion<double>& motion) {
-  const Solver<double> solver(*scenario.manipulator);
-  Workspace<double> work;
+  const PaperSolver<double> solver(*scenario.manipulator);
+  PaperWorkspace<double> work;
   return solver.inverseDynamics(motion, work, loadAtP(scenario.load.get(), motion));
 }
 

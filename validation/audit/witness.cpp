@@ -63,8 +63,8 @@ BodyWitness linkBody(const S& mass, const M& I, const M& R, const M& R_dot, cons
 
 /// Friction as it acts on φ, ψ, θ of a leg.
 V frictionForces(const Leg& leg, const LegPose& rate) {
-  const double viscous[3] = {leg.friction.actuated, leg.friction.universal, leg.friction.knee};
-  const double coulomb[3] = {leg.coulomb.actuated, leg.coulomb.universal, leg.coulomb.knee};
+  const double viscous[3] = {leg.friction.phi, leg.friction.psi, leg.friction.theta};
+  const double coulomb[3] = {leg.coulomb.phi, leg.coulomb.psi, leg.coulomb.theta};
   V force;
   for (int k = 0; k < 3; ++k)
     force(k) = -viscous[k] * rate.v(k) - coulomb[k] * tanh(S(rate.v(k) / leg.coulomb.smoothing_speed));

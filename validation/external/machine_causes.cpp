@@ -180,7 +180,7 @@ void addKnees(Collector& out) {
 /// Friction that the scenario does not have: a fit of its coefficients, of every leg.
 void addFriction(Collector& out) {
   const std::pair<const char*, double JointFriction::*> joints[] = {
-      {"phi", &JointFriction::actuated}, {"psi", &JointFriction::universal}, {"theta", &JointFriction::knee}};
+      {"phi", &JointFriction::phi}, {"psi", &JointFriction::psi}, {"theta", &JointFriction::theta}};
   for (const auto& [name, member] : joints) {
     const std::string joint = name;
     out.addFitted(

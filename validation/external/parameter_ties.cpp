@@ -27,12 +27,12 @@ Quantity quantityOf(const std::string& name) {
       {"base_point", {"base point", "m"}},
       {"platform_point", {"platform point", "m"}},
       {"base_axis", {"base axis", "rad"}},
-      {"friction.actuated", {"viscous friction on phi", "N m s/rad"}},
-      {"friction.universal", {"viscous friction on psi", "N m s/rad"}},
-      {"friction.knee", {"viscous friction on theta", "N m s/rad"}},
-      {"coulomb.actuated", {"Coulomb friction on phi", "N m"}},
-      {"coulomb.universal", {"Coulomb friction on psi", "N m"}},
-      {"coulomb.knee", {"Coulomb friction on theta", "N m"}},
+      {"friction.phi", {"viscous friction on phi", "N m s/rad"}},
+      {"friction.psi", {"viscous friction on psi", "N m s/rad"}},
+      {"friction.theta", {"viscous friction on theta", "N m s/rad"}},
+      {"coulomb.phi", {"Coulomb friction on phi", "N m"}},
+      {"coulomb.psi", {"Coulomb friction on psi", "N m"}},
+      {"coulomb.theta", {"Coulomb friction on theta", "N m"}},
       {"coulomb.smoothing_speed", {"smoothing speed of the Coulomb friction", "rad/s"}}};
   const auto found = known.find(name);
   if (found != known.end()) return found->second;

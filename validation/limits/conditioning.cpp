@@ -27,8 +27,8 @@ WrenchSize wrenchSize(const BodyMotion<double>& body, double mass, const Matrix3
 }
 
 double frictionMagnitude(const Leg& leg, const JointTriple<double>& rate) {
-  return leg.friction.actuated * std::abs(rate.phi) + leg.friction.universal * std::abs(rate.psi) +
-         leg.friction.knee * std::abs(rate.theta) + leg.coulomb.actuated + leg.coulomb.universal + leg.coulomb.knee;
+  return leg.friction.phi * std::abs(rate.phi) + leg.friction.psi * std::abs(rate.psi) +
+         leg.friction.theta * std::abs(rate.theta) + leg.coulomb.phi + leg.coulomb.psi + leg.coulomb.theta;
 }
 
 /// ‖|T|ᵀ|w|‖ with friction and load; I = TᵀMT.

@@ -36,7 +36,7 @@ class RubbingJoints {
       : scenario_(scenario), right_(nocSubject(*scenario.manipulator, scenario.load)) {
     for (int i = 0; i < leg_count; ++i) {
       const CoulombFriction& friction = scenario.manipulator->leg(i).coulomb;
-      rubs_ |= friction.actuated != 0 || friction.universal != 0 || friction.knee != 0;
+      rubs_ |= friction.phi != 0 || friction.psi != 0 || friction.theta != 0;
     }
   }
 
@@ -61,9 +61,9 @@ class RubbingJoints {
       const CoulombFriction& friction = scenario_.manipulator->leg(i).coulomb;
       const auto speed = [&](double rate, double torque) { return torque != 0 ? rate / friction.smoothing_speed : 0; };
       const auto k = static_cast<std::size_t>(3 * i);
-      out[k] = speed(rates.phi(i), friction.actuated);
-      out[k + 1] = speed(rates.psi(i), friction.universal);
-      out[k + 2] = speed(rates.theta(i), friction.knee);
+      out[k] = speed(rates.phi(i), friction.phi);
+      out[k + 1] = speed(rates.psi(i), friction.psi);
+      out[k + 2] = speed(rates.theta(i), friction.theta);
     }
     return out;
   }

@@ -258,7 +258,7 @@ std::vector<Defect> hiddenDefects() {
                         [](const Manipulator& m) { return m.leg(0).proximal.length > 1.42; }),
           hiddenMachine("wrong where the platform is heavier than 600 kg",
                         [](const Manipulator& m) { return m.platform().mass > 600; }),
-          hiddenMachine("wrong where nothing rubs", [](const Manipulator& m) { return m.leg(0).friction.knee == 0; }),
+          hiddenMachine("wrong where nothing rubs", [](const Manipulator& m) { return m.leg(0).friction.theta == 0; }),
           hidden("wrong at speeds that only the way back has", beyondSpeeds)};
 }
 

@@ -117,12 +117,12 @@ std::vector<Defect> wrongEngines() {
           engine("maximal coordinates: a tensor off by 1e-6", "torque.maximal",
                  [](P& m) { m.legs[2].distal.inertia *= 1 + 1e-6; }),
           engine("maximal coordinates: no Coulomb friction in one knee", "torque.maximal",
-                 [](P& m) { m.legs[5].coulomb.knee = 0; }),
+                 [](P& m) { m.legs[5].coulomb.theta = 0; }),
           engine("MuJoCo: gravity off by 1e-9", "torque.mujoco", [](P& m) { m.gravity *= 1 + 1e-9; }),
           engine("MuJoCo: a link longer by 1e-9", "torque.mujoco", [](P& m) { m.legs[3].proximal.length *= 1 + 1e-9; }),
           stabilised("stabilised replay: a mass off by 1e-7", [](P& m) { m.platform.mass *= 1 + 1e-7; }),
           stabilised("stabilised replay: friction of one motor off by 1e-5",
-                     [](P& m) { m.legs[1].friction.actuated *= 1 + 1e-5; }),
+                     [](P& m) { m.legs[1].friction.phi *= 1 + 1e-5; }),
           wrongSample("Simbody's acceleration of the platform off by 1e-8",
                       [](PointwiseSample& sample) { sample.acceleration.error += 1e-8; })};
 }

@@ -20,9 +20,9 @@ struct Joint {
   Vector6d JointVariables<double>::*variable;
   double JointFriction::*coefficient;
 };
-constexpr std::array<Joint, 3> joints{{{&JointVariables<double>::phi, &JointFriction::actuated},
-                                       {&JointVariables<double>::psi, &JointFriction::universal},
-                                       {&JointVariables<double>::theta, &JointFriction::knee}}};
+constexpr std::array<Joint, 3> joints{{{&JointVariables<double>::phi, &JointFriction::phi},
+                                       {&JointVariables<double>::psi, &JointFriction::psi},
+                                       {&JointVariables<double>::theta, &JointFriction::theta}}};
 
 /// What is wrong about the forces, at these rates.
 using Excess = std::function<JointVariables<double>(const Manipulator&, const JointVariables<double>& rates)>;
@@ -66,7 +66,7 @@ Defect wrongForces(const char* name, const Excess& excess) {
 Defect wrongLaw(const char* name, Law law) { return wrongForces(name, excessOf(law)); }
 
 double kneeForce(const Leg& leg, double rate) {
-  return rightLaw(leg.friction.knee, leg.coulomb.knee, leg.coulomb.smoothing_speed, rate);
+  return rightLaw(leg.friction.theta, leg.coulomb.theta, leg.coulomb.smoothing_speed, rate);
 }
 
 /// The knee turned against the base instead of the proximal link, by psi + theta. Where it also acts so, psi feels it.
@@ -126,10 +126,10 @@ std::vector<Defect> frictionDefects() {
   append(out, {wrongForces("knee's friction by the absolute rate", absoluteKnee(false)),
                wrongForces("knee's friction by and on the absolute angle", absoluteKnee(true)),
                wrongNumbers("Coulomb friction with the motor's coefficient in all joints",
-                            [](Leg& leg) { leg.coulomb.universal = leg.coulomb.knee = leg.coulomb.actuated; }),
+                            [](Leg& leg) { leg.coulomb.psi = leg.coulomb.theta = leg.coulomb.phi; }),
                wrongNumbers("viscous coefficients of psi and theta swapped",
-                            [](Leg& leg) { std::swap(leg.friction.universal, leg.friction.knee); }),
-               wrongNumbers("no Coulomb friction in the knees", [](Leg& leg) { leg.coulomb.knee = 0; }),
+                            [](Leg& leg) { std::swap(leg.friction.psi, leg.friction.theta); }),
+               wrongNumbers("no Coulomb friction in the knees", [](Leg& leg) { leg.coulomb.theta = 0; }),
                wrongNumbers("smoothing speeds off by 1e-6", [](Leg& leg) { leg.coulomb.smoothing_speed *= 1 + 1e-6; }),
                wrongNumbers("smoothing speed by default, 0.01 rad/s",
                             [](Leg& leg) { leg.coulomb.smoothing_speed = CoulombFriction{}.smoothing_speed; })});

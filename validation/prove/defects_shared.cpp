@@ -186,7 +186,7 @@ std::vector<Defect> readingDefects() {
                     swapProducts(m.legs[1].distal.inertia, 0, 1, 0, 2);
                   }),
           misread("one number off by 1e-15 of itself", [](P& m) { m.legs[3].base_point.y() *= 1 + 4 * eps; }),
-          misread("one number off in its last bit", [](P& m) { m.legs[0].coulomb.knee *= 1 + eps; }),
+          misread("one number off in its last bit", [](P& m) { m.legs[0].coulomb.theta *= 1 + eps; }),
           misread("axes normalised on reading",
                   [](P& m) {
                     for (Leg& leg : m.legs) leg.base_axis.normalize();

@@ -35,9 +35,9 @@ Manipulator doubled(const Manipulator& manipulator) {
       link->inertia *= 2;
     }
     for (JointFriction* friction : {&leg.friction, static_cast<JointFriction*>(&leg.coulomb)}) {
-      friction->actuated *= 2;
-      friction->universal *= 2;
-      friction->knee *= 2;
+      friction->phi *= 2;
+      friction->psi *= 2;
+      friction->theta *= 2;
     }
   }
   return Manipulator(machine);

@@ -82,9 +82,9 @@ void addFriction(std::vector<Parameter>& out, const std::string& name, std::size
     addNumber(out, name + ".coulomb." + joint, "friction",
               [i, member](Machine& m) -> double& { return m.legs[i].coulomb.*member; });
   };
-  add("actuated", &JointFriction::actuated);
-  add("universal", &JointFriction::universal);
-  add("knee", &JointFriction::knee);
+  add("actuated", &JointFriction::phi);
+  add("universal", &JointFriction::psi);
+  add("knee", &JointFriction::theta);
   addNumber(out, name + ".coulomb.smoothing_speed", "friction",
             [i](Machine& m) -> double& { return m.legs[i].coulomb.smoothing_speed; });
 }

@@ -25,9 +25,9 @@ void rescale(Link& link, const Units& units) {
 }
 
 void rescale(JointFriction& friction, double unit) {
-  friction.actuated /= unit;
-  friction.universal /= unit;
-  friction.knee /= unit;
+  friction.phi /= unit;
+  friction.psi /= unit;
+  friction.theta /= unit;
 }
 
 }  // namespace

@@ -137,9 +137,9 @@ MaximalLoop::VectorX MaximalLoop::unbalanced(const Motion<double>& motion) const
     const Vector3d u = leg.base_axis.normalized(), x = bodies_[at(i)].R.col(0);
     const Vector3d first = omegaOf(bodies_[at(i)]), second = omegaOf(bodies_[at(leg_count + i)]);
     const double speed = leg.coulomb.smoothing_speed;
-    const double on_phi = friction(leg.friction.actuated, leg.coulomb.actuated, speed, -first.dot(u));
-    const double on_psi = friction(leg.friction.universal, leg.coulomb.universal, speed, first.dot(x));
-    const double on_theta = friction(leg.friction.knee, leg.coulomb.knee, speed, (second - first).dot(x));
+    const double on_phi = friction(leg.friction.phi, leg.coulomb.phi, speed, -first.dot(u));
+    const double on_psi = friction(leg.friction.psi, leg.coulomb.psi, speed, first.dot(x));
+    const double on_theta = friction(leg.friction.theta, leg.coulomb.theta, speed, (second - first).dot(x));
     w.segment<3>(6 * i) -= -on_phi * u + (on_psi - on_theta) * x;
     w.segment<3>(6 * (leg_count + i)) -= on_theta * x;
   }

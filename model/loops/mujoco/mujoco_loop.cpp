@@ -65,9 +65,9 @@ double friction(double viscous, double coulomb, double speed, double rate) {
 
 Vector3d frictionOf(const Leg& leg, const Vector3d& rates) {
   const double speed = leg.coulomb.smoothing_speed;
-  return {friction(leg.friction.actuated, leg.coulomb.actuated, speed, rates(0)),
-          friction(leg.friction.universal, leg.coulomb.universal, speed, rates(1)),
-          friction(leg.friction.knee, leg.coulomb.knee, speed, rates(2))};
+  return {friction(leg.friction.phi, leg.coulomb.phi, speed, rates(0)),
+          friction(leg.friction.psi, leg.coulomb.psi, speed, rates(1)),
+          friction(leg.friction.theta, leg.coulomb.theta, speed, rates(2))};
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ double Mechanism::rate(const SimTK::State& state, int joint, int leg) const {
 }
 
 double coulombForce(const CoulombFriction& friction, int joint, double rate) {
-  const std::array<double, 3> coefficients{friction.actuated, friction.universal, friction.knee};
+  const std::array<double, 3> coefficients{friction.phi, friction.psi, friction.theta};
   return -coefficients[static_cast<std::size_t>(joint)] * std::tanh(rate / friction.smoothing_speed);
 }
 
@@ -143,11 +143,11 @@ void SimbodyLoop::Impl::addForces(std::shared_ptr<const Load> load) {
   for (int leg = 0; leg < leg_count; ++leg) {
     const auto i = static_cast<std::size_t>(leg);
     const Leg& from = parameters.leg(leg);
-    addDamper(forces, mechanism.proximal[i], 0, from.friction.actuated);
-    addDamper(forces, mechanism.proximal[i], 1, from.friction.universal);
-    addDamper(forces, mechanism.distal[i], 0, from.friction.knee);
+    addDamper(forces, mechanism.proximal[i], 0, from.friction.phi);
+    addDamper(forces, mechanism.proximal[i], 1, from.friction.psi);
+    addDamper(forces, mechanism.distal[i], 0, from.friction.theta);
     applied->coulomb[i] = from.coulomb;
-    applied->any_coulomb |= from.coulomb.actuated > 0 || from.coulomb.universal > 0 || from.coulomb.knee > 0;
+    applied->any_coulomb |= from.coulomb.phi > 0 || from.coulomb.psi > 0 || from.coulomb.theta > 0;
   }
   SimTK::Force::Custom(forces, new DriverForce(mechanism, applied));  // Simbody takes ownership
 }

@@ -168,7 +168,7 @@ SimbodyLoop::Power SimbodyLoop::power() const {
   Power power;
   for (int i = 0; i < leg_count; ++i) {
     const Leg& leg = loop.parameters.leg(i);
-    const std::array<double, 3> viscous{leg.friction.actuated, leg.friction.universal, leg.friction.knee};
+    const std::array<double, 3> viscous{leg.friction.phi, leg.friction.psi, leg.friction.theta};
     power.actuators += loop.applied->torques(i) * loop.mechanism.rate(loop.state, 0, i);
     for (int joint = 0; joint < 3; ++joint) {
       const double rate = loop.mechanism.rate(loop.state, joint, i);

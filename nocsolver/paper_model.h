@@ -22,9 +22,9 @@ struct LegModel {
 
 /// The machine as the solver sees it: raw parameters in the scalar S and the constants made of them.
 template <class S>
-struct SolverModel {
+struct PaperModel {
   /// `printed_frames`: (2a,b) as printed, for the audit.
-  explicit SolverModel(const Manipulator& manipulator, bool printed_frames = false);
+  explicit PaperModel(const Manipulator& manipulator, bool printed_frames = false);
 
   std::array<LegModel<S>, leg_count> legs;
   Vector3<S> gravity;  ///< g, in B
@@ -34,7 +34,7 @@ struct SolverModel {
   S length;            ///< a length of the machine's size: the largest ‖bᵢ‖ or link
 };
 
-extern template struct SolverModel<double>;
-extern template struct SolverModel<float>;
+extern template struct PaperModel<double>;
+extern template struct PaperModel<float>;
 
 }  // namespace ursula

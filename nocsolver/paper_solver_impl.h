@@ -1,6 +1,6 @@
 #pragma once
 
-// Bodies of Solver; included by the sources that instantiate it.
+// Bodies of PaperSolver; included by the sources that instantiate it.
 
 #include <limits>
 
@@ -9,24 +9,24 @@
 #include "nocsolver/kernels/leg_kinematics.h"
 #include "nocsolver/kernels/link_motion.h"
 #include "nocsolver/kernels/shaping.h"
-#include "nocsolver/solver.h"
+#include "nocsolver/paper_solver.h"
 
 namespace ursula {
 
 inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 template <class S, class R>
-Solver<S, R>::Solver(const Manipulator& manipulator, R reading)
+PaperSolver<S, R>::PaperSolver(const Manipulator& manipulator, R reading)
     : model_(manipulator, reading.has(Slip::eq2)), reading_(reading) {}
 
 template <class S, class R>
-void Solver<S, R>::displacements(const Motion<S>& motion, Workspace<S>& work) const {
+void PaperSolver<S, R>::displacements(const Motion<S>& motion, PaperWorkspace<S>& work) const {
   for (int i = 0; i < leg_count; ++i)
     kernel::legDisplacement(model_.legs[at(i)], i, motion, reading_, work.legs[at(i)]);
 }
 
 template <class S, class R>
-void Solver<S, R>::inverseKinematics(const Motion<S>& motion, Workspace<S>& work) const {
+void PaperSolver<S, R>::inverseKinematics(const Motion<S>& motion, PaperWorkspace<S>& work) const {
   for (int i = 0; i < leg_count; ++i) {
     const LegModel<S>& leg = model_.legs[at(i)];
     LegState<S>& state = work.legs[at(i)];
@@ -38,7 +38,7 @@ void Solver<S, R>::inverseKinematics(const Motion<S>& motion, Workspace<S>& work
 }
 
 template <class S, class R>
-JointVariables<S> Solver<S, R>::angles(const Workspace<S>& work) const {
+JointVariables<S> PaperSolver<S, R>::angles(const PaperWorkspace<S>& work) const {
   using std::atan2;
   JointVariables<S> q;
   for (int i = 0; i < leg_count; ++i) {
@@ -54,7 +54,7 @@ JointVariables<S> Solver<S, R>::angles(const Workspace<S>& work) const {
 }
 
 template <class S, class R>
-JointVariables<S> Solver<S, R>::rates(const Workspace<S>& work) const {
+JointVariables<S> PaperSolver<S, R>::rates(const PaperWorkspace<S>& work) const {
   JointVariables<S> q;
   for (int i = 0; i < leg_count; ++i) {
     const JointTriple<S>& rate = work.legs[at(i)].rate;
@@ -66,7 +66,7 @@ JointVariables<S> Solver<S, R>::rates(const Workspace<S>& work) const {
 }
 
 template <class S, class R>
-JointVariables<S> Solver<S, R>::accelerations(const Workspace<S>& work) const {
+JointVariables<S> PaperSolver<S, R>::accelerations(const PaperWorkspace<S>& work) const {
   JointVariables<S> q;
   for (int i = 0; i < leg_count; ++i) {
     const JointTriple<S>& acceleration = work.legs[at(i)].acceleration;
@@ -78,37 +78,27 @@ JointVariables<S> Solver<S, R>::accelerations(const Workspace<S>& work) const {
 }
 
 template <class S, class R>
-void Solver<S, R>::jacobians(const Motion<S>& motion, Workspace<S>& work) const {
-  using std::abs;
+void PaperSolver<S, R>::jacobians(const Motion<S>& motion, PaperWorkspace<S>& work) const {
   for (int i = 0; i < leg_count; ++i) {
     const LegState<S>& state = work.legs[at(i)];
     work.A(i) = state.a_ii;
     work.B.row(i) << state.Qb.cross(state.x).transpose(), state.x.transpose();  // (paper, eq. 23)
   }
-  // Moments over a length of the machine, so that the pivots do not depend on the unit of length.
-  Matrix6<S> scaled = work.B.transpose();
-  scaled.template topRows<3>() /= model_.length;
-  work.B_transposed.compute(scaled);
-  const auto pivots = work.B_transposed.matrixLU().diagonal().cwiseAbs();
-  const S ratio = pivots.minCoeff() / pivots.maxCoeff();
-  const S bound = S(16) * Eigen::NumTraits<S>::epsilon();
-  if (!(ratio > bound))
-    throw SingularJacobian("B is singular, its smallest pivot over its largest", -1, static_cast<double>(motion.t),
-                           static_cast<double>(ratio), static_cast<double>(bound), "");
+  kernel::factorise(work.B, model_.length, motion.t, work.B_transposed);
 }
 
 template <class S, class R>
-Matrix6<S> Solver<S, R>::T(const Workspace<S>& work) const {
+Matrix6<S> PaperSolver<S, R>::T(const PaperWorkspace<S>& work) const {
   return kernel::platformShaping(work, model_.length);
 }
 
 template <class S, class R>
-Matrix6<S> Solver<S, R>::TRate(const Motion<S>& motion, const Workspace<S>& work) const {
+Matrix6<S> PaperSolver<S, R>::TRate(const Motion<S>& motion, const PaperWorkspace<S>& work) const {
   return kernel::platformShapingRate(model_, motion, work, kernel::platformShaping(work, model_.length), reading_);
 }
 
 template <class S, class R>
-void Solver<S, R>::bodyMotions(const Motion<S>& motion, Workspace<S>& work, BodyMotions<S>& bodies) const {
+void PaperSolver<S, R>::bodyMotions(const Motion<S>& motion, PaperWorkspace<S>& work, BodyMotions<S>& bodies) const {
   for (int i = 0; i < leg_count; ++i) {
     const LegModel<S>& leg = model_.legs[at(i)];
     const LegState<S>& state = work.legs[at(i)];
@@ -120,19 +110,19 @@ void Solver<S, R>::bodyMotions(const Motion<S>& motion, Workspace<S>& work, Body
 }
 
 template <class S, class R>
-void Solver<S, R>::twistShaping(const Motion<S>& motion, const Workspace<S>& work, TwistShaping<S>& shaping) const {
+void PaperSolver<S, R>::twistShaping(const Motion<S>& motion, const PaperWorkspace<S>& work, TwistShaping<S>& shaping) const {
   kernel::twistShaping(model_, motion, work, reading_, shaping);
 }
 
 template <class S, class R>
-void Solver<S, R>::twistShapingRate(const Motion<S>& motion, const Workspace<S>& work,
+void PaperSolver<S, R>::twistShapingRate(const Motion<S>& motion, const PaperWorkspace<S>& work,
                                     TwistShaping<S>& shaping_rate) const {
   kernel::twistShapingRate(model_, motion, work, reading_, shaping_rate);
 }
 
 /// w of (a) in dynamics.h, and what falls on the actuated joints directly.
 template <class S, class R>
-Vector6<S> Solver<S, R>::wrenchAtP(const Motion<S>& motion, Workspace<S>& work, Vector6<S>& Q_phi) const {
+Vector6<S> PaperSolver<S, R>::wrenchAtP(const Motion<S>& motion, PaperWorkspace<S>& work, Vector6<S>& Q_phi) const {
   Vector6<S> wrench = kernel::platformWrench(model_, motion, reading_);
   for (int i = 0; i < leg_count; ++i) {
     const LegModel<S>& leg = model_.legs[at(i)];
@@ -149,7 +139,7 @@ Vector6<S> Solver<S, R>::wrenchAtP(const Motion<S>& motion, Workspace<S>& work, 
 }
 
 template <class S, class R>
-Vector6<S> Solver<S, R>::inverseDynamics(const Motion<S>& motion, Workspace<S>& work, const Vector6<S>& load) const {
+Vector6<S> PaperSolver<S, R>::inverseDynamics(const Motion<S>& motion, PaperWorkspace<S>& work, const Vector6<S>& load) const {
   inverseKinematics(motion, work);
   jacobians(motion, work);
   Vector6<S> Q_phi;
@@ -160,12 +150,12 @@ Vector6<S> Solver<S, R>::inverseDynamics(const Motion<S>& motion, Workspace<S>& 
 }
 
 template <class S, class R>
-Matrix6<S> Solver<S, R>::massMatrixAtP(const Motion<S>& motion, const Workspace<S>& work) const {
+Matrix6<S> PaperSolver<S, R>::massMatrixAtP(const Motion<S>& motion, const PaperWorkspace<S>& work) const {
   return kernel::massMatrixAtP(model_, motion, work);
 }
 
 template <class S, class R>
-Vector6<S> Solver<S, R>::directDynamics(const Motion<S>& motion, const Vector6<S>& torques, Workspace<S>& work,
+Vector6<S> PaperSolver<S, R>::directDynamics(const Motion<S>& motion, const Vector6<S>& torques, PaperWorkspace<S>& work,
                                         const Vector6<S>& load) const {
   Motion<S> unaccelerated = motion;
   unaccelerated.omega_dot.setZero();

@@ -1,31 +1,22 @@
-#include "nocsolver/solver_model.h"
+#include "nocsolver/paper_model.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 
 #include "model/real50.h"
+#include "nocsolver/kernels/fixed_frame.h"
 
 namespace ursula {
 namespace {
 
-/// (paper, eq. 2a) as it holds for any tilt: x̂ = (u × e_z)/‖·‖, ŷ = u, ẑ = x̂ × u; for an axis along e_z the seed is
-/// e_y.
 template <class S>
 void setFixedFrame(const Vector3d& axis, bool printed, LegModel<S>& leg) {
-  using std::sqrt;
-  const Vector3<S> u = axis.cast<S>() / sqrt(axis.cast<S>().squaredNorm());
-  const Vector3<S> e_z = Vector3<S>::UnitZ();
-  // Below this the cross product would be made of rounding errors of uᵢ as it was written.
-  const bool along_e_z = u.cross(e_z).squaredNorm() < S(1e-20);
-  const Vector3<S> seed = along_e_z ? Vector3<S>::UnitY() : e_z;
-  const Vector3<S> x = u.cross(seed);
-  leg.y_hat = u;
-  leg.x_hat = x / sqrt(x.squaredNorm());
-  leg.z_hat = leg.x_hat.cross(u);
+  kernel::setFixedFrame<S>(axis, leg.x_hat, leg.y_hat, leg.z_hat);
   if (printed) {  // (paper, eq. 2b): orthonormal only without tilt
+    const Vector3<S> u = leg.y_hat;
     leg.x_hat = Vector3<S>(u.y(), -u.x(), S(0));
     leg.y_hat = Vector3<S>(u.x(), u.y(), S(0));
-    leg.z_hat = e_z;
+    leg.z_hat = Vector3<S>::UnitZ();
   }
 }
 
@@ -44,8 +35,8 @@ LegModel<S> makeLeg(const Leg& from, bool printed) {
   leg.mass_distal = S(from.distal.mass);
   leg.I_proximal = from.proximal.inertia.cast<S>();
   leg.I_distal = from.distal.inertia.cast<S>();
-  leg.viscous = {S(from.friction.actuated), S(from.friction.universal), S(from.friction.knee)};
-  leg.coulomb = {S(from.coulomb.actuated), S(from.coulomb.universal), S(from.coulomb.knee)};
+  leg.viscous = {S(from.friction.phi), S(from.friction.psi), S(from.friction.theta)};
+  leg.coulomb = {S(from.coulomb.phi), S(from.coulomb.psi), S(from.coulomb.theta)};
   leg.coulomb_speed = S(from.coulomb.smoothing_speed);
   return leg;
 }
@@ -53,7 +44,7 @@ LegModel<S> makeLeg(const Leg& from, bool printed) {
 }  // namespace
 
 template <class S>
-SolverModel<S>::SolverModel(const Manipulator& manipulator, bool printed_frames)
+PaperModel<S>::PaperModel(const Manipulator& manipulator, bool printed_frames)
     : gravity(manipulator.gravity().cast<S>()),
       mass(static_cast<S>(manipulator.platform().mass)),
       rho(manipulator.platform().center_of_mass.cast<S>()),
@@ -66,8 +57,8 @@ SolverModel<S>::SolverModel(const Manipulator& manipulator, bool printed_frames)
   }
 }
 
-template struct SolverModel<double>;
-template struct SolverModel<float>;
-template struct SolverModel<Real50>;
+template struct PaperModel<double>;
+template struct PaperModel<float>;
+template struct PaperModel<Real50>;
 
 }  // namespace ursula

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+
+namespace ursula {
+
+/// Three joints from the base to a spherical one on the platform: universal–revolute, universal–prismatic,
+/// revolute–universal, prismatic–universal.
+enum class LegKind { URS, UPS, RUS, PUS };
+constexpr std::size_t leg_kind_count = 4;
+
+/// What a joint of a leg may turn or slide by. φ, ψ, θ are angles, d is a length.
+enum class Coordinate { phi, psi, theta, d };
+constexpr std::size_t coordinate_count = 4;
+
+constexpr bool slides(Coordinate coordinate) { return coordinate == Coordinate::d; }
+/// "phi", as files write it.
+constexpr const char* nameOf(Coordinate coordinate) {
+  constexpr std::array<const char*, coordinate_count> names = {"phi", "psi", "theta", "d"};
+  return names[static_cast<std::size_t>(coordinate)];
+}
+
+/// What there is to know of a kind of leg without its geometry. Another kind is a row here, a kernel, and a builder
+/// for each road.
+struct LegKindRow {
+  const char* name;
+  std::array<Coordinate, 3> coordinates;  ///< from the base to the tip
+  int joints_of_proximal;                 ///< how many of them come before the proximal link
+  std::size_t actuated;                   ///< which of them a motor drives if nothing is said
+  const char* knee;                       ///< what `knee` is the sign of, "sin theta"; null where there is one branch
+};
+
+inline constexpr std::array<LegKindRow, leg_kind_count> leg_kinds = {{
+    {"URS", {Coordinate::phi, Coordinate::psi, Coordinate::theta}, 2, 0, "sin theta"},
+    {"UPS", {Coordinate::phi, Coordinate::psi, Coordinate::d}, 2, 2, nullptr},
+    {"RUS", {Coordinate::phi, Coordinate::psi, Coordinate::theta}, 1, 0, "sin psi"},
+    {"PUS", {Coordinate::d, Coordinate::psi, Coordinate::theta}, 1, 0, "cos theta"},
+}};
+
+constexpr const LegKindRow& rowOf(LegKind kind) { return leg_kinds[static_cast<std::size_t>(kind)]; }
+
+}  // namespace ursula

@@ -1,6 +1,0 @@
-#include "model/real50.h"
-#include "nocsolver/solver_impl.h"
-
-namespace ursula {
-template class Solver<Real50, Corrected>;
-}  // namespace ursula
