@@ -60,9 +60,12 @@ double Units::of(const std::string& unit) const {
   throw std::invalid_argument("no such unit: " + unit);
 }
 
-const char* effortUnit(const Manipulator& machine) {
-  const auto slides = [](const Motor& motor) { return motor.slides(); };
-  return std::all_of(machine.motors().begin(), machine.motors().end(), slides) ? "N" : "N m";
+Efforts effortsOf(const Manipulator& machine) {
+  const Motors& motors = machine.motors();
+  Efforts out;
+  if (std::all_of(motors.begin(), motors.end(), [](const Motor& motor) { return motor.slides(); })) out.unit = "N";
+  for (std::size_t k = 0; k < motors.size(); ++k) out.leg[k] = motors[k].leg;
+  return out;
 }
 
 Presentation::Presentation(const Manipulator& machine) : legs(machine.legCount()) {

@@ -14,14 +14,25 @@
 
 namespace ursula {
 
+/// What the efforts of a machine are: all moments, all forces, or of both, then a force counts as its moment at the
+/// unit of length.
+struct Efforts {
+  const char* unit = "N m";                               ///< "N" where all motors slide
+  std::array<int, motor_count> leg = {0, 1, 2, 3, 4, 5};  ///< of each motor
+};
+
 /// Units of length, mass and time, in metres, kilograms and seconds.
 struct Units {
   double length = 1, mass = 1, time = 1;
+  Efforts efforts = {};  ///< how they are named
 
   double velocity() const { return length / time; }
   double acceleration() const { return length / (time * time); }
   double force() const { return mass * acceleration(); }
   double torque() const { return force() * length; }
+  double effort() const { return of(efforts.unit); }
+  /// The leg, 0-based, of a motor; −1 for −1.
+  int legOf(int motor) const { return motor < 0 ? motor : efforts.leg[static_cast<std::size_t>(motor)]; }
   /// A unit's size in SI: "m", "m/s^2", "N m", "rad/s", "J", … as checks write them; also as columns do ("Nm", "m_s2").
   /// 1 for a unit that is a pure number. Throws std::invalid_argument for one that it does not know.
   double of(const std::string& unit) const;
@@ -81,8 +92,7 @@ Presentation naturalPresentation(const Scenario& scenario);
 /// Where the subject was made for the relocated scenario, the origin is zero, and no digit is lost on the way.
 Subject presented(const Subject& subject, const Presentation& there);
 
-/// "N m", or "N" where all motors slide. Where some do, a force counts as its moment at the unit of length.
-const char* effortUnit(const Manipulator& machine);
+Efforts effortsOf(const Manipulator& machine);
 
 /// The scenario with its positions from `origin` (base points and trajectory), otherwise as it is.
 Scenario relocated(const Scenario& scenario, const Vector3d& origin);

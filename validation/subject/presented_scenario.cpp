@@ -165,7 +165,7 @@ Presentation randomPresentation(unsigned seed, double size, const Manipulator& m
   std::array<int, leg_count> legs = out.leg;
   for (std::size_t i = machine.parameters().legs.size() - 1; i > 0; --i) std::swap(legs[i], legs[engine() % (i + 1)]);
   out.relabel(machine, legs);
-  out.units = {uniform(0.6, 1.9), uniform(0.6, 1.9), uniform(0.6, 1.9)};
+  out.units = {uniform(0.6, 1.9), uniform(0.6, 1.9), uniform(0.6, 1.9), {}};
   return out;
 }
 
@@ -174,6 +174,7 @@ Presentation naturalPresentation(const Scenario& scenario) {
   const double acceleration = accelerationOf(scenario, length);
   Presentation out(*scenario.manipulator);
   out.origin = roundOrigin(*scenario.manipulator, length);
+  out.units.efforts = effortsOf(*scenario.manipulator);
   out.units.length = powerOfTwo(length);
   out.units.mass = powerOfTwo(massOf(scenario.manipulator->parameters()));
   out.units.time = powerOfTwo(acceleration > 0 ? std::sqrt(length / acceleration) : scenario.trajectory->duration());
@@ -184,7 +185,7 @@ Subject presented(const Subject& subject, const Presentation& to) {
   const Units units = to.units;
   Presentation from = to;
   from.origin = -to.origin / units.length;
-  from.units = {1 / units.length, 1 / units.mass, 1 / units.time};
+  from.units = {1 / units.length, 1 / units.mass, 1 / units.time, units.efforts};
   Subject out;
   out.name = subject.name;
   out.torques = [=](const Motion<double>& motion) { return to.of(subject.torques(from.of(motion))); };
