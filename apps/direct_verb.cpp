@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -17,7 +19,7 @@ namespace ursula {
 namespace {
 
 struct DirectOptions {
-  std::string scenario, phi, out = "-";
+  std::string scenario, phi, d, out = "-";
 };
 
 std::string_view trimmed(std::string_view text) {
@@ -25,30 +27,39 @@ std::string_view trimmed(std::string_view text) {
   return first == text.npos ? std::string_view{} : text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-double readAngle(std::string_view cell, int index) {
+/// What one of the options takes: six numbers, one for each leg.
+struct NumbersOption {
+  const char* option;  ///< "--phi"
+  const char* symbol;  ///< "phi"
+  const char* unit;
+};
+constexpr NumbersOption phi_option = {"--phi", "phi", "rad"}, d_option = {"--d", "d", "m"};
+
+double readNumber(const NumbersOption& option, std::string_view cell, int index) {
   const std::string_view text = trimmed(cell);
   const std::string_view digits = text.substr(text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
-    throw UsageError(fmt::format("--phi: phi_{} is '{}', expected a finite number, rad", index, text));
+    throw UsageError(fmt::format("{}: {}_{} is '{}', expected a finite number, {}", option.option, option.symbol, index,
+                                 text, option.unit));
   return value;
 }
 
 /// Six comma-separated numbers.
-Vector6d readAngles(std::string_view text) {
-  Vector6d phi;
+Vector6d readNumbers(const NumbersOption& option, std::string_view text) {
+  Vector6d values;
   int count = 0;
   for (std::size_t start = 0; start <= text.size(); ++count) {
     const std::size_t end = std::min(text.find(',', start), text.size());
-    const double value = readAngle(text.substr(start, end - start), count + 1);
-    if (count < leg_count) phi(count) = value;
+    const double value = readNumber(option, text.substr(start, end - start), count + 1);
+    if (count < leg_count) values(count) = value;
     start = end + 1;
   }
   if (count != leg_count)
-    throw UsageError(
-        fmt::format("--phi: {} number{}, expected six with commas between, rad", count, count == 1 ? "" : "s"));
-  return phi;
+    throw UsageError(fmt::format("{}: {} number{}, expected six with commas between, {}", option.option, count,
+                                 count == 1 ? "" : "s", option.unit));
+  return values;
 }
 
 /// Column by column, one row a pose.
@@ -110,9 +121,8 @@ void summarise(const PlatformPoses& poses) {
   }
 }
 
-int direct(const DirectOptions& options) {
-  const Vector6d phi = readAngles(options.phi);
-  const Scenario scenario = readScenarioOrInput(options.scenario);
+int directOfPaper(const Scenario& scenario, const DirectOptions& options) {
+  const Vector6d phi = readNumbers(phi_option, options.phi);
   PlatformPoses poses;
   try {
     poses = DirectKinematics(*scenario.manipulator).poses(phi);
@@ -127,13 +137,61 @@ int direct(const DirectOptions& options) {
   return exit_passed;                                // no real pose is an answer, too
 }
 
+/// Six telescopic legs that push: a Stewart–Gough platform.
+bool isStewartGough(const Manipulator& machine) {
+  const std::vector<Leg>& legs = machine.parameters().legs;
+  return legs.size() == leg_count && std::all_of(legs.begin(), legs.end(), [](const Leg& leg) {
+           return leg.kind == LegKind::UPS && leg.actuated == std::array<bool, 3>{false, false, true};
+         });
+}
+
+int directOfStewartGough(const Scenario&, const DirectOptions& options) {
+  readNumbers(d_option, options.d);
+  throw UsageError("direct: --d: poses of telescopic legs cannot be found yet; for now --phi, of six URS legs, can");
+}
+
+/// "URS legs driven by phi; UPS legs driven by d".
+std::string inWords(const Manipulator& machine) {
+  std::vector<std::string> kinds;
+  for (const Leg& leg : machine.parameters().legs) {
+    std::vector<std::string> driven;
+    for (std::size_t j = 0; j < 3; ++j)
+      if (leg.actuated[j]) driven.emplace_back(nameOf(rowOf(leg.kind).coordinates[j]));
+    const std::string kind =
+        fmt::format("{} legs {}", rowOf(leg.kind).name,
+                    driven.empty() ? "without a motor" : fmt::format("driven by {}", fmt::join(driven, " and ")));
+    if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) kinds.push_back(kind);
+  }
+  return fmt::format("{} legs: {}", machine.legCount(), fmt::join(kinds, "; "));
+}
+
+/// What is given must be what the machine takes.
+int direct(const DirectOptions& options) {
+  const Scenario scenario = readScenarioOrInput(options.scenario);
+  const Manipulator& machine = *scenario.manipulator;
+  const bool of_paper = machine.isOfThePaper(), telescopic = isStewartGough(machine);
+  if (!of_paper && !telescopic)
+    throw UsageError(fmt::format(
+        "direct: {}: has {}; every pose can be found of six URS legs driven by phi (--phi) and of six UPS legs driven "
+        "by d (--d) alone",
+        scenario.file.string(), inWords(machine)));
+  const char* takes = of_paper ? "--phi phi_1,...,phi_6" : "--d d_1,...,d_6";
+  const bool given = of_paper ? !options.phi.empty() : !options.d.empty();
+  const bool surplus = of_paper ? !options.d.empty() : !options.phi.empty();
+  if (!given || surplus)
+    throw UsageError(fmt::format("direct: {}: has {}, expected {}", scenario.file.string(), inWords(machine), takes));
+  return of_paper ? directOfPaper(scenario, options) : directOfStewartGough(scenario, options);
+}
+
 }  // namespace
 
 void addDirect(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<DirectOptions>();
-  CLI::App* verb = app.add_subcommand("direct", "Every real pose of the platform for given actuated angles, as CSV");
+  CLI::App* verb =
+      app.add_subcommand("direct", "Every real pose of the platform for given angles or lengths of its legs, as CSV");
   verb->add_option("scenario", options->scenario, "Scenario file (TOML), - for standard input")->required();
-  verb->add_option("--phi", options->phi, "Six angles with commas between, rad: phi_1,...,phi_6")->required();
+  verb->add_option("--phi", options->phi, "Of six URS legs, angles with commas between, rad: phi_1,...,phi_6");
+  verb->add_option("--d", options->d, "Of six UPS legs, lengths with commas between, m: d_1,...,d_6");
   verb->add_option("--out", options->out, "CSV file; - for standard output")->capture_default_str();
   verb->footer(
       "One row a pose, at most eight; those that assemble come first. A pose that legs cannot reach is listed with\n"

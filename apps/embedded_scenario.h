@@ -12,7 +12,7 @@ Scenario paperHelix();
 /// scenarios/proving-ground.toml as built in: what `ursula prove` injects defects into.
 Scenario provingGround();
 
-/// apps/starting_scenario.toml, the text that `ursula init` writes.
-std::string startingScenario();
+/// apps/starting/KIND.toml, the text that `ursula init` writes.
+std::string startingScenario(LegKind kind);
 
 }  // namespace ursula

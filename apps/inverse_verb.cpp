@@ -28,7 +28,7 @@ TimeSeries inverseAlong(const Scenario& scenario, int samples) {
     torques.push_back(solver.inverseDynamics(motions.back(), work, loadAtP(scenario.load.get(), motions.back())));
     joints.push_back({solver.angles(work), solver.rates(work), solver.accelerations(work)});
   }
-  return inverseSeries(motions, joints, torques);
+  return inverseSeries(*scenario.manipulator, motions, joints, torques);
 }
 
 int inverse(const InverseOptions& options) {

@@ -34,14 +34,15 @@ std::string whatIsMissing(const Simulation& run, const TorqueFile& file, double 
 
 int simulateVerb(const SimulateOptions& options) {
   const Scenario scenario = readScenarioOrInput(options.scenario);
-  const TorqueFile file = within(readTorquesAloud(options.torques, options.map), scenario.trajectory->duration());
+  const TorqueFile file = within(readTorquesAloud(options.torques, options.map, scenario.manipulator->motors()),
+                                 scenario.trajectory->duration());
   if (file.rows() < TorqueSpline::least_samples)
     throw UsageError(fmt::format("{}: {} instants, expected at least {} to interpolate between", options.torques,
                                  file.rows(), TorqueSpline::least_samples));
   const TorqueSpline spline(file.t, file.torques);
   const Simulation run = alongMotion(
       scenario, [&] { return simulate(scenario, options.engine, spline, file.t, scenario.simulation.tolerance); });
-  const TimeSeries series = simulatedSeries(run.motions, run.torques);
+  const TimeSeries series = simulatedSeries(*scenario.manipulator, run.motions, run.torques);
   writeOutput(options.out, csvText(series.names, series.columns));
   const std::string missing = whatIsMissing(run, file, scenario.trajectory->duration());
   if (missing.empty()) return exit_passed;
@@ -57,7 +58,8 @@ void addSimulate(CLI::App& app, std::function<int()>& run) {
   verb->add_option("scenario", options->scenario,
                    "Scenario file (TOML), - for standard input; the motion starts in its commanded state")
       ->required();
-  verb->add_option("--torques", options->torques, "CSV file with t_s and tau_{1..6}_Nm")->required();
+  verb->add_option("--torques", options->torques, "CSV file with t_s and tau_{1..6}_Nm, or _N of motors that slide")
+      ->required();
   addMapOption(*verb, options->map);
   const std::map<std::string, Engine> engines{{"noc", Engine::noc}, {"simbody", Engine::simbody}};
   verb->add_option("--engine", options->engine, "noc: (36); simbody: the closed loop. Default: simbody")

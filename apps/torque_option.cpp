@@ -5,6 +5,8 @@
 
 #include <cstdio>
 
+#include "validation/subject/effort_columns.h"
+
 namespace ursula {
 
 void addMapOption(CLI::App& verb, std::vector<std::string>& map) {
@@ -16,12 +18,12 @@ void addMapOption(CLI::App& verb, std::vector<std::string>& map) {
       ->allow_extra_args(false);
 }
 
-TorqueFile readTorquesAloud(const std::string& file, const std::vector<std::string>& map) {
-  const TorqueFile torques = readTorqueFile(file, parseColumnMap(map));
+TorqueFile readTorquesAloud(const std::string& file, const std::vector<std::string>& map, const Motors& motors) {
+  const TorqueFile torques = readTorqueFile(file, parseColumnMap(map, motors), motors);
   if (!torques.read_as.empty()) fmt::print(stderr, "{}: read as: {}\n", file, torques.read_as);
   if (!torques.ignored.empty())
-    fmt::print(stderr, "{}: ignoring columns that are none of t_s, tau_1_Nm … tau_6_Nm: {}\n", file,
-               fmt::join(torques.ignored, ", "));
+    fmt::print(stderr, "{}: ignoring columns that are none of t_s, {} … {}: {}\n", file, effortColumn(motors, 0),
+               effortColumn(motors, motor_count - 1), fmt::join(torques.ignored, ", "));
   return torques;
 }
 

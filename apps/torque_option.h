@@ -13,6 +13,6 @@ void addMapOption(CLI::App& verb, std::vector<std::string>& map);
 
 /// Reads a torque file and says on stderr, once, how it was read and which columns were passed over. Throws CsvError as
 /// readTorqueFile and parseColumnMap do.
-TorqueFile readTorquesAloud(const std::string& file, const std::vector<std::string>& map);
+TorqueFile readTorquesAloud(const std::string& file, const std::vector<std::string>& map, const Motors& motors);
 
 }  // namespace ursula

@@ -36,7 +36,8 @@ struct ValidateOptions {
 /// Judges this program's solver, somebody else's, or the torques of a file.
 ValidationResult judge(const Scenario& scenario, const ValidateOptions& options) {
   const bool from_file = !options.torques.empty();
-  const TorqueFile torques = from_file ? readTorquesAloud(options.torques, options.map) : TorqueFile{};
+  const TorqueFile torques =
+      from_file ? readTorquesAloud(options.torques, options.map, scenario.manipulator->motors()) : TorqueFile{};
   std::optional<Progress> progress;
   if (!options.quiet) progress.emplace(scenario.name);
   if (from_file) return validateExternal(scenario, torques);

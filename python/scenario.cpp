@@ -4,6 +4,7 @@
 #include <pybind11/stl/filesystem.h>
 #include <ursula/validate.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
@@ -42,19 +43,20 @@ Motions motionAt(const ScenarioWithSolver& self, const py::object& t) {
 }
 
 py::array_t<double> inverseDynamics(const ScenarioWithSolver& self, const Motions& motion) {
-  py::array_t<double> out = empty(motion.rows.size(), leg_count);
+  py::array_t<double> out = empty(motion.rows.size(), motor_count);
   double* to = out.mutable_data();
   Workspace<double> work;
   const Load* load = self.scenario.load.get();
   forRows(motion, [&](std::size_t k) {
     const Motion<double>& row = motion.rows[k];
-    Eigen::Map<Vector6d>(to + leg_count * k) = self.kinematics.solver().inverseDynamics(row, work, loadAtP(load, row));
+    Eigen::Map<Vector6d>(to + motor_count * k) =
+        self.kinematics.solver().inverseDynamics(row, work, loadAtP(load, row));
   });
   return out;
 }
 
 py::tuple forwardDynamics(const ScenarioWithSolver& self, const Motions& motion, const py::object& tau) {
-  const py::array_t<double> given = rowsOf(tau, leg_count, "tau");
+  const py::array_t<double> given = rowsOf(tau, motor_count, "tau");
   if (static_cast<std::size_t>(given.shape(0)) != motion.rows.size())
     throw py::value_error("tau: " + std::to_string(given.shape(0)) + " rows, expected one for each of the motion's " +
                           std::to_string(motion.rows.size()));
@@ -65,12 +67,32 @@ py::tuple forwardDynamics(const ScenarioWithSolver& self, const Motions& motion,
   const Load* load = self.scenario.load.get();
   forRows(motion, [&](std::size_t k) {
     const Motion<double>& row = motion.rows[k];
-    const Vector6d of_row = Eigen::Map<const Vector6d>(torques + leg_count * k);
+    const Vector6d of_row = Eigen::Map<const Vector6d>(torques + motor_count * k);
     const Vector6d found = self.kinematics.solver().directDynamics(row, of_row, work, loadAtP(load, row));
     Eigen::Map<Vector3d>(to_alpha + 3 * k) = found.head<3>();
     Eigen::Map<Vector3d>(to_a + 3 * k) = found.tail<3>();
   });
   return py::make_tuple(a, alpha);
+}
+
+bool has(const Leg& leg, Coordinate coordinate) {
+  const auto& all = rowOf(leg.kind).coordinates;
+  return std::find(all.begin(), all.end(), coordinate) != all.end();
+}
+
+/// φ, ψ, θ, d as far as any leg has them; NaN for those that have not.
+void addJoints(const std::string& suffix, const Manipulator& machine, const std::vector<JointMotion>& joints,
+               JointVariables<double> JointMotion::*which, py::dict& out) {
+  const std::vector<Leg>& legs = machine.parameters().legs;
+  for (const Coordinate coordinate : {Coordinate::phi, Coordinate::psi, Coordinate::theta, Coordinate::d}) {
+    if (std::none_of(legs.begin(), legs.end(), [&](const Leg& leg) { return has(leg, coordinate); })) continue;
+    out[py::str(nameOf(coordinate) + suffix)] =
+        table(joints, static_cast<py::ssize_t>(legs.size()), [&](const JointMotion& row, double* to) {
+          const Vector6d& values = (row.*which).of(coordinate);
+          for (std::size_t i = 0; i < legs.size(); ++i)
+            to[i] = has(legs[i], coordinate) ? values(static_cast<Eigen::Index>(i)) : std::nan("");
+        });
+  }
 }
 
 py::dict inverseKinematics(const ScenarioWithSolver& self, const Motions& motion) {
@@ -82,17 +104,9 @@ py::dict inverseKinematics(const ScenarioWithSolver& self, const Motions& motion
     joints[k] = {solver.angles(work), solver.rates(work), solver.accelerations(work)};
   });
   py::dict out;
-  const auto add = [&](const std::string& suffix, JointVariables<double> JointMotion::*which) {
-    for (const auto& [name, leg] : {std::pair("phi", &JointVariables<double>::phi),
-                                    {"psi", &JointVariables<double>::psi},
-                                    {"theta", &JointVariables<double>::theta}})
-      out[py::str(name + suffix)] = table(joints, leg_count, [which, angle = leg](const JointMotion& row, double* to) {
-        Eigen::Map<Vector6d>{to} = row.*which.*angle;
-      });
-  };
-  add("", &JointMotion::q);
-  add("dot", &JointMotion::q_dot);
-  add("ddot", &JointMotion::q_ddot);
+  addJoints("", *self.scenario.manipulator, joints, &JointMotion::q, out);
+  addJoints("dot", *self.scenario.manipulator, joints, &JointMotion::q_dot, out);
+  addJoints("ddot", *self.scenario.manipulator, joints, &JointMotion::q_ddot, out);
   return out;
 }
 

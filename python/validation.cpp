@@ -32,17 +32,17 @@ std::vector<Vector6d> torquesOf(const py::object& answer, const std::vector<Moti
                           std::string(py::str(py::type::of(answer).attr("__name__"))) + " and no array of numbers" +
                           expected);
   const auto given = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(any);
-  if (given.ndim() != 2 || static_cast<std::size_t>(given.shape(0)) != motions.size() || given.shape(1) != leg_count)
+  if (given.ndim() != 2 || static_cast<std::size_t>(given.shape(0)) != motions.size() || given.shape(1) != motor_count)
     throw py::value_error("the solver's answer to " + std::to_string(motions.size()) + " instants has shape " +
                           std::string(py::str(given.attr("shape"))) + expected);
   std::vector<Vector6d> out;
   out.reserve(motions.size());
   for (std::size_t k = 0; k < motions.size(); ++k) {
-    out.emplace_back(Eigen::Map<const Vector6d>(given.data() + leg_count * k));
-    for (int i = 0; i < leg_count; ++i)
+    out.emplace_back(Eigen::Map<const Vector6d>(given.data() + motor_count * k));
+    for (int i = 0; i < motor_count; ++i)
       if (!std::isfinite(out.back()(i)))
-        throw py::value_error("the solver's torque " + std::to_string(i + 1) + atInstant(motions[k]) + " is " +
-                              std::to_string(out.back()(i)) + ", expected a finite number, N m");
+        throw py::value_error("the solver's effort " + std::to_string(i + 1) + atInstant(motions[k]) + " is " +
+                              std::to_string(out.back()(i)) + ", expected a finite number");
   }
   return out;
 }

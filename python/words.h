@@ -5,7 +5,7 @@
 namespace ursula::python::words {
 
 constexpr const char* module =
-    "Whether the closed-form dynamics of a six-legged U-R-S parallel manipulator are right, and why.\n\n"
+    "Whether the closed-form dynamics of a six-dof parallel manipulator are right, and why.\n\n"
     "NumPy in and out; rows are instants; SI units; frames: B is the base's, M the platform's.";
 
 constexpr const char* motion =
@@ -30,32 +30,38 @@ constexpr const char* at =
     "motion's smooth continuation. Raises ValueError for what is not finite.";
 
 constexpr const char* inverse_dynamics =
-    "Torques of the motors for a motion of N instants, N m: (N, 6), by (37). Positive about -u_i, conjugate to the "
-    "rate of\n"
-    "phi_i. The scenario's load acts at each t. The same numbers, to the last bit, as `ursula inverse` writes.\n"
+    "Efforts of the six motors, in leg order, for a motion of N instants: (N, 6), by (37); N m, or N where a motor\n"
+    "slides. Each is conjugate to the rate of what it drives, of the paper's legs phi_i, positive about -u_i. The\n"
+    "scenario's load acts at each t. The same numbers, to the last bit, as `ursula inverse` writes.\n"
     "Raises PoseError where the legs cannot take a pose, or it is singular.";
 
 constexpr const char* forward_dynamics =
-    "Accelerations (a, alpha) of the platform under torques tau, N m, (N, 6), in the states of a motion of N "
+    "Accelerations (a, alpha) of the platform under efforts tau, N m or N, (N, 6), in the states of a motion of N "
     "instants,\n"
     "by (36): of P, m/s², and angular, rad/s², in B, each (N, 3). The motion's own a and alpha are not read.\n"
     "Raises PoseError as inverse_dynamics does.";
 
 constexpr const char* inverse_kinematics =
-    "Joint variables for a motion of N instants, as a dict of arrays (N, 6): phi, psi, theta, rad; phidot, psidot,\n"
-    "thetadot, rad/s; phiddot, psiddot, thetaddot, rad/s². Raises PoseError as inverse_dynamics does.";
+    "Joint variables for a motion of N instants, as a dict of arrays (N, number of legs): phi, psi, theta, rad, and "
+    "d,\n"
+    "m, as far as any leg has them; their rates phidot, …, ddot and accelerations phiddot, …, dddot. NaN for a leg\n"
+    "that has no such coordinate. Raises PoseError as inverse_dynamics does.";
 
 constexpr const char* direct_kinematics =
-    "Every real pose of the platform for six actuated angles phi, rad, at most eight, as a list of Pose: first those\n"
-    "that assemble. Raises UndeterminedPose where the angles leave the platform free to move, ValueError unless they\n"
+    "Every real pose of the platform for six actuated angles phi of URS legs, rad, at most eight, as a list of Pose: "
+    "first\n"
+    "those that assemble. Raises UndeterminedPose where the angles leave the platform free to move, ValueError unless "
+    "they\n"
     "are six finite numbers, and RuntimeError where a pose may be missing.";
 
 constexpr const char* validate =
     "The whole validation of a scenario: a Result.\n\n"
-    "solver: what is judged instead of this program's own solver, a function f(m) that gives the torques (N, 6),\n"
-    "N m, for a Motion of N instants, any number. It is called by one thread at a time, in any order of instants.\n"
+    "solver: what is judged instead of this program's own solver, a function f(m) that gives the efforts (N, 6),\n"
+    "N m or N, for a Motion of N instants, any number. It is called by one thread at a time, in any order of "
+    "instants.\n"
     "What needs a second machine, kinematics or direct dynamics is not applicable then.\n\n"
-    "rtol, atol: torques pass that are off by no more, relative to the largest effort of the motion, and N m; both\n"
+    "rtol, atol: torques pass that are off by no more, relative to the largest effort of the motion, and N m or N; "
+    "both\n"
     "are added. Where both are left out, [acceptance] torque of the scenario holds, else rounding. name: of the\n"
     "solver, for the results; its own where left out.\n\n"
     "Raises what the solver raises, as it was raised; ValueError where it answers with another shape or with what is\n"

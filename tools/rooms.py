@@ -7,8 +7,8 @@ import sources
 # A room may see those named, which stand above it in this list: so there is no circle and no arrow back up.
 ROOMS = {
     "verdict": "",
-    "picture": "verdict",
     "subject": "",
+    "picture": "verdict subject",
     "limits": "verdict subject",
     "samples": "verdict subject limits",
     "replay": "verdict subject limits samples",

@@ -24,8 +24,9 @@ void addFacts(const Evidence& evidence, bool budget, ValidationResult& result) {
   if (budget)
     addBudget(attribute(*evidence.scenario, evidence.samples, evidence.windows, *evidence.amplification, evidence.plan),
               result, evidence.units());
-  result.timeseries = validationSeries(evidence.samples, evidence.windows);
-  if (!evidence.reactions.empty()) addReactionColumns(evidence.reactions, result.timeseries);
+  result.timeseries = validationSeries(*evidence.scenario->manipulator, evidence.samples, evidence.windows);
+  if (!evidence.reactions.empty())
+    addReactionColumns(*evidence.scenario->manipulator, evidence.reactions, result.timeseries);
   addCurves(evidence.samples, evidence.windows, result);
   if (!evidence.ladder.rungs.empty()) result.curves.emplace_back("Work and precision", workPrecision(evidence.ladder));
 }

@@ -78,7 +78,7 @@ Evidence gatherExternal(const Scenario& given, const Presentation& natural, cons
 }
 
 void addFacts(const Evidence& evidence, ValidationResult& result) {
-  result.timeseries = validationSeries(evidence.samples, evidence.windows);
+  result.timeseries = validationSeries(*evidence.scenario->manipulator, evidence.samples, evidence.windows);
   addFindings(evidence.samples, evidence.windows, result, evidence.units());
   addCurves(evidence.samples, evidence.windows, result);
   if (!evidence.not_replayed.empty()) result.findings.emplace_back("replay", "none: " + evidence.not_replayed);
@@ -120,7 +120,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
 }
 
 ValidationResult validateExternal(const Scenario& scenario, const std::filesystem::path& torques_csv) {
-  return validateExternal(scenario, readTorqueFile(torques_csv));
+  return validateExternal(scenario, readTorqueFile(torques_csv, {}, scenario.manipulator->motors()));
 }
 
 }  // namespace ursula

@@ -102,13 +102,13 @@ class Scenario:
     def motion(self, t: npt.ArrayLike) -> Motion:
         """The commanded motion at t, s: (N,) or a number."""
     def inverse_dynamics(self, m: Motion) -> Array:
-        """Torques of the motors, N m: (N, 6)."""
+        """Efforts of the motors, N m, or N where a motor slides: (N, 6)."""
     def forward_dynamics(self, m: Motion, tau: npt.ArrayLike) -> tuple[Array, Array]:
-        """(a, alpha) of the platform under torques tau, N m, (N, 6): m/s² and rad/s², each (N, 3)."""
+        """(a, alpha) of the platform under efforts tau, N m or N, (N, 6): m/s² and rad/s², each (N, 3)."""
     def inverse_kinematics(self, m: Motion) -> dict[str, Array]:
-        """phi, psi, theta with their rates and accelerations, rad and s, each (N, 6)."""
+        """phi, psi, theta, d, those that legs have, with rates and accelerations, rad, m and s, each (N, number of legs)."""
     def direct_kinematics(self, phi: npt.ArrayLike) -> list[Pose]:
-        """Every real pose for six actuated angles, rad."""
+        """Every real pose for six actuated angles of URS legs, rad."""
 
 class Check:
     """One statement that was judged: it passes exactly if value <= limit."""
@@ -163,4 +163,4 @@ def validate(
     atol: float | None = None,
     name: str | None = None,
 ) -> Result:
-    """The whole validation of a scenario, of this program's solver or of `solver`: Motion of N instants -> (N, 6), N m."""
+    """The whole validation of a scenario, of this program's solver or of `solver`: Motion of N instants -> (N, 6), N m or N."""

@@ -34,13 +34,31 @@ TEST(Init, neverOverwrites) {
   EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "mine.toml"), "mine");
 }
 
-TEST(Init, refusesKindsThatItCannotMake) {
+class InitKind : public testing::TestWithParam<const char*> {};
+
+TEST_P(InitKind, writesAScenarioThatPassesTheCheckAndCanBeComputed) {
   const Program ursula;
-  const UrsulaRun known = ursula("init a.toml --kind UPS"), unknown = ursula("init a.toml --kind UPZ");
-  EXPECT_EQ(known.exit_code, 2);
-  EXPECT_THAT(known.err, HasSubstr("--kind UPS: legs of this kind are not supported yet, expected URS"));
+  const std::string kind = GetParam();
+  EXPECT_EQ(ursula("init robot.toml --kind " + kind).exit_code, 0);
+  const std::string text = TemporaryFolder::read(ursula.folder() / "robot.toml");
+  EXPECT_THAT(text, HasSubstr("name = \"robot\""));
+  EXPECT_THAT(text, HasSubstr("\nkind = \"" + kind + "\""));
+  const UrsulaRun check = ursula("check robot.toml --picture robot.svg");
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+  EXPECT_EQ(check.out, "robot.toml: can be read and its motion be made; 0 warnings\n");
+  const UrsulaRun inverse = ursula("inverse robot.toml --samples 3");
+  EXPECT_EQ(inverse.exit_code, 0) << inverse.err;
+  EXPECT_THAT(inverse.out, HasSubstr(kind == "RUS" ? ",tau_6_Nm\n" : ",tau_6_N\n"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, InitKind, testing::Values("UPS", "RUS", "PUS"),
+                         [](const auto& test) { return test.param; });
+
+TEST(Init, refusesKindsThatThereAreNot) {
+  const Program ursula;
+  const UrsulaRun unknown = ursula("init a.toml --kind UPZ");
   EXPECT_EQ(unknown.exit_code, 2);
-  EXPECT_THAT(unknown.err, HasSubstr("no such kind of leg"));
+  EXPECT_THAT(unknown.err, HasSubstr("--kind UPZ: no such kind of leg, expected URS, UPS, RUS, PUS, did you mean"));
   EXPECT_EQ(ursula.files(), 0u);
 }
 

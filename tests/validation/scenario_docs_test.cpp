@@ -38,7 +38,10 @@ TEST(ScenarioDocs, theSchemaHoldsTypesBoundsAndWhatIsRequired) {
   EXPECT_EQ(platform["additionalProperties"], false);
   EXPECT_EQ(schema["properties"]["simulation"]["properties"]["samples"]["maximum"], 1000000);
   EXPECT_EQ(schema["properties"]["trajectory"]["oneOf"].size(), 4u);
-  EXPECT_EQ(schema["properties"]["manipulator"]["properties"]["leg"]["minItems"], 6);
+  EXPECT_EQ(schema["properties"]["manipulator"]["properties"]["leg"]["minItems"], 3);
+  const auto& leg = schema["properties"]["manipulator"]["properties"]["leg"]["items"]["properties"];
+  EXPECT_EQ(leg["kind"]["enum"].size(), 4u);
+  EXPECT_EQ(leg["actuated"]["items"]["enum"], nlohmann::json({"phi", "psi", "theta", "d"}));
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ double largestMoment(const Matrix3d& inertia) {
 template <class Point>
 double extent(const ManipulatorParameters& machine, Point&& point) {
   Vector3d mean = Vector3d::Zero();
-  for (const Leg& leg : machine.legs) mean += point(leg) / leg_count;
+  for (const Leg& leg : machine.legs) mean += point(leg) / static_cast<double>(machine.legs.size());
   double far = 0;
   for (const Leg& leg : machine.legs) far = std::max(far, (point(leg) - mean).norm());
   return far;
@@ -74,9 +74,10 @@ void link(const Link& link, const std::string& key, std::vector<Oddity>& out) {
 
 void legs(const ManipulatorParameters& machine, std::vector<Oddity>& out) {
   const double base = extent(machine, [](const Leg& leg) { return leg.base_point; });
-  for (int i = 0; i < leg_count; ++i) {
+  for (int i = 0; i < static_cast<int>(machine.legs.size()); ++i) {
     const Leg& leg = machine.legs[static_cast<std::size_t>(i)];
-    link(leg.proximal, legKey(i, "proximal"), out);
+    if (leg.kind != LegKind::PUS)
+      link(leg.proximal, legKey(i, "proximal"), out);  // a carriage has no length and never turns
     link(leg.distal, legKey(i, "distal"), out);
     if (const double size = leg.base_axis.norm(); std::abs(size - 1) > 0.01)
       out.push_back(
@@ -112,12 +113,13 @@ void platform(const ManipulatorParameters& machine, std::vector<Oddity>& out) {
 /// Millimetres among metres: by a factor of a thousand nothing in a machine differs; a hundred tells.
 void units(const ManipulatorParameters& machine, std::vector<Oddity>& out) {
   const double base = extent(machine, [](const Leg& leg) { return leg.base_point; });
-  for (int i = 0; i < leg_count; ++i) {
+  for (int i = 0; i < static_cast<int>(machine.legs.size()); ++i) {
     const Leg& leg = machine.legs[static_cast<std::size_t>(i)];
-    const double reach = leg.proximal.length + leg.distal.length;
-    const double shorter = std::min(leg.proximal.length, leg.distal.length), longer = reach - shorter;
-    const std::string which = leg.proximal.length > leg.distal.length ? "proximal.length" : "distal.length";
-    if (longer > 100 * shorter)
+    const bool on_rail = leg.kind == LegKind::PUS;
+    const double first = on_rail ? 0 : leg.proximal.length, reach = first + leg.distal.length;
+    const double shorter = std::min(first, leg.distal.length), longer = reach - shorter;
+    const std::string which = first > leg.distal.length ? "proximal.length" : "distal.length";
+    if (!on_rail && longer > 100 * shorter)
       out.push_back(
           {legKey(i, which),
            fmt::format("{:.6g} m, while the leg's other link is {:.6g} m long: millimetres?", longer, shorter)});

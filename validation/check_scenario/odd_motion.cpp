@@ -1,8 +1,9 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "model/instants.h"
 #include "model/scenario_place.h"
@@ -67,33 +68,59 @@ void haste(const Scenario& scenario, std::vector<Oddity>& out) {
         {key, fmt::format("{:.6g} s: milliseconds, where seconds are expected?", scenario.trajectory->duration())});
 }
 
-/// |sin θ| of a leg where it is smallest over the motion.
-struct Straightest {
-  double sine = 1, at = 0;
+/// A number of a leg where it is smallest over the motion.
+struct Least {
+  double value = std::numeric_limits<double>::infinity(), at = 0;
+
+  void include(double other, double t) {
+    if (other < value) *this = {other, t};
+  }
 };
 
-std::array<Straightest, leg_count> straightest(const Scenario& scenario) {
-  const Solver<double> solver(*scenario.manipulator);
+/// What a leg comes nearest to.
+struct NearestOfLeg {
+  Least sine;    ///< |sin θ|, or what is like it: 0 where the leg's rates are not determined
+  Least stroke;  ///< of UPS: to either end of the cylinder, m
+};
+
+std::vector<NearestOfLeg> nearestOfLegs(const Scenario& scenario) {
+  const Manipulator& machine = *scenario.manipulator;
+  const Solver<double> solver(machine);
   Workspace<double> work;
-  std::array<Straightest, leg_count> all;
+  std::vector<NearestOfLeg> all(machine.parameters().legs.size());
   for (double t : equallySpaced(scenario.trajectory->duration(), 201)) {
     solver.displacements(scenario.trajectory->at(t), work);
-    for (std::size_t i = 0; i < leg_count; ++i)
-      if (const double sine = std::abs(work.legs[i].sin_theta); sine < all[i].sine) all[i] = {sine, t};
+    const JointVariables<double> q = solver.angles(work);
+    for (int i = 0; i < machine.legCount(); ++i) {
+      NearestOfLeg& nearest = all[static_cast<std::size_t>(i)];
+      const Leg& leg = machine.leg(i);
+      nearest.sine.include(solver.margins(work, i).sine, t);
+      if (leg.kind != LegKind::UPS) continue;
+      const double out = q.d(i) - leg.distal.length;  // how far the rod's inner end is from A
+      nearest.stroke.include(std::min(out, leg.proximal.length - out), t);
+    }
   }
   return all;
 }
 
-/// A knee within 3° of straight or folded.
-void straightKnees(const Scenario& scenario, std::vector<Oddity>& out) {
+/// Within 3° of where a leg's rates are not determined, or a fiftieth of a cylinder from its end.
+void legsAtTheirLimits(const Scenario& scenario, std::vector<Oddity>& out) {
   constexpr double near = 3 * pi / 180;
-  const std::array<Straightest, leg_count> all = straightest(scenario);
-  for (std::size_t i = 0; i < leg_count; ++i)
-    if (all[i].sine < std::sin(near))
-      out.push_back(
-          {"trajectory", fmt::format("brings the knee of leg {} to {:.3g} degrees from straight or folded at t "
-                                     "= {:.4g} s: torques and rounding grow there",
-                                     i + 1, degrees(std::asin(all[i].sine)), all[i].at)});
+  const std::vector<NearestOfLeg> all = nearestOfLegs(scenario);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Leg& leg = scenario.manipulator->leg(static_cast<int>(i));
+    const auto& [sine, stroke] = all[i];
+    const bool on_rail = leg.kind == LegKind::PUS;
+    if (sine.value < std::sin(near))
+      out.push_back({"trajectory", fmt::format("brings the {} of leg {} to {:.3g} degrees from {} at t = {:.4g} s: "
+                                               "efforts and rounding grow there",
+                                               on_rail ? "rod" : "knee", i + 1, degrees(std::asin(sine.value)),
+                                               on_rail ? "across its rail" : "straight or folded", sine.at)});
+    if (leg.kind == LegKind::UPS && stroke.value < leg.proximal.length / 50)
+      out.push_back({"trajectory", fmt::format("brings the rod of leg {} to {:.3g} m from an end of its cylinder, "
+                                               "which is {:.6g} m long, at t = {:.4g} s",
+                                               i + 1, stroke.value, leg.proximal.length, stroke.at)});
+  }
 }
 
 }  // namespace
@@ -107,7 +134,7 @@ std::vector<Oddity> oddMotion(const Scenario& scenario) {
   if (kind == "samples") scalarLast(scenario, "trajectory.file", out);
   haste(scenario, out);
   try {
-    straightKnees(scenario, out);
+    legsAtTheirLimits(scenario, out);
   } catch (const PoseError&) {
     // Out of reach is no oddity: tryMotion refuses it.
   }

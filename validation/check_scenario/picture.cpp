@@ -2,13 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
+#include <vector>
 
+#include "nocsolver/chain_solver.h"
 #include "nocsolver/errors.h"
-#include "nocsolver/solver.h"
 #include "validation/check_scenario/check_scenario.h"
+#include "validation/subject/leg_points.h"
 
 namespace ursula {
 namespace {
@@ -18,35 +19,26 @@ constexpr double panel = 460, margin = 50, title = 40;  // px
 /// Points of the machine at one instant, m, in B.
 struct Pose {
   Vector3d P;
-  std::array<Vector3d, leg_count> A, B;
-  std::optional<std::array<Vector3d, leg_count>> R;  ///< none where the legs cannot take the pose
+  std::vector<LegPoints> legs;
+  std::vector<std::optional<Stretch>> rails;
+  std::vector<LegKind> kinds;
+  bool reached;  ///< else the legs cannot take the pose, and R, S are nothing
 };
 
-std::optional<std::array<Vector3d, leg_count>> knees(const Scenario& scenario, const Motion<double>& motion) {
-  const Solver<double> solver(*scenario.manipulator);
-  Workspace<double> work;
-  BodyMotions<double> bodies;
-  try {
-    solver.inverseKinematics(motion, work);
-    solver.bodyMotions(motion, work, bodies);
-  } catch (const PoseError&) {
-    return std::nullopt;
-  }
-  std::array<Vector3d, leg_count> R;
-  for (std::size_t i = 0; i < leg_count; ++i) {
-    const Leg& leg = scenario.manipulator->leg(static_cast<int>(i));
-    R[i] = leg.base_point + leg.proximal.length * bodies[i].R.col(2);
-  }
-  return R;
-}
-
 Pose poseAtStart(const Scenario& scenario) {
+  const Manipulator& machine = *scenario.manipulator;
   const Motion<double> motion = scenario.trajectory->at(0);
-  Pose pose{motion.p, {}, {}, knees(scenario, motion)};
-  for (std::size_t i = 0; i < leg_count; ++i) {
-    const Leg& leg = scenario.manipulator->leg(static_cast<int>(i));
-    pose.A[i] = leg.base_point;
-    pose.B[i] = motion.p + motion.Q * leg.platform_point;
+  Pose pose{motion.p, {}, rails(scenario), {}, true};
+  for (const Leg& leg : machine.parameters().legs) pose.kinds.push_back(leg.kind);
+  const ChainSolver<double> solver(machine);
+  ChainWorkspace<double> work;
+  try {
+    solver.displacements(motion, work);
+    pose.legs = legPoints(machine, work);
+  } catch (const PoseError&) {
+    pose.reached = false;
+    for (const Leg& leg : machine.parameters().legs)
+      pose.legs.push_back({leg.base_point, {}, {}, motion.p + motion.Q * leg.platform_point, {}});
   }
   return pose;
 }
@@ -60,20 +52,26 @@ class View {
   std::string drawing(const std::string& caption) const {
     std::string out = fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" class=\"caption\">{}</text>\n", left_ + panel / 2,
                                   title + panel + 30, caption);
-    out += polygon(pose_.A, "base") + polygon(pose_.B, "platform");
-    for (std::size_t i = 0; i < leg_count; ++i) {
-      if (pose_.R) {
-        out += line(pose_.A[i], (*pose_.R)[i], "proximal") + line((*pose_.R)[i], pose_.B[i], "distal");
-        out += dot((*pose_.R)[i], "knee");
-      } else {
-        out += line(pose_.A[i], pose_.B[i], "unreached");
-      }
-      out += dot(pose_.A[i], "joint") + dot(pose_.B[i], "joint") + number(i);
-    }
+    out += polygon(&LegPoints::A, "base") + polygon(&LegPoints::B, "platform");
+    for (std::size_t i = 0; i < pose_.legs.size(); ++i) out += leg(i);
     return out + dot(pose_.P, "origin");
   }
 
  private:
+  std::string leg(std::size_t i) const {
+    const LegPoints& leg = pose_.legs[i];
+    const bool slides = pose_.kinds[i] == LegKind::UPS;
+    std::string out;
+    if (pose_.rails[i]) out += line(pose_.rails[i]->from, pose_.rails[i]->to, "rail");
+    if (!pose_.reached) {
+      out += line(leg.A, leg.B, "unreached");
+    } else {
+      out += line(leg.A, leg.R, slides ? "proximal cylinder" : "proximal") + line(leg.S, leg.B, "distal");
+      if (!slides) out += dot(leg.R, pose_.rails[i] ? "carriage" : "knee");
+    }
+    return out + dot(leg.A, "joint") + dot(leg.B, "joint") + number(i);
+  }
+
   double x(const Vector3d& p) const { return left_ + panel / 2 + scale_ * (p(across_) - middle_(across_)); }
   double y(const Vector3d& p) const { return title + panel / 2 - scale_ * (p(up_) - middle_(up_)); }
 
@@ -85,11 +83,12 @@ class View {
     return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" class=\"{}\"/>\n", x(at), y(at), kind);
   }
   std::string number(std::size_t i) const {
-    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x(pose_.A[i]) + 6, y(pose_.A[i]) + 14, i + 1);
+    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x(pose_.legs[i].A) + 6, y(pose_.legs[i].A) + 14,
+                       i + 1);
   }
-  std::string polygon(const std::array<Vector3d, leg_count>& corners, const char* kind) const {
+  std::string polygon(Vector3d LegPoints::*corner, const char* kind) const {
     std::string points;
-    for (const Vector3d& corner : corners) points += fmt::format("{:.1f},{:.1f} ", x(corner), y(corner));
+    for (const LegPoints& leg : pose_.legs) points += fmt::format("{:.1f},{:.1f} ", x(leg.*corner), y(leg.*corner));
     return fmt::format("<polygon points=\"{}\" class=\"{}\"/>\n", points, kind);
   }
 
@@ -103,7 +102,8 @@ constexpr const char* style = R"(<style>
 text { font: 13px sans-serif; fill: #444 } .caption { text-anchor: middle; font-size: 14px }
 line, polygon { fill: none; stroke-width: 2 } .base { stroke: #666; fill: #6661 } .platform { stroke: #06c; fill: #06c2 }
 .proximal { stroke: #c50 } .distal { stroke: #181 } .unreached { stroke: #d00; stroke-dasharray: 6 5 }
-.joint { fill: #444 } .knee { fill: #fff; stroke: #444; stroke-width: 1.5 } .origin { fill: #06c }
+.cylinder { stroke-width: 6; stroke-opacity: 0.45 } .rail { stroke: #999; stroke-width: 4; stroke-opacity: 0.6 }
+.joint { fill: #444 } .carriage { fill: #c50; stroke: #444; stroke-width: 1.5 } .knee { fill: #fff; stroke: #444; stroke-width: 1.5 } .origin { fill: #06c }
 </style>
 )";
 
@@ -128,9 +128,11 @@ std::string scaleBar(double scale) {
 std::string picture(const Scenario& scenario) {
   const Pose pose = poseAtStart(scenario);
   Eigen::AlignedBox3d box(pose.P);
-  for (std::size_t i = 0; i < leg_count; ++i) {
-    box.extend(pose.A[i]).extend(pose.B[i]);
-    if (pose.R) box.extend((*pose.R)[i]);
+  for (std::size_t i = 0; i < pose.legs.size(); ++i) {
+    const LegPoints& leg = pose.legs[i];
+    box.extend(leg.A).extend(leg.B);
+    if (pose.reached) box.extend(leg.R).extend(leg.S);
+    if (pose.rails[i]) box.extend(pose.rails[i]->from).extend(pose.rails[i]->to);
   }
   const double scale = (panel - 2 * margin) / std::max(box.sizes().maxCoeff(), 1e-300);
   const Vector3d middle = box.center();
@@ -139,7 +141,7 @@ std::string picture(const Scenario& scenario) {
              "height=\"100%\" fill=\"#fff\"/>\n<text x=\"{}\" y=\"26\" style=\"font-size:16px\">{}, t = 0{}"
              "</text>\n",
              2 * panel, title + panel + 75, style, margin, escaped(scenario.name),
-             pose.R ? "" : ": the legs cannot take this pose") +
+             pose.reached ? "" : ": the legs cannot take this pose") +
          View(pose, 0, 2, 0, scale, middle).drawing("from the front: x to the right, z up") +
          View(pose, 0, 1, panel, scale, middle).drawing("from above: x to the right, y up") + scaleBar(scale) +
          "</svg>\n";

@@ -1,106 +1,18 @@
 #include "validation/checks/file_as_written.h"
 
-#include <toml++/toml.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <map>
 #include <sstream>
 
 #include "model/real50.h"
+#include "validation/checks/machine_as_written.h"
 
 namespace ursula {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-using View = toml::node_view<const toml::node>;
-
-double number(const View& node) { return node.value<double>().value_or(none); }
-
-double numberOr(const View& node, double otherwise) { return node ? number(node) : otherwise; }
-
-template <int N>
-Eigen::Matrix<double, N, 1> numbers(const View& node) {
-  Eigen::Matrix<double, N, 1> out = Eigen::Matrix<double, N, 1>::Constant(none);
-  const toml::array* array = node.as_array();
-  if (array == nullptr || array->size() != N) return out;
-  for (int i = 0; i < N; ++i) out(i) = number(node[static_cast<std::size_t>(i)]);
-  return out;
-}
-
-Vector3d vectorOr(const View& node, const Vector3d& otherwise) { return node ? Vector3d(numbers<3>(node)) : otherwise; }
-
-/// Tensor entries: [xx, yy, zz] or [xx, yy, zz, xy, xz, yz].
-Matrix3d tensor(const View& node) {
-  const toml::array* array = node.as_array();
-  if (array != nullptr && array->size() == 3) return numbers<3>(node).asDiagonal();
-  const Vector6d entry = numbers<6>(node);
-  Matrix3d out;
-  out << entry(0), entry(3), entry(4),  //
-      entry(3), entry(1), entry(5),     //
-      entry(4), entry(5), entry(2);
-  return out;
-}
-
-// --- the machine
-// ------------------------------------------------------------------------------------------------------
-
-/// A leg's keys: its own, and where it has not that one, the defaults'.
-class LegKeys {
- public:
-  LegKeys(View own, View defaults) : own_(own), defaults_(defaults) {}
-
-  View operator()(const char* key) const {
-    const View found = own_[key];
-    return found ? found : defaults_[key];
-  }
-  View operator()(const char* table, const char* key) const {
-    const View found = own_[table][key];
-    return found ? found : defaults_[table][key];
-  }
-
- private:
-  View own_, defaults_;
-};
-
-Link linkOf(const LegKeys& keys, const char* name) {
-  Link link;
-  link.length = number(keys(name, "length"));
-  link.mass = number(keys(name, "mass"));
-  link.center_of_mass = number(keys(name, "center_of_mass"));
-  link.inertia = tensor(keys(name, "inertia"));
-  return link;
-}
-
-JointFriction frictionOf(const LegKeys& keys, const char* name) {
-  return {numberOr(keys(name, "actuated"), 0), numberOr(keys(name, "universal"), 0), numberOr(keys(name, "knee"), 0)};
-}
-
-Leg legOf(const LegKeys& keys) {
-  Leg leg;
-  leg.base_point = numbers<3>(keys("base_point"));
-  leg.base_axis = numbers<3>(keys("base_axis"));
-  leg.platform_point = numbers<3>(keys("platform_point"));
-  leg.proximal = linkOf(keys, "proximal");
-  leg.distal = linkOf(keys, "distal");
-  leg.knee = keys("knee").value_or(std::string("positive")) == "negative" ? Knee::negative : Knee::positive;
-  leg.friction = frictionOf(keys, "friction");
-  static_cast<JointFriction&>(leg.coulomb) = frictionOf(keys, "coulomb");
-  leg.coulomb.smoothing_speed = numberOr(keys("coulomb", "smoothing_speed"), 0.01);
-  return leg;
-}
-
-ManipulatorParameters machineOf(const View& table) {
-  ManipulatorParameters machine;
-  machine.gravity = vectorOr(table["gravity"], {0, 0, -9.81});
-  machine.platform.mass = number(table["platform"]["mass"]);
-  machine.platform.center_of_mass = numbers<3>(table["platform"]["center_of_mass"]);
-  machine.platform.inertia = tensor(table["platform"]["inertia"]);
-  for (std::size_t i = 0; i < leg_count; ++i) machine.legs[i] = legOf({table["leg"][i], table["leg_defaults"]});
-  return machine;
-}
+using namespace written;
 
 // --- tables beside the file
 // -------------------------------------------------------------------------------------------
@@ -216,8 +128,6 @@ HelixParameters helixOf(const View& table) {
 }
 
 TimedPose poseOf(const View& table, double time) { return {time, numbers<3>(table["position"]), orientationOf(table)}; }
-
-std::size_t sizeOf(const View& node) { return node.is_array() ? node.as_array()->size() : 0; }
 
 TrajectoryAsWritten trajectoryOf(const View& table, const std::filesystem::path& folder) {
   TrajectoryAsWritten out;

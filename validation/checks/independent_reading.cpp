@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace ursula {
 namespace {
 
@@ -14,12 +16,22 @@ void compareLink(const std::string& place, const Link& read, const Link& written
 
 void compareFriction(const std::string& place, const JointFriction& read, const JointFriction& written,
                      Mismatches& mismatches) {
-  mismatches.number(place + ".actuated", read.actuated, written.actuated);
-  mismatches.number(place + ".universal", read.universal, written.universal);
-  mismatches.number(place + ".knee", read.knee, written.knee);
+  mismatches.number(place + ".phi", read.phi, written.phi);
+  mismatches.number(place + ".psi", read.psi, written.psi);
+  mismatches.number(place + ".theta", read.theta, written.theta);
+  mismatches.number(place + ".d", read.d, written.d);
+}
+
+/// The joints that motors drive, "1" for each that has one.
+std::string motorsOf(const Leg& leg) {
+  std::string out;
+  for (const bool driven : leg.actuated) out += driven ? '1' : '0';
+  return out;
 }
 
 void compareLeg(const std::string& place, const Leg& read, const Leg& written, Mismatches& mismatches) {
+  mismatches.text(place + ".kind", rowOf(read.kind).name, rowOf(written.kind).name);
+  mismatches.text(place + ".actuated", motorsOf(read), motorsOf(written));
   mismatches.numbers(place + ".base_point", read.base_point, written.base_point);
   mismatches.numbers(place + ".base_axis", read.base_axis, written.base_axis);
   mismatches.numbers(place + ".platform_point", read.platform_point, written.platform_point);
@@ -30,6 +42,7 @@ void compareLeg(const std::string& place, const Leg& read, const Leg& written, M
   compareFriction(place + ".friction", read.friction, written.friction, mismatches);
   compareFriction(place + ".coulomb", read.coulomb, written.coulomb, mismatches);
   mismatches.number(place + ".coulomb.smoothing_speed", read.coulomb.smoothing_speed, written.coulomb.smoothing_speed);
+  mismatches.number(place + ".coulomb.smoothing_speed", read.coulomb.sliding_speed, written.coulomb.sliding_speed);
 }
 
 void compareMachine(const ManipulatorParameters& read, const ManipulatorParameters& written, Mismatches& mismatches) {
@@ -39,7 +52,9 @@ void compareMachine(const ManipulatorParameters& read, const ManipulatorParamete
                      written.platform.center_of_mass);
   mismatches.numbers("manipulator.platform.inertia", read.platform.inertia.reshaped(),
                      written.platform.inertia.reshaped());
-  for (std::size_t i = 0; i < leg_count; ++i)
+  mismatches.number("manipulator.leg: their number", static_cast<double>(read.legs.size()),
+                    static_cast<double>(written.legs.size()));
+  for (std::size_t i = 0; i < std::min(read.legs.size(), written.legs.size()); ++i)
     compareLeg(fmt::format("manipulator.leg[{}]", i + 1), read.legs[i], written.legs[i], mismatches);
 }
 

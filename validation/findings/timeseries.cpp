@@ -10,6 +10,7 @@
 #include <string>
 
 #include "model/quaternions.h"
+#include "validation/subject/effort_columns.h"
 
 namespace ursula {
 namespace {
@@ -31,11 +32,26 @@ void addVector(TimeSeries& series, const std::string& pattern, const Rows& rows,
               [&](const auto& row) { return vector(row)(k); });
 }
 
-/// `pattern` holds one {} for the leg.
+/// A column for each motor's effort.
 template <class Rows, class F>
-void addLegs(TimeSeries& series, const std::string& pattern, const Rows& rows, F&& values) {
-  for (int i = 0; i < leg_count; ++i)
-    addColumn(series, fmt::format(fmt::runtime(pattern), i + 1), rows, [&](const auto& row) { return values(row)(i); });
+void addEfforts(TimeSeries& series, const std::string& prefix, const Motors& motors, const Rows& rows, F&& efforts) {
+  for (int k = 0; k < motor_count; ++k)
+    addColumn(series, prefix + effortColumn(motors, k), rows, [&](const auto& row) { return efforts(row)(k); });
+}
+
+/// φ, ψ, θ, d of the legs that have them, by kind of coordinate.
+template <class F>
+void addCoordinates(TimeSeries& series, const std::string& rate, const Manipulator& machine,
+                    const std::vector<JointMotion>& joints, F&& of) {
+  const std::string per = rate.empty() ? "" : rate == "dot" ? "_s" : "_s2";
+  for (const Coordinate coordinate : {Coordinate::phi, Coordinate::psi, Coordinate::theta, Coordinate::d})
+    for (int i = 0; i < machine.legCount(); ++i) {
+      const auto& has = rowOf(machine.leg(i).kind).coordinates;
+      if (std::find(has.begin(), has.end(), coordinate) == has.end()) continue;
+      addColumn(series,
+                fmt::format("{}{}_{}_{}{}", nameOf(coordinate), rate, i + 1, slides(coordinate) ? "m" : "rad", per),
+                joints, [&](const JointMotion& row) { return of(row).of(coordinate)(i); });
+    }
 }
 
 void addMotion(TimeSeries& series, const std::vector<Motion<double>>& motions) {
@@ -50,17 +66,12 @@ void addMotion(TimeSeries& series, const std::vector<Motion<double>>& motions) {
   addVector(series, "alpha_{}_rad_s2", motions, [](const Motion<double>& m) { return m.omega_dot; });
 }
 
-void addJoints(TimeSeries& series, const std::vector<JointMotion>& joints) {
+void addJoints(TimeSeries& series, const Manipulator& machine, const std::vector<JointMotion>& joints) {
   using Joints = JointMotion;
-  addLegs(series, "phi_{}_rad", joints, [](const Joints& j) { return j.q.phi; });
-  addLegs(series, "psi_{}_rad", joints, [](const Joints& j) { return j.q.psi; });
-  addLegs(series, "theta_{}_rad", joints, [](const Joints& j) { return j.q.theta; });
-  addLegs(series, "phidot_{}_rad_s", joints, [](const Joints& j) { return j.q_dot.phi; });
-  addLegs(series, "psidot_{}_rad_s", joints, [](const Joints& j) { return j.q_dot.psi; });
-  addLegs(series, "thetadot_{}_rad_s", joints, [](const Joints& j) { return j.q_dot.theta; });
-  addLegs(series, "phiddot_{}_rad_s2", joints, [](const Joints& j) { return j.q_ddot.phi; });
-  addLegs(series, "psiddot_{}_rad_s2", joints, [](const Joints& j) { return j.q_ddot.psi; });
-  addLegs(series, "thetaddot_{}_rad_s2", joints, [](const Joints& j) { return j.q_ddot.theta; });
+  using Variables = JointVariables<double>;
+  addCoordinates(series, "", machine, joints, [](const Joints& j) -> const Variables& { return j.q; });
+  addCoordinates(series, "dot", machine, joints, [](const Joints& j) -> const Variables& { return j.q_dot; });
+  addCoordinates(series, "ddot", machine, joints, [](const Joints& j) -> const Variables& { return j.q_ddot; });
 }
 
 const WindowedReplay* windowAt(const std::vector<WindowedReplay>& windows, double t) {
@@ -109,23 +120,25 @@ void addReplay(TimeSeries& series, const std::vector<Motion<double>>& motions,
 
 }  // namespace
 
-TimeSeries inverseSeries(const std::vector<Motion<double>>& motions, const std::vector<JointMotion>& joints,
-                         const std::vector<Vector6d>& torques) {
+TimeSeries inverseSeries(const Manipulator& machine, const std::vector<Motion<double>>& motions,
+                         const std::vector<JointMotion>& joints, const std::vector<Vector6d>& efforts) {
   TimeSeries series;
   addMotion(series, motions);
-  addJoints(series, joints);
-  addLegs(series, "tau_{}_Nm", torques, [](const Vector6d& tau) { return tau; });
+  addJoints(series, machine, joints);
+  addEfforts(series, "", machine.motors(), efforts, [](const Vector6d& tau) { return tau; });
   return series;
 }
 
-TimeSeries simulatedSeries(const std::vector<Motion<double>>& motions, const std::vector<Vector6d>& torques) {
+TimeSeries simulatedSeries(const Manipulator& machine, const std::vector<Motion<double>>& motions,
+                           const std::vector<Vector6d>& efforts) {
   TimeSeries series;
   addMotion(series, motions);
-  addLegs(series, "tau_{}_Nm", torques, [](const Vector6d& tau) { return tau; });
+  addEfforts(series, "", machine.motors(), efforts, [](const Vector6d& tau) { return tau; });
   return series;
 }
 
-TimeSeries validationSeries(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows) {
+TimeSeries validationSeries(const Manipulator& machine, const std::vector<PointwiseSample>& samples,
+                            const std::vector<WindowedReplay>& windows) {
   std::vector<Motion<double>> motions;
   std::vector<JointMotion> joints;
   std::vector<Vector6d> torques;
@@ -134,9 +147,9 @@ TimeSeries validationSeries(const std::vector<PointwiseSample>& samples, const s
     joints.push_back(sample.joints);
     torques.push_back(sample.torques);
   }
-  TimeSeries series = inverseSeries(motions, joints, torques);
+  TimeSeries series = inverseSeries(machine, motions, joints, torques);
   using Sample = PointwiseSample;
-  addLegs(series, "simbody_tau_{}_Nm", samples, [](const Sample& s) { return s.torques_simbody; });
+  addEfforts(series, "simbody_", machine.motors(), samples, [](const Sample& s) { return s.torques_simbody; });
   addColumn(series, "error_tau_Nm", samples, [](const Sample& s) { return s.torque.error; });
   addColumn(series, "limit_tau_Nm", samples, [](const Sample& s) { return s.torque.limit; });
   addColumn(series, "error_acceleration_m_s2", samples, [](const Sample& s) { return s.acceleration.error; });
@@ -145,7 +158,7 @@ TimeSeries validationSeries(const std::vector<PointwiseSample>& samples, const s
   return series;
 }
 
-void addReactionColumns(const std::vector<ReactionSample>& reactions, TimeSeries& series) {
+void addReactionColumns(const Manipulator& machine, const std::vector<ReactionSample>& reactions, TimeSeries& series) {
   struct Column {
     const char* pattern;
     Vector3d LegReactions::*member;
@@ -157,7 +170,7 @@ void addReactionColumns(const std::vector<ReactionSample>& reactions, TimeSeries
                                        {"reaction_fB_{}_{}_N", &LegReactions::f_B}}};
   const std::array<char, 3> axes{'x', 'y', 'z'};
   for (const Column& column : columns)
-    for (std::size_t leg = 0; leg < leg_count; ++leg)
+    for (std::size_t leg = 0; leg < machine.parameters().legs.size(); ++leg)
       for (int k = 0; k < 3; ++k) {
         std::vector<double> values;
         values.reserve(reactions.size());

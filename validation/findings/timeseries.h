@@ -9,18 +9,20 @@
 
 namespace ursula {
 
-/// Commanded and simulated motion, joint motion, torques and errors at the instants of `samples`, as interface.md names
-/// the columns.
-TimeSeries validationSeries(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows);
+/// Commanded and simulated motion, joint motion, efforts and errors at the instants of `samples`, as interface.md names
+/// the columns: joints that the legs have, an effort for each motor.
+TimeSeries validationSeries(const Manipulator& machine, const std::vector<PointwiseSample>& samples,
+                            const std::vector<WindowedReplay>& windows);
 
 /// Adds the recovered joint reactions, a row for each sample.
-void addReactionColumns(const std::vector<ReactionSample>& reactions, TimeSeries& series);
+void addReactionColumns(const Manipulator& machine, const std::vector<ReactionSample>& reactions, TimeSeries& series);
 
-/// Motion, joint motion and torques alone: what `ursula inverse` prints.
-TimeSeries inverseSeries(const std::vector<Motion<double>>& motions, const std::vector<JointMotion>& joints,
-                         const std::vector<Vector6d>& torques);
+/// Motion, joint motion and efforts alone: what `ursula inverse` prints.
+TimeSeries inverseSeries(const Manipulator& machine, const std::vector<Motion<double>>& motions,
+                         const std::vector<JointMotion>& joints, const std::vector<Vector6d>& efforts);
 
-/// Motion and torques: what `ursula simulate` prints.
-TimeSeries simulatedSeries(const std::vector<Motion<double>>& motions, const std::vector<Vector6d>& torques);
+/// Motion and efforts: what `ursula simulate` prints.
+TimeSeries simulatedSeries(const Manipulator& machine, const std::vector<Motion<double>>& motions,
+                           const std::vector<Vector6d>& efforts);
 
 }  // namespace ursula

@@ -107,11 +107,11 @@ Vector6d solverAnswer(const std::string& line) {
     cells.push_back(text.substr(start, end - start));
     start = end + 1;
   }
-  if (cells.size() != leg_count)
+  if (cells.size() != motor_count)
     throw SolverProcessError(
         fmt::format("{} value{}, expected six with commas between", cells.size(), cells.size() == 1 ? "" : "s"));
   Vector6d out;
-  for (int i = 0; i < leg_count; ++i) out(i) = numberOf(cells[static_cast<std::size_t>(i)], i + 1);
+  for (int i = 0; i < motor_count; ++i) out(i) = numberOf(cells[static_cast<std::size_t>(i)], i + 1);
   return out;
 }
 

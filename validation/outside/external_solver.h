@@ -24,7 +24,8 @@ struct ExternalSolverOptions {
 /// files, in B, SI, q with w ≥ 0, 17 significant digits, commas between.
 std::string solverQuestion(const Motion<double>& motion);
 
-/// Six numbers with commas between, N·m. Throws SolverProcessError that says what is wrong with `line`.
+/// Six numbers with commas between, efforts in the order of the motors, N·m or N. Throws SolverProcessError that says
+/// what is wrong with `line`.
 Vector6d solverAnswer(const std::string& line);
 
 /// The whole validation of a scenario with a process of its own on trial, which is started once and has

@@ -14,8 +14,8 @@ namespace ursula {
 /// answers with torques alone.
 struct OutsideSolver {
   std::string name;
-  /// For any number of motions, in B, SI: six torques each, in their order, N·m, conjugate to φ̇. Never called by two
-  /// threads at once, but not always by the same.
+  /// For any number of motions, in B, SI: six efforts each, in the order of the motors, N·m or N, conjugate to the
+  /// rates of what they drive. Never called by two threads at once, but not always by the same.
   std::function<std::vector<Vector6d>(const std::vector<Motion<double>>&)> torques;
 };
 

@@ -1,30 +1,71 @@
 #include "validation/picture/picture.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <optional>
 
-#include "nocsolver/solver.h"
+#include "validation/subject/leg_points.h"
 
 namespace ursula {
 namespace {
 
-/// The paper's leg: universal at A with the motor on its first axis, a pin at the knee R, a ball at B.
-struct LegTracks {
-  Picture::Track A, R, B, u, x;
+/// Tracks of a leg's points and axes, and what its joints are.
+class LegTracks {
+ public:
+  LegTracks(const Leg& leg, const std::optional<Stretch>& rail, const Vector3d& origin)
+      : leg_(leg), origin_(origin), rail_(rail) {}
 
-  void add(const Leg& leg, const Matrix3d& proximal, const Matrix3d& distal, const Vector3d& origin) {
-    const Vector3d knee = leg.base_point + leg.proximal.length * proximal.col(2);
-    A.push_back(leg.base_point - origin);
-    R.push_back(knee - origin);
-    B.push_back(knee + leg.distal.length * distal.col(2) - origin);
-    u.push_back(leg.base_axis.normalized());
-    x.push_back(proximal.col(0));
+  void add(const LegPoints& points) {
+    A_.push_back(points.A - origin_);
+    R_.push_back(points.R - origin_);
+    S_.push_back(points.S - origin_);
+    B_.push_back(points.B - origin_);
+    for (std::size_t j = 0; j < 3; ++j) axes_[j].push_back(-points.axes[j]);
   }
 
   Picture::Leg leg() const {
-    return {"URS",
-            {{A, R}, {R, B}},
-            {{"universal joint", A, {u, x}, true}, {"pin", R, {x}, false}, {"ball", B, {}, false}}};
+    Picture::Leg out{rowOf(leg_.kind).name, {{A_, R_}, {S_, B_}}, joints(), {}};
+    if (rail_) {
+      const std::size_t instants = A_.size();
+      out.rails.push_back(
+          {Picture::Track(instants, rail_->from - origin_), Picture::Track(instants, rail_->to - origin_)});
+    }
+    return out;
   }
+
+ private:
+  /// Coordinates whose joints share a point: those before the first link, and those after it.
+  std::vector<Picture::Joint> joints() const {
+    const LegKindRow& row = rowOf(leg_.kind);
+    std::vector<Picture::Joint> out;
+    const auto first = static_cast<std::size_t>(row.joints_of_proximal);
+    addJoint(0, first, leg_.kind == LegKind::PUS ? R_ : A_, out);
+    addJoint(first, 3, R_, out);
+    out.push_back({"ball", B_, {}, false, false});
+    return out;
+  }
+
+  /// One joint of the coordinates from `begin` to `end`, or one for each where it takes two motors.
+  void addJoint(std::size_t begin, std::size_t end, const Picture::Track& at, std::vector<Picture::Joint>& out) const {
+    const auto driven = std::count(leg_.actuated.begin() + static_cast<std::ptrdiff_t>(begin),
+                                   leg_.actuated.begin() + static_cast<std::ptrdiff_t>(end), true);
+    if (driven > 1) {
+      for (std::size_t j = begin; j < end; ++j) addJoint(j, j + 1, at, out);
+      return;
+    }
+    const bool slides = ursula::slides(rowOf(leg_.kind).coordinates[begin]);
+    Picture::Joint joint{end - begin == 2 ? "universal joint" : slides ? "slide" : "pin", at, {}, driven == 1, slides};
+    for (std::size_t j = begin; j < end; ++j)
+      joint.axes.insert(leg_.actuated[j] ? joint.axes.begin() : joint.axes.end(), axes_[j]);
+    out.push_back(std::move(joint));
+  }
+
+  const Leg& leg_;
+  Vector3d origin_;
+  std::optional<Stretch> rail_;
+  Picture::Track A_, R_, S_, B_;
+  std::array<Picture::Track, 3> axes_;  ///< the other way round, so that the paper's u is u
 };
 
 Eigen::Vector4d quaternion(const Matrix3d& Q, const std::vector<Eigen::Vector4d>& before) {
@@ -46,23 +87,24 @@ std::vector<double> atMost(std::size_t most, const std::vector<double>& t) {
 std::shared_ptr<const Picture> makePicture(const Scenario& scenario, const std::vector<double>& instants) {
   auto picture = std::make_shared<Picture>();
   const Manipulator& machine = *scenario.manipulator;
-  for (int i = 0; i < leg_count; ++i) {
-    picture->origin += machine.leg(i).base_point / leg_count;
-    picture->platform_points.push_back(machine.leg(i).platform_point);
+  for (const Leg& leg : machine.parameters().legs) {
+    picture->origin += leg.base_point / machine.legCount();
+    picture->platform_points.push_back(leg.platform_point);
   }
-  const Solver<double> solver(machine);
-  Workspace<double> work;
-  BodyMotions<double> bodies;
-  std::vector<LegTracks> legs(leg_count);
+  const std::vector<std::optional<Stretch>> on = rails(scenario);
+  std::vector<LegTracks> legs;
+  for (std::size_t k = 0; k < on.size(); ++k)
+    legs.emplace_back(machine.leg(static_cast<int>(k)), on[k], picture->origin);
+  const ChainSolver<double> solver(machine);
+  ChainWorkspace<double> work;
   for (const double t : instants) {
     const Motion<double> motion = scenario.trajectory->at(t);
-    solver.inverseKinematics(motion, work);
-    solver.bodyMotions(motion, work, bodies);
+    solver.displacements(motion, work);
     picture->t.push_back(t);
     picture->p.push_back(motion.p - picture->origin);
     picture->q.push_back(quaternion(motion.Q, picture->q));
-    for (std::size_t k = 0; k < legs.size(); ++k)
-      legs[k].add(machine.leg(static_cast<int>(k)), bodies[k].R, bodies[leg_count + k].R, picture->origin);
+    const std::vector<LegPoints> points = legPoints(machine, work);
+    for (std::size_t k = 0; k < legs.size(); ++k) legs[k].add(points[k]);
   }
   for (const LegTracks& leg : legs) picture->legs.push_back(leg.leg());
   picture->scenario = scenario;

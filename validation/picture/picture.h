@@ -20,16 +20,18 @@ struct Picture {
   };
 
   struct Joint {
-    std::string name;         ///< what it is, for people: "universal", "revolute", …
+    std::string name;         ///< what it is, for people: "universal joint", "pin", …
     Track at;                 ///< its point
     std::vector<Track> axes;  ///< unit vectors, the driven one first; empty for a ball
-    bool driven = false;      ///< about or along the first axis
+    bool driven = false;      ///< about or along the first axis; its effort counts positive the other way
+    bool slides = false;      ///< along its only axis
   };
 
   struct Leg {
     std::string kind;
-    std::vector<Link> links;
-    std::vector<Joint> joints;
+    std::vector<Link> links;    ///< from the base to the platform; a later one may begin within the one before
+    std::vector<Joint> joints;  ///< the driven ones in the order of the motors
+    std::vector<Link> rails;    ///< of a carriage: what it slides on
   };
 
   Vector3d origin = Vector3d::Zero();

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include "validation/report/quantity.h"
@@ -31,9 +32,35 @@ std::string linkText(const Link& link) {
                      digits(link.mass), digits(link.center_of_mass), inertiaText(link.inertia));
 }
 
-std::string frictionText(const JointFriction& f, const char* unit) {
-  if (f.actuated == 0 && f.universal == 0 && f.knee == 0) return "none";
-  return fmt::format("φ {}, ψ {}, θ {} {}", digits(f.actuated), digits(f.universal), digits(f.knee), unit);
+constexpr std::array<const char*, coordinate_count> symbols = {"φ", "ψ", "θ", "d"};  // by Coordinate
+
+const char* symbol(Coordinate coordinate) { return symbols[static_cast<std::size_t>(coordinate)]; }
+
+/// The coefficients of the coordinates that the leg has: turning ones in the one unit, sliding ones in the other.
+std::string frictionText(const JointFriction& friction, LegKind kind, const char* turning, const char* sliding) {
+  if (!friction.any()) return "none";
+  const auto list = [&](bool slide, const char* unit) {
+    std::string out;
+    for (const Coordinate each : rowOf(kind).coordinates)
+      if (slides(each) == slide)
+        out += fmt::format("{}{} {}", out.empty() ? "" : ", ", symbol(each), digits(friction.on(each)));
+    return out.empty() ? out : out + " " + unit;
+  };
+  const std::string turned = list(false, turning), slid = list(true, sliding);
+  return turned + (turned.empty() || slid.empty() ? "" : ", ") + slid;
+}
+
+/// What carries the platform, in words: by kind, then what motors drive.
+std::string kindText(const Leg& leg) {
+  static constexpr std::array<const char*, leg_kind_count> words = {
+      "URS: universal joint, pin at the knee, ball", "UPS: telescopic, universal joint, cylinder and rod, ball",
+      "RUS: crank and rod, pin, universal joint, ball", "PUS: carriage and rod, slide, universal joint, ball"};
+  std::string driven;
+  for (std::size_t j = 0; j < 3; ++j)
+    if (leg.actuated[j])
+      driven += (driven.empty() ? "" : " and ") + std::string(symbol(rowOf(leg.kind).coordinates[j]));
+  return fmt::format("{}; {}", words[static_cast<std::size_t>(leg.kind)],
+                     driven.empty() ? "no motor" : "a motor on " + driven);
 }
 
 std::string loadText(const Load* load) {
@@ -48,13 +75,16 @@ template <class Text>
 std::string byLegs(const char* what, const Manipulator& machine, const Text& text) {
   std::string rows;
   std::set<std::string> done;
-  for (int i = 0; i < leg_count; ++i) {
+  for (int i = 0; i < machine.legCount(); ++i) {
     const std::string mine = text(machine.leg(i));
     if (!done.insert(mine).second) continue;
     std::string legs;
-    for (int k = 0; k < leg_count; ++k)
-      if (text(machine.leg(k)) == mine) legs += (legs.empty() ? "" : ", ") + std::to_string(k + 1);
-    const bool all = done.size() == 1 && legs.size() == 3 * leg_count - 2;
+    bool all = true;
+    for (int k = 0; k < machine.legCount(); ++k) {
+      const bool shared = text(machine.leg(k)) == mine;
+      all = all && shared;
+      if (shared) legs += (legs.empty() ? "" : ", ") + std::to_string(k + 1);
+    }
     rows += fact(all ? std::string(what) + ", every leg" : fmt::format("{}, leg {}", what, legs), mine);
   }
   return rows;
@@ -62,11 +92,11 @@ std::string byLegs(const char* what, const Manipulator& machine, const Text& tex
 
 std::string legRows(const Manipulator& machine) {
   std::string rows;
-  for (int i = 0; i < leg_count; ++i) {
+  for (int i = 0; i < machine.legCount(); ++i) {
     const Leg& leg = machine.leg(i);
+    const char* knee = rowOf(leg.kind).knee == nullptr ? "–" : leg.knee == Knee::positive ? "positive" : "negative";
     rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", i + 1,
-                        vectorText(leg.base_point), vectorText(leg.base_axis), vectorText(leg.platform_point),
-                        leg.knee == Knee::positive ? "positive" : "negative");
+                        vectorText(leg.base_point), vectorText(leg.base_axis), vectorText(leg.platform_point), knee);
   }
   return "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"Where the legs are held\"><table>"
          "<caption>Where the legs are held: base point and axis in B, platform point in M, m</caption>"
@@ -98,10 +128,13 @@ std::string inputCard(const Picture& picture) {
       fact("Gravity", vectorText(machine.gravity()) + " m/s²") +
       fact("Platform", fmt::format("mass {} kg, mass centre {} m in M, inertia {} kg·m²", digits(platform.mass),
                                    vectorText(platform.center_of_mass), inertiaText(platform.inertia)));
+  rows += byLegs("Kind", machine, kindText);
   rows += byLegs("Proximal link", machine, [](const Leg& leg) { return linkText(leg.proximal); });
   rows += byLegs("Distal link", machine, [](const Leg& leg) { return linkText(leg.distal); });
-  rows += byLegs("Viscous friction", machine, [](const Leg& leg) { return frictionText(leg.friction, "N·m·s/rad"); });
-  rows += byLegs("Coulomb friction", machine, [](const Leg& leg) { return frictionText(leg.coulomb, "N·m"); });
+  rows += byLegs("Viscous friction", machine,
+                 [](const Leg& leg) { return frictionText(leg.friction, leg.kind, "N·m·s/rad", "N·s/m"); });
+  rows += byLegs("Coulomb friction", machine,
+                 [](const Leg& leg) { return frictionText(leg.coulomb, leg.kind, "N·m", "N"); });
   rows += fact("Load", loadText(scenario.load.get()));
   rows += fact("Motion", fmt::format("{}, {} s, judged at {} instants", scenario.trajectory->kind(),
                                      digits(scenario.trajectory->duration()), scenario.simulation.samples));

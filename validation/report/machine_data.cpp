@@ -55,11 +55,11 @@ std::string legJson(const Picture::Leg& leg, TrackTable& table) {
     out += std::to_string(table.add(axis));
   };
   const auto add_joint = [&](const Picture::Joint& joint, std::string& out) {
-    out += fmt::format(R"({{"name":{},"at":{},"driven":{},"axes":{}}})", jsonText(joint.name), table.add(joint.at),
-                       joint.driven, jsonList(joint.axes, add_axis));
+    out += fmt::format(R"({{"name":{},"at":{},"driven":{},"slides":{},"axes":{}}})", jsonText(joint.name),
+                       table.add(joint.at), joint.driven, joint.slides, jsonList(joint.axes, add_axis));
   };
-  return fmt::format(R"({{"kind":{},"links":{},"joints":{}}})", jsonText(leg.kind), jsonList(leg.links, add_link),
-                     jsonList(leg.joints, add_joint));
+  return fmt::format(R"({{"kind":{},"links":{},"joints":{},"rails":{}}})", jsonText(leg.kind),
+                     jsonList(leg.links, add_link), jsonList(leg.joints, add_joint), jsonList(leg.rails, add_link));
 }
 
 /// Columns of the time series at the picture's instants.

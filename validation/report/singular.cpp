@@ -13,15 +13,16 @@ struct LegAtInstant {
   double advance = 0;  ///< of B along `normal` for a unit of the motor's rate, m
 };
 
-/// Velocities of B by unit rates of the joints before it: the motor's, then the passive ones. Empty where a joint does
-/// not turn, or where their number is another.
+/// Velocities of B by unit rates of the joints before it: the motor's, then the passive ones. Empty where their number
+/// is another.
 std::vector<Vector3d> velocitiesOfB(const Picture::Leg& leg, std::size_t k) {
   const Vector3d B = leg.links.back().to[k];
   std::vector<Vector3d> motor, passive;
   for (const Picture::Joint& joint : leg.joints)
     for (std::size_t i = 0; i < joint.axes.size(); ++i)
-      (joint.driven && i == 0 ? motor : passive).push_back(joint.axes[i][k].cross(B - joint.at[k]));
-  if (leg.kind != "URS" || motor.size() != 1 || passive.size() != 2) return {};
+      (joint.driven && i == 0 ? motor : passive)
+          .push_back(joint.slides ? joint.axes[i][k] : joint.axes[i][k].cross(B - joint.at[k]));
+  if (motor.size() != 1 || passive.size() != 2) return {};
   return {motor[0], passive[0], passive[1]};
 }
 

@@ -72,6 +72,8 @@ std::vector<Vector3d> outline(std::vector<Vector3d> points) {
 
 std::string leg(const Picture::Leg& leg, int color, const Sheet& sheet) {
   std::string out;
+  for (const Picture::Link& rail : leg.rails)
+    out += polygon("rail", {rail.from.front(), rail.to.front()}, sheet, false);
   for (const Picture::Link& link : leg.links)
     out += polygon(fmt::format("link c{}", color).c_str(), {link.from.front(), link.to.front()}, sheet, false);
   for (const Picture::Joint& joint : leg.joints) {
@@ -91,7 +93,8 @@ std::string svgMachine(const Picture& picture) {
   for (const Picture::Leg& each : picture.legs) {
     base.push_back(each.links.front().from.front());
     platform.push_back(each.links.back().to.front());
-    for (const Picture::Link& link : each.links) sheet.include(link.from.front()), sheet.include(link.to.front());
+    for (const std::vector<Picture::Link>* links : {&each.links, &each.rails})
+      for (const Picture::Link& link : *links) sheet.include(link.from.front()), sheet.include(link.to.front());
   }
   for (const Vector3d& p : picture.p) sheet.include(p);
   std::string out = polygon("base", outline(base), sheet, true);

@@ -11,7 +11,7 @@ constexpr const char* opening = R"(# Scenarios
 
 A scenario is one TOML file. This page is made by `./dev docs` from the table that the reader itself goes by (`model/scenario_keys.cpp`);
 [scenario.schema.json](scenario.schema.json) is the same for editors: with Taplo (Even Better TOML), `#:schema docs/scenario.schema.json` as the first line
-of a file switches it on. `ursula init FILE.toml` writes a scenario to start from, `ursula check FILE.toml` says what is wrong or odd in one.
+of a file switches it on. `ursula init FILE.toml --kind UPS` (or URS, RUS, PUS) writes a scenario to start from, `ursula check FILE.toml` says what is wrong or odd in one.
 
 A key that is not here is an error, and so is a value of another type. Numbers may be written as integers and must be finite. A key without a default is
 required, unless "Default" is a dash.
@@ -34,6 +34,8 @@ std::string typeOf(const ScenarioKey& key) {
       return "string";
     case KeyType::choice:
       return fmt::format("`\"{}\"`", fmt::join(key.choices, "\"`, `\""));
+    case KeyType::choices:
+      return fmt::format("array of `\"{}\"`", fmt::join(key.choices, "\"`, `\""));
     case KeyType::vector:
       return "3 numbers";
     case KeyType::quaternion:

@@ -35,6 +35,8 @@ Json typeOf(const ScenarioKey& key) {
       return {{"type", "string"}};
     case KeyType::choice:
       return {{"enum", key.choices}};
+    case KeyType::choices:
+      return {{"type", "array"}, {"items", {{"enum", key.choices}}}, {"uniqueItems", true}};
     case KeyType::vector:
       return arrayOf(3, 3);
     case KeyType::quaternion:
@@ -122,7 +124,7 @@ std::string scenarioSchema() {
               {"title", "A scenario of ursula"},
               {"description", scenarioTable("").meaning}};
   out.update(schemaOf(scenarioTable("")));
-  out["properties"]["manipulator"]["properties"]["leg"]["minItems"] = 6;
+  out["properties"]["manipulator"]["properties"]["leg"]["minItems"] = 3;
   out["properties"]["manipulator"]["properties"]["leg"]["maxItems"] = 6;
   return out.dump(2) + "\n";
 }

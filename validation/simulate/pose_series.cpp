@@ -3,30 +3,25 @@
 #include <fmt/format.h>
 
 #include "model/instants.h"
-#include "nocsolver/solver.h"
+#include "nocsolver/chain_solver.h"
+#include "validation/subject/leg_points.h"
 
 namespace ursula {
 namespace {
 
 /// The points of one instant, in the order of the columns: p, then A, R, B of each leg.
-std::vector<Vector3d> points(const Scenario& scenario, const Solver<double>& solver, const Motion<double>& motion) {
-  Workspace<double> work;
-  BodyMotions<double> bodies;
-  solver.inverseKinematics(motion, work);
-  solver.bodyMotions(motion, work, bodies);
+std::vector<Vector3d> points(const Manipulator& machine, const ChainSolver<double>& solver,
+                             const Motion<double>& motion) {
+  ChainWorkspace<double> work;
+  solver.displacements(motion, work);
   std::vector<Vector3d> all = {motion.p};
-  for (int i = 0; i < leg_count; ++i) {
-    const Leg& leg = scenario.manipulator->leg(i);
-    const auto k = static_cast<std::size_t>(i);
-    const Vector3d R = leg.base_point + leg.proximal.length * bodies[k].R.col(2);
-    all.insert(all.end(), {leg.base_point, R, R + leg.distal.length * bodies[leg_count + k].R.col(2)});
-  }
+  for (const LegPoints& leg : legPoints(machine, work)) all.insert(all.end(), {leg.A, leg.R, leg.B});
   return all;
 }
 
-std::vector<std::string> pointNames() {
+std::vector<std::string> pointNames(int legs) {
   std::vector<std::string> names = {"p"};
-  for (int i = 1; i <= leg_count; ++i)
+  for (int i = 1; i <= legs; ++i)
     for (const char* point : {"A", "R", "B"}) names.push_back(fmt::format("{}_{}", point, i));
   return names;
 }
@@ -34,14 +29,15 @@ std::vector<std::string> pointNames() {
 }  // namespace
 
 TimeSeries poseSeries(const Scenario& scenario, int count) {
-  const Solver<double> solver(*scenario.manipulator);
+  const Manipulator& machine = *scenario.manipulator;
+  const ChainSolver<double> solver(machine);
   const std::vector<double> instants = equallySpaced(scenario.trajectory->duration(), count);
   std::vector<std::vector<Vector3d>> rows;
   rows.reserve(instants.size());
-  for (double t : instants) rows.push_back(points(scenario, solver, scenario.trajectory->at(t)));
+  for (double t : instants) rows.push_back(points(machine, solver, scenario.trajectory->at(t)));
   TimeSeries series;
   series.add("t_s", instants);
-  const std::vector<std::string> names = pointNames();
+  const std::vector<std::string> names = pointNames(machine.legCount());
   for (std::size_t k = 0; k < names.size(); ++k)
     for (int axis = 0; axis < 3; ++axis) {
       std::vector<double> column;

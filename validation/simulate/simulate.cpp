@@ -45,7 +45,7 @@ class NocSystem {
   }
 
   /// Of the state last differentiated.
-  Vector6d theta() const { return solver_.angles(work_).theta; }
+  JointVariables<double> joints() const { return solver_.angles(work_); }
   /// Of an accepted step: where a leg does not reach, the solver has refused before.
   void check(double, const OdeState&) const {}
 
@@ -64,33 +64,68 @@ class NocSystem {
   Workspace<double> work_;
 };
 
-std::runtime_error outOfReach(int leg, double theta, double t) {
-  return std::runtime_error(fmt::format("the motion leaves what leg {} reaches: it is {} at t = {:.9g} s", leg + 1,
-                                        std::cos(theta) < 0 ? "stretched" : "folded", t));
+/// What ends the reach of a leg, told of its joints' variables: signed, zero where the leg is stretched or folded (of
+/// PUS across its rail); of UPS how far its rod is from the nearer end of the cylinder, m.
+struct ReachEnds {
+  explicit ReachEnds(const Manipulator& machine) : legs(machine.parameters().legs) {}
+
+  double of(const JointVariables<double>& q, int i) const {
+    const Leg& leg = legs[static_cast<std::size_t>(i)];
+    const double out = q.d(i) - leg.distal.length;
+    switch (leg.kind) {
+      case LegKind::UPS:
+        return std::min(out, leg.proximal.length - out);
+      case LegKind::RUS:
+        return std::sin(q.psi(i));
+      case LegKind::PUS:
+        return std::cos(q.theta(i));
+      case LegKind::URS:
+        break;
+    }
+    return std::sin(q.theta(i));
+  }
+
+  std::runtime_error outOfReach(const JointVariables<double>& q, int i, double t) const {
+    return std::runtime_error(
+        fmt::format("the motion leaves what leg {} reaches: it is {} at t = {:.9g} s", i + 1, words(q, i), t));
+  }
+
+  std::vector<Leg> legs;
+
+ private:
+  const char* words(const JointVariables<double>& q, int i) const {
+    const Leg& leg = legs[static_cast<std::size_t>(i)];
+    if (leg.kind == LegKind::UPS) return "at the end of its stroke";
+    if (leg.kind == LegKind::PUS) return "across its rail";
+    const bool straight = leg.kind == LegKind::URS ? std::cos(q.theta(i)) < 0 : std::cos(q.psi(i)) > 0;
+    return straight ? "stretched" : "folded";
+  }
+};
+
+/// A leg whose knee bends the other way has come through where it was stretched or folded, the end of what it reaches;
+/// so has a rod out of its cylinder.
+void checkKnees(const ReachEnds& ends, const JointVariables<double>& before, const JointVariables<double>& now,
+                double t) {
+  for (std::size_t k = 0; k < ends.legs.size(); ++k)
+    if (const int i = static_cast<int>(k); ends.of(before, i) * ends.of(now, i) <= 0) throw ends.outOfReach(now, i, t);
 }
 
-/// A leg whose knee bends the other way has come through where it was stretched or folded, the end of what it reaches.
-void checkKnees(const Vector6d& before, const Vector6d& now, double t) {
-  for (int i = 0; i < leg_count; ++i)
-    if (std::sin(before(i)) * std::sin(now(i)) <= 0) throw outOfReach(i, now(i), t);
-}
-
-/// Within this of 0, sin θ is what shrinks the steps.
+/// Within this of 0, it is what shrinks the steps.
 constexpr double at_edge = 1e-3;
 
-void stopped(const Vector6d& theta, double t) {
-  for (int i = 0; i < leg_count; ++i)
-    if (std::abs(std::sin(theta(i))) < at_edge) throw outOfReach(i, theta(i), t);
+void stopped(const ReachEnds& ends, const JointVariables<double>& q, double t) {
+  for (std::size_t k = 0; k < ends.legs.size(); ++k)
+    if (const int i = static_cast<int>(k); std::abs(ends.of(q, i)) < at_edge) throw ends.outOfReach(q, i, t);
   throw std::runtime_error(fmt::format("the steps shrink to nothing at t = {:.9g} s", t));
 }
 
 class SimbodySystem {
  public:
   SimbodySystem(const Scenario& scenario)
-      : loop_(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load) {}
+      : loop_(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load), ends_(*scenario.manipulator) {}
 
   OdeState start(const Motion<double>& motion) {
-    start_ = loop_.place(motion).q.theta;
+    start_ = loop_.place(motion).q;
     return loop_.state();
   }
 
@@ -105,16 +140,17 @@ class SimbodySystem {
   }
 
   /// Of the state last differentiated.
-  Vector6d theta() const { return loop_.joints().q.theta; }
+  JointVariables<double> joints() const { return loop_.joints().q; }
   /// Of an accepted step.
   void check(double t, const OdeState& x) {
     loop_.setState(t, x.data());
-    checkKnees(start_, theta(), t);
+    checkKnees(ends_, start_, joints(), t);
   }
 
  private:
   SimbodyLoop loop_;
-  Vector6d start_;  ///< θ in the commanded state
+  ReachEnds ends_;
+  JointVariables<double> start_;  ///< in the commanded state
 };
 
 /// Steps that shrink to nothing end the run.
@@ -149,7 +185,7 @@ Simulation integrate(System system, const Scenario& scenario, const SimbodyLoop:
     system.derivative(t, at, torques(t), rate);
     for (double value : rate)
       if (!std::isfinite(value)) throw std::runtime_error(fmt::format("derivatives not finite at t = {} s", t));
-    if (!progress.goesOn(t)) stopped(system.theta(), t);
+    if (!progress.goesOn(t)) stopped(ReachEnds(*scenario.manipulator), system.joints(), t);
   };
   double t = instants.front(), dt = (instants.back() - instants.front()) / 128;
   try {

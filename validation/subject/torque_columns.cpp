@@ -7,69 +7,14 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <regex>
 
 #include "model/nearest.h"
-#include "model/scalar.h"
+#include "validation/subject/torque_names.h"
 
 namespace ursula {
 namespace {
 
-constexpr std::size_t wanted_columns = 1 + leg_count;
-
-/// The time, or the torque of a leg, by a name that can mean nothing else.
-struct Meaning {
-  int leg = 0;  ///< −1: the time; else as counted by the file
-  int power = 0;
-};
-
-std::string targetName(int leg) { return leg < 0 ? "t_s" : fmt::format("tau_{}_Nm", leg + 1); }
-
-std::optional<int> timePower(const std::string& unit) {
-  if (unit == "ms") return -3;
-  if (unit == "us" || unit == "µs") return -6;
-  if (unit == "ns") return -9;
-  return 0;
-}
-
-/// Of "Nm", "kN·m", "N mm", "mN.m"; none for mega, which nobody can tell from milli in lower case.
-std::optional<int> torquePower(std::string unit) {
-  for (const char* between : {" ", ".", "*", "·", "_", "-"})
-    for (auto at = unit.find(between); at != std::string::npos; at = unit.find(between))
-      unit.erase(at, std::string(between).size());
-  if (unit.empty() || unit == "Nm" || unit == "nm") return 0;
-  if (unit == "kNm" || unit == "knm" || unit == "KNm") return 3;
-  if (unit == "mNm" || unit == "mnm" || unit == "Nmm" || unit == "nmm") return -3;
-  return std::nullopt;
-}
-
-std::optional<Meaning> meaningOf(const std::string& name) {
-  static const std::string open = R"((?:[ _]*[\[(/_ ,][ ]*()", close = R"()[ ]*[\])]?)?)";
-  static const std::regex time("(?:t|time)" + open + "s|sec|seconds?|ms|us|µs|ns" + close, std::regex::icase);
-  static const std::regex torque(
-      R"((?:tau|τ|torque|trq|(?:motor|actuator|joint|leg)[ _]?torque)[ _.\-]*[\[({]?([0-6])[\])}]?)" + open +
-          R"([km]?N[ .*·_\-]*m?m)" + close,
-      std::regex::icase);
-  std::smatch found;
-  if (std::regex_match(name, found, time)) {
-    std::string unit = found[1];
-    std::transform(unit.begin(), unit.end(), unit.begin(), [](unsigned char c) { return std::tolower(c); });
-    return Meaning{-1, timePower(unit).value_or(0)};
-  }
-  if (!std::regex_match(name, found, torque)) return std::nullopt;
-  const std::optional<int> power = torquePower(found[2]);
-  if (!power) return std::nullopt;
-  return Meaning{found[1].str()[0] - '0', *power};
-}
-
-/// A name of the contract, which may have another unit: `tau_1_kNm`.
-std::optional<Meaning> meaningOfTarget(const std::string& name) {
-  static const std::regex target(R"(t_(s|ms|us|ns)|tau_([1-6])_(k?Nm|mNm|Nmm))");
-  if (!std::regex_match(name, target)) return std::nullopt;
-  std::optional<Meaning> meaning = meaningOf(name);
-  if (meaning && meaning->leg >= 0) --meaning->leg;
-  return meaning;
-}
+constexpr std::size_t wanted_columns = 1 + motor_count;
 
 std::string quoted(const std::string& text) {
   return text.find_first_of(" \t[](){}*;&|<>$`\"\\#?") == std::string::npos ? text : "'" + text + "'";
@@ -80,25 +25,21 @@ std::string separatorWords(const CsvDialect& dialect) {
   return dialect.separator == ' ' ? "blanks" : fmt::format("'{}'", dialect.separator);
 }
 
-std::vector<std::string> targets() {
-  std::vector<std::string> out;
-  for (int leg = -1; leg < leg_count; ++leg) out.push_back(targetName(leg));
-  return out;
-}
-
 /// Collects which column holds what.
 class Finder {
  public:
-  Finder(const CsvDialect& dialect, const std::filesystem::path& file) : dialect_(dialect), file_(file) {}
+  Finder(const CsvDialect& dialect, const std::filesystem::path& file, const Motors& motors)
+      : dialect_(dialect), file_(file), motors_(motors), targets_(targetNames(motors)) {}
 
   std::vector<TorqueColumn> find(const ColumnMap& map) {
     for (const auto& [name, column] : map) take(name, column);
-    const bool from_zero = has("tau_0_Nm") && !has("tau_6_Nm");  // then tau_1_Nm is leg 2's
-    for (const std::string& name : targets())
+    // Then tau_1_Nm is motor 2's.
+    const bool from_zero = (has("tau_0_Nm") || has("tau_0_N")) && !has("tau_6_Nm") && !has("tau_6_N");
+    for (const std::string& name : targets_)
       if (has(name) && (!from_zero || name == "t_s")) found_.emplace(name, TorqueColumn{name, name, 0});
     takeCertain();
     std::vector<TorqueColumn> out;
-    for (const std::string& name : targets()) {
+    for (const std::string& name : targets_) {
       const auto column = found_.find(name);
       if (column == found_.end()) fail(missingText(name));
       out.push_back(column->second);
@@ -123,26 +64,30 @@ class Finder {
     if (!has(column))
       fail(fmt::format("no column '{}' (--map {}), the header has {}{}", column, quoted(name + "=" + column),
                        fmt::join(dialect_.header_cells, ", "), didYouMean(column, dialect_.header_cells)));
-    const Meaning meaning = *meaningOfTarget(name);
-    found_.emplace(targetName(meaning.leg), TorqueColumn{targetName(meaning.leg), column, meaning.power});
+    const ColumnMeaning meaning = *meaningOfTarget(name);
+    const std::string target = targetName(motors_, meaning.motor);
+    found_.emplace(target, TorqueColumn{target, column, meaning.power});
   }
 
   void takeCertain() {
-    std::vector<std::pair<std::string, Meaning>> certain;
+    std::vector<std::pair<std::string, ColumnMeaning>> certain;
     bool zero = false, six = false;
     for (const std::string& column : dialect_.header_cells) {
-      const std::optional<Meaning> meaning = isTaken(column) ? std::nullopt : meaningOf(column);
+      const std::optional<ColumnMeaning> meaning = isTaken(column) ? std::nullopt : meaningOf(column);
       if (!meaning) continue;
       certain.emplace_back(column, *meaning);
-      zero = zero || meaning->leg == 0;
-      six = six || meaning->leg == 6;
+      zero = zero || meaning->motor == 0;
+      six = six || meaning->motor == 6;
     }
-    if (zero && six) return;  // seven torques: of which the first is none can not be told
+    if (zero && six) return;  // seven efforts: of which the first is none can not be told
     const auto by_map_or_name = found_;
     for (auto& [column, meaning] : certain) {
-      const std::string name = targetName(meaning.leg < 0 || zero ? meaning.leg : meaning.leg - 1);
+      const int motor = meaning.motor < 0 || zero ? meaning.motor : meaning.motor - 1;
+      const std::string name = targetName(motors_, motor);
       if (by_map_or_name.count(name) > 0) continue;
-      if (!found_.emplace(name, TorqueColumn{name, column, meaning.power}).second)
+      if (motor >= 0 && !meaning.fits(motors_, motor))
+        wrong_unit_.emplace(name, fmt::format("'{}', but {}", column, whatItTakes(motors_, motor)));
+      else if (!found_.emplace(name, TorqueColumn{name, column, meaning.power}).second)
         fail(fmt::format("'{}' and '{}' may both be {}, expected one; choose by --map {}", found_.at(name).source,
                          column, name, quoted(name + "=" + column)));
     }
@@ -150,6 +95,7 @@ class Finder {
 
   /// With the options that would read the file, where columns that nobody took end in the leg's number.
   std::string missingText(const std::string& name) const {
+    if (const auto wrong = wrong_unit_.find(name); wrong != wrong_unit_.end()) return wrong->second;
     std::string text = fmt::format("missing column '{}', expected it in the header", name);
     std::vector<std::string> free;
     for (const std::string& column : dialect_.header_cells)
@@ -162,18 +108,19 @@ class Finder {
     return text + options(free);
   }
 
-  /// Never a column that differs in its index alone.
+  /// Never a column that is another motor's.
   static std::vector<std::string> likeliest(const std::string& name, const std::vector<std::string>& columns) {
     std::vector<std::string> out;
-    std::copy_if(columns.begin(), columns.end(), std::back_inserter(out),
-                 [&](const std::string& column) { return column.size() != name.size() || name == "t_s"; });
+    std::copy_if(columns.begin(), columns.end(), std::back_inserter(out), [&](const std::string& column) {
+      return (column.size() != name.size() && !meaningOfTarget(column)) || name == "t_s";
+    });
     return out;
   }
 
   std::string options(const std::vector<std::string>& free) const {
     std::string out;
     std::size_t next = 0;
-    for (const std::string& name : targets()) {
+    for (const std::string& name : targets_) {
       if (found_.count(name) > 0) continue;
       const std::string number = name == "t_s" ? "" : name.substr(4, 1);
       const auto column =
@@ -190,7 +137,10 @@ class Finder {
 
   const CsvDialect& dialect_;
   const std::filesystem::path& file_;
+  const Motors& motors_;
+  std::vector<std::string> targets_;
   std::map<std::string, TorqueColumn> found_;
+  std::map<std::string, std::string> wrong_unit_;  ///< by the column wanted: what there is instead, in words
 };
 
 /// Seven columns without a header: whether the first, and no other, can be the time.
@@ -229,7 +179,8 @@ std::string readAs(const CsvDialect& dialect, const std::vector<TorqueColumn>& c
 
 }  // namespace
 
-ColumnMap parseColumnMap(const std::vector<std::string>& texts) {
+ColumnMap parseColumnMap(const std::vector<std::string>& texts, const Motors& motors) {
+  const std::vector<std::string> targets = targetNames(motors);
   ColumnMap out;
   for (const std::string& text : texts) {
     const auto fail = [&text](const std::string& what) {
@@ -238,13 +189,14 @@ ColumnMap parseColumnMap(const std::vector<std::string>& texts) {
     const auto equals = text.find('=');
     const std::string name(trimmedCell(text.substr(0, equals)));
     const std::string column(equals == std::string::npos ? "" : trimmedCell(std::string_view(text).substr(equals + 1)));
-    if (name.empty() || column.empty()) fail("expected NAME=COLUMN, as in tau_1_Nm=tau1");
-    const std::optional<Meaning> meaning = meaningOfTarget(name);
+    if (name.empty() || column.empty()) fail(fmt::format("expected NAME=COLUMN, as in {}=tau1", targets[1]));
+    const std::optional<ColumnMeaning> meaning = meaningOfTarget(name);
     if (!meaning)
-      fail(fmt::format("'{}' is no column of a torque file, expected t_s or tau_1_Nm to tau_6_Nm{}", name,
-                       didYouMean(name, targets())));
+      fail(fmt::format("'{}' is no column of a torque file, expected t_s or {} to {}{}", name, targets[1],
+                       targets.back(), didYouMean(name, targets)));
+    if (meaning->motor >= 0 && !meaning->fits(motors, meaning->motor)) fail(whatItTakes(motors, meaning->motor));
     for (const auto& [other, its_column] : out) {
-      if (meaningOfTarget(other)->leg == meaning->leg) fail(fmt::format("{} is mapped twice", name));
+      if (meaningOfTarget(other)->motor == meaning->motor) fail(fmt::format("{} is mapped twice", name));
       if (its_column == column) fail(fmt::format("column '{}' is mapped to {} already", column, other));
     }
     out.emplace_back(name, column);
@@ -252,16 +204,17 @@ ColumnMap parseColumnMap(const std::vector<std::string>& texts) {
   return out;
 }
 
-TorqueColumns readTorqueColumns(const std::string& text, const std::filesystem::path& file, const ColumnMap& map) {
+TorqueColumns readTorqueColumns(const std::string& text, const std::filesystem::path& file, const ColumnMap& map,
+                                const Motors& motors) {
   CsvOptions options;
   options.dialect = guessDialect(text, file);
   std::vector<TorqueColumn> columns;
   if (options.dialect.header == 0 && map.empty() && isTimeThenTorques(parseCsv(text, file, options))) {
-    for (int leg = -1; leg < leg_count; ++leg) columns.push_back({targetName(leg), std::to_string(leg + 2), 0});
+    for (int k = -1; k < motor_count; ++k) columns.push_back({targetName(motors, k), std::to_string(k + 2), 0});
   } else if (options.dialect.header_cells.empty()) {
     parseCsv(text, file);  // says what is wrong with an empty file
   } else {
-    columns = Finder(options.dialect, file).find(map);
+    columns = Finder(options.dialect, file, motors).find(map);
   }
   options.wanted = [&columns](const std::string& name) {
     return std::any_of(columns.begin(), columns.end(), [&](const TorqueColumn& one) { return one.source == name; });

@@ -9,14 +9,13 @@
 #include <tuple>
 
 #include "model/csv.h"
+#include "validation/subject/effort_columns.h"
 
 namespace ursula {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr int no_digit = std::numeric_limits<int>::max();
-
-std::string torqueName(int leg) { return fmt::format("tau_{}_Nm", leg + 1); }
 
 /// The power of ten of the first significant digit.
 int firstPlace(double value) { return static_cast<int>(std::floor(std::log10(std::abs(value)))); }
@@ -42,10 +41,10 @@ struct Fineness {
 /// The columns of the contract in a table that was read.
 struct Columns {
   std::size_t time = 0;
-  std::array<std::size_t, leg_count> torques{};
+  std::array<std::size_t, motor_count> torques{};
 
-  explicit Columns(const CsvTable& table) : time(place(table, "t_s")) {
-    for (int i = 0; i < leg_count; ++i) torques[static_cast<std::size_t>(i)] = place(table, torqueName(i));
+  Columns(const CsvTable& table, const Motors& motors) : time(place(table, "t_s")) {
+    for (int i = 0; i < motor_count; ++i) torques[static_cast<std::size_t>(i)] = place(table, effortColumn(motors, i));
   }
 
  private:
@@ -94,7 +93,7 @@ void setTorquePrecision(const CsvTable& table, const Columns& columns, const Fin
   out.all_single = true;
   for (std::size_t k = 0; k < table.rows(); ++k) {
     Vector6d precision;
-    for (int i = 0; i < leg_count; ++i) {
+    for (int i = 0; i < motor_count; ++i) {
       const double value = out.torques[k](i);
       precision(i) = torques.precision(value, table.last_places[columns.torques[static_cast<std::size_t>(i)]][k]);
       out.all_single = out.all_single && static_cast<double>(static_cast<float>(value)) == value;
@@ -104,8 +103,8 @@ void setTorquePrecision(const CsvTable& table, const Columns& columns, const Fin
   out.digits = torques.digits;
 }
 
-TorqueFile torquesOf(const CsvTable& table) {
-  const Columns columns(table);
+TorqueFile torquesOf(const CsvTable& table, const Motors& motors) {
+  const Columns columns(table, motors);
   TorqueFile out;
   out.file = table.file;
   out.lines = table.lines;
@@ -115,7 +114,7 @@ TorqueFile torquesOf(const CsvTable& table) {
   Fineness torques;
   for (std::size_t k = 0; k < table.rows(); ++k) {
     Vector6d tau;
-    for (int i = 0; i < leg_count; ++i) {
+    for (int i = 0; i < motor_count; ++i) {
       const std::size_t column = columns.torques[static_cast<std::size_t>(i)];
       tau(i) = table.columns[column][k];
       torques.add(tau(i), table.last_places[column][k]);
@@ -132,13 +131,14 @@ TorqueFile torquesOf(const CsvTable& table) {
 
 }  // namespace
 
-TorqueFile readTorqueFile(const std::filesystem::path& file, const ColumnMap& map) {
-  return parseTorqueFile(readCsvText(file), file, map);
+TorqueFile readTorqueFile(const std::filesystem::path& file, const ColumnMap& map, const Motors& motors) {
+  return parseTorqueFile(readCsvText(file), file, map, motors);
 }
 
-TorqueFile parseTorqueFile(const std::string& text, const std::filesystem::path& file, const ColumnMap& map) {
-  const TorqueColumns columns = readTorqueColumns(text, file, map);
-  TorqueFile out = torquesOf(columns.table);
+TorqueFile parseTorqueFile(const std::string& text, const std::filesystem::path& file, const ColumnMap& map,
+                           const Motors& motors) {
+  const TorqueColumns columns = readTorqueColumns(text, file, map, motors);
+  TorqueFile out = torquesOf(columns.table, motors);
   out.read_as = columns.read_as;
   return out;
 }

@@ -21,8 +21,8 @@ struct TorqueFile {
   std::filesystem::path file;
   std::vector<double> t;                   ///< s, finite, increasing
   std::vector<double> time_precision;      ///< s
-  std::vector<Vector6d> torques;           ///< N·m, conjugate to φ̇
-  std::vector<Vector6d> torque_precision;  ///< N·m
+  std::vector<Vector6d> torques;           ///< N·m or N, conjugate to the motors' rates
+  std::vector<Vector6d> torque_precision;  ///< N·m or N
   std::vector<int> lines;                  ///< of each row, 1-based
   std::vector<std::string> ignored;        ///< columns that are none of ours
   std::string read_as;                     ///< what was taken for what; empty for a file as the contract has it
@@ -32,12 +32,14 @@ struct TorqueFile {
   std::size_t rows() const { return t.size(); }
 };
 
-/// Reads `t_s` and `tau_{1..6}_Nm`, in any order, or what readTorqueColumns() takes for them. Throws CsvError
-/// (`file:line: error: …`) as that and readCsv do, and for instants that repeat or do not increase.
-TorqueFile readTorqueFile(const std::filesystem::path& file, const ColumnMap& map = {});
+/// Reads `t_s` and `tau_{1..6}_Nm`, `_N` of motors that slide, in any order, or what readTorqueColumns() takes for
+/// them. Throws CsvError (`file:line: error: …`) as that and readCsv do, and for instants that repeat or do not
+/// increase. Motors turn unless given.
+TorqueFile readTorqueFile(const std::filesystem::path& file, const ColumnMap& map = {}, const Motors& motors = {});
 
 /// The same from text; `file` names it in errors.
-TorqueFile parseTorqueFile(const std::string& text, const std::filesystem::path& file, const ColumnMap& map = {});
+TorqueFile parseTorqueFile(const std::string& text, const std::filesystem::path& file, const ColumnMap& map = {},
+                           const Motors& motors = {});
 
 /// What an instant near `duration` may be off by where its writer added one step to the instant before, s: half an eps
 /// for each row, and as much again for the step's own rounding. At least four eps.

@@ -31,13 +31,26 @@ function makeJoint(joint, size, material) {
   return group;
 }
 
+// A link that begins within the one before slides in it as a rod in its cylinder.
+function linkRadius(leg, k) {
+  if (k > 0) return 0.011;
+  return leg.links.length > 1 && leg.links[1].from !== leg.links[0].to ? 0.024 : 0.016;
+}
+
+function makeRail(rail, size) {
+  const mesh = rod(0.02 * size, paint(color("metal"), { transparent: true, opacity: 0.6 }));
+  const start = { index: 0, share: 0 };
+  between(mesh, vectorAt(rail.from, start), vectorAt(rail.to, start));
+  return mesh;
+}
+
 function makeLeg(leg, index, size) {
   const group = new Group();
   const material = paint(lineColor(index));
   const metal = paint(color("metal"));
-  const links = leg.links.map((_, k) => rod((k === 0 ? 0.016 : 0.011) * size, material));
+  const links = leg.links.map((_, k) => rod(linkRadius(leg, k) * size, material));
   const joints = leg.joints.map((joint) => makeJoint(joint, size, joint.driven ? material : metal));
-  group.add(...links, ...joints);
+  group.add(...links, ...joints, ...leg.rails.map((rail) => makeRail(rail, size)));
   const update = (place) => {
     leg.links.forEach((link, k) => between(links[k], vectorAt(link.from, place), vectorAt(link.to, place)));
     leg.joints.forEach((joint, k) => {

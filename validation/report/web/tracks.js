@@ -38,6 +38,7 @@ export function resolved(machine) {
   const legs = machine.legs.map((leg) => ({
     kind: leg.kind,
     links: leg.links.map(({ from, to }) => ({ from: track(from), to: track(to) })),
+    rails: leg.rails.map(({ from, to }) => ({ from: track(from), to: track(to) })),
     joints: leg.joints.map((joint) => ({ ...joint, at: track(joint.at), axes: joint.axes.map(track) })),
   }));
   return { ...machine, legs };

@@ -1,0 +1,70 @@
+#include "validation/subject/leg_points.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "model/instants.h"
+
+namespace ursula {
+
+std::vector<LegPoints> legPoints(const Manipulator& machine, const ChainWorkspace<double>& work) {
+  std::vector<LegPoints> out;
+  for (int i = 0; i < machine.legCount(); ++i) {
+    const Leg& leg = machine.leg(i);
+    const ChainState<double>& state = work.legs[static_cast<std::size_t>(i)];
+    LegPoints points;
+    points.A = leg.base_point;
+    points.S = points.A + state.O_2;
+    points.B = points.S + state.RB;
+    points.R = leg.kind == LegKind::UPS ? Vector3d(points.A + leg.proximal.length * state.axis[2]) : points.S;
+    points.axes = state.axis;
+    out.push_back(points);
+  }
+  return out;
+}
+
+namespace {
+
+/// Least and largest d of a carriage so far.
+struct Range {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+
+  void include(double d) { least = std::min(least, d), most = std::max(most, d); }
+};
+
+std::vector<Range> travels(const Scenario& scenario) {
+  const ChainSolver<double> solver(*scenario.manipulator);
+  ChainWorkspace<double> work;
+  std::vector<Range> out(scenario.manipulator->parameters().legs.size());
+  try {
+    for (const double t : equallySpaced(scenario.trajectory->duration(), 201)) {
+      solver.displacements(scenario.trajectory->at(t), work);
+      for (std::size_t i = 0; i < out.size(); ++i) out[i].include(solver.angles(work).d(static_cast<int>(i)));
+    }
+  } catch (const PoseError&) {
+    // What comes before it is drawn.
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::optional<Stretch>> rails(const Scenario& scenario) {
+  const std::vector<Leg>& legs = scenario.manipulator->parameters().legs;
+  std::vector<std::optional<Stretch>> out(legs.size());
+  const auto slides = [](const Leg& leg) { return leg.kind == LegKind::PUS; };
+  if (std::none_of(legs.begin(), legs.end(), slides)) return out;
+  std::vector<Range> travelled = travels(scenario);
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    if (!slides(legs[i])) continue;
+    travelled[i].include(0);
+    const double more = legs[i].distal.length / 10;
+    const Vector3d u = legs[i].base_axis.stableNormalized();
+    out[i] = Stretch{legs[i].base_point + (travelled[i].least - more) * u,
+                     legs[i].base_point + (travelled[i].most + more) * u};
+  }
+  return out;
+}
+
+}  // namespace ursula
