@@ -207,7 +207,9 @@ Subject presented(const Subject& subject, const Presentation& to) {
     };
   if (subject.rebuilt)
     out.rebuilt = [=](const Manipulator& machine) {
-      return presented(subject.rebuilt(from.of(machine)), to);
+      Presentation there = to;
+      there.slides = Presentation(machine).slides;  // other labels bring other motors to a number
+      return presented(subject.rebuilt(from.of(machine)), there);
     };
   return out;
 }
