@@ -8,7 +8,7 @@
 #include "model/motion.h"
 #include "nocsolver/chain_state.h"
 #include "nocsolver/errors.h"
-#include "nocsolver/reading.h"
+#include "nocsolver/spoilt_chain.h"
 
 namespace ursula {
 
@@ -29,11 +29,11 @@ struct ChainWorkspace {
 /// coordinates, those that no motor drives onto B by the leg's map, and from there onto P.
 ///
 /// Immutable: threads share it, each with a workspace of its own. Nothing here allocates. Throws as PaperSolver does,
-/// and OutOfStroke.
-template <class S>
+/// and OutOfStroke. `Reading` is Corrected, or SpoiltChain for formulas that are wrong.
+template <class S, class Reading = Corrected>
 class ChainSolver {
  public:
-  explicit ChainSolver(const Manipulator& manipulator);
+  explicit ChainSolver(const Manipulator& manipulator, Reading reading = Reading{});
 
   int legCount() const { return leg_count_; }
   /// A length of the machine's size, m.
@@ -64,7 +64,8 @@ class ChainSolver {
   /// Needs inverseKinematics.
   Matrix6<S> massMatrixAtP(const Motion<S>& motion, const ChainWorkspace<S>& work) const;
 
-  /// The force, in B, that a leg puts on the platform at its joint under `efforts`, N. `work` as inverseDynamics left it.
+  /// The force, in B, that a leg puts on the platform at its joint under `efforts`, N. `work` as inverseDynamics left
+  /// it.
   Vector3<S> forceOnPlatform(const ChainWorkspace<S>& work, int leg, const Vector6<S>& efforts) const;
 
   const ChainModel<S>& leg(int i) const { return legs_[static_cast<std::size_t>(i)]; }
@@ -72,6 +73,7 @@ class ChainSolver {
 
  private:
   const ChainModel<S>& model(int i) const { return legs_[static_cast<std::size_t>(i)]; }
+  void place(const Motion<S>& motion, int leg, ChainState<S>& out) const;
   Vector3<S> legForces(const ChainWorkspace<S>& work, int leg) const;
   Vector6<S> platformWrench(const Motion<S>& motion) const;
   Vector6<S> wrenchAtP(const Motion<S>& motion, const ChainWorkspace<S>& work, Vector6<S>& Q_driven) const;
@@ -84,9 +86,11 @@ class ChainSolver {
   Vector3<S> rho_;
   Matrix3<S> I_M_;
   S length_;
+  Reading reading_;
 };
 
 extern template class ChainSolver<double>;
 extern template class ChainSolver<float>;
+extern template class ChainSolver<double, SpoiltChain>;
 
 }  // namespace ursula
