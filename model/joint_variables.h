@@ -38,6 +38,11 @@ struct JointVariables {
   }
 };
 
+/// Norm of what leg i's coordinates differ by, displacements over `length`.
+double jointDistance(const JointVariables<double>& a, const JointVariables<double>& b, int i, double length);
+/// The largest over the legs; NaN stays.
+double jointDistance(const JointVariables<double>& a, const JointVariables<double>& b, double length);
+
 /// Joint coordinates with rates and accelerations, rad, rad/s, rad/s²; of d m, m/s, m/s².
 struct JointMotion {
   JointVariables<double> q, q_dot, q_ddot;

@@ -70,6 +70,11 @@ class Solver {
   }
   const Matrix6<S>& B(const Workspace<S>& work) const { return paper_ ? work.paper.B : work.chain.B; }
 
+  /// Of Bᵀ, its moment rows over the length. Needs jacobians.
+  S determinant(const Workspace<S>& work) const {
+    return paper_ ? work.paper.B_transposed.determinant() : work.chain.B_transposed.determinant();
+  }
+
   /// T = B⁻¹A of (24), 6 × 6: t_P = T q̇ of the driven coordinates. Needs jacobians.
   Matrix6<S> T(const Workspace<S>& work) const { return paper_ ? paper_->T(work.paper) : chain_.T(work.chain); }
 

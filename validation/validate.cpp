@@ -65,7 +65,9 @@ std::shared_ptr<const Reference> referenceOf(const Scenario& scenario, const Val
 ValidationResult validateOwn(const Scenario& scenario, const SubjectOf& make, bool right,
                              const ValidationOptions& options) {
   const std::shared_ptr<const Reference> reference = referenceOf(scenario, options);
-  const Subject subject = presented(make(reference->relocated), Vector3d::Zero(), reference->natural.units);
+  Presentation there = reference->natural;
+  there.origin.setZero();
+  const Subject subject = presented(make(reference->relocated), there);
   return run(scenario, *reference, subject, right, options);
 }
 
@@ -77,8 +79,7 @@ std::shared_ptr<const Reference> makeReference(const Scenario& scenario) {
 
 ValidationResult validate(const Scenario& scenario, const Subject& subject, const ValidationOptions& options) {
   const std::shared_ptr<const Reference> reference = referenceOf(scenario, options);
-  return run(scenario, *reference, presented(subject, reference->natural.origin, reference->natural.units), false,
-             options);
+  return run(scenario, *reference, presented(subject, reference->natural), false, options);
 }
 
 ValidationResult validateMade(const Scenario& scenario, const SubjectOf& make, const ValidationOptions& options) {

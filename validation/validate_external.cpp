@@ -45,12 +45,15 @@ void addFileFindings(const TorqueFile& file, ValidationResult& result) {
 }
 
 /// In other units; all are powers of two, so that no digit is lost.
-TorqueFile inUnits(TorqueFile file, const Units& units) {
+TorqueFile inUnits(TorqueFile file, const Presentation& there) {
+  const Units& units = there.units;
+  Vector6d effort;
+  for (int k = 0; k < motor_count; ++k) effort(k) = there.effort(k);
   for (std::size_t k = 0; k < file.rows(); ++k) {
     file.t[k] /= units.time;
     file.time_precision[k] /= units.time;
-    file.torques[k] /= units.torque();
-    file.torque_precision[k] /= units.torque();
+    file.torques[k] = file.torques[k].cwiseQuotient(effort);
+    file.torque_precision[k] = file.torque_precision[k].cwiseQuotient(effort);
   }
   return file;
 }
@@ -94,7 +97,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   const Presentation natural = naturalPresentation(scenario);
   const Scenario here = natural.of(scenario);
   const TorqueFile file = within(torques, scenario.trajectory->duration());
-  const ExternalTorques external = runExternal(here, inUnits(file, natural.units));
+  const ExternalTorques external = runExternal(here, inUnits(file, natural));
   const ExternalReplay replay = replayExternal(here, external, natural.units);
   Evidence evidence = gatherExternal(scenario, natural, here, external, replay);
   ValidationResult result;

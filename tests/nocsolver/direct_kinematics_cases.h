@@ -42,13 +42,13 @@ struct Conditioned {
   double determinant = 0;
 
   Conditioned(const DirectKinematics& kinematics, const Motion<double>& motion) {
-    PaperWorkspace<double> work;
-    const PaperModel<double>& model = kinematics.solver().model();
+    Workspace<double> work;
+    const PaperModel<double>& model = kinematics.solver().paper()->model();
     kinematics.solver().displacements(motion, work);
     phi = kinematics.solver().angles(work).phi;
     Matrix6d B;
     for (int i = 0; i < leg_count; ++i) {
-      const LegState<double>& leg = work.legs[static_cast<std::size_t>(i)];
+      const LegState<double>& leg = work.paper.legs[static_cast<std::size_t>(i)];
       B.row(i) << leg.Qb.cross(leg.x).transpose() / model.length, leg.x.transpose();
     }
     svd.compute(B, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -96,7 +96,7 @@ inline Case feasibleCase(const Scenario& paper, Dice& dice, double spread) {
       made.kinematics = std::make_shared<DirectKinematics>(*made.manipulator);
       made.motion = displaced(paper.trajectory->at(dice.between(0, paper.trajectory->duration())),
                               dice.vector(5 * spread), dice.vector(8 * spread));
-      PaperWorkspace<double> work;
+      Workspace<double> work;
       made.kinematics->solver().displacements(made.motion, work);
       return made;
     } catch (const std::invalid_argument&) {  // no such machine: throw the dice again

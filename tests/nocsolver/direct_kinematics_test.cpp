@@ -60,7 +60,7 @@ struct RoundTrips {
     if (poses.counted != 8) ++missing;
     int alike = 0;
     for (const PlatformPose& each : poses) {
-      const double limit = 64 * eps * sizeOf(made.kinematics->solver().model(), each.p);
+      const double limit = 64 * eps * sizeOf(made.kinematics->solver().paper()->model(), each.p);
       mismatch = wider(mismatch, ursula::mismatch(*made.manipulator, phi, each) / limit);
       residual = wider(residual, each.residual / limit);
       (each.assembles ? assembling : out_of_reach) += 1;
@@ -189,7 +189,7 @@ TEST(DirectKinematics, GivesTwistAndTwistRateOfTheVectors) {
       const PlatformPoses poses = kinematics.poses(doubles(row.q.phi));
       const PlatformPose* pose = nearestPose(poses, commanded);
       ASSERT_TRUE(pose != nullptr && poseError(*pose, commanded) <= Conditioned(kinematics, commanded).limit()) << name;
-      PaperWorkspace<double> work;
+      Workspace<double> work;
       const auto error = [&](const Vector6d& phi_ddot) {
         const Motion<double> found = kinematics.motion(*pose, doubles(row.q_dot.phi), phi_ddot, work);
         const double scale = commanded.omega.norm() + commanded.p_dot.norm() + commanded.omega_dot.norm() +
@@ -197,7 +197,7 @@ TEST(DirectKinematics, GivesTwistAndTwistRateOfTheVectors) {
                              row.q_dot.phi.cast<double>().squaredNorm() + eps;
         const double off = (found.omega - commanded.omega).norm() + (found.p_dot - commanded.p_dot).norm() +
                            (found.omega_dot - commanded.omega_dot).norm() + (found.p_ddot - commanded.p_ddot).norm();
-        return off / (scale * roundingLimit(kinematics.solver(), work));
+        return off / (scale * roundingLimit(*kinematics.solver().paper(), work.paper));
       };
       worst = wider(worst, error(doubles(row.q_ddot.phi)));
       disturbed = std::min(disturbed, error(doubles(row.q_ddot.phi) + Vector6d::Constant(1e-6)));

@@ -64,7 +64,7 @@ TEST(DirectKinematics, TracksTheBranchThatItIsOnAndNoOther) {
 TEST(DirectKinematics, NewtonConvergesQuadratically) {
   const Scenario paper = vectorScenario("paper-helix");
   const DirectKinematics kinematics(*paper.manipulator);
-  const PaperModel<double>& model = kinematics.solver().model();
+  const PaperModel<double>& model = kinematics.solver().paper()->model();
   int judged = 0;
   for (const double t : {0.3, 1.0, 2.0, 2.9}) {
     const Conditioned conditioned(kinematics, paper.trajectory->at(t));
@@ -90,7 +90,7 @@ TEST(DirectKinematics, DoesNotAllocate) {
   const DirectKinematics kinematics(*paper.manipulator);
   const Vector6d phi = Conditioned(kinematics, paper.trajectory->at(1)).phi;
   const Vector6d ahead = Conditioned(kinematics, paper.trajectory->at(1.01)).phi;
-  PaperWorkspace<double> work;
+  Workspace<double> work;
   PlatformPoses poses = kinematics.poses(phi);
   std::optional<PlatformPose> next;
   Motion<double> motion;

@@ -33,13 +33,26 @@ class Row {
   Vector3<Real50> axes(const std::string& before, const std::string& after) const {
     return {(*this)(before + "x" + after), (*this)(before + "y" + after), (*this)(before + "z" + after)};
   }
+  /// Zero where a leg has no such column; that there is one at all is the caller's to ask.
   Vector6<Real50> legs(const std::string& before, const std::string& after) const {
-    Vector6<Real50> out;
-    for (int i = 0; i < leg_count; ++i) out(i) = (*this)(before + std::to_string(i + 1) + after);
+    Vector6<Real50> out = Vector6<Real50>::Zero();
+    for (int i = 0; i < leg_count; ++i)
+      if (const auto found = values_.find(before + std::to_string(i + 1) + after); found != values_.end())
+        out(i) = Real50(found->second);
     return out;
   }
-  JointVariables<Real50> joints(const std::string& rate, const std::string& unit) const {
-    return {legs("phi" + rate, unit), legs("psi" + rate, unit), legs("theta" + rate, unit)};
+  JointVariables<Real50> joints(const std::string& rate, const std::string& turning, const std::string& sliding) const {
+    return {legs("phi" + rate, turning), legs("psi" + rate, turning), legs("theta" + rate, turning),
+            legs("d" + rate, sliding)};
+  }
+  /// Of six motors, in N·m or N.
+  Vector6<Real50> efforts() const {
+    Vector6<Real50> out;
+    for (int k = 0; k < motor_count; ++k) {
+      const std::string name = "tau_" + std::to_string(k + 1);
+      out(k) = (*this)(name + (values_.count(name + "_N") > 0 ? "_N" : "_Nm"));
+    }
+    return out;
   }
   Matrix3<Real50> rotation() const {
     const Real50 w = (*this)("q_w"), x = (*this)("q_x"), y = (*this)("q_y"), z = (*this)("q_z");
@@ -64,10 +77,10 @@ VectorRow vectorRow(const Row& row) {
   out.motion.p_dot = row.axes("v_", "_m_s");
   out.motion.omega_dot = row.axes("alpha_", "_rad_s2");
   out.motion.p_ddot = row.axes("a_", "_m_s2");
-  out.q = row.joints("_", "_rad");
-  out.q_dot = row.joints("dot_", "_rad_s");
-  out.q_ddot = row.joints("ddot_", "_rad_s2");
-  out.torques = row.legs("tau_", "_Nm");
+  out.q = row.joints("_", "_rad", "_m");
+  out.q_dot = row.joints("dot_", "_rad_s", "_m_s");
+  out.q_ddot = row.joints("ddot_", "_rad_s2", "_m_s2");
+  out.torques = row.efforts();
   return out;
 }
 
@@ -79,6 +92,15 @@ const std::vector<std::string>& vectorNames() {
   return names;
 }
 
+const std::vector<std::string>& kindNames() {
+  static const std::vector<std::string> names = {
+      "kind-ups-1",       "kind-ups-2",     "kind-rus-1",    "kind-rus-2",    "kind-pus-1",
+      "kind-pus-2",       "kind-mixture",   "kind-three-ups", "kind-three-rus", "kind-three-mixed",
+      "kind-four",        "kind-five",      "kind-friction", "kind-friction-two-motors",
+      "kind-load-base",   "kind-load-platform"};
+  return names;
+}
+
 std::vector<VectorRow> vectorRows(const std::string& name) {
   std::ifstream file(std::string(URSULA_VECTORS) + "/" + name + ".csv");
   std::string line;
@@ -86,7 +108,8 @@ std::vector<VectorRow> vectorRows(const std::string& name) {
   const std::vector<std::string> names = cells(line);
   std::vector<VectorRow> rows;
   while (std::getline(file, line)) rows.push_back(vectorRow(Row(names, cells(line))));
-  if (rows.size() != 5) throw std::runtime_error(name + " does not have five instants");
+  const std::size_t instants = name.rfind("kind-", 0) == 0 ? 7 : 5;
+  if (rows.size() != instants) throw std::runtime_error(name + " does not have all instants");
   return rows;
 }
 

@@ -20,7 +20,10 @@ struct VectorRow {
 /// The seven machines of tests/vectors: "paper-helix", "random-1" … "random-6".
 const std::vector<std::string>& vectorNames();
 
-/// The five instants of one of them. Throws std::runtime_error where the file is not what its README says.
+/// Machines with legs of other kinds, mixtures, and several motors on a leg: "kind-ups-1" …
+const std::vector<std::string>& kindNames();
+
+/// The five instants of one of them, seven for other kinds. Throws std::runtime_error where the file is not what its README says.
 std::vector<VectorRow> vectorRows(const std::string& name);
 
 /// The scenario that they belong to.

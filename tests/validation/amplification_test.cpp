@@ -48,7 +48,7 @@ class Simulation {
     return out;
   }
 
-  double length() const { return solver_.model().length; }
+  double length() const { return solver_.length(); }
   const Solver<double>& solver() const { return solver_; }
 
  private:

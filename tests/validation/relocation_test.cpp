@@ -8,7 +8,7 @@
 
 #include "model/exact_trajectory.h"
 #include "model/trajectories.h"
-#include "nocsolver/solver_model.h"
+#include "nocsolver/solver.h"
 #include "tests/validation/presented_numbers.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/prove/random_scenario.h"
@@ -38,7 +38,7 @@ void expectExact(const Scenario& scenario, const Presentation& natural) {
   if (scenario.load) {
     EXPECT_TRUE(numbersOf(*inverse(natural).of(natural.of(scenario.load))) == numbersOf(*scenario.load));
   }
-  const double length = SolverModel<double>(machine).length;
+  const double length = Solver<double>(machine).length();
   EXPECT_LT(length, 2 * natural.units.length);
   EXPECT_GE(length, natural.units.length);
 }

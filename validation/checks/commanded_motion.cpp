@@ -263,7 +263,7 @@ std::vector<Check> judgeTrajectory(const Trajectory& trajectory, double length, 
 
 std::vector<Check> judgeCommandedMotion(const Scenario& scenario) {
   const std::optional<FileAsWritten> written = scenario.isAsRead() ? asWritten(scenario) : std::nullopt;
-  const double length = Solver<double>(*scenario.manipulator).model().length;
+  const double length = Solver<double>(*scenario.manipulator).length();
   std::vector<Check> checks = judgeTrajectory(*scenario.trajectory, length, hiddenOf(written));
   if (scenario.load)
     checks.push_back(judgeLoad(*scenario.load, scenario.trajectory->duration(),

@@ -13,11 +13,11 @@ Check judgeAgainstNoc(const ExternalTorques& torques, const Units& units) {
     const Deviation& each = torques.against_noc[k];
     shown.add(each.error, each.limit, torques.file.t[k], each.where);
   }
-  if (!shown.any) return notMade("torque.against_noc", "N m", "no instant was compared");
-  Check check = judged("torque.against_noc", shown.value, shown.limit, "N m", "as for torque.pointwise",
+  if (!shown.any) return notMade("torque.against_noc", units.efforts.unit, "no instant was compared");
+  Check check = judged("torque.against_noc", shown.value, shown.limit, units.efforts.unit, "as for torque.pointwise",
                        fmt::format("torques against this program's NOC, at {} instants; shown for t = {:.6g} s, leg {}",
-                                   torques.file.rows(), shown.t * units.time, shown.where + 1));
-  check.largest = {shown.largest, shown.largest_t * units.time, placeName(shown.largest_where, false)};
+                                   torques.file.rows(), shown.t * units.time, units.legOf(shown.where) + 1));
+  check.largest = {shown.largest, shown.largest_t * units.time, placeName(units.legOf(shown.largest_where), false)};
   return check;
 }
 

@@ -29,8 +29,8 @@ Words wordsOf(Symmetry symmetry) {
 Check judgeInvariance(const InvarianceSamples& sides, const std::vector<PointwiseSample>& samples,
                       const RoundingProfile& profile, const Units& units) {
   const Words words = wordsOf(sides.symmetry);
-  if (!sides.refused.empty()) return notMade(words.check, "N m", "no answer: " + sides.refused);
-  if (sides.found.empty()) return notMade(words.check, "N m", "no instant was compared");
+  if (!sides.refused.empty()) return notMade(words.check, units.efforts.unit, "no answer: " + sides.refused);
+  if (sides.found.empty()) return notMade(words.check, units.efforts.unit, "no instant was compared");
   SecondLook look(profile);
   Worst worst;
   double torque = 0;
@@ -43,12 +43,12 @@ Check judgeInvariance(const InvarianceSamples& sides, const std::vector<Pointwis
     torque = std::max(torque, sample.torques_simbody.cwiseAbs().maxCoeff());
   }
   Check check = judgedIfUseful(
-      words.check, worst.value, limitToJudge(worst, useful_share * torque), useful_share * torque, "N m",
+      words.check, worst.value, limitToJudge(worst, useful_share * torque), useful_share * torque, units.efforts.unit,
       "twice the solver's own rounding: both sides round",
       fmt::format("{}, at {} instants; shown for t = {:.6g} s, leg {}", words.what, samples.size(),
-                  worst.t * units.time, worst.where + 1),
+                  worst.t * units.time, units.legOf(worst.where) + 1),
       fmt::format("it exceeds {:g} of the largest torque: {}", useful_share, causeOfRounding(samples, worst.widest_t)));
-  check.largest = {worst.largest, worst.largest_t * units.time, placeName(worst.largest_where, false)};
+  check.largest = {worst.largest, worst.largest_t * units.time, placeName(units.legOf(worst.largest_where), false)};
   return check;
 }
 

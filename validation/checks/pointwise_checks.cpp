@@ -30,7 +30,15 @@ double largestSize(const std::vector<PointwiseSample>& samples, const Quantity& 
   return largest;
 }
 
-Check judgeQuantity(const std::vector<PointwiseSample>& samples, const Quantity& quantity, const Units& units) {
+/// One of the motors, whose unit is the machine's; `where` is a motor then.
+constexpr const char* of_efforts = "";
+
+Check judgeQuantity(const std::vector<PointwiseSample>& samples, Quantity quantity, const Units& units) {
+  const bool is_effort = quantity.unit == of_efforts;
+  if (is_effort) quantity.unit = units.efforts.unit;
+  const auto nameOf = [&](int where) {
+    return placeName(is_effort ? units.legOf(where) : where, quantity.of_body);
+  };
   Worst shown;
   const PointwiseSample* at = nullptr;
   const PointwiseSample* widest = nullptr;  // by rounding alone: digits that were not printed are no fault of a limit
@@ -48,7 +56,7 @@ Check judgeQuantity(const std::vector<PointwiseSample>& samples, const Quantity&
   const std::string basis = fmt::format("{}; there kappa(B) = {:.3g}, kappa(legs) = {:.3g}, eps = {:.3g}",
                                         quantity.basis, c.kappa_B, c.kappa_legs, eps);
   const std::string why = fmt::format("{}, at {} instants; shown for t = {:.6g} s, {}", quantity.what, samples.size(),
-                                      shown.t * units.time, placeName(shown.where, quantity.of_body));
+                                      shown.t * units.time, nameOf(shown.where));
   const double useful = quantity.size ? useful_share * largestSize(samples, quantity) : widest_rounding;
   Check check = judged(quantity.name, shown.value, shown.limit, quantity.unit, basis, why);
   const Deviation& shown_at = at->*quantity.deviation;  // what an engine makes there is not to be trusted either way
@@ -58,7 +66,7 @@ Check judgeQuantity(const std::vector<PointwiseSample>& samples, const Quantity&
         notJudgeable(Reason::limit_useless, quantity.name, shown.value, widest_rounding, quantity.unit, basis,
                      fmt::format("{}; at t = {:.6g} s the limit exceeds {:g} of the quantity's size: {}", why,
                                  widest->motion.t * units.time, useful_share, causeOfRounding(widest->conditioning)));
-  check.largest = {shown.largest, shown.largest_t * units.time, placeName(shown.largest_where, quantity.of_body)};
+  check.largest = {shown.largest, shown.largest_t * units.time, nameOf(shown.largest_where)};
   return check;
 }
 
@@ -102,7 +110,7 @@ const std::vector<Quantity>& dynamicQuantities() {
   using S = PointwiseSample;
   const auto torque = [](const S& s) { return s.torques_simbody.cwiseAbs().maxCoeff(); };
   static const std::vector<Quantity> quantities = {
-      {"torque.pointwise", "N m", "torques against Simbody's own inverse dynamics",
+      {"torque.pointwise", of_efforts, "torques against Simbody's own inverse dynamics",
        leveled("kappa(B) kappa(legs) x || |T|' |w| ||"), &S::torque, false, torque},
       {"acceleration.pointwise", "m/s^2", "Simbody's accelerations of the platform under the torques, commanded state",
        leveled("(|| T_P inv(I) || x the torque's and the platform's compliance x the forces that close the loops)"),

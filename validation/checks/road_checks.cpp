@@ -37,7 +37,7 @@ Worst compareRoads(const std::vector<RoadSample>& samples, const PairOf& pairOf)
 /// The k-th further road.
 Check judgeRoad(const std::vector<RoadSample>& samples, std::size_t k, const Units& units) {
   const RoadKind& kind = furtherRoads()[k];
-  if (samples.empty()) return notMade(kind.check, "N m", "no instant was compared");
+  if (samples.empty()) return notMade(kind.check, units.efforts.unit, "no instant was compared");
   const Worst shown = compareRoads(samples, [k](const RoadSample& sample) {
     return Pair{&sample.subject, given(sample.further[k]), sample.limits[k]};
   });
@@ -48,14 +48,14 @@ Check judgeRoad(const std::vector<RoadSample>& samples, std::size_t k, const Uni
     if (sample.t == shown.widest_t) cause = causeOfRounding(sample.conditioning);
   }
   Check check = judgedIfUseful(
-      kind.check, shown.value, limitToJudge(shown, useful_share * torque), useful_share * torque, "N m",
+      kind.check, shown.value, limitToJudge(shown, useful_share * torque), useful_share * torque, units.efforts.unit,
       fmt::format("eps kappa(B) kappa(legs) x || |T|' |w| || x {:g} x the spread measured in turned and rescaled "
                   "frames",
                   rounding_safety),
       fmt::format("torques against {}, at {} instants; shown for t = {:.6g} s, leg {}", kind.made_of, samples.size(),
-                  shown.t * units.time, shown.where + 1),
+                  shown.t * units.time, units.legOf(shown.where) + 1),
       fmt::format("it exceeds {:g} of the largest torque: {}", useful_share, cause));
-  check.largest = {shown.largest, shown.largest_t * units.time, placeName(shown.largest_where, false)};
+  check.largest = {shown.largest, shown.largest_t * units.time, placeName(units.legOf(shown.largest_where), false)};
   return check;
 }
 

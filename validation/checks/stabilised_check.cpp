@@ -21,22 +21,22 @@ Check judgeStabilised(const StabilisedReplay& found, double largest, const Units
   if (found.gave_up && found.torque <= found.limit) {
     const std::string why = "the stabilised replay gave up" + stopped;
     // Where rounding alone may throw the machine about, that proves nothing.
-    if (found.limit <= useful_feedback * largest) return notMade(check, "N m", why);
-    return notJudgeable(Reason::limit_useless, check, found.torque, found.limit, "N m", "",
+    if (found.limit <= useful_feedback * largest) return notMade(check, units.efforts.unit, why);
+    return notJudgeable(Reason::limit_useless, check, found.torque, found.limit, units.efforts.unit, "",
                         why + "; the limit: " + useless);
   }
   const std::string basis = fmt::format(
-      "{:.3g} N m, twice the torque's largest rounding and the loops' as torque, answered with {:.3g} of it, and half "
+      "{:.3g} {}, twice the torque's largest rounding and the loops' as torque, answered with {:.3g} of it, and half "
       "of it again from a step",
-      found.rounding * units.torque(), found.answer);
+      found.rounding * units.effort(), units.efforts.unit, found.answer);
   const std::string why = fmt::format(
       "torque that a weak stabilising term added over the whole motion, {:.3g} of the largest torque; shown for "
       "t = {:.6g} s of {} steps, {} derivative evaluations{}",
       largest > 0 ? found.torque / largest : found.torque, found.t * units.time, found.steps, found.evaluations,
       stopped);
-  Check out = judgedIfUseful(check, found.torque, found.limit, useful_feedback * largest, "N m", basis, why, useless);
+  Check out = judgedIfUseful(check, found.torque, found.limit, useful_feedback * largest, units.efforts.unit, basis, why, useless);
   if (found.torque <= found.limit && found.too_long)
-    out = notJudgeable(Reason::unfinished, check, found.torque, found.limit, "N m", basis, why);
+    out = notJudgeable(Reason::unfinished, check, found.torque, found.limit, units.efforts.unit, basis, why);
   out.largest = {found.torque, found.t * units.time, ""};
   return out;
 }

@@ -68,9 +68,9 @@ std::optional<EffortDeviation> effortDeviation(const Evidence& evidence, const s
     any = true;
   }
   if (!any || evidence.samples.empty() || !evidence.answered()) return std::nullopt;
-  out.largest_effort = largestEffort(*evidence.scenario) * units.torque();
+  out.largest_effort = largestEffort(*evidence.scenario) * units.effort();
   out.length = evidence.samples.front().conditioning.length * units.length;
-  out.drift = driftOf(evidence, out.largest / units.torque()) * units.length;
+  out.drift = driftOf(evidence, out.largest / units.effort()) * units.length;
   out.duration = evidence.given->trajectory->duration();
   return out;
 }
@@ -80,8 +80,9 @@ void judgeByTolerance(const Scenario& scenario, bool covered, ValidationResult& 
   const EffortTolerance& tolerance = *scenario.tolerance;
   EffortDeviation& deviation = *result.deviation;
   deviation.allowed = tolerance.relative * deviation.largest_effort + tolerance.absolute;
-  const std::string whose = fmt::format("the user's tolerance, {:g} of the largest effort, {:.6g} N m, and {:g} N m",
-                                        tolerance.relative, deviation.largest_effort, tolerance.absolute);
+  const char* unit = effortsOf(*scenario.manipulator).unit;
+  const std::string whose = fmt::format("the user's tolerance, {:g} of the largest effort, {:.6g} {}, and {:g} {}",
+                                        tolerance.relative, deviation.largest_effort, unit, tolerance.absolute, unit);
   for (Check& check : result.checks) {
     if (isOfTorques(check)) judgeByUser(deviation.allowed, whose, check);
     if (!isReported(check) || check.verdict == Verdict::not_applicable) continue;

@@ -112,7 +112,7 @@ class Comparison {
 Check judgeBetween(const Scenario& scenario, const Subject& subject, const std::vector<PointwiseSample>& samples,
                    const RoundingProfile& profile, const Units& units) {
   static constexpr const char* check = "torque.between";
-  if (samples.empty()) return notMade(check, "N m", "no instant was compared");
+  if (samples.empty()) return notMade(check, units.efforts.unit, "no instant was compared");
   const double duration = scenario.trajectory->duration();
   const int count =
       std::clamp(static_cast<int>(std::min(instants_per_time * duration, 1e9)), least_instants, most_instants);
@@ -133,17 +133,17 @@ Check judgeBetween(const Scenario& scenario, const Subject& subject, const std::
     foresee(subject, *scenario.trajectory, curved);
     for (double t : curved) comparison.at(t);
   } catch (const PoseError& error) {
-    return notMade(check, "N m", std::string("no answer: ") + error.what());
+    return notMade(check, units.efforts.unit, std::string("no answer: ") + error.what());
   }
   gap = std::max(gap, duration - before);
   const Worst& shown = comparison.worst();
   Check out = judged(
-      check, shown.value, shown.limit, "N m", "as for torque.pointwise, at each instant",
+      check, shown.value, shown.limit, units.efforts.unit, "as for torque.pointwise, at each instant",
       fmt::format("torques against the formulas that hold, at {} instants between the samples; shown for t = {:.6g} s, "
-                  "leg {}; a pulse longer than {:.2g} s and larger than {:.2g} N m would have been seen",
-                  count + count / 4, shown.t * units.time, shown.where + 1, gap * units.time,
-                  shown.widest_limit * units.torque()));
-  out.largest = {shown.largest, shown.largest_t * units.time, placeName(shown.largest_where, false)};
+                  "leg {}; a pulse longer than {:.2g} s and larger than {:.2g} {} would have been seen",
+                  count + count / 4, shown.t * units.time, units.legOf(shown.where) + 1, gap * units.time,
+                  shown.widest_limit * units.effort(), units.efforts.unit));
+  out.largest = {shown.largest, shown.largest_t * units.time, placeName(units.legOf(shown.largest_where), false)};
   return out;
 }
 

@@ -17,8 +17,8 @@ std::string ExternalTorques::precisionInWords(const Units& units) const {
   return largest == 0 ? "; the file's digits are as fine as doubles and add nothing"
                       : fmt::format(
                             "; and half a unit of the last digit printed (torques of up to {} significant digits, "
-                            "instants), up to {:.3g} N m",
-                            file.digits, largest * units.torque());
+                            "instants), up to {:.3g} {}",
+                            file.digits, largest * units.effort(), units.efforts.unit);
 }
 
 }  // namespace ursula

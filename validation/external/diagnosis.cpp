@@ -68,7 +68,7 @@ Diagnosis deviationTexts(const ExternalTorques& torques) {
   std::string legs, details, right;
   LegDeviation all;
   all.first = torques.file.rows();
-  for (int i = 0; i < leg_count; ++i) {
+  for (int i = 0; i < motor_count; ++i) {
     const LegDeviation leg = deviationOf(torques, i);
     std::string& names = leg.count == 0 ? right : legs;
     names += fmt::format("{}{}", names.empty() ? "" : ", ", i + 1);
@@ -107,7 +107,7 @@ TorqueResidual residualOf(const Scenario& scenario, const ExternalTorques& torqu
 bool isSinglePrecision(const ExternalTorques& torques) {
   if (!torques.file.all_single) return false;
   for (std::size_t k = 0; k < torques.file.rows(); ++k)
-    for (int i = 0; i < leg_count; ++i) {
+    for (int i = 0; i < motor_count; ++i) {
       const double half = std::ldexp(std::abs(torques.noc[k](i)), -24);
       if (!(std::abs(residualAt(torques, k, i)) <= 2 * half + limitAt(torques, k, i))) return false;
     }
@@ -160,7 +160,7 @@ std::string loneInstants(const ExternalTorques& torques) {
   std::size_t off = 0, first = 0;
   for (std::size_t k = 0; k < rows; ++k) {
     bool any = false;
-    for (int i = 0; i < leg_count; ++i) any = any || !(std::abs(residualAt(torques, k, i)) <= limitAt(torques, k, i));
+    for (int i = 0; i < motor_count; ++i) any = any || !(std::abs(residualAt(torques, k, i)) <= limitAt(torques, k, i));
     if (any && off++ == 0) first = k;
   }
   if (off == 0 || 20 * off > rows) return "";

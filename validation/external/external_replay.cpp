@@ -93,9 +93,10 @@ const GrowthWindow* hopeless(const ReplayPlan& plan, const std::vector<GrowthWin
 
 std::string splineBasis(const SplineLimit& limit, std::size_t rows, const Units& units) {
   return fmt::format(
-      "between the {} samples: interpolation up to {:.3g} N m (the NOC's torques on a quintic spline through the same "
-      "instants), printed digits up to {:.3g} N m, both x || T_P inv(I) ||",
-      rows, limit.largestInterpolation() * units.torque(), limit.largestOfDigits() * units.torque());
+      "between the {} samples: interpolation up to {:.3g} {} (the NOC's torques on a quintic spline through the same "
+      "instants), printed digits up to {:.3g} {}, both x || T_P inv(I) ||",
+      rows, limit.largestInterpolation() * units.effort(), units.efforts.unit, limit.largestOfDigits() * units.effort(),
+      units.efforts.unit);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 Deviation deviationOf(const Vector6d& torques, const Vector6d& exact, const Vector6d& precision, double rounding) {
   Deviation out;
   double worst = -1;
-  for (int i = 0; i < leg_count; ++i) {
+  for (int i = 0; i < motor_count; ++i) {
     const double error = std::abs(torques(i) - exact(i)), limit = rounding + precision(i);
     const double ratio = error / limit;
     if (ratio <= worst) continue;

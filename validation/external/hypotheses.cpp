@@ -85,10 +85,10 @@ Hypothesis perLeg(const TorqueResidual& data, const Vector6d& fitted, const Rows
                   const std::function<std::string(double)>& show, const std::string& what) {
   std::string text;
   std::vector<int> legs;
-  for (int i = 0; i < leg_count; ++i)
+  for (int i = 0; i < motor_count; ++i)
     if (std::abs(fitted(i)) > 0.01 * fitted.cwiseAbs().maxCoeff()) legs.push_back(i);
   for (int i : legs) text += fmt::format("{}{} on leg {}", text.empty() ? "" : ", ", show(fitted(i)), i + 1);
-  return hypothesis(data, what + text, minus(data.residual, predicted, 1), leg_count);
+  return hypothesis(data, what + text, minus(data.residual, predicted, 1), motor_count);
 }
 
 std::optional<Hypothesis> offsets(const TorqueResidual& data) {
@@ -119,7 +119,7 @@ double TorqueResidual::norm() const { return ursula::norm(residual); }
 double TorqueResidual::beyond(const std::vector<Vector6d>& left) const {
   double largest = 0;
   for (std::size_t k = 0; k < left.size(); ++k)
-    for (int i = 0; i < leg_count; ++i) {
+    for (int i = 0; i < motor_count; ++i) {
       const double share = std::abs(left[k](i)) / limit[k](i);
       if (!(share <= largest)) largest = share;  // not a number counts as the largest
     }

@@ -121,7 +121,7 @@ class Collector {
 void withoutFriction(ManipulatorParameters& machine) {
   for (Leg& leg : machine.legs) {
     leg.friction = {};
-    leg.coulomb.phi = leg.coulomb.psi = leg.coulomb.theta = 0;
+    leg.coulomb.phi = leg.coulomb.psi = leg.coulomb.theta = leg.coulomb.d = 0;
   }
 }
 

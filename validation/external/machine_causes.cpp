@@ -160,17 +160,27 @@ void addExchanged(Collector& out) {
   });
 }
 
-void addKnees(Collector& out) {
-  for (int legs = 1; legs < 1 << leg_count; ++legs) {
+/// Legs of which `knee` says something.
+std::vector<std::size_t> bentLegs(const Manipulator& machine) {
+  std::vector<std::size_t> out;
+  for (int i = 0; i < machine.legCount(); ++i)
+    if (rowOf(machine.leg(i).kind).knee != nullptr) out.push_back(static_cast<std::size_t>(i));
+  return out;
+}
+
+void addKnees(const Manipulator& machine, Collector& out) {
+  const std::vector<std::size_t> bent = bentLegs(machine);
+  const int all = static_cast<int>(bent.size());
+  for (int legs = 1; legs < 1 << all; ++legs) {
     std::string names;
     int count = 0;
-    for (int i = 0; i < leg_count; ++i)
-      if (legs >> i & 1) names += fmt::format("{}{}", count++ == 0 ? "" : ", ", i + 1);
-    out.addFixed(count == leg_count ? std::string("the other knee on every leg")
+    for (int i = 0; i < all; ++i)
+      if (legs >> i & 1) names += fmt::format("{}{}", count++ == 0 ? "" : ", ", bent[static_cast<std::size_t>(i)] + 1);
+    out.addFixed(count == machine.legCount() ? std::string("the other knee on every leg")
                                     : fmt::format("the other knee on leg{} {}", count == 1 ? "" : "s", names),
-                 [legs](Machine& machine) {
-                   for (std::size_t i = 0; i < leg_count; ++i) {
-                     Knee& knee = machine.legs[i].knee;
+                 [legs, bent](Machine& changed) {
+                   for (std::size_t i = 0; i < bent.size(); ++i) {
+                     Knee& knee = changed.legs[bent[i]].knee;
                      if (legs >> i & 1) knee = knee == Knee::positive ? Knee::negative : Knee::positive;
                    }
                  });
@@ -225,10 +235,10 @@ void addPlatform(Collector& out) {
 std::vector<Cause> machineCauses(const Scenario& scenario) {
   Collector out(scenario);
   addPlatform(out);
-  for (const TiedParameters& tied : tiedParameters()) out.addTied(tied);
+  for (const TiedParameters& tied : tiedParameters(*scenario.manipulator)) out.addTied(tied);
   addInertias(out);
   addExchanged(out);
-  addKnees(out);
+  addKnees(*scenario.manipulator, out);
   addFriction(out);
   return std::move(out.causes);
 }

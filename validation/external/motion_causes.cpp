@@ -49,9 +49,10 @@ Cause motorInertia(const Scenario& scenario) {
   return {true,
           [&scenario](double x, const Motions& motions) {
             const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
+            const Motors& motors = scenario.manipulator->motors();
             Rows out;
             for (const Motion<double>& motion : motions)
-              out.push_back(noc.torques(motion) + x * noc.kinematics(motion).joints.q_ddot.phi);
+              out.push_back(noc.torques(motion) + x * noc.kinematics(motion).joints.q_ddot.driven(motors));
             return out;
           },
           [](double x, double deviation) {

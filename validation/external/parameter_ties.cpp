@@ -30,6 +30,9 @@ Quantity quantityOf(const std::string& name) {
       {"friction.phi", {"viscous friction on phi", "N m s/rad"}},
       {"friction.psi", {"viscous friction on psi", "N m s/rad"}},
       {"friction.theta", {"viscous friction on theta", "N m s/rad"}},
+      {"friction.d", {"viscous friction on d", "N s/m"}},
+      {"coulomb.d", {"Coulomb friction on d", "N"}},
+      {"coulomb.sliding_speed", {"smoothing speed of the Coulomb friction on d", "m/s"}},
       {"coulomb.phi", {"Coulomb friction on phi", "N m"}},
       {"coulomb.psi", {"Coulomb friction on psi", "N m"}},
       {"coulomb.theta", {"Coulomb friction on theta", "N m"}},
@@ -96,14 +99,14 @@ std::string TiedParameters::text(const ManipulatorParameters& machine, double re
   return fmt::format("{} off by a relative {}", words, withDeviation(relative, deviation));
 }
 
-std::vector<TiedParameters> tiedParameters() {
+std::vector<TiedParameters> tiedParameters(const Manipulator& machine) {
   std::vector<TiedParameters> all_legs, all_links, both_links, single;
   const auto add = [](std::vector<TiedParameters>& list, const std::string& words, const std::string& unit,
                       const Parameter& member) {
     const auto found = std::find_if(list.begin(), list.end(), [&](const auto& one) { return one.words == words; });
     (found == list.end() ? list.emplace_back(TiedParameters{words, unit, {}}) : *found).members.push_back(member);
   };
-  for (const Parameter& parameter : allParameters()) {
+  for (const Parameter& parameter : allParameters(machine)) {
     const Name name(parameter.name);
     const Quantity quantity = quantityOf(name.quantity);
     const std::string owner = ownerOf(name);

@@ -19,6 +19,6 @@ struct TiedParameters {
 };
 
 /// Those of all legs first, then both links of all legs, then both links of one leg, then each alone.
-std::vector<TiedParameters> tiedParameters();
+std::vector<TiedParameters> tiedParameters(const Manipulator& machine);
 
 }  // namespace ursula

@@ -9,7 +9,7 @@
 namespace ursula {
 namespace {
 
-using Table = double[leg_count][leg_count];
+using Table = double[motor_count][motor_count];
 
 /// Legs i of `torques` and j of `exact`: ‖τᵢ ∓ τⱼ‖².
 double mismatch(const TorqueResidual& data, int i, int j, double factor) {
@@ -34,7 +34,7 @@ std::string plural(const std::vector<int>& legs) { return legs.size() == 1 ? "le
 std::string permutationText(const std::vector<int>& from) {
   std::vector<int> moved;
   std::string detail;
-  for (int i = 0; i < leg_count; ++i)
+  for (int i = 0; i < motor_count; ++i)
     if (from[static_cast<std::size_t>(i)] != i) {
       moved.push_back(i);
       detail += fmt::format("{}column {} holds leg {}", detail.empty() ? "" : ", ", i + 1,
@@ -43,12 +43,12 @@ std::string permutationText(const std::vector<int>& from) {
   if (moved.empty()) return "";
   if (moved.size() == 2) return "legs " + legNames(moved) + " swapped";
   int turned = 0, mirrored = 0;  // legs that a rotation, or the other sense of numbering, would give
-  for (int i = 0; i < leg_count; ++i) {
-    turned += (i + from[0]) % leg_count == from[static_cast<std::size_t>(i)] ? 1 : 0;
-    mirrored += (from[0] + leg_count - i) % leg_count == from[static_cast<std::size_t>(i)] ? 1 : 0;
+  for (int i = 0; i < motor_count; ++i) {
+    turned += (i + from[0]) % motor_count == from[static_cast<std::size_t>(i)] ? 1 : 0;
+    mirrored += (from[0] + motor_count - i) % motor_count == from[static_cast<std::size_t>(i)] ? 1 : 0;
   }
-  if (turned == leg_count) return fmt::format("legs numbered from another one: {}", detail);
-  if (mirrored == leg_count) return fmt::format("legs numbered the other way round (mirrored): {}", detail);
+  if (turned == motor_count) return fmt::format("legs numbered from another one: {}", detail);
+  if (mirrored == motor_count) return fmt::format("legs numbered the other way round (mirrored): {}", detail);
   return fmt::format("legs {} permuted ({})", legNames(moved), detail);
 }
 
@@ -65,12 +65,12 @@ double unitFactor(const TorqueResidual& data) {
 
 /// The order of the least cost: entry i is the leg whose torques column i holds.
 std::vector<int> bestOrder(const Table& cost, double& least) {
-  std::vector<int> from(leg_count), best;
+  std::vector<int> from(motor_count), best;
   std::iota(from.begin(), from.end(), 0);
   least = 0;
   do {
     double sum = 0;
-    for (int i = 0; i < leg_count; ++i) sum += cost[i][from[static_cast<std::size_t>(i)]];
+    for (int i = 0; i < motor_count; ++i) sum += cost[i][from[static_cast<std::size_t>(i)]];
     if (best.empty() || sum < least) best = from, least = sum;
   } while (std::next_permutation(from.begin(), from.end()));
   return best;
@@ -80,7 +80,7 @@ std::vector<int> bestOrder(const Table& cost, double& least) {
 double beyondOf(const TorqueResidual& data, const std::vector<int>& from, const Table& sign, double unit) {
   std::vector<Vector6d> left(data.exact.size());
   for (std::size_t k = 0; k < left.size(); ++k)
-    for (int i = 0; i < leg_count; ++i) {
+    for (int i = 0; i < motor_count; ++i) {
       const int j = from[static_cast<std::size_t>(i)];
       left[k](i) = data.exact[k](i) + data.residual[k](i) - unit * sign[i][j] * data.exact[k](j);
     }
@@ -92,8 +92,8 @@ double beyondOf(const TorqueResidual& data, const std::vector<int>& from, const 
 std::optional<Hypothesis> signsAndOrder(const TorqueResidual& data) {
   const double unit = unitFactor(data);
   Table cost, sign;
-  for (int i = 0; i < leg_count; ++i)
-    for (int j = 0; j < leg_count; ++j) {
+  for (int i = 0; i < motor_count; ++i)
+    for (int j = 0; j < motor_count; ++j) {
       const double plus = mismatch(data, i, j, unit), minus_cost = mismatch(data, i, j, -unit);
       sign[i][j] = plus <= minus_cost ? 1 : -1;
       cost[i][j] = std::min(plus, minus_cost);
@@ -101,12 +101,12 @@ std::optional<Hypothesis> signsAndOrder(const TorqueResidual& data) {
   double least = 0;
   const std::vector<int> best = bestOrder(cost, least);
   std::vector<int> flipped;
-  for (int i = 0; i < leg_count; ++i)
+  for (int i = 0; i < motor_count; ++i)
     if (sign[i][best[static_cast<std::size_t>(i)]] < 0) flipped.push_back(i);
   std::string text = permutationText(best);
   if (text.empty() && flipped.empty()) return std::nullopt;  // a unit alone is a scale's
   if (!flipped.empty()) text += text.empty() ? "" : ", and ";
-  if (flipped.size() == leg_count)
+  if (flipped.size() == motor_count)
     text += "the sign of every leg flipped (torques about +u, not conjugate to phi)";
   else if (!flipped.empty())
     text += "the sign of " + plural(flipped) + legNames(flipped) + " flipped";

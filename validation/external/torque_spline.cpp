@@ -22,9 +22,9 @@ std::array<double, point_count> chebyshevPoints(double from, double to) {
   return points;
 }
 
-std::vector<CurvePoint<double, leg_count>> knotsThrough(const std::vector<double>& t,
+std::vector<CurvePoint<double, motor_count>> knotsThrough(const std::vector<double>& t,
                                                         const std::vector<Vector6d>& values) {
-  std::vector<CurvePoint<double, leg_count>> knots(t.size());
+  std::vector<CurvePoint<double, motor_count>> knots(t.size());
   for (std::size_t k = 0; k < t.size(); ++k) {
     knots[k].t = t[k];
     knots[k].value = values[k];
@@ -69,10 +69,10 @@ std::vector<double> interpolationErrors(const std::vector<double>& t, const std:
 std::vector<double> carriedErrors(const std::vector<double>& t, const std::vector<double>& norms) {
   constexpr std::size_t apart = 66;
   std::vector<TorqueSpline> splines;
-  for (std::size_t first = 0; first < std::min(apart, t.size()); first += leg_count) {
+  for (std::size_t first = 0; first < std::min(apart, t.size()); first += motor_count) {
     std::vector<Vector6d> impulses(t.size(), Vector6d::Zero());
     for (std::size_t k = 0; k < t.size(); ++k)
-      if (k % apart >= first && k % apart < first + leg_count)
+      if (k % apart >= first && k % apart < first + motor_count)
         impulses[k](static_cast<Eigen::Index>(k % apart - first)) = norms[k];
     splines.emplace_back(t, impulses);
   }

@@ -23,7 +23,7 @@ class TorqueSpline {
   Vector6d operator()(double t) const { return curve_.at(t).value; }
 
  private:
-  QuinticHermite<double, leg_count> curve_;
+  QuinticHermite<double, motor_count> curve_;
 };
 
 /// Between each two instants, the largest 2-norm of `exact` less its own spline through these instants, N·m: the error

@@ -55,7 +55,7 @@ void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<
     result.findings.emplace_back("replay stopped", fmt::format("stopped at t = {:.6g} s: {}", t * units.time, why));
   }
   const std::vector<std::pair<std::string, std::string>> findings = {
-      {"largest torque", fmt::format("{:.6g} N m", torque * units.torque())},
+      {"largest torque", fmt::format("{:.6g} {}", torque * units.effort(), units.efforts.unit)},
       {"torque error, relative to the largest", fmt::format("{:.3g}", torque > 0 ? torque_error / torque : 0)},
       {"largest platform acceleration", fmt::format("{:.6g} m/s^2", acceleration * units.acceleration())},
       {"acceleration error, relative to the largest",

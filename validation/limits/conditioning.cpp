@@ -26,9 +26,11 @@ WrenchSize wrenchSize(const BodyMotion<double>& body, double mass, const Matrix3
           mass * (body.twist_rate.tail<3>().norm() + gravity.norm())};
 }
 
-double frictionMagnitude(const Leg& leg, const JointTriple<double>& rate) {
-  return leg.friction.phi * std::abs(rate.phi) + leg.friction.psi * std::abs(rate.psi) +
-         leg.friction.theta * std::abs(rate.theta) + leg.coulomb.phi + leg.coulomb.psi + leg.coulomb.theta;
+/// A force on d with its moment at the machine's length.
+double frictionMagnitude(const Leg& leg, const JointVariables<double>& rates, int i, double length) {
+  return leg.friction.phi * std::abs(rates.phi(i)) + leg.friction.psi * std::abs(rates.psi(i)) +
+         leg.friction.theta * std::abs(rates.theta(i)) + leg.coulomb.phi + leg.coulomb.psi + leg.coulomb.theta +
+         length * (leg.friction.d * std::abs(rates.d(i)) + leg.coulomb.d);
 }
 
 /// ‖|T|ᵀ|w|‖ with friction and load; I = TᵀMT.
@@ -38,7 +40,7 @@ struct Projection {
 };
 
 Projection project(const Manipulator& manipulator, const TwistShaping<double>& T, const BodyMotions<double>& bodies,
-                   const Workspace<double>& work) {
+                   const JointVariables<double>& rates, double length) {
   Projection out;
   Vector6d torque = Vector6d::Zero();
   double friction = 0, largest_spin = 0;
@@ -46,7 +48,8 @@ Projection project(const Manipulator& manipulator, const TwistShaping<double>& T
     const auto i = static_cast<std::size_t>(b);
     const int leg_index = b % leg_count;
     const bool is_platform = b == 2 * leg_count;
-    const Leg& leg = manipulator.leg(leg_index);
+    if (!is_platform && leg_index >= manipulator.legCount()) continue;
+    const Leg& leg = manipulator.leg(is_platform ? 0 : leg_index);
     const Link& link = b < leg_count ? leg.proximal : leg.distal;
     const double mass = is_platform ? manipulator.platform().mass : link.mass;
     const Matrix3d& inertia = is_platform ? manipulator.platform().inertia : link.inertia;
@@ -56,7 +59,7 @@ Projection project(const Manipulator& manipulator, const TwistShaping<double>& T
     out.inertia += mass * T_b.bottomRows<3>().transpose() * T_b.bottomRows<3>() +
                    T_b.topRows<3>().transpose() * (bodies[i].R * inertia * bodies[i].R.transpose()) * T_b.topRows<3>();
     if (!is_platform) largest_spin = std::max(largest_spin, T_b.topRows<3>().colwise().norm().maxCoeff());
-    if (b < leg_count) friction += frictionMagnitude(leg, work.legs[i].rate);
+    if (b < leg_count) friction += frictionMagnitude(leg, rates, b, length);
   }
   // The same shaping carries friction on ψ, θ to the actuators; its rows are of the order of the links' spins.
   out.torque_scale = torque.norm() + friction * std::max(1.0, largest_spin);
@@ -92,11 +95,11 @@ void setPlatform(const Solver<double>& solver, const Manipulator& manipulator, c
   out.weight_ratio = inertia > 0 ? out.force_scale / inertia : 0;
 }
 
-void setLegs(const Workspace<double>& work, Conditioning& out) {
+void setLegs(const Solver<double>& solver, const Workspace<double>& work, Conditioning& out) {
   out.smallest_sine = 1;
-  for (int i = 0; i < leg_count; ++i) {
-    const LegState<double>& leg = work.legs[static_cast<std::size_t>(i)];
-    const double sine = std::abs(leg.sin_theta), lever = leg.q / leg.r;
+  for (int i = 0; i < solver.chain().legCount(); ++i) {
+    const LegMargins<double> margins = solver.margins(work, i);
+    const double sine = margins.sine, lever = margins.leverage;
     out.kappa_legs = std::max(out.kappa_legs, lever * lever / (sine * sine));
     if (sine < out.smallest_sine) {
       out.smallest_sine = sine;
@@ -117,12 +120,14 @@ double effortScale(const Solver<double>& solver, const Motion<double>& motion, c
 void setPositions(const Manipulator& manipulator, const Motion<double>& motion, const BodyMotions<double>& bodies,
                   Conditioning& out) {
   Vector3d middle = Vector3d::Zero();
-  for (const Leg& leg : manipulator.parameters().legs) middle += leg.base_point / leg_count;
+  for (const Leg& leg : manipulator.parameters().legs) middle += leg.base_point / manipulator.legCount();
   out.position_scale = (motion.p - middle).norm() + out.length;
   for (const Leg& leg : manipulator.parameters().legs)
     out.position_scale = std::max(out.position_scale, (leg.base_point - middle).norm());
-  for (const BodyMotion<double>& body : bodies)
-    out.position_scale = std::max(out.position_scale, (body.c - middle).norm());
+  for (int b = 0; b < body_count; ++b)
+    if (b == 2 * leg_count || b % leg_count < manipulator.legCount())
+      out.position_scale =
+          std::max(out.position_scale, (bodies[static_cast<std::size_t>(b)].c - middle).norm());
 }
 
 }  // namespace
@@ -181,13 +186,13 @@ Conditioning ConditioningProbe::at(const Motion<double>& motion) {
   solver_.twistShaping(motion, work_, T);
 
   Conditioning out;
-  out.length = solver_.model().length;
-  setLegs(work_, out);
-  Matrix6d B = work_.B;
+  out.length = solver_.length();
+  setLegs(solver_, work_, out);
+  Matrix6d B = solver_.B(work_);
   B.leftCols<3>() /= out.length;
   const Vector6d singular = Eigen::JacobiSVD<Matrix6d>(B).singularValues();
   out.kappa_B = singular(0) / singular(5);
-  const Projection projection = project(manipulator_, T, bodies, work_);
+  const Projection projection = project(manipulator_, T, bodies, solver_.rates(work_), out.length);
   Matrix6d T_P = solver_.T(work_);
   T_P.topRows<3>() *= out.length;
   const Vector6d load = loadAtP(load_.get(), motion);

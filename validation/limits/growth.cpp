@@ -34,10 +34,7 @@ class RubbingJoints {
  public:
   explicit RubbingJoints(const Scenario& scenario)
       : scenario_(scenario), right_(nocSubject(*scenario.manipulator, scenario.load)) {
-    for (int i = 0; i < leg_count; ++i) {
-      const CoulombFriction& friction = scenario.manipulator->leg(i).coulomb;
-      rubs_ |= friction.phi != 0 || friction.psi != 0 || friction.theta != 0;
-    }
+    for (const Leg& leg : scenario.manipulator->parameters().legs) rubs_ |= leg.coulomb.any();
   }
 
   /// True where no joint passes through its smoothing speed between two instants faster than these resolve.
@@ -57,13 +54,13 @@ class RubbingJoints {
   Speeds at(double t) const {
     const JointVariables<double> rates = right_.kinematics(scenario_.trajectory->at(t)).joints.q_dot;
     Speeds out{};
-    for (int i = 0; i < leg_count; ++i) {
-      const CoulombFriction& friction = scenario_.manipulator->leg(i).coulomb;
-      const auto speed = [&](double rate, double torque) { return torque != 0 ? rate / friction.smoothing_speed : 0; };
-      const auto k = static_cast<std::size_t>(3 * i);
-      out[k] = speed(rates.phi(i), friction.phi);
-      out[k + 1] = speed(rates.psi(i), friction.psi);
-      out[k + 2] = speed(rates.theta(i), friction.theta);
+    for (int i = 0; i < scenario_.manipulator->legCount(); ++i) {
+      const Leg& leg = scenario_.manipulator->leg(i);
+      for (std::size_t j = 0; j < 3; ++j) {
+        const Coordinate q = rowOf(leg.kind).coordinates[j];
+        if (leg.coulomb.on(q) != 0)
+          out[3 * static_cast<std::size_t>(i) + j] = rates.of(q)(i) / leg.coulomb.speedOf(q);
+      }
     }
     return out;
   }

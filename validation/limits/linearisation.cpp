@@ -13,7 +13,7 @@ Linearisation::Linearisation(const Scenario& scenario, AccelerationUnder acceler
     : trajectory_(*scenario.trajectory),
       right_(nocSubject(*scenario.manipulator, scenario.load)),
       accelerations_(std::move(accelerations)),
-      length_(SolverModel<double>(*scenario.manipulator).length),
+      length_(Solver<double>(*scenario.manipulator).length()),
       // Central differences: the cube root of eps balances truncation and rounding.
       step_(step * std::cbrt(Eigen::NumTraits<double>::epsilon()) * length_) {}
 

@@ -19,22 +19,22 @@ constexpr std::size_t neighbours = 2;
 
 double spin(const Vector6d& v, double length) { return v.tail<3>().norm() + length * v.head<3>().norm(); }
 
-double jointDistance(const JointVariables<double>& a, const JointVariables<double>& b) {
-  double largest = 0;
-  for (int i = 0; i < leg_count; ++i)
-    largest = larger(largest, Vector3d(a.phi(i) - b.phi(i), a.psi(i) - b.psi(i), a.theta(i) - b.theta(i)).norm());
-  return largest;
-}
 
 /// ψ and θ, which count from the machine itself, and φ by the axis x that turns with it.
-double angleDistance(const JointVariables<double>& a, const JointVariables<double>& b, const BodyMotions<double>& of_a,
-                     const BodyMotions<double>& of_b) {
+double angleDistance(const Manipulator& machine, const JointVariables<double>& a, const JointVariables<double>& b,
+                     const BodyMotions<double>& of_a, const BodyMotions<double>& of_b, double length) {
   double largest = 0;
-  for (int i = 0; i < leg_count; ++i) {
+  for (int i = 0; i < machine.legCount(); ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const double phi = (of_a[k].R.col(0) - of_b[k].R.col(0)).norm();
+    const LegKind kind = machine.leg(i).kind;
+    // The plane of PUS is its rod's; ψ of it counts from an axis that is not turned along, too.
+    const std::size_t in_plane = kind == LegKind::PUS ? leg_count + k : k;
+    const double plane = (of_a[in_plane].R.col(0) - of_b[in_plane].R.col(0)).norm();
     const auto turn = [](double x, double y) { return std::abs(std::remainder(x - y, 2 * std::acos(-1.0))); };
-    largest = larger(larger(larger(largest, phi), turn(a.psi(i), b.psi(i))), turn(a.theta(i), b.theta(i)));
+    largest = larger(largest, plane);
+    if (kind != LegKind::PUS) largest = larger(largest, turn(a.psi(i), b.psi(i)));
+    largest = larger(largest, turn(a.theta(i), b.theta(i)));
+    largest = larger(largest, std::abs(a.d(i) - b.d(i)) / length);
   }
   return largest;
 }
@@ -54,11 +54,15 @@ void set(RoundingLevels& levels, Rounded quantity, double value) {
   level = larger(level, value);
 }
 
-void spreadOfBodies(const View& a, const View& b, double length, RoundingLevels& out) {
+void spreadOfBodies(const Manipulator& machine, const View& a, const View& b, double length, RoundingLevels& out) {
   for (std::size_t i = 0; i < body_count; ++i) {
+    // A carriage's frame hangs on what is upright, not on the machine.
+    const bool is_carriage = i < static_cast<std::size_t>(machine.legCount()) &&
+                             machine.leg(static_cast<int>(i)).kind == LegKind::PUS;
+    const double turn = is_carriage ? 0 : length;
     const auto pair = [&](const BodyMotions<double> View::*of) {
       const BodyMotion<double>&x = (a.*of)[i], &y = (b.*of)[i];
-      return std::array<double, 3>{(x.c - y.c).norm() + length * (x.R - y.R).norm(), spin(x.twist - y.twist, length),
+      return std::array<double, 3>{(x.c - y.c).norm() + turn * (x.R - y.R).norm(), spin(x.twist - y.twist, length),
                                    spin(x.twist_rate - y.twist_rate, length)};
     };
     const auto solver = pair(&View::bodies_solver), simbody = pair(&View::bodies_simbody);
@@ -68,17 +72,17 @@ void spreadOfBodies(const View& a, const View& b, double length, RoundingLevels&
   }
 }
 
-void spreadOfKinematics(const View& a, const View& b, double length, RoundingLevels& out) {
-  spreadOfBodies(a, b, length, out);
+void spreadOfKinematics(const Manipulator& machine, const View& a, const View& b, double length, RoundingLevels& out) {
+  spreadOfBodies(machine, a, b, length, out);
   set(out, Rounded::angles,
-      angleDistance(a.joints_solver.q, b.joints_solver.q, a.bodies_solver, b.bodies_solver) +
-          angleDistance(a.joints_simbody.q, b.joints_simbody.q, a.bodies_simbody, b.bodies_simbody));
+      angleDistance(machine, a.joints_solver.q, b.joints_solver.q, a.bodies_solver, b.bodies_solver, length) +
+          angleDistance(machine, a.joints_simbody.q, b.joints_simbody.q, a.bodies_simbody, b.bodies_simbody, length));
   set(out, Rounded::rates,
-      jointDistance(a.joints_solver.q_dot, b.joints_solver.q_dot) +
-          jointDistance(a.joints_simbody.q_dot, b.joints_simbody.q_dot));
+      jointDistance(a.joints_solver.q_dot, b.joints_solver.q_dot, length) +
+          jointDistance(a.joints_simbody.q_dot, b.joints_simbody.q_dot, length));
   set(out, Rounded::accelerations,
-      jointDistance(a.joints_solver.q_ddot, b.joints_solver.q_ddot) +
-          jointDistance(a.joints_simbody.q_ddot, b.joints_simbody.q_ddot));
+      jointDistance(a.joints_solver.q_ddot, b.joints_solver.q_ddot, length) +
+          jointDistance(a.joints_simbody.q_ddot, b.joints_simbody.q_ddot, length));
   set(out, Rounded::jacobian, spin(a.jacobian - b.jacobian, length));
   set(out, Rounded::jacobian_rate, spin(a.jacobian_rate - b.jacobian_rate, length));
   const auto size = [length](const Matrix6d& T) { return T.bottomRows<3>().norm() + length * T.topRows<3>().norm(); };
@@ -103,12 +107,12 @@ void spreadOfDynamics(const View& a, const View& b, const Matrix6d& effort, doub
           reactionDistance(a.reactions_simbody, b.reactions_simbody, length));
 }
 
-RoundingLevels spreadOf(const std::vector<View>& views, const Matrix6d& effort, double length) {
+RoundingLevels spreadOf(const Manipulator& machine, const std::vector<View>& views, const Matrix6d& effort, double length) {
   RoundingLevels out = uniformLevels(0);
   for (std::size_t i = 0; i < views.size(); ++i) {
     set(out, Rounded::gaps, views[i].gap_acceleration);
     for (std::size_t j = 0; j < i; ++j) {
-      spreadOfKinematics(views[i], views[j], length, out);
+      spreadOfKinematics(machine, views[i], views[j], length, out);
       spreadOfDynamics(views[i], views[j], effort, length, out);
     }
   }
@@ -127,7 +131,7 @@ void divideByShape(const Conditioning& at, RoundingLevels& spread) {
 Vector6d otherTorques(const Vector6d& torques) {
   const double size = torques.cwiseAbs().maxCoeff();
   Vector6d out = torques;
-  for (int i = 0; i < leg_count; ++i) out(i) += (i % 2 == 0 ? 1 : -1) * size;
+  for (int i = 0; i < motor_count; ++i) out(i) += (i % 2 == 0 ? 1 : -1) * size;
   return out;
 }
 
@@ -137,13 +141,14 @@ int profileInstants(int samples) { return std::clamp(samples, 2, 61); }
 
 struct RoundingProfile::Workshop {
   explicit Workshop(const Scenario& scenario)
-      : load(scenario.load), solver(*scenario.manipulator), probe(*scenario.manipulator, scenario.load) {
-    viewpoints.emplace_back(scenario, Presentation{});
+      : machine(*scenario.manipulator), load(scenario.load), solver(*scenario.manipulator), probe(*scenario.manipulator, scenario.load) {
+    viewpoints.emplace_back(scenario, Presentation(*scenario.manipulator));
     for (unsigned k = 0; k < presentations; ++k)
-      viewpoints.emplace_back(scenario, randomPresentation(k + 1, solver.model().length));
+      viewpoints.emplace_back(scenario, randomPresentation(k + 1, solver.length(), *scenario.manipulator));
   }
 
   std::mutex guard;
+  Manipulator machine;
   std::shared_ptr<const Load> load;
   Solver<double> solver;
   Workspace<double> work;
@@ -172,7 +177,7 @@ RoundingProfile::Measured RoundingProfile::measure(const Motion<double>& motion,
   std::vector<View> views;
   for (Viewpoint& viewpoint : w.viewpoints)
     views.push_back(viewpoint.at(motion, torques != nullptr ? *torques : otherTorques(commanded)));
-  here.spread = spreadOf(views, effort, conditioning.length);
+  here.spread = spreadOf(w.machine, views, effort, conditioning.length);
   divideByShape(conditioning, here.spread);
   return here;
 }

@@ -41,16 +41,6 @@ Vector6d twistBack(const Presentation& p, const Vector6d& twist, int time) {
   return out;
 }
 
-/// t_P = T φ̇ from there to here: a column belongs to a leg.
-Matrix6d shapingBack(const Presentation& p, const Matrix6d& T) {
-  Matrix6d out;
-  for (int i = 0; i < leg_count; ++i) {
-    const int here = p.leg[static_cast<std::size_t>(i)];
-    out.col(here) << p.turn.transpose() * T.col(i).head<3>(), p.turn.transpose() * T.col(i).tail<3>() * p.units.length;
-  }
-  return out;
-}
-
 }  // namespace
 
 Viewpoint::Viewpoint(const Scenario& scenario, const Presentation& presentation)
@@ -82,9 +72,10 @@ View Viewpoint::at(const Motion<double>& motion, const Vector6d& torques) {
   r.six_balls.place(there, solver_joints);
   out.bodies_simbody = p.back(r.six_balls.bodies());
   const JointMotion simbody = r.six_balls.place(there);
+  const auto driven = [&r](const JointVariables<double>& q) { return q.driven(r.solver.chain().motors()); };
   out.joints_simbody = p.back(simbody);
-  out.jacobian = twistBack(p, T * simbody.q_dot.phi, 1);
-  out.jacobian_rate = twistBack(p, T * simbody.q_ddot.phi + T_rate * simbody.q_dot.phi, 2);
+  out.jacobian = twistBack(p, T * driven(simbody.q_dot), 1);
+  out.jacobian_rate = twistBack(p, T * driven(simbody.q_ddot) + T_rate * driven(simbody.q_dot), 2);
   out.torques_simbody = p.torquesBack(r.six_balls.inverseDynamics());
   r.six_balls.accelerate(tau);
   out.acceleration = twistBack(p, rates(r.six_balls.platform()), 2);

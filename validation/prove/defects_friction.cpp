@@ -16,26 +16,18 @@ double rightLaw(double viscous, double coulomb, double speed, double rate) {
   return viscous * rate + coulomb * std::tanh(rate / speed);
 }
 
-struct Joint {
-  Vector6d JointVariables<double>::*variable;
-  double JointFriction::*coefficient;
-};
-constexpr std::array<Joint, 3> joints{{{&JointVariables<double>::phi, &JointFriction::phi},
-                                       {&JointVariables<double>::psi, &JointFriction::psi},
-                                       {&JointVariables<double>::theta, &JointFriction::theta}}};
-
 /// What is wrong about the forces, at these rates.
 using Excess = std::function<JointVariables<double>(const Manipulator&, const JointVariables<double>& rates)>;
 
 Excess excessOf(Law law) {
   return [law](const Manipulator& machine, const JointVariables<double>& rates) {
     JointVariables<double> out;
-    for (int i = 0; i < leg_count; ++i) {
+    for (int i = 0; i < machine.legCount(); ++i) {
       const Leg& leg = machine.leg(i);
-      for (const Joint& joint : joints) {
-        const double viscous = leg.friction.*joint.coefficient, coulomb = leg.coulomb.*joint.coefficient;
-        const double rate = (rates.*joint.variable)(i), speed = leg.coulomb.smoothing_speed;
-        (out.*joint.variable)(i) = law(viscous, coulomb, speed, rate) - rightLaw(viscous, coulomb, speed, rate);
+      for (const Coordinate q : rowOf(leg.kind).coordinates) {
+        const double viscous = leg.friction.on(q), coulomb = leg.coulomb.on(q);
+        const double rate = rates.of(q)(i), speed = leg.coulomb.speedOf(q);
+        out.of(q)(i) = law(viscous, coulomb, speed, rate) - rightLaw(viscous, coulomb, speed, rate);
       }
     }
     return out;
@@ -72,8 +64,8 @@ double kneeForce(const Leg& leg, double rate) {
 /// The knee turned against the base instead of the proximal link, by psi + theta. Where it also acts so, psi feels it.
 Excess absoluteKnee(bool acts_so) {
   return [acts_so](const Manipulator& machine, const JointVariables<double>& rates) {
-    JointVariables<double> out{Vector6d::Zero(), Vector6d::Zero(), Vector6d::Zero()};
-    for (int i = 0; i < leg_count; ++i) {
+    JointVariables<double> out;
+    for (int i = 0; i < machine.legCount(); ++i) {
       const double force = kneeForce(machine.leg(i), rates.psi(i) + rates.theta(i));
       out.theta(i) = force - kneeForce(machine.leg(i), rates.theta(i));
       if (acts_so) out.psi(i) = force;

@@ -62,12 +62,13 @@ Vector6d onActuators(const Solver<double>& solver, const Motion<double>& motion,
   const Matrix6d T = shaping(solver, motion, work);
   Motion<double> unit = motion;
   Vector6d torques;
-  for (int k = 0; k < leg_count; ++k) {
+  for (int k = 0; k < motor_count; ++k) {
     unit.omega = T.col(k).head<3>();
     unit.p_dot = T.col(k).tail<3>();
     solver.inverseKinematics(unit, work);
     const JointVariables<double> rates = solver.rates(work);
-    torques(k) = forces.phi.dot(rates.phi) + forces.psi.dot(rates.psi) + forces.theta.dot(rates.theta);
+    torques(k) = forces.phi.dot(rates.phi) + forces.psi.dot(rates.psi) + forces.theta.dot(rates.theta) +
+                forces.d.dot(rates.d);
   }
   return torques;
 }

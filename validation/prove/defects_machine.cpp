@@ -99,7 +99,7 @@ std::vector<Defect> indexDefects() {
 std::vector<Defect> parameterDefects() {
   std::vector<Defect> out;
   // One of each kind of parameter, on the leg where each kind is met first.
-  for (const Parameter& parameter : allParameters()) {
+  for (const Parameter& parameter : allParameters(std::vector<LegKind>(leg_count, LegKind::URS))) {
     const bool of_other_leg = parameter.name.rfind("leg[", 0) == 0 && parameter.name.rfind("leg[2]", 0) != 0;
     if (of_other_leg) continue;
     out.push_back({fmt::format("{} off by {:g}", parameter.name, parameter_error), "parameter",

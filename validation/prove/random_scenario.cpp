@@ -39,10 +39,12 @@ class Follower {
 
   bool follows(const Motion<double>& motion) {
     solver_.displacements(motion, work_);
-    for (const LegState<double>& leg : work_.legs)
-      if (!(std::abs(leg.sin_theta) >= smallest_sine && leg.r >= smallest_lever * leg.q)) return false;
+    for (int i = 0; i < solver_.chain().legCount(); ++i) {
+      const LegMargins<double> margins = solver_.margins(work_, i);
+      if (!(margins.sine >= smallest_sine && smallest_lever * margins.leverage <= 1)) return false;
+    }
     solver_.jacobians(motion, work_);
-    const double determinant = work_.B.determinant();
+    const double determinant = solver_.B(work_).determinant();
     const bool same_side = determinant * side_ >= 0;
     side_ = determinant;
     return same_side && determinant != 0;

@@ -139,7 +139,7 @@ constexpr unsigned frames_of_replay = 3;
 
 /// Errors of the path turned back to here. Without units, so that one tolerance means one thing.
 Replay replayedElsewhere(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window, unsigned seed) {
-  Presentation there = randomPresentation(seed, window.length);
+  Presentation there = randomPresentation(seed, window.length, *scenario.manipulator);
   there.units = {};
   ReplayPlan presented = plan;
   presented.torques = [&](double t) { return there.of(plan.torques(t)); };

@@ -11,7 +11,7 @@ namespace ursula {
 /// in turn, so that every column of the mass matrix shows.
 struct DirectSample {
   std::size_t sample = 0;                                      ///< of which of the samples
-  std::array<Vector6d, 1 + leg_count> torques, accelerations;  ///< N·m, [ω̇; p̈]
+  std::array<Vector6d, 1 + motor_count> torques, accelerations;  ///< N·m, [ω̇; p̈]
 };
 
 /// At some of `samples`, of which motion and Simbody's torques count.

@@ -11,16 +11,18 @@ namespace ursula {
 namespace {
 
 /// No angle of it is special to any leg.
-Presentation worldTurned() {
-  Presentation out;
+Presentation worldTurned(const Manipulator& machine) {
+  Presentation out(machine);
   out.turn = Eigen::AngleAxisd(0.7, Vector3d(0.36, -0.48, 0.8)).toRotationMatrix();
   return out;
 }
 
-/// Leg i becomes leg (i + 1) mod 6.
-Presentation relabelled() {
-  Presentation out;
-  for (int i = 0; i < leg_count; ++i) out.leg[static_cast<std::size_t>((i + 1) % leg_count)] = i;
+/// Leg i becomes leg i + 1, the last one the first.
+Presentation relabelled(const Manipulator& machine) {
+  Presentation out(machine);
+  std::array<int, leg_count> legs = out.leg;
+  for (int i = 0; i < machine.legCount(); ++i) legs[static_cast<std::size_t>((i + 1) % machine.legCount())] = i;
+  out.relabel(machine, legs);
   return out;
 }
 
@@ -38,6 +40,7 @@ Manipulator doubled(const Manipulator& manipulator) {
       friction->phi *= 2;
       friction->psi *= 2;
       friction->theta *= 2;
+      friction->d *= 2;
     }
   }
   return Manipulator(machine);
@@ -73,7 +76,7 @@ std::vector<InvarianceSamples> runInvariances(const Scenario& scenario, const Su
                                               const std::vector<PointwiseSample>& samples) {
   if (!subject.rebuilt) return {};
   const Manipulator& machine = *scenario.manipulator;
-  const Presentation turned = worldTurned(), labels = relabelled();
+  const Presentation turned = worldTurned(machine), labels = relabelled(machine);
   const Subject own = subject.rebuilt(machine), in_turned = subject.rebuilt(turned.of(machine)),
                 with_other_labels = subject.rebuilt(labels.of(machine)),
                 with_double = subject.rebuilt(doubled(machine)),

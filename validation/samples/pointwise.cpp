@@ -27,14 +27,18 @@ void raise(Deviation& deviation, double error, int where) {
   }
 }
 
+/// Displacements count over the machine's length.
 void compareJoints(const JointMotion& answer, PointwiseSample& sample) {
   const JointMotion& simbody = sample.joints;
+  const double length = sample.conditioning.length;
   for (int i = 0; i < leg_count; ++i) {
     raise(sample.joint_angles, angleDifference(answer.q.phi(i), simbody.q.phi(i)), i);
     raise(sample.joint_angles, angleDifference(answer.q.psi(i), simbody.q.psi(i)), i);
     raise(sample.joint_angles, angleDifference(answer.q.theta(i), simbody.q.theta(i)), i);
-    const auto difference = [i](const JointVariables<double>& a, const JointVariables<double>& b) {
-      return Vector3d(a.phi(i) - b.phi(i), a.psi(i) - b.psi(i), a.theta(i) - b.theta(i)).norm();
+    if (answer.q.d(i) != simbody.q.d(i))
+      raise(sample.joint_angles, std::abs(answer.q.d(i) - simbody.q.d(i)) / length, i);
+    const auto difference = [i, length](const JointVariables<double>& a, const JointVariables<double>& b) {
+      return jointDistance(a, b, i, length);
     };
     raise(sample.joint_rates, difference(answer.q_dot, simbody.q_dot), i);
     raise(sample.joint_accelerations, difference(answer.q_ddot, simbody.q_ddot), i);
@@ -70,9 +74,10 @@ void setLimits(PointwiseSample& sample) {
 }
 
 /// t_P = T φ̇ (24) and ṫ_P = T φ̈ + Ṫ φ̇ (25) with Simbody's joint motion.
-void compareJacobians(const KinematicAnswer& answer, PointwiseSample& sample) {
+void compareJacobians(const KinematicAnswer& answer, const Motors& motors, PointwiseSample& sample) {
   const Conditioning& c = sample.conditioning;
-  const Vector6d rate = sample.joints.q_dot.phi, acceleration = sample.joints.q_ddot.phi;
+  const Vector6d rate = sample.joints.q_dot.driven(motors),
+                 acceleration = sample.joints.q_ddot.driven(motors);
   Vector6d twist, twist_rate;
   twist << sample.motion.omega, sample.motion.p_dot;
   twist_rate << sample.motion.omega_dot, sample.motion.p_ddot;
@@ -110,7 +115,7 @@ void compareJacobianDifferences(const Scenario& scenario, const Subject& subject
 /// The first leg with an angle that is not finite.
 std::optional<int> unplaceable(const JointVariables<double>& q) {
   for (int i = 0; i < leg_count; ++i)
-    if (!std::isfinite(q.phi(i) + q.psi(i) + q.theta(i))) return i;
+    if (!std::isfinite(q.phi(i) + q.psi(i) + q.theta(i) + q.d(i))) return i;
   return std::nullopt;
 }
 
@@ -118,7 +123,7 @@ void runKinematics(const Scenario& scenario, const Subject& subject, const Subje
                    SimbodyLoop& loop, PointwiseSample& sample) {
   const KinematicAnswer answer = subject.kinematics(sample.motion);
   compareJoints(answer.joints, sample);
-  compareJacobians(answer, sample);
+  compareJacobians(answer, scenario.manipulator->motors(), sample);
   compareJacobianDifferences(scenario, subject, right, answer, sample);
   if (const std::optional<int> leg = unplaceable(answer.joints.q)) {  // Simbody throws at a state that is no number
     for (Deviation* deviation : {&sample.position, &sample.twist, &sample.twist_rate})
@@ -130,7 +135,7 @@ void runKinematics(const Scenario& scenario, const Subject& subject, const Subje
 
 void runDynamics(const SimbodyAnswer& simbody, SimbodyLoop& loop, PointwiseSample& sample) {
   sample.torques_simbody = simbody.torques;
-  for (int i = 0; i < leg_count; ++i) raise(sample.torque, std::abs(sample.torques(i) - sample.torques_simbody(i)), i);
+  for (int i = 0; i < motor_count; ++i) raise(sample.torque, std::abs(sample.torques(i) - sample.torques_simbody(i)), i);
   const double length = sample.conditioning.length;
   const Motion<double> found = simbody.platformUnder(sample.torques, loop, sample.motion);
   sample.acceleration_error << found.omega_dot - sample.motion.omega_dot, found.p_ddot - sample.motion.p_ddot;

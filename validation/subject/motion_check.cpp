@@ -40,7 +40,7 @@ std::string worstMiss(const Scenario& scenario, double already) {
   int worst = -1;
   for (double t : instantsToCheck(scenario)) {
     const Motion<double> motion = scenario.trajectory->at(t);
-    for (int i = 0; i < leg_count; ++i) {
+    for (int i = 0; i < scenario.manipulator->legCount(); ++i) {
       const double missed = spanOf(scenario.manipulator->leg(i), motion).missed();
       if (!(missed > most)) continue;
       most = missed;
@@ -102,7 +102,7 @@ void checkMotion(const Scenario& scenario) {
     const Motion<double> motion = scenario.trajectory->at(t);
     solver.inverseKinematics(motion, work);
     solver.jacobians(motion, work);
-    const double determinant = work.B_transposed.determinant();
+    const double determinant = solver.determinant(work);
     if (before * determinant < 0)
       throw SingularJacobian("B has crossed a singular pose: its determinant changed sign", -1, t, determinant, 0, "");
     before = std::copysign(1.0, determinant);

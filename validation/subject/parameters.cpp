@@ -68,48 +68,69 @@ void addAxis(std::vector<Parameter>& out, const std::string& name, std::size_t l
                    nullptr});
 }
 
-void addLink(std::vector<Parameter>& out, const std::string& name, const std::function<Link&(Machine&)>& of) {
-  addNumber(out, name + ".length", "length", [of](Machine& m) -> double& { return of(m).length; });
+/// The length of a cylinder says where its stroke ends, and nothing else.
+void addLink(std::vector<Parameter>& out, const std::string& name, const std::function<Link&(Machine&)>& of,
+             bool length_matters) {
+  if (length_matters)
+    addNumber(out, name + ".length", "length", [of](Machine& m) -> double& { return of(m).length; });
   addNumber(out, name + ".mass", "mass", [of](Machine& m) -> double& { return of(m).mass; });
   addNumber(out, name + ".center_of_mass", "center", [of](Machine& m) -> double& { return of(m).center_of_mass; });
   addTensor(out, name + ".inertia", [of](Machine& m) -> Matrix3d& { return of(m).inertia; });
 }
 
-void addFriction(std::vector<Parameter>& out, const std::string& name, std::size_t i) {
-  const auto add = [&](const char* joint, double JointFriction::*member) {
-    addNumber(out, name + ".friction." + joint, "friction",
-              [i, member](Machine& m) -> double& { return m.legs[i].friction.*member; });
-    addNumber(out, name + ".coulomb." + joint, "friction",
-              [i, member](Machine& m) -> double& { return m.legs[i].coulomb.*member; });
-  };
-  add("actuated", &JointFriction::phi);
-  add("universal", &JointFriction::psi);
-  add("knee", &JointFriction::theta);
-  addNumber(out, name + ".coulomb.smoothing_speed", "friction",
-            [i](Machine& m) -> double& { return m.legs[i].coulomb.smoothing_speed; });
+void addFriction(std::vector<Parameter>& out, const std::string& name, std::size_t i, LegKind kind) {
+  bool turns = false, goes = false;
+  for (const Coordinate q : rowOf(kind).coordinates) {
+    addNumber(out, fmt::format("{}.friction.{}", name, nameOf(q)), "friction",
+              [i, q](Machine& m) -> double& { return m.legs[i].friction.on(q); });
+    addNumber(out, fmt::format("{}.coulomb.{}", name, nameOf(q)), "friction",
+              [i, q](Machine& m) -> double& { return m.legs[i].coulomb.on(q); });
+    (slides(q) ? goes : turns) = true;
+  }
+  if (turns)
+    addNumber(out, name + ".coulomb.smoothing_speed", "friction",
+              [i](Machine& m) -> double& { return m.legs[i].coulomb.smoothing_speed; });
+  if (goes)
+    addNumber(out, name + ".coulomb.sliding_speed", "friction",
+              [i](Machine& m) -> double& { return m.legs[i].coulomb.sliding_speed; });
 }
 
-void addLeg(std::vector<Parameter>& out, std::size_t i) {
+/// A carriage does not turn, and its length is for drawing only.
+void addCarriage(std::vector<Parameter>& out, const std::string& name, const std::function<Link&(Machine&)>& of) {
+  addNumber(out, name + ".mass", "mass", [of](Machine& m) -> double& { return of(m).mass; });
+}
+
+void addLeg(std::vector<Parameter>& out, std::size_t i, LegKind kind) {
   const std::string name = fmt::format("leg[{}]", i + 1);
+  const auto proximal = [i](Machine& m) -> Link& { return m.legs[i].proximal; };
   addVector(out, name + ".base_point", "point", [i](Machine& m) -> Vector3d& { return m.legs[i].base_point; });
   addVector(out, name + ".platform_point", "point", [i](Machine& m) -> Vector3d& { return m.legs[i].platform_point; });
   addAxis(out, name + ".base_axis", i);
-  addLink(out, name + ".proximal", [i](Machine& m) -> Link& { return m.legs[i].proximal; });
-  addLink(out, name + ".distal", [i](Machine& m) -> Link& { return m.legs[i].distal; });
-  addFriction(out, name, i);
+  if (kind == LegKind::PUS)
+    addCarriage(out, name + ".proximal", proximal);
+  else
+    addLink(out, name + ".proximal", proximal, kind != LegKind::UPS);
+  addLink(out, name + ".distal", [i](Machine& m) -> Link& { return m.legs[i].distal; }, true);
+  addFriction(out, name, i, kind);
 }
 
 }  // namespace
 
-std::vector<Parameter> allParameters() {
+std::vector<Parameter> allParameters(const std::vector<LegKind>& legs) {
   std::vector<Parameter> out;
   addVector(out, "gravity", "gravity", [](Machine& m) -> Vector3d& { return m.gravity; });
   addNumber(out, "platform.mass", "mass", [](Machine& m) -> double& { return m.platform.mass; });
   addVector(out, "platform.center_of_mass", "center",
             [](Machine& m) -> Vector3d& { return m.platform.center_of_mass; });
   addTensor(out, "platform.inertia", [](Machine& m) -> Matrix3d& { return m.platform.inertia; });
-  for (std::size_t i = 0; i < leg_count; ++i) addLeg(out, i);
+  for (std::size_t i = 0; i < legs.size(); ++i) addLeg(out, i, legs[i]);
   return out;
+}
+
+std::vector<Parameter> allParameters(const Manipulator& machine) {
+  std::vector<LegKind> legs;
+  for (const Leg& leg : machine.parameters().legs) legs.push_back(leg.kind);
+  return allParameters(legs);
 }
 
 }  // namespace ursula

@@ -17,7 +17,9 @@ struct Parameter {
   std::function<double(const ManipulatorParameters&)> value;  ///< SI; empty for an axis, which has none
 };
 
-/// All of them: 13 of platform and gravity, and those of six legs.
-std::vector<Parameter> allParameters();
+/// All that matter for the machine: 13 of platform and gravity, and those of its legs.
+std::vector<Parameter> allParameters(const Manipulator& machine);
+/// Of a machine with such legs.
+std::vector<Parameter> allParameters(const std::vector<LegKind>& legs);
 
 }  // namespace ursula

@@ -24,10 +24,11 @@ void rescale(Link& link, const Units& units) {
   link.inertia /= units.mass * units.length * units.length;
 }
 
-void rescale(JointFriction& friction, double unit) {
-  friction.phi /= unit;
-  friction.psi /= unit;
-  friction.theta /= unit;
+void rescale(JointFriction& friction, double turning, double sliding) {
+  friction.phi /= turning;
+  friction.psi /= turning;
+  friction.theta /= turning;
+  friction.d /= sliding;
 }
 
 }  // namespace
@@ -59,6 +60,26 @@ double Units::of(const std::string& unit) const {
   throw std::invalid_argument("no such unit: " + unit);
 }
 
+Efforts effortsOf(const Manipulator& machine) {
+  const Motors& motors = machine.motors();
+  Efforts out;
+  if (std::all_of(motors.begin(), motors.end(), [](const Motor& motor) { return motor.slides(); })) out.unit = "N";
+  for (std::size_t k = 0; k < motors.size(); ++k) out.leg[k] = motors[k].leg;
+  return out;
+}
+
+Presentation::Presentation(const Manipulator& machine) : legs(machine.legCount()) {
+  for (std::size_t k = 0; k < slides.size(); ++k) slides[k] = machine.motors()[k].slides();
+}
+
+void Presentation::relabel(const Manipulator& machine, const std::array<int, leg_count>& to) {
+  leg = to;
+  std::size_t there = 0;
+  for (int i = 0; i < machine.legCount(); ++i)
+    for (int k = 0; k < motor_count; ++k)
+      if (machine.motors()[at(k)].leg == leg[at(i)]) motor[there++] = k;
+}
+
 Manipulator Presentation::of(const Manipulator& machine) const {
   ManipulatorParameters out = machine.parameters();
   const double inertia = units.mass * units.length * units.length;
@@ -68,7 +89,7 @@ Manipulator Presentation::of(const Manipulator& machine) const {
   if (platform_turn != Matrix3d::Identity())
     out.platform.inertia = turnedTensor(platform_turn.transpose(), out.platform.inertia);
   out.platform.inertia /= inertia;
-  for (int i = 0; i < leg_count; ++i) {
+  for (int i = 0; i < legs; ++i) {
     Leg& to = out.legs[at(i)];
     to = machine.leg(leg[at(i)]);
     to.base_point = turn * (to.base_point - origin) / units.length;
@@ -76,9 +97,10 @@ Manipulator Presentation::of(const Manipulator& machine) const {
     to.platform_point = platform_turn.transpose() * to.platform_point / units.length;
     rescale(to.proximal, units);
     rescale(to.distal, units);
-    rescale(to.friction, units.torque() * units.time);
-    rescale(to.coulomb, units.torque());
+    rescale(to.friction, units.torque() * units.time, units.force() / units.velocity());
+    rescale(to.coulomb, units.torque(), units.force());
     to.coulomb.smoothing_speed *= units.time;
+    to.coulomb.sliding_speed /= units.velocity();
   }
   return Manipulator(out);
 }
@@ -129,13 +151,13 @@ std::shared_ptr<const Load> Presentation::of(const std::shared_ptr<const Load>& 
 
 Vector6d Presentation::of(const Vector6d& torques) const {
   Vector6d out;
-  for (int i = 0; i < leg_count; ++i) out(i) = torques(leg[at(i)]) / units.torque();
+  for (int k = 0; k < motor_count; ++k) out(k) = torques(motor[at(k)]) / effort(motor[at(k)]);
   return out;
 }
 
 Vector6d Presentation::torquesBack(const Vector6d& torques) const {
   Vector6d out;
-  for (int i = 0; i < leg_count; ++i) out(leg[at(i)]) = torques(i) * units.torque();
+  for (int k = 0; k < motor_count; ++k) out(motor[at(k)]) = torques(k) * effort(motor[at(k)]);
   return out;
 }
 
@@ -145,6 +167,7 @@ BodyMotions<double> Presentation::back(const BodyMotions<double>& bodies) const 
   for (int b = 0; b < body_count; ++b) {
     const bool is_platform = b == 2 * leg_count;
     const int here = is_platform ? b : b < leg_count ? leg[at(b)] : leg_count + leg[at(b - leg_count)];
+    if (!is_platform && b % leg_count >= legs) continue;
     const BodyMotion<double>& from = bodies[at(b)];
     BodyMotion<double>& to = out[at(here)];
     to.c = R * from.c * units.length + origin;
@@ -160,10 +183,11 @@ BodyMotions<double> Presentation::back(const BodyMotions<double>& bodies) const 
 JointMotion Presentation::back(const JointMotion& joints) const {
   JointMotion out;
   const auto copy = [this](const JointVariables<double>& from, JointVariables<double>& to, double unit) {
-    for (int i = 0; i < leg_count; ++i) {
+    for (int i = 0; i < legs; ++i) {
       to.phi(leg[at(i)]) = from.phi(i) * unit;
       to.psi(leg[at(i)]) = from.psi(i) * unit;
       to.theta(leg[at(i)]) = from.theta(i) * unit;
+      to.d(leg[at(i)]) = from.d(i) * unit * units.length;
     }
   };
   copy(joints.q, out.q, 1);
@@ -172,10 +196,20 @@ JointMotion Presentation::back(const JointMotion& joints) const {
   return out;
 }
 
+Matrix6d shapingBack(const Presentation& p, const Matrix6d& T) {
+  Matrix6d out;
+  for (int k = 0; k < motor_count; ++k) {
+    const int here = p.motor[at(k)];
+    out.col(here) << p.turn.transpose() * T.col(k).head<3>(), p.turn.transpose() * T.col(k).tail<3>() * p.units.length;
+    if (p.slides[at(here)]) out.col(here) /= p.units.length;
+  }
+  return out;
+}
+
 Reactions Presentation::back(const Reactions& reactions) const {
   const Matrix3d R = turn.transpose();
   Reactions out;
-  for (int i = 0; i < leg_count; ++i) {
+  for (int i = 0; i < legs; ++i) {
     const LegReactions& from = reactions[at(i)];
     out[at(leg[at(i)])] = {R * from.f_A * units.force(), R * from.n_A * units.torque(), R * from.f_R * units.force(),
                            R * from.n_R * units.torque(), R * from.f_B * units.force()};

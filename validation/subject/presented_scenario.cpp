@@ -6,7 +6,7 @@
 #include <random>
 
 #include "model/exact_trajectory.h"
-#include "nocsolver/solver_model.h"
+#include "nocsolver/solver.h"
 #include "validation/subject/presentation.h"
 
 namespace ursula {
@@ -88,7 +88,7 @@ double powerOfTwo(double x) { return std::exp2(std::floor(std::log2(x))); }
 /// about it coordinates are still too small.
 Vector3d roundOrigin(const Manipulator& machine, double length) {
   Vector3d middle = Vector3d::Zero();
-  for (const Leg& leg : machine.parameters().legs) middle += leg.base_point / leg_count;
+  for (const Leg& leg : machine.parameters().legs) middle += leg.base_point / machine.legCount();
   double spread = length;
   for (const Leg& leg : machine.parameters().legs) spread = std::max(spread, (leg.base_point - middle).norm());
   const double grid = 4 * powerOfTwo(spread);
@@ -129,7 +129,7 @@ Matrix3d randomTurn(std::mt19937_64& engine) {
 KinematicAnswer answerIn(const Presentation& to, const Presentation& back, KinematicAnswer answer) {
   answer.joints = back.back(answer.joints);
   answer.bodies = back.back(answer.bodies);
-  for (Matrix6d* T : {&answer.T, &answer.T_rate}) T->bottomRows<3>() /= to.units.length;
+  for (Matrix6d* T : {&answer.T, &answer.T_rate}) *T = shapingBack(back, *T);
   answer.T_rate *= to.units.time;
   return answer;
 }
@@ -153,38 +153,39 @@ Scenario Presentation::of(const Scenario& scenario) const {
   return out;
 }
 
-Presentation randomPresentation(unsigned seed, double size) {
+Presentation randomPresentation(unsigned seed, double size, const Manipulator& machine) {
   std::mt19937_64 engine(seed);
   const auto uniform = [&engine](double low, double high) {
     return low + (high - low) * static_cast<double>(engine() >> 11) * 0x1p-53;
   };
-  Presentation out;
+  Presentation out(machine);
   out.turn = randomTurn(engine);
   out.platform_turn = randomTurn(engine);
   out.origin = size * Vector3d(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
-  for (std::size_t i = leg_count - 1; i > 0; --i) std::swap(out.leg[i], out.leg[engine() % (i + 1)]);
-  out.units = {uniform(0.6, 1.9), uniform(0.6, 1.9), uniform(0.6, 1.9)};
+  std::array<int, leg_count> legs = out.leg;
+  for (std::size_t i = machine.parameters().legs.size() - 1; i > 0; --i) std::swap(legs[i], legs[engine() % (i + 1)]);
+  out.relabel(machine, legs);
+  out.units = {uniform(0.6, 1.9), uniform(0.6, 1.9), uniform(0.6, 1.9), {}};
   return out;
 }
 
 Presentation naturalPresentation(const Scenario& scenario) {
-  const double length = SolverModel<double>(*scenario.manipulator).length;
+  const double length = Solver<double>(*scenario.manipulator).length();
   const double acceleration = accelerationOf(scenario, length);
-  Presentation out;
+  Presentation out(*scenario.manipulator);
   out.origin = roundOrigin(*scenario.manipulator, length);
+  out.units.efforts = effortsOf(*scenario.manipulator);
   out.units.length = powerOfTwo(length);
   out.units.mass = powerOfTwo(massOf(scenario.manipulator->parameters()));
   out.units.time = powerOfTwo(acceleration > 0 ? std::sqrt(length / acceleration) : scenario.trajectory->duration());
   return out;
 }
 
-Subject presented(const Subject& subject, const Vector3d& origin, const Units& units) {
-  Presentation to;
-  to.origin = origin;
-  to.units = units;
-  Presentation from;
-  from.origin = -origin / units.length;
-  from.units = {1 / units.length, 1 / units.mass, 1 / units.time};
+Subject presented(const Subject& subject, const Presentation& to) {
+  const Units units = to.units;
+  Presentation from = to;
+  from.origin = -to.origin / units.length;
+  from.units = {1 / units.length, 1 / units.mass, 1 / units.time, units.efforts};
   Subject out;
   out.name = subject.name;
   out.torques = [=](const Motion<double>& motion) { return to.of(subject.torques(from.of(motion))); };
@@ -206,7 +207,7 @@ Subject presented(const Subject& subject, const Vector3d& origin, const Units& u
     };
   if (subject.rebuilt)
     out.rebuilt = [=](const Manipulator& machine) {
-      return presented(subject.rebuilt(from.of(machine)), origin, units);
+      return presented(subject.rebuilt(from.of(machine)), to);
     };
   return out;
 }

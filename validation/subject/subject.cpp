@@ -8,22 +8,24 @@ namespace ursula {
 namespace {
 
 /// Subjects are asked from many threads.
-Workspace<double>& workspace() {
-  thread_local Workspace<double> work;
+template <class Workspace>
+Workspace& workspace() {
+  thread_local Workspace work;
   return work;
 }
 
-template <class Reading>
+/// A solver of the class `Of` with a workspace of the class `Work`.
+template <class Of, class Work, class... Reading>
 Subject makeSubject(const std::string& name, const Manipulator& manipulator, const std::shared_ptr<const Load>& load,
-                    const Reading& reading) {
-  const auto solver = std::make_shared<const Solver<double, Reading>>(manipulator, reading);
+                    const Reading&... reading) {
+  const auto solver = std::make_shared<const Of>(manipulator, reading...);
   Subject subject;
   subject.name = name;
   subject.torques = [solver, load](const Motion<double>& motion) {
-    return solver->inverseDynamics(motion, workspace(), loadAtP(load.get(), motion));
+    return solver->inverseDynamics(motion, workspace<Work>(), loadAtP(load.get(), motion));
   };
   subject.kinematics = [solver](const Motion<double>& motion) {
-    Workspace<double>& work = workspace();
+    Work& work = workspace<Work>();
     KinematicAnswer answer;
     solver->inverseKinematics(motion, work);
     answer.joints = {solver->angles(work), solver->rates(work), solver->accelerations(work)};
@@ -34,9 +36,11 @@ Subject makeSubject(const std::string& name, const Manipulator& manipulator, con
     return answer;
   };
   subject.accelerations = [solver, load](const Motion<double>& motion, const Vector6d& torques) {
-    return solver->directDynamics(motion, torques, workspace(), loadAtP(load.get(), motion));
+    return solver->directDynamics(motion, torques, workspace<Work>(), loadAtP(load.get(), motion));
   };
-  subject.rebuilt = [name, reading](const Manipulator& other) { return makeSubject(name, other, nullptr, reading); };
+  subject.rebuilt = [name, reading...](const Manipulator& other) {
+    return makeSubject<Of, Work>(name, other, nullptr, reading...);
+  };
   return subject;
 }
 
@@ -61,12 +65,13 @@ void foresee(const Subject& subject, const Trajectory& trajectory, const std::ve
 }
 
 Subject nocSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load) {
-  return makeSubject("noc", manipulator, load, Corrected{});
+  return makeSubject<Solver<double>, Workspace<double>>("noc", manipulator, load);
 }
 
 Subject slippedSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load,
                        const WithSlips& slips) {
-  return makeSubject("noc with slips", manipulator, load, slips);
+  return makeSubject<PaperSolver<double, WithSlips>, PaperWorkspace<double>>("noc with slips", manipulator, load,
+                                                                           slips);
 }
 
 }  // namespace ursula

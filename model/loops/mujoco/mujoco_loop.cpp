@@ -1,9 +1,9 @@
-// Open trees with hinges q_L and a free platform q_P. The loops are closed where the distal link's and the platform's
-// point Bᵢ coincide; G = [G_L G_P] is the Jacobian of the six gaps.
+// Open trees with joints q_L and a free platform q_P. The loops are closed where the distal link's and the platform's
+// point Bᵢ coincide; G = [G_L G_P] is the Jacobian of the gaps.
 //
 //   G_L q̇_L = −G_P q̇_P                                                                                         (1)
 //   G_L q̈_L = −(the gaps' acceleration with q̈_L = 0)                                                            (2)
-//   Gᵀλ + Sτ = M q̈ + bias − friction − load, S picking the φᵢ                                                   (3)
+//   Gᵀλ + Sτ = M q̈ + bias − friction − load, S picking the driven coordinates                                   (3)
 //
 // MuJoCo gives G, the accelerations in (2) and M q̈ + bias; its constraints, contacts and integrators have no part.
 
@@ -23,12 +23,16 @@
 namespace ursula {
 namespace {
 
-using mujoco::dofs, mujoco::joints_per_leg, mujoco::leg_dofs, mujoco::platform_body;
-using mujoco::siteOnLeg, mujoco::siteOnPlatform, mujoco::universalFrame;
+using mujoco::dofOf, mujoco::joints_per_leg, mujoco::siteOnLeg, mujoco::siteOnPlatform;
 
-using GapJacobian = Eigen::Matrix<double, leg_dofs, dofs>;  ///< three gaps a leg: as many as a leg has joints
-using VectorOfDofs = Eigen::Matrix<double, dofs, 1>;
-using SquareOfDofs = Eigen::Matrix<double, dofs, dofs>;
+constexpr double pi = 3.14159265358979323846;
+constexpr int most_dofs = mujoco::dofsOf(leg_count), most_gaps = mujoco::legDofs(leg_count);
+/// Three gaps a leg: as many as a leg has joints.
+using GapJacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_gaps, most_dofs>;
+using VectorOfGaps = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_gaps, 1>;
+using SquareOfGaps = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_gaps, most_gaps>;
+using VectorOfDofs = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_dofs, 1>;
+using SquareOfDofs = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_dofs, most_dofs>;
 
 /// The angle between sides a and b of a triangle, opposite to c; exact to rounding for needles, too (Kahan,
 /// Miscalculating Area and Angles of a Needle-like Triangle, 2014, sect. 2).
@@ -39,24 +43,89 @@ double angleOpposite(double c, double a, double b) {
   return 2 * std::atan2(std::sqrt(std::max(top, 0.0)), std::sqrt(std::max(bottom, 0.0)));
 }
 
-/// φ, ψ, θ of the hinges, φ from where buildModel has its zero.
-Vector3d hingeAngles(const Leg& leg, int index, const Motion<double>& motion) {
-  const double l = leg.proximal.length, s = leg.distal.length;
-  const Vector3d AB = motion.p + motion.Q * leg.platform_point - leg.base_point;
-  const double q = AB.norm();
-  if (!(q <= l + s && q >= std::abs(l - s)))
-    throw std::domain_error(fmt::format("leg {} cannot reach over {} m at t = {} s", index + 1, q, motion.t));
-  const Matrix3d zero = universalFrame(leg);
-  const Vector3d u = zero.col(2), across = u.cross(AB);
-  const double side = leg.knee == Knee::positive ? 1 : -1;
-  return {std::atan2(-across.dot(zero.col(1)), across.dot(zero.col(0))),
-          std::atan2(across.norm(), u.dot(AB)) + side * angleOpposite(s, l, q), side * angleOpposite(q, l, s)};
-}
+/// A leg's joints, where it is at a pose: AB in the frame in which its model's coordinates are zero.
+class JointsAt {
+ public:
+  JointsAt(const Leg& leg, int index, const Motion<double>& motion)
+      : l_(leg.proximal.length),
+        s_(leg.distal.length),
+        side_(leg.knee == Knee::positive ? 1 : -1),
+        kind_(leg.kind),
+        index_(index),
+        t_(motion.t),
+        AB_(motion.p + motion.Q * leg.platform_point - leg.base_point),
+        zero_(mujoco::frameAtZero(leg)) {}
+
+  Vector3d coordinates() const {
+    switch (kind_) {
+      case LegKind::URS:
+        return urs();
+      case LegKind::UPS:
+        return ups();
+      case LegKind::RUS:
+        return rus();
+      case LegKind::PUS:
+        break;
+    }
+    return pus();
+  }
+
+ private:
+  void requireReach(bool reaches, double distance) const {
+    if (!reaches)
+      throw std::domain_error(fmt::format("leg {} cannot reach over {} m at t = {} s", index_ + 1, distance, t_));
+  }
+
+  /// Turn about −u from the frame's zero, and between u and AB.
+  Vector3d universal() const {
+    const Vector3d u = zero_.col(2), across = u.cross(AB_);
+    return {std::atan2(-across.dot(zero_.col(1)), across.dot(zero_.col(0))), std::atan2(across.norm(), u.dot(AB_)), 0};
+  }
+
+  Vector3d urs() const {
+    const double q = AB_.norm();
+    requireReach(q <= l_ + s_ && q >= std::abs(l_ - s_), q);
+    const Vector3d towards_B = universal();
+    return {towards_B(0), towards_B(1) + side_ * angleOpposite(s_, l_, q), side_ * angleOpposite(q, l_, s_)};
+  }
+
+  Vector3d ups() const {
+    const double d = AB_.norm();
+    requireReach(s_ < d && d < s_ + l_, d);
+    const Vector3d towards_B = universal();
+    return {towards_B(0), towards_B(1), d};
+  }
+
+  /// Seen along u the leg is a triangle of crank l, rod c and r.
+  Vector3d rus() const {
+    const Vector3d k = zero_.transpose() * AB_;
+    requireReach(std::abs(k.y()) < s_, std::abs(k.y()));
+    const double c = std::sqrt((s_ - k.y()) * (s_ + k.y())), r = std::hypot(k.x(), k.z());
+    requireReach(r <= l_ + c && r >= std::abs(l_ - c), r);
+    return {std::atan2(-k.x(), k.z()) - side_ * angleOpposite(c, l_, r), side_ * (pi - angleOpposite(r, l_, c)),
+            std::atan2(k.y(), c)};
+  }
+
+  Vector3d pus() const {
+    const Vector3d k = zero_.transpose() * AB_;
+    const double r = std::hypot(k.x(), k.z());
+    requireReach(r <= s_, r);
+    const double ahead = side_ * std::sqrt((s_ - r) * (s_ + r));
+    return {k.y() - ahead, std::atan2(-k.x(), k.z()), std::atan2(r, ahead)};
+  }
+
+  double l_, s_, side_;
+  LegKind kind_;
+  int index_;
+  double t_;
+  Vector3d AB_;
+  Matrix3d zero_;
+};
 
 Vector3d centroidOfBase(const Manipulator& manipulator) {
   Vector3d sum = Vector3d::Zero();
   for (const Leg& leg : manipulator.parameters().legs) sum += leg.base_point;
-  return sum / leg_count;
+  return sum / manipulator.legCount();
 }
 
 double friction(double viscous, double coulomb, double speed, double rate) {
@@ -64,10 +133,13 @@ double friction(double viscous, double coulomb, double speed, double rate) {
 }
 
 Vector3d frictionOf(const Leg& leg, const Vector3d& rates) {
-  const double speed = leg.coulomb.smoothing_speed;
-  return {friction(leg.friction.phi, leg.coulomb.phi, speed, rates(0)),
-          friction(leg.friction.psi, leg.coulomb.psi, speed, rates(1)),
-          friction(leg.friction.theta, leg.coulomb.theta, speed, rates(2))};
+  Vector3d out;
+  for (int joint = 0; joint < joints_per_leg; ++joint) {
+    const Coordinate coordinate = rowOf(leg.kind).coordinates[static_cast<std::size_t>(joint)];
+    out(joint) = friction(leg.friction.on(coordinate), leg.coulomb.on(coordinate), leg.coulomb.speedOf(coordinate),
+                          rates(joint));
+  }
+  return out;
 }
 
 }  // namespace
@@ -76,20 +148,25 @@ struct MujocoLoop::Impl {
   Impl(const Manipulator& from, std::shared_ptr<const Load> on_platform)
       : manipulator(from),
         load(std::move(on_platform)),
+        legs(from.legCount()),
+        leg_dofs(mujoco::legDofs(legs)),
+        dofs(mujoco::dofsOf(legs)),
         origin(centroidOfBase(from)),
         model(mujoco::buildModel(from, origin)),
-        data(mj_makeData(model.get())) {
+        data(mj_makeData(model.get())),
+        G(leg_dofs, dofs) {
     if (!data) throw std::runtime_error("MuJoCo: no memory for its data");
   }
 
   void place(const Motion<double>& motion);
   void move(const Motion<double>& motion);
   GapJacobian gapJacobian() const;
-  Eigen::Matrix<double, leg_dofs, 1> gapAcceleration() const;
+  VectorOfGaps gapAcceleration() const;
   VectorOfDofs unbalanced(const Motion<double>& motion) const;
 
   Manipulator manipulator;
   std::shared_ptr<const Load> load;
+  int legs, leg_dofs, dofs;
   Vector3d origin;  ///< B's origin may be far from the machine, MuJoCo's world is not
   mujoco::Model model;
   mujoco::Data data;
@@ -97,8 +174,8 @@ struct MujocoLoop::Impl {
 };
 
 void MujocoLoop::Impl::place(const Motion<double>& motion) {
-  for (int leg = 0; leg < leg_count; ++leg)
-    Eigen::Map<Vector3d>(data->qpos + joints_per_leg * leg) = hingeAngles(manipulator.leg(leg), leg, motion);
+  for (int leg = 0; leg < legs; ++leg)
+    Eigen::Map<Vector3d>(data->qpos + dofOf(leg, 0)) = JointsAt(manipulator.leg(leg), leg, motion).coordinates();
   const Eigen::Quaterniond Q(motion.Q);
   Eigen::Map<Vector3d>(data->qpos + leg_dofs) = (motion.p - origin) + motion.Q * manipulator.platform().center_of_mass;
   Eigen::Map<Eigen::Vector4d>(data->qpos + leg_dofs + 3) << Q.w(), Q.x(), Q.y(), Q.z();
@@ -110,59 +187,60 @@ void MujocoLoop::Impl::place(const Motion<double>& motion) {
 /// MuJoCo's free joint has its linear part in the world and its angular part in the body.
 void MujocoLoop::Impl::move(const Motion<double>& motion) {
   const Vector3d arm = motion.Q * manipulator.platform().center_of_mass;
-  Eigen::Map<VectorOfDofs> rates(data->qvel), accelerations(data->qacc);
-  const Eigen::PartialPivLU<Eigen::Matrix<double, leg_dofs, leg_dofs>> factors(G.leftCols<leg_dofs>());
+  Eigen::Map<VectorOfDofs> rates(data->qvel, dofs), accelerations(data->qacc, dofs);
+  const Eigen::PartialPivLU<SquareOfGaps> factors(G.leftCols(leg_dofs));
 
   rates.tail<6>() << motion.p_dot + motion.omega.cross(arm), motion.Q.transpose() * motion.omega;
-  rates.head<leg_dofs>() = -factors.solve(G.rightCols<6>() * rates.tail<6>());  // (1)
+  rates.head(leg_dofs) = -factors.solve(G.rightCols<6>() * rates.tail<6>());  // (1)
   mj_comVel(model.get(), data.get());
 
-  accelerations.head<leg_dofs>().setZero();
+  accelerations.head(leg_dofs).setZero();
   accelerations.tail<6>() << motion.p_ddot + motion.omega_dot.cross(arm) + motion.omega.cross(motion.omega.cross(arm)),
       motion.Q.transpose() * motion.omega_dot;
   mj_rnePostConstraint(model.get(), data.get());
-  accelerations.head<leg_dofs>() = -factors.solve(gapAcceleration());  // (2)
+  accelerations.head(leg_dofs) = -factors.solve(gapAcceleration());  // (2)
 }
 
 GapJacobian MujocoLoop::Impl::gapJacobian() const {
-  using RowMajor = Eigen::Matrix<double, 3, dofs, Eigen::RowMajor>;
-  GapJacobian jacobian;
-  RowMajor on_leg, on_platform;
-  for (int leg = 0; leg < leg_count; ++leg) {
+  using RowMajor = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor, 3, most_dofs>;
+  GapJacobian jacobian(leg_dofs, dofs);
+  RowMajor on_leg(3, dofs), on_platform(3, dofs);
+  for (int leg = 0; leg < legs; ++leg) {
     mj_jacSite(model.get(), data.get(), on_leg.data(), nullptr, siteOnLeg(leg));
-    mj_jacSite(model.get(), data.get(), on_platform.data(), nullptr, siteOnPlatform(leg));
+    mj_jacSite(model.get(), data.get(), on_platform.data(), nullptr, siteOnPlatform(legs, leg));
     jacobian.middleRows<3>(3 * leg) = on_leg - on_platform;
   }
   return jacobian;
 }
 
 /// Gravity is in MuJoCo's accelerations; it cancels.
-Eigen::Matrix<double, leg_dofs, 1> MujocoLoop::Impl::gapAcceleration() const {
+VectorOfGaps MujocoLoop::Impl::gapAcceleration() const {
   const auto linear = [&](int site) {
     Vector6d angular_and_linear;
     mj_objectAcceleration(model.get(), data.get(), mjOBJ_SITE, site, angular_and_linear.data(), 0);
     return Vector3d(angular_and_linear.tail<3>());
   };
-  Eigen::Matrix<double, leg_dofs, 1> gaps;
-  for (int leg = 0; leg < leg_count; ++leg)
-    gaps.segment<3>(3 * leg) = linear(siteOnLeg(leg)) - linear(siteOnPlatform(leg));
+  VectorOfGaps gaps(leg_dofs);
+  for (int leg = 0; leg < legs; ++leg)
+    gaps.segment<3>(3 * leg) = linear(siteOnLeg(leg)) - linear(siteOnPlatform(legs, leg));
   return gaps;
 }
 
 /// The right-hand side of (3).
 VectorOfDofs MujocoLoop::Impl::unbalanced(const Motion<double>& motion) const {
-  VectorOfDofs forces, given = VectorOfDofs::Zero();
+  VectorOfDofs forces(dofs), given = VectorOfDofs::Zero(dofs);
   mj_rne(model.get(), data.get(), 1, forces.data());
-  for (int leg = 0; leg < leg_count; ++leg)
-    given.segment<3>(joints_per_leg * leg) =
-        frictionOf(manipulator.leg(leg), Eigen::Map<const Vector3d>(data->qvel + joints_per_leg * leg));
+  for (int leg = 0; leg < legs; ++leg)
+    given.segment<3>(dofOf(leg, 0)) =
+        frictionOf(manipulator.leg(leg), Eigen::Map<const Vector3d>(data->qvel + dofOf(leg, 0)));
   if (load) {
     const Wrench<double> wrench = load->at(motion.t);
     const bool in_platform = load->frame == Load::Frame::platform;
     const Vector3d force = in_platform ? motion.Q * wrench.force : wrench.force;
     const Vector3d moment = in_platform ? motion.Q * wrench.moment : wrench.moment;
     const Vector3d point = (motion.p - origin) + motion.Q * load->point;
-    mj_applyFT(model.get(), data.get(), force.data(), moment.data(), point.data(), platform_body, given.data());
+    mj_applyFT(model.get(), data.get(), force.data(), moment.data(), point.data(), mujoco::platformBody(legs),
+               given.data());
   }
   return forces - given;
 }
@@ -175,10 +253,14 @@ MujocoLoop::~MujocoLoop() = default;
 Vector6d MujocoLoop::inverseDynamics(const Motion<double>& motion) {
   impl_->place(motion);
   impl_->move(motion);
-  SquareOfDofs multipliers_and_torques = SquareOfDofs::Zero();
-  multipliers_and_torques.leftCols<leg_dofs>() = impl_->G.transpose();
-  for (int leg = 0; leg < leg_count; ++leg) multipliers_and_torques(joints_per_leg * leg, leg_dofs + leg) = 1;
-  const Eigen::PartialPivLU<SquareOfDofs> factors(multipliers_and_torques);
+  const int dofs = impl_->dofs, leg_dofs = impl_->leg_dofs;
+  SquareOfDofs multipliers_and_efforts = SquareOfDofs::Zero(dofs, dofs);
+  multipliers_and_efforts.leftCols(leg_dofs) = impl_->G.transpose();
+  for (int m = 0; m < motor_count; ++m) {
+    const Motor& motor = impl_->manipulator.motors()[static_cast<std::size_t>(m)];
+    multipliers_and_efforts(dofOf(motor.leg, motor.joint), leg_dofs + m) = 1;
+  }
+  const Eigen::PartialPivLU<SquareOfDofs> factors(multipliers_and_efforts);
   return factors.solve(impl_->unbalanced(motion)).tail<6>();  // (3)
 }
 

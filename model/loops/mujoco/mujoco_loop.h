@@ -7,8 +7,8 @@
 
 namespace ursula {
 
-/// A further road, of another engine: the six open legs and the free platform as trees in MuJoCo, whose recursive
-/// Newton–Euler algorithm and Jacobians give the forces; the loops are closed by multipliers at the six Bᵢ. Made of raw
+/// A further road, of another engine: the open legs and the free platform as trees in MuJoCo, whose recursive
+/// Newton–Euler algorithm and Jacobians give the forces; the loops are closed by multipliers at the Bᵢ. Made of raw
 /// parameters and geometry of its own; it knows neither the solver nor another road.
 class MujocoLoop : public Road {
  public:

@@ -1,6 +1,7 @@
 // How the machine is put into MuJoCo. A text says what joins what; every number is then written over in binary, as
-// decimal digits and MuJoCo's compiler would round it. The links' body frames are G = [x, e × x, e] and
-// H = [x, s × x, s] of the paper's (40) with origins at A and R.
+// decimal digits and MuJoCo's compiler would round it. The links' body frames are [x, axis × x, axis], a carriage's is
+// [x̂, û, ẑ]. Their origins are at the links' first ends; that of a rod in a cylinder is at its far end, which slides
+// from A.
 
 #include <fmt/format.h>
 
@@ -9,9 +10,12 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <map>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "model/loops/mujoco/mujoco_loop_internal.h"
 
@@ -20,41 +24,70 @@ namespace {
 
 [[noreturn]] void throwMessage(const char* message) { throw std::runtime_error(fmt::format("MuJoCo: {}", message)); }
 
-/// θ = 0 folds the leg, s = −e: half a turn about x. The other numbers of bodies are written over.
-std::string describe() {
+using Kinds = std::vector<LegKind>;  ///< all that the text depends on
+
+/// How a kind of leg is written: its joints, and how the distal link lies in the proximal one at coordinates zero.
+struct KindText {
+  const char* on_proximal;
+  const char* quaternion;  ///< of the distal link
+  const char* on_distal;
+};
+
+constexpr std::array<KindText, leg_kind_count> kind_texts = {{
+    // URS: θ = 0 folds the leg, s = −e: half a turn about x.
+    {R"(<joint axis="0 0 -1"/><joint axis="1 0 0"/>)", "0 1 0 0", R"(<joint axis="1 0 0"/>)"},
+    {R"(<joint axis="0 0 -1"/><joint axis="1 0 0"/>)", "1 0 0 0", R"(<joint type="slide" axis="0 0 1"/>)"},
+    {R"(<joint axis="0 -1 0"/>)", "1 0 0 0", R"(<joint axis="0 -1 0"/><joint axis="-1 0 0"/>)"},
+    // PUS: θ = 0 lays the rod along u, the carriage's y: a quarter turn about −x.
+    {R"(<joint type="slide" axis="0 1 0"/>)", "1 -1 0 0", R"(<joint axis="0 0 -1"/><joint axis="1 0 0"/>)"},
+}};
+
+/// The numbers of bodies are written over.
+std::string describe(const Kinds& kinds) {
   const std::string inertial = R"(<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>)";
   std::string text = R"(<mujoco><worldbody>)";
-  for (int leg = 0; leg < leg_count; ++leg)
-    text += fmt::format(R"(<body name="proximal{0}">{1}<joint axis="0 0 -1"/><joint axis="1 0 0"/>)"
-                        R"(<body name="distal{0}" quat="0 1 0 0">{1}<joint axis="1 0 0"/><site name="leg{0}"/>)"
-                        R"(</body></body>)",
-                        leg, inertial);
+  for (std::size_t leg = 0; leg < kinds.size(); ++leg) {
+    const KindText& kind = kind_texts[static_cast<std::size_t>(kinds[leg])];
+    text += fmt::format(R"(<body name="proximal{0}">{1}{2}<body name="distal{0}" quat="{3}">{1}{4})"
+                        R"(<site name="leg{0}"/></body></body>)",
+                        leg, inertial, kind.on_proximal, kind.quaternion, kind.on_distal);
+  }
   text += fmt::format(R"(<body name="platform"><freejoint/>{})", inertial);
-  for (int leg = 0; leg < leg_count; ++leg) text += fmt::format(R"(<site name="platform{}"/>)", leg);
+  for (std::size_t leg = 0; leg < kinds.size(); ++leg) text += fmt::format(R"(<site name="platform{}"/>)", leg);
   return text + "</body></worldbody></mujoco>";
 }
 
+bool hasJoints(const mjModel& model, int leg, LegKind kind) {
+  const LegKindRow& row = rowOf(kind);
+  bool good = model.body_dofadr[proximalBody(leg)] == dofOf(leg, 0) &&
+              model.body_dofadr[distalBody(leg)] == dofOf(leg, row.joints_of_proximal);
+  for (int joint = 0; joint < joints_per_leg; ++joint)
+    good = good && model.jnt_type[dofOf(leg, joint)] ==
+                       (slides(row.coordinates[static_cast<std::size_t>(joint)]) ? mjJNT_SLIDE : mjJNT_HINGE);
+  return good;
+}
+
 /// Whether things stand where the header says.
-bool isAsExpected(const mjModel& model) {
-  bool good = model.nv == dofs && model.nq == dofs + 1 && model.nbody == platform_body + 1 &&
-              model.nsite == 2 * leg_count && model.njnt == leg_dofs + 1 &&
-              mj_name2id(&model, mjOBJ_BODY, "platform") == platform_body;
-  for (int leg = 0; good && leg < leg_count; ++leg) {
+bool isAsExpected(const mjModel& model, const Kinds& kinds) {
+  const int legs = static_cast<int>(kinds.size());
+  bool good = model.nv == dofsOf(legs) && model.nq == dofsOf(legs) + 1 && model.nbody == platformBody(legs) + 1 &&
+              model.nsite == 2 * legs && model.njnt == legDofs(legs) + 1 &&
+              mj_name2id(&model, mjOBJ_BODY, "platform") == platformBody(legs);
+  for (int leg = 0; good && leg < legs; ++leg) {
     const auto is = [&](int type, const char* name, int id) {
       return mj_name2id(&model, type, fmt::format("{}{}", name, leg).c_str()) == id;
     };
     good = is(mjOBJ_BODY, "proximal", proximalBody(leg)) && is(mjOBJ_BODY, "distal", distalBody(leg)) &&
-           is(mjOBJ_SITE, "leg", siteOnLeg(leg)) && is(mjOBJ_SITE, "platform", siteOnPlatform(leg)) &&
-           model.body_dofadr[proximalBody(leg)] == joints_per_leg * leg &&
-           model.body_dofadr[distalBody(leg)] == joints_per_leg * leg + 2;
+           is(mjOBJ_SITE, "leg", siteOnLeg(leg)) && is(mjOBJ_SITE, "platform", siteOnPlatform(legs, leg)) &&
+           hasJoints(model, leg, kinds[static_cast<std::size_t>(leg)]);
   }
   return good;
 }
 
 /// MuJoCo reads files, or here what looks like one in memory.
-Model parse() {
+Model parse(const Kinds& kinds) {
   mju_user_error = mju_user_warning = throwMessage;  // by default it exits, prints and writes a log
-  const std::string text = describe();
+  const std::string text = describe(kinds);
   const auto files = std::make_unique<mjVFS>();
   mj_defaultVFS(files.get());
   const char* name = "machine.xml";
@@ -64,8 +97,17 @@ Model parse() {
   Model model(mj_loadXML(name, files.get(), error.data(), static_cast<int>(error.size())));
   mj_deleteVFS(files.get());
   if (!model) throwMessage(error.data());
-  if (!isAsExpected(*model)) throwMessage("bodies, joints and sites stand in another order than was asked for");
+  if (!isAsExpected(*model, kinds)) throwMessage("bodies, joints and sites stand in another order than was asked for");
   return model;
+}
+
+/// MuJoCo's parser keeps global state: one thread at a time, and each structure once.
+const mjModel* parsed(const Kinds& kinds) {
+  static std::mutex mutex;
+  static std::map<Kinds, Model> models;
+  const std::lock_guard<std::mutex> lock(mutex);
+  const auto found = models.find(kinds);
+  return found != models.end() ? found->second.get() : models.emplace(kinds, parse(kinds)).first->second.get();
 }
 
 void write(const Vector3d& from, mjtNum* to, int index) { Eigen::Map<Vector3d>(to + 3 * index) = from; }
@@ -87,38 +129,55 @@ void writeInertia(mjModel& model, int body, double mass, const Vector3d& center,
 
 void writeLeg(mjModel& model, int index, const Leg& leg, const Vector3d& origin) {
   const int proximal = proximalBody(index), distal = distalBody(index);
+  const bool telescopic = leg.kind == LegKind::UPS, carriage = leg.kind == LegKind::PUS;
+  // Where the distal link's origin lies in the proximal one at coordinates zero, and how far the link reaches back.
+  const double joined_at = telescopic || carriage ? 0 : leg.proximal.length;
+  const double behind = telescopic ? leg.distal.length : 0;
+  const Vector3d along_proximal = carriage ? Vector3d::UnitY() : Vector3d::UnitZ();
   write(leg.base_point - origin, model.body_pos, proximal);
-  write(Eigen::Quaterniond(universalFrame(leg)).normalized(), model.body_quat, proximal);
-  write(Vector3d(0, 0, leg.proximal.length), model.body_pos, distal);
-  write(Vector3d(0, 0, leg.distal.length), model.site_pos, siteOnLeg(index));
-  for (const auto& [body, link] : {std::pair{proximal, &leg.proximal}, std::pair{distal, &leg.distal}})
-    writeInertia(model, body, link->mass, Vector3d(0, 0, link->center_of_mass), link->inertia);
+  write(Eigen::Quaterniond(frameAtZero(leg)).normalized(), model.body_quat, proximal);
+  write(Vector3d(0, 0, joined_at), model.body_pos, distal);
+  if (carriage)  // once more, as the text's digits were MuJoCo's to round
+    write(Eigen::Quaterniond(1, -1, 0, 0).normalized(), model.body_quat, distal);
+  write(Vector3d(0, 0, leg.distal.length - behind), model.site_pos, siteOnLeg(index));
+  writeInertia(model, proximal, leg.proximal.mass, leg.proximal.center_of_mass * along_proximal, leg.proximal.inertia);
+  writeInertia(model, distal, leg.distal.mass, Vector3d(0, 0, leg.distal.center_of_mass - behind), leg.distal.inertia);
   model.body_subtreemass[distal] = leg.distal.mass;
   model.body_subtreemass[proximal] = leg.proximal.mass + leg.distal.mass;
 }
 
 }  // namespace
 
-Matrix3d universalFrame(const Leg& leg) {
-  const Vector3d u = leg.base_axis.normalized(), x = u.unitOrthogonal();
+Matrix3d frameAtZero(const Leg& leg) {
+  const Vector3d u = leg.base_axis.normalized();
   Matrix3d frame;
-  frame << x, u.cross(x), u;
+  if (rowOf(leg.kind).joints_of_proximal == 2) {
+    const Vector3d x = u.unitOrthogonal();
+    frame << x, u.cross(x), u;
+    return frame;
+  }
+  const Vector3d level = u.cross(Vector3d::UnitZ());
+  const Vector3d x = level.norm() < 1e-10 ? u.cross(Vector3d::UnitY()).normalized() : level.normalized();
+  frame << x, u, x.cross(u);
   return frame;
 }
 
 Model buildModel(const Manipulator& manipulator, const Vector3d& origin) {
-  static const Model parsed = parse();  // MuJoCo's parser keeps global state: one thread, once
-  Model model(mj_copyModel(nullptr, parsed.get()));
+  const int legs = manipulator.legCount();
+  Kinds kinds;
+  for (const Leg& leg : manipulator.parameters().legs) kinds.push_back(leg.kind);
+  Model model(mj_copyModel(nullptr, parsed(kinds)));
+  if (!model) throwMessage("no memory for its model");
   // Shortcuts for frames that coincided in the text.
   std::fill_n(model->body_sameframe, model->nbody, mjtByte{0});
   std::fill_n(model->site_sameframe, model->nsite, mjtByte{0});
   write(manipulator.gravity(), model->opt.gravity, 0);
   const Platform& platform = manipulator.platform();
-  writeInertia(*model, platform_body, platform.mass, Vector3d::Zero(), platform.inertia);
-  model->body_subtreemass[platform_body] = platform.mass;
-  for (int leg = 0; leg < leg_count; ++leg) {
+  writeInertia(*model, platformBody(legs), platform.mass, Vector3d::Zero(), platform.inertia);
+  model->body_subtreemass[platformBody(legs)] = platform.mass;
+  for (int leg = 0; leg < legs; ++leg) {
     writeLeg(*model, leg, manipulator.leg(leg), origin);
-    write(manipulator.leg(leg).platform_point - platform.center_of_mass, model->site_pos, siteOnPlatform(leg));
+    write(manipulator.leg(leg).platform_point - platform.center_of_mass, model->site_pos, siteOnPlatform(legs, leg));
   }
   return model;
 }

@@ -17,43 +17,24 @@ SimbodyLoop::SimbodyLoop(SimbodyLoop&&) noexcept = default;
 SimbodyLoop& SimbodyLoop::operator=(SimbodyLoop&&) noexcept = default;
 
 int SimbodyLoop::Impl::indexOf(int joint, int leg) const {
-  const auto i = static_cast<std::size_t>(leg);
-  return joint < 2 ? mechanism.proximal[i].getFirstUIndex(state) + joint
-                   : int(mechanism.distal[i].getFirstUIndex(state));
+  const Mechanism::Place place = mechanism.place(joint, leg);
+  return place.body.getFirstUIndex(state) + place.coordinate;
 }
 
-void SimbodyLoop::Impl::setLeg(int leg, double phi, double psi, double theta) {
-  const auto i = static_cast<std::size_t>(leg);
-  mechanism.proximal[i].setOneQ(state, 0, phi);
-  mechanism.proximal[i].setOneQ(state, 1, psi);
-  mechanism.distal[i].setOneQ(state, 0, theta);
+void SimbodyLoop::Impl::setLeg(int leg, const std::array<double, 3>& q) {
+  for (int joint = 0; joint < 3; ++joint) {
+    const Mechanism::Place place = mechanism.place(joint, leg);
+    place.body.setOneQ(state, place.coordinate, q[static_cast<std::size_t>(joint)]);
+  }
 }
 
-/// The plane of the leg holds u and B; in it the knee R is where the circles about A and B meet, on the side that
-/// `knee` says: turning from RA to RB about x is positive for a positive knee.
 std::array<double, 3> SimbodyLoop::Impl::legGeometry(int leg, const Motion<double>& motion) const {
   const Leg& from = parameters.leg(leg);
-  const SimTK::Rotation& frame =
-      mechanism.proximal[static_cast<std::size_t>(leg)].getInboardFrame(state).R();  // columns −u, x̂, ẑ
-  const Vector3d u = -toEigen(SimTK::Vec3(frame.x()));
   const Vector3d d = motion.p + motion.Q * from.platform_point - from.base_point;
-  const Vector3d off_axis = d - d.dot(u) * u;
-  const Vector3d z = off_axis.normalized(), x = u.cross(z);
-  const double l = from.proximal.length, s = from.distal.length;
-  const double q2 = d.squaredNorm(), q = std::sqrt(q2);
-  // Along d from A, and off it, in the plane of the leg.
-  const double along = (l * l - s * s + q2) / (2 * q);
-  const double off2 = (l - along) * (l + along);
-  if (!(off2 >= 0) || !(off_axis.norm() > 0))
-    throw std::domain_error(fmt::format(
-        "leg {} cannot reach at t = {} s: the distance is {} m, its links {} m and {} m", leg + 1, motion.t, q, l, s));
-  const double side = from.knee == Knee::positive ? 1 : -1;
-  const Vector3d R = along * d / q + side * std::sqrt(off2) * x.cross(d / q);
-  const Vector3d to_A = -R, to_B = d - R;
-  const double phi = std::atan2(x.dot(toEigen(SimTK::Vec3(frame.z()))), x.dot(toEigen(SimTK::Vec3(frame.y()))));
-  const double psi = std::atan2(R.dot(z), R.dot(u));
-  const double theta = std::atan2(to_A.cross(to_B).dot(x), to_A.dot(to_B));
-  return {phi, psi, theta};
+  if (const auto q = ursula::legGeometry(from, baseFrame(from.base_axis), d)) return *q;
+  throw std::domain_error(fmt::format(
+      "leg {} ({}) cannot reach at t = {} s: the distance is {} m, its links {} m and {} m", leg + 1,
+      rowOf(from.kind).name, motion.t, d.norm(), from.proximal.length, from.distal.length));
 }
 
 void SimbodyLoop::Impl::setPlatformPose(const Motion<double>& motion) {
@@ -110,10 +91,7 @@ void SimbodyLoop::Impl::setRates(const Motion<double>& motion) {
 
 JointMotion SimbodyLoop::place(const Motion<double>& motion) {
   impl_->state.setTime(motion.t);
-  for (int i = 0; i < leg_count; ++i) {
-    const std::array<double, 3> q = impl_->legGeometry(i, motion);
-    impl_->setLeg(i, q[0], q[1], q[2]);
-  }
+  for (int i = 0; i < impl_->legCount(); ++i) impl_->setLeg(i, impl_->legGeometry(i, motion));
   impl_->setPlatformPose(motion);
   impl_->setRates(motion);
   return joints();
@@ -122,37 +100,35 @@ JointMotion SimbodyLoop::place(const Motion<double>& motion) {
 void SimbodyLoop::place(const Motion<double>& motion, const JointMotion& joint_motion) {
   Impl& loop = *impl_;
   loop.state.setTime(motion.t);
-  for (int i = 0; i < leg_count; ++i)
-    loop.setLeg(i, joint_motion.q.phi(i), joint_motion.q.psi(i), joint_motion.q.theta(i));
+  const auto coordinates = [&](int leg) { return rowOf(loop.parameters.leg(leg).kind).coordinates; };
+  for (int i = 0; i < loop.legCount(); ++i) {
+    std::array<double, 3> q{};
+    for (std::size_t j = 0; j < 3; ++j) q[j] = joint_motion.q.of(coordinates(i)[j])(i);
+    loop.setLeg(i, q);
+  }
   loop.setPlatformPose(motion);
   loop.setRates(motion);  // the platform's; the legs' follow
-  for (int i = 0; i < leg_count; ++i) {
-    const auto set = [&](int joint, double rate, double acceleration) {
-      loop.state.updU()[loop.indexOf(joint, i)] = rate;
-      loop.u_dot[loop.indexOf(joint, i)] = acceleration;
-    };
-    set(0, joint_motion.q_dot.phi(i), joint_motion.q_ddot.phi(i));
-    set(1, joint_motion.q_dot.psi(i), joint_motion.q_ddot.psi(i));
-    set(2, joint_motion.q_dot.theta(i), joint_motion.q_ddot.theta(i));
-  }
+  for (int i = 0; i < loop.legCount(); ++i)
+    for (int joint = 0; joint < 3; ++joint) {
+      const Coordinate coordinate = coordinates(i)[static_cast<std::size_t>(joint)];
+      loop.state.updU()[loop.indexOf(joint, i)] = joint_motion.q_dot.of(coordinate)(i);
+      loop.u_dot[loop.indexOf(joint, i)] = joint_motion.q_ddot.of(coordinate)(i);
+    }
   loop.realize(SimTK::Stage::Velocity);
 }
 
 JointMotion SimbodyLoop::joints() const {
   const Impl& loop = *impl_;
   JointMotion out;
-  for (int i = 0; i < leg_count; ++i) {
-    const auto leg = static_cast<std::size_t>(i);
-    out.q.phi(i) = loop.mechanism.proximal[leg].getOneQ(loop.state, 0);
-    out.q.psi(i) = loop.mechanism.proximal[leg].getOneQ(loop.state, 1);
-    out.q.theta(i) = loop.mechanism.distal[leg].getOneQ(loop.state, 0);
-    out.q_dot.phi(i) = loop.mechanism.rate(loop.state, 0, i);
-    out.q_dot.psi(i) = loop.mechanism.rate(loop.state, 1, i);
-    out.q_dot.theta(i) = loop.mechanism.rate(loop.state, 2, i);
-    out.q_ddot.phi(i) = loop.u_dot[loop.indexOf(0, i)];
-    out.q_ddot.psi(i) = loop.u_dot[loop.indexOf(1, i)];
-    out.q_ddot.theta(i) = loop.u_dot[loop.indexOf(2, i)];
-  }
+  for (int i = 0; i < loop.legCount(); ++i)
+    for (int joint = 0; joint < 3; ++joint) {
+      const Coordinate coordinate =
+          rowOf(loop.parameters.leg(i).kind).coordinates[static_cast<std::size_t>(joint)];
+      const Mechanism::Place place = loop.mechanism.place(joint, i);
+      out.q.of(coordinate)(i) = place.body.getOneQ(loop.state, place.coordinate);
+      out.q_dot.of(coordinate)(i) = loop.mechanism.rate(loop.state, joint, i);
+      out.q_ddot.of(coordinate)(i) = loop.u_dot[loop.indexOf(joint, i)];
+    }
   return out;
 }
 

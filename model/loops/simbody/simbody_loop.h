@@ -12,16 +12,16 @@
 
 namespace ursula {
 
-/// The manipulator as a closed loop in Simbody, built of raw parameters alone: per leg a Universal joint at the base
-/// and a Pin at the knee, the platform, and Ball constraints that close the loops. It never sees the solver: joint
+/// The manipulator as a closed loop in Simbody, built of raw parameters alone: per leg two mobilizers of
+/// Universal, Pin and Slider as its kind has them, the platform, and Ball constraints that close the loops. It never sees the solver: joint
 /// variables come from vector geometry and from Simbody's own constraint Jacobian.
 ///
-/// Vectors in B, SI; torques are conjugate to φ̇. Not thread-safe: one loop for each thread.
+/// Vectors in B, SI; efforts (here called torques) are conjugate to the rates of the driven coordinates. Not thread-safe: one loop for each thread.
 class SimbodyLoop {
  public:
   enum class Topology {
-    six_balls,           ///< platform free, six balls: 24 − 18 = 6 degrees of freedom
-    tree_through_leg_1,  ///< platform hangs on leg 1, five balls: 21 − 15 = 6
+    six_balls,           ///< platform free, a ball for each leg: of six 24 − 18 = 6 degrees of freedom
+    tree_through_leg_1,  ///< platform hangs on leg 1, the other legs' balls: of six 21 − 15 = 6
   };
 
   /// The largest error over the balls.
@@ -50,7 +50,7 @@ class SimbodyLoop {
 
   // --- state ---
 
-  /// Puts the platform into `motion`; each leg follows by vector geometry with its knee's bend, the rates and
+  /// Puts the platform into `motion`; each leg follows by vector geometry with its branch, the rates and
   /// accelerations by Simbody's constraint Jacobian and bias. Returns the joint motion found. Throws std::domain_error
   /// where a leg cannot reach and std::runtime_error where Simbody's constraints do not determine the rates.
   JointMotion place(const Motion<double>& motion);

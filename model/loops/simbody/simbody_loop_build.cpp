@@ -1,6 +1,7 @@
-// How the closed loop is built. Frames of the joints: φ turns about −u, then ψ about x (Universal turns about its x,
-// then y), θ about x (Pin turns about z). The links' body frames are G = [x, e × x, e] and H = [x, s × x, s] of the
-// paper's (40), with origins at A and R, so that the raw inertias go in as they are.
+// How the closed loop is built. Universal turns about its x, then y; Pin about z; Slider goes along x. Of URS φ turns
+// about −u, ψ and θ about x; of UPS d goes along e; of RUS φ and ψ turn about −u, θ about −x₂; of PUS d goes along u, ψ
+// turns about −u, θ about x. The links' body frames are G = [x, e × x, e] and H = [x, s × x, s] of the paper's (40)
+// (of a carriage [x̂, u, ẑ]) with origins at the links' first ends, so that the raw inertias go in as they are.
 
 #include <Eigen/Geometry>
 
@@ -15,22 +16,21 @@ SimTK::Inertia inertiaAboutOrigin(const Matrix3d& about_center, double mass, con
   return central.shiftFromMassCenter(-toSimTK(center), mass);
 }
 
-SimTK::Body::Rigid linkBody(const Link& link) {
-  const Vector3d center(0, 0, link.center_of_mass);
+SimTK::Body::Rigid linkBody(const Link& link, const Vector3d& along = Vector3d::UnitZ()) {
+  const Vector3d center = link.center_of_mass * along;
   return SimTK::Body::Rigid(
       SimTK::MassProperties(link.mass, toSimTK(center), inertiaAboutOrigin(link.inertia, link.mass, center)));
 }
 
-/// Columns −u, x̂, ẑ, where φ = 0 puts the plane of the leg upright; for an axis along e_z, where upright says nothing,
-/// by convention x̂ = u × e_y.
-Matrix3d baseFrame(const Vector3d& axis) {
-  const Vector3d u = axis.normalized();
-  const bool vertical = u.cross(Vector3d::UnitZ()).norm() < 1e-10;
-  const Vector3d x = u.cross(vertical ? Vector3d(Vector3d::UnitY()) : Vector3d(Vector3d::UnitZ())).normalized();
-  Matrix3d frame;
-  frame << -u, x, x.cross(u);
-  return frame;
+/// A frame in axes of a body.
+SimTK::Transform frameOf(const Vector3d& x, const Vector3d& y, const Vector3d& z,
+                         const Vector3d& origin = Vector3d::Zero()) {
+  Matrix3d R;
+  R << x, y, z;
+  return {toSimTK(R), toSimTK(origin)};
 }
+
+const Vector3d e_x = Vector3d::UnitX(), e_y = Vector3d::UnitY(), e_z = Vector3d::UnitZ();
 
 /// Torques, Coulomb friction and load, as Simbody asks for them.
 class DriverForce : public SimTK::Force::Custom::Implementation {
@@ -41,11 +41,11 @@ class DriverForce : public SimTK::Force::Custom::Implementation {
   void calcForce(const SimTK::State& state, SimTK::Vector_<SimTK::SpatialVec>& body_forces,
                  SimTK::Vector_<SimTK::Vec3>&, SimTK::Vector& mobility_forces) const override {
     const Vector6d torques = applied_->history ? applied_->history(state.getTime()) : applied_->torques;
-    for (int i = 0; i < leg_count; ++i) {
-      const auto leg = static_cast<std::size_t>(i);
-      mechanism_.proximal[leg].applyOneMobilityForce(state, 0, torques(i), mobility_forces);
-      if (applied_->any_coulomb) addCoulomb(state, i, mobility_forces);
+    for (int m = 0; m < motor_count; ++m) {
+      const Motor& motor = applied_->motors[static_cast<std::size_t>(m)];
+      apply(state, motor.joint, motor.leg, torques(m), mobility_forces);
     }
+    if (applied_->any_coulomb) addCoulomb(state, mobility_forces);
     if (applied_->load)
       body_forces[mechanism_.platform.getMobilizedBodyIndex()] += loadOnPlatform(*applied_->load, mechanism_, state);
   }
@@ -53,14 +53,18 @@ class DriverForce : public SimTK::Force::Custom::Implementation {
   SimTK::Real calcPotentialEnergy(const SimTK::State&) const override { return 0; }
 
  private:
-  void addCoulomb(const SimTK::State& state, int i, SimTK::Vector& mobility_forces) const {
-    const auto leg = static_cast<std::size_t>(i);
-    const auto force = [&](int joint) {
-      return coulombForce(applied_->coulomb[leg], joint, mechanism_.rate(state, joint, i));
-    };
-    mechanism_.proximal[leg].applyOneMobilityForce(state, 0, force(0), mobility_forces);
-    mechanism_.proximal[leg].applyOneMobilityForce(state, 1, force(1), mobility_forces);
-    mechanism_.distal[leg].applyOneMobilityForce(state, 0, force(2), mobility_forces);
+  void apply(const SimTK::State& state, int joint, int leg, double force, SimTK::Vector& mobility_forces) const {
+    const Mechanism::Place place = mechanism_.place(joint, leg);
+    place.body.applyOneMobilityForce(state, place.coordinate, force, mobility_forces);
+  }
+
+  void addCoulomb(const SimTK::State& state, SimTK::Vector& mobility_forces) const {
+    for (std::size_t i = 0; i < applied_->legs.size(); ++i)
+      for (int joint = 0; joint < 3; ++joint) {
+        const int leg = static_cast<int>(i);
+        const double rate = mechanism_.rate(state, joint, leg);
+        apply(state, joint, leg, coulombForce(applied_->legs[i], joint, rate), mobility_forces);
+      }
   }
 
   Mechanism mechanism_;
@@ -73,14 +77,30 @@ void addDamper(SimTK::GeneralForceSubsystem& forces, const SimTK::MobilizedBody&
 
 }  // namespace
 
-double Mechanism::rate(const SimTK::State& state, int joint, int leg) const {
-  const auto i = static_cast<std::size_t>(leg);
-  return joint < 2 ? proximal[i].getOneU(state, joint) : distal[i].getOneU(state, 0);
+Matrix3d baseFrame(const Vector3d& axis) {
+  const Vector3d u = axis.normalized();
+  const bool vertical = u.cross(Vector3d::UnitZ()).norm() < 1e-10;
+  const Vector3d x = u.cross(vertical ? Vector3d(Vector3d::UnitY()) : Vector3d(Vector3d::UnitZ())).normalized();
+  Matrix3d frame;
+  frame << -u, x, x.cross(u);
+  return frame;
 }
 
-double coulombForce(const CoulombFriction& friction, int joint, double rate) {
-  const std::array<double, 3> coefficients{friction.phi, friction.psi, friction.theta};
-  return -coefficients[static_cast<std::size_t>(joint)] * std::tanh(rate / friction.smoothing_speed);
+Mechanism::Place Mechanism::place(int joint, int leg) const {
+  const auto i = static_cast<std::size_t>(leg);
+  const int first = joints_of_proximal[i];
+  if (joint < first) return {proximal[i], joint};
+  return {distal[i], joint - first};
+}
+
+double Mechanism::rate(const SimTK::State& state, int joint, int leg) const {
+  const Place here = place(joint, leg);
+  return here.body.getOneU(state, here.coordinate);
+}
+
+double coulombForce(const Leg& leg, int joint, double rate) {
+  const Coordinate coordinate = rowOf(leg.kind).coordinates[static_cast<std::size_t>(joint)];
+  return -leg.coulomb.on(coordinate) * std::tanh(rate / leg.coulomb.speedOf(coordinate));
 }
 
 SimTK::SpatialVec loadOnPlatform(const Load& load, const Mechanism& mechanism, const SimTK::State& state) {
@@ -95,7 +115,7 @@ SimTK::SpatialVec loadOnPlatform(const Load& load, const Mechanism& mechanism, c
 SimbodyLoop::Impl::Impl(const Manipulator& manipulator, Topology topology_, std::shared_ptr<const Load> load)
     : matter(system), forces(system), parameters(manipulator), topology(topology_) {
   const SimTK::Force::UniformGravity gravity(forces, matter, toSimTK(manipulator.gravity()));
-  for (int i = 0; i < leg_count; ++i) addLeg(i);
+  for (int i = 0; i < legCount(); ++i) addLeg(i);
   addPlatform(topology);
   addForces(std::move(load));
   state = system.realizeTopology();
@@ -105,20 +125,58 @@ SimbodyLoop::Impl::Impl(const Manipulator& manipulator, Topology topology_, std:
 
 void SimbodyLoop::Impl::addLeg(int leg) {
   const Leg& from = parameters.leg(leg);
-  const auto i = static_cast<std::size_t>(leg);
+  switch (from.kind) {
+    case LegKind::URS:
+    case LegKind::UPS:
+      addUniversalLeg(from);
+      break;
+    case LegKind::RUS:
+      addCrank(from);
+      break;
+    case LegKind::PUS:
+      addCarriage(from);
+      break;
+  }
+  mechanism.joints_of_proximal.push_back(rowOf(from.kind).joints_of_proximal);
+}
+
+void SimbodyLoop::Impl::addUniversalLeg(const Leg& from) {
   // ψ = 0 lays e along u: Universal's axes −u, x, z are then −e, x, −(e × x).
-  Matrix3d in_proximal;
-  in_proximal << 0, 1, 0, 0, 0, -1, -1, 0, 0;
-  mechanism.proximal[i] = SimTK::MobilizedBody::Universal(
+  SimTK::MobilizedBody::Universal first(
       matter.Ground(), SimTK::Transform(toSimTK(baseFrame(from.base_axis)), toSimTK(from.base_point)),
-      linkBody(from.proximal), SimTK::Transform(toSimTK(in_proximal)));
+      linkBody(from.proximal), frameOf(-e_z, e_x, -e_y));
+  mechanism.proximal.push_back(first);
+  if (from.kind == LegKind::UPS) {
+    // d = s puts the rod's inner end at A.
+    mechanism.distal.push_back(SimTK::MobilizedBody::Slider(
+        first, frameOf(e_z, e_x, e_y, -from.distal.length * e_z), linkBody(from.distal), frameOf(e_z, e_x, e_y)));
+    return;
+  }
   // Pin's z is x of the leg. θ = 0 folds the leg: s = −e.
-  Matrix3d knee_in_proximal, knee_in_distal;
-  knee_in_proximal << 0, 0, 1, 1, 0, 0, 0, 1, 0;
-  knee_in_distal << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  mechanism.distal[i] = SimTK::MobilizedBody::Pin(
-      mechanism.proximal[i], SimTK::Transform(toSimTK(knee_in_proximal), SimTK::Vec3(0, 0, from.proximal.length)),
-      linkBody(from.distal), SimTK::Transform(toSimTK(knee_in_distal)));
+  mechanism.distal.push_back(SimTK::MobilizedBody::Pin(first, frameOf(e_y, e_z, e_x, from.proximal.length * e_z),
+                                                       linkBody(from.distal), frameOf(-e_y, -e_z, e_x)));
+}
+
+void SimbodyLoop::Impl::addCrank(const Leg& from) {
+  const Matrix3d base = baseFrame(from.base_axis);
+  SimTK::MobilizedBody::Pin crank(matter.Ground(),
+                                        frameOf(base.col(1), base.col(2), base.col(0), from.base_point),
+                                        linkBody(from.proximal), frameOf(e_x, e_z, -e_y));
+  mechanism.proximal.push_back(crank);
+  // ψ = θ = 0 lays the rod along the crank.
+  mechanism.distal.push_back(SimTK::MobilizedBody::Universal(
+      crank, frameOf(-e_y, -e_x, -e_z, from.proximal.length * e_z), linkBody(from.distal), frameOf(-e_y, -e_x, -e_z)));
+}
+
+void SimbodyLoop::Impl::addCarriage(const Leg& from) {
+  const Matrix3d base = baseFrame(from.base_axis);
+  SimTK::MobilizedBody::Slider carriage(matter.Ground(),
+                                              frameOf(-base.col(0), base.col(2), base.col(1), from.base_point),
+                                              linkBody(from.proximal, e_y), frameOf(e_y, e_z, e_x));
+  mechanism.proximal.push_back(carriage);
+  // θ = 0 lays the rod along the rail.
+  mechanism.distal.push_back(SimTK::MobilizedBody::Universal(carriage, frameOf(-e_y, e_x, e_z), linkBody(from.distal),
+                                                             frameOf(-e_z, e_x, -e_y)));
 }
 
 void SimbodyLoop::Impl::addPlatform(Topology topology) {
@@ -132,7 +190,7 @@ void SimbodyLoop::Impl::addPlatform(Topology topology) {
         SimTK::Transform(toSimTK(parameters.leg(0).platform_point)));
   else
     mechanism.platform = SimTK::MobilizedBody::Free(matter.Ground(), body);
-  for (int leg = on_leg_1 ? 1 : 0; leg < leg_count; ++leg)
+  for (int leg = on_leg_1 ? 1 : 0; leg < legCount(); ++leg)
     mechanism.balls.emplace_back(mechanism.distal[static_cast<std::size_t>(leg)],
                                  SimTK::Vec3(0, 0, parameters.leg(leg).distal.length), mechanism.platform,
                                  toSimTK(parameters.leg(leg).platform_point));
@@ -140,15 +198,17 @@ void SimbodyLoop::Impl::addPlatform(Topology topology) {
 
 void SimbodyLoop::Impl::addForces(std::shared_ptr<const Load> load) {
   applied->load = std::move(load);
-  for (int leg = 0; leg < leg_count; ++leg) {
-    const auto i = static_cast<std::size_t>(leg);
+  for (int leg = 0; leg < legCount(); ++leg) {
     const Leg& from = parameters.leg(leg);
-    addDamper(forces, mechanism.proximal[i], 0, from.friction.phi);
-    addDamper(forces, mechanism.proximal[i], 1, from.friction.psi);
-    addDamper(forces, mechanism.distal[i], 0, from.friction.theta);
-    applied->coulomb[i] = from.coulomb;
-    applied->any_coulomb |= from.coulomb.phi > 0 || from.coulomb.psi > 0 || from.coulomb.theta > 0;
+    for (int joint = 0; joint < 3; ++joint) {
+      const Mechanism::Place place = mechanism.place(joint, leg);
+      const Coordinate coordinate = rowOf(from.kind).coordinates[static_cast<std::size_t>(joint)];
+      addDamper(forces, place.body, place.coordinate, from.friction.on(coordinate));
+    }
+    applied->legs.push_back(from);
+    applied->any_coulomb |= from.coulomb.any();
   }
+  applied->motors = parameters.motors();
   SimTK::Force::Custom(forces, new DriverForce(mechanism, applied));  // Simbody takes ownership
 }
 

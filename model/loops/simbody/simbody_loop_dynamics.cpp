@@ -75,7 +75,7 @@ BodyMotions<double> SimbodyLoop::bodies() const {
   const auto motionOf = [&](const SimTK::MobilizedBody& body) {
     return bodyMotion(loop.state, body, accelerations[body.getMobilizedBodyIndex()]);
   };
-  for (std::size_t i = 0; i < leg_count; ++i) {
+  for (std::size_t i = 0; i < loop.mechanism.proximal.size(); ++i) {
     out[i] = motionOf(loop.mechanism.proximal[i]);
     out[leg_count + i] = motionOf(loop.mechanism.distal[i]);
   }
@@ -97,7 +97,11 @@ Vector6d SimbodyLoop::inverseDynamics() const {
   const Eigen::MatrixXd G = loop.constraintJacobian();
   Eigen::MatrixXd constraints_and_actuators = Eigen::MatrixXd::Zero(G.cols(), G.cols());
   constraints_and_actuators.topRows(G.rows()) = G;
-  for (int i = 0; i < leg_count; ++i) constraints_and_actuators(G.rows() + i, loop.indexOf(0, i)) = 1;
+  const Motors& motors = loop.parameters.motors();
+  for (int m = 0; m < motor_count; ++m) {
+    const Motor& motor = motors[static_cast<std::size_t>(m)];
+    constraints_and_actuators(G.rows() + m, loop.indexOf(motor.joint, motor.leg)) = 1;
+  }
   const Eigen::VectorXd forces = constraints_and_actuators.transpose().partialPivLu().solve(mapped(residual));
   return forces.tail<6>();
 }
@@ -116,7 +120,7 @@ Reactions SimbodyLoop::reactions() const {
   SimTK::Vector_<SimTK::SpatialVec> at_outboard_frame;  // on the outboard body, at its joint's frame, in Ground
   loop.matter.calcMobilizerReactionForces(loop.state, at_outboard_frame);
   Reactions out;
-  for (std::size_t i = 0; i < leg_count; ++i) {
+  for (std::size_t i = 0; i < loop.mechanism.proximal.size(); ++i) {
     const SimTK::SpatialVec& at_A = at_outboard_frame[loop.mechanism.proximal[i].getMobilizedBodyIndex()];
     const SimTK::SpatialVec& at_R = at_outboard_frame[loop.mechanism.distal[i].getMobilizedBodyIndex()];
     out[i].n_A = toEigen(at_A[0]);
@@ -166,14 +170,16 @@ void SimbodyLoop::derivative(double t, const double* x, const Vector6d& torques,
 SimbodyLoop::Power SimbodyLoop::power() const {
   const Impl& loop = *impl_;
   Power power;
-  for (int i = 0; i < leg_count; ++i) {
+  for (int m = 0; m < motor_count; ++m) {
+    const Motor& motor = loop.parameters.motors()[static_cast<std::size_t>(m)];
+    power.actuators += loop.applied->torques(m) * loop.mechanism.rate(loop.state, motor.joint, motor.leg);
+  }
+  for (int i = 0; i < loop.legCount(); ++i) {
     const Leg& leg = loop.parameters.leg(i);
-    const std::array<double, 3> viscous{leg.friction.phi, leg.friction.psi, leg.friction.theta};
-    power.actuators += loop.applied->torques(i) * loop.mechanism.rate(loop.state, 0, i);
     for (int joint = 0; joint < 3; ++joint) {
+      const double viscous = leg.friction.on(rowOf(leg.kind).coordinates[static_cast<std::size_t>(joint)]);
       const double rate = loop.mechanism.rate(loop.state, joint, i);
-      power.friction +=
-          (coulombForce(leg.coulomb, joint, rate) - viscous[static_cast<std::size_t>(joint)] * rate) * rate;
+      power.friction += (coulombForce(leg, joint, rate) - viscous * rate) * rate;
     }
   }
   if (loop.applied->load) {

@@ -24,19 +24,42 @@ struct LegClosure {
   Vector3d bias;  ///< a_P − a
 };
 
+/// Velocity of B for unit rates of the leg's joints, whose axes Simbody has.
+Matrix3d jacobianOf(const Leg& leg, const SimTK::State& state, const SimTK::MobilizedBody& first,
+                    const SimTK::MobilizedBody& second, const Vector3d& from_A, const Vector3d& to_B) {
+  const auto base = [&](int k) { return toEigen(SimTK::Vec3(first.getInboardFrame(state).R().getAxisUnitVec(SimTK::CoordinateAxis(k)))); };
+  const Vector3d x = toEigen(SimTK::Vec3(second.getBodyRotation(state).x()));
+  Matrix3d J;
+  switch (leg.kind) {
+    case LegKind::URS: {
+      const Vector3d minus_u = base(0), x_1 = toEigen(SimTK::Vec3(first.getBodyRotation(state).x()));
+      J << minus_u.cross(from_A), x_1.cross(from_A), x_1.cross(to_B);
+      break;
+    }
+    case LegKind::UPS:
+      J << base(0).cross(from_A), x.cross(from_A), toEigen(SimTK::Vec3(second.getBodyRotation(state).z()));
+      break;
+    case LegKind::RUS:
+      J << base(2).cross(from_A), base(2).cross(to_B), to_B.cross(x);
+      break;
+    case LegKind::PUS:
+      J << base(0), to_B.cross(base(0)), x.cross(to_B);
+      break;
+  }
+  return J;
+}
+
 Vector3d centripetal(const Vector3d& omega, const Vector3d& arm) { return omega.cross(omega.cross(arm)); }
 
 LegClosure closureOf(const Mechanism& mechanism, const SimTK::State& state, std::size_t i, const Leg& leg,
                      const SimTK::Vector_<SimTK::SpatialVec>& at_rest) {
   const SimTK::MobilizedBody &first = mechanism.proximal[i], &second = mechanism.distal[i];
-  const Vector3d minus_u = toEigen(SimTK::Vec3(first.getInboardFrame(state).R().x()));
-  const Vector3d x = toEigen(SimTK::Vec3(first.getBodyRotation(state).x()));
   const Vector3d A = toEigen(first.getInboardFrame(state).p()), R = toEigen(second.getBodyOriginLocation(state));
   const Vector3d to_B = leg.distal.length * toEigen(SimTK::Vec3(second.getBodyRotation(state).z()));
   const Vector3d from_A = R + to_B - A;
   const Vector3d arm = toEigen(mechanism.platform.getBodyRotation(state)) * leg.platform_point;
   LegClosure out;
-  out.J << minus_u.cross(from_A), x.cross(from_A), x.cross(to_B);
+  out.J = jacobianOf(leg, state, first, second, from_A, to_B);
   out.P.leftCols<3>() << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0;
   out.P.rightCols<3>().setIdentity();
   const SimTK::SpatialVec& second_at_rest = at_rest[second.getMobilizedBodyIndex()];
@@ -62,7 +85,7 @@ void SimbodyLoop::Impl::eliminate(const Vector6d& torques) {
   Eigen::Matrix<double, Eigen::Dynamic, 6> N = Eigen::Matrix<double, Eigen::Dynamic, 6>::Zero(nu, 6);
   SimTK::Vector c(nu, 0.0);
   for (int k = 0; k < 6; ++k) N(of_platform + k, k) = 1;
-  for (int i = 0; i < leg_count; ++i) {
+  for (int i = 0; i < legCount(); ++i) {
     const LegClosure leg = closureOf(mechanism, state, static_cast<std::size_t>(i), parameters.leg(i), at_rest);
     const Eigen::PartialPivLU<Matrix3d> factors(leg.J);
     const Matrix36 rates = factors.solve(leg.P);        // (b)

@@ -6,6 +6,8 @@
 #include <Simbody.h>
 
 #include <array>
+#include <optional>
+#include <vector>
 
 #include <Eigen/LU>
 
@@ -42,26 +44,41 @@ inline Eigen::Map<const Eigen::VectorXd> mapped(const SimTK::Vector& v) {
 
 /// What Simbody asks for forces that are not its own: torques, Coulomb friction, the load on the platform.
 struct AppliedForces {
-  Vector6d torques = Vector6d::Zero();
+  Vector6d torques = Vector6d::Zero();  ///< of the motors
   SimbodyLoop::TorqueHistory history;  ///< instead of `torques`, where set
   std::shared_ptr<const Load> load;
-  std::array<CoulombFriction, leg_count> coulomb;
+  std::vector<Leg> legs;  ///< whose Coulomb friction it is
+  Motors motors;
   bool any_coulomb = false;
 };
 
 /// Handles on the bodies and on the balls that close the loops.
 struct Mechanism {
-  std::array<SimTK::MobilizedBody::Universal, leg_count> proximal;
-  std::array<SimTK::MobilizedBody::Pin, leg_count> distal;
+  std::vector<SimTK::MobilizedBody> proximal, distal;
+  std::vector<int> joints_of_proximal;
   SimTK::MobilizedBody platform;
   std::vector<SimTK::Constraint::Ball> balls;
 
-  /// Rate of φ, ψ or θ (joint 0, 1, 2).
+  /// The body that a leg's joint moves, and which of its mobilizer's coordinates that is.
+  struct Place {
+    const SimTK::MobilizedBody& body;
+    int coordinate;
+  };
+  Place place(int joint, int leg) const;
+  /// Rate of one of a leg's three coordinates.
   double rate(const SimTK::State& state, int joint, int leg) const;
 };
 
-/// −c tanh(q̇ / speed), the force that smoothed Coulomb friction puts on a joint. `joint` is 0, 1, 2 for φ, ψ, θ.
-double coulombForce(const CoulombFriction& friction, int joint, double rate);
+/// −c tanh(q̇ / speed), the force that smoothed Coulomb friction puts on one of a leg's three joints.
+double coulombForce(const Leg& leg, int joint, double rate);
+
+/// Columns −u, x̂, ẑ, where φ = 0 puts the plane of the leg upright; for an axis along e_z, where upright says nothing,
+/// by convention x̂ = u × e_y.
+Matrix3d baseFrame(const Vector3d& axis);
+
+/// The joints' coordinates of a leg for B, `d` from A, by vector geometry; empty where it cannot reach. `base` is
+/// baseFrame of its axis.
+std::optional<std::array<double, 3>> legGeometry(const Leg& leg, const Matrix3d& base, const Vector3d& d);
 
 /// [moment about P; force] of the load in B for the platform's pose in `state`, realized to Position.
 SimTK::SpatialVec loadOnPlatform(const Load& load, const Mechanism& mechanism, const SimTK::State& state);
@@ -79,10 +96,11 @@ struct SimbodyLoop::Impl {
   Manipulator parameters;
   Topology topology;
 
-  /// Index in u of φᵢ, ψᵢ, θᵢ.
+  int legCount() const { return parameters.legCount(); }
+  /// Index in u of a leg's joint.
   int indexOf(int joint, int leg) const;
-  void setLeg(int leg, double phi, double psi, double theta);
-  /// Geometry of one leg for the platform's pose: φ, ψ, θ. Throws std::domain_error where it cannot reach.
+  void setLeg(int leg, const std::array<double, 3>& q);
+  /// Geometry of one leg for the platform's pose. Throws std::domain_error where it cannot reach.
   std::array<double, 3> legGeometry(int leg, const Motion<double>& motion) const;
   void setPlatformPose(const Motion<double>& motion);
   void realize(SimTK::Stage stage) const { system.realize(state, stage); }
@@ -96,6 +114,9 @@ struct SimbodyLoop::Impl {
 
  private:
   void addLeg(int leg);
+  void addUniversalLeg(const Leg& from);  ///< URS and UPS
+  void addCrank(const Leg& from);         ///< RUS
+  void addCarriage(const Leg& from);      ///< PUS
   void addPlatform(Topology topology);
   void addForces(std::shared_ptr<const Load> load);
 };
