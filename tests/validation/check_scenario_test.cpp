@@ -105,9 +105,9 @@ TEST(OddScenario, isNoGoodOneOfAnotherKind) {
 }
 
 TEST(OddScenario, legsOfOtherKindsHaveLimitsOfTheirOwn) {
-  const auto longest = startingWith("UPS", [](Leg& leg) { leg.proximal.length = 0.83; });
-  EXPECT_THAT(warnings(longest), testing::Contains(HasSubstr("m from an end of its cylinder, which is 0.83 m long")));
-  const auto across = startingWith("PUS", [](Leg& leg) { leg.distal.length = 1.13; });
+  const auto longest = startingWith("UPS", [](Leg& leg) { leg.proximal.length = 0.85; });
+  EXPECT_THAT(warnings(longest), testing::Contains(HasSubstr("m from an end of its cylinder, which is 0.85 m long")));
+  const auto across = startingWith("PUS", [](Leg& leg) { leg.distal.length = 1.1862; });
   EXPECT_THAT(warnings(across), testing::Contains(HasSubstr("degrees from across its rail")));
   // A carriage has no length.
   const auto carriage = startingWith("PUS", [](Leg& leg) { leg.proximal.inertia *= 100; });
