@@ -74,14 +74,14 @@ TEST_P(Simulate, theRightEffortsMakeTheMotionOfLegsOfEveryKind) {
     const std::string machine = testing::TempDir() + "/simulate_" + GetParam() + "_" + kind + ".toml";
     std::remove(machine.c_str());
     ASSERT_EQ(ursula_("init '" + machine + "' --kind " + kind).exit_code, 0);
-    const std::string all = ursula_("inverse '" + machine + "' --samples 61").out;
+    const std::string all = ursula_("inverse '" + machine + "' --samples 301").out;
     std::ofstream(file_) << all;  // with columns that simulate passes over
     const UrsulaRun run = ursula_("simulate '" + machine + "' --engine " + GetParam() + " --torques '" + file_ + "'");
     EXPECT_EQ(run.exit_code, 0) << kind << run.err;
     const CsvTable motion = parseCsv(run.out, "stdout"), commanded = parseCsv(all, "stdout");
-    ASSERT_EQ(motion.rows(), 61u) << kind;
+    ASSERT_EQ(motion.rows(), 301u) << kind;
     for (const char* axis : {"p_x_m", "p_y_m", "p_z_m"})
-      EXPECT_NEAR(motion.at(axis).back(), commanded.at(axis).back(), 1e-3) << kind;  // of the spline between 61
+      EXPECT_NEAR(motion.at(axis).back(), commanded.at(axis).back(), 1e-3) << kind;  // of the spline, enlarged
   }
 }
 
