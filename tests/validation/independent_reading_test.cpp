@@ -41,7 +41,7 @@ TEST(IndependentReading, findsNothingWhereNothingWasChanged) {
 /// None of them is zero on the proving ground.
 TEST(IndependentReading, seesEveryParameterOffByARounding) {
   const Scenario right = scenarioOf("proving-ground");
-  for (const Parameter& parameter : allParameters()) {
+  for (const Parameter& parameter : allParameters(*right.manipulator)) {
     Scenario wrong = right;
     ManipulatorParameters machine = right.manipulator->parameters();
     parameter.disturb(machine, 2e-15);
