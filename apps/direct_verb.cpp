@@ -14,6 +14,7 @@
 #include "model/csv.h"
 #include "model/scenario_input.h"
 #include "nocsolver/direct_kinematics.h"
+#include "nocsolver/ups_poses.h"
 
 namespace ursula {
 namespace {
@@ -145,9 +146,56 @@ bool isStewartGough(const Manipulator& machine) {
          });
 }
 
-int directOfStewartGough(const Scenario&, const DirectOptions& options) {
-  readNumbers(d_option, options.d);
-  throw UsageError("direct: --d: poses of telescopic legs cannot be found yet; for now --phi, of six URS legs, can");
+/// A leg whose length its stroke does not hold, 0-based; −1 for none.
+int beyondStroke(const Manipulator& machine, const Vector6d& lengths) {
+  for (int i = 0; i < leg_count; ++i) {
+    const double s = machine.leg(i).distal.length, l = machine.leg(i).proximal.length;
+    if (!(lengths(i) > s && lengths(i) < s + l)) return i;
+  }
+  return -1;
+}
+
+UpsPoses posesOf(const Manipulator& machine, const Vector6d& lengths) {
+  std::array<Vector3d, leg_count> base, platform;
+  for (std::size_t i = 0; i < leg_count; ++i) {
+    base[i] = machine.leg(static_cast<int>(i)).base_point;
+    platform[i] = machine.leg(static_cast<int>(i)).platform_point;
+  }
+  return upsPoses(base, platform, lengths);
+}
+
+std::string csvOf(const UpsPoses& poses) {
+  std::vector<std::string> names = {"pose", "p_x_m", "p_y_m", "p_z_m", "q_w", "q_x", "q_y", "q_z", "multiplicity",
+                                    "residual_m"};
+  std::vector<std::vector<double>> columns(names.size());
+  for (std::size_t k = 0; k < poses.list.size(); ++k) {
+    const UpsPose& pose = poses.list[k];
+    const std::array<double, 10> row = {static_cast<double>(k + 1), pose.p.x(), pose.p.y(), pose.p.z(), pose.q(0),
+                                        pose.q(1), pose.q(2), pose.q(3), static_cast<double>(pose.multiplicity),
+                                        pose.residual};
+    for (std::size_t column = 0; column < row.size(); ++column) columns[column].push_back(row[column]);
+  }
+  return csvText(names, columns);
+}
+
+int directOfStewartGough(const Scenario& scenario, const DirectOptions& options) {
+  const Vector6d lengths = readNumbers(d_option, options.d);
+  if (lengths.minCoeff() < 0) throw UsageError("--d: a length is negative, expected >= 0 m");
+  UpsPoses poses;
+  try {
+    poses = posesOf(*scenario.manipulator, lengths);
+  } catch (const UndeterminedPose& undetermined) {
+    fmt::print(stderr, "these lengths do not determine the platform's poses: {}\n", undetermined.what());
+    return exit_inconclusive;
+  }
+  writeOutput(options.out, csvOf(poses));
+  fmt::print(stderr, "{} real pose{}; {} poses in the complex numbers and {} solutions at infinity, of 40\n",
+             poses.list.size(), poses.list.size() == 1 ? "" : "s", poses.counted, poses.at_infinity);
+  if (const int leg = beyondStroke(*scenario.manipulator, lengths); leg >= 0)
+    fmt::print(stderr, "leg {} cannot be {:g} m long: its stroke is from {:g} m to {:g} m\n", leg + 1, lengths(leg),
+               scenario.manipulator->leg(leg).distal.length,
+               scenario.manipulator->leg(leg).distal.length + scenario.manipulator->leg(leg).proximal.length);
+  return poses.complete() ? exit_passed : exit_inconclusive;
 }
 
 /// "URS legs driven by phi; UPS legs driven by d".
@@ -194,7 +242,7 @@ void addDirect(CLI::App& app, std::function<int()>& run) {
   verb->add_option("--d", options->d, "Of six UPS legs, lengths with commas between, m: d_1,...,d_6");
   verb->add_option("--out", options->out, "CSV file; - for standard output")->capture_default_str();
   verb->footer(
-      "One row a pose, at most eight; those that assemble come first. A pose that legs cannot reach is listed with\n"
+      "One row a pose. Of UPS legs at most 40. Of URS legs at most eight; those that assemble come first. A pose that legs cannot reach is listed with\n"
       "assembles = 0, reach_i = 0, and psi_i, theta_i = nan. side_i = 1: B_i lies where inverse kinematics answers "
       "with\n"
       "phi_i; 0: it says phi_i ± pi. psi, theta are for the manipulator's own bend of each knee; the other reaches "

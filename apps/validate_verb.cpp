@@ -178,7 +178,7 @@ void addValidate(CLI::App& app, std::function<int()>& run) {
                    "Torques pass that are off by no more, relative to the largest effort of the motion; wins over\n"
                    "[acceptance] torque")
       ->check(finitePositive());
-  verb->add_option("--atol", options->atol, "The same in N m; both are added")->check(finitePositive());
+  verb->add_option("--atol", options->atol, "The same in N m, or N; both are added")->check(finitePositive());
   verb->footer(
       "Several scenarios: one folder each under DIR, with index.html and one junit.xml over all. One that cannot be\n"
       "read, is out of reach or singular is in error there, and the others are judged; with --strict, where all are\n"

@@ -117,7 +117,7 @@ ScenarioTable link() {
   return {"manipulator.leg.link",
           "proximal = { … }, distal = { … }",
           "A link of a leg: from its first joint along its length to the second.",
-          {{"length", KeyType::number, "m", required_key, "l of the proximal, s of the distal link; of the carriage of PUS for drawing only, and not required", not_negative},
+          {{"length", KeyType::number, "m", required_key, "l of the proximal, s of the distal link; of the carriage of PUS for drawing only, and not required", positive},
            {"mass", KeyType::number, "kg", required_key, "", positive},
            {"center_of_mass", KeyType::number, "m", required_key, "distance along the link from its first end; of a rod of UPS from the end within the cylinder"},
            {"inertia", KeyType::inertia, "kg·m²", required_key,

@@ -123,5 +123,20 @@ TEST_F(DirectVerb, TellsNoPoseFromNoDeterminedPose) {
   EXPECT_NE(free.err.find("free to move along a line"), std::string::npos) << free.err;
 }
 
+TEST_F(DirectVerb, RefusesMachinesThatItDoesNotKnowByWhatIsPossible) {
+  ASSERT_EQ(ursula_("init rus.toml --kind RUS").exit_code, 0);
+  const auto crank = ursula_("direct rus.toml --phi 1,2,3,4,5,6 --out poses.csv");
+  EXPECT_EQ(crank.exit_code, 2);
+  EXPECT_NE(crank.err.find("has 6 legs: RUS legs driven by phi; every pose can be found of six URS legs driven by phi "
+                           "(--phi)"),
+            std::string::npos)
+      << crank.err;
+  EXPECT_FALSE(std::filesystem::exists(ursula_.folder() / "poses.csv"));
+  const auto lengths = ursula_("direct " + helix + " --d 1,2,3,4,5,6");
+  EXPECT_EQ(lengths.exit_code, 2);
+  EXPECT_NE(lengths.err.find("has 6 legs: URS legs driven by phi, expected --phi phi_1,...,phi_6"), std::string::npos)
+      << lengths.err;
+}
+
 }  // namespace
 }  // namespace ursula

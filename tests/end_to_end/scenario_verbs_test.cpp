@@ -102,5 +102,27 @@ TEST(UnreachableMotion, namesPlaceInstantLegAndMetres) {
   }
 }
 
+/// What is too short or too far, in the words of the leg's kind.
+TEST(UnreachableMotion, isToldOfLegsOfEveryKind) {
+  const Program ursula;
+  const std::pair<const char*, const char*> kinds[] = {
+      {"UPS", "are 3.[0-9]+ m apart, and its cylinder and rod span at most 2.1 m; it misses by 1.[0-9]+ m"},
+      {"RUS",
+       "is 3.[0-9]+ m from its crank's axis, and from there crank and rod span at most 1.[0-9]+ m; it misses by"},
+      {"PUS", "is [2-4].[0-9]+ m from its rail, and its rod spans at most 1.5 m; it misses by"}};
+  for (const auto& [kind, words] : kinds) {
+    const std::string name = std::string(kind) + ".toml",
+                      far = kind == std::string("PUS") ? "[3.5, 0.0, 1.6]" : "[0.0, 0.0, 3.5]";
+    ASSERT_EQ(ursula("init " + name + " --kind " + kind).exit_code, 0);
+    const std::string text = TemporaryFolder::read(ursula.folder() / name), key = "{ time = 0.0, position = ";
+    const auto at = text.find(key) + key.size();
+    ursula.write(name, text.substr(0, at) + far + text.substr(text.find(']', at) + 1));
+    const UrsulaRun run = ursula("check " + name + " --picture far.svg");
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.err, ContainsRegex(words)) << run.err;
+    EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "far.svg"), HasSubstr("class=\"unreached\""));
+  }
+}
+
 }  // namespace
 }  // namespace ursula

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 
 #include "model/csv.h"
@@ -66,6 +67,22 @@ TEST_P(Simulate, aMotionThatLeavesWhatTheLegsReachStopsThere) {
   const CsvTable motion = parseCsv(run.out, "stdout");
   EXPECT_GT(motion.at("t_s").back(), 1);
   EXPECT_LT(motion.at("t_s").back(), 1.3);
+}
+
+TEST_P(Simulate, theRightEffortsMakeTheMotionOfLegsOfEveryKind) {
+  for (const std::string kind : {"UPS", "RUS", "PUS"}) {
+    const std::string machine = testing::TempDir() + "/simulate_" + GetParam() + "_" + kind + ".toml";
+    std::remove(machine.c_str());
+    ASSERT_EQ(ursula_("init '" + machine + "' --kind " + kind).exit_code, 0);
+    const std::string all = ursula_("inverse '" + machine + "' --samples 301").out;
+    std::ofstream(file_) << all;  // with columns that simulate passes over
+    const UrsulaRun run = ursula_("simulate '" + machine + "' --engine " + GetParam() + " --torques '" + file_ + "'");
+    EXPECT_EQ(run.exit_code, 0) << kind << run.err;
+    const CsvTable motion = parseCsv(run.out, "stdout"), commanded = parseCsv(all, "stdout");
+    ASSERT_EQ(motion.rows(), 301u) << kind;
+    for (const char* axis : {"p_x_m", "p_y_m", "p_z_m"})
+      EXPECT_NEAR(motion.at(axis).back(), commanded.at(axis).back(), 1e-3) << kind;  // of the spline, enlarged
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, Simulate, testing::Values("noc", "simbody"),

@@ -77,7 +77,8 @@ std::string withLine(const std::string& table, const std::string& key, const std
   };
   if (table == "manipulator.leg") return leg(line);
   const std::string part = table == "manipulator.leg.link" ? "proximal" : table.substr(table.rfind('.') + 1);
-  return leg(part + " = { " + line + " }");
+  // Of URS no coordinate slides.
+  return leg((key == "d" ? "kind = \"UPS\"\n" : "") + part + " = { " + line + " }");
 }
 
 bool isTried(const std::string& table) {
@@ -96,6 +97,8 @@ std::string expectation(const ScenarioKey& key) {
     case KeyType::string:
     case KeyType::choice:
       return "expected a string";
+    case KeyType::choices:
+      return "expected an array of strings";
     case KeyType::vector:
       return "expected an array of 3 numbers";
     case KeyType::quaternion:
@@ -133,7 +136,8 @@ std::vector<double> numbersOf(const Scenario& scenario) {
   for (int k = 0; k < 3; ++k) out.push_back(machine.gravity(k));
   for (const Leg& leg : machine.legs)
     for (const JointFriction& friction : {leg.friction, static_cast<const JointFriction&>(leg.coulomb)})
-      out.insert(out.end(), {friction.phi, friction.psi, friction.theta, leg.coulomb.smoothing_speed,
+      out.insert(out.end(), {friction.phi, friction.psi, friction.theta, friction.d, leg.coulomb.smoothing_speed,
+                             leg.coulomb.sliding_speed,
                              leg.knee == Knee::positive ? 1.0 : -1.0});
   for (double t : {0.0, 0.4, 1.0}) {
     const Motion<double> motion = scenario.trajectory->at(t);

@@ -34,7 +34,7 @@ TEST(Scenario, readsEveryValue) {
   EXPECT_EQ(leg.platform_point, Vector3d(1.1598, 0.7536, 0));
   EXPECT_THAT(leg.proximal, FieldsAre(1.4, 10, 0.7, Matrix3d(Vector3d(4.2, 4.2, 0.015).asDiagonal())));
   EXPECT_THAT(leg.distal, FieldsAre(1.3, 9, 0.6, Matrix3d(Vector3d(3.3, 3.3, 0.015).asDiagonal())));
-  EXPECT_THAT(leg.friction, FieldsAre(0.5, 0.25, 0.125));
+  EXPECT_THAT(leg.friction, FieldsAre(0.5, 0.25, 0.125, 0));
   EXPECT_EQ(scenario.trajectory->kind(), "helix");
   EXPECT_EQ(scenario.trajectory->duration(), 3);
 }
@@ -45,7 +45,7 @@ TEST(Scenario, hasDefaults) {
   for (int i = 0; i < leg_count; ++i) {
     const Leg& leg = scenario.manipulator->leg(i);
     EXPECT_EQ(leg.knee, Knee::positive);
-    EXPECT_THAT(leg.friction, FieldsAre(0, 0, 0));
+    EXPECT_THAT(leg.friction, FieldsAre(0, 0, 0, 0));
     EXPECT_EQ(leg.coulomb.phi + leg.coulomb.psi + leg.coulomb.theta, 0);
     EXPECT_EQ(leg.coulomb.smoothing_speed, 1e-2);
   }
@@ -77,13 +77,13 @@ TEST(Scenario, letsALegOverrideAnyKeyAndKeepsTheRest) {
   EXPECT_EQ(leg.knee, Knee::negative);
   EXPECT_EQ(leg.proximal.mass, 11);
   EXPECT_EQ(leg.proximal.length, 1.4);
-  EXPECT_THAT(leg.friction, FieldsAre(0.5, 0.75, 0.125));
+  EXPECT_THAT(leg.friction, FieldsAre(0.5, 0.75, 0.125, 0));
   EXPECT_EQ(leg.coulomb.theta, 2);
   EXPECT_EQ(leg.coulomb.smoothing_speed, 0.5);
   const Leg& other = scenario.manipulator->leg(1);
   EXPECT_EQ(other.knee, Knee::positive);
   EXPECT_EQ(other.proximal.mass, 10);
-  EXPECT_THAT(other.friction, FieldsAre(0.5, 0.25, 0.125));
+  EXPECT_THAT(other.friction, FieldsAre(0.5, 0.25, 0.125, 0));
   EXPECT_EQ(other.coulomb.theta, 0);
 }
 

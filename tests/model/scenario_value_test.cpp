@@ -89,7 +89,7 @@ TEST(ImpossibleScenario, hasFiveLegs) {
   const MarkedText changed = marked(replaced(five, "[[manipulator.leg]]", "@[[manipulator.leg]]"));
   EXPECT_EQ(refusal<ScenarioError>([&] { parseScenario(changed.text, "a.toml"); }),
             "a.toml:" + changed.place +
-                ": error: manipulator.leg: only 5 of the legs, expected exactly six [[manipulator.leg]]");
+                ": error: manipulator.leg: 5 actuated coordinates in all, expected exactly 6");
 }
 
 TEST(ImpossibleScenario, hasSevenLegs) {
@@ -97,7 +97,7 @@ TEST(ImpossibleScenario, hasSevenLegs) {
   const MarkedText changed = marked(replaced(good_scenario, "[trajectory]", seventh));
   EXPECT_EQ(refusal<ScenarioError>([&] { parseScenario(changed.text, "a.toml"); }),
             "a.toml:" + changed.place +
-                ": error: manipulator.leg[7]: a surplus leg, expected exactly six [[manipulator.leg]]");
+                ": error: manipulator.leg[7]: a surplus leg, expected three to six [[manipulator.leg]]");
 }
 
 TEST(ImpossibleScenario, hasNoLegs) {
@@ -105,7 +105,7 @@ TEST(ImpossibleScenario, hasNoLegs) {
                            good_scenario.substr(good_scenario.find("[trajectory]"));
   const MarkedText changed = marked(replaced(none, "[manipulator]", "@[manipulator]"));
   EXPECT_EQ(refusal<ScenarioError>([&] { parseScenario(changed.text, "a.toml"); }),
-            "a.toml:" + changed.place + ": error: missing key 'leg' in manipulator, expected six [[manipulator.leg]]");
+            "a.toml:" + changed.place + ": error: missing key 'leg' in manipulator, expected three to six [[manipulator.leg]]");
 }
 
 TEST(ImpossibleScenario, isNotToml) {

@@ -53,6 +53,27 @@ def test_direct_dynamics_undo_inverse_dynamics(helix):
     assert not np.allclose(a, m.a, rtol=0, atol=1e-6)
 
 
+@pytest.mark.parametrize("kind", ["UPS", "RUS", "PUS"])
+def test_legs_of_every_kind(kind, program, tmp_path):
+    assert program("init", "machine.toml", "--kind", kind).returncode == 0
+    s = ursula.read_scenario(tmp_path / "machine.toml")
+    of_program = table(program, tmp_path / "machine.toml")
+    m = s.motion(instants(s))
+    tau, joints = s.inverse_dynamics(m), s.inverse_kinematics(m)
+    has = {"UPS": ["phi", "psi", "d"], "RUS": ["phi", "psi", "theta"], "PUS": ["d", "psi", "theta"]}[kind]
+    assert sorted(joints) == sorted(name + rate for name in has for rate in JOINTS)
+    for i in range(6):
+        assert np.array_equal(tau[:, i], of_program[f"tau_{i + 1}_{'Nm' if kind == 'RUS' else 'N'}"])
+        for name in has:
+            for rate, unit in JOINTS.items():
+                column = f"{name}{rate}_{i + 1}_{unit.replace('rad', 'm') if name == 'd' else unit}"
+                assert np.array_equal(joints[name + rate][:, i], of_program[column])
+    a, alpha = s.forward_dynamics(m, tau)
+    assert np.allclose(a, m.a, rtol=0, atol=1e-11) and np.allclose(alpha, m.alpha, rtol=0, atol=1e-11)
+    with pytest.raises(ValueError, match="URS"):
+        s.direct_kinematics(np.zeros(6))
+
+
 def test_direct_kinematics_find_the_pose(helix):
     s = ursula.read_scenario(helix)
     m = s.motion(1.2)

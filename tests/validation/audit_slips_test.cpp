@@ -15,11 +15,11 @@ namespace {
 Scenario paperHelix() { return readScenario(URSULA_SCENARIOS "/paper-helix.toml"); }
 
 /// What the solver with a slip says, in the order of the formula's values.
-using Reading = std::function<Values(const Solver<S, WithSlips>&, const Motion<S>&, Workspace<S>&)>;
+using Reading = std::function<Values(const PaperSolver<S, WithSlips>&, const Motion<S>&, PaperWorkspace<S>&)>;
 
 template <class F>
 Reading overJoints(F pick) {
-  return [pick](const Solver<S, WithSlips>& solver, const Motion<S>& motion, Workspace<S>& work) {
+  return [pick](const PaperSolver<S, WithSlips>& solver, const Motion<S>& motion, PaperWorkspace<S>& work) {
     solver.inverseKinematics(motion, work);
     solver.jacobians(motion, work);
     Values all;
@@ -30,7 +30,7 @@ Reading overJoints(F pick) {
 
 /// Three components of a link's twist or its rate, of proximal or distal links or both.
 Reading overLinks(bool rate, int first, bool proximal, bool distal) {
-  return [=](const Solver<S, WithSlips>& solver, const Motion<S>& motion, Workspace<S>& work) {
+  return [=](const PaperSolver<S, WithSlips>& solver, const Motion<S>& motion, PaperWorkspace<S>& work) {
     BodyMotions<S> bodies;
     solver.inverseKinematics(motion, work);
     solver.bodyMotions(motion, work, bodies);
@@ -47,12 +47,12 @@ Reading overLinks(bool rate, int first, bool proximal, bool distal) {
 
 std::vector<std::pair<std::string, Reading>> readings() {
   const auto rates = [](S JointTriple<S>::*which) {
-    return overJoints([which](const auto&, const Workspace<S>& work, int i) {
+    return overJoints([which](const auto&, const PaperWorkspace<S>& work, int i) {
       return work.legs[static_cast<std::size_t>(i)].rate.*which;
     });
   };
   const auto accelerations = [](S JointTriple<S>::*which) {
-    return overJoints([which](const auto&, const Workspace<S>& work, int i) {
+    return overJoints([which](const auto&, const PaperWorkspace<S>& work, int i) {
       return work.legs[static_cast<std::size_t>(i)].acceleration.*which;
     });
   };
@@ -103,14 +103,14 @@ TEST(AuditFormulas, asPrintedAreTheSolversSlips) {
     ASSERT_NE(found, all.end()) << equation;
     WithSlips slips;
     for (Slip slip : found->slips) slips.set(slip);
-    Workspace<S> work;
+    PaperWorkspace<S> work;
     const Values printed = found->as_printed(witness);
     EXPECT_LE(
-        largestDifference(reading(Solver<S, WithSlips>(*scenario.manipulator, slips), witness.motion, work), printed),
+        largestDifference(reading(PaperSolver<S, WithSlips>(*scenario.manipulator, slips), witness.motion, work), printed),
         rounding)
         << equation;
     // The control: without the slip the solver says something else, and that is the truth.
-    const Values right = reading(Solver<S, WithSlips>(*scenario.manipulator), witness.motion, work);
+    const Values right = reading(PaperSolver<S, WithSlips>(*scenario.manipulator), witness.motion, work);
     EXPECT_GT(largestDifference(right, printed), 1e-6) << equation;
     EXPECT_LE(largestDifference(right, found->truth(witness)), rounding) << equation;
   }
@@ -119,10 +119,10 @@ TEST(AuditFormulas, asPrintedAreTheSolversSlips) {
 TEST(AuditWitness, agreesWithTheSolver) {
   const Scenario scenario = paperHelix();
   const WitnessStand stand(*scenario.manipulator, *scenario.trajectory);
-  const Solver<S> solver(*scenario.manipulator);
+  const PaperSolver<S> solver(*scenario.manipulator);
   for (const char* instant : {"0.4", "1.7", "2.9"}) {
     const Witness witness = stand.at(S(instant));
-    Workspace<S> work;
+    PaperWorkspace<S> work;
     const double off =
         (solver.inverseDynamics(witness.motion, work) - witness.torques).cwiseAbs().maxCoeff().convert_to<double>();
     EXPECT_LE(off, rounding * witness.torques.cwiseAbs().maxCoeff().convert_to<double>());

@@ -86,6 +86,34 @@ TEST(OddScenario, aPlatformPointFarOutAndMillimetresAreToldThoughTheMotionCannot
               testing::Contains(HasSubstr("1300 m, while the leg's other link is 1.4 m long: millimetres?")));
 }
 
+Scenario starting(const std::string& kind) {
+  return readScenario(std::string(URSULA_SCENARIOS) + "/../apps/starting/" + kind + ".toml");
+}
+
+/// With a change to every leg.
+template <class Change>
+Scenario startingWith(const std::string& kind, Change&& change) {
+  Scenario scenario = starting(kind);
+  ManipulatorParameters machine = scenario.manipulator->parameters();
+  for (Leg& leg : machine.legs) change(leg);
+  scenario.manipulator = std::make_shared<const Manipulator>(machine);
+  return scenario;
+}
+
+TEST(OddScenario, isNoGoodOneOfAnotherKind) {
+  for (const char* kind : {"UPS", "RUS", "PUS"}) EXPECT_THAT(warnings(starting(kind)), IsEmpty()) << kind;
+}
+
+TEST(OddScenario, legsOfOtherKindsHaveLimitsOfTheirOwn) {
+  const auto longest = startingWith("UPS", [](Leg& leg) { leg.proximal.length = 0.85; });
+  EXPECT_THAT(warnings(longest), testing::Contains(HasSubstr("m from an end of its cylinder, which is 0.85 m long")));
+  const auto across = startingWith("PUS", [](Leg& leg) { leg.distal.length = 1.1862; });
+  EXPECT_THAT(warnings(across), testing::Contains(HasSubstr("degrees from across its rail")));
+  // A carriage has no length.
+  const auto carriage = startingWith("PUS", [](Leg& leg) { leg.proximal.inertia *= 100; });
+  EXPECT_THAT(warnings(carriage), IsEmpty());
+}
+
 TEST(Picture, drawsTheMachineInTwoViews) {
   const std::string svg = picture(parseScenario(good_scenario, "a.toml"));
   const auto count = [&svg](const std::string& what) {
@@ -98,6 +126,14 @@ TEST(Picture, drawsTheMachineInTwoViews) {
   EXPECT_EQ(count("class=\"unreached\""), 0u);
   EXPECT_EQ(count("nan"), 0u);
   EXPECT_THAT(svg, HasSubstr("small, t = 0<"));
+}
+
+TEST(Picture, drawsCylindersAndRails) {
+  const std::string ups = picture(starting("UPS")), pus = picture(starting("PUS"));
+  EXPECT_THAT(ups, HasSubstr("class=\"proximal cylinder\""));
+  EXPECT_THAT(ups, testing::Not(HasSubstr("class=\"rail\"")));
+  EXPECT_THAT(pus, HasSubstr("class=\"rail\""));
+  EXPECT_THAT(pus, HasSubstr("class=\"carriage\""));
 }
 
 TEST(Picture, ofAPoseOutOfReachSaysSo) {

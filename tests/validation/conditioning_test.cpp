@@ -38,7 +38,7 @@ TEST_P(ConditioningOf, kappaBIsThatOfB) {
     solver.inverseKinematics(motion, work);
     solver.jacobians(motion, work);
     const Conditioning found = probe.at(motion);
-    Matrix6d B = work.B;
+    Matrix6d B = solver.B(work);
     B.leftCols<3>() /= found.length;
     const Vector6d eigenvalues = Eigen::SelfAdjointEigenSolver<Matrix6d>(B.transpose() * B).eigenvalues();
     const double expected = std::sqrt(eigenvalues(5) / eigenvalues(0));
@@ -153,7 +153,7 @@ TEST_P(ConditioningOf, limitsAreShapesTimesLevels) {
 TEST_P(ConditioningOf, shapesDoNotDependOnThePresentation) {
   const Motion<double> motion = randomState(scenario_, dice_);
   const Conditioning here = ConditioningProbe(*scenario_.manipulator, scenario_.load).at(motion);
-  Presentation there = randomPresentation(17, 3 * here.length);
+  Presentation there = randomPresentation(17, 3 * here.length, *scenario_.manipulator);
   const auto shapeThere = [&](Rounded quantity) {
     return ConditioningProbe(there.of(*scenario_.manipulator), there.of(scenario_.load))
         .at(there.of(motion))

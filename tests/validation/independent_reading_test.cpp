@@ -41,7 +41,7 @@ TEST(IndependentReading, findsNothingWhereNothingWasChanged) {
 /// None of them is zero on the proving ground.
 TEST(IndependentReading, seesEveryParameterOffByARounding) {
   const Scenario right = scenarioOf("proving-ground");
-  for (const Parameter& parameter : allParameters()) {
+  for (const Parameter& parameter : allParameters(*right.manipulator)) {
     Scenario wrong = right;
     ManipulatorParameters machine = right.manipulator->parameters();
     parameter.disturb(machine, 2e-15);
@@ -200,6 +200,43 @@ TEST(IndependentReading, seesLoadsThatAreNotTheFiles) {
   Scenario without = scenarioOf("load-base");
   without.load = nullptr;
   EXPECT_THAT(readingOf(without).why, HasSubstr("load is 'none', the file says 'given'"));
+}
+
+Scenario startingScenario(const std::string& kind) {
+  return readScenario(std::string(URSULA_SCENARIOS) + "/../apps/starting/" + kind + ".toml");
+}
+
+TEST(IndependentReading, readsLegsOfEveryKind) {
+  for (const char* kind : {"URS", "UPS", "RUS", "PUS"})
+    EXPECT_EQ(readingOf(startingScenario(kind)).verdict, Verdict::pass)
+        << kind << readingOf(startingScenario(kind)).why;
+  const auto changed = [](const std::function<void(Leg&)>& change) {
+    Scenario scenario = startingScenario("UPS");
+    ManipulatorParameters machine = scenario.manipulator->parameters();
+    change(machine.legs[3]);
+    scenario.manipulator = std::make_shared<const Manipulator>(machine);
+    return readingOf(scenario).why;
+  };
+  EXPECT_THAT(changed([](Leg& leg) {
+                leg.actuated = {true, false, false};
+              }),
+              HasSubstr("manipulator.leg[4].actuated is '100', the file says '001'"));
+  EXPECT_THAT(changed([](Leg& leg) { leg.kind = LegKind::URS; }),
+              HasSubstr("manipulator.leg[4].kind is 'URS', the file says 'UPS'"));
+  EXPECT_THAT(changed([](Leg& leg) { leg.friction.d = 1; }), HasSubstr("manipulator.leg[4].friction.d is 1"));
+  EXPECT_THAT(changed([](Leg& leg) { leg.coulomb.sliding_speed = 1; }), HasSubstr("coulomb.smoothing_speed is 1"));
+}
+
+TEST(IndependentReading, readsFrictionByEitherName) {
+  const auto with = [](const std::string& friction, const std::string& of_leg_1) {
+    std::string text = replaced(good_scenario, "[[manipulator.leg]]\n", "[[manipulator.leg]]\n" + of_leg_1 + "\n");
+    text = replaced(text, "[manipulator.leg_defaults]\n", "[manipulator.leg_defaults]\ncoulomb = " + friction + "\n");
+    return parseScenario(text, "a.toml");
+  };
+  const Scenario mixed = with("{ phi = 1.5, universal = 2.5, d = 0.0 }", "coulomb = { actuated = 3.5, theta = 0.5 }");
+  EXPECT_EQ(mixed.manipulator->leg(0).coulomb.phi, 3.5);
+  EXPECT_EQ(mixed.manipulator->leg(1).coulomb.psi, 2.5);
+  EXPECT_EQ(readingOf(mixed).verdict, Verdict::pass) << readingOf(mixed).why;
 }
 
 TEST(IndependentReading, readsTheTablesBesideTheFile) {

@@ -42,7 +42,7 @@ std::shared_ptr<const Load> tabulatedLoad(Load::Frame frame) {
 
 class Presented : public testing::TestWithParam<unsigned> {
  protected:
-  Presented() : there_(randomPresentation(GetParam(), 1.5)), back_(inverse(there_)) {
+  Presented() : there_(randomPresentation(GetParam(), 1.5, *everything().manipulator)), back_(inverse(there_)) {
     // The control: the same but for a turn by a billionth.
     off_ = there_;
     off_.turn = (Eigen::AngleAxisd(1e-9, Vector3d(0.6, 0, 0.8)) * off_.turn).eval();
@@ -217,7 +217,7 @@ TEST_P(Presented, subjectsAnswerFromThere) {
   Presentation there;
   there.origin = there_.origin;
   there.units = there_.units;
-  const Subject here = solverOf(everything()), asked = presented(here, there.origin, there.units);
+  const Subject here = solverOf(everything()), asked = presented(here, there);
   const Subject made = nocSubject(there.of(machine_), there.of(everything().load));
   const Motion<double> motion = there.of(randomState(everything(), dice_));
   const auto near = [](const Numbers& a, const Numbers& b) { return a.distance(b); };
@@ -247,7 +247,7 @@ TEST(Viewpoints, seeTheSame) {
   const Motion<double> motion = scenario.trajectory->at(1.3);
   const Vector6d torques = 1.2 * solverOf(scenario).torques(motion);
   const View a = Viewpoint(scenario, Presentation{}).at(motion, torques);
-  const View b = Viewpoint(scenario, randomPresentation(1001, 1.5)).at(motion, torques);
+  const View b = Viewpoint(scenario, randomPresentation(1001, 1.5, *scenario.manipulator)).at(motion, torques);
   const auto near = [](const auto& x, const auto& y) { return numbersOf(x).distance(numbersOf(y)); };
   EXPECT_LE(near(a.bodies_solver, b.bodies_solver), 1e-10);
   EXPECT_LE(near(a.bodies_simbody, b.bodies_simbody), 1e-10);

@@ -78,7 +78,7 @@ inline Numbers numbersOf(const Manipulator& machine) {
     addLink(leg.distal, out);
     out.add(leg.knee == Knee::positive ? 1.0 : -1.0);
     for (const JointFriction* friction : {&leg.friction, static_cast<const JointFriction*>(&leg.coulomb)})
-      for (double x : {friction->phi, friction->psi, friction->theta}) out.add(x);
+      for (double x : {friction->phi, friction->psi, friction->theta, friction->d}) out.add(x);
     out.add(leg.coulomb.smoothing_speed);
   }
   return out;

@@ -140,7 +140,7 @@ TEST(DefectOutcome, countsRoadsAndNotChecks) {
 TEST(Parameters, areThoseOfPlatformGravityAndSixLegs) {
   std::set<std::string> names;
   std::map<std::string, int> groups;
-  for (const Parameter& parameter : allParameters()) {
+  for (const Parameter& parameter : allParameters(*provingGround().manipulator)) {
     names.insert(parameter.name);
     ++groups[parameter.group];
   }
@@ -157,7 +157,7 @@ TEST(Parameters, areThoseOfPlatformGravityAndSixLegs) {
 
 TEST(Sensitivities, everyParameterShowsOnTheProvingGround) {
   const std::vector<Sensitivity> sensitivities = proveSensitivities(provingGround());
-  EXPECT_EQ(sensitivities.size(), allParameters().size());
+  EXPECT_EQ(sensitivities.size(), allParameters(*provingGround().manipulator).size());
   const std::set<std::string> sharp = {"mass", "center", "length", "point", "axis", "gravity"};
   for (const Sensitivity& each : sensitivities) {
     EXPECT_LE(each.smallest_caught, sharp.count(each.group) == 1 ? 1e-8 : 1e-5) << each.parameter;
@@ -175,7 +175,7 @@ std::string verdictWith(const Parameter& parameter, double relative) {
 }
 
 TEST(Sensitivities, areTheThresholdOfTheCheckItself) {
-  const std::vector<Parameter> parameters = allParameters();
+  const std::vector<Parameter> parameters = allParameters(*provingGround().manipulator);
   const std::vector<Sensitivity> sensitivities = proveSensitivities(provingGround());
   std::set<std::string> groups;
   for (std::size_t k = 0; k < parameters.size(); k += 7) {

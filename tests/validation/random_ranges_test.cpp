@@ -136,7 +136,7 @@ std::vector<double> sinesOf(const Scenario& scenario) {
   std::vector<double> out;
   for (int k = 0; k <= 60; ++k) {
     solver.displacements(scenario.trajectory->at(scenario.trajectory->duration() * k / 60), work);
-    for (const LegState<double>& leg : work.legs) out.push_back(std::abs(leg.sin_theta));
+    for (int i = 0; i < leg_count; ++i) out.push_back(solver.margins(work, i).sine);
   }
   return out;
 }
@@ -252,12 +252,12 @@ TEST(RandomScenarios, stayAwayFromSingularities) {
       const Motion<double> motion = scenario.trajectory->at(scenario.trajectory->duration() * k / 400);
       ASSERT_NO_THROW(solver.displacements(motion, work)) << scenario.text;
       solver.jacobians(motion, work);
-      for (const LegState<double>& leg : work.legs) {
-        sine = std::min(sine, std::abs(leg.sin_theta));
-        lever = std::min(lever, leg.r / leg.q);
+      for (int i = 0; i < leg_count; ++i) {
+        sine = std::min(sine, solver.margins(work, i).sine);
+        lever = std::min(lever, 1 / solver.margins(work, i).leverage);
       }
-      least = std::min(least, work.B.determinant());
-      largest = std::max(largest, work.B.determinant());
+      least = std::min(least, solver.B(work).determinant());
+      largest = std::max(largest, solver.B(work).determinant());
     }
     EXPECT_GT(least * largest, 0) << scenario.text;
     EXPECT_GT(sine, 0.029) << scenario.text;

@@ -42,7 +42,7 @@ Conditioning at(const Scenario& scenario, const RoundingProfile& profile, int k,
 void expectDominance(const Scenario& scenario, unsigned seed, int of = instants) {
   const RoundingProfile profile(scenario, of);
   const double length = at(scenario, profile, 0, of).length;
-  const RoundingProfile elsewhere(randomPresentation(seed, length).of(scenario), of);
+  const RoundingProfile elsewhere(randomPresentation(seed, length, *scenario.manipulator).of(scenario), of);
   double least = 1e300;
   for (const Rounded quantity : quantities(profile)) {
     const std::vector<double> noise = elsewhere.spreads(quantity);

@@ -38,11 +38,11 @@ inline std::vector<MachineNumber> machineNumbers() {
   };
   const auto addFriction = [&](const std::string& name, const std::function<JointFriction&(Machine&)>& friction) {
     add(
-        name + ".actuated", [=](Machine& machine) -> double& { return friction(machine).actuated; }, true);
+        name + ".actuated", [=](Machine& machine) -> double& { return friction(machine).phi; }, true);
     add(
-        name + ".universal", [=](Machine& machine) -> double& { return friction(machine).universal; }, true);
+        name + ".universal", [=](Machine& machine) -> double& { return friction(machine).psi; }, true);
     add(
-        name + ".knee", [=](Machine& machine) -> double& { return friction(machine).knee; }, true);
+        name + ".knee", [=](Machine& machine) -> double& { return friction(machine).theta; }, true);
   };
   addVector("gravity", [](Machine& machine) -> Vector3d& { return machine.gravity; });
   add("platform.mass", [](Machine& machine) -> double& { return machine.platform.mass; });

@@ -52,7 +52,7 @@ class Asked {
     for (const Scenario& scenario : scenarios_) {
       const Subject right = solverOf(scenario);
       subjects_.push_back({right, slippedSubject(*scenario.manipulator, scenario.load, WithSlips(Slip::eq47)),
-                           presented(right, Vector3d::Zero(), {1, 1, 1})});
+                           presented(right, Presentation(*scenario.manipulator))});
     }
   }
 

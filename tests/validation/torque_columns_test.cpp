@@ -192,5 +192,45 @@ TEST(TorqueColumns, instantsOutsideOfTheMotionSayWhatTheyLookLike) {
   EXPECT_THAT(said("2", "3", "4"), EndsWith("expected 0 to 3 s"));
 }
 
+// --- motors that slide
+
+/// Motors 1 and 2 turn, the others slide.
+Motors mixedMotors() {
+  Motors motors;
+  for (std::size_t k = 2; k < motors.size(); ++k) motors[k] = {static_cast<int>(k), 2, Coordinate::d};
+  return motors;
+}
+
+const std::string mixed_header = "t_s,tau_1_Nm,tau_2_Nm,tau_3_N,tau_4_N,tau_5_N,tau_6_N\n";
+
+TEST(SlidingMotors, areReadByTheirOwnUnit) {
+  const Vector6d first = (Vector6d() << 1.25, 2.25, 3.25, 4.25, 5.25, 6.25).finished();
+  const TorqueFile file = parseTorqueFile(mixed_header + plain_rows, "a.csv", {}, mixedMotors());
+  EXPECT_EQ(file.read_as, "");
+  EXPECT_EQ(file.torques[0], first);
+  const TorqueFile foreign = parseTorqueFile("t,tau1,tau 2 [Nm],tau3,Force 4 [N],F5,tau6_kN\n" + plain_rows, "a.csv",
+                                             parseColumnMap({"tau_5_kN=F5"}, mixedMotors()), mixedMotors());
+  EXPECT_EQ(foreign.torques[0], (Vector6d() << 1.25, 2.25, 3.25, 4.25, 5250, 6250).finished());
+  EXPECT_THAT(foreign.read_as, HasSubstr("tau_4_N = 'Force 4 [N]', tau_5_N = 'F5' times 1e3"));
+  const TorqueFile from_zero = parseTorqueFile("t_s,tau_0_Nm,tau_1_Nm,tau_2_N,tau_3_N,tau_4_N,tau_5_N\n" + plain_rows,
+                                               "a.csv", {}, mixedMotors());
+  EXPECT_EQ(from_zero.torques[0], first);
+}
+
+TEST(SlidingMotors, anotherUnitIsRefusedByTheColumnThatIsWanted) {
+  const auto refused = [](const std::string& header, const Motors& motors) {
+    return refusal<CsvError>([&] { parseTorqueFile(header + plain_rows, "a.csv", {}, motors); });
+  };
+  EXPECT_EQ(refused(plain_header, mixedMotors()),
+            "a.csv:1: error: 'tau_3_Nm', but motor 3 slides: expected 'tau_3_N', N");
+  EXPECT_EQ(refused(mixed_header, {}), "a.csv:1: error: 'tau_3_N', but motor 3 turns: expected 'tau_3_Nm', N m");
+  EXPECT_EQ(refusal<CsvError>([] { parseColumnMap({"tau_3_Nm=x"}, mixedMotors()); }),
+            "--map tau_3_Nm=x: motor 3 slides: expected 'tau_3_N', N");
+  // Nobody asks for the unit of what is not needed.
+  const TorqueFile both = parseTorqueFile(
+      "tau_3_Nm," + mixed_header + "9," + plain_rows.substr(0, plain_rows.find('\n')), "a.csv", {}, mixedMotors());
+  EXPECT_THAT(both.ignored, ElementsAre("tau_3_Nm"));
+}
+
 }  // namespace
 }  // namespace ursula

@@ -80,7 +80,7 @@ const std::vector<Quantity>& kinematicQuantities() {
   const auto spin = [](const S& s) { return s.conditioning.twist_scale; };
   const auto rate = [](const S& s) { return s.conditioning.rate_scale; };
   static const std::vector<Quantity> quantities = {
-      {"kinematics.joint_angles", "rad", "phi, psi, theta against Simbody's loop placed by geometry",
+      {"kinematics.joint_angles", "rad", "joint coordinates against Simbody's loop placed by geometry",
        leveled("kappa(legs) x largest coordinate / length"), &S::joint_angles, false, [](const S&) { return 1.0; }},
       {"kinematics.joint_rates", "rad/s", "their rates against Simbody's constraint Jacobian",
        leveled("kappa(legs) kappa(B) x velocity / length"), &S::joint_rates, false,
@@ -88,12 +88,12 @@ const std::vector<Quantity>& kinematicQuantities() {
       {"kinematics.joint_accelerations", "rad/s^2", "their accelerations against Simbody's constraints",
        leveled("kappa(legs)^2 kappa(B) x acceleration / length"), &S::joint_accelerations, false,
        [rate](const S& s) { return rate(s) / s.conditioning.length; }},
-      {"kinematics.positions", "m", "mass centres and orientations of 13 bodies, Simbody put into the joint state",
+      {"kinematics.positions", "m", "mass centres and orientations of all bodies, Simbody put into the joint state",
        leveled("kappa(legs) x largest coordinate"), &S::position, true,
        [](const S& s) { return s.conditioning.position_scale; }},
-      {"kinematics.twists", "m/s", "twists of 13 bodies, (16), (41)", leveled("kappa(legs) kappa(B) x velocity"),
+      {"kinematics.twists", "m/s", "twists of all bodies, (16), (41)", leveled("kappa(legs) kappa(B) x velocity"),
        &S::twist, true, spin},
-      {"kinematics.accelerations", "m/s^2", "twist rates of 13 bodies, (17), (43)",
+      {"kinematics.accelerations", "m/s^2", "twist rates of all bodies, (17), (43)",
        leveled("kappa(legs)^2 kappa(B) x acceleration"), &S::twist_rate, true, rate},
       {"kinematics.jacobian", "m/s", "t_P = T phi_dot (24) with Simbody's joint rates",
        leveled("kappa(legs) kappa(B)^2 x velocity"), &S::jacobian, true, spin},

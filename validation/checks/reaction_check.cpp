@@ -37,7 +37,7 @@ Check judgeReactions(const std::vector<ReactionSample>& reactions, const std::ve
       fmt::format("eps (kappa(B)^2 kappa(legs) x || |T|' |w| || / length + largest mass x the acceleration's) x "
                   "{:g} x the spread measured in turned and rescaled frames",
                   rounding_safety),
-      fmt::format("forces, and moments over the machine's length, at 18 joints against Simbody's mobilizer and "
+      fmt::format("forces, and moments over the machine's length, at all joints against Simbody's mobilizer and "
                   "constraint reactions, at {} instants; shown for t = {:.6g} s, leg {}; the largest is {:.6g} N",
                   samples.size(), worst.t * units.time, worst.where + 1, size * units.force()),
       fmt::format("it exceeds {:g} of the largest: {}", useful_share, causeOfRounding(samples, worst.widest_t)));

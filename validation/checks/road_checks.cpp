@@ -67,7 +67,7 @@ struct Named {
 
 std::vector<Named> roadsOf(const RoadSample& first) {
   std::vector<Named> roads{{"the torques on trial", [](const RoadSample& sample) { return &sample.subject; }},
-                           {"Simbody, six balls", [](const RoadSample& sample) { return &sample.simbody; }}};
+                           {"Simbody, free platform", [](const RoadSample& sample) { return &sample.simbody; }}};
   for (std::size_t k = 0; k < further_road_count; ++k)
     if (first.further[k])
       roads.push_back({furtherRoads()[k].name, [k](const RoadSample& sample) { return given(sample.further[k]); }});

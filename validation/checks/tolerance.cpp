@@ -68,6 +68,7 @@ std::optional<EffortDeviation> effortDeviation(const Evidence& evidence, const s
     any = true;
   }
   if (!any || evidence.samples.empty() || !evidence.answered()) return std::nullopt;
+  out.unit = units.efforts.unit;
   out.largest_effort = largestEffort(*evidence.scenario) * units.effort();
   out.length = evidence.samples.front().conditioning.length * units.length;
   out.drift = driftOf(evidence, out.largest / units.effort()) * units.length;

@@ -20,7 +20,7 @@ using compare_parts::alignQuaternions;
 using compare_parts::isChosen;
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-const char* const work_group = "tau_*_Nm x phi_*_rad";
+const char* const work_group = "efforts x what they drive";
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// `tau_3_Nm` → `tau_*_Nm`: what shares a unit and a meaning shares a scale.
@@ -44,6 +44,8 @@ std::string scaleGroupOf(const std::string& channel) {
       {"closure_v_m_s", "v_*_m_s"},
       {"error_tau_Nm", "tau_*_Nm"},
       {"limit_tau_Nm", "tau_*_Nm"},
+      {"error_tau_N", "tau_*_N"},
+      {"limit_tau_N", "tau_*_N"},
       {"error_acceleration_m_s2", "a_*_m_s2"},
       {"limit_acceleration_m_s2", "a_*_m_s2"},
       {"error_energy_J", work_group},
@@ -52,7 +54,8 @@ std::string scaleGroupOf(const std::string& channel) {
   return found == of.end() ? groupOf(channel) : found->second;
 }
 
-/// Largest finite magnitude of every group; of energy errors, that of the work: torques times angles.
+/// Largest finite magnitude of every group; of energy errors, that of the work: torques times angles, forces times
+/// displacements.
 std::map<std::string, double> scalesOf(const TimeSeries& series) {
   std::map<std::string, double> scales;
   for (std::size_t i = 0; i < series.names.size(); ++i) {
@@ -60,8 +63,9 @@ std::map<std::string, double> scalesOf(const TimeSeries& series) {
     for (double value : series.columns[i])
       if (std::isfinite(value)) scale = std::max(scale, std::abs(value));
   }
-  if (scales.count("tau_*_Nm") != 0 && scales.count("phi_*_rad") != 0)
-    scales[work_group] = scales["tau_*_Nm"] * scales["phi_*_rad"];
+  for (const auto& [effort, driven] : {std::pair("tau_*_Nm", "phi_*_rad"), {"tau_*_N", "d_*_m"}})
+    if (scales.count(effort) != 0 && scales.count(driven) != 0)
+      scales[work_group] = std::max(scales[work_group], scales[effort] * scales[driven]);
   return scales;
 }
 

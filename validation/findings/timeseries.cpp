@@ -150,8 +150,9 @@ TimeSeries validationSeries(const Manipulator& machine, const std::vector<Pointw
   TimeSeries series = inverseSeries(machine, motions, joints, torques);
   using Sample = PointwiseSample;
   addEfforts(series, "simbody_", machine.motors(), samples, [](const Sample& s) { return s.torques_simbody; });
-  addColumn(series, "error_tau_Nm", samples, [](const Sample& s) { return s.torque.error; });
-  addColumn(series, "limit_tau_Nm", samples, [](const Sample& s) { return s.torque.limit; });
+  const std::string unit = effortSuffix(machine.motors());
+  addColumn(series, "error_tau_" + unit, samples, [](const Sample& s) { return s.torque.error; });
+  addColumn(series, "limit_tau_" + unit, samples, [](const Sample& s) { return s.torque.limit; });
   addColumn(series, "error_acceleration_m_s2", samples, [](const Sample& s) { return s.acceleration.error; });
   addColumn(series, "limit_acceleration_m_s2", samples, [](const Sample& s) { return s.acceleration.limit; });
   addReplay(series, motions, windows);

@@ -29,9 +29,9 @@ struct Picture {
 
   struct Leg {
     std::string kind;
-    std::vector<Link> links;    ///< from the base to the platform; a later one may begin within the one before
-    std::vector<Joint> joints;  ///< the driven ones in the order of the motors
-    std::vector<Link> rails;    ///< of a carriage: what it slides on
+    std::vector<Link> links;       ///< from the base to the platform; a later one may begin within the one before
+    std::vector<Joint> joints;     ///< the driven ones in the order of the motors
+    std::vector<Link> rails = {};  ///< of a carriage: what it slides on
   };
 
   Vector3d origin = Vector3d::Zero();

@@ -47,10 +47,10 @@ std::string sentence(const EffortDeviation& deviation) {
   if (std::isnan(deviation.largest)) return "The largest deviation is unknown: a torque is no number.";
   const std::string share = deviation.largest_effort > 0 ? shareText(deviation.relative()) : "no known share";
   return fmt::format(
-      "Right to {}: the largest deviation is {:.3g} N m of {:.6g} N m, {} at t = {:.4g} s; {}the smallest --rtol that "
+      "Right to {}: the largest deviation is {:.3g} {} of {:.6g} {}, {} at t = {:.4g} s; {}the smallest --rtol that "
       "would pass is {}.",
-      share, deviation.largest, deviation.largest_effort, deviation.where, deviation.t, driftText(deviation),
-      roundedUp(deviation.smallestRelative()));
+      share, deviation.largest, deviation.unit, deviation.largest_effort, deviation.unit, deviation.where, deviation.t,
+      driftText(deviation), roundedUp(deviation.smallestRelative()));
 }
 
 }  // namespace ursula

@@ -28,8 +28,9 @@ std::string fact(const std::string& what, const std::string& value) {
 }
 
 std::string linkText(const Link& link) {
-  return fmt::format("length {} m, mass {} kg, mass centre at {} m, inertia {} kg·m²", digits(link.length),
-                     digits(link.mass), digits(link.center_of_mass), inertiaText(link.inertia));
+  const std::string length = link.length > 0 ? fmt::format("length {} m, ", digits(link.length)) : "";
+  return length + fmt::format("mass {} kg, mass centre at {} m, inertia {} kg·m²", digits(link.mass),
+                              digits(link.center_of_mass), inertiaText(link.inertia));
 }
 
 constexpr std::array<const char*, coordinate_count> symbols = {"φ", "ψ", "θ", "d"};  // by Coordinate

@@ -45,12 +45,16 @@ std::vector<MotorDeviation> motorsOff(const ValidationResult& result) {
   std::vector<MotorDeviation> out;
   const std::vector<double>* t = result.timeseries.find("t_s");
   if (t == nullptr || !areWrong(result)) return out;
-  for (int motor = 0;; ++motor) {
-    const std::vector<double>* given = result.timeseries.find(fmt::format("tau_{}_Nm", motor + 1));
-    const std::vector<double>* expected = result.timeseries.find(fmt::format("simbody_tau_{}_Nm", motor + 1));
-    if (given == nullptr || expected == nullptr) return out;
-    out.push_back(deviationOf(motor, *t, *given, *expected));
-  }
+  for (int motor = 0;; ++motor)
+    for (const char* unit : {"Nm", "N", ""}) {
+      if (*unit == '\0') return out;
+      const std::vector<double>* given = result.timeseries.find(fmt::format("tau_{}_{}", motor + 1, unit));
+      const std::vector<double>* expected = result.timeseries.find(fmt::format("simbody_tau_{}_{}", motor + 1, unit));
+      if (given == nullptr || expected == nullptr) continue;
+      out.push_back(deviationOf(motor, *t, *given, *expected));
+      out.back().unit = unit;
+      break;
+    }
 }
 
 }  // namespace ursula::report

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "validation/verdict/result.h"
@@ -10,9 +11,10 @@ namespace ursula::report {
 /// What one motor's efforts are off by.
 struct MotorDeviation {
   int motor = 0;                 ///< 0-based
-  double largest = 0, t = 0;     ///< N·m, and when, s
+  std::string unit = "Nm";       ///< of its efforts, as columns write it
+  double largest = 0, t = 0;     ///< in that unit, and when, s
   std::optional<double> factor;  ///< that alone explains the deviation but for a hundredth of its norm
-  std::optional<double> offset;  ///< likewise, N·m
+  std::optional<double> offset;  ///< likewise, in that unit
 };
 
 /// Of every motor, from the columns of efforts on trial and Simbody's; empty where none is wrong as far as checks say,

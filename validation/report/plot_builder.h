@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/manipulator.h"
 #include "validation/report/plots.h"
 
 namespace ursula::report {
@@ -41,8 +42,8 @@ class TimePlots {
   std::vector<double> t_;
 };
 
-/// The charts of the time series.
-void addSeriesPlots(const TimeSeries& series, std::vector<Plot>& plots);
+/// The charts of the time series; `motors` are those of its efforts.
+void addSeriesPlots(const TimeSeries& series, const Motors& motors, std::vector<Plot>& plots);
 
 /// "₁" for "1".
 std::string subscript(const std::string& index);

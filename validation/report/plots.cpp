@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "validation/picture/picture.h"
 #include "validation/report/found.h"
 #include "validation/report/plot_builder.h"
 #include "validation/report/text.h"
@@ -30,6 +31,14 @@ struct Span {
   }
   bool isWide() const { return positive && most > least && std::log10(most / least) > decades_for_log; }
 };
+
+/// Those of the machine that was drawn; else the paper's.
+Motors motorsOf(const ValidationResult& result) {
+  if (result.picture && result.picture->scenario.manipulator) return result.picture->scenario.manipulator->motors();
+  Motors out;
+  for (int k = 0; k < motor_count; ++k) out[static_cast<std::size_t>(k)].leg = k;
+  return out;
+}
 
 /// "rounding (m)" → "rounding", "m".
 Line lineOf(const std::string& column, int color) {
@@ -98,7 +107,7 @@ std::vector<Plot> plots(const ValidationResult& result) {
   for (const auto& [title, curve] : result.curves) {
     if (curve.columns.size() > 1 && curve.rows() > 0) plots.push_back(curvePlot(title, curve));
   }
-  addSeriesPlots(result.timeseries, plots);
+  addSeriesPlots(result.timeseries, motorsOf(result), plots);
   std::stable_sort(plots.begin(), plots.end(), [](const Plot& a, const Plot& b) { return a.group < b.group; });
   return plots;
 }

@@ -25,6 +25,11 @@ std::string effortLabel(const char* what, const std::vector<Indexed>& efforts) {
   return fmt::format("{} ({})", what, text);
 }
 
+/// What an effort may be off by, in the unit that the machine's efforts share: "limit_tau_Nm" or "limit_tau_N".
+std::string limitColumn(const TimeSeries& series) {
+  return series.find("limit_tau_N") == nullptr ? "limit_tau_Nm" : "limit_tau_N";
+}
+
 const Line limit_line = {"limit", "", 0, Stroke::limit, {}};
 
 void addErrors(TimePlots& time) {
@@ -37,7 +42,7 @@ void addErrors(TimePlots& time) {
       time.addValues(
           deviation, differences(*efforts[k].values, *expected[k].values, true),
           {"τ" + subscript(efforts[k].index), prettyUnit(efforts[k].unit), static_cast<int>(k), Stroke::line, {}});
-    time.addColumn(deviation, "limit_tau_Nm", limit_line);
+    time.addColumn(deviation, limitColumn(series), limit_line);
     time.keep(std::move(deviation));
   }
   Plot acceleration = time.plot(PlotGroup::errors, "Simbody's acceleration under the efforts", "error (m/s²)", true);
@@ -57,16 +62,26 @@ void addErrors(TimePlots& time) {
   time.keep(std::move(energy));
 }
 
+/// The rates of what motors drive; empty where one is not there.
+std::vector<const std::vector<double>*> drivenRates(const TimeSeries& series, const Motors& motors) {
+  std::vector<const std::vector<double>*> out;
+  for (const Motor& motor : motors)
+    out.push_back(series.find(
+        fmt::format("{}dot_{}_{}", nameOf(motor.coordinate), motor.leg + 1, motor.slides() ? "m_s" : "rad_s")));
+  if (std::find(out.begin(), out.end(), nullptr) != out.end()) out.clear();
+  return out;
+}
+
 /// What the motor does: effort times rate of the coordinate that it drives.
-void addPower(TimePlots& time, const std::vector<Indexed>& efforts) {
-  const std::vector<Indexed> rates = indexed(time.series(), "phidot");
+void addPower(TimePlots& time, const std::vector<Indexed>& efforts, const Motors& motors) {
+  const std::vector<const std::vector<double>*> rates = drivenRates(time.series(), motors);
   if (rates.empty() || rates.size() != efforts.size()) return;
   Plot power = time.plot(PlotGroup::efforts, "Power of the motors", "power (W)");
-  std::vector<double> sum(rates[0].values->size(), 0.0);
+  std::vector<double> sum(rates[0]->size(), 0.0);
   for (std::size_t k = 0; k < efforts.size(); ++k) {
     std::vector<double> product;
     for (std::size_t row = 0; row < sum.size(); ++row) {
-      product.push_back((*efforts[k].values)[row] * (*rates[k].values)[row]);
+      product.push_back((*efforts[k].values)[row] * (*rates[k])[row]);
       sum[row] += product.back();
     }
     time.addValues(power, product, {"P" + subscript(efforts[k].index), "W", static_cast<int>(k), Stroke::line, {}});
@@ -75,14 +90,14 @@ void addPower(TimePlots& time, const std::vector<Indexed>& efforts) {
   time.keep(std::move(power));
 }
 
-void addEfforts(TimePlots& time) {
+void addEfforts(TimePlots& time, const Motors& motors) {
   const TimeSeries& series = time.series();
   const std::vector<Indexed> efforts = indexed(series, "tau"), expected = indexed(series, "simbody_tau");
   Plot all = time.plot(PlotGroup::efforts, "Efforts of the motors", effortLabel("effort", efforts));
   time.addIndexed(all, "simbody_tau", "τ", true);
   time.addIndexed(all, "tau", "τ");
   time.keep(std::move(all));
-  addPower(time, efforts);
+  addPower(time, efforts, motors);
   if (efforts.size() != expected.size()) return;
   for (std::size_t k = 0; k < efforts.size(); ++k) {
     const std::string unit = prettyUnit(efforts[k].unit);
@@ -90,8 +105,8 @@ void addEfforts(TimePlots& time) {
                            fmt::format("deviation ({})", unit));
     time.addValues(motor, differences(*efforts[k].values, *expected[k].values, false),
                    {"τ" + subscript(efforts[k].index) + " − expected", unit, static_cast<int>(k), Stroke::line, {}});
-    time.addColumn(motor, "limit_tau_Nm", {"limit", unit, 0, Stroke::limit, {}});
-    time.addColumn(motor, "limit_tau_Nm", {"− limit", unit, 0, Stroke::limit, {}}, -1);
+    time.addColumn(motor, limitColumn(series), {"limit", unit, 0, Stroke::limit, {}});
+    time.addColumn(motor, limitColumn(series), {"− limit", unit, 0, Stroke::limit, {}}, -1);
     time.keep(std::move(motor));
   }
 }
@@ -160,11 +175,11 @@ void addReactions(TimePlots& time) {
 
 }  // namespace
 
-void addSeriesPlots(const TimeSeries& series, std::vector<Plot>& plots) {
+void addSeriesPlots(const TimeSeries& series, const Motors& motors, std::vector<Plot>& plots) {
   TimePlots time(series, plots);
   if (time.empty()) return;
   addErrors(time);
-  addEfforts(time);
+  addEfforts(time, motors);
   addMotion(time);
   addReactions(time);
 }

@@ -128,7 +128,7 @@ std::string notApplicableText(const std::vector<Check>& checks) {
   return out.empty() ? "" : "\n" + out;
 }
 
-std::string optionalText(const std::optional<double>& value, const char* unit) {
+std::string optionalText(const std::optional<double>& value, const std::string& unit) {
   return value ? fmt::format("{:.6g}{}", *value, unit) : "";
 }
 
@@ -136,9 +136,9 @@ std::string optionalText(const std::optional<double>& value, const char* unit) {
 std::string motorsText(const std::vector<MotorDeviation>& motors) {
   std::vector<std::vector<std::string>> rows = {{"leg", "off by", "at t", "factor", "offset"}};
   for (const MotorDeviation& motor : motors)
-    rows.push_back({std::to_string(motor.motor + 1), fmt::format("{:.3g} N·m", motor.largest),
+    rows.push_back({std::to_string(motor.motor + 1), fmt::format("{:.3g} {}", motor.largest, prettyUnit(motor.unit)),
                     fmt::format("{:.4g} s", motor.t), optionalText(motor.factor, ""),
-                    optionalText(motor.offset, " N·m")});
+                    optionalText(motor.offset, " " + prettyUnit(motor.unit))});
   std::string out = "torques against the expected ones:\n";
   for (const std::string& line : alignedRows(rows, std::vector<Align>(5, Align::right))) out += "  " + line + "\n";
   return out;

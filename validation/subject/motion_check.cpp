@@ -22,16 +22,40 @@ std::vector<double> instantsToCheck(const Scenario& scenario) {
   return equallySpaced(scenario.trajectory->duration(), intervals * parts + 1);
 }
 
-/// Distance AB of a leg, and by how much its links cannot span it, m.
+/// A distance that a leg has to span, and what it can, m; with the words around them.
 struct Span {
   double distance, least, most;
+  const char *before, *after;
 
   double missed() const { return std::max({distance - most, least - distance, 0.0}); }
 };
 
+/// Of crank and rod: across the crank's plane first, then within it.
+Span spanOfCrank(const Leg& leg, double along, double across) {
+  const double l = leg.proximal.length, s = leg.distal.length;
+  if (along > s) return {along, 0, s, "its platform point is", "m from its crank's plane, and its rod spans"};
+  const double c = std::sqrt((s - along) * (s + along));
+  return {across, std::abs(l - c), l + c, "its platform point is",
+          "m from its crank's axis, and from there crank and rod span"};
+}
+
 Span spanOf(const Leg& leg, const Motion<double>& motion) {
-  return {(motion.p - leg.base_point + motion.Q * leg.platform_point).norm(),
-          std::abs(leg.proximal.length - leg.distal.length), leg.proximal.length + leg.distal.length};
+  const double l = leg.proximal.length, s = leg.distal.length;
+  const Vector3d AB = motion.p - leg.base_point + motion.Q * leg.platform_point;
+  const Vector3d u = leg.base_axis.stableNormalized();
+  const double along = std::abs(AB.dot(u)), across = AB.cross(u).norm();
+  const char* const apart = "its base and platform points are";
+  switch (leg.kind) {
+    case LegKind::UPS:
+      return {AB.norm(), s, l + s, apart, "m apart, and its cylinder and rod span"};
+    case LegKind::RUS:
+      return spanOfCrank(leg, along, across);
+    case LegKind::PUS:
+      return {across, 0, s, "its platform point is", "m from its rail, and its rod spans"};
+    case LegKind::URS:
+      break;
+  }
+  return {AB.norm(), std::abs(l - s), l + s, apart, "m apart, and its two links span"};
 }
 
 /// ", and by up to 0.3 m, leg 2 at t = 3 s": where the motion misses most, if that is more than `already`.
@@ -55,35 +79,51 @@ std::string outOfReach(const Scenario& scenario, const PoseError& refusal) {
   const Span span = spanOf(scenario.manipulator->leg(refusal.leg()), scenario.trajectory->at(refusal.instant()));
   const bool too_far = refusal.measure() > refusal.bound();
   const double missed = std::abs(refusal.measure() - refusal.bound());
-  return fmt::format(
-      "leg {} is out of reach at t = {:.6g} s: its base and platform points are {:.6g} m apart, and its two links span "
-      "{} {:.6g} m; it misses by {:.4g} m{}",
-      refusal.leg() + 1, refusal.instant(), refusal.measure(), too_far ? "at most" : "at least",
-      too_far ? span.most : span.least, missed, worstMiss(scenario, missed));
+  return fmt::format("leg {} is out of reach at t = {:.6g} s: {} {:.6g} {} {} {:.6g} m; it misses by {:.4g} m{}",
+                     refusal.leg() + 1, refusal.instant(), span.before, refusal.measure(), span.after,
+                     too_far ? "at most" : "at least", too_far ? span.most : span.least, missed,
+                     worstMiss(scenario, missed));
 }
 
-/// A knee within √eps of straight: as a length, the links' sum less the distance.
+/// A knee within √eps of straight: as a length, what its links can span less the distance.
 std::string stretched(const Scenario& scenario, const PoseError& refusal) {
-  const Span span = spanOf(scenario.manipulator->leg(refusal.leg()), scenario.trajectory->at(refusal.instant()));
+  const Leg& leg = scenario.manipulator->leg(refusal.leg());
+  const Span span = spanOf(leg, scenario.trajectory->at(refusal.instant()));
+  if (leg.kind == LegKind::PUS)
+    return fmt::format(
+        "leg {} has its rod across its rail at t = {:.6g} s: its platform point is {:.6g} m from the rail, {:.3g} m "
+        "less than the rod is long, and there its carriage's speed is not determined",
+        refusal.leg() + 1, refusal.instant(), span.distance, span.most - span.distance);
   const bool is_straight = span.most - span.distance < span.distance - span.least;
   return fmt::format(
-      "leg {} is {} at t = {:.6g} s: its base and platform points are {:.6g} m apart, {:.3g} m from where its knee can "
-      "bend neither way, and there its speed is not determined",
-      refusal.leg() + 1, is_straight ? "stretched straight" : "folded flat", refusal.instant(), span.distance,
+      "leg {} is {} at t = {:.6g} s: {} {:.6g} m {}, {:.3g} m from where its knee can bend neither way, and there its "
+      "speed is not determined",
+      refusal.leg() + 1, is_straight ? "stretched straight" : "folded flat", refusal.instant(), span.before,
+      span.distance, leg.kind == LegKind::RUS ? "from its crank's axis" : "apart",
       is_straight ? span.most - span.distance : span.distance - span.least);
 }
 
-std::string onAxis(const PoseError& refusal) {
+std::string onAxis(const Scenario& scenario, const PoseError& refusal) {
+  const auto [axis, angle] = [&]() -> std::pair<const char*, const char*> {
+    switch (scenario.manipulator->leg(refusal.leg()).kind) {
+      case LegKind::UPS:
+        return {"base axis of its universal joint", "leg's"};
+      case LegKind::PUS:
+        return {"rail of its carriage", "rod's"};
+      default:
+        return {"axis of its motor", "motor's"};
+    }
+  }();
   return fmt::format(
-      "leg {} has its platform point on the axis of its motor at t = {:.6g} s: {:.3g} m from it, expected more than "
-      "{:.3g} m, for there the motor's angle is not determined",
-      refusal.leg() + 1, refusal.instant(), refusal.measure(), refusal.bound());
+      "leg {} has its platform point on the {} at t = {:.6g} s: {:.3g} m from it, expected more than {:.3g} m, for "
+      "there the {} angle is not determined",
+      refusal.leg() + 1, axis, refusal.instant(), refusal.measure(), refusal.bound(), angle);
 }
 
 std::string inWords(const Scenario& scenario, const PoseError& refusal) {
   if (dynamic_cast<const OutOfReach*>(&refusal) != nullptr) return outOfReach(scenario, refusal);
   if (dynamic_cast<const StretchedLeg*>(&refusal) != nullptr) return stretched(scenario, refusal);
-  if (dynamic_cast<const PointOnAxis*>(&refusal) != nullptr) return onAxis(refusal);
+  if (dynamic_cast<const PointOnAxis*>(&refusal) != nullptr) return onAxis(scenario, refusal);
   return fmt::format(
       "at t = {:.6g} s the pose is singular, or was passed just before: with all six motors held the platform can "
       "still "

@@ -98,14 +98,15 @@ struct Event {
 
 /// How far the efforts on trial are from the expected ones, at most.
 struct EffortDeviation {
-  double largest = 0;         ///< N·m
+  std::string unit = "N m";   ///< of the efforts, as checks write it; "N" where all motors slide
+  double largest = 0;         ///< in that unit
   double t = 0;               ///< s
   std::string where;          ///< "leg 3"
-  double largest_effort = 0;  ///< of the expected ones along the motion, N·m
+  double largest_effort = 0;  ///< of the expected ones along the motion
   double drift = 0;     ///< how far errors of that size may move the platform by the end, open loop, m; NaN: unknown
   double duration = 0;  ///< of the motion, s
   double length = 0;    ///< of the machine, m: a drift beyond says that the motion is lost
-  double allowed = 0;   ///< by a tolerance of the user's, N·m; 0 where there is none
+  double allowed = 0;   ///< by a tolerance of the user's; 0 where there is none
 
   double relative() const { return largest / largest_effort; }
   /// The smallest `--rtol` that would pass alone.

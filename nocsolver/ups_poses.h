@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "model/scalar.h"
+
+namespace ursula {
+
+/// One pose of a platform on six legs of given lengths; vectors in B.
+struct UpsPose {
+  Vector3d p = Vector3d::Zero();                 ///< position of M's origin, m
+  Matrix3d Q = Matrix3d::Identity();             ///< orientation of M in B
+  Eigen::Vector4d q = Eigen::Vector4d::UnitX();  ///< the same as a unit quaternion [w, x, y, z], w ≥ 0
+  double residual = 0;                           ///< largest | |p + Q bᵢ − aᵢ| − dᵢ |, m
+  int multiplicity = 1;                          ///< how many poses cannot be told from this one in the arithmetic
+};
+
+/// All real poses, by falling w, x, y, z of the quaternion, at most 40.
+struct UpsPoses {
+  std::vector<UpsPose> list;
+  int counted = 0;      ///< poses in the complex numbers that were found, with their multiplicities
+  int at_infinity = 0;  ///< solutions that are no poses, as where joints coincide; 0 for most machines
+  /// Both together are always 40: that proves that no pose is missing.
+  bool complete() const { return counted + at_infinity == 40; }
+};
+
+/// Direct kinematics of a general Stewart–Gough platform: every pose with |p + Q bᵢ − aᵢ| = dᵢ. Base points aᵢ in B,
+/// platform points bᵢ in M, lengths dᵢ, all in m. See docs/direct_kinematics.md for the method. Allocates.
+/// Throws UndeterminedPose where there are infinitely many, or nearly so; std::invalid_argument unless all is finite
+/// and no length is negative.
+UpsPoses upsPoses(const std::array<Vector3d, 6>& base_points, const std::array<Vector3d, 6>& platform_points,
+                  const Vector6d& lengths);
+
+}  // namespace ursula
