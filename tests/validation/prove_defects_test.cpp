@@ -2,12 +2,41 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+
 #include "model/loops/mujoco/mujoco_loop.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/prove/prove.h"
 
 namespace ursula {
 namespace {
+
+/// For machines of other kinds what is not there (friction, a load) has defects that change nothing, and checks that
+/// nothing tries.
+class ProofOf : public testing::TestWithParam<const char*> {};
+
+TEST_P(ProofOf, catchesEveryDefect) {
+  const DefectProof proof = proveDefects(scenarioOf(GetParam()), 2, [](int) {});
+  EXPECT_TRUE(proof.without_defect.empty()) << "the right solver fails " << proof.without_defect.front();
+  int shown = 0;
+  for (const DefectOutcome& outcome : proof.outcomes) {
+    if (!mujocoAvailable() && outcome.name.rfind("MuJoCo", 0) == 0) continue;
+    shown += outcome.shows;
+    if (outcome.shows)
+      EXPECT_TRUE(outcome.caught()) << outcome.name << ", on " << outcome.roads() << " of " << outcome.roads_wanted;
+  }
+  EXPECT_GE(shown, 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, ProofOf,
+                         testing::Values("flight-simulator", "ups-friction-load", "hexa", "hexaglide", "mixture",
+                                         "three-legs"),
+                         [](const auto& scenario) {
+                           std::string name = scenario.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 /// One test, for it takes its time: whatever it says is of one run.
 TEST(Proof, catchesEveryDefectAndNeedsEveryCheck) {

@@ -45,7 +45,7 @@ std::vector<Check> checksWith(const Defect& defect) {
 TEST(Defects, areManyAndOfEveryGroup) {
   std::set<std::string> names;
   std::map<std::string, int> groups;
-  const std::vector<Defect> defects = allDefects();
+  const std::vector<Defect> defects = allDefects(*provingGround().manipulator);
   for (const Defect& defect : defects) {
     names.insert(defect.name);
     ++groups[defect.group];
@@ -64,7 +64,7 @@ TEST(Defects, areManyAndOfEveryGroup) {
 TEST(Defects, areHeldToTwoRoadsButWhereOneAloneCanSee) {
   const std::set<std::string> alone = {"branch",        "kinematics",  "direct",  "hidden",
                                        "shared motion", "shared load", "reading", "experiment"};
-  for (const Defect& defect : allDefects())
+  for (const Defect& defect : allDefects(*provingGround().manipulator))
     EXPECT_EQ(defect.roads, alone.count(defect.group) == 1 ? 1 : 2) << defect.name;
 }
 
@@ -77,7 +77,7 @@ struct Caught {
 class OneDefect : public testing::TestWithParam<Caught> {};
 
 TEST_P(OneDefect, isCaughtByWhatMustSeeIt) {
-  const std::vector<Defect> defects = allDefects();
+  const std::vector<Defect> defects = allDefects(*provingGround().manipulator);
   const auto found =
       std::find_if(defects.begin(), defects.end(), [](const Defect& defect) { return defect.name == GetParam().name; });
   ASSERT_NE(found, defects.end());

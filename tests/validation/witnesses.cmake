@@ -6,6 +6,7 @@ add_executable(witness_tests
   invariance_test.cpp
   judge_ladder_test.cpp
   ladder_test.cpp
+  prove_kinds_test.cpp
   prove_test.cpp
   roads_test.cpp
   windows_test.cpp

@@ -26,7 +26,7 @@ namespace ursula {
 ///                            100 km and 10⁶ L
 ///   platform points          P among them; up to 30 L off; M turned any way
 ///   axes                     tilted tangents, radial, tangential, random, one along z exactly or nearly; any length
-///   links                    l / s from 2/3 to 3/2; 1/5 to 5
+///   links                    l / s from 2/3 to 3/2; 1/5 to 5; crank over the rod as seen along the axis likewise
 ///   knees                    either way, between 20° and 160° in the middle of the motion
 ///   friction                 none, viscous, Coulomb's, both; each leg's own, up to half (a fifth for Coulomb's) of the
 ///                            weight that it carries; smoothing speed 0.003 to 0.3 rad over T
@@ -39,6 +39,14 @@ namespace ursula {
 ///   duration                 1 to 8 T; 0.02 to 60 T
 ///   singularities            κ(B) κ(legs) up to 10⁴; 10⁴ to 10⁶; legs down to |sin θ| = 0.03, B down to |AB| / 20 from
 ///                            its leg's axis
+///
+/// and of other kinds than URS:
+///
+///   legs                     six of one kind; four to six of any kinds; three to five, some with two motors or three
+///   motors                   on the coordinate that a kind drives by default; on any
+///   strokes (UPS)            0.15 to 0.85 of it used in the middle of the motion; 0.003 to 0.05 from an end
+///   rods (PUS)               20° to 70° to the rail; 78° to 87°; the carriage up to 30 L from its zero
+///   friction                 of what slides as of what turns, with L for its lever
 ///
 /// Every leg follows the whole motion, and det B keeps its sign.
 Scenario randomScenario(std::uint64_t seed, RandomKind kind = RandomKind::URS);
