@@ -7,6 +7,7 @@
 
 #include "nocsolver/chain_solver.h"
 #include "nocsolver/kernels/chain_motion.h"
+#include "nocsolver/kernels/leg_forces.h"
 #include "nocsolver/kernels/platform_at_p.h"
 #include "nocsolver/kernels/pus.h"
 #include "nocsolver/kernels/rus.h"
@@ -21,7 +22,7 @@ inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
 template <class S>
 void displacement(const ChainModel<S>& model, int index, const Motion<S>& motion, ChainState<S>& out) {
   out.Qb.noalias() = motion.Q * model.b;
-  out.AB = (motion.p - model.a) + out.Qb;  // (paper, eq. 3)
+  out.AB = (motion.p - model.a) + out.Qb;  // (3)
   switch (model.kind) {
     case LegKind::URS:
       return kernel::ursDisplacement(model, index, motion.t, out);
@@ -48,11 +49,16 @@ void map(const ChainModel<S>& model, int index, const S& t, ChainState<S>& out) 
   }
 }
 
+/// Rates and accelerations of joints and links for velocity and acceleration of B.
 template <class S>
-kernel::ChainMotion<S> motionOf(LegKind kind, const ChainState<S>& leg, const Vector3<S>& rate,
-                                const Vector3<S>& acceleration) {
-  return kernel::withKind(kind,
-                          [&](auto k) { return kernel::chainMotion<decltype(k)::value>(leg, rate, acceleration); });
+void move(LegKind kind, const Vector3<S>& v_B, const Vector3<S>& a_B, ChainState<S>& leg) {
+  leg.v_B = v_B;
+  leg.rate = kernel::chainRates(leg, v_B);
+  kernel::withKind(kind, [&](auto k) {
+    const Vector3<S> bias = kernel::unacceleratedMotion<decltype(k)::value>(leg);
+    leg.acceleration = kernel::chainRates<S>(leg, a_B - bias);
+    kernel::accelerate<decltype(k)::value>(leg);
+  });
 }
 
 /// v_B of a twist [ω; v] at P.
@@ -70,10 +76,19 @@ void addForceAtB(const Vector3<S>& f, const Vector3<S>& Qb, Vector6<S>& wrench) 
 }  // namespace chain
 
 template <class S>
+void ChainSolver<S>::maps(const Motion<S>& motion, ChainWorkspace<S>& work) const {
+  for (int i = 0; i < leg_count_; ++i) {
+    chain::displacement(model(i), i, motion, work.legs[chain::at(i)]);
+    chain::map(model(i), i, motion.t, work.legs[chain::at(i)]);
+  }
+}
+
+template <class S>
 void ChainSolver<S>::displacements(const Motion<S>& motion, ChainWorkspace<S>& work) const {
   for (int i = 0; i < leg_count_; ++i) {
     chain::displacement(model(i), i, motion, work.legs[chain::at(i)]);
     chain::map(model(i), i, motion.t, work.legs[chain::at(i)]);
+    kernel::placeLinks(model(i), work.legs[chain::at(i)]);
   }
 }
 
@@ -83,12 +98,10 @@ void ChainSolver<S>::inverseKinematics(const Motion<S>& motion, ChainWorkspace<S
     ChainState<S>& leg = work.legs[chain::at(i)];
     chain::displacement(model(i), i, motion, leg);
     chain::map(model(i), i, motion.t, leg);
+    kernel::placeLinks(model(i), leg);
     const Vector3<S> across = motion.omega.cross(leg.Qb);
-    leg.v_B = motion.p_dot + across;
-    const Vector3<S> a_B = motion.p_ddot + motion.omega_dot.cross(leg.Qb) + motion.omega.cross(across);
-    leg.rate = kernel::chainRates(leg, leg.v_B);
-    const Vector3<S> bias = chain::motionOf<S>(model(i).kind, leg, leg.rate, Vector3<S>::Zero()).a_B;
-    leg.acceleration = kernel::chainRates<S>(leg, a_B - bias);
+    chain::move<S>(model(i).kind, motion.p_dot + across,
+                   motion.p_ddot + motion.omega_dot.cross(leg.Qb) + motion.omega.cross(across), leg);
   }
 }
 
@@ -129,16 +142,16 @@ void ChainSolver<S>::jacobians(const Motion<S>& motion, ChainWorkspace<S>& work)
     const Motor& motor = motors_[chain::at(m)];
     const ChainState<S>& leg = work.legs[chain::at(motor.leg)];
     const Vector3<S>& k = leg.k[chain::at(motor.joint)];
-    work.A(m) = S(1) / k.norm();
+    work.A(m) = S(1) / k.cwiseAbs().sum();  // any size near k's will do, and this one needs no root
     const Vector3<S> n = work.A(m) * k;
-    work.B.row(m) << leg.Qb.cross(n).transpose(), n.transpose();  // (paper, eq. 23)
+    work.B.row(m) << leg.Qb.cross(n).transpose(), n.transpose();  // (23)
   }
   kernel::factorise(work.B, length_, motion.t, work.B_transposed);
 }
 
 template <class S>
 Matrix6<S> ChainSolver<S>::T(const ChainWorkspace<S>& work) const {
-  Matrix6<S> T = work.B_transposed.transpose().solve(Matrix6<S>(work.A.asDiagonal()));  // (paper, eq. 24)
+  Matrix6<S> T = work.B_transposed.transpose().solve(Matrix6<S>(work.A.asDiagonal()));  // (24)
   T.template topRows<3>() /= length_;
   return T;
 }
@@ -155,33 +168,31 @@ Matrix6<S> ChainSolver<S>::TRate(const Motion<S>& motion, const ChainWorkspace<S
     const Vector3<S>& k = leg.k[chain::at(motor.joint)];
     const Vector3<S> k_dot = K_dot.row(motor.joint).transpose();
     const Vector3<S> Qb_dot = motion.omega.cross(leg.Qb);
-    J_dot.row(m) << (Qb_dot.cross(k) + leg.Qb.cross(k_dot)).transpose(), k_dot.transpose();  // (paper, eq. 26)
+    J_dot.row(m) << (Qb_dot.cross(k) + leg.Qb.cross(k_dot)).transpose(), k_dot.transpose();  // (26)
   }
   const Matrix6<S> T = this->T(work);
-  return -T * J_dot * T;  // (paper, eq. 25)
+  return -T * J_dot * T;  // (25)
 }
 
 template <class S>
-void ChainSolver<S>::bodyMotions(const Motion<S>& motion, const ChainWorkspace<S>& work,
-                                 BodyMotions<S>& bodies) const {
+void ChainSolver<S>::bodyMotions(const Motion<S>& motion, const ChainWorkspace<S>& work, BodyMotions<S>& bodies) const {
   bodies = BodyMotions<S>();
   for (int i = 0; i < leg_count_; ++i) {
     const ChainState<S>& leg = work.legs[chain::at(i)];
-    const kernel::ChainMotion<S> links = chain::motionOf<S>(model(i).kind, leg, leg.rate, leg.acceleration);
     const auto set = [&](BodyMotion<S>& body, const Vector3<S>& c, const Matrix3<S>& R, const ChainLinkMotion<S>& m) {
       body.c = model(i).a + c;
       body.R = R;
       body.twist << m.omega, m.c_dot;
       body.twist_rate << m.omega_dot, m.c_ddot;
     };
-    set(bodies[chain::at(i)], leg.O_1 + leg.arm_1, leg.R_1, links.proximal);
-    set(bodies[chain::at(leg_count + i)], leg.O_2 + leg.arm_2, leg.R_2, links.distal);
+    set(bodies[chain::at(i)], leg.O_1 + leg.arm_1, leg.R_1, leg.proximal);
+    set(bodies[chain::at(leg_count + i)], leg.O_2 + leg.arm_2, leg.R_2, leg.distal);
   }
   const Vector3<S> arm = motion.Q * rho_;
   BodyMotion<S>& platform = bodies.back();
-  platform.c = motion.p + arm;  // (paper, eq. 39c)
+  platform.c = motion.p + arm;  // (39c)
   platform.R = motion.Q;
-  platform.twist << motion.omega, motion.p_dot + motion.omega.cross(arm);  // (paper, eq. 41c)
+  platform.twist << motion.omega, motion.p_dot + motion.omega.cross(arm);  // (41c)
   platform.twist_rate << motion.omega_dot,
       motion.p_ddot + motion.omega_dot.cross(arm) + motion.omega.cross(motion.omega.cross(arm));
 }
@@ -194,11 +205,11 @@ void ChainSolver<S>::twistShaping(const Motion<S>& motion, const ChainWorkspace<
   shaping.setZero();
   for (int i = 0; i < leg_count_; ++i) {
     const ChainState<S>& leg = work.legs[chain::at(i)];
-    const kernel::ChainPartials<S> partials = kernel::withKind(
-        model(i).kind, [&](auto kind) { return kernel::chainPartials<decltype(kind)::value>(leg); });
+    const kernel::ChainPartials<S> partials =
+        kernel::withKind(model(i).kind, [&](auto kind) { return kernel::chainPartials<decltype(kind)::value>(leg); });
     for (int m = 0; m < motor_count; ++m) {
       const Vector3<S> rate = kernel::chainRates(leg, chain::atB<S>(T.col(m), leg.Qb));
-      shaping.template block<6, 1>(6 * i, m) << partials.omega_1 * rate, partials.v_1 * rate;  // (paper, eq. 48)
+      shaping.template block<6, 1>(6 * i, m) << partials.omega_1 * rate, partials.v_1 * rate;  // (48)
       shaping.template block<6, 1>(6 * (leg_count + i), m) << partials.omega_2 * rate, partials.v_2 * rate;
     }
   }
@@ -207,13 +218,21 @@ void ChainSolver<S>::twistShaping(const Motion<S>& motion, const ChainWorkspace<
 }
 
 template <class S>
-Vector3<S> ChainSolver<S>::legForces(const ChainWorkspace<S>& work, int i) const {
-  const ChainState<S>& leg = work.legs[chain::at(i)];
-  return kernel::withKind(model(i).kind, [&](auto k) {
-    constexpr LegKind kind = decltype(k)::value;
-    return kernel::chainForces<kind>(model(i), leg, kernel::chainMotion<kind>(leg, leg.rate, leg.acceleration),
-                                     gravity_);
-  });
+Vector3<S> ChainSolver<S>::legForces(const Vector3<S>& a_B, int i, ChainState<S>& leg) const {
+  const auto forces = [&]() -> Vector3<S> {
+    switch (model(i).kind) {
+      case LegKind::UPS:
+        return kernel::upsForces(model(i), a_B, gravity_, leg);
+      case LegKind::RUS:
+        return kernel::rusForces(model(i), a_B, gravity_, leg);
+      case LegKind::PUS:
+        return kernel::pusForces(model(i), a_B, gravity_, leg);
+      case LegKind::URS:
+        break;
+    }
+    return kernel::ursForces(model(i), a_B, gravity_, leg);
+  };
+  return forces() + kernel::chainFriction(model(i), leg);
 }
 
 /// [moment about P; force], in B, that moves the platform as it moves against gravity. (38), (43c), (46c)
@@ -231,12 +250,13 @@ Vector6<S> ChainSolver<S>::platformWrench(const Motion<S>& motion) const {
 
 /// The wrench at P of all that no motor carries directly, and what falls on the motors.
 template <class S>
-Vector6<S> ChainSolver<S>::wrenchAtP(const Motion<S>& motion, const ChainWorkspace<S>& work,
-                                     Vector6<S>& Q_driven) const {
+Vector6<S> ChainSolver<S>::wrenchAtP(const Motion<S>& motion, ChainWorkspace<S>& work, Vector6<S>& Q_driven) const {
   Vector6<S> wrench = platformWrench(motion);
   for (int i = 0; i < leg_count_; ++i) {
-    const ChainState<S>& leg = work.legs[chain::at(i)];
-    const Vector3<S> Q = legForces(work, i);
+    ChainState<S>& leg = work.legs[chain::at(i)];
+    const Vector3<S> across = motion.omega.cross(leg.Qb);
+    leg.v_B = motion.p_dot + across;
+    const Vector3<S> Q = legForces(motion.p_ddot + motion.omega_dot.cross(leg.Qb) + motion.omega.cross(across), i, leg);
     Vector3<S> f = Vector3<S>::Zero();
     for (int j = 0; j < 3; ++j) {
       const int motor = model(i).motor[chain::at(j)];
@@ -253,13 +273,13 @@ Vector6<S> ChainSolver<S>::wrenchAtP(const Motion<S>& motion, const ChainWorkspa
 template <class S>
 Vector6<S> ChainSolver<S>::inverseDynamics(const Motion<S>& motion, ChainWorkspace<S>& work,
                                            const Vector6<S>& load) const {
-  inverseKinematics(motion, work);
+  maps(motion, work);
   jacobians(motion, work);
   Vector6<S> Q_driven;
   Vector6<S> wrench = wrenchAtP(motion, work, Q_driven) - load;
   wrench.template head<3>() /= length_;
   const Vector6<S> lambda = work.B_transposed.solve(wrench);
-  return Q_driven + work.A.cwiseProduct(lambda);  // (paper, eq. 37)
+  return Q_driven + work.A.cwiseProduct(lambda);  // (37)
 }
 
 template <class S>
@@ -269,9 +289,8 @@ Matrix6<S> ChainSolver<S>::massMatrixAtP(const Motion<S>& motion, const ChainWor
   M_P.template topLeftCorner<3, 3>() += motion.Q * I_M_ * motion.Q.transpose();
   for (int i = 0; i < leg_count_; ++i) {
     const ChainState<S>& leg = work.legs[chain::at(i)];
-    const Matrix3<S> M = kernel::withKind(model(i).kind, [&](auto kind) {
-      return kernel::chainMassMatrix<decltype(kind)::value>(model(i), leg);
-    });
+    const Matrix3<S> M = kernel::withKind(
+        model(i).kind, [&](auto kind) { return kernel::chainMassMatrix<decltype(kind)::value>(model(i), leg); });
     Matrix3<S> K_transposed;
     K_transposed << leg.k[0], leg.k[1], leg.k[2];
     kernel::addAtP<S>(K_transposed * M * K_transposed.transpose(), leg.Qb, M_P);
@@ -285,7 +304,7 @@ Vector6<S> ChainSolver<S>::directDynamics(const Motion<S>& motion, const Vector6
   Motion<S> unaccelerated = motion;
   unaccelerated.omega_dot.setZero();
   unaccelerated.p_ddot.setZero();
-  inverseKinematics(unaccelerated, work);
+  displacements(unaccelerated, work);
   Vector6<S> Q_driven;
   Vector6<S> wrench = load - wrenchAtP(unaccelerated, work, Q_driven);
   for (int m = 0; m < motor_count; ++m) {
@@ -293,13 +312,14 @@ Vector6<S> ChainSolver<S>::directDynamics(const Motion<S>& motion, const Vector6
     const ChainState<S>& leg = work.legs[chain::at(motor.leg)];
     chain::addForceAtB<S>((efforts(m) - Q_driven(m)) * leg.k[chain::at(motor.joint)], leg.Qb, wrench);
   }
-  return massMatrixAtP(unaccelerated, work).llt().solve(wrench);  // (paper, eq. 36)
+  return massMatrixAtP(unaccelerated, work).llt().solve(wrench);  // (36)
 }
 
 template <class S>
 Vector3<S> ChainSolver<S>::forceOnPlatform(const ChainWorkspace<S>& work, int i, const Vector6<S>& efforts) const {
   const ChainState<S>& leg = work.legs[chain::at(i)];
-  const Vector3<S> Q = legForces(work, i);
+  const Vector3<S> Q = kernel::withKind(
+      model(i).kind, [&](auto kind) { return kernel::chainForces<decltype(kind)::value>(model(i), leg, gravity_); });
   Vector3<S> f = Vector3<S>::Zero();
   for (int j = 0; j < 3; ++j) {
     const int motor = model(i).motor[chain::at(j)];

@@ -7,6 +7,7 @@
 // Body Dynamics Algorithms, 2008, sect. 5.3, here in fixed axes):
 //   ω ← ω + q̇ a,  ω̇ ← ω̇ + q̈ a + q̇ ω × a                                                   (b)
 // a point that slides along a has q̇ a, q̈ a + 2 q̇ ω × a beside what it is carried by.        (c)
+// First all but q̈, which gives a_B⁰; what q̈ adds is linear.
 
 #include "nocsolver/chain_state.h"
 #include "nocsolver/kernels/dynamics.h"
@@ -46,21 +47,14 @@ struct FrameMotion {
     v += across;
     a += omega_dot.cross(arm) + omega.cross(across);
   }
-  void turn(const Vector3<S>& axis, const S& rate, const S& acceleration) {
-    omega_dot += acceleration * axis + rate * omega.cross(axis);  // (b)
+  void turn(const Vector3<S>& axis, const S& rate) {
+    omega_dot += rate * omega.cross(axis);  // (b)
     omega += rate * axis;
   }
-  void slide(const Vector3<S>& axis, const S& rate, const S& acceleration) {
+  void slide(const Vector3<S>& axis, const S& rate) {
     v += rate * axis;  // (c)
-    a += acceleration * axis + (S(2) * rate) * omega.cross(axis);
+    a += (S(2) * rate) * omega.cross(axis);
   }
-};
-
-/// Both links, and B, for joint rates and accelerations.
-template <class S>
-struct ChainMotion {
-  ChainLinkMotion<S> proximal, distal;
-  Vector3<S> a_B;
 };
 
 template <class S>
@@ -69,26 +63,42 @@ ChainLinkMotion<S> linkAt(FrameMotion<S> frame, const Vector3<S>& arm) {
   return {frame.omega, frame.v, frame.omega_dot, frame.a};
 }
 
+/// Both links at the leg's rates, as if no joint accelerated; returns a_B⁰ of (a).
 template <LegKind kind, class S>
-ChainMotion<S> chainMotion(const ChainState<S>& leg, const Vector3<S>& rate, const Vector3<S>& acceleration) {
+Vector3<S> unacceleratedMotion(ChainState<S>& leg) {
   using Chain = ChainOf<kind>;
-  ChainMotion<S> out;
   FrameMotion<S> frame;
   for (int j = 0; j < 3; ++j) {
     const auto i = static_cast<std::size_t>(j);
     if (j == Chain::first) {
-      out.proximal = linkAt<S>(frame, leg.arm_1);
+      leg.proximal = linkAt<S>(frame, leg.arm_1);
       frame.moveBy(leg.O_2 - leg.O_1);
     }
     if (Chain::slides(j))
-      frame.slide(leg.axis[i], rate(j), acceleration(j));
+      frame.slide(leg.axis[i], leg.rate(j));
     else
-      frame.turn(leg.axis[i], rate(j), acceleration(j));
+      frame.turn(leg.axis[i], leg.rate(j));
   }
-  out.distal = linkAt<S>(frame, leg.arm_2);
+  leg.distal = linkAt<S>(frame, leg.arm_2);
   frame.moveBy(leg.RB);
-  out.a_B = frame.a;
-  return out;
+  return frame.a;
+}
+
+/// What the joints' accelerations add to both links.
+template <LegKind kind, class S>
+void accelerate(ChainState<S>& leg) {
+  using Chain = ChainOf<kind>;
+  Vector3<S> omega_dot = Vector3<S>::Zero(), a = omega_dot;
+  for (int j = 0; j < 3; ++j) {
+    if (j == Chain::first) {
+      leg.proximal.omega_dot += omega_dot;
+      leg.proximal.c_ddot += a + omega_dot.cross(leg.arm_1);
+      a += omega_dot.cross(leg.O_2 - leg.O_1);
+    }
+    (Chain::slides(j) ? a : omega_dot) += leg.acceleration(j) * leg.axis[static_cast<std::size_t>(j)];
+  }
+  leg.distal.omega_dot += omega_dot;
+  leg.distal.c_ddot += a + omega_dot.cross(leg.arm_2);
 }
 
 /// Joint rates for a velocity of B.
@@ -104,15 +114,22 @@ Vector3<S> linkMoment(const Matrix3<S>& R, const Matrix3<S>& inertia, const Chai
   return R * (inertia * (R.transpose() * link.omega_dot) + omega.cross(inertia * omega));
 }
 
+/// What drives against friction of the three coordinates.
+template <class S>
+Vector3<S> chainFriction(const ChainModel<S>& model, const ChainState<S>& leg) {
+  return {frictionForce(model.viscous[0], model.coulomb[0], model.speed[0], leg.rate(0)),
+          frictionForce(model.viscous[1], model.coulomb[1], model.speed[1], leg.rate(1)),
+          frictionForce(model.viscous[2], model.coulomb[2], model.speed[2], leg.rate(2))};
+}
+
 /// Forces on the three coordinates that would move the links as they move, were the leg alone, friction included.
 template <LegKind kind, class S>
-Vector3<S> chainForces(const ChainModel<S>& model, const ChainState<S>& leg, const ChainMotion<S>& motion,
-                       const Vector3<S>& gravity) {
+Vector3<S> chainForces(const ChainModel<S>& model, const ChainState<S>& leg, const Vector3<S>& gravity) {
   using Chain = ChainOf<kind>;
-  const Vector3<S> f_1 = model.mass_1 * (motion.proximal.c_ddot - gravity);
-  const Vector3<S> f_2 = model.mass_2 * (motion.distal.c_ddot - gravity);
-  const Vector3<S> n_2 = linkMoment<S>(leg.R_2, model.I_2, motion.distal) + leg.arm_2.cross(f_2);  // about O₂
-  const Vector3<S> n_1 = linkMoment<S>(leg.R_1, model.I_1, motion.proximal) + leg.arm_1.cross(f_1) + n_2 +
+  const Vector3<S> f_1 = model.mass_1 * (leg.proximal.c_ddot - gravity);
+  const Vector3<S> f_2 = model.mass_2 * (leg.distal.c_ddot - gravity);
+  const Vector3<S> n_2 = linkMoment<S>(leg.R_2, model.I_2, leg.distal) + leg.arm_2.cross(f_2);  // about O₂
+  const Vector3<S> n_1 = linkMoment<S>(leg.R_1, model.I_1, leg.proximal) + leg.arm_1.cross(f_1) + n_2 +
                          (leg.O_2 - leg.O_1).cross(f_2);  // about O₁
   Vector3<S> Q;
   for (int j = 0; j < 3; ++j) {
@@ -122,9 +139,8 @@ Vector3<S> chainForces(const ChainModel<S>& model, const ChainState<S>& leg, con
       Q(j) = leg.axis[i].dot(before ? Vector3<S>(f_1 + f_2) : f_2);
     else
       Q(j) = leg.axis[i].dot(before ? n_1 : n_2);
-    Q(j) += frictionForce(model.viscous[i], model.coulomb[i], model.speed[i], leg.rate(j));
   }
-  return Q;
+  return Q + chainFriction(model, leg);
 }
 
 /// Partial velocities of the links' mass centres: columns are for a unit rate of one coordinate.

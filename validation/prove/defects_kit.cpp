@@ -67,8 +67,8 @@ Vector6d onActuators(const Solver<double>& solver, const Motion<double>& motion,
     unit.p_dot = T.col(k).tail<3>();
     solver.inverseKinematics(unit, work);
     const JointVariables<double> rates = solver.rates(work);
-    torques(k) = forces.phi.dot(rates.phi) + forces.psi.dot(rates.psi) + forces.theta.dot(rates.theta) +
-                forces.d.dot(rates.d);
+    torques(k) =
+        forces.phi.dot(rates.phi) + forces.psi.dot(rates.psi) + forces.theta.dot(rates.theta) + forces.d.dot(rates.d);
   }
   return torques;
 }

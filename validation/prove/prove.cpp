@@ -110,7 +110,8 @@ void inParallel(int jobs, int count, const std::function<void(int)>& task) {
 std::vector<Sensitivity> proveSensitivities(const Scenario& scenario) {
   const TorqueReference reference(scenario);
   std::vector<Sensitivity> out;
-  for (const Parameter& parameter : allParameters(*scenario.manipulator)) out.push_back(findSensitivity(scenario, reference, parameter));
+  for (const Parameter& parameter : allParameters(*scenario.manipulator))
+    out.push_back(findSensitivity(scenario, reference, parameter));
   return out;
 }
 

@@ -206,9 +206,7 @@ Subject presented(const Subject& subject, const Presentation& to) {
       return found;
     };
   if (subject.rebuilt)
-    out.rebuilt = [=](const Manipulator& machine) {
-      return presented(subject.rebuilt(from.of(machine)), to);
-    };
+    out.rebuilt = [=](const Manipulator& machine) { return presented(subject.rebuilt(from.of(machine)), to); };
   return out;
 }
 
