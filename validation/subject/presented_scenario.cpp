@@ -206,7 +206,12 @@ Subject presented(const Subject& subject, const Presentation& to) {
       return found;
     };
   if (subject.rebuilt)
-    out.rebuilt = [=](const Manipulator& machine) { return presented(subject.rebuilt(from.of(machine)), to); };
+    out.rebuilt = [=](const Manipulator& machine) {
+      Presentation there(machine);  // its motors may stand in another order
+      there.origin = to.origin;
+      there.units = to.units;
+      return presented(subject.rebuilt(from.of(machine)), there);
+    };
   return out;
 }
 
