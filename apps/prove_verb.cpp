@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <thread>
 
@@ -23,6 +24,7 @@ struct ProveOptions {
   int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   int random = 24;
   std::uint64_t seed = 1;
+  RandomKind kind = RandomKind::URS;
   bool only_random = false;
 };
 
@@ -102,8 +104,9 @@ void printSensitivities(const std::vector<Sensitivity>& sensitivities) {
   fmt::print("\n");
 }
 
-void printRandom(const RandomOutcomes& random, std::uint64_t seed) {
-  fmt::print("Random valid scenarios, seeds {} to {}: {} passed, {} failed, {} inconclusive\n", seed,
+void printRandom(const RandomOutcomes& random, std::uint64_t seed, RandomKind kind) {
+  const std::string of = kind == RandomKind::URS ? "" : fmt::format(" ({})", nameOf(kind));
+  fmt::print("Random valid scenarios{}, seeds {} to {}: {} passed, {} failed, {} inconclusive\n", of, seed,
              seed + static_cast<std::uint64_t>(random.runs) - 1, random.passed, random.failed.size(),
              random.inconclusive.size());
   if (random.runs > 0) fmt::print("\nThe largest share of its limit that each check reached:\n\n");
@@ -128,8 +131,8 @@ int prove(const ProveOptions& options) {
   found.scenario = scenario.name;
   found.seed = options.seed;
   if (!options.only_random) proveChecks(options, scenario, found);
-  found.random = proveRandom(options.seed, options.random, options.jobs, progress("random scenarios"));
-  printRandom(found.random, options.seed);
+  found.random = proveRandom(options.seed, options.random, options.jobs, progress("random scenarios"), options.kind);
+  printRandom(found.random, options.seed, options.kind);
   if (!options.out.empty()) {
     const std::filesystem::path page = std::filesystem::path(options.out) / "prove.html";
     writeOutput(page.string(), proveHtml(found));
@@ -151,6 +154,11 @@ void addProve(CLI::App& app, std::function<int()>& run) {
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
   verb->add_option("--seed", options->seed, "Seed of the first of them")->capture_default_str();
+  std::map<std::string, RandomKind> kinds;
+  for (std::size_t k = 0; k < random_kind_names.size(); ++k) kinds[random_kind_names[k]] = static_cast<RandomKind>(k);
+  verb->add_option("--kind", options->kind, "Legs of the random machines: URS, UPS, RUS, PUS, mixture, two-motors")
+      ->transform(CLI::CheckedTransformer(kinds))
+      ->default_str("URS");
   verb->add_flag("--only-random", options->only_random, "Leave out the defects");
   verb->callback([options, &run] { run = [options] { return prove(*options); }; });
 }

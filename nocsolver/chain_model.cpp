@@ -1,5 +1,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <utility>
 
 #include "model/real50.h"
 #include "nocsolver/chain_solver.h"
@@ -36,15 +37,16 @@ ChainModel<S> modelOf(const Leg& from) {
 
 }  // namespace
 
-template <class S>
-ChainSolver<S>::ChainSolver(const Manipulator& manipulator)
+template <class S, class R>
+ChainSolver<S, R>::ChainSolver(const Manipulator& manipulator, R reading)
     : leg_count_(manipulator.legCount()),
       motors_(manipulator.motors()),
       gravity_(manipulator.gravity().cast<S>()),
       mass_(static_cast<S>(manipulator.platform().mass)),
       rho_(manipulator.platform().center_of_mass.cast<S>()),
       I_M_(manipulator.platform().inertia.cast<S>()),
-      length_(0) {
+      length_(0),
+      reading_(std::move(reading)) {
   for (int i = 0; i < leg_count_; ++i) {
     ChainModel<S>& leg = legs_[static_cast<std::size_t>(i)];
     leg = modelOf<S>(manipulator.leg(i));
@@ -56,8 +58,9 @@ ChainSolver<S>::ChainSolver(const Manipulator& manipulator)
   }
 }
 
-template ChainSolver<double>::ChainSolver(const Manipulator&);
-template ChainSolver<float>::ChainSolver(const Manipulator&);
-template ChainSolver<Real50>::ChainSolver(const Manipulator&);
+template ChainSolver<double>::ChainSolver(const Manipulator&, Corrected);
+template ChainSolver<float>::ChainSolver(const Manipulator&, Corrected);
+template ChainSolver<Real50>::ChainSolver(const Manipulator&, Corrected);
+template ChainSolver<double, SpoiltChain>::ChainSolver(const Manipulator&, SpoiltChain);
 
 }  // namespace ursula

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <type_traits>
 
 #include <Eigen/LU>
 
@@ -8,7 +9,7 @@
 #include "model/motion.h"
 #include "nocsolver/chain_state.h"
 #include "nocsolver/errors.h"
-#include "nocsolver/reading.h"
+#include "nocsolver/spoilt_chain.h"
 
 namespace ursula {
 
@@ -29,11 +30,11 @@ struct ChainWorkspace {
 /// coordinates, those that no motor drives onto B by the leg's map, and from there onto P.
 ///
 /// Immutable: threads share it, each with a workspace of its own. Nothing here allocates. Throws as PaperSolver does,
-/// and OutOfStroke.
-template <class S>
+/// and OutOfStroke. `Reading` is Corrected, or SpoiltChain for formulas that are wrong.
+template <class S, class Reading = Corrected>
 class ChainSolver {
  public:
-  explicit ChainSolver(const Manipulator& manipulator);
+  explicit ChainSolver(const Manipulator& manipulator, Reading reading = Reading{});
 
   int legCount() const { return leg_count_; }
   /// A length of the machine's size, m.
@@ -71,11 +72,16 @@ class ChainSolver {
   const Vector3<S>& gravity() const { return gravity_; }
 
  private:
+  const ChainModel<S>& model(int i) const { return legs_[static_cast<std::size_t>(i)]; }
+  static constexpr bool is_right = std::is_same_v<Reading, Corrected>;
+
+  void place(const Motion<S>& motion, int leg, ChainState<S>& out) const;
   /// Displacements and the legs' maps to B, and nothing of the links.
   void maps(const Motion<S>& motion, ChainWorkspace<S>& work) const;
-  const ChainModel<S>& model(int i) const { return legs_[static_cast<std::size_t>(i)]; }
-  /// On the coordinates of a leg, friction included, for v_B in its state.
-  Vector3<S> legForces(const Vector3<S>& a_B, int leg, ChainState<S>& state) const;
+  /// On the coordinates of a leg, friction included: by the recursion over its joints. Needs inverseKinematics.
+  Vector3<S> legForces(const ChainWorkspace<S>& work, int leg) const;
+  /// The same in the axes of the leg's plane, which sets rates and accelerations as well. Needs maps.
+  Vector3<S> planeForces(const Motion<S>& motion, int leg, ChainState<S>& state) const;
   Vector6<S> platformWrench(const Motion<S>& motion) const;
   Vector6<S> wrenchAtP(const Motion<S>& motion, ChainWorkspace<S>& work, Vector6<S>& Q_driven) const;
 
@@ -87,9 +93,11 @@ class ChainSolver {
   Vector3<S> rho_;
   Matrix3<S> I_M_;
   S length_;
+  Reading reading_;
 };
 
 extern template class ChainSolver<double>;
 extern template class ChainSolver<float>;
+extern template class ChainSolver<double, SpoiltChain>;
 
 }  // namespace ursula

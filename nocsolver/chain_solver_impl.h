@@ -6,107 +6,51 @@
 #include <algorithm>
 
 #include "nocsolver/chain_solver.h"
-#include "nocsolver/kernels/chain_motion.h"
+#include "nocsolver/kernels/chain_leg.h"
 #include "nocsolver/kernels/leg_forces.h"
 #include "nocsolver/kernels/platform_at_p.h"
-#include "nocsolver/kernels/pus.h"
-#include "nocsolver/kernels/rus.h"
-#include "nocsolver/kernels/ups.h"
-#include "nocsolver/kernels/urs.h"
 
 namespace ursula {
-namespace chain {
 
-inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-template <class S>
-void displacement(const ChainModel<S>& model, int index, const Motion<S>& motion, ChainState<S>& out) {
-  out.Qb.noalias() = motion.Q * model.b;
-  out.AB = (motion.p - model.a) + out.Qb;  // (3)
-  switch (model.kind) {
-    case LegKind::URS:
-      return kernel::ursDisplacement(model, index, motion.t, out);
-    case LegKind::UPS:
-      return kernel::upsDisplacement(model, index, motion.t, out);
-    case LegKind::RUS:
-      return kernel::rusDisplacement(model, index, motion.t, out);
-    case LegKind::PUS:
-      return kernel::pusDisplacement(model, index, motion.t, out);
-  }
+template <class S, class R>
+void ChainSolver<S, R>::place(const Motion<S>& motion, int i, ChainState<S>& out) const {
+  chain::displacement(model(i), i, motion, out);
+  kernel::placeLinks(model(i), out);
+  reading_.placed(model(i), out);
+  chain::map(model(i), i, motion.t, out);
+  reading_.mapped(model(i), out);
 }
 
-template <class S>
-void map(const ChainModel<S>& model, int index, const S& t, ChainState<S>& out) {
-  switch (model.kind) {
-    case LegKind::URS:
-      return kernel::ursMap(model, index, t, out);
-    case LegKind::UPS:
-      return kernel::upsMap(out);
-    case LegKind::RUS:
-      return kernel::rusMap(model, index, t, out);
-    case LegKind::PUS:
-      return kernel::pusMap(model, index, t, out);
-  }
-}
-
-/// Rates and accelerations of joints and links for velocity and acceleration of B.
-template <class S>
-void move(LegKind kind, const Vector3<S>& v_B, const Vector3<S>& a_B, ChainState<S>& leg) {
-  leg.v_B = v_B;
-  leg.rate = kernel::chainRates(leg, v_B);
-  kernel::withKind(kind, [&](auto k) {
-    const Vector3<S> bias = kernel::unacceleratedMotion<decltype(k)::value>(leg);
-    leg.acceleration = kernel::chainRates<S>(leg, a_B - bias);
-    kernel::accelerate<decltype(k)::value>(leg);
-  });
-}
-
-/// v_B of a twist [ω; v] at P.
-template <class S>
-Vector3<S> atB(const Vector6<S>& twist, const Vector3<S>& Qb) {
-  return twist.template tail<3>() + Vector3<S>(twist.template head<3>()).cross(Qb);
-}
-
-template <class S>
-void addForceAtB(const Vector3<S>& f, const Vector3<S>& Qb, Vector6<S>& wrench) {
-  wrench.template head<3>() += Qb.cross(f);
-  wrench.template tail<3>() += f;
-}
-
-}  // namespace chain
-
-template <class S>
-void ChainSolver<S>::maps(const Motion<S>& motion, ChainWorkspace<S>& work) const {
+template <class S, class R>
+void ChainSolver<S, R>::maps(const Motion<S>& motion, ChainWorkspace<S>& work) const {
   for (int i = 0; i < leg_count_; ++i) {
     chain::displacement(model(i), i, motion, work.legs[chain::at(i)]);
     chain::map(model(i), i, motion.t, work.legs[chain::at(i)]);
   }
 }
 
-template <class S>
-void ChainSolver<S>::displacements(const Motion<S>& motion, ChainWorkspace<S>& work) const {
-  for (int i = 0; i < leg_count_; ++i) {
-    chain::displacement(model(i), i, motion, work.legs[chain::at(i)]);
-    chain::map(model(i), i, motion.t, work.legs[chain::at(i)]);
-    kernel::placeLinks(model(i), work.legs[chain::at(i)]);
-  }
+template <class S, class R>
+void ChainSolver<S, R>::displacements(const Motion<S>& motion, ChainWorkspace<S>& work) const {
+  for (int i = 0; i < leg_count_; ++i) place(motion, i, work.legs[chain::at(i)]);
 }
 
-template <class S>
-void ChainSolver<S>::inverseKinematics(const Motion<S>& motion, ChainWorkspace<S>& work) const {
+template <class S, class R>
+void ChainSolver<S, R>::inverseKinematics(const Motion<S>& motion, ChainWorkspace<S>& work) const {
   for (int i = 0; i < leg_count_; ++i) {
     ChainState<S>& leg = work.legs[chain::at(i)];
-    chain::displacement(model(i), i, motion, leg);
-    chain::map(model(i), i, motion.t, leg);
-    kernel::placeLinks(model(i), leg);
+    place(motion, i, leg);
     const Vector3<S> across = motion.omega.cross(leg.Qb);
-    chain::move<S>(model(i).kind, motion.p_dot + across,
-                   motion.p_ddot + motion.omega_dot.cross(leg.Qb) + motion.omega.cross(across), leg);
+    leg.v_B = motion.p_dot + across;
+    const Vector3<S> a_B = motion.p_ddot + motion.omega_dot.cross(leg.Qb) + motion.omega.cross(across);
+    leg.rate = kernel::chainRates(leg, leg.v_B);
+    Vector3<S> bias = chain::motionOf<S>(model(i).kind, leg, leg.rate, Vector3<S>::Zero(), reading_).a_B;
+    if (reading_.has(Slip::drop_bias)) bias.setZero();
+    leg.acceleration = kernel::chainRates<S>(leg, a_B - bias);
   }
 }
 
-template <class S>
-JointVariables<S> ChainSolver<S>::angles(const ChainWorkspace<S>& work) const {
+template <class S, class R>
+JointVariables<S> ChainSolver<S, R>::angles(const ChainWorkspace<S>& work) const {
   using std::atan2;
   JointVariables<S> q;
   for (int i = 0; i < leg_count_; ++i)
@@ -118,8 +62,8 @@ JointVariables<S> ChainSolver<S>::angles(const ChainWorkspace<S>& work) const {
   return q;
 }
 
-template <class S>
-JointVariables<S> ChainSolver<S>::rates(const ChainWorkspace<S>& work) const {
+template <class S, class R>
+JointVariables<S> ChainSolver<S, R>::rates(const ChainWorkspace<S>& work) const {
   JointVariables<S> q;
   for (int i = 0; i < leg_count_; ++i)
     for (int j = 0; j < 3; ++j)
@@ -127,8 +71,8 @@ JointVariables<S> ChainSolver<S>::rates(const ChainWorkspace<S>& work) const {
   return q;
 }
 
-template <class S>
-JointVariables<S> ChainSolver<S>::accelerations(const ChainWorkspace<S>& work) const {
+template <class S, class R>
+JointVariables<S> ChainSolver<S, R>::accelerations(const ChainWorkspace<S>& work) const {
   JointVariables<S> q;
   for (int i = 0; i < leg_count_; ++i)
     for (int j = 0; j < 3; ++j)
@@ -136,29 +80,30 @@ JointVariables<S> ChainSolver<S>::accelerations(const ChainWorkspace<S>& work) c
   return q;
 }
 
-template <class S>
-void ChainSolver<S>::jacobians(const Motion<S>& motion, ChainWorkspace<S>& work) const {
+template <class S, class R>
+void ChainSolver<S, R>::jacobians(const Motion<S>& motion, ChainWorkspace<S>& work) const {
   for (int m = 0; m < motor_count; ++m) {
     const Motor& motor = motors_[chain::at(m)];
     const ChainState<S>& leg = work.legs[chain::at(motor.leg)];
     const Vector3<S>& k = leg.k[chain::at(motor.joint)];
     work.A(m) = S(1) / k.cwiseAbs().sum();  // any size near k's will do, and this one needs no root
     const Vector3<S> n = work.A(m) * k;
+    if (reading_.has(Slip::eq23)) work.A(m) = k.norm();
     work.B.row(m) << leg.Qb.cross(n).transpose(), n.transpose();  // (23)
   }
   kernel::factorise(work.B, length_, motion.t, work.B_transposed);
 }
 
-template <class S>
-Matrix6<S> ChainSolver<S>::T(const ChainWorkspace<S>& work) const {
+template <class S, class R>
+Matrix6<S> ChainSolver<S, R>::T(const ChainWorkspace<S>& work) const {
   Matrix6<S> T = work.B_transposed.transpose().solve(Matrix6<S>(work.A.asDiagonal()));  // (24)
   T.template topRows<3>() /= length_;
   return T;
 }
 
 /// With J = A⁻¹B, J T = 1: Ṫ = −T J̇ T. The rows of J are [Qb × k; k].
-template <class S>
-Matrix6<S> ChainSolver<S>::TRate(const Motion<S>& motion, const ChainWorkspace<S>& work) const {
+template <class S, class R>
+Matrix6<S> ChainSolver<S, R>::TRate(const Motion<S>& motion, const ChainWorkspace<S>& work) const {
   Matrix6<S> J_dot;
   for (int m = 0; m < motor_count; ++m) {
     const Motor& motor = motors_[chain::at(m)];
@@ -166,27 +111,32 @@ Matrix6<S> ChainSolver<S>::TRate(const Motion<S>& motion, const ChainWorkspace<S
     const Matrix3<S> K_dot = kernel::withKind(
         model(motor.leg).kind, [&](auto kind) { return kernel::chainMapRate<decltype(kind)::value>(leg); });
     const Vector3<S>& k = leg.k[chain::at(motor.joint)];
-    const Vector3<S> k_dot = K_dot.row(motor.joint).transpose();
-    const Vector3<S> Qb_dot = motion.omega.cross(leg.Qb);
+    const Vector3<S> k_dot =
+        reading_.has(Slip::drop_map_rate) ? Vector3<S>(Vector3<S>::Zero()) : Vector3<S>(K_dot.row(motor.joint));
+    const Vector3<S> Qb_dot =
+        reading_.has(Slip::eq26_b_dot) ? Vector3<S>(Vector3<S>::Zero()) : Vector3<S>(motion.omega.cross(leg.Qb));
     J_dot.row(m) << (Qb_dot.cross(k) + leg.Qb.cross(k_dot)).transpose(), k_dot.transpose();  // (26)
   }
   const Matrix6<S> T = this->T(work);
   return -T * J_dot * T;  // (25)
 }
 
-template <class S>
-void ChainSolver<S>::bodyMotions(const Motion<S>& motion, const ChainWorkspace<S>& work, BodyMotions<S>& bodies) const {
+template <class S, class R>
+void ChainSolver<S, R>::bodyMotions(const Motion<S>& motion, const ChainWorkspace<S>& work,
+                                    BodyMotions<S>& bodies) const {
   bodies = BodyMotions<S>();
   for (int i = 0; i < leg_count_; ++i) {
     const ChainState<S>& leg = work.legs[chain::at(i)];
-    const auto set = [&](BodyMotion<S>& body, const Vector3<S>& c, const Matrix3<S>& R, const ChainLinkMotion<S>& m) {
+    const kernel::ChainMotion<S> links = chain::motionOf<S>(model(i).kind, leg, leg.rate, leg.acceleration, reading_);
+    const auto set = [&](BodyMotion<S>& body, const Vector3<S>& c, const Matrix3<S>& frame,
+                         const ChainLinkMotion<S>& m) {
       body.c = model(i).a + c;
-      body.R = R;
+      body.R = frame;
       body.twist << m.omega, m.c_dot;
       body.twist_rate << m.omega_dot, m.c_ddot;
     };
-    set(bodies[chain::at(i)], leg.O_1 + leg.arm_1, leg.R_1, leg.proximal);
-    set(bodies[chain::at(leg_count + i)], leg.O_2 + leg.arm_2, leg.R_2, leg.distal);
+    set(bodies[chain::at(i)], leg.O_1 + leg.arm_1, leg.R_1, links.proximal);
+    set(bodies[chain::at(leg_count + i)], leg.O_2 + leg.arm_2, leg.R_2, links.distal);
   }
   const Vector3<S> arm = motion.Q * rho_;
   BodyMotion<S>& platform = bodies.back();
@@ -197,9 +147,9 @@ void ChainSolver<S>::bodyMotions(const Motion<S>& motion, const ChainWorkspace<S
       motion.p_ddot + motion.omega_dot.cross(arm) + motion.omega.cross(motion.omega.cross(arm));
 }
 
-template <class S>
-void ChainSolver<S>::twistShaping(const Motion<S>& motion, const ChainWorkspace<S>& work,
-                                  Eigen::Matrix<S, 6 * body_count, motor_count>& shaping) const {
+template <class S, class R>
+void ChainSolver<S, R>::twistShaping(const Motion<S>& motion, const ChainWorkspace<S>& work,
+                                     Eigen::Matrix<S, 6 * body_count, motor_count>& shaping) const {
   const Matrix6<S> T = this->T(work);
   const Vector3<S> arm = motion.Q * rho_;
   shaping.setZero();
@@ -217,8 +167,37 @@ void ChainSolver<S>::twistShaping(const Motion<S>& motion, const ChainWorkspace<
     shaping.template block<6, 1>(12 * leg_count, m) << T.col(m).template head<3>(), chain::atB<S>(T.col(m), arm);
 }
 
-template <class S>
-Vector3<S> ChainSolver<S>::legForces(const Vector3<S>& a_B, int i, ChainState<S>& leg) const {
+template <class S, class R>
+Vector3<S> ChainSolver<S, R>::legForces(const ChainWorkspace<S>& work, int i) const {
+  const ChainState<S>& leg = work.legs[chain::at(i)];
+  return kernel::withKind(model(i).kind, [&](auto k) {
+    constexpr LegKind kind = decltype(k)::value;
+    return kernel::chainForces<kind>(
+        model(i), leg, kernel::chainMotion<kind>(leg, leg.rate, leg.acceleration, reading_), gravity_, reading_);
+  });
+}
+
+/// [moment about P; force], in B, that moves the platform as it moves against gravity. (38), (43c), (46c)
+template <class S, class R>
+Vector6<S> ChainSolver<S, R>::platformWrench(const Motion<S>& motion) const {
+  const Vector3<S> arm = motion.Q * rho_;
+  Vector3<S> c_ddot = motion.p_ddot + motion.omega_dot.cross(arm);
+  if (!reading_.has(Slip::drop_platform_centripetal)) c_ddot += motion.omega.cross(motion.omega.cross(arm));
+  const Vector3<S> omega_M = motion.Q.transpose() * motion.omega;
+  Vector3<S> n_M = I_M_ * (motion.Q.transpose() * motion.omega_dot);
+  if (!reading_.has(Slip::drop_gyroscopic_platform)) n_M += omega_M.cross(I_M_ * omega_M);
+  if (!reading_.has(Slip::drop_gravity_platform)) c_ddot -= gravity_;
+  const Vector3<S> f = mass_ * c_ddot;
+  Vector6<S> wrench;
+  wrench << motion.Q * n_M + arm.cross(f), f;
+  return wrench;
+}
+
+template <class S, class R>
+Vector3<S> ChainSolver<S, R>::planeForces(const Motion<S>& motion, int i, ChainState<S>& leg) const {
+  const Vector3<S> across = motion.omega.cross(leg.Qb);
+  leg.v_B = motion.p_dot + across;
+  const Vector3<S> a_B = motion.p_ddot + motion.omega_dot.cross(leg.Qb) + motion.omega.cross(across);
   const auto forces = [&]() -> Vector3<S> {
     switch (model(i).kind) {
       case LegKind::UPS:
@@ -235,34 +214,19 @@ Vector3<S> ChainSolver<S>::legForces(const Vector3<S>& a_B, int i, ChainState<S>
   return forces() + kernel::chainFriction(model(i), leg);
 }
 
-/// [moment about P; force], in B, that moves the platform as it moves against gravity. (38), (43c), (46c)
-template <class S>
-Vector6<S> ChainSolver<S>::platformWrench(const Motion<S>& motion) const {
-  const Vector3<S> arm = motion.Q * rho_;
-  const Vector3<S> c_ddot = motion.p_ddot + motion.omega_dot.cross(arm) + motion.omega.cross(motion.omega.cross(arm));
-  const Vector3<S> omega_M = motion.Q.transpose() * motion.omega;
-  const Vector3<S> n_M = I_M_ * (motion.Q.transpose() * motion.omega_dot) + omega_M.cross(I_M_ * omega_M);
-  const Vector3<S> f = mass_ * (c_ddot - gravity_);
-  Vector6<S> wrench;
-  wrench << motion.Q * n_M + arm.cross(f), f;
-  return wrench;
-}
-
 /// The wrench at P of all that no motor carries directly, and what falls on the motors.
-template <class S>
-Vector6<S> ChainSolver<S>::wrenchAtP(const Motion<S>& motion, ChainWorkspace<S>& work, Vector6<S>& Q_driven) const {
+template <class S, class R>
+Vector6<S> ChainSolver<S, R>::wrenchAtP(const Motion<S>& motion, ChainWorkspace<S>& work, Vector6<S>& Q_driven) const {
   Vector6<S> wrench = platformWrench(motion);
   for (int i = 0; i < leg_count_; ++i) {
     ChainState<S>& leg = work.legs[chain::at(i)];
-    const Vector3<S> across = motion.omega.cross(leg.Qb);
-    leg.v_B = motion.p_dot + across;
-    const Vector3<S> Q = legForces(motion.p_ddot + motion.omega_dot.cross(leg.Qb) + motion.omega.cross(across), i, leg);
+    const Vector3<S> Q = is_right ? planeForces(motion, i, leg) : legForces(work, i);
     Vector3<S> f = Vector3<S>::Zero();
     for (int j = 0; j < 3; ++j) {
       const int motor = model(i).motor[chain::at(j)];
       if (motor >= 0)
-        Q_driven(motor) = Q(j);
-      else
+        Q_driven(motor) = reading_.has(Slip::drop_own_share) ? S(0) : Q(j);
+      else if (!reading_.has(Slip::drop_passive_share))
         f += Q(j) * leg.k[chain::at(j)];
     }
     chain::addForceAtB<S>(f, leg.Qb, wrench);
@@ -270,10 +234,10 @@ Vector6<S> ChainSolver<S>::wrenchAtP(const Motion<S>& motion, ChainWorkspace<S>&
   return wrench;
 }
 
-template <class S>
-Vector6<S> ChainSolver<S>::inverseDynamics(const Motion<S>& motion, ChainWorkspace<S>& work,
-                                           const Vector6<S>& load) const {
-  maps(motion, work);
+template <class S, class R>
+Vector6<S> ChainSolver<S, R>::inverseDynamics(const Motion<S>& motion, ChainWorkspace<S>& work,
+                                              const Vector6<S>& load) const {
+  is_right ? maps(motion, work) : inverseKinematics(motion, work);
   jacobians(motion, work);
   Vector6<S> Q_driven;
   Vector6<S> wrench = wrenchAtP(motion, work, Q_driven) - load;
@@ -282,8 +246,8 @@ Vector6<S> ChainSolver<S>::inverseDynamics(const Motion<S>& motion, ChainWorkspa
   return Q_driven + work.A.cwiseProduct(lambda);  // (37)
 }
 
-template <class S>
-Matrix6<S> ChainSolver<S>::massMatrixAtP(const Motion<S>& motion, const ChainWorkspace<S>& work) const {
+template <class S, class R>
+Matrix6<S> ChainSolver<S, R>::massMatrixAtP(const Motion<S>& motion, const ChainWorkspace<S>& work) const {
   Matrix6<S> M_P = Matrix6<S>::Zero();
   kernel::addAtP<S>(mass_ * Matrix3<S>::Identity(), motion.Q * rho_, M_P);
   M_P.template topLeftCorner<3, 3>() += motion.Q * I_M_ * motion.Q.transpose();
@@ -298,13 +262,13 @@ Matrix6<S> ChainSolver<S>::massMatrixAtP(const Motion<S>& motion, const ChainWor
   return M_P;
 }
 
-template <class S>
-Vector6<S> ChainSolver<S>::directDynamics(const Motion<S>& motion, const Vector6<S>& efforts, ChainWorkspace<S>& work,
-                                          const Vector6<S>& load) const {
+template <class S, class R>
+Vector6<S> ChainSolver<S, R>::directDynamics(const Motion<S>& motion, const Vector6<S>& efforts,
+                                             ChainWorkspace<S>& work, const Vector6<S>& load) const {
   Motion<S> unaccelerated = motion;
   unaccelerated.omega_dot.setZero();
   unaccelerated.p_ddot.setZero();
-  displacements(unaccelerated, work);
+  is_right ? displacements(unaccelerated, work) : inverseKinematics(unaccelerated, work);
   Vector6<S> Q_driven;
   Vector6<S> wrench = load - wrenchAtP(unaccelerated, work, Q_driven);
   for (int m = 0; m < motor_count; ++m) {
@@ -315,11 +279,10 @@ Vector6<S> ChainSolver<S>::directDynamics(const Motion<S>& motion, const Vector6
   return massMatrixAtP(unaccelerated, work).llt().solve(wrench);  // (36)
 }
 
-template <class S>
-Vector3<S> ChainSolver<S>::forceOnPlatform(const ChainWorkspace<S>& work, int i, const Vector6<S>& efforts) const {
+template <class S, class R>
+Vector3<S> ChainSolver<S, R>::forceOnPlatform(const ChainWorkspace<S>& work, int i, const Vector6<S>& efforts) const {
   const ChainState<S>& leg = work.legs[chain::at(i)];
-  const Vector3<S> Q = kernel::withKind(
-      model(i).kind, [&](auto kind) { return kernel::chainForces<decltype(kind)::value>(model(i), leg, gravity_); });
+  const Vector3<S> Q = legForces(work, i);
   Vector3<S> f = Vector3<S>::Zero();
   for (int j = 0; j < 3; ++j) {
     const int motor = model(i).motor[chain::at(j)];

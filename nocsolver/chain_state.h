@@ -56,7 +56,6 @@ struct ChainState {
   std::array<Vector3<S>, 3> k;  ///< q̇ⱼ = kⱼ · v_B: rows of the leg's map
   Vector3<S> v_B;
   Vector3<S> rate, acceleration;
-  ChainLinkMotion<S> proximal, distal;
 };
 
 }  // namespace ursula

@@ -33,13 +33,25 @@ enum class Slip {
   drop_gravity_legs,
   drop_gravity_platform,
   drop_friction,
-  drop_link_coupling,  ///< l[ė], l[ë] of (41b), (43b) left out
+  drop_link_coupling,  ///< l[ė], l[ë] of (41b), (43b) left out; of the general road what the distal link puts on R
+  // of the general road alone
+  half_coriolis,       ///< ω × ė once where a link slides
+  drop_bias,           ///< q̈ = K a_B, as if B had no acceleration for q̈ = 0
+  drop_map_rate,       ///< K̇ left out of Ṫ
+  drop_own_share,      ///< what falls on the motors without passing the platform left out
+  drop_passive_share,  ///< what joints without a motor cannot bear not brought onto the platform
+  untwisted_tensors,   ///< tensors of links as if in B
   count
 };
 
 /// The formulas that hold; costs nothing.
 struct Corrected {
   static constexpr bool has(Slip) { return false; }
+  /// What the general road makes of a leg beside, once its joints are known, and once its map is.
+  template <class Model, class State>
+  static constexpr void placed(const Model&, State&) {}
+  template <class Model, class State>
+  static constexpr void mapped(const Model&, State&) {}
 };
 
 /// The formulas that hold but for the slips set.

@@ -7,10 +7,10 @@
 // Body Dynamics Algorithms, 2008, sect. 5.3, here in fixed axes):
 //   ω ← ω + q̇ a,  ω̇ ← ω̇ + q̈ a + q̇ ω × a                                                   (b)
 // a point that slides along a has q̇ a, q̈ a + 2 q̇ ω × a beside what it is carried by.        (c)
-// First all but q̈, which gives a_B⁰; what q̈ adds is linear.
 
 #include "nocsolver/chain_state.h"
 #include "nocsolver/kernels/dynamics.h"
+#include "nocsolver/reading.h"
 
 namespace ursula::kernel {
 
@@ -37,68 +37,70 @@ auto withKind(LegKind kind, const F& f) {
 }
 
 /// Motion of a body's frame: of a point and of what turns with it.
-template <class S>
+template <class S, class R>
 struct FrameMotion {
+  explicit FrameMotion(const R& reading) : reading(reading) {}
+
+  const R& reading;
   Vector3<S> omega = Vector3<S>::Zero(), v = omega, omega_dot = omega, a = omega;
 
   /// The point moves on by `arm`, which the frame carries.
   void moveBy(const Vector3<S>& arm) {
     const Vector3<S> across = omega.cross(arm);
     v += across;
-    a += omega_dot.cross(arm) + omega.cross(across);
+    Vector3<S> more = omega_dot.cross(arm);
+    if (!reading.has(Slip::drop_centrifugal)) more += omega.cross(across);
+    a += more;
   }
-  void turn(const Vector3<S>& axis, const S& rate) {
-    omega_dot += rate * omega.cross(axis);  // (b)
+  void turn(const Vector3<S>& axis, const S& rate, const S& acceleration) {
+    Vector3<S> more = acceleration * axis;
+    if (!reading.has(Slip::drop_coriolis)) more += rate * omega.cross(axis);
+    omega_dot += more;  // (b)
     omega += rate * axis;
   }
-  void slide(const Vector3<S>& axis, const S& rate) {
+  void slide(const Vector3<S>& axis, const S& rate, const S& acceleration) {
     v += rate * axis;  // (c)
-    a += (S(2) * rate) * omega.cross(axis);
+    Vector3<S> more = acceleration * axis;
+    const S times = reading.has(Slip::half_coriolis) ? S(1) : S(2);
+    if (!reading.has(Slip::drop_coriolis)) more += (times * rate) * omega.cross(axis);
+    a += more;
   }
 };
 
+/// Both links, and B, for joint rates and accelerations.
 template <class S>
-ChainLinkMotion<S> linkAt(FrameMotion<S> frame, const Vector3<S>& arm) {
+struct ChainMotion {
+  ChainLinkMotion<S> proximal, distal;
+  Vector3<S> a_B;
+};
+
+template <class S, class R>
+ChainLinkMotion<S> linkAt(FrameMotion<S, R> frame, const Vector3<S>& arm) {
   frame.moveBy(arm);
   return {frame.omega, frame.v, frame.omega_dot, frame.a};
 }
 
-/// Both links at the leg's rates, as if no joint accelerated; returns a_B⁰ of (a).
-template <LegKind kind, class S>
-Vector3<S> unacceleratedMotion(ChainState<S>& leg) {
+template <LegKind kind, class S, class R>
+ChainMotion<S> chainMotion(const ChainState<S>& leg, const Vector3<S>& rate, const Vector3<S>& acceleration,
+                           const R& reading) {
   using Chain = ChainOf<kind>;
-  FrameMotion<S> frame;
+  ChainMotion<S> out;
+  FrameMotion<S, R> frame(reading);
   for (int j = 0; j < 3; ++j) {
     const auto i = static_cast<std::size_t>(j);
     if (j == Chain::first) {
-      leg.proximal = linkAt<S>(frame, leg.arm_1);
+      out.proximal = linkAt(frame, leg.arm_1);
       frame.moveBy(leg.O_2 - leg.O_1);
     }
     if (Chain::slides(j))
-      frame.slide(leg.axis[i], leg.rate(j));
+      frame.slide(leg.axis[i], rate(j), acceleration(j));
     else
-      frame.turn(leg.axis[i], leg.rate(j));
+      frame.turn(leg.axis[i], rate(j), acceleration(j));
   }
-  leg.distal = linkAt<S>(frame, leg.arm_2);
+  out.distal = linkAt(frame, leg.arm_2);
   frame.moveBy(leg.RB);
-  return frame.a;
-}
-
-/// What the joints' accelerations add to both links.
-template <LegKind kind, class S>
-void accelerate(ChainState<S>& leg) {
-  using Chain = ChainOf<kind>;
-  Vector3<S> omega_dot = Vector3<S>::Zero(), a = omega_dot;
-  for (int j = 0; j < 3; ++j) {
-    if (j == Chain::first) {
-      leg.proximal.omega_dot += omega_dot;
-      leg.proximal.c_ddot += a + omega_dot.cross(leg.arm_1);
-      a += omega_dot.cross(leg.O_2 - leg.O_1);
-    }
-    (Chain::slides(j) ? a : omega_dot) += leg.acceleration(j) * leg.axis[static_cast<std::size_t>(j)];
-  }
-  leg.distal.omega_dot += omega_dot;
-  leg.distal.c_ddot += a + omega_dot.cross(leg.arm_2);
+  out.a_B = frame.a;
+  return out;
 }
 
 /// Joint rates for a velocity of B.
@@ -108,39 +110,43 @@ Vector3<S> chainRates(const ChainState<S>& leg, const Vector3<S>& v_B) {
 }
 
 /// Moment about the mass centre and force that move a link against gravity, in B.
-template <class S>
-Vector3<S> linkMoment(const Matrix3<S>& R, const Matrix3<S>& inertia, const ChainLinkMotion<S>& link) {
+template <class S, class Reading>
+Vector3<S> linkMoment(const Matrix3<S>& frame, const Matrix3<S>& inertia, const ChainLinkMotion<S>& link,
+                      const Reading& reading) {
+  const Matrix3<S> R = reading.has(Slip::untwisted_tensors) ? Matrix3<S>(Matrix3<S>::Identity()) : frame;
   const Vector3<S> omega = R.transpose() * link.omega;
-  return R * (inertia * (R.transpose() * link.omega_dot) + omega.cross(inertia * omega));
-}
-
-/// What drives against friction of the three coordinates.
-template <class S>
-Vector3<S> chainFriction(const ChainModel<S>& model, const ChainState<S>& leg) {
-  return {frictionForce(model.viscous[0], model.coulomb[0], model.speed[0], leg.rate(0)),
-          frictionForce(model.viscous[1], model.coulomb[1], model.speed[1], leg.rate(1)),
-          frictionForce(model.viscous[2], model.coulomb[2], model.speed[2], leg.rate(2))};
+  Vector3<S> moment = inertia * (R.transpose() * link.omega_dot);
+  if (!reading.has(Slip::drop_gyroscopic_legs)) moment += omega.cross(inertia * omega);
+  return R * moment;
 }
 
 /// Forces on the three coordinates that would move the links as they move, were the leg alone, friction included.
-template <LegKind kind, class S>
-Vector3<S> chainForces(const ChainModel<S>& model, const ChainState<S>& leg, const Vector3<S>& gravity) {
+template <LegKind kind, class S, class R>
+Vector3<S> chainForces(const ChainModel<S>& model, const ChainState<S>& leg, const ChainMotion<S>& motion,
+                       const Vector3<S>& gravity, const R& reading) {
   using Chain = ChainOf<kind>;
-  const Vector3<S> f_1 = model.mass_1 * (leg.proximal.c_ddot - gravity);
-  const Vector3<S> f_2 = model.mass_2 * (leg.distal.c_ddot - gravity);
-  const Vector3<S> n_2 = linkMoment<S>(leg.R_2, model.I_2, leg.distal) + leg.arm_2.cross(f_2);  // about O₂
-  const Vector3<S> n_1 = linkMoment<S>(leg.R_1, model.I_1, leg.proximal) + leg.arm_1.cross(f_1) + n_2 +
-                         (leg.O_2 - leg.O_1).cross(f_2);  // about O₁
+  const Vector3<S> g = reading.has(Slip::drop_gravity_legs) ? Vector3<S>(Vector3<S>::Zero()) : gravity;
+  const Vector3<S> f_1 = model.mass_1 * (motion.proximal.c_ddot - g);
+  const Vector3<S> f_2 = model.mass_2 * (motion.distal.c_ddot - g);
+  const Vector3<S> n_2 = linkMoment(leg.R_2, model.I_2, motion.distal, reading) + leg.arm_2.cross(f_2);  // about O₂
+  Vector3<S> n_1 = linkMoment(leg.R_1, model.I_1, motion.proximal, reading) + leg.arm_1.cross(f_1), all = f_1;
+  if (!reading.has(Slip::drop_link_coupling)) {
+    n_1 += n_2;
+    n_1 += (leg.O_2 - leg.O_1).cross(f_2);  // about O₁
+    all += f_2;
+  }
   Vector3<S> Q;
   for (int j = 0; j < 3; ++j) {
     const auto i = static_cast<std::size_t>(j);
     const bool before = j < Chain::first;
     if (Chain::slides(j))
-      Q(j) = leg.axis[i].dot(before ? Vector3<S>(f_1 + f_2) : f_2);
+      Q(j) = leg.axis[i].dot(before ? all : f_2);
     else
       Q(j) = leg.axis[i].dot(before ? n_1 : n_2);
+    if (!reading.has(Slip::drop_friction))
+      Q(j) += frictionForce(model.viscous[i], model.coulomb[i], model.speed[i], leg.rate(j));
   }
-  return Q + chainFriction(model, leg);
+  return Q;
 }
 
 /// Partial velocities of the links' mass centres: columns are for a unit rate of one coordinate.

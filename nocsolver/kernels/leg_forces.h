@@ -7,9 +7,18 @@
 // Along x, y = u, z of the plane let v_B = h, a_B = a.
 
 #include "nocsolver/chain_state.h"
+#include "nocsolver/kernels/dynamics.h"
 #include "nocsolver/kernels/plane_link.h"
 
 namespace ursula::kernel {
+
+/// What drives against friction of the three coordinates.
+template <class S>
+Vector3<S> chainFriction(const ChainModel<S>& model, const ChainState<S>& leg) {
+  return {frictionForce(model.viscous[0], model.coulomb[0], model.speed[0], leg.rate(0)),
+          frictionForce(model.viscous[1], model.coulomb[1], model.speed[1], leg.rate(1)),
+          frictionForce(model.viscous[2], model.coulomb[2], model.speed[2], leg.rate(2))};
+}
 
 template <class S>
 Vector3<S> alongAxes(const Vector3<S>& x, const Vector3<S>& u, const Vector3<S>& z, const Vector3<S>& v) {

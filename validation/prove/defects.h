@@ -23,8 +23,9 @@ struct Defect {
   int roads = 2;
 };
 
-/// Every defect that `ursula prove` injects, at least 150, one at a time.
-std::vector<Defect> allDefects();
+/// Every defect that `ursula prove` injects into this machine, at least 150, one at a time. What a machine has not (a
+/// knee, a coordinate that slides) has no defect; what is zero in it has some that change nothing.
+std::vector<Defect> allDefects(const Manipulator& machine);
 
 /// The solver with one parameter wrong.
 Subject disturbedSubject(const Scenario& scenario, const Parameter& parameter, double relative);

@@ -1,5 +1,7 @@
 // Wrong in a narrow place only: a millisecond or so of a motion of three seconds, and never at one of its samples.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -44,7 +46,7 @@ Range rangeIn(const Pulse& pulse, const Trajectory& trajectory, const Solver<dou
 }
 
 /// All torques wrong where `quantity` is what it is for a 3000th of the motion, after `share` of it.
-Defect branch(const char* name, double share, const Quantity& quantity) {
+Defect branch(const std::string& name, double share, const Quantity& quantity) {
   Defect out = wrongTorques(name, "branch", [share, quantity](const Scenario& s) -> ChangeTorques {
     const auto solver = std::make_shared<const Solver<double>>(*s.manipulator);
     const Range range = rangeIn(Pulse(*s.trajectory, share), *s.trajectory, *solver, quantity);
@@ -74,14 +76,30 @@ Defect pulse(const char* name, double share, const ChangeLeg& change) {
 
 }  // namespace
 
-std::vector<Defect> branchDefects() {
+std::vector<Defect> branchDefects(const Manipulator& machine) {
+  const bool paper = machine.isOfThePaper();
+  const std::size_t first = legOf(machine, 1), second = legOf(machine, 2), third = legOf(machine, 3),
+                    fourth = legOf(machine, 4), fifth = legOf(machine, 5);
+  const Coordinate q_2 = coordinatesOf(machine, second)[2], q_5 = coordinatesOf(machine, fifth)[0],
+                   q_3 = coordinatesOf(machine, third)[1], q_4 = coordinatesOf(machine, fourth)[2],
+                   q_1 = machine.motors().front().coordinate;
+  const auto value = [](Coordinate q, std::size_t leg) {
+    return [=](const Motion<double>&, const Joints& j) { return j.q.of(q)(static_cast<int>(leg)); };
+  };
+  const auto rate = [](Coordinate q, std::size_t leg) {
+    return [=](const Motion<double>&, const Joints& j) { return j.q_dot.of(q)(static_cast<int>(leg)); };
+  };
+  const auto named = [](Coordinate q, std::size_t leg) {
+    return fmt::format("narrow branch: {} of leg {}", nameOf(q), leg + 1);
+  };
+  const std::string knees = paper ? "knee" : nameOf(q_4), motors = paper ? "motor" : nameOf(q_1);
   using M = Motion<double>;
   using J = Joints;
-  return {branch("narrow branch: theta of leg 2", 0.2137, [](const M&, const J& j) { return j.q.theta(1); }),
-          branch("narrow branch: phi of leg 5", 0.4661, [](const M&, const J& j) { return j.q.phi(4); }),
-          branch("narrow branch: psi of leg 3", 0.6438, [](const M&, const J& j) { return j.q.psi(2); }),
-          branch("narrow branch: knee's rate, leg 4", 0.3164, [](const M&, const J& j) { return j.q_dot.theta(3); }),
-          branch("narrow branch: motor's rate, leg 1", 0.7537, [](const M&, const J& j) { return j.q_dot.phi(0); }),
+  return {branch(named(q_2, second), 0.2137, value(q_2, second)),
+          branch(named(q_5, fifth), 0.4661, value(q_5, fifth)),
+          branch(named(q_3, third), 0.6438, value(q_3, third)),
+          branch(fmt::format("narrow branch: {}'s rate, leg {}", knees, fourth + 1), 0.3164, rate(q_4, fourth)),
+          branch(fmt::format("narrow branch: {}'s rate, leg 1", motors), 0.7537, rate(q_1, first)),
           branch("narrow branch: height of P", 0.5362, [](const M& m, const J&) { return m.p.z(); }),
           branch("narrow branch: the platform's spin", 0.8366, [](const M& m, const J&) { return m.omega.norm(); }),
           branch("narrow branch: turn of the platform", 0.1263, [](const M& m, const J&) { return m.Q.trace(); }),

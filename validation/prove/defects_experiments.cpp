@@ -1,6 +1,8 @@
 // The experiments themselves spoilt: a road's engine, reactions, an integrator, the energy's account. The numbers are
 // those of natural units, in which lengths are of the machine's size and masses of the machine's.
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 
 #include "model/loops/further_roads.h"
@@ -9,16 +11,23 @@
 namespace ursula {
 namespace {
 
-// Of SimbodyLoop's state x = [q, u], to which the replay adds the work.
-constexpr std::size_t position_of_platform = 22;
-constexpr std::size_t quaternion_of_platform = 18;
-constexpr std::size_t velocity_of_platform = 46;
-constexpr std::size_t coordinates = 25;
-constexpr std::size_t psi(std::size_t leg) { return 3 * leg + 1; }
-constexpr std::size_t theta(std::size_t leg) { return 3 * leg + 2; }
+/// Of SimbodyLoop's state x = [q, u], to which the replay adds the work: three coordinates of each leg, the platform's
+/// quaternion, its position; their rates, its spin, its velocity.
+class Places {
+ public:
+  explicit Places(const Manipulator& machine) : legs_(3 * machine.parameters().legs.size()) {}
+  std::size_t quaternion() const { return legs_; }
+  std::size_t position() const { return legs_ + 4; }
+  std::size_t rates() const { return legs_ + 7; }
+  std::size_t velocity() const { return rates() + legs_ + 3; }
+  static std::size_t joint(std::size_t leg, std::size_t k) { return 3 * leg + k; }
+
+ private:
+  std::size_t legs_;
+};
 
 using State = std::vector<double>;
-using SpoilState = void (*)(State&);
+using SpoilState = std::function<void(State&)>;
 
 Defect spoilt(const std::string& name, const Spoil& spoil) {
   Defect out{name, "experiment"};
@@ -36,14 +45,14 @@ Spoil::Seen another(const ChangeMachine& change) {
 }
 
 /// The engine of the further road of `check`, built of another machine.
-Defect engine(const char* name, const char* check, const ChangeMachine& change) {
+Defect engine(const std::string& name, const char* check, const ChangeMachine& change) {
   Spoil spoil;
   for (std::size_t k = 0; k < further_road_count; ++k)
     if (furtherRoads()[k].check == std::string(check)) spoil.further[k] = another(change);
   return spoilt(name, spoil);
 }
 
-Defect stabilised(const char* name, const ChangeMachine& change) {
+Defect stabilised(const std::string& name, const ChangeMachine& change) {
   Spoil spoil;
   spoil.feedback = another(change);
   return spoilt(name, spoil);
@@ -55,20 +64,20 @@ Defect wrongSample(const char* name, const std::function<void(PointwiseSample&)>
   return spoilt(name, spoil);
 }
 
-Defect wrongReactions(const char* name, const std::function<void(Reactions&)>& change) {
+Defect wrongReactions(const std::string& name, const std::function<void(Reactions&)>& change) {
   Spoil spoil;
   spoil.reactions = change;
   return spoilt(name, spoil);
 }
 
-Defect wrongReplay(const char* name, const Spoil::Settings& settings) {
+Defect wrongReplay(const std::string& name, const Spoil::Settings& settings) {
   Spoil spoil;
   spoil.replay = settings;
   return spoilt(name, spoil);
 }
 
 /// After each step of the judged replay.
-Defect eachStep(const char* name, SpoilState change) {
+Defect eachStep(const std::string& name, SpoilState change) {
   return wrongReplay(
       name, [change](ReplaySettings& settings) { settings.spoil = [change](double, State& x) { change(x); }; });
 }
@@ -82,7 +91,7 @@ Defect drift(const char* name, SpoilState change) {
 }
 
 /// After the last step only, so that nothing comes of it.
-Defect lastStep(const char* name, SpoilState change) {
+Defect lastStep(const std::string& name, SpoilState change) {
   return wrongReplay(name, [change](ReplaySettings& settings) {
     settings.spoil = [change, end = settings.end](double t, State& x) {
       if (t == end) change(x);
@@ -108,52 +117,56 @@ Defect lowerOrder() {
   return spoilt("an integrator of order 5 for one of order 8", spoil);
 }
 
-std::vector<Defect> wrongEngines() {
+std::vector<Defect> wrongEngines(const Manipulator& machine) {
   using P = ManipulatorParameters;
+  const bool paper = machine.isOfThePaper();
+  const std::size_t second = legOf(machine, 2), third = legOf(machine, 3), fourth = legOf(machine, 4),
+                    fifth = legOf(machine, 5), sixth = legOf(machine, 6);
+  const Coordinate last = coordinatesOf(machine, sixth)[2], first = coordinatesOf(machine, second)[0];
   return {engine("Simbody's second loop: a mass off by 1e-8", "torque.twin",
                  [](P& m) { m.legs[0].proximal.mass *= 1 + 1e-8; }),
           engine("Simbody's second loop: a platform point off by 1e-10 m", "torque.twin",
-                 [](P& m) { m.legs[4].platform_point.x() += 1e-10; }),
+                 [=](P& m) { m.legs[fifth].platform_point.x() += 1e-10; }),
           engine("maximal coordinates: a tensor off by 1e-6", "torque.maximal",
-                 [](P& m) { m.legs[2].distal.inertia *= 1 + 1e-6; }),
-          engine("maximal coordinates: no Coulomb friction in one knee", "torque.maximal",
-                 [](P& m) { m.legs[5].coulomb.theta = 0; }),
+                 [=](P& m) { m.legs[third].distal.inertia *= 1 + 1e-6; }),
+          engine(paper ? "maximal coordinates: no Coulomb friction in one knee"
+                       : "maximal coordinates: no Coulomb friction on one coordinate",
+                 "torque.maximal", [=](P& m) { m.legs[sixth].coulomb.on(last) = 0; }),
           engine("MuJoCo: gravity off by 1e-9", "torque.mujoco", [](P& m) { m.gravity *= 1 + 1e-9; }),
-          engine("MuJoCo: a link longer by 1e-9", "torque.mujoco", [](P& m) { m.legs[3].proximal.length *= 1 + 1e-9; }),
+          engine("MuJoCo: a link longer by 1e-9", "torque.mujoco",
+                 [=](P& m) {
+                   Leg& leg = m.legs[fourth];
+                   // The length of a cylinder is its stroke, that of a carriage for drawing only.
+                   const bool matters = leg.kind == LegKind::URS || leg.kind == LegKind::RUS;
+                   (matters ? leg.proximal : leg.distal).length *= 1 + 1e-9;
+                 }),
           stabilised("stabilised replay: a mass off by 1e-7", [](P& m) { m.platform.mass *= 1 + 1e-7; }),
           stabilised("stabilised replay: friction of one motor off by 1e-5",
-                     [](P& m) { m.legs[1].friction.phi *= 1 + 1e-5; }),
+                     [=](P& m) { m.legs[second].friction.on(first) *= 1 + 1e-5; }),
           wrongSample("Simbody's acceleration of the platform off by 1e-8",
                       [](PointwiseSample& sample) { sample.acceleration.error += 1e-8; })};
 }
 
-std::vector<Defect> wrongReactionForces() {
+std::vector<Defect> wrongReactionForces(const Manipulator& machine) {
+  const bool paper = machine.isOfThePaper();
+  const std::size_t second = legOf(machine, 2), fourth = legOf(machine, 4), fifth = legOf(machine, 5),
+                    sixth = otherLeg(machine, 6, fifth);
   return {wrongReactions("reaction moments about a point 1e-8 off",
                          [](Reactions& reactions) {
                            for (LegReactions& leg : reactions) leg.n_A += 1e-8 * Vector3d::UnitX().cross(leg.f_A);
                          }),
-          wrongReactions("sign of f_B, leg 4", [](Reactions& reactions) { reactions[3].f_B *= -1; }),
-          wrongReactions("reaction at the knee of leg 2 off by 1e-9 of itself",
-                         [](Reactions& reactions) { reactions[1].f_R *= 1 + 1e-9; }),
-          wrongReactions("reactions of legs 5 and 6 exchanged",
-                         [](Reactions& reactions) { std::swap(reactions[4], reactions[5]); })};
+          wrongReactions(fmt::format("sign of f_B, leg {}", fourth + 1),
+                         [=](Reactions& reactions) { reactions[fourth].f_B *= -1; }),
+          wrongReactions(
+              fmt::format("reaction {} leg 2 off by 1e-9 of itself", paper ? "at the knee of" : "between the links of"),
+              [=](Reactions& reactions) { reactions[second].f_R *= 1 + 1e-9; }),
+          wrongReactions(fmt::format("reactions of legs {} and {} exchanged", fifth + 1, sixth + 1),
+                         [=](Reactions& reactions) { std::swap(reactions[fifth], reactions[sixth]); })};
 }
 
-std::vector<Defect> wrongReplays() {
-  return {lowerOrder(),
-          wrongReplay("integrator that accepts a million times its tolerance",
-                      [](ReplaySettings& settings) { settings.tolerance *= 1e6; }),
-          drift("platform moved by 1e-10 after each step", [](State& x) { x[position_of_platform] += 1e-10; }),
-          drift("platform faster by 1e-10 after each step", [](State& x) { x[velocity_of_platform] += 1e-10; }),
-          eachStep("platform moved by 1e-10 after each step, gaps left",
-                   [](State& x) { x[position_of_platform] += 1e-10; }),
-          eachStep("psi of leg 2 off by 1e-10 after each step", [](State& x) { x[psi(1)] += 1e-10; }),
-          eachStep("knee's rate of leg 5 off by 1e-10 after each step",
-                   [](State& x) { x[coordinates + theta(4)] += 1e-10; }),
-          lastStep("platform turned by 2e-8 at the end", [](State& x) { x[quaternion_of_platform + 1] += 1e-8; }),
-          lastStep("knee of leg 3 off by 1e-8 at the end", [](State& x) { x[theta(2)] += 1e-8; }),
-          lastStep("knee's rate of leg 6 off by 1e-8 at the end", [](State& x) { x[coordinates + theta(5)] += 1e-8; }),
-          wrongPower("no power of friction in the energy's account",
+/// The energy's account, and the replays that the judged one is compared with; v is where the platform's velocity is.
+std::vector<Defect> wrongAccounts(std::size_t v) {
+  return {wrongPower("no power of friction in the energy's account",
                      [](const SimbodyLoop::Power& power) { return -power.friction; }),
           wrongPower("friction's power off by 1e-6 in the energy's account",
                      [](const SimbodyLoop::Power& power) { return 1e-6 * power.friction; }),
@@ -164,19 +177,47 @@ std::vector<Defect> wrongReplays() {
           wrongLadder("coarser replays that heed no tolerance", Integrator::rkf78,
                       [](ReplaySettings& settings) { settings.tolerance = 1e-6; }),
           wrongLadder("coarser replays spoilt by 1e-9 after each step", Integrator::rkf78,
-                      [](ReplaySettings& settings) {
-                        settings.spoil = [](double, State& x) { x[velocity_of_platform] += 1e-9; };
-                      }),
+                      [=](ReplaySettings& settings) { settings.spoil = [=](double, State& x) { x[v] += 1e-9; }; }),
           wrongLadder("second integrator starts 1e-7 beside the path", Integrator::rk_merson,
                       [](ReplaySettings& settings) { settings.deviation(0) = 1e-7; })};
 }
 
+/// What a step leaves is moved: with the legs brought back, with gaps, or after the last step.
+std::vector<Defect> movedSteps(const Manipulator& machine) {
+  const Places places(machine);
+  const std::size_t p = places.position(), q = places.quaternion(), v = places.velocity(), rates = places.rates();
+  const std::size_t second = legOf(machine, 2), third = legOf(machine, 3), fifth = legOf(machine, 5),
+                    sixth = legOf(machine, 6);
+  const auto named = [&](std::size_t leg, std::size_t k) { return nameOf(coordinatesOf(machine, leg)[k]); };
+  const auto last = [&](std::size_t leg) { return machine.isOfThePaper() ? "knee" : named(leg, 2); };
+  return {drift("platform moved by 1e-10 after each step", [=](State& x) { x[p] += 1e-10; }),
+          drift("platform faster by 1e-10 after each step", [=](State& x) { x[v] += 1e-10; }),
+          eachStep("platform moved by 1e-10 after each step, gaps left", [=](State& x) { x[p] += 1e-10; }),
+          eachStep(fmt::format("{} of leg 2 off by 1e-10 after each step", named(second, 1)),
+                   [=](State& x) { x[Places::joint(second, 1)] += 1e-10; }),
+          eachStep(fmt::format("{}'s rate of leg {} off by 1e-10 after each step", last(fifth), fifth + 1),
+                   [=](State& x) { x[rates + Places::joint(fifth, 2)] += 1e-10; }),
+          lastStep("platform turned by 2e-8 at the end", [=](State& x) { x[q + 1] += 1e-8; }),
+          lastStep(fmt::format("{} of leg 3 off by 1e-8 at the end", last(third)),
+                   [=](State& x) { x[Places::joint(third, 2)] += 1e-8; }),
+          lastStep(fmt::format("{}'s rate of leg {} off by 1e-8 at the end", last(sixth), sixth + 1),
+                   [=](State& x) { x[rates + Places::joint(sixth, 2)] += 1e-8; })};
+}
+
+std::vector<Defect> wrongReplays(const Manipulator& machine) {
+  std::vector<Defect> out = {lowerOrder(), wrongReplay("integrator that accepts a million times its tolerance",
+                                                       [](ReplaySettings& settings) { settings.tolerance *= 1e6; })};
+  append(out, movedSteps(machine));
+  append(out, wrongAccounts(Places(machine).velocity()));
+  return out;
+}
+
 }  // namespace
 
-std::vector<Defect> experimentDefects() {
-  std::vector<Defect> out = wrongEngines();
-  append(out, wrongReactionForces());
-  append(out, wrongReplays());
+std::vector<Defect> experimentDefects(const Manipulator& machine) {
+  std::vector<Defect> out = wrongEngines(machine);
+  append(out, wrongReactionForces(machine));
+  append(out, wrongReplays(machine));
   return out;
 }
 

@@ -9,7 +9,7 @@ Defect slip(const char* name, const char* group, Slip which) {
 
 }  // namespace
 
-std::vector<Defect> formulaDefects() {
+std::vector<Defect> printedFormulas() {
   return {slip("(2) as printed: frame without tilt", "formula", Slip::eq2),
           slip("(4c) as printed: q^2", "formula", Slip::eq4c),
           slip("(5) as printed: +a", "formula", Slip::eq5),

@@ -1,5 +1,7 @@
 // Other laws of friction than viscous and c tanh(rate / speed): torques and direct dynamics alike.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -74,7 +76,7 @@ Excess absoluteKnee(bool acts_so) {
   };
 }
 
-Defect wrongNumbers(const char* name, const std::function<void(Leg&)>& change) {
+Defect wrongNumbers(const std::string& name, const std::function<void(Leg&)>& change) {
   return wrongMachine(name, "friction",
                       [change](ManipulatorParameters& m) { std::for_each(m.legs.begin(), m.legs.end(), change); });
 }
@@ -111,10 +113,52 @@ std::vector<Defect> wrongShapes() {
       })};
 }
 
+/// Of each coordinate that a leg of the machine has.
+std::vector<Defect> wrongOnCoordinates(const Manipulator& machine) {
+  std::vector<Defect> out;
+  for (const Coordinate q : {Coordinate::phi, Coordinate::psi, Coordinate::theta, Coordinate::d}) {
+    const bool none = std::none_of(machine.parameters().legs.begin(), machine.parameters().legs.end(),
+                                   [q](const Leg& leg) { return leg.friction.on(q) != 0 || leg.coulomb.on(q) != 0; });
+    if (none) continue;
+    append(
+        out,
+        {wrongNumbers(fmt::format("no viscous friction on {}", nameOf(q)), [q](Leg& leg) { leg.friction.on(q) = 0; }),
+         wrongNumbers(fmt::format("no Coulomb friction on {}", nameOf(q)), [q](Leg& leg) { leg.coulomb.on(q) = 0; }),
+         wrongNumbers(fmt::format("friction on {} off by 1e-6 of itself", nameOf(q)), [q](Leg& leg) {
+           leg.friction.on(q) *= 1 + 1e-6;
+           leg.coulomb.on(q) *= 1 + 1e-6;
+         })});
+  }
+  append(out, {wrongNumbers("viscous coefficients of the last two coordinates swapped",
+                            [](Leg& leg) {
+                              const auto& q = rowOf(leg.kind).coordinates;
+                              std::swap(leg.friction.on(q[1]), leg.friction.on(q[2]));
+                            }),
+               wrongNumbers("Coulomb friction with the first coordinate's coefficient on all",
+                            [](Leg& leg) {
+                              const auto& q = rowOf(leg.kind).coordinates;
+                              leg.coulomb.on(q[1]) = leg.coulomb.on(q[2]) = leg.coulomb.on(q[0]);
+                            }),
+               wrongNumbers("smoothing speeds off by 1e-6",
+                            [](Leg& leg) {
+                              leg.coulomb.smoothing_speed *= 1 + 1e-6;
+                              leg.coulomb.sliding_speed *= 1 + 1e-6;
+                            }),
+               wrongNumbers("smoothing speed by default, 0.01 rad/s or m/s", [](Leg& leg) {
+                 leg.coulomb.smoothing_speed = CoulombFriction{}.smoothing_speed;
+                 leg.coulomb.sliding_speed = CoulombFriction{}.sliding_speed;
+               })});
+  return out;
+}
+
 }  // namespace
 
-std::vector<Defect> frictionDefects() {
+std::vector<Defect> frictionDefects(const Manipulator& machine) {
   std::vector<Defect> out = wrongShapes();
+  if (!machine.isOfThePaper()) {
+    append(out, wrongOnCoordinates(machine));
+    return out;
+  }
   append(out, {wrongForces("knee's friction by the absolute rate", absoluteKnee(false)),
                wrongForces("knee's friction by and on the absolute angle", absoluteKnee(true)),
                wrongNumbers("Coulomb friction with the motor's coefficient in all joints",

@@ -1,5 +1,6 @@
 #include "validation/prove/defects_kit.h"
 
+#include <algorithm>
 #include <iterator>
 
 namespace ursula {
@@ -85,12 +86,31 @@ void append(std::vector<Defect>& to, std::vector<Defect> more) {
   to.insert(to.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-std::vector<Defect> allDefects() {
+std::size_t otherLeg(const Manipulator& machine, int number, std::size_t than) {
+  const std::size_t leg = legOf(machine, number);
+  return leg != than ? leg : (than + 1) % machine.parameters().legs.size();
+}
+
+std::vector<LegKind> kindsOf(const Manipulator& machine) {
+  std::vector<LegKind> kinds;
+  for (const Leg& leg : machine.parameters().legs)
+    if (std::find(kinds.begin(), kinds.end(), leg.kind) == kinds.end()) kinds.push_back(leg.kind);
+  return kinds;
+}
+
+std::vector<Defect> formulaDefects(const Manipulator& machine) {
+  if (machine.isOfThePaper()) return printedFormulas();
+  std::vector<Defect> out = chainTerms(machine);
+  append(out, chainLegs(machine));
+  return out;
+}
+
+std::vector<Defect> allDefects(const Manipulator& machine) {
   std::vector<Defect> out;
   for (const auto& group : {formulaDefects, parameterDefects, indexDefects, frameDefects, frictionDefects,
                             motionDefects, torqueDefects, branchDefects, kinematicDefects, directDefects, hiddenDefects,
                             sharedMotionDefects, sharedLoadDefects, readingDefects, experimentDefects})
-    append(out, group());
+    append(out, group(machine));
   return out;
 }
 

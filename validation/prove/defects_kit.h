@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -45,21 +46,38 @@ struct Pulse {
 
 void append(std::vector<Defect>& to, std::vector<Defect> more);
 
-// The groups.
-std::vector<Defect> formulaDefects();
-std::vector<Defect> parameterDefects();
-std::vector<Defect> indexDefects();
-std::vector<Defect> frameDefects();
-std::vector<Defect> frictionDefects();
-std::vector<Defect> motionDefects();
-std::vector<Defect> torqueDefects();
-std::vector<Defect> branchDefects();
-std::vector<Defect> kinematicDefects();
-std::vector<Defect> directDefects();
-std::vector<Defect> hiddenDefects();
-std::vector<Defect> sharedMotionDefects();
-std::vector<Defect> sharedLoadDefects();
-std::vector<Defect> readingDefects();
-std::vector<Defect> experimentDefects();
+/// Of the leg that is spoken of as leg `number`, 1-based: where there are fewer, counted on from the first.
+inline std::size_t legOf(const Manipulator& machine, int number) {
+  return static_cast<std::size_t>((number - 1) % machine.legCount());
+}
+/// Another one than legOf(machine, number).
+std::size_t otherLeg(const Manipulator& machine, int number, std::size_t than);
+
+/// The coordinates of a leg, from its base.
+inline const std::array<Coordinate, 3>& coordinatesOf(const Manipulator& machine, std::size_t leg) {
+  return rowOf(machine.parameters().legs[leg].kind).coordinates;
+}
+/// The kinds of the machine's legs, each once.
+std::vector<LegKind> kindsOf(const Manipulator& machine);
+
+// The groups. Each speaks of the paper's machine as of any other, unless it says so.
+std::vector<Defect> formulaDefects(const Manipulator& machine);
+std::vector<Defect> printedFormulas();                       ///< of the paper's machine
+std::vector<Defect> chainTerms(const Manipulator& machine);  ///< of all others
+std::vector<Defect> chainLegs(const Manipulator& machine);   ///< of all others
+std::vector<Defect> parameterDefects(const Manipulator& machine);
+std::vector<Defect> indexDefects(const Manipulator& machine);
+std::vector<Defect> frameDefects(const Manipulator& machine);
+std::vector<Defect> frictionDefects(const Manipulator& machine);
+std::vector<Defect> motionDefects(const Manipulator& machine);
+std::vector<Defect> torqueDefects(const Manipulator& machine);
+std::vector<Defect> branchDefects(const Manipulator& machine);
+std::vector<Defect> kinematicDefects(const Manipulator& machine);
+std::vector<Defect> directDefects(const Manipulator& machine);
+std::vector<Defect> hiddenDefects(const Manipulator& machine);
+std::vector<Defect> sharedMotionDefects(const Manipulator& machine);
+std::vector<Defect> sharedLoadDefects(const Manipulator& machine);
+std::vector<Defect> readingDefects(const Manipulator& machine);
+std::vector<Defect> experimentDefects(const Manipulator& machine);
 
 }  // namespace ursula

@@ -11,7 +11,7 @@ constexpr double degrees = 180 / 3.14159265358979323846;
 
 }  // namespace
 
-std::vector<Defect> motionDefects() {
+std::vector<Defect> motionDefects(const Manipulator&) {
   using M = Motion<double>;
   return {
       wrongMotion("Q transposed", [](M& m) { m.Q.transposeInPlace(); }),

@@ -1,5 +1,7 @@
 // What all roads share, so that none of them can see it: the commanded motion, the load, the numbers as read.
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
@@ -106,7 +108,7 @@ ChangeRows eachRow(const std::function<void(TimedWrench&, const Scenario&)>& cha
   };
 }
 
-Defect misread(const char* name, const ChangeMachine& change) {
+Defect misread(const std::string& name, const ChangeMachine& change) {
   return shared(name, "reading", [change](const Scenario& s) {
     Scenario wrong = s;
     wrong.manipulator = std::make_shared<const Manipulator>(changedMachine(*s.manipulator, change));
@@ -133,7 +135,7 @@ void swapProducts(Matrix3d& inertia, int a, int b, int c, int d) {
 
 }  // namespace
 
-std::vector<Defect> sharedMotionDefects() {
+std::vector<Defect> sharedMotionDefects(const Manipulator&) {
   using M = Motion<double>;
   using T = Trajectory;
   return {sharedMotion("commanded P off by 1e-12 m", [](M& m, const T&) { m.p.x() += 1e-12; }),
@@ -154,7 +156,7 @@ std::vector<Defect> sharedMotionDefects() {
           sharedMotion("a with 1e-9 of omega x v", [](M& m, const T&) { m.p_ddot += 1e-9 * m.omega.cross(m.p_dot); })};
 }
 
-std::vector<Defect> sharedLoadDefects() {
+std::vector<Defect> sharedLoadDefects(const Manipulator&) {
   return {
       sharedRows("load between its rows by straight lines", interpolatedLinearly),
       sharedRows("load's rows late by 1e-6 s", eachRow([](TimedWrench& row, const Scenario&) { row.time += 1e-6; })),
@@ -175,24 +177,30 @@ std::vector<Defect> sharedLoadDefects() {
       sharedLoad("load's point not read", [](Load& load, const Scenario&) { load.point.setZero(); })};
 }
 
-std::vector<Defect> readingDefects() {
+std::vector<Defect> readingDefects(const Manipulator& machine) {
+  const std::size_t first = legOf(machine, 1), second = legOf(machine, 2), fourth = legOf(machine, 4),
+                    sixth = legOf(machine, 6);
+  const Coordinate last = coordinatesOf(machine, first)[2];
   using P = ManipulatorParameters;
   using Poses = std::vector<TimedPose>;
   return {misread("xz and yz exchanged in the platform's tensor",
                   [](P& m) { swapProducts(m.platform.inertia, 0, 2, 1, 2); }),
           misread("xy and xz exchanged in leg 2's tensors",
-                  [](P& m) {
-                    swapProducts(m.legs[1].proximal.inertia, 0, 1, 0, 2);
-                    swapProducts(m.legs[1].distal.inertia, 0, 1, 0, 2);
+                  [=](P& m) {
+                    swapProducts(m.legs[second].proximal.inertia, 0, 1, 0, 2);
+                    swapProducts(m.legs[second].distal.inertia, 0, 1, 0, 2);
                   }),
-          misread("one number off by 1e-15 of itself", [](P& m) { m.legs[3].base_point.y() *= 1 + 4 * eps; }),
-          misread("one number off in its last bit", [](P& m) { m.legs[0].coulomb.theta *= 1 + eps; }),
+          misread("one number off by 1e-15 of itself", [=](P& m) { m.legs[fourth].base_point.y() *= 1 + 4 * eps; }),
+          misread("one number off in its last bit", [=](P& m) { m.legs[first].coulomb.on(last) *= 1 + eps; }),
           misread("axes normalised on reading",
                   [](P& m) {
                     for (Leg& leg : m.legs) leg.base_axis.normalize();
                   }),
-          misread("smoothing speed of leg 6 not read",
-                  [](P& m) { m.legs[5].coulomb.smoothing_speed = CoulombFriction{}.smoothing_speed; }),
+          misread(fmt::format("smoothing speed of leg {} not read", sixth + 1),
+                  [=](P& m) {
+                    m.legs[sixth].coulomb.smoothing_speed = CoulombFriction{}.smoothing_speed;
+                    m.legs[sixth].coulomb.sliding_speed = CoulombFriction{}.sliding_speed;
+                  }),
           misread("numbers in single precision",
                   [](P& m) { m.platform.mass = static_cast<double>(static_cast<float>(m.platform.mass)); }),
           misreadPoses("quaternions as x, y, z, w",

@@ -1,6 +1,9 @@
 // Torques spoilt on their way out, at all instants or at other ones than asked for.
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "nocsolver/solver.h"
@@ -75,12 +78,53 @@ Defect lateLoad() {
   });
 }
 
+/// Efforts numbered by coordinate, and by leg within it.
+Vector6d numberedByCoordinate(const Vector6d& efforts, const Motors& motors) {
+  std::array<int, motor_count> order = {0, 1, 2, 3, 4, 5};
+  std::stable_sort(order.begin(), order.end(), [&motors](int a, int b) {
+    return motors[static_cast<std::size_t>(a)].coordinate < motors[static_cast<std::size_t>(b)].coordinate;
+  });
+  Vector6d out;
+  for (int k = 0; k < motor_count; ++k) out(k) = efforts(order[static_cast<std::size_t>(k)]);
+  return out;
+}
+
+/// Efforts of the motors that drive a coordinate changed.
+Defect wrongEfforts(const std::string& name, Coordinate coordinate, double factor) {
+  return wrongTorques(name, "torque", [coordinate, factor](const Scenario& s) -> ChangeTorques {
+    return [motors = s.manipulator->motors(), coordinate, factor](Vector6d torques, const Motion<double>&) {
+      for (int k = 0; k < motor_count; ++k)
+        if (motors[static_cast<std::size_t>(k)].coordinate == coordinate) torques(k) *= factor;
+      return torques;
+    };
+  });
+}
+
+/// Of coordinates that slide, of legs with two motors.
+std::vector<Defect> wrongMotors(const Manipulator& machine) {
+  std::vector<Defect> out;
+  for (const Coordinate q : {Coordinate::phi, Coordinate::psi, Coordinate::theta, Coordinate::d}) {
+    const auto drives = [q](const Motor& motor) { return motor.coordinate == q; };
+    const Motors& motors = machine.motors();
+    const auto count = std::count_if(motors.begin(), motors.end(), drives);
+    if (count == 0) continue;
+    if (count < motor_count) out.push_back(wrongEfforts(fmt::format("sign of the efforts on {}", nameOf(q)), q, -1));
+    out.push_back(wrongEfforts(fmt::format("efforts on {} off by 1e-9 of themselves", nameOf(q)), q, 1 + 1e-9));
+  }
+  out.push_back(wrongTorques("efforts numbered by coordinate before leg", "torque", [](const Scenario& s) {
+    return [motors = s.manipulator->motors()](const Vector6d& torques, const Motion<double>&) {
+      return numberedByCoordinate(torques, motors);
+    };
+  }));
+  return out;
+}
+
 }  // namespace
 
-std::vector<Defect> torqueDefects() {
+std::vector<Defect> torqueDefects(const Manipulator& machine) {
   using V = Vector6d;
   using M = Manipulator;
-  return {
+  std::vector<Defect> out = {
       torque("sign of all torques", [](V& tau) { tau = -tau; }),
       torque("sign of torque 3", [](V& tau) { tau(2) = -tau(2); }),
       torque("torques 2 and 5 swapped", [](V& tau) { std::swap(tau(1), tau(4)); }),
@@ -103,6 +147,8 @@ std::vector<Defect> torqueDefects() {
                [](Load& load, const M& machine) { load.point += machine.platform().center_of_mass; }),
       withLoad("load's point off by 1e-9 m", [](Load& load, const M&) { load.point.z() += 1e-9; }),
       lateLoad()};
+  if (!machine.isOfThePaper()) append(out, wrongMotors(machine));
+  return out;
 }
 
 }  // namespace ursula

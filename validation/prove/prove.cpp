@@ -115,13 +115,14 @@ std::vector<Sensitivity> proveSensitivities(const Scenario& scenario) {
   return out;
 }
 
-RandomOutcomes proveRandom(std::uint64_t seed, int count, int jobs, const std::function<void(int)>& done) {
+RandomOutcomes proveRandom(std::uint64_t seed, int count, int jobs, const std::function<void(int)>& done,
+                           RandomKind kind) {
   std::vector<Verdict> verdicts(static_cast<std::size_t>(count), Verdict::fail);
   std::vector<std::string> why(static_cast<std::size_t>(count));
   std::vector<std::vector<Check>> checks(static_cast<std::size_t>(count));
   inParallel(jobs, count, [&](int k) {
     const auto i = static_cast<std::size_t>(k);
-    const Scenario scenario = sampledForMany(randomScenario(seed + i));
+    const Scenario scenario = sampledForMany(randomScenario(seed + i, kind));
     ValidationOptions options;
     options.budget = false;
     const ValidationResult result = validate(scenario, options);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/scenario.h"
+#include "validation/prove/random_kind.h"
 #include "validation/verdict/result.h"
 
 namespace ursula {
@@ -65,6 +66,7 @@ Scenario sampledForMany(Scenario scenario);
 std::vector<Sensitivity> proveSensitivities(const Scenario& scenario);
 
 /// The other direction: `count` random valid scenarios from `seed` on; none may fail.
-RandomOutcomes proveRandom(std::uint64_t seed, int count, int jobs, const std::function<void(int)>& done);
+RandomOutcomes proveRandom(std::uint64_t seed, int count, int jobs, const std::function<void(int)>& done,
+                           RandomKind kind = RandomKind::URS);
 
 }  // namespace ursula

@@ -15,7 +15,7 @@ namespace ursula {
 namespace {
 
 bool equal(const JointVariables<double>& a, const JointVariables<double>& b) {
-  return a.phi == b.phi && a.psi == b.psi && a.theta == b.theta;
+  return a.phi == b.phi && a.psi == b.psi && a.theta == b.theta && a.d == b.d;
 }
 
 bool equal(const KinematicAnswer& a, const KinematicAnswer& b) {
@@ -152,7 +152,7 @@ int DefectOutcome::roads() const {
 }
 
 DefectProof proveDefects(const Scenario& scenario, int jobs, const std::function<void(int)>& done) {
-  const std::vector<Defect> defects = allDefects();
+  const std::vector<Defect> defects = allDefects(*scenario.manipulator);
   const Proof proof(sampledForMany(scenario));
   DefectProof out;
   out.outcomes.resize(defects.size());

@@ -38,9 +38,27 @@ Matrix3d randomInertia(Dice& dice, Inertias kind, double mass, double size) {
   return (I + I.transpose()) / 2;
 }
 
-JointFriction randomFriction(Dice& dice, double largest) {
-  const double actuated = dice.uniform(0.001, 1) * largest, universal = dice.uniform(0.001, 1) * largest;
-  return {actuated, universal, dice.uniform(0.001, 1) * largest};
+/// `largest` of what turns, and over `length` of what slides.
+JointFriction randomFriction(Dice& dice, LegKind kind, double largest, double length) {
+  JointFriction out;
+  for (const Coordinate q : rowOf(kind).coordinates)
+    out.on(q) = dice.uniform(0.001, 1) * (slides(q) ? largest / length : largest);
+  return out;
+}
+
+/// F q̇ and c tanh(q̇ / v), at most `share` of the weight that the leg carries.
+void drawFriction(Dice& dice, const Recipe& recipe, double torque, Leg& leg) {
+  const double time = recipe.time(), length = recipe.length;
+  if (recipe.viscous) {
+    const double largest = dice.spread(0.01, 0.5) * torque * time;
+    // A rate of one length a time: of what slides twice over the length.
+    leg.friction = randomFriction(dice, leg.kind, largest, length * length);
+  }
+  leg.coulomb.smoothing_speed = dice.spread(0.003, 0.3) / time;
+  if (leg.kind == LegKind::UPS || leg.kind == LegKind::PUS)
+    leg.coulomb.sliding_speed = dice.spread(0.003, 0.3) / time * length;
+  if (recipe.coulomb)
+    static_cast<JointFriction&>(leg.coulomb) = randomFriction(dice, leg.kind, dice.spread(0.01, 0.2) * torque, length);
 }
 
 /// Means of the platform's and the links' masses, one share of what `even` bodies weigh or unlike each other.
@@ -73,18 +91,15 @@ void drawBodies(Dice& dice, const Recipe& recipe, const Vector3d& middle, Manipu
   platform.mass = scales.platform;
   platform.center_of_mass = middle + recipe.platform_centre * dice.direction();
   platform.inertia = randomInertia(dice, recipe.inertias, platform.mass, recipe.length);
-  const std::size_t at_end = dice.pick<std::size_t>(leg_count);
-  for (std::size_t i = 0; i < leg_count; ++i) {
+  const std::size_t at_end = dice.pick<std::size_t>(static_cast<int>(machine.legs.size()));
+  for (std::size_t i = 0; i < machine.legs.size(); ++i) {
     Leg& leg = machine.legs[i];
     const bool proximal_at_end = i == at_end && dice.chance(0.5);
     leg.proximal = randomLink(dice, recipe, scales, proximal_at_end, leg.proximal);
     leg.distal = randomLink(dice, recipe, scales, i == at_end && !proximal_at_end, leg.distal);
-    const double carried = platform.mass / leg_count + leg.proximal.mass + leg.distal.mass;
-    const double torque = carried * recipe.acceleration * recipe.length;
-    if (recipe.viscous) leg.friction = randomFriction(dice, dice.spread(0.01, 0.5) * torque * recipe.time());
-    leg.coulomb.smoothing_speed = dice.spread(0.003, 0.3) / recipe.time();
-    if (recipe.coulomb)
-      static_cast<JointFriction&>(leg.coulomb) = randomFriction(dice, dice.spread(0.01, 0.2) * torque);
+    const double carried =
+        platform.mass / static_cast<double>(machine.legs.size()) + leg.proximal.mass + leg.distal.mass;
+    drawFriction(dice, recipe, carried * recipe.acceleration * recipe.length, leg);
   }
 }
 

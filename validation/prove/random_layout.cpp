@@ -66,8 +66,9 @@ Vector3d randomAxis(Dice& dice, Axes axes, double angle, double side) {
 }
 
 LegPlace placeLeg(Dice& dice, const Recipe& recipe, const Rings& rings, int i) {
-  const double side = i % 2 == 0 ? -1 : 1;
-  const int pair = i / 2;
+  const int slot = i * leg_count / static_cast<int>(recipe.legs.size());  // fewer legs leave some empty
+  const double side = slot % 2 == 0 ? -1 : 1;
+  const int pair = slot / 2;
   const double middle = rings.turn + 2 * pi / 3 * pair;
   LegPlace place;
   double angle = middle + side * rings.base_half;
@@ -87,30 +88,6 @@ LegPlace placeLeg(Dice& dice, const Recipe& recipe, const Rings& rings, int i) {
   return place;
 }
 
-/// |AB|² = l² + s² − 2 l s cos γ, γ the angle at the knee.
-void closeTriangle(double gamma, double ratio, LegPlace& place) {
-  const double q = (place.B - place.A).norm();
-  place.s = q / std::sqrt(ratio * ratio + 1 - 2 * ratio * std::cos(gamma));
-  place.l = ratio * place.s;
-}
-
-void drawLinks(Dice& dice, const Recipe& recipe, Layout& layout) {
-  const double unequal = recipe.unequal_links ? 5 : 1.5;
-  for (LegPlace& place : layout) {
-    const double gamma = dice.uniform(20, 160) * degree;
-    closeTriangle(gamma, dice.spread(1 / unequal, unequal), place);
-  }
-  if (!recipe.near_singular || dice.chance(0.4)) return;
-  const int first = dice.whole(0, leg_count - 1), count = dice.whole(1, 2);
-  for (int k = 0; k < count; ++k) {
-    const double bent = dice.uniform(3, 12) * degree;
-    // A folded leg has links of different lengths, else B would be at A.
-    const bool folded = dice.chance(0.3);
-    LegPlace& place = layout[static_cast<std::size_t>((first + k) % leg_count)];
-    closeTriangle(folded ? bent : pi - bent, folded ? dice.uniform(2, 3) : dice.spread(0.6, 1.6), place);
-  }
-}
-
 /// Along z, exactly or up to a hundredth beside it.
 Vector3d axisAlongZ(Dice& dice) {
   Vector3d axis(0, 0, dice.spreadOfEitherSign(0.5, 2));
@@ -124,9 +101,10 @@ Vector3d axisAlongZ(Dice& dice) {
 
 Layout randomLayout(Dice& dice, const Recipe& recipe) {
   const Rings rings = randomRings(dice, recipe.arrangement);
+  const int count = static_cast<int>(recipe.legs.size());
   Layout layout;
-  for (int i = 0; i < leg_count; ++i) layout[static_cast<std::size_t>(i)] = placeLeg(dice, recipe, rings, i);
-  if (recipe.axis_along_z) layout[static_cast<std::size_t>(dice.whole(0, leg_count - 1))].axis = axisAlongZ(dice);
+  for (int i = 0; i < count; ++i) layout.push_back(placeLeg(dice, recipe, rings, i));
+  if (recipe.axis_along_z) layout[static_cast<std::size_t>(dice.whole(0, count - 1))].axis = axisAlongZ(dice);
   drawLinks(dice, recipe, layout);
   return layout;
 }

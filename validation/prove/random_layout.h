@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <vector>
 
 #include "model/manipulator.h"
 #include "validation/prove/random_recipe.h"
@@ -14,10 +14,15 @@ struct LegPlace {
   double l = 1, s = 1;
   Knee knee = Knee::positive;
 };
-using Layout = std::array<LegPlace, leg_count>;
+using Layout = std::vector<LegPlace>;
 
-/// Six legs that reach their platform points: base and platform are drawn first, then links that close the triangle
-/// A R B with an angle at the knee between 20° and 160°, beyond for one or two legs of a machine near a singularity.
+/// Legs that reach their platform points: base and platform are drawn first, then links that close what they have to
+/// close. The triangle A R B of URS, or of RUS as seen along the axis, with an angle at the knee between 20° and 160°;
+/// the rod of PUS at 20° to 70° to its rail; UPS within the middle 70 % of its stroke. Beyond for one or two legs of a
+/// machine near a singularity, or near a stroke's end.
 Layout randomLayout(Dice& dice, const Recipe& recipe);
+
+/// The links of legs that stand.
+void drawLinks(Dice& dice, const Recipe& recipe, Layout& layout);
 
 }  // namespace ursula

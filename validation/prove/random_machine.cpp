@@ -49,7 +49,7 @@ void placeLegs(Dice& dice, const Recipe& recipe, const Layout& layout, Design& d
   const Vector3d origin = recipe.offset * dice.direction();
   const auto inBase = [&](const Vector3d& v) { return Vector3d(origin + turn * (recipe.length * v)); };
   Vector3d middle = Vector3d::Zero();
-  for (const LegPlace& place : layout) middle += inBase(place.B) / leg_count;
+  for (const LegPlace& place : layout) middle += inBase(place.B) / static_cast<double>(layout.size());
   design.position = middle + recipe.platform_offset * dice.direction();
   if (recipe.motion == MotionKind::helix) {
     drawHelix(dice, recipe, design);
@@ -59,7 +59,8 @@ void placeLegs(Dice& dice, const Recipe& recipe, const Layout& layout, Design& d
   }
   const Eigen::Quaterniond inverse = design.orientation.conjugate();
   design.middle = inverse * (middle - design.position);
-  for (std::size_t i = 0; i < leg_count; ++i) {
+  design.machine.legs.resize(layout.size());
+  for (std::size_t i = 0; i < layout.size(); ++i) {
     Leg& leg = design.machine.legs[i];
     leg.base_point = inBase(layout[i].A);
     leg.platform_point = inverse * (inBase(layout[i].B) - design.position);
@@ -67,6 +68,8 @@ void placeLegs(Dice& dice, const Recipe& recipe, const Layout& layout, Design& d
     leg.proximal.length = layout[i].l * recipe.length;
     leg.distal.length = layout[i].s * recipe.length;
     leg.knee = layout[i].knee;
+    leg.kind = recipe.legs[i].kind;
+    leg.actuated = recipe.legs[i].actuated;
   }
 }
 

@@ -49,6 +49,19 @@ void drawGeometry(Dice& dice, Oddities& odd, Recipe& recipe) {
   if (odd.happens(0.12, "P off the platform")) recipe.platform_offset = dice.spread(1, 30) * recipe.length;
 }
 
+/// What only legs of other kinds than URS can be.
+void drawLegs(Dice& dice, Oddities& odd, Recipe& recipe) {
+  const RandomKind kind = recipe.kind;
+  const bool of_any = kind == RandomKind::mixture || kind == RandomKind::two_motors;
+  const bool other_motors = kind != RandomKind::URS && odd.happens(of_any ? 0.4 : 0.15, "other motors");
+  recipe.legs = randomLegs(dice, kind, other_motors);
+  const auto some = [&](LegKind of) {
+    return std::any_of(recipe.legs.begin(), recipe.legs.end(), [of](const LegRecipe& leg) { return leg.kind == of; });
+  };
+  recipe.stroke_end = some(LegKind::UPS) && odd.happens(0.15, "near a stroke's end");
+  recipe.far_zero = some(LegKind::PUS) && odd.happens(0.15, "carriage far from its zero");
+}
+
 void drawBodies(Dice& dice, Oddities& odd, Recipe& recipe) {
   if (odd.happens(0.15, "links' masses unlike the platform's")) recipe.masses = Masses::apart;
   if (odd.happens(0.1, "masses mixed")) recipe.masses = Masses::mixed;
@@ -91,9 +104,10 @@ std::string Recipe::text() const {
   static constexpr const char* arrangements[] = {"the paper's layout", "a ring", "3-3", "6-3", "no order"};
   static constexpr const char* directions[] = {"tilted", "radial", "tangential", "random"};
   const std::string odd = unusual.empty() ? "nothing unusual" : fmt::format("{}", fmt::join(unusual, ", "));
-  return fmt::format("L {:.3g} m, m {:.3g} kg, a {:.3g} m/s^2, {:.3g} T, {}, {} axes; {}", length, mass, acceleration,
-                     duration / time(), arrangements[static_cast<int>(arrangement)], directions[static_cast<int>(axes)],
-                     odd);
+  const std::string stands_on = kind == RandomKind::URS ? "" : wordsOf(legs) + ", ";
+  return stands_on + fmt::format("L {:.3g} m, m {:.3g} kg, a {:.3g} m/s^2, {:.3g} T, {}, {} axes; {}", length, mass,
+                                 acceleration, duration / time(), arrangements[static_cast<int>(arrangement)],
+                                 directions[static_cast<int>(axes)], odd);
 }
 
 double Recipe::largestKappa() const {
@@ -101,10 +115,12 @@ double Recipe::largestKappa() const {
   return near_singular || platform_offset > length ? 1e6 : 1e4;
 }
 
-Recipe randomRecipe(Dice& dice) {
+Recipe randomRecipe(Dice& dice, RandomKind kind) {
   Recipe recipe;
+  recipe.kind = kind;
   Oddities odd(dice, recipe);
   drawUnits(dice, odd, recipe);
+  drawLegs(dice, odd, recipe);
   drawGeometry(dice, odd, recipe);
   drawBodies(dice, odd, recipe);
   drawSurroundings(dice, odd, recipe);

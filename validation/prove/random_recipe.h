@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/prove/dice.h"
+#include "validation/prove/random_kind.h"
 
 // What a random scenario is to be like: drawn before any of its numbers, so that what is hard to meet is not drawn less
 // often than it was asked for.
@@ -28,9 +28,13 @@ struct Recipe {
   double mass = 1;          ///< kg
   double acceleration = 1;  ///< m/s²: of gravity where there is any
   // machine
+  RandomKind kind = RandomKind::URS;
+  std::vector<LegRecipe> legs;
   Arrangement arrangement = Arrangement::paper;
   Axes axes = Axes::tilted;
   bool unequal_links = false;  ///< one link of a leg up to five times the other
+  bool stroke_end = false;     ///< one or two telescopic legs nearly as short or as long as they can be
+  bool far_zero = false;       ///< a carriage far from where its rail's zero is
   bool axis_along_z = false;   ///< of one leg, exactly or nearly: where the fixed frame takes another seed
   bool turned = false;         ///< the machine lies any way in B
   double offset = 0;           ///< of the machine from the origin of B, m
@@ -61,6 +65,6 @@ struct Recipe {
   double largestKappa() const;
 };
 
-Recipe randomRecipe(Dice& dice);
+Recipe randomRecipe(Dice& dice, RandomKind kind);
 
 }  // namespace ursula

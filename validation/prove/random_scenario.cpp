@@ -118,15 +118,19 @@ bool tryDesign(Dice& dice, const Recipe& recipe, int& draws, Scenario& scenario)
   return false;
 }
 
+std::string nameFor(std::uint64_t seed, RandomKind kind) {
+  return kind == RandomKind::URS ? fmt::format("random-{}", seed) : fmt::format("random-{}-{}", nameOf(kind), seed);
+}
+
 }  // namespace
 
-Scenario randomScenario(std::uint64_t seed) {
+Scenario randomScenario(std::uint64_t seed, RandomKind kind) {
   Dice dice(seed);
   int draws = 0;
   for (int attempt = 0; attempt < 200; ++attempt) {
-    const Recipe recipe = randomRecipe(dice);
+    const Recipe recipe = randomRecipe(dice, kind);
     Scenario scenario;
-    scenario.name = fmt::format("random-{}", seed);
+    scenario.name = nameFor(seed, kind);
     scenario.file = scenario.name;
     // A recipe that no design meets is given up for another.
     for (int design = 0; design < 100; ++design) {

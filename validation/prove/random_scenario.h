@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "model/scenario.h"
+#include "validation/prove/random_kind.h"
 
 namespace ursula {
 
@@ -40,6 +41,6 @@ namespace ursula {
 ///                            its leg's axis
 ///
 /// Every leg follows the whole motion, and det B keeps its sign.
-Scenario randomScenario(std::uint64_t seed);
+Scenario randomScenario(std::uint64_t seed, RandomKind kind = RandomKind::URS);
 
 }  // namespace ursula

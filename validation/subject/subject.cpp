@@ -74,4 +74,10 @@ Subject slippedSubject(const Manipulator& manipulator, const std::shared_ptr<con
                                                                              slips);
 }
 
+Subject spoiltSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load,
+                      const SpoiltChain& reading) {
+  return makeSubject<ChainSolver<double, SpoiltChain>, ChainWorkspace<double>>("noc, spoilt", manipulator, load,
+                                                                               reading);
+}
+
 }  // namespace ursula

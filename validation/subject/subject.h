@@ -11,7 +11,7 @@
 #include "model/manipulator.h"
 #include "model/motion.h"
 #include "model/scenario.h"
-#include "nocsolver/reading.h"
+#include "nocsolver/spoilt_chain.h"
 
 namespace ursula {
 
@@ -45,6 +45,10 @@ Subject nocSubject(const Manipulator& manipulator, const std::shared_ptr<const L
 
 /// The same with formulas that are wrong: a control that must fail.
 Subject slippedSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load, const WithSlips& slips);
+
+/// The general road with legs that are wrong, for machines of any kind: a control that must fail.
+Subject spoiltSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load,
+                      const SpoiltChain& reading);
 
 /// Tells the subject, where it wants to know, that it will be asked at these instants of the trajectory, s.
 void foresee(const Subject& subject, const Trajectory& trajectory, const std::vector<double>& instants);
