@@ -165,13 +165,20 @@ UpsPoses posesOf(const Manipulator& machine, const Vector6d& lengths) {
 }
 
 std::string csvOf(const UpsPoses& poses) {
-  std::vector<std::string> names = {"pose", "p_x_m", "p_y_m", "p_z_m", "q_w", "q_x", "q_y", "q_z", "multiplicity",
-                                    "residual_m"};
+  std::vector<std::string> names = {"pose", "p_x_m", "p_y_m", "p_z_m",        "q_w",
+                                    "q_x",  "q_y",   "q_z",   "multiplicity", "residual_m"};
   std::vector<std::vector<double>> columns(names.size());
   for (std::size_t k = 0; k < poses.list.size(); ++k) {
     const UpsPose& pose = poses.list[k];
-    const std::array<double, 10> row = {static_cast<double>(k + 1), pose.p.x(), pose.p.y(), pose.p.z(), pose.q(0),
-                                        pose.q(1), pose.q(2), pose.q(3), static_cast<double>(pose.multiplicity),
+    const std::array<double, 10> row = {static_cast<double>(k + 1),
+                                        pose.p.x(),
+                                        pose.p.y(),
+                                        pose.p.z(),
+                                        pose.q(0),
+                                        pose.q(1),
+                                        pose.q(2),
+                                        pose.q(3),
+                                        static_cast<double>(pose.multiplicity),
                                         pose.residual};
     for (std::size_t column = 0; column < row.size(); ++column) columns[column].push_back(row[column]);
   }
@@ -242,7 +249,8 @@ void addDirect(CLI::App& app, std::function<int()>& run) {
   verb->add_option("--d", options->d, "Of six UPS legs, lengths with commas between, m: d_1,...,d_6");
   verb->add_option("--out", options->out, "CSV file; - for standard output")->capture_default_str();
   verb->footer(
-      "One row a pose. Of UPS legs at most 40. Of URS legs at most eight; those that assemble come first. A pose that legs cannot reach is listed with\n"
+      "One row a pose. Of UPS legs at most 40. Of URS legs at most eight; those that assemble come first. A pose that "
+      "legs cannot reach is listed with\n"
       "assembles = 0, reach_i = 0, and psi_i, theta_i = nan. side_i = 1: B_i lies where inverse kinematics answers "
       "with\n"
       "phi_i; 0: it says phi_i ± pi. psi, theta are for the manipulator's own bend of each knee; the other reaches "

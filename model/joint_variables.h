@@ -51,8 +51,8 @@ struct JointMotion {
 /// Pose, twist and twist rate of a body's mass centre, in B; R is G or H of (40), or Q.
 template <class S>
 struct BodyMotion {
-  Vector3<S> c = Vector3<S>::Zero();                      ///< (39)
-  Matrix3<S> R = Matrix3<S>::Zero();                      ///< (40)
+  Vector3<S> c = Vector3<S>::Zero();                          ///< (39)
+  Matrix3<S> R = Matrix3<S>::Zero();                          ///< (40)
   Vector6<S> twist = Vector6<S>::Zero(), twist_rate = twist;  ///< [ω; ċ] of (16), (41); [ω̇; c̈] of (17), (43)
 };
 

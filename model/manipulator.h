@@ -80,9 +80,8 @@ struct ManipulatorParameters {
 class Manipulator {
  public:
   /// Checks finiteness, positive masses and lengths, non-zero axes, inertias (symmetric, positive definite, within the
-  /// triangle inequality), that there are six motors on three to six legs, and that every pair of legs is long enough to
-  /// join base and platform.
-  /// Throws InvalidParameter with the key, the value and the bound.
+  /// triangle inequality), that there are six motors on three to six legs, and that every pair of legs is long enough
+  /// to join base and platform. Throws InvalidParameter with the key, the value and the bound.
   explicit Manipulator(const ManipulatorParameters& parameters);
 
   const ManipulatorParameters& parameters() const { return parameters_; }

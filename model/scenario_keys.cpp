@@ -64,13 +64,15 @@ ScenarioTable leg() {
   return {
       "manipulator.leg",
       "[[manipulator.leg]]",
-      "One of three to six; also `[manipulator.leg_defaults]`, whose keys a leg may override one by one. Required keys must "
+      "One of three to six; also `[manipulator.leg_defaults]`, whose keys a leg may override one by one. Required keys "
+      "must "
       "stand in one of the two.",
       {{"kind",
         KeyType::choice,
         "",
         "\"URS\"",
-        "the joints from base to platform, where each leg ends in a spherical one: URS (the paper's), UPS (telescopic), "
+        "the joints from base to platform, where each leg ends in a spherical one: URS (the paper's), UPS "
+        "(telescopic), "
         "RUS (crank and rod), PUS (carriage and rod)",
         {},
         {"URS", "UPS", "RUS", "PUS"}},
@@ -86,8 +88,22 @@ ScenarioTable leg() {
        {"base_axis", KeyType::vector, "", required_key,
         "uᵢ: the axis of the first joint, in B; normalised on reading. φ is positive about −uᵢ, d of PUS along it"},
        {"platform_point", KeyType::vector, "m", required_key, "bᵢ: the platform joint B, in M"},
-       {"proximal", KeyType::table, "", required_key, "the link from A to the knee R; the cylinder of UPS, the carriage of PUS", {}, {}, "manipulator.leg.link"},
-       {"distal", KeyType::table, "", required_key, "the link from the knee R to B; the rod", {}, {}, "manipulator.leg.link"},
+       {"proximal",
+        KeyType::table,
+        "",
+        required_key,
+        "the link from A to the knee R; the cylinder of UPS, the carriage of PUS",
+        {},
+        {},
+        "manipulator.leg.link"},
+       {"distal",
+        KeyType::table,
+        "",
+        required_key,
+        "the link from the knee R to B; the rod",
+        {},
+        {},
+        "manipulator.leg.link"},
        {"knee",
         KeyType::choice,
         "",
@@ -114,23 +130,25 @@ ScenarioTable leg() {
 }
 
 ScenarioTable link() {
-  return {"manipulator.leg.link",
-          "proximal = { … }, distal = { … }",
-          "A link of a leg: from its first joint along its length to the second.",
-          {{"length", KeyType::number, "m", required_key, "l of the proximal, s of the distal link; of the carriage of PUS for drawing only, and not required", positive},
-           {"mass", KeyType::number, "kg", required_key, "", positive},
-           {"center_of_mass", KeyType::number, "m", required_key, "distance along the link from its first end; of a rod of UPS from the end within the cylinder"},
-           {"inertia", KeyType::inertia, "kg·m²", required_key,
-            "about the mass centre, in the link's frame, whose third axis is along the link"}}};
+  return {
+      "manipulator.leg.link",
+      "proximal = { … }, distal = { … }",
+      "A link of a leg: from its first joint along its length to the second.",
+      {{"length", KeyType::number, "m", required_key,
+        "l of the proximal, s of the distal link; of the carriage of PUS for drawing only, and not required", positive},
+       {"mass", KeyType::number, "kg", required_key, "", positive},
+       {"center_of_mass", KeyType::number, "m", required_key,
+        "distance along the link from its first end; of a rod of UPS from the end within the cylinder"},
+       {"inertia", KeyType::inertia, "kg·m²", required_key,
+        "about the mass centre, in the link's frame, whose third axis is along the link"}}};
 }
 
 std::vector<ScenarioKey> perCoordinate(const char* turning, const char* sliding) {
   const auto key = [](const char* name, const char* unit, const char* meaning) {
     return ScenarioKey{name, KeyType::number, unit, "0.0", meaning, not_negative};
   };
-  return {key("phi", turning, "on φ"),           key("psi", turning, "on ψ"),
-          key("theta", turning, "on θ"),         key("d", sliding, "on d"),
-          key("actuated", turning, "φ of URS"),  key("universal", turning, "ψ of URS"),
+  return {key("phi", turning, "on φ"),     key("psi", turning, "on ψ"),          key("theta", turning, "on θ"),
+          key("d", sliding, "on d"),       key("actuated", turning, "φ of URS"), key("universal", turning, "ψ of URS"),
           key("knee", turning, "θ of URS")};
 }
 
@@ -144,8 +162,8 @@ ScenarioTable coulomb() {
   ScenarioTable out = {"manipulator.leg.coulomb", "coulomb = { … }",
                        "A moment (on d a force) −c tanh(q̇ / smoothing_speed) on a joint coordinate q that the leg has.",
                        perCoordinate("N·m", "N")};
-  out.keys.push_back({"smoothing_speed", KeyType::number, "rad/s, m/s", "0.01", "at which 76 % of the friction acts",
-                      positive});
+  out.keys.push_back(
+      {"smoothing_speed", KeyType::number, "rad/s, m/s", "0.01", "at which 76 % of the friction acts", positive});
   return out;
 }
 

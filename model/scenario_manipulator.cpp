@@ -72,8 +72,8 @@ class LegReader {
       if (const auto kind = table->readChoice(keys_.key("kind"))) leg_.kind = static_cast<LegKind>(*kind);
     leg_.actuated.fill(false);
     leg_.actuated[rowOf(leg_.kind).actuated] = true;
-    for (const TomlSection* table : tables())
-      if (const auto given = table->readStrings("actuated")) readActuated(*table, *given);
+    const TomlSection& table = own_.has("actuated") || !defaults_ ? own_ : *defaults_;
+    if (const auto given = table.readStrings("actuated")) readActuated(table, *given);
   }
 
   void readActuated(const TomlSection& table, const std::vector<std::string>& names) {
@@ -82,7 +82,7 @@ class LegReader {
       const auto& has = rowOf(leg_.kind).coordinates;
       const auto found = std::find_if(has.begin(), has.end(), [&](Coordinate c) { return name == nameOf(c); });
       if (found == has.end())
-        table.fail("actuated", fmt::format("'{}' is no coordinate of a {} leg, expected {}", name,
+        table.fail("actuated", fmt::format("'{}' is no coordinate of {}, a {} leg, expected {}", name, own_.place(),
                                            rowOf(leg_.kind).name, coordinatesOf(leg_.kind)));
       bool& driven = leg_.actuated[static_cast<std::size_t>(found - has.begin())];
       if (driven) table.fail("actuated", fmt::format("'{}' twice", name));

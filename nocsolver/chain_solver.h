@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <type_traits>
 
 #include <Eigen/LU>
 
@@ -17,7 +18,7 @@ template <class S>
 struct ChainWorkspace {
   std::array<ChainState<S>, leg_count> legs;
   Vector6<S> A;                                  ///< diagonal of A: t_P = B⁻¹A q̇ of the driven coordinates (23)
-  Matrix6<S> B;                                  ///< rows [Qb × n; n], n along the row of a leg's map (23)
+  Matrix6<S> B;                                  ///< rows [Qb × n; n], n along the row of a leg's map, near 1 (23)
   Eigen::PartialPivLU<Matrix6<S>> B_transposed;  ///< factors of Bᵀ
 };
 
@@ -64,8 +65,7 @@ class ChainSolver {
   /// Needs inverseKinematics.
   Matrix6<S> massMatrixAtP(const Motion<S>& motion, const ChainWorkspace<S>& work) const;
 
-  /// The force, in B, that a leg puts on the platform at its joint under `efforts`, N. `work` as inverseDynamics left
-  /// it.
+  /// The force, in B, that a leg puts on the platform at its joint under `efforts`, N. Needs inverseKinematics.
   Vector3<S> forceOnPlatform(const ChainWorkspace<S>& work, int leg, const Vector6<S>& efforts) const;
 
   const ChainModel<S>& leg(int i) const { return legs_[static_cast<std::size_t>(i)]; }
@@ -73,10 +73,17 @@ class ChainSolver {
 
  private:
   const ChainModel<S>& model(int i) const { return legs_[static_cast<std::size_t>(i)]; }
+  static constexpr bool is_right = std::is_same_v<Reading, Corrected>;
+
   void place(const Motion<S>& motion, int leg, ChainState<S>& out) const;
+  /// Displacements and the legs' maps to B, and nothing of the links.
+  void maps(const Motion<S>& motion, ChainWorkspace<S>& work) const;
+  /// On the coordinates of a leg, friction included: by the recursion over its joints. Needs inverseKinematics.
   Vector3<S> legForces(const ChainWorkspace<S>& work, int leg) const;
+  /// The same in the axes of the leg's plane, which sets rates and accelerations as well. Needs maps.
+  Vector3<S> planeForces(const Motion<S>& motion, int leg, ChainState<S>& state) const;
   Vector6<S> platformWrench(const Motion<S>& motion) const;
-  Vector6<S> wrenchAtP(const Motion<S>& motion, const ChainWorkspace<S>& work, Vector6<S>& Q_driven) const;
+  Vector6<S> wrenchAtP(const Motion<S>& motion, ChainWorkspace<S>& work, Vector6<S>& Q_driven) const;
 
   std::array<ChainModel<S>, leg_count> legs_;
   int leg_count_;

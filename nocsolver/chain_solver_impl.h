@@ -7,6 +7,7 @@
 
 #include "nocsolver/chain_solver.h"
 #include "nocsolver/kernels/chain_leg.h"
+#include "nocsolver/kernels/leg_forces.h"
 #include "nocsolver/kernels/platform_at_p.h"
 
 namespace ursula {
@@ -14,9 +15,18 @@ namespace ursula {
 template <class S, class R>
 void ChainSolver<S, R>::place(const Motion<S>& motion, int i, ChainState<S>& out) const {
   chain::displacement(model(i), i, motion, out);
+  kernel::placeLinks(model(i), out);
   reading_.placed(model(i), out);
   chain::map(model(i), i, motion.t, out);
   reading_.mapped(model(i), out);
+}
+
+template <class S, class R>
+void ChainSolver<S, R>::maps(const Motion<S>& motion, ChainWorkspace<S>& work) const {
+  for (int i = 0; i < leg_count_; ++i) {
+    chain::displacement(model(i), i, motion, work.legs[chain::at(i)]);
+    chain::map(model(i), i, motion.t, work.legs[chain::at(i)]);
+  }
 }
 
 template <class S, class R>
@@ -76,17 +86,17 @@ void ChainSolver<S, R>::jacobians(const Motion<S>& motion, ChainWorkspace<S>& wo
     const Motor& motor = motors_[chain::at(m)];
     const ChainState<S>& leg = work.legs[chain::at(motor.leg)];
     const Vector3<S>& k = leg.k[chain::at(motor.joint)];
-    work.A(m) = S(1) / k.norm();
+    work.A(m) = S(1) / k.cwiseAbs().sum();  // any size near k's will do, and this one needs no root
     const Vector3<S> n = work.A(m) * k;
     if (reading_.has(Slip::eq23)) work.A(m) = k.norm();
-    work.B.row(m) << leg.Qb.cross(n).transpose(), n.transpose();  // (paper, eq. 23)
+    work.B.row(m) << leg.Qb.cross(n).transpose(), n.transpose();  // (23)
   }
   kernel::factorise(work.B, length_, motion.t, work.B_transposed);
 }
 
 template <class S, class R>
 Matrix6<S> ChainSolver<S, R>::T(const ChainWorkspace<S>& work) const {
-  Matrix6<S> T = work.B_transposed.transpose().solve(Matrix6<S>(work.A.asDiagonal()));  // (paper, eq. 24)
+  Matrix6<S> T = work.B_transposed.transpose().solve(Matrix6<S>(work.A.asDiagonal()));  // (24)
   T.template topRows<3>() /= length_;
   return T;
 }
@@ -105,10 +115,10 @@ Matrix6<S> ChainSolver<S, R>::TRate(const Motion<S>& motion, const ChainWorkspac
         reading_.has(Slip::drop_map_rate) ? Vector3<S>(Vector3<S>::Zero()) : Vector3<S>(K_dot.row(motor.joint));
     const Vector3<S> Qb_dot =
         reading_.has(Slip::eq26_b_dot) ? Vector3<S>(Vector3<S>::Zero()) : Vector3<S>(motion.omega.cross(leg.Qb));
-    J_dot.row(m) << (Qb_dot.cross(k) + leg.Qb.cross(k_dot)).transpose(), k_dot.transpose();  // (paper, eq. 26)
+    J_dot.row(m) << (Qb_dot.cross(k) + leg.Qb.cross(k_dot)).transpose(), k_dot.transpose();  // (26)
   }
   const Matrix6<S> T = this->T(work);
-  return -T * J_dot * T;  // (paper, eq. 25)
+  return -T * J_dot * T;  // (25)
 }
 
 template <class S, class R>
@@ -118,9 +128,10 @@ void ChainSolver<S, R>::bodyMotions(const Motion<S>& motion, const ChainWorkspac
   for (int i = 0; i < leg_count_; ++i) {
     const ChainState<S>& leg = work.legs[chain::at(i)];
     const kernel::ChainMotion<S> links = chain::motionOf<S>(model(i).kind, leg, leg.rate, leg.acceleration, reading_);
-    const auto set = [&](BodyMotion<S>& body, const Vector3<S>& c, const Matrix3<S>& R, const ChainLinkMotion<S>& m) {
+    const auto set = [&](BodyMotion<S>& body, const Vector3<S>& c, const Matrix3<S>& frame,
+                         const ChainLinkMotion<S>& m) {
       body.c = model(i).a + c;
-      body.R = R;
+      body.R = frame;
       body.twist << m.omega, m.c_dot;
       body.twist_rate << m.omega_dot, m.c_ddot;
     };
@@ -129,9 +140,9 @@ void ChainSolver<S, R>::bodyMotions(const Motion<S>& motion, const ChainWorkspac
   }
   const Vector3<S> arm = motion.Q * rho_;
   BodyMotion<S>& platform = bodies.back();
-  platform.c = motion.p + arm;  // (paper, eq. 39c)
+  platform.c = motion.p + arm;  // (39c)
   platform.R = motion.Q;
-  platform.twist << motion.omega, motion.p_dot + motion.omega.cross(arm);  // (paper, eq. 41c)
+  platform.twist << motion.omega, motion.p_dot + motion.omega.cross(arm);  // (41c)
   platform.twist_rate << motion.omega_dot,
       motion.p_ddot + motion.omega_dot.cross(arm) + motion.omega.cross(motion.omega.cross(arm));
 }
@@ -148,7 +159,7 @@ void ChainSolver<S, R>::twistShaping(const Motion<S>& motion, const ChainWorkspa
         kernel::withKind(model(i).kind, [&](auto kind) { return kernel::chainPartials<decltype(kind)::value>(leg); });
     for (int m = 0; m < motor_count; ++m) {
       const Vector3<S> rate = kernel::chainRates(leg, chain::atB<S>(T.col(m), leg.Qb));
-      shaping.template block<6, 1>(6 * i, m) << partials.omega_1 * rate, partials.v_1 * rate;  // (paper, eq. 48)
+      shaping.template block<6, 1>(6 * i, m) << partials.omega_1 * rate, partials.v_1 * rate;  // (48)
       shaping.template block<6, 1>(6 * (leg_count + i), m) << partials.omega_2 * rate, partials.v_2 * rate;
     }
   }
@@ -182,14 +193,34 @@ Vector6<S> ChainSolver<S, R>::platformWrench(const Motion<S>& motion) const {
   return wrench;
 }
 
+template <class S, class R>
+Vector3<S> ChainSolver<S, R>::planeForces(const Motion<S>& motion, int i, ChainState<S>& leg) const {
+  const Vector3<S> across = motion.omega.cross(leg.Qb);
+  leg.v_B = motion.p_dot + across;
+  const Vector3<S> a_B = motion.p_ddot + motion.omega_dot.cross(leg.Qb) + motion.omega.cross(across);
+  const auto forces = [&]() -> Vector3<S> {
+    switch (model(i).kind) {
+      case LegKind::UPS:
+        return kernel::upsForces(model(i), a_B, gravity_, leg);
+      case LegKind::RUS:
+        return kernel::rusForces(model(i), a_B, gravity_, leg);
+      case LegKind::PUS:
+        return kernel::pusForces(model(i), a_B, gravity_, leg);
+      case LegKind::URS:
+        break;
+    }
+    return kernel::ursForces(model(i), a_B, gravity_, leg);
+  };
+  return forces() + kernel::chainFriction(model(i), leg);
+}
+
 /// The wrench at P of all that no motor carries directly, and what falls on the motors.
 template <class S, class R>
-Vector6<S> ChainSolver<S, R>::wrenchAtP(const Motion<S>& motion, const ChainWorkspace<S>& work,
-                                        Vector6<S>& Q_driven) const {
+Vector6<S> ChainSolver<S, R>::wrenchAtP(const Motion<S>& motion, ChainWorkspace<S>& work, Vector6<S>& Q_driven) const {
   Vector6<S> wrench = platformWrench(motion);
   for (int i = 0; i < leg_count_; ++i) {
-    const ChainState<S>& leg = work.legs[chain::at(i)];
-    const Vector3<S> Q = legForces(work, i);
+    ChainState<S>& leg = work.legs[chain::at(i)];
+    const Vector3<S> Q = is_right ? planeForces(motion, i, leg) : legForces(work, i);
     Vector3<S> f = Vector3<S>::Zero();
     for (int j = 0; j < 3; ++j) {
       const int motor = model(i).motor[chain::at(j)];
@@ -206,13 +237,13 @@ Vector6<S> ChainSolver<S, R>::wrenchAtP(const Motion<S>& motion, const ChainWork
 template <class S, class R>
 Vector6<S> ChainSolver<S, R>::inverseDynamics(const Motion<S>& motion, ChainWorkspace<S>& work,
                                               const Vector6<S>& load) const {
-  inverseKinematics(motion, work);
+  is_right ? maps(motion, work) : inverseKinematics(motion, work);
   jacobians(motion, work);
   Vector6<S> Q_driven;
   Vector6<S> wrench = wrenchAtP(motion, work, Q_driven) - load;
   wrench.template head<3>() /= length_;
   const Vector6<S> lambda = work.B_transposed.solve(wrench);
-  return Q_driven + work.A.cwiseProduct(lambda);  // (paper, eq. 37)
+  return Q_driven + work.A.cwiseProduct(lambda);  // (37)
 }
 
 template <class S, class R>
@@ -237,7 +268,7 @@ Vector6<S> ChainSolver<S, R>::directDynamics(const Motion<S>& motion, const Vect
   Motion<S> unaccelerated = motion;
   unaccelerated.omega_dot.setZero();
   unaccelerated.p_ddot.setZero();
-  inverseKinematics(unaccelerated, work);
+  is_right ? displacements(unaccelerated, work) : inverseKinematics(unaccelerated, work);
   Vector6<S> Q_driven;
   Vector6<S> wrench = load - wrenchAtP(unaccelerated, work, Q_driven);
   for (int m = 0; m < motor_count; ++m) {
@@ -245,7 +276,7 @@ Vector6<S> ChainSolver<S, R>::directDynamics(const Motion<S>& motion, const Vect
     const ChainState<S>& leg = work.legs[chain::at(motor.leg)];
     chain::addForceAtB<S>((efforts(m) - Q_driven(m)) * leg.k[chain::at(motor.joint)], leg.Qb, wrench);
   }
-  return massMatrixAtP(unaccelerated, work).llt().solve(wrench);  // (paper, eq. 36)
+  return massMatrixAtP(unaccelerated, work).llt().solve(wrench);  // (36)
 }
 
 template <class S, class R>

@@ -25,9 +25,8 @@ Vector6d missing(const ChainSolver<double>& solver, const ChainWorkspace<double>
 double sizeOf(const ChainSolver<double>& solver, const Vector6d& driven) {
   double largest = 0;
   for (int m = 0; m < motor_count; ++m)
-    largest = std::max(largest, std::abs(driven(m)) * (solver.motors()[static_cast<std::size_t>(m)].slides()
-                                                           ? 1
-                                                           : solver.length()));
+    largest = std::max(
+        largest, std::abs(driven(m)) * (solver.motors()[static_cast<std::size_t>(m)].slides() ? 1 : solver.length()));
   return largest;
 }
 
@@ -35,13 +34,12 @@ void move(const Vector6d& twist, Motion<double>& motion) {
   const Vector3d turn = twist.head<3>();
   const double angle = turn.norm();
   if (angle > 0)
-    motion.Q =
-        (Eigen::AngleAxisd(angle, turn / angle) * Eigen::Quaterniond(motion.Q)).normalized().toRotationMatrix();
+    motion.Q = (Eigen::AngleAxisd(angle, turn / angle) * Eigen::Quaterniond(motion.Q)).normalized().toRotationMatrix();
   motion.p += twist.tail<3>();
 }
 
-PlatformPose poseAt(const ChainSolver<double>& solver, const Motion<double>& motion,
-                    const ChainWorkspace<double>& work, double residual) {
+PlatformPose poseAt(const ChainSolver<double>& solver, const Motion<double>& motion, const ChainWorkspace<double>& work,
+                    double residual) {
   PlatformPose pose;
   pose.p = motion.p;
   pose.Q = motion.Q;

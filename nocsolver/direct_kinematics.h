@@ -67,8 +67,9 @@ class DirectKinematics {
   /// std::domain_error unless the machine is of the paper's kind.
   PlatformPoses poses(const Vector6d& phi) const;
 
-  /// The pose for φ, or what else the motors drive, that continues `from`, by Newton, for legs of any kinds. None where Newton's steps do not shrink as they must near a
-  /// solution, or where it would cross a singular pose: then `from` is too far, or there is nothing to continue to.
+  /// The pose for φ, or what else the motors drive, that continues `from`, by Newton, for legs of any kinds. None where
+  /// Newton's steps do not shrink as they must near a solution, or where it would cross a singular pose: then `from` is
+  /// too far, or there is nothing to continue to.
   std::optional<PlatformPose> track(const Vector6d& phi, const PlatformPose& from) const;
 
   /// The platform's motion at `pose` for rates and accelerations of φ, rad/s and rad/s², by (24) and (25). Leaves

@@ -8,8 +8,8 @@
 #include "model/motion.h"
 #include "nocsolver/errors.h"
 #include "nocsolver/leg_state.h"
-#include "nocsolver/reading.h"
 #include "nocsolver/paper_model.h"
+#include "nocsolver/reading.h"
 
 namespace ursula {
 

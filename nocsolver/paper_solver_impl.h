@@ -110,13 +110,14 @@ void PaperSolver<S, R>::bodyMotions(const Motion<S>& motion, PaperWorkspace<S>& 
 }
 
 template <class S, class R>
-void PaperSolver<S, R>::twistShaping(const Motion<S>& motion, const PaperWorkspace<S>& work, TwistShaping<S>& shaping) const {
+void PaperSolver<S, R>::twistShaping(const Motion<S>& motion, const PaperWorkspace<S>& work,
+                                     TwistShaping<S>& shaping) const {
   kernel::twistShaping(model_, motion, work, reading_, shaping);
 }
 
 template <class S, class R>
 void PaperSolver<S, R>::twistShapingRate(const Motion<S>& motion, const PaperWorkspace<S>& work,
-                                    TwistShaping<S>& shaping_rate) const {
+                                         TwistShaping<S>& shaping_rate) const {
   kernel::twistShapingRate(model_, motion, work, reading_, shaping_rate);
 }
 
@@ -139,7 +140,8 @@ Vector6<S> PaperSolver<S, R>::wrenchAtP(const Motion<S>& motion, PaperWorkspace<
 }
 
 template <class S, class R>
-Vector6<S> PaperSolver<S, R>::inverseDynamics(const Motion<S>& motion, PaperWorkspace<S>& work, const Vector6<S>& load) const {
+Vector6<S> PaperSolver<S, R>::inverseDynamics(const Motion<S>& motion, PaperWorkspace<S>& work,
+                                              const Vector6<S>& load) const {
   inverseKinematics(motion, work);
   jacobians(motion, work);
   Vector6<S> Q_phi;
@@ -155,8 +157,8 @@ Matrix6<S> PaperSolver<S, R>::massMatrixAtP(const Motion<S>& motion, const Paper
 }
 
 template <class S, class R>
-Vector6<S> PaperSolver<S, R>::directDynamics(const Motion<S>& motion, const Vector6<S>& torques, PaperWorkspace<S>& work,
-                                        const Vector6<S>& load) const {
+Vector6<S> PaperSolver<S, R>::directDynamics(const Motion<S>& motion, const Vector6<S>& torques,
+                                             PaperWorkspace<S>& work, const Vector6<S>& load) const {
   Motion<S> unaccelerated = motion;
   unaccelerated.omega_dot.setZero();
   unaccelerated.p_ddot.setZero();

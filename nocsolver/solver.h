@@ -68,7 +68,13 @@ class Solver {
   void jacobians(const Motion<S>& motion, Workspace<S>& work) const {
     paper_ ? paper_->jacobians(motion, work.paper) : chain_.jacobians(motion, work.chain);
   }
-  const Matrix6<S>& B(const Workspace<S>& work) const { return paper_ ? work.paper.B : work.chain.B; }
+  /// Its rows are [Qb × n; n], n of length 1.
+  Matrix6<S> B(const Workspace<S>& work) const {
+    if (paper_) return work.paper.B;
+    Matrix6<S> B = work.chain.B;
+    for (int m = 0; m < motor_count; ++m) B.row(m) /= B.row(m).template tail<3>().norm();
+    return B;
+  }
 
   /// Of Bᵀ, its moment rows over the length. Needs jacobians.
   S determinant(const Workspace<S>& work) const {
@@ -85,7 +91,9 @@ class Solver {
 
   /// Pose, twist and twist rate of all bodies, (16), (17), (39)–(43). Needs inverseKinematics.
   void bodyMotions(const Motion<S>& motion, Workspace<S>& work, BodyMotions<S>& bodies) const {
-    paper_ ? paper_->bodyMotions(motion, work.paper, bodies) : chain_.bodyMotions(motion, work.chain, bodies);
+    if (paper_) return paper_->bodyMotions(motion, work.paper, bodies);
+    chain_.inverseKinematics(motion, work.chain);  // inverseDynamics has no need of the links' motions
+    chain_.bodyMotions(motion, work.chain, bodies);
   }
 
   /// The twist-shaping matrix by (48) and (47). Needs inverseKinematics and jacobians.

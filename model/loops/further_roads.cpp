@@ -33,8 +33,8 @@ std::unique_ptr<Road> make(const Manipulator& manipulator, std::shared_ptr<const
 bool always() { return true; }
 
 constexpr OfFurtherRoads<RoadKind> roads = {{
-    {"torque.twin", "Simbody, tree through leg 1", "Simbody's loop grown through leg 1, balls at the others", "Simbody", always,
-     make<SimbodyTwin>},
+    {"torque.twin", "Simbody, tree through leg 1", "Simbody's loop grown through leg 1, balls at the others", "Simbody",
+     always, make<SimbodyTwin>},
     {"torque.maximal", "maximal coordinates", "links and platform in maximal coordinates with Lagrange multipliers",
      "maximal coordinates", always, make<MaximalLoop>},
     {"torque.mujoco", "MuJoCo", "MuJoCo's trees, closed by Lagrange multipliers", "MuJoCo", mujocoAvailable,

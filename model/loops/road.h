@@ -16,7 +16,8 @@ class Road {
   Road(const Road&) = delete;
   Road& operator=(const Road&) = delete;
 
-  /// Efforts of the motors for the motion, N·m or N, conjugate to the rates of their coordinates. Throws std::domain_error where a leg cannot reach.
+  /// Efforts of the motors for the motion, N·m or N, conjugate to the rates of their coordinates. Throws
+  /// std::domain_error where a leg cannot reach.
   virtual Vector6d inverseDynamics(const Motion<double>& motion) = 0;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
-// What the kernels of all kinds of legs share: components along the fixed frame, the plane of a leg, refusals. Internal.
+// What the kernels of all kinds of legs share: components along the fixed frame, the plane of a leg, refusals.
+// Internal.
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -42,15 +43,31 @@ Plane<S> planeOf(const ChainModel<S>& leg, const InAxes<S>& B) {
   return planeAt<S>(leg, -B.k_x / B.r, B.k_z / B.r);
 }
 
-/// Frames [x, axis × x, axis] of (40), mass centres and B from its link's end.
 template <class S>
-void setLinks(const ChainModel<S>& leg, const Vector3<S>& x_1, const Vector3<S>& along_1, const Vector3<S>& x_2,
-              const Vector3<S>& along_2, ChainState<S>& out) {
-  out.R_1 << x_1, along_1.cross(x_1), along_1;
-  out.R_2 << x_2, along_2.cross(x_2), along_2;
-  out.arm_1 = leg.rho * along_1;
-  out.arm_2 = leg.sigma * along_2;
-  out.RB = leg.s * along_2;
+void setLinks(const Vector3<S>& x_1, const Vector3<S>& along_1, const Vector3<S>& x_2, const Vector3<S>& along_2,
+              ChainState<S>& out) {
+  out.x_1 = x_1;
+  out.along_1 = along_1;
+  out.x_2 = x_2;
+  out.along_2 = along_2;
+}
+
+/// Frames of (40), ends and mass centres, from the displacement.
+template <class S>
+void placeLinks(const ChainModel<S>& leg, ChainState<S>& out) {
+  out.R_1 << out.x_1, out.along_1.cross(out.x_1), out.along_1;
+  out.R_2 << out.x_2, out.along_2.cross(out.x_2), out.along_2;
+  out.arm_1 = leg.rho * out.along_1;
+  out.arm_2 = leg.sigma * out.along_2;
+  out.RB = leg.s * out.along_2;
+  out.O_1.setZero();
+  out.O_2 = leg.l * out.along_1;
+  if (leg.kind == LegKind::UPS) out.O_2 = (out.cosine[2] - leg.s) * out.along_1;
+  if (leg.kind == LegKind::PUS) {
+    out.R_1 << leg.x_hat, leg.u, leg.z_hat;  // the carriage does not turn
+    out.O_1 = out.cosine[0] * leg.u;
+    out.O_2 = out.O_1;
+  }
 }
 
 template <class S>

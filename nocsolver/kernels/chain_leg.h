@@ -16,7 +16,7 @@ inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
 template <class S>
 void displacement(const ChainModel<S>& model, int index, const Motion<S>& motion, ChainState<S>& out) {
   out.Qb.noalias() = motion.Q * model.b;
-  out.AB = (motion.p - model.a) + out.Qb;  // (paper, eq. 3)
+  out.AB = (motion.p - model.a) + out.Qb;  // (3)
   switch (model.kind) {
     case LegKind::URS:
       return kernel::ursDisplacement(model, index, motion.t, out);

@@ -11,8 +11,8 @@
 // 2φ̇ż is the frame's), so that the columns of T (48) and of Ṫ come out of the same lines.
 
 #include "nocsolver/leg_state.h"
-#include "nocsolver/reading.h"
 #include "nocsolver/paper_model.h"
+#include "nocsolver/reading.h"
 
 namespace ursula::kernel {
 

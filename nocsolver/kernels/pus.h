@@ -23,10 +23,7 @@ void pusDisplacement(const ChainModel<S>& leg, int index, const S& t, ChainState
   out.sine = {S(0), F.sine, sin_theta};
   out.cosine = {d, F.cosine, cos_theta};
   out.axis = {leg.u, -leg.u, F.x};
-  setLinks<S>(leg, F.x, leg.u, F.x, cos_theta * leg.u + sin_theta * F.z, out);
-  out.R_1 << leg.x_hat, leg.u, leg.z_hat;  // the carriage does not turn
-  out.O_1 = d * leg.u;
-  out.O_2 = out.O_1;
+  setLinks<S>(F.x, leg.u, F.x, cos_theta * leg.u + sin_theta * F.z, out);
   out.margins = {abs(cos_theta), S(1) / sin_theta};
 }
 

@@ -33,9 +33,7 @@ void rusDisplacement(const ChainModel<S>& leg, int index, const S& t, ChainState
   out.sine = {F.sine, sin_psi, sin_theta};
   out.cosine = {F.cosine, cos_psi, cos_theta};
   out.axis = {-leg.u, -leg.u, -x_2};
-  setLinks<S>(leg, F.x, F.z, x_2, sin_theta * leg.u + cos_theta * z_2, out);
-  out.O_1.setZero();
-  out.O_2 = leg.l * F.z;
+  setLinks<S>(F.x, F.z, x_2, sin_theta * leg.u + cos_theta * z_2, out);
   out.margins = {abs(sin_psi), S(1) / cos_theta};
 }
 
@@ -43,9 +41,9 @@ template <class S>
 void rusMap(const ChainModel<S>& leg, int index, const S& t, ChainState<S>& out) {
   requireRegular(out.margins.sine, "is stretched or folded, |sin psi|", index, t);
   requireRegular(out.cosine[2], "has its rod along the axis of its crank, cos theta", index, t);
-  const Vector3<S> z = out.R_1.col(2);
+  const Vector3<S> z = out.along_1;
   const S c = leg.s * out.cosine[2], k_y = leg.s * out.sine[2], &sin_psi = out.sine[1], &cos_psi = out.cosine[1];
-  out.k[0] = out.RB / (c * leg.l * sin_psi);  // (a)
+  out.k[0] = (leg.s / (c * leg.l * sin_psi)) * out.along_2;  // (a)
   out.k[2] = leg.u / c;
   out.k[1] = -(z + (k_y * cos_psi / c) * leg.u) / (c * sin_psi) - out.k[0];
 }

@@ -101,8 +101,8 @@ void twistShaping(const PaperModel<S>& model, const Motion<S>& motion, const Pap
 
 /// Ṫ of (32b): the accelerations of (17), (43) at the actual motion for the rates of one column and their rates.
 template <class S, class R>
-void twistShapingRate(const PaperModel<S>& model, const Motion<S>& motion, const PaperWorkspace<S>& work, const R& reading,
-                      TwistShaping<S>& shaping_rate) {
+void twistShapingRate(const PaperModel<S>& model, const Motion<S>& motion, const PaperWorkspace<S>& work,
+                      const R& reading, TwistShaping<S>& shaping_rate) {
   const Matrix6<S> T = platformShaping(work, model.length);
   const Matrix6<S> T_dot = platformShapingRate(model, motion, work, T, reading);
   const Vector3<S> arm = motion.Q * model.rho;

@@ -24,9 +24,7 @@ void upsDisplacement(const ChainModel<S>& leg, int index, const S& t, ChainState
   out.sine = {F.sine, sin_psi, S(0)};
   out.cosine = {F.cosine, cos_psi, d};
   out.axis = {-leg.u, F.x, e};
-  setLinks<S>(leg, F.x, e, F.x, e, out);
-  out.O_1.setZero();
-  out.O_2 = (d - leg.s) * e;
+  setLinks<S>(F.x, e, F.x, e, out);
   out.margins = {S(1), d / B.r};
 }
 
@@ -34,7 +32,7 @@ template <class S>
 void upsMap(ChainState<S>& out) {
   const Vector3<S>& x = out.axis[1];
   const S &d = out.cosine[2], &sin_psi = out.sine[1];
-  out.k[0] = -x / (d * sin_psi);       // (a)
+  out.k[0] = -x / (d * sin_psi);        // (a)
   out.k[1] = x.cross(out.axis[2]) / d;  // (a)
   out.k[2] = out.axis[2];               // (a)
 }

@@ -31,9 +31,7 @@ void ursDisplacement(const ChainModel<S>& leg, int index, const S& t, ChainState
   out.sine = {F.sine, sin_psi, sin_theta};
   out.cosine = {F.cosine, cos_psi, cos_theta};
   out.axis = {-leg.u, F.x, F.x};
-  setLinks<S>(leg, F.x, cos_psi * leg.u + sin_psi * F.z, F.x, -cos_sum * leg.u - sin_sum * F.z, out);
-  out.O_1.setZero();
-  out.O_2 = leg.l * out.R_1.col(2);
+  setLinks<S>(F.x, cos_psi * leg.u + sin_psi * F.z, F.x, -cos_sum * leg.u - sin_sum * F.z, out);
   out.margins = {abs(sin_theta), q / B.r};
 }
 
@@ -42,7 +40,7 @@ void ursMap(const ChainModel<S>& leg, int index, const S& t, ChainState<S>& out)
   requireRegular(out.margins.sine, "is stretched or folded, |sin theta|", index, t);
   const Vector3<S>& x = out.axis[1];
   const Vector3<S> z = x.cross(leg.u);
-  const S lever = -out.RB.dot(z);  // s sin(ψ+θ)
+  const S lever = -leg.s * out.along_2.dot(z);  // s sin(ψ+θ)
   const S distance = -out.AB.dot(z);
   const S per_ls = S(1) / (leg.l * leg.s * out.sine[2]);
   const S theta_y = out.AB.dot(leg.u) * per_ls, theta_z = -distance * per_ls;

@@ -137,8 +137,7 @@ std::vector<double> numbersOf(const Scenario& scenario) {
   for (const Leg& leg : machine.legs)
     for (const JointFriction& friction : {leg.friction, static_cast<const JointFriction&>(leg.coulomb)})
       out.insert(out.end(), {friction.phi, friction.psi, friction.theta, friction.d, leg.coulomb.smoothing_speed,
-                             leg.coulomb.sliding_speed,
-                             leg.knee == Knee::positive ? 1.0 : -1.0});
+                             leg.coulomb.sliding_speed, leg.knee == Knee::positive ? 1.0 : -1.0});
   for (double t : {0.0, 0.4, 1.0}) {
     const Motion<double> motion = scenario.trajectory->at(t);
     out.insert(out.end(), motion.p.data(), motion.p.data() + 3);

@@ -57,14 +57,17 @@ INSTANTIATE_TEST_SUITE_P(
             "link", "length = 1.4", "@lenght = 1.4",
             "unknown key 'lenght' in manipulator.leg_defaults.proximal, expected 'length', 'mass', 'center_of_mass' "
             "or 'inertia', did you mean 'length'?"},
-        Refusal{"leg", "base_axis = [0.9397", "@base_axes = [0.9397",
-                "unknown key 'base_axes' in manipulator.leg[2], expected 'kind', 'actuated', 'base_point', 'base_axis', "
-                "'platform_point', 'proximal', 'distal', 'knee', 'friction' or 'coulomb', did you mean 'base_axis'?"},
+        Refusal{
+            "leg", "base_axis = [0.9397", "@base_axes = [0.9397",
+            "unknown key 'base_axes' in manipulator.leg[2], expected 'kind', 'actuated', 'base_point', 'base_axis', "
+            "'platform_point', 'proximal', 'distal', 'knee', 'friction' or 'coulomb', did you mean 'base_axis'?"},
         Refusal{"friction", "universal = 0.25", "@univeral = 0.25",
-                "unknown key 'univeral' in manipulator.leg_defaults.friction, expected 'phi', 'psi', 'theta', 'd', 'actuated', 'universal' or "
+                "unknown key 'univeral' in manipulator.leg_defaults.friction, expected 'phi', 'psi', 'theta', 'd', "
+                "'actuated', 'universal' or "
                 "'knee', did you mean 'universal'?"},
         Refusal{"coulomb", "friction = {", "coulomb = { @speed = 1 }\nfriction = {",
-                "unknown key 'speed' in manipulator.leg_defaults.coulomb, expected 'phi', 'psi', 'theta', 'd', 'actuated', 'universal', 'knee' or "
+                "unknown key 'speed' in manipulator.leg_defaults.coulomb, expected 'phi', 'psi', 'theta', 'd', "
+                "'actuated', 'universal', 'knee' or "
                 "'smoothing_speed'"},
         Refusal{"first_of_two", "mass = 500.0", "@zz = 1\naa = 2\nmass = 500.0",
                 "unknown key 'zz' in manipulator.platform, expected 'mass', 'center_of_mass' or 'inertia'"},

@@ -88,8 +88,7 @@ TEST(ImpossibleScenario, hasFiveLegs) {
   const std::string five = good_scenario.substr(0, last) + good_scenario.substr(end);
   const MarkedText changed = marked(replaced(five, "[[manipulator.leg]]", "@[[manipulator.leg]]"));
   EXPECT_EQ(refusal<ScenarioError>([&] { parseScenario(changed.text, "a.toml"); }),
-            "a.toml:" + changed.place +
-                ": error: manipulator.leg: 5 actuated coordinates in all, expected exactly 6");
+            "a.toml:" + changed.place + ": error: manipulator.leg: 5 actuated coordinates in all, expected exactly 6");
 }
 
 TEST(ImpossibleScenario, hasSevenLegs) {
@@ -105,7 +104,8 @@ TEST(ImpossibleScenario, hasNoLegs) {
                            good_scenario.substr(good_scenario.find("[trajectory]"));
   const MarkedText changed = marked(replaced(none, "[manipulator]", "@[manipulator]"));
   EXPECT_EQ(refusal<ScenarioError>([&] { parseScenario(changed.text, "a.toml"); }),
-            "a.toml:" + changed.place + ": error: missing key 'leg' in manipulator, expected three to six [[manipulator.leg]]");
+            "a.toml:" + changed.place +
+                ": error: missing key 'leg' in manipulator, expected three to six [[manipulator.leg]]");
 }
 
 TEST(ImpossibleScenario, isNotToml) {

@@ -73,8 +73,7 @@ class Kinds : public testing::TestWithParam<std::string> {
 TEST_P(Kinds, inDoubles) {
   const ChainSolver<double> solver(*scenario_.manipulator);
   Errors errors;
-  for (const VectorRow& row : rows_)
-    errors = errorsAt(solver, scenario_.load.get(), rounded(row.motion), row, errors);
+  for (const VectorRow& row : rows_) errors = errorsAt(solver, scenario_.load.get(), rounded(row.motion), row, errors);
   print("doubles", errors);
   EXPECT_LE(errors.worst(), promised);
 }

@@ -93,11 +93,14 @@ const std::vector<std::string>& vectorNames() {
 }
 
 const std::vector<std::string>& kindNames() {
-  static const std::vector<std::string> names = {
-      "kind-ups-1",       "kind-ups-2",     "kind-rus-1",    "kind-rus-2",    "kind-pus-1",
-      "kind-pus-2",       "kind-mixture",   "kind-three-ups", "kind-three-rus", "kind-three-mixed",
-      "kind-four",        "kind-five",      "kind-friction", "kind-friction-two-motors",
-      "kind-load-base",   "kind-load-platform"};
+  static const std::vector<std::string> names = {"kind-ups-1",     "kind-ups-2",
+                                                 "kind-rus-1",     "kind-rus-2",
+                                                 "kind-pus-1",     "kind-pus-2",
+                                                 "kind-mixture",   "kind-three-ups",
+                                                 "kind-three-rus", "kind-three-mixed",
+                                                 "kind-four",      "kind-five",
+                                                 "kind-friction",  "kind-friction-two-motors",
+                                                 "kind-load-base", "kind-load-platform"};
   return names;
 }
 

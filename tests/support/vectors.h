@@ -23,7 +23,8 @@ const std::vector<std::string>& vectorNames();
 /// Machines with legs of other kinds, mixtures, and several motors on a leg: "kind-ups-1" …
 const std::vector<std::string>& kindNames();
 
-/// The five instants of one of them, seven for other kinds. Throws std::runtime_error where the file is not what its README says.
+/// The five instants of one of them, seven for other kinds. Throws std::runtime_error where the file is not what its
+/// README says.
 std::vector<VectorRow> vectorRows(const std::string& name);
 
 /// The scenario that they belong to.

@@ -105,9 +105,9 @@ TEST(AuditFormulas, asPrintedAreTheSolversSlips) {
     for (Slip slip : found->slips) slips.set(slip);
     PaperWorkspace<S> work;
     const Values printed = found->as_printed(witness);
-    EXPECT_LE(
-        largestDifference(reading(PaperSolver<S, WithSlips>(*scenario.manipulator, slips), witness.motion, work), printed),
-        rounding)
+    EXPECT_LE(largestDifference(reading(PaperSolver<S, WithSlips>(*scenario.manipulator, slips), witness.motion, work),
+                                printed),
+              rounding)
         << equation;
     // The control: without the slip the solver says something else, and that is the truth.
     const Values right = reading(PaperSolver<S, WithSlips>(*scenario.manipulator), witness.motion, work);

@@ -36,9 +36,7 @@ constexpr const char* of_efforts = "";
 Check judgeQuantity(const std::vector<PointwiseSample>& samples, Quantity quantity, const Units& units) {
   const bool is_effort = quantity.unit == of_efforts;
   if (is_effort) quantity.unit = units.efforts.unit;
-  const auto nameOf = [&](int where) {
-    return placeName(is_effort ? units.legOf(where) : where, quantity.of_body);
-  };
+  const auto nameOf = [&](int where) { return placeName(is_effort ? units.legOf(where) : where, quantity.of_body); };
   Worst shown;
   const PointwiseSample* at = nullptr;
   const PointwiseSample* widest = nullptr;  // by rounding alone: digits that were not printed are no fault of a limit

@@ -34,7 +34,8 @@ Check judgeStabilised(const StabilisedReplay& found, double largest, const Units
       "t = {:.6g} s of {} steps, {} derivative evaluations{}",
       largest > 0 ? found.torque / largest : found.torque, found.t * units.time, found.steps, found.evaluations,
       stopped);
-  Check out = judgedIfUseful(check, found.torque, found.limit, useful_feedback * largest, units.efforts.unit, basis, why, useless);
+  Check out = judgedIfUseful(check, found.torque, found.limit, useful_feedback * largest, units.efforts.unit, basis,
+                             why, useless);
   if (found.torque <= found.limit && found.too_long)
     out = notJudgeable(Reason::unfinished, check, found.torque, found.limit, units.efforts.unit, basis, why);
   out.largest = {found.torque, found.t * units.time, ""};

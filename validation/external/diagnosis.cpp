@@ -89,9 +89,16 @@ Diagnosis deviationTexts(const ExternalTorques& torques) {
 }
 
 /// At most `most` instants, evenly picked: an explanation needs no more.
+bool hasOneMotorALeg(const Manipulator& machine) {
+  for (int k = 0; k < motor_count; ++k)
+    if (machine.motors()[static_cast<std::size_t>(k)].leg != k) return false;
+  return true;
+}
+
 TorqueResidual residualOf(const Scenario& scenario, const ExternalTorques& torques) {
   constexpr std::size_t most = 1000;
   TorqueResidual out;
+  out.one_motor_a_leg = hasOneMotorALeg(*scenario.manipulator);
   const std::size_t rows = torques.file.rows(), count = std::min(rows, most);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t k = count == 1 ? 0 : i * (rows - 1) / (count - 1);

@@ -14,6 +14,7 @@ struct TorqueResidual {
   std::vector<Vector6d> exact;     ///< of the NOC, N·m
   std::vector<Vector6d> residual;  ///< torques on trial less exact, N·m
   std::vector<Vector6d> limit;     ///< by how much right ones may differ: rounding and the file's digits, N·m
+  bool one_motor_a_leg = true;     ///< so that a column can be called by its leg
 
   double norm() const;
   /// The largest share of its limit that an entry of `left`, one row for each instant, has.

@@ -177,7 +177,7 @@ void addKnees(const Manipulator& machine, Collector& out) {
     for (int i = 0; i < all; ++i)
       if (legs >> i & 1) names += fmt::format("{}{}", count++ == 0 ? "" : ", ", bent[static_cast<std::size_t>(i)] + 1);
     out.addFixed(count == machine.legCount() ? std::string("the other knee on every leg")
-                                    : fmt::format("the other knee on leg{} {}", count == 1 ? "" : "s", names),
+                                             : fmt::format("the other knee on leg{} {}", count == 1 ? "" : "s", names),
                  [legs, bent](Machine& changed) {
                    for (std::size_t i = 0; i < bent.size(); ++i) {
                      Knee& knee = changed.legs[bent[i]].knee;

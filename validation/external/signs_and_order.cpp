@@ -28,28 +28,34 @@ std::string legNames(const std::vector<int>& legs) {
   return out;
 }
 
-std::string plural(const std::vector<int>& legs) { return legs.size() == 1 ? "leg " : "legs "; }
+/// What a column is of.
+const char* each(const TorqueResidual& data) { return data.one_motor_a_leg ? "leg" : "motor"; }
+
+std::string plural(const TorqueResidual& data, const std::vector<int>& of) {
+  return fmt::format("{}{} ", each(data), of.size() == 1 ? "" : "s");
+}
 
 /// "legs 2 and 5 swapped", "legs 1, 2 and 3 permuted".
-std::string permutationText(const std::vector<int>& from) {
+std::string permutationText(const TorqueResidual& data, const std::vector<int>& from) {
   std::vector<int> moved;
   std::string detail;
   for (int i = 0; i < motor_count; ++i)
     if (from[static_cast<std::size_t>(i)] != i) {
       moved.push_back(i);
-      detail += fmt::format("{}column {} holds leg {}", detail.empty() ? "" : ", ", i + 1,
+      detail += fmt::format("{}column {} holds {} {}", detail.empty() ? "" : ", ", i + 1, each(data),
                             from[static_cast<std::size_t>(i)] + 1);
     }
   if (moved.empty()) return "";
-  if (moved.size() == 2) return "legs " + legNames(moved) + " swapped";
+  if (moved.size() == 2) return plural(data, moved) + legNames(moved) + " swapped";
   int turned = 0, mirrored = 0;  // legs that a rotation, or the other sense of numbering, would give
   for (int i = 0; i < motor_count; ++i) {
     turned += (i + from[0]) % motor_count == from[static_cast<std::size_t>(i)] ? 1 : 0;
     mirrored += (from[0] + motor_count - i) % motor_count == from[static_cast<std::size_t>(i)] ? 1 : 0;
   }
-  if (turned == motor_count) return fmt::format("legs numbered from another one: {}", detail);
-  if (mirrored == motor_count) return fmt::format("legs numbered the other way round (mirrored): {}", detail);
-  return fmt::format("legs {} permuted ({})", legNames(moved), detail);
+  if (turned == motor_count) return fmt::format("{}s numbered from another one: {}", each(data), detail);
+  if (mirrored == motor_count)
+    return fmt::format("{}s numbered the other way round (mirrored): {}", each(data), detail);
+  return fmt::format("{}s {} permuted ({})", each(data), legNames(moved), detail);
 }
 
 /// The unit that sizes tell, whatever the legs' order: 1 where they tell none.
@@ -103,13 +109,14 @@ std::optional<Hypothesis> signsAndOrder(const TorqueResidual& data) {
   std::vector<int> flipped;
   for (int i = 0; i < motor_count; ++i)
     if (sign[i][best[static_cast<std::size_t>(i)]] < 0) flipped.push_back(i);
-  std::string text = permutationText(best);
+  std::string text = permutationText(data, best);
   if (text.empty() && flipped.empty()) return std::nullopt;  // a unit alone is a scale's
   if (!flipped.empty()) text += text.empty() ? "" : ", and ";
   if (flipped.size() == motor_count)
-    text += "the sign of every leg flipped (torques about +u, not conjugate to phi)";
+    text += data.one_motor_a_leg ? "the sign of every leg flipped (torques about +u, not conjugate to phi)"
+                                 : "the sign of every motor flipped";
   else if (!flipped.empty())
-    text += "the sign of " + plural(flipped) + legNames(flipped) + " flipped";
+    text += "the sign of " + plural(data, flipped) + legNames(flipped) + " flipped";
   if (unit != 1) text += fmt::format(", and {}", unitOf(unit));
   Hypothesis out{text, std::sqrt(least) / data.norm(), 0};
   out.beyond = beyondOf(data, best, sign, unit) / std::max(1.0, unit);  // rounding grows with the torques

@@ -23,7 +23,7 @@ std::array<double, point_count> chebyshevPoints(double from, double to) {
 }
 
 std::vector<CurvePoint<double, motor_count>> knotsThrough(const std::vector<double>& t,
-                                                        const std::vector<Vector6d>& values) {
+                                                          const std::vector<Vector6d>& values) {
   std::vector<CurvePoint<double, motor_count>> knots(t.size());
   for (std::size_t k = 0; k < t.size(); ++k) {
     knots[k].t = t[k];

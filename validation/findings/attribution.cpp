@@ -265,7 +265,8 @@ ErrorBudget attribute(const Scenario& scenario, const std::vector<PointwiseSampl
   budget.amplification = window->window.from_start.back();
 
   std::vector<Presentation> from = {Presentation(*scenario.manipulator)};
-  for (unsigned k = 0; k < presentations; ++k) from.push_back(randomPresentation(k + 101, amplification.length(), *scenario.manipulator));
+  for (unsigned k = 0; k < presentations; ++k)
+    from.push_back(randomPresentation(k + 101, amplification.length(), *scenario.manipulator));
   std::mutex asking;
   std::vector<std::future<Track>> running;
   for (const Presentation& presentation : from)

@@ -52,8 +52,12 @@ TimeSeries distances(const std::vector<PointwiseSample>& samples) {
     singular.push_back(1 / sample.conditioning.kappa_B);
     edge.push_back(sample.conditioning.smallest_sine);
   }
-  return curve(
-      {{"t_s", t}, {"1/κ(B): 0 in a singular pose", singular}, {"|sin θ|: 0 in a stretched or folded leg", edge}});
+  // Telescopic legs have no bend: a sine of 1 throughout.
+  const bool bends = std::any_of(edge.begin(), edge.end(), [](double sine) { return sine < 1; });
+  if (!bends) return curve({{"t_s", t}, {"1/κ(B): 0 in a singular pose", singular}});
+  return curve({{"t_s", t},
+                {"1/κ(B): 0 in a singular pose", singular},
+                {"sine of the bend: 0 in a stretched or folded leg", edge}});
 }
 
 void addEvents(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
@@ -72,7 +76,8 @@ void addEvents(const std::vector<PointwiseSample>& samples, const std::vector<Wi
     return a.conditioning.smallest_sine < b.conditioning.smallest_sine;
   });
   result.events.push_back({singular->motion.t, "nearest to a singular pose"});
-  result.events.push_back({edge->motion.t, "a leg is nearest to stretched or folded"});
+  if (edge->conditioning.smallest_sine < 1)
+    result.events.push_back({edge->motion.t, "a leg is nearest to stretched or folded"});
 }
 
 }  // namespace

@@ -126,8 +126,7 @@ void setPositions(const Manipulator& manipulator, const Motion<double>& motion, 
     out.position_scale = std::max(out.position_scale, (leg.base_point - middle).norm());
   for (int b = 0; b < body_count; ++b)
     if (b == 2 * leg_count || b % leg_count < manipulator.legCount())
-      out.position_scale =
-          std::max(out.position_scale, (bodies[static_cast<std::size_t>(b)].c - middle).norm());
+      out.position_scale = std::max(out.position_scale, (bodies[static_cast<std::size_t>(b)].c - middle).norm());
 }
 
 }  // namespace

@@ -58,8 +58,7 @@ class RubbingJoints {
       const Leg& leg = scenario_.manipulator->leg(i);
       for (std::size_t j = 0; j < 3; ++j) {
         const Coordinate q = rowOf(leg.kind).coordinates[j];
-        if (leg.coulomb.on(q) != 0)
-          out[3 * static_cast<std::size_t>(i) + j] = rates.of(q)(i) / leg.coulomb.speedOf(q);
+        if (leg.coulomb.on(q) != 0) out[3 * static_cast<std::size_t>(i) + j] = rates.of(q)(i) / leg.coulomb.speedOf(q);
       }
     }
     return out;

@@ -19,7 +19,6 @@ constexpr std::size_t neighbours = 2;
 
 double spin(const Vector6d& v, double length) { return v.tail<3>().norm() + length * v.head<3>().norm(); }
 
-
 /// ψ and θ, which count from the machine itself, and φ by the axis x that turns with it.
 double angleDistance(const Manipulator& machine, const JointVariables<double>& a, const JointVariables<double>& b,
                      const BodyMotions<double>& of_a, const BodyMotions<double>& of_b, double length) {
@@ -57,8 +56,8 @@ void set(RoundingLevels& levels, Rounded quantity, double value) {
 void spreadOfBodies(const Manipulator& machine, const View& a, const View& b, double length, RoundingLevels& out) {
   for (std::size_t i = 0; i < body_count; ++i) {
     // A carriage's frame hangs on what is upright, not on the machine.
-    const bool is_carriage = i < static_cast<std::size_t>(machine.legCount()) &&
-                             machine.leg(static_cast<int>(i)).kind == LegKind::PUS;
+    const bool is_carriage =
+        i < static_cast<std::size_t>(machine.legCount()) && machine.leg(static_cast<int>(i)).kind == LegKind::PUS;
     const double turn = is_carriage ? 0 : length;
     const auto pair = [&](const BodyMotions<double> View::*of) {
       const BodyMotion<double>&x = (a.*of)[i], &y = (b.*of)[i];
@@ -107,7 +106,8 @@ void spreadOfDynamics(const View& a, const View& b, const Matrix6d& effort, doub
           reactionDistance(a.reactions_simbody, b.reactions_simbody, length));
 }
 
-RoundingLevels spreadOf(const Manipulator& machine, const std::vector<View>& views, const Matrix6d& effort, double length) {
+RoundingLevels spreadOf(const Manipulator& machine, const std::vector<View>& views, const Matrix6d& effort,
+                        double length) {
   RoundingLevels out = uniformLevels(0);
   for (std::size_t i = 0; i < views.size(); ++i) {
     set(out, Rounded::gaps, views[i].gap_acceleration);
@@ -141,7 +141,10 @@ int profileInstants(int samples) { return std::clamp(samples, 2, 61); }
 
 struct RoundingProfile::Workshop {
   explicit Workshop(const Scenario& scenario)
-      : machine(*scenario.manipulator), load(scenario.load), solver(*scenario.manipulator), probe(*scenario.manipulator, scenario.load) {
+      : machine(*scenario.manipulator),
+        load(scenario.load),
+        solver(*scenario.manipulator),
+        probe(*scenario.manipulator, scenario.load) {
     viewpoints.emplace_back(scenario, Presentation(*scenario.manipulator));
     for (unsigned k = 0; k < presentations; ++k)
       viewpoints.emplace_back(scenario, randomPresentation(k + 1, solver.length(), *scenario.manipulator));

@@ -151,10 +151,10 @@ void addReactions(TimePlots& time) {
     const char *name, *title, *symbol;
   };
   const Reaction reactions[] = {{"fA", "Forces at the base", "f_A"},
-                                {"fR", "Forces at the knee", "f_R"},
+                                {"fR", "Forces between the links", "f_R"},
                                 {"fB", "Forces at the platform", "f_B"},
                                 {"nA", "Moments at the base", "n_A"},
-                                {"nR", "Moments at the knee", "n_R"}};
+                                {"nR", "Moments between the links", "n_R"}};
   for (const Reaction& reaction : reactions) {
     const std::string column = std::string("reaction_") + reaction.name;
     const std::vector<Indexed> x = indexed(time.series(), column + "_x"), y = indexed(time.series(), column + "_y"),

@@ -76,8 +76,7 @@ void setLimits(PointwiseSample& sample) {
 /// t_P = T φ̇ (24) and ṫ_P = T φ̈ + Ṫ φ̇ (25) with Simbody's joint motion.
 void compareJacobians(const KinematicAnswer& answer, const Motors& motors, PointwiseSample& sample) {
   const Conditioning& c = sample.conditioning;
-  const Vector6d rate = sample.joints.q_dot.driven(motors),
-                 acceleration = sample.joints.q_ddot.driven(motors);
+  const Vector6d rate = sample.joints.q_dot.driven(motors), acceleration = sample.joints.q_ddot.driven(motors);
   Vector6d twist, twist_rate;
   twist << sample.motion.omega, sample.motion.p_dot;
   twist_rate << sample.motion.omega_dot, sample.motion.p_ddot;
@@ -135,7 +134,8 @@ void runKinematics(const Scenario& scenario, const Subject& subject, const Subje
 
 void runDynamics(const SimbodyAnswer& simbody, SimbodyLoop& loop, PointwiseSample& sample) {
   sample.torques_simbody = simbody.torques;
-  for (int i = 0; i < motor_count; ++i) raise(sample.torque, std::abs(sample.torques(i) - sample.torques_simbody(i)), i);
+  for (int i = 0; i < motor_count; ++i)
+    raise(sample.torque, std::abs(sample.torques(i) - sample.torques_simbody(i)), i);
   const double length = sample.conditioning.length;
   const Motion<double> found = simbody.platformUnder(sample.torques, loop, sample.motion);
   sample.acceleration_error << found.omega_dot - sample.motion.omega_dot, found.p_ddot - sample.motion.p_ddot;

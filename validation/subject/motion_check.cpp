@@ -126,8 +126,7 @@ std::string inWords(const Scenario& scenario, const PoseError& refusal) {
   if (dynamic_cast<const PointOnAxis*>(&refusal) != nullptr) return onAxis(scenario, refusal);
   return fmt::format(
       "at t = {:.6g} s the pose is singular, or was passed just before: with all six motors held the platform can "
-      "still "
-      "move, so that no torques hold it; keep the motion on one side of it",
+      "still move, so that no efforts hold it; keep the motion on one side of it",
       refusal.instant());
 }
 

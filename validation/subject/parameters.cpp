@@ -71,8 +71,7 @@ void addAxis(std::vector<Parameter>& out, const std::string& name, std::size_t l
 /// The length of a cylinder says where its stroke ends, and nothing else.
 void addLink(std::vector<Parameter>& out, const std::string& name, const std::function<Link&(Machine&)>& of,
              bool length_matters) {
-  if (length_matters)
-    addNumber(out, name + ".length", "length", [of](Machine& m) -> double& { return of(m).length; });
+  if (length_matters) addNumber(out, name + ".length", "length", [of](Machine& m) -> double& { return of(m).length; });
   addNumber(out, name + ".mass", "mass", [of](Machine& m) -> double& { return of(m).mass; });
   addNumber(out, name + ".center_of_mass", "center", [of](Machine& m) -> double& { return of(m).center_of_mass; });
   addTensor(out, name + ".inertia", [of](Machine& m) -> Matrix3d& { return of(m).inertia; });
@@ -110,7 +109,8 @@ void addLeg(std::vector<Parameter>& out, std::size_t i, LegKind kind) {
     addCarriage(out, name + ".proximal", proximal);
   else
     addLink(out, name + ".proximal", proximal, kind != LegKind::UPS);
-  addLink(out, name + ".distal", [i](Machine& m) -> Link& { return m.legs[i].distal; }, true);
+  addLink(
+      out, name + ".distal", [i](Machine& m) -> Link& { return m.legs[i].distal; }, true);
   addFriction(out, name, i, kind);
 }
 

@@ -73,7 +73,8 @@ struct Presentation {
   Motion<double> back(const Motion<double>& motion) const;
   Vector6d torquesBack(const Vector6d& torques) const;
   BodyMotions<double> back(const BodyMotions<double>& bodies) const;
-  /// Rates and accelerations; of displacements d and the angles ψ and θ only, for φ counts from an axis that is not turned along.
+  /// Rates and accelerations; of displacements d and the angles ψ and θ only, for φ counts from an axis that is not
+  /// turned along.
   JointMotion back(const JointMotion& joints) const;
   Reactions back(const Reactions& reactions) const;
 };

@@ -207,8 +207,9 @@ Subject presented(const Subject& subject, const Presentation& to) {
     };
   if (subject.rebuilt)
     out.rebuilt = [=](const Manipulator& machine) {
-      Presentation there = to;
-      there.slides = Presentation(machine).slides;  // other labels bring other motors to a number
+      Presentation there(machine);  // its motors may stand in another order
+      there.origin = to.origin;
+      there.units = to.units;
       return presented(subject.rebuilt(from.of(machine)), there);
     };
   return out;

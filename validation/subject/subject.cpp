@@ -71,7 +71,7 @@ Subject nocSubject(const Manipulator& manipulator, const std::shared_ptr<const L
 Subject slippedSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load,
                        const WithSlips& slips) {
   return makeSubject<PaperSolver<double, WithSlips>, PaperWorkspace<double>>("noc with slips", manipulator, load,
-                                                                           slips);
+                                                                             slips);
 }
 
 Subject spoiltSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load,

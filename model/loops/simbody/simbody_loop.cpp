@@ -32,9 +32,9 @@ std::array<double, 3> SimbodyLoop::Impl::legGeometry(int leg, const Motion<doubl
   const Leg& from = parameters.leg(leg);
   const Vector3d d = motion.p + motion.Q * from.platform_point - from.base_point;
   if (const auto q = ursula::legGeometry(from, baseFrame(from.base_axis), d)) return *q;
-  throw std::domain_error(fmt::format(
-      "leg {} ({}) cannot reach at t = {} s: the distance is {} m, its links {} m and {} m", leg + 1,
-      rowOf(from.kind).name, motion.t, d.norm(), from.proximal.length, from.distal.length));
+  throw std::domain_error(
+      fmt::format("leg {} ({}) cannot reach at t = {} s: the distance is {} m, its links {} m and {} m", leg + 1,
+                  rowOf(from.kind).name, motion.t, d.norm(), from.proximal.length, from.distal.length));
 }
 
 void SimbodyLoop::Impl::setPlatformPose(const Motion<double>& motion) {
@@ -122,8 +122,7 @@ JointMotion SimbodyLoop::joints() const {
   JointMotion out;
   for (int i = 0; i < loop.legCount(); ++i)
     for (int joint = 0; joint < 3; ++joint) {
-      const Coordinate coordinate =
-          rowOf(loop.parameters.leg(i).kind).coordinates[static_cast<std::size_t>(joint)];
+      const Coordinate coordinate = rowOf(loop.parameters.leg(i).kind).coordinates[static_cast<std::size_t>(joint)];
       const Mechanism::Place place = loop.mechanism.place(joint, i);
       out.q.of(coordinate)(i) = place.body.getOneQ(loop.state, place.coordinate);
       out.q_dot.of(coordinate)(i) = loop.mechanism.rate(loop.state, joint, i);

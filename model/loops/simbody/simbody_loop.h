@@ -13,10 +13,11 @@
 namespace ursula {
 
 /// The manipulator as a closed loop in Simbody, built of raw parameters alone: per leg two mobilizers of
-/// Universal, Pin and Slider as its kind has them, the platform, and Ball constraints that close the loops. It never sees the solver: joint
-/// variables come from vector geometry and from Simbody's own constraint Jacobian.
+/// Universal, Pin and Slider as its kind has them, the platform, and Ball constraints that close the loops. It never
+/// sees the solver: joint variables come from vector geometry and from Simbody's own constraint Jacobian.
 ///
-/// Vectors in B, SI; efforts (here called torques) are conjugate to the rates of the driven coordinates. Not thread-safe: one loop for each thread.
+/// Vectors in B, SI; efforts (here called torques) are conjugate to the rates of the driven coordinates. Not
+/// thread-safe: one loop for each thread.
 class SimbodyLoop {
  public:
   enum class Topology {

@@ -142,14 +142,14 @@ void SimbodyLoop::Impl::addLeg(int leg) {
 
 void SimbodyLoop::Impl::addUniversalLeg(const Leg& from) {
   // ψ = 0 lays e along u: Universal's axes −u, x, z are then −e, x, −(e × x).
-  SimTK::MobilizedBody::Universal first(
-      matter.Ground(), SimTK::Transform(toSimTK(baseFrame(from.base_axis)), toSimTK(from.base_point)),
-      linkBody(from.proximal), frameOf(-e_z, e_x, -e_y));
+  SimTK::MobilizedBody::Universal first(matter.Ground(),
+                                        SimTK::Transform(toSimTK(baseFrame(from.base_axis)), toSimTK(from.base_point)),
+                                        linkBody(from.proximal), frameOf(-e_z, e_x, -e_y));
   mechanism.proximal.push_back(first);
   if (from.kind == LegKind::UPS) {
     // d = s puts the rod's inner end at A.
-    mechanism.distal.push_back(SimTK::MobilizedBody::Slider(
-        first, frameOf(e_z, e_x, e_y, -from.distal.length * e_z), linkBody(from.distal), frameOf(e_z, e_x, e_y)));
+    mechanism.distal.push_back(SimTK::MobilizedBody::Slider(first, frameOf(e_z, e_x, e_y, -from.distal.length * e_z),
+                                                            linkBody(from.distal), frameOf(e_z, e_x, e_y)));
     return;
   }
   // Pin's z is x of the leg. θ = 0 folds the leg: s = −e.
@@ -159,9 +159,8 @@ void SimbodyLoop::Impl::addUniversalLeg(const Leg& from) {
 
 void SimbodyLoop::Impl::addCrank(const Leg& from) {
   const Matrix3d base = baseFrame(from.base_axis);
-  SimTK::MobilizedBody::Pin crank(matter.Ground(),
-                                        frameOf(base.col(1), base.col(2), base.col(0), from.base_point),
-                                        linkBody(from.proximal), frameOf(e_x, e_z, -e_y));
+  SimTK::MobilizedBody::Pin crank(matter.Ground(), frameOf(base.col(1), base.col(2), base.col(0), from.base_point),
+                                  linkBody(from.proximal), frameOf(e_x, e_z, -e_y));
   mechanism.proximal.push_back(crank);
   // ψ = θ = 0 lays the rod along the crank.
   mechanism.distal.push_back(SimTK::MobilizedBody::Universal(
@@ -171,8 +170,8 @@ void SimbodyLoop::Impl::addCrank(const Leg& from) {
 void SimbodyLoop::Impl::addCarriage(const Leg& from) {
   const Matrix3d base = baseFrame(from.base_axis);
   SimTK::MobilizedBody::Slider carriage(matter.Ground(),
-                                              frameOf(-base.col(0), base.col(2), base.col(1), from.base_point),
-                                              linkBody(from.proximal, e_y), frameOf(e_y, e_z, e_x));
+                                        frameOf(-base.col(0), base.col(2), base.col(1), from.base_point),
+                                        linkBody(from.proximal, e_y), frameOf(e_y, e_z, e_x));
   mechanism.proximal.push_back(carriage);
   // θ = 0 lays the rod along the rail.
   mechanism.distal.push_back(SimTK::MobilizedBody::Universal(carriage, frameOf(-e_y, e_x, e_z), linkBody(from.distal),

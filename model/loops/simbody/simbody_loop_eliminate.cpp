@@ -27,7 +27,9 @@ struct LegClosure {
 /// Velocity of B for unit rates of the leg's joints, whose axes Simbody has.
 Matrix3d jacobianOf(const Leg& leg, const SimTK::State& state, const SimTK::MobilizedBody& first,
                     const SimTK::MobilizedBody& second, const Vector3d& from_A, const Vector3d& to_B) {
-  const auto base = [&](int k) { return toEigen(SimTK::Vec3(first.getInboardFrame(state).R().getAxisUnitVec(SimTK::CoordinateAxis(k)))); };
+  const auto base = [&](int k) {
+    return toEigen(SimTK::Vec3(first.getInboardFrame(state).R().getAxisUnitVec(SimTK::CoordinateAxis(k))));
+  };
   const Vector3d x = toEigen(SimTK::Vec3(second.getBodyRotation(state).x()));
   Matrix3d J;
   switch (leg.kind) {

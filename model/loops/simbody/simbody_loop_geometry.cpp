@@ -15,11 +15,7 @@ struct Place {
   Vector3d u, d, off_axis, z, x;
 
   Place(const Matrix3d& base, const Vector3d& to_B)
-      : u(-Vector3d(base.col(0))),
-        d(to_B),
-        off_axis(d - d.dot(u) * u),
-        z(off_axis.normalized()),
-        x(u.cross(z)) {}
+      : u(-Vector3d(base.col(0))), d(to_B), off_axis(d - d.dot(u) * u), z(off_axis.normalized()), x(u.cross(z)) {}
 };
 
 double sideOf(const Leg& leg) { return leg.knee == Knee::positive ? 1 : -1; }

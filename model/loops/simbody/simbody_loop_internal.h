@@ -45,7 +45,7 @@ inline Eigen::Map<const Eigen::VectorXd> mapped(const SimTK::Vector& v) {
 /// What Simbody asks for forces that are not its own: torques, Coulomb friction, the load on the platform.
 struct AppliedForces {
   Vector6d torques = Vector6d::Zero();  ///< of the motors
-  SimbodyLoop::TorqueHistory history;  ///< instead of `torques`, where set
+  SimbodyLoop::TorqueHistory history;   ///< instead of `torques`, where set
   std::shared_ptr<const Load> load;
   std::vector<Leg> legs;  ///< whose Coulomb friction it is
   Motors motors;
