@@ -211,7 +211,8 @@ Vector3<S> ChainSolver<S, R>::planeForces(const Motion<S>& motion, int i, ChainS
     }
     return kernel::ursForces(model(i), a_B, gravity_, leg);
   };
-  return forces() + kernel::chainFriction(model(i), leg);
+  const Vector3<S> Q = forces();  // first: it finds the rates
+  return Q + kernel::chainFriction(model(i), leg);
 }
 
 /// The wrench at P of all that no motor carries directly, and what falls on the motors.
