@@ -107,7 +107,7 @@ Matrix6<S> ChainSolver<S, R>::TRate(const Motion<S>& motion, const ChainWorkspac
   Matrix6<S> J_dot;
   for (int m = 0; m < motor_count; ++m) {
     const Motor& motor = motors_[chain::at(m)];
-    const ChainState<S>& leg = work.legs[chain::at(motor.leg)];
+    const ChainState<S> leg = chain::withLinks<R>(model(motor.leg), work.legs[chain::at(motor.leg)]);
     const Matrix3<S> K_dot = kernel::withKind(
         model(motor.leg).kind, [&](auto kind) { return kernel::chainMapRate<decltype(kind)::value>(leg); });
     const Vector3<S>& k = leg.k[chain::at(motor.joint)];
@@ -154,7 +154,7 @@ void ChainSolver<S, R>::twistShaping(const Motion<S>& motion, const ChainWorkspa
   const Vector3<S> arm = motion.Q * rho_;
   shaping.setZero();
   for (int i = 0; i < leg_count_; ++i) {
-    const ChainState<S>& leg = work.legs[chain::at(i)];
+    const ChainState<S> leg = chain::withLinks<R>(model(i), work.legs[chain::at(i)]);
     const kernel::ChainPartials<S> partials =
         kernel::withKind(model(i).kind, [&](auto kind) { return kernel::chainPartials<decltype(kind)::value>(leg); });
     for (int m = 0; m < motor_count; ++m) {
@@ -253,7 +253,7 @@ Matrix6<S> ChainSolver<S, R>::massMatrixAtP(const Motion<S>& motion, const Chain
   kernel::addAtP<S>(mass_ * Matrix3<S>::Identity(), motion.Q * rho_, M_P);
   M_P.template topLeftCorner<3, 3>() += motion.Q * I_M_ * motion.Q.transpose();
   for (int i = 0; i < leg_count_; ++i) {
-    const ChainState<S>& leg = work.legs[chain::at(i)];
+    const ChainState<S> leg = chain::withLinks<R>(model(i), work.legs[chain::at(i)]);
     const Matrix3<S> M = kernel::withKind(
         model(i).kind, [&](auto kind) { return kernel::chainMassMatrix<decltype(kind)::value>(model(i), leg); });
     Matrix3<S> K_transposed;
