@@ -62,7 +62,7 @@ class ChainSolver {
                              const Vector6<S>& load = Vector6<S>::Zero()) const;
   Vector6<S> directDynamics(const Motion<S>& motion, const Vector6<S>& efforts, ChainWorkspace<S>& work,
                             const Vector6<S>& load = Vector6<S>::Zero()) const;
-  /// Needs inverseKinematics.
+  /// Needs displacements, or what inverseDynamics leaves.
   Matrix6<S> massMatrixAtP(const Motion<S>& motion, const ChainWorkspace<S>& work) const;
 
   /// The force, in B, that a leg puts on the platform at its joint under `efforts`, N. Needs inverseKinematics.
@@ -78,6 +78,8 @@ class ChainSolver {
   void place(const Motion<S>& motion, int leg, ChainState<S>& out) const;
   /// Displacements and the legs' maps to B, and nothing of the links.
   void maps(const Motion<S>& motion, ChainWorkspace<S>& work) const;
+  /// A leg with its links placed, which inverseDynamics has no need of.
+  ChainState<S> placed(const ChainWorkspace<S>& work, int leg) const;
   /// On the coordinates of a leg, friction included: by the recursion over its joints. Needs inverseKinematics.
   Vector3<S> legForces(const ChainWorkspace<S>& work, int leg) const;
   /// The same in the axes of the leg's plane, which sets rates and accelerations as well. Needs maps.

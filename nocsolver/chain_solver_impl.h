@@ -50,6 +50,13 @@ void ChainSolver<S, R>::inverseKinematics(const Motion<S>& motion, ChainWorkspac
 }
 
 template <class S, class R>
+ChainState<S> ChainSolver<S, R>::placed(const ChainWorkspace<S>& work, int i) const {
+  ChainState<S> leg = work.legs[chain::at(i)];
+  if (is_right) kernel::placeLinks(model(i), leg);
+  return leg;
+}
+
+template <class S, class R>
 JointVariables<S> ChainSolver<S, R>::angles(const ChainWorkspace<S>& work) const {
   using std::atan2;
   JointVariables<S> q;
@@ -107,7 +114,7 @@ Matrix6<S> ChainSolver<S, R>::TRate(const Motion<S>& motion, const ChainWorkspac
   Matrix6<S> J_dot;
   for (int m = 0; m < motor_count; ++m) {
     const Motor& motor = motors_[chain::at(m)];
-    const ChainState<S> leg = chain::withLinks<R>(model(motor.leg), work.legs[chain::at(motor.leg)]);
+    const ChainState<S> leg = placed(work, motor.leg);
     const Matrix3<S> K_dot = kernel::withKind(
         model(motor.leg).kind, [&](auto kind) { return kernel::chainMapRate<decltype(kind)::value>(leg); });
     const Vector3<S>& k = leg.k[chain::at(motor.joint)];
@@ -154,7 +161,7 @@ void ChainSolver<S, R>::twistShaping(const Motion<S>& motion, const ChainWorkspa
   const Vector3<S> arm = motion.Q * rho_;
   shaping.setZero();
   for (int i = 0; i < leg_count_; ++i) {
-    const ChainState<S> leg = chain::withLinks<R>(model(i), work.legs[chain::at(i)]);
+    const ChainState<S> leg = placed(work, i);
     const kernel::ChainPartials<S> partials =
         kernel::withKind(model(i).kind, [&](auto kind) { return kernel::chainPartials<decltype(kind)::value>(leg); });
     for (int m = 0; m < motor_count; ++m) {
@@ -211,7 +218,7 @@ Vector3<S> ChainSolver<S, R>::planeForces(const Motion<S>& motion, int i, ChainS
     }
     return kernel::ursForces(model(i), a_B, gravity_, leg);
   };
-  const Vector3<S> Q = forces();  // first: it finds the rates
+  const Vector3<S> Q = forces();  // which finds the rates that rub
   return Q + kernel::chainFriction(model(i), leg);
 }
 
@@ -253,7 +260,7 @@ Matrix6<S> ChainSolver<S, R>::massMatrixAtP(const Motion<S>& motion, const Chain
   kernel::addAtP<S>(mass_ * Matrix3<S>::Identity(), motion.Q * rho_, M_P);
   M_P.template topLeftCorner<3, 3>() += motion.Q * I_M_ * motion.Q.transpose();
   for (int i = 0; i < leg_count_; ++i) {
-    const ChainState<S> leg = chain::withLinks<R>(model(i), work.legs[chain::at(i)]);
+    const ChainState<S> leg = placed(work, i);
     const Matrix3<S> M = kernel::withKind(
         model(i).kind, [&](auto kind) { return kernel::chainMassMatrix<decltype(kind)::value>(model(i), leg); });
     Matrix3<S> K_transposed;
@@ -269,7 +276,7 @@ Vector6<S> ChainSolver<S, R>::directDynamics(const Motion<S>& motion, const Vect
   Motion<S> unaccelerated = motion;
   unaccelerated.omega_dot.setZero();
   unaccelerated.p_ddot.setZero();
-  is_right ? displacements(unaccelerated, work) : inverseKinematics(unaccelerated, work);
+  is_right ? maps(unaccelerated, work) : inverseKinematics(unaccelerated, work);
   Vector6<S> Q_driven;
   Vector6<S> wrench = load - wrenchAtP(unaccelerated, work, Q_driven);
   for (int m = 0; m < motor_count; ++m) {

@@ -2,14 +2,11 @@
 
 // A leg by its kind: what differs is chosen here, what is alike is in chain_motion.h. Internal.
 
-#include <type_traits>
-
 #include "nocsolver/kernels/chain_motion.h"
 #include "nocsolver/kernels/pus.h"
 #include "nocsolver/kernels/rus.h"
 #include "nocsolver/kernels/ups.h"
 #include "nocsolver/kernels/urs.h"
-#include "nocsolver/reading.h"
 
 namespace ursula {
 namespace chain {
@@ -63,14 +60,6 @@ template <class S>
 void addForceAtB(const Vector3<S>& f, const Vector3<S>& Qb, Vector6<S>& wrench) {
   wrench.template head<3>() += Qb.cross(f);
   wrench.template tail<3>() += f;
-}
-
-/// A leg with its links where they are, whether inverseDynamics left it, which has no need of them, or anything else.
-template <class R, class S>
-ChainState<S> withLinks(const ChainModel<S>& model, const ChainState<S>& leg) {
-  ChainState<S> out = leg;
-  if (std::is_same_v<R, Corrected>) kernel::placeLinks(model, out);
-  return out;
 }
 
 }  // namespace chain

@@ -253,7 +253,7 @@ TEST(LoopErrors, aPoseOutOfReachIsRefusedByItsLeg) {
     loop.place(motion);
     ADD_FAILURE() << "nothing thrown";
   } catch (const std::domain_error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("leg 1 cannot reach at t = 1 s"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("leg 1 (URS) cannot reach at t = 1 s"));
   }
   EXPECT_NO_THROW(loop.place(scenario.trajectory->at(1))) << "and is as good as before";
 }

@@ -180,6 +180,8 @@ TEST_P(PaperOnChains, givesWhatThePaperGives) {
     EXPECT_LE(static_cast<double>(Real50(T_rate.norm())), 1e-43);
     EXPECT_LE(static_cast<double>(Real50(M_P.norm())), 1e-41);
     TwistShaping<Real50> of_paper, of_chains;
+    chains.inverseKinematics(row.motion, work);
+    chains.jacobians(row.motion, work);
     paper.twistShaping(row.motion, paper_work, of_paper);
     chains.twistShaping(row.motion, work, of_chains);
     EXPECT_LE(static_cast<double>(Real50((of_paper - of_chains).norm())), 1e-43);

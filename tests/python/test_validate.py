@@ -71,8 +71,8 @@ def test_a_tolerance_of_ones_own(quick):
 @pytest.mark.parametrize("answer, words", [
     (lambda m: np.zeros((len(m), 5)), r"to 11 instants has shape \(11, 5\), expected \(11, 6\)"),
     (lambda m: np.zeros((len(m) + 1, 6)), r"to 11 instants has shape \(12, 6\), expected \(11, 6\)"),
-    (lambda m: np.where(np.arange(6) == 2, np.nan, np.ones((len(m), 6))), "torque 3 at t = 0.000000 s is nan"),
-    (lambda m: np.full((len(m), 6), -np.inf), "torque 1 at t = 0.000000 s is -inf"),
+    (lambda m: np.where(np.arange(6) == 2, np.nan, np.ones((len(m), 6))), "effort 3 at t = 0.000000 s is nan"),
+    (lambda m: np.full((len(m), 6), -np.inf), "effort 1 at t = 0.000000 s is -inf"),
     (lambda m: None, "of type NoneType and no array of numbers"),
     (lambda m: "torques", "of type str and no array of numbers"),
     (lambda m: np.zeros((len(m), 6), complex), "of type ndarray and no array of numbers"),
