@@ -124,6 +124,21 @@ TEST_P(RandomKinds, followTheirWholeMotion) {
   }
 }
 
+/// What was asked before, and what memory held, is nothing to an answer.
+TEST_P(RandomKinds, areSolvedAlikeInAnyWorkspace) {
+  for (const Scenario& scenario : drawnOf(GetParam())) {
+    const Solver<double> solver(*scenario.manipulator);
+    const auto at = [&](double share) { return scenario.trajectory->at(share * scenario.trajectory->duration()); };
+    Workspace<double> fresh, used;
+    solver.inverseDynamics(at(0.8), used);
+    const Vector6d efforts = solver.inverseDynamics(at(0.3), fresh);
+    EXPECT_EQ(solver.inverseDynamics(at(0.3), used), efforts) << scenario.text;
+    solver.inverseDynamics(at(0.8), used);
+    EXPECT_EQ(solver.directDynamics(at(0.3), efforts, used), solver.directDynamics(at(0.3), efforts, fresh))
+        << scenario.text;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, RandomKinds,
                          testing::Values(RandomKind::UPS, RandomKind::RUS, RandomKind::PUS, RandomKind::mixture,
                                          RandomKind::two_motors),

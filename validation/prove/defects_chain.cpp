@@ -42,6 +42,10 @@ void stand(const Model& model, Stance& leg) {
   } else if (model.kind == LegKind::URS) {
     along_2 = -(c[1] * c[2] - s[1] * s[2]) * model.u - (s[1] * c[2] + c[1] * s[2]) * z;
   }
+  leg.x_1 = x_1;
+  leg.x_2 = x_2;
+  leg.along_1 = along_1;
+  leg.along_2 = along_2;
   leg.R_1 << x_1, along_1.cross(x_1), along_1;
   leg.R_2 << x_2, along_2.cross(x_2), along_2;
   if (carriage) leg.R_1 << model.x_hat, model.u, model.z_hat;
