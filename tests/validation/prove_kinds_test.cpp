@@ -13,6 +13,7 @@
 #include "validation/evidence/reference.h"
 #include "validation/prove/defects.h"
 #include "validation/prove/prove.h"
+#include "validation/prove/shows.h"
 #include "validation/validate.h"
 
 namespace ursula {
@@ -60,6 +61,34 @@ const Scenario& telescopes() {
     return read;
   }();
   return scenario;
+}
+
+/// A term that this machine has not changes nothing but rounding; one that it has, something.
+TEST(RightAnswers, areKnownFromRounding) {
+  const Scenario machine = scenarioOf("flight-simulator");  // which neither rubs nor bears a load
+  const RightAnswers right(machine);
+  const auto spoilt = [&](Slip slip) { return spoiltSubject(*machine.manipulator, machine.load, SpoiltChain(slip)); };
+  EXPECT_FALSE(right.differFrom(spoilt(Slip::drop_friction)));
+  EXPECT_TRUE(right.differFrom(spoilt(Slip::drop_gyroscopic_legs)));
+  Subject off = nocSubject(*machine.manipulator, machine.load);
+  EXPECT_FALSE(right.differFrom(off));
+  off.torques = [torques = off.torques](const Motion<double>& motion) {
+    return Vector6d((1 + 1e-12) * torques(motion));
+  };
+  EXPECT_TRUE(right.differFrom(off));
+}
+
+TEST(SayOtherwise, knowsAnotherVerdictAndAnotherValue) {
+  const std::vector<Check> right = {judged("a", 1, 8, "m", "", ""), notApplicable("b", "m", "")};
+  std::vector<Check> other = right;
+  EXPECT_FALSE(sayOtherwise(other, right, 0));
+  other[1] = judged("b", 9, 8, "m", "", "");  // what was not tried says nothing
+  EXPECT_FALSE(sayOtherwise(other, right, 0));
+  other[0].value = 1.5;
+  EXPECT_TRUE(sayOtherwise(other, right, 0));
+  EXPECT_FALSE(sayOtherwise(other, right, 0.125));
+  other[0] = judged("a", 9, 8, "m", "", "");
+  EXPECT_TRUE(sayOtherwise(other, right, 10));
 }
 
 class UpsDefect : public testing::TestWithParam<const char*> {};

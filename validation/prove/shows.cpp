@@ -1,0 +1,76 @@
+#include "validation/prove/shows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "nocsolver/errors.h"
+
+namespace ursula {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+/// One vector for each kind of quantity.
+std::vector<Eigen::VectorXd> answersOf(const Subject& subject, const Motion<double>& motion) {
+  const Vector6d torques = subject.torques(motion);
+  const KinematicAnswer kinematics = subject.kinematics(motion);
+  std::vector<Eigen::VectorXd> out = {torques, subject.accelerations(motion, torques)};
+  const auto joints = [&out](const JointVariables<double>& q) { out.insert(out.end(), {q.phi, q.psi, q.theta, q.d}); };
+  joints(kinematics.joints.q);
+  joints(kinematics.joints.q_dot);
+  joints(kinematics.joints.q_ddot);
+  out.insert(out.end(), {kinematics.T.reshaped(), kinematics.T_rate.reshaped()});
+  for (const BodyMotion<double>& body : kinematics.bodies)
+    out.insert(out.end(), {body.c, body.R.reshaped(), body.twist, body.twist_rate});
+  return out;
+}
+
+/// How far two right roads are apart, with some room, and not under a few units of the last place.
+Eigen::VectorXd roomBetween(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  const double room = 16 * (a - b).cwiseAbs().maxCoeff() + 64 * eps * a.cwiseAbs().maxCoeff();
+  return Eigen::VectorXd::Constant(a.size(), room);
+}
+
+}  // namespace
+
+RightAnswers::RightAnswers(const Scenario& scenario) {
+  const Subject right = nocSubject(*scenario.manipulator, scenario.load);
+  const Subject other = spoiltSubject(*scenario.manipulator, scenario.load, SpoiltChain());
+  constexpr int instants = 31;
+  for (int k = 0; k < instants; ++k) try {
+      const double t = scenario.trajectory->duration() * (k + 0.37) / instants;
+      Instant instant{scenario.trajectory->at(t), {}};
+      const auto a = answersOf(right, instant.motion), b = answersOf(other, instant.motion);
+      for (std::size_t i = 0; i < a.size(); ++i) instant.answers.push_back({a[i], roomBetween(a[i], b[i])});
+      instants_.push_back(std::move(instant));
+    } catch (const PoseError&) {
+      continue;  // nobody is asked there
+    }
+}
+
+bool RightAnswers::differFrom(const Subject& subject) const {
+  for (const Instant& instant : instants_) try {
+      const auto answers = answersOf(subject, instant.motion);
+      for (std::size_t i = 0; i < answers.size(); ++i) {
+        const auto& [right, room] = instant.answers[i];
+        if (!((answers[i] - right).array().abs() <= room.array()).all()) return true;
+      }
+    } catch (const PoseError&) {
+      return true;
+    }
+  return false;
+}
+
+bool sayOtherwise(const std::vector<Check>& a, const std::vector<Check>& b, double share) {
+  const auto alike = [share](const Check& one, const Check& other) {
+    if (one.name != other.name) return false;
+    if (one.verdict == Verdict::not_applicable || other.verdict == Verdict::not_applicable) return true;
+    const bool both_nan = std::isnan(one.value) && std::isnan(other.value);
+    const bool same = both_nan || one.value == other.value;
+    return one.verdict == other.verdict && (same || std::abs(one.value - other.value) <= share * other.limit);
+  };
+  return !std::equal(a.begin(), a.end(), b.begin(), b.end(), alike);
+}
+
+}  // namespace ursula
