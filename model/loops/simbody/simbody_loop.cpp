@@ -89,6 +89,17 @@ void SimbodyLoop::Impl::setRates(const Motion<double>& motion) {
   for (int i = 0; i < state.getNU(); ++i) u_dot[i] = u_dot_found(i);
 }
 
+void SimbodyLoop::Impl::setFreePlatform(const Motion<double>& motion) {
+  realize(SimTK::Stage::Position);
+  const int first = mechanism.platform.getFirstUIndex(state);
+  for (int k = 0; k < 3; ++k) {
+    state.updU()[first + k] = motion.omega(k);
+    state.updU()[first + 3 + k] = motion.p_dot(k);
+    u_dot[first + k] = motion.omega_dot(k);
+    u_dot[first + 3 + k] = motion.p_ddot(k);
+  }
+}
+
 JointMotion SimbodyLoop::place(const Motion<double>& motion) {
   impl_->state.setTime(motion.t);
   for (int i = 0; i < impl_->legCount(); ++i) impl_->setLeg(i, impl_->legGeometry(i, motion));
@@ -107,7 +118,8 @@ void SimbodyLoop::place(const Motion<double>& motion, const JointMotion& joint_m
     loop.setLeg(i, q);
   }
   loop.setPlatformPose(motion);
-  loop.setRates(motion);  // the platform's; the legs' follow
+  // Six balls through wrong legs may determine no rates, and the free platform needs none of theirs.
+  loop.topology == Topology::tree_through_leg_1 ? loop.setRates(motion) : loop.setFreePlatform(motion);
   for (int i = 0; i < loop.legCount(); ++i)
     for (int joint = 0; joint < 3; ++joint) {
       const Coordinate coordinate = coordinates(i)[static_cast<std::size_t>(joint)];

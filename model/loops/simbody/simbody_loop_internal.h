@@ -111,6 +111,8 @@ struct SimbodyLoop::Impl {
   void eliminate(const Vector6d& torques);
   /// Velocities and accelerations of all coordinates that go with the platform's.
   void setRates(const Motion<double>& motion);
+  /// Those of a platform that hangs on no leg alone.
+  void setFreePlatform(const Motion<double>& motion);
 
  private:
   void addLeg(int leg);
