@@ -82,8 +82,12 @@ class ChainSolver {
   ChainState<S> placed(const ChainWorkspace<S>& work, int leg) const;
   /// On the coordinates of a leg, friction included: by the recursion over its joints. Needs inverseKinematics.
   Vector3<S> legForces(const ChainWorkspace<S>& work, int leg) const;
-  /// The same in the axes of the leg's plane, which sets rates and accelerations as well. Needs maps.
-  Vector3<S> planeForces(const Motion<S>& motion, int leg, ChainState<S>& state) const;
+  /// Rates and accelerations of a leg's joints by its map and the recursion over its joints. Needs placed links.
+  void axisRates(const Motion<S>& motion, int leg, ChainState<S>& state) const;
+  /// The same in closed form, in the axes of the leg's plane. Needs maps.
+  void planeRates(const Motion<S>& motion, int leg, ChainState<S>& state) const;
+  /// What legForces finds, in the axes of the leg's plane. Needs planeRates.
+  Vector3<S> planeForces(int leg, const ChainState<S>& state) const;
   Vector6<S> platformWrench(const Motion<S>& motion) const;
   Vector6<S> wrenchAtP(const Motion<S>& motion, ChainWorkspace<S>& work, Vector6<S>& Q_driven) const;
 
