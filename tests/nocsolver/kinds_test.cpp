@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <iostream>
 
 #include "model/load.h"
 #include "model/real50.h"
+#include "nocsolver/chain_constraints.h"
 #include "nocsolver/solver.h"
 #include "tests/support/vectors.h"
 
@@ -69,6 +71,31 @@ class Kinds : public testing::TestWithParam<std::string> {
   Scenario scenario_ = vectorScenario(GetParam());
   std::vector<VectorRow> rows_ = vectorRows(GetParam());
 };
+
+/// D T = 0 with neither of them zero, and D t = 0: T is the complement of what the joints allow.
+TEST_P(Kinds, shapingIsTheComplementOfTheConstraints) {
+  const ChainSolver<double> solver(*scenario_.manipulator);
+  ChainWorkspace<double> work;
+
+  for (const VectorRow& row : rows_) {
+    const Motion<double> motion = rounded(row.motion);
+    solver.inverseKinematics(motion, work);
+    solver.jacobians(motion, work);
+    Eigen::Matrix<double, 6 * body_count, motor_count> T;
+    solver.twistShaping(motion, work, T);
+    Eigen::MatrixXd D = velocityConstraints(solver, motion, work);
+    const auto violation = [&] { return (D * T).norm() / (D.norm() * T.norm()); };
+    EXPECT_LE(violation(), 1e-13);
+    EXPECT_GT(T.colwise().norm().minCoeff(), 1e-3);
+    EXPECT_EQ(Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(D).rank(), 12 * solver.legCount());
+    for (Eigen::Index k = 0; k < D.rows(); ++k) {  // control: no row is met by chance
+      const Eigen::VectorXd row_k = D.row(k);
+      D.row(k).setConstant(0.5);
+      ASSERT_GT(violation(), 1e-6) << "row " << k;
+      D.row(k) = row_k;
+    }
+  }
+}
 
 TEST_P(Kinds, inDoubles) {
   const ChainSolver<double> solver(*scenario_.manipulator);
