@@ -65,17 +65,24 @@ const Scenario& telescopes() {
 
 /// A term that this machine has not changes nothing but rounding; one that it has, something.
 TEST(RightAnswers, areKnownFromRounding) {
+  using Off = RightAnswers::Off;
   const Scenario machine = scenarioOf("flight-simulator");  // which neither rubs nor bears a load
   const RightAnswers right(machine);
   const auto spoilt = [&](Slip slip) { return spoiltSubject(*machine.manipulator, machine.load, SpoiltChain(slip)); };
-  EXPECT_FALSE(right.differFrom(spoilt(Slip::drop_friction)));
-  EXPECT_TRUE(right.differFrom(spoilt(Slip::drop_gyroscopic_legs)));
+  EXPECT_EQ(right.offIn(spoilt(Slip::drop_friction)), Off::nothing);
+  EXPECT_EQ(right.offIn(spoilt(Slip::drop_gyroscopic_legs)), Off::dynamics);
   Subject off = nocSubject(*machine.manipulator, machine.load);
-  EXPECT_FALSE(right.differFrom(off));
+  EXPECT_EQ(right.offIn(off), Off::nothing);
+  off.kinematics = [kinematics = off.kinematics](const Motion<double>& motion) {
+    KinematicAnswer answer = kinematics(motion);
+    answer.joints.q.phi *= 1 + 1e-12;
+    return answer;
+  };
+  EXPECT_EQ(right.offIn(off), Off::kinematics);
   off.torques = [torques = off.torques](const Motion<double>& motion) {
     return Vector6d((1 + 1e-12) * torques(motion));
   };
-  EXPECT_TRUE(right.differFrom(off));
+  EXPECT_EQ(right.offIn(off), Off::dynamics);
 }
 
 TEST(SayOtherwise, knowsAnotherVerdictAndAnotherValue) {

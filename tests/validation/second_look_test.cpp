@@ -117,7 +117,8 @@ TEST_P(Orders, ofTheJudgedIntegratorIsEightAndAnotherFails) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenarios, Orders,
-                         testing::Values("paper-helix", "proving-ground", "millimetres", "near-singular"),
+                         testing::Values("paper-helix", "proving-ground", "millimetres", "near-singular",
+                                         "flight-simulator", "hexa"),
                          [](const auto& name) { return asTestName(name.param); });
 
 }  // namespace

@@ -5,25 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "validation/replay/observed_order.h"
 #include "validation/replay/replay.h"
 
 namespace ursula {
-namespace {
-
-/// By which the observed order may be lower: what a machine's own scales leave open over steps that are short but not
-/// yet vanishing. Where it is lower, it must also be settled, within the other over the shortest stretches.
-constexpr double largest_shortfall = 1.25, settled = 0.4;
-constexpr int settled_over = 6;  ///< stretches: half as long at their shortest
-
-/// The shortest ones agree.
-bool haveSettled(const std::vector<double>& orders) {
-  if (orders.size() < settled_over) return false;
-  const auto [least, most] = std::minmax_element(orders.end() - settled_over, orders.end());
-  return *most - *least <= settled;
-}
-
-}  // namespace
-
 Check judgeOrder(const std::vector<double>& orders) {
   static constexpr const char* check = "integration.order";
   const std::string basis = fmt::format(
@@ -32,9 +17,7 @@ Check judgeOrder(const std::vector<double>& orders) {
   if (orders.empty())
     return notJudgeable(Reason::limit_useless, check, std::nan(""), largest_shortfall, "", basis,
                         "no stretch of the motion is between rounding and steps too long to show an order");
-  const auto half = orders.begin() + static_cast<std::ptrdiff_t>(orders.size() / 2);
-  const double order = *std::max_element(half, orders.end());
-  const double shortfall = std::max(0.0, nominal_order - order);
+  const double order = bestOrder(orders), shortfall = std::max(0.0, nominal_order - order);
   const std::string why = fmt::format(
       "observed order {:.3g}, of {:g}, by halving fixed steps twice: the best over the shorter half of {} stretches, "
       "without friction and load",

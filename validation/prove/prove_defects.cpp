@@ -42,9 +42,9 @@ class Proof {
       const std::vector<Check> checks = defect.scenario ? inItsScenario(defect, outcome) : withIts(defect);
       outcome.caught_by = failed(checks);
       // A wrong solver differs by rounding too; what all are given, and an experiment, only by what is wrong.
-      const double rounding = defect.subject ? 0.125 : 0.0;
-      outcome.shows = sayOtherwise(checks, checks_, rounding) ||
-                      (defect.subject && right_answers_.differFrom(defect.subject(scenario_)));
+      const bool rounds = defect.subject || (defect.scenario && movesAlike(defect.scenario(scenario_), scenario_));
+      outcome.shows = !outcome.caught_by.empty() || sayOtherwise(checks, checks_, rounds ? 0.125 : 0.0);
+      if (defect.subject) seeSubject(defect.subject(scenario_), outcome);
     } catch (const InvalidParameter& refusal) {
       outcome.refused = refusal.what();
     } catch (const std::exception& error) {
@@ -59,6 +59,12 @@ class Proof {
     out.budget = false;
     out.reference = reference_;
     return out;
+  }
+
+  void seeSubject(const Subject& subject, DefectOutcome& outcome) const {
+    const RightAnswers::Off off = right_answers_.offIn(subject);
+    outcome.shows = outcome.shows || off != RightAnswers::Off::nothing;
+    if (off == RightAnswers::Off::kinematics) outcome.roads_wanted = std::min(outcome.roads_wanted, 1);
   }
 
   std::vector<Check> withIts(const Defect& defect) const {

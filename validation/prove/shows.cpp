@@ -11,6 +11,12 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
+constexpr int instants = 31;
+
+double instantOf(const Scenario& scenario, int k) { return scenario.trajectory->duration() * (k + 0.37) / instants; }
+
+constexpr std::size_t of_dynamics = 2;  ///< of the answers, the first
+
 /// One vector for each kind of quantity.
 std::vector<Eigen::VectorXd> answersOf(const Subject& subject, const Motion<double>& motion) {
   const Vector6d torques = subject.torques(motion);
@@ -37,10 +43,8 @@ Eigen::VectorXd roomBetween(const Eigen::VectorXd& a, const Eigen::VectorXd& b) 
 RightAnswers::RightAnswers(const Scenario& scenario) {
   const Subject right = nocSubject(*scenario.manipulator, scenario.load);
   const Subject other = spoiltSubject(*scenario.manipulator, scenario.load, SpoiltChain());
-  constexpr int instants = 31;
   for (int k = 0; k < instants; ++k) try {
-      const double t = scenario.trajectory->duration() * (k + 0.37) / instants;
-      Instant instant{scenario.trajectory->at(t), {}};
+      Instant instant{scenario.trajectory->at(instantOf(scenario, k)), {}};
       const auto a = answersOf(right, instant.motion), b = answersOf(other, instant.motion);
       for (std::size_t i = 0; i < a.size(); ++i) instant.answers.push_back({a[i], roomBetween(a[i], b[i])});
       instants_.push_back(std::move(instant));
@@ -49,17 +53,37 @@ RightAnswers::RightAnswers(const Scenario& scenario) {
     }
 }
 
-bool RightAnswers::differFrom(const Subject& subject) const {
+RightAnswers::Off RightAnswers::offIn(const Subject& subject) const {
+  Off out = Off::nothing;
   for (const Instant& instant : instants_) try {
       const auto answers = answersOf(subject, instant.motion);
       for (std::size_t i = 0; i < answers.size(); ++i) {
         const auto& [right, room] = instant.answers[i];
-        if (!((answers[i] - right).array().abs() <= room.array()).all()) return true;
+        if (((answers[i] - right).array().abs() <= room.array()).all()) continue;
+        if (i < of_dynamics) return Off::dynamics;
+        out = Off::kinematics;
       }
     } catch (const PoseError&) {
-      return true;
+      return Off::dynamics;
     }
-  return false;
+  return out;
+}
+
+bool movesAlike(const Scenario& a, const Scenario& b) {
+  if (a.trajectory == b.trajectory || a.trajectory->duration() != b.trajectory->duration()) return false;
+  using M = Motion<double>;
+  const auto alike = [&a, &b](const auto& part) {
+    double size = 0, off = 0;
+    for (int k = 0; k < instants; ++k) {
+      const M x = a.trajectory->at(instantOf(a, k)), y = b.trajectory->at(instantOf(a, k));
+      size = std::max(size, part(x).norm());
+      off = std::max(off, (part(x) - part(y)).norm());
+    }
+    return off <= 16 * eps * size;
+  };
+  return alike([](const M& m) { return m.Q; }) && alike([](const M& m) { return m.p; }) &&
+         alike([](const M& m) { return m.omega; }) && alike([](const M& m) { return m.p_dot; }) &&
+         alike([](const M& m) { return m.omega_dot; }) && alike([](const M& m) { return m.p_ddot; });
 }
 
 bool sayOtherwise(const std::vector<Check>& a, const std::vector<Check>& b, double share) {

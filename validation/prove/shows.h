@@ -15,8 +15,11 @@ class RightAnswers {
  public:
   explicit RightAnswers(const Scenario& scenario);
 
-  /// True where an answer is off by more than rounding, at instants that are no samples of anything.
-  bool differFrom(const Subject& subject) const;
+  /// What is off by more than rounding, at instants that are no samples of anything. Kinematics that are wrong and
+  /// leave the dynamics right (an axis reversed whose joint neither rubs nor drives) can be seen beside Simbody's
+  /// alone.
+  enum class Off { nothing, kinematics, dynamics };
+  Off offIn(const Subject& subject) const;
 
  private:
   struct Numbers {
@@ -28,6 +31,9 @@ class RightAnswers {
   };
   std::vector<Instant> instants_;
 };
+
+/// True where another trajectory has the same motion but for rounding; false for one and the same.
+bool movesAlike(const Scenario& a, const Scenario& b);
 
 /// True where a check that applies to both says something else: another verdict, or another value by more than
 /// `share` of its limit.

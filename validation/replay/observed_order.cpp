@@ -9,6 +9,7 @@
 
 #include "model/loops/simbody/simbody_loop.h"
 #include "model/manipulator.h"
+#include "validation/replay/replay.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {
@@ -24,6 +25,7 @@ constexpr double above_noise = 3;
 /// Stretches that are tried, in natural units of time: from the longest on, each so much shorter.
 constexpr double longest = 8, shorter = 0.9;
 constexpr int attempts = 90;
+/// Stretches over which an order is observed, and twice as many where these leave it open.
 constexpr std::size_t most_stretches = 12;
 
 /// The loop let go from the commanded state at the start of the motion.
@@ -103,6 +105,10 @@ int firstStretch(LetGo<Stepper>& loop) {
   return short_enough;
 }
 
+bool leaveItOpen(const std::vector<double>& orders) {
+  return nominal_order - bestOrder(orders) > largest_shortfall && !haveSettled(orders);
+}
+
 /// The observed order of each stretch, from the longest on.
 template <class Stepper>
 std::vector<double> ordersOf(const Scenario& scenario) {
@@ -110,7 +116,8 @@ std::vector<double> ordersOf(const Scenario& scenario) {
   std::vector<double> orders;
   double duration = longest * std::pow(shorter, firstStretch(loop));
   const double noise = above_noise * loop.noise(duration);  // the larger, the longer
-  for (; orders.size() < most_stretches; duration *= shorter) {
+  for (; orders.size() < most_stretches || (orders.size() < 2 * most_stretches && leaveItOpen(orders));
+       duration *= shorter) {
     const auto four = loop.reached(duration, 4), eight = loop.reached(duration, 8), more = loop.reached(duration, 16);
     const double first = loop.difference(four, eight), second = loop.difference(eight, more);
     if (!(second >= noise)) break;  // and the less so over less
@@ -120,6 +127,16 @@ std::vector<double> ordersOf(const Scenario& scenario) {
 }
 
 }  // namespace
+
+double bestOrder(const std::vector<double>& orders) {
+  return *std::max_element(orders.begin() + static_cast<std::ptrdiff_t>(orders.size() / 2), orders.end());
+}
+
+bool haveSettled(const std::vector<double>& orders) {
+  if (orders.size() < settled_over) return false;
+  const auto [least, most] = std::minmax_element(orders.end() - settled_over, orders.end());
+  return *most - *least <= settled;
+}
 
 std::vector<double> observedOrders(const Scenario& scenario, bool lower) {
   return lower ? ordersOf<odeint::runge_kutta_dopri5<OdeState>>(scenario)

@@ -12,4 +12,14 @@ namespace ursula {
 /// change. `lower`: of an integrator of lower order instead, a control that must fail.
 std::vector<double> observedOrders(const Scenario& scenario, bool lower = false);
 
+/// By which the observed order may be lower: what a machine's own scales leave open over steps that are short but not
+/// yet vanishing. Where it is lower, it must also be settled, within the other over the shortest stretches.
+constexpr double largest_shortfall = 1.25, settled = 0.4;
+constexpr int settled_over = 6;  ///< stretches: half as long at their shortest
+
+/// The best over the shorter half of the stretches, at least one.
+double bestOrder(const std::vector<double>& orders);
+/// The shortest stretches agree.
+bool haveSettled(const std::vector<double>& orders);
+
 }  // namespace ursula
