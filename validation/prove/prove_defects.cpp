@@ -64,7 +64,8 @@ class Proof {
   void seeSubject(const Subject& subject, DefectOutcome& outcome) const {
     const RightAnswers::Off off = right_answers_.offIn(subject);
     outcome.shows = outcome.shows || off != RightAnswers::Off::nothing;
-    if (off == RightAnswers::Off::kinematics) outcome.roads_wanted = std::min(outcome.roads_wanted, 1);
+    // What leaves the dynamics right, or shows on other machines alone (two legs alike exchanged), one road can see.
+    if (off != RightAnswers::Off::dynamics && !outcome.caught()) outcome.roads_wanted = 1;
   }
 
   std::vector<Check> withIts(const Defect& defect) const {
