@@ -168,6 +168,27 @@ TEST(ProfileAt, takesTheLargestOfTheFiveInstantsAbout) {
   }
 }
 
+/// Near a singular pose the worst case makes no limit of its own.
+TEST(ProfileAt, hasAFloorThatIsASmallShareOfTheQuantity) {
+  const Scenario scenario = scenarioOf("near-singular");
+  const RoundingProfile profile(scenario, instants);
+  double largest = 0;
+  for (int k = 0; k < instants; ++k) {
+    Conditioning here = at(scenario, profile, k), even = here;
+    even.kappa_B = even.kappa_legs = 1;
+    const auto q = static_cast<std::size_t>(Rounded::jacobian_rate);
+    const double spread = profile.spreads(Rounded::jacobian_rate)[static_cast<std::size_t>(k)];
+    const double floor = (here.levels[q] - rounding_safety * spread) * here.shape(Rounded::jacobian_rate);
+    const double quantity = even.shape(Rounded::jacobian_rate) / std::numeric_limits<double>::epsilon();
+    EXPECT_GT(here.levels[q], rounding_safety * spread);
+    largest = std::max(largest, here.shape(Rounded::jacobian_rate) / even.shape(Rounded::jacobian_rate));
+    if (spread == *std::max_element(profile.spreads(Rounded::jacobian_rate).begin(),
+                                    profile.spreads(Rounded::jacobian_rate).end()))
+      EXPECT_LE(floor, 1.001 * floor_share * quantity);
+  }
+  EXPECT_GT(largest, 1e6) << "no worst case is met here";
+}
+
 TEST(ProfileInstants, areAtMostThoseOfTheSamples) {
   EXPECT_EQ(profileInstants(1), 2);
   EXPECT_EQ(profileInstants(31), 31);

@@ -135,6 +135,13 @@ Vector6d otherTorques(const Vector6d& torques) {
   return out;
 }
 
+/// In units of the shape; `even` is the same machine without condition numbers.
+double floorOf(const Conditioning& at, const Conditioning& even, Rounded quantity) {
+  const double share = floor_share / std::numeric_limits<double>::epsilon();
+  const double shape = at.shape(quantity);
+  return shape > 0 ? std::min(rounding_floor, share * even.shape(quantity) / shape) : rounding_floor;
+}
+
 }  // namespace
 
 int profileInstants(int samples) { return std::clamp(samples, 2, 61); }
@@ -176,6 +183,8 @@ RoundingProfile::Measured RoundingProfile::measure(const Motion<double>& motion,
   here.t = motion.t;
   const Conditioning conditioning = w.probe.at(motion);
   const Vector6d commanded = w.solver.inverseDynamics(motion, w.work, loadAtP(w.load.get(), motion));
+  w.solver.inverseKinematics(motion, w.work);
+  w.solver.jacobians(motion, w.work);
   const Matrix6d effort = w.solver.T(w.work).transpose() * w.solver.massMatrixAtP(motion, w.work);
   std::vector<View> views;
   for (Viewpoint& viewpoint : w.viewpoints)
@@ -199,7 +208,10 @@ Conditioning RoundingProfile::leveled(const Motion<double>& motion, const Measur
   out.levels = itself != nullptr ? itself->spread : uniformLevels(0);
   for (std::size_t k = std::min(first, last); k <= last; ++k)
     for (std::size_t q = 0; q < rounded_count; ++q) out.levels[q] = larger(out.levels[q], measured_[k].spread[q]);
-  for (double& level : out.levels) level = rounding_floor + rounding_safety * level;
+  Conditioning even = out;
+  even.kappa_B = even.kappa_legs = 1;
+  for (std::size_t q = 0; q < rounded_count; ++q)
+    out.levels[q] = floorOf(out, even, static_cast<Rounded>(q)) + rounding_safety * out.levels[q];
   return out;
 }
 

@@ -70,5 +70,9 @@ constexpr double rounding_safety = 10;
 /// A level is at least this: the shape is a worst case, and what rounds in double seldom reaches a hundredth of it, but
 /// may round to the same number in every frame.
 constexpr double rounding_floor = 0.02;
+/// … but for no more than this share of what the quantity is made of. Near a singular pose the worst case of several
+/// condition numbers, one on the other, is beyond all that is measured, and a limit made of it would say nothing; what
+/// is left of the digits there is measured.
+constexpr double floor_share = 1e-9;
 
 }  // namespace ursula
