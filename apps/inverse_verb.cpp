@@ -26,6 +26,7 @@ TimeSeries inverseAlong(const Scenario& scenario, int samples) {
   for (double t : equallySpaced(scenario.trajectory->duration(), samples)) {
     motions.push_back(scenario.trajectory->at(t));
     torques.push_back(solver.inverseDynamics(motions.back(), work, loadAtP(scenario.load.get(), motions.back())));
+    solver.inverseKinematics(motions.back(), work);
     joints.push_back({solver.angles(work), solver.rates(work), solver.accelerations(work)});
   }
   return inverseSeries(*scenario.manipulator, motions, joints, torques);

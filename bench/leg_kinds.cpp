@@ -9,7 +9,6 @@ namespace {
 struct Moving {
   explicit Moving(const char* name)
       : scenario(readScenario(std::string(URSULA_SCENARIOS "/") + name + ".toml")), solver(*scenario.manipulator) {
-    Workspace<double> work;
     for (int k = 0; k < PaperHelix::count; ++k) {
       motions.push_back(scenario.trajectory->at(scenario.trajectory->duration() * (k + 0.5) / PaperHelix::count));
       efforts.push_back(solver.inverseDynamics(motions.back(), work));

@@ -4,7 +4,6 @@
 
 #include "nocsolver/chain_solver.h"
 #include "nocsolver/kernels/chain_leg.h"
-#include "nocsolver/kernels/leg_rates.h"
 #include "nocsolver/kernels/platform_at_p.h"
 
 namespace ursula {
@@ -19,14 +18,6 @@ void ChainSolver<S, R>::place(const Motion<S>& motion, int i, ChainState<S>& out
 }
 
 template <class S, class R>
-void ChainSolver<S, R>::maps(const Motion<S>& motion, ChainWorkspace<S>& work) const {
-  for (int i = 0; i < leg_count_; ++i) {
-    chain::displacement(model(i), i, motion, work.legs[chain::at(i)]);
-    chain::map(model(i), i, motion.t, work.legs[chain::at(i)]);
-  }
-}
-
-template <class S, class R>
 void ChainSolver<S, R>::displacements(const Motion<S>& motion, ChainWorkspace<S>& work) const {
   for (int i = 0; i < leg_count_; ++i) place(motion, i, work.legs[chain::at(i)]);
 }
@@ -36,47 +27,14 @@ void ChainSolver<S, R>::inverseKinematics(const Motion<S>& motion, ChainWorkspac
   for (int i = 0; i < leg_count_; ++i) {
     ChainState<S>& leg = work.legs[chain::at(i)];
     place(motion, i, leg);
-    is_right ? planeRates(motion, i, leg) : axisRates(motion, i, leg);
+    const Vector3<S> across = motion.omega.cross(leg.Qb);
+    leg.v_B = motion.p_dot + across;
+    const Vector3<S> a_B = motion.p_ddot + motion.omega_dot.cross(leg.Qb) + motion.omega.cross(across);
+    leg.rate = kernel::chainRates(leg, leg.v_B);
+    Vector3<S> bias = chain::motionOf<S>(model(i).kind, leg, leg.rate, Vector3<S>::Zero(), reading_).a_B;
+    if (reading_.has(Slip::drop_bias)) bias.setZero();
+    leg.acceleration = kernel::chainRates<S>(leg, a_B - bias);
   }
-}
-
-/// Sets v_B; returns its rate.
-template <class S>
-Vector3<S> moveB(const Motion<S>& motion, ChainState<S>& leg) {
-  const Vector3<S> across = motion.omega.cross(leg.Qb);
-  leg.v_B = motion.p_dot + across;
-  return motion.p_ddot + motion.omega_dot.cross(leg.Qb) + motion.omega.cross(across);
-}
-
-template <class S, class R>
-void ChainSolver<S, R>::axisRates(const Motion<S>& motion, int i, ChainState<S>& leg) const {
-  const Vector3<S> a_B = moveB(motion, leg);
-  leg.rate = kernel::chainRates(leg, leg.v_B);
-  Vector3<S> bias = chain::motionOf<S>(model(i).kind, leg, leg.rate, Vector3<S>::Zero(), reading_).a_B;
-  if (reading_.has(Slip::drop_bias)) bias.setZero();
-  leg.acceleration = kernel::chainRates<S>(leg, a_B - bias);
-}
-
-template <class S, class R>
-void ChainSolver<S, R>::planeRates(const Motion<S>& motion, int i, ChainState<S>& leg) const {
-  const Vector3<S> a_B = moveB(motion, leg);
-  switch (model(i).kind) {
-    case LegKind::UPS:
-      return kernel::upsRates(model(i), a_B, leg);
-    case LegKind::RUS:
-      return kernel::rusRates(model(i), a_B, leg);
-    case LegKind::PUS:
-      return kernel::pusRates(model(i), a_B, leg);
-    case LegKind::URS:
-      return kernel::ursRates(model(i), a_B, leg);
-  }
-}
-
-template <class S, class R>
-ChainState<S> ChainSolver<S, R>::placed(const ChainWorkspace<S>& work, int i) const {
-  ChainState<S> leg = work.legs[chain::at(i)];
-  if (is_right) kernel::placeLinks(model(i), leg);
-  return leg;
 }
 
 template <class S, class R>
@@ -137,7 +95,7 @@ Matrix6<S> ChainSolver<S, R>::TRate(const Motion<S>& motion, const ChainWorkspac
   Matrix6<S> J_dot;
   for (int m = 0; m < motor_count; ++m) {
     const Motor& motor = motors_[chain::at(m)];
-    const ChainState<S> leg = placed(work, motor.leg);
+    const ChainState<S>& leg = work.legs[chain::at(motor.leg)];
     const Matrix3<S> K_dot = kernel::withKind(
         model(motor.leg).kind, [&](auto kind) { return kernel::chainMapRate<decltype(kind)::value>(leg); });
     const Vector3<S>& k = leg.k[chain::at(motor.joint)];

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <type_traits>
 
 #include <Eigen/LU>
 
@@ -73,23 +72,12 @@ class ChainSolver {
 
  private:
   const ChainModel<S>& model(int i) const { return legs_[static_cast<std::size_t>(i)]; }
-  static constexpr bool is_right = std::is_same_v<Reading, Corrected>;
 
   void place(const Motion<S>& motion, int leg, ChainState<S>& out) const;
-  /// Displacements and the legs' maps to B, and nothing of the links.
-  void maps(const Motion<S>& motion, ChainWorkspace<S>& work) const;
-  /// A leg with its links placed, which inverseDynamics has no need of.
-  ChainState<S> placed(const ChainWorkspace<S>& work, int leg) const;
   /// On the coordinates of a leg, friction included: by the recursion over its joints. Needs inverseKinematics.
   Vector3<S> legForces(const ChainWorkspace<S>& work, int leg) const;
-  /// Rates and accelerations of a leg's joints by its map and the recursion over its joints. Needs placed links.
-  void axisRates(const Motion<S>& motion, int leg, ChainState<S>& state) const;
-  /// The same in closed form, in the axes of the leg's plane. Needs maps.
-  void planeRates(const Motion<S>& motion, int leg, ChainState<S>& state) const;
-  /// What legForces finds, in the axes of the leg's plane. Needs planeRates.
-  Vector3<S> planeForces(int leg, const ChainState<S>& state) const;
   Vector6<S> platformWrench(const Motion<S>& motion) const;
-  Vector6<S> wrenchAtP(const Motion<S>& motion, ChainWorkspace<S>& work, Vector6<S>& Q_driven) const;
+  Vector6<S> wrenchAtP(const Motion<S>& motion, const ChainWorkspace<S>& work, Vector6<S>& Q_driven) const;
 
   std::array<ChainModel<S>, leg_count> legs_;
   int leg_count_;

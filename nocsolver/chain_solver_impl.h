@@ -5,7 +5,6 @@
 #include <Eigen/Cholesky>
 
 #include "nocsolver/chain_kinematics_impl.h"
-#include "nocsolver/kernels/leg_forces.h"
 #include "nocsolver/kernels/platform_at_p.h"
 
 namespace ursula {
@@ -43,7 +42,7 @@ void ChainSolver<S, R>::twistShaping(const Motion<S>& motion, const ChainWorkspa
   const Vector3<S> arm = motion.Q * rho_;
   shaping.setZero();
   for (int i = 0; i < leg_count_; ++i) {
-    const ChainState<S> leg = placed(work, i);
+    const ChainState<S>& leg = work.legs[chain::at(i)];
     const kernel::ChainPartials<S> partials =
         kernel::withKind(model(i).kind, [&](auto kind) { return kernel::chainPartials<decltype(kind)::value>(leg); });
     for (int m = 0; m < motor_count; ++m) {
@@ -82,32 +81,14 @@ Vector6<S> ChainSolver<S, R>::platformWrench(const Motion<S>& motion) const {
   return wrench;
 }
 
-template <class S, class R>
-Vector3<S> ChainSolver<S, R>::planeForces(int i, const ChainState<S>& leg) const {
-  const Vector3<S> Q = [&]() -> Vector3<S> {
-    switch (model(i).kind) {
-      case LegKind::UPS:
-        return kernel::upsForces(model(i), gravity_, leg);
-      case LegKind::RUS:
-        return kernel::rusForces(model(i), gravity_, leg);
-      case LegKind::PUS:
-        return kernel::pusForces(model(i), gravity_, leg);
-      case LegKind::URS:
-        break;
-    }
-    return kernel::ursForces(model(i), gravity_, leg);
-  }();
-  return Q + kernel::chainFriction(model(i), leg);
-}
-
 /// The wrench at P of all that no motor carries directly, and what falls on the motors.
 template <class S, class R>
-Vector6<S> ChainSolver<S, R>::wrenchAtP(const Motion<S>& motion, ChainWorkspace<S>& work, Vector6<S>& Q_driven) const {
+Vector6<S> ChainSolver<S, R>::wrenchAtP(const Motion<S>& motion, const ChainWorkspace<S>& work,
+                                        Vector6<S>& Q_driven) const {
   Vector6<S> wrench = platformWrench(motion);
   for (int i = 0; i < leg_count_; ++i) {
-    ChainState<S>& leg = work.legs[chain::at(i)];
-    if (is_right) planeRates(motion, i, leg);
-    const Vector3<S> Q = is_right ? planeForces(i, leg) : legForces(work, i);
+    const ChainState<S>& leg = work.legs[chain::at(i)];
+    const Vector3<S> Q = legForces(work, i);
     Vector3<S> f = Vector3<S>::Zero();
     for (int j = 0; j < 3; ++j) {
       const int motor = model(i).motor[chain::at(j)];
@@ -124,7 +105,7 @@ Vector6<S> ChainSolver<S, R>::wrenchAtP(const Motion<S>& motion, ChainWorkspace<
 template <class S, class R>
 Vector6<S> ChainSolver<S, R>::inverseDynamics(const Motion<S>& motion, ChainWorkspace<S>& work,
                                               const Vector6<S>& load) const {
-  is_right ? maps(motion, work) : inverseKinematics(motion, work);
+  inverseKinematics(motion, work);
   jacobians(motion, work);
   Vector6<S> Q_driven;
   Vector6<S> wrench = wrenchAtP(motion, work, Q_driven) - load;
@@ -139,7 +120,7 @@ Matrix6<S> ChainSolver<S, R>::massMatrixAtP(const Motion<S>& motion, const Chain
   kernel::addAtP<S>(mass_ * Matrix3<S>::Identity(), motion.Q * rho_, M_P);
   M_P.template topLeftCorner<3, 3>() += motion.Q * I_M_ * motion.Q.transpose();
   for (int i = 0; i < leg_count_; ++i) {
-    const ChainState<S> leg = placed(work, i);
+    const ChainState<S>& leg = work.legs[chain::at(i)];
     const Matrix3<S> M = kernel::withKind(
         model(i).kind, [&](auto kind) { return kernel::chainMassMatrix<decltype(kind)::value>(model(i), leg); });
     Matrix3<S> K_transposed;
@@ -155,7 +136,7 @@ Vector6<S> ChainSolver<S, R>::directDynamics(const Motion<S>& motion, const Vect
   Motion<S> unaccelerated = motion;
   unaccelerated.omega_dot.setZero();
   unaccelerated.p_ddot.setZero();
-  is_right ? maps(unaccelerated, work) : inverseKinematics(unaccelerated, work);
+  inverseKinematics(unaccelerated, work);
   Vector6<S> Q_driven;
   Vector6<S> wrench = load - wrenchAtP(unaccelerated, work, Q_driven);
   for (int m = 0; m < motor_count; ++m) {

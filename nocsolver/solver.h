@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "nocsolver/chain_solver.h"
+#include "nocsolver/fast_dynamics.h"
 #include "nocsolver/paper_solver.h"
 
 namespace ursula {
@@ -14,16 +15,16 @@ struct Workspace {
   ChainWorkspace<S> chain;
 };
 
-/// Inverse and direct dynamics of any machine: by the paper's own equations where they are for it, else by
-/// ChainSolver, which has the same method for legs of all kinds. Both agree to rounding where both can be asked.
-/// Immutable: threads share it, each with a Workspace of its own. Nothing here allocates.
+/// Kinematics and dynamics of any machine: by the paper's own equations where they are for it, else kinematics by
+/// ChainSolver and dynamics by FastDynamics, which have the same method for legs of all kinds. All agree to rounding
+/// where they can be asked. Immutable: threads share it, each with a Workspace of its own. Nothing here allocates.
 ///
 /// Every function throws OutOfReach, OutOfStroke or PointOnAxis for poses that the legs cannot take, and from the rates
 /// on StretchedLeg; those that need B⁻¹ throw SingularJacobian.
 template <class S>
 class Solver {
  public:
-  explicit Solver(const Manipulator& manipulator) : chain_(manipulator) {
+  explicit Solver(const Manipulator& manipulator) : chain_(manipulator), dynamics_(manipulator) {
     if (manipulator.isOfThePaper()) paper_.emplace(manipulator);
   }
 
@@ -92,7 +93,7 @@ class Solver {
   /// Pose, twist and twist rate of all bodies, (16), (17), (39)–(43). Needs inverseKinematics.
   void bodyMotions(const Motion<S>& motion, Workspace<S>& work, BodyMotions<S>& bodies) const {
     if (paper_) return paper_->bodyMotions(motion, work.paper, bodies);
-    chain_.inverseKinematics(motion, work.chain);  // inverseDynamics has no need of the links' motions
+    chain_.inverseKinematics(motion, work.chain);  // inverseDynamics has no need of it
     chain_.bodyMotions(motion, work.chain, bodies);
   }
 
@@ -102,12 +103,11 @@ class Solver {
   }
 
   /// Efforts of the motors, N·m, or N where they push, conjugate to the rates of their coordinates, by (37); `load` is
-  /// an external wrench on the platform, [moment about P; force], in B. Does all of inverseKinematics and jacobians on
-  /// the way.
+  /// an external wrench on the platform, [moment about P; force], in B. What `work` holds is for jacobians and the like
+  /// to find again.
   Vector6<S> inverseDynamics(const Motion<S>& motion, Workspace<S>& work,
                              const Vector6<S>& load = Vector6<S>::Zero()) const {
-    return paper_ ? paper_->inverseDynamics(motion, work.paper, load)
-                  : chain_.inverseDynamics(motion, work.chain, load);
+    return paper_ ? paper_->inverseDynamics(motion, work.paper, load) : dynamics_.inverseDynamics(motion, load);
   }
 
   /// The platform's twist rate [ω̇; p̈] under efforts, by (36) projected on t_P; accelerations in `motion` are not read.
@@ -115,7 +115,7 @@ class Solver {
   Vector6<S> directDynamics(const Motion<S>& motion, const Vector6<S>& efforts, Workspace<S>& work,
                             const Vector6<S>& load = Vector6<S>::Zero()) const {
     return paper_ ? paper_->directDynamics(motion, efforts, work.paper, load)
-                  : chain_.directDynamics(motion, efforts, work.chain, load);
+                  : dynamics_.directDynamics(motion, efforts, load);
   }
 
   /// M_P: the whole machine's mass matrix in the platform's twist at P. Needs inverseKinematics.
@@ -126,6 +126,7 @@ class Solver {
  private:
   std::optional<PaperSolver<S>> paper_;
   ChainSolver<S> chain_;
+  FastDynamics<S> dynamics_;
 };
 
 }  // namespace ursula

@@ -39,7 +39,7 @@ auto withKind(LegKind kind, const F& f) {
 /// Motion of a body's frame: of a point and of what turns with it.
 template <class S, class R>
 struct FrameMotion {
-  explicit FrameMotion(const R& reading) : reading(reading) {}
+  explicit FrameMotion(const R& of) : reading(of) {}
 
   const R& reading;
   Vector3<S> omega = Vector3<S>::Zero(), v = omega, omega_dot = omega, a = omega;

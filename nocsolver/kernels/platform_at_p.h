@@ -9,6 +9,16 @@
 
 namespace ursula::kernel {
 
+/// Of the pivots of Bᵀ, its moment rows over a length of the machine, the smallest over the largest. Throws
+/// SingularJacobian.
+template <class S>
+void requireRegularB(const S& ratio, const S& t) {
+  const S bound = S(16) * Eigen::NumTraits<S>::epsilon();
+  if (!(ratio > bound))
+    throw SingularJacobian("B is singular, its smallest pivot over its largest", -1, static_cast<double>(t),
+                           static_cast<double>(ratio), static_cast<double>(bound), "");
+}
+
 /// Factors of Bᵀ, its moment rows over `length`. Throws SingularJacobian.
 template <class S>
 void factorise(const Matrix6<S>& B, const S& length, const S& t, Eigen::PartialPivLU<Matrix6<S>>& B_transposed) {
@@ -17,11 +27,7 @@ void factorise(const Matrix6<S>& B, const S& length, const S& t, Eigen::PartialP
   scaled.template topRows<3>() /= length;
   B_transposed.compute(scaled);
   const auto pivots = B_transposed.matrixLU().diagonal().cwiseAbs();
-  const S ratio = pivots.minCoeff() / pivots.maxCoeff();
-  const S bound = S(16) * Eigen::NumTraits<S>::epsilon();
-  if (!(ratio > bound))
-    throw SingularJacobian("B is singular, its smallest pivot over its largest", -1, static_cast<double>(t),
-                           static_cast<double>(ratio), static_cast<double>(bound), "");
+  requireRegularB<S>(pivots.minCoeff() / pivots.maxCoeff(), t);
 }
 
 /// Adds a mass matrix at Bᵢ, in B, to one at P: Gᵀ M G with G = [−[Qb]×, 1].

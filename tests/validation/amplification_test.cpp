@@ -170,7 +170,8 @@ INSTANTIATE_TEST_SUITE_P(Machines, Growth, testing::Values("paper-helix", "rando
 /// Rates of all 18 joints and the platform's twist for unit rates of the actuated ones.
 Eigen::Matrix<double, 24, 6> ratesPerActuated(const Solver<double>& solver, Motion<double> motion) {
   Workspace<double> work;
-  solver.inverseDynamics(motion, work);
+  solver.inverseKinematics(motion, work);
+  solver.jacobians(motion, work);
   const Matrix6d T = solver.T(work);
   Eigen::Matrix<double, 24, 6> out;
   for (int j = 0; j < leg_count; ++j) {

@@ -58,6 +58,8 @@ View Viewpoint::at(const Motion<double>& motion, const Vector6d& torques) {
 
   const Vector6d tau = r.solver.inverseDynamics(there, r.work, load);
   out.torques_solver = p.torquesBack(tau);
+  r.solver.inverseKinematics(there, r.work);
+  r.solver.jacobians(there, r.work);
   const JointMotion solver_joints = joints(r.solver, r.work);
   BodyMotions<double> bodies;
   r.solver.bodyMotions(there, r.work, bodies);

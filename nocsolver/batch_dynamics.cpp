@@ -1,0 +1,147 @@
+#include "nocsolver/batch_dynamics.h"
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "nocsolver/fast_dynamics.h"
+#include "nocsolver/kernels/machine_fields.h"
+
+namespace ursula {
+namespace {
+
+static_assert(sizeof(Motion<double>) == 25 * sizeof(double), "a batch reads motions as rows of numbers");
+static_assert(sizeof(Vector6d) == 6 * sizeof(double));
+
+std::optional<kernel::BatchFunctions> functionsOf(InstructionSet set) {
+#ifdef URSULA_X86
+  switch (set) {
+    case InstructionSet::sse2:
+      return kernel::batchBySse2();
+    case InstructionSet::avx2:
+      return kernel::batchByAvx2();
+    case InstructionSet::avx512:
+      return kernel::batchByAvx512();
+    case InstructionSet::portable:
+      break;
+  }
+#endif
+  return std::nullopt;
+}
+
+/// One answer after the other.
+template <class F>
+void oneByOne(std::size_t count, Vector6d* out, PoseFault* faults, const F& answer) {
+  for (std::size_t k = 0; k < count; ++k) {
+    faults[k] = PoseFault::none;
+    out[k].setConstant(std::numeric_limits<double>::quiet_NaN());
+    try {
+      out[k] = answer(k);
+    } catch (const OutOfStroke&) {
+      faults[k] = PoseFault::end_of_stroke;
+    } catch (const OutOfReach&) {
+      faults[k] = PoseFault::out_of_reach;
+    } catch (const PointOnAxis&) {
+      faults[k] = PoseFault::point_on_axis;
+    } catch (const StretchedLeg&) {
+      faults[k] = PoseFault::stretched_leg;
+    } catch (const SingularJacobian&) {
+      faults[k] = PoseFault::singular_jacobian;
+    }
+  }
+}
+
+}  // namespace
+
+bool isSupported(InstructionSet set) {
+#ifdef URSULA_X86
+  switch (set) {
+    case InstructionSet::avx2:
+      return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    case InstructionSet::avx512:
+      return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+             __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
+    case InstructionSet::sse2:
+    case InstructionSet::portable:
+      break;
+  }
+  return true;
+#else
+  return set == InstructionSet::portable;
+#endif
+}
+
+InstructionSet bestInstructionSet() {
+  for (const InstructionSet set : {InstructionSet::avx512, InstructionSet::avx2, InstructionSet::sse2})
+    if (isSupported(set)) return set;
+  return InstructionSet::portable;
+}
+
+const char* nameOf(InstructionSet set) {
+  constexpr std::array<const char*, 4> names = {"portable", "SSE2", "AVX2", "AVX-512"};
+  return names[static_cast<std::size_t>(set)];
+}
+
+struct BatchDynamics::Impl {
+  Impl(const Manipulator& manipulator, InstructionSet with)
+      : set(with), single(manipulator), functions(functionsOf(with)) {
+    if (!functions) return;
+    const auto model = kernel::machineModel<double>(manipulator);
+    std::vector<double> numbers;
+    kernel::forEachNumber(model, [&numbers](double number) { numbers.push_back(number); });
+    machine = functions->make(numbers.data(), kernel::shapeOf(model));
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+  ~Impl() {
+    if (functions) functions->destroy(machine);
+  }
+
+  InstructionSet set;
+  FastDynamics<double> single;
+  std::optional<kernel::BatchFunctions> functions;
+  void* machine = nullptr;
+};
+
+BatchDynamics::BatchDynamics(const Manipulator& manipulator, InstructionSet set) {
+  if (!isSupported(set)) throw std::invalid_argument(std::string("this processor has no ") + nameOf(set));
+  impl_ = std::make_unique<Impl>(manipulator, set);
+}
+BatchDynamics::~BatchDynamics() = default;
+BatchDynamics::BatchDynamics(BatchDynamics&&) noexcept = default;
+BatchDynamics& BatchDynamics::operator=(BatchDynamics&&) noexcept = default;
+
+InstructionSet BatchDynamics::instructionSet() const { return impl_->set; }
+
+namespace {
+
+const double* numbersOf(const Vector6d* vectors) { return vectors != nullptr ? vectors->data() : nullptr; }
+
+}  // namespace
+
+void BatchDynamics::inverseDynamics(const Motion<double>* motions, std::size_t count, Vector6d* efforts,
+                                    PoseFault* faults, const Vector6d* loads) const {
+  if (count == 0) return;
+  if (!impl_->functions)
+    return oneByOne(count, efforts, faults, [&](std::size_t k) {
+      return impl_->single.inverseDynamics(motions[k], loads != nullptr ? loads[k] : Vector6d::Zero());
+    });
+  impl_->functions->inverse(impl_->machine, {count, &motions->t, nullptr, numbersOf(loads), efforts->data(),
+                                             reinterpret_cast<std::uint8_t*>(faults)});
+}
+
+void BatchDynamics::directDynamics(const Motion<double>* motions, const Vector6d* efforts, std::size_t count,
+                                   Vector6d* twist_rates, PoseFault* faults, const Vector6d* loads) const {
+  if (count == 0) return;
+  if (!impl_->functions)
+    return oneByOne(count, twist_rates, faults, [&](std::size_t k) {
+      return impl_->single.directDynamics(motions[k], efforts[k], loads != nullptr ? loads[k] : Vector6d::Zero());
+    });
+  impl_->functions->direct(impl_->machine, {count, &motions->t, numbersOf(efforts), numbersOf(loads),
+                                            twist_rates->data(), reinterpret_cast<std::uint8_t*>(faults)});
+}
+
+}  // namespace ursula

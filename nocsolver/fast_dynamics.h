@@ -1,0 +1,34 @@
+#pragma once
+
+#include "model/manipulator.h"
+#include "model/motion.h"
+#include "nocsolver/errors.h"
+#include "nocsolver/kernels/machine_model.h"
+
+namespace ursula {
+
+/// Inverse and direct dynamics of any machine, each leg in its own plane (kernels/plane_dynamics.h): no angle and no T
+/// is formed, and nothing is kept. The same formulas make a batch (batch_dynamics.h). PaperSolver, equation by
+/// equation, and ChainSolver, joint by joint, are its witnesses: tests hold them together to rounding.
+///
+/// Immutable: threads share it. Nothing here allocates. Throws as Solver does.
+template <class S>
+class FastDynamics {
+ public:
+  explicit FastDynamics(const Manipulator& manipulator);
+
+  /// Efforts of the motors by (37), N·m, or N where they push; `load` is an external wrench on the platform, [moment
+  /// about P; force], in B.
+  Vector6<S> inverseDynamics(const Motion<S>& motion, const Vector6<S>& load = Vector6<S>::Zero()) const;
+
+  /// The platform's twist rate [ω̇; p̈] under efforts, by (36) projected on t_P; accelerations in `motion` are not read.
+  Vector6<S> directDynamics(const Motion<S>& motion, const Vector6<S>& efforts,
+                            const Vector6<S>& load = Vector6<S>::Zero()) const;
+
+ private:
+  kernel::MachineModel<S> machine_;
+};
+
+extern template class FastDynamics<double>;
+
+}  // namespace ursula

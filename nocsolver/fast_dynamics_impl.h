@@ -1,0 +1,34 @@
+#pragma once
+
+// Bodies of FastDynamics; included by the sources that instantiate it.
+
+#include "nocsolver/fast_dynamics.h"
+#include "nocsolver/kernels/leg_guard.h"
+#include "nocsolver/kernels/plane_dynamics.h"
+#include "nocsolver/kernels/platform_at_p.h"
+
+namespace ursula {
+
+template <class S>
+FastDynamics<S>::FastDynamics(const Manipulator& manipulator) : machine_(kernel::machineModel<S>(manipulator)) {}
+
+template <class S>
+Vector6<S> FastDynamics<S>::inverseDynamics(const Motion<S>& motion, const Vector6<S>& load) const {
+  S pivots;
+  const auto guardOf = [&motion](int leg) { return kernel::LegGuard<S>{leg, motion.t}; };
+  const Vector6<S> efforts = kernel::inverseDynamics<S>(machine_, motion, load, guardOf, pivots);
+  kernel::requireRegularB(pivots, motion.t);
+  return efforts;
+}
+
+template <class S>
+Vector6<S> FastDynamics<S>::directDynamics(const Motion<S>& motion, const Vector6<S>& efforts,
+                                           const Vector6<S>& load) const {
+  Motion<S> unaccelerated = motion;
+  unaccelerated.omega_dot.setZero();
+  unaccelerated.p_ddot.setZero();
+  const auto guardOf = [&motion](int leg) { return kernel::LegGuard<S>{leg, motion.t}; };
+  return kernel::directDynamics<S>(machine_, unaccelerated, efforts, load, guardOf);
+}
+
+}  // namespace ursula

@@ -1,0 +1,62 @@
+#pragma once
+
+// As many doubles as a register has lanes, as a scalar of the kernels. Internal, for sources that are compiled for one
+// instruction set each: every name here depends on it, so that no linker mixes them.
+
+#include <Eigen/Core>
+#include <xsimd/xsimd.hpp>
+
+namespace ursula {
+
+template <class Isa>
+struct Pack {
+  using Batch = xsimd::batch<double, Isa>;
+  using Mask = xsimd::batch_bool<double, Isa>;
+  static constexpr int lanes = static_cast<int>(Batch::size);
+
+  Pack() = default;
+  Pack(double value) : v(value) {}  // NOLINT(google-explicit-constructor): as Eigen makes its scalars
+  explicit Pack(const Batch& batch) : v(batch) {}
+
+  Pack& operator+=(const Pack& b) { return *this = *this + b; }
+  Pack& operator-=(const Pack& b) { return *this = *this - b; }
+  Pack& operator*=(const Pack& b) { return *this = *this * b; }
+  Pack& operator/=(const Pack& b) { return *this = *this / b; }
+  friend Pack operator-(const Pack& a) { return Pack(-a.v); }
+  friend Pack operator+(const Pack& a, const Pack& b) { return Pack(a.v + b.v); }
+  friend Pack operator-(const Pack& a, const Pack& b) { return Pack(a.v - b.v); }
+  friend Pack operator*(const Pack& a, const Pack& b) { return Pack(a.v * b.v); }
+  friend Pack operator/(const Pack& a, const Pack& b) { return Pack(a.v / b.v); }
+  friend Mask operator<(const Pack& a, const Pack& b) { return a.v < b.v; }
+  friend Mask operator>(const Pack& a, const Pack& b) { return a.v > b.v; }
+  friend Mask operator>=(const Pack& a, const Pack& b) { return a.v >= b.v; }
+  friend Pack abs(const Pack& a) { return Pack(xsimd::abs(a.v)); }
+  friend Pack sqrt(const Pack& a) { return Pack(xsimd::sqrt(a.v)); }
+  friend Pack tanh(const Pack& a) { return Pack(xsimd::tanh(a.v)); }
+  friend Pack min(const Pack& a, const Pack& b) { return Pack(xsimd::min(a.v, b.v)); }
+  friend Pack max(const Pack& a, const Pack& b) { return Pack(xsimd::max(a.v, b.v)); }
+  friend Pack select(const Mask& mask, const Pack& a, const Pack& b) { return Pack(xsimd::select(mask, a.v, b.v)); }
+
+  Batch v;
+};
+
+}  // namespace ursula
+
+namespace Eigen {
+template <class Isa>
+struct NumTraits<ursula::Pack<Isa>> : GenericNumTraits<ursula::Pack<Isa>> {
+  using Real = ursula::Pack<Isa>;
+  using NonInteger = Real;
+  using Literal = Real;
+  using Nested = Real;
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 0,
+    ReadCost = 1,
+    AddCost = 1,
+    MulCost = 1
+  };
+};
+}  // namespace Eigen

@@ -1,0 +1,253 @@
+#pragma once
+
+// Inverse and direct dynamics of a platform on legs of any kinds, each leg in its own plane. Internal.
+//
+//   τ = −Tᵀ(wⁿ + w^g + w^d)                                                       (37)
+// T is never formed. The links' loads are brought onto a leg's three coordinates, Q; what no motor drives is a force at
+// B by the rows of the leg's map, Σ Qⱼ kⱼ; with the platform's own that makes a wrench w at P:
+//   Bᵀλ = w,  τ = Q + A λ,  rows of B [Qb × n; n], n = A k                         (23), (24)
+// No angle is formed either. One pose, or as many as a pack has lanes.
+
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include "model/motion.h"
+
+#include "nocsolver/kernels/leg_forces.h"
+#include "nocsolver/kernels/leg_rates.h"
+#include "nocsolver/kernels/machine_model.h"
+#include "nocsolver/kernels/plane_mass.h"
+#include "nocsolver/kernels/solve6.h"
+
+namespace ursula::kernel {
+
+/// Motion of points that the platform carries: v + ω × r, a + (ω̇× + ω×ω×) r.
+template <class S>
+struct Carried {
+  explicit Carried(const Motion<S>& m) : motion(m) {
+    const Vector3<S>&w = m.omega, &e = m.omega_dot;
+    const S xx = w.x() * w.x(), yy = w.y() * w.y(), zz = w.z() * w.z();
+    const S xy = w.x() * w.y(), xz = w.x() * w.z(), yz = w.y() * w.z();
+    W << -(yy + zz), xy - e.z(), xz + e.y(), xy + e.z(), -(xx + zz), yz - e.x(), xz - e.y(), yz + e.x(), -(xx + yy);
+  }
+  Vector3<S> velocity(const Vector3<S>& r) const { return motion.p_dot + motion.omega.cross(r); }
+  Vector3<S> acceleration(const Vector3<S>& r) const { return motion.p_ddot + W * r; }
+
+  const Motion<S>& motion;
+  Matrix3<S> W;
+};
+
+/// From the leg's plane to B.
+template <class S>
+Vector3<S> toBase(const ChainModel<S>& model, const PlaneLeg<S>& leg, const Vector3<S>& v) {
+  const Vector3<S> f = fromPlane(leg, v);
+  return f.x() * model.x_hat + f.y() * model.u + f.z() * model.z_hat;
+}
+
+template <class S, class Guard>
+void place(const ChainModel<S>& model, const Vector3<S>& k, Guard& guard, PlaneLeg<S>& leg) {
+  switch (model.kind) {
+    case LegKind::URS:
+      return placeUrs(model, k, guard, leg);
+    case LegKind::UPS:
+      return placeUps(model, k, guard, leg);
+    case LegKind::RUS:
+      return placeRus(model, k, guard, leg);
+    case LegKind::PUS:
+      return placePus(model, k, guard, leg);
+  }
+}
+
+template <class S>
+void setRates(const ChainModel<S>& model, const Vector3<S>& h, const Vector3<S>& a, PlaneLeg<S>& leg) {
+  switch (model.kind) {
+    case LegKind::URS:
+      return ursRates(model, h, a, leg);
+    case LegKind::UPS:
+      return upsRates(model, h, a, leg);
+    case LegKind::RUS:
+      return rusRates(model, h, a, leg);
+    case LegKind::PUS:
+      return pusRates(model, h, a, leg);
+  }
+}
+
+template <class S>
+Vector3<S> linkForces(const ChainModel<S>& model, const Vector3<S>& base, const PlaneLeg<S>& leg) {
+  switch (model.kind) {
+    case LegKind::UPS:
+      return upsForces(model, base, leg);
+    case LegKind::RUS:
+      return rusForces(model, base, leg);
+    case LegKind::PUS:
+      return pusForces(model, base, leg);
+    case LegKind::URS:
+      break;
+  }
+  return ursForces(model, base, leg);
+}
+
+/// What drives against viscous and smoothed Coulomb friction of a leg's joints.
+template <class S>
+Vector3<S> friction(const ChainModel<S>& model, bool coulomb, const PlaneLeg<S>& leg) {
+  using std::tanh;
+  Vector3<S> Q;
+  for (std::size_t j = 0; j < 3; ++j) {
+    const S& rate = leg.rate(static_cast<Eigen::Index>(j));
+    S& force = Q(static_cast<Eigen::Index>(j));
+    force = model.viscous[j] * rate;
+    if (coulomb) force += model.coulomb[j] * tanh(rate / model.speed[j]);
+  }
+  return Q;
+}
+
+template <class S>
+void addForceAt(const Vector3<S>& arm, const Vector3<S>& f, Vector6<S>& wrench) {
+  wrench.template head<3>() += arm.cross(f);
+  wrench.template tail<3>() += f;
+}
+
+/// [moment about P; force], in B, that moves the platform as it moves against gravity. (38), (43c), (46c)
+template <class S>
+Vector6<S> platformLoad(const MachineModel<S>& machine, const Motion<S>& motion, const Carried<S>& carried) {
+  const Vector3<S> arm = motion.Q * machine.rho;
+  const Vector3<S> omega_M = motion.Q.transpose() * motion.omega;
+  const Vector3<S> n_M =
+      machine.I_M * (motion.Q.transpose() * motion.omega_dot) + omega_M.cross(Vector3<S>(machine.I_M * omega_M));
+  const Vector3<S> f = machine.mass * (carried.acceleration(arm) - machine.gravity);
+  Vector6<S> wrench;
+  wrench << motion.Q * n_M, S(0), S(0), S(0);
+  addForceAt<S>(arm, f, wrench);
+  return wrench;
+}
+
+template <class S>
+Matrix3<S> massMatrix(const ChainModel<S>& model, const PlaneLeg<S>& leg) {
+  switch (model.kind) {
+    case LegKind::UPS:
+      return upsMass(model, leg);
+    case LegKind::RUS:
+      return rusMass(model, leg);
+    case LegKind::PUS:
+      return pusMass(model, leg);
+    case LegKind::URS:
+      break;
+  }
+  return ursMass(model, leg);
+}
+
+/// A leg placed and moving, and what falls on its coordinates.
+template <class S>
+struct MovingLeg {
+  Vector3<S> Qb;
+  PlaneLeg<S> plane;
+  Vector3<S> Q;
+};
+
+template <class S, class Guard>
+void moveLeg(const MachineModel<S>& machine, std::size_t i, const Motion<S>& motion, const Carried<S>& carried,
+             Guard& guard, MovingLeg<S>& leg) {
+  const ChainModel<S>& model = machine.legs[i];
+  PlaneLeg<S>& plane = leg.plane;
+  leg.Qb = motion.Q * model.b;
+  place<S>(model, alongAxes<S>(model, motion.p - model.a + leg.Qb), guard, plane);
+  const Vector3<S> h = toPlane<S>(plane, alongAxes<S>(model, carried.velocity(leg.Qb)));
+  const Vector3<S> a = toPlane<S>(plane, alongAxes<S>(model, carried.acceleration(leg.Qb)));
+  setRates<S>(model, h, a, plane);
+  leg.Q = linkForces<S>(model, toPlane<S>(plane, machine.lift[i]), plane);
+  if (machine.rubs[i]) leg.Q += friction<S>(model, machine.coulomb[i], plane);
+}
+
+/// One leg's share: what falls on its motors, their rows, and what falls on the platform.
+template <class S>
+void addLeg(const MachineModel<S>& machine, std::size_t i, const MovingLeg<S>& leg, Vector6<S>& wrench,
+            Vector6<S>& Q_driven, Vector6<S>& A, System6<S>& system) {
+  const ChainModel<S>& model = machine.legs[i];
+  Vector3<S> f = Vector3<S>::Zero();
+  for (std::size_t j = 0; j < 3; ++j) {
+    const int motor = model.motor[j];
+    const S& share = leg.Q(static_cast<Eigen::Index>(j));
+    const Vector3<S>& k = leg.plane.k[j];
+    if (motor < 0) {
+      f += share * k;
+      continue;
+    }
+    Q_driven(motor) = share;
+    A(motor) = S(1) / k.cwiseAbs().sum();  // any size near k's will do
+    const Vector3<S> n = toBase<S>(model, leg.plane, A(motor) * k), moment = machine.per_length * leg.Qb.cross(n);
+    for (int row = 0; row < 3; ++row) {
+      system.a[row][motor] = moment(row);
+      system.a[3 + row][motor] = n(row);
+    }
+  }
+  addForceAt<S>(leg.Qb, toBase<S>(model, leg.plane, f), wrench);
+}
+
+/// Efforts for a motion, less `load` at P. `pivots` is told the smallest pivot over the largest. Guards are made for
+/// each leg by guardOf(i).
+template <class S, class GuardOf>
+Vector6<S> inverseDynamics(const MachineModel<S>& machine, const Motion<S>& motion, const Vector6<S>& load,
+                           const GuardOf& guardOf, S& pivots) {
+  const Carried<S> carried(motion);
+  Vector6<S> wrench = platformLoad<S>(machine, motion, carried) - load, efforts, A;
+  System6<S> system;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(machine.legs_in_all); ++i) {
+    MovingLeg<S> leg;
+    auto&& guard = guardOf(static_cast<int>(i));
+    moveLeg<S>(machine, i, motion, carried, guard, leg);
+    addLeg<S>(machine, i, leg, wrench, efforts, A, system);
+  }
+  for (int row = 0; row < 3; ++row) {
+    system.a[row][6] = machine.per_length * wrench(row);
+    system.a[3 + row][6] = wrench(3 + row);
+  }
+  pivots = solve(system);
+  for (int m = 0; m < motor_count; ++m) efforts(m) += A(m) * system.a[m][6];  // (37)
+  return efforts;
+}
+
+/// Adds Gᵀ M G, G = [−[Qb]×, 1]: a mass matrix at B, in B's frame, brought to P.
+template <class S>
+void addMassAt(const Vector3<S>& Qb, const Matrix3<S>& M_B, Matrix6<S>& M_P) {
+  Matrix3<S> arm_M;
+  for (int c = 0; c < 3; ++c) arm_M.col(c) = Qb.cross(Vector3<S>(M_B.col(c)));
+  for (int r = 0; r < 3; ++r) {
+    const Vector3<S> row = -Vector3<S>(arm_M.row(r).transpose()).cross(Qb);
+    for (int c = 0; c < 3; ++c) {
+      M_P(r, c) += row(c);
+      M_P(3 + r, c) += arm_M(c, r);
+      M_P(3 + r, 3 + c) += M_B(r, c);
+    }
+  }
+}
+
+/// The platform's twist rate [ω̇; p̈] under `efforts`; accelerations in `motion` are to be 0.
+template <class S, class GuardOf>
+Vector6<S> directDynamics(const MachineModel<S>& machine, const Motion<S>& motion, const Vector6<S>& efforts,
+                          const Vector6<S>& load, const GuardOf& guardOf) {
+  const Carried<S> carried(motion);
+  Vector6<S> wrench = load - platformLoad<S>(machine, motion, carried);
+  Matrix6<S> M_P = Matrix6<S>::Zero();
+  M_P.template topLeftCorner<3, 3>() = motion.Q * machine.I_M * motion.Q.transpose();
+  addMassAt<S>(motion.Q * machine.rho, machine.mass * Matrix3<S>::Identity(), M_P);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(machine.legs_in_all); ++i) {
+    const ChainModel<S>& model = machine.legs[i];
+    MovingLeg<S> leg;
+    auto&& guard = guardOf(static_cast<int>(i));
+    moveLeg<S>(machine, i, motion, carried, guard, leg);
+    const auto& k = leg.plane.k;
+    Vector3<S> f = Vector3<S>::Zero();
+    Matrix3<S> K;
+    for (std::size_t j = 0; j < 3; ++j) {
+      const int motor = model.motor[j];
+      const S& share = leg.Q(static_cast<Eigen::Index>(j));
+      f += (motor < 0 ? S(-share) : S(efforts(motor) - share)) * k[j];
+      K.col(static_cast<Eigen::Index>(j)) = toBase<S>(model, leg.plane, k[j]);
+    }
+    addForceAt<S>(leg.Qb, toBase<S>(model, leg.plane, f), wrench);
+    addMassAt<S>(leg.Qb, K * massMatrix<S>(model, leg.plane) * K.transpose(), M_P);
+  }
+  return solvePositive<S>(M_P, wrench);  // (36)
+}
+
+}  // namespace ursula::kernel
