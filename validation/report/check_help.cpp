@@ -32,7 +32,7 @@ const Entry entries[] = {
      "No number may differ; poses in 50 digits agree to the last.",
      "The scenario was changed after it was read, or the reader misunderstood it: the line names the first number."},
     {"kinematics.joint_angles", LimitFrom::measured,
-     "The solver's φ, ψ, θ, (1) to (19), are those that vector geometry finds for Simbody's loop.",
+     "The solver's φ, ψ, θ, (1) to (19), and d are those that vector geometry finds for Simbody's loop.",
      "The spread of both roads over the same machine turned, relabelled and rescaled, times ten.",
      "Check the zero and the sign of each angle, and which bend of the knee the solver takes."},
     {"kinematics.joint_rates", LimitFrom::measured,
