@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file
-/// The paper's closed forms: Solver for kinematics and dynamics, BatchDynamics for many poses at a time, DirectKinematics for all poses.
+/// The paper's closed forms: Solver for kinematics and dynamics, BatchDynamics for many poses at a time,
+/// DirectKinematics for all poses.
 
 #include "include/ursula/abi.h"
 #include "nocsolver/batch_dynamics.h"

@@ -144,7 +144,7 @@ std::vector<Defect> torqueDefects(const Manipulator& machine) {
                }),
       withLoad("load's point left out", [](Load& load, const M&) { load.point.setZero(); }),
       withLoad("load's point from the mass centre",
-               [](Load& load, const M& machine) { load.point += machine.platform().center_of_mass; }),
+               [](Load& load, const M& of) { load.point += of.platform().center_of_mass; }),
       withLoad("load's point off by 1e-9 m", [](Load& load, const M&) { load.point.z() += 1e-9; }),
       lateLoad()};
   if (!machine.isOfThePaper()) append(out, wrongMotors(machine));
