@@ -103,8 +103,8 @@ class Solver {
   }
 
   /// Efforts of the motors, N·m, or N where they push, conjugate to the rates of their coordinates, by (37); `load` is
-  /// an external wrench on the platform, [moment about P; force], in B. What `work` holds is for jacobians and the like
-  /// to find again.
+  /// an external wrench on the platform, [moment about P; force], in B. What `work` holds
+  /// afterwards is not said: ask inverseKinematics and jacobians for it.
   Vector6<S> inverseDynamics(const Motion<S>& motion, Workspace<S>& work,
                              const Vector6<S>& load = Vector6<S>::Zero()) const {
     return paper_ ? paper_->inverseDynamics(motion, work.paper, load) : dynamics_.inverseDynamics(motion, load);
