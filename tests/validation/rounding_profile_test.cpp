@@ -173,6 +173,7 @@ TEST(ProfileAt, hasAFloorThatIsASmallShareOfTheQuantity) {
   const Scenario scenario = scenarioOf("near-singular");
   const RoundingProfile profile(scenario, instants);
   double largest = 0;
+  int held = 0;
   for (int k = 0; k < instants; ++k) {
     Conditioning here = at(scenario, profile, k), even = here;
     even.kappa_B = even.kappa_legs = 1;
@@ -182,11 +183,13 @@ TEST(ProfileAt, hasAFloorThatIsASmallShareOfTheQuantity) {
     const double quantity = even.shape(Rounded::jacobian_rate) / std::numeric_limits<double>::epsilon();
     EXPECT_GT(here.levels[q], rounding_safety * spread);
     largest = std::max(largest, here.shape(Rounded::jacobian_rate) / even.shape(Rounded::jacobian_rate));
-    if (spread == *std::max_element(profile.spreads(Rounded::jacobian_rate).begin(),
-                                    profile.spreads(Rounded::jacobian_rate).end()))
-      EXPECT_LE(floor, 1.001 * floor_share * quantity);
+    const std::vector<double> spreads = profile.spreads(Rounded::jacobian_rate);
+    if (spread < *std::max_element(spreads.begin(), spreads.end())) continue;  // a neighbour's is larger
+    EXPECT_LE(floor, 1.001 * floor_share * quantity);
+    ++held;
   }
   EXPECT_GT(largest, 1e6) << "no worst case is met here";
+  EXPECT_GT(held, 0);
 }
 
 TEST(ProfileInstants, areAtMostThoseOfTheSamples) {

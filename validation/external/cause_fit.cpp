@@ -20,7 +20,7 @@ constexpr double difference_step = 1e-5;
 TorqueResidual picked(const TorqueResidual& data, std::size_t most) {
   const std::size_t rows = data.exact.size(), count = std::min(rows, most);
   TorqueResidual out;
-  out.one_motor_a_leg = data.one_motor_a_leg;
+  out.motors = data.motors;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t k = count == 1 ? 0 : i * (rows - 1) / (count - 1);
     out.motions.push_back(data.motions[k]);

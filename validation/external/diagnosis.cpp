@@ -56,49 +56,45 @@ double largestTorque(const ExternalTorques& torques) {
   return largest;
 }
 
-std::string amountText(const LegDeviation& leg, double largest_torque) {
+std::string amountText(const LegDeviation& leg, const char* unit, double largest_torque) {
   const std::string share =
       largest_torque > 0 ? fmt::format(" ({:.3g} % of the largest torque)", 100 * leg.largest / largest_torque) : "";
-  return fmt::format("by up to {:.4g} N m{}", leg.largest, share);
+  return fmt::format("by up to {:.4g} {}{}", leg.largest, unit, share);
 }
 
 /// Summary and details, empty where every leg is within its limits.
-Diagnosis deviationTexts(const ExternalTorques& torques) {
+Diagnosis deviationTexts(const MotorNames& motors, const ExternalTorques& torques) {
   const double largest_torque = largestTorque(torques);
   std::string legs, details, right;
   LegDeviation all;
+  int worst = 0;
   all.first = torques.file.rows();
   for (int i = 0; i < motor_count; ++i) {
     const LegDeviation leg = deviationOf(torques, i);
     std::string& names = leg.count == 0 ? right : legs;
     names += fmt::format("{}{}", names.empty() ? "" : ", ", i + 1);
     if (leg.count == 0) continue;
-    details += fmt::format("{}leg {} {} at t = {:.6g} s, beyond its limit {}", details.empty() ? "" : "; ", i + 1,
-                           amountText(leg, largest_torque), torques.file.t[leg.worst],
+    details += fmt::format("{}{} {} at t = {:.6g} s, beyond its limit {}", details.empty() ? "" : "; ", motors(i),
+                           amountText(leg, motors.unit(i), largest_torque), torques.file.t[leg.worst],
                            intervalText(torques, leg.count, leg.first, leg.last));
-    if (leg.largest > all.largest) all.largest = leg.largest, all.worst = leg.worst;
+    if (leg.largest > all.largest) all.largest = leg.largest, all.worst = leg.worst, worst = i;
     all.first = std::min(all.first, leg.first);
     all.last = std::max(all.last, leg.last);
     all.count = std::max(all.count, leg.count);
   }
   if (legs.empty()) return {};
-  const std::string who = right.empty() ? "all legs" : (legs.size() == 1 ? "leg " : "legs ") + legs;
-  return {fmt::format("{} {}, {}", who, amountText(all, largest_torque),
+  const std::string kind = motors.kind();
+  const std::string who = right.empty() ? "all " + kind + "s" : kind + (legs.size() == 1 ? " " : "s ") + legs;
+  return {fmt::format("{} {}, {}", who, amountText(all, motors.unit(worst), largest_torque),
                       intervalText(torques, all.count, all.first, all.last)),
-          details + (right.empty() ? "; no leg is right" : "; within their limits: " + right), ""};
+          details + (right.empty() ? "; no " + kind + " is right" : "; within their limits: " + right), ""};
 }
 
 /// At most `most` instants, evenly picked: an explanation needs no more.
-bool hasOneMotorALeg(const Manipulator& machine) {
-  for (int k = 0; k < motor_count; ++k)
-    if (machine.motors()[static_cast<std::size_t>(k)].leg != k) return false;
-  return true;
-}
-
 TorqueResidual residualOf(const Scenario& scenario, const ExternalTorques& torques) {
   constexpr std::size_t most = 1000;
   TorqueResidual out;
-  out.one_motor_a_leg = hasOneMotorALeg(*scenario.manipulator);
+  out.motors = motorNames(*scenario.manipulator);
   const std::size_t rows = torques.file.rows(), count = std::min(rows, most);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t k = count == 1 ? 0 : i * (rows - 1) / (count - 1);
@@ -202,7 +198,7 @@ std::string causeText(const Scenario& scenario, const ExternalTorques& torques) 
 }  // namespace
 
 Diagnosis diagnose(const Scenario& scenario, const ExternalTorques& torques) {
-  Diagnosis out = deviationTexts(torques);
+  Diagnosis out = deviationTexts(motorNames(*scenario.manipulator), torques);
   if (!out.summary.empty()) out.cause = causeText(scenario, torques);
   return out;
 }

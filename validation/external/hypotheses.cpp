@@ -80,14 +80,14 @@ std::optional<Hypothesis> scaled(const TorqueResidual& data) {
   return out;
 }
 
-/// What a fit of one number for each leg found, with the legs in which it matters.
+/// What a fit of one number for each motor found, with those in which it matters.
 Hypothesis perLeg(const TorqueResidual& data, const Vector6d& fitted, const Rows& predicted,
-                  const std::function<std::string(double)>& show, const std::string& what) {
+                  const std::function<std::string(double, int)>& show, const std::string& what) {
   std::string text;
   std::vector<int> legs;
   for (int i = 0; i < motor_count; ++i)
     if (std::abs(fitted(i)) > 0.01 * fitted.cwiseAbs().maxCoeff()) legs.push_back(i);
-  for (int i : legs) text += fmt::format("{}{} on leg {}", text.empty() ? "" : ", ", show(fitted(i)), i + 1);
+  for (int i : legs) text += fmt::format("{}{} on {}", text.empty() ? "" : ", ", show(fitted(i), i), data.motors(i));
   return hypothesis(data, what + text, minus(data.residual, predicted, 1), motor_count);
 }
 
@@ -95,7 +95,8 @@ std::optional<Hypothesis> offsets(const TorqueResidual& data) {
   Vector6d mean = Vector6d::Zero();
   for (const Vector6d& row : data.residual) mean += row / static_cast<double>(data.residual.size());
   return perLeg(
-      data, mean, Rows(data.residual.size(), mean), [](double value) { return fmt::format("{:+.6g} N m", value); },
+      data, mean, Rows(data.residual.size(), mean),
+      [&data](double value, int i) { return fmt::format("{:+.6g} {}", value, data.motors.unit(i)); },
       "a constant offset: ");
 }
 
@@ -109,10 +110,20 @@ std::optional<Hypothesis> gains(const TorqueResidual& data) {
   Rows predicted;
   for (const Vector6d& row : data.exact) predicted.push_back(c.cwiseProduct(row));
   return perLeg(
-      data, c, predicted, [](double value) { return "a factor of " + factorText(value); }, "");
+      data, c, predicted, [](double value, int) { return "a factor of " + factorText(value); }, "");
 }
 
 }  // namespace
+
+MotorNames motorNames(const Manipulator& machine) {
+  MotorNames out;
+  for (int k = 0; k < motor_count; ++k) {
+    const Motor& motor = machine.motors()[static_cast<std::size_t>(k)];
+    out.one_a_leg = out.one_a_leg && motor.leg == k;
+    out.slides[static_cast<std::size_t>(k)] = motor.slides();
+  }
+  return out;
+}
 
 double TorqueResidual::norm() const { return ursula::norm(residual); }
 

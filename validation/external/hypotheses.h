@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <string>
 #include <vector>
@@ -8,13 +9,24 @@
 
 namespace ursula {
 
+/// How motors are called in texts.
+struct MotorNames {
+  bool one_a_leg = true;  ///< so that a motor can be called by its leg
+  std::array<bool, motor_count> slides = {};
+
+  const char* kind() const { return one_a_leg ? "leg" : "motor"; }
+  std::string operator()(int k) const { return std::string(kind()) + ' ' + std::to_string(k + 1); }
+  const char* unit(int k) const { return slides[static_cast<std::size_t>(k)] ? "N" : "N m"; }
+};
+MotorNames motorNames(const Manipulator& machine);
+
 /// Torques that differ from the exact ones: what an explanation has to account for.
 struct TorqueResidual {
   std::vector<Motion<double>> motions;
   std::vector<Vector6d> exact;     ///< of the NOC, N·m
   std::vector<Vector6d> residual;  ///< torques on trial less exact, N·m
   std::vector<Vector6d> limit;     ///< by how much right ones may differ: rounding and the file's digits, N·m
-  bool one_motor_a_leg = true;     ///< so that a column can be called by its leg
+  MotorNames motors;
 
   double norm() const;
   /// The largest share of its limit that an entry of `left`, one row for each instant, has.

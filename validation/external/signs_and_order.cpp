@@ -29,7 +29,7 @@ std::string legNames(const std::vector<int>& legs) {
 }
 
 /// What a column is of.
-const char* each(const TorqueResidual& data) { return data.one_motor_a_leg ? "leg" : "motor"; }
+const char* each(const TorqueResidual& data) { return data.motors.kind(); }
 
 std::string plural(const TorqueResidual& data, const std::vector<int>& of) {
   return fmt::format("{}{} ", each(data), of.size() == 1 ? "" : "s");
@@ -113,8 +113,8 @@ std::optional<Hypothesis> signsAndOrder(const TorqueResidual& data) {
   if (text.empty() && flipped.empty()) return std::nullopt;  // a unit alone is a scale's
   if (!flipped.empty()) text += text.empty() ? "" : ", and ";
   if (flipped.size() == motor_count)
-    text += data.one_motor_a_leg ? "the sign of every leg flipped (torques about +u, not conjugate to phi)"
-                                 : "the sign of every motor flipped";
+    text += data.motors.one_a_leg ? "the sign of every leg flipped (torques about +u, not conjugate to phi)"
+                                  : "the sign of every motor flipped";
   else if (!flipped.empty())
     text += "the sign of " + plural(data, flipped) + legNames(flipped) + " flipped";
   if (unit != 1) text += fmt::format(", and {}", unitOf(unit));

@@ -134,6 +134,16 @@ KinematicAnswer answerIn(const Presentation& to, const Presentation& back, Kinem
   return answer;
 }
 
+/// Motors of both sorts are compared by their numbers: on a machine of any usual size its own unit of length is then
+/// 1 m, so that a newton counts as a newton metre and a tolerance means what it says.
+double lengthUnit(const Manipulator& machine, double length) {
+  constexpr double usual = 64;
+  const Motors& motors = machine.motors();
+  const auto pushing = std::count_if(motors.begin(), motors.end(), [](const Motor& motor) { return motor.slides(); });
+  const bool mixed = pushing > 0 && pushing < motor_count;
+  return mixed && length > 1 / usual && length < usual ? 1 : powerOfTwo(length);
+}
+
 }  // namespace
 
 Scenario relocated(const Scenario& scenario, const Vector3d& origin) {
@@ -175,7 +185,7 @@ Presentation naturalPresentation(const Scenario& scenario) {
   Presentation out(*scenario.manipulator);
   out.origin = roundOrigin(*scenario.manipulator, length);
   out.units.efforts = effortsOf(*scenario.manipulator);
-  out.units.length = powerOfTwo(length);
+  out.units.length = lengthUnit(*scenario.manipulator, length);
   out.units.mass = powerOfTwo(massOf(scenario.manipulator->parameters()));
   out.units.time = powerOfTwo(acceleration > 0 ? std::sqrt(length / acceleration) : scenario.trajectory->duration());
   return out;
