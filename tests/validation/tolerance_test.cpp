@@ -69,6 +69,27 @@ TEST(Tolerance, addsBothParts) {
   EXPECT_EQ(judgedWith(1e-3, EffortTolerance{0.4 * largest / effort, 0.4 * largest}).verdict, Verdict::fail);
 }
 
+/// Three legs of 0.5 m with two motors each, one that turns and one that pushes: newtons and newton metres alike are
+/// what they are.
+TEST(Tolerance, isPlainNumbersForMotorsOfBothSorts) {
+  const auto judged = [](int motor, double error, double absolute) {
+    Scenario scenario = scenarioOf("three-legs");
+    scenario.tolerance = EffortTolerance{0, absolute};
+    Subject subject = solverOf(scenario);
+    subject.rebuilt = nullptr;
+    subject.torques = [right = subject.torques, motor, error](const Motion<double>& motion) {
+      return Vector6d(right(motion) + error * Vector6d::Unit(motor));
+    };
+    ValidationOptions quick;
+    quick.ladder = quick.reactions = quick.budget = false;
+    return validate(scenario, subject, quick).verdict;
+  };
+  for (const int motor : {0, 1}) {
+    EXPECT_EQ(judged(motor, 4.9, 5), Verdict::pass) << "motor " << motor + 1;
+    EXPECT_EQ(judged(motor, 5.1, 5), Verdict::fail) << "motor " << motor + 1;
+  }
+}
+
 TEST(Tolerance, noNumberIsNeverWithin) {
   const ValidationResult result = judgedWith(std::nan(""), EffortTolerance{1, 1e9});
   EXPECT_EQ(result.verdict, Verdict::fail);
