@@ -1,6 +1,5 @@
 #include "nocsolver/batch_dynamics.h"
 
-#include <array>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "nocsolver/fast_dynamics.h"
+#include "nocsolver/kernels/functions_of.h"
 #include "nocsolver/kernels/machine_fields.h"
 
 namespace ursula {
@@ -15,22 +15,6 @@ namespace {
 
 static_assert(sizeof(Motion<double>) == 25 * sizeof(double), "a batch reads motions as rows of numbers");
 static_assert(sizeof(Vector6d) == 6 * sizeof(double));
-
-std::optional<kernel::BatchFunctions> functionsOf(InstructionSet set) {
-#ifdef URSULA_X86
-  switch (set) {
-    case InstructionSet::sse2:
-      return kernel::batchBySse2();
-    case InstructionSet::avx2:
-      return kernel::batchByAvx2();
-    case InstructionSet::avx512:
-      return kernel::batchByAvx512();
-    case InstructionSet::portable:
-      break;
-  }
-#endif
-  return std::nullopt;
-}
 
 /// One answer after the other.
 template <class F>
@@ -56,38 +40,9 @@ void oneByOne(std::size_t count, Vector6d* out, PoseFault* faults, const F& answ
 
 }  // namespace
 
-bool isSupported(InstructionSet set) {
-#ifdef URSULA_X86
-  switch (set) {
-    case InstructionSet::avx2:
-      return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-    case InstructionSet::avx512:
-      return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-             __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
-    case InstructionSet::sse2:
-    case InstructionSet::portable:
-      break;
-  }
-  return true;
-#else
-  return set == InstructionSet::portable;
-#endif
-}
-
-InstructionSet bestInstructionSet() {
-  for (const InstructionSet set : {InstructionSet::avx512, InstructionSet::avx2, InstructionSet::sse2})
-    if (isSupported(set)) return set;
-  return InstructionSet::portable;
-}
-
-const char* nameOf(InstructionSet set) {
-  constexpr std::array<const char*, 4> names = {"portable", "SSE2", "AVX2", "AVX-512"};
-  return names[static_cast<std::size_t>(set)];
-}
-
 struct BatchDynamics::Impl {
   Impl(const Manipulator& manipulator, InstructionSet with)
-      : set(with), single(manipulator), functions(functionsOf(with)) {
+      : set(with), single(manipulator, with), functions(kernel::functionsOf(with)) {
     if (!functions) return;
     const auto model = kernel::machineModel<double>(manipulator);
     std::vector<double> numbers;

@@ -1,32 +1,14 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 
 #include "model/manipulator.h"
 #include "model/motion.h"
+#include "nocsolver/instruction_set.h"
+#include "nocsolver/pose_fault.h"
 
 namespace ursula {
-
-/// What a batch is computed with. Which of them the processor has is found when the program runs.
-enum class InstructionSet { portable, sse2, avx2, avx512 };
-
-bool isSupported(InstructionSet set);
-/// The widest that is supported.
-InstructionSet bestInstructionSet();
-/// "AVX-512".
-const char* nameOf(InstructionSet set);
-
-/// Why a pose of a batch has no answer; of several, the first on the way from leg 1 on.
-enum class PoseFault : std::uint8_t {
-  none,
-  out_of_reach,
-  end_of_stroke,
-  point_on_axis,
-  stretched_leg,
-  singular_jacobian
-};
 
 /// FastDynamics over many poses: the same formulas, as many poses at a time as a register has lanes. A pose without an
 /// answer is flagged, its numbers are NaN, and no other is touched by it.

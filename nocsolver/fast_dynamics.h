@@ -1,9 +1,12 @@
 #pragma once
 
+#include <type_traits>
+
 #include "model/manipulator.h"
 #include "model/motion.h"
 #include "nocsolver/errors.h"
 #include "nocsolver/kernels/machine_model.h"
+#include "nocsolver/legs_at_once.h"
 
 namespace ursula {
 
@@ -11,11 +14,15 @@ namespace ursula {
 /// is formed, and nothing is kept. The same formulas make a batch (batch_dynamics.h). PaperSolver, equation by
 /// equation, and ChainSolver, joint by joint, are its witnesses: tests hold them together to rounding.
 ///
+/// In doubles, six legs of one kind with a motor each on the same coordinate are computed at once, one in each lane of
+/// a register. Numbers then differ in the last bits between instruction sets.
+///
 /// Immutable: threads share it. Nothing here allocates. Throws as Solver does.
 template <class S>
 class FastDynamics {
  public:
-  explicit FastDynamics(const Manipulator& manipulator);
+  /// `set` is to be supported, or std::invalid_argument is thrown; scalars other than double have no use for it.
+  explicit FastDynamics(const Manipulator& manipulator, InstructionSet set = bestInstructionSet());
 
   /// Efforts of the motors by (37), N·m, or N where they push; `load` is an external wrench on the platform, [moment
   /// about P; force], in B.
@@ -26,7 +33,12 @@ class FastDynamics {
                             const Vector6<S>& load = Vector6<S>::Zero()) const;
 
  private:
+  struct LegByLeg {
+    LegByLeg(const kernel::MachineModel<S>&, InstructionSet) {}
+  };
+
   kernel::MachineModel<S> machine_;
+  std::conditional_t<std::is_same_v<S, double>, kernel::LegsAtOnce, LegByLeg> at_once_;
 };
 
 extern template class FastDynamics<double>;

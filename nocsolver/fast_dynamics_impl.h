@@ -10,11 +10,17 @@
 namespace ursula {
 
 template <class S>
-FastDynamics<S>::FastDynamics(const Manipulator& manipulator) : machine_(kernel::machineModel<S>(manipulator)) {}
+FastDynamics<S>::FastDynamics(const Manipulator& manipulator, InstructionSet set)
+    : machine_(kernel::machineModel<S>(manipulator)), at_once_(machine_, set) {}
 
 template <class S>
 Vector6<S> FastDynamics<S>::inverseDynamics(const Motion<S>& motion, const Vector6<S>& load) const {
   S pivots;
+  if constexpr (std::is_same_v<S, double>)
+    if (const auto efforts = at_once_.inverseDynamics(motion, load, pivots)) {
+      kernel::requireRegularB(pivots, motion.t);
+      return *efforts;
+    }
   const auto guardOf = [&motion](int leg) { return kernel::LegGuard<S>{leg, motion.t}; };
   const Vector6<S> efforts = kernel::inverseDynamics<S>(machine_, motion, load, guardOf, pivots);
   kernel::requireRegularB(pivots, motion.t);
@@ -24,6 +30,8 @@ Vector6<S> FastDynamics<S>::inverseDynamics(const Motion<S>& motion, const Vecto
 template <class S>
 Vector6<S> FastDynamics<S>::directDynamics(const Motion<S>& motion, const Vector6<S>& efforts,
                                            const Vector6<S>& load) const {
+  if constexpr (std::is_same_v<S, double>)
+    if (const auto rates = at_once_.directDynamics(motion, efforts, load)) return *rates;
   Motion<S> unaccelerated = motion;
   unaccelerated.omega_dot.setZero();
   unaccelerated.p_ddot.setZero();

@@ -4,12 +4,10 @@
 // they share with others are plain numbers: no function of doubles may be made here, or the linker might take it for
 // all.
 
+#include <array>
 #include <cstdint>
 
-#include "nocsolver/kernels/batch_functions.h"
-#include "nocsolver/kernels/machine_fields.h"
-#include "nocsolver/kernels/pack.h"
-#include "nocsolver/kernels/plane_dynamics.h"
+#include "nocsolver/kernels/leg_lanes.h"
 
 namespace ursula::kernel {
 
@@ -28,51 +26,55 @@ void pivot(System6<Pack<Isa>>& system, int k) {
   }
 }
 
-/// The first fault of each lane, as its number.
+/// Rows become columns: in each of log₂ n rounds, lane by lane, the first half is laced with the second.
 template <class Isa>
-class BatchGuard {
- public:
-  using P = Pack<Isa>;
-  using Mask = typename P::Mask;
-
-  void reach(const P& inside, const P&, const P&) { require(inside >= P(0.0), 1); }
-  void stroke(const P& d, const P& least, const P& most) { require((d > least) & (d < most), 2); }
-  void offAxis(const P& r, const P& size) { require(r > root_eps * size, 3); }
-  void regular(const P& sine, const char*) { require(abs(sine) > P(root_eps), 4); }
-  void regularB(const P& pivots) { require(pivots > P(16 * root_eps * root_eps), 5); }
-  const P& faults() const { return faults_; }
-
- private:
-  static constexpr double root_eps = 0x1p-26;
-  void require(const Mask& holds, double fault) { faults_ = select(holds | (faults_ > P(0.0)), faults_, P(fault)); }
-  P faults_ = P(0.0);
-};
-
-/// Where one number of each pose is, `stride` doubles apart.
-template <class Isa>
-Pack<Isa> gathered(const double* first, std::size_t stride, int lanes) {
-  alignas(64) double values[Pack<Isa>::lanes];
-  for (int lane = 0; lane < Pack<Isa>::lanes; ++lane)
-    values[lane] = first[stride * static_cast<std::size_t>(lane < lanes ? lane : lanes - 1)];
-  return Pack<Isa>(Pack<Isa>::Batch::load_aligned(values));
+void transpose(Pack<Isa>* rows) {
+  constexpr int n = Pack<Isa>::lanes;
+  using Vector = typename Pack<Isa>::Batch::register_type;
+  for (int round = 1; round < n; round *= 2) {
+    Vector laced[n];
+    for (int k = 0; k < n / 2; ++k) {
+      const Vector a = rows[k].v, b = rows[k + n / 2].v;
+      if constexpr (n == 8) {
+        laced[2 * k] = __builtin_shufflevector(a, b, 0, 8, 1, 9, 2, 10, 3, 11);
+        laced[2 * k + 1] = __builtin_shufflevector(a, b, 4, 12, 5, 13, 6, 14, 7, 15);
+      } else if constexpr (n == 4) {
+        laced[2 * k] = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+        laced[2 * k + 1] = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+      } else {
+        static_assert(n == 2);
+        laced[2 * k] = __builtin_shufflevector(a, b, 0, 2);
+        laced[2 * k + 1] = __builtin_shufflevector(a, b, 1, 3);
+      }
+    }
+    for (int k = 0; k < n; ++k) rows[k].v = laced[k];
+  }
 }
 
-template <class Isa>
-void scatter(const Pack<Isa>& value, double* first, std::size_t stride, int lanes) {
-  alignas(64) double values[Pack<Isa>::lanes];
-  value.v.store_aligned(values);
-  for (int lane = 0; lane < lanes; ++lane) first[stride * static_cast<std::size_t>(lane)] = values[lane];
+/// `columns` numbers of each pose, a multiple of the lanes; from pose to pose they are `stride` doubles apart.
+template <class Isa, int columns>
+std::array<Pack<Isa>, columns> columnsAt(const double* from, std::size_t stride) {
+  constexpr int n = Pack<Isa>::lanes;
+  static_assert(columns % n == 0);
+  std::array<Pack<Isa>, columns> out;
+  for (int first = 0; first < columns; first += n) {
+    for (int lane = 0; lane < n; ++lane)
+      out[first + lane].v = Pack<Isa>::Batch::load_unaligned(from + stride * static_cast<std::size_t>(lane) + first);
+    transpose<Isa>(&out[first]);
+  }
+  return out;
 }
 
 /// The numbers of Motion<double> from t on, and of a six-vector.
 constexpr std::size_t motion_stride = 25, vector_stride = 6;
 
 template <class Isa>
-Motion<Pack<Isa>> motionsAt(const double* from, int lanes) {
+Motion<Pack<Isa>> motionsAt(const double* from) {
   Motion<Pack<Isa>> out;
-  const double* next = from + 1;  // the instant is of no interest
-  const auto read = [&](auto& matrix) {
-    for (Eigen::Index k = 0; k < matrix.size(); ++k) matrix.data()[k] = gathered<Isa>(next++, motion_stride, lanes);
+  const auto columns = columnsAt<Isa, 24>(from + 1, motion_stride);  // the instant is of no interest
+  const Pack<Isa>* next = columns.data();
+  const auto read = [&next](auto& matrix) {
+    for (Eigen::Index k = 0; k < matrix.size(); ++k) matrix.data()[k] = *next++;
   };
   read(out.p);
   read(out.Q);
@@ -84,47 +86,55 @@ Motion<Pack<Isa>> motionsAt(const double* from, int lanes) {
 }
 
 template <class Isa>
-Vector6<Pack<Isa>> vectorsAt(const double* from, int lanes) {
-  Vector6<Pack<Isa>> out;
-  for (int k = 0; k < 6; ++k) out(k) = from != nullptr ? gathered<Isa>(from + k, vector_stride, lanes) : Pack<Isa>(0.0);
+Vector6<Pack<Isa>> vectorsAt(const double* from) {
+  constexpr int n = Pack<Isa>::lanes;
+  Vector6<Pack<Isa>> out = Vector6<Pack<Isa>>::Zero();
+  if (from == nullptr) return out;
+  alignas(64) double columns[6][n];
+  for (int lane = 0; lane < n; ++lane)
+    for (int k = 0; k < 6; ++k) columns[k][lane] = *from++;
+  for (int k = 0; k < 6; ++k) out(k).v = Pack<Isa>::Batch::load_aligned(columns[k]);
   return out;
 }
 
 template <class Isa>
-void put(const Vector6<Pack<Isa>>& values, const Pack<Isa>& faults, double* out, std::uint8_t* flags, int lanes) {
+void put(const Vector6<Pack<Isa>>& values, const Pack<Isa>& faults, double* out, std::uint8_t* flags) {
+  constexpr int n = Pack<Isa>::lanes;
   const Pack<Isa> none(0.0), nan = none / none;
-  for (int k = 0; k < 6; ++k) scatter<Isa>(select(faults > none, nan, values(k)), out + k, vector_stride, lanes);
-  double numbers[Pack<Isa>::lanes];
-  scatter<Isa>(faults, numbers, 1, lanes);
-  for (int lane = 0; lane < lanes; ++lane) flags[lane] = static_cast<std::uint8_t>(numbers[lane]);
+  alignas(64) double columns[6][n], numbers[n];
+  for (int k = 0; k < 6; ++k) select(faults > none, nan, values(k)).v.store_aligned(columns[k]);
+  faults.v.store_aligned(numbers);
+  for (int lane = 0; lane < n; ++lane) {
+    for (int k = 0; k < 6; ++k) *out++ = columns[k][lane];
+    flags[lane] = static_cast<std::uint8_t>(numbers[lane]);
+  }
 }
 
 template <class Isa>
 __attribute__((flatten)) void inverseBlock(const MachineModel<Pack<Isa>>& machine, const double* motions,
-                                           const double* loads, int lanes, double* out, std::uint8_t* flags) {
+                                           const double* loads, double* out, std::uint8_t* flags) {
   using P = Pack<Isa>;
   BatchGuard<Isa> guard;
   P pivots;
   const auto guardOf = [&guard](int) -> BatchGuard<Isa>& { return guard; };
   const Vector6<P> efforts =
-      inverseDynamics<P>(machine, motionsAt<Isa>(motions, lanes), vectorsAt<Isa>(loads, lanes), guardOf, pivots);
+      inverseDynamics<P>(machine, motionsAt<Isa>(motions), vectorsAt<Isa>(loads), guardOf, pivots);
   guard.regularB(pivots);
-  put<Isa>(efforts, guard.faults(), out, flags, lanes);
+  put<Isa>(efforts, guard.faults(), out, flags);
 }
 
 template <class Isa>
 __attribute__((flatten)) void directBlock(const MachineModel<Pack<Isa>>& machine, const double* motions,
-                                          const double* efforts, const double* loads, int lanes, double* out,
+                                          const double* efforts, const double* loads, double* out,
                                           std::uint8_t* flags) {
   using P = Pack<Isa>;
   BatchGuard<Isa> guard;
   const auto guardOf = [&guard](int) -> BatchGuard<Isa>& { return guard; };
-  Motion<P> motion = motionsAt<Isa>(motions, lanes);
+  Motion<P> motion = motionsAt<Isa>(motions);
   motion.omega_dot.setZero();
   motion.p_ddot.setZero();
-  const Vector6<P> rates =
-      directDynamics<P>(machine, motion, vectorsAt<Isa>(efforts, lanes), vectorsAt<Isa>(loads, lanes), guardOf);
-  put<Isa>(rates, guard.faults(), out, flags, lanes);
+  const Vector6<P> rates = directDynamics<P>(machine, motion, vectorsAt<Isa>(efforts), vectorsAt<Isa>(loads), guardOf);
+  put<Isa>(rates, guard.faults(), out, flags);
 }
 
 /// The machine in every lane.
@@ -141,37 +151,53 @@ struct BatchMachine {
   static void destroy(void* machine) { delete static_cast<BatchMachine*>(machine); }
 
   static void inverse(const void* machine, const BatchSpans& spans) {
-    each(spans, [&](std::size_t at, int lanes) {
-      inverseBlock<Isa>(of(machine), spans.motions + motion_stride * at, from(spans.loads, at), lanes,
-                        spans.out + vector_stride * at, spans.faults + at);
+    each(spans, [machine](const BatchSpans& block) {
+      inverseBlock<Isa>(of(machine), block.motions, block.loads, block.out, block.faults);
     });
   }
   static void direct(const void* machine, const BatchSpans& spans) {
-    each(spans, [&](std::size_t at, int lanes) {
-      directBlock<Isa>(of(machine), spans.motions + motion_stride * at, spans.efforts + vector_stride * at,
-                       from(spans.loads, at), lanes, spans.out + vector_stride * at, spans.faults + at);
+    each(spans, [machine](const BatchSpans& block) {
+      directBlock<Isa>(of(machine), block.motions, block.efforts, block.loads, block.out, block.faults);
     });
   }
 
  private:
+  static constexpr auto lanes = static_cast<std::size_t>(Pack<Isa>::lanes);
+
   static const MachineModel<Pack<Isa>>& of(const void* machine) {
     return static_cast<const BatchMachine*>(machine)->model;
   }
-  static const double* from(const double* vectors, std::size_t at) {
-    return vectors != nullptr ? vectors + vector_stride * at : nullptr;
-  }
+  /// Block by block; a last one that is not full is filled with its first pose.
   template <class F>
-  static void each(const BatchSpans& spans, const F& block) {
-    constexpr auto lanes = static_cast<std::size_t>(Pack<Isa>::lanes);
-    for (std::size_t at = 0; at < spans.count; at += lanes)
-      block(at, static_cast<int>(spans.count - at < lanes ? spans.count - at : lanes));
+  static void each(BatchSpans spans, const F& block) {
+    for (; spans.count >= lanes; spans = spansFrom(spans, lanes)) block(spans);
+    if (spans.count == 0) return;
+    double motions[motion_stride * lanes], efforts[vector_stride * lanes], loads[vector_stride * lanes];
+    double out[vector_stride * lanes];
+    std::uint8_t faults[lanes];
+    fill(spans.motions, motion_stride, spans.count, motions);
+    if (spans.efforts != nullptr) fill(spans.efforts, vector_stride, spans.count, efforts);
+    if (spans.loads != nullptr) fill(spans.loads, vector_stride, spans.count, loads);
+    block(BatchSpans{lanes, motions, efforts, spans.loads != nullptr ? loads : nullptr, out, faults});
+    for (std::size_t k = 0; k < vector_stride * spans.count; ++k) spans.out[k] = out[k];
+    for (std::size_t k = 0; k < spans.count; ++k) spans.faults[k] = faults[k];
+  }
+  static BatchSpans spansFrom(const BatchSpans& spans, std::size_t n) {
+    const auto vectors = [n](const double* at) { return at != nullptr ? at + vector_stride * n : nullptr; };
+    return {spans.count - n,      spans.motions + motion_stride * n, vectors(spans.efforts),
+            vectors(spans.loads), spans.out + vector_stride * n,     spans.faults + n};
+  }
+  static void fill(const double* from, std::size_t stride, std::size_t count, double* to) {
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      for (std::size_t k = 0; k < stride; ++k) *to++ = from[stride * (lane < count ? lane : 0) + k];
   }
 };
 
 template <class Isa>
 constexpr BatchFunctions batchFunctions() {
   using M = BatchMachine<Isa>;
-  return {&M::make, &M::destroy, &M::inverse, &M::direct};
+  using L = LegLanes<Isa>;
+  return {&M::make, &M::destroy, &M::inverse, &M::direct, &L::make, &L::destroy, &L::inverse, &L::direct};
 }
 
 }  // namespace ursula::kernel

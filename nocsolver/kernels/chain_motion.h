@@ -10,6 +10,7 @@
 
 #include "nocsolver/chain_state.h"
 #include "nocsolver/kernels/dynamics.h"
+#include "nocsolver/kernels/with_kind.h"
 #include "nocsolver/reading.h"
 
 namespace ursula::kernel {
@@ -19,22 +20,6 @@ struct ChainOf {
   static constexpr int first = rowOf(kind).joints_of_proximal;  ///< joints before the proximal link
   static constexpr bool slides(int j) { return ursula::slides(rowOf(kind).coordinates[static_cast<std::size_t>(j)]); }
 };
-
-/// Calls f with the leg's kind as a constant.
-template <class F>
-auto withKind(LegKind kind, const F& f) {
-  switch (kind) {
-    case LegKind::UPS:
-      return f(std::integral_constant<LegKind, LegKind::UPS>{});
-    case LegKind::RUS:
-      return f(std::integral_constant<LegKind, LegKind::RUS>{});
-    case LegKind::PUS:
-      return f(std::integral_constant<LegKind, LegKind::PUS>{});
-    case LegKind::URS:
-      break;
-  }
-  return f(std::integral_constant<LegKind, LegKind::URS>{});
-}
 
 /// Motion of a body's frame: of a point and of what turns with it.
 template <class S, class R>

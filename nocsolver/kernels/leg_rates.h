@@ -12,7 +12,7 @@ namespace ursula::kernel {
 
 /// h = [−φ̇ z, ḋ C − d ψ̇ S, ḋ S + d ψ̇ C], z = d S.
 template <class S>
-void upsRates(const ChainModel<S>&, const Vector3<S>& h, const Vector3<S>& a, PlaneLeg<S>& leg) {
+void setRates(Ups, const PlaneModel<S>&, const Vector3<S>& h, const Vector3<S>& a, PlaneLeg<S>& leg) {
   const S &C = leg.C_1, &S_ = leg.S_1, &per_z = leg.k[0].x();
   const S &psi_y = leg.k[1].y(), &psi_z = leg.k[1].z();
   const S phi = h.x() * per_z, psi = h.y() * psi_y + h.z() * psi_z, d_dot = h.y() * C + h.z() * S_;
@@ -26,7 +26,7 @@ void upsRates(const ChainModel<S>&, const Vector3<S>& h, const Vector3<S>& a, Pl
 
 /// h = [−ψ̇ z, ḋ − z θ̇, y θ̇], y = s cos θ, z = s sin θ.
 template <class S>
-void pusRates(const ChainModel<S>&, const Vector3<S>& h, const Vector3<S>& a, PlaneLeg<S>& leg) {
+void setRates(Pus, const PlaneModel<S>&, const Vector3<S>& h, const Vector3<S>& a, PlaneLeg<S>& leg) {
   const S &per_z = leg.k[1].x(), &per_y = leg.k[2].z(), &z = leg.z, &y = leg.y;
   const S psi = h.x() * per_z, theta = h.z() * per_y, d_dot = h.y() + z * theta;
   const S theta_2 = theta * theta;
@@ -41,7 +41,7 @@ void pusRates(const ChainModel<S>&, const Vector3<S>& h, const Vector3<S>& a, Pl
 ///   h = [−l φ̇ cos ψ − p c, c θ̇, l φ̇ sin ψ − k_y θ̇]
 ///   a = [−l (φ̈ cos ψ + φ̇² sin ψ) − ṗ c − 2 p ċ, c θ̈ − k_y θ̇², l (φ̈ sin ψ − φ̇² cos ψ) + c̈ − p² c]
 template <class S>
-void rusRates(const ChainModel<S>& model, const Vector3<S>& h, const Vector3<S>& a, PlaneLeg<S>& leg) {
+void setRates(Rus, const PlaneModel<S>& model, const Vector3<S>& h, const Vector3<S>& a, PlaneLeg<S>& leg) {
   const S &cos_psi = leg.C_1, &sin_psi = leg.S_1, &l = model.l, &c = leg.z, &k_y = leg.y;
   const S &per_c = leg.k[2].y(), &per_lever = leg.k[0].z();
   const S theta = h.y() * per_c, phi = (h.z() + k_y * theta) * per_lever, p = -(h.x() + l * phi * cos_psi) * per_c;
@@ -57,7 +57,7 @@ void rusRates(const ChainModel<S>& model, const Vector3<S>& h, const Vector3<S>&
 /// With e = [0, C₁, S₁], s = [0, C₂, S₂], χ̇ = ψ̇ + θ̇:  h = [−φ̇ z, −l ψ̇ S₁ − s χ̇ S₂, l ψ̇ C₁ + s χ̇ C₂],
 /// z = l S₁ + s S₂.
 template <class S>
-void ursRates(const ChainModel<S>& model, const Vector3<S>& h, const Vector3<S>& a, PlaneLeg<S>& leg) {
+void setRates(Urs, const PlaneModel<S>& model, const Vector3<S>& h, const Vector3<S>& a, PlaneLeg<S>& leg) {
   const S &C_1 = leg.C_1, &S_1 = leg.S_1, &C_2 = leg.C_2, &S_2 = leg.S_2, &per_z = leg.k[0].x();
   const auto solve = [&leg](const S& y, const S& z, S& psi, S& theta) {
     psi = leg.k[1].y() * y + leg.k[1].z() * z;

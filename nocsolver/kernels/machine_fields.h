@@ -14,20 +14,21 @@ void forEachNumber(Model& machine, const F& f) {
     for (Eigen::Index k = 0; k < matrix.size(); ++k) f(matrix.data()[k]);
   };
   f(machine.mass);
-  f(machine.length);
   f(machine.per_length);
   all(machine.rho);
   all(machine.gravity);
   all(machine.I_M);
   for (std::size_t i = 0; i < static_cast<std::size_t>(machine.legs_in_all); ++i) {
-    all(machine.lift[i]);
     auto& leg = machine.legs[i];
+    all(leg.lift);
     all(leg.a);
     all(leg.b);
     all(leg.x_hat);
     all(leg.u);
     all(leg.z_hat);
-    for (auto* number : {&leg.l, &leg.s, &leg.knee, &leg.rho, &leg.sigma, &leg.mass_1, &leg.mass_2}) f(*number);
+    for (auto* number : {&leg.l, &leg.s, &leg.knee, &leg.rho, &leg.sigma, &leg.mass_1, &leg.mass_2, &leg.per_l,
+                         &leg.per_s, &leg.per_sum})
+      f(*number);
     all(leg.I_1);
     all(leg.I_2);
     for (auto* three : {&leg.viscous, &leg.coulomb, &leg.speed})
@@ -42,9 +43,10 @@ MachineShape shapeOf(const MachineModel<S>& machine) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(out.legs); ++i) {
     out.kinds[i] = machine.legs[i].kind;
     out.motors[i] = machine.legs[i].motor;
+    out.rubs[i] = machine.legs[i].rubs;
+    out.rubs_dry[i] = machine.legs[i].rubs_dry;
+    out.principal[i] = machine.legs[i].principal;
   }
-  out.rubs = machine.rubs;
-  out.coulomb = machine.coulomb;
   return out;
 }
 
@@ -54,9 +56,10 @@ void copyShape(const MachineShape& shape, MachineModel<S>& to) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(shape.legs); ++i) {
     to.legs[i].kind = shape.kinds[i];
     to.legs[i].motor = shape.motors[i];
+    to.legs[i].rubs = shape.rubs[i];
+    to.legs[i].rubs_dry = shape.rubs_dry[i];
+    to.legs[i].principal = shape.principal[i];
   }
-  to.rubs = shape.rubs;
-  to.coulomb = shape.coulomb;
 }
 
 }  // namespace ursula::kernel

@@ -5,17 +5,16 @@
 #include <array>
 
 #include "nocsolver/chain_solver.h"
+#include "nocsolver/kernels/plane_model.h"
 
 namespace ursula::kernel {
 
 /// What does not change with the motion.
 template <class S>
 struct MachineModel {
-  std::array<ChainModel<S>, leg_count> legs;
-  std::array<Vector3<S>, leg_count> lift;     ///< −g along each leg's F̂
-  std::array<bool, leg_count> rubs, coulomb;  ///< legs with friction, and with some that is not viscous
+  std::array<PlaneModel<S>, leg_count> legs;
   int legs_in_all = 0;
-  S mass, length, per_length;
+  S mass, per_length;  ///< the platform's; 1 over a length of the machine's size
   Vector3<S> rho, gravity;
   Matrix3<S> I_M;
 };
@@ -23,6 +22,23 @@ struct MachineModel {
 template <class S>
 Vector3<S> alongAxes(const ChainModel<S>& leg, const Vector3<S>& v) {
   return {leg.x_hat.dot(v), leg.u.dot(v), leg.z_hat.dot(v)};
+}
+
+template <class S>
+PlaneModel<S> planeModel(const ChainModel<S>& leg, const Vector3<S>& gravity) {
+  PlaneModel<S> out;
+  static_cast<ChainModel<S>&>(out) = leg;
+  out.lift = -alongAxes<S>(leg, gravity);
+  out.per_l = S(1) / leg.l;
+  out.per_s = S(1) / leg.s;
+  out.per_sum = S(1) / (leg.l + leg.s);
+  out.rubs_dry = out.rubs = false;
+  for (std::size_t j = 0; j < 3; ++j) {
+    out.rubs_dry = out.rubs_dry || leg.coulomb[j] != S(0);
+    out.rubs = out.rubs || out.rubs_dry || leg.viscous[j] != S(0);
+  }
+  out.principal = leg.I_1.isDiagonal(S(0)) && leg.I_2.isDiagonal(S(0));
+  return out;
 }
 
 template <class S>
@@ -34,17 +50,9 @@ MachineModel<S> machineModel(const Manipulator& manipulator) {
   out.rho = manipulator.platform().center_of_mass.template cast<S>();
   out.I_M = manipulator.platform().inertia.template cast<S>();
   out.gravity = chain.gravity();
-  out.length = chain.length();
-  out.per_length = S(1) / out.length;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(out.legs_in_all); ++i) {
-    const ChainModel<S>& leg = out.legs[i] = chain.leg(static_cast<int>(i));
-    out.lift[i] = -alongAxes<S>(leg, out.gravity);
-    out.coulomb[i] = out.rubs[i] = false;
-    for (std::size_t j = 0; j < 3; ++j) {
-      out.coulomb[i] = out.coulomb[i] || leg.coulomb[j] != S(0);
-      out.rubs[i] = out.rubs[i] || out.coulomb[i] || leg.viscous[j] != S(0);
-    }
-  }
+  out.per_length = S(1) / chain.length();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(out.legs_in_all); ++i)
+    out.legs[i] = planeModel<S>(chain.leg(static_cast<int>(i)), out.gravity);
   return out;
 }
 

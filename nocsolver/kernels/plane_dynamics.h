@@ -44,59 +44,17 @@ Vector3<S> toBase(const ChainModel<S>& model, const PlaneLeg<S>& leg, const Vect
   return f.x() * model.x_hat + f.y() * model.u + f.z() * model.z_hat;
 }
 
-template <class S, class Guard>
-void place(const ChainModel<S>& model, const Vector3<S>& k, Guard& guard, PlaneLeg<S>& leg) {
-  switch (model.kind) {
-    case LegKind::URS:
-      return placeUrs(model, k, guard, leg);
-    case LegKind::UPS:
-      return placeUps(model, k, guard, leg);
-    case LegKind::RUS:
-      return placeRus(model, k, guard, leg);
-    case LegKind::PUS:
-      return placePus(model, k, guard, leg);
-  }
-}
-
+/// What drives against viscous and smoothed Coulomb friction of a leg's joints. Unlike frictionForce of dynamics.h it
+/// has no branch on the rate, which a pack could not take.
 template <class S>
-void setRates(const ChainModel<S>& model, const Vector3<S>& h, const Vector3<S>& a, PlaneLeg<S>& leg) {
-  switch (model.kind) {
-    case LegKind::URS:
-      return ursRates(model, h, a, leg);
-    case LegKind::UPS:
-      return upsRates(model, h, a, leg);
-    case LegKind::RUS:
-      return rusRates(model, h, a, leg);
-    case LegKind::PUS:
-      return pusRates(model, h, a, leg);
-  }
-}
-
-template <class S>
-Vector3<S> linkForces(const ChainModel<S>& model, const Vector3<S>& base, const PlaneLeg<S>& leg) {
-  switch (model.kind) {
-    case LegKind::UPS:
-      return upsForces(model, base, leg);
-    case LegKind::RUS:
-      return rusForces(model, base, leg);
-    case LegKind::PUS:
-      return pusForces(model, base, leg);
-    case LegKind::URS:
-      break;
-  }
-  return ursForces(model, base, leg);
-}
-
-/// What drives against viscous and smoothed Coulomb friction of a leg's joints.
-template <class S>
-Vector3<S> friction(const ChainModel<S>& model, bool coulomb, const PlaneLeg<S>& leg) {
+Vector3<S> friction(const PlaneModel<S>& model, const PlaneLeg<S>& leg) {
   using std::tanh;
   Vector3<S> Q;
   for (std::size_t j = 0; j < 3; ++j) {
     const S& rate = leg.rate(static_cast<Eigen::Index>(j));
     S& force = Q(static_cast<Eigen::Index>(j));
     force = model.viscous[j] * rate;
-    if (coulomb) force += model.coulomb[j] * tanh(rate / model.speed[j]);
+    if (model.rubs_dry) force += model.coulomb[j] * tanh(rate / model.speed[j]);
   }
   return Q;
 }
@@ -121,21 +79,6 @@ Vector6<S> platformLoad(const MachineModel<S>& machine, const Motion<S>& motion,
   return wrench;
 }
 
-template <class S>
-Matrix3<S> massMatrix(const ChainModel<S>& model, const PlaneLeg<S>& leg) {
-  switch (model.kind) {
-    case LegKind::UPS:
-      return upsMass(model, leg);
-    case LegKind::RUS:
-      return rusMass(model, leg);
-    case LegKind::PUS:
-      return pusMass(model, leg);
-    case LegKind::URS:
-      break;
-  }
-  return ursMass(model, leg);
-}
-
 /// A leg placed and moving, and what falls on its coordinates.
 template <class S>
 struct MovingLeg {
@@ -143,26 +86,41 @@ struct MovingLeg {
   PlaneLeg<S> plane;
   Vector3<S> Q;
 };
+template <class S>
+using MovingLegs = std::array<MovingLeg<S>, leg_count>;
 
-template <class S, class Guard>
-void moveLeg(const MachineModel<S>& machine, std::size_t i, const Motion<S>& motion, const Carried<S>& carried,
-             Guard& guard, MovingLeg<S>& leg) {
-  const ChainModel<S>& model = machine.legs[i];
-  PlaneLeg<S>& plane = leg.plane;
-  leg.Qb = motion.Q * model.b;
-  place<S>(model, alongAxes<S>(model, motion.p - model.a + leg.Qb), guard, plane);
-  const Vector3<S> h = toPlane<S>(plane, alongAxes<S>(model, carried.velocity(leg.Qb)));
-  const Vector3<S> a = toPlane<S>(plane, alongAxes<S>(model, carried.acceleration(leg.Qb)));
-  setRates<S>(model, h, a, plane);
-  leg.Q = linkForces<S>(model, toPlane<S>(plane, machine.lift[i]), plane);
-  if (machine.rubs[i]) leg.Q += friction<S>(model, machine.coulomb[i], plane);
+/// All legs pass a stage before any enters the next: a processor works on several at a time, since none waits for
+/// another's roots and quotients. Guards are made for each leg by guardOf(i).
+template <class S, class GuardOf>
+void moveLegs(const MachineModel<S>& machine, const Motion<S>& motion, const Carried<S>& carried,
+              const GuardOf& guardOf, MovingLegs<S>& legs) {
+  const auto each = [&](const auto& stage) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(machine.legs_in_all); ++i)
+      withKind(machine.legs[i].kind, [&](auto kind) { stage(kind, i, machine.legs[i], legs[i]); });
+  };
+  each([&](auto kind, std::size_t i, const PlaneModel<S>& model, MovingLeg<S>& leg) {
+    auto&& guard = guardOf(static_cast<int>(i));
+    leg.Qb = motion.Q * model.b;
+    place(kind, model, alongAxes<S>(model, motion.p - model.a + leg.Qb), guard, leg.plane);
+  });
+  each([&](auto kind, std::size_t, const PlaneModel<S>& model, MovingLeg<S>& leg) {
+    const Vector3<S> h = toPlane<S>(leg.plane, alongAxes<S>(model, carried.velocity(leg.Qb)));
+    const Vector3<S> a = toPlane<S>(leg.plane, alongAxes<S>(model, carried.acceleration(leg.Qb)));
+    setRates(kind, model, h, a, leg.plane);
+  });
+  each([&](auto kind, std::size_t, const PlaneModel<S>& model, MovingLeg<S>& leg) {
+    const Vector3<S> base = toPlane<S>(leg.plane, model.lift);
+    leg.Q = model.principal ? linkForces<true>(kind, model, base, leg.plane)
+                            : linkForces<false>(kind, model, base, leg.plane);
+    if (model.rubs) leg.Q += friction<S>(model, leg.plane);
+  });
 }
 
 /// One leg's share: what falls on its motors, their rows, and what falls on the platform.
 template <class S>
 void addLeg(const MachineModel<S>& machine, std::size_t i, const MovingLeg<S>& leg, Vector6<S>& wrench,
             Vector6<S>& Q_driven, Vector6<S>& A, System6<S>& system) {
-  const ChainModel<S>& model = machine.legs[i];
+  const PlaneModel<S>& model = machine.legs[i];
   Vector3<S> f = Vector3<S>::Zero();
   for (std::size_t j = 0; j < 3; ++j) {
     const int motor = model.motor[j];
@@ -173,7 +131,7 @@ void addLeg(const MachineModel<S>& machine, std::size_t i, const MovingLeg<S>& l
       continue;
     }
     Q_driven(motor) = share;
-    A(motor) = S(1) / k.cwiseAbs().sum();  // any size near k's will do
+    A(motor) = leg.plane.lever[j];  // rows of B of like size; any near k's will do
     const Vector3<S> n = toBase<S>(model, leg.plane, A(motor) * k), moment = machine.per_length * leg.Qb.cross(n);
     for (int row = 0; row < 3; ++row) {
       system.a[row][motor] = moment(row);
@@ -183,20 +141,17 @@ void addLeg(const MachineModel<S>& machine, std::size_t i, const MovingLeg<S>& l
   addForceAt<S>(leg.Qb, toBase<S>(model, leg.plane, f), wrench);
 }
 
-/// Efforts for a motion, less `load` at P. `pivots` is told the smallest pivot over the largest. Guards are made for
-/// each leg by guardOf(i).
+/// Efforts for a motion, less `load` at P. `pivots` is told the smallest pivot over the largest.
 template <class S, class GuardOf>
 Vector6<S> inverseDynamics(const MachineModel<S>& machine, const Motion<S>& motion, const Vector6<S>& load,
                            const GuardOf& guardOf, S& pivots) {
   const Carried<S> carried(motion);
   Vector6<S> wrench = platformLoad<S>(machine, motion, carried) - load, efforts, A;
   System6<S> system;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(machine.legs_in_all); ++i) {
-    MovingLeg<S> leg;
-    auto&& guard = guardOf(static_cast<int>(i));
-    moveLeg<S>(machine, i, motion, carried, guard, leg);
-    addLeg<S>(machine, i, leg, wrench, efforts, A, system);
-  }
+  MovingLegs<S> legs;
+  moveLegs<S>(machine, motion, carried, guardOf, legs);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(machine.legs_in_all); ++i)
+    addLeg<S>(machine, i, legs[i], wrench, efforts, A, system);
   for (int row = 0; row < 3; ++row) {
     system.a[row][6] = machine.per_length * wrench(row);
     system.a[3 + row][6] = wrench(3 + row);
@@ -221,32 +176,46 @@ void addMassAt(const Vector3<S>& Qb, const Matrix3<S>& M_B, Matrix6<S>& M_P) {
   }
 }
 
+/// The platform's share of what moves it and of M_P.
+template <class S>
+void addPlatform(const MachineModel<S>& machine, const Motion<S>& motion, const Carried<S>& carried, Vector6<S>& wrench,
+                 Matrix6<S>& M_P) {
+  wrench -= platformLoad<S>(machine, motion, carried);
+  M_P.template topLeftCorner<3, 3>() += motion.Q * machine.I_M * motion.Q.transpose();
+  addMassAt<S>(motion.Q * machine.rho, machine.mass * Matrix3<S>::Identity(), M_P);
+}
+
+/// One leg's share of what moves the platform and of M_P.
+template <class S>
+void addLegMass(const MachineModel<S>& machine, std::size_t i, const MovingLeg<S>& leg, const Vector6<S>& efforts,
+                Vector6<S>& wrench, Matrix6<S>& M_P) {
+  const PlaneModel<S>& model = machine.legs[i];
+  const auto& k = leg.plane.k;
+  Vector3<S> f = Vector3<S>::Zero();
+  Matrix3<S> K;
+  for (std::size_t j = 0; j < 3; ++j) {
+    const int motor = model.motor[j];
+    const S& share = leg.Q(static_cast<Eigen::Index>(j));
+    f += (motor < 0 ? S(-share) : S(efforts(motor) - share)) * k[j];
+    K.col(static_cast<Eigen::Index>(j)) = toBase<S>(model, leg.plane, k[j]);
+  }
+  addForceAt<S>(leg.Qb, toBase<S>(model, leg.plane, f), wrench);
+  const Matrix3<S> M = withKind(model.kind, [&](auto kind) { return massMatrix(kind, model, leg.plane); });
+  addMassAt<S>(leg.Qb, K * M * K.transpose(), M_P);
+}
+
 /// The platform's twist rate [ω̇; p̈] under `efforts`; accelerations in `motion` are to be 0.
 template <class S, class GuardOf>
 Vector6<S> directDynamics(const MachineModel<S>& machine, const Motion<S>& motion, const Vector6<S>& efforts,
                           const Vector6<S>& load, const GuardOf& guardOf) {
   const Carried<S> carried(motion);
-  Vector6<S> wrench = load - platformLoad<S>(machine, motion, carried);
+  Vector6<S> wrench = load;
   Matrix6<S> M_P = Matrix6<S>::Zero();
-  M_P.template topLeftCorner<3, 3>() = motion.Q * machine.I_M * motion.Q.transpose();
-  addMassAt<S>(motion.Q * machine.rho, machine.mass * Matrix3<S>::Identity(), M_P);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(machine.legs_in_all); ++i) {
-    const ChainModel<S>& model = machine.legs[i];
-    MovingLeg<S> leg;
-    auto&& guard = guardOf(static_cast<int>(i));
-    moveLeg<S>(machine, i, motion, carried, guard, leg);
-    const auto& k = leg.plane.k;
-    Vector3<S> f = Vector3<S>::Zero();
-    Matrix3<S> K;
-    for (std::size_t j = 0; j < 3; ++j) {
-      const int motor = model.motor[j];
-      const S& share = leg.Q(static_cast<Eigen::Index>(j));
-      f += (motor < 0 ? S(-share) : S(efforts(motor) - share)) * k[j];
-      K.col(static_cast<Eigen::Index>(j)) = toBase<S>(model, leg.plane, k[j]);
-    }
-    addForceAt<S>(leg.Qb, toBase<S>(model, leg.plane, f), wrench);
-    addMassAt<S>(leg.Qb, K * massMatrix<S>(model, leg.plane) * K.transpose(), M_P);
-  }
+  addPlatform<S>(machine, motion, carried, wrench, M_P);
+  MovingLegs<S> legs;
+  moveLegs<S>(machine, motion, carried, guardOf, legs);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(machine.legs_in_all); ++i)
+    addLegMass<S>(machine, i, legs[i], efforts, wrench, M_P);
   return solvePositive<S>(M_P, wrench);  // (36)
 }
 

@@ -13,9 +13,8 @@
 
 #include <array>
 
-#include "model/leg_kind.h"
-#include "model/scalar.h"
-#include "nocsolver/chain_state.h"
+#include "nocsolver/kernels/plane_model.h"
+#include "nocsolver/kernels/with_kind.h"
 
 namespace ursula::kernel {
 
@@ -25,6 +24,7 @@ struct PlaneLeg {
   S C_1, S_1, C_2, S_2;  ///< directions of the links in the plane; of a carriage (1, 0), of a crank cos ψ, sin ψ
   S y, z;                ///< of B from A in the plane; of RUS the rod's part, from R
   std::array<Vector3<S>, 3> k;    ///< rows of the map
+  std::array<S, 3> lever;         ///< 1/|kⱼ|, or near it in size
   Vector3<S> rate, acceleration;  ///< of the coordinates
   S d;                            ///< of UPS and PUS, m
 };
@@ -47,12 +47,12 @@ void turnToB(const S& k_x, const S& k_z, const S& per_r, PlaneLeg<S>& out) {
 
 /// `k` is AB along F̂; `guard` is told what must hold (leg_guard.h).
 template <class S, class Guard>
-void placeUps(const ChainModel<S>& leg, const Vector3<S>& k, Guard& guard, PlaneLeg<S>& out) {
+void place(Ups, const PlaneModel<S>& leg, const Vector3<S>& k, Guard& guard, PlaneLeg<S>& out) {
   using std::sqrt;
   const S r2 = k.x() * k.x() + k.z() * k.z(), r = sqrt(r2), d = sqrt(r2 + k.y() * k.y());
   guard.stroke(d, leg.s, leg.s + leg.l);
   guard.offAxis(r, leg.l + leg.s);
-  const S per_r = S(1) / r, per_d = S(1) / d;
+  const S per_both = S(1) / (r * d), per_r = d * per_both, per_d = r * per_both;  // dividing is dear
   turnToB(k.x(), k.z(), per_r, out);
   out.C_1 = out.C_2 = k.y() * per_d;
   out.S_1 = out.S_2 = r * per_d;
@@ -61,40 +61,45 @@ void placeUps(const ChainModel<S>& leg, const Vector3<S>& k, Guard& guard, Plane
   out.d = d;
   out.k = {Vector3<S>(-per_r, S(0), S(0)), Vector3<S>(S(0), -out.S_1 * per_d, out.C_1 * per_d),
            Vector3<S>(S(0), out.C_1, out.S_1)};
+  out.lever = {r, d, S(1)};
 }
 
 template <class S, class Guard>
-void placePus(const ChainModel<S>& leg, const Vector3<S>& k, Guard& guard, PlaneLeg<S>& out) {
+void place(Pus, const PlaneModel<S>& leg, const Vector3<S>& k, Guard& guard, PlaneLeg<S>& out) {
+  using std::abs;
   using std::sqrt;
   const S r2 = k.x() * k.x() + k.z() * k.z(), r = sqrt(r2), square = (leg.s - r) * (leg.s + r);
   guard.reach(square, r2, leg.s);
   guard.offAxis(r, leg.s);
-  const S p = leg.knee * sqrt(square), per_r = S(1) / r, per_p = S(1) / p, per_s = S(1) / leg.s;
-  guard.regular(p * per_s, "has its rod across its rail, |cos theta|");
+  const S p = leg.knee * sqrt(square), per_both = S(1) / (r * p), per_r = p * per_both, per_p = r * per_both;
+  guard.regular(p * leg.per_s, "has its rod across its rail, |cos theta|");
   turnToB(k.x(), k.z(), per_r, out);
   out.C_1 = S(1);
   out.S_1 = S(0);
-  out.C_2 = p * per_s;
-  out.S_2 = r * per_s;
+  out.C_2 = p * leg.per_s;
+  out.S_2 = r * leg.per_s;
   out.y = p;
   out.z = r;
   out.d = k.y() - p;
   out.k = {Vector3<S>(S(0), S(1), r * per_p), Vector3<S>(-per_r, S(0), S(0)), Vector3<S>(S(0), S(0), per_p)};
+  out.lever = {abs(out.C_2), r, abs(p)};
 }
 
 template <class S, class Guard>
-void placeUrs(const ChainModel<S>& leg, const Vector3<S>& k, Guard& guard, PlaneLeg<S>& out) {
+void place(Urs, const PlaneModel<S>& leg, const Vector3<S>& k, Guard& guard, PlaneLeg<S>& out) {
+  using std::abs;
   using std::sqrt;
   const S r2 = k.x() * k.x() + k.z() * k.z(), r = sqrt(r2), q2 = r2 + k.y() * k.y();
   // 1 ∓ cos θ without the cancellation of (4a) near a stretched or folded leg.
-  const S difference = leg.l - leg.s, sum = leg.l + leg.s, per_ls = S(1) / (leg.l * leg.s), half = S(0.5) * per_ls;
+  const S difference = leg.l - leg.s, sum = leg.l + leg.s, per_ls = leg.per_l * leg.per_s, half = S(0.5) * per_ls;
   const S one_minus = (q2 - difference * difference) * half, one_plus = (sum * sum - q2) * half;
   guard.reach(one_minus, q2, difference);
   guard.reach(one_plus, q2, sum);
   guard.offAxis(r, sum);
   const S cos_theta = S(0.5) * (one_plus - one_minus), sin_theta = leg.knee * sqrt(one_minus * one_plus);
   guard.regular(sin_theta, "is stretched or folded, |sin theta|");
-  const S per_r = S(1) / r, per_q2 = S(1) / q2, per_sine = S(1) / sin_theta;
+  const S r_sine = r * sin_theta, per_all = S(1) / (r_sine * q2);
+  const S per_q2 = r_sine * per_all, per_r = sin_theta * q2 * per_all, per_sine = r * q2 * per_all;
   turnToB(k.x(), k.z(), per_r, out);
   // The first link from AB, by the turn that has sine s sin θ and cosine l − s cos θ, both over q.
   const S across = leg.s * sin_theta * per_q2, along = (leg.l - leg.s * cos_theta) * per_q2;
@@ -108,14 +113,17 @@ void placeUrs(const ChainModel<S>& leg, const Vector3<S>& k, Guard& guard, Plane
   const S psi = -leg.s * per_ls * per_sine, theta = per_ls * per_sine;
   out.k = {Vector3<S>(-per_r, S(0), S(0)), Vector3<S>(S(0), psi * out.C_2, psi * out.S_2),
            Vector3<S>(S(0), theta * k.y(), theta * r)};
+  const S size = abs(leg.l * sin_theta);
+  out.lever = {r, size, size * leg.s * (r + abs(k.y())) * per_q2};
 }
 
 template <class S, class Guard>
-void placeRus(const ChainModel<S>& leg, const Vector3<S>& k, Guard& guard, PlaneLeg<S>& out) {
+void place(Rus, const PlaneModel<S>& leg, const Vector3<S>& k, Guard& guard, PlaneLeg<S>& out) {
+  using std::abs;
   using std::sqrt;
   const S r2 = k.x() * k.x() + k.z() * k.z(), c2 = (leg.s - k.y()) * (leg.s + k.y()), c = sqrt(c2);
   guard.reach(c2, k.y() * k.y(), leg.s);
-  const S per_c = S(1) / c, per_s = S(1) / leg.s, half = S(0.5) / leg.l * per_c;
+  const S per_c = S(1) / c, half = S(0.5) * leg.per_l * per_c;
   const S difference = leg.l - c, sum = leg.l + c;
   const S one_plus = (r2 - difference * difference) * half, one_minus = (sum * sum - r2) * half;
   guard.reach(one_minus, r2, sum);
@@ -124,21 +132,24 @@ void placeRus(const ChainModel<S>& leg, const Vector3<S>& k, Guard& guard, Plane
   guard.offAxis(r, leg.l + leg.s);
   const S cos_psi = S(0.5) * (one_plus - one_minus), sin_psi = leg.knee * sqrt(one_minus * one_plus);
   guard.regular(sin_psi, "is stretched or folded, |sin psi|");
-  guard.regular(c * per_s, "has its rod along the axis of its crank, cos theta");
+  guard.regular(c * leg.per_s, "has its rod along the axis of its crank, cos theta");
   // The rod's plane from B's, turned on by what the crank leaves: sine l sin ψ, cosine c + l cos ψ, both over r.
-  const S per_r2 = S(1) / r2, on_sine = leg.l * sin_psi * per_r2, on_cosine = (c + leg.l * cos_psi) * per_r2;
+  const S per_both = S(1) / (r2 * sin_psi), per_r2 = sin_psi * per_both, per_sine = r2 * per_both;
+  const S on_sine = leg.l * sin_psi * per_r2, on_cosine = (c + leg.l * cos_psi) * per_r2;
   out.sine = on_sine * k.z() - on_cosine * k.x();
   out.cosine = on_cosine * k.z() + on_sine * k.x();
   out.C_1 = cos_psi;
   out.S_1 = sin_psi;
-  out.C_2 = k.y() * per_s;
-  out.S_2 = c * per_s;
+  out.C_2 = k.y() * leg.per_s;
+  out.S_2 = c * leg.per_s;
   out.y = k.y();
   out.z = c;
   out.d = S(0);
-  const S per_sine = S(1) / sin_psi, phi = per_sine / leg.l, slope = k.y() * per_c;
+  const S phi = per_sine * leg.per_l, slope = k.y() * per_c;
   const S psi = -per_c * cos_psi * per_sine - phi;
   out.k = {Vector3<S>(S(0), slope * phi, phi), Vector3<S>(-per_c, slope * psi, psi), Vector3<S>(S(0), per_c, S(0))};
+  const S size = abs(leg.l * sin_psi) * c * leg.per_s;
+  out.lever = {size, c * size * leg.per_sum, c};
 }
 
 }  // namespace ursula::kernel

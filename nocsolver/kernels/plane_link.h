@@ -34,8 +34,20 @@ struct LinkLoad {
   S n_x, n_y, f_x, f_r, f_t;
 };
 
+/// I ω̇ + ω × I ω; of `principal` axes I is diagonal.
+template <bool principal, class S>
+Vector3<S> momentFor(const Matrix3<S>& I, const Vector3<S>& omega, const Vector3<S>& omega_dot) {
+  if constexpr (principal) {
+    const S &x = omega.x(), &y = omega.y(), &z = omega.z(), &I_x = I(0, 0), &I_y = I(1, 1), &I_z = I(2, 2);
+    return {I_x * omega_dot.x() + (I_z - I_y) * (y * z), I_y * omega_dot.y() + (I_x - I_z) * (z * x),
+            I_z * omega_dot.z() + (I_y - I_x) * (x * y)};
+  } else {
+    return I * omega_dot + omega.cross(Vector3<S>(I * omega));
+  }
+}
+
 /// `base` is ä_O − g along x, y, z of the plane.
-template <class S>
+template <bool principal, class S>
 LinkLoad<S> linkLoad(const S& mass, const Matrix3<S>& I, const OnLink<S>& at, const Rates<S>& alpha,
                      const Vector3<S>& base) {
   const S &C = at.C, &S_ = at.S_, &r = at.r, &chi = at.chi.dot;
@@ -48,7 +60,7 @@ LinkLoad<S> linkLoad(const S& mass, const Matrix3<S>& I, const OnLink<S>& at, co
   const Vector3<S> omega(chi, -alpha.dot * S_, -alpha.dot * C);                                // (b)
   const Vector3<S> omega_dot(at.chi.ddot, -alpha.ddot * S_ - alpha.dot * chi * C,
                              -alpha.ddot * C + alpha.dot * chi * S_);  // (b)
-  const Vector3<S> n = I * omega_dot + omega.cross(Vector3<S>(I * omega));
+  const Vector3<S> n = momentFor<principal, S>(I, omega, omega_dot);
   out.n_x = n.x();
   out.n_y = S_ * n.y() + C * n.z();
   return out;

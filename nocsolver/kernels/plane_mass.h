@@ -28,7 +28,7 @@ Matrix3<S> symmetric(const S& a, const S& ab, const S& ac, const S& b, const S& 
 
 /// In φ, ψ, d.
 template <class S>
-Matrix3<S> upsMass(const ChainModel<S>& model, const PlaneLeg<S>& leg) {
+Matrix3<S> massMatrix(Ups, const PlaneModel<S>& model, const PlaneLeg<S>& leg) {
   const auto a = crossInertia<S>(model.I_1, leg.C_1, leg.S_1), b = crossInertia<S>(model.I_2, leg.C_1, leg.S_1);
   const S inner = leg.d - model.s + model.sigma;
   const S mu = model.mass_1 * model.rho * model.rho + model.mass_2 * inner * inner;
@@ -37,7 +37,7 @@ Matrix3<S> upsMass(const ChainModel<S>& model, const PlaneLeg<S>& leg) {
 
 /// In d, ψ, θ.
 template <class S>
-Matrix3<S> pusMass(const ChainModel<S>& model, const PlaneLeg<S>& leg) {
+Matrix3<S> massMatrix(Pus, const PlaneModel<S>& model, const PlaneLeg<S>& leg) {
   const auto rod = crossInertia<S>(model.I_2, leg.C_2, leg.S_2);
   const S first = model.mass_2 * model.sigma, mu = first * model.sigma;
   return symmetric<S>(model.mass_1 + model.mass_2, S(0), -first * leg.S_2, rod.J + mu * leg.S_2 * leg.S_2, -rod.P,
@@ -46,7 +46,7 @@ Matrix3<S> pusMass(const ChainModel<S>& model, const PlaneLeg<S>& leg) {
 
 /// In φ, ψ, θ.
 template <class S>
-Matrix3<S> rusMass(const ChainModel<S>& model, const PlaneLeg<S>& leg) {
+Matrix3<S> massMatrix(Rus, const PlaneModel<S>& model, const PlaneLeg<S>& leg) {
   const auto rod = crossInertia<S>(model.I_2, leg.C_2, leg.S_2);
   const S first = model.mass_2 * model.sigma, mu = first * model.sigma;
   const S J = rod.J + mu * leg.S_2 * leg.S_2, e = first * model.l * leg.S_2 * leg.C_1;
@@ -57,7 +57,7 @@ Matrix3<S> rusMass(const ChainModel<S>& model, const PlaneLeg<S>& leg) {
 
 /// In φ, ψ, θ.
 template <class S>
-Matrix3<S> ursMass(const ChainModel<S>& model, const PlaneLeg<S>& leg) {
+Matrix3<S> massMatrix(Urs, const PlaneModel<S>& model, const PlaneLeg<S>& leg) {
   const auto a = crossInertia<S>(model.I_1, leg.C_1, leg.S_1), b = crossInertia<S>(model.I_2, leg.C_2, leg.S_2);
   const S mu_1 = model.mass_1 * model.rho * model.rho, first = model.mass_2 * model.sigma;
   const S theta = b.x + first * model.sigma, k = first * model.l * (leg.S_1 * leg.S_2 + leg.C_1 * leg.C_2);

@@ -43,6 +43,15 @@ Vector6<S> someLoad() {
   return load;
 }
 
+/// What this processor has, from the plainest on.
+std::vector<InstructionSet> supportedSets() {
+  std::vector<InstructionSet> out;
+  for (const InstructionSet set :
+       {InstructionSet::portable, InstructionSet::sse2, InstructionSet::avx2, InstructionSet::avx512})
+    if (isSupported(set)) out.push_back(set);
+  return out;
+}
+
 /// Far from all.
 Motion<double> away(Motion<double> motion) {
   motion.p *= 100;
@@ -74,52 +83,70 @@ TEST_P(FastOf, agreesWithTheRecursionInFiftyDigits) {
 }
 
 TEST_P(FastOf, agreesWithTheRecursionInDoubles) {
-  const FastDynamics<double> fast(*scenario_.manipulator);
   const ChainSolver<Real50> chain(*scenario_.manipulator);
   ChainWorkspace<Real50> work;
-  for (const VectorRow& row : rows_) {
-    const Motion<double> motion = rounded(row.motion);
-    EXPECT_LE(distance(fast.inverseDynamics(motion), chain.inverseDynamics(row.motion, work)), promised);
+  ASSERT_GE(supportedSets().size(), 1u);
+  for (const InstructionSet set : supportedSets()) {
+    const FastDynamics<double> fast(*scenario_.manipulator, set);
+    for (const VectorRow& row : rows_) {
+      const Motion<double> motion = rounded(row.motion);
+      const Vector6<Real50> right = chain.inverseDynamics(row.motion, work);
+      const Vector6d found = fast.inverseDynamics(motion);
+      EXPECT_LE(distance(found, right), promised) << nameOf(set);
+      const Vector6d other = 1.1 * found, load = someLoad<double>();
+      EXPECT_LE(distance(fast.directDynamics(motion, other, load),
+                         chain.directDynamics(row.motion, other.cast<Real50>(), work, someLoad<Real50>())),
+                1e-9)
+          << nameOf(set);
+      EXPECT_LE(
+          distance(fast.inverseDynamics(motion, load), chain.inverseDynamics(row.motion, work, someLoad<Real50>())),
+          promised)
+          << nameOf(set);
+    }
     EXPECT_GT(distance(fast.inverseDynamics(rounded(rows_[0].motion)), chain.inverseDynamics(rows_[3].motion, work)),
               1e-6);
   }
 }
 
 TEST_P(FastOf, allocatesNothing) {
-  const FastDynamics<double> fast(*scenario_.manipulator);
-  const Motion<double> motion = rounded(rows_[2].motion);
-  Vector6d efforts, rates;
-  EXPECT_EQ(allocationsIn([&] { efforts = fast.inverseDynamics(motion); }), 0);
-  EXPECT_EQ(allocationsIn([&] { rates = fast.directDynamics(motion, efforts); }), 0);
-  EXPECT_GT(efforts.norm(), 0);
-  EXPECT_GT(rates.norm(), 0);
+  for (const InstructionSet set : supportedSets()) {
+    const FastDynamics<double> fast(*scenario_.manipulator, set);
+    const Motion<double> motion = rounded(rows_[2].motion);
+    Vector6d efforts, rates;
+    EXPECT_EQ(allocationsIn([&] { efforts = fast.inverseDynamics(motion); }), 0);
+    EXPECT_EQ(allocationsIn([&] { rates = fast.directDynamics(motion, efforts); }), 0);
+    EXPECT_GT(efforts.norm(), 0);
+    EXPECT_GT(rates.norm(), 0);
+  }
 }
 
 /// Poses that cannot be are refused as the recursion refuses them.
 TEST_P(FastOf, refusesWhatTheRecursionRefuses) {
-  const FastDynamics<double> fast(*scenario_.manipulator);
   const ChainSolver<double> chain(*scenario_.manipulator);
   ChainWorkspace<double> work;
-  Dice dice(11);
-  int refused = 0;
-  for (int k = 0; k < 200; ++k) {
-    Motion<double> motion = rounded(rows_[static_cast<std::size_t>(k) % rows_.size()].motion);
-    for (int j = 0; j < 3; ++j) motion.p(j) += dice.between(-1, 1) * chain.length();
-    std::string by_chain, by_fast;
-    try {
-      chain.inverseDynamics(motion, work);
-    } catch (const PoseError& error) {
-      by_chain = error.what();
+  for (const InstructionSet set : supportedSets()) {
+    const FastDynamics<double> fast(*scenario_.manipulator, set);
+    Dice dice(11);
+    int refused = 0;
+    for (int k = 0; k < 200; ++k) {
+      Motion<double> motion = rounded(rows_[static_cast<std::size_t>(k) % rows_.size()].motion);
+      for (int j = 0; j < 3; ++j) motion.p(j) += dice.between(-1, 1) * chain.length();
+      std::string by_chain, by_fast;
+      try {
+        chain.inverseDynamics(motion, work);
+      } catch (const PoseError& error) {
+        by_chain = error.what();
+      }
+      try {
+        fast.inverseDynamics(motion);
+      } catch (const PoseError& error) {
+        by_fast = error.what();
+      }
+      refused += by_chain.empty() ? 0 : 1;
+      EXPECT_EQ(by_fast.substr(0, 30), by_chain.substr(0, 30)) << nameOf(set);
     }
-    try {
-      fast.inverseDynamics(motion);
-    } catch (const PoseError& error) {
-      by_fast = error.what();
-    }
-    refused += by_chain.empty() ? 0 : 1;
-    EXPECT_EQ(by_fast.substr(0, 30), by_chain.substr(0, 30));
+    EXPECT_GT(refused, 10);
   }
-  EXPECT_GT(refused, 10);
 }
 
 class BatchOf : public FastOf {
@@ -135,9 +162,7 @@ class BatchOf : public FastOf {
 
 TEST_P(BatchOf, givesWhatSinglePosesGive) {
   const FastDynamics<double> fast(*scenario_.manipulator);
-  for (const InstructionSet set :
-       {InstructionSet::portable, InstructionSet::sse2, InstructionSet::avx2, InstructionSet::avx512}) {
-    if (!isSupported(set)) continue;
+  for (const InstructionSet set : supportedSets()) {
     const BatchDynamics batch(*scenario_.manipulator, set);
     for (const std::size_t count : {1u, 2u, 3u, 7u, 8u, 9u, 16u, 29u}) {
       const std::size_t bad = count / 2;
@@ -165,8 +190,7 @@ TEST_P(BatchOf, givesWhatSinglePosesGive) {
 
 /// Where a pose is in a batch, and what is beside it, is nothing to its numbers.
 TEST_P(BatchOf, numbersDoNotDependOnTheNeighbours) {
-  for (const InstructionSet set : {InstructionSet::sse2, InstructionSet::avx2, InstructionSet::avx512}) {
-    if (!isSupported(set)) continue;
+  for (const InstructionSet set : supportedSets()) {
     const BatchDynamics batch(*scenario_.manipulator, set);
     const auto m = motions(23, 5);
     std::vector<Vector6d> together(23), alone(23);
@@ -188,8 +212,7 @@ TEST_P(BatchOf, flagsWhatSinglePosesRefuse) {
   std::vector<PoseFault> expected(m.size()), found(m.size());
   one_by_one.inverseDynamics(m.data(), m.size(), out.data(), expected.data());
   ASSERT_THAT(expected, testing::Contains(testing::Ne(PoseFault::none)));
-  for (const InstructionSet set : {InstructionSet::sse2, InstructionSet::avx2, InstructionSet::avx512}) {
-    if (!isSupported(set)) continue;
+  for (const InstructionSet set : supportedSets()) {
     BatchDynamics(*scenario_.manipulator, set).inverseDynamics(m.data(), m.size(), out.data(), found.data());
     EXPECT_EQ(found, expected) << nameOf(set);
   }
