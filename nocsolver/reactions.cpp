@@ -46,6 +46,7 @@ Reactions recoverReactions(const Solver<double>& solver, const Motion<double>& m
                            Workspace<double>& work) {
   const ChainSolver<double>& machine = solver.chain();
   BodyMotions<double> bodies;
+  solver.inverseKinematics(motion, work);
   solver.bodyMotions(motion, work, bodies);
   Reactions out;
   for (std::size_t i = 0; i < static_cast<std::size_t>(machine.legCount()); ++i) {

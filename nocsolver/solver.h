@@ -15,9 +15,9 @@ struct Workspace {
   ChainWorkspace<S> chain;
 };
 
-/// Kinematics and dynamics of any machine: by the paper's own equations where they are for it, else kinematics by
-/// ChainSolver and dynamics by FastDynamics, which have the same method for legs of all kinds. All agree to rounding
-/// where they can be asked. Immutable: threads share it, each with a Workspace of its own. Nothing here allocates.
+/// Kinematics and dynamics of any machine. Dynamics by FastDynamics; kinematics by the paper's own equations where they
+/// are for it, else by ChainSolver, which has the same method for legs of all kinds. All agree to rounding where they
+/// can be asked. Immutable: threads share it, each with a Workspace of its own. Nothing here allocates.
 ///
 /// Every function throws OutOfReach, OutOfStroke or PointOnAxis for poses that the legs cannot take, and from the rates
 /// on StretchedLeg; those that need B⁻¹ throw SingularJacobian.
@@ -92,9 +92,7 @@ class Solver {
 
   /// Pose, twist and twist rate of all bodies, (16), (17), (39)–(43). Needs inverseKinematics.
   void bodyMotions(const Motion<S>& motion, Workspace<S>& work, BodyMotions<S>& bodies) const {
-    if (paper_) return paper_->bodyMotions(motion, work.paper, bodies);
-    chain_.inverseKinematics(motion, work.chain);  // inverseDynamics has no need of it
-    chain_.bodyMotions(motion, work.chain, bodies);
+    paper_ ? paper_->bodyMotions(motion, work.paper, bodies) : chain_.bodyMotions(motion, work.chain, bodies);
   }
 
   /// The twist-shaping matrix by (48) and (47). Needs inverseKinematics and jacobians.
@@ -103,19 +101,17 @@ class Solver {
   }
 
   /// Efforts of the motors, N·m, or N where they push, conjugate to the rates of their coordinates, by (37); `load` is
-  /// an external wrench on the platform, [moment about P; force], in B. What `work` holds
-  /// afterwards is not said: ask inverseKinematics and jacobians for it.
-  Vector6<S> inverseDynamics(const Motion<S>& motion, Workspace<S>& work,
-                             const Vector6<S>& load = Vector6<S>::Zero()) const {
-    return paper_ ? paper_->inverseDynamics(motion, work.paper, load) : dynamics_.inverseDynamics(motion, load);
+  /// an external wrench on the platform, [moment about P; force], in B. The workspace is left as it is.
+  Vector6<S> inverseDynamics(const Motion<S>& motion, Workspace<S>&, const Vector6<S>& load = Vector6<S>::Zero()) const {
+    return dynamics_.inverseDynamics(motion, load);
   }
 
   /// The platform's twist rate [ω̇; p̈] under efforts, by (36) projected on t_P; accelerations in `motion` are not read.
-  /// Does not throw SingularJacobian: the motors act whether or not they determine the motion.
-  Vector6<S> directDynamics(const Motion<S>& motion, const Vector6<S>& efforts, Workspace<S>& work,
+  /// Does not throw SingularJacobian: the motors act whether or not they determine the motion. The workspace is left as
+  /// it is.
+  Vector6<S> directDynamics(const Motion<S>& motion, const Vector6<S>& efforts, Workspace<S>&,
                             const Vector6<S>& load = Vector6<S>::Zero()) const {
-    return paper_ ? paper_->directDynamics(motion, efforts, work.paper, load)
-                  : dynamics_.directDynamics(motion, efforts, load);
+    return dynamics_.directDynamics(motion, efforts, load);
   }
 
   /// M_P: the whole machine's mass matrix in the platform's twist at P. Needs inverseKinematics.
