@@ -107,7 +107,9 @@ TEST(Open, startsTheBrowserWithTheReportAndDoesNotWait) {
   ::unsetenv("BROWSER");
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(run.out, (ursula.folder() / "out/index.html").string() + "\n");
-  while (!std::filesystem::exists(ursula.folder() / "shown")) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  const auto shown = [&ursula] { return std::filesystem::exists(ursula.folder() / "shown"); };
+  for (int k = 0; k < 12000 && !shown(); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  ASSERT_TRUE(shown());
   EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "shown"), run.out);
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "nocsolver/errors.h"
+#include "validation/verdict/worst_share.h"
 
 namespace ursula {
 namespace {
@@ -54,6 +55,7 @@ RightAnswers::RightAnswers(const Scenario& scenario) {
 }
 
 RightAnswers::Off RightAnswers::offIn(const Subject& subject) const {
+  if (instants_.empty()) return Off::dynamics;  // nothing is known of it
   Off out = Off::nothing;
   for (const Instant& instant : instants_) try {
       const auto answers = answersOf(subject, instant.motion);
@@ -76,8 +78,8 @@ bool movesAlike(const Scenario& a, const Scenario& b) {
     double size = 0, off = 0;
     for (int k = 0; k < instants; ++k) {
       const M x = a.trajectory->at(instantOf(a, k)), y = b.trajectory->at(instantOf(a, k));
-      size = std::max(size, part(x).norm());
-      off = std::max(off, (part(x) - part(y)).norm());
+      size = larger(size, part(x).norm());
+      off = larger(off, (part(x) - part(y)).norm());
     }
     return off <= 16 * eps * size;
   };

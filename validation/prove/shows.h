@@ -15,7 +15,8 @@ class RightAnswers {
  public:
   explicit RightAnswers(const Scenario& scenario);
 
-  /// What is off by more than rounding, at instants that are no samples of anything. Kinematics that are wrong and
+  /// What is off by more than rounding, at instants that are no samples of anything; dynamics where no instant has an
+  /// answer. Kinematics that are wrong and
   /// leave the dynamics right (an axis reversed whose joint neither rubs nor drives) can be seen beside Simbody's
   /// alone.
   enum class Off { nothing, kinematics, dynamics };

@@ -134,7 +134,7 @@ std::string optionalText(const std::optional<double>& value, const std::string& 
 
 /// How far each motor is off: a table, for six of them in a line nobody reads.
 std::string motorsText(const std::vector<MotorDeviation>& motors) {
-  std::vector<std::vector<std::string>> rows = {{"leg", "off by", "at t", "factor", "offset"}};
+  std::vector<std::vector<std::string>> rows = {{"motor", "off by", "at t", "factor", "offset"}};
   for (const MotorDeviation& motor : motors)
     rows.push_back({std::to_string(motor.motor + 1), fmt::format("{:.3g} {}", motor.largest, prettyUnit(motor.unit)),
                     fmt::format("{:.4g} s", motor.t), optionalText(motor.factor, ""),
