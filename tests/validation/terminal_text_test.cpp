@@ -89,10 +89,10 @@ TEST(TerminalText, showsWrongMotorsAsATable) {
   result.likely_cause = LikelyCause{"", "of two kinds"};
   EXPECT_THAT(report::validationText(result, false), HasSubstr(R"(
 torques against the expected ones:
-  leg    off by  at t  factor     offset
-    1  0.03 N·m   2 s   1.001
-    2  12.5 N·m   0 s          -12.5 N·m
-    3   0.5 N·m   1 s
+  motor    off by  at t  factor     offset
+      1  0.03 N·m   2 s   1.001
+      2  12.5 N·m   0 s          -12.5 N·m
+      3   0.5 N·m   1 s
 likely cause: of two kinds
 )"));
 }
