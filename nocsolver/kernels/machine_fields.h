@@ -27,10 +27,12 @@ void forEachNumber(Model& machine, const F& f) {
     all(leg.u);
     all(leg.z_hat);
     for (auto* number : {&leg.l, &leg.s, &leg.knee, &leg.rho, &leg.sigma, &leg.mass_1, &leg.mass_2, &leg.per_l,
-                         &leg.per_s, &leg.per_sum})
+                         &leg.per_s, &leg.per_sum, &leg.first_1, &leg.first_2})
       f(*number);
     all(leg.I_1);
     all(leg.I_2);
+    all(leg.J_1);
+    all(leg.J_2);
     for (auto* three : {&leg.viscous, &leg.coulomb, &leg.speed})
       for (auto& number : *three) f(number);
   }

@@ -24,11 +24,24 @@ Vector3<S> alongAxes(const ChainModel<S>& leg, const Vector3<S>& v) {
   return {leg.x_hat.dot(v), leg.u.dot(v), leg.z_hat.dot(v)};
 }
 
+/// The tensor about a point at `distance` from the mass centre along the link; `first` is the mass times that.
+template <class S>
+Matrix3<S> aboutEnd(const Matrix3<S>& I, const S& first, const S& distance) {
+  Matrix3<S> J = I;
+  J(0, 0) += first * distance;
+  J(1, 1) += first * distance;
+  return J;
+}
+
 template <class S>
 PlaneModel<S> planeModel(const ChainModel<S>& leg, const Vector3<S>& gravity) {
   PlaneModel<S> out;
   static_cast<ChainModel<S>&>(out) = leg;
   out.lift = -alongAxes<S>(leg, gravity);
+  out.first_1 = leg.mass_1 * leg.rho;
+  out.first_2 = leg.mass_2 * leg.sigma;
+  out.J_1 = aboutEnd<S>(leg.I_1, out.first_1, leg.rho);
+  out.J_2 = aboutEnd<S>(leg.I_2, out.first_2, leg.sigma);
   out.per_l = S(1) / leg.l;
   out.per_s = S(1) / leg.s;
   out.per_sum = S(1) / (leg.l + leg.s);

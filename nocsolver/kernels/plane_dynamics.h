@@ -21,6 +21,13 @@
 
 namespace ursula::kernel {
 
+/// a + b × c, so that products are fused with sums.
+template <class S>
+Vector3<S> plusCross(const Vector3<S>& a, const Vector3<S>& b, const Vector3<S>& c) {
+  return {a.x() + b.y() * c.z() - b.z() * c.y(), a.y() + b.z() * c.x() - b.x() * c.z(),
+          a.z() + b.x() * c.y() - b.y() * c.x()};
+}
+
 /// Motion of points that the platform carries: v + ω × r, a + (ω̇× + ω×ω×) r.
 template <class S>
 struct Carried {
@@ -30,18 +37,45 @@ struct Carried {
     const S xy = w.x() * w.y(), xz = w.x() * w.z(), yz = w.y() * w.z();
     W << -(yy + zz), xy - e.z(), xz + e.y(), xy + e.z(), -(xx + zz), yz - e.x(), xz - e.y(), yz + e.x(), -(xx + yy);
   }
-  Vector3<S> velocity(const Vector3<S>& r) const { return motion.p_dot + motion.omega.cross(r); }
-  Vector3<S> acceleration(const Vector3<S>& r) const { return motion.p_ddot + W * r; }
+  Vector3<S> velocity(const Vector3<S>& r) const { return plusCross<S>(motion.p_dot, motion.omega, r); }
+  Vector3<S> acceleration(const Vector3<S>& r) const {
+    return motion.p_ddot + W.col(0) * r.x() + W.col(1) * r.y() + W.col(2) * r.z();
+  }
 
   const Motion<S>& motion;
   Matrix3<S> W;
 };
 
-/// From the leg's plane to B.
+/// x, u, z of a leg's plane in B.
 template <class S>
-Vector3<S> toBase(const ChainModel<S>& model, const PlaneLeg<S>& leg, const Vector3<S>& v) {
-  const Vector3<S> f = fromPlane(leg, v);
-  return f.x() * model.x_hat + f.y() * model.u + f.z() * model.z_hat;
+struct PlaneAxes {
+  Vector3<S> x, u, z;
+
+  Vector3<S> along(const Vector3<S>& v) const { return {x.dot(v), u.dot(v), z.dot(v)}; }
+
+  /// Back to B; components that `present` (rowOfMap) has not are 0.
+  template <int present = 7>
+  Vector3<S> toBase(const Vector3<S>& v) const {
+    if constexpr (present == 1) return v.x() * x;
+    if constexpr (present == 2) return v.y() * u;
+    if constexpr (present == 4) return v.z() * z;
+    if constexpr (present == 6) return v.y() * u + v.z() * z;
+    return v.x() * x + v.y() * u + v.z() * z;
+  }
+};
+
+template <class S>
+PlaneAxes<S> planeAxes(const PlaneModel<S>& model, const PlaneLeg<S>& leg) {
+  return {leg.cosine * model.x_hat + leg.sine * model.z_hat, model.u,
+          leg.cosine * model.z_hat - leg.sine * model.x_hat};
+}
+
+/// Calls f with each coordinate as a constant.
+template <class F>
+void eachCoordinate(const F& f) {
+  f(std::integral_constant<std::size_t, 0>{});
+  f(std::integral_constant<std::size_t, 1>{});
+  f(std::integral_constant<std::size_t, 2>{});
 }
 
 /// What drives against viscous and smoothed Coulomb friction of a leg's joints. Unlike frictionForce of dynamics.h it
@@ -61,7 +95,7 @@ Vector3<S> friction(const PlaneModel<S>& model, const PlaneLeg<S>& leg) {
 
 template <class S>
 void addForceAt(const Vector3<S>& arm, const Vector3<S>& f, Vector6<S>& wrench) {
-  wrench.template head<3>() += arm.cross(f);
+  wrench.template head<3>() = plusCross<S>(wrench.template head<3>(), arm, f);
   wrench.template tail<3>() += f;
 }
 
@@ -84,6 +118,7 @@ template <class S>
 struct MovingLeg {
   Vector3<S> Qb;
   PlaneLeg<S> plane;
+  PlaneAxes<S> axes;
   Vector3<S> Q;
 };
 template <class S>
@@ -102,10 +137,11 @@ void moveLegs(const MachineModel<S>& machine, const Motion<S>& motion, const Car
     auto&& guard = guardOf(static_cast<int>(i));
     leg.Qb = motion.Q * model.b;
     place(kind, model, alongAxes<S>(model, motion.p - model.a + leg.Qb), guard, leg.plane);
+    leg.axes = planeAxes<S>(model, leg.plane);
   });
   each([&](auto kind, std::size_t, const PlaneModel<S>& model, MovingLeg<S>& leg) {
-    const Vector3<S> h = toPlane<S>(leg.plane, alongAxes<S>(model, carried.velocity(leg.Qb)));
-    const Vector3<S> a = toPlane<S>(leg.plane, alongAxes<S>(model, carried.acceleration(leg.Qb)));
+    const Vector3<S> h = leg.axes.along(carried.velocity(leg.Qb));
+    const Vector3<S> a = leg.axes.along(carried.acceleration(leg.Qb));
     setRates(kind, model, h, a, leg.plane);
   });
   each([&](auto kind, std::size_t, const PlaneModel<S>& model, MovingLeg<S>& leg) {
@@ -117,28 +153,37 @@ void moveLegs(const MachineModel<S>& machine, const Motion<S>& motion, const Car
 }
 
 /// One leg's share: what falls on its motors, their rows, and what falls on the platform.
-template <class S>
-void addLeg(const MachineModel<S>& machine, std::size_t i, const MovingLeg<S>& leg, Vector6<S>& wrench,
+template <class S, class Kind>
+void addLeg(Kind, const PlaneModel<S>& model, const S& per_length, const MovingLeg<S>& leg, Vector6<S>& wrench,
             Vector6<S>& Q_driven, Vector6<S>& A, System6<S>& system) {
-  const PlaneModel<S>& model = machine.legs[i];
   Vector3<S> f = Vector3<S>::Zero();
-  for (std::size_t j = 0; j < 3; ++j) {
+  eachCoordinate([&](auto j) {
+    constexpr int present = rowOfMap(Kind{})[j];
     const int motor = model.motor[j];
-    const S& share = leg.Q(static_cast<Eigen::Index>(j));
+    const S& share = leg.Q(static_cast<Eigen::Index>(j.value));
     const Vector3<S>& k = leg.plane.k[j];
     if (motor < 0) {
-      f += share * k;
-      continue;
+      if constexpr ((present & 1) != 0) f.x() += share * k.x();
+      if constexpr ((present & 2) != 0) f.y() += share * k.y();
+      if constexpr ((present & 4) != 0) f.z() += share * k.z();
+      return;
     }
     Q_driven(motor) = share;
     A(motor) = leg.plane.lever[j];  // rows of B of like size; any near k's will do
-    const Vector3<S> n = toBase<S>(model, leg.plane, A(motor) * k), moment = machine.per_length * leg.Qb.cross(n);
+    const Vector3<S> n = leg.axes.template toBase<present>(A(motor) * k), moment = per_length * leg.Qb.cross(n);
     for (int row = 0; row < 3; ++row) {
       system.a[row][motor] = moment(row);
       system.a[3 + row][motor] = n(row);
     }
-  }
-  addForceAt<S>(leg.Qb, toBase<S>(model, leg.plane, f), wrench);
+  });
+  addForceAt<S>(leg.Qb, leg.axes.toBase(f), wrench);
+}
+
+template <class S>
+void addLeg(const MachineModel<S>& machine, std::size_t i, const MovingLeg<S>& leg, Vector6<S>& wrench,
+            Vector6<S>& Q_driven, Vector6<S>& A, System6<S>& system) {
+  const PlaneModel<S>& model = machine.legs[i];
+  withKind(model.kind, [&](auto kind) { addLeg(kind, model, machine.per_length, leg, wrench, Q_driven, A, system); });
 }
 
 /// Efforts for a motion, less `load` at P. `pivots` is told the smallest pivot over the largest.
@@ -186,22 +231,31 @@ void addPlatform(const MachineModel<S>& machine, const Motion<S>& motion, const 
 }
 
 /// One leg's share of what moves the platform and of M_P.
+template <class S, class Kind>
+void addLegMass(Kind kind, const PlaneModel<S>& model, const MovingLeg<S>& leg, const Vector6<S>& efforts,
+                Vector6<S>& wrench, Matrix6<S>& M_P) {
+  Vector3<S> f = Vector3<S>::Zero();
+  Matrix3<S> K;
+  eachCoordinate([&](auto j) {
+    constexpr int present = rowOfMap(Kind{})[j];
+    const int motor = model.motor[j];
+    const S& share = leg.Q(static_cast<Eigen::Index>(j.value));
+    const Vector3<S>& k = leg.plane.k[j];
+    const S free = motor < 0 ? S(-share) : S(efforts(motor) - share);
+    if constexpr ((present & 1) != 0) f.x() += free * k.x();
+    if constexpr ((present & 2) != 0) f.y() += free * k.y();
+    if constexpr ((present & 4) != 0) f.z() += free * k.z();
+    K.col(j.value) = leg.axes.template toBase<present>(k);
+  });
+  addForceAt<S>(leg.Qb, leg.axes.toBase(f), wrench);
+  addMassAt<S>(leg.Qb, K * massMatrix(kind, model, leg.plane) * K.transpose(), M_P);
+}
+
 template <class S>
 void addLegMass(const MachineModel<S>& machine, std::size_t i, const MovingLeg<S>& leg, const Vector6<S>& efforts,
                 Vector6<S>& wrench, Matrix6<S>& M_P) {
   const PlaneModel<S>& model = machine.legs[i];
-  const auto& k = leg.plane.k;
-  Vector3<S> f = Vector3<S>::Zero();
-  Matrix3<S> K;
-  for (std::size_t j = 0; j < 3; ++j) {
-    const int motor = model.motor[j];
-    const S& share = leg.Q(static_cast<Eigen::Index>(j));
-    f += (motor < 0 ? S(-share) : S(efforts(motor) - share)) * k[j];
-    K.col(static_cast<Eigen::Index>(j)) = toBase<S>(model, leg.plane, k[j]);
-  }
-  addForceAt<S>(leg.Qb, toBase<S>(model, leg.plane, f), wrench);
-  const Matrix3<S> M = withKind(model.kind, [&](auto kind) { return massMatrix(kind, model, leg.plane); });
-  addMassAt<S>(leg.Qb, K * M * K.transpose(), M_P);
+  withKind(model.kind, [&](auto kind) { addLegMass(kind, model, leg, efforts, wrench, M_P); });
 }
 
 /// The platform's twist rate [ω̇; p̈] under `efforts`; accelerations in `motion` are to be 0.

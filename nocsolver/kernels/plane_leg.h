@@ -34,10 +34,12 @@ template <class S>
 Vector3<S> toPlane(const PlaneLeg<S>& leg, const Vector3<S>& v) {
   return {leg.cosine * v.x() + leg.sine * v.z(), v.y(), leg.cosine * v.z() - leg.sine * v.x()};
 }
-template <class S>
-Vector3<S> fromPlane(const PlaneLeg<S>& leg, const Vector3<S>& v) {
-  return {leg.cosine * v.x() - leg.sine * v.z(), v.y(), leg.sine * v.x() + leg.cosine * v.z()};
-}
+
+/// Which components of a row of the map are not 0: 1 for x, 2 for u, 4 for z.
+constexpr std::array<int, 3> rowOfMap(Urs) { return {1, 6, 6}; }
+constexpr std::array<int, 3> rowOfMap(Ups) { return {1, 6, 6}; }
+constexpr std::array<int, 3> rowOfMap(Rus) { return {6, 7, 2}; }
+constexpr std::array<int, 3> rowOfMap(Pus) { return {6, 1, 4}; }
 
 template <class S>
 void turnToB(const S& k_x, const S& k_z, const S& per_r, PlaneLeg<S>& out) {

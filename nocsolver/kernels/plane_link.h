@@ -1,13 +1,14 @@
 #pragma once
 
-// A link whose axis lies in a plane that turns about −u: of URS and UPS both links, of PUS the rod, of RUS crank and
-// rod, each in its own plane. Internal.
+// A link whose axis lies in a plane that turns about −u: of URS and UPS both links, of PUS and RUS the rod. Internal.
 //
-// Axes x, y = u, z of the plane F; along and across the link r = [0, C, S], t = [0, −S, C]; the plane turns by α, the
-// link by χ about x. A point at the distance r from the link's origin O, in (x, r, t):
-//   c̈ = ä_O + [−α̈ z − 2 α̇ ż,  r̈ − r χ̇² − α̇² z S,  r χ̈ + 2 ṙ χ̇ − α̇² z C],  z = r S,  ż = ṙ S + r χ̇ C     (a)
-//   ω = [χ̇, −α̇, 0],  ω̇ = [χ̈, −α̈, α̇ χ̇] in F;  in the link's frame [x, r × x, r]:
-//   ω = [χ̇, −α̇ S, −α̇ C],  ω̇ = [χ̈, −α̈ S − α̇ χ̇ C, −α̈ C + α̇ χ̇ S]                                   (b)
+// Axes x, y = u, z of the plane F; along the link r = [0, C, S]; the plane turns by α, the link by χ about x and about
+// its first end O. With J its tensor about O, m its mass, ρ the distance of its mass centre and b = ä_O − g:
+//   ω = [χ̇, −α̇ S, −α̇ C],  ω̇ = [χ̈, −α̈ S − α̇ χ̇ C, −α̈ C + α̇ χ̇ S] in the link's frame [x, r × x, r]             (a)
+//   n_O = J ω̇ + ω × J ω + m ρ r × b                                                                            (b)
+//   f = m b + m ρ [−α̈ S − 2 α̇ χ̇ C,  −χ̈ S − χ̇² C,  χ̈ C − (χ̇² + α̇²) S]                                          (c)
+// Of principal axes, with D = (J_z − J_y) S C, K = J_y S² + J_z C²:
+//   n_x = J_x χ̈ + D α̇² + …,  n_y = −K α̈ + 2 D α̇ χ̇ + …                                                        (d)
 
 #include "model/scalar.h"
 
@@ -19,51 +20,43 @@ struct Rates {
   S dot, ddot;
 };
 
-/// Where the link's mass centre is: distance r from O with its derivatives, and the cosine and sine of χ.
+/// Where a link is and how it turns: cosine and sine of χ; the plane's α.
 template <class S>
-struct OnLink {
-  S r;
-  Rates<S> r_rates;
+struct LinkTurn {
   S C, S_;
-  Rates<S> chi;
+  Rates<S> chi, alpha;
 };
 
-/// What moves a link against gravity: moment about its mass centre along x and y, force along x, r, t.
+/// What turns a link about its first end against gravity: moments about x and y of the plane.
 template <class S>
-struct LinkLoad {
-  S n_x, n_y, f_x, f_r, f_t;
+struct LinkMoment {
+  S n_x, n_y;
 };
 
-/// I ω̇ + ω × I ω; of `principal` axes I is diagonal.
+/// `first` is m ρ; J is diagonal where `principal`. `base` is ä_O − g along x, y, z of the plane.
 template <bool principal, class S>
-Vector3<S> momentFor(const Matrix3<S>& I, const Vector3<S>& omega, const Vector3<S>& omega_dot) {
+LinkMoment<S> linkMoment(const S& first, const Matrix3<S>& J, const LinkTurn<S>& link, const Vector3<S>& base) {
+  const S &C = link.C, &S_ = link.S_, &chi = link.chi.dot, &alpha = link.alpha.dot;
+  const S n_x = first * (base.z() * C - base.y() * S_), n_y = first * S_ * base.x();  // (b)
   if constexpr (principal) {
-    const S &x = omega.x(), &y = omega.y(), &z = omega.z(), &I_x = I(0, 0), &I_y = I(1, 1), &I_z = I(2, 2);
-    return {I_x * omega_dot.x() + (I_z - I_y) * (y * z), I_y * omega_dot.y() + (I_x - I_z) * (z * x),
-            I_z * omega_dot.z() + (I_y - I_x) * (x * y)};
+    const S D = (J(2, 2) - J(1, 1)) * (S_ * C), K = J(1, 1) * (S_ * S_) + J(2, 2) * (C * C), Da = D * alpha;
+    return {n_x + J(0, 0) * link.chi.ddot + Da * alpha, n_y - K * link.alpha.ddot + S(2) * (Da * chi)};  // (d)
   } else {
-    return I * omega_dot + omega.cross(Vector3<S>(I * omega));
+    const Vector3<S> omega(chi, -alpha * S_, -alpha * C);
+    const Vector3<S> omega_dot(link.chi.ddot, -link.alpha.ddot * S_ - alpha * chi * C,
+                               -link.alpha.ddot * C + alpha * chi * S_);  // (a)
+    const Vector3<S> n = J * omega_dot + omega.cross(Vector3<S>(J * omega));
+    return {n_x + n.x(), n_y + S_ * n.y() + C * n.z()};
   }
 }
 
-/// `base` is ä_O − g along x, y, z of the plane.
-template <bool principal, class S>
-LinkLoad<S> linkLoad(const S& mass, const Matrix3<S>& I, const OnLink<S>& at, const Rates<S>& alpha,
-                     const Vector3<S>& base) {
-  const S &C = at.C, &S_ = at.S_, &r = at.r, &chi = at.chi.dot;
-  const S z = r * S_, z_dot = at.r_rates.dot * S_ + r * chi * C;
-  const S b_z = base.z() - alpha.dot * alpha.dot * z;
-  LinkLoad<S> out;
-  out.f_x = mass * (base.x() - alpha.ddot * z - S(2) * alpha.dot * z_dot);                     // (a)
-  out.f_r = mass * (at.r_rates.ddot - r * chi * chi + base.y() * C + b_z * S_);                // (a)
-  out.f_t = mass * (r * at.chi.ddot + S(2) * at.r_rates.dot * chi - base.y() * S_ + b_z * C);  // (a)
-  const Vector3<S> omega(chi, -alpha.dot * S_, -alpha.dot * C);                                // (b)
-  const Vector3<S> omega_dot(at.chi.ddot, -alpha.ddot * S_ - alpha.dot * chi * C,
-                             -alpha.ddot * C + alpha.dot * chi * S_);  // (b)
-  const Vector3<S> n = momentFor<principal, S>(I, omega, omega_dot);
-  out.n_x = n.x();
-  out.n_y = S_ * n.y() + C * n.z();
-  return out;
+/// (c) without m b, along x, y, z of the plane; a point at l has that for m ρ = l as its acceleration from O's.
+template <class S>
+Vector3<S> turning(const S& first, const LinkTurn<S>& link) {
+  const S &C = link.C, &S_ = link.S_, &chi = link.chi.dot, &alpha = link.alpha.dot;
+  const S chi_2 = chi * chi;
+  return {-first * (link.alpha.ddot * S_ + S(2) * (alpha * chi) * C), -first * (link.chi.ddot * S_ + chi_2 * C),
+          first * (link.chi.ddot * C - (chi_2 + alpha * alpha) * S_)};
 }
 
 }  // namespace ursula::kernel

@@ -3,7 +3,8 @@
 // A leg's mass matrix in its coordinates, in the axes of its plane. Internal. The partial derivatives of the loads of
 // leg_forces.h by the accelerations, in closed form; kernels/chain_motion.h makes the same from partial velocities.
 //
-// Of a link along [0, C, S]: P = I_xy S + I_xz C, J = I_yy S² + 2 I_yz S C + I_zz C², about x and the plane's axis.
+// Of a link along [0, C, S], I about any point of its axis: P = I_xy S + I_xz C, J = I_yy S² + 2 I_yz S C + I_zz C²,
+// about x and the plane's axis.
 
 #include "nocsolver/kernels/plane_leg.h"
 
@@ -29,41 +30,35 @@ Matrix3<S> symmetric(const S& a, const S& ab, const S& ac, const S& b, const S& 
 /// In φ, ψ, d.
 template <class S>
 Matrix3<S> massMatrix(Ups, const PlaneModel<S>& model, const PlaneLeg<S>& leg) {
-  const auto a = crossInertia<S>(model.I_1, leg.C_1, leg.S_1), b = crossInertia<S>(model.I_2, leg.C_1, leg.S_1);
-  const S inner = leg.d - model.s + model.sigma;
-  const S mu = model.mass_1 * model.rho * model.rho + model.mass_2 * inner * inner;
+  const auto a = crossInertia<S>(model.J_1, leg.C_1, leg.S_1), b = crossInertia<S>(model.I_2, leg.C_1, leg.S_1);
+  const S inner = leg.d - model.s + model.sigma, mu = model.mass_2 * inner * inner;
   return symmetric<S>(a.J + b.J + leg.S_1 * leg.S_1 * mu, -(a.P + b.P), S(0), a.x + b.x + mu, S(0), model.mass_2);
 }
 
 /// In d, ψ, θ.
 template <class S>
 Matrix3<S> massMatrix(Pus, const PlaneModel<S>& model, const PlaneLeg<S>& leg) {
-  const auto rod = crossInertia<S>(model.I_2, leg.C_2, leg.S_2);
-  const S first = model.mass_2 * model.sigma, mu = first * model.sigma;
-  return symmetric<S>(model.mass_1 + model.mass_2, S(0), -first * leg.S_2, rod.J + mu * leg.S_2 * leg.S_2, -rod.P,
-                      rod.x + mu);
+  const auto rod = crossInertia<S>(model.J_2, leg.C_2, leg.S_2);
+  return symmetric<S>(model.mass_1 + model.mass_2, S(0), -model.first_2 * leg.S_2, rod.J, -rod.P, rod.x);
 }
 
 /// In φ, ψ, θ.
 template <class S>
 Matrix3<S> massMatrix(Rus, const PlaneModel<S>& model, const PlaneLeg<S>& leg) {
-  const auto rod = crossInertia<S>(model.I_2, leg.C_2, leg.S_2);
-  const S first = model.mass_2 * model.sigma, mu = first * model.sigma;
-  const S J = rod.J + mu * leg.S_2 * leg.S_2, e = first * model.l * leg.S_2 * leg.C_1;
-  const S g = first * model.l * leg.C_2 * leg.S_1;
-  const S crank = model.mass_2 * model.l * model.l + model.I_1(1, 1) + model.mass_1 * model.rho * model.rho;
-  return symmetric<S>(J + S(2) * e + crank, J + e, rod.P - g, J, rod.P, rod.x + mu);
+  const auto rod = crossInertia<S>(model.J_2, leg.C_2, leg.S_2);
+  const S e = model.first_2 * model.l * leg.S_2 * leg.C_1, g = model.first_2 * model.l * leg.C_2 * leg.S_1;
+  const S crank = model.mass_2 * model.l * model.l + model.J_1(1, 1);
+  return symmetric<S>(rod.J + S(2) * e + crank, rod.J + e, rod.P - g, rod.J, rod.P, rod.x);
 }
 
 /// In φ, ψ, θ.
 template <class S>
 Matrix3<S> massMatrix(Urs, const PlaneModel<S>& model, const PlaneLeg<S>& leg) {
-  const auto a = crossInertia<S>(model.I_1, leg.C_1, leg.S_1), b = crossInertia<S>(model.I_2, leg.C_2, leg.S_2);
-  const S mu_1 = model.mass_1 * model.rho * model.rho, first = model.mass_2 * model.sigma;
-  const S theta = b.x + first * model.sigma, k = first * model.l * (leg.S_1 * leg.S_2 + leg.C_1 * leg.C_2);
-  const S D = model.l * leg.S_1 + model.sigma * leg.S_2;
-  return symmetric<S>(a.J + b.J + mu_1 * leg.S_1 * leg.S_1 + model.mass_2 * D * D, -(a.P + b.P), -b.P,
-                      theta + S(2) * k + model.mass_2 * model.l * model.l + a.x + mu_1, theta + k, theta);
+  const auto a = crossInertia<S>(model.J_1, leg.C_1, leg.S_1), b = crossInertia<S>(model.J_2, leg.C_2, leg.S_2);
+  const S across = leg.S_1 * leg.S_2, k = model.first_2 * model.l * (across + leg.C_1 * leg.C_2);
+  const S knee = model.l * (model.mass_2 * model.l * (leg.S_1 * leg.S_1) + S(2) * model.first_2 * across);
+  return symmetric<S>(a.J + b.J + knee, -(a.P + b.P), -b.P, b.x + S(2) * k + model.mass_2 * model.l * model.l + a.x,
+                      b.x + k, b.x);
 }
 
 }  // namespace ursula::kernel

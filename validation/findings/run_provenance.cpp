@@ -5,6 +5,7 @@
 #include <boost/uuid/detail/sha1.hpp>
 
 #include "model/loops/mujoco/mujoco_loop.h"
+#include "nocsolver/instruction_set.h"
 #include "validation/findings/provenance.h"
 #include "validation/replay/replay.h"
 
@@ -37,6 +38,7 @@ void addProvenance(const Scenario& scenario, const std::string& subject, Validat
                        {"Boost", build.boost},
                        {"Simbody", build.simbody},
                        {"MuJoCo", mujocoVersion()},
+                       {"instruction set", nameOf(bestInstructionSet())},
                        {"trajectory", scenario.trajectory->kind()},
                        {"duration", fmt::format("{} s", scenario.trajectory->duration())},
                        {"samples", fmt::format("{}", scenario.simulation.samples)},
