@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "apps/validate_output.h"
 #include "apps/verbs.h"
 #include "validation/compare/compare_page.h"
 #include "validation/report/junit.h"
@@ -37,16 +38,7 @@ int compareFiles(const Options& options) {
   fmt::print(stream, "{}", comparisonText(comparison));
   if (!options.out.empty() && !isTable(options.out))
     fmt::print(stream, "page: {}\n", (std::filesystem::path(options.out) / "compare.html").string());
-  switch (comparison.verdict) {
-    case Verdict::pass:
-      return exit_passed;
-    case Verdict::inconclusive:
-      return exit_inconclusive;
-    case Verdict::fail:
-    case Verdict::not_applicable:
-      break;
-  }
-  return exit_failed;
+  return exitCode(comparison.verdict);
 }
 
 }  // namespace
