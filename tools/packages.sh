@@ -17,7 +17,9 @@ declare -A needs=(
   [bundle]='node:nodejs npm:npm'
   [fresh]='git:git debootstrap:debootstrap'
 )
-optional=(libmujoco-dev)  # a further road: asked for before the first configuration, and done without where it is not to be had
+# Done without where they are not to be had: a further road, asked for before the first configuration; a peer of the benchmarks.
+optional=(libmujoco-dev)
+optional_of_bench=(libmujoco-dev libdart-dev)
 
 # Used for their headers, and some 350 MB if installed: libsimbody-dev brings OpenGL with a compiler for it, and most of
 # Boost is never touched. Where they are not installed, what is used of them is unpacked into .deps/, which CMake looks into.
@@ -115,6 +117,6 @@ setup_tools() {
 
 setup_optional() {
   local packages
-  mapfile -t packages < <(missing "${optional[@]}")
+  mapfile -t packages < <(missing "$@")
   install_packages "${packages[@]}" || say "going on without ${packages[*]}"
 }

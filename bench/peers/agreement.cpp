@@ -14,6 +14,7 @@
 
 #include <Eigen/SVD>
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace ursula::bench {
@@ -71,7 +72,7 @@ Scales scalesOf(const Poses& poses) {
   return out;
 }
 
-double larger(double a, double b) { return b <= a ? a : b; }  // NaN stays
+double larger(double a, double b) { return a >= b || std::isnan(a) ? a : b; }  // NaN stays
 
 void requireAll(const std::vector<Vector6d>& answers, const Poses& poses) {
   if (answers.size() != poses.motions.size()) throw std::invalid_argument("an answer for each pose is needed");

@@ -41,7 +41,7 @@ class Peer {
   virtual Deviation deviation(const TreeCoordinates&, const Vector6d& /*efforts*/) { return {}; }
 };
 
-/// Simbody: inverse by realize(Velocity), calcResidualForceIgnoringConstraints and calcG; direct by
+/// Simbody: inverse by realize(Velocity), calcResidualForceIgnoringConstraints and calcGTranspose; direct by
 /// realize(Acceleration) with its own constraints.
 std::unique_ptr<Peer> makeSimbodyPeer(const Manipulator& manipulator);
 

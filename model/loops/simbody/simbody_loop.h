@@ -89,7 +89,7 @@ class SimbodyLoop {
   /// Nothing is realized.
   void coordinates(const Motion<double>& motion, const JointMotion& joint_motion, TreeCoordinates& out) const;
 
-  /// By realize(Velocity), calcResidualForceIgnoringConstraints and calcG; speeds of the platform are [ω; ṗ].
+  /// By realize(Velocity), calcResidualForceIgnoringConstraints and calcGTranspose; speeds of the platform are [ω; ṗ].
   void openTree(const TreeCoordinates& at, OpenTree& out);
 
   /// The platform's twist rate [ω̇; p̈] under efforts, by realize(Acceleration). Accelerations in `at` are not read.

@@ -87,7 +87,7 @@ SimTK::SpatialVec loadOnPlatform(const Load& load, const Mechanism& mechanism, c
 struct OpenTreeScratch {
   SimTK::Vector mobility_forces, residual;
   SimTK::Vector_<SimTK::SpatialVec> body_forces;
-  SimTK::Matrix G;
+  SimTK::Matrix G_transposed;
 };
 
 struct SimbodyLoop::Impl {

@@ -68,10 +68,13 @@ void SimbodyLoop::openTree(const TreeCoordinates& at, OpenTree& out) {
   loop.applyForces();
   loop.matter.calcResidualForceIgnoringConstraints(loop.state, scratch.mobility_forces, scratch.body_forces, loop.u_dot,
                                                    scratch.residual);
-  loop.matter.calcG(loop.state, scratch.G);
+  // One sweep for each constraint and not, as calcG, for each coordinate.
+  loop.matter.calcGTranspose(loop.state, scratch.G_transposed);
 
   const auto force = mapped(scratch.residual);
-  const Eigen::Map<const Eigen::MatrixXd> G(scratch.G.getContiguousScalarData(), scratch.G.nrow(), scratch.G.ncol());
+  const auto G = Eigen::Map<const Eigen::MatrixXd>(scratch.G_transposed.getContiguousScalarData(),
+                                                   scratch.G_transposed.nrow(), scratch.G_transposed.ncol())
+                     .transpose();
   const int platform = loop.mechanism.platform.getFirstUIndex(loop.state);
   for (int i = 0; i < loop.legCount(); ++i) {
     OpenTree::Leg& leg = out.legs[static_cast<std::size_t>(i)];
