@@ -52,7 +52,7 @@ def medians(benchmarks):
         task, who, *count = run["run_name"].removesuffix("/real_time").split("/")
         times.setdefault((task, who, int(count[0]) if count else 1), []).append(run["per_pose"])
     out = {}
-    for key, values in times.items():
+    for key, values in sorted(times.items()):
         quartiles = statistics.quantiles(values, n=4) if len(values) > 1 else 3 * values
         out[key] = (statistics.median(values), quartiles[0], quartiles[2], len(values))
     return out
@@ -119,7 +119,7 @@ def micro(entry, digits=3):
 
 
 def times_ours(entry, ours):
-    return f"{entry[0] / ours[0]:.2g}" if entry and ours else "—"
+    return f"{entry[0] / ours[0]:.3g}" if entry and ours else "—"
 
 
 def side_by_side(found, agree):
@@ -190,7 +190,7 @@ def readme(found, context, scenarios):
         "Debian's Simbody is not built for speed: a native Release build is two to three times faster. *MuJoCo, soft* is `mj_forward` "
         "with its own constraints, which leave out J̇ q̇ and yield; *MuJoCo* and *DART* are their trees, closed exactly by their own Jacobians.", "",
         "### Measured elsewhere, not here", "",
-        "Engines that Debian does not package, on another machine (Zen 5, 4.5 GHz, AVX-512), one core, the same loop; not to be compared with the times above.", "",
+        "Engines that Debian does not package, on one core of another machine (Zen 5, 4.5 GHz, AVX-512); their times do not stand beside those above.", "",
         "| engine | inverse, µs | with kinematics, µs | direct, µs |", "| --- | --- | --- | --- |",
         "| Pinocchio 3.7 | 3.6 | 4.4 | 6.5 |", "| RBDL | 15 | — | 11.5 |", "| Chrono | — | — | 71 |", "",
         "## How cost grows", "", "![Samples](figures/samples.svg)", "", *threads(found), "", "![Threads](figures/threads.svg)", ""]

@@ -52,8 +52,8 @@ std::unique_ptr<Peer> makeMujocoPeer(const Manipulator& manipulator);
 /// there.
 std::unique_ptr<Peer> makeSoftMujocoPeer(const Manipulator& manipulator);
 
-/// DART: inverse by computeInverseDynamics, direct by its mass matrices and Coriolis and gravity forces, both closed by
-/// its world Jacobians. URS legs only, or std::invalid_argument is thrown. Null where it is not there.
+/// DART: inverse by computeInverseDynamics, direct by the same at rest and masses from its Jacobians and inertias, both
+/// closed by its Jacobians. Six URS legs only, or std::invalid_argument is thrown. Null where it is not there.
 std::unique_ptr<Peer> makeDartPeer(const Manipulator& manipulator);
 /// DART is optional: false where this was built without it.
 bool dartAvailable();
