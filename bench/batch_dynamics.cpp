@@ -1,81 +1,93 @@
-// One pose after the other and batches of them, by every instruction set that the processor has, turn by turn.
+// Batches: by every instruction set that the processor has, of few poses and of many, in one thread and in two.
 
-#include "nocsolver/batch_dynamics.h"
-#include "bench/paper_helix.h"
+#include <algorithm>
+#include <stdexcept>
+#include <thread>
+
+#include "bench/benchmarks.h"
 
 namespace ursula::bench {
 namespace {
 
-/// Poses of a scenario that ships, with their efforts.
-struct Poses {
-  explicit Poses(const char* name)
-      : scenario(readScenario(std::string(URSULA_SCENARIOS "/") + name + ".toml")), fast(*scenario.manipulator) {
-    for (int k = 0; k < PaperHelix::count; ++k) {
-      motions.push_back(scenario.trajectory->at(scenario.trajectory->duration() * (k + 0.5) / PaperHelix::count));
-      efforts.push_back(fast.inverseDynamics(motions.back()));
+constexpr std::size_t most = 100000;
+
+/// The helix' poses over and over.
+struct Many {
+  explicit Many(std::size_t count) : motions(count), efforts(count), found(count), faults(count) {
+    for (std::size_t k = 0; k < count; ++k) {
+      motions[k] = helix().motions[k % Poses::count];
+      efforts[k] = helix().efforts[k % Poses::count];
     }
-    found.resize(motions.size());
-    faults.resize(motions.size());
   }
 
-  double single(bool inverse) {
-    const double start = cpuTime();
-    for (int i = 0; i < repeats; ++i)
-      for (std::size_t k = 0; k < motions.size(); ++k)
-        benchmark::DoNotOptimize(inverse ? fast.inverseDynamics(motions[k])
-                                         : fast.directDynamics(motions[k], efforts[k]));
-    return (cpuTime() - start) / (repeats * PaperHelix::count);
-  }
-  double batch(const BatchDynamics& dynamics, bool inverse) {
-    const double start = cpuTime();
-    for (int i = 0; i < repeats; ++i) {
-      inverse ? dynamics.inverseDynamics(motions.data(), motions.size(), found.data(), faults.data())
-              : dynamics.directDynamics(motions.data(), efforts.data(), motions.size(), found.data(), faults.data());
-      benchmark::ClobberMemory();
-    }
-    return (cpuTime() - start) / (repeats * PaperHelix::count);
-  }
-  /// Before anything is timed.
-  void requireAgreement(const BatchDynamics& dynamics) {
-    dynamics.inverseDynamics(motions.data(), motions.size(), found.data(), faults.data());
-    for (std::size_t k = 0; k < motions.size(); ++k)
-      if (!((found[k] - efforts[k]).norm() <= 1e-11 * efforts[k].norm())) throw std::runtime_error("a batch disagrees");
+  /// Of the poses from `first` on.
+  void solve(const BatchDynamics& dynamics, bool inverse, std::size_t first, std::size_t count) {
+    inverse ? dynamics.inverseDynamics(&motions[first], count, &found[first], &faults[first])
+            : dynamics.directDynamics(&motions[first], &efforts[first], count, &found[first], &faults[first]);
   }
 
-  static constexpr int repeats = 16;
-  Scenario scenario;
-  FastDynamics<double> fast;
+  void requireAnswers() const {
+    if (std::any_of(faults.begin(), faults.end(), [](PoseFault fault) { return fault != PoseFault::none; }))
+      throw std::runtime_error("a pose of the helix has no answer");
+  }
+
   std::vector<Motion<double>> motions;
   std::vector<Vector6d> efforts, found;
   std::vector<PoseFault> faults;
 };
 
-void batches(benchmark::State& state, const char* name, InstructionSet set, bool inverse) {
-  if (!isSupported(set)) return state.SkipWithError("this processor has no such instructions");
-  Poses poses(name);
-  const BatchDynamics dynamics(*poses.scenario.manipulator, set);
-  poses.requireAgreement(dynamics);
-  std::vector<double> single, batch, ratio;
-  for ([[maybe_unused]] auto unused : state) {
-    single.push_back(poses.single(inverse));
-    batch.push_back(poses.batch(dynamics, inverse));
-    ratio.push_back(single.back() / batch.back());
-  }
-  state.counters["single_ns"] = 1e9 * median(single);
-  state.counters["batch_ns"] = 1e9 * median(batch);
-  state.counters["times"] = median(ratio);
+/// Disjoint parts, one for each thread. The seam for the library's own batch in threads.
+void solveInThreads(const BatchDynamics& dynamics, bool inverse, Many& poses, std::size_t threads) {
+  const std::size_t count = poses.motions.size(), part = (count + threads - 1) / threads;
+  std::vector<std::thread> others;
+  for (std::size_t first = part; first < count; first += part)
+    others.emplace_back([&, first] { poses.solve(dynamics, inverse, first, std::min(part, count - first)); });
+  poses.solve(dynamics, inverse, 0, std::min(part, count));
+  for (std::thread& other : others) other.join();
 }
 
-#define URSULA_BATCHES(name, scenario)                                                                   \
-  BENCHMARK_CAPTURE(batches, name##_inverse_sse2, scenario, InstructionSet::sse2, true)->MinTime(1);     \
-  BENCHMARK_CAPTURE(batches, name##_inverse_avx2, scenario, InstructionSet::avx2, true)->MinTime(1);     \
-  BENCHMARK_CAPTURE(batches, name##_inverse_avx512, scenario, InstructionSet::avx512, true)->MinTime(1); \
-  BENCHMARK_CAPTURE(batches, name##_direct_avx512, scenario, InstructionSet::avx512, false)->MinTime(1)
-URSULA_BATCHES(URS, "paper-helix");
-URSULA_BATCHES(UPS, "flight-simulator");
-URSULA_BATCHES(RUS, "hexa");
-URSULA_BATCHES(PUS, "hexaglide");
-#undef URSULA_BATCHES
+void growWithSamples(InstructionSet set, bool inverse) {
+  const std::string name = std::string("samples/") + (inverse ? "inverse " : "direct ") + nameOf(set);
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [set, inverse](benchmark::State& state) {
+                                 const auto count = static_cast<std::size_t>(state.range(0));
+                                 const BatchDynamics dynamics(helix().manipulator(), set);
+                                 Many poses(count);
+                                 for ([[maybe_unused]] auto unused : state) {
+                                   poses.solve(dynamics, inverse, 0, count);
+                                   benchmark::ClobberMemory();
+                                 }
+                                 poses.requireAnswers();
+                                 countPoses(state, static_cast<double>(count));
+                               })
+      ->RangeMultiplier(10)
+      ->Range(1, most);
+}
+
+void growWithThreads(bool inverse) {
+  const std::string name = std::string("threads/") + (inverse ? "inverse" : "direct");
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [inverse](benchmark::State& state) {
+                                 const BatchDynamics dynamics(helix().manipulator());
+                                 Many poses(most);
+                                 for ([[maybe_unused]] auto unused : state) {
+                                   solveInThreads(dynamics, inverse, poses, static_cast<std::size_t>(state.range(0)));
+                                   benchmark::ClobberMemory();
+                                 }
+                                 poses.requireAnswers();
+                                 countPoses(state, most);
+                               })
+      ->DenseRange(1, 2)
+      ->UseRealTime();
+}
 
 }  // namespace
+
+void registerBatches() {
+  for (const bool inverse : {true, false}) {
+    for (const InstructionSet set : instructionSets()) growWithSamples(set, inverse);
+    growWithThreads(inverse);
+  }
+}
+
 }  // namespace ursula::bench

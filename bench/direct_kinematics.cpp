@@ -1,10 +1,8 @@
 // Direct kinematics along the paper's helix: every pose for given actuated angles, and one pose tracked.
 
-#include <benchmark/benchmark.h>
+#include <optional>
 
-#include <vector>
-
-#include "model/scenario.h"
+#include "bench/benchmarks.h"
 #include "nocsolver/direct_kinematics.h"
 
 namespace ursula::bench {
@@ -12,10 +10,11 @@ namespace {
 
 /// Actuated angles with their rates at instants of the helix, 10 ms apart: what a controller would track.
 struct ActuatedHelix {
-  ActuatedHelix() : scenario(readScenario(URSULA_SCENARIOS "/paper-helix.toml")), kinematics(*scenario.manipulator) {
+  ActuatedHelix() : kinematics(helix().manipulator()) {
+    const Trajectory& trajectory = *helix().scenario.trajectory;
     Workspace<double> work;
-    for (double t = 0; t < scenario.trajectory->duration(); t += 0.01) {
-      kinematics.solver().inverseKinematics(scenario.trajectory->at(t), work);
+    for (double t = 0; t < trajectory.duration(); t += 0.01) {
+      kinematics.solver().inverseKinematics(trajectory.at(t), work);
       phi.push_back(kinematics.solver().angles(work).phi);
       phi_dot.push_back(kinematics.solver().rates(work).phi);
       phi_ddot.push_back(kinematics.solver().accelerations(work).phi);
@@ -23,7 +22,6 @@ struct ActuatedHelix {
     }
   }
 
-  Scenario scenario;
   DirectKinematics kinematics;
   std::vector<Vector6d> phi, phi_dot, phi_ddot;
   std::vector<PlatformPose> poses;
@@ -31,40 +29,45 @@ struct ActuatedHelix {
 
 /// All poses, polished, with what each needs of the legs.
 void allPoses(benchmark::State& state) {
-  const ActuatedHelix helix;
+  const ActuatedHelix actuated;
   std::size_t k = 0;
   for ([[maybe_unused]] auto unused : state) {
-    benchmark::DoNotOptimize(helix.kinematics.poses(helix.phi[k]));
-    k = (k + 1) % helix.phi.size();
+    benchmark::DoNotOptimize(actuated.kinematics.poses(actuated.phi[k]));
+    k = (k + 1) % actuated.phi.size();
   }
+  countPoses(state);
 }
-BENCHMARK(allPoses);
-
 /// One pose from that of 10 ms before.
 void track(benchmark::State& state) {
-  const ActuatedHelix helix;
+  const ActuatedHelix actuated;
   std::size_t k = 0, lost = 0;
   for ([[maybe_unused]] auto unused : state) {
-    const std::optional<PlatformPose> pose = helix.kinematics.track(helix.phi[k + 1], helix.poses[k]);
+    const std::optional<PlatformPose> pose = actuated.kinematics.track(actuated.phi[k + 1], actuated.poses[k]);
     lost += pose ? 0 : 1;
     benchmark::DoNotOptimize(pose);
-    k = (k + 1) % (helix.phi.size() - 1);
+    k = (k + 1) % (actuated.phi.size() - 1);
   }
+  countPoses(state);
   if (lost > 0) state.SkipWithError("a pose was lost");
 }
-BENCHMARK(track);
-
 /// Twist and twist rate at a known pose, (24) and (25).
 void motion(benchmark::State& state) {
-  const ActuatedHelix helix;
+  const ActuatedHelix actuated;
   Workspace<double> work;
   std::size_t k = 0;
   for ([[maybe_unused]] auto unused : state) {
-    benchmark::DoNotOptimize(helix.kinematics.motion(helix.poses[k], helix.phi_dot[k], helix.phi_ddot[k], work));
-    k = (k + 1) % helix.phi.size();
+    benchmark::DoNotOptimize(
+        actuated.kinematics.motion(actuated.poses[k], actuated.phi_dot[k], actuated.phi_ddot[k], work));
+    k = (k + 1) % actuated.phi.size();
   }
+  countPoses(state);
 }
-BENCHMARK(motion);
-
 }  // namespace
+
+void registerDirectKinematics() {
+  benchmark::RegisterBenchmark("direct_kinematics/all poses", allPoses);
+  benchmark::RegisterBenchmark("direct_kinematics/tracking", track);
+  benchmark::RegisterBenchmark("direct_kinematics/twist and twist rate", motion);
+}
+
 }  // namespace ursula::bench

@@ -24,10 +24,10 @@ ALLOWED = {
     "include": {"include", "validation", "nocsolver", "model"},
     "examples": set(),
     "python": {"python"},
-    "tests": {"tests", "validation", "nocsolver", "model"},
-    "bench": {"bench", "tests", "validation", "nocsolver", "model"},
+    "tests": {"tests", "bench", "validation", "nocsolver", "model"},
+    "bench": {"bench", "validation", "nocsolver", "model"},
 }
-ENGINE_HEADER = re.compile(r"(?i)^(simbody|simtk|simmath|mujoco/)|/(simbody|simtk|simmath)")
+ENGINE_HEADER = re.compile(r"(?i)^(simbody|simtk|simmath|mujoco/|dart/)|/(simbody|simtk|simmath)")
 # What users of the library have: the standard library, Eigen and the library itself.
 PYTHONS_HEADER = re.compile(r"pybind11/[\w/]+\.h")
 USERS_HEADER = re.compile(r"[a-z_]+|Eigen/\w+|ursula/\w+\.h")

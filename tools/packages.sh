@@ -17,7 +17,11 @@ declare -A needs=(
   [bundle]='node:nodejs npm:npm'
   [fresh]='git:git debootstrap:debootstrap'
 )
-optional=(libmujoco-dev)  # a further road: asked for before the first configuration, and done without where it is not to be had
+# Done without where they are not to be had: a further road, asked for before the first configuration; a peer of the benchmarks.
+declare -A optional=(
+  [program]='libmujoco-dev'
+  [bench]='libmujoco-dev libdart-dev'
+)
 
 # Used for their headers, and some 350 MB if installed: libsimbody-dev brings OpenGL with a compiler for it, and most of
 # Boost is never touched. Where they are not installed, what is used of them is unpacked into .deps/, which CMake looks into.
@@ -113,8 +117,10 @@ setup_tools() {
   install_packages "${packages[@]}"
 }
 
+# What a verb does without where it is not to be had.
 setup_optional() {
-  local packages
-  mapfile -t packages < <(missing "${optional[@]}")
+  local wanted packages
+  read -ra wanted <<<"${optional[$1]}"
+  mapfile -t packages < <(missing "${wanted[@]}")
   install_packages "${packages[@]}" || say "going on without ${packages[*]}"
 }

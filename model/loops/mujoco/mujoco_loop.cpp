@@ -26,12 +26,9 @@ namespace {
 using mujoco::dofOf, mujoco::joints_per_leg, mujoco::siteOnLeg, mujoco::siteOnPlatform;
 
 constexpr double pi = 3.14159265358979323846;
-constexpr int most_dofs = mujoco::dofsOf(leg_count), most_gaps = mujoco::legDofs(leg_count);
-/// Three gaps a leg: as many as a leg has joints.
-using GapJacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_gaps, most_dofs>;
-using VectorOfGaps = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_gaps, 1>;
+constexpr int most_dofs = mujoco::most_dofs, most_gaps = mujoco::most_gaps;
+using mujoco::GapJacobian, mujoco::VectorOfGaps, mujoco::VectorOfDofs;
 using SquareOfGaps = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_gaps, most_gaps>;
-using VectorOfDofs = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_dofs, 1>;
 using SquareOfDofs = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_dofs, most_dofs>;
 
 /// The angle between sides a and b of a triangle, opposite to c; exact to rounding for needles, too (Kahan,
@@ -144,34 +141,20 @@ Vector3d frictionOf(const Leg& leg, const Vector3d& rates) {
 
 }  // namespace
 
-struct MujocoLoop::Impl {
-  Impl(const Manipulator& from, std::shared_ptr<const Load> on_platform)
-      : manipulator(from),
-        load(std::move(on_platform)),
-        legs(from.legCount()),
-        leg_dofs(mujoco::legDofs(legs)),
-        dofs(mujoco::dofsOf(legs)),
-        origin(centroidOfBase(from)),
-        model(mujoco::buildModel(from, origin)),
-        data(mj_makeData(model.get())),
-        G(leg_dofs, dofs) {
-    if (!data) throw std::runtime_error("MuJoCo: no memory for its data");
-  }
-
-  void place(const Motion<double>& motion);
-  void move(const Motion<double>& motion);
-  GapJacobian gapJacobian() const;
-  VectorOfGaps gapAcceleration() const;
-  VectorOfDofs unbalanced(const Motion<double>& motion) const;
-
-  Manipulator manipulator;
-  std::shared_ptr<const Load> load;
-  int legs, leg_dofs, dofs;
-  Vector3d origin;  ///< B's origin may be far from the machine, MuJoCo's world is not
-  mujoco::Model model;
-  mujoco::Data data;
-  GapJacobian G;
-};
+MujocoLoop::Impl::Impl(const Manipulator& from, std::shared_ptr<const Load> on_platform)
+    : manipulator(from),
+      load(std::move(on_platform)),
+      legs(from.legCount()),
+      leg_dofs(mujoco::legDofs(legs)),
+      dofs(mujoco::dofsOf(legs)),
+      origin(centroidOfBase(from)),
+      model(mujoco::buildModel(from, origin)),
+      data(mj_makeData(model.get())),
+      G(leg_dofs, dofs) {
+  if (!data) throw std::runtime_error("MuJoCo: no memory for its data");
+  for (int leg = 0; leg < legs; ++leg)
+    offset_of_phi[static_cast<std::size_t>(leg)] = mujoco::offsetOfPhi(manipulator.leg(leg));
+}
 
 void MujocoLoop::Impl::place(const Motion<double>& motion) {
   for (int leg = 0; leg < legs; ++leg)
@@ -228,21 +211,26 @@ VectorOfGaps MujocoLoop::Impl::gapAcceleration() const {
 
 /// The right-hand side of (3).
 VectorOfDofs MujocoLoop::Impl::unbalanced(const Motion<double>& motion) const {
-  VectorOfDofs forces(dofs), given = VectorOfDofs::Zero(dofs);
+  VectorOfDofs forces(dofs);
   mj_rne(model.get(), data.get(), 1, forces.data());
+  return forces - given(*model, *data, motion);
+}
+
+VectorOfDofs MujocoLoop::Impl::given(const mjModel& in_model, mjData& in_data, const Motion<double>& motion) const {
+  VectorOfDofs forces = VectorOfDofs::Zero(dofs);
   for (int leg = 0; leg < legs; ++leg)
-    given.segment<3>(dofOf(leg, 0)) =
-        frictionOf(manipulator.leg(leg), Eigen::Map<const Vector3d>(data->qvel + dofOf(leg, 0)));
+    forces.segment<3>(dofOf(leg, 0)) =
+        frictionOf(manipulator.leg(leg), Eigen::Map<const Vector3d>(in_data.qvel + dofOf(leg, 0)));
   if (load) {
     const Wrench<double> wrench = load->at(motion.t);
     const bool in_platform = load->frame == Load::Frame::platform;
     const Vector3d force = in_platform ? motion.Q * wrench.force : wrench.force;
     const Vector3d moment = in_platform ? motion.Q * wrench.moment : wrench.moment;
     const Vector3d point = (motion.p - origin) + motion.Q * load->point;
-    mj_applyFT(model.get(), data.get(), force.data(), moment.data(), point.data(), mujoco::platformBody(legs),
-               given.data());
+    mj_applyFT(&in_model, &in_data, force.data(), moment.data(), point.data(), mujoco::platformBody(legs),
+               forces.data());
   }
-  return forces - given;
+  return forces;
 }
 
 MujocoLoop::MujocoLoop(const Manipulator& manipulator, std::shared_ptr<const Load> load)

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "model/loops/open_tree.h"
 #include "model/loops/road.h"
 
 namespace ursula {
@@ -17,6 +18,24 @@ class MujocoLoop : public Road {
   ~MujocoLoop() override;
 
   Vector6d inverseDynamics(const Motion<double>& motion) override;
+
+  // --- as somebody who has the joints' motion and wants numbers alone would ask MuJoCo ---
+
+  void coordinates(const Motion<double>& motion, const JointMotion& joint_motion, TreeCoordinates& out) const;
+
+  /// By mj_rne with accelerations and mj_jacSite. Speeds of the platform are MuJoCo's.
+  void openTree(const TreeCoordinates& at, OpenTree& out);
+  /// By mj_rne without, mj_crb, mj_jacSite and mj_rnePostConstraint; accelerations in `at` are not read.
+  void openTree(const TreeCoordinates& at, OpenTree& out, OpenTreeMasses& masses);
+  /// [ω̇; p̈] of rates of MuJoCo's speeds of the platform.
+  Vector6d twistRate(const TreeCoordinates& at, const Vector6d& rates_of_speeds) const;
+
+  /// The platform's twist rate [ω̇; p̈] under efforts by mj_forward, the loops closed by MuJoCo's own `connect`. It is
+  /// soft: of the acceleration at which a gap would open without it, about a part of 1 − softImpedance() is left; and
+  /// it leaves out J̇ q̇.
+  Vector6d softTwistRate(const TreeCoordinates& at, const Vector6d& efforts);
+  /// As near to 1 as MuJoCo allows.
+  static double softImpedance();
 
  private:
   struct Impl;

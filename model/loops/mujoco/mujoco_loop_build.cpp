@@ -14,6 +14,7 @@
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -24,7 +25,15 @@ namespace {
 
 [[noreturn]] void throwMessage(const char* message) { throw std::runtime_error(fmt::format("MuJoCo: {}", message)); }
 
-using Kinds = std::vector<LegKind>;  ///< all that the text depends on
+/// All that the text depends on.
+struct Structure {
+  std::vector<LegKind> kinds;
+  Closure closure;
+
+  bool operator<(const Structure& other) const {
+    return std::tie(closure, kinds) < std::tie(other.closure, other.kinds);
+  }
+};
 
 /// How a kind of leg is written: its joints, and how the distal link lies in the proximal one at coordinates zero.
 struct KindText {
@@ -43,7 +52,8 @@ constexpr std::array<KindText, leg_kind_count> kind_texts = {{
 }};
 
 /// The numbers of bodies are written over.
-std::string describe(const Kinds& kinds) {
+std::string describe(const Structure& structure) {
+  const std::vector<LegKind>& kinds = structure.kinds;
   const std::string inertial = R"(<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>)";
   std::string text = R"(<mujoco><worldbody>)";
   for (std::size_t leg = 0; leg < kinds.size(); ++leg) {
@@ -54,7 +64,14 @@ std::string describe(const Kinds& kinds) {
   }
   text += fmt::format(R"(<body name="platform"><freejoint/>{})", inertial);
   for (std::size_t leg = 0; leg < kinds.size(); ++leg) text += fmt::format(R"(<site name="platform{}"/>)", leg);
-  return text + "</body></worldbody></mujoco>";
+  text += "</body></worldbody>";
+  if (structure.closure == Closure::connected) {
+    text += "<equality>";
+    for (std::size_t leg = 0; leg < kinds.size(); ++leg)
+      text += fmt::format(R"(<connect body1="distal{}" body2="platform" anchor="0 0 0"/>)", leg);
+    text += "</equality>";
+  }
+  return text + "</mujoco>";
 }
 
 bool hasJoints(const mjModel& model, int leg, LegKind kind) {
@@ -68,10 +85,12 @@ bool hasJoints(const mjModel& model, int leg, LegKind kind) {
 }
 
 /// Whether things stand where the header says.
-bool isAsExpected(const mjModel& model, const Kinds& kinds) {
+bool isAsExpected(const mjModel& model, const Structure& structure) {
+  const std::vector<LegKind>& kinds = structure.kinds;
   const int legs = static_cast<int>(kinds.size());
   bool good = model.nv == dofsOf(legs) && model.nq == dofsOf(legs) + 1 && model.nbody == platformBody(legs) + 1 &&
               model.nsite == 2 * legs && model.njnt == legDofs(legs) + 1 &&
+              model.neq == (structure.closure == Closure::connected ? legs : 0) &&
               mj_name2id(&model, mjOBJ_BODY, "platform") == platformBody(legs);
   for (int leg = 0; good && leg < legs; ++leg) {
     const auto is = [&](int type, const char* name, int id) {
@@ -85,9 +104,9 @@ bool isAsExpected(const mjModel& model, const Kinds& kinds) {
 }
 
 /// MuJoCo reads files, or here what looks like one in memory.
-Model parse(const Kinds& kinds) {
+Model parse(const Structure& structure) {
   mju_user_error = mju_user_warning = throwMessage;  // by default it exits, prints and writes a log
-  const std::string text = describe(kinds);
+  const std::string text = describe(structure);
   const auto files = std::make_unique<mjVFS>();
   mj_defaultVFS(files.get());
   const char* name = "machine.xml";
@@ -97,17 +116,18 @@ Model parse(const Kinds& kinds) {
   Model model(mj_loadXML(name, files.get(), error.data(), static_cast<int>(error.size())));
   mj_deleteVFS(files.get());
   if (!model) throwMessage(error.data());
-  if (!isAsExpected(*model, kinds)) throwMessage("bodies, joints and sites stand in another order than was asked for");
+  if (!isAsExpected(*model, structure))
+    throwMessage("bodies, joints and sites stand in another order than was asked for");
   return model;
 }
 
 /// MuJoCo's parser keeps global state: one thread at a time, and each structure once.
-const mjModel* parsed(const Kinds& kinds) {
+const mjModel* parsed(const Structure& structure) {
   static std::mutex mutex;
-  static std::map<Kinds, Model> models;
+  static std::map<Structure, Model> models;
   const std::lock_guard<std::mutex> lock(mutex);
-  const auto found = models.find(kinds);
-  return found != models.end() ? found->second.get() : models.emplace(kinds, parse(kinds)).first->second.get();
+  const auto found = models.find(structure);
+  return found != models.end() ? found->second.get() : models.emplace(structure, parse(structure)).first->second.get();
 }
 
 void write(const Vector3d& from, mjtNum* to, int index) { Eigen::Map<Vector3d>(to + 3 * index) = from; }
@@ -146,6 +166,19 @@ void writeLeg(mjModel& model, int index, const Leg& leg, const Vector3d& origin)
   model.body_subtreemass[proximal] = leg.proximal.mass + leg.distal.mass;
 }
 
+/// The constants that MuJoCo makes of inertias when it reads a text; then, as that moves them, its constraints' points
+/// from the sites, as hard as it allows.
+void connect(mjModel& model, int legs) {
+  const Data data(mj_makeData(&model));
+  if (!data) throwMessage("no memory for its data");
+  mj_setConst(&model, data.get());
+  for (int leg = 0; leg < legs; ++leg) {
+    std::copy_n(model.site_pos + 3 * siteOnLeg(leg), 3, model.eq_data + mjNEQDATA * leg);
+    std::copy_n(model.site_pos + 3 * siteOnPlatform(legs, leg), 3, model.eq_data + mjNEQDATA * leg + 3);
+    std::fill_n(model.eq_solimp + mjNIMP * leg, 2, mjMAXIMP);
+  }
+}
+
 }  // namespace
 
 Matrix3d frameAtZero(const Leg& leg) {
@@ -162,15 +195,17 @@ Matrix3d frameAtZero(const Leg& leg) {
   return frame;
 }
 
-Model buildModel(const Manipulator& manipulator, const Vector3d& origin) {
+Model buildModel(const Manipulator& manipulator, const Vector3d& origin, Closure closure) {
   const int legs = manipulator.legCount();
-  Kinds kinds;
-  for (const Leg& leg : manipulator.parameters().legs) kinds.push_back(leg.kind);
-  Model model(mj_copyModel(nullptr, parsed(kinds)));
+  Structure structure{{}, closure};
+  for (const Leg& leg : manipulator.parameters().legs) structure.kinds.push_back(leg.kind);
+  Model model(mj_copyModel(nullptr, parsed(structure)));
   if (!model) throwMessage("no memory for its model");
-  // Shortcuts for frames that coincided in the text.
+  // Shortcuts for frames that coincided in the text, and for inertias that were diagonal in it.
   std::fill_n(model->body_sameframe, model->nbody, mjtByte{0});
   std::fill_n(model->site_sameframe, model->nsite, mjtByte{0});
+  std::fill_n(model->body_simple, model->nbody, mjtByte{0});
+  std::fill_n(model->dof_simplenum, model->nv, 0);
   write(manipulator.gravity(), model->opt.gravity, 0);
   const Platform& platform = manipulator.platform();
   writeInertia(*model, platformBody(legs), platform.mass, Vector3d::Zero(), platform.inertia);
@@ -179,6 +214,7 @@ Model buildModel(const Manipulator& manipulator, const Vector3d& origin) {
     writeLeg(*model, leg, manipulator.leg(leg), origin);
     write(manipulator.leg(leg).platform_point - platform.center_of_mass, model->site_pos, siteOnPlatform(legs, leg));
   }
+  if (closure == Closure::connected) connect(*model, legs);
   return model;
 }
 

@@ -7,6 +7,7 @@
 #include "model/joint_reactions.h"
 #include "model/joint_variables.h"
 #include "model/load.h"
+#include "model/loops/open_tree.h"
 #include "model/manipulator.h"
 #include "model/motion.h"
 
@@ -82,6 +83,17 @@ class SimbodyLoop {
 
   /// Forces and moments at the joints after accelerate(). Only for six_balls.
   Reactions reactions() const;
+
+  // --- as somebody who has the joints' motion and wants numbers alone would ask Simbody; six_balls only ---
+
+  /// Nothing is realized.
+  void coordinates(const Motion<double>& motion, const JointMotion& joint_motion, TreeCoordinates& out) const;
+
+  /// By realize(Velocity), calcResidualForceIgnoringConstraints and calcGTranspose; speeds of the platform are [ω; ṗ].
+  void openTree(const TreeCoordinates& at, OpenTree& out);
+
+  /// The platform's twist rate [ω̇; p̈] under efforts, by realize(Acceleration). Accelerations in `at` are not read.
+  Vector6d twistRate(const TreeCoordinates& at, const Vector6d& efforts);
 
   // --- as a system of ordinary differential equations: x = [q, u] ---
 

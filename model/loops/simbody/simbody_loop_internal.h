@@ -83,6 +83,13 @@ std::optional<std::array<double, 3>> legGeometry(const Leg& leg, const Matrix3d&
 /// [moment about P; force] of the load in B for the platform's pose in `state`, realized to Position.
 SimTK::SpatialVec loadOnPlatform(const Load& load, const Mechanism& mechanism, const SimTK::State& state);
 
+/// Kept from call to call, so that none of them allocates.
+struct OpenTreeScratch {
+  SimTK::Vector mobility_forces, residual;
+  SimTK::Vector_<SimTK::SpatialVec> body_forces;
+  SimTK::Matrix G_transposed;
+};
+
 struct SimbodyLoop::Impl {
   Impl(const Manipulator& manipulator, Topology topology, std::shared_ptr<const Load> load);
 
@@ -93,6 +100,7 @@ struct SimbodyLoop::Impl {
   std::shared_ptr<AppliedForces> applied = std::make_shared<AppliedForces>();
   SimTK::State state;
   SimTK::Vector u_dot;  ///< accelerations last placed or found
+  OpenTreeScratch scratch;
   Manipulator parameters;
   Topology topology;
 
@@ -107,6 +115,8 @@ struct SimbodyLoop::Impl {
   /// [G; J]: constraint Jacobian over the platform's frame Jacobian, nu × nu.
   Eigen::MatrixXd constraintsAndPlatform() const;
   Eigen::MatrixXd constraintJacobian() const;
+  /// Forces that act besides the motors', into the scratch; from the state's velocities.
+  void applyForces();
   /// Sets u_dot under `torques`, the legs' coordinates eliminated; six balls only.
   void eliminate(const Vector6d& torques);
   /// Velocities and accelerations of all coordinates that go with the platform's.

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <memory>
+#include <vector>
+
+#include "bench/peers/agreement.h"
+#include "bench/peers/helix.h"
+#include "bench/peers/peer.h"
+#include "nocsolver/batch_dynamics.h"
+
+namespace ursula::bench {
+
+// Names are TASK/WHO or TASK/WHO/HOW MUCH; tools/performance.py makes the tables of them.
+
+/// Leaves the time of one pose as a counter, s, where each iteration does `poses` of them.
+void countPoses(benchmark::State& state, double poses = 1);
+
+/// Goes round all poses, one in each iteration.
+template <class Do>
+void roundPoses(benchmark::State& state, Do&& act) {
+  std::size_t k = 0;
+  for ([[maybe_unused]] auto unused : state) {
+    benchmark::DoNotOptimize(act(k));
+    k = (k + 1) % Poses::count;
+  }
+  countPoses(state);
+}
+
+/// Those that this processor has, the widest last.
+std::vector<InstructionSet> instructionSets();
+
+using Peers = std::vector<std::unique_ptr<Peer>>;
+
+/// The solver's roads and the peers on the paper's helix.
+void registerSideBySide(const Peers& peers);
+/// What the solver's roads make of the poses that are timed.
+std::vector<Answers> ownAnswers();
+
+/// Batches by instruction set, number of samples and threads.
+void registerBatches();
+/// Machines with legs of other kinds.
+void registerLegKinds();
+/// All poses, tracking, and twists at a known pose.
+void registerDirectKinematics();
+
+}  // namespace ursula::bench

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "model/loops/open_tree.h"
+#include "model/manipulator.h"
+
+namespace ursula::bench {
+
+// Every peer's loops are closed alike, leg by leg. With N = J⁻¹P of each leg u = [N; 1] u_P satisfies the constraints,
+// and [N; 1]ᵀ frees the forces of multipliers (García de Jalón and Bayo, Kinematic and Dynamic Simulation of Multibody
+// Systems, 1994, sect. 5.3): six equations are left. Nothing is allocated.
+
+/// Efforts for the forces that a tree needs.
+Vector6d closedEfforts(const OpenTree& tree, const Manipulator& manipulator);
+
+/// Rates of the platform's speeds under efforts.
+Vector6d closedRates(const OpenTree& tree, const OpenTreeMasses& masses, const Manipulator& manipulator,
+                     const Vector6d& efforts);
+
+/// What the platform's rates change by, at most and to first order, where of the acceleration at which each gap would
+/// open without its constraint a part is left.
+Vector6d changeOfRates(const OpenTree& tree, const OpenTreeMasses& masses, const Manipulator& manipulator,
+                       const Vector6d& efforts, double part);
+
+}  // namespace ursula::bench

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "model/scenario.h"
+#include "nocsolver/solver.h"
+
+namespace ursula::bench {
+
+/// Instants inside the motion of a scenario that ships, evenly spread, with what every engine works from.
+struct Poses {
+  static constexpr int count = 64;
+
+  /// "paper-helix".
+  explicit Poses(const std::string& name);
+
+  Scenario scenario;
+  Solver<double> solver;
+  std::vector<Motion<double>> motions;
+  std::vector<JointMotion> joints;
+  std::vector<Vector6d> efforts;  ///< by Solver
+
+  const Manipulator& manipulator() const { return *scenario.manipulator; }
+};
+
+/// The paper's helix; made once.
+const Poses& helix();
+
+/// Displacements, rates and accelerations of the joints by the closed forms.
+JointMotion jointMotion(const Solver<double>& solver, const Motion<double>& motion, Workspace<double>& work);
+
+}  // namespace ursula::bench

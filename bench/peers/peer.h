@@ -1,0 +1,66 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/joint_variables.h"
+#include "model/loops/open_tree.h"
+#include "model/manipulator.h"
+
+namespace ursula::bench {
+
+/// An engine that solves the machine's dynamics, used as somebody would who knows it well: coordinates are handed over
+/// in the engine's own form, nothing is asked for twice, its own Jacobians close the loops. Built of raw parameters
+/// alone. Not thread-safe.
+class Peer {
+ public:
+  Peer() = default;
+  virtual ~Peer() = default;
+  Peer(const Peer&) = delete;
+  Peer& operator=(const Peer&) = delete;
+
+  /// "MuJoCo".
+  virtual std::string name() const = 0;
+  /// "2.2.2".
+  virtual std::string version() const = 0;
+
+  /// The engine's coordinates for the joints' motion. Allocates at first.
+  virtual void coordinates(const Motion<double>& motion, const JointMotion& joints, TreeCoordinates& out) const = 0;
+
+  virtual bool hasInverse() const { return true; }
+  virtual Vector6d inverseDynamics(const TreeCoordinates& at) = 0;
+  /// [ω̇; p̈] under efforts; accelerations in `at` are not read.
+  virtual Vector6d directDynamics(const TreeCoordinates& at, const Vector6d& efforts) = 0;
+
+  /// How direct dynamics of an engine that is not exact by design may differ from the truth.
+  struct Deviation {
+    Vector6d left_out = Vector6d::Zero();  ///< [ω̇; p̈] for a term that it leaves out, to first order
+    Vector6d softness = Vector6d::Zero();  ///< bound on each component for constraints that yield
+  };
+  virtual Deviation deviation(const TreeCoordinates&, const Vector6d& /*efforts*/) { return {}; }
+};
+
+/// Simbody: inverse by realize(Velocity), calcResidualForceIgnoringConstraints and calcGTranspose; direct by
+/// realize(Acceleration) with its own constraints.
+std::unique_ptr<Peer> makeSimbodyPeer(const Manipulator& manipulator);
+
+/// MuJoCo: inverse by mj_rne, direct by mj_rne and mj_crb, both closed by mj_jacSite. Null where it is not there.
+std::unique_ptr<Peer> makeMujocoPeer(const Manipulator& manipulator);
+
+/// MuJoCo: direct by mj_forward with its own soft constraints, which leave out J̇ q̇; no inverse. Null where it is not
+/// there.
+std::unique_ptr<Peer> makeSoftMujocoPeer(const Manipulator& manipulator);
+
+/// DART: inverse by computeInverseDynamics, direct by the same at rest and masses from its Jacobians and inertias, both
+/// closed by its Jacobians. Six URS legs only, or std::invalid_argument is thrown. Null where it is not there.
+std::unique_ptr<Peer> makeDartPeer(const Manipulator& manipulator);
+/// DART is optional: false where this was built without it.
+bool dartAvailable();
+
+/// Those that this build has.
+std::vector<std::unique_ptr<Peer>> makePeers(const Manipulator& manipulator);
+/// Names of those that it could have and has not.
+std::vector<std::string> missingPeers();
+
+}  // namespace ursula::bench
