@@ -1,0 +1,5 @@
+#include "nocsolver/kernels/leg_slopes_impl.h"
+
+namespace ursula::kernel {
+SlopeFunctions slopesByAvx2() { return slopeFunctions<xsimd::fma3<xsimd::avx2>>(); }
+}  // namespace ursula::kernel

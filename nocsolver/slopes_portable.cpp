@@ -1,0 +1,5 @@
+#include "nocsolver/kernels/leg_slopes_impl.h"
+
+namespace ursula::kernel {
+SlopeFunctions slopesOneByOne() { return slopeFunctions<OneByOne>(); }
+}  // namespace ursula::kernel
