@@ -1,78 +1,142 @@
 #pragma once
 
-// A leg's share of inverse dynamics and its derivatives by where B is and how fast. Internal: plain numbers, and
-// functions that are compiled for one instruction set each.
+// A leg's share of inverse dynamics with derivatives carried along. Internal; included by sources that are compiled for
+// one instruction set. What they share with others are plain numbers: no function of doubles may be made here, or the
+// linker might take it for all.
 //
-// A leg sees the platform's motion by that of B alone: AB, v_B, a_B. The derivatives by the first two are carried along
-// as tangents by the kernels of plane_dynamics.h; by a_B the loads are linear, and plane_mass.h has their factors.
+// At a given μ, the loads that the motors put on the platform's equilibrium, a leg is a force f at B, in B:
+//   f = Σ Qⱼ kⱼ of what no motor drives − Σ μₘ kₘ of what motors drive                            (a)
 
-#include <array>
-
-#include "model/leg_kind.h"
+#include "nocsolver/kernels/plane_dynamics.h"
+#include "nocsolver/kernels/slope_functions.h"
+#include "nocsolver/kernels/tangents.h"
 
 namespace ursula::kernel {
 
-/// ChainModel<double> and `lift`, `rubs`, `coulomb` of MachineModel as plain numbers; matrices by columns.
-struct LegNumbers {
-  LegKind kind;
-  bool rubs, coulomb;
-  std::array<int, 3> motor;
-  double axes[9];  ///< x_hat, u, z_hat
-  double l, s, knee, rho, sigma, mass_1, mass_2;
-  double I_1[9], I_2[9];
-  double viscous[3], smooth[3], speed[3];
-  double lift[3];
+/// Keeps what is refused first; who asked throws it, as LegGuard would have.
+template <class S>
+class RefusalGuard {
+ public:
+  explicit RefusalGuard(int leg) { refusal_.leg = leg; }
+
+  void reach(const S& inside, const S& square, const S& bound) {
+    if (!(inside.v >= 0)) keep(Refusal::out_of_reach, std::sqrt(square.v), std::abs(bound.v), nullptr);
+  }
+  void stroke(const S& d, const S& least, const S& most) {
+    if (!(d.v > least.v)) keep(Refusal::end_of_stroke, d.v, least.v, nullptr);
+    if (!(d.v < most.v)) keep(Refusal::end_of_stroke, d.v, most.v, nullptr);
+  }
+  void offAxis(const S& r, const S& size) {
+    if (!(r.v > root_eps * size.v)) keep(Refusal::point_on_axis, r.v, size.v, nullptr);
+  }
+  void regular(const S& sine, const char* what) {
+    if (!(std::abs(sine.v) > root_eps)) keep(Refusal::stretched_leg, std::abs(sine.v), 0, what);
+  }
+  const Refusal& refusal() const { return refusal_; }
+
+ private:
+  static constexpr double root_eps = 0x1p-26;
+  void keep(Refusal::Kind kind, double measure, double bound, const char* what) {
+    if (refusal_.kind == Refusal::none) refusal_ = {kind, refusal_.leg, measure, bound, what};
+  }
+  Refusal refusal_;
 };
 
-/// AB, v_B and a_B along x_hat, u, z_hat.
+template <class S>
+Vector3<S> three(const double* from) {
+  return {S(from[0]), S(from[1]), S(from[2])};
+}
+template <class S>
+Matrix3<S> nine(const double* from) {
+  Matrix3<S> out;
+  for (int k = 0; k < 9; ++k) out.data()[k] = S(from[k]);
+  return out;
+}
+
+/// A value with the tangents that `lanes` holds.
+template <class S>
+S tangent(double value, const double* lanes) {
+  return {value, S::T::load(lanes)};
+}
+
+template <class S, LegKind kind>
+ChainModel<S> modelOf(const LegNumbers& from) {
+  ChainModel<S> to;
+  to.kind = kind;  // known when this is compiled, so that nothing is left of the kernels' switches
+  to.motor = from.motor;
+  to.x_hat = three<S>(from.x_hat);
+  to.u = three<S>(from.u);
+  to.z_hat = three<S>(from.z_hat);
+  to.a = three<S>(from.a);
+  to.b = three<S>(from.b);
+  to.l = S(from.l);
+  to.s = S(from.s);
+  to.knee = S(from.knee);
+  to.rho = S(from.rho);
+  to.sigma = S(from.sigma);
+  to.mass_1 = S(from.mass_1);
+  to.mass_2 = S(from.mass_2);
+  to.I_1 = nine<S>(from.I_1);
+  to.I_2 = nine<S>(from.I_2);
+  for (std::size_t j = 0; j < 3; ++j) {
+    to.viscous[j] = S(from.viscous[j]);
+    to.coulomb[j] = S(from.smooth[j]);
+    to.speed[j] = S(from.speed[j]);
+  }
+  return to;
+}
+
+/// Where B is and how it moves, along x_hat, u, z_hat, and −g along them.
+template <class S>
 struct TipMotion {
-  double AB[3], v[3], a[3];
+  Vector3<S> AB, v, a, lift;
 };
 
-/// What a guard refused first.
-struct LegFault {
-  enum Kind { none, out_of_reach, end_of_stroke, point_on_axis, stretched_leg };
-  Kind kind = none;
-  double measure, bound;
-  const char* what;
+/// As moveLeg of plane_dynamics.h, from the motion of B: the leg in its plane, and what falls on its coordinates.
+template <class S, class Guard>
+Vector3<S> legLoads(const ChainModel<S>& model, bool rubs, bool coulomb, const TipMotion<S>& tip, Guard& guard,
+                    PlaneLeg<S>& plane) {
+  place<S>(model, tip.AB, guard, plane);
+  setRates<S>(model, toPlane<S>(plane, tip.v), toPlane<S>(plane, tip.a), plane);
+  Vector3<S> Q = linkForces<S>(model, toPlane<S>(plane, tip.lift), plane);
+  if (rubs) Q += friction<S>(model, coulomb, plane);
+  return Q;
+}
+
+/// What (a) is made of.
+template <class S>
+struct LegShare {
+  Vector3<S> Q;
+  Vector3<S> force;                ///< at B, in B, of the coordinates that no motor drives
+  std::array<Vector3<S>, 3> row;   ///< kⱼ in B of those that motors drive
 };
 
-/// By AB, in B, lanes 0 to 2; by v_B, in B, lanes 3 to 5.
-using Slope = std::array<double, 8>;
+template <class S>
+LegShare<S> shareOf(const ChainModel<S>& model, const PlaneLeg<S>& plane, const Vector3<S>& Q) {
+  LegShare<S> out;
+  out.Q = Q;
+  Vector3<S> force(S(0), S(0), S(0));
+  for (std::size_t j = 0; j < 3; ++j) {
+    if (model.motor[j] < 0)
+      force += Q(static_cast<Eigen::Index>(j)) * plane.k[j];
+    else
+      out.row[j] = toBase<S>(model, plane, plane.k[j]);
+  }
+  out.force = toBase<S>(model, plane, force);
+  return out;
+}
 
-struct LegSlopes {
-  LegFault fault;
-  double cosine, sine, C_1, S_1, C_2, S_2, d;  ///< of PlaneLeg
-  std::array<std::array<double, 3>, 3> k;      ///< rows of the map in the plane
-  std::array<double, 3> Q;                     ///< on the coordinates
-  std::array<double, 3> force;                 ///< at B, in B, of the coordinates that no motor drives
-  std::array<Slope, 3> d_force, d_Q;
-  std::array<std::array<Slope, 3>, 3> d_row;  ///< of the driven coordinates' rows, in B
-};
-
-/// Of the platform; matrices by columns, in M.
-struct PlatformNumbers {
-  double mass, rho[3], I_M[9], gravity[3];
-};
-
-/// By a turn δ, by ω, ω̇ and p̈, in this order.
-struct PlatformSlopes {
-  std::array<double, 6> wrench;  ///< [moment about P; force] that moves the platform against gravity
-  std::array<std::array<double, 16>, 6> d_wrench;
-};
-
-struct SlopeFunctions {
-  /// Stops at the first leg with a fault; false then.
-  bool (*byState)(const LegNumbers* legs, const TipMotion* motions, int count, LegSlopes* out);
-  /// Q by columns, ω, ω̇, p̈, in B.
-  void (*ofPlatform)(const PlatformNumbers& platform, const double* Q, const double* omega, const double* omega_dot,
-                     const double* p_ddot, PlatformSlopes& out);
-};
-
-// Each in a source of its own.
-SlopeFunctions slopesOneByOne();
-SlopeFunctions slopesBySse2();
-SlopeFunctions slopesByAvx2();
-SlopeFunctions slopesByAvx512();
+/// (a)
+template <class S>
+Vector3<S> forceAtB(const std::array<int, 3>& motor, const LegShare<S>& share, const double* mu) {
+  Vector3<S> f = share.force;
+  for (std::size_t j = 0; j < 3; ++j)
+    if (motor[j] >= 0)
+      for (int k = 0; k < 3; ++k) {
+        f(k).v -= mu[motor[j]] * share.row[j](k).v;
+        f(k).d = f(k).d - mu[motor[j]] * share.row[j](k).d;
+      }
+  return f;
+}
 
 }  // namespace ursula::kernel

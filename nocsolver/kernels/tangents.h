@@ -31,48 +31,42 @@ struct Register<OneByOne> {
   static constexpr int lanes = 1;
 };
 
-/// At least N numbers in as many registers as they take; what is beyond N is of no interest.
+/// At least N numbers in as many registers as they take; what is beyond N is of no interest. One register, and the rest
+/// as its base: compilers take no loop over an array apart as early as this.
 template <class Isa, int N>
-struct Tangents {
+struct Tangents : Tangents<Isa, (N > Register<Isa>::lanes ? N - Register<Isa>::lanes : 0)> {
   using R = Register<Isa>;
-  static constexpr int registers = (N + R::lanes - 1) / R::lanes, lanes = registers * R::lanes;
-  typename R::Type part[registers];
+  using Rest = Tangents<Isa, (N > R::lanes ? N - R::lanes : 0)>;
+  static constexpr int lanes = R::lanes + Rest::lanes;
+  typename R::Type part;
 
-  static Tangents all(double x) {
-    Tangents out;
-    for (auto& one : out.part) one = R::all(x);
-    return out;
-  }
-  static Tangents load(const double* from) {
-    Tangents out;
-    for (int k = 0; k < registers; ++k) out.part[k] = R::load(from + k * R::lanes);
-    return out;
-  }
+  Tangents() = default;
+  Tangents(const typename R::Type& one, const Rest& rest) : Rest(rest), part(one) {}
+  static Tangents all(double x) { return {R::all(x), Rest::all(x)}; }
+  static Tangents load(const double* from) { return {R::load(from), Rest::load(from + R::lanes)}; }
   void store(double* to) const {
-    for (int k = 0; k < registers; ++k) R::store(part[k], to + k * R::lanes);
+    R::store(part, to);
+    rest().store(to + R::lanes);
   }
+  const Rest& rest() const { return *this; }
 
-  friend Tangents operator+(const Tangents& a, const Tangents& b) {
-    Tangents out;
-    for (int k = 0; k < registers; ++k) out.part[k] = a.part[k] + b.part[k];
-    return out;
-  }
-  friend Tangents operator-(const Tangents& a, const Tangents& b) {
-    Tangents out;
-    for (int k = 0; k < registers; ++k) out.part[k] = a.part[k] - b.part[k];
-    return out;
-  }
-  friend Tangents operator-(const Tangents& a) {
-    Tangents out;
-    for (int k = 0; k < registers; ++k) out.part[k] = -a.part[k];
-    return out;
-  }
-  friend Tangents operator*(double x, const Tangents& a) {
-    Tangents out;
-    const auto factor = R::all(x);
-    for (int k = 0; k < registers; ++k) out.part[k] = factor * a.part[k];
-    return out;
-  }
+  friend Tangents operator+(const Tangents& a, const Tangents& b) { return {a.part + b.part, a.rest() + b.rest()}; }
+  friend Tangents operator-(const Tangents& a, const Tangents& b) { return {a.part - b.part, a.rest() - b.rest()}; }
+  friend Tangents operator-(const Tangents& a) { return {-a.part, -a.rest()}; }
+  friend Tangents operator*(double x, const Tangents& a) { return {R::all(x) * a.part, x * a.rest()}; }
+};
+
+/// None: what is left of a Dual is a number of its instruction set's own.
+template <class Isa>
+struct Tangents<Isa, 0> {
+  static constexpr int lanes = 0;
+  static Tangents all(double) { return {}; }
+  static Tangents load(const double*) { return {}; }
+  void store(double*) const {}
+  friend Tangents operator+(const Tangents&, const Tangents&) { return {}; }
+  friend Tangents operator-(const Tangents&, const Tangents&) { return {}; }
+  friend Tangents operator-(const Tangents&) { return {}; }
+  friend Tangents operator*(double, const Tangents&) { return {}; }
 };
 
 /// A number with N derivatives.
@@ -109,6 +103,9 @@ struct Dual {
   friend Dual abs(const Dual& a) { return a.v < 0 ? -a : a; }
   friend bool operator<(const Dual& a, const Dual& b) { return a.v < b.v; }
 };
+
+template <class Isa>
+using Value = Dual<Isa, 0>;
 
 }  // namespace ursula::kernel
 
