@@ -79,6 +79,13 @@ struct Dual {
   Dual() = default;
   Dual(double value) : v(value), d(T::all(0)) {}  // NOLINT(google-explicit-constructor): as Eigen makes its scalars
   Dual(double value, const T& tangents) : v(value), d(tangents) {}
+  // By members: compilers copy a trivial one as a block, and wait until all of it is written.
+  Dual(const Dual& other) : v(other.v), d(other.d) {}
+  Dual& operator=(const Dual& other) {
+    v = other.v;
+    d = other.d;
+    return *this;
+  }
 
   Dual& operator+=(const Dual& b) { return *this = *this + b; }
   Dual& operator-=(const Dual& b) { return *this = *this - b; }
