@@ -7,6 +7,7 @@
 #include "nocsolver/kernels/machine_model.h"
 #include "nocsolver/kernels/platform_at_p.h"
 #include "nocsolver/kernels/slope_functions.h"
+#include "nocsolver/slope_table.h"
 
 namespace ursula {
 namespace {
@@ -37,9 +38,12 @@ void copy(const Matrix& from, double* to) {
   for (Eigen::Index k = 0; k < from.size(); ++k) to[k] = from.data()[k];
 }
 
-LegNumbers numbersOf(const ChainModel<double>& leg, const Leg& written) {
+LegNumbers numbersOf(const kernel::PlaneModel<double>& leg, const Leg& written) {
   LegNumbers out;
   out.kind = leg.kind;
+  out.rubs = leg.rubs;
+  out.rubs_dry = leg.rubs_dry;
+  out.principal = leg.principal;
   out.motor = leg.motor;
   copy(written.base_axis, out.axis);
   copy(leg.x_hat, out.x_hat);
@@ -69,15 +73,12 @@ MachineNumbers numbersOf(const Manipulator& manipulator) {
   MachineNumbers out;
   out.legs_in_all = machine.legs_in_all;
   out.mass = machine.mass;
-  out.length = machine.length;
+  out.length = 1 / machine.per_length;
   copy(machine.rho, out.rho);
   copy(machine.I_M, out.I_M);
   copy(machine.gravity, out.gravity);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(out.legs_in_all); ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(out.legs_in_all); ++i)
     out.legs[i] = numbersOf(machine.legs[i], manipulator.leg(static_cast<int>(i)));
-    out.legs[i].rubs = machine.rubs[i];
-    out.legs[i].coulomb = machine.coulomb[i];
-  }
   return out;
 }
 
@@ -101,13 +102,32 @@ void refuse(const Refusal& refusal, double t) {
 }  // namespace
 
 struct EffortDerivatives::Impl {
+  Impl(const Manipulator& manipulator, InstructionSet set)
+      : functions(functionsOf(set)),
+        machine(numbersOf(manipulator)),
+        unit(kernel::unitBodies(machine)),
+        parameters(kernel::parameterTable(machine)),
+        regressor(kernel::regressorTable(machine)) {}
+
+  Columns columns(const kernel::SlopeTable& table, const MachineNumbers& at, const Motion<double>& motion,
+                  const Vector6d& load) const {
+    const Block still = Block::Zero();
+    kernel::ParameterSlopes slopes;
+    refuse(functions.byParameters(machine, at, {&motion.t, load.data(), still.data()}, slopes), motion.t);
+    Columns out(6, static_cast<Eigen::Index>(table.names.size()));
+    for (std::size_t k = 0; k < table.names.size(); ++k)
+      out.col(static_cast<Eigen::Index>(k)) = kernel::slopeOf(table.places[k], slopes, machine.legs_in_all);
+    return out;
+  }
+
   kernel::SlopeFunctions functions;
-  MachineNumbers machine;
+  MachineNumbers machine, unit;  ///< `unit`: bodies of mass 1 and nothing else, to be differentiated for the regressor
+  kernel::SlopeTable parameters, regressor;
 };
 
 EffortDerivatives::EffortDerivatives(const Manipulator& manipulator, InstructionSet set) {
   if (!isSupported(set)) throw std::invalid_argument(std::string("this processor has no ") + nameOf(set));
-  impl_ = std::make_unique<const Impl>(Impl{functionsOf(set), numbersOf(manipulator)});
+  impl_ = std::make_unique<const Impl>(manipulator, set);
 }
 EffortDerivatives::~EffortDerivatives() = default;
 EffortDerivatives::EffortDerivatives(EffortDerivatives&&) noexcept = default;
@@ -120,6 +140,23 @@ EffortsByState EffortDerivatives::byState(const Motion<double>& motion, const Ve
                                   out.derivatives.data()),
          motion.t);
   return out;
+}
+
+const std::vector<std::string>& EffortDerivatives::parameterNames() const { return impl_->parameters.names; }
+
+EffortDerivatives::Columns EffortDerivatives::byParameters(const Motion<double>& motion, const Vector6d& load) const {
+  return impl_->columns(impl_->parameters, impl_->machine, motion, load);
+}
+
+const std::vector<std::string>& EffortDerivatives::regressorNames() const { return impl_->regressor.names; }
+
+Eigen::VectorXd EffortDerivatives::regressorValues() const {
+  const std::vector<double> values = kernel::regressorValues(impl_->machine);
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+EffortDerivatives::Columns EffortDerivatives::regressor(const Motion<double>& motion) const {
+  return impl_->columns(impl_->regressor, impl_->unit, motion, Vector6d::Zero());
 }
 
 }  // namespace ursula

@@ -1,4 +1,4 @@
-#include "nocsolver/kernels/state_slopes_impl.h"
+#include "nocsolver/kernels/slope_functions_impl.h"
 
 namespace ursula::kernel {
 SlopeFunctions slopesByAvx2() { return slopeFunctions<xsimd::fma3<xsimd::avx2>>(); }

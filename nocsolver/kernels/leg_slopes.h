@@ -59,10 +59,10 @@ S tangent(double value, const double* lanes) {
   return {value, S::T::load(lanes)};
 }
 
-template <class S, LegKind kind>
-ChainModel<S> modelOf(const LegNumbers& from) {
+template <class S>
+ChainModel<S> chainOf(const LegNumbers& from) {
   ChainModel<S> to;
-  to.kind = kind;  // known when this is compiled, so that nothing is left of the kernels' switches
+  to.kind = from.kind;
   to.motor = from.motor;
   to.x_hat = three<S>(from.x_hat);
   to.u = three<S>(from.u);
@@ -86,20 +86,26 @@ ChainModel<S> modelOf(const LegNumbers& from) {
   return to;
 }
 
-/// Where B is and how it moves, along x_hat, u, z_hat, and −g along them.
 template <class S>
-struct TipMotion {
-  Vector3<S> AB, v, a, lift;
-};
+PlaneModel<S> modelOf(const LegNumbers& from, const Vector3<S>& gravity) {
+  PlaneModel<S> to = planeModel<S>(chainOf<S>(from), gravity);
+  to.rubs = from.rubs;
+  to.rubs_dry = from.rubs_dry;
+  to.principal = from.principal;
+  return to;
+}
 
-/// As moveLeg of plane_dynamics.h, from the motion of B: the leg in its plane, and what falls on its coordinates.
-template <class S, class Guard>
-Vector3<S> legLoads(const ChainModel<S>& model, bool rubs, bool coulomb, const TipMotion<S>& tip, Guard& guard,
-                    PlaneLeg<S>& plane) {
-  place<S>(model, tip.AB, guard, plane);
-  setRates<S>(model, toPlane<S>(plane, tip.v), toPlane<S>(plane, tip.a), plane);
-  Vector3<S> Q = linkForces<S>(model, toPlane<S>(plane, tip.lift), plane);
-  if (rubs) Q += friction<S>(model, coulomb, plane);
+/// As moveLegs of plane_dynamics.h, from the motion of B, v and a in B: the leg in its plane, and what falls on its
+/// coordinates.
+template <class S, class Kind, class Guard>
+Vector3<S> legLoads(Kind kind, const PlaneModel<S>& model, const Vector3<S>& AB, const Vector3<S>& v,
+                    const Vector3<S>& a, Guard& guard, PlaneLeg<S>& plane) {
+  place(kind, model, alongAxes<S>(model, AB), guard, plane);
+  setRates(kind, model, toPlane<S>(plane, alongAxes<S>(model, v)), toPlane<S>(plane, alongAxes<S>(model, a)), plane);
+  const Vector3<S> base = toPlane<S>(plane, model.lift);
+  Vector3<S> Q =
+      model.principal ? linkForces<true>(kind, model, base, plane) : linkForces<false>(kind, model, base, plane);
+  if (model.rubs) Q += friction<S>(model, plane);
   return Q;
 }
 
@@ -107,22 +113,23 @@ Vector3<S> legLoads(const ChainModel<S>& model, bool rubs, bool coulomb, const T
 template <class S>
 struct LegShare {
   Vector3<S> Q;
-  Vector3<S> force;                ///< at B, in B, of the coordinates that no motor drives
-  std::array<Vector3<S>, 3> row;   ///< kⱼ in B of those that motors drive
+  Vector3<S> force;               ///< at B, in B, of the coordinates that no motor drives
+  std::array<Vector3<S>, 3> row;  ///< kⱼ in B of those that motors drive
 };
 
 template <class S>
-LegShare<S> shareOf(const ChainModel<S>& model, const PlaneLeg<S>& plane, const Vector3<S>& Q) {
+LegShare<S> shareOf(const PlaneModel<S>& model, const PlaneLeg<S>& plane, const Vector3<S>& Q) {
   LegShare<S> out;
   out.Q = Q;
+  const PlaneAxes<S> axes = planeAxes<S>(model, plane);
   Vector3<S> force(S(0), S(0), S(0));
   for (std::size_t j = 0; j < 3; ++j) {
     if (model.motor[j] < 0)
       force += Q(static_cast<Eigen::Index>(j)) * plane.k[j];
     else
-      out.row[j] = toBase<S>(model, plane, plane.k[j]);
+      out.row[j] = axes.toBase(plane.k[j]);
   }
-  out.force = toBase<S>(model, plane, force);
+  out.force = axes.toBase(force);
   return out;
 }
 

@@ -35,7 +35,8 @@ void turnOf(const double* q, int row, double* to) {
 
 /// [moment about P; force] of (38), (43c), (46c): lanes 0 to 2 by δ, then four on each by ω, ω̇, p̈.
 template <class Isa>
-__attribute__((flatten, noinline)) Vector6<Dual<Isa, 16>> platformByState(const MachineNumbers& numbers, const double* motion_numbers) {
+__attribute__((flatten, noinline)) Vector6<Dual<Isa, 16>> platformByState(const MachineNumbers& numbers,
+                                                                          const double* motion_numbers) {
   using S = Dual<Isa, 16>;
   MachineModel<S> machine;
   setPlatform(numbers, machine);

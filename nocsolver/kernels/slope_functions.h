@@ -14,7 +14,7 @@ namespace ursula::kernel {
 struct LegNumbers {
   LegKind kind;
   std::array<int, 3> motor;
-  bool rubs, coulomb;
+  bool rubs, rubs_dry, principal;
   double axis[3];  ///< as it is written, not of length 1
   double x_hat[3], u[3], z_hat[3];
   double a[3], b[3];
@@ -46,9 +46,25 @@ struct StateNumbers {
 
 constexpr int state_count = 18;
 
+/// Numbers of a leg, in this order: aᵢ, bᵢ, l, s; the axis as it is written, gravity; mass, ρ and I (xx, yy, zz, xy,
+/// xz, yz) of the proximal link; mass, σ and I of the distal one; viscous and Coulomb friction of the three
+/// coordinates, smoothing speeds of angles and of d.
+constexpr int leg_parameter_count = 6 + 2 + 6 + 8 + 8 + 8;
+/// Mass, ρ, I as above, gravity.
+constexpr int platform_parameter_count = 1 + 3 + 6 + 3;
+
+/// Six numbers each, the efforts' derivatives.
+struct ParameterSlopes {
+  double platform[platform_parameter_count][6];
+  double legs[leg_count][leg_parameter_count][6];
+};
+
 struct SlopeFunctions {
   /// Efforts, and their derivatives by δ, p, ω, ṗ, ω̇, p̈: 6 × 18, by columns.
   Refusal (*byState)(const MachineNumbers& machine, const StateNumbers& state, double* efforts, double* derivatives);
+  /// Derivatives by the numbers of `at`, which is `machine` but for what efforts are linear in.
+  Refusal (*byParameters)(const MachineNumbers& machine, const MachineNumbers& at, const StateNumbers& state,
+                          ParameterSlopes& out);
 };
 
 // Each in a source of its own.

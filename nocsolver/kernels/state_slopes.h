@@ -4,7 +4,8 @@
 //
 // With w the wrench at P that the platform and the legs' forces f need, at a given μ (leg_slopes.h, (a)),
 //   τ = Q + μ,  G μ = w:  dτ = dQ + G⁻¹ d(w − G μ),  w − G μ = platform − load + Σ [Qb × f; f]     (b)
-// The leg's kernels carry tangents by AB and v_B, in B; by a_B loads are linear, with the leg's mass matrix M and map K:
+// The leg's kernels carry tangents by AB and v_B, in B; by a_B loads are linear, with the leg's mass matrix M and map
+// K:
 //   ∂Q/∂a_B = M K                                                                                  (c)
 // From there to the state, with e = δ × Qb:
 //   dAB = e + dp,  dv_B = ω × e + dω × Qb + dṗ,
@@ -93,65 +94,47 @@ PlaneLeg<Value<Isa>> valuesOf(const PlaneLeg<Dual<Isa, 6>>& from) {
 }
 
 /// (c)
-template <class Isa, LegKind kind>
-void setByAcceleration(const LegNumbers& numbers, const PlaneLeg<Dual<Isa, 6>>& moving, LegByState<Isa>& out) {
-  using V = Value<Isa>;
-  const ChainModel<V> model = modelOf<V, kind>(numbers);
-  const PlaneLeg<V> plane = valuesOf<Isa>(moving);
-  Matrix3<V> K;
-  for (std::size_t j = 0; j < 3; ++j)
-    K.row(static_cast<Eigen::Index>(j)) = toBase<V>(model, plane, plane.k[j]).transpose();
-  out.Q_by_a = massMatrix<V>(model, plane) * K;
+template <class Isa, class Kind>
+void setByAcceleration(Kind kind, const PlaneModel<Value<Isa>>& model, const PlaneLeg<Dual<Isa, 6>>& moving,
+                       LegByState<Isa>& out) {
+  const PlaneLeg<Value<Isa>> plane = valuesOf<Isa>(moving);
+  const PlaneAxes<Value<Isa>> axes = planeAxes<Value<Isa>>(model, plane);
+  Matrix3<Value<Isa>> K;
+  for (std::size_t j = 0; j < 3; ++j) K.row(static_cast<Eigen::Index>(j)) = axes.toBase(plane.k[j]).transpose();
+  out.Q_by_a = massMatrix(kind, model, plane) * K;
   out.force_by_a.setZero();
   for (std::size_t j = 0; j < 3; ++j) {
     const auto at = static_cast<Eigen::Index>(j);
-    if (numbers.motor[j] < 0) out.force_by_a += K.row(at).transpose() * out.Q_by_a.row(at);
+    if (model.motor[j] < 0) out.force_by_a += K.row(at).transpose() * out.Q_by_a.row(at);
   }
 }
 
 /// A function of its own: in one with the others it takes minutes to compile.
-template <class Isa, LegKind kind>
-__attribute__((flatten, noinline)) Refusal legByState(const MachineNumbers& machine, int i, const Carried<Value<Isa>>& carried, LegByState<Isa>& out) {
+template <class Isa, class Kind>
+__attribute__((flatten, noinline)) Refusal legByState(Kind kind, const MachineNumbers& machine, int i,
+                                                      const Carried<Value<Isa>>& carried, LegByState<Isa>& out) {
   using V = Value<Isa>;
   using S = Dual<Isa, 6>;
   const LegNumbers& numbers = machine.legs[static_cast<std::size_t>(i)];
-  const ChainModel<V> values = modelOf<V, kind>(numbers);
+  const PlaneModel<V> values = modelOf<V>(numbers, three<V>(machine.gravity));
   out.Qb = carried.motion.Q * values.b;
-  const Vector3<V> AB = alongAxes<V>(values, carried.motion.p - values.a + out.Qb);
-  const Vector3<V> v = alongAxes<V>(values, carried.velocity(out.Qb));
-  const Vector3<V> a = alongAxes<V>(values, carried.acceleration(out.Qb));
-  const Vector3<V> g = alongAxes<V>(values, three<V>(machine.gravity));
-  TipMotion<S> tip;
-  const double* axes[] = {numbers.x_hat, numbers.u, numbers.z_hat};
+  const Vector3<V> AB = carried.motion.p - values.a + out.Qb, v = carried.velocity(out.Qb);
+  const Vector3<V> a = carried.acceleration(out.Qb);
+  Vector3<S> AB_S, v_S, a_S;
   for (int k = 0; k < 3; ++k) {
-    const double *x = axes[k], by_AB[8] = {x[0], x[1], x[2]}, by_v[8] = {0, 0, 0, x[0], x[1], x[2]};
-    tip.AB(k) = tangent<S>(AB(k).v, by_AB);
-    tip.v(k) = tangent<S>(v(k).v, by_v);
-    tip.a(k) = S(a(k).v);
-    tip.lift(k) = S(-g(k).v);
+    double by_AB[8] = {}, by_v[8] = {};
+    by_AB[k] = by_v[3 + k] = 1;
+    AB_S(k) = tangent<S>(AB(k).v, by_AB);
+    v_S(k) = tangent<S>(v(k).v, by_v);
+    a_S(k) = S(a(k).v);
   }
   RefusalGuard<S> guard(i);
   PlaneLeg<S> plane;
-  const ChainModel<S> model = modelOf<S, kind>(numbers);
-  const Vector3<S> Q = legLoads<S>(model, numbers.rubs, numbers.coulomb, tip, guard, plane);
+  const PlaneModel<S> model = modelOf<S>(numbers, three<S>(machine.gravity));
+  const Vector3<S> Q = legLoads<S>(kind, model, AB_S, v_S, a_S, guard, plane);
   out.share = shareOf<S>(model, plane, Q);
-  setByAcceleration<Isa, kind>(numbers, plane, out);
+  setByAcceleration<Isa>(kind, values, plane, out);
   return guard.refusal();
-}
-
-template <class Isa>
-Refusal anyLegByState(const MachineNumbers& machine, int i, const Carried<Value<Isa>>& carried, LegByState<Isa>& out) {
-  switch (machine.legs[static_cast<std::size_t>(i)].kind) {
-    case LegKind::UPS:
-      return legByState<Isa, LegKind::UPS>(machine, i, carried, out);
-    case LegKind::RUS:
-      return legByState<Isa, LegKind::RUS>(machine, i, carried, out);
-    case LegKind::PUS:
-      return legByState<Isa, LegKind::PUS>(machine, i, carried, out);
-    case LegKind::URS:
-      break;
-  }
-  return legByState<Isa, LegKind::URS>(machine, i, carried, out);
 }
 
 }  // namespace ursula::kernel

@@ -109,6 +109,9 @@ struct Dual {
   }
   friend Dual abs(const Dual& a) { return a.v < 0 ? -a : a; }
   friend bool operator<(const Dual& a, const Dual& b) { return a.v < b.v; }
+  friend bool operator>(const Dual& a, const Dual& b) { return a.v > b.v; }
+  friend bool operator<=(const Dual& a, const Dual& b) { return a.v <= b.v; }
+  friend bool operator!=(const Dual& a, const Dual& b) { return a.v != b.v; }
 };
 
 template <class Isa>

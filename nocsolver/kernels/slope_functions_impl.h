@@ -2,6 +2,7 @@
 
 // Bodies of slope_functions.h for one instruction set. Internal; included by the sources that are compiled for it.
 
+#include "nocsolver/kernels/parameter_slopes.h"
 #include "nocsolver/kernels/state_slopes.h"
 
 namespace ursula::kernel {
@@ -9,34 +10,47 @@ namespace ursula::kernel {
 template <class Isa>
 class StateSlopes {
  public:
-  StateSlopes(const MachineNumbers& machine, const StateNumbers& state) : machine_(machine), state_(state) {}
+  StateSlopes(const MachineNumbers& machine, const StateNumbers& state)
+      : machine_(machine),
+        state_(state),
+        motion_(motionOf(state.motion)),
+        carried_(motion_),
+        equilibrium_(machine.length) {}
 
-  Refusal run(double* efforts, double* derivatives) {
-    using V = Value<Isa>;
-    Motion<V> motion;
-    setMotion(state_.motion, motion);
-    const Carried<V> carried(motion);
-    LegByState<Isa> legs[leg_count];
+  /// μ, and what the slopes need.
+  Refusal solve() {
     for (int i = 0; i < machine_.legs_in_all; ++i) {
-      const Refusal refusal = anyLegByState<Isa>(machine_, i, carried, legs[i]);
+      const Refusal refusal = withKind(machine_.legs[static_cast<std::size_t>(i)].kind, [&](auto kind) {
+        return legByState<Isa>(kind, machine_, i, carried_, legs_[i]);
+      });
       if (refusal.kind != Refusal::none) return refusal;
     }
-    Equilibrium<Isa> equilibrium(machine_.length);
-    Vector6<V> wrench = platform();
-    for (int i = 0; i < machine_.legs_in_all; ++i) addLeg(i, legs[i], equilibrium, wrench);
-    equilibrium.setWrench(wrench);
-    const double pivots = equilibrium.solve();
+    Vector6<Value<Isa>> wrench = platform();
+    for (int i = 0; i < machine_.legs_in_all; ++i) addLeg(i, legs_[i], wrench);
+    equilibrium_.setWrench(wrench);
+    const double pivots = equilibrium_.solve();
     if (!(pivots > 0x1p-48)) return {Refusal::singular_jacobian, -1, pivots, 0, nullptr};
-    for (int m = 0; m < motor_count; ++m) mu_[m] = equilibrium.mu(m);
-    for (int i = 0; i < machine_.legs_in_all; ++i) addSlopes(i, legs[i], tipByState<Isa>(carried, legs[i].Qb));
-    for (int m = 0; m < motor_count; ++m) {
-      efforts[m] = Q_[m] + mu_[m];
-      put(m, equilibrium, derivatives);
-    }
+    for (int m = 0; m < motor_count; ++m) mu_[m] = equilibrium_.mu(m);
     return {};
   }
 
+  void put(double* efforts, double* derivatives) {
+    for (int i = 0; i < machine_.legs_in_all; ++i) addSlopes(i, legs_[i], tipByState<Isa>(carried_, legs_[i].Qb));
+    for (int m = 0; m < motor_count; ++m) {
+      efforts[m] = Q_[m] + mu_[m];
+      putRow(m, derivatives);
+    }
+  }
+
+  const Equilibrium<Isa>& equilibrium() const { return equilibrium_; }
+
  private:
+  static Motion<Value<Isa>> motionOf(const double* numbers) {
+    Motion<Value<Isa>> out;
+    setMotion(numbers, out);
+    return out;
+  }
+
   /// The platform's wrench less the load; its tangents are the first of all.
   Vector6<Value<Isa>> platform() {
     const Vector6<Dual<Isa, 16>> own = platformByState<Isa>(machine_, state_.motion);
@@ -56,13 +70,13 @@ class StateSlopes {
     return out;
   }
 
-  void addLeg(int i, const LegByState<Isa>& leg, Equilibrium<Isa>& equilibrium, Vector6<Value<Isa>>& wrench) {
+  void addLeg(int i, const LegByState<Isa>& leg, Vector6<Value<Isa>>& wrench) {
     using V = Value<Isa>;
     const auto values = [](const Vector3<Dual<Isa, 6>>& from) { return Vector3<V>(from(0).v, from(1).v, from(2).v); };
     const auto& motor = machine_.legs[static_cast<std::size_t>(i)].motor;
     for (std::size_t j = 0; j < 3; ++j) {
       if (motor[j] < 0) continue;
-      equilibrium.setRow(motor[j], leg.Qb, values(leg.share.row[j]));
+      equilibrium_.setRow(motor[j], leg.Qb, values(leg.share.row[j]));
       Q_[motor[j]] = leg.share.Q(static_cast<Eigen::Index>(j)).v;
     }
     addForceAt<V>(leg.Qb, values(leg.share.force), wrench);
@@ -99,10 +113,10 @@ class StateSlopes {
   }
 
   /// (b) for one motor.
-  void put(int m, const Equilibrium<Isa>& equilibrium, double* derivatives) {
+  void putRow(int m, double* derivatives) {
     for (std::size_t part = 0; part < 3; ++part) {
       Pair<Isa> sum = dQ_[m][part];
-      for (int row = 0; row < 6; ++row) sum = sum + equilibrium.inverse(m, row) * residual_[row][part];
+      for (int row = 0; row < 6; ++row) sum = sum + equilibrium_.inverse(m, row) * residual_[row][part];
       double by[8];
       sum.store(by);
       double* to = derivatives + 36 * part + m;
@@ -115,6 +129,10 @@ class StateSlopes {
 
   const MachineNumbers& machine_;
   const StateNumbers& state_;
+  Motion<Value<Isa>> motion_;
+  Carried<Value<Isa>> carried_;
+  Equilibrium<Isa> equilibrium_;
+  LegByState<Isa> legs_[leg_count];
   double mu_[motor_count], Q_[motor_count];
   StateRow<Isa> residual_[6], dQ_[motor_count];
 };
@@ -122,12 +140,24 @@ class StateSlopes {
 template <class Isa>
 __attribute__((flatten)) Refusal byState(const MachineNumbers& machine, const StateNumbers& state, double* efforts,
                                          double* derivatives) {
-  return StateSlopes<Isa>(machine, state).run(efforts, derivatives);
+  StateSlopes<Isa> slopes(machine, state);
+  const Refusal refusal = slopes.solve();
+  if (refusal.kind == Refusal::none) slopes.put(efforts, derivatives);
+  return refusal;
+}
+
+template <class Isa>
+__attribute__((flatten)) Refusal byParameters(const MachineNumbers& machine, const MachineNumbers& at,
+                                              const StateNumbers& state, ParameterSlopes& out) {
+  StateSlopes<Isa> slopes(machine, state);
+  const Refusal refusal = slopes.solve();
+  if (refusal.kind == Refusal::none) AllParameterSlopes<Isa>(at, state, slopes.equilibrium(), out).run();
+  return refusal;
 }
 
 template <class Isa>
 constexpr SlopeFunctions slopeFunctions() {
-  return {&byState<Isa>};
+  return {&byState<Isa>, &byParameters<Isa>};
 }
 
 }  // namespace ursula::kernel
