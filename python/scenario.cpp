@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "python/derivatives.h"
 #include "python/motion.h"
 #include "python/words.h"
 
@@ -148,7 +149,8 @@ void addPose(py::module_& module) {
 
 void addScenario(py::module_& module) {
   addPose(module);
-  py::class_<ScenarioWithSolver, std::shared_ptr<ScenarioWithSolver>>(module, "Scenario", words::scenario)
+  py::class_<ScenarioWithSolver, std::shared_ptr<ScenarioWithSolver>> scenario(module, "Scenario", words::scenario);
+  scenario
       .def_property_readonly(
           "name", [](const ScenarioWithSolver& self) { return self.scenario.name; }, "As the file gives it.")
       .def_property_readonly(
@@ -162,6 +164,7 @@ void addScenario(py::module_& module) {
       .def("inverse_kinematics", &inverseKinematics, py::arg("m"), words::inverse_kinematics)
       .def("direct_kinematics", &directKinematics, py::arg("phi"), words::direct_kinematics)
       .def("__repr__", [](const ScenarioWithSolver& self) { return "<ursula.Scenario '" + self.scenario.name + "'>"; });
+  addDerivatives(scenario);
   module.def(
       "read_scenario",
       [](const std::filesystem::path& file) {

@@ -47,6 +47,22 @@ constexpr const char* inverse_kinematics =
     "m, as far as any leg has them; their rates phidot, …, ddot and accelerations phiddot, …, dddot. NaN for a leg\n"
     "that has no such coordinate. Raises PoseError as inverse_dynamics does.";
 
+constexpr const char* effort_derivatives =
+    "Derivatives of inverse_dynamics(m), exact to rounding, as a dict of arrays (N, 6, 3): by \"orientation\", \"p\",\n"
+    "\"w\", \"v\", \"alpha\" and \"a\", all in B. \"orientation\" is by a small turn d, rad, in B: Q becomes exp([d]x) "
+    "Q,\n"
+    "while w, v, alpha and a stay. Raises PoseError as inverse_dynamics does.";
+
+constexpr const char* parameter_derivatives =
+    "(names, derivatives): by every number of the machine, SI, (N, 6, number of names), as \"leg[2].distal.mass\".\n"
+    "An inertia's xy is yx as well. Raises PoseError as inverse_dynamics does.";
+
+constexpr const char* regressor =
+    "(names, values, Y): what efforts are linear in once the geometry is given, the machine's own values of them, and\n"
+    "Y, (N, 6, number of names), with Y @ values = inverse_dynamics(m) of the machine without its load. Masses, first\n"
+    "moments, kg m, inertias about P and about the links' first ends, kg m^2, friction.\n"
+    "Raises PoseError as inverse_dynamics does.";
+
 constexpr const char* direct_kinematics =
     "Every real pose of the platform for six actuated angles phi of URS legs, rad, at most eight, as a list of Pose: "
     "first\n"

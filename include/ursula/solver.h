@@ -2,9 +2,10 @@
 
 /// \file
 /// The paper's closed forms: Solver for kinematics and dynamics, BatchDynamics for many poses at a time,
-/// DirectKinematics for all poses.
+/// EffortDerivatives, DirectKinematics for all poses.
 
 #include "include/ursula/abi.h"
 #include "nocsolver/batch_dynamics.h"
 #include "nocsolver/direct_kinematics.h"
+#include "nocsolver/effort_derivatives.h"
 #include "nocsolver/solver.h"

@@ -8,10 +8,10 @@ namespace ursula::kernel {
 
 /// (paper, eq. 2a) as it holds for any tilt: x̂ = (u × e_z)/‖·‖, ŷ = u, ẑ = x̂ × u; for an axis along e_z the seed is
 /// e_y.
-template <class S>
-void setFixedFrame(const Vector3d& axis, Vector3<S>& x_hat, Vector3<S>& y_hat, Vector3<S>& z_hat) {
+template <class S, class Written>
+void setFixedFrame(const Vector3<Written>& axis, Vector3<S>& x_hat, Vector3<S>& y_hat, Vector3<S>& z_hat) {
   using std::sqrt;
-  const Vector3<S> u = axis.cast<S>() / sqrt(axis.cast<S>().squaredNorm());
+  const Vector3<S> u = axis.template cast<S>() / sqrt(axis.template cast<S>().squaredNorm());
   const Vector3<S> e_z = Vector3<S>::UnitZ();
   // Below this the cross product would be made of rounding errors of uᵢ as it was written.
   const bool along_e_z = u.cross(e_z).squaredNorm() < S(1e-20);

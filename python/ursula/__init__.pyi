@@ -107,6 +107,12 @@ class Scenario:
         """(a, alpha) of the platform under efforts tau, N m or N, (N, 6): m/s² and rad/s², each (N, 3)."""
     def inverse_kinematics(self, m: Motion) -> dict[str, Array]:
         """phi, psi, theta, d, those that legs have, with rates and accelerations, rad, m and s, each (N, number of legs)."""
+    def effort_derivatives(self, m: Motion) -> dict[str, Array]:
+        """Of inverse_dynamics by "orientation" (a turn in B), "p", "w", "v", "alpha", "a": each (N, 6, 3)."""
+    def parameter_derivatives(self, m: Motion) -> tuple[list[str], Array]:
+        """(names, derivatives) by every number of the machine: (N, 6, number of names)."""
+    def regressor(self, m: Motion) -> tuple[list[str], Array, Array]:
+        """(names, values, Y): Y @ values is inverse_dynamics without the load; Y is (N, 6, number of names)."""
     def direct_kinematics(self, phi: npt.ArrayLike) -> list[Pose]:
         """Every real pose for six actuated angles of URS legs, rad."""
 
