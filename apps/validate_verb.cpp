@@ -43,6 +43,7 @@ ValidationResult judge(const Scenario& scenario, const ValidateOptions& options)
   if (from_file) return validateExternal(scenario, torques);
   if (!options.solver.command.empty()) return validateExternalSolver(scenario, options.solver);
   ValidationOptions validation;
+  validation.threads = options.jobs;
   if (progress) validation.progress = [&progress](double share, const char* now) { progress->at(share, now); };
   return validate(scenario, validation);
 }

@@ -38,6 +38,7 @@ void tell(const ValidationOptions& options, double share, const char* now) {
 
 ValidationResult run(const Scenario& scenario, const Reference& reference, const Subject& subject, bool right,
                      const ValidationOptions& options) {
+  reference.prepare(static_cast<bool>(subject.accelerations), options.ladder);
   tell(options, 0.35, "experiments");
   Evidence evidence = gather(scenario, reference, subject, right, options.spoil ? *options.spoil : Spoil{},
                              {options.ladder, options.reactions});
@@ -59,7 +60,7 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
 
 std::shared_ptr<const Reference> referenceOf(const Scenario& scenario, const ValidationOptions& options) {
   tell(options, 0, "the right motion");
-  return options.reference ? options.reference : makeReference(scenario);
+  return options.reference ? options.reference : makeReference(scenario, options.threads);
 }
 
 ValidationResult validateOwn(const Scenario& scenario, const SubjectOf& make, bool right,
@@ -73,8 +74,8 @@ ValidationResult validateOwn(const Scenario& scenario, const SubjectOf& make, bo
 
 }  // namespace
 
-std::shared_ptr<const Reference> makeReference(const Scenario& scenario) {
-  return std::make_shared<const Reference>(scenario);
+std::shared_ptr<const Reference> makeReference(const Scenario& scenario, int threads) {
+  return std::make_shared<const Reference>(scenario, threads);
 }
 
 ValidationResult validate(const Scenario& scenario, const Subject& subject, const ValidationOptions& options) {

@@ -22,6 +22,7 @@ struct ValidationOptions {
   std::shared_ptr<const Spoil> spoil = nullptr;  ///< for controls that must fail; null: nothing is spoilt
   /// Told what begins, and about which share of the time is over by then; may be empty.
   std::function<void(double share, const char* now)> progress = nullptr;
+  int threads = 1;  ///< no number depends on it
 };
 
 /// The whole validation of one scenario: pointwise, replay, closure, energy, and the verdict. Deterministic: the same
@@ -35,6 +36,6 @@ ValidationResult validate(const Scenario& scenario, const ValidationOptions& opt
 /// With a subject that is made for the scenario where its numbers are good: positions from an origin near the machine.
 ValidationResult validateMade(const Scenario& scenario, const SubjectOf& make, const ValidationOptions& options = {});
 
-std::shared_ptr<const Reference> makeReference(const Scenario& scenario);
+std::shared_ptr<const Reference> makeReference(const Scenario& scenario, int threads = 1);
 
 }  // namespace ursula

@@ -11,6 +11,7 @@
 #include <iostream>
 #include <limits>
 
+#include "model/trajectories.h"
 #include "nocsolver/solver.h"
 #include "tests/support/vectors.h"
 
@@ -207,6 +208,49 @@ TEST(PaperHelixGrowth, isAsKnown) {
   std::cout << early << " m at 0.5 s, " << late << " m at 3 s\n";
   EXPECT_NEAR(early, 6e-10, 0.5e-10);  // half a unit of the last digit known
   EXPECT_NEAR(late, 2.6e-6, 0.05e-6);
+}
+
+/// Holds a pose and says that it does not: its last bit comes and goes.
+class Trembling : public Trajectory {
+ public:
+  explicit Trembling(std::shared_ptr<const Trajectory> held) : held_(std::move(held)) {}
+  std::string kind() const override { return "trembling"; }
+  double duration() const override { return held_->duration(); }
+  Motion<double> at(double t) const override {
+    Motion<double> motion = held_->at(t);
+    if (std::fmod(t, 0.1) > 0.05) motion.p.z() = std::nextafter(motion.p.z(), 2.0);
+    return motion;
+  }
+
+ private:
+  std::shared_ptr<const Trajectory> held_;
+};
+
+/// While a pose is held one propagator is carried for all instants: the same growth as one for each.
+TEST(AmplificationOfAHeldPose, isThatOfAnyOtherMotion) {
+  Scenario scenario = vectorScenario("paper-helix");
+  const Eigen::Quaterniond q(scenario.trajectory->at(1).Q);
+  scenario.trajectory = makeHold(scenario.trajectory->at(1).p, {q.w(), q.x(), q.y(), q.z()}, 2);
+  Scenario trembling = scenario;
+  trembling.trajectory = std::make_shared<Trembling>(scenario.trajectory);
+  const Amplification held(scenario, 100), other(trembling, 100);
+  const auto acceleration = [](double t) { return 1e-12 * (1 + t); };
+  for (double useful : {1e-10, 1e-8, 1.0}) {
+    const GrowthWindow a = held.window(3, acceleration, 1e-13, useful),
+                       b = other.window(3, acceleration, 1e-13, useful);
+    ASSERT_EQ(a.t, b.t);
+    ASSERT_GT(a.t.size(), 2U);
+    for (std::size_t k = 0; k < a.t.size(); ++k) {
+      EXPECT_NEAR(a.from_acceleration[k], b.from_acceleration[k], 1e-7 * b.from_acceleration[k]);
+      EXPECT_NEAR(a.from_unit_rate[k], b.from_unit_rate[k], 1e-7 * b.from_unit_rate[k]);
+      EXPECT_NEAR(a.from_start[k], b.from_start[k], 1e-7 * b.from_start[k]);
+      EXPECT_NEAR(a.growth[k], b.growth[k], 1e-7 * b.growth[k]);
+    }
+    EXPECT_GT(a.from_start.back(), 1.001 * a.from_start.front());  // it does grow
+  }
+  EXPECT_NEAR(held.growthRate(1), other.growthRate(1), 1e-6 * other.growthRate(1));
+  EXPECT_NEAR(held.carriedBound(0, 2, acceleration), other.carriedBound(0, 2, acceleration),
+              1e-7 * other.carriedBound(0, 2, acceleration));
 }
 
 }  // namespace

@@ -160,6 +160,19 @@ TEST(ValidateResult, isTheSameWithAReferenceMadeBefore) {
   EXPECT_EQ(made_before, run(with_reference)) << "the first left something behind";
 }
 
+/// What is made ahead by other threads is what would have been made when asked for.
+TEST(ValidateResult, isTheSameWhateverTheNumberOfThreads) {
+  const Scenario scenario = quick("paper-helix");
+  const auto run = [&](int threads) {
+    ValidationOptions options;
+    options.threads = threads;
+    return report::summaryJson(validate(scenario, options));
+  };
+  const std::string alone = run(1);
+  EXPECT_EQ(run(2), alone);
+  EXPECT_EQ(run(5), alone);
+}
+
 /// The replay's own judges are judged: a state spoilt after each step fails it, and nothing pointwise.
 TEST(ValidateControl, aSpoiltReplayFails) {
   const Scenario scenario = quick("paper-helix");

@@ -24,11 +24,13 @@ std::vector<PointwiseSample> conditionsAt(const Scenario& scenario, const std::v
   return out;
 }
 
-Reference::Reference(const Scenario& given)
+Reference::Reference(const Scenario& given, int threads)
     : natural(checked(given)),
       relocated(ursula::relocated(given, natural.origin)),
       scenario(natural.of(given)),
       instants(equallySpaced(scenario.trajectory->duration(), scenario.simulation.samples)),
+      // The longest first.
+      ahead_(threads - 1, {[this] { orders(); }, [this] { simbody(); }, [this] { roads(); }}),
       profile(scenario, profileInstants(scenario.simulation.samples)),
       amplification(linearised(scenario)),
       conditions(conditionsAt(scenario, instants, profile)),
@@ -46,6 +48,15 @@ Reference::Reference(const Scenario& given)
   windows = replayInWindows(scenario, amplification, plan);
   measureIntegration(scenario, plan, windows);
   measureOpening(conditions, windows);
+}
+
+Reference::~Reference() { ahead_.finish(); }  // before what its tasks work with
+
+void Reference::prepare(bool direct_dynamics, bool ladder) const {
+  if (direct_dynamics) ahead_.add([this] { beside().ends(); });
+  ahead_.add([this] { stabilised(); });
+  if (direct_dynamics) ahead_.add([this] { direct(); });
+  if (ladder) ahead_.add([this] { this->ladder(); });
 }
 
 const std::vector<double>& Reference::orders() const {
@@ -74,11 +85,11 @@ const std::vector<SimbodyAnswer>& Reference::simbody() const {
 }
 
 const std::vector<RoadTorques>& Reference::roads() const {
-  return roads_.get([this] { return roadTorques(scenario, conditions); });
+  return roads_.get([this] { return roadTorques(scenario, instants); });
 }
 
 const std::vector<ReactionSample>& Reference::reactions() const {
-  return reactions_.get([this] { return runReactions(scenario, conditions); });
+  return reactions_.get([this] { return runReactions(scenario, conditions, simbody()); });
 }
 
 const std::vector<DirectSample>& Reference::direct() const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/scenario.h"
+#include "validation/evidence/ahead.h"
 #include "validation/limits/amplification.h"
 #include "validation/limits/rounding_profile.h"
 #include "validation/replay/beside_path.h"
@@ -24,8 +25,22 @@ namespace ursula {
 /// What a validation needs of the scenario alone, whoever is on trial: the scenario where its numbers are good, how its
 /// roads round, how deviations grow, and what replays of the right torques do.
 struct Reference {
-  /// Throws as validate() does.
-  explicit Reference(const Scenario& given);
+ private:  // made first: the helpers below fill it while the rest is made
+  mutable std::mutex measuring_;
+  mutable std::map<std::size_t, IntegrationError> closer_;
+  Lazily<std::vector<double>> orders_;
+  Lazily<std::vector<SimbodyAnswer>> simbody_;
+  Lazily<std::vector<RoadTorques>> roads_;
+  Lazily<std::vector<ReactionSample>> reactions_;
+  Lazily<std::vector<DirectSample>> direct_;
+  Lazily<BesidePath> beside_;
+  Lazily<Ladder> ladder_;
+  Lazily<StabilisedReplay> stabilised_;
+
+ public:
+  /// On so many threads, which changes no number. Throws as validate() does.
+  explicit Reference(const Scenario& given, int threads = 1);
+  ~Reference();
   Reference(const Reference&) = delete;
   Reference& operator=(const Reference&) = delete;
 
@@ -33,6 +48,11 @@ struct Reference {
   Scenario relocated;            ///< SI, positions from natural.origin
   Scenario scenario;             ///< in natural's units: what all experiments see
   std::vector<double> instants;  ///< that are judged and written
+
+ private:
+  mutable Ahead ahead_;  ///< before what its first tasks need not wait for
+
+ public:
   RoundingProfile profile;
   Amplification amplification;
   std::vector<PointwiseSample> conditions;  ///< motion and conditioning at the instants
@@ -41,6 +61,9 @@ struct Reference {
   ReplayPlan plan;  ///< with the right torques
   /// Replays of the right torques, with what their integration is off by.
   std::vector<WindowedReplay> windows;
+
+  /// What will be asked for of these is made ahead, where there are threads for it.
+  void prepare(bool direct_dynamics, bool ladder) const;
 
   /// observedOrders() of the scenario, when first asked for.
   const std::vector<double>& orders() const;
@@ -59,17 +82,6 @@ struct Reference {
  private:
   /// Conditions, and Simbody's torques.
   std::vector<PointwiseSample> rightSamples() const;
-
-  mutable std::mutex measuring_;
-  mutable std::map<std::size_t, IntegrationError> closer_;
-  Lazily<std::vector<double>> orders_;
-  Lazily<std::vector<SimbodyAnswer>> simbody_;
-  Lazily<std::vector<RoadTorques>> roads_;
-  Lazily<std::vector<ReactionSample>> reactions_;
-  Lazily<std::vector<DirectSample>> direct_;
-  Lazily<BesidePath> beside_;
-  Lazily<Ladder> ladder_;
-  Lazily<StabilisedReplay> stabilised_;
 };
 
 /// Motion and conditioning alone.

@@ -25,9 +25,20 @@ double fastestGrowth(const Matrix12& J) {
 
 /// Over one interval, from the Jacobians at its ends and its middle: Magnus' expansion to fourth order (Blanes, Casas,
 /// Oteo, Ros, Phys. Rep. 470 (2009) 151), which strong friction does not make unstable.
-Matrix12 propagator(const Matrix12& J0, const Matrix12& J1, const Matrix12& J2, double h) {
+Matrix12 between(const Matrix12& J0, const Matrix12& J1, const Matrix12& J2, double h) {
   const Matrix12 Omega = h / 6 * (J0 + 4 * J1 + J2) + h * h / 12 * (J2 * J0 - J0 * J2);
   return Omega.exp();
+}
+
+/// The same bits as Eigen's product, which makes more of its matrices' size than there is to it.
+Matrix12 product(const Matrix12& a, const Matrix12& b) {
+  Matrix12 out;
+  for (int j = 0; j < 12; ++j) {
+    Amplification::Vector12 column = a.col(0) * b(0, j);
+    for (int k = 1; k < 12; ++k) column += a.col(k) * b(k, j);
+    out.col(j) = column;
+  }
+  return out;
 }
 
 }  // namespace
@@ -46,15 +57,25 @@ Amplification::Amplification(const Scenario& scenario, int intervals) {
   length_ = linearisation.length();
   const double h = scenario.trajectory->duration() / intervals;
   instants_.push_back(0);
-  Matrix12 J0 = linearisation.at(0);
+  Matrix12 J0 = linearisation.at(0), rated = J0;
+  const Matrix12 first = J0;
+  const auto addRate = [&](const Matrix12& J) {
+    growth_rates_.push_back(growth_rates_.empty() || J != rated ? fastestGrowth(J) : growth_rates_.back());
+    rated = J;
+  };
   for (int k = 0; k < intervals; ++k) {
     const Matrix12 J1 = linearisation.at((k + 0.5) * h), J2 = linearisation.at((k + 1) * h);
-    propagators_.push_back(propagator(J0, J1, J2, h));
-    if (k % growth_stride == 0) growth_rates_.push_back(fastestGrowth(J0));
+    if (uniform_ && k > 0 && (J1 != first || J2 != first)) {
+      uniform_ = false;
+      propagators_.resize(static_cast<std::size_t>(k), Matrix12(propagators_.front()));
+    }
+    if (!uniform_ || k == 0) propagators_.push_back(between(J0, J1, J2, h));
+    if (J1 != first || J2 != first) uniform_ = false;
+    if (k % growth_stride == 0) addRate(J0);
     instants_.push_back((k + 1) * h);
     J0 = J2;
   }
-  growth_rates_.push_back(fastestGrowth(J0));
+  addRate(J0);
 }
 
 std::size_t Amplification::nearest(double t) const {
@@ -69,7 +90,7 @@ Amplification::Vector12 Amplification::carried(double start, double end,
   for (std::size_t k = nearest(start); k < nearest(end); ++k) {
     const double h = instants_[k + 1] - instants_[k];
     deviation.tail<6>() += h / 2 * error(instants_[k]);
-    deviation = (propagators_[k] * deviation).eval();
+    deviation = (propagator(k) * deviation).eval();
     deviation.tail<6>() += h / 2 * error(instants_[k + 1]);
   }
   return deviation;
@@ -81,7 +102,7 @@ double Amplification::carriedBound(double start, double end, const std::function
   for (std::size_t k = nearest(end); k-- > nearest(start);) {
     const double h = instants_[k + 1] - instants_[k];
     const double after = Phi.topRightCorner<6, 6>().norm();
-    Phi = (Phi * propagators_[k]).eval();
+    Phi = (Phi * propagator(k)).eval();
     bound += h / 2 * (after * size(instants_[k + 1]) + Phi.topRightCorner<6, 6>().norm() * size(instants_[k]));
   }
   return bound;
@@ -94,12 +115,50 @@ double Amplification::growthRate(double t) const {
   return std::max(growth_rates_[before], growth_rates_[std::min(before + 1, last)]);
 }
 
-/// Φ(t_j, t_k) is carried forward for every k of the window, so no propagator is ever inverted. Frobenius norms bound
-/// the spectral ones.
+/// ‖Φ(t_j, t_k)‖ for every k of a window, as j moves on. Φ is carried forward for each, so no propagator is ever
+/// inverted; where all propagators are the same it depends on j − k alone. Frobenius norms bound the spectral ones.
+class Amplification::Carried {
+ public:
+  explicit Carried(const Amplification& of) : of_(of) {}
+
+  /// From the end of interval j − 1 to that of j.
+  void moveOn(std::size_t j) {
+    if (Phi_.empty() || !of_.uniform_) {
+      Phi_.push_back(Matrix12::Identity());
+      norms_.push_back(normsOf(Phi_.back()));
+    }
+    for (std::size_t k = 0; k < Phi_.size(); ++k) Phi_[k] = product(of_.propagator(j), Phi_[k]);
+    before_ = norms_;
+    if (of_.uniform_) {
+      norms_.push_back(normsOf(Phi_.front()));
+    } else {
+      for (std::size_t k = 0; k < Phi_.size(); ++k) norms_[k] = normsOf(Phi_[k]);
+    }
+    ++moved_;
+  }
+
+  struct Norms {
+    double state = 0, velocity = 0;  ///< of what position is made of
+  };
+  /// Of the k-th interval of `moved()`, at the end of the last and before it.
+  const Norms& now(std::size_t k) const { return of_.uniform_ ? norms_[moved_ - k] : norms_[k]; }
+  const Norms& before(std::size_t k) const { return of_.uniform_ ? norms_[moved_ - k - 1] : before_[k]; }
+  std::size_t moved() const { return moved_; }
+  const Matrix12& fromStart() const { return Phi_.front(); }
+
+ private:
+  static Norms normsOf(const Matrix12& Phi) { return {Phi.topRows<6>().norm(), Phi.topRightCorner<6, 6>().norm()}; }
+
+  const Amplification& of_;
+  std::size_t moved_ = 0;
+  std::vector<Matrix12> Phi_;          ///< Φ(t_j, t_k), k = first …; of the first alone where all are the same
+  std::vector<Norms> norms_, before_;  ///< of them; by j − k where all are the same
+};
+
 GrowthWindow Amplification::window(std::size_t first, const std::function<double(double)>& acceleration, double rate,
                                    double useful) const {
   GrowthWindow out;
-  std::vector<Matrix12> Phi;   // Φ(t_j, t_k), k = first …
+  Carried carried(*this);
   std::vector<double> errors;  // of acceleration in interval k, m/s
   const auto add = [&out](double t, double from_acceleration, double from_rate, const Matrix12& from_start) {
     out.t.push_back(t);
@@ -111,19 +170,17 @@ GrowthWindow Amplification::window(std::size_t first, const std::function<double
   add(instants_[first], 0, 0, Matrix12::Identity());
   out.last = first;
   out.length = length_;
-  for (std::size_t j = first; j < propagators_.size(); ++j) {
+  for (std::size_t j = first; j < intervals(); ++j) {
     const double h = instants_[j + 1] - instants_[j];
-    Phi.push_back(Matrix12::Identity());
     errors.push_back(h * std::max(acceleration(instants_[j]), acceleration(instants_[j + 1])));
+    carried.moveOn(j);
     double from_acceleration = 0, from_rate = 0;
-    for (std::size_t k = 0; k < Phi.size(); ++k) {
-      const double before = Phi[k].topRows<6>().norm();
-      Phi[k] = (propagators_[j] * Phi[k]).eval();
-      from_acceleration += Phi[k].topRightCorner<6, 6>().norm() * errors[k];
-      from_rate += h * std::max(before, Phi[k].topRows<6>().norm());
+    for (std::size_t k = 0; k < carried.moved(); ++k) {
+      from_acceleration += carried.now(k).velocity * errors[k];
+      from_rate += h * std::max(carried.before(k).state, carried.now(k).state);
     }
     if (!(from_acceleration + rate * from_rate <= useful) && j > first) break;
-    add(instants_[j + 1], from_acceleration, from_rate, Phi.front());
+    add(instants_[j + 1], from_acceleration, from_rate, carried.fromStart());
     out.last = j + 1;
   }
   return out;

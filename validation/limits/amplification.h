@@ -55,10 +55,16 @@ class Amplification {
   double growthRate(double t) const;
 
  private:
+  class Carried;
   std::size_t nearest(double t) const;
 
   std::vector<double> instants_;
-  std::vector<Matrix12> propagators_;  ///< from instant k to k + 1
+  /// From instant k to k + 1.
+  const Matrix12& propagator(std::size_t k) const { return propagators_[uniform_ ? 0 : k]; }
+  std::size_t intervals() const { return instants_.size() - 1; }
+
+  bool uniform_ = true;  ///< a pose is held: all propagators are the same, and there is but one
+  std::vector<Matrix12> propagators_;
   double length_ = 1;
   std::vector<double> growth_rates_;  ///< at every growth_stride-th instant, and the last
 };

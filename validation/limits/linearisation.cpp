@@ -9,19 +9,37 @@ namespace ursula {
 
 using Vector12 = Eigen::Matrix<double, 12, 1>;
 
-Linearisation::Linearisation(const Scenario& scenario, AccelerationUnder accelerations, double step)
+namespace {
+
+/// But for the time.
+bool sameBits(const Motion<double>& a, const Motion<double>& b) {
+  return a.p == b.p && a.Q == b.Q && a.p_dot == b.p_dot && a.omega == b.omega && a.p_ddot == b.p_ddot &&
+         a.omega_dot == b.omega_dot;
+}
+
+}  // namespace
+
+Linearisation::Linearisation(const Scenario& scenario, const AccelerationUnder& accelerations, double step)
     : trajectory_(*scenario.trajectory),
+      load_(scenario.load),
+      own_(!accelerations),
       right_(nocSubject(*scenario.manipulator, scenario.load)),
-      accelerations_(std::move(accelerations)),
+      accelerations_(own_ ? right_.accelerations : accelerations),
       length_(Solver<double>(*scenario.manipulator).length()),
       // Central differences: the cube root of eps balances truncation and rounding.
       step_(step * std::cbrt(Eigen::NumTraits<double>::epsilon()) * length_) {}
 
-Linearisation::Linearisation(const Scenario& scenario)
-    : Linearisation(scenario, nocSubject(*scenario.manipulator, scenario.load).accelerations, 1) {}
+Linearisation::Linearisation(const Scenario& scenario) : Linearisation(scenario, nullptr, 1) {}
 
 Linearisation::Matrix12 Linearisation::at(double t) const {
   const Motion<double> motion = trajectory_.at(t);
+  if (!own_) return differenced(motion);
+  const Vector6d load = loadAtP(load_.get(), motion);
+  if (!last_ || !sameBits(last_->motion, motion) || last_->load != load) last_ = {motion, load, differenced(motion)};
+  return last_->J;
+}
+
+Linearisation::Matrix12 Linearisation::differenced(const Motion<double>& motion) const {
   const Vector6d torques = right_.torques(motion);
   Matrix12 J = Matrix12::Zero();
   J.block<3, 3>(0, 6).setIdentity();

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <optional>
 
 #include "model/scenario.h"
 #include "validation/subject/subject.h"
@@ -18,13 +20,13 @@ class Linearisation {
   using Matrix12 = Eigen::Matrix<double, 12, 12>;
 
   /// Of somebody's direct dynamics, by central differences of `step` times the usual step.
-  Linearisation(const Scenario& scenario, AccelerationUnder accelerations, double step);
+  Linearisation(const Scenario& scenario, const AccelerationUnder& accelerations, double step);
   /// Of the formulas that hold.
   explicit Linearisation(const Scenario& scenario);
 
   /// L, m.
   double length() const { return length_; }
-  /// J(t). Throws PoseError where the motion is singular.
+  /// J(t), found once while a pose is held. Throws PoseError where the motion is singular. Not for several threads.
   Matrix12 at(double t) const;
 
  private:
@@ -32,7 +34,19 @@ class Linearisation {
   Vector6d acceleration(Motion<double> motion, const Eigen::Matrix<double, 12, 1>& deviation,
                         const Vector6d& torques) const;
 
+  /// The state, what it is to do there and the load: all that J depends on.
+  struct Place {
+    Motion<double> motion;
+    Vector6d load;
+    Matrix12 J;
+  };
+
+  Matrix12 differenced(const Motion<double>& motion) const;
+
   const Trajectory& trajectory_;
+  std::shared_ptr<const Load> load_;
+  bool own_;  ///< the accelerations are of the formulas that hold
+  mutable std::optional<Place> last_;
   Subject right_;
   AccelerationUnder accelerations_;
   double length_;

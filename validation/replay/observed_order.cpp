@@ -4,6 +4,7 @@
 #include <boost/numeric/odeint.hpp>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -44,19 +45,21 @@ class LetGo {
   /// What rounding of the start's coordinates changes of the end.
   double noise(double duration) {
     double out = 0;
-    const OdeState end = endOf(duration, 16);
+    const std::optional<OdeState>& end = reached(duration, 16);
+    if (!end) return std::numeric_limits<double>::infinity();
     for (unsigned pattern = 1; pattern <= 3; ++pattern)
-      out = std::max(out, distance(end, endOf(duration, 16, pattern)));
+      out = std::max(out, distance(*end, endOf(duration, 16, pattern)));
     return out;
   }
 
   /// With so many steps; none where the machine flies apart.
-  std::optional<OdeState> reached(double duration, int steps) {
-    try {
-      return endOf(duration, steps);
-    } catch (const std::exception&) {
-      return std::nullopt;
-    }
+  const std::optional<OdeState>& reached(double duration, int steps) {
+    const auto [known, is_new] = reached_.try_emplace({duration, steps});
+    if (is_new) try {
+        known->second = endOf(duration, steps);
+      } catch (const std::exception&) {
+      }
+    return known->second;
   }
 
   /// Between two ends; infinite where there is none.
@@ -90,6 +93,7 @@ class LetGo {
   SimbodyLoop loop_;
   Motion<double> start_;
   Vector6d torques_;
+  std::map<std::pair<double, int>, std::optional<OdeState>> reached_;  ///< what is asked for twice
 };
 
 /// The first stretch that is short enough: differences fall with the ninth power of it.
@@ -118,7 +122,8 @@ std::vector<double> ordersOf(const Scenario& scenario) {
   const double noise = above_noise * loop.noise(duration);  // the larger, the longer
   for (; orders.size() < most_stretches || (orders.size() < 2 * most_stretches && leaveItOpen(orders));
        duration *= shorter) {
-    const auto four = loop.reached(duration, 4), eight = loop.reached(duration, 8), more = loop.reached(duration, 16);
+    const auto &four = loop.reached(duration, 4), &eight = loop.reached(duration, 8),
+               &more = loop.reached(duration, 16);
     const double first = loop.difference(four, eight), second = loop.difference(eight, more);
     if (!(second >= noise)) break;  // and the less so over less
     if (first <= most_difference) orders.push_back(std::log2(first / second));

@@ -212,6 +212,13 @@ std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subjec
                       RoundingProfile(scenario, profileInstants(static_cast<int>(instants.size()))));
 }
 
+std::vector<double> instantsOf(const std::vector<PointwiseSample>& samples) {
+  std::vector<double> out;
+  out.reserve(samples.size());
+  for (const PointwiseSample& sample : samples) out.push_back(sample.motion.t);
+  return out;
+}
+
 std::string causeOfRounding(const std::vector<PointwiseSample>& samples, double t) {
   if (samples.empty()) return "";
   const auto at = std::lower_bound(samples.begin(), samples.end(), t,

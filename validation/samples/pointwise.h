@@ -46,6 +46,8 @@ std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subjec
 std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
                                           const std::vector<double>& instants);
 
+std::vector<double> instantsOf(const std::vector<PointwiseSample>& samples);
+
 /// causeOfRounding at the sample at t, or at the first after it; "" where there is none.
 std::string causeOfRounding(const std::vector<PointwiseSample>& samples, double t);
 

@@ -4,6 +4,7 @@
 
 #include "model/joint_reactions.h"
 #include "validation/samples/pointwise.h"
+#include "validation/samples/simbody_answers.h"
 
 namespace ursula {
 
@@ -14,5 +15,8 @@ struct ReactionSample {
 
 /// At the motions of `samples`. Throws PoseError as the solver does.
 std::vector<ReactionSample> runReactions(const Scenario& scenario, const std::vector<PointwiseSample>& samples);
+/// `simbody` are its answers at the instants of `samples`.
+std::vector<ReactionSample> runReactions(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
+                                         const std::vector<SimbodyAnswer>& simbody);
 
 }  // namespace ursula

@@ -2,12 +2,14 @@
 
 namespace ursula {
 
-std::vector<RoadTorques> roadTorques(const Scenario& scenario, const std::vector<PointwiseSample>& samples) {
+std::vector<RoadTorques> roadTorques(const Scenario& scenario, const std::vector<double>& instants) {
   const OfFurtherRoads<std::unique_ptr<Road>> roads = makeFurtherRoads(*scenario.manipulator, scenario.load);
-  std::vector<RoadTorques> out(samples.size());
-  for (std::size_t i = 0; i < samples.size(); ++i)
+  std::vector<RoadTorques> out(instants.size());
+  for (std::size_t i = 0; i < instants.size(); ++i) {
+    const Motion<double> motion = scenario.trajectory->at(instants[i]);
     for (std::size_t k = 0; k < further_road_count; ++k)
-      if (roads[k]) out[i][k] = roads[k]->inverseDynamics(samples[i].motion);
+      if (roads[k]) out[i][k] = roads[k]->inverseDynamics(motion);
+  }
   return out;
 }
 
@@ -38,7 +40,7 @@ std::vector<RoadSample> runRoads(const std::vector<RoadTorques>& roads, const st
 
 std::vector<RoadSample> runRoads(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
                                  const RoundingProfile& profile) {
-  return runRoads(roadTorques(scenario, samples), samples, profile);
+  return runRoads(roadTorques(scenario, instantsOf(samples)), samples, profile);
 }
 
 }  // namespace ursula

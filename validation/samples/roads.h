@@ -22,8 +22,8 @@ struct RoadSample {
   Conditioning conditioning;
 };
 
-/// At the motions of `samples`.
-std::vector<RoadTorques> roadTorques(const Scenario& scenario, const std::vector<PointwiseSample>& samples);
+/// At the instants.
+std::vector<RoadTorques> roadTorques(const Scenario& scenario, const std::vector<double>& instants);
 
 /// `roads` are those at the instants of `samples`.
 std::vector<RoadSample> runRoads(const std::vector<RoadTorques>& roads, const std::vector<PointwiseSample>& samples,

@@ -24,6 +24,13 @@ Motion<double> SimbodyAnswer::platformUnder(const Vector6d& subjects, SimbodyLoo
   return right && sameBits(right->torques, subjects) ? right->moved : moved(loop, motion, subjects);
 }
 
+Reactions SimbodyAnswer::reactionsUnder(const Vector6d& subjects, SimbodyLoop& loop,
+                                        const Motion<double>& motion) const {
+  if (right && sameBits(right->torques, subjects)) return right->reactions;
+  moved(loop, motion, subjects);
+  return loop.reactions();
+}
+
 BodyMotions<double> SimbodyAnswer::bodiesIn(const JointMotion& subjects, SimbodyLoop& loop,
                                             const Motion<double>& motion) const {
   return right && sameBits(right->joints, subjects) ? right->bodies : placed(loop, motion, subjects);
@@ -36,7 +43,9 @@ SimbodyAnswer simbodyAnswer(SimbodyLoop& loop, const Subject& right, const Motio
   try {
     SimbodyAnswer::OfRight of_right;
     of_right.torques = right.torques(motion);
-    of_right.moved = moved(loop, motion, of_right.torques);
+    loop.accelerate(of_right.torques);
+    of_right.moved = loop.platform();
+    of_right.reactions = loop.reactions();
     of_right.joints = right.kinematics(motion).joints;
     of_right.bodies = placed(loop, motion, of_right.joints);
     out.right = of_right;

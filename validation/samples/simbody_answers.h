@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "model/joint_reactions.h"
 #include "model/loops/simbody/simbody_loop.h"
 #include "model/scenario.h"
 #include "validation/subject/subject.h"
@@ -18,6 +19,7 @@ struct SimbodyAnswer {
   struct OfRight {
     Vector6d torques;      ///< the right solver's, N·m
     Motion<double> moved;  ///< the platform under them
+    Reactions reactions;   ///< at the joints under them
     JointMotion joints;    ///< the right solver's
     BodyMotions<double> bodies;
   };
@@ -25,6 +27,8 @@ struct SimbodyAnswer {
 
   /// The platform under somebody's torques in the commanded state. `loop` is of the same scenario.
   Motion<double> platformUnder(const Vector6d& subjects, SimbodyLoop& loop, const Motion<double>& motion) const;
+  /// The same for what the joints then bear.
+  Reactions reactionsUnder(const Vector6d& subjects, SimbodyLoop& loop, const Motion<double>& motion) const;
   /// The bodies in somebody's joint state.
   BodyMotions<double> bodiesIn(const JointMotion& subjects, SimbodyLoop& loop, const Motion<double>& motion) const;
 };

@@ -39,6 +39,12 @@ std::array<double, 3> SimbodyLoop::Impl::legGeometry(int leg, const Motion<doubl
 
 void SimbodyLoop::Impl::setPlatformPose(const Motion<double>& motion) {
   const SimTK::Transform X_GB(toSimTK(motion.Q), toSimTK(motion.p));
+  placed_jacobian.reset();
+  if (topology == Topology::six_balls) {  // on the ground
+    mechanism.platform.setQToFitTransform(
+        state, ~mechanism.platform.getDefaultInboardFrame() * X_GB * mechanism.platform.getDefaultOutboardFrame());
+    return;
+  }
   mechanism.platform.setQToFitTransform(state, SimTK::Transform());  // what was there may be no number
   realize(SimTK::Stage::Position);
   const SimTK::MobilizedBody& parent = mechanism.platform.getParentMobilizedBody();
@@ -68,8 +74,10 @@ Eigen::MatrixXd SimbodyLoop::Impl::constraintsAndPlatform() const {
 
 void SimbodyLoop::Impl::setRates(const Motion<double>& motion) {
   realize(SimTK::Stage::Position);
-  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(constraintsAndPlatform());
+  const Eigen::MatrixXd constraints = constraintsAndPlatform();
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(constraints);
   const Eigen::Index n = factors.rows();
+  placed_jacobian = constraints.topRows(n - 6);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
   right.tail<6>() << motion.omega, motion.p_dot;
   const Eigen::VectorXd u = factors.solve(right);

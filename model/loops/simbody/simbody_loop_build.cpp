@@ -121,6 +121,10 @@ SimbodyLoop::Impl::Impl(const Manipulator& manipulator, Topology topology_, std:
   state = system.realizeTopology();
   system.realizeModel(state);
   u_dot = SimTK::Vector(state.getNU(), 0.0);
+  if (topology != Topology::six_balls) return;
+  open = state;
+  for (const SimTK::Constraint::Ball& ball : mechanism.balls) ball.disable(open);
+  system.realizeModel(open);
 }
 
 void SimbodyLoop::Impl::addLeg(int leg) {

@@ -94,7 +94,7 @@ Vector6d SimbodyLoop::inverseDynamics() const {
       loop.state, loop.system.getMobilityForces(loop.state, SimTK::Stage::Dynamics),
       loop.system.getRigidBodyForces(loop.state, SimTK::Stage::Dynamics), loop.u_dot, residual);
 
-  const Eigen::MatrixXd G = loop.constraintJacobian();
+  const Eigen::MatrixXd G = loop.placed_jacobian ? *loop.placed_jacobian : loop.constraintJacobian();
   Eigen::MatrixXd constraints_and_actuators = Eigen::MatrixXd::Zero(G.cols(), G.cols());
   constraints_and_actuators.topRows(G.rows()) = G;
   const Motors& motors = loop.parameters.motors();
@@ -147,6 +147,7 @@ std::vector<double> SimbodyLoop::state() const {
 }
 
 void SimbodyLoop::setState(double t, const double* x) {
+  impl_->placed_jacobian.reset();
   SimTK::State& state = impl_->state;
   const int nq = state.getNQ(), nu = state.getNU();
   state.setTime(t);
@@ -162,7 +163,7 @@ void SimbodyLoop::derivative(double t, const double* x, const Vector6d& torques,
     impl_->eliminate(torques);
   else
     accelerate(torques);
-  const SimTK::Vector& q_dot = impl_->state.getQDot();
+  const SimTK::Vector& q_dot = impl_->differentiated().getQDot();
   for (int i = 0; i < q_dot.size(); ++i) x_dot[i] = q_dot[i];
   for (int i = 0; i < impl_->u_dot.size(); ++i) x_dot[q_dot.size() + i] = impl_->u_dot[i];
 }
@@ -183,8 +184,9 @@ SimbodyLoop::Power SimbodyLoop::power() const {
     }
   }
   if (loop.applied->load) {
-    const SimTK::SpatialVec wrench = loadOnPlatform(*loop.applied->load, loop.mechanism, loop.state);
-    const SimTK::SpatialVec& velocity = loop.mechanism.platform.getBodyVelocity(loop.state);
+    const SimTK::State& now = loop.differentiated();
+    const SimTK::SpatialVec wrench = loadOnPlatform(*loop.applied->load, loop.mechanism, now);
+    const SimTK::SpatialVec& velocity = loop.mechanism.platform.getBodyVelocity(now);
     power.load = ~wrench[0] * velocity[0] + ~wrench[1] * velocity[1];
   }
   return power;
@@ -195,6 +197,7 @@ SimbodyLoop::Counters SimbodyLoop::integrateRungeKuttaMerson(double accuracy, co
                                                              const std::function<void(double)>& observe) {
   Impl& loop = *impl_;
   loop.applied->history = torques;
+  loop.placed_jacobian.reset();
   Counters counters;
   SimTK::RungeKuttaMersonIntegrator integrator(loop.system);
   integrator.setAccuracy(accuracy);

@@ -78,17 +78,19 @@ LegClosure closureOf(const Mechanism& mechanism, const SimTK::State& state, std:
 
 void SimbodyLoop::Impl::eliminate(const Vector6d& torques) {
   applied->torques = torques;
-  state.invalidateAllCacheAtOrAbove(SimTK::Stage::Dynamics);
-  realize(SimTK::Stage::Dynamics);
-  const int nu = state.getNU(), of_platform = mechanism.platform.getFirstUIndex(state);
+  open.setTime(state.getTime());
+  open.updQ() = state.getQ();
+  open.updU() = state.getU();
+  system.realize(open, SimTK::Stage::Dynamics);
+  const int nu = open.getNU(), of_platform = mechanism.platform.getFirstUIndex(state);
   SimTK::Vector_<SimTK::SpatialVec> at_rest;
-  matter.calcBodyAccelerationFromUDot(state, SimTK::Vector(nu, 0.0), at_rest);
+  matter.calcBodyAccelerationFromUDot(open, SimTK::Vector(nu, 0.0), at_rest);
 
   Eigen::Matrix<double, Eigen::Dynamic, 6> N = Eigen::Matrix<double, Eigen::Dynamic, 6>::Zero(nu, 6);
   SimTK::Vector c(nu, 0.0);
   for (int k = 0; k < 6; ++k) N(of_platform + k, k) = 1;
   for (int i = 0; i < legCount(); ++i) {
-    const LegClosure leg = closureOf(mechanism, state, static_cast<std::size_t>(i), parameters.leg(i), at_rest);
+    const LegClosure leg = closureOf(mechanism, open, static_cast<std::size_t>(i), parameters.leg(i), at_rest);
     const Eigen::PartialPivLU<Matrix3d> factors(leg.J);
     const Matrix36 rates = factors.solve(leg.P);        // (b)
     const Vector3d constant = factors.solve(leg.bias);  // (b)
@@ -98,12 +100,12 @@ void SimbodyLoop::Impl::eliminate(const Vector6d& torques) {
     }
   }
   SimTK::Vector residual, column(nu), M_column;
-  matter.calcResidualForceIgnoringConstraints(state, system.getMobilityForces(state, SimTK::Stage::Dynamics),
-                                              system.getRigidBodyForces(state, SimTK::Stage::Dynamics), c, residual);
+  matter.calcResidualForceIgnoringConstraints(open, system.getMobilityForces(open, SimTK::Stage::Dynamics),
+                                              system.getRigidBodyForces(open, SimTK::Stage::Dynamics), c, residual);
   Eigen::Matrix<double, Eigen::Dynamic, 6> MN(nu, 6);
   for (int k = 0; k < 6; ++k) {
     for (int row = 0; row < nu; ++row) column[row] = N(row, k);
-    matter.multiplyByM(state, column, M_column);
+    matter.multiplyByM(open, column, M_column);
     MN.col(k) = mapped(M_column);
   }
   const Matrix6d mass = N.transpose() * MN;

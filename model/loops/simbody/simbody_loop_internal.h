@@ -99,12 +99,15 @@ struct SimbodyLoop::Impl {
   Mechanism mechanism;
   std::shared_ptr<AppliedForces> applied = std::make_shared<AppliedForces>();
   SimTK::State state;
+  SimTK::State open;    ///< without the balls: what derivative() asks for needs none of their errors; six balls only
   SimTK::Vector u_dot;  ///< accelerations last placed or found
   OpenTreeScratch scratch;
   Manipulator parameters;
   Topology topology;
 
   int legCount() const { return parameters.legCount(); }
+  /// The one that derivative() realizes.
+  const SimTK::State& differentiated() const { return topology == Topology::six_balls ? open : state; }
   /// Index in u of a leg's joint.
   int indexOf(int joint, int leg) const;
   void setLeg(int leg, const std::array<double, 3>& q);
@@ -117,7 +120,10 @@ struct SimbodyLoop::Impl {
   Eigen::MatrixXd constraintJacobian() const;
   /// Forces that act besides the motors', into the scratch; from the state's velocities.
   void applyForces();
-  /// Sets u_dot under `torques`, the legs' coordinates eliminated; six balls only.
+  /// Of the state last placed.
+  std::optional<Eigen::MatrixXd> placed_jacobian;
+  /// Sets u_dot under `torques` in the coordinates of `state`, the legs' eliminated, and realizes `open`; six balls
+  /// only.
   void eliminate(const Vector6d& torques);
   /// Velocities and accelerations of all coordinates that go with the platform's.
   void setRates(const Motion<double>& motion);

@@ -60,6 +60,7 @@ void SimbodyLoop::Impl::applyForces() {
 void SimbodyLoop::openTree(const TreeCoordinates& at, OpenTree& out) {
   Impl& loop = *impl_;
   OpenTreeScratch& scratch = loop.scratch;
+  loop.placed_jacobian.reset();
   loop.state.setTime(at.motion.t);
   std::copy(at.q.begin(), at.q.end(), &loop.state.updQ()[0]);
   std::copy(at.u.begin(), at.u.end(), &loop.state.updU()[0]);
@@ -88,6 +89,7 @@ void SimbodyLoop::openTree(const TreeCoordinates& at, OpenTree& out) {
 
 Vector6d SimbodyLoop::twistRate(const TreeCoordinates& at, const Vector6d& efforts) {
   Impl& loop = *impl_;
+  loop.placed_jacobian.reset();
   loop.state.setTime(at.motion.t);
   std::copy(at.q.begin(), at.q.end(), &loop.state.updQ()[0]);
   std::copy(at.u.begin(), at.u.end(), &loop.state.updU()[0]);

@@ -1,0 +1,58 @@
+// Direct-dynamics simulation of the paper's helix of 3 s under the efforts of the inverse dynamics: by collocation over
+// batches, and by Runge–Kutta–Fehlberg 7(8), both to where it is commanded within 2e-9 m.
+
+#include "bench/benchmarks.h"
+#include "nocsolver/fast_dynamics.h"
+#include "validation/simulate/collocation.h"
+#include "validation/simulate/simulate.h"
+
+namespace ursula::bench {
+namespace {
+
+constexpr double close_enough = 2e-9;
+
+struct Simulated {
+  Simulated() : single(scenario.manipulator()), batch(scenario.manipulator()) {}
+
+  Vector6d efforts(double t) const { return single.inverseDynamics(scenario.scenario.trajectory->at(t)); }
+  double end() const { return scenario.scenario.trajectory->duration(); }
+  /// Counters, or an error where it is not arrived at.
+  void count(benchmark::State& state, const Motion<double>& last, long evaluations) const {
+    const double off = (last.p - scenario.scenario.trajectory->at(end()).p).norm();
+    if (!(off <= close_enough)) state.SkipWithError("the helix did not come back");
+    state.counters["off_m"] = off;
+    state.counters["evaluations"] = static_cast<double>(evaluations);
+  }
+
+  const Poses& scenario = helix();
+  FastDynamics<double> single;
+  BatchDynamics batch;
+};
+
+void byCollocation(benchmark::State& state) {
+  const Simulated helix;
+  CollocatedMotion run;
+  for ([[maybe_unused]] auto unused : state)
+    run = collocate(
+        helix.batch, nullptr, helix.scenario.scenario.trajectory->at(0), [&](double t) { return helix.efforts(t); },
+        {0, helix.end()}, close_enough);
+  helix.count(state, run.motions.back(), run.evaluations);
+}
+
+void byRungeKutta(benchmark::State& state) {
+  const Simulated helix;
+  Simulation run;
+  for ([[maybe_unused]] auto unused : state)
+    run = simulate(
+        helix.scenario.scenario, Engine::noc, [&](double t) { return helix.efforts(t); }, {0, helix.end()}, 1e-13);
+  helix.count(state, run.motions.back(), run.evaluations);
+}
+
+}  // namespace
+
+void registerSimulations() {
+  benchmark::RegisterBenchmark("simulation/collocation", byCollocation)->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark("simulation/Runge-Kutta", byRungeKutta)->Unit(benchmark::kMillisecond);
+}
+
+}  // namespace ursula::bench

@@ -1,0 +1,51 @@
+#include "validation/evidence/ahead.h"
+
+#include <exception>
+
+namespace ursula {
+
+Ahead::Ahead(int threads, const std::vector<Task>& first) : tasks_(first.begin(), first.end()) {
+  for (int k = 0; k < threads; ++k) threads_.emplace_back([this] { work(); });
+}
+
+Ahead::~Ahead() { finish(); }
+
+void Ahead::add(const Task& task) {
+  if (threads_.empty()) return;
+  {
+    const std::lock_guard<std::mutex> lock(guard_);
+    tasks_.push_back(task);
+  }
+  changed_.notify_one();
+}
+
+void Ahead::finish() {
+  {
+    const std::lock_guard<std::mutex> lock(guard_);
+    finished_ = true;
+    tasks_.clear();
+  }
+  changed_.notify_all();
+  for (std::thread& thread : threads_) thread.join();
+  threads_.clear();
+}
+
+void Ahead::work() {
+  while (true) {
+    Task task;
+    {
+      std::unique_lock<std::mutex> lock(guard_);
+      changed_.wait(lock, [this] { return finished_ || !tasks_.empty(); });
+      if (finished_) return;
+      task = std::move(tasks_.front());
+      tasks_.pop_front();
+    }
+    try {
+      task();
+    } catch (const std::exception&) {
+      // Whoever asks for it finds out why.
+    }
+  }
+}
+
+}  // namespace ursula

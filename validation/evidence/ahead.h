@@ -1,0 +1,39 @@
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace ursula {
+
+/// Does what will be asked for later, on threads of its own, in order. What throws is left to whoever asks: for tasks
+/// that fill something Lazily, so that the answers do not depend on who makes them.
+class Ahead {
+ public:
+  using Task = std::function<void()>;
+
+  /// With `first` to do. Without threads nothing is done ahead.
+  explicit Ahead(int threads, const std::vector<Task>& first = {});
+  /// As finish().
+  ~Ahead();
+  Ahead(const Ahead&) = delete;
+  Ahead& operator=(const Ahead&) = delete;
+
+  void add(const Task& task);
+  /// Waits for tasks that have begun, and forgets the others.
+  void finish();
+
+ private:
+  void work();
+
+  std::mutex guard_;
+  std::condition_variable changed_;
+  std::deque<Task> tasks_;
+  bool finished_ = false;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace ursula
