@@ -11,10 +11,11 @@ namespace ursula::python {
 /// A scenario with the solver for its machine.
 struct ScenarioWithSolver {
   explicit ScenarioWithSolver(const std::filesystem::path& file)
-      : scenario(readScenario(file)), kinematics(*scenario.manipulator) {}
+      : scenario(readScenario(file)), kinematics(*scenario.manipulator), batch(*scenario.manipulator) {}
 
   Scenario scenario;
   DirectKinematics kinematics;
+  BatchDynamics batch;
 };
 
 void addScenario(pybind11::module_& module);

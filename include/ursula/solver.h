@@ -1,10 +1,11 @@
 #pragma once
 
 /// \file
-/// The paper's closed forms: Solver for kinematics and dynamics, BatchDynamics for many poses at a time,
-/// DirectKinematics for all poses.
+/// The paper's closed forms: Solver for kinematics and dynamics, BatchDynamics for many poses at a time, by
+/// one thread or several, DirectKinematics for all poses.
 
 #include "include/ursula/abi.h"
 #include "nocsolver/batch_dynamics.h"
 #include "nocsolver/direct_kinematics.h"
+#include "nocsolver/parallel/threaded_batch.h"
 #include "nocsolver/solver.h"
