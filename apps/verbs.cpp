@@ -1,11 +1,10 @@
 #include "apps/verbs.h"
 
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
-#include "model/atomic_file.h"
+#include "apps/output.h"
 
 namespace ursula {
 namespace {
@@ -31,12 +30,9 @@ CLI::Validator finiteNotNegative() {
 }
 
 void writeOutput(const std::string& file, const std::string& content) {
-  if (!file.empty() && file != "-") {
-    writeFileAtomically(file, content);
-    return;
-  }
-  if (std::fwrite(content.data(), 1, content.size(), stdout) != content.size() || std::fflush(stdout) != 0)
-    throw std::runtime_error("standard output could not be written");
+  Output out(file);
+  out.write(content);
+  out.commit();
 }
 
 void refuseFile(const std::string& out) {

@@ -134,20 +134,4 @@ CsvTable readCsv(const std::filesystem::path& file, const CsvOptions& options) {
   return parseCsv(readCsvText(file), file, options);
 }
 
-std::string csvText(const std::vector<std::string>& names, const std::vector<std::vector<double>>& columns, NanAs nan) {
-  if (names.empty() || names.size() != columns.size()) throw std::invalid_argument("csvText: one column for each name");
-  const std::size_t rows = columns.front().size();
-  for (const auto& column : columns)
-    if (column.size() != rows) throw std::invalid_argument("csvText: columns of unequal length");
-  fmt::memory_buffer out;
-  fmt::format_to(std::back_inserter(out), "{}\n", fmt::join(names, ","));
-  for (std::size_t row = 0; row < rows; ++row)
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      const double value = columns[i][row];
-      if (nan == NanAs::word || !std::isnan(value)) fmt::format_to(std::back_inserter(out), "{:.17g}", value);
-      out.push_back(i + 1 < columns.size() ? ',' : '\n');
-    }
-  return fmt::to_string(out);
-}
-
 }  // namespace ursula

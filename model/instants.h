@@ -7,6 +7,9 @@
 
 namespace ursula {
 
+/// The k-th of `count` equally spaced instants, k from 0.
+inline double instantOf(double duration, int k, int count) { return duration * k / (count - 1); }
+
 /// `count` equally spaced instants from 0 to `duration`, both included.
 std::vector<double> equallySpaced(double duration, int count);
 

@@ -26,10 +26,6 @@ void forRows(const Motions& motion, F&& each) {
   for (std::size_t k = 0; k < motion.rows.size(); ++k) each(k);
 }
 
-py::array_t<double> empty(std::size_t rows, py::ssize_t width) {
-  return py::array_t<double>({static_cast<py::ssize_t>(rows), width});
-}
-
 Motions motionAt(const ScenarioWithSolver& self, const py::object& t) {
   const py::array_t<double> instants = columnOf(t, "t");
   const double* data = instants.data();
@@ -43,37 +39,81 @@ Motions motionAt(const ScenarioWithSolver& self, const py::object& t) {
   return out;
 }
 
-py::array_t<double> inverseDynamics(const ScenarioWithSolver& self, const Motions& motion) {
-  py::array_t<double> out = empty(motion.rows.size(), motor_count);
-  double* to = out.mutable_data();
-  Workspace<double> work;
-  const Load* load = self.scenario.load.get();
-  forRows(motion, [&](std::size_t k) {
-    const Motion<double>& row = motion.rows[k];
-    Eigen::Map<Vector6d>(to + motor_count * k) =
-        self.kinematics.solver().inverseDynamics(row, work, loadAtP(load, row));
-  });
+std::vector<Vector6d> loadsOf(const Scenario& scenario, const Motions& motion) {
+  std::vector<Vector6d> out;
+  if (!scenario.load) return out;
+  out.reserve(motion.rows.size());
+  for (const Motion<double>& row : motion.rows) out.push_back(loadAtP(scenario.load.get(), row));
   return out;
 }
 
-py::tuple forwardDynamics(const ScenarioWithSolver& self, const Motions& motion, const py::object& tau) {
+/// Those of N × 6 numbers, row by row.
+std::vector<Vector6d> vectorsOf(const double* from, std::size_t count) {
+  std::vector<Vector6d> out(count);
+  for (std::size_t k = 0; k < count; ++k) out[k] = Eigen::Map<const Vector6d>(from + 6 * k);
+  return out;
+}
+
+/// Answers of a batch, `all` of it; poses that it has flagged are one(k)'s, which refuses them as the program does.
+template <class All, class One>
+std::vector<Vector6d> answers(const ScenarioWithSolver& self, const Motions& motion, All&& all, One&& one) {
+  const std::vector<Vector6d> loads = loadsOf(self.scenario, motion);
+  std::vector<Vector6d> out(motion.rows.size());
+  std::vector<PoseFault> faults(out.size());
+  all(loads.empty() ? nullptr : loads.data(), out.data(), faults.data());
+  for (std::size_t k = 0; k < out.size(); ++k)
+    if (faults[k] != PoseFault::none) out[k] = one(k, loads.empty() ? Vector6d::Zero() : loads[k]);
+  return out;
+}
+
+void refuseJobs(int jobs) {
+  if (jobs < 0) throw py::value_error("jobs: " + std::to_string(jobs) + ", expected 0 or more");
+}
+
+py::array_t<double> inverseDynamics(const ScenarioWithSolver& self, const Motions& motion, int jobs) {
+  refuseJobs(jobs);
+  std::vector<Vector6d> efforts;
+  {
+    const py::gil_scoped_release unlocked;
+    Workspace<double> work;
+    efforts = answers(
+        self, motion,
+        [&](const Vector6d* loads, Vector6d* out, PoseFault* faults) {
+          ursula::inverseDynamics(self.batch, motion.rows.data(), motion.rows.size(), out, faults, loads, jobs);
+        },
+        [&](std::size_t k, const Vector6d& load) {
+          return self.kinematics.solver().inverseDynamics(motion.rows[k], work, load);
+        });
+  }
+  return table(efforts, motor_count, [](const Vector6d& tau, double* to) { Eigen::Map<Vector6d>{to} = tau; });
+}
+
+py::tuple forwardDynamics(const ScenarioWithSolver& self, const Motions& motion, const py::object& tau, int jobs) {
+  refuseJobs(jobs);
   const py::array_t<double> given = rowsOf(tau, motor_count, "tau");
   if (static_cast<std::size_t>(given.shape(0)) != motion.rows.size())
     throw py::value_error("tau: " + std::to_string(given.shape(0)) + " rows, expected one for each of the motion's " +
                           std::to_string(motion.rows.size()));
-  const double* torques = given.data();
-  py::array_t<double> a = empty(motion.rows.size(), 3), alpha = empty(motion.rows.size(), 3);
-  double *to_a = a.mutable_data(), *to_alpha = alpha.mutable_data();
-  Workspace<double> work;
-  const Load* load = self.scenario.load.get();
-  forRows(motion, [&](std::size_t k) {
-    const Motion<double>& row = motion.rows[k];
-    const Vector6d of_row = Eigen::Map<const Vector6d>(torques + motor_count * k);
-    const Vector6d found = self.kinematics.solver().directDynamics(row, of_row, work, loadAtP(load, row));
-    Eigen::Map<Vector3d>(to_alpha + 3 * k) = found.head<3>();
-    Eigen::Map<Vector3d>(to_a + 3 * k) = found.tail<3>();
-  });
-  return py::make_tuple(a, alpha);
+  std::vector<Vector6d> rates;
+  {
+    const py::gil_scoped_release unlocked;
+    const std::vector<Vector6d> efforts = vectorsOf(given.data(), motion.rows.size());
+    Workspace<double> work;
+    rates = answers(
+        self, motion,
+        [&](const Vector6d* loads, Vector6d* out, PoseFault* faults) {
+          ursula::directDynamics(self.batch, motion.rows.data(), efforts.data(), efforts.size(), out, faults, loads,
+                                 jobs);
+        },
+        [&](std::size_t k, const Vector6d& load) {
+          return self.kinematics.solver().directDynamics(motion.rows[k], efforts[k], work, load);
+        });
+  }
+  const auto part = [&rates](Eigen::Index first) {
+    return table(rates, 3,
+                 [first](const Vector6d& rate, double* to) { Eigen::Map<Vector3d>{to} = rate.segment<3>(first); });
+  };
+  return py::make_tuple(part(3), part(0));
 }
 
 bool has(const Leg& leg, Coordinate coordinate) {
@@ -159,8 +199,10 @@ void addScenario(py::module_& module) {
           "duration", [](const ScenarioWithSolver& self) { return self.scenario.trajectory->duration(); },
           "Of the motion, t_f, s.")
       .def("motion", &motionAt, py::arg("t"), words::at)
-      .def("inverse_dynamics", &inverseDynamics, py::arg("m"), words::inverse_dynamics)
-      .def("forward_dynamics", &forwardDynamics, py::arg("m"), py::arg("tau"), words::forward_dynamics)
+      .def("inverse_dynamics", &inverseDynamics, py::arg("m"), py::kw_only(), py::arg("jobs") = 0,
+           words::inverse_dynamics)
+      .def("forward_dynamics", &forwardDynamics, py::arg("m"), py::arg("tau"), py::kw_only(), py::arg("jobs") = 0,
+           words::forward_dynamics)
       .def("inverse_kinematics", &inverseKinematics, py::arg("m"), words::inverse_kinematics)
       .def("direct_kinematics", &directKinematics, py::arg("phi"), words::direct_kinematics)
       .def("__repr__", [](const ScenarioWithSolver& self) { return "<ursula.Scenario '" + self.scenario.name + "'>"; });

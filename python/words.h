@@ -32,13 +32,15 @@ constexpr const char* at =
 constexpr const char* inverse_dynamics =
     "Efforts of the six motors, in leg order, for a motion of N instants: (N, 6), by (37); N m, or N where a motor\n"
     "slides. Each is conjugate to the rate of what it drives, of the paper's legs phi_i, positive about -u_i. The\n"
-    "scenario's load acts at each t. The same numbers, to the last bit, as `ursula inverse` writes.\n"
+    "scenario's load acts at each t. The same numbers, to the last bit, as `ursula inverse` writes on this machine.\n"
+    "jobs: threads, 0 for all that the processor has; the numbers are the same for any.\n"
     "Raises PoseError where the legs cannot take a pose, or it is singular.";
 
 constexpr const char* forward_dynamics =
     "Accelerations (a, alpha) of the platform under efforts tau, N m or N, (N, 6), in the states of a motion of N "
     "instants,\n"
     "by (36): of P, m/s², and angular, rad/s², in B, each (N, 3). The motion's own a and alpha are not read.\n"
+    "jobs as of inverse_dynamics.\n"
     "Raises PoseError as inverse_dynamics does.";
 
 constexpr const char* inverse_kinematics =

@@ -99,7 +99,8 @@ def check_no_simtk(path, text):
 
 def check_targets(root):
     """What the CMake targets link, by folder."""
-    forbidden = {"nocsolver": re.compile(r"(?i)simbody|mujoco|ursula::validation"),
+    forbidden = {"nocsolver": re.compile(r"(?i)simbody|mujoco|ursula::validation|tbb"),
+                 "nocsolver/parallel": re.compile(r"(?i)simbody|mujoco|ursula::validation"),
                  "model": re.compile(r"ursula[:_]+(nocsolver|validation)"),
                  "model/loops": re.compile(r"ursula[:_]+(nocsolver|validation)"),
                  "validation": re.compile(r"(?i)ursula::apps|\$\{(simbody|ursula_mujoco)_")}

@@ -26,6 +26,7 @@ ROOMS = {
     "compare": "verdict report",
     "simulate": "verdict subject",
     "suite": "verdict subject report",
+    "stream": "verdict subject findings",
 }
 USE_THE_FRONT_DOOR = {"outside", "prove"}
 LARGEST_SHARE = 0.25  # of validation's lines, in one room

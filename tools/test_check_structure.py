@@ -24,6 +24,7 @@ def sound_tree():
         "model/CMakeLists.txt": "target_link_libraries(m ${Simbody_LIBRARIES})\n",
         "model/loops/CMakeLists.txt": "target_link_libraries(s ${Simbody_LIBRARIES})\n",
         "nocsolver/CMakeLists.txt": "target_link_libraries(n ursula::model)  # never Simbody\n",
+        "nocsolver/parallel/CMakeLists.txt": "target_link_libraries(p ursula::nocsolver TBB::tbb)\n",
         "validation/CMakeLists.txt": "target_link_libraries(v ursula::nocsolver ursula::simbody_loop)\n",
         "model/machine.h": "#include <Eigen/Core>\n",
         "model/loops/simbody/simbody_loop.h": "// SimTK stays behind this header.\n",
@@ -107,6 +108,9 @@ class CheckStructure(unittest.TestCase):
 
     def test_targets(self):
         self.assert_caught("nocsolver may not link", nocsolver__CMakeLists_DOT_txt=("", "link(${Simbody_LIBRARIES})\n"))
+        self.assert_caught("nocsolver may not link", nocsolver__CMakeLists_DOT_txt=("", "link(TBB::tbb)\n"))
+        self.assert_caught("nocsolver/parallel may not link",
+                           nocsolver__parallel__CMakeLists_DOT_txt=("", "link(${Simbody_LIBRARIES})\n"))
         self.assert_caught("model may not link", model__CMakeLists_DOT_txt=("", "link(ursula::nocsolver)\n"))
 
     def test_rooms(self):

@@ -1,11 +1,12 @@
 #pragma once
 
 /// \file
-/// The paper's closed forms: Solver for kinematics and dynamics, BatchDynamics for many poses at a time,
-/// EffortDerivatives, DirectKinematics for all poses.
+/// The paper's closed forms: Solver for kinematics and dynamics, BatchDynamics for many poses at a time, by
+/// one thread or several, EffortDerivatives, DirectKinematics for all poses.
 
 #include "include/ursula/abi.h"
 #include "nocsolver/batch_dynamics.h"
 #include "nocsolver/direct_kinematics.h"
 #include "nocsolver/effort_derivatives.h"
+#include "nocsolver/parallel/threaded_batch.h"
 #include "nocsolver/solver.h"

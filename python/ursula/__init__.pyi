@@ -101,9 +101,9 @@ class Scenario:
         """Of the motion, s."""
     def motion(self, t: npt.ArrayLike) -> Motion:
         """The commanded motion at t, s: (N,) or a number."""
-    def inverse_dynamics(self, m: Motion) -> Array:
+    def inverse_dynamics(self, m: Motion, *, jobs: int = 0) -> Array:
         """Efforts of the motors, N m, or N where a motor slides: (N, 6)."""
-    def forward_dynamics(self, m: Motion, tau: npt.ArrayLike) -> tuple[Array, Array]:
+    def forward_dynamics(self, m: Motion, tau: npt.ArrayLike, *, jobs: int = 0) -> tuple[Array, Array]:
         """(a, alpha) of the platform under efforts tau, N m or N, (N, 6): m/s² and rad/s², each (N, 3)."""
     def inverse_kinematics(self, m: Motion) -> dict[str, Array]:
         """phi, psi, theta, d, those that legs have, with rates and accelerations, rad, m and s, each (N, number of legs)."""

@@ -74,6 +74,34 @@ def test_legs_of_every_kind(kind, program, tmp_path):
         s.direct_kinematics(np.zeros(6))
 
 
+def test_any_number_of_threads_gives_the_same_numbers(helix):
+    s = ursula.read_scenario(helix)
+    m = s.motion(np.linspace(0, s.duration, 5003))
+    tau = s.inverse_dynamics(m, jobs=1)
+    a, alpha = s.forward_dynamics(m, 1.1 * tau, jobs=1)
+    assert np.array_equal(tau[4000:4007], s.inverse_dynamics(m[4000:4007])), "nor does it matter what is beside a row"
+    for jobs in (0, 2, 7):
+        assert np.array_equal(s.inverse_dynamics(m, jobs=jobs), tau)
+        for found, expected in zip(s.forward_dynamics(m, 1.1 * tau, jobs=jobs), (a, alpha)):
+            assert np.array_equal(found, expected)
+    assert not np.array_equal(tau, 1.1 * tau)
+    for call in (lambda: s.inverse_dynamics(m, jobs=-1), lambda: s.forward_dynamics(m, tau, jobs=-1)):
+        with pytest.raises(ValueError, match="jobs: -1, expected 0 or more"):
+            call()
+
+
+def test_of_many_poses_the_first_that_cannot_be_is_refused(helix):
+    s = ursula.read_scenario(helix)
+    m = s.motion(np.linspace(0, s.duration, 4000))
+    p = m.p.copy()
+    p[1234, 2] = p[3000, 2] = 9
+    wrong = ursula.Motion(m.t, p, m.q, m.v, m.w, m.a, m.alpha)
+    for call in (lambda: s.inverse_dynamics(wrong), lambda: s.forward_dynamics(wrong, np.zeros((4000, 6)))):
+        with pytest.raises(ursula.PoseError, match="leg 1 is out of reach") as refused:
+            call()
+        assert refused.value.instant == m.t[1234] and refused.value.leg == 1
+
+
 def test_direct_kinematics_find_the_pose(helix):
     s = ursula.read_scenario(helix)
     m = s.motion(1.2)
