@@ -31,6 +31,7 @@ void addDocs(CLI::App& app, std::function<int()>& run);
 void addExplain(CLI::App& app, std::function<int()>& run);
 void addInit(CLI::App& app, std::function<int()>& run);
 void addInverse(CLI::App& app, std::function<int()>& run);
+void addMap(CLI::App& app, std::function<int()>& run);
 void addOpen(CLI::App& app, std::function<int()>& run);
 void addPoses(CLI::App& app, std::function<int()>& run);
 void addProve(CLI::App& app, std::function<int()>& run);

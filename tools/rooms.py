@@ -27,6 +27,7 @@ ROOMS = {
     "simulate": "verdict subject",
     "suite": "verdict subject report",
     "stream": "verdict subject findings",
+    "map": "verdict subject report stream",
 }
 USE_THE_FRONT_DOOR = {"outside", "prove"}
 LARGEST_SHARE = 0.25  # of validation's lines, in one room

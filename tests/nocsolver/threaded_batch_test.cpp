@@ -76,7 +76,7 @@ TEST_P(ThreadedBatch, allocatesNothingItself) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ThreadedBatch, testing::Values("random-2", "kind-mixture"),
-                         [](const auto& name) { return name.param.substr(0, 6); });
+                         [](const auto& name) { return std::string(name.index == 0 ? "ofThePaper" : "mixed"); });
 
 }  // namespace
 }  // namespace ursula

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "model/scenario.h"
+
+namespace ursula {
+
+/// A grid that cannot be made; says what was given and what was expected.
+struct GridError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// One coordinate of the platform's pose: position of P in B, m, or an angle, degrees: Q = R_z(yaw) R_y(pitch)
+/// R_x(roll). One value, or `count` equally spaced ones.
+struct GridAxis {
+  double from = 0, to = 0;
+  int count = 1;
+  bool given = false;
+
+  bool varies() const { return count > 1; }
+  double value(int k) const { return varies() ? from + (to - from) * k / (count - 1) : from; }
+};
+
+constexpr std::size_t grid_axes = 6;
+constexpr std::array<const char*, grid_axes> grid_axis_names = {"x", "y", "z", "roll", "pitch", "yaw"};
+
+/// "FROM,TO,COUNT", or one value. Throws GridError that names the axis.
+GridAxis gridAxis(const std::string& name, const std::string& text);
+
+/// Poses at rest, the first axis that varies fastest. What is not given is of the trajectory's pose at `instant`. Where
+/// no axis varies, those of the position that are not given do: around the path of P.
+class PoseGrid {
+ public:
+  /// Throws GridError unless two or three axes vary, for more than 100 million poses, and for an instant that the
+  /// motion has not.
+  PoseGrid(const Scenario& scenario, const std::array<GridAxis, grid_axes>& axes, double instant);
+
+  std::size_t size() const { return size_; }
+  /// Coordinates of pose k: m and degrees.
+  std::array<double, grid_axes> at(std::size_t k) const;
+  Motion<double> pose(std::size_t k) const;
+  const GridAxis& axis(std::size_t which) const { return axes_[which]; }
+  /// Which axes vary, the fastest first.
+  const std::vector<std::size_t>& varying() const { return varying_; }
+
+ private:
+  std::array<GridAxis, grid_axes> axes_;
+  Motion<double> rest_;  ///< the trajectory's pose
+  bool turns_ = false;   ///< whether an angle was given
+  std::vector<std::size_t> varying_;
+  std::size_t size_ = 1;
+};
+
+}  // namespace ursula
