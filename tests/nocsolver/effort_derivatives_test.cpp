@@ -116,7 +116,7 @@ EffortsByState::Block turning(const Vector6d& load) {
 double sizeOf(const EffortDerivatives::Columns& columns, const std::vector<std::string>& names, std::size_t k) {
   const std::string& name = names[k];
   const auto at = static_cast<Eigen::Index>(k);
-  if (name.at(name.size() - 2) != '.') return columns.col(at).norm();
+  if (name.at(name.size() - 2) != '.' || name.back() < 'x') return columns.col(at).norm();
   return columns.middleCols(at - (name.back() - 'x'), 3).norm();
 }
 
