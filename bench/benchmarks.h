@@ -42,6 +42,8 @@ std::vector<Answers> ownAnswers();
 void registerBatches();
 /// Machines with legs of other kinds.
 void registerLegKinds();
+/// Derivatives of the efforts of machines of each kind.
+void registerDerivatives();
 /// Direct-dynamics simulation of the helix.
 void registerSimulations();
 /// All poses, tracking, and twists at a known pose.

@@ -45,6 +45,7 @@ int run(int argc, char** argv) {
   registerBatches();
   registerLegKinds();
   registerDirectKinematics();
+  registerDerivatives();
   registerSimulations();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
