@@ -43,6 +43,7 @@ Reference::Reference(const Scenario& given, int threads)
   plan.acceleration = SampledLimit(conditions);
   plan.position_scale = position_scale;
   plan.step_rate = plannedStepRate(duration);
+  plan.stiff = isStiff(amplification, duration);
   plan.tolerance = reachableTolerance(scenario, plan.step_rate);
   plan.max_evaluations = enoughEvaluations(scenario, plan.step_rate);
   windows = replayInWindows(scenario, amplification, plan);

@@ -15,12 +15,16 @@ using Matrix12 = Amplification::Matrix12;
 /// Every fifth instant will do: the Jacobian varies with the pose, and slowly.
 constexpr int growth_stride = 5;
 
-/// Of the motion as it is, and at rest without friction, which slows a fall but holds nothing.
-double fastestGrowth(const Matrix12& J) {
-  const double moving = Eigen::EigenSolver<Matrix12>(J, false).eigenvalues().real().maxCoeff();
+struct Rates {
+  double growth = 0, decay = 0;
+};
+
+/// Growth of the motion as it is, and at rest without friction, which slows a fall but holds nothing.
+Rates fastestRates(const Matrix12& J) {
+  const Eigen::EigenSolver<Matrix12>::EigenvalueType moving = Eigen::EigenSolver<Matrix12>(J, false).eigenvalues();
   const Matrix6d stiffness = J.bottomLeftCorner<6, 6>();
   const double falling = Eigen::EigenSolver<Matrix6d>(stiffness, false).eigenvalues().cwiseSqrt().real().maxCoeff();
-  return std::max({0.0, moving, falling});
+  return {std::max({0.0, moving.real().maxCoeff(), falling}), std::max(0.0, -moving.real().minCoeff())};
 }
 
 /// Over one interval, from the Jacobians at its ends and its middle: Magnus' expansion to fourth order (Blanes, Casas,
@@ -60,7 +64,10 @@ Amplification::Amplification(const Scenario& scenario, int intervals) {
   Matrix12 J0 = linearisation.at(0), rated = J0;
   const Matrix12 first = J0;
   const auto addRate = [&](const Matrix12& J) {
-    growth_rates_.push_back(growth_rates_.empty() || J != rated ? fastestGrowth(J) : growth_rates_.back());
+    const bool known = !growth_rates_.empty() && J == rated;
+    const Rates rates = known ? Rates{growth_rates_.back(), decay_rates_.back()} : fastestRates(J);
+    growth_rates_.push_back(rates.growth);
+    decay_rates_.push_back(rates.decay);
     rated = J;
   };
   for (int k = 0; k < intervals; ++k) {
@@ -113,6 +120,13 @@ double Amplification::growthRate(double t) const {
   const double interval = instants_[1] - instants_[0];
   const auto before = static_cast<std::size_t>(std::clamp(t / (growth_stride * interval), 0.0, double(last)));
   return std::max(growth_rates_[before], growth_rates_[std::min(before + 1, last)]);
+}
+
+double Amplification::decayRate() const {
+  std::vector<double> rates = decay_rates_;
+  const auto middle = rates.begin() + static_cast<std::ptrdiff_t>(rates.size() / 2);
+  std::nth_element(rates.begin(), middle, rates.end());
+  return *middle;
 }
 
 /// ‖Φ(t_j, t_k)‖ for every k of a window, as j moves on. Φ is carried forward for each, so no propagator is ever

@@ -53,6 +53,9 @@ class Amplification {
   /// linearised motion, or of its part λ² = ∂p̈/∂p, the larger of the two instants beside t that were looked at, at
   /// least 0. 1/s.
   double growthRate(double t) const;
+  /// How fast deviations decay at most, the median over the motion: where that is large, friction makes the equations
+  /// stiff. 1/s.
+  double decayRate() const;
 
  private:
   class Carried;
@@ -66,7 +69,7 @@ class Amplification {
   bool uniform_ = true;  ///< a pose is held: all propagators are the same, and there is but one
   std::vector<Matrix12> propagators_;
   double length_ = 1;
-  std::vector<double> growth_rates_;  ///< at every growth_stride-th instant, and the last
+  std::vector<double> growth_rates_, decay_rates_;  ///< at every growth_stride-th instant, and the last
 };
 
 }  // namespace ursula

@@ -33,7 +33,11 @@ Vector6d deviationAtEnd(const Replay& replay, double length) {
 BesidePath::BesidePath(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques,
                        const Amplification& amplification, const std::function<double(double)>& acceleration_rounding,
                        double tolerance)
-    : scenario_(scenario), torques_(torques), tolerance_(tolerance), length_(amplification.length()) {
+    : scenario_(scenario),
+      torques_(torques),
+      tolerance_(tolerance),
+      length_(amplification.length()),
+      stiff_(isStiff(amplification, scenario.trajectory->duration())) {
   const std::size_t last = lastOf(amplification);
   intervals_ = static_cast<int>(last);
   end_ = amplification.instants()[last];
@@ -57,6 +61,7 @@ EndsBeside BesidePath::replayed(const std::vector<double>& stops) const {
   ReplaySettings settings;
   settings.end = end_;
   settings.stops = stops;
+  settings.stiff = stiff_;
   settings.max_evaluations = enoughEvaluations(scenario_, plannedStepRate(scenario_.trajectory->duration()));
   EndsBeside out;
   const auto endOf = [&](double share, double finer_by) {

@@ -53,6 +53,7 @@ class BesidePath {
   const Scenario& scenario_;
   const SimbodyLoop::TorqueHistory& torques_;
   double tolerance_, length_, end_;
+  bool stiff_;
   int intervals_;
   Growth right_;
   double size_, rounding_;

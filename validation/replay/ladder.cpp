@@ -21,6 +21,7 @@ ReplaySettings settingsOf(const WindowedReplay& finest, Integrator integrator, d
   ReplaySettings settings;
   settings.integrator = integrator;
   settings.tolerance = tolerance;
+  settings.stiff = finest.replay.stiff && integrator == Integrator::rkf78;
   settings.start = finest.window.start();
   settings.end = finest.window.end();
   settings.instants = 2;
@@ -68,7 +69,9 @@ void climbSecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& tor
                  const ChangeSettings& change, Ladder& ladder) {
   const std::vector<ReplayStep>& steps = finest.replay.steps;
   if (steps.size() < 2) return;
-  const std::size_t last = std::min(steps.size() - 1, std::max<std::size_t>(20, steps.size() / 10));
+  // Of a stiff motion a single one: it is Simbody's explicit integrator.
+  const std::size_t wanted = finest.replay.stiff ? 1 : std::max<std::size_t>(20, steps.size() / 10);
+  const std::size_t last = std::min(steps.size() - 1, wanted);
   ladder.second_end = steps[last].t;
   const auto run = [&](double accuracy) {
     ReplaySettings settings = settingsOf(finest, Integrator::rk_merson, accuracy);

@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <boost/numeric/odeint.hpp>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "model/instants.h"
 #include "nocsolver/solver.h"
+#include "validation/replay/radau.h"
 
 namespace ursula {
 namespace {
@@ -56,6 +59,32 @@ Motion<double> startOf(const Scenario& scenario, const ReplaySettings& settings)
   return motion;
 }
 
+/// RadauStep as one of Boost.Odeint's controlled steppers.
+class ControlledRadau {
+ public:
+  explicit ControlledRadau(double tolerance) : tolerance_{tolerance, tolerance} {}
+
+  template <class RateAt>
+  odeint::controlled_step_result try_step(const RateAt& rate, OdeState& x, double& t, double& h) {
+    std::optional<double> error;
+    try {
+      error = step_.tryStep(rate, x, t, h, tolerance_);
+    } catch (const TooLong&) {
+      throw;
+    } catch (const GaveUp&) {
+      // A stage was thrown far away: a step too long.
+    }
+    const bool accepted = error && *error <= 1;
+    if (accepted) t += h;
+    h *= changeOfStep(error);
+    return accepted ? odeint::success : odeint::fail;
+  }
+
+ private:
+  RadauStep step_;
+  RadauStep::Tolerance tolerance_;
+};
+
 /// One run: the loop, the work done on it and what is recorded.
 class Run {
  public:
@@ -72,6 +101,7 @@ class Run {
     stops_.push_back(settings.end);
     result_.integrator = settings.integrator;
     result_.tolerance = settings.tolerance;
+    result_.stiff = settings.stiff;
     const ManipulatorParameters& machine = scenario.manipulator->parameters();
     double mass = machine.platform.mass;
     for (const Leg& leg : machine.legs) {
@@ -95,19 +125,9 @@ class Run {
 
   /// x = [q, u, work / weight]: the work in metres, so that one absolute tolerance suits every coordinate.
   void integrateRkf78() {
-    OdeState x = loop_.state();
-    x.push_back(0.0);
-    auto stepper =
-        odeint::make_controlled(settings_.tolerance, settings_.tolerance, odeint::runge_kutta_fehlberg78<OdeState>());
-    // A first step of the whole motion's size: many short windows would else grow theirs from nothing, each again.
-    double step = trajectory_.duration() / 128;
-    double t = settings_.start;
-    observe(x, t);
-    for (double stop : stops_) {
-      double longest = 0;
-      while (t < stop) longest = std::max(longest, takeStep(stepper, x, t, stop, longest > 0 ? next_step_ : step));
-      step = longest;
-    }
+    if (settings_.stiff) return integrate(ControlledRadau(settings_.tolerance));
+    integrate(
+        odeint::make_controlled(settings_.tolerance, settings_.tolerance, odeint::runge_kutta_fehlberg78<OdeState>()));
   }
 
   /// Simbody integrates no work: the energy is left unjudged here.
@@ -129,6 +149,21 @@ class Run {
   void leavePath() { result_.left_path = true; }
 
  private:
+  template <class Stepper>
+  void integrate(Stepper stepper) {
+    OdeState x = loop_.state();
+    x.push_back(0.0);
+    // A first step of the whole motion's size: many short windows would else grow theirs from nothing, each again.
+    double step = trajectory_.duration() / 128;
+    double t = settings_.start;
+    observe(x, t);
+    for (double stop : stops_) {
+      double longest = 0;
+      while (t < stop) longest = std::max(longest, takeStep(stepper, x, t, stop, longest > 0 ? next_step_ : step));
+      step = longest;
+    }
+  }
+
   /// One accepted step from t, which it moves on, by at most to `stop`; the length of it.
   template <class Stepper>
   double takeStep(Stepper& stepper, OdeState& x, double& t, double stop, double try_first) {
@@ -138,7 +173,7 @@ class Run {
     for (int rejected = 0;; ++rejected) {
       const bool last = t + h * (1 + 1e-12) >= stop;
       if (last) h = stop - t;
-      if (settings_.foresee) settings_.foresee(stagesOf(t, h));
+      if (settings_.foresee) settings_.foresee(settings_.stiff ? RadauStep::instants(t, h) : stagesOf(t, h));
       if (stepper.try_step(rate, x, t, h) == odeint::success) {
         if (last) t = stop;  // not stop's neighbour
         break;
@@ -164,7 +199,9 @@ class Run {
     if (++result_.evaluations > settings_.max_evaluations)
       throw TooLong(fmt::format("more than {} derivative evaluations", settings_.max_evaluations));
     result_.stopped_at = t;
-    loop_.derivative(t, x.data(), torques_(t), rate.data());
+    if (!settings_.stiff || !(t == torques_at_)) torques_now_ = torques_(t);  // a Jacobian asks at one instant
+    torques_at_ = t;
+    loop_.derivative(t, x.data(), torques_now_, rate.data());
     const SimbodyLoop::Power power = loop_.power();
     const double spoilt = settings_.spoil_power ? settings_.spoil_power(power) : 0;
     rate.back() = (power.actuators + power.friction + power.load + spoilt) / weight_;
@@ -202,6 +239,8 @@ class Run {
   ReplaySettings settings_;
   std::vector<double> stops_;  ///< the integrator's order holds from one to the next
   SimbodyLoop loop_;
+  Vector6d torques_now_;  ///< at torques_at_
+  double torques_at_ = std::numeric_limits<double>::quiet_NaN();
   double start_energy_ = 0;
   double next_step_ = 0;  ///< that the step control proposes
   double weight_ = 0;     ///< N

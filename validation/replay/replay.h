@@ -24,6 +24,7 @@ struct ReplayStep {
 struct Replay {
   Integrator integrator = Integrator::rkf78;
   double tolerance = 0;
+  bool stiff = false;             ///< as ReplaySettings has it
   std::vector<ReplayStep> steps;  ///< from the start; every accepted step (rk_merson: every instant asked for)
   long evaluations = 0;           ///< of the derivatives
   long accepted = 0;              ///< steps of the integrator
@@ -44,6 +45,7 @@ constexpr double nominal_order = 8;
 struct ReplaySettings {
   Integrator integrator = Integrator::rkf78;
   double tolerance = 1e-14;   ///< absolute and relative
+  bool stiff = false;         ///< rkf78 only: RadauStep in its place, whose steps friction does not shorten
   double start = 0, end = 0;  ///< s; the state at start is the commanded one
   SimbodyLoop::Topology topology = SimbodyLoop::Topology::six_balls;
   /// [δp; L δϑ; δṗ; L δω] by which the start is put off the commanded state, L the machine's length; m and m/s.

@@ -10,6 +10,8 @@
 
 #include "model/loops/simbody/simbody_loop.h"
 #include "nocsolver/solver.h"
+#include "validation/replay/radau.h"
+#include "validation/replay/windows.h"
 
 namespace ursula {
 namespace {
@@ -79,10 +81,13 @@ class Stabilised {
   }
 
   long evaluations() const { return evaluations_; }
+  bool stiff() const { return isStiff(amplification_, trajectory_.duration()); }
 
   /// A step of Dormand and Prince's pair from t comes.
   void foreseeStep(const Subject& subject, double t, double h) const {
-    if (subject.foresee)
+    if (subject.foresee && stiff())
+      foresee(subject, trajectory_, RadauStep::instants(t, h));
+    else if (subject.foresee)
       foresee(subject, trajectory_,
               {t, t + h * (1.0 / 5), t + h * (3.0 / 10), t + h * (4.0 / 5), t + h * (8.0 / 9), t + h});
   }
@@ -133,10 +138,37 @@ class Stabilised {
   long evaluations_ = 0;
 };
 
+/// As try_step of Boost.Odeint's controlled steppers has it.
+template <class RateAt>
+bool stiffStep(RadauStep& radau, const RateAt& rate, Deviation& deviation, double& t, double& h,
+               const RadauStep::Tolerance& tolerance) {
+  const auto arrayOf = [](const std::vector<double>& x) {
+    Deviation out;
+    std::copy(x.begin(), x.end(), out.begin());
+    return out;
+  };
+  const RadauStep::Rate of_vectors = [&](const std::vector<double>& x, std::vector<double>& out, double at) {
+    Deviation found;
+    rate(arrayOf(x), found, at);
+    out.assign(found.begin(), found.end());
+  };
+  std::vector<double> x(deviation.begin(), deviation.end());
+  const std::optional<double> error = radau.tryStep(of_vectors, x, t, h, tolerance);
+  const bool accepted = error && *error <= 1;
+  if (accepted) {
+    deviation = arrayOf(x);
+    t += h;
+  }
+  h *= changeOfStep(error);
+  return accepted;
+}
+
 /// From the commanded state to the end of the motion, at the tolerance and the limit of `found`. `torques` are the
 /// subject's.
 void follow(Stabilised& loop, const Subject& subject, const SimbodyLoop::TorqueHistory& torques,
             const Trajectory& trajectory, StabilisedReplay& found) {
+  const bool stiff = loop.stiff();
+  RadauStep radau;
   const auto stepperOf = [](double absolute) {
     return odeint::make_controlled(absolute, three_digits, odeint::runge_kutta_dopri5<Deviation>());
   };
@@ -152,6 +184,7 @@ void follow(Stabilised& loop, const Subject& subject, const SimbodyLoop::TorqueH
     const double tried = h;
     loop.foreseeStep(subject, at, h);
     try {
+      if (stiff) return stiffStep(radau, rate, deviation, at, h, {tolerance, three_digits});
       return stepper.try_step(rate, deviation, at, h) == odeint::success;
     } catch (const std::exception&) {
       if (!(tried > shortest_step * end)) throw;

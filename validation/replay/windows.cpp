@@ -53,6 +53,12 @@ double reachableTolerance(const Scenario& scenario, double step_rate) {
 
 double plannedStepRate(double duration) { return 128 / std::min(duration, 8.0); }
 
+/// Fehlberg's pair is stable to about five decays a step, and 13 evaluations are less than the some 100 of an implicit
+/// step of the motion's own length.
+bool isStiff(const Amplification& amplification, double duration) {
+  return amplification.decayRate() > 8 * plannedStepRate(duration);
+}
+
 long enoughEvaluations(const Scenario& scenario, double step_rate) {
   const auto knots = static_cast<long>(allKnots(scenario).size());
   return 20000 + static_cast<long>(4 * 13 * step_rate * scenario.trajectory->duration()) + 4 * 13 * knots;
@@ -110,6 +116,7 @@ ReplaySettings settingsOf(const Scenario& scenario, const ReplayPlan& plan, cons
   ReplaySettings settings;
   settings.integrator = scenario.simulation.integrator;
   settings.tolerance = of_tolerance * plan.tolerance;
+  settings.stiff = plan.stiff;
   settings.start = window.start();
   settings.end = window.end();
   settings.max_evaluations = plan.max_evaluations;

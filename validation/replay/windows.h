@@ -18,6 +18,7 @@ struct ReplayPlan {
   double step_rate = 0;                        ///< steps a second that the replay is taken to need, for planning only
   long max_evaluations = 200000;               ///< of the derivatives in one window; more is giving up
   double tolerance = 1e-14;                    ///< of the integrator: reachableTolerance
+  bool stiff = false;                          ///< as ReplaySettings has it
   std::function<void(const std::vector<double>&)> foresee = nullptr;  ///< as ReplaySettings has it; may be empty
 };
 
@@ -62,6 +63,9 @@ double reachableTolerance(const Scenario& scenario, double step_rate);
 
 /// For smooth torques: the judgement counts the steps taken.
 double plannedStepRate(double duration);
+
+/// Friction would make an explicit integrator's steps so much shorter than planned that implicit ones cost less.
+bool isStiff(const Amplification& amplification, double duration);
 
 /// Where to give up: torques that are wrong may throw the machine about, but four times what right ones take, 13
 /// evaluations a step, is enough.
