@@ -10,11 +10,11 @@
 #include <cmath>
 
 #include "model/errors.h"
+#include "model/named_number.h"
 #include "model/real50.h"
 #include "nocsolver/fast_dynamics.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/motions.h"
-#include "tests/support/named_parameter.h"
 #include "tests/support/vectors.h"
 
 namespace ursula {
@@ -228,8 +228,8 @@ TEST_P(DerivativesOf, byParametersAreTheDifferencesInFiftyDigits) {
   ASSERT_EQ(static_cast<std::size_t>(found.cols()), of.parameterNames().size());
   const auto efforts = [&](const std::string& name, double by, double& value) -> Six {
     ManipulatorParameters changed = machine().parameters();
-    changeParameter(changed, name, by);
-    value = valueOfParameter(changed, name);
+    changeNumber(changed, name, by);
+    value = valueOfNumber(changed, name);
     return FastDynamics<Real50>(Manipulator(changed)).inverseDynamics(exactly(at), someLoad());
   };
   const auto slope = [&](const std::string& name, double h) -> Six {
@@ -247,7 +247,7 @@ TEST_P(DerivativesOf, byParametersAreTheDifferencesInFiftyDigits) {
   int seen = 0;
   for (std::size_t k = 0; k < of.parameterNames().size(); ++k) {
     const std::string& name = of.parameterNames()[k];
-    const double scale = std::max(std::abs(valueOfParameter(machine().parameters(), name)), 0x1p-6),
+    const double scale = std::max(std::abs(valueOfNumber(machine().parameters(), name)), 0x1p-6),
                  h = 0x1p-18 * scale;
     const Vector6d expected = Six((4 * slope(name, h / 2) - slope(name, h)) / 3).cast<double>();
     const auto column = found.col(static_cast<Eigen::Index>(k));

@@ -17,6 +17,8 @@ struct Cause {
   std::function<std::vector<Vector6d>(double x, const std::vector<Motion<double>>&)> torques;
   /// "platform mass 499.31 +- 0.02 kg instead of 500"; `deviation` is two standard deviations of x.
   std::function<std::string(double x, double deviation)> words;
+  /// The torques' derivative by x at 0; empty where none is known but differences.
+  std::function<std::vector<Vector6d>(const std::vector<Motion<double>>&)> slope = {};
 };
 
 /// Fits each cause to the residual: all of them to first order on a few instants, the likely ones there by

@@ -99,8 +99,10 @@ class Fit {
     return std::sqrt(dot(left, left)) / data_.norm();
   }
 
-  /// By central differences; by one-sided ones where a parameter cannot be less.
+  /// Exact at 0 where the cause knows it; else by central differences, by one-sided ones where a parameter cannot be
+  /// less.
   Rows slopeAt(double at) const {
+    if (at == 0 && cause_.slope) return cause_.slope(data_.motions);
     std::optional<Rows> above = torquesAt(at + difference_step), below = torquesAt(at - difference_step);
     const double width = above && below ? 2 * difference_step : difference_step;
     if (!above) above = torquesAt(at);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "validation/external/machine_slopes.h"
 #include "validation/external/parameter_ties.h"
 #include "validation/subject/subject.h"
 
@@ -46,9 +47,15 @@ Rows torquesOfInertias(const Scenario& scenario, const Change& change, double x,
 /// Collects causes; `scenario` outlives them.
 class Collector {
  public:
-  explicit Collector(const Scenario& scenario) : scenario_(scenario) {}
+  explicit Collector(const Scenario& scenario)
+      : scenario_(scenario), slopes_(std::make_shared<MachineSlopes>(scenario)) {}
 
-  void addFitted(const Change& change, const Words& words) { add(true, change, words); }
+  void addFitted(const Change& change, const Words& words) {
+    add(true, change, words);
+    causes.back().slope = [slopes = slopes_, change](const std::vector<Motion<double>>& motions) {
+      return slopes->along(change, motions);
+    };
+  }
 
   void addTied(const TiedParameters& tied) {
     const Machine& machine = scenario_.manipulator->parameters();
@@ -97,6 +104,7 @@ class Collector {
   }
 
   const Scenario& scenario_;
+  std::shared_ptr<MachineSlopes> slopes_;
 };
 
 /// I of the mass centre with m (r² 1 − r rᵀ) added or taken away.

@@ -1,4 +1,4 @@
-#include "tests/support/named_parameter.h"
+#include "model/named_number.h"
 
 #include <stdexcept>
 #include <vector>
@@ -55,12 +55,11 @@ std::vector<double*> numbersOf(ManipulatorParameters& machine, const std::string
 
 }  // namespace
 
-double valueOfParameter(const ManipulatorParameters& machine, const std::string& name) {
-  ManipulatorParameters copy = machine;
-  return *numbersOf(copy, name).front();
+double valueOfNumber(const ManipulatorParameters& machine, const std::string& name) {
+  return *numbersOf(const_cast<ManipulatorParameters&>(machine), name).front();  // read alone
 }
 
-void changeParameter(ManipulatorParameters& machine, const std::string& name, double by) {
+void changeNumber(ManipulatorParameters& machine, const std::string& name, double by) {
   for (double* number : numbersOf(machine, name)) *number += by;
 }
 

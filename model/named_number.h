@@ -8,9 +8,9 @@ namespace ursula {
 
 /// A number of the machine by its name as EffortDerivatives gives it: "leg[2].distal.inertia.xy". Throws
 /// std::out_of_range for another.
-double valueOfParameter(const ManipulatorParameters& machine, const std::string& name);
+double valueOfNumber(const ManipulatorParameters& machine, const std::string& name);
 
 /// Adds to it; an inertia's xy is yx as well.
-void changeParameter(ManipulatorParameters& machine, const std::string& name, double by);
+void changeNumber(ManipulatorParameters& machine, const std::string& name, double by);
 
 }  // namespace ursula
