@@ -86,7 +86,8 @@ class Panel {
     std::string out;
     for (int c = 0; c <= colours; ++c)
       if (const std::string& path = paths[static_cast<std::size_t>(c)]; !path.empty())
-        out += fmt::format("<path fill=\"{}\" shape-rendering=\"crispEdges\" d=\"{}\"/>\n", c == colours ? out_of_reach : colour(c), path);
+        out += fmt::format("<path fill=\"{}\" shape-rendering=\"crispEdges\" d=\"{}\"/>\n",
+                           c == colours ? out_of_reach : colour(c), path);
     return out;
   }
 
