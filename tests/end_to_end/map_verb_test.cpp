@@ -27,7 +27,8 @@ TEST(Map, hasARowForEachPoseTheFirstAxisFastest) {
   const Program ursula;
   const CsvTable table = mapOf(ursula, "--x=-0.1,0.1,3 --yaw 0,10,2 --z 2.5");
   ASSERT_EQ(table.rows(), 6u);
-  EXPECT_THAT(table.at("p_x_m"), testing::Pointwise(testing::DoubleNear(1e-15), {-0.1, 0, 0.1, -0.1, 0, 0.1}));
+  EXPECT_THAT(table.at("p_x_m"),
+              testing::Pointwise(testing::DoubleNear(1e-15), std::vector<double>{-0.1, 0, 0.1, -0.1, 0, 0.1}));
   EXPECT_EQ(table.at("yaw_rad").front(), 0);
   EXPECT_NEAR(table.at("yaw_rad").back(), 0.17453292519943295, 1e-16);
   for (const double z : table.at("p_z_m")) EXPECT_EQ(z, 2.5);

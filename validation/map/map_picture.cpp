@@ -86,7 +86,8 @@ class Panel {
     std::string out;
     for (int c = 0; c <= colours; ++c)
       if (const std::string& path = paths[static_cast<std::size_t>(c)]; !path.empty())
-        out += fmt::format("<path fill=\"{}\" d=\"{}\"/>\n", c == colours ? out_of_reach : colour(c), path);
+        out += fmt::format("<path fill=\"{}\" shape-rendering=\"crispEdges\" d=\"{}\"/>\n",
+                           c == colours ? out_of_reach : colour(c), path);
     return out;
   }
 
@@ -107,7 +108,7 @@ class Panel {
     std::string out = fmt::format("<rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"{}\" height=\"{}\" class=\"frame\"/>\n", x_,
                                   y_, panel, panel);
     const auto ticks = [](const GridAxis& a) {
-      return report::roundTicks(std::min(a.from, a.to), std::max(a.from, a.to), 4);
+      return report::roundTicks(std::min(a.from, a.to), std::max(a.from, a.to), 6);
     };
     const auto share = [](const GridAxis& a, double value) {  // cells stand around their values
       return ((value - a.from) / (a.to - a.from) * (a.count - 1) + 0.5) / a.count;
