@@ -102,7 +102,8 @@ class Solver {
 
   /// Efforts of the motors, N·m, or N where they push, conjugate to the rates of their coordinates, by (37); `load` is
   /// an external wrench on the platform, [moment about P; force], in B. The workspace is left as it is.
-  Vector6<S> inverseDynamics(const Motion<S>& motion, Workspace<S>&, const Vector6<S>& load = Vector6<S>::Zero()) const {
+  Vector6<S> inverseDynamics(const Motion<S>& motion, Workspace<S>&,
+                             const Vector6<S>& load = Vector6<S>::Zero()) const {
     return dynamics_.inverseDynamics(motion, load);
   }
 

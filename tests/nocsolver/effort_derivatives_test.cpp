@@ -247,8 +247,7 @@ TEST_P(DerivativesOf, byParametersAreTheDifferencesInFiftyDigits) {
   int seen = 0;
   for (std::size_t k = 0; k < of.parameterNames().size(); ++k) {
     const std::string& name = of.parameterNames()[k];
-    const double scale = std::max(std::abs(valueOfNumber(machine().parameters(), name)), 0x1p-6),
-                 h = 0x1p-18 * scale;
+    const double scale = std::max(std::abs(valueOfNumber(machine().parameters(), name)), 0x1p-6), h = 0x1p-18 * scale;
     const Vector6d expected = Six((4 * slope(name, h / 2) - slope(name, h)) / 3).cast<double>();
     const auto column = found.col(static_cast<Eigen::Index>(k));
     // What has next to no effect is right to rounding of the efforts.

@@ -1,5 +1,6 @@
 #include "validation/stream/blocks.h"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
@@ -34,6 +35,9 @@ class Stream {
         tbb::make_filter<Handed, Handed>(filter_mode::parallel, [this](Handed block) { return format(block); }) &
         tbb::make_filter<Handed, void>(filter_mode::serial_in_order, [this](Handed block) { write(block); });
     const std::size_t at_once = static_cast<std::size_t>(options_.jobs) + 2;  // those that wait for their turn
+    // As many threads as were asked for, even if the processor has fewer: TBB would warn of it.
+    const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(options_.jobs));
     tbb::task_arena arena(options_.jobs);
     arena.execute([&] { tbb::parallel_pipeline(at_once, chain); });
   }
