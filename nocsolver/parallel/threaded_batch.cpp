@@ -1,8 +1,11 @@
 #include "nocsolver/parallel/threaded_batch.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+
+#include <algorithm>
 
 namespace ursula {
 namespace {
@@ -19,7 +22,9 @@ void byThreads(std::size_t count, int jobs, const Part& part) {
                       [&part](const auto& range) { part(range.begin(), range.size()); });
   };
   if (jobs <= 0) return all();
-  tbb::task_arena arena(jobs);
+  using tbb::global_control;  // TBB says on stderr where more are asked for than it has
+  const std::size_t has = global_control::active_value(global_control::max_allowed_parallelism);
+  tbb::task_arena arena(static_cast<int>(std::min(static_cast<std::size_t>(jobs), has)));
   arena.execute(all);
 }
 

@@ -1,8 +1,10 @@
 #include "validation/stream/blocks.h"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <exception>
 #include <memory>
 #include <string>
@@ -33,8 +35,11 @@ class Stream {
         tbb::make_filter<Handed, Handed>(filter_mode::serial_in_order, [this](Handed block) { return settle(block); }) &
         tbb::make_filter<Handed, Handed>(filter_mode::parallel, [this](Handed block) { return format(block); }) &
         tbb::make_filter<Handed, void>(filter_mode::serial_in_order, [this](Handed block) { write(block); });
-    const std::size_t at_once = static_cast<std::size_t>(options_.jobs) + 2;  // those that wait for their turn
-    tbb::task_arena arena(options_.jobs);
+    using tbb::global_control;  // TBB says on stderr where more are asked for than it has
+    const std::size_t threads = std::min(static_cast<std::size_t>(options_.jobs),
+                                         global_control::active_value(global_control::max_allowed_parallelism));
+    const std::size_t at_once = threads + 2;  // those that wait for their turn
+    tbb::task_arena arena(static_cast<int>(threads));
     arena.execute([&] { tbb::parallel_pipeline(at_once, chain); });
   }
 
