@@ -4,7 +4,6 @@
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
-#include <algorithm>
 #include <exception>
 #include <memory>
 #include <string>
