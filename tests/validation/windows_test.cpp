@@ -2,6 +2,7 @@
 // state.
 
 #include "validation/replay/windows.h"
+#include "validation/replay/radau.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -184,6 +185,8 @@ TEST(ReachableTolerance, isTheScenariosUnlessDerivativesAreNoisier) {
   const double noisy = reachableTolerance(light_legs, 1e-6 * rate);
   EXPECT_GT(noisy, 100 * light_legs.simulation.tolerance);
   EXPECT_NEAR(reachableTolerance(light_legs, 1e-7 * rate) / noisy, 10, 1e-9) << "in proportion to the step";
+  EXPECT_NEAR(reachableTolerance(light_legs, 1e-6 * rate, true) / noisy, RadauStep::noiseInError() / 0.1, 1e-9);
+  EXPECT_GT(RadauStep::noiseInError(), 1);
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ Reference::Reference(const Scenario& given, int threads)
   plan.position_scale = position_scale;
   plan.step_rate = plannedStepRate(duration);
   plan.stiff = isStiff(amplification, duration);
-  plan.tolerance = reachableTolerance(scenario, plan.step_rate);
+  plan.tolerance = reachableTolerance(scenario, plan.step_rate, plan.stiff);
   plan.max_evaluations = enoughEvaluations(scenario, plan.step_rate);
   windows = replayInWindows(scenario, amplification, plan);
   measureIntegration(scenario, plan, windows);

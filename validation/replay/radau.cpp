@@ -179,6 +179,8 @@ void RadauStep::evaluate(const Rate& rate, const std::vector<double>& x, double 
   }
 }
 
+double RadauStep::noiseInError() { return method().coefficient.bottomRows<2>().cwiseAbs().rowwise().sum().maxCoeff(); }
+
 std::vector<double> RadauStep::instants(double t, double h) {
   std::vector<double> out = {t};
   for (int i = 0; i < stages; ++i) out.push_back(t + method().node(i) * h);

@@ -28,6 +28,9 @@ class RadauStep {
   std::optional<double> tryStep(const Rate& rate, std::vector<double>& x, double t, double h,
                                 const Tolerance& tolerance);
 
+  /// What rounding of size 1 in each rate makes of the error that tryStep takes to be made, over h, at most.
+  static double noiseInError();
+
   /// The instants at which a step of h asks for rates, s.
   static std::vector<double> instants(double t, double h);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/instants.h"
+#include "validation/replay/radau.h"
 #include "validation/subject/presentation.h"
 #include "validation/subject/subject.h"
 
@@ -39,7 +40,7 @@ double derivativeNoise(SimbodyLoop& loop, const Motion<double>& motion, const Ve
 
 }  // namespace
 
-double reachableTolerance(const Scenario& scenario, double step_rate) {
+double reachableTolerance(const Scenario& scenario, double step_rate, bool stiff) {
   SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
   const Subject right = nocSubject(*scenario.manipulator, scenario.load);  // not those on trial
   constexpr int instants = 5;
@@ -48,7 +49,9 @@ double reachableTolerance(const Scenario& scenario, double step_rate) {
     const Motion<double> motion = scenario.trajectory->at(scenario.trajectory->duration() * (k + 0.5) / instants);
     noise = std::max(noise, derivativeNoise(loop, motion, right.torques(motion)));
   }
-  return std::max(scenario.simulation.tolerance, 0.1 * noise / step_rate);
+  constexpr double in_error_of_pair = 0.1;
+  const double in_error = stiff ? RadauStep::noiseInError() : in_error_of_pair;
+  return std::max(scenario.simulation.tolerance, in_error * noise / step_rate);
 }
 
 double plannedStepRate(double duration) { return 128 / std::min(duration, 8.0); }
