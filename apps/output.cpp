@@ -4,6 +4,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "apps/choice.h"
+
 namespace ursula {
 namespace {
 
@@ -27,10 +29,10 @@ void Output::commit() {
 
 void addRowOptions(CLI::App& verb, RowFormat& format, int& jobs) {
   static const std::map<std::string, RowFormat> formats = {{"csv", RowFormat::csv}, {"binary", RowFormat::binary}};
-  verb.add_option("--format", format,
-                  "csv, or binary: a line of JSON (columns, rows, dtype, offset), then the rows as little-endian "
-                  "doubles, as numpy.fromfile reads them")
-      ->transform(CLI::Transformer(formats))
+  takeOneOf(verb.add_option("--format", format,
+                            "binary: a line of JSON (columns, rows, dtype, offset), then the rows as little-endian "
+                            "doubles, as numpy.fromfile reads them"),
+            formats)
       ->default_str("csv");
   verb.add_option("--jobs", jobs, "Threads, as far as the processor has them; results are the same for any number")
       ->check(CLI::Range(1, 1024))

@@ -9,6 +9,7 @@
 #include <memory>
 #include <thread>
 
+#include "apps/choice.h"
 #include "apps/embedded_scenario.h"
 #include "apps/progress.h"
 #include "apps/verbs.h"
@@ -156,10 +157,7 @@ void addProve(CLI::App& app, std::function<int()>& run) {
   verb->add_option("--seed", options->seed, "Seed of the first of them")->capture_default_str();
   std::map<std::string, RandomKind> kinds;
   for (std::size_t k = 0; k < random_kind_names.size(); ++k) kinds[random_kind_names[k]] = static_cast<RandomKind>(k);
-  verb->add_option("--kind", options->kind, "Legs of the random machines")
-      ->transform(CLI::CheckedTransformer(kinds).description(""))
-      ->type_name("URS|UPS|RUS|PUS|mixture|two-motors")
-      ->default_str("URS");
+  takeOneOf(verb->add_option("--kind", options->kind, "Legs of the random machines"), kinds)->default_str("URS");
   verb->add_flag("--only-random", options->only_random, "Leave out the defects");
   verb->callback([options, &run] { run = [options] { return prove(*options); }; });
 }

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 
+#include "apps/choice.h"
 #include "apps/torque_option.h"
 #include "apps/verbs.h"
 #include "model/csv.h"
@@ -62,9 +63,8 @@ void addSimulate(CLI::App& app, std::function<int()>& run) {
       ->required();
   addMapOption(*verb, options->map);
   const std::map<std::string, Engine> engines{{"noc", Engine::noc}, {"simbody", Engine::simbody}};
-  verb->add_option("--engine", options->engine, "noc: (36); simbody: the closed loop. Default: simbody")
-      ->transform(CLI::CheckedTransformer(engines).description(""))
-      ->type_name("noc|simbody");
+  takeOneOf(verb->add_option("--engine", options->engine, "noc: (36); simbody: the closed loop. Default: simbody"),
+            engines);
   verb->add_option("--out", options->out, "CSV file; - for standard output")->capture_default_str();
   verb->callback([options, &run] { run = [options] { return simulateVerb(*options); }; });
 }
