@@ -157,6 +157,15 @@ TEST(RandomProfiles, dominateTheNoiseSeenFromElsewhere) {
     expectDominance(randomScenario(seed), static_cast<unsigned>(2000 + seed), 9);
 }
 
+/// A held pose is measured as often as a motion: its noise is not one number again and again.
+TEST(ProfileAt, measuresAHeldPoseAnewAtEachInstant) {
+  const RoundingProfile profile(scenarioOf("hold"), instants);
+  std::vector<double> spreads = profile.spreads(Rounded::effort);
+  std::sort(spreads.begin(), spreads.end());
+  EXPECT_GE(std::unique(spreads.begin(), spreads.end()) - spreads.begin(), instants / 2);
+  EXPECT_GT(spreads.back(), 0);
+}
+
 TEST(ProfileAt, takesTheLargestOfTheFiveInstantsAbout) {
   const Scenario scenario = scenarioOf("paper-helix");
   const RoundingProfile profile(scenario, instants);

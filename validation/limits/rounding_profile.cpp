@@ -142,6 +142,16 @@ double floorOf(const Conditioning& at, const Conditioning& even, Rounded quantit
   return shape > 0 ? std::min(rounding_floor, share * even.shape(quantity) / shape) : rounding_floor;
 }
 
+bool areSame(const Motion<double>& a, const Motion<double>& b) {
+  return a.p == b.p && a.Q == b.Q && a.omega == b.omega && a.p_dot == b.p_dot && a.omega_dot == b.omega_dot &&
+         a.p_ddot == b.p_ddot;
+}
+
+/// By a billionth of `length`, another way for each k: the same machine and pose, rounded otherwise.
+void nudge(Motion<double>& motion, int k, double length) {
+  for (int axis = 0; axis < 3; ++axis) motion.p(axis) += 0x1p-30 * length * std::sin(1.0 + k + 2.3 * axis);
+}
+
 }  // namespace
 
 int profileInstants(int samples) { return std::clamp(samples, 2, 61); }
@@ -168,9 +178,15 @@ struct RoundingProfile::Workshop {
 
 RoundingProfile::RoundingProfile(const Scenario& scenario, int instants)
     : workshop_(std::make_unique<Workshop>(scenario)) {
+  Motion<double> first_of_held;
   for (int k = 0; k < instants; ++k) {
     const double t = instants > 1 ? scenario.trajectory->duration() * k / (instants - 1) : 0;
-    measured_.push_back(measure(scenario.trajectory->at(t), nullptr));
+    Motion<double> motion = scenario.trajectory->at(t);
+    if (k > 0 && areSame(motion, first_of_held))
+      nudge(motion, k, workshop_->solver.length());  // or a held pose would be measured once, however often
+    else
+      first_of_held = motion;
+    measured_.push_back(measure(motion, nullptr));
   }
 }
 
