@@ -104,14 +104,19 @@ TEST(PaperHelixLadder, hasAnotherIntegratorOverTheBeginning) {
   EXPECT_LT(findCheck(climb.checks(), "integration.second")->limit, 5e-8) << "the limit says little";
 }
 
-/// The torques right but for jumps of a millionth, which no formula of eighth order steps over: steps become shorter
-/// there until the end is right, but there is no order to extrapolate with.
-TEST(PaperHelixLadder, convergesWithoutAnOrderWhereTheTorquesJump) {
-  const Climb climb([](double t) { return 1 + (std::fmod(t, 0.2) < 0.1 ? 1e-6 : -1e-6); });
-  EXPECT_FALSE(climb.ladder().asymptotic);
-  EXPECT_EQ(verdictOf(climb.checks(), "integration.ladder"), "pass");
-  EXPECT_THAT(findCheck(climb.checks(), "integration.ladder")->why, HasSubstr("not asymptotic"));
-  EXPECT_EQ(climb.ladder().extrapolated, climb.ladder().rungs[2].distance);
+/// The torques right but for jumps of a millionth, which no formula of eighth order steps over: there is no order to
+/// extrapolate with. Fehlberg's error estimate sees a jump only by where in a step it falls, so that the end settles
+/// for some places of the jumps and does not for others.
+TEST(PaperHelixLadder, extrapolatesNothingWhereTheTorquesJump) {
+  int settled = 0;
+  for (const double later : {0.0, 0.007, 0.021, 0.035, 0.056}) {
+    const Climb climb([later](double t) { return 1 + (std::fmod(t + later, 0.2) < 0.1 ? 1e-6 : -1e-6); });
+    EXPECT_FALSE(climb.ladder().asymptotic) << later;
+    EXPECT_EQ(climb.ladder().extrapolated, climb.ladder().rungs[2].distance) << later;
+    EXPECT_THAT(findCheck(climb.checks(), "integration.ladder")->why, HasSubstr("not asymptotic")) << later;
+    if (verdictOf(climb.checks(), "integration.ladder") == "pass") ++settled;
+  }
+  EXPECT_GT(settled, 0);
 }
 
 /// Noise that is another at every instant: however fine the tolerance, the end does not settle.

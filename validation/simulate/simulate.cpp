@@ -39,13 +39,17 @@ class NocSystem {
     motion.p_dot = state.segment<3>(7);
     motion.omega = state.segment<3>(10);
     const Vector6d found = solver_.directDynamics(motion, torques, work_, loadAtP(load_.get(), motion));
+    last_ = motion;
     motion.omega_dot = found.head<3>();
     motion.p_ddot = found.tail<3>();
     return motion;
   }
 
   /// Of the state last differentiated.
-  JointVariables<double> joints() const { return solver_.angles(work_); }
+  JointVariables<double> joints() {
+    solver_.displacements(last_, work_);
+    return solver_.angles(work_);
+  }
   /// Of an accepted step: where a leg does not reach, the solver has refused before.
   void check(double, const OdeState&) const {}
 
@@ -62,6 +66,7 @@ class NocSystem {
   std::shared_ptr<const Load> load_;
   Solver<double> solver_;
   Workspace<double> work_;
+  Motion<double> last_;  ///< that the solver did not refuse
 };
 
 /// What ends the reach of a leg, told of its joints' variables: signed, zero where the leg is stretched or folded (of
