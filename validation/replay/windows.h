@@ -58,8 +58,8 @@ std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Repl
 
 /// The scenario's tolerance, or where the loop's derivatives are too noisy for that, what they allow: a step's error
 /// estimate by Fehlberg's pair adds their rounding with 41/840 at four stages, so that a step of the planned length is
-/// never accepted below a tenth of it; RadauStep's, for a `stiff` replay, sees more of it (noiseInError). Where bodies of
-/// very different mass hold each other this is far above eps.
+/// never accepted below a tenth of it; RadauStep's, for a `stiff` replay, sees more of it (noiseInError). Where bodies
+/// of very different mass hold each other this is far above eps.
 double reachableTolerance(const Scenario& scenario, double step_rate, bool stiff = false);
 
 /// For smooth torques: the judgement counts the steps taken.
