@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <thread>
 
 #include "bench/benchmarks.h"
+#include "nocsolver/parallel/threaded_batch.h"
 
 namespace ursula::bench {
 namespace {
@@ -20,10 +20,10 @@ struct Many {
     }
   }
 
-  /// Of the poses from `first` on.
-  void solve(const BatchDynamics& dynamics, bool inverse, std::size_t first, std::size_t count) {
-    inverse ? dynamics.inverseDynamics(&motions[first], count, &found[first], &faults[first])
-            : dynamics.directDynamics(&motions[first], &efforts[first], count, &found[first], &faults[first]);
+  void solve(const BatchDynamics& dynamics, bool inverse, int jobs) {
+    const std::size_t count = motions.size();
+    inverse ? inverseDynamics(dynamics, motions.data(), count, found.data(), faults.data(), nullptr, jobs)
+            : directDynamics(dynamics, motions.data(), efforts.data(), count, found.data(), faults.data(), nullptr, jobs);
   }
 
   void requireAnswers() const {
@@ -36,16 +36,6 @@ struct Many {
   std::vector<PoseFault> faults;
 };
 
-/// Disjoint parts, one for each thread. The seam for the library's own batch in threads.
-void solveInThreads(const BatchDynamics& dynamics, bool inverse, Many& poses, std::size_t threads) {
-  const std::size_t count = poses.motions.size(), part = (count + threads - 1) / threads;
-  std::vector<std::thread> others;
-  for (std::size_t first = part; first < count; first += part)
-    others.emplace_back([&, first] { poses.solve(dynamics, inverse, first, std::min(part, count - first)); });
-  poses.solve(dynamics, inverse, 0, std::min(part, count));
-  for (std::thread& other : others) other.join();
-}
-
 void growWithSamples(InstructionSet set, bool inverse) {
   const std::string name = std::string("samples/") + (inverse ? "inverse " : "direct ") + nameOf(set);
   benchmark::RegisterBenchmark(name.c_str(),
@@ -54,7 +44,7 @@ void growWithSamples(InstructionSet set, bool inverse) {
                                  const BatchDynamics dynamics(helix().manipulator(), set);
                                  Many poses(count);
                                  for ([[maybe_unused]] auto unused : state) {
-                                   poses.solve(dynamics, inverse, 0, count);
+                                   poses.solve(dynamics, inverse, 1);
                                    benchmark::ClobberMemory();
                                  }
                                  poses.requireAnswers();
@@ -71,7 +61,7 @@ void growWithThreads(bool inverse) {
                                  const BatchDynamics dynamics(helix().manipulator());
                                  Many poses(most);
                                  for ([[maybe_unused]] auto unused : state) {
-                                   solveInThreads(dynamics, inverse, poses, static_cast<std::size_t>(state.range(0)));
+                                   poses.solve(dynamics, inverse, static_cast<int>(state.range(0)));
                                    benchmark::ClobberMemory();
                                  }
                                  poses.requireAnswers();
