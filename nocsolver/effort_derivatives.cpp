@@ -84,17 +84,17 @@ MachineNumbers numbersOf(const Manipulator& manipulator) {
 
 void refuse(const Refusal& refusal, double t) {
   switch (refusal.kind) {
-    case Refusal::out_of_reach:
+    case PoseFault::out_of_reach:
       return kernel::requireReach<double>(false, refusal.leg, t, refusal.measure, refusal.bound);
-    case Refusal::end_of_stroke:
+    case PoseFault::end_of_stroke:
       return kernel::requireStroke<double>(false, refusal.leg, t, refusal.measure, refusal.bound);
-    case Refusal::point_on_axis:
+    case PoseFault::point_on_axis:
       return kernel::requireOffAxis<double>(refusal.measure, refusal.bound, refusal.leg, t);
-    case Refusal::stretched_leg:
+    case PoseFault::stretched_leg:
       return kernel::requireRegular<double>(refusal.measure, refusal.what, refusal.leg, t);
-    case Refusal::singular_jacobian:
+    case PoseFault::singular_jacobian:
       return kernel::requireRegularB<double>(refusal.measure, t);
-    case Refusal::none:
+    case PoseFault::none:
       break;
   }
 }

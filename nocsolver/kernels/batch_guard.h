@@ -2,6 +2,7 @@
 
 // What a leg's displacement requires, in every lane of a pack. Internal; leg_guard.h refuses one pose at a time.
 
+#include "nocsolver/kernels/guard_bounds.h"
 #include "nocsolver/kernels/pack.h"
 #include "nocsolver/pose_fault.h"
 
@@ -20,13 +21,12 @@ class BatchGuard {
   }
   void offAxis(const P& r, const P& size) { require(r > root_eps * size, PoseFault::point_on_axis); }
   void regular(const P& sine, const char*) { require(abs(sine) > P(root_eps), PoseFault::stretched_leg); }
-  void regularB(const P& pivots) { require(pivots > P(16 * root_eps * root_eps), PoseFault::singular_jacobian); }
+  void regularB(const P& pivots) { require(pivots > P(least_pivots), PoseFault::singular_jacobian); }
   /// A PoseFault as a number, 0 where there is none.
   const P& faults() const { return faults_; }
   bool anyFault() const { return xsimd::any(faults_ > P(0.0)); }
 
  private:
-  static constexpr double root_eps = 0x1p-26;
   void require(const Mask& holds, PoseFault fault) {
     if (!xsimd::all(holds))
       faults_ = select(holds | (faults_ > P(0.0)), faults_, P(static_cast<double>(fault)));  // seldom

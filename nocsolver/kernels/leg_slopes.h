@@ -7,6 +7,7 @@
 // At a given μ, the loads that the motors put on the platform's equilibrium, a leg is a force f at B, in B:
 //   f = Σ Qⱼ kⱼ of what no motor drives − Σ μₘ kₘ of what motors drive                            (a)
 
+#include "nocsolver/kernels/guard_bounds.h"
 #include "nocsolver/kernels/plane_dynamics.h"
 #include "nocsolver/kernels/slope_functions.h"
 #include "nocsolver/kernels/tangents.h"
@@ -20,24 +21,23 @@ class RefusalGuard {
   explicit RefusalGuard(int leg) { refusal_.leg = leg; }
 
   void reach(const S& inside, const S& square, const S& bound) {
-    if (!(inside.v >= 0)) keep(Refusal::out_of_reach, std::sqrt(square.v), std::abs(bound.v), nullptr);
+    if (!(inside.v >= 0)) keep(PoseFault::out_of_reach, std::sqrt(square.v), std::abs(bound.v), nullptr);
   }
   void stroke(const S& d, const S& least, const S& most) {
-    if (!(d.v > least.v)) keep(Refusal::end_of_stroke, d.v, least.v, nullptr);
-    if (!(d.v < most.v)) keep(Refusal::end_of_stroke, d.v, most.v, nullptr);
+    if (!(d.v > least.v)) keep(PoseFault::end_of_stroke, d.v, least.v, nullptr);
+    if (!(d.v < most.v)) keep(PoseFault::end_of_stroke, d.v, most.v, nullptr);
   }
   void offAxis(const S& r, const S& size) {
-    if (!(r.v > root_eps * size.v)) keep(Refusal::point_on_axis, r.v, size.v, nullptr);
+    if (!(r.v > root_eps * size.v)) keep(PoseFault::point_on_axis, r.v, size.v, nullptr);
   }
   void regular(const S& sine, const char* what) {
-    if (!(std::abs(sine.v) > root_eps)) keep(Refusal::stretched_leg, std::abs(sine.v), 0, what);
+    if (!(std::abs(sine.v) > root_eps)) keep(PoseFault::stretched_leg, std::abs(sine.v), 0, what);
   }
   const Refusal& refusal() const { return refusal_; }
 
  private:
-  static constexpr double root_eps = 0x1p-26;
-  void keep(Refusal::Kind kind, double measure, double bound, const char* what) {
-    if (refusal_.kind == Refusal::none) refusal_ = {kind, refusal_.leg, measure, bound, what};
+  void keep(PoseFault kind, double measure, double bound, const char* what) {
+    if (refusal_.kind == PoseFault::none) refusal_ = {kind, refusal_.leg, measure, bound, what};
   }
   Refusal refusal_;
 };

@@ -7,6 +7,7 @@
 
 #include "model/leg_kind.h"
 #include "model/scalar.h"
+#include "nocsolver/pose_fault.h"
 
 namespace ursula::kernel {
 
@@ -31,8 +32,7 @@ struct MachineNumbers {
 
 /// Why there is no answer; `bound` or `what` as the functions of chain_frame.h and platform_at_p.h take them.
 struct Refusal {
-  enum Kind { none, out_of_reach, end_of_stroke, point_on_axis, stretched_leg, singular_jacobian };
-  Kind kind = none;
+  PoseFault kind = PoseFault::none;
   int leg = -1;
   double measure = 0, bound = 0;
   const char* what = nullptr;

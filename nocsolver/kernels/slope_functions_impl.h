@@ -23,13 +23,13 @@ class StateSlopes {
       const Refusal refusal = withKind(machine_.legs[static_cast<std::size_t>(i)].kind, [&](auto kind) {
         return legByState<Isa>(kind, machine_, i, carried_, legs_[i]);
       });
-      if (refusal.kind != Refusal::none) return refusal;
+      if (refusal.kind != PoseFault::none) return refusal;
     }
     Vector6<Value<Isa>> wrench = platform();
     for (int i = 0; i < machine_.legs_in_all; ++i) addLeg(i, legs_[i], wrench);
     equilibrium_.setWrench(wrench);
     const double pivots = equilibrium_.solve();
-    if (!(pivots > 0x1p-48)) return {Refusal::singular_jacobian, -1, pivots, 0, nullptr};
+    if (!(pivots > least_pivots)) return {PoseFault::singular_jacobian, -1, pivots, 0, nullptr};
     for (int m = 0; m < motor_count; ++m) mu_[m] = equilibrium_.mu(m);
     return {};
   }
@@ -142,7 +142,7 @@ __attribute__((flatten)) Refusal byState(const MachineNumbers& machine, const St
                                          double* derivatives) {
   StateSlopes<Isa> slopes(machine, state);
   const Refusal refusal = slopes.solve();
-  if (refusal.kind == Refusal::none) slopes.put(efforts, derivatives);
+  if (refusal.kind == PoseFault::none) slopes.put(efforts, derivatives);
   return refusal;
 }
 
@@ -151,7 +151,7 @@ __attribute__((flatten)) Refusal byParameters(const MachineNumbers& machine, con
                                               const StateNumbers& state, ParameterSlopes& out) {
   StateSlopes<Isa> slopes(machine, state);
   const Refusal refusal = slopes.solve();
-  if (refusal.kind == Refusal::none) AllParameterSlopes<Isa>(at, state, slopes.equilibrium(), out).run();
+  if (refusal.kind == PoseFault::none) AllParameterSlopes<Isa>(at, state, slopes.equilibrium(), out).run();
   return refusal;
 }
 
