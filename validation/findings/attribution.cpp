@@ -158,25 +158,6 @@ std::vector<ErrorsAt> sharesAlong(const Tracks& tracks, const std::vector<Pointw
   return out;
 }
 
-TimeSeries curveOf(const std::vector<ErrorsAt>& along) {
-  const std::pair<const char*, double ErrorsAt::*> columns[] = {{"t_s", &ErrorsAt::t},
-                                                                {"observed (m)", &ErrorsAt::observed},
-                                                                {"rounding (m)", &ErrorsAt::rounding},
-                                                                {"integration (m)", &ErrorsAt::integration},
-                                                                {"loop closure (m)", &ErrorsAt::closure},
-                                                                {"torques (m)", &ErrorsAt::model},
-                                                                {"unexplained (m)", &ErrorsAt::unexplained},
-                                                                {"limit (m)", &ErrorsAt::limit}};
-  TimeSeries curve;
-  for (const auto& [name, member] : columns) {
-    std::vector<double> values;
-    values.reserve(along.size());
-    for (const ErrorsAt& at : along) values.push_back(at.*member);
-    curve.add(name, std::move(values));
-  }
-  return curve;
-}
-
 ErrorSource dominantOf(const ErrorBudget& budget) {
   // Torques that are right to rounding leave residuals of rounding: no error of theirs.
   const double model = budget.model.error.norm();
@@ -190,60 +171,7 @@ ErrorSource dominantOf(const ErrorBudget& budget) {
       ->first;
 }
 
-std::string shareText(const SourceOfError& source) {
-  return fmt::format("{:.3g} m +- {:.2g} m", source.error, source.uncertainty);
-}
-
-/// In SI.
-ReplayError replayErrorOf(const ErrorBudget& budget, const Units& units) {
-  const auto source = [&units](const ErrorShare& share) {
-    return SourceOfError{share.error.norm() * units.length, share.uncertainty * units.length};
-  };
-  ReplayError out;
-  out.measured = budget.measured;
-  out.t = budget.t * units.time;
-  out.observed = budget.observed.norm() * units.length;
-  out.rounding = source(budget.rounding);
-  out.integration = source(budget.integration);
-  out.closure = source(budget.closure);
-  out.model = source(budget.model);
-  out.unexplained = budget.unexplained().norm() * units.length;
-  out.uncertainty = budget.uncertainty() * units.length;
-  out.amplification = budget.amplification;
-  return out;
-}
-
-void addSources(const ReplayError& found, ValidationResult& result) {
-  const auto add = [&result](const char* what, const std::string& text) { result.findings.emplace_back(what, text); };
-  add("replay, error in position", fmt::format("{:.3g} m at t = {:.6g} s", found.observed, found.t));
-  add("of it by rounding", shareText(found.rounding));
-  add("of it by the integration", shareText(found.integration));
-  add("of it by the loops' gaps", shareText(found.closure));
-  add("of it by the torques", shareText(found.model));
-  add("of it unexplained",
-      fmt::format("{:.3g} m, of an uncertainty of {:.3g} m", found.unexplained, found.uncertainty));
-  add("amplification of a deviation at the start", fmt::format("{:.4g}", found.amplification));
-}
-
 }  // namespace
-
-const char* name(ErrorSource source) {
-  switch (source) {
-    case ErrorSource::model:
-      return "model";
-    case ErrorSource::integration:
-      return "integration";
-    case ErrorSource::rounding:
-      return "rounding";
-    case ErrorSource::closure:
-      return "closure";
-    case ErrorSource::amplification:
-      return "amplification";
-    case ErrorSource::unexplained:
-      return "unexplained";
-  }
-  throw std::logic_error("no such source of errors");
-}
 
 Vector3d ErrorBudget::unexplained() const {
   return observed - model.error - integration.error - rounding.error - closure.error;
@@ -291,23 +219,6 @@ ErrorBudget attribute(const Scenario& scenario, const std::vector<PointwiseSampl
   addModel(samples, *window, amplification, budget);
   budget.dominant = dominantOf(budget);
   return budget;
-}
-
-void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units& units) {
-  const bool limit_too_large = std::any_of(result.checks.begin(), result.checks.end(), [](const Check& check) {
-    return check.reason == Reason::limit_useless && check.name.rfind("replay.", 0) == 0;
-  });
-  const ErrorSource dominant = limit_too_large   ? ErrorSource::amplification
-                               : budget.measured ? budget.dominant
-                                                 : ErrorSource::model;
-  ReplayError found = replayErrorOf(budget, units);
-  found.dominant = name(dominant);
-  result.findings.emplace_back("dominant error", found.dominant);
-  if (budget.measured) {
-    result.curves.emplace_back("Sources of the replay's error", curveOf(budget.along));
-    addSources(found, result);
-  }
-  result.replay_error = std::move(found);
 }
 
 }  // namespace ursula
