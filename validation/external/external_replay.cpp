@@ -118,7 +118,7 @@ ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& t
   plan.acceleration = [limit](double t) { return (*limit)(t); };
   plan.position_scale = limit->positionScale();
   plan.step_rate = std::max(plannedStepRate(duration), 2 * knot_rate);
-  plan.tolerance = reachableTolerance(scenario, plan.step_rate, plan.stiff);
+  plan.tolerance = reachableTolerance(scenario, plan.step_rate);
   plan.max_evaluations = enoughEvaluations(scenario, plan.step_rate);
   const std::vector<GrowthWindow> windows = planWindows(amplification, plan);
   const double useful = useful_replay_limit * limit->length();
