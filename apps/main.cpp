@@ -40,8 +40,8 @@ int runProgram(int argc, char** argv) {
   app.require_subcommand(1);
   std::function<int()> run;
   for (const auto add : {ursula::addValidate, ursula::addInverse, ursula::addInit, ursula::addCheck, ursula::addCompare,
-                         ursula::addDirect, ursula::addMap, ursula::addProve, ursula::addSimulate, ursula::addAudit,
-                         ursula::addPoses, ursula::addExplain, ursula::addOpen, ursula::addDocs})
+                         ursula::addDirect, ursula::addMap, ursula::addProve, ursula::addSimulate, ursula::addSweep,
+                         ursula::addAudit, ursula::addPoses, ursula::addExplain, ursula::addOpen, ursula::addDocs})
     add(app, run);
   if (argc < 2) return complain(app.help());
   if (const std::string unknown = ursula::unknownVerb(app, argc, argv); !unknown.empty()) return complain(unknown);

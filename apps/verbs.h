@@ -36,6 +36,7 @@ void addOpen(CLI::App& app, std::function<int()>& run);
 void addPoses(CLI::App& app, std::function<int()>& run);
 void addProve(CLI::App& app, std::function<int()>& run);
 void addSimulate(CLI::App& app, std::function<int()>& run);
+void addSweep(CLI::App& app, std::function<int()>& run);
 
 /// What `run` returns. A pose on the way that the machine cannot take is refused at the scenario's trajectory.
 template <class Run>

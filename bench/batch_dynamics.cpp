@@ -22,8 +22,9 @@ struct Many {
 
   void solve(const BatchDynamics& dynamics, bool inverse, int jobs) {
     const std::size_t count = motions.size();
-    inverse ? inverseDynamics(dynamics, motions.data(), count, found.data(), faults.data(), nullptr, jobs)
-            : directDynamics(dynamics, motions.data(), efforts.data(), count, found.data(), faults.data(), nullptr, jobs);
+    inverse
+        ? inverseDynamics(dynamics, motions.data(), count, found.data(), faults.data(), nullptr, jobs)
+        : directDynamics(dynamics, motions.data(), efforts.data(), count, found.data(), faults.data(), nullptr, jobs);
   }
 
   void requireAnswers() const {

@@ -13,14 +13,6 @@
 namespace ursula {
 namespace {
 
-toml::table parseToml(const std::string& text, const std::string& file) {
-  try {
-    return toml::parse(std::string_view(text), std::string_view(file));
-  } catch (const toml::parse_error& error) {
-    throw errorAt(file, error.source().begin, std::string(error.description()) + ", expected valid TOML");
-  }
-}
-
 /// Results go into a folder of that name.
 std::string readName(const TomlSection& document) {
   std::string name;

@@ -51,6 +51,14 @@ ScenarioError errorAt(const std::string& file, const toml::source_position& posi
   return ScenarioError(placeAt(file, position) + ": error: " + message);
 }
 
+toml::table parseToml(const std::string& text, const std::string& file) {
+  try {
+    return toml::parse(std::string_view(text), std::string_view(file));
+  } catch (const toml::parse_error& error) {
+    throw errorAt(file, error.source().begin, std::string(error.description()) + ", expected valid TOML");
+  }
+}
+
 void TomlSection::failAt(const toml::node& node, const std::string& message) const {
   throw errorAt(file_, node.source().begin, message);
 }

@@ -18,6 +18,9 @@ std::string placeAt(const std::string& file, const toml::source_position& positi
 /// The error `file:line:column: error: message` at a node's place.
 ScenarioError errorAt(const std::string& file, const toml::source_position& position, const std::string& message);
 
+/// A document; `file` names it in errors. Throws ScenarioError at what is no TOML.
+toml::table parseToml(const std::string& text, const std::string& file);
+
 /// One table of a scenario, read strictly: whatever is not of the type asked for throws a ScenarioError with its place.
 /// `read` leaves `value` alone and returns false where the key is not given; `require` throws then.
 /// Numbers may be written as integers and must be finite. Refers to the document, which has to outlive it.

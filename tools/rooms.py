@@ -17,7 +17,7 @@ ROOMS = {
     "findings": "verdict subject limits samples replay",
     "external": "subject limits samples replay evidence",
     "report": "verdict picture",
-    "": "verdict picture subject samples evidence checks findings external",  # the front door: validation/*.cpp
+    "": "verdict picture subject limits samples evidence checks findings external",  # the front door: validation/*.cpp
     "outside": "verdict subject",  # and the front door
     "prove": "verdict subject limits samples evidence checks report ",  # and the front door
     "audit": "subject replay report",
@@ -28,8 +28,9 @@ ROOMS = {
     "suite": "verdict subject report",
     "stream": "verdict subject findings",
     "map": "verdict subject report stream",
+    "sweep": "verdict subject checks findings ",  # and the front door
 }
-USE_THE_FRONT_DOOR = {"outside", "prove"}
+USE_THE_FRONT_DOOR = {"outside", "prove", "sweep"}
 LARGEST_SHARE = 0.25  # of validation's lines, in one room
 
 

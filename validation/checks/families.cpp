@@ -109,15 +109,6 @@ std::vector<Check> judgeStabilisedReplay(const Evidence& e) {
   return {judgeStabilised(*e.stabilised, largest, e.units())};
 }
 
-void checksInSi(const Units& units, std::vector<Check>& checks) {
-  for (Check& check : checks) {
-    const double unit = units.of(check.unit);
-    check.value *= unit;
-    check.limit *= unit;
-    check.largest.value *= unit;
-  }
-}
-
 void append(std::vector<Check>& checks, std::vector<Check> more) {
   std::move(more.begin(), more.end(), std::back_inserter(checks));
 }
@@ -145,6 +136,15 @@ const std::vector<CheckFamily>& checkFamilies() {
       {"stabilised replay", [](E e) { return e.stabilised.has_value(); }, judgeStabilisedReplay},
   };
   return families;
+}
+
+void checksInSi(const Units& units, std::vector<Check>& checks) {
+  for (Check& check : checks) {
+    const double unit = units.of(check.unit);
+    check.value *= unit;
+    check.limit *= unit;
+    check.largest.value *= unit;
+  }
 }
 
 std::vector<Check> judgeAll(Evidence& evidence) {

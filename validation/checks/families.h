@@ -21,6 +21,9 @@ struct CheckFamily {
 /// Every family; a check that is added is a function and a line here, and one of checkNames().
 const std::vector<CheckFamily>& checkFamilies();
 
+/// What was judged in natural units, in SI.
+void checksInSi(const Units& units, std::vector<Check>& checks);
+
 /// The checks of all families that apply, in SI, after the second looks that they ask for.
 std::vector<Check> judgeAll(Evidence& evidence);
 

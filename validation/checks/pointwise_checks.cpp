@@ -15,13 +15,25 @@ namespace {
 
 constexpr double eps = Eigen::NumTraits<double>::epsilon();
 
+enum class Level { measured, derived };
+
 struct Quantity {
-  std::string name, unit, what, basis;
+  std::string name, unit, what;
+  const char* shape;  ///< of the limit, in words; times eps and a level
   Deviation PointwiseSample::*deviation;
   bool of_body;
   /// The quantity's own size, of which useful_share is what a limit may be; 0 where any limit says something.
   std::function<double(const PointwiseSample&)> size = nullptr;
+  const char* further = "";  ///< what the limit has beside, in words
 };
+
+/// Every limit is a derived shape and a level: measured (RoundingProfile), or derived (rounding_depth).
+std::string basisOf(const Quantity& quantity, Level level) {
+  return level == Level::measured
+             ? fmt::format("eps {} x {:g} x the spread measured in turned and rescaled frames{}", quantity.shape,
+                           rounding_safety, quantity.further)
+             : fmt::format("eps {} x {:g}, what roundings add up to at most", quantity.shape, rounding_depth);
+}
 
 double largestSize(const std::vector<PointwiseSample>& samples, const Quantity& quantity) {
   double largest = 0;
@@ -33,7 +45,8 @@ double largestSize(const std::vector<PointwiseSample>& samples, const Quantity& 
 /// One of the motors, whose unit is the machine's; `where` is a motor then.
 constexpr const char* of_efforts = "";
 
-Check judgeQuantity(const std::vector<PointwiseSample>& samples, Quantity quantity, const Units& units) {
+Check judgeQuantity(const std::vector<PointwiseSample>& samples, Quantity quantity, const Units& units,
+                    Level level = Level::measured) {
   const bool is_effort = quantity.unit == of_efforts;
   if (is_effort) quantity.unit = units.efforts.unit;
   const auto nameOf = [&](int where) { return placeName(is_effort ? units.legOf(where) : where, quantity.of_body); };
@@ -52,7 +65,7 @@ Check judgeQuantity(const std::vector<PointwiseSample>& samples, Quantity quanti
   if (at == nullptr) return notMade(quantity.name, quantity.unit, "no instant was compared");
   const Conditioning& c = at->conditioning;
   const std::string basis = fmt::format("{}; there kappa(B) = {:.3g}, kappa(legs) = {:.3g}, eps = {:.3g}",
-                                        quantity.basis, c.kappa_B, c.kappa_legs, eps);
+                                        basisOf(quantity, level), c.kappa_B, c.kappa_legs, eps);
   const std::string why = fmt::format("{}, at {} instants; shown for t = {:.6g} s, {}", quantity.what, samples.size(),
                                       shown.t * units.time, nameOf(shown.where));
   const double useful = quantity.size ? useful_share * largestSize(samples, quantity) : widest_rounding;
@@ -68,38 +81,33 @@ Check judgeQuantity(const std::vector<PointwiseSample>& samples, Quantity quanti
   return check;
 }
 
-/// Every limit is a derived shape and a measured level: RoundingProfile.
-std::string leveled(const char* shape) {
-  return fmt::format("eps {} x {:g} x the spread measured in turned and rescaled frames", shape, rounding_safety);
-}
-
 const std::vector<Quantity>& kinematicQuantities() {
   using S = PointwiseSample;
   const auto spin = [](const S& s) { return s.conditioning.twist_scale; };
   const auto rate = [](const S& s) { return s.conditioning.rate_scale; };
   static const std::vector<Quantity> quantities = {
       {"kinematics.joint_angles", "rad", "joint coordinates against Simbody's loop placed by geometry",
-       leveled("kappa(legs) x largest coordinate / length"), &S::joint_angles, false, [](const S&) { return 1.0; }},
+       "kappa(legs) x largest coordinate / length", &S::joint_angles, false, [](const S&) { return 1.0; }},
       {"kinematics.joint_rates", "rad/s", "their rates against Simbody's constraint Jacobian",
-       leveled("kappa(legs) kappa(B) x velocity / length"), &S::joint_rates, false,
+       "kappa(legs) kappa(B) x velocity / length", &S::joint_rates, false,
        [spin](const S& s) { return spin(s) / s.conditioning.length; }},
       {"kinematics.joint_accelerations", "rad/s^2", "their accelerations against Simbody's constraints",
-       leveled("kappa(legs)^2 kappa(B) x acceleration / length"), &S::joint_accelerations, false,
+       "kappa(legs)^2 kappa(B) x acceleration / length", &S::joint_accelerations, false,
        [rate](const S& s) { return rate(s) / s.conditioning.length; }},
       {"kinematics.positions", "m", "mass centres and orientations of all bodies, Simbody put into the joint state",
-       leveled("kappa(legs) x largest coordinate"), &S::position, true,
+       "kappa(legs) x largest coordinate", &S::position, true,
        [](const S& s) { return s.conditioning.position_scale; }},
-      {"kinematics.twists", "m/s", "twists of all bodies, (16), (41)", leveled("kappa(legs) kappa(B) x velocity"),
-       &S::twist, true, spin},
+      {"kinematics.twists", "m/s", "twists of all bodies, (16), (41)", "kappa(legs) kappa(B) x velocity", &S::twist,
+       true, spin},
       {"kinematics.accelerations", "m/s^2", "twist rates of all bodies, (17), (43)",
-       leveled("kappa(legs)^2 kappa(B) x acceleration"), &S::twist_rate, true, rate},
+       "kappa(legs)^2 kappa(B) x acceleration", &S::twist_rate, true, rate},
       {"kinematics.jacobian", "m/s", "t_P = T phi_dot (24) with Simbody's joint rates",
-       leveled("kappa(legs) kappa(B)^2 x velocity"), &S::jacobian, true, spin},
+       "kappa(legs) kappa(B)^2 x velocity", &S::jacobian, true, spin},
       {"kinematics.jacobian_rate", "m/s^2", "T phi_ddot + T_dot phi_dot (25) with Simbody's joint motion",
-       leveled("kappa(legs)^2 kappa(B)^2 x acceleration"), &S::jacobian_rate, true, rate},
+       "kappa(legs)^2 kappa(B)^2 x acceleration", &S::jacobian_rate, true, rate},
       {"kinematics.jacobian_difference", "m/s", "T_dot against five-point differences of T along the motion",
-       leveled("kappa(legs) kappa(B) x ||T|| x 1.5 / step") + ", and what doubling the step changes",
-       &S::jacobian_difference, true},
+       "kappa(legs) kappa(B) x ||T|| x 1.5 / step", &S::jacobian_difference, true, nullptr,
+       ", and what doubling the step changes"},
   };
   return quantities;
 }
@@ -109,15 +117,29 @@ const std::vector<Quantity>& dynamicQuantities() {
   const auto torque = [](const S& s) { return s.torques_simbody.cwiseAbs().maxCoeff(); };
   static const std::vector<Quantity> quantities = {
       {"torque.pointwise", of_efforts, "torques against Simbody's own inverse dynamics",
-       leveled("kappa(B) kappa(legs) x || |T|' |w| ||"), &S::torque, false, torque},
+       "kappa(B) kappa(legs) x || |T|' |w| ||", &S::torque, false, torque},
       {"acceleration.pointwise", "m/s^2", "Simbody's accelerations of the platform under the torques, commanded state",
-       leveled("(|| T_P inv(I) || x the torque's and the platform's compliance x the forces that close the loops)"),
+       "(|| T_P inv(I) || x the torque's and the platform's compliance x the forces that close the loops)",
        &S::acceleration, true, [torque](const S& s) { return s.conditioning.response * torque(s); }},
   };
   return quantities;
 }
 
+bool isOfJointsOrTorque(const Quantity& quantity) {
+  using S = PointwiseSample;
+  const Deviation S::*const those[] = {&S::joint_angles, &S::joint_rates, &S::joint_accelerations, &S::torque};
+  return std::find(std::begin(those), std::end(those), quantity.deviation) != std::end(those);
+}
+
 }  // namespace
+
+std::vector<Check> judgeJointsAndTorques(const std::vector<PointwiseSample>& samples, const Units& units) {
+  std::vector<Check> checks;
+  for (const auto* quantities : {&kinematicQuantities(), &dynamicQuantities()})
+    for (const Quantity& quantity : *quantities)
+      if (isOfJointsOrTorque(quantity)) checks.push_back(judgeQuantity(samples, quantity, units, Level::derived));
+  return checks;
+}
 
 std::vector<Check> judgePointwise(const std::vector<PointwiseSample>& samples, bool has_kinematics,
                                   const Units& units) {

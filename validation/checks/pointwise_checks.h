@@ -13,4 +13,7 @@ namespace ursula {
 std::vector<Check> judgePointwise(const std::vector<PointwiseSample>& samples, bool has_kinematics,
                                   const Units& units = {});
 
+/// Of samples by runJointsAndTorques: `kinematics.joint_*` and `torque.pointwise`, by their derived limits.
+std::vector<Check> judgeJointsAndTorques(const std::vector<PointwiseSample>& samples, const Units& units = {});
+
 }  // namespace ursula

@@ -2,11 +2,11 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "nocsolver/reactions.h"
+#include "validation/subject/scaled_jacobian.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {
@@ -187,10 +187,8 @@ Conditioning ConditioningProbe::at(const Motion<double>& motion) {
   Conditioning out;
   out.length = solver_.length();
   setLegs(solver_, work_, out);
-  Matrix6d B = solver_.B(work_);
-  B.leftCols<3>() /= out.length;
-  const Vector6d singular = Eigen::JacobiSVD<Matrix6d>(B).singularValues();
-  out.kappa_B = singular(0) / singular(5);
+  const Matrix6d B = scaledB(solver_, work_);
+  out.kappa_B = conditionNumber(B);
   const Projection projection = project(manipulator_, T, bodies, solver_.rates(work_), out.length);
   Matrix6d T_P = solver_.T(work_);
   T_P.topRows<3>() *= out.length;

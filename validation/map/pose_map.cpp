@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +10,7 @@
 #include "nocsolver/batch_dynamics.h"
 #include "nocsolver/solver.h"
 #include "validation/subject/effort_columns.h"
+#include "validation/subject/scaled_jacobian.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {
@@ -85,10 +85,7 @@ class PoseMap {
       for (std::size_t i = 0; i < out.sines.size(); ++i) out.sines[i] = solver_.margins(work, static_cast<int>(i)).sine;
       out.sine_min = *std::min_element(out.sines.begin(), out.sines.end());
       solver_.jacobians(pose, work);
-      Matrix6d B = solver_.B(work);
-      B.leftCols<3>() /= solver_.length();
-      const Vector6d singular = Eigen::JacobiSVD<Matrix6d>(B).singularValues();
-      out.kappa = singular(0) / singular(5);
+      out.kappa = conditionNumber(scaledB(solver_, work));
     } catch (const StretchedLeg&) {
       out.reach = 1;  // to the very end
     } catch (const SingularJacobian&) {

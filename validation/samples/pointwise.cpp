@@ -132,10 +132,14 @@ void runKinematics(const Scenario& scenario, const Subject& subject, const Subje
   compareBodies(answer.bodies, simbody.bodiesIn(answer.joints, loop, sample.motion), sample);
 }
 
-void runDynamics(const SimbodyAnswer& simbody, SimbodyLoop& loop, PointwiseSample& sample) {
-  sample.torques_simbody = simbody.torques;
+void compareTorques(PointwiseSample& sample) {
   for (int i = 0; i < motor_count; ++i)
     raise(sample.torque, std::abs(sample.torques(i) - sample.torques_simbody(i)), i);
+}
+
+void runDynamics(const SimbodyAnswer& simbody, SimbodyLoop& loop, PointwiseSample& sample) {
+  sample.torques_simbody = simbody.torques;
+  compareTorques(sample);
   const double length = sample.conditioning.length;
   const Motion<double> found = simbody.platformUnder(sample.torques, loop, sample.motion);
   sample.acceleration_error << found.omega_dot - sample.motion.omega_dot, found.p_ddot - sample.motion.p_ddot;
@@ -210,6 +214,25 @@ std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subjec
                                           const std::vector<double>& instants) {
   return runPointwise(scenario, subject, instants,
                       RoundingProfile(scenario, profileInstants(static_cast<int>(instants.size()))));
+}
+
+std::vector<PointwiseSample> runJointsAndTorques(const Scenario& scenario, const Subject& subject,
+                                                 const std::vector<double>& instants) {
+  SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
+  ConditioningProbe probe(*scenario.manipulator, scenario.load);
+  std::vector<PointwiseSample> samples(instants.size());
+  for (std::size_t k = 0; k < instants.size(); ++k) {
+    PointwiseSample& sample = samples[k];
+    sample.motion = scenario.trajectory->at(instants[k]);
+    sample.conditioning = probe.at(sample.motion);
+    sample.joints = loop.place(sample.motion);
+    sample.torques_simbody = loop.inverseDynamics();
+    setLimits(sample);
+    sample.torques = subject.torques(sample.motion);
+    compareTorques(sample);
+    compareJoints(subject.kinematics(sample.motion).joints, sample);
+  }
+  return samples;
 }
 
 std::vector<double> instantsOf(const std::vector<PointwiseSample>& samples) {

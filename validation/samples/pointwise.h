@@ -46,6 +46,11 @@ std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subjec
 std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
                                           const std::vector<double>& instants);
 
+/// Of the samples only joints and torques, with the least that must be asked of Simbody: its loop placed, its inverse
+/// dynamics. Limits are derived (rounding_depth), not measured.
+std::vector<PointwiseSample> runJointsAndTorques(const Scenario& scenario, const Subject& subject,
+                                                 const std::vector<double>& instants);
+
 std::vector<double> instantsOf(const std::vector<PointwiseSample>& samples);
 
 /// causeOfRounding at the sample at t, or at the first after it; "" where there is none.

@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "apps/progress.h"
+#include "apps/sweep_verbs.h"
+#include "apps/verbs.h"
+#include "validation/sweep/merge.h"
+
+namespace ursula {
+namespace {
+
+struct MergeOptions {
+  std::vector<std::string> parts;
+  std::string database;
+};
+
+/// What is not there, and how to make it.
+void sayMissing(const MergeResult& result, const std::string& database) {
+  const SweepIdentity& sweep = result.identity;
+  fmt::print(stderr, "{} of {} points are missing", sweep.points - result.done, sweep.points);
+  if (!result.missing.empty())
+    fmt::print(stderr, ", the first from {} to {}", result.missing.front().first, result.missing.front().end - 1);
+  fmt::print(stderr, "; to make them:\n");
+  const std::string flag = sweep.pointwise ? " --pointwise" : "";
+  if (result.missing_shards.empty()) fmt::print(stderr, "  ursula sweep {}{} --db {}\n", sweep.file, flag, database);
+  for (const Shard& shard : result.missing_shards)
+    fmt::print(stderr, "  ursula sweep {}{} --shard {}/{}\n", sweep.file, flag, shard.index, shard.of);
+}
+
+int merge(const MergeOptions& options) {
+  MergeResult result;
+  {
+    Progress progress("merge");
+    const auto count = static_cast<double>(options.parts.size());
+    result = mergeSweeps({options.parts.begin(), options.parts.end()}, options.database, [&](std::size_t done) {
+      progress.at(static_cast<double>(done) / count, fmt::format("{} of {} databases", done, options.parts.size()));
+    });
+  }
+  fmt::print("{} of {} points, {} of them new\n{}\n", result.done, result.identity.points, result.added,
+             options.database);
+  if (result.missing.empty()) return exit_passed;
+  sayMissing(result, options.database);
+  return exit_inconclusive;
+}
+
+struct ShowOptions {
+  std::string sweep;
+  std::int64_t id = 0;
+};
+
+int show(const ShowOptions& options) {
+  SweepPlan plan(readSweepFile(options.sweep));
+  if (options.id >= plan.points().count())
+    throw UsageError(
+        fmt::format("point {}: {} has points 0 to {}", options.id, options.sweep, plan.points().count() - 1));
+  fmt::print("{}", plan.text(options.id));
+  return exit_passed;
+}
+
+}  // namespace
+
+void addSweepMerge(CLI::App& sweep, std::function<int()>& run) {
+  const auto options = std::make_shared<MergeOptions>();
+  CLI::App* verb = sweep.add_subcommand("merge", "One database from those of shards; may be called again");
+  verb->add_option("databases", options->parts, "Databases of one sweep")->required();
+  verb->add_option("--db", options->database, "Database that all go into; made where it is not there")->required();
+  verb->footer(
+      "Exit: 0 where all points are there, 3 where some are missing; then it says which, and how to make them.");
+  verb->callback([options, &run] { run = [options] { return merge(*options); }; });
+}
+
+void addSweepShow(CLI::App& sweep, std::function<int()>& run) {
+  const auto options = std::make_shared<ShowOptions>();
+  CLI::App* verb = sweep.add_subcommand("show", "One point as a scenario, for ursula validate");
+  verb->add_option("sweep", options->sweep, "Sweep file (TOML)")->required();
+  verb->add_option("id", options->id, "Number of the point, from 0")->required()->check(CLI::NonNegativeNumber);
+  verb->callback([options, &run] { run = [options] { return show(*options); }; });
+}
+
+}  // namespace ursula

@@ -1,0 +1,130 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include "apps/progress.h"
+#include "apps/sweep_verbs.h"
+#include "apps/verbs.h"
+#include "validation/sweep/run.h"
+
+namespace ursula {
+namespace {
+
+struct SweepOptions {
+  std::string sweep, database, shard;
+  bool pointwise = false;
+  int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+};
+
+volatile std::sig_atomic_t asked_to_stop = 0;
+
+extern "C" void askToStop(int signal) { asked_to_stop = signal; }
+
+Shard shardOf(const std::string& text) {
+  Shard shard;
+  if (text.empty()) return shard;
+  char rest = '\0';
+  if (std::sscanf(text.c_str(), "%d/%d%c", &shard.index, &shard.of, &rest) != 2 || shard.of < 1 || shard.index < 1 ||
+      shard.index > shard.of || shard.of > 1'000'000)
+    throw UsageError(fmt::format("--shard {}: expected I/N with I from 1 to N, such as 1/4", text));
+  return shard;
+}
+
+std::filesystem::path databaseOf(const SweepOptions& options, const Shard& shard) {
+  if (options.database == "-") throw UsageError("--db -: expected a file, not standard output");
+  if (!options.database.empty()) return options.database;
+  const std::string stem = std::filesystem::path(options.sweep).stem().string();
+  return std::filesystem::path("results") / defaultDatabase(stem, shard);
+}
+
+/// "998 pass, 2 out_of_reach".
+std::string inWords(const std::map<std::string, std::int64_t>& verdicts) {
+  std::string out;
+  for (const char* verdict : {"pass", "fail", "inconclusive", "out_of_reach", "singular", "error"})
+    if (const auto found = verdicts.find(verdict); found != verdicts.end())
+      out += fmt::format("{}{} {}", out.empty() ? "" : ", ", found->second, verdict);
+  return out;
+}
+
+int codeOf(const SweepRunResult& result) {
+  if (result.stopped) return 128 + static_cast<int>(asked_to_stop);
+  if (result.verdicts.count("fail") > 0) return exit_failed;
+  return result.verdicts.count("inconclusive") + result.verdicts.count("error") > 0 ? exit_inconclusive : exit_passed;
+}
+
+void say(const SweepRunResult& result, const std::filesystem::path& database) {
+  if (result.stopped) {
+    fmt::print(stderr, "stopped: {} of {} points are in {}; the same command goes on from there\n", result.done,
+               result.points, database.string());
+    return;
+  }
+  if (result.new_ones == 0)
+    fmt::print(stderr, "nothing to do: all {} points are in {}\n", result.points, database.string());
+  fmt::print("{} points: {}\n{}\n", result.points, inWords(result.verdicts), database.string());
+}
+
+int sweep(const SweepOptions& options) {
+  const Shard shard = shardOf(options.shard);
+  const std::filesystem::path database = databaseOf(options, shard);
+  SweepFile file = readSweepFile(options.sweep);
+  if (options.pointwise && file.work != SweepWork::validate)
+    throw UsageError("--pointwise: of what = \"validate\" alone");
+  file.pointwise = file.pointwise || options.pointwise;
+  SweepPlan plan(std::move(file));
+  if (database.has_parent_path()) std::filesystem::create_directories(database.parent_path());
+  std::signal(SIGINT, askToStop);
+  std::signal(SIGTERM, askToStop);
+  SweepRunResult result;
+  {
+    Progress progress(std::filesystem::path(options.sweep).stem().string());
+    const auto start = std::chrono::steady_clock::now();
+    std::int64_t before = -1;
+    SweepRunOptions run{options.jobs, shard, [] { return asked_to_stop != 0; }};
+    run.progress = [&](std::int64_t done, std::int64_t of) {
+      if (before < 0) before = done - 1;
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      progress.at(
+          static_cast<double>(done) / static_cast<double>(of),
+          fmt::format("{} of {} points, {:.3g} a second", done, of, static_cast<double>(done - before) / seconds));
+    };
+    result = runSweep(plan, database, run);
+  }
+  say(result, database);
+  return codeOf(result);
+}
+
+}  // namespace
+
+std::string defaultDatabase(const std::string& stem, const Shard& shard) {
+  return shard.of == 1 ? stem + ".db" : fmt::format("{}.shard-{}-of-{}.db", stem, shard.index, shard.of);
+}
+
+void addSweep(CLI::App& app, std::function<int()>& run) {
+  const auto options = std::make_shared<SweepOptions>();
+  CLI::App* verb = app.add_subcommand(
+      "sweep", "Many scenarios around one, into a database; goes on where it stopped. Also: sweep merge, show");
+  verb->add_option("sweep", options->sweep, "Sweep file (TOML)");
+  verb->add_option("--db", options->database, "SQLite database; default results/SWEEP.db");
+  verb->add_option("--jobs", options->jobs, "Processes; rows are the same for any number")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  verb->add_option("--shard", options->shard, "I/N: only the I-th of N parts, I from 1; into a database of its own");
+  verb->add_flag("--pointwise", options->pointwise,
+                 "Of validations only what needs no replay: some hundred times as many");
+  verb->footer(
+      "Exit: 1 if any point failed, else 3 if any was inconclusive or in error, else 0; out of reach or singular is a\n"
+      "result. 130 where Ctrl-C stopped it: what is done is kept, and the same command goes on.");
+  addSweepMerge(*verb, run);
+  addSweepShow(*verb, run);
+  verb->callback([verb, options, &run] {
+    if (!verb->get_subcommands().empty()) return;
+    if (options->sweep.empty()) throw CLI::RequiredError("sweep");
+    run = [options] { return sweep(*options); };
+  });
+}
+
+}  // namespace ursula

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace ursula {
+
+/// What SQLite, or a file that is no database of ours, has to say, with the file.
+struct DatabaseError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// One connection, for one thread. Everything throws DatabaseError.
+class Sqlite {
+ public:
+  enum class Access { read, write, create };
+
+  Sqlite(const std::filesystem::path& file, Access access);
+  ~Sqlite();
+  Sqlite(const Sqlite&) = delete;
+  Sqlite& operator=(const Sqlite&) = delete;
+
+  void run(const std::string& sql);
+  /// The first column of the first row.
+  std::int64_t number(const std::string& sql);
+  std::string text(const std::string& sql);
+  /// Rows that the last statement changed.
+  std::int64_t changed() const;
+  const std::filesystem::path& file() const { return file_; }
+  [[noreturn]] void fail(const std::string& doing) const;
+
+ private:
+  friend class Statement;
+  std::filesystem::path file_;
+  sqlite3* handle_ = nullptr;
+};
+
+/// A statement made once and run often. Parameters and columns count from 0.
+class Statement {
+ public:
+  Statement(Sqlite& database, const std::string& sql);
+  ~Statement();
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+
+  Statement& bind(int k, std::int64_t value);
+  Statement& bind(int k, double value);  ///< NaN becomes NULL
+  Statement& bind(int k, std::string_view value);
+  Statement& bindNull(int k);
+
+  /// True where there is a row. After the last one, and by reset(), it can be run anew.
+  bool step();
+  void reset();
+  /// To its end; no rows wanted.
+  void run();
+
+  bool isNull(int k) const;
+  std::int64_t integer(int k) const;
+  double real(int k) const;  ///< NULL is NaN
+  std::string text(int k) const;
+
+ private:
+  Sqlite& database_;
+  sqlite3_stmt* handle_ = nullptr;
+};
+
+}  // namespace ursula

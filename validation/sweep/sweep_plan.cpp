@@ -1,0 +1,192 @@
+#include "validation/sweep/sweep_plan.h"
+
+#include <fmt/format.h>
+
+#include <boost/uuid/detail/sha1.hpp>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "model/scenario_sections.h"
+#include "validation/findings/provenance.h"
+#include "validation/sweep/scenario_numbers.h"
+
+namespace ursula {
+namespace {
+
+std::string bytesOf(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// Files that the scenario names, made absolute: a point may be written anywhere.
+std::vector<std::filesystem::path> makeAbsolute(toml::table& document, const std::filesystem::path& scenario) {
+  std::vector<std::filesystem::path> found;
+  for (const char* part : {"trajectory", "load"}) {
+    toml::table* table = document[part].as_table();
+    toml::value<std::string>* name = table == nullptr ? nullptr : (*table)["file"].as_string();
+    if (name == nullptr) continue;
+    found.push_back(std::filesystem::absolute(scenario.parent_path() / name->get()).lexically_normal());
+    *name = found.back().string();
+  }
+  return found;
+}
+
+/// What decides a sweep's rows, to the last bit.
+class Meaning {
+ public:
+  void add(std::string_view text) {
+    const std::string size = fmt::format("{}:", text.size());
+    hash_.process_bytes(size.data(), size.size());
+    hash_.process_bytes(text.data(), text.size());
+  }
+  void add(double value) { add(fmt::format("{:a}", value)); }
+
+  std::string hash() {
+    boost::uuids::detail::sha1::digest_type digest;
+    hash_.get_digest(digest);
+    std::string out;
+    for (const unsigned word : digest) out += fmt::format("{:08x}", word);
+    return out;
+  }
+
+ private:
+  boost::uuids::detail::sha1 hash_;
+};
+
+}  // namespace
+
+struct SweepPlan::Document {
+  toml::table table;
+  ScenarioNumbers numbers{table};
+  std::vector<std::filesystem::path> files;
+
+  Document(const SweepFile& sweep, const Scenario& base) : table(parseToml(base.text, base.file.string())) {
+    files = makeAbsolute(table, base.file);
+    if (!sweep.samples) return;
+    if (!table.contains("simulation")) table.insert("simulation", toml::table{});
+    table["simulation"].as_table()->insert_or_assign("samples", *sweep.samples);
+  }
+
+  /// Throws ScenarioError at the sweep's key.
+  std::vector<VariedNumber> hold(const SweepFile& sweep) {
+    std::vector<VariedNumber> out;
+    std::set<std::string> seen;
+    for (const Vary& vary : sweep.vary) try {
+        for (const std::string& key : numbers.expanded(vary.key)) {
+          if (!seen.insert(key).second) throw NumberKeyError(fmt::format("'{}' varies twice, expected once", key));
+          out.push_back({key, vary.by, numbers.hold(key)});
+          if (vary.by.kind == Variation::Kind::relative && out.back().nominal == 0)
+            throw NumberKeyError(fmt::format(
+                "'{}' is 0 in the scenario, and 'relative' leaves it so, expected another way to vary", key));
+        }
+      } catch (const NumberKeyError& error) {
+        throw ScenarioError(fmt::format("{}: error: {}", vary.place, error.what()));
+      }
+    return out;
+  }
+};
+
+SweepPlan::SweepPlan(SweepFile file)
+    : file_(std::move(file)),
+      base_(readScenario(file_.scenario)),
+      document_(std::make_unique<Document>(file_, base_)),
+      points_([this] {
+        try {
+          return SweepPoints(file_, document_->hold(file_));
+        } catch (const std::invalid_argument& error) {
+          throw ScenarioError(fmt::format("{}: error: {}", file_.file.string(), error.what()));
+        }
+      }()) {
+  for (const VariedNumber& number : points_.numbers()) {
+    const std::string part = number.key.substr(0, number.key.find('.'));
+    bool& varies = part == "manipulator"  ? varies_machine_
+                   : part == "trajectory" ? varies_trajectory_
+                   : part == "load"       ? varies_load_
+                                          : varies_other_;
+    varies = true;
+  }
+  const std::string text = this->text(0);
+  base_ = parseScenario(text, file_.scenario);  // a first point that cannot be read is the sweep's error
+}
+
+SweepPlan::~SweepPlan() = default;
+
+void SweepPlan::setTo(std::int64_t i) {
+  const std::vector<double> values = points_.at(i);
+  try {
+    for (std::size_t k = 0; k < values.size(); ++k) document_->numbers.set(k, values[k]);
+  } catch (const NumberKeyError& error) {
+    throw ScenarioError(fmt::format("point {}: error: {}", i, error.what()));
+  }
+}
+
+std::string SweepPlan::parameters(std::int64_t i) const {
+  const std::vector<double> values = points_.at(i);
+  std::string out = "{";
+  for (std::size_t k = 0; k < values.size(); ++k)
+    out += fmt::format("{}{}:{}", k == 0 ? "" : ",", nlohmann::json(points_.numbers()[k].key).dump(), values[k]);
+  return out + "}";
+}
+
+std::string SweepPlan::text(std::int64_t i) {
+  setTo(i);
+  const std::string name = document_->table["name"].value_or(std::string());
+  *document_->table["name"].as_string() = fmt::format("{}-{}", name, i);
+  std::ostringstream out;
+  out << fmt::format("# Point {} of the sweep {}\n\n", i, file_.file.filename().string());
+  out << document_->table << '\n';
+  *document_->table["name"].as_string() = name;
+  return out.str();
+}
+
+Scenario SweepPlan::read(std::int64_t i) { return parseScenario(text(i), file_.scenario); }
+
+Scenario SweepPlan::make(std::int64_t i) {
+  if (varies_other_) return read(i);
+  setTo(i);
+  const TomlSection document(document_->table, "", file_.scenario.string());
+  Scenario out = base_;
+  out.text.clear();
+  try {
+    if (varies_machine_)
+      out.manipulator = std::make_shared<Manipulator>(readManipulator(document.requiredSection("manipulator")));
+    if (varies_trajectory_) out.trajectory = readTrajectory(document.requiredSection("trajectory"));
+    if (varies_load_) out.load = readLoad(document.requiredSection("load"));
+  } catch (const InvalidParameter& refusal) {
+    throw located(refusal, document);
+  }
+  return out;
+}
+
+SweepIdentity SweepPlan::identity() const {
+  SweepIdentity out;
+  out.text = file_.text;
+  out.version = buildProvenance().version;
+  out.file = file_.file.string();
+  out.scenario = bytesOf(file_.scenario);
+  out.name = base_.name.substr(0, base_.name.rfind('-'));
+  out.what = ursula::name(file_.work);
+  out.design = ursula::name(file_.design);
+  out.pointwise = file_.pointwise;
+  out.points = points_.count();
+  Meaning meaning;
+  for (const std::string& text :
+       {out.what, out.design, out.scenario,
+        fmt::format("{} {} {} {}", out.points, file_.seed, file_.pointwise, file_.samples.value_or(0))})
+    meaning.add(text);
+  for (const std::filesystem::path& file : document_->files) meaning.add(bytesOf(file));
+  for (const VariedNumber& number : points_.numbers()) {
+    out.keys.push_back(number.key);
+    meaning.add(number.key);
+    meaning.add(static_cast<double>(number.by.kind));
+    for (const double value : {number.by.a, number.by.b}) meaning.add(value);
+    for (const double value : number.by.values) meaning.add(value);
+  }
+  out.hash = meaning.hash();
+  return out;
+}
+
+}  // namespace ursula

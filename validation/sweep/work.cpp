@@ -1,0 +1,89 @@
+#include "validation/sweep/work.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "nocsolver/errors.h"
+#include "validation/checks/commanded_motion.h"
+#include "validation/sweep/motion_extremes.h"
+#include "validation/validate.h"
+#include "validation/validate_pointwise.h"
+
+namespace ursula {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+const char* verdictOf(const PoseError& refusal) {
+  return dynamic_cast<const SingularJacobian*>(&refusal) != nullptr ||
+                 dynamic_cast<const StretchedLeg*>(&refusal) != nullptr
+             ? "singular"
+             : "out_of_reach";
+}
+
+void refused(const char* verdict, int leg, double t, SweepPoint& point) {
+  point.verdict = verdict;
+  point.values.clear();
+  if (leg >= 0) point.values.push_back({"refused_leg", leg + 1.0, none, ""});
+  point.values.push_back({"refused_t_s", t, none, ""});
+}
+
+void addCheck(const Check& check, SweepPoint& point) {
+  if (check.verdict == Verdict::not_applicable) return;
+  const auto known = [](double x) { return std::isfinite(x) ? x : none; };
+  point.values.push_back({check.name, known(check.value), known(check.limit), name(check.verdict)});
+}
+
+}  // namespace
+
+SweepPoint SweepWorker::at(std::int64_t i) {
+  SweepPoint point;
+  point.id = i;
+  point.parameters = plan_.parameters(i);
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    plan_.file().work == SweepWork::inverse ? inverse(i, point) : validate(i, point);
+  } catch (const PoseError& refusal) {
+    refused(verdictOf(refusal), refusal.leg(), refusal.instant(), point);
+  } catch (const std::exception& error) {
+    point.verdict = "error";
+    point.error = error.what();
+    point.values.clear();
+  }
+  point.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return point;
+}
+
+void SweepWorker::inverse(std::int64_t i, SweepPoint& point) {
+  const Scenario scenario = plan_.make(i);
+  const Extremes found = extremes_.of(scenario, plan_.variesMotion());
+  const Motors& motors = scenario.manipulator->motors();
+  for (int k = 0; k < motor_count; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    const char* unit = motors[at].effortUnit();
+    point.values.push_back({fmt::format("tau_{}_{}", k + 1, unit), found.efforts[at].value, none, ""});
+    point.values.push_back({fmt::format("tau_{}_t_s", k + 1), found.efforts[at].t, none, ""});
+  }
+  point.values.push_back({"kappa_B", found.kappa, none, ""});
+  point.values.push_back({"sin_theta", found.sine, none, ""});
+  point.verdict = "pass";
+}
+
+void SweepWorker::validate(std::int64_t i, SweepPoint& point) {
+  const ValidationResult result = plan_.file().pointwise ? pointwise(i) : ursula::validate(plan_.read(i));
+  for (const Check& check : result.checks) addCheck(check, point);
+  point.verdict = name(result.verdict);
+}
+
+/// A motion that is the same for all points is judged once, at point 0.
+ValidationResult SweepWorker::pointwise(std::int64_t i) {
+  if (plan_.variesMotion()) return validatePointwise(plan_.read(i));
+  if (!of_motion_) of_motion_ = judgeCommandedMotion(plan_.read(0));
+  return validatePointwise(plan_.make(i), &*of_motion_);
+}
+
+}  // namespace ursula

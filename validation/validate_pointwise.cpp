@@ -1,0 +1,64 @@
+#include "validation/validate_pointwise.h"
+
+#include <algorithm>
+
+#include "model/instants.h"
+#include "validation/checks/acceptance.h"
+#include "validation/checks/commanded_motion.h"
+#include "validation/checks/every_check.h"
+#include "validation/checks/families.h"
+#include "validation/checks/pointwise_checks.h"
+#include "validation/checks/tolerance.h"
+#include "validation/findings/run_provenance.h"
+#include "validation/subject/motion_check.h"
+
+namespace ursula {
+namespace {
+
+bool anyBeyond(const std::vector<Check>& checks) {
+  return std::any_of(checks.begin(), checks.end(), [](const Check& check) { return check.verdict != Verdict::pass; });
+}
+
+/// All that is compared at an instant, against measured limits, where a derived one does not hold.
+std::vector<Check> judgeSamples(Evidence& evidence) {
+  const int count = evidence.given->simulation.samples;
+  const std::vector<double> instants = equallySpaced(evidence.scenario->trajectory->duration(), count);
+  evidence.samples = runJointsAndTorques(*evidence.scenario, *evidence.subject, instants);
+  std::vector<Check> checks = judgeJointsAndTorques(evidence.samples, evidence.units());
+  if (anyBeyond(checks)) {
+    const RoundingProfile profile(*evidence.scenario, profileInstants(count));
+    evidence.samples = runPointwise(*evidence.scenario, *evidence.subject, instants, profile);
+    checks = judgePointwise(evidence.samples, true, evidence.units());
+  }
+  checksInSi(evidence.units(), checks);
+  return checks;
+}
+
+}  // namespace
+
+ValidationResult validatePointwise(const Scenario& given, const std::vector<Check>* of_motion) {
+  checkMotion(given);
+  Evidence evidence;
+  evidence.given = &given;
+  evidence.natural = naturalPresentation(given);
+  const Scenario scenario = evidence.natural.of(given), here = relocated(given, evidence.natural.origin);
+  Presentation there = evidence.natural;
+  there.origin.setZero();
+  const Subject subject = presented(nocSubject(*here.manipulator, here.load), there);
+  evidence.scenario = &scenario;
+  evidence.subject = &subject;
+  evidence.has.left_out_ladder = evidence.has.left_out_reactions = true;
+
+  ValidationResult result;
+  result.scenario = given.name;
+  result.checks = of_motion == nullptr ? judgeCommandedMotion(given) : *of_motion;
+  for (Check& check : judgeSamples(evidence)) result.checks.push_back(std::move(check));
+  if (given.tolerance) result.deviation = effortDeviation(evidence, result.checks);
+  listEveryCheck(given, evidence.has, result);
+  judgeByTolerance(given, true, result);
+  judgeByUser(given.acceptance, result);
+  addProvenance(given, subject.name, result);
+  return result;
+}
+
+}  // namespace ursula
