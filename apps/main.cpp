@@ -11,6 +11,7 @@
 #include "model/scenario.h"
 #include "nocsolver/errors.h"
 #include "validation/findings/provenance.h"
+#include "validation/sweep/sqlite.h"
 
 namespace {
 
@@ -26,6 +27,8 @@ int runVerb(const std::function<int()>& run) {
     return complain(error.what());  // begins with file:line:column
   } catch (const ursula::CsvError& error) {
     return complain(error.what());  // likewise
+  } catch (const ursula::DatabaseError& error) {
+    return complain(error.what());  // begins with the file
   } catch (const ursula::PoseError& error) {
     return complain(fmt::format("error: the motion cannot be made: {}", error.what()));
   } catch (const std::exception& error) {

@@ -72,9 +72,9 @@ std::vector<double> SweepPoints::uniforms(std::int64_t i) const {
     for (double& u : out) u = deviateOf(generator());
     return out;
   }
-  boost::random::sobol engine(numbers_.size());
-  engine.seed(static_cast<std::uint64_t>(i));
-  for (std::size_t k = 0; k < out.size(); ++k) out[k] = deviateOf(engine() ^ shifts_[k]);
+  boost::random::sobol engine(numbers_.size());  // which leaves out the first of all points, zero
+  if (i > 0) engine.seed(static_cast<std::uint64_t>(i - 1));
+  for (std::size_t k = 0; k < out.size(); ++k) out[k] = deviateOf((i > 0 ? engine() : 0) ^ shifts_[k]);
   return out;
 }
 

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <boost/uuid/detail/sha1.hpp>
+#include <cctype>
+#include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -32,6 +35,32 @@ std::vector<std::filesystem::path> makeAbsolute(toml::table& document, const std
     *name = found.back().string();
   }
   return found;
+}
+
+/// 0.7 for the 0.69999999999999996 that toml++ writes: the shortest that reads as the same number. Strings stay.
+std::string withShortNumbers(const std::string& toml) {
+  std::string out;
+  char quote = '\0';
+  for (const char* at = toml.c_str(); *at != '\0';) {
+    char* end = nullptr;
+    const bool begins = quote == '\0' && (std::isdigit(static_cast<unsigned char>(*at)) != 0) &&
+                        (out.empty() || std::strchr(" [=,-+", out.back()) != nullptr);
+    const double value = begins ? std::strtod(at, &end) : 0;
+    if (begins && std::string_view(at, static_cast<std::size_t>(end - at)).find('.') != std::string_view::npos) {
+      const std::string number = fmt::format("{}", value);
+      out += number + (number.find_first_of(".e") == std::string::npos ? ".0" : "");
+      at = end;
+      continue;
+    }
+    if (quote == *at)
+      quote = '\0';
+    else if (quote == '\0' && (*at == '\'' || *at == '"'))
+      quote = *at;
+    else if (quote == '"' && *at == '\\' && at[1] != '\0')
+      out += *at++;
+    out += *at++;
+  }
+  return out;
 }
 
 /// What decides a sweep's rows, to the last bit.
@@ -136,10 +165,10 @@ std::string SweepPlan::text(std::int64_t i) {
   const std::string name = document_->table["name"].value_or(std::string());
   *document_->table["name"].as_string() = fmt::format("{}-{}", name, i);
   std::ostringstream out;
-  out << fmt::format("# Point {} of the sweep {}\n\n", i, file_.file.filename().string());
   out << document_->table << '\n';
   *document_->table["name"].as_string() = name;
-  return out.str();
+  return fmt::format("# Point {} of the sweep {}\n\n{}", i, file_.file.filename().string(),
+                     withShortNumbers(out.str()));
 }
 
 Scenario SweepPlan::read(std::int64_t i) { return parseScenario(text(i), file_.scenario); }

@@ -1,0 +1,172 @@
+// What is kept in a sweep's database, and which databases are refused.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/model/refusals.h"
+#include "tests/validation/sweep/sweeps.h"
+#include "validation/sweep/merge.h"
+
+namespace ursula {
+namespace {
+
+using testing::HasSubstr;
+
+SweepIdentity identity(const std::string& hash = "aa", int shard = 1, int shards = 1) {
+  SweepIdentity out;
+  out.hash = hash;
+  out.version = "1.0";
+  out.file = "s.toml";
+  out.points = 4;
+  out.shard = shard;
+  out.shards = shards;
+  out.keys = {"a.b"};
+  return out;
+}
+
+SweepPoint point(std::int64_t id, double value = 1.5) {
+  return {id, R"({"a.b":1})", "pass", 0.5, "", {{"tau", value, std::nan(""), ""}, {"check", 0.1, 0.2, "pass"}}};
+}
+
+std::string refused(const std::filesystem::path& file, const SweepIdentity& whose = identity()) {
+  return refusal<DatabaseError>([&] { SweepDatabase(file, whose); });
+}
+
+/// All rows but their seconds, as text.
+std::string rowsOf(const std::filesystem::path& file) {
+  Sqlite database(file, Sqlite::Access::read);
+  std::string out;
+  Statement points(database, "SELECT id || parameters || verdict || coalesce(error, '-') FROM point");
+  while (points.step()) out += points.text(0) + "\n";
+  Statement results(database, "SELECT point || name || coalesce(value, '-') || coalesce(\"limit\", '-') FROM result");
+  while (results.step()) out += results.text(0) + "\n";
+  return out;
+}
+
+TEST(SweepDatabase, keepsWhatWasCommitted) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "s.db";
+  {
+    SweepDatabase database(file, identity());
+    database.add(point(2));
+    database.commit();
+    database.add(point(3));  // never committed
+  }
+  SweepDatabase again(file, identity());
+  EXPECT_EQ(again.pointsDone(), 1);
+  EXPECT_EQ(again.firstDone(0, 4), 2);
+  EXPECT_EQ(again.firstDone(3, 4), 4);
+  EXPECT_EQ(again.sqlite().number("SELECT count(*) FROM result WHERE point = 2"), 2);
+  EXPECT_EQ(again.sqlite().number("SELECT count(*) FROM result WHERE point = 3"), 0);
+  EXPECT_EQ(again.sqlite().number("SELECT count(*) FROM result WHERE value IS NULL"), 0);
+  EXPECT_EQ(again.sqlite().number("SELECT count(*) FROM result WHERE \"limit\" IS NULL"), 1);
+  EXPECT_EQ(again.sqlite().number("SELECT count(*) FROM point WHERE error IS NULL"), 1);
+}
+
+TEST(SweepDatabase, refusesThoseOfOthersAndLeavesThemAsTheyAre) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "s.db";
+  SweepDatabase(file, identity()).finish();
+  EXPECT_THAT(refused(file, identity("bb")), HasSubstr("of another sweep, s.toml"));
+  EXPECT_THAT(refused(file, identity("aa", 1, 2)), HasSubstr("holds shard 1/1, expected 1/2"));
+  SweepIdentity newer = identity();
+  newer.version = "2.0";
+  EXPECT_THAT(refused(file, newer), HasSubstr("written by ursula 1.0"));
+  Sqlite(file, Sqlite::Access::write).run("PRAGMA user_version = 7");
+  EXPECT_THAT(refused(file), HasSubstr("has layout 7, of a newer ursula"));
+
+  const std::filesystem::path foreign = folder.path() / "foreign.db";
+  Sqlite(foreign, Sqlite::Access::create).run("CREATE TABLE x(y); INSERT INTO x VALUES(1)");
+  EXPECT_THAT(refused(foreign), HasSubstr("is no database of a sweep"));
+  EXPECT_EQ(Sqlite(foreign, Sqlite::Access::read).number("SELECT y FROM x"), 1);
+  const std::filesystem::path text = folder.write("text.db", "this is a text, and long enough that it is one\n");
+  EXPECT_THAT(refused(text), HasSubstr("no SQLite database"));
+  EXPECT_THAT(TemporaryFolder::read(text), HasSubstr("this is a text"));
+  EXPECT_THAT(refused(folder.path() / "none" / "s.db"), HasSubstr("cannot be opened or made"));
+}
+
+TEST(SweepDatabase, seesDamage) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "s.db";
+  {
+    SweepDatabase database(file, identity());
+    for (int id = 0; id < 4; ++id) database.add(point(id));
+    database.finish();
+  }
+  std::fstream damage(file, std::ios::in | std::ios::out | std::ios::binary);
+  damage.seekp(2 * 4096 + 8);
+  damage << std::string(4000, '\x5a');
+  damage.close();
+  EXPECT_THAT(refused(file), HasSubstr("damaged"));
+}
+
+TEST(SweepDatabase, isWrittenByOneAtATime) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "s.db";
+  SweepDatabase one(file, identity());
+  EXPECT_THAT(refused(file), HasSubstr("locked by another program"));
+  EXPECT_EQ(SweepDatabase(file).pointsDone(), 0) << "but anybody may read it";
+}
+
+TEST(SweepMerge, takesEachPointOnceInAnyOrderAndSaysWhatIsMissing) {
+  const TemporaryFolder folder;
+  const auto part = [&](int shard, std::vector<int> ids) {
+    const std::filesystem::path file = folder.path() / ("part" + std::to_string(shard) + ".db");
+    SweepDatabase database(file, identity("aa", shard, 2));
+    for (const int id : ids) database.add(point(id));
+    database.finish();
+    return file;
+  };
+  const auto second = part(2, {2, 3}), first = part(1, {0});
+  const std::filesystem::path all = folder.path() / "all.db";
+  const MergeResult most = mergeSweeps({second, first}, all);
+  EXPECT_EQ(most.added, 3);
+  ASSERT_EQ(most.missing.size(), 1u);
+  EXPECT_EQ(most.missing[0].first, 1);
+  EXPECT_EQ(most.missing[0].end, 2);
+  ASSERT_EQ(most.missing_shards.size(), 1u);
+  EXPECT_EQ(most.missing_shards[0].index, 1);
+  {
+    SweepDatabase database(first, identity("aa", 1, 2));
+    database.add(point(1));
+    database.finish();
+  }
+  EXPECT_EQ(mergeSweeps({first}, all).added, 1);
+  const MergeResult again = mergeSweeps({first, second, first}, all);
+  EXPECT_EQ(again.added, 0);
+  EXPECT_EQ(again.done, 4);
+  EXPECT_TRUE(again.missing.empty());
+
+  const std::filesystem::path whole = folder.path() / "whole.db";
+  {
+    SweepDatabase database(whole, identity());
+    for (int id = 0; id < 4; ++id) database.add(point(id));
+    database.finish();
+  }
+  EXPECT_EQ(rowsOf(all), rowsOf(whole));
+}
+
+TEST(SweepMerge, refusesOtherSweepsAndPointsThatDiffer) {
+  const TemporaryFolder folder;
+  const auto made = [&](const std::string& name, const SweepIdentity& whose, double value) {
+    SweepDatabase database(folder.path() / name, whose);
+    database.add(point(0, value));
+    database.finish();
+    return folder.path() / name;
+  };
+  const auto one = made("one.db", identity(), 1.5), other = made("other.db", identity("bb"), 1.5),
+             off = made("off.db", identity(), std::nextafter(1.5, 2));
+  const std::filesystem::path all = folder.path() / "all.db";
+  EXPECT_THAT(refusal<DatabaseError>([&] { mergeSweeps({one, other}, all); }), HasSubstr("of another sweep than"));
+  EXPECT_FALSE(std::filesystem::exists(all));
+  EXPECT_THAT(refusal<DatabaseError>([&] { mergeSweeps({one, off}, all); }), HasSubstr("its point 0 is not that of"));
+  EXPECT_EQ(rowsOf(all), rowsOf(one));
+  EXPECT_THAT(refusal<DatabaseError>([&] { mergeSweeps({one, all}, all); }), HasSubstr("that all go into"));
+  EXPECT_THAT(refusal<DatabaseError>([&] { mergeSweeps({folder.path() / "no.db"}, all); }),
+              HasSubstr("cannot be opened"));
+}
+
+}  // namespace
+}  // namespace ursula
