@@ -42,18 +42,31 @@ UNION ALL SELECT r.point FROM part.result r JOIN main.point m ON m.id = r.point 
   ON o.point = r.point AND o.name = r.name WHERE o.value IS NOT r.value OR o."limit" IS NOT r."limit" OR o.verdict IS NOT r.verdict
 LIMIT 1)";
 
+/// Some of its points are there already: they must be the same.
+void requireSame(Sqlite& database, const Part& part) {
+  Statement other(database, differing);
+  if (!other.step()) return;
+  throw DatabaseError(fmt::format("{}: error: its point {} is not that of {}: one of the two is wrong",
+                                  part.file.string(), other.integer(0), database.file().string()));
+}
+
+constexpr const char* meets =
+    "SELECT count(*) FROM (SELECT 1 FROM main.point WHERE id >= (SELECT min(id) FROM part.point) AND id <= (SELECT "
+    "max(id) FROM part.point) LIMIT 1)";
+
 /// Within one transaction.
 std::int64_t takeIn(SweepDatabase& into, const Part& part) {
   Sqlite& database = into.sqlite();
-  if (Statement other(database, differing); other.step())
-    throw DatabaseError(fmt::format("{}: error: its point {} is not that of {}: one of the two is wrong",
-                                    part.file.string(), other.integer(0), database.file().string()));
+  if (database.number(meets) == 0) {  // the whole of it, as it stands
+    database.run("INSERT INTO main.result SELECT * FROM part.result; INSERT INTO main.point SELECT * FROM part.point");
+    return database.changed();
+  }
+  requireSame(database, part);
   database.run(
-      "INSERT INTO main.result SELECT r.* FROM part.result r WHERE NOT EXISTS "
-      "(SELECT 1 FROM main.point m WHERE m.id = r.point) ORDER BY r.point, r.name");
-  database.run(
-      "INSERT INTO main.point SELECT * FROM part.point p WHERE NOT EXISTS "
-      "(SELECT 1 FROM main.point m WHERE m.id = p.id) ORDER BY p.id");
+      "INSERT INTO main.result SELECT r.* FROM part.result r WHERE NOT EXISTS (SELECT 1 FROM main.point m WHERE m.id = "
+      "r.point);"
+      "INSERT INTO main.point SELECT * FROM part.point p WHERE NOT EXISTS (SELECT 1 FROM main.point m WHERE m.id = "
+      "p.id)");
   return database.changed();
 }
 

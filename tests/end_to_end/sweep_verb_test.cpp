@@ -1,0 +1,108 @@
+// `ursula sweep`, called as people call it.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/end_to_end/program.h"
+
+namespace ursula {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string head = "scenario = \"" URSULA_SCENARIOS "/paper-helix.toml\"\n";
+
+std::string sweepOf(const std::string& what, const std::string& rest) {
+  return head + "what = \"" + what + "\"\n" + rest + "[[vary]]\nkey = \"platform.mass\"\nuniform = [400.0, 600.0]\n";
+}
+
+TEST(SweepVerb, worksOnceAndThenSaysThatAllIsThere) {
+  const Program ursula;
+  ursula.write("s.toml", sweepOf("inverse", "design = \"random\"\ncount = 50\nsamples = 5\n"));
+  const UrsulaRun first = ursula("sweep s.toml");
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_EQ(first.out, "50 points: 50 pass\nresults/s.db\n");
+  ASSERT_TRUE(std::filesystem::exists(ursula.folder() / "results/s.db"));
+  EXPECT_FALSE(std::filesystem::exists(ursula.folder() / "results/s.db-wal"));
+  const std::string bytes = TemporaryFolder::read(ursula.folder() / "results/s.db");
+  const UrsulaRun second = ursula("sweep s.toml");
+  EXPECT_EQ(second.exit_code, 0);
+  EXPECT_THAT(second.err, HasSubstr("nothing to do: all 50 points are in results/s.db"));
+  EXPECT_EQ(second.out, first.out);
+}
+
+TEST(SweepVerb, showWritesAPointThatValidatesWithTheSameNumbers) {
+  const Program ursula;
+  ursula.write("s.toml", "scenario = \"" URSULA_SCENARIOS
+                         "/helix-0.3s.toml\"\ndesign = \"random\"\ncount = 3\nsamples = 7\n"
+                         "[[vary]]\nkey = \"platform.mass\"\nuniform = [400.0, 600.0]\n");
+  const UrsulaRun sweep = ursula("sweep s.toml --db s.db --jobs 1");
+  EXPECT_EQ(sweep.exit_code, 0) << sweep.out << sweep.err;
+  const UrsulaRun shown = ursula("sweep show s.toml 2");
+  EXPECT_EQ(shown.exit_code, 0);
+  ursula.write("point.toml", shown.out);
+  const UrsulaRun validated = ursula("validate point.toml --json --out point");
+  ASSERT_EQ(validated.exit_code, 0) << validated.err;
+  const auto summary = nlohmann::json::parse(validated.out);
+  EXPECT_EQ(summary.at("scenario"), "helix-0.3s-2");
+  EXPECT_EQ(shown.out, ursula("sweep show s.toml 2").out);
+  EXPECT_NE(shown.out, ursula("sweep show s.toml 1").out);
+}
+
+TEST(SweepVerb, shardsMergeToTheWholeAndWhatIsMissingIsNamed) {
+  const Program ursula;
+  ursula.write("s.toml", sweepOf("inverse", "design = \"sobol\"\ncount = 64\nsamples = 5\n"));
+  for (const char* shard : {"1/4", "2/4", "4/4"})
+    EXPECT_EQ(ursula("sweep s.toml --shard " + std::string(shard)).exit_code, 0);
+  const UrsulaRun partial = ursula("sweep merge results/s.shard-*.db --db all.db");
+  EXPECT_EQ(partial.exit_code, 3);
+  EXPECT_THAT(partial.err, HasSubstr("16 of 64 points are missing, the first from 32 to 47; to make them:\n"
+                                     "  ursula sweep s.toml --shard 3/4\n"));
+  EXPECT_EQ(ursula("sweep s.toml --shard 3/4").exit_code, 0);
+  const UrsulaRun whole = ursula("sweep merge results/s.shard-*.db --db all.db");
+  EXPECT_EQ(whole.exit_code, 0) << whole.err;
+  EXPECT_THAT(whole.out, HasSubstr("64 of 64 points, 16 of them new"));
+  EXPECT_THAT(ursula("sweep s.toml --db all.db").err, HasSubstr("nothing to do"));
+}
+
+TEST(SweepVerb, refusesInOneLineWhatCannotBe) {
+  const Program ursula;
+  ursula.write("s.toml", sweepOf("inverse", "design = \"random\"\ncount = 50\nsamples = 5\n"));
+  ursula.write("other.toml", sweepOf("inverse", "design = \"random\"\ncount = 51\nsamples = 5\n"));
+  ursula.write("bad.toml", sweepOf("inverse", "design = \"randon\"\ncount = 50\n"));
+  ASSERT_EQ(ursula("sweep s.toml --db s.db").exit_code, 0);
+  const auto refused = [&](const std::string& call, const std::string& says) {
+    const UrsulaRun run = ursula("sweep " + call);
+    EXPECT_EQ(run.exit_code, 2) << call;
+    EXPECT_THAT(run.err, HasSubstr(says)) << call;
+    EXPECT_EQ(run.out, "") << call;
+  };
+  refused("bad.toml",
+          "bad.toml:3:10: error: design: 'randon', expected 'grid', 'random' or 'sobol', did you mean 'random'?");
+  refused("none.toml", "none.toml:1:1: error: cannot be read");
+  refused("other.toml --db s.db", "s.db: error: is of another sweep, s.toml");
+  refused("s.toml --shard 0/4", "--shard 0/4: expected I/N with I from 1 to N");
+  refused("s.toml --shard 5/4", "--shard 5/4: expected I/N");
+  refused("s.toml --shard 1/4x", "--shard 1/4x: expected I/N");
+  refused("s.toml --db bad.toml", "bad.toml: error: this is no SQLite database");
+  refused("s.toml --pointwise", "--pointwise: of what = \"validate\" alone");
+  refused("show s.toml 50", "point 50: s.toml has points 0 to 49");
+  refused("merge s.db none.db --db all.db", "none.db: error: it cannot be opened");
+  refused("", "sweep");
+}
+
+/// A hundredth of each: none may fail, or be in error.
+TEST(SweepVerb, sweepsThatShipPass) {
+  const Program ursula;
+  for (const char* name : {"payload", "random-machines", "tolerances", "workspace"}) {
+    const UrsulaRun run =
+        ursula("sweep '" URSULA_SWEEPS "/" + std::string(name) + ".toml' --shard 51/100 --db " + name + ".db");
+    EXPECT_EQ(run.exit_code, 0) << name << run.out << run.err;
+    EXPECT_THAT(run.out, testing::MatchesRegex("[0-9]+ points: [0-9]+ pass\n.*\n")) << name;
+  }
+}
+
+}  // namespace
+}  // namespace ursula
