@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "validation/sweep/sqlite.h"
+
+namespace ursula {
+
+/// One point with its results, as the database has them.
+struct SweepRow {
+  struct Value {
+    std::size_t name = 0;          ///< index into SweepRows::names()
+    double value = 0, limit = 0;   ///< NaN where there is none
+    std::string verdict;           ///< empty where there is none
+  };
+  std::int64_t id = 0;
+  std::string verdict, error;
+  std::vector<double> parameters;  ///< one for each key, finite
+  std::vector<Value> values;
+};
+
+/// Points by ascending id, one at a time. Throws DatabaseError.
+class SweepRows {
+ public:
+  SweepRows(Sqlite& database, const std::vector<std::string>& keys);
+
+  /// Names of results, by their bytes.
+  const std::vector<std::string>& names() const { return names_; }
+  bool next(SweepRow& row);
+
+ private:
+  void readParameters(SweepRow& row) const;
+  std::size_t indexOf(const std::string& name, std::size_t guess) const;
+
+  Sqlite& database_;
+  const std::vector<std::string>& keys_;
+  std::vector<std::string> names_;
+  std::unordered_map<std::string, std::size_t> places_;
+  Statement points_, results_;
+  bool has_result_;
+};
+
+}  // namespace ursula
