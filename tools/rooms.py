@@ -28,6 +28,7 @@ ROOMS = {
     "suite": "verdict subject report",
     "stream": "verdict subject findings",
     "map": "verdict subject report stream",
+    "sweep_report": "verdict report sweep",
 }
 USE_THE_FRONT_DOOR = {"outside", "prove"}
 LARGEST_SHARE = 0.25  # of validation's lines, in one room

@@ -17,7 +17,7 @@ std::vector<Pair> sortedPairs(const SweepSummary& summary) {
   std::vector<Pair> pairs;
   for (std::size_t k = 0; k < summary.outputs.size(); ++k)
     for (std::size_t p = 0; p < summary.parameters.size(); ++p)
-      if (const double s = strength(summary, summary.outputs[k].relations[p]);
+      if (const double s = strength(summary.outputs[k].relations[p]);
           s > 0 && summary.outputs[k].kind != OutputKind::not_passed)
         pairs.push_back({p, k, s});
   std::stable_sort(pairs.begin(), pairs.end(), [&summary](const Pair& a, const Pair& b) {
@@ -47,9 +47,8 @@ std::vector<std::size_t> rowsToDraw(std::size_t rows) {
   std::vector<std::size_t> out;
   for (std::size_t k = 0; k < std::min(rows, most_scattered); ++k) {
     const double at = golden * static_cast<double>(k);
-    out.push_back(rows <= most_scattered
-                      ? k
-                      : static_cast<std::size_t>((at - std::floor(at)) * static_cast<double>(rows)));
+    out.push_back(rows <= most_scattered ? k
+                                         : static_cast<std::size_t>((at - std::floor(at)) * static_cast<double>(rows)));
   }
   return out;
 }
@@ -63,7 +62,9 @@ std::vector<std::size_t> outputsToMap(const SweepSummary& summary, std::size_t m
   add([](OutputKind kind) { return kind == OutputKind::largest_effort || kind == OutputKind::largest_share; });
   if (summary.primary < summary.outputs.size() && std::find(out.begin(), out.end(), summary.primary) == out.end())
     out.push_back(summary.primary);
-  add([](OutputKind kind) { return kind == OutputKind::kappa || kind == OutputKind::sine || kind == OutputKind::other; });
+  add([](OutputKind kind) {
+    return kind == OutputKind::kappa || kind == OutputKind::sine || kind == OutputKind::other;
+  });
   return out;
 }
 

@@ -58,9 +58,8 @@ OutputPlan::OutputPlan(bool validates, const std::vector<std::string>& names)
 }
 
 std::size_t OutputPlan::groupOf(OutputKind kind, const std::string& unit) {
-  const auto at = std::find_if(outputs_.begin(), outputs_.end(), [&](const SweepOutput& each) {
-    return each.kind == kind && each.unit == unit;
-  });
+  const auto at = std::find_if(outputs_.begin(), outputs_.end(),
+                               [&](const SweepOutput& each) { return each.kind == kind && each.unit == unit; });
   if (at != outputs_.end()) return static_cast<std::size_t>(at - outputs_.begin());
   SweepOutput group;
   group.kind = kind;
@@ -76,14 +75,14 @@ void OutputPlan::evaluate(const SweepRow& row, std::vector<double>& values) cons
     const std::size_t place = place_[each.name], group = group_[each.name];
     if (place == nowhere) continue;
     values[place] = outputs_[place].kind == OutputKind::check_share ? shareOf(each) : each.value;
-    if (group != nowhere && !std::isnan(values[place]) && !(values[group] >= values[place])) values[group] = values[place];
+    if (group != nowhere && !std::isnan(values[place]) && !(values[group] >= values[place]))
+      values[group] = values[place];
   }
 }
 
 std::size_t OutputPlan::largestOf(const std::vector<double>& values) const {
   const SweepOutput& group = outputs_.front();
-  const OutputKind member =
-      group.kind == OutputKind::largest_share ? OutputKind::check_share : OutputKind::effort;
+  const OutputKind member = group.kind == OutputKind::largest_share ? OutputKind::check_share : OutputKind::effort;
   for (std::size_t k = 1; k < values.size(); ++k)
     if (outputs_[k].kind == member && outputs_[k].unit == group.unit && values[k] == values[0]) return k;
   return 0;

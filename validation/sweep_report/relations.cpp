@@ -144,7 +144,7 @@ Relation relationOf(const Parameter& parameter, const std::vector<double>& y, co
     y_kept.push_back(y[row]);
     ranks_kept.push_back(y_ranks[row]);
   }
-  Relation out{none, none, none, 0, y_kept.size()};
+  Relation out{none, none, none, 0, y_kept.size(), false, false};
   if (y_kept.size() < 3 || isConstant(x_kept.front(), x_kept.back())) return out;
   const auto [least, most] = std::minmax_element(y_kept.begin(), y_kept.end());
   if (isConstant(*least, *most)) return out;

@@ -42,6 +42,8 @@ struct Relation {
   double spearman = 0;     ///< correlation of ranks
   double first_order = 0;  ///< Var(E[y|x]) / Var(y), Sobol's index of first order; NaN where it was not asked for, too
   std::size_t classes = 0, count = 0;
+  bool correlates = false;  ///< told from chance: |correlation|, linear or of ranks, is beyond correlationBound()
+  bool acts = false;        ///< the first-order index is beyond indexBound(), in a complete grid beyond rounding
 };
 
 /// A parameter with what is wanted of it for every output.

@@ -12,9 +12,9 @@ namespace ursula {
 /// One point with its results, as the database has them.
 struct SweepRow {
   struct Value {
-    std::size_t name = 0;          ///< index into SweepRows::names()
-    double value = 0, limit = 0;   ///< NaN where there is none
-    std::string verdict;           ///< empty where there is none
+    std::size_t name = 0;         ///< index into SweepRows::names()
+    double value = 0, limit = 0;  ///< NaN where there is none
+    std::string verdict;          ///< empty where there is none
   };
   std::int64_t id = 0;
   std::string verdict, error;

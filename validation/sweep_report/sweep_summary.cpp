@@ -135,16 +135,25 @@ class Summary {
       Parameter parameter;
       parameter.x = store_.column(p);
       parameter.order = orderOf(parameter.x);
-      for (std::size_t k = 0; k < out_.outputs.size(); ++k) {
-        SweepOutput& output = out_.outputs[k];
-        const double none = std::numeric_limits<double>::quiet_NaN();
-        output.relations.push_back(output.spread.constant
-                                       ? Relation{none, none, none, 0, output.spread.count}
-                                       : relationOf(parameter, store_.column(columns_[k].values),
-                                                    store_.column(columns_[k].ranks), classes,
-                                                    output.no_index == NoIndex::none));
-      }
+      for (std::size_t k = 0; k < out_.outputs.size(); ++k)
+        out_.outputs[k].relations.push_back(related(parameter, k, classes));
     }
+  }
+
+  Relation related(const Parameter& parameter, std::size_t k, Classes classes) {
+    const SweepOutput& output = out_.outputs[k];
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    if (output.spread.constant) return {none, none, none, 0, output.spread.count, false, false};
+    Relation out = relationOf(parameter, store_.column(columns_[k].values), store_.column(columns_[k].ranks), classes,
+                              output.no_index == NoIndex::none);
+    const double alpha = 0.01 / static_cast<double>(out_.pairs);
+    const auto [bound, is_new] = bounds_.try_emplace({out.count, out.classes});
+    if (is_new)
+      bound->second = {correlationBound(out.count, alpha),
+                       classes == Classes::levels ? below_rounding : indexBound(out.count, out.classes, alpha)};
+    out.correlates = std::max(std::abs(out.pearson), std::abs(out.spearman)) > bound->second.first;
+    out.acts = out.first_order > bound->second.second;
+    return out;
   }
 
   void choosePrimary() {
@@ -171,8 +180,8 @@ class Summary {
     if (levels_[0].size() < 2 || levels_[1].size() < 2 || levels_[0].size() * levels_[1].size() > most_cells) return;
     const std::vector<double> x = store_.column(0), y = store_.column(1);
     for (const std::size_t k : outputsToMap(out_, most_maps))
-      out_.maps.push_back({k, levels_[0], levels_[1],
-                           onGrid(levels_[0], levels_[1], x, y, store_.column(columns_[k].values))});
+      out_.maps.push_back(
+          {k, levels_[0], levels_[1], onGrid(levels_[0], levels_[1], x, y, store_.column(columns_[k].values))});
   }
 
   struct Columns {
@@ -187,38 +196,24 @@ class Summary {
   std::vector<std::int64_t> worst_ids_;      ///< of the plan's outputs
   std::vector<Columns> columns_;             ///< of the summary's outputs
   std::vector<std::vector<double>> levels_;  ///< of each parameter; empty where there are too many
+  /// Of correlation and index, by counts of rows and classes.
+  std::map<std::pair<std::size_t, std::size_t>, std::pair<double, double>> bounds_;
 };
 
 }  // namespace
 
 SweepSummary summarise(Sqlite& database) { return Summary(database).make(); }
 
-double pairAlpha(const SweepSummary& summary) {
-  return 0.01 / static_cast<double>(std::max<std::size_t>(summary.pairs, 1));
+double strength(const Relation& relation) {
+  const double by_rank = relation.correlates ? std::abs(relation.spearman) : 0;
+  return relation.acts ? std::max(by_rank, std::sqrt(relation.first_order)) : by_rank;
 }
 
-bool isRelated(const SweepSummary& summary, const Relation& relation) {
-  return std::max(std::abs(relation.pearson), std::abs(relation.spearman)) >
-         correlationBound(relation.count, pairAlpha(summary));
-}
-
-bool hasIndex(const SweepSummary& summary, const Relation& relation) {
-  const double bound = summary.identity.design == "grid"
-                           ? below_rounding
-                           : indexBound(relation.count, relation.classes, pairAlpha(summary));
-  return relation.first_order > bound;
-}
-
-double strength(const SweepSummary& summary, const Relation& relation) {
-  const double by_rank = isRelated(summary, relation) ? std::abs(relation.spearman) : 0;
-  return hasIndex(summary, relation) ? std::max(by_rank, std::sqrt(relation.first_order)) : by_rank;
-}
-
-std::size_t driver(const SweepSummary& summary, const SweepOutput& output) {
-  std::size_t best = summary.parameters.size();
+std::size_t driver(const SweepOutput& output) {
+  std::size_t best = output.relations.size();
   double most = 0;
   for (std::size_t p = 0; p < output.relations.size(); ++p)
-    if (const double s = strength(summary, output.relations[p]); s > most) most = s, best = p;
+    if (const double s = strength(output.relations[p]); s > most) most = s, best = p;
   return best;
 }
 

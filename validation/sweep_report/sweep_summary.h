@@ -33,7 +33,7 @@ struct SweepOutput {
   int motor = -1;    ///< 0-based, of an effort
   Spread spread;
   Histogram histogram;
-  std::int64_t worst_point = -1;  ///< id of the largest value; of a sine, the smallest
+  std::int64_t worst_point = -1;    ///< id of the largest value; of a sine, the smallest
   std::vector<Relation> relations;  ///< one for each parameter
   NoIndex no_index = NoIndex::none;
 };
@@ -77,7 +77,8 @@ struct SweepSummary {
   std::vector<SweepParameter> parameters;
   std::vector<SweepOutput> outputs;  ///< those without any number are left out
   std::size_t primary = 0;           ///< the output that the page leads with; outputs.size(): none
-  std::size_t pairs = 0;             ///< of parameters and outputs that were related
+  std::size_t pairs = 0;  ///< of parameters and outputs: one in a hundred sweeps of unrelated numbers has any
+                          ///< that is told from chance
   std::vector<Scatter> scatters;
   std::vector<GridMap> maps;
   std::vector<WorstPoint> worst;
@@ -86,17 +87,10 @@ struct SweepSummary {
 /// Reads a database twice, in memory for some ten columns of it. Throws DatabaseError.
 SweepSummary summarise(Sqlite& database);
 
-/// One in a hundred sweeps of unrelated numbers would have a pair that counts as related: 0.01 over the pairs.
-double pairAlpha(const SweepSummary& summary);
-
-/// Whether the correlation, linear or of ranks, is distinguishable from none.
-bool isRelated(const SweepSummary& summary, const Relation& relation);
-/// Whether the first-order index is; in a complete grid any above rounding.
-bool hasIndex(const SweepSummary& summary, const Relation& relation);
 /// How much a parameter drives an output, from 0 to 1, for the order of pairs: the larger of |rank correlation| and the
-/// root of the first-order index, as far as distinguishable from none.
-double strength(const SweepSummary& summary, const Relation& relation);
-/// The parameter of the largest strength; parameters.size() where none is distinguishable.
-std::size_t driver(const SweepSummary& summary, const SweepOutput& output);
+/// root of the first-order index, as far as they are told from chance.
+double strength(const Relation& relation);
+/// The parameter of the largest strength; the number of parameters where none is told from chance.
+std::size_t driver(const SweepOutput& output);
 
 }  // namespace ursula
