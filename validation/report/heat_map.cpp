@@ -52,7 +52,7 @@ std::vector<Label> labelsOf(const HeatAxis& axis) {
   const bool each = axis.values.size() <= most_labelled;
   for (const double value : each ? axis.values : roundTicks(*low, *high, 6))
     out.push_back({axis.values.size() < 2 ? 0.5 : shareOf(axis.values, value),
-                   plainNumber(std::abs(value) < 1e-9 * (*high - *low) ? 0 : value, 4)});
+                   plainNumber(std::abs(value) < 1e-9 * (*high - *low) ? 0 : value, digitsToTell(*low, *high))});
   return out;
 }
 
@@ -120,7 +120,8 @@ class Panel {
                          y_ + panel - step * (c + 1), step + 0.3, colour(c));
     for (int k = 0; k <= 4; ++k)
       out += fmt::format("<text x=\"{:.0f}\" y=\"{:.1f}\">{}{}</text>\n", at + 19, y_ + panel * (1 - k / 4.0) + 4,
-                         k == 4 ? "≥ " : "", plainNumber(scale_.at(k / 4.0), 3));
+                         k == 4 ? "≥ " : "",
+                         plainNumber(scale_.at(k / 4.0), digitsToTell(scale_.at(0), scale_.at(1)) - 1));
     return out;
   }
 

@@ -74,7 +74,8 @@ std::vector<double> ticks(const Axis& axis, int count) {
 std::string tickText(double value, const Axis& axis) {
   if (axis.log && (value < 1e-3 || value > 99999)) return plainNumber(value, 1);
   const double small = 1e-9 * std::max(std::abs(axis.low), std::abs(axis.high));
-  return std::abs(value) < small && !axis.log ? "0" : plainNumber(value, 4);
+  return std::abs(value) < small && !axis.log ? "0"
+                                              : plainNumber(value, axis.log ? 4 : digitsToTell(axis.low, axis.high));
 }
 
 std::string axes(const Plot& plot, const Frame& frame) {

@@ -12,13 +12,15 @@ struct Pair {
   double strength;
 };
 
+/// Two values make no scatter, and of checks each is drawn by itself.
+bool saysMore(OutputKind kind) { return kind != OutputKind::not_passed && kind != OutputKind::largest_share; }
+
 /// The primary output's first, the strongest first.
 std::vector<Pair> sortedPairs(const SweepSummary& summary) {
   std::vector<Pair> pairs;
   for (std::size_t k = 0; k < summary.outputs.size(); ++k)
     for (std::size_t p = 0; p < summary.parameters.size(); ++p)
-      if (const double s = strength(summary.outputs[k].relations[p]);
-          s > 0 && summary.outputs[k].kind != OutputKind::not_passed)
+      if (const double s = strength(summary.outputs[k].relations[p]); s > 0 && saysMore(summary.outputs[k].kind))
         pairs.push_back({p, k, s});
   std::stable_sort(pairs.begin(), pairs.end(), [&summary](const Pair& a, const Pair& b) {
     const bool first_a = a.output == summary.primary, first_b = b.output == summary.primary;
@@ -57,10 +59,11 @@ std::vector<std::size_t> outputsToMap(const SweepSummary& summary, std::size_t m
   std::vector<std::size_t> out;
   const auto add = [&](auto wanted) {
     for (std::size_t k = 0; k < summary.outputs.size(); ++k)
-      if (wanted(summary.outputs[k].kind) && out.size() < most) out.push_back(k);
+      if (wanted(summary.outputs[k].kind) && !summary.outputs[k].spread.constant && out.size() < most) out.push_back(k);
   };
   add([](OutputKind kind) { return kind == OutputKind::largest_effort || kind == OutputKind::largest_share; });
-  if (summary.primary < summary.outputs.size() && std::find(out.begin(), out.end(), summary.primary) == out.end())
+  if (summary.primary < summary.outputs.size() && !summary.outputs[summary.primary].spread.constant &&
+      std::find(out.begin(), out.end(), summary.primary) == out.end())
     out.push_back(summary.primary);
   add([](OutputKind kind) {
     return kind == OutputKind::kappa || kind == OutputKind::sine || kind == OutputKind::other;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <numeric>
 
 #include "validation/report/text.h"
@@ -36,6 +38,9 @@ std::vector<std::size_t> outputsByWeight(const SweepSummary& summary) {
   return out;
 }
 
+/// Of the rank correlation; 0 where there is none.
+double sizeOf(const Relation& relation) { return std::isnan(relation.spearman) ? 0 : std::abs(relation.spearman); }
+
 Shown shownOf(const SweepSummary& summary) {
   Shown out;
   out.outputs = outputsByWeight(summary);
@@ -46,8 +51,7 @@ Shown shownOf(const SweepSummary& summary) {
   for (const std::size_t k : out.outputs)
     for (std::size_t p = 0; p < weight.size(); ++p) {
       const Relation& relation = summary.outputs[k].relations[p];
-      if (std::abs(relation.spearman) > weight[p]) weight[p] = std::abs(relation.spearman);
-      weight[p] = std::max(weight[p], strength(relation));
+      weight[p] = std::max({weight[p], sizeOf(relation), strength(relation)});
     }
   out.parameters.resize(weight.size());
   std::iota(out.parameters.begin(), out.parameters.end(), std::size_t{0});
@@ -90,16 +94,16 @@ std::string matrix(const SweepSummary& summary, const Shown& shown, const std::s
   if (shown.outputs.empty() || shown.parameters.empty()) return "";
   std::string heads, rows;
   for (const std::size_t k : shown.outputs)
-    heads += fmt::format("<th scope=\"col\" class=\"number\">{}</th>", escaped(titleOf(summary.outputs[k])));
+    heads += fmt::format("<th scope=\"col\" class=\"number\">{}</th>", breakable(titleOf(summary.outputs[k])));
   for (const std::size_t p : shown.parameters) {
     rows += fmt::format("<tr><th scope=\"row\"><code>{}</code></th>", escaped(summary.parameters[p].key));
     for (const std::size_t k : shown.outputs) rows += cellHtml(cell_of(summary.outputs[k], p));
     rows += "</tr>\n";
   }
   return fmt::format(
-      "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"{}\"><table class=\"ties\">\n<caption>{}{}"
-      "</caption>\n<thead><tr><th scope=\"col\">Number</th>{}</tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
-      label, caption, leftOut(shown), heads, rows);
+      "<p class=\"aside\">{}{}</p>\n<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"{}\"><table "
+      "class=\"ties\">\n<thead><tr><th scope=\"col\">Number</th>{}</tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
+      caption, leftOut(shown), label, heads, rows);
 }
 
 std::string bar(double share) {
@@ -112,13 +116,14 @@ std::string togetherWords(const SweepSummary& summary, const SweepOutput& output
   if (output.no_index != NoIndex::none)
     return fmt::format(" There are no first-order indices: {}.", reasonOf(output.no_index));
   if (output.spread.count != static_cast<std::size_t>(summary.points_done))
-    return " The indices are over the points that have a value, where the numbers are not independent of each other: "
+    return " The indices are over the points that have a value, where the numbers may depend on each other: "
            "their sum says nothing.";
   double sum = 0;
   for (const Relation& relation : output.relations)
     if (relation.acts) sum += relation.first_order;
-  return fmt::format(" Each alone, they make {:.0f} % of the variance; what is left comes of numbers acting together.",
-                     100 * std::min(sum, 1.0));
+  const double percent = 100 * std::min(sum, 1.0);
+  return fmt::format(" Each alone, they make {:.0f} % of the variance{}", percent,
+                     percent > 99.5 ? "." : "; what is left comes of numbers acting together.");
 }
 
 }  // namespace
@@ -130,7 +135,8 @@ std::string driversTable(const SweepSummary& summary) {
   std::vector<std::size_t> order(summary.parameters.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return strength(output.relations[a]) > strength(output.relations[b]);
+    const Relation &of_a = output.relations[a], &of_b = output.relations[b];
+    return std::pair(strength(of_a), sizeOf(of_a)) > std::pair(strength(of_b), sizeOf(of_b));
   });
   std::string rows;
   for (std::size_t place = 0; place < std::min(order.size(), most_bars); ++place) {
@@ -147,13 +153,13 @@ std::string driversTable(const SweepSummary& summary) {
   const std::string more =
       order.size() > most_bars ? fmt::format(" The strongest {} of {} numbers.", most_bars, order.size()) : "";
   return fmt::format(
-      "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"What drives it most\"><table "
-      "class=\"drivers\">\n"
-      "<caption>{}: the share of its variance that each number makes alone (first-order Sobol’ index), and its "
-      "correlations.{}{}</caption>\n<thead><tr><th scope=\"col\">Number</th><th scope=\"col\">{}</th><th scope=\"col\" "
-      "class=\"number\">Index</th><th scope=\"col\" class=\"number\">Rank correlation</th><th scope=\"col\" "
-      "class=\"number\">Linear correlation</th><th scope=\"col\"><span class=\"unseen\">Remark</span></th></tr></thead>"
-      "\n<tbody>\n{}</tbody></table></div>\n",
+      "<p class=\"aside\"><b>{}</b>: the share of its variance that each number makes alone (first-order Sobol’ "
+      "index), "
+      "and its correlations.{}{}</p>\n<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"What drives it "
+      "most\"><table class=\"drivers\">\n<thead><tr><th scope=\"col\">Number</th><th scope=\"col\">{}</th><th "
+      "scope=\"col\" class=\"number\">Index</th><th scope=\"col\" class=\"number\">Rank correlation</th><th "
+      "scope=\"col\" class=\"number\">Linear correlation</th><th scope=\"col\"><span class=\"unseen\">Remark</span>"
+      "</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
       escaped(titleOf(output)), togetherWords(summary, output), more,
       output.no_index == NoIndex::none ? "Share" : "Size of the rank correlation", rows);
 }
@@ -163,7 +169,7 @@ std::string correlationTable(const SweepSummary& summary) {
                 "Rank correlations (Spearman), from −1 to +1: the deeper the colour, the stronger; blue rises, orange "
                 "falls. Pale numbers are no more than chance makes: below the bound that one in a hundred sweeps of "
                 "unrelated numbers would exceed anywhere.",
-                [&summary](const SweepOutput& output, std::size_t p) {
+                [](const SweepOutput& output, std::size_t p) {
                   const Relation& relation = output.relations[p];
                   return Cell{relation.spearman, relation.correlates, signedNumber(relation.spearman)};
                 });
@@ -171,16 +177,20 @@ std::string correlationTable(const SweepSummary& summary) {
 
 std::string indexTable(const SweepSummary& summary) {
   Shown shown = shownOf(summary);
-  std::string reasons;
-  for (std::size_t at = 0; at < shown.outputs.size();) {
-    const SweepOutput& output = summary.outputs[shown.outputs[at]];
-    if (output.no_index == NoIndex::none) {
-      ++at;
-      continue;
-    }
-    reasons += fmt::format("<li>{}: {}</li>", escaped(titleOf(output)), reasonOf(output.no_index));
-    shown.outputs.erase(shown.outputs.begin() + static_cast<std::ptrdiff_t>(at));
+  std::map<NoIndex, std::string> without;
+  std::vector<std::size_t> with;
+  for (const std::size_t k : shown.outputs) {
+    const SweepOutput& output = summary.outputs[k];
+    std::string& names = without[output.no_index];
+    if (output.no_index == NoIndex::none) with.push_back(k);
+    if (output.no_index != NoIndex::none) names += (names.empty() ? "" : ", ") + escaped(titleOf(output));
   }
+  without.erase(NoIndex::none);
+  std::string reasons;
+  for (const auto& [reason, names] : without)
+    reasons += fmt::format("<p class=\"aside\">None of {}: {}.</p>\n", names, reasonOf(reason));
+  const bool alone = with.size() == 1 && summary.outputs[with[0]].kind == OutputKind::not_passed;
+  shown.outputs = alone ? std::vector<std::size_t>() : with;
   const std::string how =
       summary.identity.design == "grid"
           ? "Exact main effects over the complete grid."
@@ -188,11 +198,11 @@ std::string indexTable(const SweepSummary& summary) {
             "of finite classes. Pale numbers are no more than chance makes.";
   return matrix(summary, shown, "First-order indices",
                 "First-order Sobol’ indices: the share of an output’s variance that each number makes alone. " + how,
-                [&summary](const SweepOutput& output, std::size_t p) {
+                [](const SweepOutput& output, std::size_t p) {
                   const Relation& relation = output.relations[p];
                   return Cell{relation.first_order, relation.acts, shareNumber(relation.first_order)};
                 }) +
-         (reasons.empty() ? "" : "<p class=\"aside\">No first-order indices of:</p>\n<ul>" + reasons + "</ul>\n");
+         reasons;
 }
 
 }  // namespace ursula

@@ -19,13 +19,17 @@ constexpr const char* style = R"(
 .heat .title{fill:var(--text);font-size:13px}
 .heat .frame{fill:none;stroke:var(--quiet)}
 .ties,.drivers{width:auto}
-.ties thead th{max-width:8rem;white-space:normal;vertical-align:bottom}
+.ties thead th,#worst thead th{max-width:8rem;white-space:normal;vertical-align:bottom}
 .ties .tie{background:color-mix(in srgb,var(--c0) var(--depth),var(--panel))}
 .ties .minus{background:color-mix(in srgb,var(--c1) var(--depth),var(--panel))}
 .ties .none{color:var(--quiet)}
 .drivers .bars{width:14rem;min-width:6rem}
-.ties code,.drivers code,td code,thead code{white-space:nowrap}
-.reason{min-width:16rem}
+.ties code,.drivers code,td code{white-space:nowrap}
+thead code{overflow-wrap:normal}
+.reason{min-width:14rem}
+#worst .command{min-width:15rem}
+#worst .command code{white-space:normal}
+.small{margin-bottom:1rem}
 tr:target{background:var(--panel)}
 .paste{overflow-x:auto;padding:.6rem;background:var(--panel)}
 )";

@@ -106,7 +106,7 @@ std::string gridMaps(const SweepSummary& summary) {
         "<figure><svg class=\"static heat\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" "
         "aria-label=\"{}\">{}</svg></figure>"
         "\n",
-        report::heat_map_width, report::heat_map_height, escaped(titleOf(output) + " over the two numbers"),
+        report::heat_map_width, report::heat_map_height - 30, escaped(titleOf(output) + " over the two numbers"),
         report::heatMapPanel(drawn, scale, 0, 0));
   }
   if (out.empty()) return "";

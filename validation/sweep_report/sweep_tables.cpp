@@ -53,6 +53,12 @@ std::vector<std::size_t> parametersToShow(const SweepSummary& summary) {
   return order;
 }
 
+std::string parameterText(const SweepParameter& parameter, double value) {
+  const Spread& all = parameter.spread;
+  const bool is_zero = std::abs(value) < 1e-9 * (all.max - all.min);  // of values about it
+  return report::plainNumber(is_zero ? 0 : value, 1 + report::digitsToTell(all.min, all.max));
+}
+
 std::string badge(const std::string& verdict) {
   const Verdict shown = verdict == "pass"    ? Verdict::pass
                         : verdict == "fail"  ? Verdict::fail
@@ -88,7 +94,7 @@ std::string outputsTable(const SweepSummary& summary) {
     }
     for (const double value : {s.min, s.low, s.median, s.high, s.max}) rows += number(valueOf(output, value));
     rows += "<td class=\"number\">" + pointLink(summary, output.worst_point) + "</td>";
-    rows += number(valueOf(output, s.mean)) + number(valueOf(output, s.sd)) + "</tr>\n";
+    rows += number(valueOf(output, s.mean)) + number(report::quantity(s.sd, output.unit)) + "</tr>\n";
   }
   std::string heads = head("Output", false);
   for (const char* each : {"Points", "Min", "5 %", "Median", "95 %", "Max", "Worst point", "Mean", "SD"})
@@ -109,11 +115,11 @@ std::string worstTable(const SweepSummary& summary) {
         "<tr id=\"point-{0}\"><th scope=\"row\" class=\"number\">{0}</th><td>{1}</td><td "
         "class=\"reason\">{2}</td>",
         point.id, badge(point.verdict), escaped(whyOf(summary, point)));
-    for (const std::size_t p : shown) rows += number(report::plainNumber(point.parameters[p], 5));
-    rows += fmt::format("<td><code>{}</code></td></tr>\n", escaped(showCommand(summary, point.id)));
+    for (const std::size_t p : shown) rows += number(parameterText(summary.parameters[p], point.parameters[p]));
+    rows += fmt::format("<td class=\"command\"><code>{}</code></td></tr>\n", escaped(showCommand(summary, point.id)));
   }
   std::string heads = head("Point") + head("Verdict", false) + head("Why", false);
-  for (const std::size_t p : shown) heads += head("<code>" + escaped(summary.parameters[p].key) + "</code>");
+  for (const std::size_t p : shown) heads += head("<code>" + breakable(summary.parameters[p].key) + "</code>");
   const std::size_t more = summary.parameters.size() - shown.size();
   return table(
       "Worst points",
@@ -130,8 +136,9 @@ std::string parametersTable(const SweepSummary& summary) {
     rows += fmt::format("<tr><th scope=\"row\"><code>{}</code></th>", escaped(parameter.key));
     rows += number(parameter.levels > most_levels ? fmt::format("> {}", grouped(most_levels))
                                                   : grouped(static_cast<std::int64_t>(parameter.levels)));
-    for (const double value : {parameter.spread.min, parameter.spread.mean, parameter.spread.max, parameter.spread.sd})
-      rows += number(std::isnan(value) ? "–" : report::plainNumber(value, 5));
+    for (const double value : {parameter.spread.min, parameter.spread.mean, parameter.spread.max})
+      rows += number(parameterText(parameter, value));
+    rows += number(std::isnan(parameter.spread.sd) ? "–" : report::plainNumber(parameter.spread.sd, 3));
     rows += "</tr>\n";
   }
   std::string heads = head("Number", false);

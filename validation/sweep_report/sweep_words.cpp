@@ -8,6 +8,7 @@
 
 #include "validation/report/check_words.h"
 #include "validation/report/quantity.h"
+#include "validation/report/text.h"
 
 namespace ursula {
 namespace {
@@ -34,7 +35,11 @@ std::string whereOf(const SweepSummary& summary, const SweepOutput& output) {
   return point;
 }
 
+/// "2,000 points, all passed", "3 points: 2 passed, 1 failed".
 std::string countsOf(const SweepSummary& summary) {
+  const std::string points = grouped(summary.points_done) + (summary.points_done == 1 ? " point" : " points");
+  if (summary.verdicts.size() == 1)
+    return points + (summary.points_done == 1 ? ": " : ", all ") + verdictWords(summary.verdicts.begin()->first);
   std::string out;
   for (const auto& [verdict, words] : verdict_words) {
     const auto at = summary.verdicts.find(verdict);
@@ -45,7 +50,7 @@ std::string countsOf(const SweepSummary& summary) {
     if (std::none_of(verdict_words.begin(), verdict_words.end(),
                      [&v = verdict](const auto& each) { return v == each[0]; }))
       out += fmt::format("{}{} {}", out.empty() ? "" : ", ", grouped(count), verdict);
-  return out;
+  return points + ": " + out;
 }
 
 std::string primarySentence(const SweepSummary& summary) {
@@ -53,8 +58,8 @@ std::string primarySentence(const SweepSummary& summary) {
   const SweepOutput& output = summary.outputs[summary.primary];
   const std::string most = saidOf(output, output.spread.max), where = whereOf(summary, output);
   if (output.kind == OutputKind::check_share)
-    return fmt::format("The check that comes nearest to its limit{} is “{}”: {} {}. It is {}.",
-                       output.spread.max > 1 ? ", or is farthest beyond," : "", titleOf(output), most, where,
+    return fmt::format("The check {} its limit is “{}”: {} {}. It is {}.",
+                       output.spread.max > 1 ? "farthest beyond" : "nearest to", titleOf(output), most, where,
                        drivenBy(summary, output));
   return fmt::format("{}: up to {}, {}. It is {}.", titleOf(output), most, where, drivenBy(summary, output));
 }
@@ -106,12 +111,19 @@ std::string titleOf(const SweepOutput& output) {
 
 std::string valueOf(const SweepOutput& output, double value) {
   if (std::isnan(value)) return "–";
-  return report::quantity(value, output.unit, 4);
+  return report::quantity(value, output.unit, report::digitsToTell(output.spread.min, output.spread.max));
 }
 
 std::string saidOf(const SweepOutput& output, double value) {
   const bool share = output.kind == OutputKind::check_share || output.kind == OutputKind::largest_share;
   return valueOf(output, value) + (share ? " of its limit" : "");
+}
+
+std::string breakable(const std::string& name) {
+  std::string out = report::escaped(name);
+  for (std::size_t at = 0; (at = out.find_first_of("._", at)) != std::string::npos; at += 6)
+    out.insert(at + 1, "<wbr>");
+  return out;
 }
 
 std::string signedNumber(double value) {
@@ -163,8 +175,7 @@ std::string sweepSentence(const SweepSummary& summary) {
   else if (summary.points_done < identity.points)
     missing = fmt::format("Only {} of {} points are there: the sweep has not ended. ", grouped(summary.points_done),
                           grouped(identity.points));
-  return fmt::format("{}Of {} points: {}. {}", missing, grouped(summary.points_done), countsOf(summary),
-                     primarySentence(summary));
+  return fmt::format("{}{}. {}", missing, countsOf(summary), primarySentence(summary));
 }
 
 std::vector<std::string> sweepRemarks(const SweepSummary& summary) {

@@ -16,8 +16,11 @@ std::string verdictWords(const std::string& verdict);
 std::string titleOf(const SweepOutput& output);
 /// A value of it with its unit.
 std::string valueOf(const SweepOutput& output, double value);
-/// "12.3 kN·m", "0.84 of its limit".
+/// The same with what it is of: "12.3 kN·m", "0.84 of its limit".
 std::string saidOf(const SweepOutput& output, double value);
+
+/// HTML of a name with dots, that may be broken after each.
+std::string breakable(const std::string& name);
 
 /// A correlation or an index: "+0.78", "0.62"; "–" where there is none.
 std::string signedNumber(double value);
