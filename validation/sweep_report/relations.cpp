@@ -53,7 +53,7 @@ std::vector<double> sortedRanks(const std::vector<double>& sorted) {
 
 /// Where each class ends, x being sorted.
 std::vector<std::size_t> endsOf(const std::vector<double>& x, Classes classes) {
-  const double count = std::round(std::cbrt(static_cast<double>(x.size())));
+  const double count = std::round(std::sqrt(static_cast<double>(x.size())));
   std::vector<std::size_t> ends;
   for (std::size_t k = 1; k <= x.size(); ++k) {
     const double filled = static_cast<double>(k) * count, wanted = static_cast<double>((ends.size() + 1) * x.size());

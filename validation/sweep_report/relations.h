@@ -33,7 +33,7 @@ std::vector<double> ranksOf(const std::vector<double>& values);
 /// How x is divided for the variance of means.
 enum class Classes {
   levels,    ///< one for each value of x: the exact main effect over a complete factorial grid
-  quantiles  ///< about n^(1/3) of equal population, no value in two
+  quantiles  ///< about √n of equal population, no value in two: what a class hides of a trend is of order 1/n
 };
 
 /// What a parameter x has to do with an output y, over the rows where y is finite. NaN where x or y is constant.
