@@ -179,7 +179,7 @@ TEST(SweepPage, LeadsWithCountsAndDriver) {
   const std::string header = page.substr(page.find("<header"), page.find("</header>") - page.find("<header"));
   EXPECT_THAT(header, HasSubstr("300 points: "));
   EXPECT_THAT(header, HasSubstr("3 ended in an error"));
-  EXPECT_THAT(header, HasSubstr("driven by a, which alone makes 9"));
+  EXPECT_THAT(header, HasSubstr("driven by a, which alone makes &gt; 99 % of its variance"));
   EXPECT_THAT(header, HasSubstr("class=\"fail\""));
   EXPECT_THAT(page, HasSubstr("ursula sweep show sweeps/made.toml 7 &gt; point-7.toml"));
   expectNoNumberless(page);
