@@ -280,21 +280,5 @@ TEST(SweepCsv, LeavesOutTimesOfComputing) {
   EXPECT_NE(csvOf(sweep, "times"), before);
 }
 
-TEST(SweepRows, RefuseADamagedPoint) {
-  for (const char* parameters : {"{\"x\":", "[1]", "{\"y\":1}", "{\"x\":\"1\"}"}) {
-    MadeSweep sweep = madeSweep("inverse", "random", {"x"}, 2);
-    sweep.add({1});
-    sweep.add({1}).parameters = parameters;
-    const auto database = sweep.written("damaged");
-    try {
-      summarise(*database);
-      ADD_FAILURE() << parameters;
-    } catch (const DatabaseError& error) {
-      EXPECT_THAT(error.what(), HasSubstr("damaged.db: error: "));
-      EXPECT_THAT(error.what(), HasSubstr("point 1"));
-    }
-  }
-}
-
 }  // namespace
 }  // namespace ursula

@@ -21,11 +21,19 @@ std::vector<std::string> namesIn(Sqlite& database) {
 SweepRows::SweepRows(Sqlite& database, const std::vector<std::string>& keys)
     : database_(database),
       keys_(keys),
+      snapshot_(database),
       names_(namesIn(database)),
       points_(database, "SELECT id, parameters, verdict, error FROM point ORDER BY id"),
       results_(database, "SELECT point, name, value, \"limit\", verdict FROM result ORDER BY point, name"),
       has_result_(results_.step()) {
   for (std::size_t k = 0; k < names_.size(); ++k) places_.emplace(names_[k], k);
+}
+
+SweepRows::Snapshot::~Snapshot() {
+  try {
+    database_.run("COMMIT");
+  } catch (const DatabaseError&) {  // nothing was written
+  }
 }
 
 bool SweepRows::next(SweepRow& row) {

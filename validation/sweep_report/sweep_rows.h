@@ -22,7 +22,8 @@ struct SweepRow {
   std::vector<Value> values;
 };
 
-/// Points by ascending id, one at a time. Throws DatabaseError.
+/// Points by ascending id, one at a time, as they were when this was made, whoever writes meanwhile. One at a time for
+/// a connection. Throws DatabaseError.
 class SweepRows {
  public:
   SweepRows(Sqlite& database, const std::vector<std::string>& keys);
@@ -32,11 +33,24 @@ class SweepRows {
   bool next(SweepRow& row);
 
  private:
+  /// A transaction that reads.
+  class Snapshot {
+   public:
+    explicit Snapshot(Sqlite& database) : database_(database) { database_.run("BEGIN"); }
+    ~Snapshot();
+    Snapshot(const Snapshot&) = delete;
+    Snapshot& operator=(const Snapshot&) = delete;
+
+   private:
+    Sqlite& database_;
+  };
+
   void readParameters(SweepRow& row) const;
   std::size_t indexOf(const std::string& name, std::size_t guess) const;
 
   Sqlite& database_;
   const std::vector<std::string>& keys_;
+  Snapshot snapshot_;  ///< outlives the statements
   std::vector<std::string> names_;
   std::unordered_map<std::string, std::size_t> places_;
   Statement points_, results_;

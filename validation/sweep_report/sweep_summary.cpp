@@ -43,7 +43,7 @@ class Summary {
   }
 
  private:
-  /// One snapshot for all that is read, whoever writes meanwhile.
+  /// What follows needs the keys.
   const std::vector<std::string>& identify(Sqlite& database) {
     out_.identity = readIdentity(database);
     out_.identity.scenario.clear();
