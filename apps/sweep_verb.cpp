@@ -106,7 +106,7 @@ std::string defaultDatabase(const std::string& stem, const Shard& shard) {
 void addSweep(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<SweepOptions>();
   CLI::App* verb = app.add_subcommand(
-      "sweep", "Many scenarios around one, into a database; goes on where it stopped. Also: sweep merge, show");
+      "sweep", "Many scenarios around one, into a database; goes on where it stopped. Also: sweep merge,\nreport, show");
   verb->add_option("sweep", options->sweep, "Sweep file (TOML)");
   verb->add_option("--db", options->database, "SQLite database; default results/SWEEP.db");
   verb->add_option("--jobs", options->jobs, "Processes; rows are the same for any number")
@@ -119,6 +119,7 @@ void addSweep(CLI::App& app, std::function<int()>& run) {
       "Exit: 1 if any point failed, else 3 if any was inconclusive or in error, else 0; out of reach or singular is a\n"
       "result. 130 where Ctrl-C stopped it: what is done is kept, and the same command goes on.");
   addSweepMerge(*verb, run);
+  addSweepReport(*verb, run);
   addSweepShow(*verb, run);
   verb->callback([verb, options, &run] {
     if (!verb->get_subcommands().empty()) return;

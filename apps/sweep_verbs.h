@@ -10,6 +10,7 @@ namespace ursula {
 
 /// The verbs within `ursula sweep`.
 void addSweepMerge(CLI::App& sweep, std::function<int()>& run);
+void addSweepReport(CLI::App& sweep, std::function<int()>& run);
 void addSweepShow(CLI::App& sweep, std::function<int()>& run);
 
 /// "tolerances.db", "tolerances.shard-2-of-4.db".

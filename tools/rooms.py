@@ -29,6 +29,7 @@ ROOMS = {
     "stream": "verdict subject findings",
     "map": "verdict subject report stream",
     "sweep": "verdict subject checks findings ",  # and the front door
+    "sweep_report": "verdict report sweep",
 }
 USE_THE_FRONT_DOOR = {"outside", "prove", "sweep"}
 LARGEST_SHARE = 0.25  # of validation's lines, in one room

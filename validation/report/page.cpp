@@ -48,7 +48,7 @@ std::string pageHtml(const Page& page) {
   const bool judges = page.verdict != Verdict::not_applicable;
   return filled(page_template, {{"title", escaped(page.title)},
                                 {"heading", escaped(page.kind + ": " + page.title)},
-                                {"style", std::string(report_style)},
+                                {"style", std::string(report_style).append(page.style)},
                                 {"verdict", judges ? name(page.verdict) : "unjudged"},
                                 {"kind", escaped(page.kind)},
                                 {"subtitle", paragraph("machine-line", escaped(page.subtitle))},

@@ -32,6 +32,7 @@ struct Page {
   std::string footer;        ///< HTML
   std::vector<Plot> charts;  ///< drawn by the script where sections hold their figures
   std::string_view script;   ///< may be empty
+  std::string_view style;    ///< of its own sections, beside the report's; may be empty
 };
 
 /// One file that needs no network; texts are escaped, sections are taken as they are.

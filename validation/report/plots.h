@@ -8,8 +8,8 @@
 namespace ursula::report {
 
 /// How a line is drawn: a ghost broad and pale under a line of the same colour, a limit dashed and in a colour of its
-/// own.
-enum class Stroke { line, ghost, limit };
+/// own; points without a line, all of them in the static drawing.
+enum class Stroke { line, ghost, limit, points };
 
 /// One line of a chart. `color` counts from 0.
 struct Line {

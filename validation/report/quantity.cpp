@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -77,6 +78,13 @@ std::string plainNumber(double value, int digits) {
   if (mantissa.back() == '.') mantissa.pop_back();
   const std::string power = "10" + superscript(std::stoi(text.substr(e + 1)));
   return mantissa == "1" ? power : mantissa + joined + "×" + joined + power;
+}
+
+int digitsToTell(double low, double high) {
+  constexpr int fewest = 4, most = 15;
+  const double ratio = std::max(std::abs(low), std::abs(high)) / (high - low);
+  if (!(ratio > 1) || !std::isfinite(ratio)) return fewest;
+  return std::clamp(static_cast<int>(std::ceil(std::log10(ratio))) + 2, fewest, most);
 }
 
 std::string inWords(int count) {

@@ -74,7 +74,8 @@ std::vector<double> ticks(const Axis& axis, int count) {
 std::string tickText(double value, const Axis& axis) {
   if (axis.log && (value < 1e-3 || value > 99999)) return plainNumber(value, 1);
   const double small = 1e-9 * std::max(std::abs(axis.low), std::abs(axis.high));
-  return std::abs(value) < small && !axis.log ? "0" : plainNumber(value, 4);
+  return std::abs(value) < small && !axis.log ? "0"
+                                              : plainNumber(value, axis.log ? 4 : digitsToTell(axis.low, axis.high));
 }
 
 std::string axes(const Plot& plot, const Frame& frame) {
@@ -98,16 +99,19 @@ std::string axes(const Plot& plot, const Frame& frame) {
 
 std::string classOf(const Line& line) {
   if (line.stroke == Stroke::limit) return "limit";
+  if (line.stroke == Stroke::points) return "points";
   return fmt::format("{} c{}", line.stroke == Stroke::ghost ? "ghost" : "line", line.color % 7);
 }
 
 std::string path(const Plot& plot, const Line& line, const Frame& frame) {
   std::string d;
+  const bool points = line.stroke == Stroke::points;
   bool pen_down = false;
   for (std::size_t k = 0; k < plot.x.size(); ++k) {
     const bool drawn = frame.x.takes(plot.x[k]) && frame.y.takes(line.values[k]);
     if (drawn) d += fmt::format("{}{:.1f} {:.1f}", pen_down ? "L" : "M", frame.px(plot.x[k]), frame.py(line.values[k]));
-    pen_down = drawn;
+    if (drawn && points) d += "h0";
+    pen_down = drawn && !points;
   }
   return d.empty() ? "" : fmt::format("<path class=\"{}\" d=\"{}\"/>", classOf(line), d);
 }
@@ -131,7 +135,7 @@ std::string legend(const Plot& plot) {
   double x = left;
   double y = 14;
   for (const Line& line : plot.lines) {
-    if (!isDrawable(plot, line)) continue;
+    if (!isDrawable(plot, line) || line.stroke == Stroke::points) continue;
     std::size_t letters = 0;
     for (const char c : line.label) letters += (static_cast<unsigned char>(c) & 0xC0) != 0x80;  // of UTF-8
     const double wide = 34 + 6.2 * static_cast<double>(letters);
@@ -157,14 +161,16 @@ std::vector<double> roundTicks(double low, double high, int count) {
 }
 
 std::string svgPlot(const Plot& full) {
-  const Plot plot = thinned(full, buckets);
+  const bool scattered =
+      std::any_of(full.lines.begin(), full.lines.end(), [](const Line& line) { return line.stroke == Stroke::points; });
+  const Plot plot = scattered ? full : thinned(full, buckets);
   const bool drawable =
       std::any_of(plot.lines.begin(), plot.lines.end(), [&plot](const Line& line) { return isDrawable(plot, line); });
   if (!drawable) return "";
   const Frame frame = frameOf(plot);
   std::string lines = tube(plot, frame);
-  const auto order = plot.tube ? std::array{Stroke::limit, Stroke::ghost, Stroke::line}
-                               : std::array{Stroke::ghost, Stroke::line, Stroke::limit};
+  const auto order = plot.tube ? std::array{Stroke::limit, Stroke::ghost, Stroke::line, Stroke::points}
+                               : std::array{Stroke::ghost, Stroke::points, Stroke::line, Stroke::limit};
   for (const Stroke stroke : order)
     for (const Line& line : plot.lines)
       if (line.stroke == stroke) lines += path(plot, line, frame);
