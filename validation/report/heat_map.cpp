@@ -15,6 +15,7 @@ namespace ursula::report {
 namespace {
 
 constexpr double panel = 230, left = 70, top = 62;  // px
+constexpr double overlap = 0.3;  // px: or hairlines show between cells
 constexpr int colours = 24;
 constexpr std::size_t most_labelled = 6;  // cells that have a label each
 
@@ -77,7 +78,7 @@ class Panel {
       for (std::size_t i = 0, end = 0; i < across; i = end) {
         const int c = colourAt(i, j);
         for (end = i + 1; end < across && colourAt(end, j) == c;) ++end;
-        const double wide = w * static_cast<double>(end - i);
+        const double wide = w * static_cast<double>(end - i) + overlap;
         paths[static_cast<std::size_t>(c)] +=
             fmt::format("M{:.2f} {:.2f}h{:.2f}v{:.2f}h{:.2f}z", x_ + w * static_cast<double>(i),
                         y_ + panel - h * static_cast<double>(j + 1), wide, h, -wide);

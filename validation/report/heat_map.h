@@ -39,7 +39,7 @@ struct HeatMap {
 };
 
 /// Room that a heat map takes, px.
-constexpr double heat_map_width = 396, heat_map_height = 348;
+constexpr double heat_map_width = 424, heat_map_height = 348;
 
 constexpr const char* heat_map_nothing = "#bbb";  ///< the colour of cells without a value
 
