@@ -10,6 +10,7 @@ declare -A needs=(
   [format]='git:git clang-format:clang-format'
   [lint]='git:git clang-format:clang-format shellcheck:shellcheck python3:python3'
   [sanitize]='clang++:clang libclang-rt-14-dev libgtest-dev libgmock-dev'
+  [fuzz]='clang++:clang libclang-rt-14-dev libgtest-dev libgmock-dev'
   [tidy]='libgtest-dev libgmock-dev libbenchmark-dev clang-tidy:clang-tidy python3:python3'
   [results]='git:git gnuplot:gnuplot-nox chromium:chromium python3:python3'
   [docs]='doxygen:doxygen python3:python3'

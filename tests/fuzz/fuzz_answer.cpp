@@ -1,0 +1,17 @@
+// What a solver's process answers.
+
+#include <cstdlib>
+
+#include "tests/fuzz/fuzz.h"
+#include "validation/outside/solver_line.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string line = ursula::fuzz::textOf(data, size);
+  try {
+    if (!ursula::solverAnswer(line).allFinite()) std::abort();
+  } catch (const ursula::SolverProcessError&) {
+  }
+  for (const char c : ursula::shownAnswer(line))
+    if (c == '\n' || c == '\x1b') std::abort();
+  return 0;
+}

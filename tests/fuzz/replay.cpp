@@ -1,0 +1,23 @@
+// Gives files to a target, in place of libFuzzer: what it once found stays mended.
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "tests/fuzz/fuzz.h"
+
+int main(int argc, char** argv) {
+  int count = 0;
+  for (int k = 1; k < argc; ++k)
+    for (const auto& entry : std::filesystem::directory_iterator(argv[k])) {
+      std::ifstream in(entry.path(), std::ios::binary);
+      const std::vector<char> bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+      LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+      ++count;
+    }
+  std::printf("%d inputs\n", count);
+  return count > 0 ? 0 : 1;
+}

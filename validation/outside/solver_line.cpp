@@ -1,0 +1,75 @@
+#include "validation/outside/solver_line.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <string_view>
+#include <vector>
+
+#include "model/manipulator.h"
+#include "model/quaternions.h"
+
+namespace ursula {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  return first == text.npos ? std::string_view{} : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+double numberOf(std::string_view cell, int index) {
+  std::string_view digits = trimmed(cell);
+  if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
+    throw SolverProcessError(
+        fmt::format("its effort {} is '{}', expected a finite number", index, shownAnswer(std::string(trimmed(cell)))));
+  return value;
+}
+
+}  // namespace
+
+std::string shownAnswer(const std::string& text) {
+  constexpr std::size_t most = 600;
+  std::string out = text.substr(0, most);
+  for (char& each : out)
+    if (static_cast<unsigned char>(each) < ' ' || each == '\x7f') each = '?';
+  return text.size() > most ? out + " …" : out;
+}
+
+std::string solverQuestion(const Motion<double>& motion) {
+  fmt::memory_buffer line;
+  const auto add = [&line](const auto& values) {
+    for (Eigen::Index k = 0; k < values.size(); ++k) fmt::format_to(std::back_inserter(line), ",{:.17g}", values(k));
+  };
+  fmt::format_to(std::back_inserter(line), "{:.17g}", motion.t);
+  add(motion.p);
+  add(quaternions({motion}).front());
+  add(motion.p_dot);
+  add(motion.omega);
+  add(motion.p_ddot);
+  add(motion.omega_dot);
+  return fmt::to_string(line);
+}
+
+Vector6d solverAnswer(const std::string& line) {
+  std::vector<std::string_view> cells;
+  const std::string_view text = line;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.find(',', start), text.size());
+    cells.push_back(text.substr(start, end - start));
+    start = end + 1;
+  }
+  if (cells.size() != motor_count)
+    throw SolverProcessError(
+        fmt::format("{} value{}, expected six with commas between", cells.size(), cells.size() == 1 ? "" : "s"));
+  Vector6d out;
+  for (int i = 0; i < motor_count; ++i) out(i) = numberOf(cells[static_cast<std::size_t>(i)], i + 1);
+  return out;
+}
+
+}  // namespace ursula
