@@ -1,5 +1,6 @@
 """A Slurm of one node, in a folder of its own: munged, slurmctld and slurmd as children of the caller, torn down with it."""
 
+import ctypes
 import os
 import pwd
 import secrets
@@ -11,7 +12,7 @@ import tempfile
 import time
 from pathlib import Path
 
-PATIENCE = 120  # s, until what is waited for is given up: no measure of anything
+PATIENCE = 300  # s, until what is waited for is given up: no measure of anything
 SLURM_CONF = """\
 ClusterName=ursula
 SlurmctldHost={host}(127.0.0.1)
@@ -41,6 +42,7 @@ SlurmdTimeout=5
 MessageTimeout=4
 SchedulerParameters=sched_interval=2,batch_sched_delay=0
 KillWait=10
+JobRequeue=0
 ReturnToService=2
 MinJobAge=600
 NodeName={host} NodeAddr=127.0.0.1 CPUs={cpus} State=UNKNOWN
@@ -61,6 +63,10 @@ def wait_until(what, condition):
             return found
         time.sleep(0.1)
     raise AssertionError(f"in vain waited until {what}")
+
+
+def die_with_parent():
+    ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
 
 
 def free_ports(count):
@@ -89,7 +95,7 @@ class Cluster:
         try:
             self.start()
         except BaseException as error:
-            logs = "".join(self.tail(log) for log in sorted(self.folder.glob("*.log")))
+            logs = "".join(self.tail(log) for log in sorted(self.folder.glob("*.out.log")))
             self.stop()
             if isinstance(error, (AssertionError, OSError, subprocess.CalledProcessError)):
                 raise NoCluster(f"it does not start: {error}\n{logs}") from error
@@ -98,7 +104,7 @@ class Cluster:
 
     def __exit__(self, kind, value, traceback):
         if kind:
-            print("".join(self.tail(log) for log in sorted(self.folder.glob("*.log"))))
+            print("".join(self.tail(log) for log in sorted(self.folder.glob("*.out.log"))))
         self.stop()
 
     @staticmethod
@@ -131,7 +137,8 @@ class Cluster:
     def spawn(self, name, *arguments):
         with open(self.folder / f"{name}.out.log", "ab") as log:
             self.children[name] = subprocess.Popen([self.find(name), *arguments], stdin=subprocess.DEVNULL, stdout=log,
-                                                   stderr=subprocess.STDOUT, env=self.environment)
+                                                   stderr=subprocess.STDOUT, env=self.environment,
+                                                   preexec_fn=die_with_parent)
 
     def start_node(self):
         self.spawn("slurmd", "-D")
