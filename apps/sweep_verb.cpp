@@ -103,14 +103,6 @@ int sweep(const SweepOptions& options) {
   return codeOf(result);
 }
 
-}  // namespace
-
-std::string defaultDatabase(const std::string& stem, const Shard& shard) {
-  return shard.of == 1 ? stem + ".db" : fmt::format("{}.shard-{}-of-{}.db", stem, shard.index, shard.of);
-}
-
-namespace {
-
 void addSlurmOptions(CLI::App& verb, SweepOptions& options) {
   CLI::Option* slurm =
       verb.add_flag("--slurm", options.slurm, "Give it to a Slurm cluster: a job array and a merge after it");
@@ -122,6 +114,10 @@ void addSlurmOptions(CLI::App& verb, SweepOptions& options) {
 }
 
 }  // namespace
+
+std::string defaultDatabase(const std::string& stem, const Shard& shard) {
+  return shard.of == 1 ? stem + ".db" : fmt::format("{}.shard-{}-of-{}.db", stem, shard.index, shard.of);
+}
 
 void addSweep(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<SweepOptions>();

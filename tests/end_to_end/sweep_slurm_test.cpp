@@ -35,6 +35,7 @@ class Slurm : public testing::Test {
   void program(const std::string& name, std::string body) {
     for (std::size_t at; (at = body.find("$HERE")) != std::string::npos;)
       body.replace(at, 5, ursula_.folder().string());
+    std::filesystem::create_directories(ursula_.folder() / "bin");
     const std::filesystem::path path = ursula_.write("bin/" + name, "#!/bin/sh\n" + body);
     std::filesystem::permissions(path, std::filesystem::perms::owner_all);
   }
