@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/model/temporary_folder.h"
+#include "validation/sweep/merge.h"
 #include "validation/sweep/slurm_standing.h"
 
 namespace ursula {
@@ -157,6 +158,12 @@ TEST_F(SlurmStandingTest, whatIsNotThereOrNotWholeIsMissing) {
 TEST_F(SlurmStandingTest, anEmptyDatabaseIsMissing) {
   { const Sqlite begun(shardDatabase(database(), {1, 4}), Sqlite::Access::create); }
   EXPECT_THAT(standing().in(ShardState::missing), ElementsAre(1, 2, 3, 4));
+  EXPECT_THROW(mergeSweeps({shardDatabase(database(), {1, 4})}, database(), {}), DatabaseError) << "nothing to merge";
+  make({2, 4}, 3, 6);
+  const MergeResult merged =
+      mergeSweeps({shardDatabase(database(), {1, 4}), shardDatabase(database(), {2, 4})}, database(), {});
+  EXPECT_EQ(merged.done, 3);
+  EXPECT_EQ(merged.missing_shards.size(), 3u);
 }
 
 TEST_F(SlurmStandingTest, whatIsMergedIsComplete) {
