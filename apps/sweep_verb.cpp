@@ -10,6 +10,7 @@
 #include "apps/sweep_verbs.h"
 #include "apps/verbs.h"
 #include "validation/sweep/run.h"
+#include "validation/sweep/slurm.h"
 
 namespace ursula {
 namespace {
@@ -18,6 +19,8 @@ struct SweepOptions {
   std::string sweep, database, shard;
   bool pointwise = false;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  bool jobs_given = false, slurm = false, dry_run = false;
+  int shards = 0;
 };
 
 volatile std::sig_atomic_t asked_to_stop = 0;
@@ -75,6 +78,9 @@ int sweep(const SweepOptions& options) {
     throw UsageError("--pointwise: of what = \"validate\" alone");
   file.pointwise = file.pointwise || options.pointwise;
   SweepPlan plan(std::move(file));
+  if (options.slurm)
+    return submitSweep(
+        plan, {options.sweep, database, options.shards, options.jobs_given ? options.jobs : 1, options.dry_run});
   if (database.has_parent_path()) std::filesystem::create_directories(database.parent_path());
   std::signal(SIGINT, askToStop);
   std::signal(SIGTERM, askToStop);
@@ -97,6 +103,16 @@ int sweep(const SweepOptions& options) {
   return codeOf(result);
 }
 
+void addSlurmOptions(CLI::App& verb, SweepOptions& options) {
+  CLI::Option* slurm =
+      verb.add_flag("--slurm", options.slurm, "Give it to a Slurm cluster: a job array and a merge after it");
+  slurm->excludes("--shard");
+  verb.add_option("--shards", options.shards, "Tasks of the array; each of --jobs processes, by default 1")
+      ->check(CLI::Range(1, most_slurm_shards))
+      ->needs(slurm);
+  verb.add_flag("--dry-run", options.dry_run, "Print the scripts, submit nothing; needs no Slurm")->needs(slurm);
+}
+
 }  // namespace
 
 std::string defaultDatabase(const std::string& stem, const Shard& shard) {
@@ -115,6 +131,7 @@ void addSweep(CLI::App& app, std::function<int()>& run) {
   verb->add_option("--shard", options->shard, "I/N: only the I-th of N parts, I from 1; into a database of its own");
   verb->add_flag("--pointwise", options->pointwise,
                  "Of validations only what needs no replay: some hundred times as many");
+  addSlurmOptions(*verb, *options);
   verb->footer(
       "Exit: 1 if any point failed, else 3 if any was inconclusive or in error, else 0; out of reach or singular is a\n"
       "result. 130 where Ctrl-C stopped it: what is done is kept, and the same command goes on.");
@@ -124,6 +141,7 @@ void addSweep(CLI::App& app, std::function<int()>& run) {
   verb->callback([verb, options, &run] {
     if (!verb->get_subcommands().empty()) return;
     if (options->sweep.empty()) throw CLI::RequiredError("sweep");
+    options->jobs_given = verb->count("--jobs") > 0;
     run = [options] { return sweep(*options); };
   });
 }

@@ -16,4 +16,15 @@ void addSweepShow(CLI::App& sweep, std::function<int()>& run);
 /// "tolerances.db", "tolerances.shard-2-of-4.db".
 std::string defaultDatabase(const std::string& stem, const Shard& shard);
 
+/// A sweep for a cluster.
+struct SlurmCall {
+  std::filesystem::path sweep, database;  ///< as given
+  int shards = 0;                         ///< 0: not given
+  int cpus = 1;                           ///< of each task
+  bool dry_run = false;
+};
+/// Submits what is missing and a merge after it; the value is the exit code. Throws UsageError, and what databases and
+/// Slurm's commands have to say.
+int submitSweep(const SweepPlan& plan, SlurmCall call);
+
 }  // namespace ursula

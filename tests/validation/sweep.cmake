@@ -1,6 +1,7 @@
 # Many scenarios around one.
 find_package(SQLite3 REQUIRED)
 add_executable(sweep_tests
+  sweep/slurm_test.cpp
   sweep/sweep_database_test.cpp
   sweep/sweep_file_test.cpp
   sweep/sweep_points_test.cpp

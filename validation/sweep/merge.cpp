@@ -19,6 +19,7 @@ std::vector<Part> opened(const std::vector<std::filesystem::path>& files) {
   std::vector<Part> out;
   for (const std::filesystem::path& file : files) {
     Sqlite database(file, Sqlite::Access::read);
+    if (isEmpty(database)) continue;
     out.push_back({file, readIdentity(database), database.number("SELECT coalesce(min(id), 0) FROM point")});
     const auto differs = [&](const std::string SweepIdentity::*what) {
       return out.back().identity.*what != out.front().identity.*what;
@@ -31,6 +32,7 @@ std::vector<Part> opened(const std::vector<std::filesystem::path>& files) {
                                       file.string(), out.back().identity.version, out.front().file.string(),
                                       out.front().identity.version));
   }
+  if (out.empty()) throw DatabaseError(fmt::format("{}: error: holds nothing yet", files.front().string()));
   std::stable_sort(out.begin(), out.end(), [](const Part& a, const Part& b) { return a.first < b.first; });
   return out;
 }

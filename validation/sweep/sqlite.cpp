@@ -63,8 +63,11 @@ Sqlite::Sqlite(const std::filesystem::path& file, Access access) : file_(file) {
 Sqlite::~Sqlite() { sqlite3_close(handle_); }
 
 void Sqlite::fail(const std::string& doing) const {
-  throw DatabaseError(fmt::format("{}: error: {}{}", file_.string(), doing.empty() ? "" : doing + ": ",
-                                  inWords(sqlite3_errcode(handle_) & 0xff, sqlite3_errmsg(handle_))));
+  const int code = sqlite3_errcode(handle_) & 0xff;
+  const std::string what = fmt::format("{}: error: {}{}", file_.string(), doing.empty() ? "" : doing + ": ",
+                                       inWords(code, sqlite3_errmsg(handle_)));
+  if (code == SQLITE_BUSY || code == SQLITE_LOCKED) throw DatabaseLocked(what);
+  throw DatabaseError(what);
 }
 
 void Sqlite::run(const std::string& sql) {

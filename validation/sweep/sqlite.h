@@ -16,6 +16,11 @@ struct DatabaseError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Somebody else is at it.
+struct DatabaseLocked : DatabaseError {
+  using DatabaseError::DatabaseError;
+};
+
 /// One connection, for one thread. Everything throws DatabaseError.
 class Sqlite {
  public:

@@ -40,19 +40,6 @@ void create(Sqlite& database, const SweepIdentity& identity) {
   insert.bind(k, nlohmann::json(identity.keys).dump()).run();
 }
 
-void requireSame(const std::filesystem::path& file, const SweepIdentity& there, const SweepIdentity& ours) {
-  if (there.hash != ours.hash)
-    refuse(file, fmt::format("is of another sweep, {}, or of that before it or its scenario changed; expected an empty "
-                             "place, or --db with another file",
-                             there.file));
-  if (there.version != ours.version)
-    refuse(file, fmt::format("was written by ursula {}, whose results may differ from those of {}; expected --db with "
-                             "another file",
-                             there.version, ours.version));
-  if (there.shard != ours.shard || there.shards != ours.shards)
-    refuse(file, fmt::format("holds shard {}/{}, expected {}/{}", there.shard, there.shards, ours.shard, ours.shards));
-}
-
 /// Somebody else may be writing.
 void prepareToWrite(Sqlite& database) {
   database.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 4000");
@@ -69,9 +56,22 @@ void requireOurs(Sqlite& database) {
     refuse(file, "it is damaged: " + found);
 }
 
+}  // namespace
+
 bool isEmpty(Sqlite& database) { return database.number("SELECT count(*) FROM sqlite_master") == 0; }
 
-}  // namespace
+void requireSame(const std::filesystem::path& file, const SweepIdentity& there, const SweepIdentity& ours) {
+  if (there.hash != ours.hash)
+    refuse(file, fmt::format("is of another sweep, {}, or of that before it or its scenario changed; expected an empty "
+                             "place, or --db with another file",
+                             there.file));
+  if (there.version != ours.version)
+    refuse(file, fmt::format("was written by ursula {}, whose results may differ from those of {}; expected --db with "
+                             "another file",
+                             there.version, ours.version));
+  if (there.shard != ours.shard || there.shards != ours.shards)
+    refuse(file, fmt::format("holds shard {}/{}, expected {}/{}", there.shard, there.shards, ours.shard, ours.shards));
+}
 
 SweepIdentity readIdentity(Sqlite& database) {
   requireOurs(database);

@@ -77,5 +77,9 @@ class SweepDatabase {
 
 /// Reads a sweep's identity of an open database and checks that it is one; throws DatabaseError.
 SweepIdentity readIdentity(Sqlite& database);
+/// Throws DatabaseError where `file`, of `there`, is not of the same sweep, shard and program version as `ours`.
+void requireSame(const std::filesystem::path& file, const SweepIdentity& there, const SweepIdentity& ours);
+/// Whether it was only just made: whoever made it ended before anything was in it.
+bool isEmpty(Sqlite& database);
 
 }  // namespace ursula
