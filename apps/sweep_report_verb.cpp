@@ -43,7 +43,8 @@ int report(const ReportOptions& options) {
 
 void addSweepReport(CLI::App& sweep, std::function<int()>& run) {
   const auto options = std::make_shared<ReportOptions>();
-  CLI::App* verb = sweep.add_subcommand("report", "A page of what a sweep found: what drives what, and the worst points");
+  CLI::App* verb =
+      sweep.add_subcommand("report", "A page of what a sweep found: what drives what, and the worst points");
   verb->add_option("database", options->database, "Database of a sweep")->required();
   verb->add_option("--out", options->out, "Folder of report.html, default results/DATABASE; - for standard output");
   verb->add_option("--csv", options->csv,

@@ -122,7 +122,8 @@ std::string defaultDatabase(const std::string& stem, const Shard& shard) {
 void addSweep(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<SweepOptions>();
   CLI::App* verb = app.add_subcommand(
-      "sweep", "Many scenarios around one, into a database; goes on where it stopped. Also: sweep merge,\nreport, show");
+      "sweep",
+      "Many scenarios around one, into a database; goes on where it stopped. Also: sweep merge,\nreport, show");
   verb->add_option("sweep", options->sweep, "Sweep file (TOML)");
   verb->add_option("--db", options->database, "SQLite database; default results/SWEEP.db");
   verb->add_option("--jobs", options->jobs, "Processes; rows are the same for any number")

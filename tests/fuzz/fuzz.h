@@ -18,7 +18,8 @@ inline std::string textOf(const std::uint8_t* data, std::size_t size) {
 inline std::pair<std::string, std::string> twoOf(const std::string& text) {
   const std::string between = "\n---\n";
   const std::size_t at = text.find(between);
-  return at == std::string::npos ? std::pair{text, text} : std::pair{text.substr(0, at + 1), text.substr(at + between.size())};
+  return at == std::string::npos ? std::pair{text, text}
+                                 : std::pair{text.substr(0, at + 1), text.substr(at + between.size())};
 }
 
 }  // namespace ursula::fuzz

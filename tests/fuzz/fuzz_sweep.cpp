@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "model/scenario.h"
 #include "tests/fuzz/fuzz.h"
 #include "validation/sweep/design.h"
 

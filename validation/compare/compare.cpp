@@ -191,7 +191,10 @@ void refuseUnknown(const std::vector<std::string>& patterns, const TimeSeries& r
 TimeSeries readHistory(const std::filesystem::path& file_or_folder) {
   std::error_code ignored;
   const bool is_folder = std::filesystem::is_directory(file_or_folder, ignored);
-  const CsvTable table = readCsv(is_folder ? historyIn(file_or_folder) : file_or_folder, {{}, false});
+  return historyOf(readCsv(is_folder ? historyIn(file_or_folder) : file_or_folder, {{}, false}));
+}
+
+TimeSeries historyOf(const CsvTable& table) {
   const std::vector<double>& t = table.at("t_s");
   for (std::size_t k = 0; k < t.size(); ++k)
     if (!std::isfinite(t[k]) || (k > 0 && !(t[k] > t[k - 1])))

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "model/csv.h"
 #include "validation/report/report.h"
 #include "validation/verdict/result.h"
 
@@ -66,6 +67,8 @@ using CurveSink = std::function<void(const ChannelComparison&, const ChannelCurv
 /// Reads a CSV, or `timeseries.csv` of a result folder, or `inverse.csv` where it has only that: `t_s`, increasing, and
 /// channels that may hold NaN. Throws CsvError.
 TimeSeries readHistory(const std::filesystem::path& file_or_folder);
+/// The same of a table that was read.
+TimeSeries historyOf(const CsvTable& table);
 
 /// Channel by channel, at the test's own instants within the reference's. A value is accepted where the reference comes
 /// within `tolerance` of it anywhere within ± `time_tolerance`; NaN never is. Quaternions are compared as rotations: q

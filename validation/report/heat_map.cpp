@@ -15,7 +15,7 @@ namespace ursula::report {
 namespace {
 
 constexpr double panel = 230, left = 70, top = 62;  // px
-constexpr double overlap = 0.3;  // px: or hairlines show between cells
+constexpr double overlap = 0.3;                     // px: or hairlines show between cells
 constexpr int colours = 24;
 constexpr std::size_t most_labelled = 6;  // cells that have a label each
 

@@ -60,9 +60,10 @@ SweepPoints::SweepPoints(const SweepFile& sweep, std::vector<VariedNumber> numbe
   if (design_ != SweepDesign::sobol) return;
   std::mt19937_64 shifts = generatorOf(seed_, index_of_shift);
   for (std::size_t k = 0; k < numbers_.size(); ++k) shifts_.push_back(shifts());
-  if (numbers_.size() > boost::random::default_sobol_table::max_dimension)
-    throw std::invalid_argument(fmt::format("{} numbers vary, expected at most {} with design 'sobol'", numbers_.size(),
-                                            boost::random::default_sobol_table::max_dimension));
+  constexpr std::size_t most = boost::random::default_sobol_table::max_dimension;
+  if (numbers_.size() > most)
+    throw std::invalid_argument(
+        fmt::format("{} numbers vary, expected at most {} with design 'sobol'", numbers_.size(), most));
 }
 
 std::vector<double> SweepPoints::uniforms(std::int64_t i) const {
