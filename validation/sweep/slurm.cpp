@@ -16,8 +16,8 @@ std::string quoted(const std::string& word) {
   return out + "'";
 }
 
-/// For a line `#SBATCH`, which sbatch takes apart by rules of its own: only within double quotes is a blank no end and #
-/// no comment, and a backslash holds for any byte.
+/// For a line `#SBATCH`, which sbatch takes apart by rules of its own: only within double quotes is a blank no end and
+/// # no comment, and a backslash holds for any byte.
 std::string escaped(const std::string& word) {
   const auto plain = [](unsigned char c) {
     return std::isalnum(c) != 0 || std::string("-_=.,:/%+@").find(static_cast<char>(c)) != std::string::npos;
