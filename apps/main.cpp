@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <functional>
 
+#include "apps/files_apart.h"
 #include "apps/usage.h"
 #include "apps/verbs.h"
 #include "model/csv.h"
@@ -53,6 +54,7 @@ int runProgram(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return error.get_exit_code() == 0 ? app.exit(error) : complain(ursula::misuse(app, error));
   }
+  if (const std::string twice = ursula::namedTwice(app); !twice.empty()) return complain("error: " + twice);
   return runVerb(run);
 }
 

@@ -169,7 +169,8 @@ void addValidate(CLI::App& app, std::function<int()>& run) {
                    "Scenario files (TOML), or folders: each *.toml in it, sorted; - for standard input")
       ->required();
   addOutputOptions(*verb, *options);
-  verb->add_option("--jobs", options->jobs, "Scenarios judged at a time; results are the same for any number")
+  verb->add_option("--jobs", options->jobs,
+                   "Scenarios judged at a time; of one, threads. Results are the same for any number")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   verb->add_flag("--strict", options->strict,

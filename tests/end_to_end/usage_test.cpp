@@ -104,5 +104,24 @@ TEST(Usage, aFolderThatCannotBeWrittenIsAnError) {
   EXPECT_THAT(run.err, HasSubstr("file"));
 }
 
+/// What is read would be lost, or one of two results.
+TEST(Usage, noFileIsNamedTwiceWhereOneIsWritten) {
+  const Program ursula;
+  const std::string helix = Program::shipped("paper-helix.toml");
+  ursula.write("helix.toml", helix);
+  const auto refused = [&](const std::string& call, const std::string& says) {
+    const UrsulaRun run = ursula(call);
+    EXPECT_EQ(run.exit_code, 2) << call;
+    EXPECT_THAT(run.err, testing::HasSubstr(says)) << call;
+  };
+  refused("inverse helix.toml --samples 3 --out helix.toml", "--out helix.toml: is also what is read");
+  refused("inverse helix.toml --samples 3 --out ./a/../helix.toml", "is also what is read");
+  refused("check helix.toml --picture helix.toml", "--picture helix.toml: is also what is read");
+  refused("map helix.toml --picture same --out same", "is also --");
+  EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "helix.toml"), helix);
+  EXPECT_FALSE(std::filesystem::exists(ursula.folder() / "same"));
+  EXPECT_EQ(ursula("map helix.toml --picture /dev/null --out /dev/null --x=0,1,2 --y=0,1,2").exit_code, 0);
+}
+
 }  // namespace
 }  // namespace ursula

@@ -79,7 +79,7 @@ text { font: 12px sans-serif; fill: #333 } .title { font-size: 13px } .name { fo
 
 std::string mapPicture(const Scenario& scenario, const PoseGrid& grid, const DrawnMap& drawn) {
   const std::array<Shown, 3> all = {{shown("condition number κ(B)", drawn, drawn.kappa, true),
-                                     shown("smallest |sin θ| of the legs", drawn, drawn.sine, false),
+                                     shown("smallest margin of the legs", drawn, drawn.sine, false),
                                      shown("largest static effort, " + drawn.effort_unit, drawn, drawn.effort, true)}};
   const std::vector<int> rows = slices(grid);
   std::string out;

@@ -135,7 +135,8 @@ class Panel {
 
 HeatScale::HeatScale(std::vector<float> values, bool log)
     : log_(log), low_(std::numeric_limits<double>::infinity()), high_(-low_) {
-  values.erase(std::remove_if(values.begin(), values.end(), [](float v) { return !std::isfinite(v); }), values.end());
+  const auto out = [log](float v) { return !std::isfinite(v) || (log && v <= 0); };
+  values.erase(std::remove_if(values.begin(), values.end(), out), values.end());
   if (values.empty()) return;
   std::sort(values.begin(), values.end());
   low_ = drawn(values.front());

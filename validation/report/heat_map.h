@@ -9,7 +9,7 @@ namespace ursula::report {
 /// hundredth has one colour.
 class HeatScale {
  public:
-  /// Of the finite ones among `values`; logarithmic where `log`, all being positive.
+  /// Of the finite ones among `values`; logarithmic where `log`, of the positive ones alone.
   HeatScale(std::vector<float> values, bool log);
 
   bool empty() const { return !(high_ > low_); }

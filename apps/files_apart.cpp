@@ -1,0 +1,54 @@
+#include "apps/files_apart.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+namespace ursula {
+namespace {
+
+struct Named {
+  std::string option, file;
+  bool written;
+};
+
+bool isWritten(const std::string& option) {
+  const std::vector<std::string> writing = {"--out", "--picture", "--csv", "--junit", "--db"};
+  return std::find(writing.begin(), writing.end(), option) != writing.end();
+}
+
+/// Options that name no file are looked at as well where they are positional; that does no harm.
+void gather(const CLI::App& app, std::vector<Named>& out) {
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string name = option->get_name();
+    const bool written = isWritten(name);
+    if (!written && !option->get_positional() && name != "--torques") continue;
+    for (const std::string& file : option->results())
+      if (!file.empty() && file != "-") out.push_back({name, file, written});
+  }
+  for (const CLI::App* verb : app.get_subcommands()) gather(*verb, out);
+}
+
+bool areSame(const std::string& a, const std::string& b) {
+  std::error_code none, ignored;
+  if (std::filesystem::is_character_file(a, none)) return false;  // both may go to /dev/null
+  return std::filesystem::equivalent(a, b, ignored) ||
+         std::filesystem::absolute(a).lexically_normal() == std::filesystem::absolute(b).lexically_normal();
+}
+
+}  // namespace
+
+std::string namedTwice(const CLI::App& app) {
+  std::vector<Named> files;
+  gather(app, files);
+  for (const Named& written : files)
+    for (const Named& other : files)
+      if (written.written && &written != &other && areSame(written.file, other.file))
+        return fmt::format("{} {}: is also {}, expected another file", written.option, written.file,
+                           other.written ? other.option : "what is read");
+  return "";
+}
+
+}  // namespace ursula
