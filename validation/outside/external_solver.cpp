@@ -115,7 +115,8 @@ Vector6d solverAnswer(const std::string& line) {
   return out;
 }
 
-ValidationResult validateExternalSolver(const Scenario& scenario, const ExternalSolverOptions& options) {
+ValidationResult validateExternalSolver(const Scenario& scenario, const ExternalSolverOptions& options,
+                                        const ValidationOptions& validation) {
   const auto process = std::make_shared<Process>(scenario, options);
   OutsideSolver solver;
   solver.name = options.command;
@@ -125,7 +126,7 @@ ValidationResult validateExternalSolver(const Scenario& scenario, const External
     for (const Motion<double>& motion : motions) out.push_back(process->torques(motion));
     return out;
   };
-  ValidationResult result = validateOutside(scenario, solver);
+  ValidationResult result = validateOutside(scenario, solver, validation);
   process->finish();
   return result;
 }
