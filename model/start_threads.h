@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <future>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -18,6 +19,16 @@ std::vector<std::thread> startThreads(std::size_t count, const Work& work) {
     // Whoever asked does the rest himself.
   }
   return threads;
+}
+
+/// How many of `count` threads the system gives at once: for libraries that end where it gives fewer.
+inline std::size_t threadsThatStart(std::size_t count) {
+  std::promise<void> all;
+  const std::shared_future<void> asked = all.get_future().share();
+  std::vector<std::thread> threads = startThreads(count, [asked] { asked.wait(); });
+  all.set_value();
+  for (std::thread& thread : threads) thread.join();
+  return threads.size();
 }
 
 }  // namespace ursula

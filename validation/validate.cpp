@@ -77,6 +77,7 @@ std::shared_ptr<const Reference> referenceOf(const Scenario& scenario, const Val
 ValidationResult nothingReached(const Scenario& scenario, const std::string& subject, const OutOfTime& over) {
   ValidationResult result;
   result.scenario = scenario.name;
+  result.timeseries = validationSeries(*scenario.manipulator, {}, {});
   SubjectHas has;
   has.out_of_time = over.words;
   listEveryCheck(scenario, has, result);

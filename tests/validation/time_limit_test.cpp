@@ -71,7 +71,7 @@ Subject slowFrom(int last, const Deadline& deadline) {
 TEST(TimeLimit, judgesWhatWasReached) {
   constexpr double limit = 20;  // s, of which most is waited for in the replays
   const Scenario scenario = quick();
-  const Subject slow = slowFrom(2000, Deadline(limit));
+  const Subject slow = slowFrom(200, Deadline(limit));
   const ValidationResult result = validate(scenario, slow, within(limit));
   const auto found = [&](const char* name) { return verdictOf(result.checks, name); };
   EXPECT_EQ(result.verdict, Verdict::inconclusive);
