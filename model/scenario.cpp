@@ -20,8 +20,7 @@ std::string readName(const TomlSection& document) {
   const bool plain = std::none_of(name.begin(), name.end(),
                                   [](unsigned char c) { return c < ' ' || c == 0x7f || c == '/' || c == '\\'; });
   if (!plain || name.empty() || name == "." || name == "..")
-    document.fail("name", fmt::format("'{}', expected a name that a folder can have, without '/'",
-                                      shown(name)));
+    document.fail("name", fmt::format("'{}', expected a name that a folder can have, without '/'", shown(name)));
   return name;
 }
 
