@@ -10,14 +10,16 @@
 #include "model/csv.h"
 #include "model/errors.h"
 #include "model/scenario.h"
+#include "model/shown_text.h"
 #include "nocsolver/errors.h"
 #include "validation/findings/provenance.h"
 #include "validation/sweep/sqlite.h"
 
 namespace {
 
+/// Names of files and what is in them come from anybody: a terminal is told nothing to obey.
 int complain(const std::string& what) {
-  fmt::print(stderr, "{}\n", what);
+  fmt::print(stderr, "{}\n", ursula::withoutControls(what));
   return ursula::exit_bad_input;
 }
 
@@ -54,6 +56,7 @@ int runProgram(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return error.get_exit_code() == 0 ? app.exit(error) : complain(ursula::misuse(app, error));
   }
+  if (const std::string empty = ursula::emptyValue(app); !empty.empty()) return complain(empty);
   if (const std::string twice = ursula::namedTwice(app); !twice.empty()) return complain("error: " + twice);
   return runVerb(run);
 }

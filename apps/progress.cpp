@@ -7,6 +7,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <utility>
+#include <vector>
+
+#include "model/shown_text.h"
+#include "model/start_threads.h"
 
 namespace ursula {
 namespace {
@@ -22,9 +26,11 @@ bool canDraw() {
 
 }  // namespace
 
-Progress::Progress(std::string what, Lines lines)
-    : what_(std::move(what)), lines_(lines), on_terminal_(canDraw()), start_(Clock::now()) {
-  if (on_terminal_) drawing_ = std::thread([this] { keepDrawing(); });
+Progress::Progress(const std::string& what, Lines lines)
+    : what_(withoutControls(what)), lines_(lines), on_terminal_(canDraw()), start_(Clock::now()) {
+  if (!on_terminal_) return;
+  std::vector<std::thread> started = startThreads(1, [this] { keepDrawing(); });
+  if (!started.empty()) drawing_ = std::move(started.front());
 }
 
 Progress::~Progress() {
@@ -34,7 +40,7 @@ Progress::~Progress() {
     ended_ = true;
   }
   ending_.notify_all();
-  drawing_.join();
+  if (drawing_.joinable()) drawing_.join();
   if (drawn_) std::fputs("\r\033[K", stderr);  // what is on stdout says it all
 }
 

@@ -15,7 +15,7 @@ class Progress {
   enum class Lines { tenths, none };
 
   /// `what` begins each line; without lines the caller writes his own.
-  explicit Progress(std::string what, Lines lines = Lines::tenths);
+  explicit Progress(const std::string& what, Lines lines = Lines::tenths);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;

@@ -154,7 +154,7 @@ void addProve(CLI::App& app, std::function<int()>& run) {
   verb->add_option("--random", options->random, "Random valid scenarios, none of which may fail")
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
-  verb->add_option("--seed", options->seed, "Seed of the first of them")->capture_default_str();
+  verb->add_option("--seed", options->seed, "Seed of the first of them")->check(wholeNumber())->capture_default_str();
   std::map<std::string, RandomKind> kinds;
   for (std::size_t k = 0; k < random_kind_names.size(); ++k) kinds[random_kind_names[k]] = static_cast<RandomKind>(k);
   takeOneOf(verb->add_option("--kind", options->kind, "Legs of the random machines"), kinds)->default_str("URS");

@@ -20,6 +20,7 @@ struct SimulateOptions {
   std::string scenario, torques, out = "-";
   std::vector<std::string> map;
   Engine engine = Engine::simbody;
+  double time_limit = 0;  ///< s; 0: not given
 };
 
 /// Why the motion is not whole; empty where it is.
@@ -41,8 +42,10 @@ int simulateVerb(const SimulateOptions& options) {
     throw UsageError(fmt::format("{}: {} instants, expected at least {} to interpolate between", options.torques,
                                  file.rows(), TorqueSpline::least_samples));
   const TorqueSpline spline(file.t, file.torques);
-  const Simulation run = alongMotion(
-      scenario, [&] { return simulate(scenario, options.engine, spline, file.t, scenario.simulation.tolerance); });
+  const Deadline deadline = options.time_limit > 0 ? Deadline(options.time_limit) : Deadline();
+  const Simulation run = alongMotion(scenario, [&] {
+    return simulate(scenario, options.engine, spline, file.t, scenario.simulation.tolerance, deadline);
+  });
   const TimeSeries series = simulatedSeries(*scenario.manipulator, run.motions, run.torques);
   writeOutput(options.out, csvText(series.names, series.columns));
   const std::string missing = whatIsMissing(run, file, scenario.trajectory->duration());
@@ -65,6 +68,9 @@ void addSimulate(CLI::App& app, std::function<int()>& run) {
   const std::map<std::string, Engine> engines{{"noc", Engine::noc}, {"simbody", Engine::simbody}};
   takeOneOf(verb->add_option("--engine", options->engine, "noc: (36); simbody: the closed loop. Default: simbody"),
             engines);
+  verb->add_option("--time-limit", options->time_limit,
+                   "The motion stops where it is after so many seconds of work, with exit 1. Default: none")
+      ->check(finitePositive());
   verb->add_option("--out", options->out, "CSV file; - for standard output")->capture_default_str();
   verb->callback([options, &run] { run = [options] { return simulateVerb(*options); }; });
 }

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 
+#include "model/shown_text.h"
 #include "validation/subject/effort_columns.h"
 
 namespace ursula {
@@ -22,8 +23,9 @@ TorqueFile readTorquesAloud(const std::string& file, const std::vector<std::stri
   const TorqueFile torques = readTorqueFile(file, parseColumnMap(map, motors), motors);
   if (!torques.read_as.empty()) fmt::print(stderr, "{}: read as: {}\n", file, torques.read_as);
   if (!torques.ignored.empty())
-    fmt::print(stderr, "{}: ignoring columns that are none of t_s, {} … {}: {}\n", file, effortColumn(motors, 0),
-               effortColumn(motors, motor_count - 1), fmt::join(torques.ignored, ", "));
+    fmt::print(stderr, "{}: ignoring columns that are none of t_s, {} … {}: {}\n", shown(file, 4096),
+               effortColumn(motors, 0), effortColumn(motors, motor_count - 1),
+               shown(fmt::format("{}", fmt::join(torques.ignored, ", ")), 400));
   return torques;
 }
 

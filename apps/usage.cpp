@@ -64,4 +64,16 @@ std::string misuse(const CLI::App& app, const CLI::ParseError& error) {
   return fmt::format("{}: {} ({} --help says how it is called)", who, error.what(), who);
 }
 
+std::string emptyValue(const CLI::App& app) {
+  for (const CLI::App* verb : app.get_subcommands())
+    for (const CLI::App* at = verb; at != nullptr;
+         at = at->get_subcommands().empty() ? nullptr : at->get_subcommands().front())
+      for (const CLI::Option* option : at->get_options())
+        for (const std::string& value : option->results())
+          if (value.empty() && option->get_expected_min() > 0)
+            return fmt::format("ursula {}: {} is empty, expected a value (ursula {} --help says how it is called)",
+                               verb->get_name(), option->get_name(), verb->get_name());
+  return "";
+}
+
 }  // namespace ursula

@@ -12,4 +12,8 @@ std::string unknownVerb(const CLI::App& app, int argc, char** argv);
 /// What was wrong with a call, in one line: the nearest option where one is misspelt, and whom to ask.
 std::string misuse(const CLI::App& app, const CLI::ParseError& error);
 
+/// An option or argument that was given and is empty, as a line for people; "" where there is none. It is a variable of
+/// a script that was never set, and stands for nothing.
+std::string emptyValue(const CLI::App& app);
+
 }  // namespace ursula

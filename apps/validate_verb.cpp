@@ -13,6 +13,7 @@
 #include "apps/validate_output.h"
 #include "apps/verbs.h"
 #include "model/scenario.h"
+#include "model/shown_text.h"
 #include "validation/outside/external_solver.h"
 #include "validation/report/report.h"
 #include "validation/suite/suite.h"
@@ -22,16 +23,37 @@
 namespace ursula {
 namespace {
 
+/// For each scenario of a suite, where none is given, s: nobody sits before it.
+constexpr double suite_time_limit = 600;
+
 struct ValidateOptions {
   std::vector<std::string> scenarios, map;
   std::string torques, out;
   ExternalSolverOptions solver;  ///< with a command, it is judged
   double rtol = 0, atol = 0;     ///< 0: not given
+  double time_limit = 0;         ///< for a scenario, s; 0: not given
   bool json = false, quiet = false, strict = false;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 
   Said said() const { return json ? Said::json : quiet ? Said::verdict : Said::table; }
 };
+
+/// "3 min", "5 h"
+std::string inWords(double seconds) {
+  constexpr double minute = 60, hour = 3600, day = 86400;
+  if (seconds < 2 * hour) return fmt::format("{:.0f} min", seconds / minute);
+  return seconds < 2 * day ? fmt::format("{:.0f} h", seconds / hour) : fmt::format("{:.3g} days", seconds / day);
+}
+
+/// What takes long is said before it begins, and what ends it.
+void sayWork(const Scenario& scenario, double limit) {
+  constexpr double worth_a_word = 60;  // s
+  const double estimate = estimatedSeconds(scenario);
+  if (!(estimate > worth_a_word)) return;
+  const std::string ends = limit > 0 ? fmt::format("ends after {:g} s", limit) : "--time-limit SECONDS ends it sooner";
+  fmt::print(stderr, "{}: about {} of work for {} samples of a motion of {:g} s; {}\n", withoutControls(scenario.name),
+             inWords(estimate), scenario.simulation.samples, scenario.trajectory->duration(), ends);
+}
 
 /// Judges this program's solver, somebody else's, or the torques of a file.
 ValidationResult judge(const Scenario& scenario, const ValidateOptions& options) {
@@ -39,10 +61,14 @@ ValidationResult judge(const Scenario& scenario, const ValidateOptions& options)
   const TorqueFile torques =
       from_file ? readTorquesAloud(options.torques, options.map, scenario.manipulator->motors()) : TorqueFile{};
   std::optional<Progress> progress;
-  if (!options.quiet) progress.emplace(scenario.name);
-  if (from_file) return validateExternal(scenario, torques);
-  if (!options.solver.command.empty()) return validateExternalSolver(scenario, options.solver);
+  if (!options.quiet) {
+    alongMotion(scenario, [&] { sayWork(scenario, options.time_limit); });
+    progress.emplace(scenario.name);
+  }
+  if (from_file) return validateExternal(scenario, torques, options.time_limit);
   ValidationOptions validation;
+  validation.time_limit = options.time_limit;
+  if (!options.solver.command.empty()) return validateExternalSolver(scenario, options.solver, validation);
   validation.threads = options.jobs;
   if (progress) validation.progress = [&progress](double share, const char* now) { progress->at(share, now); };
   return validate(scenario, validation);
@@ -68,7 +94,7 @@ class SuiteProgress {
     bar_.at(static_cast<double>(done) / static_cast<double>(total_), fmt::format("{} of {}{}", done, total_, missed));
     if (!bar_.onTerminal())
       fmt::print(stderr, "[{}/{}] {} {}, {:.1f} s\n", done, total_, entry.error.empty() ? name(entry.verdict) : "error",
-                 entry.scenario, entry.time.seconds);
+                 withoutControls(entry.scenario), entry.time.seconds);
   }
 
  private:
@@ -79,10 +105,15 @@ class SuiteProgress {
 int validateSuite(const std::vector<SuiteMember>& members, const ValidateOptions& options,
                   const std::filesystem::path& dir) {
   for (const SuiteMember& member : members)
-    if (!member.error.empty()) fmt::print(stderr, "{}\n", member.error);
+    if (!member.error.empty()) fmt::print(stderr, "{}\n", withoutControls(member.error));
   SuiteOptions suite;
   suite.jobs = options.jobs;
-  suite.judge = [](const Scenario& scenario) { return validate(scenario); };
+  ValidationOptions validation;
+  validation.time_limit = options.time_limit > 0 ? options.time_limit : suite_time_limit;
+  suite.judge = [validation, quiet = options.quiet](const Scenario& scenario) {
+    if (!quiet) sayWork(scenario, validation.time_limit);
+    return validate(scenario, validation);
+  };
   std::optional<SuiteProgress> progress;
   if (!options.quiet) progress.emplace(members.size());
   suite.finished = [&progress](const SuiteEntry& entry, std::size_t done) {
@@ -173,6 +204,11 @@ void addValidate(CLI::App& app, std::function<int()>& run) {
                    "Scenarios judged at a time; of one, threads. Results are the same for any number")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
+  verb->add_option(
+          "--time-limit", options->time_limit,
+          "For a scenario, s: what is not reached by then is inconclusive (exit 3), and the report is written.\n"
+          "Default: none for one scenario, 600 for each of several")
+      ->check(finitePositive());
   verb->add_flag("--strict", options->strict,
                  "Of several scenarios nothing is computed or written unless all can be read and their motions made");
   addOtherSolvers(*verb, *options);

@@ -1,6 +1,11 @@
 #include "apps/verbs.h"
 
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 
@@ -12,8 +17,10 @@ namespace {
 CLI::Validator finite(const char* what, bool (*fits)(double)) {
   const auto check = [what, fits](const std::string& text) {
     char* end = nullptr;
+    errno = 0;
     const double value = std::strtod(text.c_str(), &end);
-    const bool is_number = !text.empty() && *end == '\0' && std::isfinite(value);
+    const bool is_number =
+        !text.empty() && *end == '\0' && std::isfinite(value) && (value != 0 || errno == 0);  // 1e-400 is no 0
     return is_number && fits(value) ? std::string() : "'" + text + "' is no " + what;
   };
   return CLI::Validator(check, "POSITIVE");
@@ -27,6 +34,16 @@ CLI::Validator finitePositive() {
 
 CLI::Validator finiteNotNegative() {
   return finite("finite number of 0 or more", [](double value) { return value >= 0; }).description("NONNEGATIVE");
+}
+
+CLI::Validator wholeNumber() {
+  const auto check = [](const std::string& text) {
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool is_whole = error == std::errc() && end == text.data() + text.size();
+    return is_whole ? std::string() : fmt::format("'{}' is no integer from 0 to {}", text, UINT64_MAX);
+  };
+  return CLI::Validator(check, "UINT64");
 }
 
 void writeOutput(const std::string& file, const std::string& content) {

@@ -20,6 +20,8 @@ struct UsageError : std::runtime_error {
 /// For options: a finite number above 0, or not below it. CLI11's own let nan through.
 CLI::Validator finitePositive();
 CLI::Validator finiteNotNegative();
+/// An integer of 64 bits without a sign, whole and in range: CLI11's own wraps around.
+CLI::Validator wholeNumber();
 
 /// Each registers its verb and leaves in `run` what to do when it was called; the value is the exit code.
 void addAudit(CLI::App& app, std::function<int()>& run);

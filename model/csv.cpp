@@ -5,29 +5,40 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <string_view>
+#include <unordered_set>
 
 #include "model/nearest.h"
+#include "model/shown_text.h"
+#include "model/text_source.h"
 
 namespace ursula {
 namespace {
 
+constexpr TextBounds bounds{most_csv_bytes, "a CSV file"};
+
 [[noreturn]] void fail(const std::filesystem::path& file, int line, const std::string& what) {
   throw CsvError(fmt::format("{}:{}: error: {}", file.string(), line, what));
+}
+
+void requireShort(std::string_view cell, const std::filesystem::path& file, int line) {
+  if (cell.size() > most_csv_cell)
+    fail(file, line,
+         fmt::format("a cell of {} bytes, '{}', expected at most {}", cell.size(), shown(cell), most_csv_cell));
 }
 
 /// The places of the wanted columns among all.
 std::vector<std::size_t> readHeader(const std::vector<std::string>& cells, const CsvOptions& options, CsvTable& table) {
   const int line = std::max(1, options.dialect.header);
   std::vector<std::size_t> wanted;
+  std::unordered_set<std::string_view> known;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::string& name = cells[i];
+    requireShort(name, table.file, line);
     if (name.empty()) fail(table.file, line, "a column without a name, expected quantity_index_unit in each");
-    const auto here = cells.begin() + static_cast<std::ptrdiff_t>(i);
-    if (std::find(cells.begin(), here, cells[i]) != here)
-      fail(table.file, line, "duplicate column '" + name + "', expected each name once");
+    if (!known.insert(name).second)
+      fail(table.file, line, "duplicate column '" + shown(name) + "', expected each name once");
     const bool is_wanted = !options.wanted || options.wanted(name);
     (is_wanted ? table.names : table.ignored).push_back(name);
     if (is_wanted) wanted.push_back(i);
@@ -60,8 +71,12 @@ double readNumber(std::string_view cell, const CsvTable& table, bool finite, int
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc() && end == digits.data() + digits.size() && (!finite || std::isfinite(value))) return value;
-  const std::string shown = cell.empty() ? "an empty cell" : "'" + std::string(cell) + "'";
-  fail(table.file, line, fmt::format("{} in column '{}', expected a {}number", shown, column, finite ? "finite " : ""));
+  const std::string given = cell.empty() ? "an empty cell" : "'" + shown(cell) + "'";
+  const bool is_beyond = error == std::errc::result_out_of_range && end == digits.data() + digits.size();
+  const std::string expected = is_beyond ? "a number that a double can hold, from 5e-324 to 1.8e308 in size"
+                               : finite  ? "a finite number"
+                                         : "a number";
+  fail(table.file, line, fmt::format("{} in column '{}', expected {}", given, shown(column), expected));
 }
 
 void readRow(std::string_view text, int line, const std::vector<std::size_t>& wanted, const CsvOptions& options,
@@ -72,6 +87,7 @@ void readRow(std::string_view text, int line, const std::vector<std::size_t>& wa
     fail(table.file, line,
          fmt::format("{} cells, expected {}, one for each column of the header", cells.size(), width));
   for (std::size_t i = 0; i < wanted.size(); ++i) {
+    requireShort(cells[wanted[i]], table.file, line);
     std::string cell(cells[wanted[i]]);
     if (options.dialect.decimal_comma) std::replace(cell.begin(), cell.end(), ',', '.');
     table.columns[i].push_back(readNumber(cell, table, options.finite, line, table.names[i]));
@@ -111,10 +127,16 @@ CsvTable parseCsv(const std::string& text, const std::filesystem::path& file, co
   CsvTable table;
   table.file = file;
   const std::vector<std::string_view> lines = splitLines(text);
+  if (lines.size() > most_csv_lines)
+    fail(file, static_cast<int>(most_csv_lines) + 1,
+         fmt::format("more than {0} lines, expected at most {0}", most_csv_lines));
   if (lines.empty()) fail(file, 1, "an empty file, expected a header line and rows of numbers");
   std::vector<std::string> names = options.dialect.header_cells;
   if (names.empty())
     for (std::string_view cell : splitCells(lines.front(), ',')) names.emplace_back(cell);
+  if (names.size() > most_csv_columns)
+    fail(file, std::max(1, options.dialect.header),
+         fmt::format("more than {0} columns, expected at most {0}", most_csv_columns));
   const std::vector<std::size_t> wanted = readHeader(names, options, table);
   for (auto i = static_cast<std::size_t>(options.dialect.header); i < lines.size(); ++i)
     if (!isPassedOver(lines[i], options.dialect)) readRow(lines[i], static_cast<int>(i) + 1, wanted, options, table);
@@ -123,11 +145,11 @@ CsvTable parseCsv(const std::string& text, const std::filesystem::path& file, co
 }
 
 std::string readCsvText(const std::filesystem::path& file) {
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error)) fail(file, 1, "a folder, expected a CSV file");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) fail(file, 1, "cannot be read, expected a CSV file");
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  try {
+    return readText(file, bounds);
+  } catch (const TextRefusal& refusal) {
+    throw CsvError(fmt::format("{}:{}: error: {}", shown(file.string(), 4096), refusal.line, refusal.what()));
+  }
 }
 
 CsvTable readCsv(const std::filesystem::path& file, const CsvOptions& options) {

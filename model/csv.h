@@ -10,6 +10,9 @@
 
 namespace ursula {
 
+/// What a file may hold beside most_csv_columns and most_csv_lines, in bytes: in all, and in a cell.
+constexpr std::size_t most_csv_bytes = std::size_t{1} << 30, most_csv_cell = 1024;
+
 /// `file:line: error: what, what was expected`
 class CsvError : public std::runtime_error {
  public:

@@ -10,7 +10,8 @@
 namespace ursula {
 namespace {
 
-constexpr std::size_t rows_looked_at = 20;
+/// Of rows, and of lines with all that stands between them.
+constexpr std::size_t rows_looked_at = 20, lines_looked_at = 10'000;
 
 bool isComment(std::string_view line) {
   const std::string_view cell = trimmedCell(line);
@@ -164,16 +165,16 @@ std::vector<std::string_view> splitCells(std::string_view line, char separator) 
   for (;;) {
     const auto end = separator == ' ' ? line.find_first_of(" \t") : line.find(separator);
     add(cells, line.substr(0, end));
-    if (end == std::string_view::npos) return cells;
+    if (end == std::string_view::npos || cells.size() > most_csv_columns) return cells;
     line.remove_prefix(end + 1);
     if (separator == ' ') line = trimmedCell(line);
   }
 }
 
-std::vector<std::string_view> splitLines(std::string_view text) {
+std::vector<std::string_view> splitLines(std::string_view text, std::size_t most) {
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
   std::vector<std::string_view> lines;
-  while (!text.empty()) {
+  while (!text.empty() && lines.size() < most) {
     const auto end = text.find('\n');
     std::string_view line = text.substr(0, end);
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
@@ -192,7 +193,7 @@ CsvDialect guessDialect(const std::string& text, const std::filesystem::path& fi
   const std::string_view start = std::string_view(text).substr(0, 2);
   if (start == "\xFF\xFE" || start == "\xFE\xFF")
     throw CsvError(fmt::format("{}:1: error: UTF-16, expected UTF-8 or plain text", file.string()));
-  const Head head = headOf(splitLines(text));
+  const Head head = headOf(splitLines(text, lines_looked_at));
   CsvDialect out;
   if (head.header == 0 && head.rows.empty()) return out;
   out.header = head.header;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -23,11 +24,16 @@ struct CsvDialect {
 /// A cell without blanks around it.
 std::string_view trimmedCell(std::string_view cell);
 
-/// The cells of a line without blanks around them and, in names, without quotes.
+/// Of a file; and cells of a line.
+constexpr std::size_t most_csv_columns = 20'000, most_csv_lines = 10'000'000;
+
+/// The cells of a line without blanks around them and, in names, without quotes. Of more than most_csv_columns only one
+/// more.
 std::vector<std::string_view> splitCells(std::string_view line, char separator);
 
-/// Lines without their ends (LF or CRLF), without a byte order mark and without blank lines at the end.
-std::vector<std::string_view> splitLines(std::string_view text);
+/// Lines without their ends (LF or CRLF), without a byte order mark and without blank lines at the end; the first
+/// `most` of them.
+std::vector<std::string_view> splitLines(std::string_view text, std::size_t most = most_csv_lines + 1);
 
 /// Whether a line holds no row: blank, or a comment where the dialect has such.
 bool isPassedOver(std::string_view line, const CsvDialect& dialect);

@@ -5,6 +5,8 @@
 namespace ursula {
 namespace {
 
+constexpr std::size_t longest = 100;
+
 /// Optimal string alignment distance: insertions, deletions, substitutions and swaps of neighbours, each costing 1.
 std::size_t distance(const std::string& a, const std::string& b) {
   std::vector<std::vector<std::size_t>> cost(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
@@ -27,8 +29,11 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
   std::string best;
   std::size_t least = 0;
   for (const std::string& candidate : candidates) {
+    const std::size_t longer = std::max(word.size(), candidate.size());
+    const std::size_t allowed = std::max<std::size_t>(1, longer / 3);
+    // Of what is no slip of the hand nothing is learnt, and of long words at length.
+    if (longer > longest || longer - std::min(word.size(), candidate.size()) > allowed) continue;
     const std::size_t far = distance(word, candidate);
-    const std::size_t allowed = std::max<std::size_t>(1, std::max(word.size(), candidate.size()) / 3);
     if (far > allowed || (!best.empty() && far >= least)) continue;
     best = candidate;
     least = far;

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 #include "model/check_names.h"
 #include "model/nearest.h"
 #include "model/scenario_sections.h"
+#include "model/shown_text.h"
+#include "model/toml_bounds.h"
 
 namespace ursula {
 namespace {
@@ -17,10 +17,10 @@ namespace {
 std::string readName(const TomlSection& document) {
   std::string name;
   document.require("name", name);
-  const bool plain =
-      std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == '/' || c == '\\'; });
+  const bool plain = std::none_of(name.begin(), name.end(),
+                                  [](unsigned char c) { return c < ' ' || c == 0x7f || c == '/' || c == '\\'; });
   if (!plain || name.empty() || name == "." || name == "..")
-    document.fail("name", fmt::format("'{}', expected a name that a folder can have, without '/'", name));
+    document.fail("name", fmt::format("'{}', expected a name that a folder can have, without '/'", shown(name)));
   return name;
 }
 
@@ -66,7 +66,7 @@ void readAcceptance(const TomlSection& table, const std::string& prefix, Scenari
     limit.check = prefix + name;
     const std::vector<std::string> known = namesOfChecks();
     if (std::find(known.begin(), known.end(), limit.check) == known.end())
-      table.fail(name, fmt::format("'{}' is no check{}", limit.check, didYouMean(limit.check, known)));
+      table.fail(name, fmt::format("'{}' is no check{}", shown(limit.check), didYouMean(limit.check, known)));
     table.require(name, limit.limit);
     if (!(limit.limit > 0)) table.fail(name, fmt::format("{}, expected a number > 0", limit.limit));
     const auto same = [&](const AcceptanceLimit& other) { return other.check == limit.check; };
@@ -106,11 +106,11 @@ Scenario parseScenario(const std::string& text, const std::filesystem::path& fil
 }
 
 Scenario readScenario(const std::filesystem::path& file) {
-  std::error_code error;
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file, error))
-    throw errorAt(file.string(), {}, "cannot be read, expected a scenario in TOML");
-  return parseScenario({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()}, file);
+  try {
+    return parseScenario(readText(file, {most_toml_bytes, "a scenario in TOML"}), file);
+  } catch (const TextRefusal& refusal) {
+    throw errorAt(file.string(), refusal);
+  }
 }
 
 }  // namespace ursula

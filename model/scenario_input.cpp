@@ -1,13 +1,18 @@
 #include "model/scenario_input.h"
 
-#include <iostream>
-#include <iterator>
+#include "model/toml_bounds.h"
+#include "model/toml_reader.h"
 
 namespace ursula {
 
 Scenario readScenarioOrInput(const std::filesystem::path& file) {
+  static constexpr const char* input = "<stdin>";
   if (file != "-") return readScenario(file);
-  return parseScenario({std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>()}, "<stdin>");
+  try {
+    return parseScenario(readStandardInput({most_toml_bytes, "a scenario in TOML"}), input);
+  } catch (const TextRefusal& refusal) {
+    throw errorAt(input, refusal);
+  }
 }
 
 }  // namespace ursula

@@ -108,11 +108,11 @@ ScenarioError located(const InvalidParameter& refusal, const TomlSection& docume
 
 KeyPlace placeInFile(const Scenario& scenario, const std::string& key) {
   try {
-    const toml::table document = toml::parse(std::string_view(scenario.text));
+    const toml::table document = parseToml(scenario.text, scenario.file.string());
     const Found found = find(document, key);
     return {placeAt(scenario.file.string(), found.node->source().begin), found.key, found.given,
             found.node->value<double>()};
-  } catch (const toml::parse_error&) {
+  } catch (const ScenarioError&) {
     return {placeAt(scenario.file.string(), {}), key, false, std::nullopt};
   }
 }

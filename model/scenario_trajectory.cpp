@@ -70,9 +70,14 @@ std::shared_ptr<const Trajectory> readHold(const TomlSection& table) {
 CsvTable readCsvBeside(const TomlSection& table, const std::string& key) {
   std::string name;
   table.require(key, name);
+  try {
+    requirePath(name);
+  } catch (const TextRefusal& refusal) {
+    table.fail(key, refusal.what());
+  }
   const std::filesystem::path file = std::filesystem::path(table.file()).parent_path() / name;
   std::error_code error;
-  if (name.empty() || !std::filesystem::exists(file, error) || std::filesystem::is_directory(file, error))
+  if (!std::filesystem::exists(file, error) || std::filesystem::is_directory(file, error))
     table.fail(key, "'" + file.string() + "', expected a CSV file");
   return readCsv(file);
 }

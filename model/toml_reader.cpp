@@ -8,6 +8,8 @@
 
 #include "model/nearest.h"
 #include "model/scenario_orientation.h"
+#include "model/shown_text.h"
+#include "model/toml_bounds.h"
 
 namespace ursula {
 namespace {
@@ -51,11 +53,18 @@ ScenarioError errorAt(const std::string& file, const toml::source_position& posi
   return ScenarioError(placeAt(file, position) + ": error: " + message);
 }
 
+ScenarioError errorAt(const std::string& file, const TextRefusal& refusal) {
+  return ScenarioError(fmt::format("{}:{}:{}: error: {}", file, refusal.line, refusal.column, refusal.what()));
+}
+
 toml::table parseToml(const std::string& text, const std::string& file) {
   try {
+    requireBounded(text);
     return toml::parse(std::string_view(text), std::string_view(file));
+  } catch (const TextRefusal& refusal) {
+    throw errorAt(file, refusal);
   } catch (const toml::parse_error& error) {
-    throw errorAt(file, error.source().begin, std::string(error.description()) + ", expected valid TOML");
+    throw errorAt(file, error.source().begin, shown(error.description(), 400) + ", expected valid TOML");
   }
 }
 
@@ -88,7 +97,7 @@ void TomlSection::allowOnly(const ScenarioTable& allowed) const {
   const std::string key(first->str());
   throw errorAt(
       file_, first->source().begin,
-      fmt::format("unknown key '{}'{}, expected {}{}", key, inPlace(), quotedList(keys), didYouMean(key, keys)));
+      fmt::format("unknown key '{}'{}, expected {}{}", shown(key), inPlace(), quotedList(keys), didYouMean(key, keys)));
 }
 
 double TomlSection::number(const toml::node& node, const std::string& place) const {
@@ -198,7 +207,7 @@ std::optional<std::size_t> TomlSection::readChoice(const ScenarioKey& key) const
   if (!read(key.name, given)) return std::nullopt;
   const auto found = std::find(choices.begin(), choices.end(), given);
   if (found == choices.end())
-    fail(key.name, fmt::format("'{}', expected {}{}", given, quotedList(choices), didYouMean(given, choices)));
+    fail(key.name, fmt::format("'{}', expected {}{}", shown(given), quotedList(choices), didYouMean(given, choices)));
   return static_cast<std::size_t>(found - choices.begin());
 }
 

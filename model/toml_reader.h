@@ -9,6 +9,7 @@
 #include "model/scalar.h"
 #include "model/scenario.h"
 #include "model/scenario_keys.h"
+#include "model/text_source.h"
 
 namespace ursula {
 
@@ -18,7 +19,10 @@ std::string placeAt(const std::string& file, const toml::source_position& positi
 /// The error `file:line:column: error: message` at a node's place.
 ScenarioError errorAt(const std::string& file, const toml::source_position& position, const std::string& message);
 
-/// A document; `file` names it in errors. Throws ScenarioError at what is no TOML.
+/// The same for text that was not taken.
+ScenarioError errorAt(const std::string& file, const TextRefusal& refusal);
+
+/// A document; `file` names it in errors. Throws ScenarioError at what is no TOML, and for what requireBounded refuses.
 toml::table parseToml(const std::string& text, const std::string& file);
 
 /// One table of a scenario, read strictly: whatever is not of the type asked for throws a ScenarioError with its place.

@@ -7,6 +7,7 @@
 #include "validation/checks/tolerance.h"
 #include "validation/evidence/evidence.h"
 #include "validation/evidence/reference.h"
+#include "validation/evidence/work_estimate.h"
 #include "validation/findings/attribution.h"
 #include "validation/findings/curves.h"
 #include "validation/findings/facts.h"
@@ -18,12 +19,19 @@
 namespace ursula {
 namespace {
 
+/// Not measured where time is up: it decides nothing.
+ErrorBudget budgetOf(const Evidence& evidence) {
+  try {
+    return attribute(*evidence.scenario, evidence.samples, evidence.windows, *evidence.amplification, evidence.plan);
+  } catch (const OutOfTime&) {
+    return {};
+  }
+}
+
 void addFacts(const Evidence& evidence, bool budget, ValidationResult& result) {
   if (evidence.answered()) result.findings.emplace_back("odd one out of the roads", oddOneOut(evidence.roads));
   addFindings(evidence.samples, evidence.windows, result, evidence.units());
-  if (budget)
-    addBudget(attribute(*evidence.scenario, evidence.samples, evidence.windows, *evidence.amplification, evidence.plan),
-              result, evidence.units());
+  if (budget && evidence.amplification != nullptr) addBudget(budgetOf(evidence), result, evidence.units());
   result.timeseries = validationSeries(*evidence.scenario->manipulator, evidence.samples, evidence.windows);
   if (!evidence.reactions.empty())
     addReactionColumns(*evidence.scenario->manipulator, evidence.reactions, result.timeseries);
@@ -48,6 +56,7 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   result.checks = judgeAll(evidence);
   tell(options, 0.9, "sources of the error");
   addFacts(evidence, options.budget, result);
+  if (!evidence.has.out_of_time.empty()) reference.stop();
   seriesInSi(evidence.natural, result);
   addPicture(scenario, result);
   result.deviation = effortDeviation(evidence, result.checks);
@@ -60,27 +69,51 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
 
 std::shared_ptr<const Reference> referenceOf(const Scenario& scenario, const ValidationOptions& options) {
   tell(options, 0, "the right motion");
-  return options.reference ? options.reference : makeReference(scenario, options.threads);
+  const Deadline deadline = options.time_limit > 0 ? Deadline(options.time_limit) : Deadline();
+  return options.reference ? options.reference : makeReference(scenario, options.threads, deadline);
+}
+
+/// Where time was up before any experiment: there is a report all the same.
+ValidationResult nothingReached(const Scenario& scenario, const std::string& subject, const OutOfTime& over) {
+  ValidationResult result;
+  result.scenario = scenario.name;
+  result.timeseries = validationSeries(*scenario.manipulator, {}, {});
+  SubjectHas has;
+  has.out_of_time = over.words;
+  listEveryCheck(scenario, has, result);
+  judgeByTolerance(scenario, true, result);
+  judgeByUser(scenario.acceptance, result);
+  addPicture(scenario, result);
+  addProvenance(scenario, subject, result);
+  return result;
 }
 
 ValidationResult validateOwn(const Scenario& scenario, const SubjectOf& make, bool right,
                              const ValidationOptions& options) {
-  const std::shared_ptr<const Reference> reference = referenceOf(scenario, options);
-  Presentation there = reference->natural;
-  there.origin.setZero();
-  const Subject subject = presented(make(reference->relocated), there);
-  return run(scenario, *reference, subject, right, options);
+  try {
+    const std::shared_ptr<const Reference> reference = referenceOf(scenario, options);
+    Presentation there = reference->natural;
+    there.origin.setZero();
+    const Subject subject = presented(make(reference->relocated), there);
+    return run(scenario, *reference, subject, right, options);
+  } catch (const OutOfTime& over) {
+    return nothingReached(scenario, make(scenario).name, over);
+  }
 }
 
 }  // namespace
 
-std::shared_ptr<const Reference> makeReference(const Scenario& scenario, int threads) {
-  return std::make_shared<const Reference>(scenario, threads);
+std::shared_ptr<const Reference> makeReference(const Scenario& scenario, int threads, const Deadline& deadline) {
+  return std::make_shared<const Reference>(scenario, threads, deadline);
 }
 
 ValidationResult validate(const Scenario& scenario, const Subject& subject, const ValidationOptions& options) {
-  const std::shared_ptr<const Reference> reference = referenceOf(scenario, options);
-  return run(scenario, *reference, presented(subject, reference->natural), false, options);
+  try {
+    const std::shared_ptr<const Reference> reference = referenceOf(scenario, options);
+    return run(scenario, *reference, presented(subject, reference->natural), false, options);
+  } catch (const OutOfTime& over) {
+    return nothingReached(scenario, subject.name, over);
+  }
 }
 
 ValidationResult validateMade(const Scenario& scenario, const SubjectOf& make, const ValidationOptions& options) {
@@ -91,5 +124,7 @@ ValidationResult validate(const Scenario& scenario, const ValidationOptions& opt
   const SubjectOf noc = [](const Scenario& here) { return nocSubject(*here.manipulator, here.load); };
   return validateOwn(scenario, noc, true, options);
 }
+
+double estimatedSeconds(const Scenario& scenario) { return workSeconds(scenario); }
 
 }  // namespace ursula

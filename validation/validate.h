@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 
+#include "model/deadline.h"
 #include "model/scenario.h"
 #include "validation/subject/subject.h"
 #include "validation/verdict/result.h"
@@ -23,6 +24,9 @@ struct ValidationOptions {
   /// Told what begins, and about which share of the time is over by then; may be empty.
   std::function<void(double share, const char* now)> progress = nullptr;
   int threads = 1;  ///< no number depends on it
+  /// From the call on, s; what is not reached by then is inconclusive (Reason::unfinished), and no number depends on it
+  /// otherwise. 0: none. A `reference` made before has its own.
+  double time_limit = 0;
 };
 
 /// The whole validation of one scenario: pointwise, replay, closure, energy, and the verdict. Deterministic: the same
@@ -36,6 +40,11 @@ ValidationResult validate(const Scenario& scenario, const ValidationOptions& opt
 /// With a subject that is made for the scenario where its numbers are good: positions from an origin near the machine.
 ValidationResult validateMade(const Scenario& scenario, const SubjectOf& make, const ValidationOptions& options = {});
 
-std::shared_ptr<const Reference> makeReference(const Scenario& scenario, int threads = 1);
+/// Once the deadline is over, it throws OutOfTime, and so does asking for what is not yet made.
+std::shared_ptr<const Reference> makeReference(const Scenario& scenario, int threads = 1,
+                                               const Deadline& deadline = {});
+
+/// About how long validate() takes on this machine, s: from what a few evaluations take, and how many there will be.
+double estimatedSeconds(const Scenario& scenario);
 
 }  // namespace ursula

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "model/deadline.h"
 #include "validation/checks/acceptance.h"
 #include "validation/checks/every_check.h"
 #include "validation/checks/families.h"
 #include "validation/checks/tolerance.h"
 #include "validation/evidence/evidence.h"
+#include "validation/evidence/timed.h"
 #include "validation/external/diagnosis.h"
 #include "validation/external/external_replay.h"
 #include "validation/external/external_samples.h"
@@ -77,33 +79,49 @@ Evidence gatherExternal(const Scenario& given, const Presentation& natural, cons
   return out;
 }
 
+/// Not measured where time is up: it decides nothing.
+ErrorBudget budgetOf(const Evidence& evidence) {
+  if (evidence.windows.empty()) return {};
+  try {
+    return attribute(*evidence.scenario, evidence.samples, evidence.windows, *evidence.amplification, evidence.plan);
+  } catch (const OutOfTime&) {
+    return {};
+  }
+}
+
 void addFacts(const Evidence& evidence, ValidationResult& result) {
   result.timeseries = validationSeries(*evidence.scenario->manipulator, evidence.samples, evidence.windows);
   addFindings(evidence.samples, evidence.windows, result, evidence.units());
   addCurves(evidence.samples, evidence.windows, result);
   if (!evidence.not_replayed.empty()) result.findings.emplace_back("replay", "none: " + evidence.not_replayed);
   if (!evidence.spline.empty()) result.findings.emplace_back("spline", evidence.spline);
-  const ErrorBudget budget =
-      evidence.windows.empty()
-          ? ErrorBudget{}
-          : attribute(*evidence.scenario, evidence.samples, evidence.windows, *evidence.amplification, evidence.plan);
-  addBudget(budget, result, evidence.units());
+  addBudget(budgetOf(evidence), result, evidence.units());
 }
 
 }  // namespace
 
-ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& torques) {
+ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& torques, double time_limit) {
+  const Deadline deadline = time_limit > 0 ? Deadline(time_limit) : Deadline();
   checkMotion(scenario);
   const Presentation natural = naturalPresentation(scenario);
-  const Scenario here = natural.of(scenario);
+  const Scenario here = timed(natural.of(scenario), deadline);
   const TorqueFile file = within(torques, scenario.trajectory->duration());
-  const ExternalTorques external = runExternal(here, inUnits(file, natural));
-  const ExternalReplay replay = replayExternal(here, external, natural.units);
+  ExternalTorques external;
+  ExternalReplay replay;
+  std::string out_of_time;
+  try {
+    external = runExternal(here, inUnits(file, natural));
+    replay = replayExternal(here, external, natural.units);
+  } catch (const OutOfTime& over) {
+    out_of_time = over.words;
+  }
   Evidence evidence = gatherExternal(scenario, natural, here, external, replay);
+  evidence.has.out_of_time = out_of_time;
   ValidationResult result;
   result.scenario = scenario.name;
   result.checks = judgeAll(evidence);
   addFacts(evidence, result);
+  deadline.lift();
   seriesInSi(natural, result);
   addPicture(scenario, result);
   result.deviation = effortDeviation(evidence, result.checks);

@@ -11,7 +11,8 @@ namespace ursula {
 /// Judges somebody else's torques: pointwise at their own instants, and by replay on a spline through them. What is
 /// wrong with them goes into the `why` of the checks that fail and into the findings. Throws CsvError for instants
 /// outside of the motion, and as validate() does.
-ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& torques);
+/// `time_limit`: as ValidationOptions has it.
+ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& torques, double time_limit = 0);
 
 /// The same from a file; throws CsvError as readTorqueFile does.
 ValidationResult validateExternal(const Scenario& scenario, const std::filesystem::path& torques_csv);

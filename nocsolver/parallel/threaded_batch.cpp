@@ -6,6 +6,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace ursula {
 namespace {
@@ -21,10 +22,14 @@ void byThreads(std::size_t count, int jobs, const Part& part) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, least_share),
                       [&part](const auto& range) { part(range.begin(), range.size()); });
   };
-  if (jobs <= 0) return all();
-  const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  tbb::task_arena arena(static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(jobs), allowed)));
-  arena.execute(all);
+  try {
+    if (jobs <= 0) return all();
+    const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    tbb::task_arena arena(static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(jobs), allowed)));
+    arena.execute(all);
+  } catch (const std::runtime_error&) {
+    part(0, count);  // TBB has no other error: the system gives it no threads
+  }
 }
 
 const Vector6d* from(const Vector6d* vectors, std::size_t first) {

@@ -189,7 +189,8 @@ TEST(ScenarioLoad, refusesWhatIsNoLoad) {
   EXPECT_EQ(load("[load]\ntable = @[{ time = 0 }]\n"), "load.table: 1 rows, expected >= 2");
   EXPECT_EQ(load("[load]\ntable = [{ time = 0, @wrench = 1 }]\n"),
             "unknown key 'wrench' in load.table[1], expected 'time', 'force' or 'moment'");
-  EXPECT_EQ(load("[load]\nfile = @\"\"\n"), "load.file: 'nowhere/', expected a CSV file");
+  EXPECT_EQ(load("[load]\nfile = @\"\"\n"), "load.file: an empty path, expected a file");
+  EXPECT_EQ(load("[load]\nfile = @\"a\\u0000.csv\"\n"), "load.file: a path with a zero byte, expected one without");
 }
 
 }  // namespace

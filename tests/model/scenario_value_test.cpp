@@ -120,7 +120,7 @@ TEST(ImpossibleScenario, cannotBeRead) {
   EXPECT_THAT(refusal<ScenarioError>([&] { readScenario(folder.path() / "none.toml"); }),
               EndsWith("none.toml:1:1: error: cannot be read, expected a scenario in TOML"));
   EXPECT_THAT(refusal<ScenarioError>([&] { readScenario(folder.path()); }),
-              EndsWith(":1:1: error: cannot be read, expected a scenario in TOML"));
+              EndsWith(":1:1: error: a folder, expected a scenario in TOML"));
 }
 
 }  // namespace

@@ -46,16 +46,16 @@ ErrorBudget budgetOf(const std::string& name, const Change& change = nullptr, co
     subject.torques = [right = subject.torques, change](const Motion<double>& motion) {
       return change(motion, right(motion));
     };
-  ReplayPlan plan = reference.plan;
+  ReplayPlan plan = reference.replays().plan;
   plan.torques = [subject, trajectory = scenario.trajectory](double t) { return subject.torques(trajectory->at(t)); };
-  std::vector<WindowedReplay> windows = reference.windows;
+  std::vector<WindowedReplay> windows = reference.replays().windows;
   for (WindowedReplay& window : windows) {
     ReplaySettings settings = settingsOf(scenario, plan, window.window, 1);
     settings.spoil = spoil;
     window.replay = replay(scenario, plan.torques, settings);
   }
   const auto samples = runPointwise(scenario, subject, reference.instants, reference.profile);
-  const ErrorBudget budget = attribute(scenario, samples, windows, reference.amplification, plan);
+  const ErrorBudget budget = attribute(scenario, samples, windows, reference.replays().amplification, plan);
   std::cout << name << ": observed " << budget.observed.norm() << ", model " << budget.model.error.norm()
             << ", integration " << budget.integration.error.norm() << ", rounding " << budget.rounding.error.norm()
             << ", closure " << budget.closure.error.norm() << ", unexplained " << budget.unexplained().norm() << " of "
@@ -128,9 +128,9 @@ TEST(Attribution, doesNotNameTheModelWhereTheIntegratorIsSpoilt) {
 /// The replay that ends furthest off is the one that is taken apart.
 TEST(Attribution, looksAtTheWindowThatEndsFurthestOff) {
   const Reference& reference = referenceOf("helix-10s");
-  ASSERT_GE(reference.windows.size(), 3u);
+  ASSERT_GE(reference.replays().windows.size(), 3u);
   double furthest = 0, t = 0;
-  for (const WindowedReplay& window : reference.windows)
+  for (const WindowedReplay& window : reference.replays().windows)
     if (window.replay.steps.back().position_error.norm() > furthest) {
       furthest = window.replay.steps.back().position_error.norm();
       t = window.replay.steps.back().t;
@@ -152,8 +152,8 @@ TEST(Attribution, comesOutTheSameTwice) {
 
 TEST(Attribution, withoutAReplayNothingIsMeasured) {
   const Reference& reference = referenceOf("paper-helix");
-  const ErrorBudget none =
-      attribute(reference.scenario, reference.conditions, {}, reference.amplification, reference.plan);
+  const ErrorBudget none = attribute(reference.scenario, reference.conditions, {}, reference.replays().amplification,
+                                     reference.replays().plan);
   EXPECT_FALSE(none.measured);
   ValidationResult result;
   addBudget(none, result);

@@ -106,12 +106,13 @@ TEST_P(Direct, theDeviationIsTheRightSolversWhoeverIsOnTrial) {
   ASSERT_GT((other.Phi - own.Phi).norm(), 0.01 * own.Phi.norm()) << "the control changes nothing";
   const auto deviation = [](const Check& check) { return check.why.substr(0, check.why.find(" grows")); };
   EXPECT_EQ(deviation(growth(stiffer(0.5))), deviation(growth(right_)));
-  EXPECT_NEAR(path.size() * path.right().Phi.topRows<6>().norm(), 1e-5 * reference_->amplification.length(), 1e-12);
+  EXPECT_NEAR(path.size() * path.right().Phi.topRows<6>().norm(), 1e-5 * reference_->replays().amplification.length(),
+              1e-12);
 }
 
 TEST_P(Direct, replaysBesideThePathAreTheSameMadeAfresh) {
-  const ReplayPlan& plan = reference_->plan;
-  const BesidePath afresh(here(), plan.torques, reference_->amplification, plan.acceleration,
+  const ReplayPlan& plan = reference_->replays().plan;
+  const BesidePath afresh(here(), plan.torques, reference_->replays().amplification, plan.acceleration,
                           10 * coarser * plan.tolerance);
   EXPECT_EQ(afresh.size(), reference_->beside().size());
   EXPECT_EQ(afresh.ends().whole_apart, reference_->beside().ends().whole_apart);

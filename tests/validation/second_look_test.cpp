@@ -63,8 +63,8 @@ TEST_P(SecondLooks, seeWhatTheStepsOfAReplayAreOffBy) {
   Scenario scenario = scenario_;
   scenario.simulation.samples = 21;
   const Reference reference(scenario);
-  const WindowedReplay& window = reference.windows.front();
-  ReplayPlan blunt = reference.plan;
+  const WindowedReplay& window = reference.replays().windows.front();
+  ReplayPlan blunt = reference.replays().plan;
   blunt.tolerance = 1e-8;
   const Replay replay =
       ursula::replay(reference.scenario, blunt.torques, settingsOf(reference.scenario, blunt, window.window, 1));

@@ -136,10 +136,10 @@ TEST_P(Shared, theLoopSaysTheSameWhateverItWasAskedBefore) {
 }
 
 TEST_P(Shared, replaysAskAtAllThatTheyDependOn) {
-  const WindowedReplay& window = reference_->windows.front();
+  const WindowedReplay& window = reference_->replays().windows.front();
   const double middle = (window.window.start() + window.window.end()) / 2;
   const auto run = [&](const Subject& subject) {
-    return replay(here(), historyOf(subject), settingsOf(here(), reference_->plan, window.window, 1));
+    return replay(here(), historyOf(subject), settingsOf(here(), reference_->replays().plan, window.window, 1));
   };
   const Subject same = scaled([](double) { return 1.0; });
   const Subject late = scaled([middle](double t) { return t < middle ? 1 : 1 + 4 * eps; });
@@ -152,10 +152,10 @@ TEST_P(Shared, replaysAskAtAllThatTheyDependOn) {
 }
 
 TEST_P(Shared, theLadderIsTheOneClimbedAlone) {
-  WindowedReplay window = reference_->windows.front();
+  WindowedReplay window = reference_->replays().windows.front();
   ASSERT_NE(window.coarse, nullptr);
   window.coarse = nullptr;  // no rung is known
-  const Ladder alone = climb(here(), reference_->plan.torques, window);
+  const Ladder alone = climb(here(), reference_->replays().plan.torques, window);
   const Ladder& shared = reference_->ladder();
   ASSERT_EQ(alone.rungs.size(), shared.rungs.size());
   for (std::size_t k = 0; k < alone.rungs.size(); ++k) {
@@ -169,7 +169,7 @@ TEST_P(Shared, theStabilisedReplayStandsForTheSameTorquesOnly) {
   const StabilisedReplay& known = reference_->stabilised();
   const auto judge = [&](const Subject& subject, const StabilisedReplay* with) {
     const auto samples = runPointwise(here(), subject, reference_->instants, reference_->profile);
-    return judgeStabilised(stabilisedReplay(here(), subject, reference_->amplification, samples, with),
+    return judgeStabilised(stabilisedReplay(here(), subject, reference_->replays().amplification, samples, with),
                            largestTorque(samples));
   };
   const Check alone = judge(solverOf(here()), nullptr), shared = judge(solverOf(here()), &known);
@@ -223,7 +223,7 @@ TEST_P(Shared, whoeverWantsToForeseeHasReplaysOfHisOwn) {
   const Evidence evidence = gather(given_, *reference_, subject, false, {}, {});
   EXPECT_GE(*told, evidence.windows.front().replay.accepted + evidence.stabilised->steps);
   EXPECT_EQ(evidence.windows.front().replay.steps.back().position_error,
-            reference_->windows.front().replay.steps.back().position_error);
+            reference_->replays().windows.front().replay.steps.back().position_error);
   EXPECT_EQ(evidence.stabilised->torque, reference_->stabilised().torque);
 }
 

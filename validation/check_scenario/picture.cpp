@@ -107,9 +107,13 @@ line, polygon { fill: none; stroke-width: 2 } .base { stroke: #666; fill: #6661 
 </style>
 )";
 
+/// U+FFFE and U+FFFF are no characters of XML.
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : std::string(1, c);
+  for (const char* forbidden : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"})
+    for (std::size_t at = out.find(forbidden); at != std::string::npos; at = out.find(forbidden, at))
+      out.replace(at, 3, "\xEF\xBF\xBD");
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "model/check_names.h"
 #include "model/loops/further_roads.h"
@@ -10,9 +11,11 @@
 namespace ursula {
 namespace {
 
-/// Why a check that was not made does not apply.
+/// Why a check that was not made does not apply; empty where it would.
 std::string whyNot(const CheckName& check, const Scenario& scenario, const SubjectHas& has) {
-  const auto unless = [](bool there, const std::string& why) { return there ? "the subject has no answer" : why; };
+  const auto unless = [](bool there, const std::string& why) { return there ? "" : why; };
+  const bool of_files = check.needs == CheckNeeds::nothing || check.needs == CheckNeeds::torque_file;
+  if (!has.any_instant && of_files) return "";
   if (!has.any_instant && check.needs != CheckNeeds::load_history && check.needs != CheckNeeds::scenario_file)
     return "a file gives torques alone, at its own instants";
   switch (check.needs) {
@@ -41,6 +44,13 @@ std::string whyNot(const CheckName& check, const Scenario& scenario, const Subje
   return unless(!has.left_out_ladder, "left out by the caller's options");
 }
 
+Check notMadeBy(const CheckName& check, const Scenario& scenario, const SubjectHas& has) {
+  const std::string why = whyNot(check, scenario, has);
+  if (why.empty() && !has.out_of_time.empty())
+    return notJudgeable(Reason::unfinished, check.name, std::nan(""), std::nan(""), check.unit, "", has.out_of_time);
+  return notApplicable(check.name, check.unit, why.empty() ? "the subject has no answer" : why);
+}
+
 }  // namespace
 
 void listEveryCheck(const Scenario& scenario, const SubjectHas& has, ValidationResult& result) {
@@ -48,9 +58,7 @@ void listEveryCheck(const Scenario& scenario, const SubjectHas& has, ValidationR
   for (const CheckName& wanted : checkNames()) {
     const auto found = std::find_if(result.checks.begin(), result.checks.end(),
                                     [&wanted](const Check& check) { return check.name == wanted.name; });
-    listed.push_back(found != result.checks.end()
-                         ? std::move(*found)
-                         : notApplicable(wanted.name, wanted.unit, whyNot(wanted, scenario, has)));
+    listed.push_back(found != result.checks.end() ? std::move(*found) : notMadeBy(wanted, scenario, has));
   }
   result.checks = std::move(listed);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "model/deadline.h"
 #include "validation/checks/commanded_motion.h"
 #include "validation/checks/direct_checks.h"
 #include "validation/checks/external_check.h"
@@ -23,7 +24,10 @@ namespace {
 
 bool always(const Evidence&) { return true; }
 
-bool answers(const Evidence& e) { return e.subject != nullptr && e.answered(); }
+/// False where time was up before: then they are none.
+bool sampled(const Evidence& e) { return e.has.out_of_time.empty() || !e.samples.empty(); }
+
+bool answers(const Evidence& e) { return e.subject != nullptr && sampled(e) && e.answered(); }
 
 bool anyFails(const std::vector<Check>& checks) {
   return std::any_of(checks.begin(), checks.end(), [](const Check& each) { return each.verdict == Verdict::fail; });
@@ -82,6 +86,9 @@ std::vector<Check> judgeReplays(const Evidence& e) {
   return checks;
 }
 
+/// False where time was up before.
+bool replayed(const Evidence& e) { return e.has.out_of_time.empty() || !e.windows.empty(); }
+
 void lookAtReplays(Evidence& e) {
   for (std::size_t k = 0; k < e.windows.size() && e.reference != nullptr; ++k)
     if (anyFails(judgeWindows(e, {e.windows[k]}))) lookCloser(e, k);
@@ -119,9 +126,10 @@ const std::vector<CheckFamily>& checkFamilies() {
   using E = const Evidence&;
   static const std::vector<CheckFamily> families = {
       {"motion", always, judgeMotion, nullptr, true},
-      {"samples", always, judgeSamples},
-      {"roads", answers, [](E e) { return judgeRoads(e.roads, e.units()); }},
-      {"invariances", answers, [](E e) { return judgeInvariances(e.invariances, e.samples, profileOf(e), e.units()); }},
+      {"samples", sampled, judgeSamples},
+      {"roads", [](E e) { return answers(e) && !e.roads.empty(); }, [](E e) { return judgeRoads(e.roads, e.units()); }},
+      {"invariances", [](E e) { return answers(e) && !e.invariances.empty(); },
+       [](E e) { return judgeInvariances(e.invariances, e.samples, profileOf(e), e.units()); }},
       {"reactions", [](E e) { return !e.reactions.empty(); },
        [](E e) { return std::vector<Check>{judgeReactions(e.reactions, e.samples, profileOf(e), e.units())}; }},
       {"between samples", answers,
@@ -129,7 +137,7 @@ const std::vector<CheckFamily>& checkFamilies() {
          return std::vector<Check>{judgeBetween(*e.scenario, *e.subject, e.samples, profileOf(e), e.units())};
        }},
       {"direct dynamics", [](E e) { return answers(e) && e.has.direct_dynamics; }, judgeDirectDynamics},
-      {"replays", always, judgeReplays, lookAtReplays},
+      {"replays", replayed, judgeReplays, lookAtReplays},
       {"ladder", climbed, judgeClimbed, lookAtLadder},
       {"order", [](E e) { return e.orders.has_value(); },
        [](E e) { return std::vector<Check>{judgeOrder(*e.orders)}; }},
@@ -148,16 +156,31 @@ void checksInSi(const Units& units, std::vector<Check>& checks) {
 }
 
 std::vector<Check> judgeAll(Evidence& evidence) {
-  for (const CheckFamily& family : checkFamilies())
-    if (family.second_look && family.applies(evidence) && anyFails(family.judge(evidence)))
-      family.second_look(evidence);
   std::vector<Check> out;
+  std::vector<const CheckFamily*> left;
+  // Where time is up, a family is not judged at all: without the second look it might fail what is right.
+  const auto inTime = [&evidence](const auto& work) {
+    try {
+      work();
+      return true;
+    } catch (const OutOfTime& over) {
+      evidence.has.out_of_time = over.words;
+      return false;
+    }
+  };
   for (const CheckFamily& family : checkFamilies()) {
     if (!family.applies(evidence)) continue;
-    std::vector<Check> checks = family.judge(evidence);
-    if (!family.in_si) checksInSi(evidence.units(), checks);
-    append(out, std::move(checks));
+    const bool ready = inTime([&] {
+      if (family.second_look && anyFails(family.judge(evidence))) family.second_look(evidence);
+    });
+    if (ready) left.push_back(&family);
   }
+  for (const CheckFamily* family : left)
+    inTime([&] {
+      std::vector<Check> checks = family->judge(evidence);
+      if (!family->in_si) checksInSi(evidence.units(), checks);
+      append(out, std::move(checks));
+    });
   return out;
 }
 

@@ -7,6 +7,8 @@
 #include <map>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
+#include <unordered_map>
 
 #include "model/csv.h"
 #include "model/nearest.h"
@@ -132,6 +134,20 @@ std::size_t skippedOf(const std::vector<double>& reference, const std::vector<do
   return skipped;
 }
 
+/// What two instants of the reference may be off by and still be told apart; how a number so large is rounded.
+double roundingOf(const std::vector<double>& reference) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k + 1 < reference.size(); ++k) least = std::min(least, reference[k + 1] - reference[k]);
+  return std::min(4 * eps * std::max(std::abs(reference.front()), std::abs(reference.back())), least / 4);
+}
+
+/// Columns by their names.
+std::unordered_map<std::string_view, const std::vector<double>*> byName(const TimeSeries& series) {
+  std::unordered_map<std::string_view, const std::vector<double>*> out;
+  for (std::size_t i = 0; i < series.names.size(); ++i) out.emplace(series.names[i], &series.columns[i]);
+  return out;
+}
+
 /// The test's instants within the reference's; those between two of the reference only where it is interpolated.
 std::vector<std::size_t> rowsToCompare(const std::vector<double>& reference, const std::vector<double>& test,
                                        double rounding, const CompareOptions& options, Comparison& out) {
@@ -207,21 +223,23 @@ Comparison compare(const TimeSeries& reference, const TimeSeries& test, const Co
   Comparison out;
   refuseUnknown(options.columns, reference, test);
   const std::vector<double>&t = *test.find("t_s"), &t_reference = *reference.find("t_s");
-  const double rounding = options.time_tolerance + 4 * eps * std::max(std::abs(t_reference.back()), std::abs(t.back()));
+  const double rounding = options.time_tolerance + roundingOf(t_reference);
   setTimes(t_reference, t, rounding, out);
   out.skipped = skippedOf(t_reference, t, rounding);
   const std::vector<std::size_t> rows = rowsToCompare(t_reference, t, rounding, options, out);
   const TimeSeries aligned = alignQuaternions(reference, test, rows);
   const TimeSeries continuous = alignQuaternions(reference);
+  const auto of_test = byName(aligned), of_reference = byName(reference);
   const std::map<std::string, double> scales = scalesOf(reference);
   for (std::size_t i = 0; i < reference.names.size(); ++i) {
     const std::string& name = reference.names[i];
     if (name == "t_s" || !isChosen(name, options.columns)) continue;
-    const std::vector<double>* values = aligned.find(name);
-    if (values == nullptr) {
+    const auto found = of_test.find(name);
+    if (found == of_test.end()) {
       out.only_in_reference.push_back(name);
       continue;
     }
+    const std::vector<double>* values = found->second;
     ChannelComparison channel;
     channel.name = name;
     channel.group = scales.count(scaleGroupOf(name)) != 0 ? scaleGroupOf(name) : groupOf(name);
@@ -234,7 +252,7 @@ Comparison compare(const TimeSeries& reference, const TimeSeries& test, const Co
     out.channels.push_back(channel);
   }
   for (const std::string& name : test.names)
-    if (reference.find(name) == nullptr && isChosen(name, options.columns)) out.only_in_test.push_back(name);
+    if (of_reference.count(name) == 0 && isChosen(name, options.columns)) out.only_in_test.push_back(name);
   out.verdict = verdictOf(out);
   return out;
 }

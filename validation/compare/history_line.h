@@ -52,7 +52,8 @@ class HistoryLine {
 
   bool isKnot(double t) const {
     const std::size_t i = before(t);
-    const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(t);
+    const double apart = i + 1 < t_.size() ? t_[i + 1] - t_[i] : std::numeric_limits<double>::infinity();
+    const double rounding = std::min(4 * std::numeric_limits<double>::epsilon() * std::abs(t), apart / 4);
     return std::abs(t - t_[i]) <= rounding || (i + 1 < t_.size() && std::abs(t_[i + 1] - t) <= rounding);
   }
 

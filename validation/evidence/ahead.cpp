@@ -1,11 +1,13 @@
 #include "validation/evidence/ahead.h"
 
-#include <exception>
+#include <algorithm>
+
+#include "model/start_threads.h"
 
 namespace ursula {
 
 Ahead::Ahead(int threads, const std::vector<Task>& first) : tasks_(first.begin(), first.end()) {
-  for (int k = 0; k < threads; ++k) threads_.emplace_back([this] { work(); });
+  threads_ = startThreads(static_cast<std::size_t>(std::max(threads, 0)), [this] { work(); });
 }
 
 Ahead::~Ahead() { finish(); }
@@ -42,7 +44,7 @@ void Ahead::work() {
     }
     try {
       task();
-    } catch (const std::exception&) {
+    } catch (...) {  // of a deadline, too, which is no std::exception
       // Whoever asks for it finds out why.
     }
   }

@@ -1,7 +1,9 @@
 #include "validation/evidence/evidence.h"
+#include "model/deadline.h"
 #include "validation/replay/observed_order.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace ursula {
 namespace {
@@ -35,15 +37,16 @@ bool answersAs(const AskedTorques& asked, const Evidence& evidence) {
 /// right torques' own.
 bool replayWindows(Evidence& evidence) {
   bool first_is_right = true;
-  evidence.windows = evidence.reference->windows;
-  for (WindowedReplay& window : evidence.windows) {
+  std::vector<WindowedReplay> windows = evidence.reference->replays().windows;
+  for (WindowedReplay& window : windows) {
     if (!evidence.spoil.replay && answersAs(window.replay.asked, evidence)) continue;
-    if (&window == &evidence.windows.front()) first_is_right = false;
+    if (&window == &windows.front()) first_is_right = false;
     ReplaySettings settings = settingsOf(*evidence.scenario, evidence.plan, window.window, 1);
     if (evidence.spoil.replay) evidence.spoil.replay(settings);
     window.replay = replay(*evidence.scenario, evidence.plan.torques, settings);
     window.replay.tolerance = evidence.plan.tolerance;  // that it is taken to have
   }
+  evidence.windows = std::move(windows);  // all or none
   return first_is_right;
 }
 
@@ -59,9 +62,33 @@ void runReplays(bool ladder, Evidence& evidence) {
                           : climb(scenario, evidence.plan.torques, evidence.windows.front(), rungSettings(evidence));
     evidence.orders = spoil.lower_order ? observedOrders(scenario, true) : reference.orders();
   }
-  evidence.stabilised =
-      stabilisedReplay(spoil.feedback ? spoil.feedback(scenario) : scenario, *evidence.subject, reference.amplification,
-                       evidence.samples, first_is_right && !spoil.feedback ? &reference.stabilised() : nullptr);
+  evidence.stabilised = stabilisedReplay(spoil.feedback ? spoil.feedback(scenario) : scenario, *evidence.subject,
+                                         reference.replays().amplification, evidence.samples,
+                                         first_is_right && !spoil.feedback ? &reference.stabilised() : nullptr);
+}
+
+void lookAtSamples(bool reactions, Evidence& out) {
+  const Reference& reference = *out.reference;
+  out.samples = runPointwise(*out.scenario, *out.subject, reference.instants, reference.profile, reference.simbody());
+  if (out.spoil.sample) std::for_each(out.samples.begin(), out.samples.end(), out.spoil.sample);
+  if (!out.answered()) return;
+  out.roads = roadSamples(out);
+  out.invariances = runInvariances(*out.scenario, *out.subject, out.samples);
+  if (reactions) out.reactions = reactionSamples(out);
+}
+
+void planReplays(Evidence& out) {
+  const RightReplays& right = out.reference->replays();
+  out.amplification = &right.amplification;
+  out.plan = right.plan;
+  const Subject subject = *out.subject;
+  const auto trajectory = out.scenario->trajectory;
+  out.plan.torques = [subject, trajectory](double t) { return subject.torques(trajectory->at(t)); };
+  if (subject.foresee)
+    out.plan.foresee = [subject, trajectory](const std::vector<double>& instants) {
+      foresee(subject, *trajectory, instants);
+    };
+  out.scales = {out.reference->position_scale, right.amplification.length(), out.reference->forces};
 }
 
 }  // namespace
@@ -79,7 +106,6 @@ Evidence gather(const Scenario& given, const Reference& reference, const Subject
   out.scenario = &reference.scenario;
   out.subject = &subject;
   out.reference = &reference;
-  out.amplification = &reference.amplification;
   out.right = right;
   out.spoil = spoil;
   out.has.kinematics = static_cast<bool>(subject.kinematics);
@@ -87,22 +113,13 @@ Evidence gather(const Scenario& given, const Reference& reference, const Subject
   out.has.other_machines = static_cast<bool>(subject.rebuilt);
   out.has.left_out_ladder = !experiments.ladder;
   out.has.left_out_reactions = !experiments.reactions;
-  out.plan = reference.plan;
-  const auto trajectory = reference.scenario.trajectory;
-  out.plan.torques = [subject, trajectory](double t) { return subject.torques(trajectory->at(t)); };
-  if (subject.foresee)
-    out.plan.foresee = [subject, trajectory](const std::vector<double>& instants) {
-      foresee(subject, *trajectory, instants);
-    };
-  out.scales = {reference.position_scale, reference.amplification.length(), reference.forces};
-
-  out.samples = runPointwise(*out.scenario, subject, reference.instants, reference.profile, reference.simbody());
-  if (spoil.sample) std::for_each(out.samples.begin(), out.samples.end(), spoil.sample);
-  if (!out.answered()) return out;
-  out.roads = roadSamples(out);
-  out.invariances = runInvariances(*out.scenario, subject, out.samples);
-  if (experiments.reactions) out.reactions = reactionSamples(out);
-  runReplays(experiments.ladder, out);
+  try {
+    lookAtSamples(experiments.reactions, out);
+    planReplays(out);
+    if (out.answered()) runReplays(experiments.ladder, out);
+  } catch (const OutOfTime& over) {
+    out.has.out_of_time = over.words;
+  }
   return out;
 }
 

@@ -26,6 +26,7 @@ struct SubjectHas {
   bool any_instant = true;  ///< torques at any instant, not those of a file alone
   bool kinematics = true, direct_dynamics = true, other_machines = true;
   bool left_out_ladder = false, left_out_reactions = false;  ///< by the caller's options
+  std::string out_of_time;  ///< why not all experiments were made, of which those missing left nothing; else empty
 };
 
 /// What was computed for one subject on one scenario, in the scenario's natural units. Filled once, by experiments that
@@ -37,7 +38,7 @@ struct Evidence {
   const Subject* subject = nullptr;              ///< null for torques of a file
   const Reference* reference = nullptr;          ///< null for torques of a file
   const ExternalTorques* external = nullptr;     ///< null for a subject
-  const Amplification* amplification = nullptr;  ///< null where nothing was replayed
+  const Amplification* amplification = nullptr;  ///< null where nothing was to be replayed
   SubjectHas has;
   bool right = false;  ///< the subject is the right solver
   Spoil spoil;

@@ -1,6 +1,7 @@
 #include "validation/evidence/reference.h"
 
 #include "model/instants.h"
+#include "validation/evidence/timed.h"
 #include "validation/replay/observed_order.h"
 #include "validation/subject/motion_check.h"
 
@@ -24,34 +25,53 @@ std::vector<PointwiseSample> conditionsAt(const Scenario& scenario, const std::v
   return out;
 }
 
-Reference::Reference(const Scenario& given, int threads)
-    : natural(checked(given)),
+Reference::Reference(const Scenario& given, int threads, const Deadline& deadline)
+    : deadline_(deadline),
+      natural(checked(given)),
       relocated(ursula::relocated(given, natural.origin)),
-      scenario(natural.of(given)),
+      scenario(timed(natural.of(given), deadline)),
       instants(equallySpaced(scenario.trajectory->duration(), scenario.simulation.samples)),
       // The longest first.
       ahead_(threads - 1, {[this] { orders(); }, [this] { simbody(); }, [this] { roads(); }}),
       profile(scenario, profileInstants(scenario.simulation.samples)),
-      amplification(linearised(scenario)),
       conditions(conditionsAt(scenario, instants, profile)),
       position_scale(positionScale(conditions)),
       forces(loopForces(conditions)) {
-  const double duration = scenario.trajectory->duration();
-  const Subject right = nocSubject(*scenario.manipulator, scenario.load);
-  const auto trajectory = scenario.trajectory;
-  plan.torques = [right, trajectory](double t) { return right.torques(trajectory->at(t)); };
-  plan.acceleration = SampledLimit(conditions);
-  plan.position_scale = position_scale;
-  plan.step_rate = plannedStepRate(duration);
-  plan.stiff = isStiff(amplification, duration);
-  plan.tolerance = reachableTolerance(scenario, plan.step_rate, plan.stiff);
-  plan.max_evaluations = enoughEvaluations(scenario, plan.step_rate);
-  windows = replayInWindows(scenario, amplification, plan);
-  measureIntegration(scenario, plan, windows);
-  measureOpening(conditions, windows);
+  if (!deadline.isSet()) replays();
 }
 
 Reference::~Reference() { ahead_.finish(); }  // before what its tasks work with
+
+void Reference::stop() const {
+  ahead_.finish();
+  deadline_.lift();
+}
+
+RightReplays Reference::rightReplays() const {
+  RightReplays out{linearised(scenario), {}, {}};
+  const double duration = scenario.trajectory->duration();
+  const Subject right = nocSubject(*scenario.manipulator, scenario.load);
+  const auto trajectory = scenario.trajectory;
+  ReplayPlan& plan = out.plan;
+  plan.torques = [right, trajectory](double t) { return right.torques(trajectory->at(t)); };
+  plan.acceleration = [limit = SampledLimit(conditions), deadline = deadline_](double t) {
+    deadline.require();
+    return limit(t);
+  };
+  plan.position_scale = position_scale;
+  plan.step_rate = plannedStepRate(duration);
+  plan.stiff = isStiff(out.amplification, duration);
+  plan.tolerance = reachableTolerance(scenario, plan.step_rate, plan.stiff);
+  plan.max_evaluations = enoughEvaluations(scenario, plan.step_rate);
+  out.windows = replayInWindows(scenario, out.amplification, plan);
+  measureIntegration(scenario, plan, out.windows);
+  measureOpening(conditions, out.windows);
+  return out;
+}
+
+const RightReplays& Reference::replays() const {
+  return replays_.get([this] { return rightReplays(); });
+}
 
 void Reference::prepare(bool direct_dynamics, bool ladder) const {
   if (direct_dynamics) ahead_.add([this] { beside().ends(); });
@@ -68,8 +88,8 @@ const IntegrationError& Reference::closer(std::size_t window) const {
   const std::lock_guard<std::mutex> lock(measuring_);
   const auto known = closer_.find(window);
   if (known != closer_.end()) return known->second;
-  const WindowedReplay& here = windows[window];
-  return closer_[window] = closerLook(scenario, plan, here.window, here.replay);
+  const WindowedReplay& here = replays().windows[window];
+  return closer_[window] = closerLook(scenario, replays().plan, here.window, here.replay);
 }
 
 std::vector<PointwiseSample> Reference::rightSamples() const {
@@ -99,18 +119,20 @@ const std::vector<DirectSample>& Reference::direct() const {
 
 const BesidePath& Reference::beside() const {
   return beside_.get([this] {
-    return BesidePath(scenario, plan.torques, amplification, plan.acceleration, 10 * coarser * plan.tolerance);
+    const ReplayPlan& plan = replays().plan;
+    return BesidePath(scenario, plan.torques, replays().amplification, plan.acceleration,
+                      10 * coarser * plan.tolerance);
   });
 }
 
 const Ladder& Reference::ladder() const {
-  return ladder_.get([this] { return climb(scenario, plan.torques, windows.front()); });
+  return ladder_.get([this] { return climb(scenario, replays().plan.torques, replays().windows.front()); });
 }
 
 const StabilisedReplay& Reference::stabilised() const {
   return stabilised_.get([this] {
     const Subject right = nocSubject(*scenario.manipulator, scenario.load);
-    return stabilisedReplay(scenario, right, amplification, rightSamples());
+    return stabilisedReplay(scenario, right, replays().amplification, rightSamples());
   });
 }
 

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <vector>
 
+#include "model/deadline.h"
 #include "model/scenario.h"
 #include "validation/evidence/ahead.h"
 #include "validation/limits/amplification.h"
@@ -22,24 +23,34 @@
 
 namespace ursula {
 
+/// What replays of the right torques do, and how deviations grow.
+struct RightReplays {
+  Amplification amplification;
+  ReplayPlan plan;                      ///< with the right torques
+  std::vector<WindowedReplay> windows;  ///< with what their integration is off by
+};
+
 /// What a validation needs of the scenario alone, whoever is on trial: the scenario where its numbers are good, how its
 /// roads round, how deviations grow, and what replays of the right torques do.
 struct Reference {
  private:  // made first: the helpers below fill it while the rest is made
   mutable std::mutex measuring_;
   mutable std::map<std::size_t, IntegrationError> closer_;
+  Deadline deadline_;
   Lazily<std::vector<double>> orders_;
   Lazily<std::vector<SimbodyAnswer>> simbody_;
   Lazily<std::vector<RoadTorques>> roads_;
   Lazily<std::vector<ReactionSample>> reactions_;
   Lazily<std::vector<DirectSample>> direct_;
+  Lazily<RightReplays> replays_;
   Lazily<BesidePath> beside_;
   Lazily<Ladder> ladder_;
   Lazily<StabilisedReplay> stabilised_;
 
  public:
-  /// On so many threads, which changes no number. Throws as validate() does.
-  explicit Reference(const Scenario& given, int threads = 1);
+  /// On so many threads, which changes no number. Throws as validate() does. Once the deadline is over, what is not
+  /// yet made throws OutOfTime when asked for, and so may this.
+  explicit Reference(const Scenario& given, int threads = 1, const Deadline& deadline = {});
   ~Reference();
   Reference(const Reference&) = delete;
   Reference& operator=(const Reference&) = delete;
@@ -54,20 +65,21 @@ struct Reference {
 
  public:
   RoundingProfile profile;
-  Amplification amplification;
   std::vector<PointwiseSample> conditions;  ///< motion and conditioning at the instants
   double position_scale = 0;
   LoopForces forces;
-  ReplayPlan plan;  ///< with the right torques
-  /// Replays of the right torques, with what their integration is off by.
-  std::vector<WindowedReplay> windows;
 
   /// What will be asked for of these is made ahead, where there are threads for it.
   void prepare(bool direct_dynamics, bool ladder) const;
 
+  /// Nothing is made ahead any more, and the deadline is lifted.
+  void stop() const;
+
+  /// Made with the rest, but where there is a deadline when first asked for: what needs no replay comes first.
+  const RightReplays& replays() const;
   /// observedOrders() of the scenario, when first asked for.
   const std::vector<double>& orders() const;
-  /// closerLook at one of `windows`, when first asked for.
+  /// closerLook at one of the windows, when first asked for.
   const IntegrationError& closer(std::size_t window) const;
 
   // What the engines say of the scenario alone, and of the right torques: asked when first needed.
@@ -80,6 +92,7 @@ struct Reference {
   const StabilisedReplay& stabilised() const;
 
  private:
+  RightReplays rightReplays() const;
   /// Conditions, and Simbody's torques.
   std::vector<PointwiseSample> rightSamples() const;
 };

@@ -196,11 +196,12 @@ ErrorBudget attribute(const Scenario& scenario, const std::vector<PointwiseSampl
   for (unsigned k = 0; k < presentations; ++k)
     from.push_back(randomPresentation(k + 101, amplification.length(), *scenario.manipulator));
   std::mutex asking;
-  std::vector<std::future<Track>> running;
+  std::vector<std::future<Track>> running;  // deferred where the system gives no more threads
   for (const Presentation& presentation : from)
-    running.push_back(std::async(std::launch::async, [&scenario, &plan, &asking, window, presentation] {
-      return projected(scenario, plan, *window, presentation, asking);
-    }));
+    running.push_back(
+        std::async(std::launch::async | std::launch::deferred, [&scenario, &plan, &asking, window, presentation] {
+          return projected(scenario, plan, *window, presentation, asking);
+        }));
   std::vector<Track> seen;
   for (auto& each : running) seen.push_back(each.get());
   const Tracks tracks{Track(window->replay, drawnInstants(*window)),

@@ -30,6 +30,8 @@ std::string nearestToEdge(const std::vector<PointwiseSample>& samples, const Uni
 
 void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
                  ValidationResult& result, const Units& units) {
+  result.replay_windows = windows.size();
+  if (samples.empty()) return;  // time was up before there were any
   double torque = 0, torque_error = 0, acceleration = 0, acceleration_error = 0;
   for (const PointwiseSample& sample : samples) {
     torque = std::max(torque, sample.torques_simbody.cwiseAbs().maxCoeff());
@@ -38,7 +40,6 @@ void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<
     acceleration = std::max(acceleration, sample.motion.p_ddot.norm() + length * sample.motion.omega_dot.norm());
     acceleration_error = larger(acceleration_error, sample.acceleration.error);
   }
-  result.replay_windows = windows.size();
   long evaluations = 0;
   std::size_t steps = 0;
   double growth = 0;

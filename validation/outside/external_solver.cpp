@@ -54,7 +54,8 @@ class Process {
 
 }  // namespace
 
-ValidationResult validateExternalSolver(const Scenario& scenario, const ExternalSolverOptions& options) {
+ValidationResult validateExternalSolver(const Scenario& scenario, const ExternalSolverOptions& options,
+                                        const ValidationOptions& validation) {
   const auto process = std::make_shared<Process>(scenario, options);
   OutsideSolver solver;
   solver.name = options.command;
@@ -64,7 +65,7 @@ ValidationResult validateExternalSolver(const Scenario& scenario, const External
     for (const Motion<double>& motion : motions) out.push_back(process->torques(motion));
     return out;
   };
-  ValidationResult result = validateOutside(scenario, solver);
+  ValidationResult result = validateOutside(scenario, solver, validation);
   process->finish();
   return result;
 }

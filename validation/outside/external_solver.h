@@ -16,6 +16,7 @@ struct ExternalSolverOptions {
 /// The whole validation of a scenario with a process of its own on trial, which is started once and has
 /// URSULA_SCENARIO, the scenario's path, in its environment. Throws as validateOutside() does, SolverProcessError, and
 /// std::system_error where it cannot be started.
-ValidationResult validateExternalSolver(const Scenario& scenario, const ExternalSolverOptions& options);
+ValidationResult validateExternalSolver(const Scenario& scenario, const ExternalSolverOptions& options,
+                                        const ValidationOptions& validation = {});
 
 }  // namespace ursula

@@ -12,6 +12,7 @@
 
 #include "model/errors.h"
 #include "model/instants.h"
+#include "model/start_threads.h"
 #include "nocsolver/errors.h"
 #include "validation/prove/defects.h"
 #include "validation/prove/random_scenario.h"
@@ -100,8 +101,8 @@ void inParallel(int jobs, int count, const std::function<void(int)>& task) {
         if (!failure) failure = std::current_exception();
       }
   };
-  std::vector<std::thread> threads;
-  for (int k = 1; k < std::min(jobs, count); ++k) threads.emplace_back(work);
+  std::vector<std::thread> threads =
+      startThreads(static_cast<std::size_t>(std::max(std::min(jobs, count) - 1, 0)), work);
   work();
   for (std::thread& thread : threads) thread.join();
   if (failure) std::rethrow_exception(failure);

@@ -64,7 +64,9 @@ bool isStiff(const Amplification& amplification, double duration) {
 
 long enoughEvaluations(const Scenario& scenario, double step_rate) {
   const auto knots = static_cast<long>(allKnots(scenario).size());
-  return 20000 + static_cast<long>(4 * 13 * step_rate * scenario.trajectory->duration()) + 4 * 13 * knots;
+  constexpr double most = 1e12;  // what takes that long is left to a time limit
+  return 20000 + static_cast<long>(std::min(most, 4 * 13 * step_rate * scenario.trajectory->duration())) +
+         4 * 13 * knots;
 }
 
 double positionScale(const std::vector<PointwiseSample>& samples) {
@@ -96,7 +98,9 @@ LoopForces loopForces(const std::vector<PointwiseSample>& samples) {
 }
 
 Amplification linearised(const Scenario& scenario) {
-  return Amplification(scenario, std::max(300, static_cast<int>(std::ceil(40 * scenario.trajectory->duration()))));
+  constexpr double least = 300, most = 300'000;  // a kilobyte each
+  return Amplification(scenario,
+                       static_cast<int>(std::clamp(std::ceil(40 * scenario.trajectory->duration()), least, most)));
 }
 
 std::vector<GrowthWindow> planWindows(const Amplification& amplification, const ReplayPlan& plan) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "model/shown_text.h"
 #include "validation/report/check_words.h"
 #include "validation/report/columns.h"
 #include "validation/report/found.h"
@@ -180,8 +181,8 @@ std::string reasonsText(const ValidationResult& result) {
 std::string validationText(const ValidationResult& result, bool coloured) {
   const std::string verdict = painted(name(result.verdict), paintOf(result.verdict), coloured);
   const std::string deviation = result.deviation ? ursula::sentence(*result.deviation) + "\n" : "";
-  return fmt::format("{}: {}\n\n{}{}{}\nverdict: {} — {}\n{}", result.scenario, verdict, checksTable(result, coloured),
-                     notApplicableText(result.checks), reasonsText(result), verdict,
+  return fmt::format("{}: {}\n\n{}{}{}\nverdict: {} — {}\n{}", withoutControls(result.scenario), verdict,
+                     checksTable(result, coloured), notApplicableText(result.checks), reasonsText(result), verdict,
                      reason(result.verdict, result.checks), deviation);
 }
 
@@ -194,10 +195,11 @@ std::string quietText(const ValidationResult& result, bool coloured) {
 
 std::string quietText(const SuiteEntry& entry, bool coloured) {
   if (!entry.error.empty())
-    return fmt::format("{}: {} — {}\n", entry.scenario, painted("error", Paint::bad, coloured), entry.error);
+    return fmt::format("{}: {} — {}\n", withoutControls(entry.scenario), painted("error", Paint::bad, coloured),
+                       withoutControls(entry.error));
   std::string out =
-      fmt::format("{}: {} — {}\n", entry.scenario, painted(name(entry.verdict), paintOf(entry.verdict), coloured),
-                  reason(entry.verdict, entry.checks));
+      fmt::format("{}: {} — {}\n", withoutControls(entry.scenario),
+                  painted(name(entry.verdict), paintOf(entry.verdict), coloured), reason(entry.verdict, entry.checks));
   for (const Check& check : entry.checks)
     if (isOpen(check)) out += fmt::format("  {}: {}\n", check.name, whyLine(check, ""));
   return out;

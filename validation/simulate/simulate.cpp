@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "nocsolver/solver.h"
 #include "validation/subject/subject.h"
@@ -178,15 +179,27 @@ class Progress {
   long evaluations_ = 0;
 };
 
+/// Throws std::runtime_error that names instant and quantity.
+void requireFinite(const Motion<double>& motion) {
+  const std::pair<const char*, double> parts[] = {
+      {"position", motion.p.sum()},          {"orientation", motion.Q.sum()},
+      {"velocity", motion.p_dot.sum()},      {"angular velocity", motion.omega.sum()},
+      {"acceleration", motion.p_ddot.sum()}, {"angular acceleration", motion.omega_dot.sum()}};
+  for (const auto& [what, sum] : parts)
+    if (!std::isfinite(sum))
+      throw std::runtime_error(fmt::format("the platform's {} is not finite at t = {:.9g} s", what, motion.t));
+}
+
 template <class System>
 Simulation integrate(System system, const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques,
-                     const std::vector<double>& instants, double tolerance) {
+                     const std::vector<double>& instants, double tolerance, const Deadline& deadline) {
   Simulation out;
   OdeState x = system.start(scenario.trajectory->at(instants.front()));
   auto stepper = odeint::make_controlled(tolerance, tolerance, odeint::runge_kutta_fehlberg78<OdeState>());
   Progress progress(instants);
   const auto derivative = [&](const OdeState& at, OdeState& rate, double t) {
     ++out.evaluations;
+    if (deadline.isOver()) throw std::runtime_error(deadline.words());
     system.derivative(t, at, torques(t), rate);
     for (double value : rate)
       if (!std::isfinite(value)) throw std::runtime_error(fmt::format("derivatives not finite at t = {} s", t));
@@ -202,8 +215,11 @@ Simulation integrate(System system, const Scenario& scenario, const SimbodyLoop:
         dt = cut && outcome == odeint::success ? std::max(dt, step) : step;
         if (outcome == odeint::success) system.check(t, x);
       }
-      out.torques.push_back(torques(instant));
-      out.motions.push_back(system.motion(instant, x, out.torques.back()));
+      const Vector6d now = torques(instant);
+      const Motion<double> motion = system.motion(instant, x, now);
+      requireFinite(motion);
+      out.torques.push_back(now);
+      out.motions.push_back(motion);
     }
   } catch (const std::exception& error) {
     out.gave_up = error.what();  // what was reached is still reported
@@ -214,9 +230,9 @@ Simulation integrate(System system, const Scenario& scenario, const SimbodyLoop:
 }  // namespace
 
 Simulation simulate(const Scenario& scenario, Engine engine, const SimbodyLoop::TorqueHistory& torques,
-                    const std::vector<double>& instants, double tolerance) {
-  return engine == Engine::noc ? integrate(NocSystem(scenario), scenario, torques, instants, tolerance)
-                               : integrate(SimbodySystem(scenario), scenario, torques, instants, tolerance);
+                    const std::vector<double>& instants, double tolerance, const Deadline& deadline) {
+  return engine == Engine::noc ? integrate(NocSystem(scenario), scenario, torques, instants, tolerance, deadline)
+                               : integrate(SimbodySystem(scenario), scenario, torques, instants, tolerance, deadline);
 }
 
 }  // namespace ursula

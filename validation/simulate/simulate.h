@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "model/deadline.h"
 #include "model/loops/simbody/simbody_loop.h"
 #include "model/scenario.h"
 
@@ -22,8 +23,8 @@ struct Simulation {
 ///
 /// The NOC engine integrates (36) with the platform's pose and twist as the state, so that no direct kinematics is
 /// solved in the loop and the assembly is never in doubt; the Simbody engine integrates the closed loop's own
-/// coordinates.
+/// coordinates. Stops where the deadline is over.
 Simulation simulate(const Scenario& scenario, Engine engine, const SimbodyLoop::TorqueHistory& torques,
-                    const std::vector<double>& instants, double tolerance);
+                    const std::vector<double>& instants, double tolerance, const Deadline& deadline = {});
 
 }  // namespace ursula

@@ -8,6 +8,8 @@
 #include <memory>
 #include <string>
 
+#include "model/start_threads.h"
+
 namespace ursula {
 namespace {
 
@@ -34,11 +36,12 @@ class Stream {
         tbb::make_filter<Handed, Handed>(filter_mode::serial_in_order, [this](Handed block) { return settle(block); }) &
         tbb::make_filter<Handed, Handed>(filter_mode::parallel, [this](Handed block) { return format(block); }) &
         tbb::make_filter<Handed, void>(filter_mode::serial_in_order, [this](Handed block) { write(block); });
-    const std::size_t at_once = static_cast<std::size_t>(options_.jobs) + 2;  // those that wait for their turn
+    // TBB ends where the system gives fewer threads than it wants.
+    const int jobs = 1 + static_cast<int>(threadsThatStart(static_cast<std::size_t>(options_.jobs - 1)));
+    const std::size_t at_once = static_cast<std::size_t>(jobs) + 2;  // those that wait for their turn
     // As many threads as were asked for, even if the processor has fewer: TBB would warn of it.
-    const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
-                                      static_cast<std::size_t>(options_.jobs));
-    tbb::task_arena arena(options_.jobs);
+    const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(jobs));
+    tbb::task_arena arena(jobs);
     arena.execute([&] { tbb::parallel_pipeline(at_once, chain); });
   }
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "model/nearest.h"
+#include "model/shown_text.h"
 #include "validation/subject/torque_names.h"
 
 namespace ursula {
@@ -56,6 +57,11 @@ class Finder {
     return std::find(dialect_.header_cells.begin(), dialect_.header_cells.end(), column) != dialect_.header_cells.end();
   }
 
+  std::string headerInWords() const {
+    constexpr std::size_t most = 1000;
+    return shown(fmt::format("{}", fmt::join(dialect_.header_cells, ", ")), most);
+  }
+
   bool isTaken(const std::string& column) const {
     return std::any_of(found_.begin(), found_.end(), [&](const auto& pair) { return pair.second.source == column; });
   }
@@ -63,7 +69,7 @@ class Finder {
   void take(const std::string& name, const std::string& column) {
     if (!has(column))
       fail(fmt::format("no column '{}' (--map {}), the header has {}{}", column, quoted(name + "=" + column),
-                       fmt::join(dialect_.header_cells, ", "), didYouMean(column, dialect_.header_cells)));
+                       headerInWords(), didYouMean(column, dialect_.header_cells)));
     const ColumnMeaning meaning = *meaningOfTarget(name);
     const std::string target = targetName(motors_, meaning.motor);
     found_.emplace(target, TorqueColumn{target, column, meaning.power});
@@ -101,10 +107,10 @@ class Finder {
     for (const std::string& column : dialect_.header_cells)
       if (!isTaken(column)) free.push_back(column);
     text += didYouMean(name, likeliest(name, free));
-    text += dialect_.header == 0 ? fmt::format("; there is no header, and {} columns (by {})",
-                                               dialect_.header_cells.size(), separatorWords(dialect_))
-                                 : fmt::format("; separated by {} it has: {}", separatorWords(dialect_),
-                                               fmt::join(dialect_.header_cells, ", "));
+    text += dialect_.header == 0
+                ? fmt::format("; there is no header, and {} columns (by {})", dialect_.header_cells.size(),
+                              separatorWords(dialect_))
+                : fmt::format("; separated by {} it has: {}", separatorWords(dialect_), headerInWords());
     return text + options(free);
   }
 

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "model/scenario_input.h"
+#include "model/start_threads.h"
 #include "validation/subject/motion_check.h"
 
 namespace ursula {
@@ -73,8 +74,7 @@ class SuiteRun {
 
   std::vector<SuiteEntry> run() {
     const std::size_t count = std::min(static_cast<std::size_t>(options_.jobs), members_.size());
-    std::vector<std::thread> threads;
-    for (std::size_t i = 1; i < count; ++i) threads.emplace_back([this] { work(); });
+    std::vector<std::thread> threads = startThreads(count > 0 ? count - 1 : 0, [this] { work(); });
     work();
     for (std::thread& thread : threads) thread.join();
     if (broken_) std::rethrow_exception(broken_);

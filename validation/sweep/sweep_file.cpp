@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 
+#include "model/toml_bounds.h"
 #include "model/toml_reader.h"
 
 namespace ursula {
@@ -158,7 +158,11 @@ SweepFile assemble(const TomlSection& document, const std::filesystem::path& fil
   sweep.file = file;
   std::string scenario;
   document.require("scenario", scenario);
-  if (scenario.empty()) document.fail("scenario", "empty, expected a path");
+  try {
+    requirePath(scenario);
+  } catch (const TextRefusal& refusal) {
+    document.fail("scenario", refusal.what());
+  }
   sweep.scenario = file.parent_path() / scenario;
   if (const auto work = document.readChoice(keysOf("").key("what"))) sweep.work = static_cast<SweepWork>(*work);
   sweep.pointwise = readFlag(document, "pointwise");
@@ -187,11 +191,11 @@ SweepFile parseSweepFile(const std::string& text, const std::filesystem::path& f
 }
 
 SweepFile readSweepFile(const std::filesystem::path& file) {
-  std::error_code error;
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file, error))
-    throw errorAt(file.string(), {}, "cannot be read, expected a sweep in TOML");
-  return parseSweepFile({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()}, file);
+  try {
+    return parseSweepFile(readText(file, {most_toml_bytes, "a sweep in TOML"}), file);
+  } catch (const TextRefusal& refusal) {
+    throw errorAt(file.string(), refusal);
+  }
 }
 
 }  // namespace ursula

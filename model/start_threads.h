@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <future>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace ursula {
+
+/// Up to `count` threads that do `work`; fewer where the system gives no more.
+template <class Work>
+std::vector<std::thread> startThreads(std::size_t count, const Work& work) {
+  std::vector<std::thread> threads;
+  threads.reserve(count);
+  try {
+    while (threads.size() < count) threads.emplace_back(work);
+  } catch (const std::system_error&) {
+    // Whoever asked does the rest himself.
+  }
+  return threads;
+}
+
+/// How many of `count` threads the system gives at once: for libraries that end where it gives fewer.
+inline std::size_t threadsThatStart(std::size_t count) {
+  std::promise<void> all;
+  const std::shared_future<void> asked = all.get_future().share();
+  std::vector<std::thread> threads = startThreads(count, [asked] { asked.wait(); });
+  all.set_value();
+  for (std::thread& thread : threads) thread.join();
+  return threads.size();
+}
+
+}  // namespace ursula

@@ -1,0 +1,111 @@
+// What is endless, absurd or empty ends at once, with a word for its cause.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/end_to_end/program.h"
+#include "tests/model/scenario_text.h"
+
+namespace ursula {
+namespace {
+
+using testing::AllOf;
+using testing::ContainsRegex;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+constexpr int bad_input = 2, inconclusive = 3;
+
+TEST(BoundsRun, readsNoEndlessSource) {
+  const Program ursula;
+  ursula.write("small.toml", good_scenario);
+  for (const char* call : {"check /dev/zero", "check - < /dev/zero", "sweep /dev/zero --db a.db",
+                           "validate small.toml --torques /dev/zero", "compare /dev/zero /dev/zero"}) {
+    const auto run = ursula(call);
+    EXPECT_EQ(run.exit_code, bad_input) << call;
+    EXPECT_THAT(run.err, AllOf(HasSubstr(":1"), HasSubstr("error: a zero byte, expected text"))) << call;
+  }
+  const auto pipe = ursula("check - < small.toml");
+  EXPECT_EQ(pipe.exit_code, 0) << "the control: " << pipe.err;
+}
+
+TEST(BoundsRun, refusesEmptyValues) {
+  const Program ursula;
+  ursula.write("small.toml", good_scenario);
+  for (const char* call : {"validate small.toml --torques ''", "validate small.toml --out ''", "validate ''",
+                           "inverse small.toml --out ''"}) {
+    const auto run = ursula(call);
+    EXPECT_EQ(run.exit_code, bad_input) << call;
+    EXPECT_THAT(run.err, HasSubstr(" is empty, expected a value")) << call;
+  }
+  EXPECT_EQ(ursula.files(), 1U) << "nothing was written";
+}
+
+TEST(BoundsRun, refusesNumbersThatWouldWrapAround) {
+  const Program ursula;
+  for (const char* seed : {"-1", "''", "18446744073709551616", "1.5", "1e3", "' 1'"}) {
+    const auto run = ursula("prove --only-random --random 0 --seed " + std::string(seed));
+    EXPECT_EQ(run.exit_code, bad_input) << seed;
+    EXPECT_THAT(run.err, HasSubstr("is no integer from 0 to 18446744073709551615")) << seed;
+  }
+  EXPECT_EQ(ursula("prove --only-random --random 0 --seed 18446744073709551615").exit_code, 0);
+}
+
+TEST(BoundsRun, tellsTheTerminalNothing) {
+  const Program ursula;
+  ursula.write("bad.toml", "name = \"a\\u001b]0;b\\u0007\"\n");
+  ursula.write("p\x1b[31m.toml", "x = 1\n");
+  for (const char* call : {"check bad.toml", "check 'p\x1b[31m.toml'", "validate 'no\x1b[31m' p*", "'\x1b[31m'"}) {
+    const auto run = ursula(call);
+    EXPECT_EQ(run.exit_code, bad_input) << call;
+    EXPECT_THAT(run.err, AllOf(HasSubstr("\\x1b"), Not(HasSubstr("\x1b")))) << call;
+  }
+}
+
+TEST(BoundsRun, inverseNamesInstantAndQuantityOfWhatIsNotFinite) {
+  const Program ursula;
+  ursula.write("small.toml", replaced(good_scenario, "[manipulator]\n", "[manipulator]\ngravity = [0, 0, -1e308]\n"));
+  const auto run = ursula("inverse small.toml --samples 3 --out out.csv");
+  EXPECT_EQ(run.exit_code, bad_input);
+  EXPECT_THAT(run.err, ContainsRegex("tau_[1-6]_Nm = -?(inf|nan) at t = 0 s, expected a finite number"));
+  EXPECT_EQ(ursula.files(), 1U) << "nothing was written";
+}
+
+TEST(TimeLimitRun, leavesAnInconclusiveReport) {
+  const Program ursula;
+  ursula.write("small.toml", good_scenario);
+  const auto run = ursula("validate small.toml --time-limit 0.001 --out out");
+  EXPECT_EQ(run.exit_code, inconclusive) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("the time limit of 0.001 s was reached"));
+  const auto summary = nlohmann::json::parse(TemporaryFolder::read(ursula.folder() / "out/summary.json"));
+  EXPECT_EQ(summary["verdict"], "inconclusive");
+  for (const char* file : {"report.html", "junit.xml", "timeseries.csv"})
+    EXPECT_TRUE(std::filesystem::exists(ursula.folder() / "out" / file)) << file;
+  EXPECT_THAT(ursula("validate small.toml --time-limit 0").err, HasSubstr("is no finite number above 0"));
+}
+
+TEST(TimeLimitRun, holdsForEachOfASuite) {
+  const Program ursula;
+  ursula.write("a.toml", replaced(good_scenario, "\"small\"", "\"a\""));
+  ursula.write("b.toml", replaced(good_scenario, "\"small\"", "\"b\""));
+  const auto run = ursula("validate a.toml b.toml --time-limit 0.001 --out out");
+  EXPECT_EQ(run.exit_code, inconclusive) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("0 passed, 0 failed, 2 inconclusive"));
+}
+
+TEST(TimeLimitRun, endsASimulation) {
+  const Program ursula;
+  ursula.write("small.toml", good_scenario);
+  ASSERT_EQ(ursula("inverse small.toml --samples 20 --out tau.csv").exit_code, 0);
+  const auto run = ursula("simulate small.toml --torques tau.csv --time-limit 1e-9");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("the time limit of 1e-09 s was reached"));
+  EXPECT_EQ(ursula("simulate small.toml --torques tau.csv --time-limit 1e6").exit_code, 0) << "the control";
+}
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,127 @@
+// A time limit: what is not reached is inconclusive and says why, the rest is judged, and no number depends on it.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <memory>
+
+#include "model/trajectories.h"
+#include "tests/support/vectors.h"
+#include "tests/validation/checks.h"
+#include "validation/evidence/reference.h"
+#include "validation/evidence/timed.h"
+#include "validation/report/summary.h"
+#include "validation/validate.h"
+#include "validation/validate_external.h"
+
+namespace ursula {
+namespace {
+
+Scenario quick() {
+  Scenario scenario = vectorScenario("paper-helix");
+  scenario.simulation.samples = 21;
+  return scenario;
+}
+
+ValidationOptions within(double seconds) {
+  ValidationOptions options;
+  options.time_limit = seconds;
+  return options;
+}
+
+constexpr double none_at_all = 1e-9, plenty = 1e8;
+
+void expectAllUnfinished(const ValidationResult& result) {
+  EXPECT_EQ(result.verdict, Verdict::inconclusive) << others(result.checks, Verdict::inconclusive);
+  std::size_t unfinished = 0;
+  for (const Check& check : result.checks)
+    if (check.reason == Reason::unfinished) {
+      ++unfinished;
+      EXPECT_EQ(check.why, "the time limit of 1e-09 s was reached") << check.name;
+    }
+  EXPECT_GE(unfinished, 10U);
+  for (const char* name : {"torque.pointwise", "replay.position", "energy.balance"})
+    EXPECT_EQ(verdictOf(result.checks, name), "inconclusive") << name;
+}
+
+TEST(TimeLimit, leavesAReportWhereNothingWasReached) {
+  expectAllUnfinished(validate(quick(), within(none_at_all)));
+  const Scenario scenario = quick();
+  expectAllUnfinished(validate(scenario, nocSubject(*scenario.manipulator, nullptr), within(none_at_all)));
+}
+
+TEST(TimeLimit, changesNoNumberWhereItIsNotReached) {
+  const auto run = [](double limit) { return report::summaryJson(validate(quick(), within(limit))); };
+  EXPECT_EQ(run(plenty), run(0));
+}
+
+/// A subject that takes all the time there is, from its `last` answer on.
+Subject slowFrom(int last, const Deadline& deadline) {
+  Subject subject = nocSubject(*quick().manipulator, nullptr);
+  subject.torques = [right = subject.torques, last, deadline, asked = std::make_shared<int>(0)](const auto& motion) {
+    if (++*asked > last)
+      while (!deadline.isOver()) {
+      }
+    return right(motion);
+  };
+  return subject;
+}
+
+TEST(TimeLimit, judgesWhatWasReached) {
+  constexpr double limit = 20;  // s, of which most is waited for in the replays
+  const Scenario scenario = quick();
+  const Subject slow = slowFrom(200, Deadline(limit));
+  const ValidationResult result = validate(scenario, slow, within(limit));
+  const auto found = [&](const char* name) { return verdictOf(result.checks, name); };
+  EXPECT_EQ(result.verdict, Verdict::inconclusive);
+  EXPECT_EQ(found("torque.pointwise"), "pass");
+  EXPECT_EQ(found("replay.position"), "inconclusive");
+  EXPECT_EQ(result.timeseries.rows(), 21U);
+}
+
+TEST(TimeLimit, holdsForTorquesOfAFile) {
+  const Scenario scenario = quick();
+  TorqueFile file;
+  file.file = "tau.csv";
+  const Subject right = nocSubject(*scenario.manipulator, nullptr);
+  for (int k = 0; k <= 30; ++k) {
+    file.t.push_back(scenario.trajectory->duration() * k / 30);
+    file.torques.push_back(right.torques(scenario.trajectory->at(file.t.back())));
+    file.time_precision.push_back(0);
+    file.torque_precision.push_back(Vector6d::Zero());
+  }
+  const ValidationResult result = validateExternal(scenario, file, none_at_all);
+  EXPECT_EQ(result.verdict, Verdict::inconclusive) << others(result.checks, Verdict::inconclusive);
+  EXPECT_EQ(verdictOf(result.checks, "torque.pointwise"), "inconclusive");
+  EXPECT_EQ(verdictOf(result.checks, "torque.twin"), "not_applicable") << "a file has none, however long it takes";
+}
+
+TEST(TimedScenario, throwsWhereTheDeadlineIsOverAndUntilItIsLifted) {
+  const Scenario scenario = quick();
+  EXPECT_EQ(timed(scenario, Deadline()).trajectory, scenario.trajectory) << "itself where there is none";
+  const Deadline over(none_at_all), copy = over;
+  const Scenario here = timed(scenario, over);
+  EXPECT_THROW(here.trajectory->at(1.0), OutOfTime);
+  EXPECT_EQ(here.trajectory->duration(), scenario.trajectory->duration());
+  copy.lift();
+  EXPECT_EQ(here.trajectory->at(1.0).p, scenario.trajectory->at(1.0).p);
+  EXPECT_NO_THROW(timed(scenario, Deadline(plenty)).trajectory->at(1.0));
+}
+
+/// 1e300 s would overflow the clock.
+TEST(Deadline, takesAnyLength) { EXPECT_FALSE(Deadline(1e300).isOver()); }
+
+/// A motion of a thousand years has a bounded number of intervals.
+TEST(TimeLimit, endsAMotionWithoutEnd) {
+  const Scenario hold = readScenario(URSULA_SCENARIOS "/hold.toml");
+  Scenario scenario = hold;
+  scenario.simulation.samples = 5;
+  const Motion<double> pose = hold.trajectory->at(0);
+  const Eigen::Quaterniond q(pose.Q);
+  scenario.trajectory = makeHold(pose.p, {q.w(), q.x(), q.y(), q.z()}, 3e10);
+  EXPECT_EQ(validate(scenario, within(5)).verdict, Verdict::inconclusive);
+}
+
+}  // namespace
+}  // namespace ursula
