@@ -6,6 +6,7 @@
 #include "apps/verbs.h"
 #include "model/csv.h"
 #include "model/scenario_input.h"
+#include "model/shown_text.h"
 #include "validation/check_scenario/check_scenario.h"
 #include "validation/subject/motion_check.h"
 
@@ -23,14 +24,14 @@ bool checkOne(const std::string& file, const CheckOptions& options) {
     const Scenario scenario = readScenarioOrInput(file);
     const std::vector<std::string> odd = warnings(scenario);
     std::FILE* const out = options.picture == "-" ? stderr : stdout;
-    for (const std::string& line : odd) fmt::print(out, "{}\n", line);
+    for (const std::string& line : odd) fmt::print(out, "{}\n", withoutControls(line));
     if (!options.picture.empty()) writeOutput(options.picture, picture(scenario));
     tryMotion(scenario);
-    fmt::print(out, "{}: can be read and its motion be made; {} warning{}\n", scenario.file.string(), odd.size(),
-               odd.size() == 1 ? "" : "s");
+    fmt::print(out, "{}: can be read and its motion be made; {} warning{}\n", withoutControls(scenario.file.string()),
+               odd.size(), odd.size() == 1 ? "" : "s");
     return true;
   } catch (const ScenarioError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    fmt::print(stderr, "{}\n", withoutControls(error.what()));
     return false;
   }
 }

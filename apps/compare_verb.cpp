@@ -6,6 +6,7 @@
 
 #include "apps/validate_output.h"
 #include "apps/verbs.h"
+#include "model/shown_text.h"
 #include "validation/compare/compare_page.h"
 #include "validation/report/junit.h"
 
@@ -35,7 +36,7 @@ int compareFiles(const Options& options) {
   if (isTable(options.out)) writeOutput(options.out, comparisonCsv(comparison));
   // Data alone goes to standard output: where that is the CSV, the table is for the terminal.
   std::FILE* const stream = options.out == "-" || options.junit == "-" ? stderr : stdout;
-  fmt::print(stream, "{}", comparisonText(comparison));
+  fmt::print(stream, "{}", withoutControls(comparisonText(comparison)));
   if (!options.out.empty() && !isTable(options.out))
     fmt::print(stream, "page: {}\n", (std::filesystem::path(options.out) / "compare.html").string());
   return exitCode(comparison.verdict);

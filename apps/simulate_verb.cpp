@@ -9,6 +9,7 @@
 #include "apps/verbs.h"
 #include "model/csv.h"
 #include "model/scenario_input.h"
+#include "model/shown_text.h"
 #include "validation/external/torque_spline.h"
 #include "validation/findings/timeseries.h"
 #include "validation/simulate/simulate.h"
@@ -50,7 +51,7 @@ int simulateVerb(const SimulateOptions& options) {
   writeOutput(options.out, csvText(series.names, series.columns));
   const std::string missing = whatIsMissing(run, file, scenario.trajectory->duration());
   if (missing.empty()) return exit_passed;
-  fmt::print(stderr, "{}\n", missing);
+  fmt::print(stderr, "{}\n", withoutControls(missing));
   return exit_failed;
 }
 

@@ -45,18 +45,14 @@ TEST(Compare, aHistoryPassesAgainstItself) {
   EXPECT_THAT(comparisonText(result), HasSubstr("compared 2 of 2 channels at 101 instants; 2 within tolerance"));
 }
 
-/// The rounding of a last instant at 1e15 s is no tolerance for those before.
+/// 1e15 s is rounded to an eighth of a second, which is no tolerance for instants in the first third of one.
 TEST(Compare, tellsTwoInstantsOfTheReferenceApart) {
-  TimeSeries reference = history(t_101), test = history(t_101, 0.3);
-  reference.columns[0].back() = test.columns[0].back() = 1e15;
-  EXPECT_EQ(compare(reference, reference, {}).instants, 101U);
-  EXPECT_EQ(compare(reference, test, {}).instants, 101U);
-  EXPECT_EQ(compare(reference, test, {}).verdict, Verdict::fail);
-  const TimeSeries one = {{"t_s", "tau_1_Nm"}, {{1e15}, {reference.columns[1].back()}}};
-  EXPECT_EQ(compare(reference, one, {}).verdict, Verdict::inconclusive) << "one of 101";
-  TimeSeries late = history(t_101);
-  late.columns[0].back() = 1e15;
-  EXPECT_NE(compare(history(t_101), late, {}).verdict, Verdict::pass) << "nor is that of the test's";
+  const TimeSeries reference = history(equallySpaced(0.3, 301));
+  const TimeSeries one = history({0, 1e15});
+  const Comparison result = compare(reference, one, {});
+  EXPECT_EQ(result.verdict, Verdict::inconclusive);
+  EXPECT_GE(result.skipped, 299U);
+  EXPECT_EQ(compare(reference, reference, {}).verdict, Verdict::pass) << "the control";
 }
 
 TEST(Compare, maximumRmsAndFinalErrorAreThoseOfTheDifference) {
