@@ -6,6 +6,7 @@
 
 #include "apps/embedded_scenario.h"
 #include "apps/progress.h"
+#include "apps/streams.h"
 #include "apps/verbs.h"
 #include "model/scenario_input.h"
 #include "validation/audit/audit.h"
@@ -30,7 +31,7 @@ int audit(const AuditOptions& options) {
     const std::filesystem::path dir = options.out;
     writeOutput((dir / "audit.json").string(), auditJson(result));
     writeOutput((dir / "audit.html").string(), auditHtml(result));
-    fmt::print(stderr, "page: {}\n", (dir / "audit.html").string());
+    say("page: {}\n", (dir / "audit.html").string());
   }
   if (options.json != "-" && options.markdown != "-") writeOutput("-", auditText(result));
   if (!options.json.empty()) writeOutput(options.json, auditJson(result));

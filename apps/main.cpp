@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <functional>
 
+#include "apps/streams.h"
 #include "apps/usage.h"
 #include "apps/verbs.h"
 #include "model/csv.h"
@@ -16,7 +17,7 @@
 namespace {
 
 int complain(const std::string& what) {
-  fmt::print(stderr, "{}\n", what);
+  ursula::say("{}\n", what);
   return ursula::exit_bad_input;
 }
 
@@ -56,11 +57,18 @@ int runProgram(int argc, char** argv) {
   return runVerb(run);
 }
 
+/// What was printed is data: a pass that nobody can read is none.
+int finished(int code) {
+  const std::string lost = code == ursula::exit_bad_input ? "" : ursula::lostOutput();
+  return lost.empty() ? code : complain("error: " + lost);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    return runProgram(argc, argv);
+    ursula::secureStreams();
+    return finished(runProgram(argc, argv));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());  // the last resort is not to throw itself
     return ursula::exit_bad_input;

@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "apps/streams.h"
+
 namespace ursula {
 namespace {
 
@@ -35,7 +37,7 @@ Progress::~Progress() {
   }
   ending_.notify_all();
   drawing_.join();
-  if (drawn_) std::fputs("\r\033[K", stderr);  // what is on stdout says it all
+  if (drawn_) sayText("\r\033[K");  // what is on stdout says it all
 }
 
 void Progress::at(double share, const std::string& note) {
@@ -45,7 +47,7 @@ void Progress::at(double share, const std::string& note) {
   note_ = note;
   at_seconds_ = seconds();
   if (!on_terminal_ && lines_ == Lines::tenths && next_tenth && at_seconds_ > silent_seconds)
-    fmt::print(stderr, "{}: {}{}\n", what_, note_, timeText());
+    say("{}: {}{}\n", what_, note_, timeText());
 }
 
 /// By a thread of its own: what is slow says nothing for long.
@@ -58,9 +60,7 @@ void Progress::keepDrawing() {
 void Progress::draw() {
   constexpr std::size_t width = 30;
   const auto filled = static_cast<std::size_t>(std::clamp(share_, 0.0, 1.0) * width);
-  fmt::print(stderr, "\r\033[K{} [{}{}] {}{}", what_, std::string(filled, '#'), std::string(width - filled, '.'), note_,
-             timeText());
-  std::fflush(stderr);
+  say("\r\033[K{} [{}{}] {}{}", what_, std::string(filled, '#'), std::string(width - filled, '.'), note_, timeText());
   drawn_ = true;
 }
 

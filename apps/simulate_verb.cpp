@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "apps/choice.h"
+#include "apps/streams.h"
 #include "apps/torque_option.h"
 #include "apps/verbs.h"
 #include "model/csv.h"
@@ -47,7 +48,7 @@ int simulateVerb(const SimulateOptions& options) {
   writeOutput(options.out, csvText(series.names, series.columns));
   const std::string missing = whatIsMissing(run, file, scenario.trajectory->duration());
   if (missing.empty()) return exit_passed;
-  fmt::print(stderr, "{}\n", missing);
+  say("{}\n", missing);
   return exit_failed;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 
+#include "apps/streams.h"
 #include "validation/subject/effort_columns.h"
 
 namespace ursula {
@@ -20,10 +21,10 @@ void addMapOption(CLI::App& verb, std::vector<std::string>& map) {
 
 TorqueFile readTorquesAloud(const std::string& file, const std::vector<std::string>& map, const Motors& motors) {
   const TorqueFile torques = readTorqueFile(file, parseColumnMap(map, motors), motors);
-  if (!torques.read_as.empty()) fmt::print(stderr, "{}: read as: {}\n", file, torques.read_as);
+  if (!torques.read_as.empty()) say("{}: read as: {}\n", file, torques.read_as);
   if (!torques.ignored.empty())
-    fmt::print(stderr, "{}: ignoring columns that are none of t_s, {} … {}: {}\n", file, effortColumn(motors, 0),
-               effortColumn(motors, motor_count - 1), fmt::join(torques.ignored, ", "));
+    say("{}: ignoring columns that are none of t_s, {} … {}: {}\n", file, effortColumn(motors, 0),
+        effortColumn(motors, motor_count - 1), fmt::join(torques.ignored, ", "));
   return torques;
 }
 

@@ -9,12 +9,15 @@
 #include <utility>
 
 #include "apps/progress.h"
+#include "apps/streams.h"
 #include "apps/torque_option.h"
 #include "apps/validate_output.h"
 #include "apps/verbs.h"
+#include "model/atomic_folder.h"
 #include "model/scenario.h"
 #include "validation/outside/external_solver.h"
 #include "validation/report/report.h"
+#include "validation/report/run.h"
 #include "validation/suite/suite.h"
 #include "validation/validate.h"
 #include "validation/validate_external.h"
@@ -49,9 +52,12 @@ ValidationResult judge(const Scenario& scenario, const ValidateOptions& options)
 }
 
 int validateOne(const Scenario& scenario, const ValidateOptions& options, const std::filesystem::path& dir) {
+  AtomicFolder out(dir, report::resultsIn);
+  requireResults(out, "");
   const Stopwatch watch;
   const ValidationResult result = judge(scenario, options);
-  writeResults(result, dir, watch.time());
+  addResults(result, out, "", watch.time(), Place::alone);
+  out.commit();
   printResult(result, dir, options.said());
   return exitCode(result.verdict);
 }
@@ -67,8 +73,8 @@ class SuiteProgress {
     const std::string missed = not_passed_ > 0 ? fmt::format(", {} not passed", not_passed_) : "";
     bar_.at(static_cast<double>(done) / static_cast<double>(total_), fmt::format("{} of {}{}", done, total_, missed));
     if (!bar_.onTerminal())
-      fmt::print(stderr, "[{}/{}] {} {}, {:.1f} s\n", done, total_, entry.error.empty() ? name(entry.verdict) : "error",
-                 entry.scenario, entry.time.seconds);
+      say("[{}/{}] {} {}, {:.1f} s\n", done, total_, entry.error.empty() ? name(entry.verdict) : "error",
+          entry.scenario, entry.time.seconds);
   }
 
  private:
@@ -79,7 +85,7 @@ class SuiteProgress {
 int validateSuite(const std::vector<SuiteMember>& members, const ValidateOptions& options,
                   const std::filesystem::path& dir) {
   for (const SuiteMember& member : members)
-    if (!member.error.empty()) fmt::print(stderr, "{}\n", member.error);
+    if (!member.error.empty()) say("{}\n", member.error);
   SuiteOptions suite;
   suite.jobs = options.jobs;
   suite.judge = [](const Scenario& scenario) { return validate(scenario); };

@@ -12,6 +12,7 @@
 #include "model/nearest.h"
 #include "validation/compare/history_line.h"
 #include "validation/compare/rotations.h"
+#include "validation/report/run.h"
 
 namespace ursula {
 namespace {
@@ -191,6 +192,7 @@ void refuseUnknown(const std::vector<std::string>& patterns, const TimeSeries& r
 TimeSeries readHistory(const std::filesystem::path& file_or_folder) {
   std::error_code ignored;
   const bool is_folder = std::filesystem::is_directory(file_or_folder, ignored);
+  if (is_folder) report::refuseMixture(file_or_folder);
   const CsvTable table = readCsv(is_folder ? historyIn(file_or_folder) : file_or_folder, {{}, false});
   const std::vector<double>& t = table.at("t_s");
   for (std::size_t k = 0; k < t.size(); ++k)
