@@ -12,13 +12,11 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
 
 #include "model/sha1.h"
-#include "tests/end_to_end/program.h"
-#include "tests/model/scenario_text.h"
+#include "tests/end_to_end/quick_runs.h"
 
 namespace ursula {
 namespace {
@@ -27,25 +25,6 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using testing::AllOf;
 using testing::HasSubstr;
-using testing::IsEmpty;
-
-std::string scenario(const std::string& name, const std::string& mass = "500.0") {
-  std::string text = replaced(good_scenario, "name = \"small\"", "name = \"" + name + "\"");
-  text = replaced(replaced(text, "duration = 3.0", "duration = 0.3"), "mass = 500.0", "mass = " + mass);
-  return text + "\n[simulation]\nsamples = 3\n";
-}
-
-/// Every file under `folder` by its path, but for what has wall times.
-std::map<std::string, std::string> contents(const fs::path& folder) {
-  std::map<std::string, std::string> all;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (!entry.is_directory()) all[entry.path().lexically_relative(folder)] = TemporaryFolder::read(entry.path());
-  for (auto& [name, content] : all) {
-    const std::string file = fs::path(name).filename();
-    if (file == "junit.xml" || file == "suite.json" || file == "index.html") content = "";
-  }
-  return all;
-}
 
 /// A run of the program that can be killed.
 class Running {
@@ -143,7 +122,7 @@ Outcomes killRuns(const Program& ursula, const std::vector<std::vector<std::stri
     ursula.write("out/note", "mine");
     whole.push_back(contents(ursula.folder() / "out"));
   }
-  EXPECT_NE(whole[0], whole[1]) << "or nothing would be seen";
+  EXPECT_FALSE(whole[0] == whole[1]) << "or nothing would be seen";
   std::mt19937 random(20261122);
   std::size_t current = 1;
   Outcomes outcomes;
@@ -156,7 +135,7 @@ Outcomes killRuns(const Program& ursula, const std::vector<std::vector<std::stri
     if (is_new) current = 1 - current;
   }
   Running(ursula, calls[0]).wait();
-  EXPECT_EQ(contents(ursula.folder() / "out"), whole[0]);
+  EXPECT_TRUE(contents(ursula.folder() / "out") == whole[0]);
   for (const auto& entry : fs::directory_iterator(ursula.folder()))
     EXPECT_NE(entry.path().filename().string().find(".ursula"), 0u) << entry << " of a run that was killed";
   return outcomes;
@@ -164,8 +143,8 @@ Outcomes killRuns(const Program& ursula, const std::vector<std::vector<std::stri
 
 TEST(WholeResults, ofARunThatIsKilledAreTheOldOrTheNew) {
   const Program ursula;
-  ursula.write("a.toml", scenario("one"));
-  ursula.write("b.toml", scenario("one", "499.0"));
+  ursula.write("a.toml", quickScenario("one"));
+  ursula.write("b.toml", quickScenario("one", "499.0"));
   const Outcomes outcomes =
       killRuns(ursula, {{"validate", "a.toml", "--out", "out"}, {"validate", "b.toml", "--out", "out"}});
   EXPECT_GT(outcomes.old, 0);
@@ -176,7 +155,7 @@ TEST(WholeResults, ofARunThatIsKilledAreTheOldOrTheNew) {
 TEST(WholeResults, ofASuiteThatIsKilledAreTheOldOrTheNew) {
   const Program ursula;
   for (const char* mass : {"500.0", "499.0"})
-    for (const char* name : {"one", "two"}) ursula.write(std::string(name) + mass + ".toml", scenario(name, mass));
+    for (const char* name : {"one", "two"}) ursula.write(std::string(name) + mass + ".toml", quickScenario(name, mass));
   const Outcomes outcomes =
       killRuns(ursula, {{"validate", "one500.0.toml", "two500.0.toml", "--out", "out", "--jobs", "2"},
                         {"validate", "one499.0.toml", "two499.0.toml", "--out", "out", "--jobs", "2"}});
@@ -185,17 +164,9 @@ TEST(WholeResults, ofASuiteThatIsKilledAreTheOldOrTheNew) {
   testing::Test::RecordProperty("killed_after_the_swap", outcomes.fresh);
 }
 
-/// As a shell runs it in the folder, where $URSULA is the program.
-int shell(const Program& ursula, const std::string& line) {
-  const std::string command =
-      "cd '" + ursula.folder().string() + "' && URSULA='" URSULA_PROGRAM "' && { " + line + "; } </dev/null";
-  const int status = std::system(command.c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
 TEST(WholeResults, ofASecondRunIntoOneFolderAreRefused) {
   const Program ursula;
-  ursula.write("a.toml", scenario("one"));
+  ursula.write("a.toml", quickScenario("one"));
   const fs::path lock = ursula.write(".ursula-lock-" + sha1("out").substr(0, 12), "4711\n");
   const int held = ::open(lock.c_str(), O_RDONLY | O_CLOEXEC);
   ASSERT_EQ(::flock(held, LOCK_EX), 0);
@@ -212,14 +183,14 @@ TEST(WholeResults, ofASecondRunIntoOneFolderAreRefused) {
 
 TEST(WholeResults, whereNoMoreCanBeWrittenAreTheOldOnes) {
   const Program ursula;
-  ursula.write("a.toml", scenario("one"));
-  ursula.write("b.toml", scenario("two"));
+  ursula.write("a.toml", quickScenario("one"));
+  ursula.write("b.toml", quickScenario("two"));
   for (const char* what : {"a.toml", "a.toml b.toml"}) {
     const std::string call = std::string("validate ") + what + " --quiet --out out";
     ASSERT_EQ(ursula(call).exit_code, 0);
     const auto before = contents(ursula.folder());
     EXPECT_EQ(shell(ursula, "ulimit -f 64; \"$URSULA\" " + call + " 2>/dev/full"), 2);
-    EXPECT_EQ(contents(ursula.folder()), before) << what;
+    EXPECT_TRUE(contents(ursula.folder()) == before) << what;
     EXPECT_EQ(shell(ursula, "ulimit -f 64; \"$URSULA\" " + call + " 2>err"), 2);
     EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "err"),
                 AllOf(HasSubstr("error: cannot write out/"), HasSubstr(": File too large\n")));
@@ -231,9 +202,9 @@ TEST(WholeResults, whereNoMoreCanBeWrittenAreTheOldOnes) {
 TEST(WholeResults, thatCannotBeWrittenAreRefusedBeforeAnythingIsComputed) {
   const Program ursula;
   const std::string long_name(300, 'n');
-  ursula.write("a.toml", scenario("one"));
-  ursula.write("b.toml", scenario("two"));
-  ursula.write("long.toml", scenario(long_name));
+  ursula.write("a.toml", quickScenario("one"));
+  ursula.write("b.toml", quickScenario("two"));
+  ursula.write("long.toml", quickScenario(long_name));
   fs::create_directories(ursula.folder() / "out");
   fs::create_directories(ursula.folder() / "closed");
   ursula.write("out/two", "a file where a folder should be");
@@ -261,8 +232,8 @@ TEST(WholeResults, thatCannotBeWrittenAreRefusedBeforeAnythingIsComputed) {
 
 TEST(WholeResults, ofTwoRunsAreNotCompared) {
   const Program ursula;
-  ursula.write("a.toml", scenario("one"));
-  ursula.write("b.toml", scenario("one", "499.0"));
+  ursula.write("a.toml", quickScenario("one"));
+  ursula.write("b.toml", quickScenario("one", "499.0"));
   ASSERT_EQ(ursula("validate a.toml --quiet --out a").exit_code, 0);
   ASSERT_EQ(ursula("validate b.toml --quiet --out b").exit_code, 0);
   EXPECT_EQ(ursula("compare a a").exit_code, 0);
@@ -273,41 +244,6 @@ TEST(WholeResults, ofTwoRunsAreNotCompared) {
     EXPECT_EQ(mixed.exit_code, 2) << call;
     EXPECT_THAT(mixed.err, HasSubstr("a/timeseries.csv: error: is not of the run ")) << call;
   }
-}
-
-TEST(LostTerminal, isNoReasonToStop) {
-  const Program ursula;
-  ursula.write("a.toml", scenario("one"));
-  ursula.write("b.toml", scenario("two"));
-  const std::string call = "\"$URSULA\" validate a.toml b.toml --out out >said";
-  ASSERT_EQ(shell(ursula, call + " 2>/dev/null"), 0);
-  const auto expected = contents(ursula.folder() / "out");
-  for (const std::string& lost : {call + " 2>&-", call + " 2>/dev/full", call + " <&- 2>&-",
-                                  "{ " + call + " 2>&3; echo $? >code; } 3>&1 | true; exit $(cat code)"}) {
-    fs::remove_all(ursula.folder() / "out");
-    EXPECT_EQ(shell(ursula, lost), 0) << lost;
-    EXPECT_EQ(contents(ursula.folder() / "out"), expected) << lost;
-    EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "said"), HasSubstr("2 passed, 0 failed")) << lost;
-  }
-}
-
-TEST(LostData, isExit2AndSaidOnWhatIsLeft) {
-  const Program ursula;
-  ursula.write("a.toml", scenario("one"));
-  ursula.write("b.toml", scenario("two"));
-  for (const char* call : {"validate a.toml", "validate a.toml --json", "validate a.toml b.toml --json",
-                           "inverse a.toml", "check a.toml", "explain", "--help"})
-    for (const char* lost : {">/dev/full", ">&-"}) {
-      const std::string line = std::string("\"$URSULA\" ") + call + " " + lost;
-      EXPECT_EQ(shell(ursula, line + " 2>err"), 2) << line;
-      EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "err"),
-                  HasSubstr("error: standard output could not be written"))
-          << line;
-    }
-  for (const char* both : {">/dev/full 2>&-", ">&- 2>&-"})
-    EXPECT_EQ(shell(ursula, std::string("\"$URSULA\" inverse a.toml ") + both), 2) << both;
-  EXPECT_EQ(shell(ursula, "\"$URSULA\" inverse a.toml >/dev/null 2>err"), 0) << "what is thrown away is not lost";
-  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "err"), IsEmpty());
 }
 
 }  // namespace

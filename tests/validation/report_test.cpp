@@ -13,14 +13,12 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "model/atomic_folder.h"
 #include "model/csv.h"
 #include "tests/validation/report_samples.h"
 #include "validation/report/found.h"
 #include "validation/report/html.h"
 #include "validation/report/plots.h"
 #include "validation/report/quantity.h"
-#include "validation/report/run.h"
 #include "validation/report/summary.h"
 #include "validation/report/text.h"
 
@@ -77,63 +75,6 @@ TEST_F(ReportFiles, areTheOldOnesWhereWritingFailed) {
   std::filesystem::create_directories(dir_ / "report.html" / "in the way");
   EXPECT_THROW(writeResults(test::failedSample(), dir_), std::exception);
   EXPECT_EQ(contentOf(dir_ / "summary.json"), old);
-}
-
-TEST_F(ReportFiles, nameTheirRun) {
-  writeResults(test::passedSample(), dir_ / "a");
-  writeResults(test::failedSample(), dir_ / "b");
-  const auto run = [this](const char* folder) {
-    const auto summary = nlohmann::json::parse(contentOf(dir_ / folder / "summary.json"));
-    return summary.at("provenance").at("run").get<std::string>();
-  };
-  EXPECT_NE(run("a"), run("b"));
-  EXPECT_EQ(run("a").size(), 16u);
-  for (const char* file : {"report.html", "junit.xml"})
-    EXPECT_NE(contentOf(dir_ / "a" / file).find(run("a")), std::string::npos) << file;
-}
-
-TEST_F(ReportFiles, ofTwoRunsAreRefused) {
-  writeResults(test::passedSample(), dir_ / "a");
-  writeResults(test::failedSample(), dir_ / "b");
-  report::refuseMixture(dir_ / "a");
-  for (const char* file : report::result_files) {
-    std::filesystem::copy(dir_ / "a", dir_ / "mixed");
-    std::filesystem::copy(dir_ / "b" / file, dir_ / "mixed" / file, std::filesystem::copy_options::overwrite_existing);
-    EXPECT_THROW(report::refuseMixture(dir_ / "mixed"), report::MixedResults) << file;
-    std::filesystem::remove_all(dir_ / "mixed");
-  }
-}
-
-TEST_F(ReportFiles, ofASuiteWithAnothersScenarioAreRefused) {
-  const auto write = [](const ValidationResult& result, const std::filesystem::path& dir) {
-    AtomicFolder out(dir, report::resultsIn);
-    addSuiteIndex({addResults(result, out, "s", {}, Place::in_suite)}, out);
-    out.commit();
-  };
-  write(test::passedSample(), dir_ / "a");
-  write(test::failedSample(), dir_ / "b");
-  report::refuseMixture(dir_ / "a");
-  for (const char* file : {"suite.json", "index.html", "junit.xml", "s/summary.json"}) {
-    std::filesystem::copy(dir_ / "a", dir_ / "mixed", std::filesystem::copy_options::recursive);
-    std::filesystem::copy(dir_ / "b" / file, dir_ / "mixed" / file, std::filesystem::copy_options::overwrite_existing);
-    EXPECT_THROW(report::refuseMixture(dir_ / "mixed"), report::MixedResults) << file;
-    std::filesystem::remove_all(dir_ / "mixed");
-  }
-}
-
-TEST_F(ReportFiles, ofAnOlderRunAreThoseThatItListed) {
-  const std::filesystem::path a = dir_ / "a";
-  EXPECT_TRUE(report::resultsIn(a).empty());
-  writeResults(test::passedSample(), a);
-  EXPECT_EQ(report::resultsIn(a), Paths(report::result_files.begin(), report::result_files.end()));
-  writeSuiteIndex({suiteEntry(test::passedSample(), "s")}, a);
-  EXPECT_EQ(report::resultsIn(a),
-            (Paths{"timeseries.csv", "junit.xml", "report.html", "summary.json", "suite.json", "index.html", "s",
-                   "s/timeseries.csv", "s/junit.xml", "s/report.html", "s/summary.json"}));
-  for (const char* outside : {"..", "../b", "/tmp"}) {
-    std::ofstream(a / "suite.json") << nlohmann::json{{"scenarios", {{{"folder", outside}}}}};
-    EXPECT_EQ(report::resultsIn(a).size(), 6u) << outside;
-  }
 }
 
 TEST_F(ReportFiles, ofASuiteAreIndexAndJunit) {
