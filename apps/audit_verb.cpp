@@ -6,7 +6,9 @@
 
 #include "apps/embedded_scenario.h"
 #include "apps/progress.h"
+#include "apps/streams.h"
 #include "apps/verbs.h"
+#include "model/atomic_folder.h"
 #include "model/scenario_input.h"
 #include "validation/audit/audit.h"
 
@@ -28,9 +30,11 @@ int audit(const AuditOptions& options) {
   });
   if (!options.out.empty()) {
     const std::filesystem::path dir = options.out;
-    writeOutput((dir / "audit.json").string(), auditJson(result));
-    writeOutput((dir / "audit.html").string(), auditHtml(result));
-    fmt::print(stderr, "page: {}\n", (dir / "audit.html").string());
+    AtomicFolder out(dir, [](const std::filesystem::path&) { return Paths(); });
+    out.write("audit.json", auditJson(result));
+    out.write("audit.html", auditHtml(result));
+    out.commit();
+    say("page: {}\n", (dir / "audit.html").string());
   }
   if (options.json != "-" && options.markdown != "-") writeOutput("-", auditText(result));
   if (!options.json.empty()) writeOutput(options.json, auditJson(result));

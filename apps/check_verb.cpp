@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "apps/streams.h"
 #include "apps/verbs.h"
 #include "model/csv.h"
 #include "model/scenario_input.h"
@@ -23,15 +24,17 @@ bool checkOne(const std::string& file, const CheckOptions& options) {
   try {
     const Scenario scenario = readScenarioOrInput(file);
     const std::vector<std::string> odd = warnings(scenario);
-    std::FILE* const out = options.picture == "-" ? stderr : stdout;
-    for (const std::string& line : odd) fmt::print(out, "{}\n", withoutControls(line));
+    const auto tell = [on_stderr = options.picture == "-"](const std::string& text) {
+      return on_stderr ? sayText(withoutControls(text)) : writeOutput("-", withoutControls(text));
+    };
+    for (const std::string& line : odd) tell(line + "\n");
     if (!options.picture.empty()) writeOutput(options.picture, picture(scenario));
     tryMotion(scenario);
-    fmt::print(out, "{}: can be read and its motion be made; {} warning{}\n", withoutControls(scenario.file.string()),
-               odd.size(), odd.size() == 1 ? "" : "s");
+    tell(fmt::format("{}: can be read and its motion be made; {} warning{}\n", scenario.file.string(), odd.size(),
+                     odd.size() == 1 ? "" : "s"));
     return true;
   } catch (const ScenarioError& error) {
-    fmt::print(stderr, "{}\n", withoutControls(error.what()));
+    say("{}\n", error.what());
     return false;
   }
 }

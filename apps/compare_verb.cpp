@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "apps/streams.h"
 #include "apps/validate_output.h"
 #include "apps/verbs.h"
 #include "model/shown_text.h"
@@ -35,10 +36,13 @@ int compareFiles(const Options& options) {
                 report::junitXml({comparisonSuite(comparison, options.reference + " : " + options.test)}));
   if (isTable(options.out)) writeOutput(options.out, comparisonCsv(comparison));
   // Data alone goes to standard output: where that is the CSV, the table is for the terminal.
-  std::FILE* const stream = options.out == "-" || options.junit == "-" ? stderr : stdout;
-  fmt::print(stream, "{}", withoutControls(comparisonText(comparison)));
+  std::string text = withoutControls(comparisonText(comparison));
   if (!options.out.empty() && !isTable(options.out))
-    fmt::print(stream, "page: {}\n", (std::filesystem::path(options.out) / "compare.html").string());
+    text += fmt::format("page: {}\n", (std::filesystem::path(options.out) / "compare.html").string());
+  if (options.out == "-" || options.junit == "-")
+    sayText(text);
+  else
+    writeOutput("-", text);
   return exitCode(comparison.verdict);
 }
 

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/streams.h"
 #include "apps/verbs.h"
 #include "model/csv.h"
 #include "model/scenario_input.h"
@@ -110,15 +111,15 @@ std::string legsThat(const PlatformPose& pose, Condition&& condition) {
 
 void summarise(const PlatformPoses& poses) {
   int index = 0;
-  fmt::print(stderr, "{} real pose{}; {} of 8 solutions in the complex numbers accounted for\n", poses.size,
-             poses.size == 1 ? "" : "s", poses.counted);
+  say("{} real pose{}; {} of 8 solutions in the complex numbers accounted for\n", poses.size,
+      poses.size == 1 ? "" : "s", poses.counted);
   for (const PlatformPose& pose : poses) {
     const std::string far = legsThat(pose, [](const LegAtPose& leg) { return !leg.in_reach; });
     const std::string behind = legsThat(pose, [](const LegAtPose& leg) { return !leg.front; });
-    fmt::print(stderr, "pose {}: P at ({:.6f}, {:.6f}, {:.6f}) m, {}{}{}\n", ++index, pose.p.x(), pose.p.y(),
-               pose.p.z(), far.empty() ? "assembles" : far + " out of reach",
-               behind.empty() ? "" : "; " + behind + " behind the axis, where inverse kinematics says phi ± pi",
-               pose.multiplicity > 1 ? fmt::format("; {} poses in one, singular", pose.multiplicity) : "");
+    say("pose {}: P at ({:.6f}, {:.6f}, {:.6f}) m, {}{}{}\n", ++index, pose.p.x(), pose.p.y(), pose.p.z(),
+        far.empty() ? "assembles" : far + " out of reach",
+        behind.empty() ? "" : "; " + behind + " behind the axis, where inverse kinematics says phi ± pi",
+        pose.multiplicity > 1 ? fmt::format("; {} poses in one, singular", pose.multiplicity) : "");
   }
 }
 
@@ -128,7 +129,7 @@ int directOfPaper(const Scenario& scenario, const DirectOptions& options) {
   try {
     poses = DirectKinematics(*scenario.manipulator).poses(phi);
   } catch (const UndeterminedPose& undetermined) {
-    fmt::print(stderr, "these angles do not determine the platform's poses: {}\n", undetermined.what());
+    say("these angles do not determine the platform's poses: {}\n", undetermined.what());
     return exit_inconclusive;
   }
   const PoseTable table = tabulate(poses);
@@ -192,16 +193,16 @@ int directOfStewartGough(const Scenario& scenario, const DirectOptions& options)
   try {
     poses = posesOf(*scenario.manipulator, lengths);
   } catch (const UndeterminedPose& undetermined) {
-    fmt::print(stderr, "these lengths do not determine the platform's poses: {}\n", undetermined.what());
+    say("these lengths do not determine the platform's poses: {}\n", undetermined.what());
     return exit_inconclusive;
   }
   writeOutput(options.out, csvOf(poses));
-  fmt::print(stderr, "{} real pose{}; {} poses in the complex numbers and {} solutions at infinity, of 40\n",
-             poses.list.size(), poses.list.size() == 1 ? "" : "s", poses.counted, poses.at_infinity);
+  say("{} real pose{}; {} poses in the complex numbers and {} solutions at infinity, of 40\n", poses.list.size(),
+      poses.list.size() == 1 ? "" : "s", poses.counted, poses.at_infinity);
   if (const int leg = beyondStroke(*scenario.manipulator, lengths); leg >= 0)
-    fmt::print(stderr, "leg {} cannot be {:g} m long: its stroke is from {:g} m to {:g} m\n", leg + 1, lengths(leg),
-               scenario.manipulator->leg(leg).distal.length,
-               scenario.manipulator->leg(leg).distal.length + scenario.manipulator->leg(leg).proximal.length);
+    say("leg {} cannot be {:g} m long: its stroke is from {:g} m to {:g} m\n", leg + 1, lengths(leg),
+        scenario.manipulator->leg(leg).distal.length,
+        scenario.manipulator->leg(leg).distal.length + scenario.manipulator->leg(leg).proximal.length);
   return poses.complete() ? exit_passed : exit_inconclusive;
 }
 

@@ -5,21 +5,20 @@
 #include <functional>
 
 #include "apps/files_apart.h"
+#include "apps/streams.h"
 #include "apps/usage.h"
 #include "apps/verbs.h"
 #include "model/csv.h"
 #include "model/errors.h"
 #include "model/scenario.h"
-#include "model/shown_text.h"
 #include "nocsolver/errors.h"
 #include "validation/findings/provenance.h"
 #include "validation/sweep/sqlite.h"
 
 namespace {
 
-/// Names of files and what is in them come from anybody: a terminal is told nothing to obey.
 int complain(const std::string& what) {
-  fmt::print(stderr, "{}\n", ursula::withoutControls(what));
+  ursula::say("{}\n", what);
   return ursula::exit_bad_input;
 }
 
@@ -61,11 +60,18 @@ int runProgram(int argc, char** argv) {
   return runVerb(run);
 }
 
+/// What was printed is data: a pass that nobody can read is none.
+int finished(int code) {
+  const std::string lost = code == ursula::exit_bad_input ? "" : ursula::lostOutput();
+  return lost.empty() ? code : complain("error: " + lost);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    return runProgram(argc, argv);
+    ursula::secureStreams();
+    return finished(runProgram(argc, argv));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());  // the last resort is not to throw itself
     return ursula::exit_bad_input;

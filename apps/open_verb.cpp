@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
 
 #include "apps/verbs.h"
+#include "validation/report/run.h"
 
 namespace ursula {
 namespace {
@@ -56,12 +58,14 @@ void startDetached(const std::string& command, const std::string& page) {
   if (::fork() != 0) ::_exit(0);
   const int nothing = ::open("/dev/null", O_RDWR);
   for (const int stream : std::array<int, 3>{0, 1, 2}) ::dup2(nothing, stream);
+  for (const int error : {SIGPIPE, SIGXFSZ}) std::signal(error, SIG_DFL);
   ::execl("/bin/sh", "sh", "-c", command.c_str(), "sh", page.c_str(), static_cast<char*>(nullptr));
   ::_exit(127);
 }
 
 int openResults(const std::string& folder) {
   const std::string page = pageIn(folder).string();
+  report::refuseMixture(folder);
   writeOutput("-", page + "\n");
   const std::string command = browserCommand();
   if (command.empty())

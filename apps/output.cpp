@@ -1,6 +1,8 @@
 #include "apps/output.h"
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <map>
 #include <stdexcept>
 
@@ -9,7 +11,9 @@
 namespace ursula {
 namespace {
 
-[[noreturn]] void failOnStandardOutput() { throw std::runtime_error("standard output could not be written"); }
+[[noreturn]] void failOnStandardOutput() {
+  throw std::runtime_error(std::string("standard output could not be written: ") + std::strerror(errno));
+}
 
 }  // namespace
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/streams.h"
 #include "model/shown_text.h"
 #include "model/start_threads.h"
 
@@ -41,7 +42,7 @@ Progress::~Progress() {
   }
   ending_.notify_all();
   if (drawing_.joinable()) drawing_.join();
-  if (drawn_) std::fputs("\r\033[K", stderr);  // what is on stdout says it all
+  if (drawn_) sayText("\r\033[K");  // what is on stdout says it all
 }
 
 void Progress::at(double share, const std::string& note) {
@@ -51,7 +52,7 @@ void Progress::at(double share, const std::string& note) {
   note_ = note;
   at_seconds_ = seconds();
   if (!on_terminal_ && lines_ == Lines::tenths && next_tenth && at_seconds_ > silent_seconds)
-    fmt::print(stderr, "{}: {}{}\n", what_, note_, timeText());
+    say("{}: {}{}\n", what_, note_, timeText());
 }
 
 /// By a thread of its own: what is slow says nothing for long.
@@ -64,9 +65,8 @@ void Progress::keepDrawing() {
 void Progress::draw() {
   constexpr std::size_t width = 30;
   const auto filled = static_cast<std::size_t>(std::clamp(share_, 0.0, 1.0) * width);
-  fmt::print(stderr, "\r\033[K{} [{}{}] {}{}", what_, std::string(filled, '#'), std::string(width - filled, '.'), note_,
-             timeText());
-  std::fflush(stderr);
+  sayText(fmt::format("\r\033[K{} [{}{}] {}{}", what_, std::string(filled, '#'), std::string(width - filled, '.'),
+                      withoutControls(note_), timeText()));
   drawn_ = true;
 }
 

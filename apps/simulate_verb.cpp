@@ -5,11 +5,11 @@
 #include <memory>
 
 #include "apps/choice.h"
+#include "apps/streams.h"
 #include "apps/torque_option.h"
 #include "apps/verbs.h"
 #include "model/csv.h"
 #include "model/scenario_input.h"
-#include "model/shown_text.h"
 #include "validation/external/torque_spline.h"
 #include "validation/findings/timeseries.h"
 #include "validation/simulate/simulate.h"
@@ -51,7 +51,7 @@ int simulateVerb(const SimulateOptions& options) {
   writeOutput(options.out, csvText(series.names, series.columns));
   const std::string missing = whatIsMissing(run, file, scenario.trajectory->duration());
   if (missing.empty()) return exit_passed;
-  fmt::print(stderr, "{}\n", withoutControls(missing));
+  say("{}\n", missing);
   return exit_failed;
 }
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "apps/command.h"
+#include "apps/streams.h"
 #include "apps/sweep_verbs.h"
 #include "apps/verbs.h"
 #include "model/atomic_file.h"
@@ -120,7 +121,7 @@ int submitSweep(const SweepPlan& plan, SlurmCall call) {
   if (call.shards == 0) throw UsageError("--slurm: expected --shards N too: how many tasks the sweep is cut into");
   const SweepIdentity sweep = plan.identity();
   if (call.shards > sweep.points) {
-    fmt::print(stderr, "--shards {}: taken as {}, as there are no more points\n", call.shards, sweep.points);
+    say("--shards {}: taken as {}, as there are no more points\n", call.shards, sweep.points);
     call.shards = static_cast<int>(sweep.points);
   }
   SlurmJob job = jobOf(plan, call);

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "apps/progress.h"
+#include "apps/streams.h"
 #include "apps/sweep_verbs.h"
 #include "apps/verbs.h"
 #include "validation/sweep/merge.h"
@@ -19,14 +20,14 @@ struct MergeOptions {
 /// What is not there, and how to make it.
 void sayMissing(const MergeResult& result, const std::string& database) {
   const SweepIdentity& sweep = result.identity;
-  fmt::print(stderr, "{} of {} points are missing", sweep.points - result.done, sweep.points);
+  say("{} of {} points are missing", sweep.points - result.done, sweep.points);
   if (!result.missing.empty())
-    fmt::print(stderr, ", the first from {} to {}", result.missing.front().first, result.missing.front().end - 1);
-  fmt::print(stderr, "; to make them:\n");
+    say(", the first from {} to {}", result.missing.front().first, result.missing.front().end - 1);
+  say("; to make them:\n");
   const std::string flag = sweep.pointwise ? " --pointwise" : "";
-  if (result.missing_shards.empty()) fmt::print(stderr, "  ursula sweep {}{} --db {}\n", sweep.file, flag, database);
+  if (result.missing_shards.empty()) say("  ursula sweep {}{} --db {}\n", sweep.file, flag, database);
   for (const Shard& shard : result.missing_shards)
-    fmt::print(stderr, "  ursula sweep {}{} --shard {}/{}\n", sweep.file, flag, shard.index, shard.of);
+    say("  ursula sweep {}{} --shard {}/{}\n", sweep.file, flag, shard.index, shard.of);
 }
 
 int merge(const MergeOptions& options) {

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "apps/progress.h"
+#include "apps/streams.h"
 #include "apps/sweep_verbs.h"
 #include "apps/verbs.h"
 #include "validation/sweep/run.h"
@@ -59,14 +60,13 @@ int codeOf(const SweepRunResult& result) {
   return result.verdicts.count("inconclusive") + result.verdicts.count("error") > 0 ? exit_inconclusive : exit_passed;
 }
 
-void say(const SweepRunResult& result, const std::filesystem::path& database) {
+void tellOutcome(const SweepRunResult& result, const std::filesystem::path& database) {
   if (result.stopped) {
-    fmt::print(stderr, "stopped: {} of {} points are in {}; the same command goes on from there\n", result.done,
-               result.points, database.string());
+    say("stopped: {} of {} points are in {}; the same command goes on from there\n", result.done, result.points,
+        database.string());
     return;
   }
-  if (result.new_ones == 0)
-    fmt::print(stderr, "nothing to do: all {} points are in {}\n", result.points, database.string());
+  if (result.new_ones == 0) say("nothing to do: all {} points are in {}\n", result.points, database.string());
   fmt::print("{} points: {}\n{}\n", result.points, inWords(result.verdicts), database.string());
 }
 
@@ -99,7 +99,7 @@ int sweep(const SweepOptions& options) {
     };
     result = runSweep(plan, database, run);
   }
-  say(result, database);
+  tellOutcome(result, database);
   return codeOf(result);
 }
 

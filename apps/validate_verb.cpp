@@ -9,13 +9,15 @@
 #include <utility>
 
 #include "apps/progress.h"
+#include "apps/streams.h"
 #include "apps/torque_option.h"
 #include "apps/validate_output.h"
 #include "apps/verbs.h"
+#include "model/atomic_folder.h"
 #include "model/scenario.h"
-#include "model/shown_text.h"
 #include "validation/outside/external_solver.h"
 #include "validation/report/report.h"
+#include "validation/report/run.h"
 #include "validation/suite/suite.h"
 #include "validation/validate.h"
 #include "validation/validate_external.h"
@@ -51,8 +53,8 @@ void sayWork(const Scenario& scenario, double limit) {
   const double estimate = estimatedSeconds(scenario);
   if (!(estimate > worth_a_word)) return;
   const std::string ends = limit > 0 ? fmt::format("ends after {:g} s", limit) : "--time-limit SECONDS ends it sooner";
-  fmt::print(stderr, "{}: about {} of work for {} samples of a motion of {:g} s; {}\n", withoutControls(scenario.name),
-             inWords(estimate), scenario.simulation.samples, scenario.trajectory->duration(), ends);
+  say("{}: about {} of work for {} samples of a motion of {:g} s; {}\n", scenario.name, inWords(estimate),
+      scenario.simulation.samples, scenario.trajectory->duration(), ends);
 }
 
 /// Judges this program's solver, somebody else's, or the torques of a file.
@@ -75,9 +77,12 @@ ValidationResult judge(const Scenario& scenario, const ValidateOptions& options)
 }
 
 int validateOne(const Scenario& scenario, const ValidateOptions& options, const std::filesystem::path& dir) {
+  AtomicFolder out(dir, report::resultsIn);
+  requireResults(out, "");
   const Stopwatch watch;
   const ValidationResult result = judge(scenario, options);
-  writeResults(result, dir, watch.time());
+  addResults(result, out, "", watch.time(), Place::alone);
+  out.commit();
   printResult(result, dir, options.said());
   return exitCode(result.verdict);
 }
@@ -93,8 +98,8 @@ class SuiteProgress {
     const std::string missed = not_passed_ > 0 ? fmt::format(", {} not passed", not_passed_) : "";
     bar_.at(static_cast<double>(done) / static_cast<double>(total_), fmt::format("{} of {}{}", done, total_, missed));
     if (!bar_.onTerminal())
-      fmt::print(stderr, "[{}/{}] {} {}, {:.1f} s\n", done, total_, entry.error.empty() ? name(entry.verdict) : "error",
-                 withoutControls(entry.scenario), entry.time.seconds);
+      say("[{}/{}] {} {}, {:.1f} s\n", done, total_, entry.error.empty() ? name(entry.verdict) : "error",
+          entry.scenario, entry.time.seconds);
   }
 
  private:
@@ -105,7 +110,7 @@ class SuiteProgress {
 int validateSuite(const std::vector<SuiteMember>& members, const ValidateOptions& options,
                   const std::filesystem::path& dir) {
   for (const SuiteMember& member : members)
-    if (!member.error.empty()) fmt::print(stderr, "{}\n", withoutControls(member.error));
+    if (!member.error.empty()) say("{}\n", member.error);
   SuiteOptions suite;
   suite.jobs = options.jobs;
   ValidationOptions validation;

@@ -1,43 +1,30 @@
 #include "model/atomic_file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
 #include <utility>
 
+#include "model/temporary_name.h"
+#include "model/writable.h"
+
 namespace ursula {
 namespace {
 
-constexpr mode_t as_the_user_says = 0666;
-
-/// Unique among processes by the process id, and among threads of this one by a count.
-std::filesystem::path temporaryBeside(const std::filesystem::path& file) {
-  static std::atomic<unsigned> count{0};
-  std::filesystem::path name = file;
-  name += ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(count++);
-  return name;
-}
-
-/// A device, a pipe: to put a file in its place would take it from all who use it.
-bool isNoFile(const std::filesystem::path& file) {
-  std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(file, ignored);
-  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
-         !std::filesystem::is_directory(status);
-}
+constexpr mode_t as_the_user_says = 0666, all_bits = 07777;
+constexpr const char* kind = "file";
 
 /// −1 where it cannot be, or could not be named afterwards.
-int withoutName(const std::filesystem::path& file) {
+int withoutName(const std::filesystem::path& folder) {
 #ifdef O_TMPFILE
   if (::access("/proc/self/fd", X_OK) != 0) return -1;
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   return ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, as_the_user_says);
 #else
-  return static_cast<void>(file), -1;
+  return static_cast<void>(folder), -1;
 #endif
 }
 
@@ -49,58 +36,109 @@ bool named(int descriptor, const std::filesystem::path& name) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path file) : file_(std::move(file)), in_place_(isNoFile(file_)) {
-  if (file_.has_parent_path()) std::filesystem::create_directories(file_.parent_path());
+AtomicFile::AtomicFile(std::filesystem::path file)
+    : file_(std::move(file)), end_(endOfLinks(file_)), in_place_(isWrittenThrough(end_)) {
+  if (!in_place_) {
+    requireWritable(file_);
+    if (end_.has_parent_path()) std::filesystem::create_directories(end_.parent_path());
+    sweepTemporaries(folder(), kind);
+  }
   open();
   if (descriptor_ < 0) fail();
 }
 
 void AtomicFile::open() {
   if (in_place_) {
-    descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CLOEXEC);
+    // What a process has open may be a file with something in it.
+    descriptor_ = ::open(end_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
     return;
   }
-  descriptor_ = withoutName(file_);
-  if (descriptor_ >= 0) return;
-  temporary_ = temporaryBeside(file_);
-  descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, as_the_user_says);
+  descriptor_ = withoutName(folder());
+  if (descriptor_ >= 0)
+    tryLock(descriptor_);
+  else
+    openNamed();
+}
+
+/// Until it is locked, another process may take it for one of the dead's.
+void AtomicFile::openNamed() {
+  for (;;) {
+    temporary_ = temporaryIn(folder(), kind);
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, as_the_user_says);
+    if (descriptor_ < 0 && errno == EEXIST) continue;
+    if (descriptor_ < 0) temporary_.clear();
+    if (descriptor_ < 0 || (tryLock(descriptor_) != Lock::taken && isStill(descriptor_, temporary_))) return;
+    ::close(std::exchange(descriptor_, -1));
+  }
 }
 
 AtomicFile::~AtomicFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
   std::error_code ignored;
   if (!temporary_.empty()) std::filesystem::remove(temporary_, ignored);
+  if (descriptor_ >= 0) ::close(descriptor_);
 }
+
+std::filesystem::path AtomicFile::folder() const { return end_.has_parent_path() ? end_.parent_path() : "."; }
 
 void AtomicFile::fail() const {
   throw std::runtime_error("cannot write " + file_.string() + ": " + std::strerror(errno));
 }
 
 void AtomicFile::write(std::string_view piece) {
-  while (!piece.empty()) {
-    const ssize_t written = ::write(descriptor_, piece.data(), piece.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail();
-    piece.remove_prefix(static_cast<std::size_t>(written));
+  if (!writeAll(descriptor_, piece)) fail();
+}
+
+/// Of what is replaced. An owner that cannot be kept loses the bits that speak of him.
+void AtomicFile::keepModeAndOwner() const {
+  struct stat old {};
+  if (::stat(end_.c_str(), &old) != 0) return;
+  const bool is_kept = ::fchown(descriptor_, old.st_uid, old.st_gid) == 0;
+  ::fchmod(descriptor_, old.st_mode & (is_kept ? all_bits : as_the_user_says | S_IXUSR | S_IXGRP | S_IXOTH));
+}
+
+void AtomicFile::takeName() {
+  while (temporary_.empty()) {
+    const std::filesystem::path name = temporaryIn(folder(), kind);
+    if (named(descriptor_, name))
+      temporary_ = name;
+    else if (errno != EEXIST)
+      fail();
   }
 }
 
 void AtomicFile::commit() {
-  if (!in_place_ && temporary_.empty()) {
-    const std::filesystem::path name = temporaryBeside(file_);
-    if (!named(descriptor_, name)) fail();
-    temporary_ = name;
+  if (!in_place_) {
+    keepModeAndOwner();
+    if (::fsync(descriptor_) != 0) fail();
+    takeName();
+    std::filesystem::rename(temporary_, end_);
+    temporary_.clear();
+    syncFolder(folder());
   }
-  const bool is_closed = ::close(std::exchange(descriptor_, -1)) == 0;
-  if (!is_closed) fail();
-  if (!in_place_) std::filesystem::rename(temporary_, file_);
-  temporary_.clear();
+  if (::close(std::exchange(descriptor_, -1)) != 0) fail();
 }
 
 void writeFileAtomically(const std::filesystem::path& file, const std::string& content) {
   AtomicFile out(file);
   out.write(content);
   out.commit();
+}
+
+bool writeAll(int descriptor, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(descriptor, content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+void syncFolder(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
 }
 
 }  // namespace ursula

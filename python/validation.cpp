@@ -132,7 +132,9 @@ void addResult(py::module_& module) {
                              "The columns of timeseries.csv, each (N,): motion, torques, errors.")
       .def_property_readonly(
           "summary",
-          [](const Result& result) { return py::module_::import("json").attr("loads")(report::summaryJson(result)); },
+          [](const Result& result) {
+            return py::module_::import("json").attr("loads")(report::summaryJson(report::stamped(result)));
+          },
           "What summary.json holds, as a dict.")
       .def(
           "write",

@@ -49,8 +49,11 @@ TEST_P(FarAway, everythingRoundsAsAtTheOrigin) {
     }
   }
   std::cout << "roundings grow by up to " << largest << '\n';
-  EXPECT_LE(replayLimit(far->windows.back(), far->position_scale, far->windows.back().window.end()),
-            10 * replayLimit(near->windows.back(), near->position_scale, near->windows.back().window.end()));
+  const auto lastLimit = [](const Reference& reference) {
+    const WindowedReplay& last = reference.replays().windows.back();
+    return replayLimit(last, reference.position_scale, last.window.end());
+  };
+  EXPECT_LE(lastLimit(*far), 10 * lastLimit(*near));
 }
 
 TEST_P(FarAway, everyCheckPassesByLimitsLikeThoseAtTheOrigin) {

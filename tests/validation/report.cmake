@@ -9,6 +9,7 @@ add_executable(report_tests
   ${CMAKE_CURRENT_LIST_DIR}/junit_test.cpp
   ${CMAKE_CURRENT_LIST_DIR}/pages_test.cpp
   ${CMAKE_CURRENT_LIST_DIR}/report_test.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/run_test.cpp
   ${CMAKE_CURRENT_LIST_DIR}/result_test.cpp
   ${CMAKE_CURRENT_LIST_DIR}/terminal_text_test.cpp)
 target_link_libraries(report_tests PRIVATE

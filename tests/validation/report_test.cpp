@@ -68,12 +68,13 @@ TEST_F(ReportFiles, areFourAndRepeatable) {
   EXPECT_EQ(table.at("error_p_m"), *test::passedSample().timeseries.find("error_p_m"));
 }
 
-TEST_F(ReportFiles, leaveNoSummaryWhereWritingFailed) {
+TEST_F(ReportFiles, areTheOldOnesWhereWritingFailed) {
   writeResults(test::passedSample(), dir_);
+  const std::string old = contentOf(dir_ / "summary.json");
   std::filesystem::remove(dir_ / "report.html");
   std::filesystem::create_directories(dir_ / "report.html" / "in the way");
-  EXPECT_THROW(writeResults(test::passedSample(), dir_), std::exception);
-  EXPECT_FALSE(std::filesystem::exists(dir_ / "summary.json"));
+  EXPECT_THROW(writeResults(test::failedSample(), dir_), std::exception);
+  EXPECT_EQ(contentOf(dir_ / "summary.json"), old);
 }
 
 TEST_F(ReportFiles, ofASuiteAreIndexAndJunit) {

@@ -14,6 +14,7 @@
 #include "model/nearest.h"
 #include "validation/compare/history_line.h"
 #include "validation/compare/rotations.h"
+#include "validation/report/run.h"
 
 namespace ursula {
 namespace {
@@ -207,6 +208,7 @@ void refuseUnknown(const std::vector<std::string>& patterns, const TimeSeries& r
 TimeSeries readHistory(const std::filesystem::path& file_or_folder) {
   std::error_code ignored;
   const bool is_folder = std::filesystem::is_directory(file_or_folder, ignored);
+  if (is_folder) report::refuseMixture(file_or_folder);
   return historyOf(readCsv(is_folder ? historyIn(file_or_folder) : file_or_folder, {{}, false}));
 }
 

@@ -65,7 +65,7 @@ struct ChannelCurves {
 using CurveSink = std::function<void(const ChannelComparison&, const ChannelCurves&)>;
 
 /// Reads a CSV, or `timeseries.csv` of a result folder, or `inverse.csv` where it has only that: `t_s`, increasing, and
-/// channels that may hold NaN. Throws CsvError.
+/// channels that may hold NaN. Throws CsvError, and report::MixedResults for a folder whose files are not of one run.
 TimeSeries readHistory(const std::filesystem::path& file_or_folder);
 /// The same of a table that was read.
 TimeSeries historyOf(const CsvTable& table);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "model/atomic_file.h"
+#include "model/atomic_folder.h"
 #include "validation/report/assets.h"
 #include "validation/report/checks_list.h"
 #include "validation/report/figures.h"
@@ -216,11 +216,11 @@ Comparison writeComparison(const TimeSeries& reference, const TimeSeries& test, 
       compare(reference, test, options, [&](const ChannelComparison& channel, const ChannelCurves& curves) {
         charts.push_back(channelCharts(channel, curves, reference.names.size()));
       });
-  std::filesystem::remove(dir / "compare.html");
-  writeFileAtomically(dir / "junit.xml",
-                      report::junitXml({comparisonSuite(comparison, files.reference + " : " + files.test)}));
-  writeFileAtomically(dir / "compare.csv", comparisonCsv(comparison));
-  writeFileAtomically(dir / "compare.html", comparisonHtml(comparison, charts, files));
+  AtomicFolder out(dir, [](const std::filesystem::path&) { return Paths(); });
+  out.write("junit.xml", report::junitXml({comparisonSuite(comparison, files.reference + " : " + files.test)}));
+  out.write("compare.csv", comparisonCsv(comparison));
+  out.write("compare.html", comparisonHtml(comparison, charts, files));
+  out.commit();
   return comparison;
 }
 

@@ -31,8 +31,8 @@ std::string comparisonSentence(const Comparison& comparison);
 std::string comparisonHtml(const Comparison& comparison, const std::vector<ChannelCharts>& charts,
                            const ComparedFiles& files);
 
-/// Compares, and writes `junit.xml`, `compare.csv` and, last, `compare.html` into `dir`. Throws what
-/// writeFileAtomically throws.
+/// Compares, and writes `junit.xml`, `compare.csv` and `compare.html` into `dir`, all or none. Throws what
+/// AtomicFolder throws.
 Comparison writeComparison(const TimeSeries& reference, const TimeSeries& test, const CompareOptions& options,
                            const ComparedFiles& files, const std::filesystem::path& dir);
 

@@ -2,27 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <boost/uuid/detail/sha1.hpp>
-
 #include "model/loops/mujoco/mujoco_loop.h"
+#include "model/sha1.h"
 #include "nocsolver/instruction_set.h"
 #include "validation/findings/provenance.h"
 #include "validation/replay/replay.h"
 
 namespace ursula {
-namespace {
-
-std::string sha1(const std::string& text) {
-  boost::uuids::detail::sha1 hash;
-  hash.process_bytes(text.data(), text.size());
-  boost::uuids::detail::sha1::digest_type digest;
-  hash.get_digest(digest);
-  std::string out;
-  for (unsigned word : digest) out += fmt::format("{:08x}", word);
-  return out;
-}
-
-}  // namespace
 
 void addProvenance(const Scenario& scenario, const std::string& subject, ValidationResult& result) {
   const BuildProvenance& build = buildProvenance();

@@ -141,12 +141,13 @@ pid_t spawn(const std::string& command, const LineProcess::Environment& more, in
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   posix_spawnattr_setpgroup(&attributes, 0);
-  sigset_t none, broken_pipe;
+  sigset_t none, as_usual;
   sigemptyset(&none);
-  sigemptyset(&broken_pipe);
-  sigaddset(&broken_pipe, SIGPIPE);
+  sigemptyset(&as_usual);
+  sigaddset(&as_usual, SIGPIPE);
+  sigaddset(&as_usual, SIGXFSZ);
   posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setsigdefault(&attributes, &broken_pipe);
+  posix_spawnattr_setsigdefault(&attributes, &as_usual);
   pid_t pid = -1;
   const int error =
       posix_spawn(&pid, "/bin/sh", &files, &attributes, pointers(arguments).data(), pointers(environment).data());

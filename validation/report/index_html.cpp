@@ -8,6 +8,7 @@
 #include "validation/report/checks_list.h"
 #include "validation/report/html.h"
 #include "validation/report/quantity.h"
+#include "validation/report/run.h"
 #include "validation/report/sparkline.h"
 #include "validation/report/suite_json.h"
 #include "validation/report/text.h"
@@ -104,6 +105,7 @@ std::string indexHtml(const std::vector<SuiteEntry>& entries) {
                                         countOf(entries, Verdict::pass), entries.size(), entries.size() == 1 ? "" : "s",
                                         countOf(entries, Verdict::fail), countOf(entries, Verdict::inconclusive))},
                  {"seconds", fmt::format("{:.1f}", secondsOf(entries))},
+                 {"run", runOf(entries)},
                  {"heads", heads(names)},
                  {"rows", rows(entries, names)},
                  {"script", std::string(index_script)}});

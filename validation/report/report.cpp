@@ -2,10 +2,10 @@
 
 #include <ctime>
 
-#include "model/atomic_file.h"
-#include "model/csv.h"
+#include "model/atomic_folder.h"
 #include "validation/report/html.h"
 #include "validation/report/junit.h"
+#include "validation/report/run.h"
 #include "validation/report/sparkline.h"
 #include "validation/report/suite_json.h"
 #include "validation/report/summary.h"
@@ -34,20 +34,42 @@ SuiteEntry suiteEntry(const ValidationResult& result, std::filesystem::path fold
   return entry;
 }
 
+SuiteEntry addResults(const ValidationResult& result, AtomicFolder& out, const std::filesystem::path& below,
+                      const RunTime& time, Place place) {
+  const std::string series = report::timeseriesCsv(result);
+  const ValidationResult whole = report::stamped(result, series);
+  SuiteEntry entry = suiteEntry(whole, below, time);
+  out.write(below / "timeseries.csv", series);
+  out.write(below / "junit.xml", report::junitXml({entry}));
+  out.write(below / "report.html", report::reportHtml(whole, place));
+  out.write(below / "summary.json", report::summaryJson(whole));
+  return entry;
+}
+
+void requireResults(const AtomicFolder& out, const std::filesystem::path& below) {
+  for (const char* file : report::result_files) out.require(below / file);
+}
+
 void writeResults(const ValidationResult& result, const std::filesystem::path& dir, const RunTime& time, Place place) {
-  std::filesystem::remove(dir / "summary.json");
-  writeFileAtomically(dir / "timeseries.csv",
-                      csvText(result.timeseries.names, result.timeseries.columns, NanAs::empty_cell));
-  writeFileAtomically(dir / "junit.xml", report::junitXml({suiteEntry(result, "", time)}));
-  writeFileAtomically(dir / "report.html", report::reportHtml(result, place));
-  writeFileAtomically(dir / "summary.json", report::summaryJson(result));
+  AtomicFolder out(dir, report::resultsIn);
+  requireResults(out, "");
+  addResults(result, out, "", time, place);
+  out.commit();
+}
+
+void addSuiteIndex(const std::vector<SuiteEntry>& entries, AtomicFolder& out) {
+  const std::string run = report::runOf(entries);
+  std::vector<SuiteEntry> named = entries;
+  for (SuiteEntry& entry : named) entry.properties.emplace_back("run of the suite", run);
+  out.write("junit.xml", report::junitXml(named));
+  out.write("suite.json", report::suiteJson(entries));
+  out.write("index.html", report::indexHtml(entries));
 }
 
 void writeSuiteIndex(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir) {
-  std::filesystem::remove(dir / "index.html");
-  writeFileAtomically(dir / "junit.xml", report::junitXml(entries));
-  writeFileAtomically(dir / "suite.json", report::suiteJson(entries));
-  writeFileAtomically(dir / "index.html", report::indexHtml(entries));
+  AtomicFolder out(dir, [](const std::filesystem::path&) { return Paths(); });  // the scenarios' folders stay
+  addSuiteIndex(entries, out);
+  out.commit();
 }
 
 }  // namespace ursula

@@ -10,6 +10,8 @@
 
 namespace ursula {
 
+class AtomicFolder;
+
 /// When something was run, for the JUnit files alone: nothing else that is written differs from run to run.
 struct RunTime {
   double seconds = 0;   ///< wall time
@@ -66,13 +68,22 @@ const Check* worstCheck(const std::vector<Check>& checks);
 /// Whether a result stands alone or is one of a suite, whose index is in the folder above.
 enum class Place { alone, in_suite };
 
-/// Writes `timeseries.csv`, `junit.xml`, `report.html` and, last, `summary.json` into `dir`; an older summary is
-/// removed first, so that its presence means that all four belong together. Throws what writeFileAtomically throws.
+/// Writes `timeseries.csv`, `junit.xml`, `report.html` and, last, `summary.json` into `dir`, which has the older run's
+/// until it has all of these: see AtomicFolder, whose errors it throws. All but the first name the run: see stamped.
 void writeResults(const ValidationResult& result, const std::filesystem::path& dir, const RunTime& time = {},
                   Place place = Place::alone);
 
-/// Writes `junit.xml` and `suite.json` over all entries and, last, `index.html` into `dir`. Throws what
-/// writeFileAtomically throws.
+/// The same into a folder that is committed by the caller, in its folder `below`. The line of what was written.
+SuiteEntry addResults(const ValidationResult& result, AtomicFolder& out, const std::filesystem::path& below,
+                      const RunTime& time, Place place);
+
+/// Throws std::runtime_error where results could not be written into a folder's folder `below`; writes nothing.
+void requireResults(const AtomicFolder& out, const std::filesystem::path& below);
+
+/// Writes `junit.xml` and `suite.json` over all entries and, last, `index.html` into `dir`. Throws as writeResults.
 void writeSuiteIndex(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir);
+
+/// The same into a folder that is committed by the caller.
+void addSuiteIndex(const std::vector<SuiteEntry>& entries, AtomicFolder& out);
 
 }  // namespace ursula

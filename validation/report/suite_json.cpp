@@ -4,6 +4,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "validation/report/found.h"
+#include "validation/report/run.h"
+
 namespace ursula::report {
 namespace {
 
@@ -30,6 +33,7 @@ Json entryJson(const SuiteEntry& entry) {
                {"decided_by", worst == nullptr ? "" : worst->name},
                {"dominant_error", entry.dominant}};
   if (!entry.error.empty()) json["error"] = entry.error;
+  if (const std::string run = fact(entry.properties, "run"); !run.empty()) json["run"] = run;
   return json;
 }
 
@@ -64,6 +68,7 @@ std::string suiteJson(const std::vector<SuiteEntry>& entries) {
   const Json suite = {{"verdict", name(suiteVerdict(entries))},
                       {"counts", counts},
                       {"seconds", rounded(secondsOf(entries))},
+                      {"run", runOf(entries)},
                       {"scenarios", scenarios}};
   return suite.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -6,6 +6,9 @@
 
 namespace ursula::report {
 
+/// With the run in its provenance, as files have it: see run.h.
+ValidationResult stamped(const ValidationResult& result);
+
 /// `summary.json`. A number that is not finite becomes null; findings and provenance are objects in their own order.
 std::string summaryJson(const ValidationResult& result);
 

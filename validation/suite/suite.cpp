@@ -13,8 +13,10 @@
 #include <string>
 #include <thread>
 
+#include "model/atomic_folder.h"
 #include "model/scenario_input.h"
 #include "model/start_threads.h"
+#include "validation/report/run.h"
 #include "validation/subject/motion_check.h"
 
 namespace ursula {
@@ -69,8 +71,8 @@ void checkNames(const std::vector<SuiteMember>& members) {
 /// Scenarios are handed out one by one to whichever thread is free; each writes where no other does.
 class SuiteRun {
  public:
-  SuiteRun(const std::vector<SuiteMember>& members, const std::filesystem::path& dir, const SuiteOptions& options)
-      : members_(members), dir_(dir), options_(options), entries_(members.size()) {}
+  SuiteRun(const std::vector<SuiteMember>& members, AtomicFolder& out, const SuiteOptions& options)
+      : members_(members), out_(out), options_(options), entries_(members.size()) {}
 
   std::vector<SuiteEntry> run() {
     const std::size_t count = std::min(static_cast<std::size_t>(options_.jobs), members_.size());
@@ -97,7 +99,7 @@ class SuiteRun {
     }
   }
 
-  SuiteEntry judgeOne(const SuiteMember& member) const {
+  SuiteEntry judgeOne(const SuiteMember& member) {
     const Stopwatch watch;
     std::string error = member.error;
     std::optional<ValidationResult> result;
@@ -106,12 +108,7 @@ class SuiteRun {
     } catch (const std::exception& refusal) {
       error = refusal.what();
     }
-    if (result) {
-      const RunTime time = watch.time();
-      writeResults(*result, dir_ / member.name, time, Place::in_suite);
-      return suiteEntry(*result, member.name, time);
-    }
-    if (member.scenario) std::filesystem::remove(dir_ / member.name / "summary.json");  // of an older run
+    if (result) return addResults(*result, out_, member.name, watch.time(), Place::in_suite);
     SuiteEntry entry;
     entry.scenario = member.name;
     entry.error = error;
@@ -120,7 +117,7 @@ class SuiteRun {
   }
 
   const std::vector<SuiteMember>& members_;
-  const std::filesystem::path& dir_;
+  AtomicFolder& out_;
   const SuiteOptions& options_;
   std::vector<SuiteEntry> entries_;
   std::atomic<std::size_t> next_{0};
@@ -155,9 +152,13 @@ std::vector<SuiteMember> allOrNothing(std::vector<SuiteMember> members) {
 std::vector<SuiteEntry> runSuite(const std::vector<SuiteMember>& members, const std::filesystem::path& dir,
                                  const SuiteOptions& options) {
   if (options.jobs < 1) throw std::invalid_argument(fmt::format("{} jobs, expected at least 1", options.jobs));
-  std::filesystem::remove(dir / "index.html");  // until the new one there is none: its presence means all is there
-  std::vector<SuiteEntry> entries = SuiteRun(members, dir, options).run();
-  writeSuiteIndex(entries, dir);
+  AtomicFolder out(dir, report::resultsIn);
+  for (const char* file : report::suite_files) out.require(file);
+  for (const SuiteMember& member : members)
+    if (member.scenario) requireResults(out, member.name);
+  std::vector<SuiteEntry> entries = SuiteRun(members, out, options).run();
+  addSuiteIndex(entries, out);
+  out.commit();
   return entries;
 }
 

@@ -39,10 +39,11 @@ struct SuiteOptions {
 };
 
 /// Judges each scenario and writes its results into dir/NAME, then one JUnit file, `suite.json` and the index over all
-/// into `dir`. What is written is the same to the byte for any number of jobs, but for wall times, which are in these
-/// and the JUnit files alone. A member in error, or one where `judge` throws, has no result: that entry fails and holds
-/// the error. Entries keep the members' order.
-/// Throws std::invalid_argument for jobs < 1, and what writing throws.
+/// into `dir`, which has the older run's until all are there: see AtomicFolder. What cannot be written is found before
+/// anything is judged. What is written is the same to the byte for any number of jobs, but for wall times, which are in
+/// these and the JUnit files alone. A member in error, or one where `judge` throws, has no result: that entry fails and
+/// holds the error. Entries keep the members' order. Throws std::invalid_argument for jobs < 1, and what writing
+/// throws.
 std::vector<SuiteEntry> runSuite(const std::vector<SuiteMember>& members, const std::filesystem::path& dir,
                                  const SuiteOptions& options);
 

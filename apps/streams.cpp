@@ -1,0 +1,35 @@
+#include "apps/streams.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+
+namespace ursula {
+
+void sayText(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
+void secureStreams() {
+  // As before, standard input cannot be read and standard output not be written.
+  constexpr std::array<std::pair<int, int>, 3> streams = {
+      {{STDIN_FILENO, O_WRONLY}, {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_WRONLY}}};
+  for (const auto& [stream, access] : streams)
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF) ::open("/dev/null", access);  // the lowest number that is free
+  for (const int error : {SIGPIPE, SIGXFSZ}) std::signal(error, SIG_IGN);
+}
+
+std::string lostOutput() {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return "";
+  return std::string("standard output could not be written") + (errno == 0 ? "" : ": ") +
+         (errno == 0 ? "" : std::strerror(errno));
+}
+
+}  // namespace ursula

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "tests/end_to_end/program.h"
+#include "tests/model/scenario_text.h"
+
+namespace ursula {
+
+/// A short motion at few instants: some tenths of a second to validate.
+inline std::string quickScenario(const std::string& name, const std::string& mass = "500.0") {
+  std::string text = replaced(good_scenario, "name = \"small\"", "name = \"" + name + "\"");
+  text = replaced(replaced(text, "duration = 3.0", "duration = 0.3"), "mass = 500.0", "mass = " + mass);
+  return text + "\n[simulation]\nsamples = 3\n";
+}
+
+/// Every file under `folder` by its path, but for what has wall times.
+inline std::map<std::string, std::string> contents(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> all;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (!entry.is_directory()) all[entry.path().lexically_relative(folder)] = TemporaryFolder::read(entry.path());
+  for (auto& [name, content] : all) {
+    const std::string file = std::filesystem::path(name).filename();
+    if (file == "junit.xml" || file == "suite.json" || file == "index.html") content = "";
+  }
+  return all;
+}
+
+/// As a shell runs it in the folder, where $URSULA is the program.
+inline int shell(const Program& ursula, const std::string& line) {
+  const std::string command =
+      "cd '" + ursula.folder().string() + "' && URSULA='" URSULA_PROGRAM "' && { " + line + "; } </dev/null";
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+}  // namespace ursula

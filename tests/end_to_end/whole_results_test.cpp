@@ -1,0 +1,250 @@
+// Results of one run belong together, whatever happens to it: killed at any moment, a full disk, a second run beside
+// it.
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <sys/inotify.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <random>
+#include <thread>
+
+#include "model/sha1.h"
+#include "tests/end_to_end/quick_runs.h"
+
+namespace ursula {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// A run of the program that can be killed.
+class Running {
+ public:
+  Running(const Program& ursula, const std::vector<std::string>& arguments) {
+    std::vector<std::string> call = {URSULA_PROGRAM};
+    call.insert(call.end(), arguments.begin(), arguments.end());
+    process_ = ::fork();
+    if (process_ != 0) return;
+    const int nothing = ::open("/dev/null", O_RDWR);
+    for (const int stream : {0, 1, 2}) ::dup2(nothing, stream);
+    std::vector<char*> pointers;
+    for (std::string& each : call) pointers.push_back(each.data());
+    pointers.push_back(nullptr);
+    if (::chdir(ursula.folder().c_str()) == 0) ::execv(URSULA_PROGRAM, pointers.data());
+    ::_exit(127);
+  }
+  ~Running() { kill(); }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+  bool hasEnded() const {
+    siginfo_t info{};
+    return ::waitid(P_PID, static_cast<id_t>(process_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid != 0;
+  }
+  void wait() {
+    ::waitpid(process_, nullptr, 0);
+    process_ = -1;
+  }
+  void kill() {
+    if (process_ <= 0) return;
+    ::kill(process_, SIGKILL);
+    ::waitpid(process_, nullptr, 0);
+    process_ = -1;
+  }
+
+ private:
+  pid_t process_ = -1;
+};
+
+/// Sees the first that is written in a folder or below it.
+class Watch {
+ public:
+  explicit Watch(const fs::path& folder) : descriptor_(::inotify_init1(IN_CLOEXEC | IN_NONBLOCK)) {
+    constexpr unsigned writing = IN_CREATE | IN_MODIFY | IN_MOVED_TO | IN_DELETE;
+    ::inotify_add_watch(descriptor_, folder.c_str(), writing);
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+      if (entry.is_directory()) ::inotify_add_watch(descriptor_, entry.path().c_str(), writing);
+  }
+  ~Watch() { ::close(descriptor_); }
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+
+  /// The lock is taken before anything is computed.
+  bool sawResults() const {
+    alignas(inotify_event) char events[4096];
+    const ssize_t size = ::read(descriptor_, events, sizeof events);
+    for (ssize_t at = 0; at < size;) {
+      const auto* event = reinterpret_cast<const inotify_event*>(events + at);
+      if (event->len > 0 && std::string(event->name).find(".ursula-lock") != 0) return true;
+      at += static_cast<ssize_t>(sizeof(inotify_event) + event->len);
+    }
+    return false;
+  }
+
+ private:
+  int descriptor_;
+};
+
+/// Half of them anywhere in a run, half in the moments from its first writing on.
+void killSomewhere(const Program& ursula, const std::vector<std::string>& call, std::chrono::microseconds whole,
+                   bool while_writing, std::mt19937& random) {
+  const Watch watch(ursula.folder());
+  Running run(ursula, call);
+  const auto at_most = while_writing ? std::chrono::microseconds(30ms) : whole;
+  while (while_writing && !watch.sawResults() && !run.hasEnded()) std::this_thread::sleep_for(100us);
+  std::this_thread::sleep_for(std::chrono::microseconds(random() % static_cast<unsigned>(at_most.count())));
+  run.kill();
+}
+
+struct Outcomes {
+  int old = 0, fresh = 0;
+};
+
+/// Runs of `calls`, which write other results into one folder, are killed: what is there is always one of them.
+Outcomes killRuns(const Program& ursula, const std::vector<std::vector<std::string>>& calls) {
+  std::vector<std::map<std::string, std::string>> whole;
+  std::chrono::microseconds longest{0};
+  for (const std::vector<std::string>& call : calls) {
+    fs::remove_all(ursula.folder() / "out");
+    const auto start = std::chrono::steady_clock::now();
+    Running(ursula, call).wait();
+    longest = std::max(longest,
+                       std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - start));
+    ursula.write("out/note", "mine");
+    whole.push_back(contents(ursula.folder() / "out"));
+  }
+  EXPECT_FALSE(whole[0] == whole[1]) << "or nothing would be seen";
+  std::mt19937 random(20261122);
+  std::size_t current = 1;
+  Outcomes outcomes;
+  for (int k = 0; k < 40; ++k) {
+    killSomewhere(ursula, calls[1 - current], longest, k % 2 == 0, random);
+    const auto found = contents(ursula.folder() / "out");
+    EXPECT_TRUE(found == whole[0] || found == whole[1]) << "kill " << k << " left a mixture";
+    const bool is_new = found == whole[1 - current];
+    ++(is_new ? outcomes.fresh : outcomes.old);
+    if (is_new) current = 1 - current;
+  }
+  Running(ursula, calls[0]).wait();
+  EXPECT_TRUE(contents(ursula.folder() / "out") == whole[0]);
+  for (const auto& entry : fs::directory_iterator(ursula.folder()))
+    EXPECT_NE(entry.path().filename().string().find(".ursula"), 0u) << entry << " of a run that was killed";
+  return outcomes;
+}
+
+TEST(WholeResults, ofARunThatIsKilledAreTheOldOrTheNew) {
+  const Program ursula;
+  ursula.write("a.toml", quickScenario("one"));
+  ursula.write("b.toml", quickScenario("one", "499.0"));
+  const Outcomes outcomes =
+      killRuns(ursula, {{"validate", "a.toml", "--out", "out"}, {"validate", "b.toml", "--out", "out"}});
+  EXPECT_GT(outcomes.old, 0);
+  testing::Test::RecordProperty("killed_before_the_swap", outcomes.old);
+  testing::Test::RecordProperty("killed_after_the_swap", outcomes.fresh);
+}
+
+TEST(WholeResults, ofASuiteThatIsKilledAreTheOldOrTheNew) {
+  const Program ursula;
+  for (const char* mass : {"500.0", "499.0"})
+    for (const char* name : {"one", "two"}) ursula.write(std::string(name) + mass + ".toml", quickScenario(name, mass));
+  const Outcomes outcomes =
+      killRuns(ursula, {{"validate", "one500.0.toml", "two500.0.toml", "--out", "out", "--jobs", "2"},
+                        {"validate", "one499.0.toml", "two499.0.toml", "--out", "out", "--jobs", "2"}});
+  EXPECT_GT(outcomes.old, 0);
+  testing::Test::RecordProperty("killed_before_the_swap", outcomes.old);
+  testing::Test::RecordProperty("killed_after_the_swap", outcomes.fresh);
+}
+
+TEST(WholeResults, ofASecondRunIntoOneFolderAreRefused) {
+  const Program ursula;
+  ursula.write("a.toml", quickScenario("one"));
+  const fs::path lock = ursula.write(".ursula-lock-" + sha1("out").substr(0, 12), "4711\n");
+  const int held = ::open(lock.c_str(), O_RDONLY | O_CLOEXEC);
+  ASSERT_EQ(::flock(held, LOCK_EX), 0);
+  const UrsulaRun second = ursula("validate a.toml --out out");
+  EXPECT_EQ(second.exit_code, 2);
+  EXPECT_EQ(second.err,
+            "error: out: another run (process 4711) is writing there, expected a folder that no other run has\n");
+  EXPECT_FALSE(fs::exists(ursula.folder() / "out"));
+  EXPECT_EQ(ursula("validate a.toml --out other --quiet").exit_code, 0);
+  ::close(held);
+  EXPECT_EQ(ursula("validate a.toml --out out --quiet").exit_code, 0);
+  EXPECT_FALSE(fs::exists(lock));
+}
+
+TEST(WholeResults, whereNoMoreCanBeWrittenAreTheOldOnes) {
+  const Program ursula;
+  ursula.write("a.toml", quickScenario("one"));
+  ursula.write("b.toml", quickScenario("two"));
+  for (const char* what : {"a.toml", "a.toml b.toml"}) {
+    const std::string call = std::string("validate ") + what + " --quiet --out out";
+    ASSERT_EQ(ursula(call).exit_code, 0);
+    const auto before = contents(ursula.folder());
+    EXPECT_EQ(shell(ursula, "ulimit -f 64; \"$URSULA\" " + call + " 2>/dev/full"), 2);
+    EXPECT_TRUE(contents(ursula.folder()) == before) << what;
+    EXPECT_EQ(shell(ursula, "ulimit -f 64; \"$URSULA\" " + call + " 2>err"), 2);
+    EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "err"),
+                AllOf(HasSubstr("error: cannot write out/"), HasSubstr(": File too large\n")));
+    fs::remove_all(ursula.folder() / "out");
+    fs::remove(ursula.folder() / "err");
+  }
+}
+
+TEST(WholeResults, thatCannotBeWrittenAreRefusedBeforeAnythingIsComputed) {
+  const Program ursula;
+  const std::string long_name(300, 'n');
+  ursula.write("a.toml", quickScenario("one"));
+  ursula.write("b.toml", quickScenario("two"));
+  ursula.write("long.toml", quickScenario(long_name));
+  fs::create_directories(ursula.folder() / "out");
+  fs::create_directories(ursula.folder() / "closed");
+  ursula.write("out/two", "a file where a folder should be");
+  fs::permissions(ursula.folder() / "closed", fs::perms(0555));
+  const auto before = contents(ursula.folder());
+  const std::vector<std::pair<std::string, std::string>> calls = {
+      {"a.toml long.toml", "File name too long"},
+      {"a.toml long.toml --out new", "File name too long"},
+      {"long.toml", "File name too long"},
+      {"a.toml b.toml --out out", "two is a file, expected a folder"},
+      {"a.toml b.toml --out out/two/deeper", "two is a file, expected a folder"},
+      {"a.toml b.toml --out closed/new", "closed is read-only"},
+      {"a.toml --out closed", "closed is read-only"},
+  };
+  for (const auto& [call, why] : calls) {
+    const UrsulaRun run = ursula("validate " + call);
+    EXPECT_EQ(run.exit_code, 2) << call;
+    EXPECT_THAT(run.err, AllOf(HasSubstr("error: cannot write "), HasSubstr(why), testing::Not(HasSubstr("[1/2]"))))
+        << call;
+    EXPECT_EQ(contents(ursula.folder()), before) << call;
+    for (const char* made : {"results", "new", "closed/new"}) EXPECT_FALSE(fs::exists(ursula.folder() / made)) << call;
+  }
+  fs::permissions(ursula.folder() / "closed", fs::perms(0755));
+}
+
+TEST(WholeResults, ofTwoRunsAreNotCompared) {
+  const Program ursula;
+  ursula.write("a.toml", quickScenario("one"));
+  ursula.write("b.toml", quickScenario("one", "499.0"));
+  ASSERT_EQ(ursula("validate a.toml --quiet --out a").exit_code, 0);
+  ASSERT_EQ(ursula("validate b.toml --quiet --out b").exit_code, 0);
+  EXPECT_EQ(ursula("compare a a").exit_code, 0);
+  fs::copy_file(ursula.folder() / "b/timeseries.csv", ursula.folder() / "a/timeseries.csv",
+                fs::copy_options::overwrite_existing);
+  for (const char* call : {"compare a b", "compare b a", "open a"}) {
+    const UrsulaRun mixed = ursula(call);
+    EXPECT_EQ(mixed.exit_code, 2) << call;
+    EXPECT_THAT(mixed.err, HasSubstr("a/timeseries.csv: error: is not of the run ")) << call;
+  }
+}
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,83 @@
+// What tells the files of one run from those of another.
+
+#include "validation/report/run.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "model/atomic_folder.h"
+#include "tests/model/temporary_folder.h"
+#include "tests/validation/report_samples.h"
+
+namespace ursula {
+namespace {
+
+TEST(Run, isNamedByTheFiles) {
+  const TemporaryFolder folder;
+  const std::filesystem::path& dir = folder.path();
+  writeResults(test::passedSample(), dir / "a");
+  writeResults(test::failedSample(), dir / "b");
+  const auto run = [&dir](const char* below) {
+    const auto summary = nlohmann::json::parse(TemporaryFolder::read(dir / below / "summary.json"));
+    return summary.at("provenance").at("run").get<std::string>();
+  };
+  EXPECT_NE(run("a"), run("b"));
+  EXPECT_EQ(run("a").size(), 16u);
+  for (const char* file : {"report.html", "junit.xml"})
+    EXPECT_NE(TemporaryFolder::read(dir / "a" / file).find(run("a")), std::string::npos) << file;
+}
+
+TEST(Run, ofTwoTheFilesAreRefused) {
+  const TemporaryFolder folder;
+  const std::filesystem::path& dir = folder.path();
+  writeResults(test::passedSample(), dir / "a");
+  writeResults(test::failedSample(), dir / "b");
+  report::refuseMixture(dir / "a");
+  for (const char* file : report::result_files) {
+    std::filesystem::copy(dir / "a", dir / "mixed");
+    std::filesystem::copy(dir / "b" / file, dir / "mixed" / file, std::filesystem::copy_options::overwrite_existing);
+    EXPECT_THROW(report::refuseMixture(dir / "mixed"), report::MixedResults) << file;
+    std::filesystem::remove_all(dir / "mixed");
+  }
+}
+
+TEST(Run, ofASuiteRefusesAnothersScenario) {
+  const TemporaryFolder folder;
+  const std::filesystem::path& dir = folder.path();
+  const auto write = [](const ValidationResult& result, const std::filesystem::path& to) {
+    AtomicFolder out(to, report::resultsIn);
+    addSuiteIndex({addResults(result, out, "s", {}, Place::in_suite)}, out);
+    out.commit();
+  };
+  write(test::passedSample(), dir / "a");
+  write(test::failedSample(), dir / "b");
+  report::refuseMixture(dir / "a");
+  for (const char* file : {"suite.json", "index.html", "junit.xml", "s/summary.json"}) {
+    std::filesystem::copy(dir / "a", dir / "mixed", std::filesystem::copy_options::recursive);
+    std::filesystem::copy(dir / "b" / file, dir / "mixed" / file, std::filesystem::copy_options::overwrite_existing);
+    EXPECT_THROW(report::refuseMixture(dir / "mixed"), report::MixedResults) << file;
+    std::filesystem::remove_all(dir / "mixed");
+  }
+}
+
+TEST(Run, ofOldListsItsFilesAndNoOthers) {
+  const TemporaryFolder folder;
+  const std::filesystem::path& dir = folder.path();
+  const std::filesystem::path a = dir / "a";
+  EXPECT_TRUE(report::resultsIn(a).empty());
+  writeResults(test::passedSample(), a);
+  EXPECT_EQ(report::resultsIn(a), Paths(report::result_files.begin(), report::result_files.end()));
+  writeSuiteIndex({suiteEntry(test::passedSample(), "s")}, a);
+  EXPECT_EQ(report::resultsIn(a),
+            (Paths{"timeseries.csv", "junit.xml", "report.html", "summary.json", "suite.json", "index.html", "s",
+                   "s/timeseries.csv", "s/junit.xml", "s/report.html", "s/summary.json"}));
+  for (const char* outside : {"..", "../b", "/tmp"}) {
+    std::ofstream(a / "suite.json") << nlohmann::json{{"scenarios", {{{"folder", outside}}}}};
+    EXPECT_EQ(report::resultsIn(a).size(), 6u) << outside;
+  }
+}
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,130 @@
+#include "validation/report/run.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "model/csv.h"
+#include "model/sha1.h"
+#include "validation/report/found.h"
+#include "validation/report/summary.h"
+
+namespace ursula::report {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t digits = 16;
+constexpr const char *run_key = "run", *series_key = "timeseries.csv sha1";
+
+std::optional<std::string> contentOf(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return std::nullopt;
+  return std::string(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+}
+
+/// An empty object where there is no such file.
+Json jsonIn(const std::filesystem::path& file) {
+  const std::optional<std::string> text = contentOf(file);
+  if (!text) return Json::object();
+  Json json = Json::parse(*text, nullptr, false);
+  if (!json.is_object()) throw MixedResults(file.string() + ": error: is no JSON object, as a run writes it");
+  return json;
+}
+
+std::string textAt(const Json& json, const char* key) {
+  return json.is_object() && json.contains(key) && json.at(key).is_string() ? json.at(key).get<std::string>() : "";
+}
+
+std::string runIn(const Json& summary) {
+  return summary.contains("provenance") ? textAt(summary.at("provenance"), run_key) : "";
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const char* beside, const std::string& run) {
+  throw MixedResults(file.string() + ": error: is not of the run " + run + " of the " + beside +
+                     " beside it, expected the files of one run as it left them");
+}
+
+void requireNamed(const std::filesystem::path& file, const char* beside, const std::string& run) {
+  const std::optional<std::string> text = contentOf(file);
+  if (text && text->find(run) == std::string::npos) refuse(file, beside, run);
+}
+
+void refuseMixtureOfOne(const std::filesystem::path& folder) {
+  const Json summary = jsonIn(folder / "summary.json");
+  const std::string run = runIn(summary);
+  if (run.empty()) return;
+  const std::optional<std::string> series = contentOf(folder / "timeseries.csv");
+  if (series && sha1(*series) != textAt(summary.at("provenance"), series_key))
+    refuse(folder / "timeseries.csv", "summary.json", run);
+  requireNamed(folder / "report.html", "summary.json", run);
+  if (!std::filesystem::exists(folder / "suite.json")) requireNamed(folder / "junit.xml", "summary.json", run);
+}
+
+void refuseMixtureOfSuite(const std::filesystem::path& folder) {
+  const Json suite = jsonIn(folder / "suite.json");
+  const std::string run = textAt(suite, run_key);
+  if (run.empty()) return;
+  for (const char* file : {"index.html", "junit.xml"}) requireNamed(folder / file, "suite.json", run);
+  for (const Json& scenario : suite.value("scenarios", Json::array())) {
+    const std::filesystem::path file = folder / textAt(scenario, "folder") / "summary.json";
+    const std::string expected = textAt(scenario, run_key);
+    if (!expected.empty() && std::filesystem::exists(file) && runIn(jsonIn(file)) != expected)
+      refuse(file, "suite.json above", expected);
+  }
+}
+
+/// A scenario's folder is one below, whatever a file that was changed says.
+bool isBelow(const std::filesystem::path& folder) {
+  return !folder.empty() && !folder.has_parent_path() && folder != "." && folder != "..";
+}
+
+}  // namespace
+
+std::string timeseriesCsv(const ValidationResult& result) {
+  return csvText(result.timeseries.names, result.timeseries.columns, NanAs::empty_cell);
+}
+
+ValidationResult stamped(ValidationResult result, const std::string& timeseries) {
+  if (!fact(result.provenance, run_key).empty()) return result;
+  result.provenance.emplace_back(series_key, sha1(timeseries));
+  result.provenance.emplace_back(run_key, sha1(summaryJson(result)).substr(0, digits));
+  return result;
+}
+
+ValidationResult stamped(const ValidationResult& result) { return stamped(result, timeseriesCsv(result)); }
+
+std::string runOf(const std::vector<SuiteEntry>& entries) {
+  std::string text;
+  for (const SuiteEntry& entry : entries)
+    text += entry.scenario + "\n" + fact(entry.properties, run_key) + "\n" + entry.error + "\n";
+  return sha1(text).substr(0, digits);
+}
+
+Paths resultsIn(const std::filesystem::path& folder) {
+  Paths paths;
+  std::error_code ignored;
+  if (std::filesystem::exists(folder / "summary.json", ignored)) paths.insert(result_files.begin(), result_files.end());
+  const std::optional<std::string> text = contentOf(folder / "suite.json");
+  if (!text) return paths;
+  const Json suite = Json::parse(*text, nullptr, false);
+  if (!suite.is_object() || !suite.contains("scenarios") || !suite.at("scenarios").is_array()) return paths;
+  paths.insert(suite_files.begin(), suite_files.end());
+  for (const Json& scenario : suite.at("scenarios")) {
+    const std::filesystem::path below = textAt(scenario, "folder");
+    if (!isBelow(below)) continue;
+    paths.insert(below);
+    for (const char* file : result_files) paths.insert(below / file);
+  }
+  return paths;
+}
+
+void refuseMixture(const std::filesystem::path& folder) {
+  refuseMixtureOfOne(folder);
+  refuseMixtureOfSuite(folder);
+}
+
+}  // namespace ursula::report
