@@ -9,8 +9,8 @@
 
 namespace ursula {
 
-/// For people, on standard error. That nobody can read it is no reason to stop: only lost data is. What a terminal would
-/// obey is sent as it stands.
+/// For people, on standard error. That nobody can read it is no reason to stop: only lost data is. What a terminal
+/// would obey is sent as it stands.
 void sayText(const std::string& text);
 
 /// A sentence. Names of files and what is in them come from anybody: a terminal is told nothing to obey.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <locale>
 #include <sstream>
 #include <tuple>
 
@@ -27,6 +28,7 @@ const double smallest_ratio = 16 * std::pow(eps, 0.75);
 
 std::string describe(const std::string& what, double measure, double bound) {
   std::ostringstream text;
+  text.imbue(std::locale::classic());
   text.precision(3);
   text << what << ": " << measure << ", expected > " << bound;
   return text.str();

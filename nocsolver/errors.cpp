@@ -1,5 +1,6 @@
 #include "nocsolver/errors.h"
 
+#include <locale>
 #include <sstream>
 
 namespace ursula {
@@ -8,6 +9,7 @@ namespace {
 std::string describe(const std::string& what, int leg, double instant, double measure, double bound,
                      const std::string& unit) {
   std::ostringstream text;
+  text.imbue(std::locale::classic());
   text.precision(9);
   if (leg >= 0) text << "leg " << leg + 1 << ' ';
   text << what << " at t = " << instant << " s: " << measure << unit << ", bound " << bound << unit;

@@ -146,10 +146,13 @@ TEST_P(DerivativesOf, byStateAreTheDifferencesInFiftyDigits) {
         for (int k = 0; k < 18; ++k) {  // a wrong column is found
           ByState wrong = found.derivatives;
           wrong.col(k) *= 1 + 1e-9;
-          if (expected.col(k).norm() > 1e-3 * expected.middleCols<3>(k / 3 * 3).norm())
+          if (expected.col(k).norm() > 1e-3 * expected.middleCols<3>(k / 3 * 3).norm()) {
             EXPECT_GT(distance(wrong, expected), promised) << k;
+          }
         }
-        if (turns) EXPECT_GT(distance(of.byState(motion(row), load).derivatives, expected), 1e-9) << "the turn is seen";
+        if (turns) {
+          EXPECT_GT(distance(of.byState(motion(row), load).derivatives, expected), 1e-9) << "the turn is seen";
+        }
       }
     }
 }
@@ -255,8 +258,9 @@ TEST_P(DerivativesOf, byParametersAreTheDifferencesInFiftyDigits) {
     const double limit = promised * std::max(size, 1e-4 * largest / scale);
     EXPECT_LE((column - expected).norm(), limit) << name << ": " << expected.transpose();
     seen += expected.norm() > 1e-6 ? 1 : 0;
-    if (expected.norm() > 1e-3 * size && promised * size == limit)
+    if (expected.norm() > 1e-3 * size && promised * size == limit) {
       EXPECT_GT((1.000001 * column - expected).norm(), limit) << name;
+    }
   }
   EXPECT_GT(seen, static_cast<int>(of.parameterNames().size() / 2));
 }

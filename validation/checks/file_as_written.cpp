@@ -1,11 +1,11 @@
 #include "validation/checks/file_as_written.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
 
+#include "model/number_text.h"
 #include "model/real50.h"
 #include "validation/checks/machine_as_written.h"
 
@@ -42,7 +42,7 @@ std::vector<std::map<std::string, double>> rowsOf(const std::filesystem::path& f
     const std::vector<std::string> values = cells(line);
     std::map<std::string, double> row;
     for (std::size_t i = 0; i < std::min(names.size(), values.size()); ++i)
-      row[names[i]] = std::strtod(values[i].c_str(), nullptr);
+      row[names[i]] = leadingNumber(values[i]).value;
     rows.push_back(std::move(row));
   }
   return rows;

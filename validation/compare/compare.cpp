@@ -14,7 +14,6 @@
 #include "model/nearest.h"
 #include "validation/compare/history_line.h"
 #include "validation/compare/rotations.h"
-#include "validation/report/run.h"
 
 namespace ursula {
 namespace {
@@ -185,14 +184,6 @@ Verdict verdictOf(const Comparison& comparison) {
   return is_whole ? Verdict::pass : Verdict::inconclusive;
 }
 
-/// What `validate` leaves, or what ships of it.
-std::filesystem::path historyIn(const std::filesystem::path& folder) {
-  std::error_code ignored;
-  const bool is_short = !std::filesystem::exists(folder / "timeseries.csv", ignored) &&
-                        std::filesystem::exists(folder / "inverse.csv", ignored);
-  return folder / (is_short ? "inverse.csv" : "timeseries.csv");
-}
-
 /// A column of which neither side has any is a slip.
 void refuseUnknown(const std::vector<std::string>& patterns, const TimeSeries& reference, const TimeSeries& test) {
   std::vector<std::string> names = reference.names;
@@ -204,13 +195,6 @@ void refuseUnknown(const std::vector<std::string>& patterns, const TimeSeries& r
 }
 
 }  // namespace
-
-TimeSeries readHistory(const std::filesystem::path& file_or_folder) {
-  std::error_code ignored;
-  const bool is_folder = std::filesystem::is_directory(file_or_folder, ignored);
-  if (is_folder) report::refuseMixture(file_or_folder);
-  return historyOf(readCsv(is_folder ? historyIn(file_or_folder) : file_or_folder, {{}, false}));
-}
 
 TimeSeries historyOf(const CsvTable& table) {
   const std::vector<double>& t = table.at("t_s");

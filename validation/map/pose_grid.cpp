@@ -6,9 +6,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "model/instants.h"
+#include "model/number_text.h"
 #include "nocsolver/chain_solver.h"
 
 namespace ursula {
@@ -29,11 +29,10 @@ std::vector<std::string> parts(const std::string& text) {
 }
 
 double finiteNumber(const std::string& name, const std::string& text, const std::string& part) {
-  char* end = nullptr;
-  const double value = std::strtod(part.c_str(), &end);
-  if (part.empty() || *end != '\0' || !std::isfinite(value))
+  const LeadingNumber read = leadingNumber(part);
+  if (part.empty() || read.length != part.size() || !std::isfinite(read.value))
     throw GridError(fmt::format("--{} {}: '{}' is no finite number", name, text, part));
-  return value;
+  return read.value;
 }
 
 Vector3d anglesOf(const Matrix3d& Q) {

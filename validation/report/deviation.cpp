@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "model/number_text.h"
 #include "validation/report/report.h"
 
 namespace ursula {
@@ -37,7 +38,7 @@ std::string roundedUp(double value) {
   if (!(value > 0 && std::isfinite(value))) return fmt::format("{:g}", value);
   const double digit = std::pow(10.0, std::floor(std::log10(value)) - 4);
   double steps = std::floor(value / digit);
-  while (std::stod(fmt::format("{:.5g}", steps * digit)) < value) ++steps;
+  while (leadingNumber(fmt::format("{:.5g}", steps * digit)).value < value) ++steps;
   return fmt::format("{:.5g}", steps * digit);
 }
 

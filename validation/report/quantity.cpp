@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "model/number_text.h"
 #include "validation/report/text.h"
 
 namespace ursula::report {
@@ -35,7 +36,7 @@ bool takesPrefix(const std::string& unit) {
 /// Digits without an exponent where it is short, rounded to so many of them.
 std::string rounded(double value, int digits) {
   const std::string text = fmt::format("{:.{}g}", value, digits);
-  return text.find('e') == std::string::npos ? text : fmt::format("{:.0f}", std::stod(text));
+  return text.find('e') == std::string::npos ? text : fmt::format("{:.0f}", leadingNumber(text).value);
 }
 
 }  // namespace
@@ -56,7 +57,7 @@ std::string quantity(double value, const std::string& unit, int digits) {
     return plainNumber(value, digits) + (pretty.empty() ? "" : joined + pretty);
   const std::array<const char*, 9> prefixes = {"f", "p", "n", "µ", "m", "", "k", "M", "G"};
   // As it will be written: 999.96 is 1.00 k.
-  const double shown = std::stod(fmt::format("{:.{}e}", value, digits - 1));
+  const double shown = leadingNumber(fmt::format("{:.{}e}", value, digits - 1)).value;
   const int thousands = static_cast<int>(std::floor(std::log10(std::abs(shown)) / 3 + 1e-9));
   const bool small = pretty == "rad" || pretty == "s" || pretty.find("rad/") == 0;  // never kilo-
   const int highest = small ? 0 : 3;

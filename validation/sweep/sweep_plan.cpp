@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <boost/uuid/detail/sha1.hpp>
 #include <cctype>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -12,7 +10,9 @@
 #include <sstream>
 #include <utility>
 
+#include "model/number_text.h"
 #include "model/scenario_sections.h"
+#include "model/sha1.h"
 #include "validation/findings/provenance.h"
 #include "validation/sweep/scenario_numbers.h"
 
@@ -42,14 +42,14 @@ std::string withShortNumbers(const std::string& toml) {
   std::string out;
   char quote = '\0';
   for (const char* at = toml.c_str(); *at != '\0';) {
-    char* end = nullptr;
     const bool begins = quote == '\0' && (std::isdigit(static_cast<unsigned char>(*at)) != 0) &&
                         (out.empty() || std::strchr(" [=,-+", out.back()) != nullptr);
-    const double value = begins ? std::strtod(at, &end) : 0;
-    if (begins && std::string_view(at, static_cast<std::size_t>(end - at)).find('.') != std::string_view::npos) {
-      const std::string number = fmt::format("{}", value);
+    const LeadingNumber read =
+        begins ? leadingNumber({at, static_cast<std::size_t>(toml.c_str() + toml.size() - at)}) : LeadingNumber();
+    if (std::string_view(at, read.length).find('.') != std::string_view::npos) {
+      const std::string number = fmt::format("{}", read.value);
       out += number + (number.find_first_of(".e") == std::string::npos ? ".0" : "");
-      at = end;
+      at += read.length;
       continue;
     }
     if (quote == *at)
@@ -67,22 +67,15 @@ std::string withShortNumbers(const std::string& toml) {
 class Meaning {
  public:
   void add(std::string_view text) {
-    const std::string size = fmt::format("{}:", text.size());
-    hash_.process_bytes(size.data(), size.size());
-    hash_.process_bytes(text.data(), text.size());
+    said_ += fmt::format("{}:", text.size());
+    said_ += text;
   }
   void add(double value) { add(fmt::format("{:a}", value)); }
 
-  std::string hash() {
-    boost::uuids::detail::sha1::digest_type digest;
-    hash_.get_digest(digest);
-    std::string out;
-    for (const unsigned word : digest) out += fmt::format("{:08x}", word);
-    return out;
-  }
+  std::string hash() const { return sha1(said_); }
 
  private:
-  boost::uuids::detail::sha1 hash_;
+  std::string said_;
 };
 
 }  // namespace

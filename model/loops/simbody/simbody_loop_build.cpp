@@ -116,7 +116,7 @@ SimbodyLoop::Impl::Impl(const Manipulator& manipulator, Topology topology_, std:
     : matter(system), forces(system), parameters(manipulator), topology(topology_) {
   const SimTK::Force::UniformGravity gravity(forces, matter, toSimTK(manipulator.gravity()));
   for (int i = 0; i < legCount(); ++i) addLeg(i);
-  addPlatform(topology);
+  addPlatform();
   addForces(std::move(load));
   state = system.realizeTopology();
   system.realizeModel(state);
@@ -182,7 +182,7 @@ void SimbodyLoop::Impl::addCarriage(const Leg& from) {
                                                              frameOf(-e_z, e_x, -e_y)));
 }
 
-void SimbodyLoop::Impl::addPlatform(Topology topology) {
+void SimbodyLoop::Impl::addPlatform() {
   const Platform& from = parameters.platform();
   const SimTK::Body::Rigid body(SimTK::MassProperties(
       from.mass, toSimTK(from.center_of_mass), inertiaAboutOrigin(from.inertia, from.mass, from.center_of_mass)));

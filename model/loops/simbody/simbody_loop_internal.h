@@ -135,7 +135,7 @@ struct SimbodyLoop::Impl {
   void addUniversalLeg(const Leg& from);  ///< URS and UPS
   void addCrank(const Leg& from);         ///< RUS
   void addCarriage(const Leg& from);      ///< PUS
-  void addPlatform(Topology topology);
+  void addPlatform();
   void addForces(std::shared_ptr<const Load> load);
 };
 

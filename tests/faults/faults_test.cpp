@@ -1,0 +1,224 @@
+// The built program, while one call of the system after the other fails in what it writes: what is there afterwards are
+// the old results or the new ones, whole, and the exit code says which.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include <cerrno>
+#include <functional>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/end_to_end/quick_runs.h"
+
+namespace ursula {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+struct Call {
+  std::string name, path;
+};
+
+/// A call of the program whose writing below "at" is counted or disturbed.
+class Disturbed {
+ public:
+  explicit Disturbed(std::string arguments) : arguments_(std::move(arguments)) {
+    fs::create_directory(ursula.folder() / "at");
+  }
+
+  /// Exit code; with call number `at` failing, or none for 0.
+  int run(long at, int error = EIO) const {
+    fs::remove(ursula.folder() / "log");
+    return shell(ursula, "LD_PRELOAD='" URSULA_FAULT_SHIM "' FAULTS_LOG=log FAULTS_FOLDER=\"$PWD/at\" FAULTS_AT=" +
+                             std::to_string(at) + " FAULTS_ERROR=" + std::to_string(error) + " \"$URSULA\" " +
+                             arguments_ + " >said 2>err");
+  }
+
+  std::vector<Call> calls() const {
+    std::istringstream log(TemporaryFolder::read(ursula.folder() / "log"));
+    std::vector<Call> all;
+    long number = 0;
+    Call call;
+    while (log >> number >> call.name && std::getline(log, call.path)) all.push_back(call);
+    return all;
+  }
+
+  std::string complaint() const { return TemporaryFolder::read(ursula.folder() / "err"); }
+
+  const Program ursula;
+
+ private:
+  std::string arguments_;
+};
+
+std::set<std::string> namesOf(const std::vector<Call>& calls) {
+  std::set<std::string> names;
+  for (const Call& call : calls) names.insert(call.name);
+  return names;
+}
+
+std::string leftovers(const fs::path& folder) {
+  std::string found;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.path().filename().string().find(".ursula") == 0) found += entry.path().string() + ' ';
+  return found;
+}
+
+/// What a file of `results`, made by a run that nothing disturbs, is after every failure, with `prepare` before each.
+void holdsThroughEveryFailure(const Disturbed& disturbed, const std::function<void()>& prepare,
+                              const std::set<std::string>& expected_calls) {
+  const fs::path at = disturbed.ursula.folder() / "at";
+  prepare();
+  const auto old = contents(at);
+  ASSERT_EQ(disturbed.run(0), 0) << disturbed.complaint();
+  const auto fresh = contents(at);
+  const std::vector<Call> calls = disturbed.calls();
+  ASSERT_NE(old, fresh) << "or nothing would be seen";
+  for (const std::string& name : expected_calls) EXPECT_EQ(namesOf(calls).count(name), 1u) << name << " is not counted";
+  int refused = 0;
+  for (std::size_t k = 0; k < calls.size(); ++k) {
+    const std::string where = std::to_string(k + 1) + ": " + calls[k].name + calls[k].path;
+    prepare();
+    const int exit_code = disturbed.run(static_cast<long>(k + 1), k % 2 == 0 ? EIO : ENOSPC);
+    ASSERT_GT(disturbed.calls().size(), k) << where << " was not reached";
+    ASSERT_TRUE(exit_code == 0 || exit_code == 2) << where << ": exit " << exit_code << ", " << disturbed.complaint();
+    EXPECT_TRUE(contents(at) == (exit_code == 0 ? fresh : old)) << where << ": exit " << exit_code;
+    if (exit_code == 2) {
+      EXPECT_THAT(disturbed.complaint(), HasSubstr("error: ")) << where;
+    }
+    refused += exit_code == 2;
+    ASSERT_EQ(disturbed.run(0), 0) << disturbed.complaint();
+    EXPECT_TRUE(contents(at) == fresh) << "after " << where;
+    EXPECT_EQ(leftovers(at), "") << "after " << where;
+  }
+  EXPECT_GT(refused, 0);
+  testing::Test::RecordProperty("calls", static_cast<int>(calls.size()));
+  testing::Test::RecordProperty("refused", refused);
+  std::cout << calls.size() << " calls, " << refused << " of them refused\n";
+}
+
+void putOld(const Disturbed& disturbed, const fs::path& old) {
+  fs::remove_all(disturbed.ursula.folder() / "at");
+  fs::copy(old, disturbed.ursula.folder() / "at", fs::copy_options::recursive);
+}
+
+TEST(Faults, leaveARunsResultsWhole) {
+  const Disturbed disturbed("validate a.toml --out at/out");
+  disturbed.ursula.write("a.toml", quickScenario("one"));
+  disturbed.ursula.write("b.toml", quickScenario("one", "499.0"));
+  ASSERT_EQ(disturbed.ursula("validate b.toml --out old/out").exit_code, 0);
+  disturbed.ursula.write("old/out/note", "mine");
+  holdsThroughEveryFailure(
+      disturbed, [&] { putOld(disturbed, disturbed.ursula.folder() / "old"); },
+      {"mkdir", "open", "write", "fsync", "rename", "renameat2", "close", "flock", "linkat", "unlink"});
+}
+
+TEST(Faults, leaveASuitesResultsWhole) {
+  const Disturbed disturbed("validate a.toml b.toml --jobs 1 --out at/out");
+  disturbed.ursula.write("a.toml", quickScenario("one"));
+  disturbed.ursula.write("b.toml", quickScenario("two"));
+  holdsThroughEveryFailure(disturbed,
+                           [&] {
+                             fs::remove_all(disturbed.ursula.folder() / "at");
+                             disturbed.ursula.write("at/note", "mine");
+                           },
+                           {"mkdir", "open", "write", "fsync", "rename", "close"});
+}
+
+TEST(Faults, leaveAFileWhole) {
+  for (const char* call :
+       {"inverse a.toml --samples 300 --out at/out.csv", "map a.toml --x -0.1,0.1,3 --y -0.1,0.1,3 --out at/out.csv",
+        "compare a.csv a.csv --out at/out.csv", "simulate a.toml --torques a.csv --out at/out.csv"}) {
+    const Disturbed disturbed(call);
+    disturbed.ursula.write("a.toml", quickScenario("one"));
+    ASSERT_EQ(disturbed.ursula("inverse a.toml --samples 9 --out a.csv").exit_code, 0);
+    holdsThroughEveryFailure(disturbed, [&] { disturbed.ursula.write("at/out.csv", "old\n"); },
+                             {"open", "write", "fsync", "rename", "close"});
+  }
+}
+
+/// All that a sweep's database says, but for the seconds it took.
+std::string rowsOf(const fs::path& file) {
+  sqlite3* database = nullptr;
+  std::string all;
+  const auto add = [](void* text, int columns, char** values, char** names) {
+    for (int c = 0; c < columns; ++c)
+      if (std::string(names[c]) != "seconds")
+        *static_cast<std::string*>(text) += std::string(values[c] ? values[c] : "-") + ' ';
+    *static_cast<std::string*>(text) += '\n';
+    return 0;
+  };
+  if (sqlite3_open_v2(file.c_str(), &database, SQLITE_OPEN_READONLY, nullptr) == SQLITE_OK)
+    for (const char* query :
+         {"SELECT * FROM point ORDER BY id", "SELECT * FROM result ORDER BY 1, 2", "PRAGMA integrity_check"})
+      if (sqlite3_exec(database, query, add, &all, nullptr) != SQLITE_OK) all += sqlite3_errmsg(database);
+  sqlite3_close(database);
+  return all;
+}
+
+constexpr const char* small_sweep = R"(scenario = "a.toml"
+what = "inverse"
+design = "random"
+count = 40
+samples = 5
+[[vary]]
+key = "manipulator.platform.mass"
+uniform = [400.0, 600.0]
+)";
+
+/// The call that fails may end the sweep, which goes on when it is called again; rows are those of one that nothing
+/// disturbs.
+void holdsRowsThroughEveryFailure(const Disturbed& disturbed, const std::set<std::string>& expected_calls) {
+  const fs::path at = disturbed.ursula.folder() / "at", database = at / "s.db";
+  ASSERT_EQ(disturbed.run(0), 0) << disturbed.complaint();
+  const std::string rows = rowsOf(database);
+  ASSERT_THAT(rows, testing::EndsWith("ok \n"));
+  ASSERT_GT(std::count(rows.begin(), rows.end(), '\n'), 80);
+  const std::vector<Call> calls = disturbed.calls();
+  for (const std::string& name : expected_calls) EXPECT_EQ(namesOf(calls).count(name), 1u) << name << " is not counted";
+  int refused = 0;
+  for (std::size_t k = 0; k < calls.size(); ++k) {
+    const std::string where = std::to_string(k + 1) + ": " + calls[k].name + calls[k].path;
+    fs::remove_all(at);
+    fs::create_directory(at);
+    const int exit_code = disturbed.run(static_cast<long>(k + 1), k % 2 == 0 ? EIO : ENOSPC);
+    ASSERT_TRUE(exit_code == 0 || exit_code == 2) << where << ": exit " << exit_code << ", " << disturbed.complaint();
+    if (exit_code == 0) {
+      EXPECT_EQ(rowsOf(database), rows) << where;
+    }
+    if (exit_code == 2) {
+      EXPECT_THAT(disturbed.complaint(), HasSubstr("error: ")) << where;
+    }
+    refused += exit_code == 2;
+    ASSERT_EQ(disturbed.run(0), 0) << "after " << where << ": " << disturbed.complaint();
+    EXPECT_EQ(rowsOf(database), rows) << "after " << where;
+  }
+  EXPECT_GT(refused, 0);
+  testing::Test::RecordProperty("calls", static_cast<int>(calls.size()));
+  testing::Test::RecordProperty("refused", refused);
+  std::cout << calls.size() << " calls, " << refused << " of them refused\n";
+}
+
+TEST(Faults, loseNoRowOfASweep) {
+  const Disturbed disturbed("sweep s.toml --db at/s.db --jobs 1");
+  disturbed.ursula.write("a.toml", quickScenario("one"));
+  disturbed.ursula.write("s.toml", small_sweep);
+  holdsRowsThroughEveryFailure(disturbed, {"open64", "pwrite64", "fcntl64", "mmap64", "close"});
+}
+
+TEST(Faults, loseNoRowOfAMerge) {
+  const Disturbed disturbed("sweep merge 1.db 2.db --db at/s.db");
+  disturbed.ursula.write("a.toml", quickScenario("one"));
+  disturbed.ursula.write("s.toml", small_sweep);
+  for (const char* shard : {"1", "2"})
+    ASSERT_EQ(disturbed.ursula(std::string("sweep s.toml --shard ") + shard + "/2 --db " + shard + ".db").exit_code, 0);
+  holdsRowsThroughEveryFailure(disturbed, {"open64", "pwrite64", "fcntl64", "mmap64", "close"});
+}
+
+}  // namespace
+}  // namespace ursula
