@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <functional>
+#include <new>
 
 #include "apps/files_apart.h"
 #include "apps/streams.h"
@@ -33,6 +34,8 @@ int runVerb(const std::function<int()>& run) {
     return complain(error.what());  // begins with the file
   } catch (const ursula::PoseError& error) {
     return complain(fmt::format("error: the motion cannot be made: {}", error.what()));
+  } catch (const std::bad_alloc&) {
+    return complain("error: out of memory: fewer --jobs or --samples need less");
   } catch (const std::exception& error) {
     return complain(fmt::format("error: {}", error.what()));
   }

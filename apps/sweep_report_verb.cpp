@@ -49,6 +49,7 @@ void addSweepReport(CLI::App& sweep, std::function<int()>& run) {
   verb->add_option("--out", options->out, "Folder of report.html, default results/DATABASE; - for standard output");
   verb->add_option("--csv", options->csv,
                    "All points as CSV instead, a row each: a file, or - for standard output; with --out both");
+  verb->footer("Exit: 0, whatever the verdicts of its points.");
   verb->callback([options, &run] { run = [options] { return report(*options); }; });
 }
 

@@ -7,6 +7,7 @@
 #include "apps/streams.h"
 #include "apps/sweep_verbs.h"
 #include "apps/verbs.h"
+#include "model/shell_word.h"
 #include "validation/sweep/merge.h"
 
 namespace ursula {
@@ -25,9 +26,10 @@ void sayMissing(const MergeResult& result, const std::string& database) {
     say(", the first from {} to {}", result.missing.front().first, result.missing.front().end - 1);
   say("; to make them:\n");
   const std::string flag = sweep.pointwise ? " --pointwise" : "";
-  if (result.missing_shards.empty()) say("  ursula sweep {}{} --db {}\n", sweep.file, flag, database);
+  const std::string file = shellWord(sweep.file);
+  if (result.missing_shards.empty()) say("  ursula sweep {}{} --db {}\n", file, flag, shellWord(database));
   for (const Shard& shard : result.missing_shards)
-    say("  ursula sweep {}{} --shard {}/{}\n", sweep.file, flag, shard.index, shard.of);
+    say("  ursula sweep {}{} --shard {}/{}\n", file, flag, shard.index, shard.of);
 }
 
 int merge(const MergeOptions& options) {
@@ -76,7 +78,10 @@ void addSweepShow(CLI::App& sweep, std::function<int()>& run) {
   const auto options = std::make_shared<ShowOptions>();
   CLI::App* verb = sweep.add_subcommand("show", "One point as a scenario, for ursula validate");
   verb->add_option("sweep", options->sweep, "Sweep file (TOML)")->required();
-  verb->add_option("id", options->id, "Number of the point, from 0")->required()->check(CLI::NonNegativeNumber);
+  verb->add_option("id", options->id, "Number of the point, from 0")
+      ->required()
+      ->check(CLI::Range(std::int64_t{0}, most_points - 1));
+  verb->footer("Exit: 0, or 2 where there is no such point.");
   verb->callback([options, &run] { run = [options] { return show(*options); }; });
 }
 

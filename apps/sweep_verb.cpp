@@ -18,7 +18,7 @@ namespace {
 
 struct SweepOptions {
   std::string sweep, database, shard;
-  bool pointwise = false;
+  bool pointwise = false, retry_errors = false;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   bool jobs_given = false, slurm = false, dry_run = false;
   int shards = 0;
@@ -34,7 +34,7 @@ Shard shardOf(const std::string& text) {
   char rest = '\0';
   if (std::sscanf(text.c_str(), "%d/%d%c", &shard.index, &shard.of, &rest) != 2 || shard.of < 1 || shard.index < 1 ||
       shard.index > shard.of || shard.of > 1'000'000)
-    throw UsageError(fmt::format("--shard {}: expected I/N with I from 1 to N, such as 1/4", text));
+    throw UsageError(fmt::format("--shard {}: expected I/N with I from 1 to N, and N to 1000000, such as 1/4", text));
   return shard;
 }
 
@@ -67,6 +67,7 @@ void tellOutcome(const SweepRunResult& result, const std::filesystem::path& data
     return;
   }
   if (result.new_ones == 0) say("nothing to do: all {} points are in {}\n", result.points, database.string());
+  if (result.verdicts.count("error") > 0) say("points in error stay so; --retry-errors makes them again\n");
   fmt::print("{} points: {}\n{}\n", result.points, inWords(result.verdicts), database.string());
 }
 
@@ -89,7 +90,7 @@ int sweep(const SweepOptions& options) {
     Progress progress(std::filesystem::path(options.sweep).stem().string());
     const auto start = std::chrono::steady_clock::now();
     std::int64_t before = -1;
-    SweepRunOptions run{options.jobs, shard, [] { return asked_to_stop != 0; }};
+    SweepRunOptions run{options.jobs, shard, options.retry_errors, [] { return asked_to_stop != 0; }};
     run.progress = [&](std::int64_t done, std::int64_t of) {
       if (before < 0) before = done - 1;
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -132,6 +133,8 @@ void addSweep(CLI::App& app, std::function<int()>& run) {
   verb->add_option("--shard", options->shard, "I/N: only the I-th of N parts, I from 1; into a database of its own");
   verb->add_flag("--pointwise", options->pointwise,
                  "Of validations only what needs no replay: some hundred times as many");
+  verb->add_flag("--retry-errors", options->retry_errors,
+                 "Make points again that ended in error, as where memory was short");
   addSlurmOptions(*verb, *options);
   verb->footer(
       "Exit: 1 if any point failed, else 3 if any was inconclusive or in error, else 0; out of reach or singular is a\n"

@@ -32,6 +32,13 @@ std::vector<std::string> optionNames(const CLI::App& app) {
   return names;
 }
 
+/// The verb that is called of these; null where there is none.
+const CLI::App* calledOf(const CLI::App& app) {
+  for (const CLI::App* verb : app.get_subcommands({}))
+    if (verb->parsed()) return verb;
+  return nullptr;
+}
+
 }  // namespace
 
 std::string unknownVerb(const CLI::App& app, int argc, char** argv) {
@@ -43,14 +50,13 @@ std::string unknownVerb(const CLI::App& app, int argc, char** argv) {
 }
 
 std::string misuse(const CLI::App& app, const CLI::ParseError& error) {
-  const std::vector<const CLI::App*> called = [&app] {
-    std::vector<const CLI::App*> out;
-    for (const CLI::App* verb : app.get_subcommands({}))
-      if (verb->parsed()) out.push_back(verb);
-    return out;
-  }();
-  const CLI::App& verb = called.empty() ? app : *called.front();
-  const std::string who = called.empty() ? "ursula" : "ursula " + verb.get_name();
+  const CLI::App* last = &app;
+  std::string who = "ursula";
+  for (const CLI::App* next = calledOf(*last); next != nullptr; next = calledOf(*last)) {
+    last = next;
+    who += " " + last->get_name();
+  }
+  const CLI::App& verb = *last;
   const std::vector<std::string> surplus = verb.remaining();
   for (const std::string& argument : surplus) {
     if (!isOption(argument)) continue;

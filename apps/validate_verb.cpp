@@ -15,6 +15,7 @@
 #include "apps/verbs.h"
 #include "model/atomic_folder.h"
 #include "model/scenario.h"
+#include "model/scenario_files.h"
 #include "validation/outside/external_solver.h"
 #include "validation/report/report.h"
 #include "validation/report/run.h"
@@ -150,6 +151,17 @@ std::filesystem::path folderOf(const ValidateOptions& options, const std::vector
   return dir;
 }
 
+/// Files that are read.
+std::vector<std::filesystem::path> inputsOf(const ValidateOptions& options, const std::vector<SuiteMember>& members) {
+  std::vector<std::filesystem::path> out(options.scenarios.begin(), options.scenarios.end());
+  if (!options.torques.empty()) out.emplace_back(options.torques);
+  for (const SuiteMember& member : members) {
+    if (!member.scenario) continue;
+    for (std::filesystem::path& each : filesNamedBy(*member.scenario)) out.push_back(std::move(each));
+  }
+  return out;
+}
+
 /// Usage is refused here, before anything is computed or written, and so is a suite of which nothing is left.
 int validateAll(const ValidateOptions& options) {
   if (std::count(options.scenarios.begin(), options.scenarios.end(), "-") > 1)
@@ -163,6 +175,9 @@ int validateAll(const ValidateOptions& options) {
     for (SuiteMember& member : members)
       if (member.scenario) member.scenario->tolerance = EffortTolerance{options.rtol, options.atol};
   const std::filesystem::path dir = folderOf(options, members);
+  if (const auto input = report::replacedInput(inputsOf(options, members), dir); !input.empty())
+    throw UsageError(fmt::format("--out {}: results would replace {}, which is read, expected another folder",
+                                 dir.string(), input.string()));
   return members.size() > 1 ? validateSuite(members, options, dir)
                             : validateOne(*members.front().scenario, options, dir);
 }

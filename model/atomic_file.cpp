@@ -115,7 +115,8 @@ void AtomicFile::commit() {
     temporary_.clear();
     syncFolder(folder());
   }
-  if (::close(std::exchange(descriptor_, -1)) != 0) fail();
+  // What has a name is on the disk: nothing that closing says can take that back.
+  if (::close(std::exchange(descriptor_, -1)) != 0 && in_place_) fail();
 }
 
 void writeFileAtomically(const std::filesystem::path& file, const std::string& content) {

@@ -200,7 +200,10 @@ void AtomicFolder::swap() {
     if (error) throw fs::filesystem_error("cannot write", folder_, error);
   }
   syncFolder(base_);
-  bringAfter(old, folder_, leave, Paths(written_.begin(), written_.end()));
+  try {
+    bringAfter(old, folder_, leave, Paths(written_.begin(), written_.end()));
+  } catch (const fs::filesystem_error&) {  // the results are there; the next run goes on with what is left
+  }
 }
 
 /// A reader tells a mixture by the runs that the files name.
@@ -214,7 +217,7 @@ void AtomicFolder::replaceOneByOne() {
   std::error_code ignored;
   for (auto name = older.rbegin(); name != older.rend(); ++name)  // folders after what is in them
     if (written.count(*name) == 0) fs::remove(folder_ / *name, ignored);
-  syncFolders(folder_);
+  for (const fs::path& name : written_) syncFolder((folder_ / name).parent_path());  // others are not ours to enter
   fs::remove_all(temporary_);
 }
 

@@ -1,18 +1,14 @@
 #pragma once
 
 #include <cstddef>
-#include <string_view>
 
 namespace ursula {
 
-/// What a text begins with.
-struct LeadingNumber {
-  double value = 0;
-  std::size_t length = 0;  ///< 0 where it begins with no number, or with one that no double holds
-};
+/// What writeNumber may write to, more than it returns.
+constexpr std::size_t longest_number = 40;
 
-/// Digits are as in C whatever the process's locale is: somebody's program may have set one with decimal commas. A
-/// leading plus is read, white space is not.
-LeadingNumber leadingNumber(std::string_view text);
+/// Writes to `to` what {fmt} makes of "{:.17g}", byte by byte, and returns where it ends; `to` has room for
+/// longest_number. Some five times as fast for sizes from 2⁻³⁶ to 2⁵⁶. Does not allocate.
+char* writeNumber(double value, char* to);
 
 }  // namespace ursula

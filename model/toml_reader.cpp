@@ -33,6 +33,9 @@ std::string typeName(const toml::node& node) {
   }
 }
 
+/// No physical quantity in SI units is larger, or smaller than its inverse; products of a few are what doubles hold.
+constexpr double largest_number = 1e100;
+
 std::string quotedList(const std::vector<std::string>& words) {
   std::string list;
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -105,6 +108,9 @@ double TomlSection::number(const toml::node& node, const std::string& place) con
   const double value =
       node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();
   if (!std::isfinite(value)) failAt(node, fmt::format("{}: {}, expected a finite number", place, value));
+  if (value != 0 && !(std::abs(value) <= largest_number && std::abs(value) >= 1 / largest_number))
+    failAt(node,
+           fmt::format("{}: {}, expected 0 or a size from {} to {}", place, value, 1 / largest_number, largest_number));
   return value;
 }
 

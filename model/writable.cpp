@@ -93,6 +93,7 @@ bool isWrittenThrough(const std::filesystem::path& end) {
 void requireWritable(const std::filesystem::path& file) {
   const std::filesystem::path end = endOfLinks(file);
   if (isWrittenThrough(end)) return;
+  if (!end.has_filename()) refuse(file, "is a folder, expected a file");
   requireFolderFor(file, end.has_parent_path() ? end.parent_path() : ".");
   struct stat found {};
   bool is_there = false;

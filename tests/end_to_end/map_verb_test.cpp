@@ -69,7 +69,8 @@ TEST(Map, saysWhatIsOutOfReachAndDrawsItGrey) {
   const UrsulaRun run = ursula("map " + helix + " --x=-9,9,7 --y=-9,9,7 --picture map.svg --out map.csv --jobs 7");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const std::string picture = TemporaryFolder::read(ursula.folder() / "map.svg");
-  for (const char* part : {"<svg", "<path fill=\"#bbb\"", "x in m", "y in m", "κ(B)", "largest static effort, N·m"})
+  for (const char* part :
+       {"<svg", "<path style=\"fill:#bbb\"", "x in m", "y in m", "κ(B)", "largest static effort, N·m"})
     EXPECT_THAT(picture, HasSubstr(part));
   EXPECT_EQ(parseCsv(TemporaryFolder::read(ursula.folder() / "map.csv"), "map.csv", {{}, false, {}}).at("reach"),
             table.at("reach"));

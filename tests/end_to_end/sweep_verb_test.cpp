@@ -91,6 +91,28 @@ TEST(SweepVerb, refusesInOneLineWhatCannotBe) {
   refused("show s.toml 50", "point 50: s.toml has points 0 to 49");
   refused("merge s.db none.db --db all.db", "none.db: error: it cannot be opened");
   refused("", "sweep");
+  refused("merge s.db", "ursula sweep merge: --db is required (ursula sweep merge --help");
+  refused("s.toml --db /dev/null", "/dev/null: error: is no regular file");
+  ursula.write(
+      "twice.toml",
+      sweepOf("inverse", "design = \"random\"\ncount = 2\n[[vary]]\nkey = \"leg.01.base_point.0\"\nvalues = [0.1]\n"));
+  refused("twice.toml", "'01', expected an index from 1 to 6");
+}
+
+/// SQLite has meanings of its own for some names.
+TEST(SweepVerb, keepsItsDatabaseWhateverItIsCalled) {
+  const Program ursula;
+  ursula.write("-a b's.toml", sweepOf("inverse", "design = \"random\"\ncount = 4\nsamples = 5\n"));
+  const std::string file = "\"./-a b's.toml\"";
+  for (const char* name : {":memory:", "file:y.db?mode=memory"}) {
+    EXPECT_EQ(ursula("sweep " + file + " --db '" + name + "'").exit_code, 0);
+    EXPECT_THAT(ursula("sweep " + file + " --db '" + name + "'").err, HasSubstr("nothing to do")) << name;
+  }
+  ASSERT_EQ(ursula("sweep " + file + " --shard 1/2 --db 1.db").exit_code, 0);
+  const std::string said = ursula("sweep merge 1.db --db all.db").err;
+  const std::size_t at = said.find("  ursula ");
+  ASSERT_NE(at, std::string::npos) << said;
+  EXPECT_EQ(ursula(said.substr(at + 9, said.find('\n', at) - at - 9)).exit_code, 0) << "as pasted: " << said;
 }
 
 /// A hundredth of each: none may fail, or be in error.

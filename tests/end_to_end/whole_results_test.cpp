@@ -230,6 +230,30 @@ TEST(WholeResults, thatCannotBeWrittenAreRefusedBeforeAnythingIsComputed) {
   fs::permissions(ursula.folder() / "closed", fs::perms(0755));
 }
 
+TEST(WholeResults, replaceNothingThatIsRead) {
+  const Program ursula;
+  ursula.write("a.toml", quickScenario("one"));
+  ASSERT_EQ(ursula("inverse a.toml --samples 41 --out out/timeseries.csv").exit_code, 0);
+  ursula.write("out/summary.json", quickScenario("two"));
+  const std::string samples = quickScenario("one");
+  ursula.write("sampled.toml", samples.substr(0, samples.find("[trajectory]")) +
+                                   "[trajectory]\nkind = \"samples\"\nfile = \"out/timeseries.csv\"\n");
+  ASSERT_EQ(ursula("check sampled.toml").exit_code, 0) << ursula("check sampled.toml").err;
+  const auto before = contents(ursula.folder());
+  for (const char* call :
+       {"a.toml --torques out/timeseries.csv", "out/summary.json", "a.toml out/summary.json", "sampled.toml"}) {
+    const UrsulaRun run = ursula(std::string("validate ") + call + " --out out");
+    EXPECT_EQ(run.exit_code, 2) << call;
+    EXPECT_THAT(run.err,
+                AllOf(HasSubstr("results would replace "), HasSubstr(", which is read, expected another folder")))
+        << call;
+    EXPECT_TRUE(contents(ursula.folder()) == before) << call;
+  }
+  EXPECT_EQ(ursula("validate a.toml --torques out/timeseries.csv --out elsewhere").exit_code, 0);
+  EXPECT_EQ(ursula("inverse a.toml --out new/").exit_code, 2);
+  EXPECT_FALSE(fs::exists(ursula.folder() / "new"));
+}
+
 TEST(WholeResults, ofTwoRunsAreNotCompared) {
   const Program ursula;
   ursula.write("a.toml", quickScenario("one"));

@@ -277,6 +277,19 @@ TEST(Compare, aTestWithGapsLeavesThemOpen) {
   EXPECT_EQ(compare(history(t_101), history(equallySpaced(1, 51)), {}).verdict, Verdict::pass);
 }
 
+/// A row that is missing may have been the only peak.
+TEST(Compare, oneMissingRowIsAGap) {
+  std::vector<double> t = t_101;
+  t.erase(t.begin() + 40);
+  EXPECT_EQ(compare(history(t_101), history(t), {}).skipped, 1U);
+  EXPECT_EQ(compare(history(t_101), history(t), {}).verdict, Verdict::inconclusive);
+  std::vector<double> half = equallySpaced(1, 51);
+  half.erase(half.begin() + 20);
+  EXPECT_EQ(compare(history(t_101), history(half), {}).skipped, 3U);
+  for (const int finer : {101, 151, 201, 1234, 4567})  // other instants, none passed over
+    EXPECT_EQ(compare(history(t_101), history(equallySpaced(1, finer)), {}).skipped, 0U) << finer;
+}
+
 TEST(Compare, readsFoldersAndRefusesInstantsThatDoNotIncrease) {
   const TemporaryFolder folder;
   folder.write("timeseries.csv", "t_s,x\n0,nan\n1,2\n");

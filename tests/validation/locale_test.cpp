@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <locale>
 
-#include "model/number_text.h"
+#include "model/leading_number.h"
 #include "model/scenario.h"
 #include "nocsolver/errors.h"
 #include "tests/model/scenario_text.h"

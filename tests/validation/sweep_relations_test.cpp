@@ -1,6 +1,7 @@
 // The statistics of a sweep against closed forms: a linear model, the Ishigami function, a grid's exact main effects.
 #include <gmock/gmock.h>
 
+#include <boost/random/sobol.hpp>
 #include <cmath>
 #include <limits>
 
@@ -142,6 +143,27 @@ TEST(FirstOrder, NeverPartsEqualValues) {
   std::vector<double> x, y;
   for (int k = 0; k < 600; ++k) x.push_back(k % 2), y.push_back(k % 2 + 1e-3 * k);
   EXPECT_EQ(relation(x, y).classes, 2U);
+}
+
+/// Sobol's points have less scatter than independent ones, whose scatter must not be taken off.
+TEST(FirstOrder, OfSobolsPointsIsNotCorrectedForChance) {
+  constexpr std::size_t rows = 4096;
+  boost::random::sobol engine(3);
+  std::vector<std::vector<double>> x(3);
+  std::vector<double> y;
+  for (std::size_t k = 0; k < rows; ++k) {
+    for (std::vector<double>& column : x) column.push_back(static_cast<double>(engine()) / std::pow(2.0, 64));
+    y.push_back(x[0][k] + 0.15 * x[1][k] + 0.15 * (x[2][k] - 0.5) * (x[0][k] - 0.5));
+  }
+  // Variances: 1/12, 0.15²/12 and 0.15²/144.
+  const double whole = 1.0 / 12 + 0.0225 / 12 + 0.0225 / 144;
+  const std::array<double, 3> exact = {1.0 / 12 / whole, 0.0225 / 12 / whole, 0};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Relation found = relation(x[k], y, Classes::strata);
+    EXPECT_NEAR(found.first_order, exact[k], 0.005) << k;
+    EXPECT_EQ(found.first_order > indexBound(found.count, found.classes, 0.01, false), exact[k] > 0) << k;
+  }
+  EXPECT_LT(relation(x[1], y, Classes::quantiles).first_order, 0.6 * exact[1]) << "as it was";
 }
 
 TEST(FirstOrder, OverAGridIsExact) {

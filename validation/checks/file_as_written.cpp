@@ -5,7 +5,7 @@
 #include <map>
 #include <sstream>
 
-#include "model/number_text.h"
+#include "model/leading_number.h"
 #include "model/real50.h"
 #include "validation/checks/machine_as_written.h"
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -123,14 +124,41 @@ void setTimes(const std::vector<double>& reference, const std::vector<double>& t
   out.covers_reference = test.front() <= reference.front() + rounding && test.back() >= reference.back() - rounding;
 }
 
-/// Instants of the reference that the test passes over: where it is less than a third as dense.
-std::size_t skippedOf(const std::vector<double>& reference, const std::vector<double>& test, double rounding) {
-  std::size_t skipped = 0;
+/// Between two instants of the test.
+struct Gap {
+  std::size_t passed = 0;  ///< instants of the reference in it
+  bool is_wide = false;    ///< wider than the reference's own step there: a finer test passes over none
+};
+
+std::vector<Gap> gapsOf(const std::vector<double>& reference, const std::vector<double>& test, double rounding) {
+  std::vector<Gap> out;
   for (std::size_t k = 0; k + 1 < test.size(); ++k) {
     const auto first = std::upper_bound(reference.begin(), reference.end(), test[k] + rounding);
     const auto last = std::lower_bound(first, reference.end(), test[k + 1] - rounding);
-    if (last - first >= 3) skipped += static_cast<std::size_t>(last - first);
+    Gap gap;
+    if (first < last) {
+      gap.passed = static_cast<std::size_t>(last - first);
+      const auto from = first == reference.begin() ? first : first - 1, to = last == reference.end() ? last - 1 : last;
+      gap.is_wide = from < to && test[k + 1] - test[k] > 1.5 * (*to - *from) / static_cast<double>(to - from);
+    }
+    out.push_back(gap);
   }
+  return out;
+}
+
+/// Instants of the reference that the test passes over: where it is less than a third as dense, and where it is less
+/// dense than nearly everywhere else, as where a row is missing.
+std::size_t skippedOf(const std::vector<double>& reference, const std::vector<double>& test, double rounding) {
+  constexpr std::size_t few = 3;
+  const std::vector<Gap> gaps = gapsOf(reference, test, rounding);
+  std::array<std::size_t, few> counts{};
+  for (const Gap& gap : gaps)
+    if (gap.passed < few) ++counts[gap.passed];
+  const auto usual = static_cast<std::size_t>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+  const bool is_even = 4 * counts[usual] >= 3 * gaps.size();
+  std::size_t skipped = 0;
+  for (const Gap& gap : gaps)
+    if (gap.is_wide && (gap.passed >= few || (is_even && gap.passed > usual))) skipped += gap.passed;
   return skipped;
 }
 

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "model/instants.h"
-#include "model/number_text.h"
+#include "model/leading_number.h"
 #include "nocsolver/chain_solver.h"
 
 namespace ursula {

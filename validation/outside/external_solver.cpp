@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "model/deadline.h"
 #include "validation/outside/line_process.h"
 #include "validation/outside/solver_line.h"
 
@@ -57,12 +58,16 @@ class Process {
 ValidationResult validateExternalSolver(const Scenario& scenario, const ExternalSolverOptions& options,
                                         const ValidationOptions& validation) {
   const auto process = std::make_shared<Process>(scenario, options);
+  const Deadline deadline = validation.time_limit > 0 ? Deadline(validation.time_limit) : Deadline();
   OutsideSolver solver;
   solver.name = options.command;
-  solver.torques = [process](const std::vector<Motion<double>>& motions) {
+  solver.torques = [process, deadline](const std::vector<Motion<double>>& motions) {
     std::vector<Vector6d> out;
     out.reserve(motions.size());
-    for (const Motion<double>& motion : motions) out.push_back(process->torques(motion));
+    for (const Motion<double>& motion : motions) {
+      deadline.require();  // an answer may take long
+      out.push_back(process->torques(motion));
+    }
     return out;
   };
   ValidationResult result = validateOutside(scenario, solver, validation);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "model/deadline.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {
@@ -69,6 +70,8 @@ class Asking {
       if (answers.size() != motions.size())
         throw std::invalid_argument(solver_.name + ": " + std::to_string(answers.size()) + " answers to " +
                                     std::to_string(motions.size()) + " motions");
+    } catch (const OutOfTime&) {
+      throw;  // the validation's end, not the solver's
     } catch (...) {
       thrown_ = std::current_exception();
       throw SolverStopped{};

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "model/number_text.h"
+#include "model/leading_number.h"
 #include "validation/report/report.h"
 
 namespace ursula {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "model/number_text.h"
+#include "model/leading_number.h"
 #include "validation/report/text.h"
 
 namespace ursula::report {

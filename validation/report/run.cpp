@@ -122,6 +122,24 @@ Paths resultsIn(const std::filesystem::path& folder) {
   return paths;
 }
 
+/// By its name: whichever of the results it would be, and however deep.
+std::filesystem::path replacedInput(const std::vector<std::filesystem::path>& inputs,
+                                    const std::filesystem::path& folder) {
+  const auto isResult = [](const std::filesystem::path& name) {
+    const auto is = [&name](const char* each) { return name == each; };
+    return std::any_of(result_files.begin(), result_files.end(), is) ||
+           std::any_of(suite_files.begin(), suite_files.end(), is);
+  };
+  std::error_code ignored;
+  const std::filesystem::path there = std::filesystem::weakly_canonical(folder, ignored);
+  for (const std::filesystem::path& input : inputs) {
+    const std::filesystem::path end = std::filesystem::weakly_canonical(input, ignored);
+    const std::filesystem::path below = end.lexically_relative(there);
+    if (isResult(end.filename()) && !below.empty() && *below.begin() != "..") return input;
+  }
+  return {};
+}
+
 void refuseMixture(const std::filesystem::path& folder) {
   refuseMixtureOfOne(folder);
   refuseMixtureOfSuite(folder);

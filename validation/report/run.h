@@ -32,6 +32,10 @@ std::string runOf(const std::vector<SuiteEntry>& entries);
 /// suite's scenarios. What is not read as a suite's summary lists none of these.
 Paths resultsIn(const std::filesystem::path& folder);
 
+/// The first of `inputs` that results written into `folder` would replace; empty where none would.
+std::filesystem::path replacedInput(const std::vector<std::filesystem::path>& inputs,
+                                    const std::filesystem::path& folder);
+
 /// Files of a folder of results that are not of one run.
 struct MixedResults : std::runtime_error {
   using std::runtime_error::runtime_error;

@@ -71,6 +71,7 @@ SweepRunResult runSweep(SweepPlan& plan, const std::filesystem::path& file, cons
   const std::int64_t first = options.shard.first(identity.points), end = options.shard.end(identity.points);
   SweepRunResult out;
   out.points = end - first;
+  if (options.retry_errors) database.dropErrors();
   out.done = database.pointsDone();
   if (out.done < out.points) {
     Missing missing(database, first, end, handfulOf(plan, out.points, options.jobs));

@@ -27,7 +27,8 @@ struct Shard {
 struct SweepRunOptions {
   int jobs = 1;  ///< processes
   Shard shard;
-  std::function<bool()> stop;                                             ///< asked often; true ends the run
+  bool retry_errors = false;   ///< points with verdict "error" are made again
+  std::function<bool()> stop;  ///< asked often; true ends the run
   std::function<void(std::int64_t done, std::int64_t of)> progress = {};  ///< points of this shard; may be empty
 };
 

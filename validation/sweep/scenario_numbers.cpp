@@ -92,7 +92,8 @@ Spot intoTable(const Spot& spot, const std::string& part, const std::string& who
 std::size_t indexOf(const std::string& part, std::size_t from, std::size_t size, const std::string& whole) {
   std::size_t index = 0;
   const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
-  if (error != std::errc() || end != part.data() + part.size() || index < from || index - from >= size)
+  if (error != std::errc() || end != part.data() + part.size() || part != std::to_string(index) || index < from ||
+      index - from >= size)
     fail(whole, fmt::format("'{}', expected an index from {} to {}", part, from, from + size - 1));
   return index - from;
 }

@@ -26,6 +26,8 @@ class ScenarioNumbers {
 
   /// From now on the number of this key can be set; its number as it stands is returned.
   double hold(const std::string& key);
+  /// Whether the k-th that is held takes integers alone.
+  bool isInteger(std::size_t k) const { return held_[k].node->is_integer(); }
   /// Sets the k-th that is held. Throws NumberKeyError for what is no integer where one is needed.
   void set(std::size_t k, double value);
 

@@ -6,15 +6,10 @@
 #include <cctype>
 #include <stdexcept>
 
+#include "model/shell_word.h"
+
 namespace ursula {
 namespace {
-
-/// For the shell: one word, whatever is in it.
-std::string quoted(const std::string& word) {
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
 
 /// For a line `#SBATCH`, which sbatch takes apart by rules of its own: only within double quotes is a blank no end and
 /// # no comment, and a backslash holds for any byte.
@@ -101,7 +96,7 @@ std::string arrayNumbers(const std::vector<int>& ascending) {
 }
 
 std::string arrayScript(const SlurmJob& job) {
-  const std::string before = quoted((job.database.parent_path() / stemOf(job.database)).string());
+  const std::string before = shellWord((job.database.parent_path() / stemOf(job.database)).string());
   std::string out = head(job, "ursula", job.cpus, "%A_%a.log");
   out += setting("--array=" + arrayNumbers(job.todo));
   out += fmt::format(R"(
@@ -113,8 +108,8 @@ code=$?
 case $code in 1 | 3) code=0 ;; esac  # of points that failed or are inconclusive: the shard is whole
 exit "$code"
 )",
-                     quoted(job.program.string()), quoted(job.sweep.string()), job.pointwise ? " --pointwise" : "",
-                     job.shards, before, job.shards);
+                     shellWord(job.program.string()), shellWord(job.sweep.string()),
+                     job.pointwise ? " --pointwise" : "", job.shards, before, job.shards);
   return out;
 }
 
@@ -130,8 +125,8 @@ if ((${{#shards[@]}} == 0)); then
 fi
 exec {} sweep merge "${{shards[@]}}" --db {}
 )",
-                     quoted(job.database.parent_path().string()), quoted(stemOf(job.database)), job.shards,
-                     quoted(job.program.string()), quoted(job.database.string()));
+                     shellWord(job.database.parent_path().string()), shellWord(stemOf(job.database)), job.shards,
+                     shellWord(job.program.string()), shellWord(job.database.string()));
 }
 
 }  // namespace ursula

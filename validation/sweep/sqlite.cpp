@@ -49,7 +49,13 @@ std::string inWords(int code, const char* message) {
 }  // namespace
 
 Sqlite::Sqlite(const std::filesystem::path& file, Access access) : file_(file) {
-  const int status = sqlite3_open_v2(file.c_str(), &handle_, flagsOf(access) | SQLITE_OPEN_NOMUTEX, nullptr);
+  std::error_code ignored;
+  const std::filesystem::file_status there = std::filesystem::status(file, ignored);
+  if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
+    throw DatabaseError(fmt::format("{}: error: is no regular file, expected a database", file.string()));
+  // From the root: SQLite gives names such as ":memory:" and "file:…" a meaning of their own.
+  const std::string path = std::filesystem::absolute(file).string();
+  const int status = sqlite3_open_v2(path.c_str(), &handle_, flagsOf(access) | SQLITE_OPEN_NOMUTEX, nullptr);
   if (status == SQLITE_OK) {
     sqlite3_extended_result_codes(handle_, 0);
     sqlite3_busy_timeout(handle_, patience);

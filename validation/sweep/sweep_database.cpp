@@ -56,6 +56,18 @@ void requireOurs(Sqlite& database) {
     refuse(file, "it is damaged: " + found);
 }
 
+/// Rows that no sweep writes.
+void requireSound(Sqlite& database, const SweepIdentity& sweep) {
+  if (sweep.points < 1 || sweep.shards < 1 || sweep.shard < 1 || sweep.shard > sweep.shards)
+    refuse(database.file(), "is damaged: it does not say which points it is to hold");
+  Statement odd(database,
+                "SELECT min(id) FROM point WHERE id < 0 OR id >= ? OR verdict NOT IN ('pass', 'fail', 'inconclusive', "
+                "'out_of_reach', 'singular', 'error')");
+  odd.bind(0, sweep.points).step();
+  if (!odd.isNull(0))
+    refuse(database.file(), fmt::format("is damaged: point {} is none of this sweep", odd.integer(0)));
+}
+
 }  // namespace
 
 bool isEmpty(Sqlite& database) { return database.number("SELECT count(*) FROM sqlite_master") == 0; }
@@ -94,15 +106,17 @@ SweepIdentity readIdentity(Sqlite& database) {
   } catch (const nlohmann::json::exception&) {
     refuse(database.file(), "is damaged: it does not say what varies");
   }
+  requireSound(database, out);
   return out;
 }
 
 struct SweepDatabase::Statements {
   explicit Statements(Sqlite& database)
       : point(database, "INSERT INTO point VALUES(?,?,?,?,?)"),
+        stale(database, "DELETE FROM result WHERE point = ?"),
         result(database, "INSERT INTO result VALUES(?,?,?,?,?)"),
         first(database, "SELECT min(id) FROM point WHERE id >= ? AND id < ?") {}
-  Statement point, result, first;
+  Statement point, stale, result, first;
 };
 
 SweepDatabase::SweepDatabase(const std::filesystem::path& file, const SweepIdentity& identity)
@@ -133,11 +147,18 @@ std::int64_t SweepDatabase::firstDone(std::int64_t from, std::int64_t end) {
   return found;
 }
 
+std::int64_t SweepDatabase::dropErrors() {
+  sqlite_.run("DELETE FROM result WHERE point IN (SELECT id FROM point WHERE verdict = 'error')");
+  sqlite_.run("DELETE FROM point WHERE verdict = 'error'");
+  return sqlite_.changed();
+}
+
 void SweepDatabase::add(const SweepPoint& point) {
   Statement& into = statements_->point;
   into.bind(0, point.id).bind(1, point.parameters).bind(2, point.verdict).bind(3, point.seconds);
   point.error.empty() ? into.bindNull(4) : into.bind(4, point.error);
   into.run();
+  statements_->stale.bind(0, point.id).run();  // of a point that somebody took out by hand
   Statement& result = statements_->result;
   for (const SweepValue& value : point.values) {
     result.bind(0, point.id).bind(1, value.name).bind(2, value.value).bind(3, value.limit);

@@ -10,7 +10,8 @@
 #include <sstream>
 #include <utility>
 
-#include "model/number_text.h"
+#include "model/leading_number.h"
+#include "model/scenario_files.h"
 #include "model/scenario_sections.h"
 #include "model/sha1.h"
 #include "validation/findings/provenance.h"
@@ -22,19 +23,6 @@ namespace {
 std::string bytesOf(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-/// Files that the scenario names, made absolute: a point may be written anywhere.
-std::vector<std::filesystem::path> makeAbsolute(toml::table& document, const std::filesystem::path& scenario) {
-  std::vector<std::filesystem::path> found;
-  for (const char* part : {"trajectory", "load"}) {
-    toml::table* table = document[part].as_table();
-    toml::value<std::string>* name = table == nullptr ? nullptr : (*table)["file"].as_string();
-    if (name == nullptr) continue;
-    found.push_back(std::filesystem::absolute(scenario.parent_path() / name->get()).lexically_normal());
-    *name = found.back().string();
-  }
-  return found;
 }
 
 /// 0.7 for the 0.69999999999999996 that toml++ writes: the shortest that reads as the same number. Strings stay.
@@ -86,10 +74,16 @@ struct SweepPlan::Document {
   std::vector<std::filesystem::path> files;
 
   Document(const SweepFile& sweep, const Scenario& base) : table(parseToml(base.text, base.file.string())) {
-    files = makeAbsolute(table, base.file);
+    files = makeFilesAbsolute(table, base.file);
     if (!sweep.samples) return;
     if (!table.contains("simulation")) table.insert("simulation", toml::table{});
     table["simulation"].as_table()->insert_or_assign("samples", *sweep.samples);
+  }
+
+  std::string text() const {
+    std::ostringstream out;
+    out << table << '\n';
+    return withShortNumbers(out.str());
   }
 
   /// Throws ScenarioError at the sweep's key.
@@ -100,6 +94,8 @@ struct SweepPlan::Document {
         for (const std::string& key : numbers.expanded(vary.key)) {
           if (!seen.insert(key).second) throw NumberKeyError(fmt::format("'{}' varies twice, expected once", key));
           out.push_back({key, vary.by, numbers.hold(key)});
+          if (vary.by.values.empty() && numbers.isInteger(out.size() - 1))
+            throw NumberKeyError(fmt::format("'{}': expected an integer, so 'values'", key));
           if (vary.by.kind == Variation::Kind::relative && out.back().nominal == 0)
             throw NumberKeyError(fmt::format(
                 "'{}' is 0 in the scenario, and 'relative' leaves it so, expected another way to vary", key));
@@ -130,8 +126,7 @@ SweepPlan::SweepPlan(SweepFile file)
                                           : varies_other_;
     varies = true;
   }
-  const std::string text = this->text(0);
-  base_ = parseScenario(text, file_.scenario);  // a first point that cannot be read is the sweep's error
+  base_ = parseScenario(document_->text(), file_.scenario);  // with the sweep's samples
 }
 
 SweepPlan::~SweepPlan() = default;
@@ -157,28 +152,30 @@ std::string SweepPlan::text(std::int64_t i) {
   setTo(i);
   const std::string name = document_->table["name"].value_or(std::string());
   *document_->table["name"].as_string() = fmt::format("{}-{}", name, i);
-  std::ostringstream out;
-  out << document_->table << '\n';
+  const std::string text = document_->text();
   *document_->table["name"].as_string() = name;
-  return fmt::format("# Point {} of the sweep {}\n\n{}", i, file_.file.filename().string(),
-                     withShortNumbers(out.str()));
+  return fmt::format("# Point {} of the sweep {}\n\n{}", i, file_.file.filename().string(), text);
 }
 
-Scenario SweepPlan::read(std::int64_t i) { return parseScenario(text(i), file_.scenario); }
+/// Lines are those that `sweep show` prints, and not the base scenario's.
+Scenario SweepPlan::read(std::int64_t i) {
+  return parseScenario(text(i), fmt::format("point {} of {}", i, file_.file.filename().string()));
+}
 
 Scenario SweepPlan::make(std::int64_t i) {
   if (varies_other_) return read(i);
   setTo(i);
   const TomlSection document(document_->table, "", file_.scenario.string());
   Scenario out = base_;
+  out.name = fmt::format("{}-{}", base_.name, i);
   out.text.clear();
   try {
     if (varies_machine_)
       out.manipulator = std::make_shared<Manipulator>(readManipulator(document.requiredSection("manipulator")));
     if (varies_trajectory_) out.trajectory = readTrajectory(document.requiredSection("trajectory"));
     if (varies_load_) out.load = readLoad(document.requiredSection("load"));
-  } catch (const InvalidParameter& refusal) {
-    throw located(refusal, document);
+  } catch (const std::exception&) {
+    return read(i);  // which refuses it, with its place
   }
   return out;
 }
@@ -189,7 +186,7 @@ SweepIdentity SweepPlan::identity() const {
   out.version = buildProvenance().version;
   out.file = file_.file.string();
   out.scenario = bytesOf(file_.scenario);
-  out.name = base_.name.substr(0, base_.name.rfind('-'));
+  out.name = base_.name;
   out.what = ursula::name(file_.work);
   out.design = ursula::name(file_.design);
   out.pointwise = file_.pointwise;

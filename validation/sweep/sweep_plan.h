@@ -15,13 +15,15 @@ namespace ursula {
 /// A sweep with the scenario that it varies: makes each of its points a scenario. For one thread at a time.
 class SweepPlan {
  public:
-  /// Reads the scenario and finds the numbers that vary. Throws ScenarioError with the place: in the sweep for a key
-  /// that leads to no number, in the scenario for what is wrong with that.
+  /// Reads the scenario and finds the numbers that vary; no point is made yet. Throws ScenarioError with the place: in
+  /// the sweep for a key that leads to no number, in the scenario for what is wrong with that.
   explicit SweepPlan(SweepFile file);
   ~SweepPlan();
 
   const SweepFile& file() const { return file_; }
   const SweepPoints& points() const { return points_; }
+  /// What is varied, with the sweep's samples: of what does not vary, every point's.
+  const Scenario& base() const { return base_; }
   SweepIdentity identity() const;
 
   /// What varies at point i, as a JSON object in the sweep's order.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -23,6 +24,17 @@ const char* verdictOf(const PoseError& refusal) {
                  dynamic_cast<const StretchedLeg*>(&refusal) != nullptr
              ? "singular"
              : "out_of_reach";
+}
+
+/// Of what margins() tells; "" where legs have none, as they cannot be stretched.
+std::string marginName(const Manipulator& manipulator) {
+  const LegKind first = manipulator.leg(0).kind;
+  for (int i = 1; i < manipulator.legCount(); ++i)
+    if (manipulator.leg(i).kind != first) return "leg_margin";
+  const char* knee = rowOf(first).knee;
+  std::string name = knee == nullptr ? "" : knee;
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
 }
 
 void refused(const char* verdict, int leg, double t, SweepPoint& point) {
@@ -69,7 +81,8 @@ void SweepWorker::inverse(std::int64_t i, SweepPoint& point) {
     point.values.push_back({fmt::format("tau_{}_t_s", k + 1), found.efforts[at].t, none, ""});
   }
   point.values.push_back({"kappa_B", found.kappa, none, ""});
-  point.values.push_back({"sin_theta", found.sine, none, ""});
+  if (const std::string margin = marginName(*scenario.manipulator); !margin.empty())
+    point.values.push_back({margin, found.sine, none, ""});
   point.verdict = "pass";
 }
 
@@ -79,10 +92,10 @@ void SweepWorker::validate(std::int64_t i, SweepPoint& point) {
   point.verdict = name(result.verdict);
 }
 
-/// A motion that is the same for all points is judged once, at point 0.
+/// A motion that is the same for all points is judged once.
 ValidationResult SweepWorker::pointwise(std::int64_t i) {
   if (plan_.variesMotion()) return validatePointwise(plan_.read(i));
-  if (!of_motion_) of_motion_ = judgeCommandedMotion(plan_.read(0));
+  if (!of_motion_) of_motion_ = judgeCommandedMotion(plan_.base());
   return validatePointwise(plan_.make(i), &*of_motion_);
 }
 

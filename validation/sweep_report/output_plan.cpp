@@ -25,7 +25,7 @@ SweepOutput outputOf(bool validates, const std::string& name) {
     out.unit = name.substr(6);
   } else if (name == "kappa_B") {
     out.kind = OutputKind::kappa;
-  } else if (name == "sin_theta") {
+  } else if (name == "sin_theta" || name == "sin_psi" || name == "cos_theta" || name == "leg_margin") {
     out.kind = OutputKind::sine;
   }
   return out;

@@ -53,7 +53,8 @@ std::vector<double> sortedRanks(const std::vector<double>& sorted) {
 
 /// Where each class ends, x being sorted.
 std::vector<std::size_t> endsOf(const std::vector<double>& x, Classes classes) {
-  const double count = std::round(std::sqrt(static_cast<double>(x.size())));
+  const auto rows = static_cast<double>(x.size());
+  const double count = std::round(classes == Classes::strata ? std::cbrt(rows) : std::sqrt(rows));
   std::vector<std::size_t> ends;
   for (std::size_t k = 1; k <= x.size(); ++k) {
     const double filled = static_cast<double>(k) * count, wanted = static_cast<double>((ends.size() + 1) * x.size());
@@ -65,7 +66,7 @@ std::vector<std::size_t> endsOf(const std::vector<double>& x, Classes classes) {
 void addIndex(const std::vector<double>& x, const std::vector<double>& y, Classes classes, Relation& out) {
   const std::vector<std::size_t> ends = endsOf(x, classes);
   out.classes = ends.size();
-  if (ends.size() < 2 || (classes == Classes::quantiles && ends.size() >= y.size())) return;
+  if (ends.size() < 2 || (classes != Classes::levels && ends.size() >= y.size())) return;
   const double mean = meanOf(y), total = squaresAbout(y, mean);
   double between = 0;
   std::size_t from = 0;
@@ -76,7 +77,7 @@ void addIndex(const std::vector<double>& x, const std::vector<double>& y, Classe
     from = to;
   }
   const auto groups = static_cast<double>(ends.size()), rows = static_cast<double>(y.size());
-  const double chance = classes == Classes::levels ? 0 : (groups - 1) * (total - between) / (rows - groups);
+  const double chance = classes == Classes::quantiles ? (groups - 1) * (total - between) / (rows - groups) : 0;
   out.first_order = (between - chance) / total;
 }
 
@@ -161,12 +162,12 @@ double correlationBound(std::size_t count, double alpha) {
   return t / std::sqrt(freedom + t * t);
 }
 
-double indexBound(std::size_t count, std::size_t classes, double alpha) {
+double indexBound(std::size_t count, std::size_t classes, double alpha, bool corrected) {
   if (classes < 2 || count <= classes) return 1;
   const auto between = static_cast<double>(classes - 1), within = static_cast<double>(count - classes);
   const double f = boost::math::quantile(boost::math::complement(boost::math::fisher_f(between, within), alpha));
   // ε² = (S_b − (M − 1) s²) / (S_b + S_w), S_b = (M − 1) F s², S_w = (n − M) s²
-  return between * (f - 1) / (between * f + within);
+  return between * (corrected ? f - 1 : f) / (between * f + within);
 }
 
 }  // namespace ursula

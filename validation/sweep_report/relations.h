@@ -32,8 +32,9 @@ std::vector<double> ranksOf(const std::vector<double>& values);
 
 /// How x is divided for the variance of means.
 enum class Classes {
-  levels,    ///< one for each value of x: the exact main effect over a complete factorial grid
-  quantiles  ///< about √n of equal population, no value in two: what a class hides of a trend is of order 1/n
+  levels,     ///< one for each value of x: the exact main effect over a complete factorial grid
+  quantiles,  ///< about √n of equal population, no value in two: what a class hides of a trend is of order 1/n
+  strata  ///< about ∛n, likewise, of points that fill space evenly: chance makes less than (M − 1)/n of the variance
 };
 
 /// What a parameter x has to do with an output y, over the rows where y is finite. NaN where x or y is constant.
@@ -54,9 +55,10 @@ struct Parameter {
 
 /// First-order indices from given data, whatever their design (Plischke, Borgonovo, Smith: Global sensitivity measures
 /// from given data, European Journal of Operational Research 226 (2013) 536–550, section 3): the variance of y's means
-/// over classes of x. In quantiles each mean carries 1/n_m of the variance within its class, which is taken off (the ε²
-/// of Kelley, Proc. Natl. Acad. Sci. 21 (1935) 554–559): (S_between − (M − 1) s²_within) / S_total, which may fall
-/// below 0. Levels of a complete grid need no correction.
+/// over classes of x. In quantiles of independent points each mean carries 1/n_m of the variance within its class,
+/// which is taken off (the ε² of Kelley, Proc. Natl. Acad. Sci. 21 (1935) 554–559): (S_between − (M − 1) s²_within) /
+/// S_total, which may fall below 0. Levels of a complete grid need no correction, and strata of Sobol's points none:
+/// what would be taken off is the scatter of independent points, which they do not have.
 Relation relationOf(const Parameter& parameter, const std::vector<double>& y, const std::vector<double>& y_ranks,
                     Classes classes, bool wants_index);
 
@@ -64,7 +66,8 @@ Relation relationOf(const Parameter& parameter, const std::vector<double>& y, co
 /// three rows.
 double correlationBound(std::size_t count, double alpha);
 
-/// What the first-order index in quantiles of unrelated numbers exceeds with probability `alpha` (Fisher's F).
-double indexBound(std::size_t count, std::size_t classes, double alpha);
+/// What the first-order index in quantiles, or without their correction, of unrelated numbers exceeds with probability
+/// `alpha` (Fisher's F); of Sobol's points with less.
+double indexBound(std::size_t count, std::size_t classes, double alpha, bool corrected = true);
 
 }  // namespace ursula

@@ -121,9 +121,11 @@ std::string togetherWords(const SweepSummary& summary, const SweepOutput& output
   double sum = 0;
   for (const Relation& relation : output.relations)
     if (relation.acts) sum += relation.first_order;
+  if (sum == 0) return " No number alone is told from chance: more points may tell.";
   const double percent = 100 * std::min(sum, 1.0);
-  return fmt::format(" Each alone, they make {:.0f} % of the variance{}", percent,
-                     percent > 99.5 ? "." : "; what is left comes of numbers acting together.");
+  return fmt::format(
+      " Each alone, they make {:.0f} % of the variance{}", percent,
+      percent > 99.5 ? "." : "; what is left comes of numbers acting together, or too little to be told from chance.");
 }
 
 }  // namespace

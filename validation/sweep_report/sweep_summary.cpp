@@ -130,7 +130,9 @@ class Summary {
       output.no_index = noIndex(output, complete);
       if (!output.spread.constant) out_.pairs += out_.parameters.size();
     }
-    const Classes classes = out_.identity.design == "grid" ? Classes::levels : Classes::quantiles;
+    const Classes classes = out_.identity.design == "grid"    ? Classes::levels
+                            : out_.identity.design == "sobol" ? Classes::strata
+                                                              : Classes::quantiles;
     for (std::size_t p = 0; p < keys_.size(); ++p) {
       Parameter parameter;
       parameter.x = store_.column(p);
@@ -150,7 +152,9 @@ class Summary {
     const auto [bound, is_new] = bounds_.try_emplace({out.count, out.classes});
     if (is_new)
       bound->second = {correlationBound(out.count, alpha),
-                       classes == Classes::levels ? below_rounding : indexBound(out.count, out.classes, alpha)};
+                       classes == Classes::levels
+                           ? below_rounding
+                           : indexBound(out.count, out.classes, alpha, classes == Classes::quantiles)};
     out.correlates = std::max(std::abs(out.pearson), std::abs(out.spearman)) > bound->second.first;
     out.acts = out.first_order > bound->second.second;
     return out;

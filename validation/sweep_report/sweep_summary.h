@@ -16,7 +16,7 @@ enum class OutputKind {
   largest_effort,  ///< of the motors of one unit
   effort,          ///< of one motor
   kappa,           ///< condition number of B
-  sine,            ///< least |sin θ| of the legs
+  sine,            ///< least margin of the legs: |sin θ|, or what takes its place
   largest_share,   ///< the largest share that a check takes of its limit
   check_share,     ///< value over limit of one check
   not_passed,      ///< 0 where the verdict is "pass", else 1

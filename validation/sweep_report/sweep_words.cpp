@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "model/shell_word.h"
 #include "validation/report/check_words.h"
 #include "validation/report/quantity.h"
 #include "validation/report/text.h"
@@ -96,7 +97,10 @@ std::string titleOf(const SweepOutput& output) {
     case OutputKind::kappa:
       return "Condition number κ(B)";
     case OutputKind::sine:
-      return "Least |sin θ|";
+      return output.name == "sin_theta"   ? "Least |sin θ|"
+             : output.name == "sin_psi"   ? "Least |sin ψ|"
+             : output.name == "cos_theta" ? "Least |cos θ|"
+                                          : "Least margin of a leg";
     case OutputKind::largest_share:
       return "Largest share of a limit";
     case OutputKind::check_share:
@@ -185,12 +189,7 @@ std::vector<std::string> sweepRemarks(const SweepSummary& summary) {
 }
 
 std::string showCommand(const SweepSummary& summary, std::int64_t id) {
-  std::string file = "'";
-  for (const char c : summary.identity.file) file += c == '\'' ? "'\\''" : std::string(1, c);
-  file += '\'';
-  const bool plain = summary.identity.file.find_first_not_of(
-                         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._/-+") == std::string::npos;
-  return fmt::format("ursula sweep show {} {} > point-{}.toml", plain ? summary.identity.file : file, id, id);
+  return fmt::format("ursula sweep show {} {} > point-{}.toml", shellWord(summary.identity.file), id, id);
 }
 
 std::string markdownOf(const SweepSummary& summary) {

@@ -81,11 +81,16 @@ TEST(SweepWorker, outOfReachIsAResultAndANumberThatNoMachineHasAnError) {
   }
   EXPECT_GT(unreachable, 5);
   for (const char* what : {"inverse", "validate"}) {
-    SweepPlan negative = planOf(what, "design = \"grid\"\n" + vary("platform.mass", "values = [500, -5]"));
-    const SweepPoint point = SweepWorker(negative).at(1);
-    EXPECT_EQ(point.verdict, "error");
-    EXPECT_THAT(point.error, testing::HasSubstr("manipulator.platform.mass: -5, expected > 0"));
-    EXPECT_TRUE(point.values.empty());
+    SweepPlan negative =
+        planOf(what, "design = \"grid\"\nsamples = 5\n" + vary("platform.mass", "values = [-5, 500, -5]"));
+    for (const std::int64_t i : {0, 2}) {  // the first as any other
+      const SweepPoint point = SweepWorker(negative).at(i);
+      EXPECT_EQ(point.verdict, "error");
+      EXPECT_THAT(point.error, testing::HasSubstr("manipulator.platform.mass: -5, expected > 0"));
+      EXPECT_THAT(point.error, testing::StartsWith("point " + std::to_string(i) + " of sweep.toml:"));
+      EXPECT_TRUE(point.values.empty());
+    }
+    EXPECT_EQ(SweepWorker(negative).at(1).verdict, "pass");
   }
 }
 
@@ -151,7 +156,7 @@ TEST(SweepRun, rowsAreTheSameForAnyJobsShardsAndStops) {
   SweepPlan plan = planOf("inverse", around);
   const auto run = [&](const std::string& name, int jobs, Shard shard, int stop_after) {
     int seen = 0;
-    SweepRunOptions options{jobs, shard, [&] { return stop_after > 0 && seen >= stop_after; }};
+    SweepRunOptions options{jobs, shard, false, [&] { return stop_after > 0 && seen >= stop_after; }};
     options.progress = [&](std::int64_t, std::int64_t) { ++seen; };
     return runSweep(plan, folder.path() / name, options);
   };
@@ -179,6 +184,40 @@ TEST(SweepRun, rowsAreTheSameForAnyJobsShardsAndStops) {
   }
   EXPECT_TRUE(mergeSweeps(parts, folder.path() / "merged.db").missing.empty());
   EXPECT_EQ(rowsOf(folder.path() / "merged.db"), rows);
+}
+
+TEST(SweepRun, makesErrorsAgainWhereItIsAsked) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "s.db";
+  SweepPlan plan =
+      planOf("inverse", "design = \"grid\"\nsamples = 5\n" + vary("platform.mass", "values = [400, 500, -5]"));
+  const auto done = [&](bool retry) { return runSweep(plan, file, {1, {}, retry, [] { return false; }}).new_ones; };
+  EXPECT_EQ(done(false), 3);
+  EXPECT_EQ(done(false), 0);
+  EXPECT_EQ(done(true), 1);
+  Sqlite(file, Sqlite::Access::write).run("DELETE FROM point WHERE id = 0");  // by hand, its results left
+  EXPECT_EQ(done(false), 1);
+  SweepDatabase database(file);
+  EXPECT_EQ(database.pointsDone(), 3);
+  EXPECT_EQ(database.sqlite().number("SELECT count(*) FROM result WHERE point = 0"), 14);
+}
+
+/// Which are those that only they have the names for.
+TEST(SweepWorker, namesTheMarginsOfEveryKind) {
+  for (const auto& [file, name] : {std::pair{"paper-helix", "sin_theta"},
+                                   {"hexaglide", "cos_theta"},
+                                   {"hexa", "sin_psi"},
+                                   {"flight-simulator", ""}}) {
+    const std::string scenario = std::string(URSULA_SCENARIOS "/") + file + ".toml";
+    SweepPlan plan(parseSweepFile("scenario = \"" + scenario +
+                                      "\"\nwhat = \"inverse\"\ndesign = \"random\"\ncount = 1\nsamples = 5\n" +
+                                      vary("platform.mass", "relative = 0.1"),
+                                  "sweep.toml"));
+    const auto found = valuesOf(SweepWorker(plan).at(0));
+    ASSERT_EQ(found.count("kappa_B"), 1u) << file;
+    for (const char* each : {"sin_theta", "cos_theta", "sin_psi", "leg_margin"})
+      EXPECT_EQ(found.count(each), each == std::string(name) ? 1u : 0u) << file << each;
+  }
 }
 
 TEST(Shard, partsAreWholeAndMeet) {

@@ -1,0 +1,25 @@
+#include "model/scenario_files.h"
+
+#include "model/toml_reader.h"
+
+namespace ursula {
+
+std::vector<std::filesystem::path> makeFilesAbsolute(toml::table& document, const std::filesystem::path& scenario) {
+  std::vector<std::filesystem::path> found;
+  for (const char* part : {"trajectory", "load"}) {
+    toml::table* table = document[part].as_table();
+    toml::value<std::string>* name = table == nullptr ? nullptr : (*table)["file"].as_string();
+    if (name == nullptr) continue;
+    found.push_back(std::filesystem::absolute(scenario.parent_path() / name->get()).lexically_normal());
+    *name = found.back().string();
+  }
+  return found;
+}
+
+std::vector<std::filesystem::path> filesNamedBy(const Scenario& scenario) {
+  if (scenario.text.empty()) return {};
+  toml::table document = parseToml(scenario.text, scenario.file.string());
+  return makeFilesAbsolute(document, scenario.file);
+}
+
+}  // namespace ursula
