@@ -68,7 +68,7 @@ def agreements(context):
     return out
 
 
-def machine(context):
+def processor():
     model = platform.processor()
     cpuinfo = Path("/proc/cpuinfo")
     if cpuinfo.is_file():
@@ -77,7 +77,17 @@ def machine(context):
         fields = {key.strip(): value.strip() for key, value in fields.items()}
         model = f"{fields.get('model name', model)}, family {fields.get('cpu family')}, model {fields.get('model')}, " \
                 f"{float(fields.get('cpu MHz', 0)) / 1000:.2g} GHz"
-    return f"{model}, {context['num_cpus']} hardware threads, {context['best_instructions']}"
+    return model
+
+
+def machine(context):
+    return f"{processor()}, {context['num_cpus']} hardware threads, {context['best_instructions']}"
+
+
+def candidate(name):
+    """Of the package that ./dev would unpack."""
+    done = subprocess.run(["apt-cache", "policy", name], capture_output=True, text=True, check=False)
+    return next((line.split(":", 1)[1].strip() for line in done.stdout.splitlines() if "Candidate:" in line), "")
 
 
 def packages():
@@ -89,6 +99,8 @@ def packages():
             break
         if done.returncode == 0:
             found[name] = done.stdout
+        elif Path(".deps").is_dir() and (version := candidate(name)):
+            found[name] = f"{version}, unpacked"
     return found
 
 

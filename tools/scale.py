@@ -7,7 +7,7 @@ Best with nothing else on the machine; a few minutes.
 """
 
 import argparse
-import platform
+import os
 import resource
 import sqlite3
 import statistics
@@ -16,6 +16,8 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+
+from performance import processor
 
 SCENARIOS = Path(__file__).resolve().parent.parent / "scenarios"
 HEAD = """scenario = "{scenario}"
@@ -101,7 +103,7 @@ def shards(ursula, folder, count):
 def readme(cost, used, run, ursula):
     version = subprocess.run([ursula, "--version"], check=True, capture_output=True, text=True).stdout.strip()
     lines = ["# What sweeps cost", "",
-             f"Measured by `./dev results scale` with ursula {version} on {platform.processor() or platform.machine()}, one process at a time; "
+             f"Measured by `./dev results scale` with ursula {version} on {processor()}, {os.cpu_count()} hardware threads, one process at a time; "
              "medians of three. The paper's helix, 101 instants, four numbers vary.", "",
              "| what | points a second and process | ms a point | bytes a point in the database |", "| --- | --- | --- | --- |"]
     lines += [f"| {name} | {rate:.3g} | {ms:.3g} | {size:.0f} |" for name, rate, ms, size in cost]
