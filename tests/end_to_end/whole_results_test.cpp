@@ -105,6 +105,12 @@ void killSomewhere(const Program& ursula, const std::vector<std::string>& call, 
   run.kill();
 }
 
+/// More of them by hand: URSULA_KILLS=500.
+int killsWanted() {
+  const char* wanted = std::getenv("URSULA_KILLS");
+  return wanted == nullptr ? 40 : std::atoi(wanted);
+}
+
 struct Outcomes {
   int old = 0, fresh = 0;
 };
@@ -126,7 +132,7 @@ Outcomes killRuns(const Program& ursula, const std::vector<std::vector<std::stri
   std::mt19937 random(20261122);
   std::size_t current = 1;
   Outcomes outcomes;
-  for (int k = 0; k < 40; ++k) {
+  for (int k = 0; k < killsWanted(); ++k) {
     killSomewhere(ursula, calls[1 - current], longest, k % 2 == 0, random);
     const auto found = contents(ursula.folder() / "out");
     EXPECT_TRUE(found == whole[0] || found == whole[1]) << "kill " << k << " left a mixture";

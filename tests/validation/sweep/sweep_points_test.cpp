@@ -101,6 +101,21 @@ TEST(SweepPoints, aDefaultMovesAllLegsAndALegsOwnOnlyIt) {
 }
 
 /// What is written for people is read as the same scenario, to the last bit.
+TEST(SweepPoints, limitsOfTheUsersOwnCanVary) {
+  const TemporaryFolder folder;
+  const std::string scenario =
+      folder.write("a.toml", TemporaryFolder::read(helix_file) +
+                                 "\n[acceptance]\n\"torque.pointwise\" = 1.0\nreplay.position = 2.0\n");
+  SweepPlan plan(parseSweepFile("scenario = \"" + scenario + "\"\nwhat = \"validate\"\ndesign = \"grid\"\n" +
+                                    vary("acceptance.\\\"torque.pointwise\\\"", "values = [3.0, 4.0]") +
+                                    vary("acceptance.replay.position", "values = [5.0]"),
+                                "sweep.toml"));
+  std::map<std::string, double> limits;
+  for (const AcceptanceLimit& limit : plan.read(1).acceptance) limits[limit.check] = limit.limit;
+  EXPECT_EQ(limits.at("torque.pointwise"), 4.0);
+  EXPECT_EQ(limits.at("replay.position"), 5.0);
+}
+
 TEST(SweepPoints, textIsTheScenarioThatIsMade) {
   SweepPlan plan = planOf("inverse", random_500 + "samples = 33\n" + vary("leg.*.base_axis.*", "plus_minus = 1e-2") +
                                          vary("trajectory.radius", "relative = 0.01") +
