@@ -58,6 +58,18 @@ test("a proof's defects are filtered and sorted", async () => {
   assertQuietAndOffline(proof);
 });
 
+test("a sweep says in its head what came of it, and draws the grid; nothing of it needs a script", async () => {
+  const sweep = await opened("sweep/report.html", { javaScriptEnabled: false });
+  const { page } = sweep;
+  assert.match(await page.locator("header").innerText(), /3,721 points: 3,686 passed, 35 out of reach\. Largest effort: up to 46\.32\s+MN·m, of motor 6 at point 1258/);
+  const maps = page.locator("main svg");
+  assert.ok((await maps.count()) >= 3);
+  const box = await maps.first().boundingBox();
+  assert.ok(box.width > 200 && box.height > 200);
+  assert.match(await page.locator("main").innerText(), /Least \|sin θ\|[\s\S]*ursula sweep show .*workspace\.toml \d+/);
+  assertQuietAndOffline(sweep);
+});
+
 test("an audit's formulas are drawn as formulas", async () => {
   const audit = await opened("audit.html");
   const { page } = audit;
@@ -127,7 +139,7 @@ test("a suite's reports lead back to it, a report alone nowhere", async () => {
   assert.equal(await alone.page.locator("a[href*='index.html']").count(), 0);
 });
 
-for (const file of ["comparison/compare.html", "prove.html", "weak.html", "audit.html"])
+for (const file of ["comparison/compare.html", "prove.html", "weak.html", "audit.html", "sweep/report.html"])
   for (const colorScheme of ["light", "dark"])
     test(`axe finds nothing serious in ${file}, ${colorScheme}, and 400 pixels hold it`, async () => {
       const { page, complaints } = await opened(file, { colorScheme, viewport: { width: 400, height: 800 } });

@@ -27,6 +27,12 @@ set_tests_properties(report.write_samples PROPERTIES FIXTURES_SETUP report_sampl
 add_test(NAME report.write_helix
   COMMAND ursula validate ${PROJECT_SOURCE_DIR}/scenarios/paper-helix.toml --out ${samples_dir}/helix)
 set_tests_properties(report.write_helix PROPERTIES FIXTURES_SETUP report_samples)
+# A grid's poses: heat maps, and points that have no result.
+add_test(NAME report.write_sweep
+  COMMAND sh -c "rm -f sweep.db && $<TARGET_FILE:ursula> sweep ${PROJECT_SOURCE_DIR}/sweeps/workspace.toml --db sweep.db &&
+    $<TARGET_FILE:ursula> sweep report sweep.db --out sweep"
+  WORKING_DIRECTORY ${samples_dir})
+set_tests_properties(report.write_sweep PROPERTIES FIXTURES_SETUP report_samples DEPENDS report.write_samples)
 # Where there is no Chromium the test fails and says so: a browser that is missing is no pass.
 add_test(NAME report.browser
   COMMAND ${PROJECT_SOURCE_DIR}/tests/browser/run.sh
