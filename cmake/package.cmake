@@ -34,6 +34,11 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libeigen3-dev (>= 3.4), python3-numpy")  # for the headers; for the Python module
-# A package's libraries are installed beside it.
+# A package's libraries are installed beside it. Of those that were unpacked nothing here says whose they are.
+if(unpacked_libraries)
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_INSTALL_RPATH})
+  file(GLOB versioned ${CMAKE_INSTALL_RPATH}/libSimTKsimbody.so.*)
+  string(REGEX REPLACE ".*\\.so\\." "libsimbody" CPACK_DEBIAN_PACKAGE_DEPENDS "${versioned}")
+endif()
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/without_rpath.cmake)
 include(CPack)
