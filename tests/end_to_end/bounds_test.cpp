@@ -98,12 +98,12 @@ TEST(BoundsRun, refusesNumbersWhoseProductsNoDoubleHolds) {
 TEST(TimeLimitRun, endsWithTheAnswerOfASlowSolver) {
   const Program ursula;
   ursula.write("small.toml", good_scenario);
-  ursula.write("slow.sh", "while read -r line; do echo >> asked; sleep 0.1; echo 1,2,3,4,5,6; done\n");
-  const auto run = ursula("validate small.toml --solver 'sh slow.sh' --time-limit 0.5 --out out");
+  ursula.write("slow.sh", "while read -r line; do echo >> asked; sleep 5; echo 1,2,3,4,5,6; done\n");
+  const auto run = ursula("validate small.toml --solver 'sh slow.sh' --solver-timeout 60 --time-limit 5 --out out");
   EXPECT_EQ(run.exit_code, inconclusive) << run.out << run.err;
   const auto asked = TemporaryFolder::read(ursula.folder() / "asked").size();
   EXPECT_GT(asked, 0U);
-  EXPECT_LE(asked, 6U);
+  EXPECT_LE(asked, 2U) << "of 301";
 }
 
 TEST(TimeLimitRun, leavesAnInconclusiveReport) {
