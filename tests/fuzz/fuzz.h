@@ -10,6 +10,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace ursula::fuzz {
 
+/// Inputs that were read and not refused: none, and a target tests only how its reader refuses.
+inline std::size_t accepted = 0;
+
 inline std::string textOf(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }

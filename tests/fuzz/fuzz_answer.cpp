@@ -9,6 +9,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string line = ursula::fuzz::textOf(data, size);
   try {
     if (!ursula::solverAnswer(line).allFinite()) std::abort();
+    ++ursula::fuzz::accepted;
   } catch (const ursula::SolverProcessError&) {
   }
   for (const char c : ursula::shownAnswer(line))

@@ -14,6 +14,7 @@ template <class Read>
 void tryTo(Read&& read) {
   try {
     read();
+    ++ursula::fuzz::accepted;
   } catch (const ursula::CsvError&) {
   } catch (const ursula::InvalidParameter&) {
   }

@@ -45,6 +45,17 @@ void prepareToWrite(Sqlite& database) {
   database.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 4000");
 }
 
+/// Ours are as create() made them, and nothing runs by itself: a view in the place of a table, or a trigger, need not
+/// end. Indexes, views and tables that somebody added for queries of his own are left alone.
+void requireOurTables(Sqlite& database) {
+  Statement each(database,
+                 "SELECT sql FROM sqlite_master WHERE type = 'trigger' OR name IN ('sweep', 'point', 'result') "
+                 "ORDER BY rowid");
+  std::string found = "\n";
+  while (each.step()) found += each.text(0) + ";\n";
+  if (found != tables) refuse(database.file(), "is damaged: its tables are not those of a sweep");
+}
+
 /// Foreign and newer ones before anything of theirs is believed.
 void requireOurs(Sqlite& database) {
   const std::filesystem::path& file = database.file();
@@ -52,6 +63,7 @@ void requireOurs(Sqlite& database) {
   if (whose != application) refuse(file, "is no database of a sweep");
   if (version > layout)
     refuse(file, fmt::format("has layout {}, of a newer ursula than this, which knows {}", version, layout));
+  requireOurTables(database);
   if (const std::string found = database.text("PRAGMA quick_check(1)"); found != "ok")
     refuse(file, "it is damaged: " + found);
 }

@@ -87,6 +87,30 @@ TEST(SweepDatabase, refusesThoseOfOthersAndLeavesThemAsTheyAre) {
   EXPECT_THAT(refused(folder.path() / "none" / "s.db"), HasSubstr("cannot be opened or made"));
 }
 
+TEST(SweepDatabase, refusesTablesThatAreNoneOfOursBeforeTheyAreRead) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "s.db";
+  const auto changed = [&](const std::string& sql) {
+    std::filesystem::remove(file);
+    SweepDatabase(file, identity()).finish();
+    Sqlite(file, Sqlite::Access::write).run(sql);
+    return refused(file);
+  };
+  // Without an end: who reads it waits for ever.
+  EXPECT_THAT(changed("DROP TABLE point; CREATE VIEW point AS WITH RECURSIVE n(id) AS (SELECT 0 UNION ALL SELECT 0 FROM "
+                      "n) SELECT id, '{}' AS parameters, 'pass' AS verdict, 0.1 AS seconds, NULL AS error FROM n"),
+              HasSubstr("its tables are not those of a sweep"));
+  EXPECT_THAT(changed("CREATE TRIGGER t AFTER INSERT ON point BEGIN DELETE FROM result; END"),
+              HasSubstr("its tables are not those of a sweep"));
+  EXPECT_THAT(changed("ALTER TABLE point ADD COLUMN more TEXT"), HasSubstr("its tables are not those of a sweep"));
+  EXPECT_THAT(changed("DROP TABLE result"), HasSubstr("its tables are not those of a sweep"));
+  const std::string own = "CREATE INDEX mine ON result(name); CREATE VIEW failed AS SELECT * FROM point; ANALYZE; VACUUM";
+  std::filesystem::remove(file);
+  SweepDatabase(file, identity()).finish();
+  Sqlite(file, Sqlite::Access::write).run(own);
+  EXPECT_EQ(SweepDatabase(file).pointsDone(), 0) << "what somebody adds for queries of his own is left alone";
+}
+
 TEST(SweepDatabase, seesDamage) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "s.db";
