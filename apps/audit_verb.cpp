@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "apps/embedded_scenario.h"
+#include "apps/files_apart.h"
 #include "apps/progress.h"
 #include "apps/streams.h"
 #include "apps/verbs.h"
@@ -24,6 +25,7 @@ int audit(const AuditOptions& options) {
     throw UsageError("--json and --markdown both go to standard output");
   refuseFile(options.out);
   const Scenario scenario = options.scenario.empty() ? paperHelix() : readScenarioOrInput(options.scenario);
+  requireApart(scenario, {options.json, options.markdown});
   const Audit result = alongMotion(scenario, [&] {
     const Progress progress("audit");
     return runAudit(scenario);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "apps/files_apart.h"
 #include "apps/streams.h"
 #include "apps/verbs.h"
 #include "model/csv.h"
@@ -23,6 +24,7 @@ struct CheckOptions {
 bool checkOne(const std::string& file, const CheckOptions& options) {
   try {
     const Scenario scenario = readScenarioOrInput(file);
+    requireApart(scenario, {options.picture});
     const std::vector<std::string> odd = warnings(scenario);
     const auto tell = [on_stderr = options.picture == "-"](const std::string& text) {
       return on_stderr ? sayText(withoutControls(text)) : writeOutput("-", withoutControls(text));

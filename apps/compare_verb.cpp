@@ -26,6 +26,7 @@ Comparison compareAndWrite(const Options& options) {
   const TimeSeries reference = readHistory(options.reference), test = readHistory(options.test);
   if (options.out.empty() || isTable(options.out)) return compare(reference, test, options.tolerances);
   refuseFile(options.out);
+  refuseResults(options.out);
   return writeComparison(reference, test, options.tolerances, {options.reference, options.test}, options.out);
 }
 

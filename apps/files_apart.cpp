@@ -6,6 +6,9 @@
 #include <filesystem>
 #include <vector>
 
+#include "apps/verbs.h"
+#include "model/scenario_files.h"
+
 namespace ursula {
 namespace {
 
@@ -15,15 +18,15 @@ struct Named {
 };
 
 bool isWritten(const std::string& option) {
-  const std::vector<std::string> writing = {"--out", "--picture", "--csv", "--junit", "--db"};
+  const std::vector<std::string> writing = {"--out", "--picture", "--csv", "--junit", "--db", "--json", "--markdown"};
   return std::find(writing.begin(), writing.end(), option) != writing.end();
 }
 
-/// Options that name no file are looked at as well where they are positional; that does no harm.
+/// Flags name no file. Options that name no file are looked at as well where they are positional; that does no harm.
 void gather(const CLI::App& app, std::vector<Named>& out) {
   for (const CLI::Option* option : app.get_options()) {
     const std::string name = option->get_name();
-    const bool written = isWritten(name);
+    const bool written = isWritten(name) && option->get_expected_min() > 0;
     if (!written && !option->get_positional() && name != "--torques") continue;
     for (const std::string& file : option->results())
       if (!file.empty() && file != "-") out.push_back({name, file, written});
@@ -35,7 +38,7 @@ bool areSame(const std::string& a, const std::string& b) {
   std::error_code none, ignored;
   if (std::filesystem::is_character_file(a, none)) return false;  // both may go to /dev/null
   return std::filesystem::equivalent(a, b, ignored) ||
-         std::filesystem::absolute(a).lexically_normal() == std::filesystem::absolute(b).lexically_normal();
+         std::filesystem::absolute(a, none).lexically_normal() == std::filesystem::absolute(b, none).lexically_normal();
 }
 
 }  // namespace
@@ -49,6 +52,13 @@ std::string namedTwice(const CLI::App& app) {
         return fmt::format("{} {}: is also {}, expected another file", written.option, written.file,
                            other.written ? other.option : "what is read");
   return "";
+}
+
+void requireApart(const Scenario& scenario, std::initializer_list<std::string> written) {
+  for (const std::filesystem::path& read : filesNamedBy(scenario))
+    for (const std::string& file : written)
+      if (!file.empty() && file != "-" && areSame(file, read.string()))
+        throw UsageError(fmt::format("{}: is also what {} reads, expected another file", file, scenario.file.string()));
 }
 
 }  // namespace ursula

@@ -10,6 +10,7 @@
 #include "apps/streams.h"
 #include "apps/verbs.h"
 #include "model/nearest.h"
+#include "model/shell_word.h"
 
 namespace ursula {
 namespace {
@@ -45,7 +46,7 @@ int init(const InitOptions& options) {
   if (options.file != "-" && std::filesystem::exists(std::filesystem::symlink_status(options.file)))
     throw UsageError(options.file + ": is there already and is left as it is, expected the name of a new file");
   writeOutput(options.file, textFor(options.file, kind));
-  if (options.file != "-") say("wrote {}; change it, then: ursula check {}\n", options.file, options.file);
+  if (options.file != "-") say("wrote {}; change it, then: ursula check {}\n", options.file, shellWord(options.file));
   return exit_passed;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <thread>
 
+#include "apps/files_apart.h"
 #include "apps/output.h"
 #include "apps/progress.h"
 #include "apps/verbs.h"
@@ -23,6 +24,7 @@ struct InverseOptions {
 
 int inverse(const InverseOptions& options) {
   const Scenario scenario = readScenarioOrInput(options.scenario);
+  requireApart(scenario, {options.out});
   const BlockTable table = inverseBlocks(scenario, options.samples);
   Progress progress(scenario.name);
   const auto written = [&](double share) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 
+#include "apps/files_apart.h"
 #include "apps/output.h"
 #include "apps/progress.h"
 #include "apps/verbs.h"
@@ -37,6 +38,7 @@ int map(const MapOptions& options) {
   if (draws && options.picture == "-" && options.out == "-")
     throw UsageError("--out - and --picture -: expected standard output for one of them");
   const Scenario scenario = readScenarioOrInput(options.scenario);
+  requireApart(scenario, {options.out, options.picture});
   const PoseGrid grid = gridOf(options, scenario);
   if (draws && grid.size() > most_drawn)
     throw UsageError(fmt::format("--picture: {} poses, expected at most {}", grid.size(), most_drawn));

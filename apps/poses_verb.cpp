@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "apps/files_apart.h"
 #include "apps/verbs.h"
 #include "model/csv.h"
 #include "model/scenario_input.h"
@@ -26,6 +27,7 @@ void addPoses(CLI::App& app, std::function<int()>& run) {
   verb->callback([options, &run] {
     run = [options] {
       const Scenario scenario = readScenarioOrInput(options->scenario);
+      requireApart(scenario, {options->out});
       const TimeSeries series = alongMotion(scenario, [&] { return poseSeries(scenario, options->samples); });
       writeOutput(options->out, csvText(series.names, series.columns));
       return exit_passed;

@@ -14,6 +14,7 @@
 #include "apps/progress.h"
 #include "apps/verbs.h"
 #include "model/scenario_input.h"
+#include "model/writable.h"
 #include "validation/prove/prove_page.h"
 #include "validation/prove/summary.h"
 
@@ -127,6 +128,8 @@ void proveChecks(const ProveOptions& options, const Scenario& scenario, ProveFou
 
 int prove(const ProveOptions& options) {
   refuseFile(options.out);
+  const std::filesystem::path page = std::filesystem::path(options.out) / "prove.html";
+  if (!options.out.empty()) requireWritable(page);  // what follows takes minutes
   const Scenario scenario = options.scenario.empty() ? provingGround() : readScenarioOrInput(options.scenario);
   ProveFound found;
   found.scenario = scenario.name;
@@ -135,7 +138,6 @@ int prove(const ProveOptions& options) {
   found.random = proveRandom(options.seed, options.random, options.jobs, progress("random scenarios"), options.kind);
   printRandom(found.random, options.seed, options.kind);
   if (!options.out.empty()) {
-    const std::filesystem::path page = std::filesystem::path(options.out) / "prove.html";
     writeOutput(page.string(), proveHtml(found));
     fmt::print("page: {}\n", page.string());
   }

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "apps/choice.h"
+#include "apps/files_apart.h"
 #include "apps/streams.h"
 #include "apps/torque_option.h"
 #include "apps/verbs.h"
@@ -37,13 +38,14 @@ std::string whatIsMissing(const Simulation& run, const TorqueFile& file, double 
 
 int simulateVerb(const SimulateOptions& options) {
   const Scenario scenario = readScenarioOrInput(options.scenario);
+  requireApart(scenario, {options.out});
   const TorqueFile file = within(readTorquesAloud(options.torques, options.map, scenario.manipulator->motors()),
                                  scenario.trajectory->duration());
   if (file.rows() < TorqueSpline::least_samples)
     throw UsageError(fmt::format("{}: {} instants, expected at least {} to interpolate between", options.torques,
                                  file.rows(), TorqueSpline::least_samples));
   const TorqueSpline spline(file.t, file.torques);
-  const Deadline deadline = options.time_limit > 0 ? Deadline(options.time_limit) : Deadline();
+  const Deadline deadline(options.time_limit);
   const Simulation run = alongMotion(scenario, [&] {
     return simulate(scenario, options.engine, spline, file.t, scenario.simulation.tolerance, deadline);
   });

@@ -34,6 +34,7 @@ int report(const ReportOptions& options) {
   const std::filesystem::path stem = std::filesystem::path(options.database).stem();
   const std::filesystem::path dir = options.out.empty() ? "results" / stem : std::filesystem::path(options.out);
   refuseFile(dir.string());
+  refuseResults(dir);
   writeFileAtomically(dir / "report.html", page);
   fmt::print("{}\n", (dir / "report.html").string());
   return exit_passed;

@@ -60,14 +60,14 @@ int codeOf(const SweepRunResult& result) {
   return result.verdicts.count("inconclusive") + result.verdicts.count("error") > 0 ? exit_inconclusive : exit_passed;
 }
 
-void tellOutcome(const SweepRunResult& result, const std::filesystem::path& database) {
+void tellOutcome(const SweepRunResult& result, const std::filesystem::path& database, bool retried) {
   if (result.stopped) {
     say("stopped: {} of {} points are in {}; the same command goes on from there\n", result.done, result.points,
         database.string());
     return;
   }
   if (result.new_ones == 0) say("nothing to do: all {} points are in {}\n", result.points, database.string());
-  if (result.verdicts.count("error") > 0) say("points in error stay so; --retry-errors makes them again\n");
+  if (!retried && result.verdicts.count("error") > 0) say("points in error stay so; --retry-errors makes them again\n");
   fmt::print("{} points: {}\n{}\n", result.points, inWords(result.verdicts), database.string());
 }
 
@@ -100,14 +100,14 @@ int sweep(const SweepOptions& options) {
     };
     result = runSweep(plan, database, run);
   }
-  tellOutcome(result, database);
+  tellOutcome(result, database, options.retry_errors);
   return codeOf(result);
 }
 
 void addSlurmOptions(CLI::App& verb, SweepOptions& options) {
   CLI::Option* slurm =
       verb.add_flag("--slurm", options.slurm, "Give it to a Slurm cluster: a job array and a merge after it");
-  slurm->excludes("--shard");
+  slurm->excludes("--shard")->excludes("--retry-errors");
   verb.add_option("--shards", options.shards, "Tasks of the array; each of --jobs processes, by default 1")
       ->check(CLI::Range(1, most_slurm_shards))
       ->needs(slurm);
@@ -138,7 +138,8 @@ void addSweep(CLI::App& app, std::function<int()>& run) {
   addSlurmOptions(*verb, *options);
   verb->footer(
       "Exit: 1 if any point failed, else 3 if any was inconclusive or in error, else 0; out of reach or singular is a\n"
-      "result. 130 where Ctrl-C stopped it: what is done is kept, and the same command goes on.");
+      "result. 130 where Ctrl-C stopped it, 143 where SIGTERM did: what is done is kept, and the same command goes "
+      "on.");
   addSweepMerge(*verb, run);
   addSweepReport(*verb, run);
   addSweepShow(*verb, run);

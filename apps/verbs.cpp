@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "apps/output.h"
+#include "validation/report/run.h"
 
 namespace ursula {
 namespace {
@@ -55,6 +56,11 @@ void writeOutput(const std::string& file, const std::string& content) {
 void refuseFile(const std::string& out) {
   if (std::filesystem::exists(out) && !std::filesystem::is_directory(out))
     throw UsageError("--out " + out + ": is a file, expected a folder");
+}
+
+void refuseResults(const std::filesystem::path& out) {
+  if (!report::resultsIn(out).empty())
+    throw UsageError("--out " + out.string() + ": has the results of a validation, expected another folder");
 }
 
 }  // namespace ursula

@@ -54,5 +54,7 @@ auto alongMotion(const Scenario& scenario, Run&& run) {
 void writeOutput(const std::string& file, const std::string& content);
 /// Throws UsageError where `--out` names a file; it may be empty, or no folder yet.
 void refuseFile(const std::string& out);
+/// Throws UsageError where it is a folder of a validation's results: what belongs together there would be mixed.
+void refuseResults(const std::filesystem::path& out);
 
 }  // namespace ursula

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "model/atomic_file.h"
+#include "model/mount_point.h"
 #include "model/sha1.h"
 #include "model/temporary_name.h"
 #include "model/writable.h"
@@ -32,19 +33,6 @@ fs::path withoutLinks(const fs::path& folder) {
 bool isFolder(const fs::path& path) {
   std::error_code ignored;
   return fs::is_directory(path, ignored);
-}
-
-bool isMountPoint(const fs::path& folder) {
-#ifdef STATX_ATTR_MOUNT_ROOT
-  struct statx found {};
-  if (::statx(AT_FDCWD, folder.c_str(), 0, STATX_TYPE, &found) == 0 &&
-      (found.stx_attributes_mask & STATX_ATTR_MOUNT_ROOT) != 0)
-    return (found.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0;
-#endif
-  struct stat own {};
-  struct stat above {};
-  return ::stat(folder.c_str(), &own) == 0 && ::stat(folder.parent_path().c_str(), &above) == 0 &&
-         (own.st_dev != above.st_dev || own.st_ino == above.st_ino);
 }
 
 bool canHoldFiles(const fs::path& folder) {
@@ -185,7 +173,12 @@ void AtomicFolder::commit() {
 /// Its name says that it is whole before it is swapped: a swap that is cut off leaves two whole folders.
 void AtomicFolder::swap() {
   const Paths leave = older_(folder_);
-  carryOver(folder_, temporary_, leave);
+  if (holdsMountPoint(folder_)) return replaceOneByOne();
+  try {
+    carryOver(folder_, temporary_, leave);
+  } catch (const fs::filesystem_error&) {  // something of somebody else's, which cannot be linked or read
+    return replaceOneByOne();
+  }
   makeLikeOld();
   syncFolders(temporary_);
   const fs::path old = temporaryIn(base_, own(replaced));

@@ -8,6 +8,8 @@
 #include <tuple>
 #include <vector>
 
+#include "model/mount_point.h"
+
 namespace ursula {
 namespace {
 
@@ -70,6 +72,7 @@ void carryOver(const fs::path& old, const fs::path& fresh, const Paths& leave) {
 }
 
 void bringAfter(const fs::path& old, const fs::path& fresh, const Paths& leave, const Paths& written) {
+  if (holdsMountPoint(old)) return;  // what is removed here would be the other file system's
   for (const fs::path& relative : allIn(old)) {
     const fs::path from = old / relative, to = fresh / relative;
     if (isFolder(from) || leave.count(relative) != 0 || written.count(relative) != 0 || !isNewer(from, to)) continue;

@@ -13,7 +13,7 @@ using Paths = std::set<std::filesystem::path>;
 void carryOver(const std::filesystem::path& old, const std::filesystem::path& fresh, const Paths& leave);
 
 /// Moves what came into `old` after it was carried over, or changed there, to `fresh`, which has the files `written`
-/// of its own; then removes `old`.
+/// of its own; then removes `old`, unless something is mounted in it.
 void bringAfter(const std::filesystem::path& old, const std::filesystem::path& fresh, const Paths& leave,
                 const Paths& written);
 

@@ -17,12 +17,12 @@ struct OutOfTime {
 class Deadline {
  public:
   Deadline() = default;
-  /// `seconds` from now, > 0.
+  /// `seconds` from now; 0: never.
   explicit Deadline(double seconds)
       : seconds_(seconds),
         end_(Clock::now() +
              std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(seconds, longest)))),
-        lifted_(std::make_shared<std::atomic<bool>>(false)) {}
+        lifted_(seconds > 0 ? std::make_shared<std::atomic<bool>>(false) : nullptr) {}
 
   bool isSet() const { return lifted_ != nullptr; }
   bool isOver() const { return lifted_ && !*lifted_ && Clock::now() >= end_; }

@@ -37,6 +37,8 @@ FolderLock::FolderLock(std::filesystem::path file, const std::filesystem::path& 
 /// The one before removes the file while it still holds it: what was opened may have no name any more.
 bool FolderLock::take(const std::filesystem::path& what) {
   descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, as_the_user_says);
+  if (descriptor_ < 0 && errno == EACCES)  // left by another user's run: to be locked it need not be written
+    descriptor_ = ::open(file_.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
   if (descriptor_ < 0 && errno == ENOENT) {  // the one before took the folders with it that it had made
     std::filesystem::create_directories(file_.parent_path());
     return false;
@@ -57,7 +59,7 @@ std::string FolderLock::holder() const {
 }
 
 FolderLock::~FolderLock() {
-  if (is_exclusive_) ::unlink(file_.c_str());
+  ::unlink(file_.c_str());
   ::close(descriptor_);
 }
 

@@ -44,6 +44,7 @@ class Overlook {
   }
 
   void passSign(char sign) {
+    if (sign != ' ' && sign != '\t' && sign != '\r' && sign != '\n') last_sign_ = sign;
     switch (sign) {
       case '\n':
         newLine();
@@ -86,20 +87,13 @@ class Overlook {
   void passWord() {
     const std::size_t begin = at_;
     while (at_ < text_.size() && isOfWord(text_[at_])) ++at_;
-    const bool is_value = isValueFrom(begin);
+    const bool is_value = last_sign_ == '=' || last_sign_ == '[' || last_sign_ == ',';  // keys may look like numbers
+    last_sign_ = '\0';
     if (is_value && at_ < text_.size() && text_[at_] == '.') {
       ++at_;
       while (at_ < text_.size() && isOfWord(text_[at_])) ++at_;
     }
     if (is_value) requireInDouble(begin);
-  }
-
-  /// Keys may look like numbers.
-  bool isValueFrom(std::size_t begin) const {
-    const auto before = begin == 0 ? std::string_view::npos : text_.find_last_not_of(" \t\r\n", begin - 1);
-    if (before == std::string_view::npos) return false;
-    const char sign = text_[before];
-    return sign == '=' || sign == '[' || sign == ',';
   }
 
   void requireInDouble(std::size_t begin) const {
@@ -115,6 +109,7 @@ class Overlook {
   }
 
   void passString(char quote) {
+    last_sign_ = '\0';
     const bool is_long = text_.substr(at_, 3) == std::string(3, quote);
     at_ += is_long ? 3 : 1;
     while (at_ < text_.size()) {
@@ -135,6 +130,8 @@ class Overlook {
 
   std::string_view text_;
   std::size_t at_ = 0, line_ = 1, line_start_ = 0;
+  char last_sign_ =
+      '\0';  ///< in front of what comes, over blanks and comments; none where a word or a string came since
   std::size_t brackets_ = 0, dots_ = 0, keys_ = 0, values_ = 0;
 };
 

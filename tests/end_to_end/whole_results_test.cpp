@@ -115,7 +115,8 @@ struct Outcomes {
   int old = 0, fresh = 0;
 };
 
-/// Runs of `calls`, which write other results into one folder, are killed: what is there is always one of them.
+/// Runs of `calls`, which write other results into one folder, are killed, until some were before the swap and some
+/// after it: what is there is always one of them.
 Outcomes killRuns(const Program& ursula, const std::vector<std::vector<std::string>>& calls) {
   std::vector<std::map<std::string, std::string>> whole;
   std::chrono::microseconds longest{0};
@@ -132,7 +133,8 @@ Outcomes killRuns(const Program& ursula, const std::vector<std::vector<std::stri
   std::mt19937 random(20261122);
   std::size_t current = 1;
   Outcomes outcomes;
-  for (int k = 0; k < killsWanted(); ++k) {
+  const auto seenBoth = [&outcomes] { return outcomes.old > 0 && outcomes.fresh > 0; };
+  for (int k = 0; k < killsWanted() || (!seenBoth() && k < 10 * killsWanted()); ++k) {
     killSomewhere(ursula, calls[1 - current], longest, k % 2 == 0, random);
     const auto found = contents(ursula.folder() / "out");
     EXPECT_TRUE(found == whole[0] || found == whole[1]) << "kill " << k << " left a mixture";
@@ -154,6 +156,7 @@ TEST(WholeResults, ofARunThatIsKilledAreTheOldOrTheNew) {
   const Outcomes outcomes =
       killRuns(ursula, {{"validate", "a.toml", "--out", "out"}, {"validate", "b.toml", "--out", "out"}});
   EXPECT_GT(outcomes.old, 0);
+  EXPECT_GT(outcomes.fresh, 0);
   testing::Test::RecordProperty("killed_before_the_swap", outcomes.old);
   testing::Test::RecordProperty("killed_after_the_swap", outcomes.fresh);
 }
@@ -166,6 +169,7 @@ TEST(WholeResults, ofASuiteThatIsKilledAreTheOldOrTheNew) {
       killRuns(ursula, {{"validate", "one500.0.toml", "two500.0.toml", "--out", "out", "--jobs", "2"},
                         {"validate", "one499.0.toml", "two499.0.toml", "--out", "out", "--jobs", "2"}});
   EXPECT_GT(outcomes.old, 0);
+  EXPECT_GT(outcomes.fresh, 0);
   testing::Test::RecordProperty("killed_before_the_swap", outcomes.old);
   testing::Test::RecordProperty("killed_after_the_swap", outcomes.fresh);
 }
@@ -255,7 +259,24 @@ TEST(WholeResults, replaceNothingThatIsRead) {
         << call;
     EXPECT_TRUE(contents(ursula.folder()) == before) << call;
   }
+  for (const char* call :
+       {"inverse sampled.toml --out out/timeseries.csv",
+        "map sampled.toml --x -0.1,0.1,2 --out out/../out/timeseries.csv",
+        "map sampled.toml --x -0.1,0.1,2 --y 0,1,2 --picture out/timeseries.csv",
+        "poses sampled.toml --out out/timeseries.csv",
+        "simulate sampled.toml --torques a.toml --out out/timeseries.csv",
+        "check sampled.toml --picture out/timeseries.csv", "audit sampled.toml --json out/timeseries.csv",
+        "audit a.toml --json a.toml", "audit a.toml --markdown a.toml"}) {
+    const UrsulaRun run = ursula(call);
+    EXPECT_EQ(run.exit_code, 2) << call;
+    EXPECT_THAT(run.err, testing::ContainsRegex("is also what .*read.*, expected another file")) << call;
+    EXPECT_TRUE(contents(ursula.folder()) == before) << call;
+  }
   EXPECT_EQ(ursula("validate a.toml --torques out/timeseries.csv --out elsewhere").exit_code, 0);
+  const UrsulaRun into = ursula("compare elsewhere/timeseries.csv elsewhere/timeseries.csv --out elsewhere");
+  EXPECT_EQ(into.exit_code, 2);
+  EXPECT_THAT(into.err, HasSubstr("--out elsewhere: has the results of a validation, expected another folder"));
+  EXPECT_EQ(ursula("compare elsewhere elsewhere --out compared").exit_code, 0);
   EXPECT_EQ(ursula("inverse a.toml --out new/").exit_code, 2);
   EXPECT_FALSE(fs::exists(ursula.folder() / "new"));
 }

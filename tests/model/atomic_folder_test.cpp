@@ -231,5 +231,65 @@ TEST(AtomicFolder, ofAFullDiskIsTheOldOne) {
   }
 }
 
+TEST(AtomicFolder, leavesAloneWhatIsMountedInIt) {
+  const TemporaryFolder folder;
+  const fs::path dir = folder.path() / "dir", data = dir / "notes" / "data";
+  writeRun(dir, "old");
+  fs::create_directories(data.parent_path());
+  const SmallDisk disk(data);
+  if (!disk.isThere()) GTEST_SKIP() << "no file system can be mounted here";
+  folder.write("dir/notes/data/precious", "a user's");
+  writeRun(dir, "new");
+  EXPECT_THAT(contents(folder.path()),
+              ElementsAre(Pair("dir/", ""), Pair("dir/a", "new"), Pair("dir/notes/", ""), Pair("dir/notes/data/", ""),
+                          Pair("dir/notes/data/precious", "a user's"), Pair("dir/sub/", ""), Pair("dir/sub/a", "new")));
+  fs::rename(dir / "a", dir / "kept");
+  EXPECT_TRUE(fs::exists(data / "precious")) << "and still where it was mounted";
+}
+
+/// Somebody who may not do everything.
+class OtherUser {
+ public:
+  OtherUser() : is_another_(::geteuid() == 0 && ::seteuid(65534) == 0) {}
+  ~OtherUser() {
+    if (is_another_) static_cast<void>(::seteuid(0) == 0);
+  }
+  OtherUser(const OtherUser&) = delete;
+  OtherUser& operator=(const OtherUser&) = delete;
+
+ private:
+  bool is_another_;
+};
+
+TEST(AtomicFolder, ofWhichAPartCannotBeReadIsWrittenAllTheSame) {
+  const TemporaryFolder folder;
+  const fs::path dir = folder.path() / "dir";
+  writeRun(dir, "old");
+  fs::create_directory(dir / "secret");
+  folder.write("dir/secret/key", "somebody's");
+  fs::permissions(dir / "secret", fs::perms::none);
+  for (const fs::path& open : {folder.path(), dir, dir / "sub"}) fs::permissions(open, fs::perms::all);
+  {
+    const OtherUser other;
+    EXPECT_THROW(contents(dir), fs::filesystem_error) << "the control";
+    writeRun(dir, "new");
+    EXPECT_EQ(TemporaryFolder::read(dir / "a"), "new");
+    EXPECT_EQ(TemporaryFolder::read(dir / "sub/a"), "new");
+  }
+  fs::permissions(dir / "secret", fs::perms::owner_all);
+  EXPECT_EQ(TemporaryFolder::read(dir / "secret/key"), "somebody's");
+}
+
+TEST(AtomicFolder, isNotKeptByTheLockThatAnotherUsersRunLeft) {
+  const TemporaryFolder folder;
+  fs::permissions(folder.path(), fs::perms::all);
+  const fs::path lock = folder.write(".ursula-lock-" + sha1("dir").substr(0, 12), "1\n");
+  fs::permissions(lock, fs::perms(0444));
+  const OtherUser other;
+  writeRun(folder.path() / "dir", "new");
+  EXPECT_THAT(contents(folder.path()),
+              ElementsAre(Pair("dir/", ""), Pair("dir/a", "new"), Pair("dir/sub/", ""), Pair("dir/sub/a", "new")));
+}
+
 }  // namespace
 }  // namespace ursula

@@ -3,23 +3,34 @@
 // turns about −u, θ about x. The links' body frames are G = [x, e × x, e] and H = [x, s × x, s] of the paper's (40)
 // (of a carriage [x̂, u, ẑ]) with origins at the links' first ends, so that the raw inertias go in as they are.
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
+#include <stdexcept>
 
 #include "model/loops/simbody/simbody_loop_internal.h"
 
 namespace ursula {
 namespace {
 
-SimTK::Inertia inertiaAboutOrigin(const Matrix3d& about_center, double mass, const Vector3d& center) {
+/// Simbody takes the shift off again, and refuses what rounding has then left.
+SimTK::MassProperties massProperties(double mass, const Vector3d& center, const Matrix3d& about_center) try {
   const SimTK::Inertia central(about_center(0, 0), about_center(1, 1), about_center(2, 2), about_center(0, 1),
                                about_center(0, 2), about_center(1, 2));
-  return central.shiftFromMassCenter(-toSimTK(center), mass);
+  const SimTK::MassProperties out(mass, toSimTK(center), central.shiftFromMassCenter(-toSimTK(center), mass));
+  static_cast<void>(out.calcCentralInertia());
+  return out;
+} catch (const SimTK::Exception::Base&) {
+  throw std::domain_error(
+      fmt::format("Simbody cannot hold a body of {:.6g} kg whose center of mass is {:.6g} m from its origin: its "
+                  "moments of inertia "
+                  "of {:.6g} kg m^2 are lost beside {:.6g} kg m^2",
+                  mass, center.norm(), about_center.diagonal().maxCoeff(), mass * center.squaredNorm()));
 }
 
 SimTK::Body::Rigid linkBody(const Link& link, const Vector3d& along = Vector3d::UnitZ()) {
   const Vector3d center = link.center_of_mass * along;
-  return SimTK::Body::Rigid(
-      SimTK::MassProperties(link.mass, toSimTK(center), inertiaAboutOrigin(link.inertia, link.mass, center)));
+  return SimTK::Body::Rigid(massProperties(link.mass, center, link.inertia));
 }
 
 /// A frame in axes of a body.
@@ -184,8 +195,7 @@ void SimbodyLoop::Impl::addCarriage(const Leg& from) {
 
 void SimbodyLoop::Impl::addPlatform() {
   const Platform& from = parameters.platform();
-  const SimTK::Body::Rigid body(SimTK::MassProperties(
-      from.mass, toSimTK(from.center_of_mass), inertiaAboutOrigin(from.inertia, from.mass, from.center_of_mass)));
+  const SimTK::Body::Rigid body(massProperties(from.mass, from.center_of_mass, from.inertia));
   const bool on_leg_1 = topology == Topology::tree_through_leg_1;
   if (on_leg_1)
     mechanism.platform = SimTK::MobilizedBody::Ball(
