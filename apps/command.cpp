@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <stdexcept>
 
@@ -45,8 +46,17 @@ std::string outputOf(const std::vector<std::string>& words) {
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_adddup2(&files, ends[1], STDOUT_FILENO);
+  posix_spawnattr_t attributes;  // signals that this program ignores, a command takes as usual
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+  sigset_t as_usual;
+  sigemptyset(&as_usual);
+  sigaddset(&as_usual, SIGPIPE);
+  sigaddset(&as_usual, SIGXFSZ);
+  posix_spawnattr_setsigdefault(&attributes, &as_usual);
   pid_t process = -1;
-  const int refused = ::posix_spawnp(&process, arguments[0], &files, nullptr, arguments.data(), environ);
+  const int refused = ::posix_spawnp(&process, arguments[0], &files, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&files);
   ::close(ends[1]);
   std::string out = refused == 0 ? allOf(ends[0]) : "";

@@ -65,18 +65,20 @@ class Submission {
         folder_(slurmFolder(job_.database)),
         jobs_{job_.shards, standing.arrays, standing.merges} {
     std::filesystem::create_directories(folder_ / "logs");  // Slurm makes none
+    writeSlurmJobs(folder_, jobs_);                         // what cannot be kept is found before anything is submitted
   }
 
-  std::int64_t array() {
+  void array() {
     const std::filesystem::path script = folder_ / "array.sh";
     writeFileAtomically(script, arrayScript(job_));
     jobs_.arrays.push_back(submitted({"sbatch", "--parsable", script.string()}));
+    fmt::print("{} of {} shards submitted ({}): job {}\n", job_.todo.size(), job_.shards, arrayNumbers(job_.todo),
+               jobs_.arrays.back());
     writeSlurmJobs(folder_, jobs_);
-    return jobs_.arrays.back();
   }
 
   /// After all that is in the queue: two merges at a time would be in each other's way.
-  std::int64_t merge() {
+  void merge() {
     const std::filesystem::path script = folder_ / "merge.sh";
     writeFileAtomically(script, mergeScript(job_));
     std::vector<std::string> words = {"sbatch", "--parsable"};
@@ -85,8 +87,8 @@ class Submission {
     if (!before.empty()) words.push_back(fmt::format("--dependency=afterany:{}", fmt::join(before, ":")));
     words.push_back(script.string());
     jobs_.merges.push_back(submitted(words));
+    fmt::print("merge into {}: job {}\n", job_.database.string(), jobs_.merges.back());
     writeSlurmJobs(folder_, jobs_);
-    return jobs_.merges.back();
   }
 
   std::filesystem::path logs() const { return folder_ / "logs"; }
@@ -107,11 +109,8 @@ void printScripts(const SlurmJob& job, bool merge) {
 
 void submit(const SlurmJob& job, const SlurmStanding& standing, bool merge) {
   Submission submission(job, standing);
-  if (!job.todo.empty()) {
-    const std::int64_t array = submission.array();
-    fmt::print("{} of {} shards submitted ({}): job {}\n", job.todo.size(), job.shards, arrayNumbers(job.todo), array);
-  }
-  if (merge) fmt::print("merge into {}: job {}\n", job.database.string(), submission.merge());
+  if (!job.todo.empty()) submission.array();
+  if (merge) submission.merge();
   fmt::print("logs: {}\n", submission.logs().string());
 }
 

@@ -54,7 +54,10 @@ class Slurm : public testing::Test {
     return WEXITSTATUS(std::system(command.c_str()));
   }
 
+  void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
+
   Program ursula_;
+  const std::string path_ = std::getenv("PATH");
 };
 
 TEST_F(Slurm, submitsAnArrayAndAMergeAfterIt) {
@@ -141,6 +144,7 @@ TEST_F(Slurm, misuseIsRefused) {
            {"mass.toml --shards 2", "--shards requires --slurm"},
            {"mass.toml --dry-run", "--dry-run requires --slurm"},
            {"mass.toml --slurm --shards 2 --shard 1/2", "excludes"},
+           {"mass.toml --slurm --shards 2 --retry-errors", "excludes"},
            {"mass.toml --slurm --shards 0", "--shards"},
            {"options.toml --slurm --shards 2 --dry-run", "'--array=1-9' is not to be set here"},
            {"mass.toml --slurm --shards 2", "there is no sbatch on PATH"}}) {

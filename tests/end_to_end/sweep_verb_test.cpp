@@ -107,6 +107,8 @@ TEST(SweepVerb, keepsItsDatabaseWhateverItIsCalled) {
   for (const char* name : {":memory:", "file:y.db?mode=memory"}) {
     EXPECT_EQ(ursula("sweep " + file + " --db '" + name + "'").exit_code, 0);
     EXPECT_THAT(ursula("sweep " + file + " --db '" + name + "'").err, HasSubstr("nothing to do")) << name;
+    EXPECT_THAT(ursula("sweep merge '" + std::string(name) + "' --db merged.db").out, HasSubstr("4 of 4 points"))
+        << name;
   }
   ASSERT_EQ(ursula("sweep " + file + " --shard 1/2 --db 1.db").exit_code, 0);
   const std::string said = ursula("sweep merge 1.db --db all.db").err;

@@ -37,12 +37,20 @@ std::vector<Part> opened(const std::vector<std::filesystem::path>& files) {
   return out;
 }
 
+/// But for errors, which the machine made and not the scenario: memory that was short.
 constexpr const char* differing = R"(
 SELECT p.id FROM part.point p JOIN main.point m ON m.id = p.id WHERE m.parameters IS NOT p.parameters
-  OR m.verdict IS NOT p.verdict OR m.error IS NOT p.error
+  OR ('error' NOT IN (m.verdict, p.verdict) AND (m.verdict IS NOT p.verdict OR m.error IS NOT p.error))
 UNION ALL SELECT r.point FROM part.result r JOIN main.point m ON m.id = r.point LEFT JOIN main.result o
-  ON o.point = r.point AND o.name = r.name WHERE o.value IS NOT r.value OR o."limit" IS NOT r."limit" OR o.verdict IS NOT r.verdict
+  ON o.point = r.point AND o.name = r.name WHERE m.verdict <> 'error' AND (o.value IS NOT r.value OR o."limit" IS NOT r."limit"
+  OR o.verdict IS NOT r.verdict)
 LIMIT 1)";
+
+/// Those that somebody made again.
+constexpr const char* drop_retried = R"(
+DELETE FROM main.result WHERE point IN (SELECT m.id FROM main.point m JOIN part.point p ON p.id = m.id
+  WHERE m.verdict = 'error' AND p.verdict <> 'error');
+DELETE FROM main.point WHERE verdict = 'error' AND id IN (SELECT id FROM part.point WHERE verdict <> 'error'))";
 
 /// Some of its points are there already: they must be the same.
 void requireSame(Sqlite& database, const Part& part) {
@@ -64,6 +72,7 @@ std::int64_t takeIn(SweepDatabase& into, const Part& part) {
     return database.changed();
   }
   requireSame(database, part);
+  database.run(drop_retried);
   database.run(
       "INSERT INTO main.result SELECT r.* FROM part.result r WHERE NOT EXISTS (SELECT 1 FROM main.point m WHERE m.id = "
       "r.point);"
@@ -72,8 +81,9 @@ std::int64_t takeIn(SweepDatabase& into, const Part& part) {
   return database.changed();
 }
 
+/// From the root, as Sqlite opens files.
 void attach(Sqlite& database, const std::filesystem::path& file) {
-  Statement(database, "ATTACH ? AS part").bind(0, file.string()).run();
+  Statement(database, "ATTACH ? AS part").bind(0, std::filesystem::absolute(file).string()).run();
 }
 
 std::vector<PointRange> missingOf(SweepDatabase& database, std::int64_t points) {

@@ -159,10 +159,9 @@ std::int64_t SweepDatabase::firstDone(std::int64_t from, std::int64_t end) {
   return found;
 }
 
-std::int64_t SweepDatabase::dropErrors() {
+void SweepDatabase::dropErrors() {
   sqlite_.run("DELETE FROM result WHERE point IN (SELECT id FROM point WHERE verdict = 'error')");
   sqlite_.run("DELETE FROM point WHERE verdict = 'error'");
-  return sqlite_.changed();
 }
 
 void SweepDatabase::add(const SweepPoint& point) {

@@ -59,8 +59,8 @@ class SweepDatabase {
   /// The least id of [from, end) that is there; `end` where none is.
   std::int64_t firstDone(std::int64_t from, std::int64_t end);
 
-  /// Takes those with verdict "error" out, so that they are made again; returns how many.
-  std::int64_t dropErrors();
+  /// Takes those with verdict "error" out, so that they are made again.
+  void dropErrors();
   void add(const SweepPoint& point);
   /// What was added since the last time is there for good.
   void commit();

@@ -97,14 +97,16 @@ TEST(SweepDatabase, refusesTablesThatAreNoneOfOursBeforeTheyAreRead) {
     return refused(file);
   };
   // Without an end: who reads it waits for ever.
-  EXPECT_THAT(changed("DROP TABLE point; CREATE VIEW point AS WITH RECURSIVE n(id) AS (SELECT 0 UNION ALL SELECT 0 FROM "
-                      "n) SELECT id, '{}' AS parameters, 'pass' AS verdict, 0.1 AS seconds, NULL AS error FROM n"),
-              HasSubstr("its tables are not those of a sweep"));
+  EXPECT_THAT(
+      changed("DROP TABLE point; CREATE VIEW point AS WITH RECURSIVE n(id) AS (SELECT 0 UNION ALL SELECT 0 FROM "
+              "n) SELECT id, '{}' AS parameters, 'pass' AS verdict, 0.1 AS seconds, NULL AS error FROM n"),
+      HasSubstr("its tables are not those of a sweep"));
   EXPECT_THAT(changed("CREATE TRIGGER t AFTER INSERT ON point BEGIN DELETE FROM result; END"),
               HasSubstr("its tables are not those of a sweep"));
   EXPECT_THAT(changed("ALTER TABLE point ADD COLUMN more TEXT"), HasSubstr("its tables are not those of a sweep"));
   EXPECT_THAT(changed("DROP TABLE result"), HasSubstr("its tables are not those of a sweep"));
-  const std::string own = "CREATE INDEX mine ON result(name); CREATE VIEW failed AS SELECT * FROM point; ANALYZE; VACUUM";
+  const std::string own =
+      "CREATE INDEX mine ON result(name); CREATE VIEW failed AS SELECT * FROM point; ANALYZE; VACUUM";
   std::filesystem::remove(file);
   SweepDatabase(file, identity()).finish();
   Sqlite(file, Sqlite::Access::write).run(own);
@@ -170,6 +172,29 @@ TEST(SweepMerge, takesEachPointOnceInAnyOrderAndSaysWhatIsMissing) {
     database.finish();
   }
   EXPECT_EQ(rowsOf(all), rowsOf(whole));
+}
+
+/// An error is the machine's: what a shard made of it again counts, in whatever order they come.
+TEST(SweepMerge, takesAPointThatWasMadeAgainForOneInError) {
+  const TemporaryFolder folder;
+  const auto made = [&](const std::string& name, bool in_error) {
+    SweepDatabase database(folder.path() / name, identity());
+    database.add(point(0));
+    SweepPoint second = point(1);
+    if (in_error) second = {1, second.parameters, "error", 0.1, "out of memory", {}};
+    database.add(second);
+    database.finish();
+    return folder.path() / name;
+  };
+  const auto error = made("error.db", true), again = made("again.db", false);
+  const std::filesystem::path first = folder.path() / "first.db", last = folder.path() / "last.db";
+  EXPECT_EQ(mergeSweeps({error}, first).added, 2);
+  EXPECT_NE(rowsOf(first), rowsOf(again));
+  EXPECT_EQ(mergeSweeps({again}, first).added, 1);
+  EXPECT_EQ(rowsOf(first), rowsOf(again));
+  mergeSweeps({again}, last);
+  EXPECT_EQ(mergeSweeps({error}, last).added, 0);
+  EXPECT_EQ(rowsOf(last), rowsOf(again));
 }
 
 TEST(SweepMerge, refusesOtherSweepsAndPointsThatDiffer) {

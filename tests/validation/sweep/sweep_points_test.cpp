@@ -100,7 +100,6 @@ TEST(SweepPoints, aDefaultMovesAllLegsAndALegsOwnOnlyIt) {
   }
 }
 
-/// What is written for people is read as the same scenario, to the last bit.
 TEST(SweepPoints, limitsOfTheUsersOwnCanVary) {
   const TemporaryFolder folder;
   const std::string scenario =
