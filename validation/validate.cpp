@@ -1,5 +1,7 @@
 #include "validation/validate.h"
 
+#include <optional>
+
 #include "validation/checks/acceptance.h"
 #include "validation/checks/every_check.h"
 #include "validation/checks/families.h"
@@ -19,19 +21,10 @@
 namespace ursula {
 namespace {
 
-/// Not measured where time is up: it decides nothing.
-ErrorBudget budgetOf(const Evidence& evidence) {
-  try {
-    return attribute(*evidence.scenario, evidence.samples, evidence.windows, *evidence.amplification, evidence.plan);
-  } catch (const OutOfTime&) {
-    return {};
-  }
-}
-
-void addFacts(const Evidence& evidence, bool budget, ValidationResult& result) {
+void addFacts(const Evidence& evidence, const std::optional<ErrorBudget>& budget, ValidationResult& result) {
   if (evidence.answered()) result.findings.emplace_back("odd one out of the roads", oddOneOut(evidence.roads));
   addFindings(evidence.samples, evidence.windows, result, evidence.units());
-  if (budget && evidence.amplification != nullptr) addBudget(budgetOf(evidence), result, evidence.units());
+  if (budget) addBudget(*budget, result, evidence.units());
   result.timeseries = validationSeries(*evidence.scenario->manipulator, evidence.samples, evidence.windows);
   if (!evidence.reactions.empty())
     addReactionColumns(*evidence.scenario->manipulator, evidence.reactions, result.timeseries);
@@ -55,8 +48,12 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   tell(options, 0.8, "checks");
   result.checks = judgeAll(evidence);
   tell(options, 0.9, "sources of the error");
-  addFacts(evidence, options.budget, result);
-  if (!evidence.has.out_of_time.empty()) reference.stop();
+  std::optional<ErrorBudget> budget;
+  if (options.budget && evidence.amplification != nullptr)
+    budget =
+        attributeInTime(*evidence.scenario, evidence.samples, evidence.windows, evidence.amplification, evidence.plan);
+  reference.stop();  // what follows is short, and makes a result of what was reached
+  addFacts(evidence, budget, result);
   seriesInSi(evidence.natural, result);
   addPicture(scenario, result);
   result.deviation = effortDeviation(evidence, result.checks);
@@ -69,7 +66,7 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
 
 std::shared_ptr<const Reference> referenceOf(const Scenario& scenario, const ValidationOptions& options) {
   tell(options, 0, "the right motion");
-  const Deadline deadline = options.time_limit > 0 ? Deadline(options.time_limit) : Deadline();
+  const Deadline deadline(options.time_limit);
   return options.reference ? options.reference : makeReference(scenario, options.threads, deadline);
 }
 

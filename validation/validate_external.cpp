@@ -79,29 +79,19 @@ Evidence gatherExternal(const Scenario& given, const Presentation& natural, cons
   return out;
 }
 
-/// Not measured where time is up: it decides nothing.
-ErrorBudget budgetOf(const Evidence& evidence) {
-  if (evidence.windows.empty()) return {};
-  try {
-    return attribute(*evidence.scenario, evidence.samples, evidence.windows, *evidence.amplification, evidence.plan);
-  } catch (const OutOfTime&) {
-    return {};
-  }
-}
-
-void addFacts(const Evidence& evidence, ValidationResult& result) {
+void addFacts(const Evidence& evidence, const ErrorBudget& budget, ValidationResult& result) {
   result.timeseries = validationSeries(*evidence.scenario->manipulator, evidence.samples, evidence.windows);
   addFindings(evidence.samples, evidence.windows, result, evidence.units());
   addCurves(evidence.samples, evidence.windows, result);
   if (!evidence.not_replayed.empty()) result.findings.emplace_back("replay", "none: " + evidence.not_replayed);
   if (!evidence.spline.empty()) result.findings.emplace_back("spline", evidence.spline);
-  addBudget(budgetOf(evidence), result, evidence.units());
+  addBudget(budget, result, evidence.units());
 }
 
 }  // namespace
 
 ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& torques, double time_limit) {
-  const Deadline deadline = time_limit > 0 ? Deadline(time_limit) : Deadline();
+  const Deadline deadline(time_limit);
   checkMotion(scenario);
   const Presentation natural = naturalPresentation(scenario);
   const Scenario here = timed(natural.of(scenario), deadline);
@@ -120,8 +110,10 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   ValidationResult result;
   result.scenario = scenario.name;
   result.checks = judgeAll(evidence);
-  addFacts(evidence, result);
-  deadline.lift();
+  const ErrorBudget budget =
+      attributeInTime(*evidence.scenario, evidence.samples, evidence.windows, evidence.amplification, evidence.plan);
+  deadline.lift();  // what follows is short, and makes a result of what was reached
+  addFacts(evidence, budget, result);
   seriesInSi(natural, result);
   addPicture(scenario, result);
   result.deviation = effortDeviation(evidence, result.checks);

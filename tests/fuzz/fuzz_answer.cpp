@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "model/shown_text.h"
 #include "tests/fuzz/fuzz.h"
 #include "validation/outside/solver_line.h"
 
@@ -12,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     ++ursula::fuzz::accepted;
   } catch (const ursula::SolverProcessError&) {
   }
-  for (const char c : ursula::shownAnswer(line))
-    if (c == '\n' || c == '\x1b') std::abort();
+  for (const char c : ursula::shown(line, ursula::most_shown))
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') std::abort();
   return 0;
 }

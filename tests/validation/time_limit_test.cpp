@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <chrono>
 #include <memory>
+#include <thread>
 
 #include "model/trajectories.h"
 #include "tests/support/vectors.h"
@@ -61,8 +63,7 @@ Subject slowFrom(int last, const Deadline& deadline) {
   Subject subject = nocSubject(*quick().manipulator, nullptr);
   subject.torques = [right = subject.torques, last, deadline, asked = std::make_shared<int>(0)](const auto& motion) {
     if (++*asked > last)
-      while (!deadline.isOver()) {
-      }
+      while (!deadline.isOver()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     return right(motion);
   };
   return subject;
@@ -77,6 +78,24 @@ TEST(TimeLimit, judgesWhatWasReached) {
   EXPECT_EQ(result.verdict, Verdict::inconclusive);
   EXPECT_EQ(found("torque.pointwise"), "pass");
   EXPECT_EQ(found("replay.position"), "inconclusive");
+  EXPECT_EQ(result.timeseries.rows(), 21U);
+}
+
+/// The last experiment takes the error apart, which decides nothing.
+TEST(TimeLimit, keepsWhatWasJudgedWhereTimeIsUpAfterIt) {
+  const Scenario scenario = quick();
+  const Deadline deadline(20);  // s, most of them waited for
+  ValidationOptions options;
+  options.reference = makeReference(scenario, 1, deadline);
+  bool waited = false;
+  options.progress = [&](double, const std::string& now) {
+    if (now != "sources of the error") return;
+    waited = !deadline.isOver();
+    while (!deadline.isOver()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  };
+  const ValidationResult result = validate(scenario, nocSubject(*scenario.manipulator, nullptr), options);
+  ASSERT_TRUE(waited) << "or it was up before";
+  EXPECT_EQ(result.verdict, Verdict::pass) << others(result.checks, Verdict::pass);
   EXPECT_EQ(result.timeseries.rows(), 21U);
 }
 

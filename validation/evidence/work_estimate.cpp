@@ -1,6 +1,5 @@
 #include "validation/evidence/work_estimate.h"
 
-#include <algorithm>
 #include <chrono>
 
 #include "model/loops/simbody/simbody_loop.h"
@@ -32,9 +31,8 @@ double workSeconds(const Scenario& scenario) {
   constexpr double of_step = 150, of_sample = 150, of_interval = 10;
   const double duration = scenario.trajectory->duration();
   const double steps = plannedStepRate(duration) * duration;
-  const double intervals = std::clamp(40 * duration, 300.0, 3e5);
   return evaluationSeconds(scenario) *
-         (of_step * steps + of_sample * scenario.simulation.samples + of_interval * intervals);
+         (of_step * steps + of_sample * scenario.simulation.samples + of_interval * linearisedIntervals(duration));
 }
 
 }  // namespace ursula

@@ -8,6 +8,8 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "model/deadline.h"
+
 namespace ursula {
 namespace {
 
@@ -220,6 +222,17 @@ ErrorBudget attribute(const Scenario& scenario, const std::vector<PointwiseSampl
   addModel(samples, *window, amplification, budget);
   budget.dominant = dominantOf(budget);
   return budget;
+}
+
+ErrorBudget attributeInTime(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
+                            const std::vector<WindowedReplay>& windows, const Amplification* amplification,
+                            const ReplayPlan& plan) {
+  if (windows.empty() || amplification == nullptr) return {};
+  try {
+    return attribute(scenario, samples, windows, *amplification, plan);
+  } catch (const OutOfTime&) {
+    return {};
+  }
 }
 
 }  // namespace ursula

@@ -57,6 +57,10 @@ struct ErrorBudget {
 ErrorBudget attribute(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
                       const std::vector<WindowedReplay>& windows, const Amplification& amplification,
                       const ReplayPlan& plan);
+/// The same; empty where there is nothing to take apart, or the scenario's time is up: it decides nothing.
+ErrorBudget attributeInTime(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
+                            const std::vector<WindowedReplay>& windows, const Amplification* amplification,
+                            const ReplayPlan& plan);
 
 /// The findings, and `along` as a curve. Where a replay's limit, not an error, is what prevents a judgement,
 /// amplification dominates.

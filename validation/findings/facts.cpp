@@ -26,6 +26,16 @@ std::string nearestToEdge(const std::vector<PointwiseSample>& samples, const Uni
                      at.conditioning.smallest_sine_leg + 1, at.motion.t * units.time);
 }
 
+void addStopped(const std::vector<WindowedReplay>& windows, const Units& units, ValidationResult& result) {
+  for (const WindowedReplay& window : windows) {
+    const Replay& replay = window.replay;
+    if (replay.gave_up.empty() && !replay.left_path) continue;
+    const double t = replay.left_path && !replay.steps.empty() ? replay.steps.back().t : replay.stopped_at;
+    const std::string why = replay.left_path ? "P was off by more than the platform's size" : replay.gave_up;
+    result.findings.emplace_back("replay stopped", fmt::format("stopped at t = {:.6g} s: {}", t * units.time, why));
+  }
+}
+
 }  // namespace
 
 void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
@@ -48,13 +58,7 @@ void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<
     steps += window.replay.steps.size() - (window.replay.steps.empty() ? 0 : 1);
     for (double value : window.window.growth) growth = std::max(growth, value);
   }
-  for (const WindowedReplay& window : windows) {
-    const Replay& replay = window.replay;
-    if (replay.gave_up.empty() && !replay.left_path) continue;
-    const double t = replay.left_path && !replay.steps.empty() ? replay.steps.back().t : replay.stopped_at;
-    const std::string why = replay.left_path ? "P was off by more than the platform's size" : replay.gave_up;
-    result.findings.emplace_back("replay stopped", fmt::format("stopped at t = {:.6g} s: {}", t * units.time, why));
-  }
+  addStopped(windows, units, result);
   const std::vector<std::pair<std::string, std::string>> findings = {
       {"largest torque", fmt::format("{:.6g} {}", torque * units.effort(), units.efforts.unit)},
       {"torque error, relative to the largest", fmt::format("{:.3g}", torque > 0 ? torque_error / torque : 0)},

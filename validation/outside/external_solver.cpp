@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/deadline.h"
+#include "model/shown_text.h"
 #include "validation/outside/line_process.h"
 #include "validation/outside/solver_line.h"
 
@@ -46,7 +47,7 @@ class Process {
 
   [[noreturn]] void refuse(const std::string& what, const std::string& question, const std::string& answer) const {
     throw SolverProcessError(fmt::format("the solver '{}' {}\n  asked: {}\n  got:   {}", options_.command, what,
-                                         question, answer.empty() ? "nothing" : shownAnswer(answer)));
+                                         question, answer.empty() ? "nothing" : shown(answer, most_shown)));
   }
 
   ExternalSolverOptions options_;
@@ -58,7 +59,7 @@ class Process {
 ValidationResult validateExternalSolver(const Scenario& scenario, const ExternalSolverOptions& options,
                                         const ValidationOptions& validation) {
   const auto process = std::make_shared<Process>(scenario, options);
-  const Deadline deadline = validation.time_limit > 0 ? Deadline(validation.time_limit) : Deadline();
+  const Deadline deadline(validation.time_limit);
   OutsideSolver solver;
   solver.name = options.command;
   solver.torques = [process, deadline](const std::vector<Motion<double>>& motions) {

@@ -11,6 +11,7 @@
 
 #include "model/manipulator.h"
 #include "model/quaternions.h"
+#include "model/shown_text.h"
 
 namespace ursula {
 namespace {
@@ -27,19 +28,11 @@ double numberOf(std::string_view cell, int index) {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
     throw SolverProcessError(
-        fmt::format("its effort {} is '{}', expected a finite number", index, shownAnswer(std::string(trimmed(cell)))));
+        fmt::format("its effort {} is '{}', expected a finite number", index, shown(trimmed(cell), most_shown)));
   return value;
 }
 
 }  // namespace
-
-std::string shownAnswer(const std::string& text) {
-  constexpr std::size_t most = 600;
-  std::string out = text.substr(0, most);
-  for (char& each : out)
-    if (static_cast<unsigned char>(each) < ' ' || each == '\x7f') each = '?';
-  return text.size() > most ? out + " …" : out;
-}
 
 std::string solverQuestion(const Motion<double>& motion) {
   fmt::memory_buffer line;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 
@@ -21,7 +22,7 @@ std::string solverQuestion(const Motion<double>& motion);
 /// what is wrong with `line`.
 Vector6d solverAnswer(const std::string& line);
 
-/// An answer for people: one line, not endless.
-std::string shownAnswer(const std::string& text);
+/// Of an answer, in messages: bytes.
+constexpr std::size_t most_shown = 600;
 
 }  // namespace ursula

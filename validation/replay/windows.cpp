@@ -97,10 +97,13 @@ LoopForces loopForces(const std::vector<PointwiseSample>& samples) {
   return forces;
 }
 
-Amplification linearised(const Scenario& scenario) {
+int linearisedIntervals(double duration) {
   constexpr double least = 300, most = 300'000;  // a kilobyte each
-  return Amplification(scenario,
-                       static_cast<int>(std::clamp(std::ceil(40 * scenario.trajectory->duration()), least, most)));
+  return static_cast<int>(std::clamp(std::ceil(40 * duration), least, most));
+}
+
+Amplification linearised(const Scenario& scenario) {
+  return Amplification(scenario, linearisedIntervals(scenario.trajectory->duration()));
 }
 
 std::vector<GrowthWindow> planWindows(const Amplification& amplification, const ReplayPlan& plan) {

@@ -22,8 +22,9 @@ struct ReplayPlan {
   std::function<void(const std::vector<double>&)> foresee = nullptr;  ///< as ReplaySettings has it; may be empty
 };
 
-/// The growth of deviations along the scenario's motion: 300 intervals, and 40 a second where that is more, up
-/// to 300,000.
+/// 300, and 40 a second where that is more, up to 300,000.
+int linearisedIntervals(double duration);
+/// The growth of deviations along the scenario's motion, in so many intervals.
 Amplification linearised(const Scenario& scenario);
 
 /// The whole motion in windows that restart on the commanded state, each as long as its limit stays useful; where none
