@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <new>
 
@@ -36,6 +37,11 @@ int runVerb(const std::function<int()>& run) {
     return complain(fmt::format("error: the motion cannot be made: {}", error.what()));
   } catch (const std::bad_alloc&) {
     return complain("error: out of memory: fewer --jobs or --samples need less");
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::error_code gone;
+    static_cast<void>(std::filesystem::current_path(gone));
+    return complain(fmt::format("error: {}: {}{}", error.path1().string(), error.code().message(),
+                                gone ? ", as the working folder has been removed" : ""));
   } catch (const std::exception& error) {
     return complain(fmt::format("error: {}", error.what()));
   }

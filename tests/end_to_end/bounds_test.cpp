@@ -94,12 +94,39 @@ TEST(BoundsRun, refusesNumbersWhoseProductsNoDoubleHolds) {
   }
 }
 
+TEST(BoundsRun, saysWhatSimbodyCannotHold) {
+  const Program ursula;
+  ursula.write("heavy.toml", replaced(good_scenario, "mass = 500.0", "mass = 1e60"));
+  const auto run = ursula("validate heavy.toml --out out");
+  EXPECT_EQ(run.exit_code, bad_input);
+  EXPECT_THAT(run.err,
+              HasSubstr("error: Simbody cannot hold a body of 1e+60 kg whose center of mass is 1.88 m from its "
+                        "origin: its moments of inertia of "));
+  EXPECT_EQ(ursula.files(), 1U) << "nothing was written";
+}
+
+TEST(BoundsRun, saysThatTheWorkingFolderIsGone) {
+  const Program ursula;
+  const std::string scenario = ursula.write("small.toml", good_scenario).string();
+  for (const auto& [call, says] :
+       {std::pair{"validate " + scenario,
+                  "error: results/small: No such file or directory, as the working folder has been "
+                  "removed\n"},
+        {"inverse " + scenario + " --out x.csv", "error: cannot write x.csv: No such file or directory\n"}}) {
+    std::filesystem::create_directory(ursula.folder() / "gone");
+    const std::string line = "cd '" + (ursula.folder() / "gone").string() +
+                             "' && rmdir ../gone && '" URSULA_PROGRAM "' " + call + " >../out 2>../err";
+    EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), bad_input) << call;
+    EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "err"), says) << call;
+  }
+}
+
 /// A solver that takes its time is not asked on and on.
 TEST(TimeLimitRun, endsWithTheAnswerOfASlowSolver) {
   const Program ursula;
   ursula.write("small.toml", good_scenario);
-  ursula.write("slow.sh", "while read -r line; do echo >> asked; sleep 5; echo 1,2,3,4,5,6; done\n");
-  const auto run = ursula("validate small.toml --solver 'sh slow.sh' --solver-timeout 60 --time-limit 5 --out out");
+  ursula.write("slow.sh", "while read -r line; do echo >> asked; sleep 15; echo 1,2,3,4,5,6; done\n");
+  const auto run = ursula("validate small.toml --solver 'sh slow.sh' --solver-timeout 60 --time-limit 15 --out out");
   EXPECT_EQ(run.exit_code, inconclusive) << run.out << run.err;
   const auto asked = TemporaryFolder::read(ursula.folder() / "asked").size();
   EXPECT_GT(asked, 0U);
