@@ -14,8 +14,8 @@
 
 namespace {
 
-/// In memory, where the system has such a place: libFuzzer opens it thousands of times a second. Not a name below /proc:
-/// SQLite follows links to a file's own name.
+/// In memory, where the system has such a place: libFuzzer opens it thousands of times a second. Not a name below
+/// /proc: SQLite follows links to a file's own name.
 const std::filesystem::path& file() {
   static const std::filesystem::path path = [] {
     const std::filesystem::path memory = "/dev/shm";
@@ -26,9 +26,7 @@ const std::filesystem::path& file() {
   return path;
 }
 
-void write(const std::string& bytes) {
-  std::ofstream(file(), std::ios::binary | std::ios::trunc) << bytes;
-}
+void write(const std::string& bytes) { std::ofstream(file(), std::ios::binary | std::ios::trunc) << bytes; }
 
 /// A small sweep's, in small pages.
 const std::string& soundDatabase() {
@@ -64,7 +62,8 @@ void change(const std::string& sql) {
   if (sqlite3_open(file().c_str(), &handle) == SQLITE_OK) {
     sqlite3_limit(handle, SQLITE_LIMIT_LENGTH, 100'000);
     sqlite3_limit(handle, SQLITE_LIMIT_ATTACHED, 0);
-    sqlite3_progress_handler(handle, 10'000, [](void*) { return 1; }, nullptr);
+    sqlite3_progress_handler(
+        handle, 10'000, [](void*) { return 1; }, nullptr);
     sqlite3_exec(handle, "PRAGMA journal_mode = MEMORY; PRAGMA synchronous = OFF", nullptr, nullptr, nullptr);
     sqlite3_exec(handle, sql.c_str(), nullptr, nullptr, nullptr);
   }
