@@ -1,7 +1,6 @@
 // Two histories channel by channel: tubes in value and time, what is not compared, and that nothing passes by absence.
 
 #include "validation/compare/compare.h"
-#include "model/instants.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +10,7 @@
 #include "model/csv.h"
 #include "tests/model/refusals.h"
 #include "tests/model/temporary_folder.h"
+#include "tests/validation/histories.h"
 #include "validation/validate.h"
 
 namespace ursula {
@@ -20,18 +20,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-std::vector<double> wave(const std::vector<double>& t, double shift = 0) {
-  std::vector<double> out;
-  for (double at : t) out.push_back(10 * std::sin(2 * (at + shift)));
-  return out;
-}
-
-TimeSeries history(const std::vector<double>& t, double shift = 0) {
-  return {{"t_s", "tau_1_Nm", "tau_2_Nm"}, {t, wave(t, shift), std::vector<double>(t.size(), 20)}};
-}
-
-const std::vector<double> t_101 = equallySpaced(1, 101);
 
 TEST(Compare, aHistoryPassesAgainstItself) {
   const Comparison result = compare(history(t_101), history(t_101), {});
@@ -126,47 +114,6 @@ TEST(Compare, nanNeverPasses) {
   }
 }
 
-CompareOptions interpolating(double tolerance) {
-  CompareOptions options;
-  options.tolerance = tolerance;
-  options.interpolate = true;
-  return options;
-}
-
-TEST(Compare, otherInstantsAreInterpolatedAndWhatThatMissesIsLeftOpen) {
-  const std::vector<double> finer = equallySpaced(1, 151);
-  const Comparison result = compare(history(t_101), history(finer), interpolating(1e-15));
-  EXPECT_EQ(result.interpolated, 100U);
-  EXPECT_EQ(result.channels[0].verdict, Verdict::inconclusive);
-  EXPECT_EQ(result.channels[1].verdict, Verdict::pass);
-  EXPECT_EQ(result.verdict, Verdict::inconclusive);
-  EXPECT_EQ(compare(history(t_101), history(finer), interpolating(1e-7)).verdict, Verdict::pass);
-  EXPECT_EQ(compare(history(t_101), history(finer, 0.01), interpolating(1e-7)).verdict, Verdict::fail);
-}
-
-TEST(Compare, statesWhatInterpolationMayMissAndItMissesLess) {
-  const Comparison result = compare(history(equallySpaced(1, 21)), history(equallySpaced(1, 34)), interpolating(1e-9));
-  const ChannelComparison& channel = result.channels[0];
-  EXPECT_GT(channel.interpolation, 1e-8);
-  EXPECT_LT(channel.interpolation, 1e-3);
-  EXPECT_GT(channel.max_error, 0);
-  EXPECT_LE(channel.max_error, channel.interpolation);
-  EXPECT_THAT(comparisonText(result), HasSubstr("which may miss "));
-}
-
-TEST(Compare, aFinerReferenceIsInterpolatedAndACoarserOneOnlyWhenAsked) {
-  const TimeSeries coarse = history(equallySpaced(1, 68)), fine = history(t_101);
-  const Comparison by_default = compare(fine, coarse, {1e-6, 0});
-  EXPECT_GT(by_default.interpolated, 0U);
-  EXPECT_EQ(by_default.verdict, Verdict::pass);
-  const Comparison left_out = compare(coarse, fine, {1e-6, 0});
-  EXPECT_EQ(left_out.interpolated, 0U);
-  EXPECT_GT(left_out.left_out, 0U);
-  EXPECT_EQ(left_out.verdict, Verdict::inconclusive);
-  EXPECT_THAT(comparisonText(left_out), HasSubstr("--interpolate"));
-  EXPECT_EQ(compare(coarse, fine, interpolating(1e-5)).verdict, Verdict::pass);
-}
-
 /// A turn about z by more than half a revolution, whose w changes sign.
 TimeSeries turning(const std::vector<double>& t, double sign) {
   TimeSeries out{{"t_s", "q_w", "q_x", "q_y", "q_z"}, {t, {}, {}, {}, {}}};
@@ -256,38 +203,6 @@ TEST(Compare, nothingInCommonFails) {
   const Comparison times = compare(history(t_101), history(later), {1e9, 0});
   EXPECT_EQ(times.verdict, Verdict::fail);
   EXPECT_THAT(comparisonText(times), HasSubstr("nothing to compare: the reference spans 0 to 1 s, the test 5 to 6 s"));
-}
-
-TEST(Compare, aPartOfTheTimeIsComparedAndSaid) {
-  const std::vector<double> part(t_101.begin() + 10, t_101.end());
-  const Comparison short_test = compare(history(t_101), history(part), {});
-  EXPECT_EQ(short_test.verdict, Verdict::inconclusive);
-  EXPECT_THAT(comparisonText(short_test), HasSubstr("compared from 0.1 to 1 s only"));
-  EXPECT_THAT(comparisonText(short_test), HasSubstr("the reference is not covered"));
-  const Comparison long_test = compare(history(part), history(t_101), {});
-  EXPECT_EQ(long_test.verdict, Verdict::pass);
-  EXPECT_EQ(long_test.instants, 91U);
-}
-
-TEST(Compare, aTestWithGapsLeavesThemOpen) {
-  const Comparison ends = compare(history(t_101), history({0, 1}), {});
-  EXPECT_EQ(ends.verdict, Verdict::inconclusive);
-  EXPECT_EQ(ends.skipped, 99U);
-  EXPECT_THAT(comparisonText(ends), HasSubstr("not compared are 99 instants of the reference in gaps of the test\n"));
-  EXPECT_EQ(compare(history(t_101), history(equallySpaced(1, 51)), {}).verdict, Verdict::pass);
-}
-
-/// A row that is missing may have been the only peak.
-TEST(Compare, oneMissingRowIsAGap) {
-  std::vector<double> t = t_101;
-  t.erase(t.begin() + 40);
-  EXPECT_EQ(compare(history(t_101), history(t), {}).skipped, 1U);
-  EXPECT_EQ(compare(history(t_101), history(t), {}).verdict, Verdict::inconclusive);
-  std::vector<double> half = equallySpaced(1, 51);
-  half.erase(half.begin() + 20);
-  EXPECT_EQ(compare(history(t_101), history(half), {}).skipped, 3U);
-  for (const int finer : {101, 151, 201, 1234, 4567})  // other instants, none passed over
-    EXPECT_EQ(compare(history(t_101), history(equallySpaced(1, finer)), {}).skipped, 0U) << finer;
 }
 
 TEST(Compare, readsFoldersAndRefusesInstantsThatDoNotIncrease) {

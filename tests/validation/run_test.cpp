@@ -14,6 +14,17 @@
 namespace ursula {
 namespace {
 
+/// The results `a` are of one run; with any of `files` from `b` they are not.
+void expectRefusedOf(const std::filesystem::path& dir, const std::vector<std::string>& files) {
+  report::refuseMixture(dir / "a");
+  for (const std::string& file : files) {
+    std::filesystem::copy(dir / "a", dir / "mixed", std::filesystem::copy_options::recursive);
+    std::filesystem::copy(dir / "b" / file, dir / "mixed" / file, std::filesystem::copy_options::overwrite_existing);
+    EXPECT_THROW(report::refuseMixture(dir / "mixed"), report::MixedResults) << file;
+    std::filesystem::remove_all(dir / "mixed");
+  }
+}
+
 TEST(Run, isNamedByTheFiles) {
   const TemporaryFolder folder;
   const std::filesystem::path& dir = folder.path();
@@ -34,13 +45,7 @@ TEST(Run, ofTwoTheFilesAreRefused) {
   const std::filesystem::path& dir = folder.path();
   writeResults(test::passedSample(), dir / "a");
   writeResults(test::failedSample(), dir / "b");
-  report::refuseMixture(dir / "a");
-  for (const char* file : report::result_files) {
-    std::filesystem::copy(dir / "a", dir / "mixed");
-    std::filesystem::copy(dir / "b" / file, dir / "mixed" / file, std::filesystem::copy_options::overwrite_existing);
-    EXPECT_THROW(report::refuseMixture(dir / "mixed"), report::MixedResults) << file;
-    std::filesystem::remove_all(dir / "mixed");
-  }
+  expectRefusedOf(dir, {report::result_files.begin(), report::result_files.end()});
 }
 
 TEST(Run, ofASuiteRefusesAnothersScenario) {
@@ -53,13 +58,7 @@ TEST(Run, ofASuiteRefusesAnothersScenario) {
   };
   write(test::passedSample(), dir / "a");
   write(test::failedSample(), dir / "b");
-  report::refuseMixture(dir / "a");
-  for (const char* file : {"suite.json", "index.html", "junit.xml", "s/summary.json"}) {
-    std::filesystem::copy(dir / "a", dir / "mixed", std::filesystem::copy_options::recursive);
-    std::filesystem::copy(dir / "b" / file, dir / "mixed" / file, std::filesystem::copy_options::overwrite_existing);
-    EXPECT_THROW(report::refuseMixture(dir / "mixed"), report::MixedResults) << file;
-    std::filesystem::remove_all(dir / "mixed");
-  }
+  expectRefusedOf(dir, {"suite.json", "index.html", "junit.xml", "s/summary.json"});
 }
 
 TEST(Run, ofOldListsItsFilesAndNoOthers) {
