@@ -11,6 +11,7 @@
 #include "apps/verbs.h"
 #include "model/csv.h"
 #include "model/errors.h"
+#include "model/out_of_memory.h"
 #include "model/scenario.h"
 #include "nocsolver/errors.h"
 #include "validation/findings/provenance.h"
@@ -35,7 +36,7 @@ int runVerb(const std::function<int()>& run) {
   } catch (const ursula::PoseError& error) {
     return complain(fmt::format("error: the motion cannot be made: {}", error.what()));
   } catch (const std::bad_alloc&) {
-    return complain("error: out of memory: fewer --jobs or --samples need less");
+    return complain(fmt::format("error: {}", ursula::out_of_memory));
   } catch (const std::exception& error) {
     return complain(fmt::format("error: {}", error.what()));
   }
