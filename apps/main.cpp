@@ -12,6 +12,7 @@
 #include "apps/verbs.h"
 #include "model/csv.h"
 #include "model/errors.h"
+#include "model/out_of_memory.h"
 #include "model/scenario.h"
 #include "nocsolver/errors.h"
 #include "validation/findings/provenance.h"
@@ -36,7 +37,7 @@ int runVerb(const std::function<int()>& run) {
   } catch (const ursula::PoseError& error) {
     return complain(fmt::format("error: the motion cannot be made: {}", error.what()));
   } catch (const std::bad_alloc&) {
-    return complain("error: out of memory: fewer --jobs or --samples need less");
+    return complain(fmt::format("error: {}", ursula::out_of_memory));
   } catch (const std::filesystem::filesystem_error& error) {
     std::error_code gone;
     static_cast<void>(std::filesystem::current_path(gone));

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <future>
+#include <new>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -17,6 +18,8 @@ std::vector<std::thread> startThreads(std::size_t count, const Work& work) {
     while (threads.size() < count) threads.emplace_back(work);
   } catch (const std::system_error&) {
     // Whoever asked does the rest himself.
+  } catch (const std::bad_alloc&) {
+    // Likewise; and threads that run must not be forgotten.
   }
   return threads;
 }

@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -37,6 +38,23 @@ inline int shell(const Program& ursula, const std::string& line) {
       "cd '" + ursula.folder().string() + "' && URSULA='" URSULA_PROGRAM "' && { " + line + "; } </dev/null";
   const int status = std::system(command.c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/// As results have it: date and time of UTC, which sort as text.
+inline std::string utcNow() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  ::gmtime_r(&now, &utc);
+  char text[32] = "";
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%S", &utc);
+  return text;
+}
+
+/// When the run began that a junit.xml is of, in the same form; "" where it does not say.
+inline std::string startSaidBy(const std::filesystem::path& junit) {
+  const std::string text = TemporaryFolder::read(junit), before = "timestamp=\"";
+  const std::size_t at = text.find(before);
+  return at == std::string::npos ? "" : text.substr(at + before.size(), std::string("2026-11-23T12:00:00").size());
 }
 
 }  // namespace ursula

@@ -1,5 +1,5 @@
 // The C library's allocation functions replaced by ones that count and pass on: Eigen calls malloc, not operator new.
-// Under AddressSanitizer, which has put its own in their place, its hook counts.
+// Under a sanitizer of addresses or threads, which has put its own in their place, its hook counts.
 
 #include "tests/support/allocation_counter.h"
 
@@ -13,14 +13,14 @@ thread_local long count = 0;
 long ursula::allocations() { return count; }
 
 #if defined(__has_feature)
-#if __has_feature(address_sanitizer)  // clang's way to say it
-#define URSULA_ADDRESS_SANITIZER
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)  // clang's way to say it
+#define URSULA_SANITIZER
 #endif
-#elif defined(__SANITIZE_ADDRESS__)
-#define URSULA_ADDRESS_SANITIZER
+#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define URSULA_SANITIZER
 #endif
 
-#if defined(URSULA_ADDRESS_SANITIZER)
+#if defined(URSULA_SANITIZER)
 
 // <sanitizer/allocator_interface.h>, which GCC does not always bring
 extern "C" int __sanitizer_install_malloc_and_free_hooks(  // NOLINT

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <exception>
 #include <memory>
+#include <new>
 
 #include "model/instants.h"
 #include "nocsolver/paper_solver.h"
@@ -106,6 +107,8 @@ AuditEffect effectOf(const Scenario& scenario, const Torques& torques, int sampl
       largest = std::max(largest, right.cwiseAbs().maxCoeff());
       if (!(error <= effect.torque_error)) effect.torque_error = error;  // keeps a NaN
     }
+  } catch (const std::bad_alloc&) {
+    throw;  // says nothing of the formula
   } catch (const std::exception& error) {
     effect.refused = error.what();
     return effect;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <new>
 #include <optional>
 #include <vector>
 
@@ -57,6 +58,9 @@ class LetGo {
     const auto [known, is_new] = reached_.try_emplace({duration, steps});
     if (is_new) try {
         known->second = endOf(duration, steps);
+      } catch (const std::bad_alloc&) {
+        reached_.erase(known);
+        throw;  // the machine flies apart for no want of memory
       } catch (const std::exception&) {
       }
     return known->second;

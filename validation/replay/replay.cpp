@@ -7,6 +7,7 @@
 #include <boost/numeric/odeint.hpp>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <optional>
 #include <stdexcept>
 
@@ -260,6 +261,8 @@ Replay replay(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torque
     run.leavePath();
   } catch (const TooLong& error) {
     run.giveUp(error.what(), true);
+  } catch (const std::bad_alloc&) {
+    throw;  // says nothing of the motion
   } catch (const std::exception& error) {
     run.giveUp(error.what(), false);  // what was reached is still reported
   }

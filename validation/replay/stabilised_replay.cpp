@@ -7,6 +7,7 @@
 #include <array>
 #include <boost/numeric/odeint.hpp>
 #include <cmath>
+#include <new>
 
 #include "model/loops/simbody/simbody_loop.h"
 #include "nocsolver/solver.h"
@@ -186,6 +187,8 @@ void follow(Stabilised& loop, const Subject& subject, const SimbodyLoop::TorqueH
     try {
       if (stiff) return stiffStep(radau, rate, deviation, at, h, {tolerance, three_digits});
       return stepper.try_step(rate, deviation, at, h) == odeint::success;
+    } catch (const std::bad_alloc&) {
+      throw;  // no shorter step needs less
     } catch (const std::exception&) {
       if (!(tried > shortest_step * end)) throw;
       h = tried / 4;
@@ -247,6 +250,8 @@ StabilisedReplay stabilisedReplay(const Scenario& scenario, const Subject& subje
   }
   try {
     follow(loop, subject, found.asked.of(torques), *scenario.trajectory, found);
+  } catch (const std::bad_alloc&) {
+    throw;                                 // says nothing of the motion
   } catch (const std::exception& error) {  // what was found before is kept
     found.stopped = error.what();
     found.gave_up = true;

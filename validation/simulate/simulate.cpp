@@ -7,6 +7,7 @@
 #include <boost/numeric/odeint.hpp>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <stdexcept>
 #include <utility>
 
@@ -221,6 +222,8 @@ Simulation integrate(System system, const Scenario& scenario, const SimbodyLoop:
       out.torques.push_back(now);
       out.motions.push_back(motion);
     }
+  } catch (const std::bad_alloc&) {
+    throw;  // says nothing of the motion
   } catch (const std::exception& error) {
     out.gave_up = error.what();  // what was reached is still reported
   }

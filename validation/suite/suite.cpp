@@ -8,12 +8,14 @@
 #include <exception>
 #include <map>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
 
 #include "model/atomic_folder.h"
+#include "model/out_of_memory.h"
 #include "model/scenario_input.h"
 #include "model/start_threads.h"
 #include "validation/report/run.h"
@@ -105,6 +107,8 @@ class SuiteRun {
     std::optional<ValidationResult> result;
     try {
       if (error.empty()) result = options_.judge(*member.scenario);
+    } catch (const std::bad_alloc&) {
+      error = out_of_memory;
     } catch (const std::exception& refusal) {
       error = refusal.what();
     }

@@ -6,8 +6,10 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <stdexcept>
 
+#include "model/out_of_memory.h"
 #include "nocsolver/errors.h"
 #include "validation/checks/commanded_motion.h"
 #include "validation/sweep/motion_extremes.h"
@@ -44,6 +46,12 @@ void refused(const char* verdict, int leg, double t, SweepPoint& point) {
   point.values.push_back({"refused_t_s", t, none, ""});
 }
 
+void failed(const char* why, SweepPoint& point) {
+  point.verdict = "error";
+  point.error = why;
+  point.values.clear();
+}
+
 void addCheck(const Check& check, SweepPoint& point) {
   if (check.verdict == Verdict::not_applicable) return;
   const auto known = [](double x) { return std::isfinite(x) ? x : none; };
@@ -61,10 +69,10 @@ SweepPoint SweepWorker::at(std::int64_t i) {
     plan_.file().work == SweepWork::inverse ? inverse(i, point) : validate(i, point);
   } catch (const PoseError& refusal) {
     refused(verdictOf(refusal), refusal.leg(), refusal.instant(), point);
+  } catch (const std::bad_alloc&) {
+    failed(out_of_memory, point);
   } catch (const std::exception& error) {
-    point.verdict = "error";
-    point.error = error.what();
-    point.values.clear();
+    failed(error.what(), point);
   }
   point.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return point;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <new>
 
 #include "model/loops/simbody/simbody_loop_internal.h"
 
@@ -21,6 +22,18 @@ BodyMotion<double> bodyMotion(const SimTK::State& state, const SimTK::MobilizedB
   out.twist_rate << toEigen(acceleration[0]),
       toEigen(SimTK::Vec3(acceleration[1] + acceleration[0] % arm + omega % (omega % arm)));
   return out;
+}
+
+/// Simbody takes whatever is thrown for a step that was too long.
+SimbodyLoop::TorqueHistory noting(bool& memory_ran_out, const SimbodyLoop::TorqueHistory& torques) {
+  return [&memory_ran_out, &torques](double t) {
+    try {
+      return torques(t);
+    } catch (const std::bad_alloc&) {
+      memory_ran_out = true;
+      throw;
+    }
+  };
 }
 
 }  // namespace
@@ -196,7 +209,8 @@ SimbodyLoop::Counters SimbodyLoop::integrateRungeKuttaMerson(double accuracy, co
                                                              const std::vector<double>& instants,
                                                              const std::function<void(double)>& observe) {
   Impl& loop = *impl_;
-  loop.applied->history = torques;
+  bool memory_ran_out = false;
+  loop.applied->history = noting(memory_ran_out, torques);
   loop.placed_jacobian.reset();
   Counters counters;
   SimTK::RungeKuttaMersonIntegrator integrator(loop.system);
@@ -218,12 +232,15 @@ SimbodyLoop::Counters SimbodyLoop::integrateRungeKuttaMerson(double accuracy, co
       while (integrator.getTime() < instant) integrator.stepTo(instant);
       show();
     }
+  } catch (const std::bad_alloc&) {
+    memory_ran_out = true;
   } catch (const std::exception&) {
     counters.gave_up = true;  // the caller still reports what came before
   }
   counters.derivative_evaluations = loop.system.getNumRealizationsOfThisStage(SimTK::Stage::Acceleration) - before;
   counters.steps = integrator.getNumStepsTaken();
   loop.applied->history = nullptr;
+  if (memory_ran_out) throw std::bad_alloc();  // which says nothing of the motion
   return counters;
 }
 

@@ -1,0 +1,136 @@
+// A wall clock that is set back, or that leaps: what is newer by its date is replaced all the same, a sweep goes on,
+// and no limit of time is upset.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+
+#include "model/sha1.h"
+#include "tests/end_to_end/quick_runs.h"
+
+namespace ursula {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr const char* shim = "LD_PRELOAD='" URSULA_WORLD_SHIM "' SHIM_CLOCK_STEP=";
+/// Each question to the wall clock is answered a day further back, or further on, than the one before.
+const std::string backwards = std::string("env ") + shim + "-86400 \"$URSULA\" ";
+const std::string leaping = std::string("env ") + shim + "86400 \"$URSULA\" ";
+
+/// As if written while the clock was a day ahead.
+void makeOfTomorrow(const fs::path& path) {
+  const auto tomorrow = fs::file_time_type::clock::now() + std::chrono::hours(24);
+  if (fs::is_directory(path))
+    for (const auto& entry : fs::recursive_directory_iterator(path)) fs::last_write_time(entry.path(), tomorrow);
+  fs::last_write_time(path, tomorrow);
+}
+
+/// What a run that was killed leaves beside the folder `name`.
+fs::path leftoverOf(const Program& ursula, const std::string& name) {
+  const std::string folder = ".ursula-new-" + sha1(name).substr(0, 12) + "-4711-0";
+  fs::create_directory(ursula.folder() / folder);
+  ursula.write(folder + "/summary.json", "{");
+  makeOfTomorrow(ursula.folder() / folder);
+  return ursula.folder() / folder;
+}
+
+TEST(ClockSetBack, resultsOfTomorrowAreReplacedAsAWhole) {
+  const Program ursula;
+  ursula.write("a.toml", quickScenario("one"));
+  ursula.write("b.toml", quickScenario("one", "499.0"));
+  ASSERT_EQ(ursula("validate b.toml --quiet --out fresh").exit_code, 0);
+  ASSERT_EQ(ursula("validate a.toml --quiet --out old").exit_code, 0);
+  fs::copy(ursula.folder() / "old", ursula.folder() / "out", fs::copy_options::recursive);
+  makeOfTomorrow(ursula.folder() / "out");
+  const fs::path left = leftoverOf(ursula, "out"), of_another = leftoverOf(ursula, "another");
+  const std::string start = utcNow();
+  ASSERT_EQ(shell(ursula, backwards + "validate b.toml --quiet --out out >said"), 0);
+  ASSERT_EQ(shell(ursula, leaping + "validate b.toml --time-limit 1e-9 --quiet --out later >said"), 3);
+  EXPECT_LT(startSaidBy(ursula.folder() / "out/junit.xml"), start) << "or no clock was set back";
+  EXPECT_LT(start, startSaidBy(ursula.folder() / "later/junit.xml")) << "the control: a clock that leaps";
+  EXPECT_NE(startSaidBy(ursula.folder() / "out/junit.xml"), "");
+  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "out/junit.xml"), testing::Not(HasSubstr("time=\"-")));
+  EXPECT_TRUE(contents(ursula.folder() / "out") == contents(ursula.folder() / "fresh"));
+  EXPECT_FALSE(contents(ursula.folder() / "out") == contents(ursula.folder() / "old")) << "or nothing would be seen";
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_TRUE(fs::exists(of_another)) << "the control: it belongs to another folder";
+  EXPECT_EQ(shell(ursula, backwards + "compare out fresh >said"), 0);
+  EXPECT_EQ(shell(ursula, backwards + "compare out old >said"), 1);
+  EXPECT_EQ(shell(ursula, "export BROWSER=true; " + backwards + "open out >said"), 0);
+}
+
+TEST(ClockSetBack, aFileOfTomorrowIsReplaced) {
+  const Program ursula;
+  ursula.write("a.toml", quickScenario("one"));
+  ASSERT_EQ(ursula("inverse a.toml --samples 20 --out fresh.csv").exit_code, 0);
+  makeOfTomorrow(ursula.write("out.csv", "old\n"));
+  ASSERT_EQ(shell(ursula, backwards + "inverse a.toml --samples 20 --out out.csv"), 0);
+  EXPECT_GT(TemporaryFolder::read(ursula.folder() / "out.csv").size(), 1000U);
+  EXPECT_TRUE(TemporaryFolder::read(ursula.folder() / "out.csv") ==
+              TemporaryFolder::read(ursula.folder() / "fresh.csv"));
+}
+
+constexpr const char* small_sweep = R"(scenario = "a.toml"
+what = "inverse"
+design = "random"
+count = 40
+samples = 5
+[[vary]]
+key = "manipulator.platform.mass"
+uniform = [400.0, 600.0]
+)";
+
+TEST(ClockSetBack, aSweepGoesOnWhereItStopped) {
+  const Program ursula;
+  ursula.write("a.toml", quickScenario("one"));
+  ursula.write("s.toml", small_sweep);
+  const auto rows = [&ursula](const std::string& database) {
+    return ursula("sweep report " + database + " --csv -").out;
+  };
+  ASSERT_EQ(ursula("sweep s.toml --db fresh.db").exit_code, 0);
+  ASSERT_EQ(ursula("sweep s.toml --shard 1/2 --db half.db").exit_code, 0);
+  ASSERT_EQ(ursula("sweep merge half.db --db s.db").exit_code, 3) << "half of it is missing";
+  EXPECT_NE(rows("s.db"), rows("fresh.db")) << "the control";
+  makeOfTomorrow(ursula.folder() / "s.db");
+  EXPECT_EQ(shell(ursula, backwards + "sweep s.toml --db s.db >said 2>err"), 0);
+  const std::string all = rows("fresh.db");
+  EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 41);
+  EXPECT_EQ(rows("s.db"), all);
+  EXPECT_EQ(shell(ursula, backwards + "sweep s.toml --db s.db >said 2>err"), 0);
+  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "err"), HasSubstr("nothing to do"));
+}
+
+/// One that were held against the wall clock would come at once where it leaps, and never where it goes back.
+TEST(ClockSetBack, limitsOfTimeAreUpsetByNoClock) {
+  const Program ursula;
+  ursula.write("a.toml", quickScenario("one"));
+  ASSERT_EQ(ursula("validate a.toml --quiet --out fresh").exit_code, 0);
+  const std::string summary = TemporaryFolder::read(ursula.folder() / "fresh/summary.json");
+  ASSERT_EQ(nlohmann::json::parse(summary).at("verdict"), "pass");
+  for (const std::string& clock : {backwards, leaping}) {
+    EXPECT_EQ(shell(ursula, clock + "validate a.toml --time-limit 36000 --quiet --out out"), 0) << clock;
+    EXPECT_TRUE(TemporaryFolder::read(ursula.folder() / "out/summary.json") == summary) << clock;
+    EXPECT_EQ(shell(ursula, clock + "validate a.toml --time-limit 1e-9 --quiet --out out >said"), 3) << clock;
+    EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "out/summary.json"), HasSubstr("the time limit of 1e-09 s"));
+  }
+}
+
+TEST(ClockSetBack, aSolverIsWaitedForByNoWallClock) {
+  const Program ursula;
+  ursula.write("a.toml", quickScenario("one"));
+  const std::string call = "validate a.toml --quiet --out out --solver '" URSULA_EXAMPLE_SOLVER "' --solver-timeout ";
+  EXPECT_EQ(shell(ursula, leaping + call + "36000 2>err"), 0) << TemporaryFolder::read(ursula.folder() / "err");
+  ursula.write("silent.sh", "read -r line; sleep 60\n");
+  EXPECT_EQ(shell(ursula, backwards + "validate a.toml --out out --solver 'sh silent.sh' --solver-timeout 0.1 2>err"),
+            2);
+  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "err"), HasSubstr("gave no answer within 0.1 s"));
+}
+
+}  // namespace
+}  // namespace ursula

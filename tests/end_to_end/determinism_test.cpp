@@ -1,0 +1,186 @@
+// The same input gives the same bytes: again, for any number of --jobs, in another folder, time zone and locale.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "tests/end_to_end/quick_runs.h"
+
+namespace ursula {
+namespace {
+
+namespace fs = std::filesystem;
+using Files = std::map<std::string, std::string>;
+using testing::HasSubstr;
+
+constexpr const char* random_sweep = R"(scenario = "one.toml"
+what = "inverse"
+design = "random"
+count = 60
+seed = 1
+samples = 5
+[[vary]]
+key = "manipulator.platform.mass"
+uniform = [400.0, 600.0]
+)";
+
+/// Every verb that writes results, into the folder `out`; $1 is the number of --jobs.
+constexpr const char* all_verbs = R"(set -e
+rm -rf out && mkdir out
+"$URSULA" validate one.toml --jobs $1 --out out/one >out/said.one
+"$URSULA" validate one.toml two.toml --jobs $1 --out out/suite >out/said.suite
+"$URSULA" inverse one.toml --samples 2001 --jobs $1 --out out/inverse.csv
+"$URSULA" inverse one.toml --samples 2001 --jobs $1 --format binary --out out/inverse.bin
+"$URSULA" map one.toml --x=-0.1,0.1,40 --y=-0.1,0.1,40 --jobs $1 --out out/map.csv --picture out/map.svg
+"$URSULA" poses one.toml --samples 200 --out out/poses.csv
+"$URSULA" simulate one.toml --torques torques.csv --out out/simulate.csv
+for sweep in random pointwise; do
+  rm -f $sweep.db && "$URSULA" sweep $sweep.toml --jobs $1 --db $sweep.db >out/said.$sweep
+  "$URSULA" sweep report $sweep.db --csv out/$sweep.csv --out out/$sweep
+done
+)";
+
+/// What a run of the program took, and when it began: the only fields that may differ.
+constexpr int times_in_all =
+    11;  // a junit.xml of one, of two, and of each of these; suite.json and index.html: all, each
+
+std::string withoutTimes(const std::string& text, int& times) {
+  static const std::regex time(
+      " time=\"[0-9]+\\.[0-9]{3}\" timestamp=\"[-0-9]{10}T[:0-9]{8}\"|"
+      "\"seconds\": [0-9.e-]+|[0-9.]+ s of computing in all|"
+      "data-value=\"[0-9]+\\.[0-9]{3}\">[0-9]+\\.[0-9]<");
+  times +=
+      static_cast<int>(std::distance(std::sregex_iterator(text.begin(), text.end(), time), std::sregex_iterator()));
+  return std::regex_replace(text, time, "(time)");
+}
+
+/// The files of `out`; times only where the format has some.
+Files filesOf(const fs::path& out) {
+  Files all;
+  int times = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(out)) {
+    if (entry.is_directory()) continue;
+    const std::string file = entry.path().filename(), content = TemporaryFolder::read(entry.path());
+    const bool has_times = file == "junit.xml" || file == "suite.json" || file == "index.html";
+    all[entry.path().lexically_relative(out)] = has_times ? withoutTimes(content, times) : content;
+  }
+  EXPECT_EQ(times, times_in_all);
+  return all;
+}
+
+void write(const fs::path& folder, const std::string& scenario, const std::string& second) {
+  const auto put = [&folder](const char* name, const std::string& text) { std::ofstream(folder / name) << text; };
+  fs::create_directories(folder);
+  put("one.toml", scenario);
+  put("two.toml", second);
+  put("random.toml", random_sweep);
+  const std::string pointwise = replaced(replaced(random_sweep, "inverse", "validate"), "random", "sobol");
+  put("pointwise.toml", "pointwise = true\n" + replaced(pointwise, "count = 60", "count = 8"));
+  put("all.sh", all_verbs);
+}
+
+/// A folder with the inputs of all verbs, in which they are called.
+class Inputs {
+ public:
+  explicit Inputs(const Program& program, const std::string& folder = "here",
+                  const std::string& of_legs = "length = 1.3")
+      : ursula(program), folder_(folder) {
+    write(path(), replaced(quickScenario("one"), "length = 1.3", of_legs),
+          replaced(quickScenario("two", "499.0"), "length = 1.3", of_legs));
+    EXPECT_EQ(in("\"$URSULA\" inverse one.toml --samples 20 --out torques.csv"), 0);
+  }
+
+  fs::path path() const { return ursula.folder() / folder_; }
+  int in(const std::string& line) const { return shell(ursula, "export URSULA && cd '" + folder_ + "' && " + line); }
+
+  Files results(int jobs, const std::string& environment = "TZ=UTC LC_ALL=C") const {
+    EXPECT_EQ(in("env " + environment + " sh all.sh " + std::to_string(jobs) + " >log 2>&1"), 0)
+        << TemporaryFolder::read(path() / "log");
+    return filesOf(path() / "out");
+  }
+
+  const Program& ursula;
+
+ private:
+  std::string folder_;
+};
+
+std::vector<std::string> differing(const Files& a, const Files& b) {
+  std::vector<std::string> names;
+  for (const auto& [name, content] : a)
+    if (b.count(name) == 0 || b.at(name) != content) names.push_back(name);
+  for (const auto& [name, content] : b)
+    if (a.count(name) == 0) names.push_back(name);
+  return names;
+}
+
+TEST(Determinism, ofAnyNumberOfJobs) {
+  const Program ursula;
+  const Inputs inputs(ursula);
+  const Files of_one = inputs.results(1);
+  for (const char* file :
+       {"one/summary.json", "one/timeseries.csv", "one/report.html", "one/junit.xml", "suite/suite.json",
+        "suite/index.html", "suite/junit.xml", "suite/two/report.html", "random/report.html"})
+    EXPECT_EQ(of_one.count(file), 1U) << file;
+  EXPECT_EQ(differing(of_one, inputs.results(2)), std::vector<std::string>{});
+  EXPECT_EQ(differing(of_one, inputs.results(7)), std::vector<std::string>{});
+}
+
+/// Legs that are a hundredth longer, and another seed: were these not seen, nothing would be.
+TEST(Determinism, isNotThatNothingIsSeen) {
+  const Program ursula;
+  const Inputs inputs(ursula), longer(ursula, "longer", "length = 1.313");
+  const Files first = inputs.results(2);
+  const std::vector<std::string> changed = differing(first, longer.results(2));
+  for (const auto& [name, content] : first) {
+    if (name.find("said.") == 0) continue;
+    EXPECT_THAT(changed, testing::Contains(name));
+  }
+  std::ofstream(inputs.path() / "random.toml") << replaced(random_sweep, "seed = 1", "seed = 2");
+  ASSERT_EQ(inputs.in("\"$URSULA\" sweep random.toml --db 2.db >log 2>&1 && \"$URSULA\" sweep report 2.db --csv 2.csv"),
+            0);
+  EXPECT_NE(TemporaryFolder::read(inputs.path() / "2.csv"), first.at("random.csv"));
+}
+
+/// As on Kiritimati, whether or not time zones are installed: 14 hours before UTC's noon is noon there.
+constexpr const char* kiritimati = "TZ='<+14>-14'";
+
+TEST(Determinism, ofAnyFolderAndTimeZone) {
+  const Program ursula;
+  const Inputs inputs(ursula), others(ursula, "some where/else, with a longer name");
+  const Files first = inputs.results(2);
+  EXPECT_EQ(differing(first, others.results(2)), std::vector<std::string>{});
+  for (const auto& [name, content] : first)
+    EXPECT_EQ(content.find(ursula.folder().string()), std::string::npos) << name << " tells where it was made";
+  const std::string before = utcNow();
+  EXPECT_EQ(differing(first, inputs.results(2, kiritimati)), std::vector<std::string>{});
+  const std::string after = utcNow();
+  const std::string started = startSaidBy(inputs.path() / "out/one/junit.xml");
+  EXPECT_LE(before, started);
+  EXPECT_LE(started, after) << "of UTC, too";
+  ASSERT_EQ(inputs.in(std::string("env ") + kiritimati + " date +%z >zone"), 0);
+  EXPECT_EQ(TemporaryFolder::read(inputs.path() / "zone"), "+1400\n") << "or nothing was tried";
+}
+
+constexpr const char* commas = "LC_NUMERIC\ndecimal_point \",\"\nthousands_sep \".\"\ngrouping 3;3\nEND LC_NUMERIC\n";
+
+TEST(Determinism, ofALocaleWithDecimalCommas) {
+  const Program ursula;
+  const Inputs inputs(ursula);
+  ursula.write("commas", commas);
+  const std::string shim = "LD_PRELOAD='" URSULA_WORLD_SHIM "' SHIM_DECIMAL_POINT=, ";
+  const std::string there = shim + "LOCPATH=\"$PWD/..\" LC_ALL=xx_XX";
+  inputs.in("cd .. && localedef -c -i commas -f ANSI_X3.4-1968 --no-archive ./xx_XX >localedef.log 2>&1");
+  if (inputs.in("env " + there + " true") != 0)
+    GTEST_SKIP() << "localedef makes no locale: " << TemporaryFolder::read(ursula.folder() / "localedef.log");
+  EXPECT_EQ(inputs.in("env " + there + " printf %.1f 1.5 >number"), 0);
+  EXPECT_EQ(TemporaryFolder::read(inputs.path() / "number"), "1,5") << "or nothing is tried";
+  EXPECT_EQ(inputs.in("env " + shim + " LC_ALL=C true"), 99) << "or the shim takes no locale";
+  const Files plain = inputs.results(2);
+  EXPECT_EQ(differing(plain, inputs.results(2, there)), std::vector<std::string>{});
+  EXPECT_THAT(plain.at("inverse.csv"), HasSubstr("."));
+}
+
+}  // namespace
+}  // namespace ursula

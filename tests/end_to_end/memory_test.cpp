@@ -1,0 +1,172 @@
+// Less and less memory: a run passes with the results that it has anywhere, or is refused and leaves the old ones.
+//
+// The limits are of the address space, which is all that a shell can limit. Program and libraries alone take some 100
+// MB of it; below about 120 MB the C library itself gives up where it starts a thread, before the program could say a
+// word.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/end_to_end/quick_runs.h"
+
+namespace ursula {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AnyOf;
+using testing::HasSubstr;
+
+constexpr int passed = 0, in_error_of_suite = 1, refused = 2, in_error_of_sweep = 3;
+constexpr int limits[] = {700, 250, 150};  // MB
+
+/// In a program that a signal ends, a shell's exit code is 128 and more.
+int limited(const Program& ursula, int megabytes, const std::string& arguments) {
+  return shell(ursula,
+               "ulimit -v " + std::to_string(1000 * megabytes) + " && \"$URSULA\" " + arguments + " >said 2>err");
+}
+
+std::string complaint(const Program& ursula) { return TemporaryFolder::read(ursula.folder() / "err"); }
+
+const auto saysMemory = AnyOf(HasSubstr("out of memory"), HasSubstr("llocate memory"), HasSubstr("no memory"));
+
+/// A call that writes below "at", and what it finds there.
+class Call {
+ public:
+  Call(const Program& program, std::string arguments) : ursula(program), arguments_(std::move(arguments)) {
+    fs::remove_all(at());
+    fs::remove_all(ursula.folder() / "old");
+    fs::create_directory(ursula.folder() / "old");
+    ursula.write("old/note", "mine");
+  }
+
+  const fs::path at() const { return ursula.folder() / "at"; }
+
+  /// So much memory; without `megabytes`, as much as there is.
+  int run(int megabytes = 0) const {
+    fs::remove_all(at());
+    fs::copy(ursula.folder() / "old", at(), fs::copy_options::recursive);
+    return megabytes > 0 ? limited(ursula, megabytes, arguments_)
+                         : shell(ursula, "\"$URSULA\" " + arguments_ + " >said 2>err");
+  }
+
+  std::map<std::string, std::string> results() const { return contents(at()); }
+  std::map<std::string, std::string> old() const { return contents(ursula.folder() / "old"); }
+
+  const Program& ursula;
+
+ private:
+  std::string arguments_;
+};
+
+/// How many of the runs were refused.
+int holdsUnderEveryLimit(const Call& call) {
+  EXPECT_EQ(call.run(), passed) << complaint(call.ursula);
+  const auto fresh = call.results(), old = call.old();
+  EXPECT_NE(fresh, old) << "or nothing would be seen";
+  int times_refused = 0;
+  for (const int limit : limits) {
+    const int exit_code = call.run(limit);
+    const std::string where = std::to_string(limit) + " MB: exit " + std::to_string(exit_code);
+    EXPECT_TRUE(exit_code == passed || exit_code == refused) << where << ", " << complaint(call.ursula);
+    EXPECT_TRUE(call.results() == (exit_code == passed ? fresh : old)) << where;
+    if (exit_code == passed) continue;
+    EXPECT_THAT(complaint(call.ursula), saysMemory) << where;
+    ++times_refused;
+  }
+  testing::Test::RecordProperty("refused", times_refused);
+  return times_refused;
+}
+
+TEST(LittleMemory, aRunPassesOrLeavesTheOldResults) {
+  const Program ursula;
+  ursula.write("a.toml", quickScenario("one"));
+  ursula.write("b.toml", quickScenario("one", "499.0"));
+  const Call call(ursula, "validate a.toml --jobs 2 --out at/out");
+  ASSERT_EQ(ursula("validate b.toml --quiet --out old/out").exit_code, passed);
+  holdsUnderEveryLimit(call);
+}
+
+TEST(LittleMemory, aFileIsWholeOrTheOldOne) {
+  const Program ursula;
+  ursula.write("a.toml", quickScenario("one"));
+  for (const char* arguments :
+       {"inverse a.toml --samples 20001 --jobs 7 --out at/out.csv",
+        "map a.toml --x=-0.1,0.1,60 --y=-0.1,0.1,60 --jobs 7 --out at/out.csv", "check a.toml --picture at/out.csv"}) {
+    const Call call(ursula, arguments);
+    ursula.write("old/out.csv", "old\n");
+    holdsUnderEveryLimit(call);
+  }
+}
+
+/// Two tables of which each takes more than the smallest limit.
+TEST(LittleMemory, whatNeedsMoreThanThereIsIsRefused) {
+  const Program ursula;
+  ursula.write("a.toml", quickScenario("one"));
+  ASSERT_EQ(ursula("inverse a.toml --samples 40001 --out big.csv").exit_code, passed);
+  const Call call(ursula, "compare big.csv big.csv --out at/out.csv");
+  ursula.write("old/out.csv", "old\n");
+  const int times_refused = holdsUnderEveryLimit(call);
+  EXPECT_GT(times_refused, 0) << "or no limit was felt";
+  EXPECT_LT(times_refused, static_cast<int>(std::size(limits))) << "or nothing but the limit was";
+}
+
+/// One of a suite may be in error, which says why; the other is judged as anywhere.
+TEST(LittleMemory, oneOfASuiteIsInErrorOrWhatItIsAnywhere) {
+  const Program ursula;
+  for (const char* name : {"one", "two"}) ursula.write(std::string(name) + ".toml", quickScenario(name));
+  const Call call(ursula, "validate one.toml two.toml --jobs 2 --out at/out");
+  ASSERT_EQ(call.run(), passed) << complaint(ursula);
+  const auto fresh = call.results();
+  for (const int limit : {250, 150}) {
+    const int exit_code = call.run(limit);
+    ASSERT_TRUE(exit_code == passed || exit_code == in_error_of_suite || exit_code == refused)
+        << limit << " MB: exit " << exit_code << ", " << complaint(ursula);
+    const auto found = call.results();
+    for (const auto& [file, content] : found) EXPECT_TRUE(fresh.count(file) == 1 && fresh.at(file) == content) << file;
+    if (exit_code == in_error_of_suite) {
+      EXPECT_THAT(complaint(ursula) + TemporaryFolder::read(ursula.folder() / "said"), saysMemory) << limit;
+    } else {
+      EXPECT_TRUE(found == (exit_code == passed ? fresh : call.old())) << limit;
+    }
+  }
+}
+
+constexpr const char* small_sweep = R"(scenario = "a.toml"
+pointwise = true
+design = "random"
+count = 12
+[[vary]]
+key = "manipulator.platform.mass"
+uniform = [400.0, 600.0]
+)";
+
+/// What a sweep could not make for want of memory, it makes when there is some.
+TEST(LittleMemory, losesNoRowOfASweep) {
+  const Program ursula;
+  ursula.write("a.toml", quickScenario("one"));
+  ursula.write("s.toml", small_sweep);
+  const auto rows = [&ursula](const std::string& database) {
+    return ursula("sweep report " + database + " --csv -").out;
+  };
+  ASSERT_EQ(ursula("sweep s.toml --db fresh.db").exit_code, passed);
+  const std::string fresh = rows("fresh.db");
+  ASSERT_EQ(std::count(fresh.begin(), fresh.end(), '\n'), 13);
+  for (const int limit : limits) {
+    fs::remove(ursula.folder() / "s.db");
+    const int exit_code = limited(ursula, limit, "sweep s.toml --db s.db --jobs 2");
+    ASSERT_TRUE(exit_code == passed || exit_code == refused || exit_code == in_error_of_sweep)
+        << limit << " MB: exit " << exit_code << ", " << complaint(ursula);
+    if (exit_code == passed) {
+      EXPECT_EQ(rows("s.db"), fresh) << limit;
+      continue;
+    }
+    EXPECT_THAT(complaint(ursula) + rows("s.db"), saysMemory) << limit;
+    EXPECT_EQ(ursula("sweep s.toml --db s.db --retry-errors").exit_code, passed);
+    EXPECT_EQ(rows("s.db"), fresh) << limit;
+  }
+}
+
+}  // namespace
+}  // namespace ursula
