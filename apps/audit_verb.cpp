@@ -11,6 +11,7 @@
 #include "apps/verbs.h"
 #include "model/atomic_folder.h"
 #include "model/scenario_input.h"
+#include "model/writable.h"
 #include "validation/audit/audit.h"
 
 namespace ursula {
@@ -24,6 +25,8 @@ int audit(const AuditOptions& options) {
   if (options.json == "-" && options.markdown == "-")
     throw UsageError("--json and --markdown both go to standard output");
   refuseFile(options.out);
+  for (const std::string& file : {options.json, options.markdown})
+    if (!file.empty() && file != "-") requireWritable(file);  // what follows takes a while
   const Scenario scenario = options.scenario.empty() ? paperHelix() : readScenarioOrInput(options.scenario);
   requireApart(scenario, {options.json, options.markdown});
   const Audit result = alongMotion(scenario, [&] {

@@ -23,6 +23,8 @@ struct Options {
 bool isTable(const std::string& out) { return out == "-" || std::filesystem::path(out).extension() == ".csv"; }
 
 Comparison compareAndWrite(const Options& options) {
+  if (options.out == "-" && options.junit == "-")
+    throw UsageError("--out - and --junit -: expected standard output for one of them");
   const TimeSeries reference = readHistory(options.reference), test = readHistory(options.test);
   if (options.out.empty() || isTable(options.out)) return compare(reference, test, options.tolerances);
   refuseFile(options.out);

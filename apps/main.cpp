@@ -58,6 +58,7 @@ int runProgram(int argc, char** argv) {
                          ursula::addDirect, ursula::addMap, ursula::addProve, ursula::addSimulate, ursula::addSweep,
                          ursula::addAudit, ursula::addPoses, ursula::addExplain, ursula::addOpen, ursula::addDocs})
     add(app, run);
+  ursula::refuseFlagValues(app);
   if (argc < 2) return complain(app.help());
   if (const std::string unknown = ursula::unknownVerb(app, argc, argv); !unknown.empty()) return complain(unknown);
   try {
@@ -66,6 +67,7 @@ int runProgram(int argc, char** argv) {
     return error.get_exit_code() == 0 ? app.exit(error) : complain(ursula::misuse(app, error));
   }
   if (const std::string empty = ursula::emptyValue(app); !empty.empty()) return complain(empty);
+  if (const std::string odd = ursula::oddNumber(app); !odd.empty()) return complain(odd);
   if (const std::string twice = ursula::namedTwice(app); !twice.empty()) return complain("error: " + twice);
   return runVerb(run);
 }

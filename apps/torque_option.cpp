@@ -22,9 +22,9 @@ void addMapOption(CLI::App& verb, std::vector<std::string>& map) {
 
 TorqueFile readTorquesAloud(const std::string& file, const std::vector<std::string>& map, const Motors& motors) {
   const TorqueFile torques = readTorqueFile(file, parseColumnMap(map, motors), motors);
-  if (!torques.read_as.empty()) say("{}: read as: {}\n", shown(file, 4096), torques.read_as);
+  if (!torques.read_as.empty()) say("{}: read as: {}\n", shownPath(file), torques.read_as);
   if (!torques.ignored.empty())
-    say("{}: ignoring columns that are none of t_s, {} … {}: {}\n", shown(file, 4096), effortColumn(motors, 0),
+    say("{}: ignoring columns that are none of t_s, {} … {}: {}\n", shownPath(file), effortColumn(motors, 0),
         effortColumn(motors, motor_count - 1), shown(fmt::format("{}", fmt::join(torques.ignored, ", ")), 400));
   return torques;
 }

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "model/leading_number.h"
 #include "model/nearest.h"
 
 namespace ursula {
@@ -39,6 +40,20 @@ const CLI::App* calledOf(const CLI::App& app) {
   return nullptr;
 }
 
+/// What `wrong` says of the values that were given, of the first of which it says anything, as a line; else "".
+template <class Wrong>
+std::string firstOf(const CLI::App& app, const Wrong& wrong) {
+  for (const CLI::App* verb : app.get_subcommands())
+    for (const CLI::App* at = verb; at != nullptr;
+         at = at->get_subcommands().empty() ? nullptr : at->get_subcommands().front())
+      for (const CLI::Option* option : at->get_options())
+        for (const std::string& value : option->results())
+          if (const std::string what = wrong(*option, value); !what.empty())
+            return fmt::format("ursula {}: {} {} (ursula {} --help says how it is called)", verb->get_name(),
+                               option->get_name(), what, verb->get_name());
+  return "";
+}
+
 }  // namespace
 
 std::string unknownVerb(const CLI::App& app, int argc, char** argv) {
@@ -47,6 +62,12 @@ std::string unknownVerb(const CLI::App& app, int argc, char** argv) {
   for (const CLI::App* verb : app.get_subcommands({}))
     if (verb->get_name() == word) return "";
   return fmt::format("ursula: no verb \"{}\"{} (ursula --help lists all)", word, suggestion(word, verbNames(app)));
+}
+
+void refuseFlagValues(CLI::App& app) {
+  for (CLI::Option* option : app.get_options())
+    if (option->get_expected_max() == 0) option->disable_flag_override();
+  for (CLI::App* verb : app.get_subcommands({})) refuseFlagValues(*verb);
 }
 
 std::string misuse(const CLI::App& app, const CLI::ParseError& error) {
@@ -67,19 +88,26 @@ std::string misuse(const CLI::App& app, const CLI::ParseError& error) {
   if (!surplus.empty())
     return fmt::format("{}: \"{}\" is one argument too many ({} --help says how it is called)", who, surplus.front(),
                        who);
-  return fmt::format("{}: {} ({} --help says how it is called)", who, error.what(), who);
+  const char* expected = error.get_name() == "ConversionError" ? ", expected a number" : "";
+  return fmt::format("{}: {}{} ({} --help says how it is called)", who, error.what(), expected, who);
 }
 
 std::string emptyValue(const CLI::App& app) {
-  for (const CLI::App* verb : app.get_subcommands())
-    for (const CLI::App* at = verb; at != nullptr;
-         at = at->get_subcommands().empty() ? nullptr : at->get_subcommands().front())
-      for (const CLI::Option* option : at->get_options())
-        for (const std::string& value : option->results())
-          if (value.empty() && option->get_expected_min() > 0)
-            return fmt::format("ursula {}: {} is empty, expected a value (ursula {} --help says how it is called)",
-                               verb->get_name(), option->get_name(), verb->get_name());
-  return "";
+  return firstOf(app, [](const CLI::Option& option, const std::string& value) {
+    return value.empty() && option.get_expected_min() > 0 ? "is empty, expected a value" : "";
+  });
+}
+
+std::string oddNumber(const CLI::App& app) {
+  return firstOf(app, [](const CLI::Option& option, const std::string& value) -> std::string {
+    const std::string type = option.get_type_name();  // with its bounds after a colon
+    const bool is_whole = type.rfind("INT", 0) == 0 || type.rfind("UINT", 0) == 0;
+    if (!is_whole && type.rfind("FLOAT", 0) != 0) return "";
+    const std::string digits = value.substr(value.find_first_not_of("+-"));
+    const bool is_plain =
+        leadingNumber(value).length == value.size() && (!is_whole || digits.size() == 1 || digits.front() != '0');
+    return is_plain ? "" : fmt::format("{}: is no {}", value, is_whole ? "whole number as people write it" : "number");
+  });
 }
 
 }  // namespace ursula

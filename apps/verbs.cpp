@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 
 #include "apps/output.h"
+#include "model/leading_number.h"
 #include "validation/report/run.h"
 
 namespace ursula {
@@ -17,12 +16,9 @@ namespace {
 
 CLI::Validator finite(const char* what, bool (*fits)(double)) {
   const auto check = [what, fits](const std::string& text) {
-    char* end = nullptr;
-    errno = 0;
-    const double value = std::strtod(text.c_str(), &end);
-    const bool is_number =
-        !text.empty() && *end == '\0' && std::isfinite(value) && (value != 0 || errno == 0);  // 1e-400 is no 0
-    return is_number && fits(value) ? std::string() : "'" + text + "' is no " + what;
+    const LeadingNumber read = leadingNumber(text);
+    const bool is_number = !text.empty() && read.length == text.size() && std::isfinite(read.value);
+    return is_number && fits(read.value) ? std::string() : "'" + text + "' is no " + what;
   };
   return CLI::Validator(check, "POSITIVE");
 }

@@ -19,7 +19,7 @@ namespace {
 constexpr TextBounds bounds{most_csv_bytes, "a CSV file"};
 
 [[noreturn]] void fail(const std::filesystem::path& file, int line, const std::string& what) {
-  throw CsvError(fmt::format("{}:{}: error: {}", file.string(), line, what));
+  throw CsvError(fmt::format("{}:{}: error: {}", shownPath(file.string()), line, what));
 }
 
 void requireShort(std::string_view cell, const std::filesystem::path& file, int line) {
@@ -121,7 +121,9 @@ const std::vector<double>& CsvTable::at(const std::string& name) const {
   fail(file, 1, "missing column '" + name + "', expected it in the header" + didYouMean(name, candidates));
 }
 
-std::string CsvTable::place(std::size_t row) const { return fmt::format("{}:{}", file.string(), lines.at(row)); }
+std::string CsvTable::place(std::size_t row) const {
+  return fmt::format("{}:{}", shownPath(file.string()), lines.at(row));
+}
 
 CsvTable parseCsv(const std::string& text, const std::filesystem::path& file, const CsvOptions& options) {
   CsvTable table;
@@ -148,7 +150,7 @@ std::string readCsvText(const std::filesystem::path& file) {
   try {
     return readText(file, bounds);
   } catch (const TextRefusal& refusal) {
-    throw CsvError(fmt::format("{}:{}: error: {}", shown(file.string(), 4096), refusal.line, refusal.what()));
+    throw CsvError(fmt::format("{}:{}: error: {}", shownPath(file.string()), refusal.line, refusal.what()));
   }
 }
 

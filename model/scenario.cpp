@@ -58,6 +58,8 @@ void readAcceptance(const TomlSection& table, const std::string& prefix, Scenari
       scenario.tolerance = readTolerance(table);
       continue;
     }
+    if (node.is_table() && node.as_table()->empty())
+      table.fail(name, "an empty table, expected a limit, or for torque relative or absolute");
     if (node.is_table()) {
       readAcceptance(*table.section(name), prefix + name + ".", scenario);
       continue;

@@ -1,5 +1,6 @@
 #include "model/scenario_orientation.h"
 #include "model/scenario_sections.h"
+#include "model/shown_text.h"
 #include "model/trajectories.h"
 
 namespace ursula {
@@ -78,7 +79,7 @@ CsvTable readCsvBeside(const TomlSection& table, const std::string& key) {
   const std::filesystem::path file = std::filesystem::path(table.file()).parent_path() / name;
   std::error_code error;
   if (!std::filesystem::exists(file, error) || std::filesystem::is_directory(file, error))
-    table.fail(key, "'" + file.string() + "', expected a CSV file");
+    table.fail(key, "'" + shownPath(file.string()) + "', expected a CSV file");
   return readCsv(file);
 }
 

@@ -28,10 +28,14 @@ std::size_t characterOf(std::string_view text) {
   return overlong || beyond ? 0 : size;
 }
 
-/// C0, C1 and DEL.
+/// C0, C1 and DEL; U+200E, U+200F, U+2028 to U+202E and U+2066 to U+2069, which break a line or turn what follows
+/// round.
 bool isControl(std::string_view character) {
-  const auto first = static_cast<unsigned char>(character[0]);
-  return first < 0x20 || first == 0x7F || (first == 0xC2 && static_cast<unsigned char>(character[1]) < 0xA0);
+  const auto byte = [character](std::size_t k) { return static_cast<unsigned char>(character[k]); };
+  if (byte(0) < 0x20 || byte(0) == 0x7F || (byte(0) == 0xC2 && byte(1) < 0xA0)) return true;
+  if (byte(0) != 0xE2) return false;
+  return (byte(1) == 0x80 && (byte(2) == 0x8E || byte(2) == 0x8F || (byte(2) >= 0xA8 && byte(2) <= 0xAE))) ||
+         (byte(1) == 0x81 && byte(2) >= 0xA6 && byte(2) <= 0xA9);
 }
 
 std::string escaped(std::string_view text, std::string_view kept) {
@@ -58,5 +62,7 @@ std::string shown(std::string_view text, std::size_t most) {
   while (most > 0 && continues(static_cast<unsigned char>(text[most]))) --most;
   return escaped(text.substr(0, most), "") + " …";
 }
+
+std::string shownPath(std::string_view path) { return escaped(path, ""); }
 
 }  // namespace ursula

@@ -13,4 +13,7 @@ std::string withoutControls(std::string_view text);
 /// The same for one cell or name: newlines escaped, too, and cut behind `most` bytes, which "…" says.
 std::string shown(std::string_view text, std::size_t most = 80);
 
+/// A whole path, as long as any can be: a newline in it makes no line of its own.
+std::string shownPath(std::string_view path);
+
 }  // namespace ursula

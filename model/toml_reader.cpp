@@ -49,7 +49,7 @@ std::string quotedList(const std::vector<std::string>& words) {
 
 std::string placeAt(const std::string& file, const toml::source_position& position) {
   // A default position is line 0; people and editors count from 1.
-  return fmt::format("{}:{}:{}", file, std::max(position.line, 1U), std::max(position.column, 1U));
+  return fmt::format("{}:{}:{}", shownPath(file), std::max(position.line, 1U), std::max(position.column, 1U));
 }
 
 ScenarioError errorAt(const std::string& file, const toml::source_position& position, const std::string& message) {
@@ -57,7 +57,8 @@ ScenarioError errorAt(const std::string& file, const toml::source_position& posi
 }
 
 ScenarioError errorAt(const std::string& file, const TextRefusal& refusal) {
-  return ScenarioError(fmt::format("{}:{}:{}: error: {}", file, refusal.line, refusal.column, refusal.what()));
+  return ScenarioError(
+      fmt::format("{}:{}:{}: error: {}", shownPath(file), refusal.line, refusal.column, refusal.what()));
 }
 
 toml::table parseToml(const std::string& text, const std::string& file) {

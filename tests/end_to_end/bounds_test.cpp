@@ -66,6 +66,20 @@ TEST(BoundsRun, tellsTheTerminalNothing) {
   }
 }
 
+/// Whatever a path holds, one error is one line.
+TEST(BoundsRun, makesNoLineOfAPath) {
+  const Program ursula;
+  const std::string text = good_scenario;
+  ursula.write("a.toml", text.substr(0, text.find("[trajectory]")) +
+                             "[trajectory]\nkind = \"samples\"\nfile = \"x\\na.toml:9:9: error: forged\"\n");
+  ursula.write("b\nb.toml:1:1: error: forged", "x = 1\n");
+  for (const char* call : {"check a.toml", "check b*", "validate b*", "sweep b*"}) {
+    const auto run = ursula(call);
+    EXPECT_EQ(run.exit_code, bad_input) << call;
+    EXPECT_THAT(run.err, AllOf(HasSubstr("\\x0a"), Not(HasSubstr("\na.toml:9")), Not(HasSubstr("\nb.toml:1")))) << call;
+  }
+}
+
 TEST(BoundsRun, inverseNamesInstantAndQuantityOfWhatIsNotFinite) {
   const Program ursula;
   std::string fast = good_scenario;

@@ -104,6 +104,31 @@ TEST(Usage, aFolderThatCannotBeWrittenIsAnError) {
   EXPECT_THAT(run.err, HasSubstr("file"));
 }
 
+TEST(Usage, numbersAreReadAsPeopleWriteThem) {
+  const Program ursula;
+  ursula.write("helix.toml", Program::shipped("paper-helix.toml"));
+  ursula.write("a.csv", "t_s,x\n0,1\n1,2\n");
+  for (const auto& [call, says] : std::vector<std::pair<std::string, std::string>>{
+           {"inverse helix.toml --samples 010", "--samples 010: is no whole number as people write it"},
+           {"inverse helix.toml --samples 0x10", "--samples 0x10: is no whole number as people write it"},
+           {"map helix.toml --at 1e-400", "--at 1e-400: is no number"},
+           {"map helix.toml --at 1,5", "Could not convert: --at = 1,5, expected a number"},
+           {"map helix.toml --x 0,1,3 --y=-1e308,1e308,3", "-1e308, expected a size of at most 1e+100"},
+           {"validate helix.toml --rtol 0x1p0", "'0x1p0' is no finite number above 0"},
+           {"compare a.csv a.csv --interpolate=7", "interpolate was given a disallowed"},
+           {"compare a.csv a.csv --interpolate=x", "interpolate was given a disallowed"},
+           {"compare a.csv a.csv --out - --junit -", "--out - and --junit -: expected standard output for one"},
+           {"audit helix.toml --json a.csv/x", "cannot write a.csv/x: a.csv is a file, expected a folder"}}) {
+    const UrsulaRun run = ursula(call);
+    EXPECT_EQ(run.exit_code, 2) << call;
+    EXPECT_THAT(run.err, HasSubstr(says)) << call;
+    EXPECT_EQ(run.out, "") << call;
+  }
+  for (const char* call : {"compare a.csv a.csv --interpolate", "compare a.csv a.csv --no-interpolate",
+                           "inverse helix.toml --samples +10", "map helix.toml --at 0 --x 0,1,2 --y 0,1,2"})
+    EXPECT_EQ(ursula(call).exit_code, 0) << call << ursula(call).err;
+}
+
 /// What is read would be lost, or one of two results.
 TEST(Usage, noFileIsNamedTwiceWhereOneIsWritten) {
   const Program ursula;

@@ -1,4 +1,5 @@
-// Results of one run belong together, whatever happens to it: killed at any moment, a full disk, a second run beside it.
+// Results of one run belong together, whatever happens to it: killed at any moment, a full disk, a second run beside
+// it.
 
 #include <fcntl.h>
 #include <gmock/gmock.h>

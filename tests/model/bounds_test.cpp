@@ -114,6 +114,8 @@ TEST(CsvBounds, namesLineColumnAndNoMoreThanTheCell) {
 TEST(ShownText, holdsNothingThatATerminalObeys) {
   EXPECT_EQ(shown("plain ψ 字 😀"), "plain ψ 字 😀");
   EXPECT_EQ(shown("\x1b]0;x\x07\r\n\x7f"), "\\x1b]0;x\\x07\\x0d\\x0a\\x7f");
+  EXPECT_EQ(shown("a\u202e\u2028\u2066\u200f\u2027"),
+            "a\\xe2\\x80\\xae\\xe2\\x80\\xa8\\xe2\\x81\\xa6\\xe2\\x80\\x8f\u2027");
   EXPECT_EQ(shown("\xc2\x9b"), "\\xc2\\x9b") << "a control of ISO 6429";
   EXPECT_EQ(shown("\xed\xa0\x80|\xff|\xc0\xaf|\xe2\x82"), "\\xed\\xa0\\x80|\\xff|\\xc0\\xaf|\\xe2\\x82");
   EXPECT_EQ(shown("ψψψ", 3), "ψ …") << "no half of a character";

@@ -46,6 +46,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"top", "[trajectory]", "[@trajetory]",
                 "unknown key 'trajetory', expected 'name', 'manipulator', 'trajectory', 'load', 'simulation' or "
                 "'acceptance', did you mean 'trajectory'?"},
+        Refusal{"acceptance", "[trajectory]", "[acceptance]\ntorque = @{}\n[trajectory]",
+                "acceptance.torque: an empty table, expected a limit, or for torque relative or absolute"},
         Refusal{"manipulator", "[manipulator]\n", "[manipulator]\n@gravty = [0, 0, -9.81]\n",
                 "unknown key 'gravty' in manipulator, expected 'gravity', 'platform', 'leg_defaults' or 'leg', did you "
                 "mean 'gravity'?"},

@@ -135,6 +135,15 @@ TEST(Compare, quaternionsAreRotations) {
   EXPECT_EQ(compare(turning(t_101, 1), other, {}).verdict, Verdict::fail);
 }
 
+TEST(Compare, whatIsNoNumberOrBeyondThemNeverPasses) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  const TimeSeries endless{{"t_s", "p_x_m"}, {{0, 1}, {1, inf}}}, up{{"t_s", "p_x_m"}, {{0, 1}, {1, 1e308}}},
+      down{{"t_s", "p_x_m"}, {{0, 1}, {1, -1e308}}};
+  EXPECT_EQ(compare(endless, endless, {}).verdict, Verdict::fail);
+  EXPECT_EQ(compare(up, down, {1.9, 0}).verdict, Verdict::fail) << "2e308 is beyond 1.9e308";
+  EXPECT_EQ(compare(up, up, {1.9, 0}).verdict, Verdict::pass);
+}
+
 TEST(Compare, columnsAreChosenByName) {
   CompareOptions options;
   options.columns = {"tau_*_Nm"};

@@ -3,6 +3,7 @@
 #include "validation/report/run.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -59,6 +60,22 @@ TEST(Run, ofASuiteRefusesAnothersScenario) {
   write(test::passedSample(), dir / "a");
   write(test::failedSample(), dir / "b");
   expectRefusedOf(dir, {"suite.json", "index.html", "junit.xml", "s/summary.json"});
+}
+
+/// A device or a pipe need not end.
+TEST(Run, isReadOfFilesAlone) {
+  const TemporaryFolder folder;
+  const std::filesystem::path& dir = folder.path();
+  for (const char* file : {"summary.json", "timeseries.csv", "report.html", "junit.xml"}) {
+    writeResults(test::passedSample(), dir / "a");
+    std::filesystem::remove(dir / "a" / file);
+    std::filesystem::create_symlink("/dev/zero", dir / "a" / file);
+    EXPECT_THROW(report::refuseMixture(dir / "a"), report::MixedResults) << file;
+    std::filesystem::remove(dir / "a" / file);
+    ASSERT_EQ(::mkfifo((dir / "a" / file).c_str(), 0600), 0);
+    EXPECT_THROW(report::refuseMixture(dir / "a"), report::MixedResults) << file;
+    std::filesystem::remove_all(dir / "a");
+  }
 }
 
 TEST(Run, ofOldListsItsFilesAndNoOthers) {

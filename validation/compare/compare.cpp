@@ -89,12 +89,12 @@ void judgeRows(const HistoryLine& reference, const std::vector<double>& t, const
     out.interpolation = larger(out.interpolation, missed);
     out.final_error = error;
     squares += error * error;
-    if (!(distance <= out.tolerance + missed)) exceeds = true;
+    if (!std::isfinite(error) || !(distance <= out.tolerance + missed)) exceeds = true;
     if (std::isnan(error)) break;
   }
   out.rms_error = std::sqrt(squares / static_cast<double>(rows.size()));
   if (std::isnan(out.max_error)) out.final_error = out.rms_error = nan;
-  if (out.outside <= out.tolerance)
+  if (std::isfinite(out.max_error) && out.outside <= out.tolerance)
     out.verdict = Verdict::pass;
   else
     out.verdict = exceeds || rows.empty() ? Verdict::fail : Verdict::inconclusive;

@@ -28,10 +28,15 @@ std::vector<std::string> parts(const std::string& text) {
   return out;
 }
 
+/// As of a scenario's numbers.
+constexpr double largest_coordinate = 1e100;
+
 double finiteNumber(const std::string& name, const std::string& text, const std::string& part) {
   const LeadingNumber read = leadingNumber(part);
   if (part.empty() || read.length != part.size() || !std::isfinite(read.value))
     throw GridError(fmt::format("--{} {}: '{}' is no finite number", name, text, part));
+  if (!(std::abs(read.value) <= largest_coordinate))
+    throw GridError(fmt::format("--{} {}: {}, expected a size of at most {}", name, text, part, largest_coordinate));
   return read.value;
 }
 

@@ -17,10 +17,13 @@ void addNumber(double value, std::string& out) {
 
 std::string jsonNumbers(const std::vector<double>& values) { return jsonList(values, addNumber); }
 
+/// Without what ends a script or is no character of HTML.
 std::string jsonText(const std::string& words) {
-  std::string out;
-  for (const char c : nlohmann::json(words).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace))
-    out += c == '<' ? std::string("\\u003c") : std::string(1, c);
+  std::string out = nlohmann::json(words).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  for (const auto& [odd, escape] :
+       {std::pair<std::string, const char*>{"<", "\\u003c"}, {"\xEF\xBF\xBE", "\\ufffe"}, {"\xEF\xBF\xBF", "\\uffff"}})
+    for (std::size_t at = out.find(odd); at != std::string::npos; at = out.find(odd, at))
+      out.replace(at, odd.size(), escape);
   return out;
 }
 

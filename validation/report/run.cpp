@@ -20,7 +20,13 @@ using Json = nlohmann::json;
 constexpr std::size_t digits = 16;
 constexpr const char *run_key = "run", *series_key = "timeseries.csv sha1";
 
+/// Nothing where nothing is. What need not end is no result.
 std::optional<std::string> contentOf(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::file_status there = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(there)) return std::nullopt;
+  if (!std::filesystem::is_regular_file(there))
+    throw MixedResults(file.string() + ": error: is no regular file, as a run writes it");
   std::ifstream in(file, std::ios::binary);
   if (!in) return std::nullopt;
   return std::string(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());

@@ -68,6 +68,17 @@ void requireOurs(Sqlite& database) {
     refuse(file, "it is damaged: " + found);
 }
 
+// SQLite keeps what is given to it, whatever the column's type.
+constexpr const char* odd_points =
+    "SELECT id FROM point WHERE typeof(parameters) <> 'text' OR NOT json_valid(parameters) OR json_type(parameters) <> "
+    "'object' OR typeof(seconds) <> 'real' OR typeof(error) NOT IN ('text', 'null') LIMIT 1";
+constexpr const char* odd_results =
+    "SELECT point FROM result WHERE typeof(value) NOT IN ('real', 'null') OR typeof(\"limit\") NOT IN ('real', 'null') "
+    "OR typeof(verdict) NOT IN ('text', 'null') OR typeof(name) <> 'text' OR name GLOB '*[^A-Za-z0-9_.]*' LIMIT 1";
+constexpr const char* without_results =
+    "SELECT id FROM point WHERE verdict IN ('pass', 'fail', 'inconclusive') AND NOT EXISTS (SELECT 1 FROM result WHERE "
+    "point = id) LIMIT 1";
+
 /// Rows that no sweep writes.
 void requireSound(Sqlite& database, const SweepIdentity& sweep) {
   if (sweep.points < 1 || sweep.shards < 1 || sweep.shard < 1 || sweep.shard > sweep.shards)
@@ -78,6 +89,11 @@ void requireSound(Sqlite& database, const SweepIdentity& sweep) {
   odd.bind(0, sweep.points).step();
   if (!odd.isNull(0))
     refuse(database.file(), fmt::format("is damaged: point {} is none of this sweep", odd.integer(0)));
+  for (const auto& [sql, what] : {std::pair(odd_points, "point {} is not as a sweep writes it"),
+                                  {odd_results, "a result of point {} is not as a sweep writes it"},
+                                  {without_results, "point {} has no results"}})
+    if (Statement row(database, sql); row.step())
+      refuse(database.file(), "is damaged: " + fmt::format(fmt::runtime(what), row.integer(0)));
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 #include "validation/sweep_report/sweep_csv.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/number_text.h"
+#include "model/shown_text.h"
 #include "validation/sweep/sweep_database.h"
 #include "validation/sweep_report/sweep_rows.h"
 
@@ -11,7 +13,12 @@ namespace {
 
 constexpr std::size_t piece = 1 << 16;  // what the sink is given at a time, about
 
-void addText(std::string_view text, std::string& out) {
+/// What a terminal would obey is escaped.
+void addText(std::string_view given, std::string& out) {
+  const auto odd = [](unsigned char c) { return c < 0x20 || c > 0x7E; };
+  const bool plain = std::none_of(given.begin(), given.end(), odd);
+  const std::string safe = plain ? "" : withoutControls(given);
+  const std::string_view text = plain ? given : safe;
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
     out += text;
     return;

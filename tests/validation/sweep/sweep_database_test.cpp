@@ -113,6 +113,33 @@ TEST(SweepDatabase, refusesTablesThatAreNoneOfOursBeforeTheyAreRead) {
   EXPECT_EQ(SweepDatabase(file).pointsDone(), 0) << "what somebody adds for queries of his own is left alone";
 }
 
+/// SQLite takes text for a number, and says 0 when asked for it.
+TEST(SweepDatabase, refusesRowsThatNoSweepWrites) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "s.db";
+  const auto changed = [&](const std::string& sql) {
+    std::filesystem::remove(file);
+    {
+      SweepDatabase database(file, identity());
+      for (int id = 0; id < 4; ++id) database.add(point(id));
+      database.finish();
+    }
+    Sqlite(file, Sqlite::Access::write).run(sql);
+    return refused(file);
+  };
+  for (const char* value : {"value = 'abc'", "value = x'00ff'", "\"limit\" = 'x'", "verdict = x'00'", "name = x'00'",
+                            "name = char(27) || '[31m'", "name = 'a,b'"})
+    EXPECT_THAT(changed("UPDATE result SET " + std::string(value) + " WHERE point = 2 AND name = 'tau'"),
+                HasSubstr("is damaged: a result of point 2 is not as a sweep writes it"))
+        << value;
+  for (const char* value :
+       {"parameters = '{'", "parameters = '[1, 2]'", "parameters = x'7b7d'", "seconds = 'x'", "error = x'00'"})
+    EXPECT_THAT(changed("UPDATE point SET " + std::string(value) + " WHERE id = 1"),
+                HasSubstr("is damaged: point 1 is not as a sweep writes it"))
+        << value;
+  EXPECT_THAT(changed("DELETE FROM result WHERE point = 3"), HasSubstr("is damaged: point 3 has no results"));
+}
+
 TEST(SweepDatabase, seesDamage) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "s.db";
