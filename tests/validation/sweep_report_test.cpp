@@ -5,6 +5,7 @@
 #include <cmath>
 #include <regex>
 
+#include "tests/model/refusals.h"
 #include "tests/validation/sweep_databases.h"
 #include "validation/sweep_report/sweep_csv.h"
 #include "validation/sweep_report/sweep_page.h"
@@ -16,6 +17,7 @@ namespace {
 using test::Dice;
 using test::MadeSweep;
 using test::madeSweep;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
@@ -192,6 +194,16 @@ TEST(SweepPage, EscapesWhatOthersWrote) {
   EXPECT_THAT(page, HasSubstr("line 1: &quot;a&quot;, &lt;b&gt;"));
   EXPECT_THAT(page, Not(HasSubstr("<script")));
   EXPECT_THAT(page, Not(HasSubstr("http://www.w3.org/1999")));
+}
+
+TEST(SweepRows, RefusesNamesThatNoSweepWrites) {
+  for (const char* name : {"a\x1b[31m", "a,b", "a\nb", "ψ"}) {
+    MadeSweep sweep = validateSweep();
+    sweep.points.front().values.front().name = name;
+    EXPECT_THAT(refusal<DatabaseError>([&] { csvOf(sweep, "names"); }),
+                AllOf(HasSubstr("is no name of a result: the database is damaged"), Not(HasSubstr("\x1b"))))
+        << name;
+  }
 }
 
 TEST(SweepPage, QuotesAPathForTheShell) {

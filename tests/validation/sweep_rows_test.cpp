@@ -15,8 +15,8 @@ using testing::HasSubstr;
 TEST(SweepRows, RefuseADamagedPoint) {
   for (const char* parameters : {"{\"x\":", "[1]", "{\"y\":1}", "{\"x\":\"1\"}"}) {
     MadeSweep sweep = madeSweep("inverse", "random", {"x"}, 2);
-    sweep.add({1});
-    sweep.add({1}).parameters = parameters;
+    for (int k = 0; k < 2; ++k) MadeSweep::result(sweep.add({1}), "tau_1_Nm", 1);
+    sweep.points.back().parameters = parameters;
     const auto database = sweep.written("damaged");
     try {
       summarise(*database);

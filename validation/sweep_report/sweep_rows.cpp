@@ -2,17 +2,27 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "model/shown_text.h"
 #include "validation/sweep/sweep_database.h"
 
 namespace ursula {
 namespace {
 
+bool isOfName(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '.';
+}
+
 std::vector<std::string> namesIn(Sqlite& database) {
   std::vector<std::string> names;
-  for (Statement each(database, "SELECT DISTINCT name FROM result ORDER BY name"); each.step();)
+  for (Statement each(database, "SELECT DISTINCT name FROM result ORDER BY name"); each.step();) {
     names.push_back(each.text(0));
+    if (!std::all_of(names.back().begin(), names.back().end(), isOfName))
+      throw DatabaseError(fmt::format("{}: error: '{}' is no name of a result: the database is damaged",
+                                      database.file().string(), shown(names.back())));
+  }
   return names;
 }
 

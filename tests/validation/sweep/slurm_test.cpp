@@ -132,7 +132,7 @@ class SlurmStandingTest : public testing::Test {
     identity.shard = shard.index;
     identity.shards = shard.of;
     SweepDatabase into(shard.of == 1 ? database() : shardDatabase(database(), shard), identity);
-    for (std::int64_t i = first; i < end; ++i) into.add({i, "{}", "pass", 0, "", {}});
+    for (std::int64_t i = first; i < end; ++i) into.add({i, "{}", "pass", 0, "", {{"tau_1_Nm", 1, 1, ""}}});
     into.finish();
   }
 

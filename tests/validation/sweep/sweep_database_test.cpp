@@ -127,8 +127,7 @@ TEST(SweepDatabase, refusesRowsThatNoSweepWrites) {
     Sqlite(file, Sqlite::Access::write).run(sql);
     return refused(file);
   };
-  for (const char* value : {"value = 'abc'", "value = x'00ff'", "\"limit\" = 'x'", "verdict = x'00'", "name = x'00'",
-                            "name = char(27) || '[31m'", "name = 'a,b'"})
+  for (const char* value : {"value = 'abc'", "value = x'00ff'", "\"limit\" = 'x'", "verdict = x'00'", "name = x'00'"})
     EXPECT_THAT(changed("UPDATE result SET " + std::string(value) + " WHERE point = 2 AND name = 'tau'"),
                 HasSubstr("is damaged: a result of point 2 is not as a sweep writes it"))
         << value;
