@@ -211,7 +211,7 @@ void AtomicFolder::replaceOneByOne() {
   for (auto name = older.rbegin(); name != older.rend(); ++name)  // folders after what is in them
     if (written.count(*name) == 0) fs::remove(folder_ / *name, ignored);
   for (const fs::path& name : written_) syncFolder((folder_ / name).parent_path());  // others are not ours to enter
-  fs::remove_all(temporary_);
+  fs::remove_all(temporary_, ignored);  // the results are there; the next run removes what is left
 }
 
 }  // namespace ursula

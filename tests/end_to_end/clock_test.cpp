@@ -76,15 +76,7 @@ TEST(ClockSetBack, aFileOfTomorrowIsReplaced) {
               TemporaryFolder::read(ursula.folder() / "fresh.csv"));
 }
 
-constexpr const char* small_sweep = R"(scenario = "a.toml"
-what = "inverse"
-design = "random"
-count = 40
-samples = 5
-[[vary]]
-key = "manipulator.platform.mass"
-uniform = [400.0, 600.0]
-)";
+const std::string small_sweep = massSweep("a.toml", "what = \"inverse\"\ncount = 40\nsamples = 5\n");
 
 TEST(ClockSetBack, aSweepGoesOnWhereItStopped) {
   const Program ursula;

@@ -14,16 +14,7 @@ namespace fs = std::filesystem;
 using Files = std::map<std::string, std::string>;
 using testing::HasSubstr;
 
-constexpr const char* random_sweep = R"(scenario = "one.toml"
-what = "inverse"
-design = "random"
-count = 60
-seed = 1
-samples = 5
-[[vary]]
-key = "manipulator.platform.mass"
-uniform = [400.0, 600.0]
-)";
+const std::string random_sweep = massSweep("one.toml", "what = \"inverse\"\ncount = 60\nseed = 1\nsamples = 5\n");
 
 /// Every verb that writes results, into the folder `out`; $1 is the number of --jobs.
 constexpr const char* all_verbs = R"(set -e

@@ -133,14 +133,7 @@ TEST(LittleMemory, oneOfASuiteIsInErrorOrWhatItIsAnywhere) {
   }
 }
 
-constexpr const char* small_sweep = R"(scenario = "a.toml"
-pointwise = true
-design = "random"
-count = 12
-[[vary]]
-key = "manipulator.platform.mass"
-uniform = [400.0, 600.0]
-)";
+const std::string small_sweep = massSweep("a.toml", "pointwise = true\ncount = 12\n");
 
 /// What a sweep could not make for want of memory, it makes when there is some.
 TEST(LittleMemory, losesNoRowOfASweep) {

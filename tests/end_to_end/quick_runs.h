@@ -40,6 +40,12 @@ inline int shell(const Program& ursula, const std::string& line) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+/// Random masses of a scenario's platform; `settings` are what and how many.
+inline std::string massSweep(const std::string& scenario, const std::string& settings) {
+  return "scenario = \"" + scenario + "\"\ndesign = \"random\"\n" + settings +
+         "[[vary]]\nkey = \"manipulator.platform.mass\"\nuniform = [400.0, 600.0]\n";
+}
+
 /// As results have it: date and time of UTC, which sort as text.
 inline std::string utcNow() {
   const std::time_t now = std::time(nullptr);

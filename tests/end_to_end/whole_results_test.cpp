@@ -117,7 +117,7 @@ struct Outcomes {
 
 /// Runs of `calls`, which write other results into one folder, are killed, until some were before the swap and some
 /// after it: what is there is always one of them.
-Outcomes killRuns(const Program& ursula, const std::vector<std::vector<std::string>>& calls) {
+void killRuns(const Program& ursula, const std::vector<std::vector<std::string>>& calls) {
   std::vector<std::map<std::string, std::string>> whole;
   std::chrono::microseconds longest{0};
   for (const std::vector<std::string>& call : calls) {
@@ -146,32 +146,25 @@ Outcomes killRuns(const Program& ursula, const std::vector<std::vector<std::stri
   EXPECT_TRUE(contents(ursula.folder() / "out") == whole[0]);
   for (const auto& entry : fs::directory_iterator(ursula.folder()))
     EXPECT_NE(entry.path().filename().string().find(".ursula"), 0u) << entry << " of a run that was killed";
-  return outcomes;
+  EXPECT_GT(outcomes.old, 0);
+  EXPECT_GT(outcomes.fresh, 0);
+  testing::Test::RecordProperty("killed_before_the_swap", outcomes.old);
+  testing::Test::RecordProperty("killed_after_the_swap", outcomes.fresh);
 }
 
 TEST(WholeResults, ofARunThatIsKilledAreTheOldOrTheNew) {
   const Program ursula;
   ursula.write("a.toml", quickScenario("one"));
   ursula.write("b.toml", quickScenario("one", "499.0"));
-  const Outcomes outcomes =
-      killRuns(ursula, {{"validate", "a.toml", "--out", "out"}, {"validate", "b.toml", "--out", "out"}});
-  EXPECT_GT(outcomes.old, 0);
-  EXPECT_GT(outcomes.fresh, 0);
-  testing::Test::RecordProperty("killed_before_the_swap", outcomes.old);
-  testing::Test::RecordProperty("killed_after_the_swap", outcomes.fresh);
+  killRuns(ursula, {{"validate", "a.toml", "--out", "out"}, {"validate", "b.toml", "--out", "out"}});
 }
 
 TEST(WholeResults, ofASuiteThatIsKilledAreTheOldOrTheNew) {
   const Program ursula;
   for (const char* mass : {"500.0", "499.0"})
     for (const char* name : {"one", "two"}) ursula.write(std::string(name) + mass + ".toml", quickScenario(name, mass));
-  const Outcomes outcomes =
-      killRuns(ursula, {{"validate", "one500.0.toml", "two500.0.toml", "--out", "out", "--jobs", "2"},
-                        {"validate", "one499.0.toml", "two499.0.toml", "--out", "out", "--jobs", "2"}});
-  EXPECT_GT(outcomes.old, 0);
-  EXPECT_GT(outcomes.fresh, 0);
-  testing::Test::RecordProperty("killed_before_the_swap", outcomes.old);
-  testing::Test::RecordProperty("killed_after_the_swap", outcomes.fresh);
+  killRuns(ursula, {{"validate", "one500.0.toml", "two500.0.toml", "--out", "out", "--jobs", "2"},
+                    {"validate", "one499.0.toml", "two499.0.toml", "--out", "out", "--jobs", "2"}});
 }
 
 TEST(WholeResults, ofASecondRunIntoOneFolderAreRefused) {

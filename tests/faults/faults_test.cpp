@@ -174,15 +174,7 @@ std::string rowsOf(const fs::path& file) {
   return all;
 }
 
-constexpr const char* small_sweep = R"(scenario = "a.toml"
-what = "inverse"
-design = "random"
-count = 40
-samples = 5
-[[vary]]
-key = "manipulator.platform.mass"
-uniform = [400.0, 600.0]
-)";
+const std::string small_sweep = massSweep("a.toml", "what = \"inverse\"\ncount = 40\nsamples = 5\n");
 
 /// The call that fails may end the sweep, which goes on when it is called again; rows are those of one that nothing
 /// disturbs.

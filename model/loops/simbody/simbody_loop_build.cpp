@@ -23,8 +23,7 @@ SimTK::MassProperties massProperties(double mass, const Vector3d& center, const 
 } catch (const SimTK::Exception::Base&) {
   throw std::domain_error(
       fmt::format("Simbody cannot hold a body of {:.6g} kg whose center of mass is {:.6g} m from its origin: its "
-                  "moments of inertia "
-                  "of {:.6g} kg m^2 are lost beside {:.6g} kg m^2",
+                  "moments of inertia of {:.6g} kg m^2 are lost beside {:.6g} kg m^2",
                   mass, center.norm(), about_center.diagonal().maxCoeff(), mass * center.squaredNorm()));
 }
 
