@@ -36,9 +36,10 @@ void addDocs(CLI::App& app, std::function<int()>& run) {
   CLI::App* verb = app.add_subcommand("docs", "Writes what is made of the program's own definitions");
   verb->group("");  // for those who work on the program: not listed
   verb->add_option("folder", options->folder, "Where scenario.md and scenario.schema.json go, for ./dev docs");
-  verb->add_option("--completion", options->shell, "The completion for bash, zsh or fish, on standard output")
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
-  verb->add_flag("--man", options->man, "The man page, on standard output");
+  CLI::Option* shell =
+      verb->add_option("--completion", options->shell, "The completion for bash, zsh or fish, on standard output")
+          ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  verb->add_flag("--man", options->man, "The man page, on standard output")->excludes(shell);
   verb->callback([options, &app, &run] { run = [options, &app] { return docs(*options, app); }; });
 }
 

@@ -1,10 +1,5 @@
 #include "model/shown_text.h"
 
-#include <fmt/format.h>
-
-#include <cstdint>
-#include <iterator>
-
 namespace ursula {
 namespace {
 
@@ -39,6 +34,7 @@ bool isControl(std::string_view character) {
 }
 
 std::string escaped(std::string_view text, std::string_view kept) {
+  static constexpr const char* digits = "0123456789abcdef";
   std::string out;
   while (!text.empty()) {
     const std::size_t size = characterOf(text);
@@ -47,7 +43,7 @@ std::string escaped(std::string_view text, std::string_view kept) {
       out += character;
     else
       for (const char byte : character)
-        fmt::format_to(std::back_inserter(out), "\\x{:02x}", static_cast<unsigned char>(byte));
+        out.append("\\x").append(1, digits[(byte >> 4) & 0xF]).append(1, digits[byte & 0xF]);
     text.remove_prefix(character.size());
   }
   return out;

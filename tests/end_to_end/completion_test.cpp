@@ -40,6 +40,14 @@ std::string between(const std::string& text, const std::string& from, const std:
 
 std::string unescaped(const std::string& roff) { return std::regex_replace(roff, std::regex(R"(\\-)"), "-"); }
 
+TEST(Completion, isNotMixedWithTheManPage) {
+  const Program ursula;
+  const auto both = ursula("docs --man --completion bash");
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_EQ(both.out, "");
+  EXPECT_THAT(both.err, HasSubstr("--man excludes --completion"));
+}
+
 TEST(Completion, holdsEachVerbAndOptionOfTheHelp) {
   const Program ursula;
   const std::string bash = ursula("docs --completion bash").out, zsh = ursula("docs --completion zsh").out,

@@ -2,6 +2,7 @@
 
 #include "validation/checks/independent_reading.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,7 @@
 #include "validation/limits/conditioning.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>

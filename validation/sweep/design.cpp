@@ -51,7 +51,8 @@ SweepPoints::SweepPoints(const SweepFile& sweep, std::vector<VariedNumber> numbe
     for (const VariedNumber& number : numbers_) {
       const auto size = static_cast<std::int64_t>(number.by.values.size());
       if (count_ > most_points / size)
-        throw std::invalid_argument(fmt::format("the grid has more than {} points, expected fewer", most_points));
+        throw ScenarioError(fmt::format("{}: error: the grid has more than {} points, expected fewer",
+                                        sweep.file.string(), most_points));
       count_ *= size;
     }
     return;
@@ -62,8 +63,8 @@ SweepPoints::SweepPoints(const SweepFile& sweep, std::vector<VariedNumber> numbe
   for (std::size_t k = 0; k < numbers_.size(); ++k) shifts_.push_back(shifts());
   constexpr std::size_t most = boost::random::default_sobol_table::max_dimension;
   if (numbers_.size() > most)
-    throw std::invalid_argument(
-        fmt::format("{} numbers vary, expected at most {} with design 'sobol'", numbers_.size(), most));
+    throw ScenarioError(fmt::format("{}: error: {} numbers vary, expected at most {} with design 'sobol'",
+                                    sweep.file.string(), numbers_.size(), most));
 }
 
 std::vector<double> SweepPoints::uniforms(std::int64_t i) const {

@@ -28,7 +28,7 @@ struct VariedNumber {
 /// digitally by the seed.
 class SweepPoints {
  public:
-  /// Throws std::invalid_argument where a grid has more than most_points, or sobol more numbers than it has dimensions.
+  /// Throws ScenarioError where a grid has more than most_points, or sobol more numbers than it has dimensions.
   SweepPoints(const SweepFile& sweep, std::vector<VariedNumber> numbers);
 
   std::int64_t count() const { return count_; }

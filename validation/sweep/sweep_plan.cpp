@@ -111,13 +111,7 @@ SweepPlan::SweepPlan(SweepFile file)
     : file_(std::move(file)),
       base_(readScenario(file_.scenario)),
       document_(std::make_unique<Document>(file_, base_)),
-      points_([this] {
-        try {
-          return SweepPoints(file_, document_->hold(file_));
-        } catch (const std::invalid_argument& error) {
-          throw ScenarioError(fmt::format("{}: error: {}", file_.file.string(), error.what()));
-        }
-      }()) {
+      points_(file_, document_->hold(file_)) {
   for (const VariedNumber& number : points_.numbers()) {
     const std::string part = number.key.substr(0, number.key.find('.'));
     bool& varies = part == "manipulator"  ? varies_machine_
