@@ -34,7 +34,10 @@ add_library(ursula::ursula ALIAS ursula_library)
 add_dependencies(ursula_library ursula_headers)
 set(symbols ${PROJECT_SOURCE_DIR}/cmake/ursula.map)
 target_link_libraries(ursula_library PRIVATE ${parts} PUBLIC Eigen3::Eigen)
-target_link_options(ursula_library PRIVATE LINKER:--version-script=${symbols} LINKER:--no-undefined LINKER:--gc-sections)
+target_link_options(ursula_library PRIVATE LINKER:--version-script=${symbols} LINKER:--gc-sections)
+if(NOT URSULA_SANITIZE)  # clang leaves the sanitizers' functions to the program that loads the library
+  target_link_options(ursula_library PRIVATE LINKER:--no-undefined)
+endif()
 target_include_directories(ursula_library INTERFACE
   $<BUILD_INTERFACE:${public_include}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 target_include_directories(ursula_library PRIVATE ${public_include})

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "model/scenario.h"
+
 namespace ursula {
 namespace {
 
