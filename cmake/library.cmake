@@ -35,7 +35,9 @@ add_dependencies(ursula_library ursula_headers)
 set(symbols ${PROJECT_SOURCE_DIR}/cmake/ursula.map)
 target_link_libraries(ursula_library PRIVATE ${parts} PUBLIC Eigen3::Eigen)
 target_link_options(ursula_library PRIVATE LINKER:--version-script=${symbols} LINKER:--gc-sections)
-if(NOT URSULA_SANITIZE)  # clang leaves the sanitizers' functions to the program that loads the library
+if(URSULA_SANITIZE)  # clang leaves the sanitizers' functions to the program that loads the library
+  target_link_options(ursula_library INTERFACE -fsanitize=${URSULA_SANITIZE})
+else()
   target_link_options(ursula_library PRIVATE LINKER:--no-undefined)
 endif()
 target_include_directories(ursula_library INTERFACE
