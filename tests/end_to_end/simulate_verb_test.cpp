@@ -36,7 +36,7 @@ class Simulate : public testing::TestWithParam<std::string> {
     return ursula_("simulate " + helix + " --engine " + GetParam() + " --torques " + torques);
   }
 
-  const Program ursula_;
+  const Program ursula_{};
   const std::string file_ = testing::TempDir() + "/simulate_" + GetParam() + ".csv";
 };
 
