@@ -24,6 +24,9 @@ void say(fmt::format_string<Arguments...> form, Arguments&&... arguments) {
 /// file that may not be so large, is an error of the write, not the end of the program.
 void secureStreams();
 
+/// The C library loads what unwinds threads when it first needs it, and ends the program where memory is short then.
+void loadUnwinder();
+
 /// Why what was printed to standard output is not there; "" where all of it is.
 std::string lostOutput();
 

@@ -94,6 +94,7 @@ AtomicFolder::AtomicFolder(fs::path folder, OlderFiles older)
 AtomicFolder::~AtomicFolder() {
   std::error_code ignored;
   if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
+  if (!temporary_.empty()) ::rmdir(temporary_.c_str());  // under a umask that forbids to look into it, and it is empty
   lock_.reset();
   for (auto made = made_.rbegin(); made != made_.rend() && !is_committed_; ++made) ::rmdir(made->c_str());
 }

@@ -2,14 +2,30 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "model/number_text.h"
+#include "model/shown_text.h"
 
 namespace ursula {
 
 std::string csvHeader(const std::vector<std::string>& names) { return fmt::format("{}\n", fmt::join(names, ",")); }
+
+void appendCsvCell(std::string_view text, std::string& out) {
+  const auto odd = [](unsigned char c) { return c < 0x20 || c > 0x7E; };
+  const bool plain = std::none_of(text.begin(), text.end(), odd);
+  const std::string safe = plain ? "" : withoutControls(text);
+  if (!plain) text = safe;
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
+    out += text;
+    return;
+  }
+  out += '"';
+  for (const char c : text) out.append(c == '"' ? 2 : 1, c);
+  out += '"';
+}
 
 void appendCsvRows(const std::vector<std::vector<double>>& columns, std::string& out, NanAs nan) {
   const std::size_t rows = columns.empty() ? 0 : columns.front().size();

@@ -46,6 +46,20 @@ struct Centred {
       legs.b[i] = (platform_points[i] - b) / unit;
     }
     legs.d = lengths / unit;
+    requireOrientation();
+  }
+
+ private:
+  /// Far legs see points. What tells orientation in their squared lengths, aᵢᵀ Q bᵢ, needs half of the digits.
+  void requireOrientation() const {
+    double of_base = 0, of_platform = 0;
+    for (std::size_t i = 0; i < 6; ++i) {
+      of_base += legs.a[i].squaredNorm() / 6;
+      of_platform += legs.b[i].squaredNorm() / 6;
+    }
+    const double told = std::sqrt(of_base * of_platform), least = std::sqrt(Eigen::NumTraits<double>::epsilon());
+    if (!(told >= least))
+      throw UndeterminedPose("joints too close for legs so long, product of their spreads", told, least);
   }
 };
 

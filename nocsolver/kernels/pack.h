@@ -32,7 +32,12 @@ struct Pack {
   friend Mask operator>=(const Pack& a, const Pack& b) { return a.v >= b.v; }
   friend Pack abs(const Pack& a) { return Pack(xsimd::abs(a.v)); }
   friend Pack sqrt(const Pack& a) { return Pack(xsimd::sqrt(a.v)); }
-  friend Pack tanh(const Pack& a) { return Pack(xsimd::tanh(a.v)); }
+  /// Between ±40, where it is ±1 to the last bit: xsimd makes an integer of its exponent, which nan and infinity have
+  /// none for.
+  friend Pack tanh(const Pack& a) {
+    const Batch bounded = xsimd::min(xsimd::max(a.v, Batch(-40.0)), Batch(40.0));
+    return Pack(xsimd::select(xsimd::isnan(a.v), a.v, xsimd::tanh(bounded)));
+  }
   friend Pack min(const Pack& a, const Pack& b) { return Pack(xsimd::min(a.v, b.v)); }
   friend Pack max(const Pack& a, const Pack& b) { return Pack(xsimd::max(a.v, b.v)); }
   friend Pack select(const Mask& mask, const Pack& a, const Pack& b) { return Pack(xsimd::select(mask, a.v, b.v)); }

@@ -44,6 +44,20 @@ TEST(CompareVerb, exitsAsEveryVerbDoesAndWritesJUnit) {
     EXPECT_EQ(ursula(std::string("compare a.csv a.csv --tolerance ") + tolerance).exit_code, 2) << tolerance;
 }
 
+TEST(CompareVerb, changesNothingOfWhatItReads) {
+  const Program ursula;
+  std::filesystem::create_directories(ursula.folder() / "a");
+  ursula.write("a/timeseries.csv", "t_s,x\n0,1\n1,2\n");
+  ursula.write("b.csv", "t_s,x\n0,1\n1,2\n");
+  for (const char* into : {"--junit a/timeseries.csv", "--junit a/new.xml", "--out ./a/table.csv"}) {
+    const UrsulaRun run = ursula(std::string("compare b.csv a ") + into);
+    EXPECT_EQ(run.exit_code, 2) << into;
+    EXPECT_THAT(run.err, HasSubstr("is in a, which is compared, expected another folder"));
+  }
+  EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "a/timeseries.csv"), "t_s,x\n0,1\n1,2\n");
+  EXPECT_EQ(ursula("compare b.csv a --junit new.xml").exit_code, 0);
+}
+
 TEST(CompareVerb, writesAPageIntoAFolderAndTheTableAloneIntoAFile) {
   const Program ursula;
   ursula.write("a.csv", "t_s,x\n0,1\n1,2\n2,3\n");

@@ -45,7 +45,7 @@ TEST(Completion, isNotMixedWithTheManPage) {
   const auto both = ursula("docs --man --completion bash");
   EXPECT_EQ(both.exit_code, 2);
   EXPECT_EQ(both.out, "");
-  EXPECT_THAT(both.err, HasSubstr("--man excludes --completion"));
+  EXPECT_THAT(both.err, HasSubstr("--completion excludes --man"));
 }
 
 TEST(Completion, holdsEachVerbAndOptionOfTheHelp) {

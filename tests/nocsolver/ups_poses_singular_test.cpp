@@ -83,6 +83,23 @@ TEST(UpsPoses, AreRefusedWhereThePlatformIsFree) {
   EXPECT_LE(nearest(similar.poses(), similar.at), expectedError(similar));
 }
 
+/// From far away a platform is a point, turned as it likes.
+TEST(UpsPoses, OfLegsTooLongForTheirJointsAreRefused) {
+  const Case near = thrown(7000);
+  const auto posesFrom = [&near](double distance) {
+    Vector6d lengths;
+    for (std::size_t i = 0; i < 6; ++i)
+      lengths(static_cast<Eigen::Index>(i)) = (Vector3d(0, 0, distance) + near.machine.b[i] - near.machine.a[i]).norm();
+    return upsPoses(near.machine.a, near.machine.b, lengths);
+  };
+  const UpsPoses found = posesFrom(1e3);
+  EXPECT_TRUE(found.complete());
+  EXPECT_TRUE(std::any_of(found.list.begin(), found.list.end(), [](const UpsPose& pose) {
+    return (pose.Q - Matrix3d::Identity()).norm() < 1e-6 && std::abs(pose.p.z() - 1e3) < 1e-3;
+  }));
+  for (const double distance : {1e5, 1e6, 1e9}) EXPECT_THROW(posesFrom(distance), UndeterminedPose) << distance;
+}
+
 TEST(UpsPoses, OfNoSizeAreRefused) {
   Points origin;
   origin.fill(Vector3d::Zero());

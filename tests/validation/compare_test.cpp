@@ -229,6 +229,9 @@ TEST(Compare, theTableAsCsvHasOneRowForEachChannel) {
   EXPECT_THAT(text, HasSubstr("channel,verdict,max_error,t_max_s,rms_error,final_error,outside,tolerance,scale,group\n"
                               "tau_1_Nm,pass,0,0,0,0,0,"));
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);
+  Comparison odd;
+  odd.channels.emplace_back().name = "a,\"b\"\x1b[31m";
+  EXPECT_THAT(comparisonCsv(odd), HasSubstr("\n\"a,\"\"b\"\"\\x1b[31m\","));
 }
 
 }  // namespace

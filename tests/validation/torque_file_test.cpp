@@ -47,6 +47,8 @@ INSTANTIATE_TEST_SUITE_P(
                             "4: error: t_s = 1 repeats line 3, expected increasing instants"},
                     Refusal{"unsorted", row_0 + row_2 + row_1,
                             "4: error: t_s = 1 comes after 2 of line 3, expected increasing instants"},
+                    Refusal{"close", row_0 + "1e-200,1,1,1,1,1,1\n",
+                            "3: error: t_s = 1e-200 is 1e-200 s after line 2, expected at least 1e-70 s"},
                     Refusal{"no_instant", row_0 + ",1,1,1,1,1,1\n",
                             "3: error: an empty cell in column 't_s', expected a finite number"},
                     Refusal{"nan_instant", row_0 + "nan,1,1,1,1,1,1\n",

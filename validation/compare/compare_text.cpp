@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "model/csv_rows.h"
 #include "validation/compare/compare.h"
 
 namespace ursula {
@@ -78,9 +79,13 @@ std::string comparisonText(const Comparison& comparison) {
 
 std::string comparisonCsv(const Comparison& comparison) {
   std::string out = "channel,verdict,max_error,t_max_s,rms_error,final_error,outside,tolerance,scale,group\n";
-  for (const ChannelComparison& c : comparison.channels)
-    out += fmt::format("{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{}\n", c.name, name(c.verdict),
-                       c.max_error, c.max_at, c.rms_error, c.final_error, c.outside, c.tolerance, c.scale, c.group);
+  for (const ChannelComparison& c : comparison.channels) {
+    appendCsvCell(c.name, out);
+    out += fmt::format(",{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},", name(c.verdict), c.max_error,
+                       c.max_at, c.rms_error, c.final_error, c.outside, c.tolerance, c.scale);
+    appendCsvCell(c.group, out);
+    out += '\n';
+  }
   return out;
 }
 

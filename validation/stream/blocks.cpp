@@ -5,8 +5,8 @@
 #include <tbb/task_arena.h>
 
 #include <exception>
-#include <memory>
 #include <string>
+#include <vector>
 
 #include "model/start_threads.h"
 
@@ -19,7 +19,7 @@ struct Block {
   std::exception_ptr refusal = {};
   std::string text = {};
 };
-using Handed = std::shared_ptr<Block>;
+using Handed = Block*;  // of the stream: TBB lets go of what is on its way when something is thrown
 
 /// Handed out in order, made by any thread, settled in order, formatted by any thread, written in order.
 class Stream {
@@ -38,11 +38,11 @@ class Stream {
         tbb::make_filter<Handed, void>(filter_mode::serial_in_order, [this](Handed block) { write(block); });
     // TBB ends where the system gives fewer threads than it wants.
     const int jobs = 1 + static_cast<int>(threadsThatStart(static_cast<std::size_t>(options_.jobs - 1)));
-    const std::size_t at_once = static_cast<std::size_t>(jobs) + 2;  // those that wait for their turn
+    blocks_.resize(static_cast<std::size_t>(jobs) + 2);  // those that wait for their turn
     // As many threads as were asked for, even if the processor has fewer: TBB would warn of it.
     const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(jobs));
     tbb::task_arena arena(jobs);
-    arena.execute([&] { tbb::parallel_pipeline(at_once, chain); });
+    arena.execute([&] { tbb::parallel_pipeline(blocks_.size(), chain); });
   }
 
  private:
@@ -51,9 +51,10 @@ class Stream {
       control.stop();
       return nullptr;
     }
-    auto block = std::make_shared<Block>();
-    block->k = next_++;
-    return block;
+    Block& block = blocks_[next_ % blocks_.size()];  // the last one there has been written, as that is done in order
+    block = {};
+    block.k = next_++;
+    return &block;
   }
 
   /// A refusal waits until those before it are through: which one is told does not depend on who was first.
@@ -79,7 +80,7 @@ class Stream {
     return block;
   }
 
-  void write(const Handed& block) const {
+  void write(Handed block) const {
     if (block->refusal) std::rethrow_exception(block->refusal);
     sink_(block->text);
     if (options_.written) options_.written(static_cast<double>(block->k + 1) / static_cast<double>(table_.blocks));
@@ -88,6 +89,7 @@ class Stream {
   const BlockTable& table_;
   const StreamOptions& options_;
   const Sink& sink_;
+  std::vector<Block> blocks_;
   std::size_t next_ = 0;
 };
 

@@ -53,9 +53,15 @@ struct Columns {
   }
 };
 
+/// Of times closer than this, s, rates of torques overflow.
+constexpr double shortest = 1e-70;
+
 void requireIncreasing(const CsvTable& table, const std::vector<double>& t) {
   for (std::size_t k = 1; k < t.size(); ++k) {
-    if (t[k] > t[k - 1]) continue;
+    if (t[k] - t[k - 1] >= shortest) continue;
+    if (t[k] > t[k - 1])
+      throw CsvError(fmt::format("{}: error: t_s = {} is {:.3g} s after line {}, expected at least {:g} s",
+                                 table.place(k), t[k], t[k] - t[k - 1], table.lines[k - 1], shortest));
     const std::string what =
         t[k] == t[k - 1] ? fmt::format("t_s = {} repeats line {}", t[k], table.lines[k - 1])
                          : fmt::format("t_s = {} comes after {} of line {}", t[k], t[k - 1], table.lines[k - 1]);

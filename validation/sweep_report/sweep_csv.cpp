@@ -1,10 +1,10 @@
 #include "validation/sweep_report/sweep_csv.h"
 
-#include <algorithm>
 #include <cmath>
 
+#include "model/csv_rows.h"
 #include "model/number_text.h"
-#include "model/shown_text.h"
+
 #include "validation/sweep/sweep_database.h"
 #include "validation/sweep_report/sweep_rows.h"
 
@@ -12,21 +12,6 @@ namespace ursula {
 namespace {
 
 constexpr std::size_t piece = 1 << 16;  // what the sink is given at a time, about
-
-/// What a terminal would obey is escaped.
-void addText(std::string_view given, std::string& out) {
-  const auto odd = [](unsigned char c) { return c < 0x20 || c > 0x7E; };
-  const bool plain = std::none_of(given.begin(), given.end(), odd);
-  const std::string safe = plain ? "" : withoutControls(given);
-  const std::string_view text = plain ? given : safe;
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
-    out += text;
-    return;
-  }
-  out += '"';
-  for (const char c : text) out.append(c == '"' ? 2 : 1, c);
-  out += '"';
-}
 
 void addNumber(double value, std::string& out) {
   if (std::isnan(value)) return;
@@ -38,7 +23,7 @@ std::string header(const std::vector<std::string>& keys, const std::vector<std::
   std::string out = "id,verdict";
   const auto add = [&out](const std::string& name) {
     out += ',';
-    addText(name, out);
+    appendCsvCell(name, out);
   };
   for (const std::string& key : keys) add(key);
   for (const std::string& name : names) {
@@ -50,7 +35,7 @@ std::string header(const std::vector<std::string>& keys, const std::vector<std::
 
 void addRow(const SweepRow& row, std::size_t names, bool checks, std::string& out) {
   out += std::to_string(row.id) + ',';
-  addText(row.verdict, out);
+  appendCsvCell(row.verdict, out);
   for (const double parameter : row.parameters) {
     out += ',';
     addNumber(parameter, out);
@@ -63,11 +48,11 @@ void addRow(const SweepRow& row, std::size_t names, bool checks, std::string& ou
     if (checks) out += ',';
     if (checks && has) addNumber(value->limit, out);
     if (checks) out += ',';
-    if (checks && has) addText(value->verdict, out);
+    if (checks && has) appendCsvCell(value->verdict, out);
     if (has) ++value;
   }
   out += ',';
-  addText(row.error, out);
+  appendCsvCell(row.error, out);
   out += '\n';
 }
 
