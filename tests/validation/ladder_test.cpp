@@ -123,7 +123,8 @@ TEST(PaperHelixLadder, extrapolatesNothingWhereTheTorquesJump) {
 TEST(PaperHelixLadder, failsWhereTheIntegrationDoesNotConverge) {
   const auto noise = [](double t) { return std::fmod(std::abs(std::sin(1e9 * t)) * 1e6, 1.0) - 0.5; };
   const Climb climb([noise](double t) { return 1 + 1e-9 * noise(t); });
-  const Check* check = findCheck(climb.checks(), "integration.ladder");
+  const std::vector<Check> checks = climb.checks();
+  const Check* check = findCheck(checks, "integration.ladder");
   ASSERT_NE(check, nullptr);
   EXPECT_EQ(check->verdict, Verdict::fail) << check->value << " of " << check->limit << ", " << check->why;
   EXPECT_FALSE(climb.ladder().asymptotic);
