@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "apps/files_apart.h"
 #include "apps/streams.h"
 #include "apps/validate_output.h"
 #include "apps/verbs.h"
@@ -22,21 +23,10 @@ struct Options {
 /// `--out` names the table alone, as CSV, or a folder for page, table and JUnit.
 bool isTable(const std::string& out) { return out == "-" || std::filesystem::path(out).extension() == ".csv"; }
 
-/// A file of what is compared would no longer be of its run.
-void requireOutside(const Options& options, const std::string& file) {
-  if (file.empty() || file == "-") return;
-  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
-  std::error_code none;
-  for (const std::string& read : {options.reference, options.test})
-    if (std::filesystem::equivalent(folder, read, none))
-      throw UsageError(fmt::format("{}: is in {}, which is compared, expected another folder", file, read));
-}
-
 Comparison compareAndWrite(const Options& options) {
   if (options.out == "-" && options.junit == "-")
     throw UsageError("--out - and --junit -: expected standard output for one of them");
-  requireOutside(options, options.junit);
-  if (isTable(options.out)) requireOutside(options, options.out);
+  requireOutside({options.reference, options.test}, {options.junit, isTable(options.out) ? options.out : ""});
   const TimeSeries reference = readHistory(options.reference), test = readHistory(options.test);
   if (options.out.empty() || isTable(options.out)) return compare(reference, test, options.tolerances);
   refuseFile(options.out);

@@ -22,6 +22,8 @@ bool isWritten(const std::string& option) {
   return std::find(writing.begin(), writing.end(), option) != writing.end();
 }
 
+bool isFile(const std::string& option) { return !option.empty() && option != "-"; }
+
 /// Flags name no file. Options that name no file are looked at as well where they are positional; that does no harm.
 void gather(const CLI::App& app, std::vector<Named>& out) {
   for (const CLI::Option* option : app.get_options()) {
@@ -29,7 +31,7 @@ void gather(const CLI::App& app, std::vector<Named>& out) {
     const bool written = isWritten(name) && option->get_expected_min() > 0;
     if (!written && !option->get_positional() && name != "--torques") continue;
     for (const std::string& file : option->results())
-      if (!file.empty() && file != "-") out.push_back({name, file, written});
+      if (isFile(file)) out.push_back({name, file, written});
   }
   for (const CLI::App* verb : app.get_subcommands()) gather(*verb, out);
 }
@@ -39,6 +41,13 @@ bool areSame(const std::string& a, const std::string& b) {
   if (std::filesystem::is_character_file(a, none)) return false;  // both may go to /dev/null
   return std::filesystem::equivalent(a, b, ignored) ||
          std::filesystem::absolute(a, none).lexically_normal() == std::filesystem::absolute(b, none).lexically_normal();
+}
+
+bool isIn(const std::filesystem::path& folder, const std::string& file) {
+  std::error_code none;
+  if (std::filesystem::equivalent(std::filesystem::absolute(file).parent_path(), folder, none)) return true;
+  const auto isLink = [&file](const auto& entry) { return areSame(file, entry.path().string()); };
+  return std::any_of(std::filesystem::directory_iterator(folder, none), {}, isLink);
 }
 
 }  // namespace
@@ -55,12 +64,19 @@ std::string namedTwice(const CLI::App& app) {
 }
 
 void requireApart(const Scenario& scenario, std::initializer_list<std::string> written) {
-  const auto isFile = [](const std::string& file) { return !file.empty() && file != "-"; };
   if (std::none_of(written.begin(), written.end(), isFile)) return;  // the text need not be parsed again
   for (const std::filesystem::path& read : filesNamedBy(scenario))
     for (const std::string& file : written)
       if (isFile(file) && areSame(file, read.string()))
         throw UsageError(fmt::format("{}: is also what {} reads, expected another file", file, scenario.file.string()));
+}
+
+void requireOutside(std::initializer_list<std::string> compared, std::initializer_list<std::string> written) {
+  std::error_code none;
+  for (const std::string& folder : compared)
+    for (const std::string& file : written)
+      if (std::filesystem::is_directory(folder, none) && isFile(file) && isIn(folder, file))
+        throw UsageError(fmt::format("{}: is in {}, which is compared, expected another folder", file, folder));
 }
 
 }  // namespace ursula

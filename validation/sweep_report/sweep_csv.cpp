@@ -4,7 +4,6 @@
 
 #include "model/csv_rows.h"
 #include "model/number_text.h"
-
 #include "validation/sweep/sweep_database.h"
 #include "validation/sweep_report/sweep_rows.h"
 
