@@ -197,6 +197,14 @@ TEST(Html, holdsVerdictAndChecksWithoutScript) {
   EXPECT_NE(html.find("<svg class=\"static\""), std::string::npos) << "no chart without script";
 }
 
+TEST(Html, leadsToWhereTheEffortsDeviateMostOfAllRoads) {
+  ValidationResult result = test::passedSample();
+  EXPECT_EQ(countOf(report::reportHtml(result), "largest effort deviation, "), 0u) << "no effort was compared";
+  result.deviation = EffortDeviation{"N m", 2e-10, 2.5, "leg 3", 25000};
+  const std::string event = R"({"t":2.5,"what":"largest effort deviation, )" + report::quantity(2e-10, "N m") + "\"}";
+  EXPECT_EQ(countOf(report::reportHtml(result), event), 1u) << event;
+}
+
 TEST(Html, neverLetsTextBecomeMarkup) {
   const std::string html = report::reportHtml(test::hostileSample());
   EXPECT_EQ(countOf(html, "<script>alert"), 0u);

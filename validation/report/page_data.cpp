@@ -34,12 +34,14 @@ std::string plotJson(const Plot& full) {
 /// Those of the result, and where the checks that matter most were worst.
 std::string eventsJson(const ValidationResult& result) {
   std::vector<Event> events = result.events;
+  const auto add = [&events](double t, const char* what, double value, const std::string& unit) {
+    if (std::isfinite(value) && value > 0) events.push_back({t, what + quantity(value, unit)});
+  };
+  if (const auto& deviation = result.deviation)
+    add(deviation->t, "largest effort deviation, ", deviation->largest, deviation->unit);
   for (const Check& check : result.checks)
-    if ((check.name == "torque.pointwise" || check.name == "replay.position") && std::isfinite(check.largest.value) &&
-        check.largest.value > 0)
-      events.push_back(
-          {check.largest.t, (check.name[0] == 't' ? "largest effort deviation, " : "largest replay error, ") +
-                                quantity(check.largest.value, check.unit)});
+    if (check.name == "replay.position")
+      add(check.largest.t, "largest replay error, ", check.largest.value, check.unit);
   return jsonList(events, [](const Event& event, std::string& out) {
     out += R"({"t":)";
     addNumber(event.t, out);
