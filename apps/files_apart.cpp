@@ -6,8 +6,10 @@
 #include <filesystem>
 #include <vector>
 
+#include "apps/output.h"
 #include "apps/verbs.h"
 #include "model/scenario_files.h"
+#include "model/writable.h"
 
 namespace ursula {
 namespace {
@@ -22,8 +24,6 @@ bool isWritten(const std::string& option) {
   return std::find(writing.begin(), writing.end(), option) != writing.end();
 }
 
-bool isFile(const std::string& option) { return !option.empty() && option != "-"; }
-
 /// Flags name no file. Options that name no file are looked at as well where they are positional; that does no harm.
 void gather(const CLI::App& app, std::vector<Named>& out) {
   for (const CLI::Option* option : app.get_options()) {
@@ -31,7 +31,7 @@ void gather(const CLI::App& app, std::vector<Named>& out) {
     const bool written = isWritten(name) && option->get_expected_min() > 0;
     if (!written && !option->get_positional() && name != "--torques") continue;
     for (const std::string& file : option->results())
-      if (isFile(file)) out.push_back({name, file, written});
+      if (namesFile(file)) out.push_back({name, file, written});
   }
   for (const CLI::App* verb : app.get_subcommands()) gather(*verb, out);
 }
@@ -45,9 +45,10 @@ bool areSame(const std::string& a, const std::string& b) {
 
 bool isIn(const std::filesystem::path& folder, const std::string& file) {
   std::error_code none;
-  if (std::filesystem::equivalent(std::filesystem::absolute(file).parent_path(), folder, none)) return true;
-  const auto isLink = [&file](const auto& entry) { return areSame(file, entry.path().string()); };
-  return std::any_of(std::filesystem::directory_iterator(folder, none), {}, isLink);
+  const std::filesystem::path end = endOfLinks(std::filesystem::absolute(file));
+  if (std::filesystem::equivalent(end.parent_path(), folder, none)) return true;
+  const auto isHardLink = [&file](const auto& entry) { return areSame(file, entry.path().string()); };
+  return std::any_of(std::filesystem::directory_iterator(folder, none), {}, isHardLink);
 }
 
 }  // namespace
@@ -64,10 +65,10 @@ std::string namedTwice(const CLI::App& app) {
 }
 
 void requireApart(const Scenario& scenario, std::initializer_list<std::string> written) {
-  if (std::none_of(written.begin(), written.end(), isFile)) return;  // the text need not be parsed again
+  if (std::none_of(written.begin(), written.end(), namesFile)) return;  // the text need not be parsed again
   for (const std::filesystem::path& read : filesNamedBy(scenario))
     for (const std::string& file : written)
-      if (isFile(file) && areSame(file, read.string()))
+      if (namesFile(file) && areSame(file, read.string()))
         throw UsageError(fmt::format("{}: is also what {} reads, expected another file", file, scenario.file.string()));
 }
 
@@ -75,7 +76,7 @@ void requireOutside(std::initializer_list<std::string> compared, std::initialize
   std::error_code none;
   for (const std::string& folder : compared)
     for (const std::string& file : written)
-      if (std::filesystem::is_directory(folder, none) && isFile(file) && isIn(folder, file))
+      if (std::filesystem::is_directory(folder, none) && namesFile(file) && isIn(folder, file))
         throw UsageError(fmt::format("{}: is in {}, which is compared, expected another folder", file, folder));
 }
 

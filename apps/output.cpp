@@ -18,7 +18,7 @@ namespace {
 }  // namespace
 
 Output::Output(const std::string& file) {
-  if (!file.empty() && file != "-") file_.emplace(file);
+  if (namesFile(file)) file_.emplace(file);
 }
 
 void Output::write(std::string_view piece) {

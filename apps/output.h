@@ -10,6 +10,9 @@
 
 namespace ursula {
 
+/// An option may also be absent, or "-", which is a standard stream.
+inline bool namesFile(const std::string& option) { return !option.empty() && option != "-"; }
+
 /// What a verb writes piece by piece: to a file that nobody sees before it is whole, or to standard output where `file`
 /// is "-" or empty.
 class Output {

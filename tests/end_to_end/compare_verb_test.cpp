@@ -50,9 +50,10 @@ TEST(CompareVerb, changesNothingOfWhatItReads) {
   ursula.write("a/timeseries.csv", "t_s,x\n0,1\n1,2\n");
   ursula.write("b.csv", "t_s,x\n0,1\n1,2\n");
   std::filesystem::create_symlink("a/timeseries.csv", ursula.folder() / "link.xml");
+  std::filesystem::create_symlink("a/new.xml", ursula.folder() / "dangling.xml");
   std::filesystem::create_hard_link(ursula.folder() / "a/timeseries.csv", ursula.folder() / "hard.csv");
-  for (const char* into :
-       {"--junit a/timeseries.csv", "--junit a/new.xml", "--out ./a/table.csv", "--junit link.xml", "--out hard.csv"}) {
+  for (const char* into : {"--junit a/timeseries.csv", "--junit a/new.xml", "--out ./a/table.csv", "--junit link.xml",
+                           "--junit dangling.xml", "--out hard.csv"}) {
     const UrsulaRun run = ursula(std::string("compare b.csv a ") + into);
     EXPECT_EQ(run.exit_code, 2) << into;
     EXPECT_THAT(run.err, HasSubstr("is in a, which is compared, expected another folder"));
