@@ -14,8 +14,8 @@
 #include "apps/verbs.h"
 #include "model/csv.h"
 #include "model/scenario_input.h"
-#include "nocsolver/direct_kinematics.h"
-#include "nocsolver/ups_poses.h"
+#include "nocsolver/poses/direct_kinematics.h"
+#include "nocsolver/poses/ups_poses.h"
 
 namespace ursula {
 namespace {

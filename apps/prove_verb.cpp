@@ -123,7 +123,7 @@ void proveChecks(const ProveOptions& options, const Scenario& scenario, ProveFou
   found.sensitivities = proveSensitivities(scenario);
   printSensitivities(found.sensitivities);
   printChecks(found.proof->checks);
-  for (const std::string& check : found.proof->without_defect) fmt::print("The right solver fails {}.\n", check);
+  for (const std::string& check : found.proof->without_defect) fmt::print("Without a defect this fails: {}.\n", check);
 }
 
 int prove(const ProveOptions& options) {

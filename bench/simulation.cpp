@@ -2,7 +2,7 @@
 // batches, and by Runge–Kutta–Fehlberg 7(8), both to where it is commanded within 2e-9 m.
 
 #include "bench/benchmarks.h"
-#include "nocsolver/fast_dynamics.h"
+#include "nocsolver/fast/fast_dynamics.h"
 #include "validation/simulate/collocation.h"
 #include "validation/simulate/simulate.h"
 

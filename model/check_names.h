@@ -14,7 +14,8 @@ enum class CheckNeeds {
   any_instant,      ///< torques at any instant, not those of a file alone
   direct_dynamics,  ///< a subject that solves (36)
   other_machines,   ///< a subject that can be made for another machine
-  own_reactions,    ///< this program's own solver
+  own_reactions,    ///< a subject that finds the reactions at the joints
+  own_complement,   ///< a subject that forms T and D
   further_road,     ///< a build that has this road
   torque_file,      ///< torques that come from a file
 };

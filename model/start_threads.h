@@ -1,7 +1,11 @@
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <cstddef>
+#include <exception>
 #include <future>
+#include <mutex>
 #include <new>
 #include <system_error>
 #include <thread>
@@ -22,6 +26,27 @@ std::vector<std::thread> startThreads(std::size_t count, const Work& work) {
     // Likewise; and threads that run must not be forgotten.
   }
   return threads;
+}
+
+/// `task(k)` for k = 0 … count − 1 on `jobs` threads; the first exception is thrown again.
+template <class Task>
+void inParallel(int jobs, int count, const Task& task) {
+  std::atomic<int> next{0};
+  std::exception_ptr failure;
+  std::mutex guard;
+  const auto work = [&] {
+    for (int k = next++; k < count; k = next++) try {
+        task(k);
+      } catch (...) {
+        const std::lock_guard<std::mutex> lock(guard);
+        if (!failure) failure = std::current_exception();
+      }
+  };
+  std::vector<std::thread> threads =
+      startThreads(static_cast<std::size_t>(std::max(std::min(jobs, count) - 1, 0)), work);
+  work();
+  for (std::thread& thread : threads) thread.join();
+  if (failure) std::rethrow_exception(failure);
 }
 
 /// How many of `count` threads the system gives at once: for libraries that end where it gives fewer.

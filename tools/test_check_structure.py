@@ -24,7 +24,7 @@ def sound_tree():
         "model/CMakeLists.txt": "target_link_libraries(m ${Simbody_LIBRARIES})\n",
         "model/loops/CMakeLists.txt": "target_link_libraries(s ${Simbody_LIBRARIES})\n",
         "nocsolver/CMakeLists.txt": "target_link_libraries(n ursula::model)  # never Simbody\n",
-        "nocsolver/parallel/CMakeLists.txt": "target_link_libraries(p ursula::nocsolver TBB::tbb)\n",
+        "nocsolver/fast/parallel/CMakeLists.txt": "target_link_libraries(p ursula::nocsolver TBB::tbb)\n",
         "validation/CMakeLists.txt": "target_link_libraries(v ursula::nocsolver ursula::simbody_loop)\n",
         "model/machine.h": "#include <Eigen/Core>\n",
         "model/loops/simbody/simbody_loop.h": "// SimTK stays behind this header.\n",

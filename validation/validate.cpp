@@ -45,7 +45,9 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
                              {options.ladder, options.reactions});
   ValidationResult result;
   result.scenario = scenario.name;
+  result.formulation = name(subject.formulation);
   tell(options, 0.8, "checks");
+  if (right && options.time_limit <= 0) evidence.threads = options.threads;
   result.checks = judgeAll(evidence);
   tell(options, 0.9, "sources of the error");
   std::optional<ErrorBudget> budget;
@@ -71,9 +73,10 @@ std::shared_ptr<const Reference> referenceOf(const Scenario& scenario, const Val
 }
 
 /// Where time was up before any experiment: there is a report all the same.
-ValidationResult nothingReached(const Scenario& scenario, const std::string& subject, const OutOfTime& over) {
+ValidationResult nothingReached(const Scenario& scenario, const Subject& subject, const OutOfTime& over) {
   ValidationResult result;
   result.scenario = scenario.name;
+  result.formulation = name(subject.formulation);
   result.timeseries = validationSeries(*scenario.manipulator, {}, {});
   SubjectHas has;
   has.out_of_time = over.words;
@@ -81,7 +84,7 @@ ValidationResult nothingReached(const Scenario& scenario, const std::string& sub
   judgeByTolerance(scenario, true, result);
   judgeByUser(scenario.acceptance, result);
   addPicture(scenario, result);
-  addProvenance(scenario, subject, result);
+  addProvenance(scenario, subject.name, result);
   return result;
 }
 
@@ -94,7 +97,7 @@ ValidationResult validateOwn(const Scenario& scenario, const SubjectOf& make, bo
     const Subject subject = presented(make(reference->relocated), there);
     return run(scenario, *reference, subject, right, options);
   } catch (const OutOfTime& over) {
-    return nothingReached(scenario, make(scenario).name, over);
+    return nothingReached(scenario, make(scenario), over);
   }
 }
 
@@ -109,7 +112,7 @@ ValidationResult validate(const Scenario& scenario, const Subject& subject, cons
     const std::shared_ptr<const Reference> reference = referenceOf(scenario, options);
     return run(scenario, *reference, presented(subject, reference->natural), false, options);
   } catch (const OutOfTime& over) {
-    return nothingReached(scenario, subject.name, over);
+    return nothingReached(scenario, subject, over);
   }
 }
 

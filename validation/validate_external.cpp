@@ -70,6 +70,7 @@ Evidence gatherExternal(const Scenario& given, const Presentation& natural, cons
   out.amplification = replay.amplification.get();
   out.has.any_instant = out.has.kinematics = out.has.direct_dynamics = out.has.other_machines = false;
   out.samples = external.samples;
+  out.fast = runFast(scenario, out.samples);
   out.plan = replay.plan;
   out.scales = replay.scales;
   out.windows = replay.windows;
@@ -109,6 +110,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   evidence.has.out_of_time = out_of_time;
   ValidationResult result;
   result.scenario = scenario.name;
+  result.formulation = name(Formulation::external);
   result.checks = judgeAll(evidence);
   const ErrorBudget budget =
       attributeInTime(*evidence.scenario, evidence.samples, evidence.windows, evidence.amplification, evidence.plan);

@@ -51,6 +51,7 @@ ValidationResult validatePointwise(const Scenario& given, const std::vector<Chec
 
   ValidationResult result;
   result.scenario = given.name;
+  result.formulation = name(subject.formulation);
   result.checks = of_motion == nullptr ? judgeCommandedMotion(given) : *of_motion;
   for (Check& check : judgeSamples(evidence)) result.checks.push_back(std::move(check));
   if (given.tolerance) result.deviation = effortDeviation(evidence, result.checks);

@@ -5,8 +5,8 @@
 /// one thread or several, EffortDerivatives, DirectKinematics for all poses.
 
 #include "include/ursula/abi.h"
-#include "nocsolver/batch_dynamics.h"
-#include "nocsolver/direct_kinematics.h"
-#include "nocsolver/effort_derivatives.h"
-#include "nocsolver/parallel/threaded_batch.h"
+#include "nocsolver/fast/batch_dynamics.h"
+#include "nocsolver/fast/effort_derivatives.h"
+#include "nocsolver/fast/parallel/threaded_batch.h"
+#include "nocsolver/poses/direct_kinematics.h"
 #include "nocsolver/solver.h"

@@ -9,7 +9,7 @@
 
 #include "model/loops/maximal/maximal_loop.h"
 #include "model/loops/mujoco/mujoco_loop.h"
-#include "nocsolver/chain_solver.h"
+#include "nocsolver/noc/noc.h"
 #include "tests/model/random_kinds.h"
 
 namespace ursula {
@@ -31,8 +31,8 @@ inline Vector6d wrenchOf(const Load* load, const Motion<double>& motion) {
 
 /// The solver's efforts; none where a machine is too near to a singular pose to be asked.
 inline std::optional<Vector6d> bySolver(const Manipulator& machine, const Load* load, const Motion<double>& motion) {
-  const ChainSolver<double> solver(machine);
-  ChainWorkspace<double> work;
+  const Noc<double> solver(machine);
+  NocWorkspace<double> work;
   try {
     const Vector6d efforts = solver.inverseDynamics(motion, work, wrenchOf(load, motion));
     const Vector6d values = Eigen::JacobiSVD<Matrix6<double>>(work.B).singularValues();

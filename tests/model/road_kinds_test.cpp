@@ -37,8 +37,8 @@ class OnVectorsOfSixLegs : public OnKindVectors {};
 TEST_P(OnVectorsOfSixLegs, bodiesMoveAsTheSolversDo) {
   const Scenario scenario = vectorScenario(GetParam());
   MaximalLoop loop(*scenario.manipulator);
-  const ChainSolver<double> solver(*scenario.manipulator);
-  ChainWorkspace<double> work;
+  const Noc<double> solver(*scenario.manipulator);
+  NocWorkspace<double> work;
   BodyMotions<double> expected;
   for (const VectorRow& row : vectorRows(GetParam())) {
     const Motion<double> motion = rounded(row.motion);

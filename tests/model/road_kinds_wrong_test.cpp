@@ -80,8 +80,8 @@ TEST_P(OnEachKind, everyParameterHasASay) {
 
 /// Friction on a driven coordinate falls on its motor, along its rate; on another it is seen as well.
 TEST_P(OnEachKind, frictionActsAgainstItsCoordinate) {
-  const ChainSolver<double> solver{Manipulator(right_.machine)};
-  ChainWorkspace<double> work;
+  const Noc<double> solver{Manipulator(right_.machine)};
+  NocWorkspace<double> work;
   solver.inverseKinematics(right_.motion, work);
   const JointVariables<double> rates = solver.rates(work);
   int driven = 0;
@@ -97,7 +97,7 @@ TEST_P(OnEachKind, frictionActsAgainstItsCoordinate) {
         const Vector6d change = changed[k] - efforts_[k];
         EXPECT_GT(largest(change), 1e3 * room * size_) << nameOf(coordinate);
         for (int m = 0; m < motor_count; ++m) {
-          const Motor& motor = solver.motors()[static_cast<std::size_t>(m)];
+          const Motor& motor = solver.machine().motors[static_cast<std::size_t>(m)];
           if (motor.leg != GetParam() || motor.coordinate != coordinate) continue;
           EXPECT_LE(largest(change - more * Vector6d::Unit(m)), room * size_) << nameOf(coordinate);
           ++driven;

@@ -5,7 +5,7 @@
 
 #include <Eigen/QR>
 
-#include "nocsolver/paper_solver.h"
+#include "nocsolver/noc/noc.h"
 #include "tests/nocsolver/mechanism.h"
 #include "tests/nocsolver/rounding.h"
 #include "tests/support/motions.h"
@@ -20,11 +20,12 @@ struct Found {
     solver.inverseKinematics(motion, work);
     solver.jacobians(motion, work);
     solver.bodyMotions(motion, work, bodies);
-    solver.twistShaping(motion, work, T);
+    solver.twistShaping(motion, work);
+    T = work.T;
     D = constraintMatrix(manipulator, bodies);
   }
-  PaperSolver<S, R> solver;
-  PaperWorkspace<S> work;
+  Noc<S, R> solver;
+  NocWorkspace<S> work;
   BodyMotions<S> bodies;
   TwistShaping<S> T;
   ConstraintMatrix<S> D;

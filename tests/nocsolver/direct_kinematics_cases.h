@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
-#include "nocsolver/direct_kinematics.h"
-#include "nocsolver/direct_kinematics_planes.h"
+#include "nocsolver/poses/direct_kinematics.h"
+#include "nocsolver/poses/direct_kinematics_planes.h"
 #include "tests/support/motions.h"
 #include "tests/support/vectors.h"
 
@@ -15,7 +15,7 @@ namespace ursula {
 constexpr double eps = Eigen::NumTraits<double>::epsilon();
 
 /// Lengths that the plane equations are made of, m.
-inline double sizeOf(const PaperModel<double>& model, const Vector3d& p) {
+inline double sizeOf(const MachineParameters<double>& model, const Vector3d& p) {
   double size = p.norm() + model.length;
   for (const LegModel<double>& leg : model.legs) size = std::max(size, p.norm() + model.length + leg.a.norm());
   return size;
@@ -43,12 +43,12 @@ struct Conditioned {
 
   Conditioned(const DirectKinematics& kinematics, const Motion<double>& motion) {
     Workspace<double> work;
-    const PaperModel<double>& model = kinematics.solver().paper()->model();
+    const MachineParameters<double>& model = kinematics.solver().machine();
     kinematics.solver().displacements(motion, work);
     phi = kinematics.solver().angles(work).phi;
     Matrix6d B;
     for (int i = 0; i < leg_count; ++i) {
-      const LegState<double>& leg = work.paper.legs[static_cast<std::size_t>(i)];
+      const LegState<double>& leg = work.legs[static_cast<std::size_t>(i)];
       B.row(i) << leg.Qb.cross(leg.x).transpose() / model.length, leg.x.transpose();
     }
     svd.compute(B, Eigen::ComputeFullU | Eigen::ComputeFullV);

@@ -1,6 +1,6 @@
 // Common roots of three quadrics that are known beforehand: pairs of planes meet in eight points.
 
-#include "nocsolver/direct_kinematics_roots.h"
+#include "nocsolver/poses/direct_kinematics_roots.h"
 
 #include <gtest/gtest.h>
 

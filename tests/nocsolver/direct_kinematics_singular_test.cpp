@@ -64,7 +64,7 @@ struct DoubleRoot {
 
   DoubleRoot(const DirectKinematics& kinematics, const Motion<double>& motion)
       : conditioned(kinematics, motion), left(conditioned.svd.matrixU().col(5)) {
-    const PaperModel<double>& model = kinematics.solver().paper()->model();
+    const MachineParameters<double>& model = kinematics.solver().machine();
     const direct::Planes planes(model, conditioned.phi);
     const direct::Elimination elimination = planes.eliminateP();
     const Vector3d omega = conditioned.svd.matrixV().col(5).head<3>() / model.length;
@@ -142,7 +142,7 @@ TEST(DirectKinematics, APairOfPosesVanishesAcrossAFoldAndTrackingSaysSo) {
     Vector6d step = root.left;
     Workspace<double> work;
     kinematics.solver().displacements(fold->motion(), work);
-    for (int i = 0; i < leg_count; ++i) step(i) /= work.paper.legs[static_cast<std::size_t>(i)].a_ii;
+    for (int i = 0; i < leg_count; ++i) step(i) /= work.legs[static_cast<std::size_t>(i)].row[0].A;
     const Vector6d ahead = root.conditioned.phi + 1e-4 * step, behind = root.conditioned.phi - 1e-4 * step;
     const PlatformPoses one = kinematics.poses(ahead), other = kinematics.poses(behind);
     if (std::abs(one.size - other.size) != 2) continue;  // another fold within 1e-4

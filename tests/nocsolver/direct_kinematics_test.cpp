@@ -1,7 +1,7 @@
 // Poses from actuated angles against the poses that the angles come from, and against the paper's 18 equations written
 // out here from raw parameters.
 
-#include "nocsolver/direct_kinematics.h"
+#include "nocsolver/poses/direct_kinematics.h"
 
 #include <gtest/gtest.h>
 
@@ -60,7 +60,7 @@ struct RoundTrips {
     if (poses.counted != 8) ++missing;
     int alike = 0;
     for (const PlatformPose& each : poses) {
-      const double limit = 64 * eps * sizeOf(made.kinematics->solver().paper()->model(), each.p);
+      const double limit = 64 * eps * sizeOf(made.kinematics->solver().machine(), each.p);
       mismatch = wider(mismatch, ursula::mismatch(*made.manipulator, phi, each) / limit);
       residual = wider(residual, each.residual / limit);
       (each.assembles ? assembling : out_of_reach) += 1;
@@ -197,7 +197,7 @@ TEST(DirectKinematics, GivesTwistAndTwistRateOfTheVectors) {
                              row.q_dot.phi.cast<double>().squaredNorm() + eps;
         const double off = (found.omega - commanded.omega).norm() + (found.p_dot - commanded.p_dot).norm() +
                            (found.omega_dot - commanded.omega_dot).norm() + (found.p_ddot - commanded.p_ddot).norm();
-        return off / (scale * roundingLimit(*kinematics.solver().paper(), work.paper));
+        return off / (scale * roundingLimit(kinematics.solver().noc(), work));
       };
       worst = wider(worst, error(doubles(row.q_ddot.phi)));
       disturbed = std::min(disturbed, error(doubles(row.q_ddot.phi) + Vector6d::Constant(1e-6)));

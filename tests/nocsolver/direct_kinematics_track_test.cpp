@@ -64,7 +64,7 @@ TEST(DirectKinematics, TracksTheBranchThatItIsOnAndNoOther) {
 TEST(DirectKinematics, NewtonConvergesQuadratically) {
   const Scenario paper = vectorScenario("paper-helix");
   const DirectKinematics kinematics(*paper.manipulator);
-  const PaperModel<double>& model = kinematics.solver().paper()->model();
+  const MachineParameters<double>& model = kinematics.solver().machine();
   int judged = 0;
   for (const double t : {0.3, 1.0, 2.0, 2.9}) {
     const Conditioned conditioned(kinematics, paper.trajectory->at(t));

@@ -8,7 +8,7 @@
 #include <iostream>
 
 #include "model/real50.h"
-#include "nocsolver/paper_solver.h"
+#include "nocsolver/noc/noc.h"
 #include "tests/model/derivatives.h"
 #include "tests/nocsolver/newton_euler.h"
 #include "tests/nocsolver/rounding.h"
@@ -23,22 +23,22 @@ template <class S>
 struct Roads {
   Vector6<S> torques, assembled;
   Matrix6<S> T_P, M_P, inertia;
-  PaperWorkspace<S> work;
+  NocWorkspace<S> work;
   double relative_limit, torque_limit;  ///< N·m
 
   template <class R = Corrected>
   Roads(const Manipulator& manipulator, const Motion<S>& motion, R reading = R{}) {
-    const PaperSolver<S, R> solver(manipulator, reading);
+    const Noc<S, R> solver(manipulator, reading);
     torques = solver.inverseDynamics(motion, work);
     M_P = solver.massMatrixAtP(motion, work);
-    const PaperSolver<S> right(manipulator);
+    const Noc<S> right(manipulator);
     BodyMotions<S> bodies;
-    TwistShaping<S> T;
     right.inverseKinematics(motion, work);
     right.jacobians(motion, work);
     right.bodyMotions(motion, work, bodies);
-    right.twistShaping(motion, work, T);
-    T_P = right.T(work);
+    right.twistShaping(motion, work);
+    const TwistShaping<S>& T = work.T;
+    T_P = right.platformShaping(work);
     assembled = -T.transpose() * generalizedWrench(manipulator, bodies, right.rates(work));  // (37)
     inertia = generalizedInertia(manipulator, bodies, T);
     relative_limit = roundingLimit(right, work);
@@ -102,14 +102,14 @@ TEST_P(Dynamics, aTermLeftOutIsSeen) {
 }
 
 TEST_P(Dynamics, aLoadIsCarriedByTheTransposedJacobian) {
-  const PaperSolver<double> solver(*scenario_.manipulator);
-  PaperWorkspace<double> work;
+  const Noc<double> solver(*scenario_.manipulator);
+  NocWorkspace<double> work;
   const Motion<double> motion = randomState(scenario_, dice_);
   Vector6d load;
   load << dice_.vector(300), dice_.vector(2000);
   const Vector6d without = solver.inverseDynamics(motion, work);
   const Vector6d change = solver.inverseDynamics(motion, work, load) - without;
-  const Vector6d expected = -solver.T(work).transpose() * load;
+  const Vector6d expected = -solver.platformShaping(work).transpose() * load;
   EXPECT_LE((change - expected).norm(), roundingLimit(solver, work) * (without.norm() + expected.norm()));
   EXPECT_GT(expected.norm(), 1);
 }
@@ -121,8 +121,8 @@ TEST_P(Dynamics, directUndoesInverse) {
     const Motion<double> motion = randomState(scenario_, dice_);
     Vector6d load;
     load << dice_.vector(300), dice_.vector(2000);
-    const PaperSolver<double> solver(*with_coulomb_);
-    PaperWorkspace<double> work;
+    const Noc<double> solver(*with_coulomb_);
+    NocWorkspace<double> work;
     const Vector6d torques = solver.inverseDynamics(motion, work, load);
     const Roads<double> roads(*with_coulomb_, motion);
     Motion<double> unread = motion;
@@ -182,8 +182,8 @@ Real50 dissipation(const Manipulator& manipulator, const JointVariables<Real50>&
 /// τᵀφ̇ = d(energy)/dt + dissipation, the derivative by a central difference.
 TEST_P(Dynamics, powerOfTheTorquesBecomesEnergyAndHeat) {
   const auto trajectory = tumbling(scenario_, 3);
-  const PaperSolver<Real50> solver(*with_coulomb_);
-  PaperWorkspace<Real50> work;
+  const Noc<Real50> solver(*with_coulomb_);
+  NocWorkspace<Real50> work;
   const auto energyAt = [&](const Real50& t) {
     BodyMotions<Real50> bodies;
     const Motion<Real50> motion = trajectory->at(t);
@@ -218,8 +218,8 @@ TEST(PaperHelix, hasItsReferenceTorques) {
         {24593.499943682222, 6729.2515146115527, 25065.531685212988, 13373.873533911844, 15845.632576113775,
          3305.8309418147462}}}};
   const Scenario scenario = vectorScenario("paper-helix");
-  const PaperSolver<double> solver(*scenario.manipulator);
-  PaperWorkspace<double> work;
+  const Noc<double> solver(*scenario.manipulator);
+  NocWorkspace<double> work;
   for (const auto& [t, values] : reference) {
     const Vector6d expected = Eigen::Map<const Vector6d>(values.data());
     const Vector6d torques = solver.inverseDynamics(scenario.trajectory->at(t), work);

@@ -1,7 +1,7 @@
 // EffortDerivatives against central differences of FastDynamics in 50 digits, over the machines of tests/vectors (every
-// kind of leg, mixtures, friction, several motors on a leg), by every instruction set that this processor has.
+// kind of leg, mixtures, friction, several motors on a leg).
 
-#include "nocsolver/effort_derivatives.h"
+#include "nocsolver/fast/effort_derivatives.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "model/errors.h"
 #include "model/named_number.h"
 #include "model/real50.h"
-#include "nocsolver/fast_dynamics.h"
+#include "nocsolver/fast/fast_dynamics.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/motions.h"
 #include "tests/support/vectors.h"
@@ -23,9 +23,6 @@ namespace {
 constexpr double promised = 1e-12;
 using ByState = Eigen::Matrix<double, 6, 18>;
 using Six = Vector6<Real50>;
-
-constexpr InstructionSet sets[] = {InstructionSet::portable, InstructionSet::sse2, InstructionSet::avx2,
-                                   InstructionSet::avx512};
 
 std::vector<std::string> allNames() {
   std::vector<std::string> out = kindNames();
@@ -136,23 +133,19 @@ TEST_P(DerivativesOf, byStateAreTheDifferencesInFiftyDigits) {
     for (const bool turns : {false, true}) {
       const ByState expected = differences(fast, motion(row), someLoad(), turns);
       const Vector6d efforts = fast.inverseDynamics(exactly(motion(row)), someLoad()).cast<double>();
-      for (const InstructionSet set : sets) {
-        if (!isSupported(set)) continue;
-        const EffortDerivatives of(machine(), set);
-        const EffortsByState found =
-            turns ? of.byState(motion(row), load, turning(load)) : of.byState(motion(row), load);
-        EXPECT_LE(distance(found.derivatives, expected), promised) << nameOf(set) << ", row " << row;
-        EXPECT_LE((found.efforts - efforts).norm(), promised * efforts.norm()) << nameOf(set);
-        for (int k = 0; k < 18; ++k) {  // a wrong column is found
-          ByState wrong = found.derivatives;
-          wrong.col(k) *= 1 + 1e-9;
-          if (expected.col(k).norm() > 1e-3 * expected.middleCols<3>(k / 3 * 3).norm()) {
-            EXPECT_GT(distance(wrong, expected), promised) << k;
-          }
+      const EffortDerivatives of(machine());
+      const EffortsByState found = turns ? of.byState(motion(row), load, turning(load)) : of.byState(motion(row), load);
+      EXPECT_LE(distance(found.derivatives, expected), promised) << "row " << row;
+      EXPECT_LE((found.efforts - efforts).norm(), promised * efforts.norm());
+      for (int k = 0; k < 18; ++k) {  // a wrong column is found
+        ByState wrong = found.derivatives;
+        wrong.col(k) *= 1 + 1e-9;
+        if (expected.col(k).norm() > 1e-3 * expected.middleCols<3>(k / 3 * 3).norm()) {
+          EXPECT_GT(distance(wrong, expected), promised) << k;
         }
-        if (turns) {
-          EXPECT_GT(distance(of.byState(motion(row), load).derivatives, expected), 1e-9) << "the turn is seen";
-        }
+      }
+      if (turns) {
+        EXPECT_GT(distance(of.byState(motion(row), load).derivatives, expected), 1e-9) << "the turn is seen";
       }
     }
 }
@@ -194,17 +187,14 @@ TEST_P(DerivativesOf, refuseWhatInverseDynamicsRefuse) {
 
 /// Y π = τ, whatever the bodies are.
 TEST_P(DerivativesOf, regressorTimesItsValuesIsTheEfforts) {
-  for (const InstructionSet set : sets) {
-    if (!isSupported(set)) continue;
-    const EffortDerivatives of(machine(), set);
-    const Eigen::VectorXd values = of.regressorValues();
-    ASSERT_EQ(static_cast<std::size_t>(values.size()), of.regressorNames().size());
-    for (const std::size_t row : {0u, 2u, 4u}) {
-      const Vector6d expected = FastDynamics<double>(machine()).inverseDynamics(motion(row));
-      const EffortDerivatives::Columns Y = of.regressor(motion(row));
-      EXPECT_LE((Y * values - expected).norm(), promised * expected.norm()) << nameOf(set);
-      EXPECT_GT((Y * (values * 1.001) - expected).norm(), promised * expected.norm());
-    }
+  const EffortDerivatives of(machine());
+  const Eigen::VectorXd values = of.regressorValues();
+  ASSERT_EQ(static_cast<std::size_t>(values.size()), of.regressorNames().size());
+  for (const std::size_t row : {0u, 2u, 4u}) {
+    const Vector6d expected = FastDynamics<double>(machine()).inverseDynamics(motion(row));
+    const EffortDerivatives::Columns Y = of.regressor(motion(row));
+    EXPECT_LE((Y * values - expected).norm(), promised * expected.norm());
+    EXPECT_GT((Y * (values * 1.001) - expected).norm(), promised * expected.norm());
   }
 }
 

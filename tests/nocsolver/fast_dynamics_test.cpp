@@ -1,8 +1,8 @@
-// FastDynamics, each leg in its plane, against its witnesses: the vectors, made from positions alone, ChainSolver,
-// which knows joints' axes alone, and PaperSolver, equation by equation. BatchDynamics against FastDynamics, by every
+// FastDynamics, each leg in its plane, against its witnesses: the vectors, made from positions alone, Noc,
+// which knows joints' axes alone, and Noc, equation by equation. BatchDynamics against FastDynamics, by every
 // instruction set that this processor has.
 
-#include "nocsolver/fast_dynamics.h"
+#include "nocsolver/fast/fast_dynamics.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 
 #include "model/load.h"
 #include "model/real50.h"
-#include "nocsolver/batch_dynamics.h"
+#include "nocsolver/fast/batch_dynamics.h"
 #include "nocsolver/solver.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/motions.h"
@@ -66,8 +66,8 @@ class FastOf : public testing::TestWithParam<std::string> {
 
 TEST_P(FastOf, agreesWithTheRecursionInFiftyDigits) {
   const FastDynamics<Real50> fast(*scenario_.manipulator);
-  const ChainSolver<Real50> chain(*scenario_.manipulator);
-  ChainWorkspace<Real50> work;
+  const Noc<Real50> chain(*scenario_.manipulator);
+  NocWorkspace<Real50> work;
   double efforts = 0, rates = 0;
   for (const VectorRow& row : rows_) {
     const auto load = someLoad<Real50>();
@@ -83,8 +83,8 @@ TEST_P(FastOf, agreesWithTheRecursionInFiftyDigits) {
 }
 
 TEST_P(FastOf, agreesWithTheRecursionInDoubles) {
-  const ChainSolver<Real50> chain(*scenario_.manipulator);
-  ChainWorkspace<Real50> work;
+  const Noc<Real50> chain(*scenario_.manipulator);
+  NocWorkspace<Real50> work;
   ASSERT_GE(supportedSets().size(), 1u);
   for (const InstructionSet set : supportedSets()) {
     const FastDynamics<double> fast(*scenario_.manipulator, set);
@@ -122,15 +122,15 @@ TEST_P(FastOf, allocatesNothing) {
 
 /// Poses that cannot be are refused as the recursion refuses them.
 TEST_P(FastOf, refusesWhatTheRecursionRefuses) {
-  const ChainSolver<double> chain(*scenario_.manipulator);
-  ChainWorkspace<double> work;
+  const Noc<double> chain(*scenario_.manipulator);
+  NocWorkspace<double> work;
   for (const InstructionSet set : supportedSets()) {
     const FastDynamics<double> fast(*scenario_.manipulator, set);
     Dice dice(11);
     int refused = 0;
     for (int k = 0; k < 200; ++k) {
       Motion<double> motion = rounded(rows_[static_cast<std::size_t>(k) % rows_.size()].motion);
-      for (int j = 0; j < 3; ++j) motion.p(j) += dice.between(-1, 1) * chain.length();
+      for (int j = 0; j < 3; ++j) motion.p(j) += dice.between(-1, 1) * chain.machine().length;
       std::string by_chain, by_fast;
       try {
         chain.inverseDynamics(motion, work);
@@ -207,7 +207,7 @@ TEST_P(BatchOf, flagsWhatSinglePosesRefuse) {
   std::vector<Motion<double>> m = motions(400, 400);
   for (Motion<double>& motion : m)
     for (int j = 0; j < 3; ++j)
-      motion.p(j) += dice.between(-1, 1) * ChainSolver<double>(*scenario_.manipulator).length();
+      motion.p(j) += dice.between(-1, 1) * MachineParameters<double>(*scenario_.manipulator).length;
   std::vector<Vector6d> out(m.size());
   std::vector<PoseFault> expected(m.size()), found(m.size());
   one_by_one.inverseDynamics(m.data(), m.size(), out.data(), expected.data());

@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "model/real50.h"
-#include "nocsolver/paper_solver.h"
+#include "nocsolver/noc/noc.h"
 #include "tests/model/derivatives.h"
 #include "tests/nocsolver/rounding.h"
 #include "tests/support/motions.h"
@@ -17,7 +17,7 @@ namespace {
 /// Everything that the solver says of one instant.
 struct Answer {
   Motion<Real50> motion;
-  PaperWorkspace<Real50> work;
+  NocWorkspace<Real50> work;
   JointVariables<Real50> q, q_dot, q_ddot;
   Matrix6<Real50> T, T_rate;
   BodyMotions<Real50> bodies;
@@ -25,7 +25,7 @@ struct Answer {
 };
 
 template <class R>
-Answer answerAt(const PaperSolver<Real50, R>& solver, const Motion<Real50>& motion) {
+Answer answerAt(const Noc<Real50, R>& solver, const Motion<Real50>& motion) {
   Answer out;
   out.motion = motion;
   solver.inverseKinematics(motion, out.work);
@@ -33,11 +33,12 @@ Answer answerAt(const PaperSolver<Real50, R>& solver, const Motion<Real50>& moti
   out.q = solver.angles(out.work);
   out.q_dot = solver.rates(out.work);
   out.q_ddot = solver.accelerations(out.work);
-  out.T = solver.T(out.work);
-  out.T_rate = solver.TRate(motion, out.work);
+  out.T = solver.platformShaping(out.work);
+  out.T_rate = solver.platformShapingRate(motion, out.work);
   solver.bodyMotions(motion, out.work, out.bodies);
-  solver.twistShaping(motion, out.work, out.shaping);
-  solver.twistShapingRate(motion, out.work, out.shaping_rate);
+  solver.twistShapingRate(motion, out.work);
+  out.shaping = out.work.T;
+  out.shaping_rate = out.work.T_rate;
   return out;
 }
 
@@ -82,7 +83,7 @@ void widenBodies(const Answer& before, const Answer& now, const Answer& after, M
 template <class R = Corrected>
 Mismatch mismatchOf(const std::string& name, R reading = R{}) {
   const Scenario scenario = vectorScenario(name);
-  const PaperSolver<Real50, R> solver(*scenario.manipulator, reading);
+  const Noc<Real50, R> solver(*scenario.manipulator, reading);
   const auto trajectory = tumbling(scenario, 20);
   Mismatch out;
   for (const double instant : instantsInside(trajectory->duration(), 3)) {
@@ -95,7 +96,7 @@ Mismatch mismatchOf(const std::string& name, R reading = R{}) {
     widen(out.T_rate, now.T_rate - centralDifference(before.T, after.T));
     widen(out.shaping_rate, now.shaping_rate - centralDifference(before.shaping, after.shaping));
     for (std::size_t i = 0; i < leg_count; ++i)
-      widen(out.a_ii, Eigen::Matrix<Real50, 1, 1>(now.work.legs[i].a_ii_dot -
+      widen(out.a_ii, Eigen::Matrix<Real50, 1, 1>(now.work.legs[i].row[0].A_dot -
                                                   centralDifference(before.work.A, after.work.A)(static_cast<int>(i))));
     widen(out.t_P, now.T * now.q_dot.phi - twistOf(now.motion));
     widen(out.t_P_rate, now.T * now.q_ddot.phi + now.T_rate * now.q_dot.phi - twistRateOf(now.motion));

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "nocsolver/paper_solver.h"
+#include "nocsolver/noc/noc.h"
 #include "tests/nocsolver/mechanism.h"
 
 // The right-hand side of (37) as the paper writes it: one wrench for each body about its mass centre, in B, and the

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/real50.h"
-#include "nocsolver/paper_solver.h"
+#include "nocsolver/noc/noc.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/vectors.h"
 
@@ -47,9 +47,9 @@ Motion<S> castTo(const Motion<Real50>& motion) {
 TYPED_TEST(NoAllocation, inAnyFunctionOfTheSolver) {
   using S = TypeParam;
   const Scenario scenario = vectorScenario("random-4");
-  const PaperSolver<S> solver(*scenario.manipulator);
+  const Noc<S> solver(*scenario.manipulator);
   const Motion<S> motion = castTo<S>(vectorRows("random-4")[2].motion);
-  PaperWorkspace<S> work;
+  NocWorkspace<S> work;
   BodyMotions<S> bodies;
   TwistShaping<S> shaping, shaping_rate;
   JointVariables<S> q, q_dot, q_ddot;
@@ -65,11 +65,11 @@ TYPED_TEST(NoAllocation, inAnyFunctionOfTheSolver) {
   evaluate("angles", [&] { q = solver.angles(work); });
   evaluate("rates", [&] { q_dot = solver.rates(work); });
   evaluate("accelerations", [&] { q_ddot = solver.accelerations(work); });
-  evaluate("T", [&] { T = solver.T(work); });
-  evaluate("TRate", [&] { T_rate = solver.TRate(motion, work); });
+  evaluate("T", [&] { T = solver.platformShaping(work); });
+  evaluate("TRate", [&] { T_rate = solver.platformShapingRate(motion, work); });
   evaluate("bodyMotions", [&] { solver.bodyMotions(motion, work, bodies); });
-  evaluate("twistShaping", [&] { solver.twistShaping(motion, work, shaping); });
-  evaluate("twistShapingRate", [&] { solver.twistShapingRate(motion, work, shaping_rate); });
+  evaluate("twistShaping", [&] { solver.twistShaping(motion, work), shaping = work.T; });
+  evaluate("twistShapingRate", [&] { solver.twistShapingRate(motion, work), shaping_rate = work.T_rate; });
   evaluate("massMatrixAtP", [&] { M_P = solver.massMatrixAtP(motion, work); });
   evaluate("inverseDynamics", [&] { torques = solver.inverseDynamics(motion, work, Vector6<S>::Ones()); });
   evaluate("directDynamics", [&] { accelerations = solver.directDynamics(motion, torques, work); });
@@ -81,9 +81,9 @@ TYPED_TEST(NoAllocation, inAnyFunctionOfTheSolver) {
 
 TEST(NoAllocationWithSlips, either) {
   const Scenario scenario = vectorScenario("random-4");
-  const PaperSolver<double, WithSlips> solver(*scenario.manipulator, WithSlips(Slip::eq15a));
+  const Noc<double, WithSlips> solver(*scenario.manipulator, WithSlips(Slip::eq15a));
   const Motion<double> motion = rounded(vectorRows("random-4")[2].motion);
-  PaperWorkspace<double> work;
+  NocWorkspace<double> work;
   Vector6d torques;
   EXPECT_EQ(allocationsIn([&] { torques = solver.inverseDynamics(motion, work); }), 0);
   EXPECT_GT(torques.norm(), 0);

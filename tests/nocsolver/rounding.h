@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "nocsolver/paper_solver.h"
+#include "nocsolver/noc/noc.h"
 
 namespace ursula {
 
@@ -14,19 +14,19 @@ constexpr double chain_length = 64;
 /// number of B (moments over a length of the machine; Frobenius norms bound the spectral ones) times that of the worst
 /// leg, where rates go with 1/sin θ and q/r. Needs inverseKinematics and jacobians.
 template <class S>
-S conditionNumber(const PaperSolver<S>& solver, const PaperWorkspace<S>& work) {
+S conditionNumber(const Noc<S>& solver, const NocWorkspace<S>& work) {
   Matrix6<S> B = work.B;
-  B.template leftCols<3>() /= solver.model().length;
+  B.template leftCols<3>() /= solver.machine().length;
   const Matrix6<S> inverse = B.inverse();
   S legs = 1;
   for (const LegState<S>& leg : work.legs)
-    legs = std::max<S>(legs, leg.q * leg.q / (leg.r * leg.r * leg.sin_theta * leg.sin_theta));
+    legs = std::max<S>(legs, leg.margins.leverage * leg.margins.leverage / (leg.margins.sine * leg.margins.sine));
   return B.norm() * inverse.norm() * legs;
 }
 
 /// Relative rounding error that either of two roads to the same number may have at the motion in `work`.
 template <class S>
-double roundingLimit(const PaperSolver<S>& solver, const PaperWorkspace<S>& work) {
+double roundingLimit(const Noc<S>& solver, const NocWorkspace<S>& work) {
   return static_cast<double>(S(chain_length * Eigen::NumTraits<S>::epsilon() * conditionNumber(solver, work)));
 }
 

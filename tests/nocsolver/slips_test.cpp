@@ -7,7 +7,7 @@
 #include <iostream>
 #include <map>
 
-#include "nocsolver/paper_solver.h"
+#include "nocsolver/noc/noc.h"
 #include "tests/support/motions.h"
 #include "tests/support/vectors.h"
 
@@ -19,15 +19,16 @@ struct Answer {
   explicit Answer(std::string why) : refused(std::move(why)) {}
 
   template <class R>
-  Answer(const PaperSolver<double, R>& solver, const Motion<double>& motion) {
-    PaperWorkspace<double> work;
+  Answer(const Noc<double, R>& solver, const Motion<double>& motion) {
+    NocWorkspace<double> work;
     BodyMotions<double> bodies;
     TwistShaping<double> shaping, shaping_rate;
     solver.inverseKinematics(motion, work);
     solver.jacobians(motion, work);
     solver.bodyMotions(motion, work, bodies);
-    solver.twistShaping(motion, work, shaping);
-    solver.twistShapingRate(motion, work, shaping_rate);
+    solver.twistShapingRate(motion, work);
+    shaping = work.T;
+    shaping_rate = work.T_rate;
     const auto joints = [](const JointVariables<double>& q) {
       Eigen::VectorXd out(18);
       out << q.phi, q.psi, q.theta;
@@ -37,8 +38,8 @@ struct Answer {
     kinds["angles"] = joints(solver.angles(work));
     kinds["rates"] = joints(solver.rates(work));
     kinds["accelerations"] = joints(solver.accelerations(work));
-    kinds["T"] = flat(solver.T(work));
-    kinds["T rate"] = flat(solver.TRate(motion, work));
+    kinds["T"] = flat(solver.platformShaping(work));
+    kinds["T rate"] = flat(solver.platformShapingRate(motion, work));
     kinds["shaping"] = flat(shaping);
     kinds["shaping rate"] = flat(shaping_rate);
     kinds["twists"] = kinds["twist rates"] = Eigen::VectorXd(6 * body_count);
@@ -57,7 +58,7 @@ struct Answer {
 
 Answer slipped(const Manipulator& manipulator, const Motion<double>& motion, const WithSlips& slips) {
   try {
-    return Answer(PaperSolver<double, WithSlips>(manipulator, slips), motion);
+    return Answer(Noc<double, WithSlips>(manipulator, slips), motion);
   } catch (const PoseError& error) {
     return Answer(error.what());
   }
@@ -80,7 +81,7 @@ TEST_P(EverySlip, makesADifference) {
   const Scenario scenario = vectorScenario("random-4");
   Dice dice(17);
   const Motion<double> motion = randomState(scenario, dice);
-  const Answer right(PaperSolver<double>(*scenario.manipulator), motion);
+  const Answer right(Noc<double>(*scenario.manipulator), motion);
   const Answer wrong = slipped(*scenario.manipulator, motion, WithSlips(static_cast<Slip>(GetParam())));
   const auto [kind, size] = largestEffect(right, wrong);
   std::cout << "slip " << GetParam() << ": " << kind << " off by " << size << '\n';
@@ -97,7 +98,7 @@ TEST_P(Corrections, areWhatIsReadWithNoSlipSet) {
   Dice dice(19);
   for (int k = 0; k < 5; ++k) {
     const Motion<double> motion = randomState(scenario, dice);
-    const Answer right(PaperSolver<double>(*scenario.manipulator), motion);
+    const Answer right(Noc<double>(*scenario.manipulator), motion);
     const Answer same = slipped(*scenario.manipulator, motion, WithSlips{});
     ASSERT_EQ(same.refused, "");
     for (const auto& [kind, values] : right.kinds)

@@ -1,6 +1,6 @@
 // A batch by several threads is the batch, to the last bit.
 
-#include "nocsolver/parallel/threaded_batch.h"
+#include "nocsolver/fast/parallel/threaded_batch.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "nocsolver/ups_poses.h"
+#include "nocsolver/poses/ups_poses.h"
 
 // Six-legged machines thrown at random, and their poses. For tests/nocsolver/ups_poses_*.
 

@@ -7,7 +7,7 @@
 #include <iostream>
 
 #include "model/real50.h"
-#include "nocsolver/paper_solver.h"
+#include "nocsolver/noc/noc.h"
 #include "tests/nocsolver/rounding.h"
 #include "tests/support/vectors.h"
 
@@ -39,8 +39,8 @@ void widen(double& worst, const JointVariables<S>& found, const JointVariables<R
 }
 
 template <class S, class R>
-Errors errorsAt(const PaperSolver<S, R>& solver, const Motion<S>& motion, const VectorRow& row, Errors errors) {
-  PaperWorkspace<S> work;
+Errors errorsAt(const Noc<S, R>& solver, const Motion<S>& motion, const VectorRow& row, Errors errors) {
+  NocWorkspace<S> work;
   widen(errors.torques, solver.inverseDynamics(motion, work), row.torques);
   widen(errors.angles, solver.angles(work), row.q);
   widen(errors.rates, solver.rates(work), row.q_dot);
@@ -73,7 +73,7 @@ class Vectors : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(Vectors, inDoublesFromTheirMotion) {
-  const PaperSolver<double> solver(*scenario_.manipulator);
+  const Noc<double> solver(*scenario_.manipulator);
   Errors errors;
   for (const VectorRow& row : rows_) errors = errorsAt(solver, rounded(row.motion), row, errors);
   print("doubles, their motion", errors);
@@ -81,7 +81,7 @@ TEST_P(Vectors, inDoublesFromTheirMotion) {
 }
 
 TEST_P(Vectors, inDoublesFromTheTrajectory) {
-  const PaperSolver<double> solver(*scenario_.manipulator);
+  const Noc<double> solver(*scenario_.manipulator);
   Errors errors;
   for (const VectorRow& row : rows_) {
     const Motion<double> motion = scenario_.trajectory->at(static_cast<double>(row.motion.t));
@@ -96,8 +96,8 @@ TEST_P(Vectors, inDoublesFromTheTrajectory) {
 /// read (0.3420 is none): half an ulp of each of the 32 numbers that a leg, the platform and the motion go into a
 /// torque with, grown by conditioning.
 TEST_P(Vectors, inFiftyDigitsUpToTheRoundingOfTheParameters) {
-  const PaperSolver<Real50> solver(*scenario_.manipulator);
-  PaperWorkspace<Real50> work;
+  const Noc<Real50> solver(*scenario_.manipulator);
+  NocWorkspace<Real50> work;
   Errors errors;
   double condition = 0;
   for (const VectorRow& row : rows_) {
@@ -113,11 +113,11 @@ TEST_P(Vectors, inFiftyDigitsUpToTheRoundingOfTheParameters) {
 
 /// Controls: another instant's motion, and each level of formulas as printed in our source.
 TEST_P(Vectors, areMissedByAWrongMotionAndByWrongFormulas) {
-  const PaperSolver<double> solver(*scenario_.manipulator);
+  const Noc<double> solver(*scenario_.manipulator);
   const Errors other = errorsAt(solver, rounded(rows_[1].motion), rows_[2], {});
   EXPECT_GT(std::min({other.torques, other.angles, other.rates, other.accelerations}), 1e9 * promised);
   const auto slipped = [&](Slip slip) {
-    const PaperSolver<double, WithSlips> wrong(*scenario_.manipulator, WithSlips(slip));
+    const Noc<double, WithSlips> wrong(*scenario_.manipulator, WithSlips(slip));
     return errorsAt(wrong, rounded(rows_[2].motion), rows_[2], {});
   };
   EXPECT_GT(slipped(Slip::eq14b).angles, 1e9 * promised);

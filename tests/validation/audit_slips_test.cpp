@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "model/scenario.h"
-#include "nocsolver/solver.h"
+#include "nocsolver/noc/noc.h"
 #include "validation/audit/formula.h"
 
 namespace ursula::audit {
@@ -15,11 +15,11 @@ namespace {
 Scenario paperHelix() { return readScenario(URSULA_SCENARIOS "/paper-helix.toml"); }
 
 /// What the solver with a slip says, in the order of the formula's values.
-using Reading = std::function<Values(const PaperSolver<S, WithSlips>&, const Motion<S>&, PaperWorkspace<S>&)>;
+using Reading = std::function<Values(const Noc<S, WithSlips>&, const Motion<S>&, NocWorkspace<S>&)>;
 
 template <class F>
 Reading overJoints(F pick) {
-  return [pick](const PaperSolver<S, WithSlips>& solver, const Motion<S>& motion, PaperWorkspace<S>& work) {
+  return [pick](const Noc<S, WithSlips>& solver, const Motion<S>& motion, NocWorkspace<S>& work) {
     solver.inverseKinematics(motion, work);
     solver.jacobians(motion, work);
     Values all;
@@ -30,7 +30,7 @@ Reading overJoints(F pick) {
 
 /// Three components of a link's twist or its rate, of proximal or distal links or both.
 Reading overLinks(bool rate, int first, bool proximal, bool distal) {
-  return [=](const PaperSolver<S, WithSlips>& solver, const Motion<S>& motion, PaperWorkspace<S>& work) {
+  return [=](const Noc<S, WithSlips>& solver, const Motion<S>& motion, NocWorkspace<S>& work) {
     BodyMotions<S> bodies;
     solver.inverseKinematics(motion, work);
     solver.bodyMotions(motion, work, bodies);
@@ -46,29 +46,29 @@ Reading overLinks(bool rate, int first, bool proximal, bool distal) {
 }
 
 std::vector<std::pair<std::string, Reading>> readings() {
-  const auto rates = [](S JointTriple<S>::*which) {
-    return overJoints([which](const auto&, const PaperWorkspace<S>& work, int i) {
-      return work.legs[static_cast<std::size_t>(i)].rate.*which;
+  const auto rates = [](int which) {
+    return overJoints([which](const auto&, const NocWorkspace<S>& work, int i) {
+      return work.legs[static_cast<std::size_t>(i)].rate(which);
     });
   };
-  const auto accelerations = [](S JointTriple<S>::*which) {
-    return overJoints([which](const auto&, const PaperWorkspace<S>& work, int i) {
-      return work.legs[static_cast<std::size_t>(i)].acceleration.*which;
+  const auto accelerations = [](int which) {
+    return overJoints([which](const auto&, const NocWorkspace<S>& work, int i) {
+      return work.legs[static_cast<std::size_t>(i)].acceleration(which);
     });
   };
-  return {{"(4c)", accelerations(&JointTriple<S>::theta)},
+  return {{"(4c)", accelerations(2)},
           {"(14a)", overJoints([](const auto& solver, const auto& work, int i) { return solver.angles(work).phi(i); })},
           {"(14b)", overJoints([](const auto& solver, const auto& work, int i) { return solver.angles(work).psi(i); })},
-          {"(15a)", rates(&JointTriple<S>::phi)},
-          {"(15b)", rates(&JointTriple<S>::psi)},
+          {"(15a)", rates(0)},
+          {"(15b)", rates(1)},
           {"(16)", overLinks(false, 0, true, true)},
           {"(17a)", overLinks(true, 0, true, false)},
           {"(17b)", overLinks(true, 0, false, true)},
-          {"(19a)", accelerations(&JointTriple<S>::phi)},
-          {"(19b)", accelerations(&JointTriple<S>::psi)},
+          {"(19a)", accelerations(0)},
+          {"(19b)", accelerations(1)},
           {"(23) a", overJoints([](const auto&, const auto& work, int i) { return work.A(i); })},
           {"(26) ȧ", overJoints([](const auto&, const auto& work, int i) {
-             return work.legs[static_cast<std::size_t>(i)].a_ii_dot;
+             return work.legs[static_cast<std::size_t>(i)].row[0].A_dot;
            })},
           {"(43b)", overLinks(true, 3, false, true)},
           {"(43b) Ω̇²", overLinks(true, 3, false, true)},
@@ -103,14 +103,14 @@ TEST(AuditFormulas, asPrintedAreTheSolversSlips) {
     ASSERT_NE(found, all.end()) << equation;
     WithSlips slips;
     for (Slip slip : found->slips) slips.set(slip);
-    PaperWorkspace<S> work;
+    NocWorkspace<S> work;
     const Values printed = found->as_printed(witness);
-    EXPECT_LE(largestDifference(reading(PaperSolver<S, WithSlips>(*scenario.manipulator, slips), witness.motion, work),
-                                printed),
-              rounding)
+    EXPECT_LE(
+        largestDifference(reading(Noc<S, WithSlips>(*scenario.manipulator, slips), witness.motion, work), printed),
+        rounding)
         << equation;
     // The control: without the slip the solver says something else, and that is the truth.
-    const Values right = reading(PaperSolver<S, WithSlips>(*scenario.manipulator), witness.motion, work);
+    const Values right = reading(Noc<S, WithSlips>(*scenario.manipulator), witness.motion, work);
     EXPECT_GT(largestDifference(right, printed), 1e-6) << equation;
     EXPECT_LE(largestDifference(right, found->truth(witness)), rounding) << equation;
   }
@@ -119,10 +119,10 @@ TEST(AuditFormulas, asPrintedAreTheSolversSlips) {
 TEST(AuditWitness, agreesWithTheSolver) {
   const Scenario scenario = paperHelix();
   const WitnessStand stand(*scenario.manipulator, *scenario.trajectory);
-  const PaperSolver<S> solver(*scenario.manipulator);
+  const Noc<S> solver(*scenario.manipulator);
   for (const char* instant : {"0.4", "1.7", "2.9"}) {
     const Witness witness = stand.at(S(instant));
-    PaperWorkspace<S> work;
+    NocWorkspace<S> work;
     const double off =
         (solver.inverseDynamics(witness.motion, work) - witness.torques).cwiseAbs().maxCoeff().convert_to<double>();
     EXPECT_LE(off, rounding * witness.torques.cwiseAbs().maxCoeff().convert_to<double>());

@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "model/scenario.h"
-#include "nocsolver/fast_dynamics.h"
+#include "nocsolver/fast/fast_dynamics.h"
 #include "validation/simulate/simulate.h"
 #include "validation/subject/subject.h"
 

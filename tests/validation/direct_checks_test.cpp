@@ -102,7 +102,7 @@ TEST_P(Direct, aStiffnessOffByAHundredthFailsTheGrowthAlone) {
 TEST_P(Direct, theDeviationIsTheRightSolversWhoeverIsOnTrial) {
   const BesidePath& path = reference_->beside();
   const Growth own = path.growthOf(right_.accelerations), other = path.growthOf(stiffer(0.5).accelerations);
-  EXPECT_EQ(own.Phi, path.right().Phi);
+  EXPECT_LE((own.Phi - path.right().Phi).norm(), 1e-6 * own.Phi.norm());  // of another formulation
   ASSERT_GT((other.Phi - own.Phi).norm(), 0.01 * own.Phi.norm()) << "the control changes nothing";
   const auto deviation = [](const Check& check) { return check.why.substr(0, check.why.find(" grows")); };
   EXPECT_EQ(deviation(growth(stiffer(0.5))), deviation(growth(right_)));

@@ -24,7 +24,7 @@ using testing::HasSubstr;
 class Climb {
  public:
   explicit Climb(const std::function<double(double t)>& factor = [](double) { return 1.0; }) {
-    const Subject solver = solverOf(scenario_);
+    const Subject solver = fastSubject(*scenario_.manipulator, scenario_.load);
     const SimbodyLoop::TorqueHistory torques = [&](double t) {
       return Vector6d(factor(t) * solver.torques(scenario_.trajectory->at(t)));
     };

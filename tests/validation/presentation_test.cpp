@@ -10,13 +10,13 @@
 #include <functional>
 
 #include "model/real50.h"
-#include "nocsolver/reactions.h"
 #include "nocsolver/solver.h"
 #include "tests/support/motions.h"
 #include "tests/validation/presented_numbers.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/limits/conditioning.h"
-#include "validation/limits/viewpoint.h"
+#include "validation/limits/engine_view.h"
+#include "validation/limits/solver_rounding.h"
 
 namespace ursula {
 namespace {
@@ -101,10 +101,7 @@ TEST_P(Presented, answersComeBack) {
   EXPECT_GT(numbersOf(off_.back(back_.back(answer.bodies))).distance(numbersOf(answer.bodies)), 1e-10);
   EXPECT_LE(numbersOf(there_.back(back_.back(answer.joints))).distance(numbersOf(answer.joints)), room);
   EXPECT_GT(numbersOf(there_.back(there_.back(answer.joints))).distance(numbersOf(answer.joints)), 0.01);
-  const Solver<double> noc(machine_);
-  Workspace<double> work;
-  const Vector6d torques = noc.inverseDynamics(motion, work);
-  const Reactions reactions = recoverReactions(noc, motion, torques, work);
+  const Reactions reactions = solver.reactions(motion);
   EXPECT_LE(numbersOf(there_.back(back_.back(reactions))).distance(numbersOf(reactions)), room);
   EXPECT_GT(numbersOf(off_.back(back_.back(reactions))).distance(numbersOf(reactions)), 1e-10);
 }
@@ -241,32 +238,44 @@ TEST_P(Presented, subjectsAnswerFromThere) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Presented, testing::Range(1001u, 1006u));
 
-/// All roads' answers from two places; what is compared is beyond rounding where a leg is mistaken for another.
-TEST(Viewpoints, seeTheSame) {
+/// All engines' answers from two places; what is compared is beyond rounding where a leg is mistaken for another.
+TEST(EnginePresentations, seeTheSame) {
   const Scenario& scenario = everything();
   const Motion<double> motion = scenario.trajectory->at(1.3);
-  const Vector6d torques = 1.2 * solverOf(scenario).torques(motion);
-  const View a = Viewpoint(scenario, Presentation{}).at(motion, torques);
-  const View b = Viewpoint(scenario, randomPresentation(1001, 1.5, *scenario.manipulator)).at(motion, torques);
+  const Vector6d torques = solverOf(scenario).torques(motion), others = 1.2 * torques;
+  const EngineView a = EnginePresentation(scenario, Presentation{}).at(motion, torques, others);
+  const EngineView b =
+      EnginePresentation(scenario, randomPresentation(1001, 1.5, *scenario.manipulator)).at(motion, torques, others);
   const auto near = [](const auto& x, const auto& y) { return numbersOf(x).distance(numbersOf(y)); };
-  EXPECT_LE(near(a.bodies_solver, b.bodies_solver), 1e-10);
-  EXPECT_LE(near(a.bodies_simbody, b.bodies_simbody), 1e-10);
-  EXPECT_LE(near(a.reactions_solver, b.reactions_solver), 1e-9);
-  EXPECT_LE(near(a.reactions_simbody, b.reactions_simbody), 1e-9);
-  for (Vector6d View::*v : {&View::torques_solver, &View::torques_simbody, &View::jacobian, &View::jacobian_rate,
-                            &View::acceleration, &View::direct_solver, &View::direct_simbody})
+  EXPECT_LE(near(a.bodies, b.bodies), 1e-10);
+  EXPECT_LE(near(a.reactions, b.reactions), 1e-9);
+  for (Vector6d EngineView::*v : {&EngineView::torques, &EngineView::acceleration, &EngineView::direct})
     EXPECT_LE((a.*v - b.*v).norm(), 1e-10 * (a.*v).norm());
-  EXPECT_LE((a.T - b.T).norm(), 1e-10 * a.T.norm());
   for (std::size_t k = 0; k < further_road_count; ++k) {
-    const std::optional<Vector6d>&of_a = a.torques_further[k], &of_b = b.torques_further[k];
+    const std::optional<Vector6d>&of_a = a.further[k], &of_b = b.further[k];
     ASSERT_EQ(of_a.has_value(), furtherRoads()[k].available());
     ASSERT_EQ(of_b.has_value(), of_a.has_value());
     if (of_a) {
-      EXPECT_LE((*of_a - *of_b).norm(), 1e-10 * a.torques_solver.norm()) << furtherRoads()[k].name;
+      EXPECT_LE((*of_a - *of_b).norm(), 1e-10 * torques.norm()) << furtherRoads()[k].name;
     }
   }
-  EXPECT_LE((a.direct_solver - a.direct_simbody).norm(), 1e-10 * a.direct_solver.norm());
-  EXPECT_GT((a.direct_solver - a.acceleration).norm(), 0.1) << "other torques are to move it otherwise";
+  EXPECT_GT((a.direct - a.acceleration).norm(), 0.1) << "other torques are to move it otherwise";
+}
+
+/// Rounding of the solver is measured in one frame: the views differ by it, and by no more.
+TEST(SolverRounding, isThatOfDoublesAndNotZero) {
+  const Scenario& scenario = everything();
+  const Motion<double> motion = scenario.trajectory->at(1.3);
+  const Vector6d torques = solverOf(scenario).torques(motion);
+  SolverRounding rounding(*scenario.manipulator, scenario.load);
+  const std::vector<SolverView> views = rounding.at(motion, 1.2 * torques);
+  ASSERT_GT(views.size(), 2u);
+  EXPECT_EQ(views.front().torques, torques);
+  for (std::size_t k = 1; k < views.size(); ++k) {
+    EXPECT_GT((views[k].torques - torques).norm(), 0) << k;
+    EXPECT_LE((views[k].torques - torques).norm(), 1e-11 * torques.norm()) << k;
+    EXPECT_LE((views[k].T - views.front().T).norm(), 1e-11 * views.front().T.norm()) << k;
+  }
 }
 
 TEST(UnitsOf, areThoseOfChecksAndColumns) {

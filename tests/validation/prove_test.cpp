@@ -2,6 +2,7 @@
 
 #include "validation/prove/prove.h"
 #include "model/instants.h"
+#include "model/start_threads.h"
 #include "validation/report/report.h"
 
 #include <gmock/gmock.h>
@@ -31,6 +32,12 @@ const Scenario& provingGround() {
   return scenario;
 }
 
+/// A defect is in the solver, in what all are given, or in an experiment.
+int placesOf(const Defect& defect) {
+  const bool in_experiment = !defect.subject && !defect.scenario;
+  return (defect.subject ? 1 : 0) + (defect.scenario ? 1 : 0) + (in_experiment ? 1 : 0);
+}
+
 /// One reference for all that leave the scenario alone.
 std::vector<Check> checksWith(const Defect& defect) {
   static const auto reference = makeReference(provingGround());
@@ -49,23 +56,26 @@ TEST(Defects, areManyAndOfEveryGroup) {
   for (const Defect& defect : defects) {
     names.insert(defect.name);
     ++groups[defect.group];
-    const int places = (defect.subject ? 1 : 0) + (defect.scenario ? 1 : 0) + (defect.group == "experiment" ? 1 : 0);
-    EXPECT_EQ(places, 1) << defect.name << " is put into more than one place, or into none";
+    EXPECT_EQ(placesOf(defect), 1) << defect.name << " is put into more than one place, or into none";
   }
   EXPECT_GE(defects.size(), 150u);
   EXPECT_EQ(names.size(), defects.size()) << "a name is there twice";
-  for (const char* group : {"formula", "term", "parameter", "index", "frame", "friction", "motion", "torque", "branch",
-                            "kinematics", "direct", "hidden", "shared motion", "shared load", "reading", "experiment"})
+  for (const char* group :
+       {"formula", "term",       "parameter",  "index",     "frame",  "friction",      "motion",
+        "torque",  "branch",     "kinematics", "direct",    "hidden", "shared motion", "shared load",
+        "reading", "experiment", "leg",        "one frame", "fast",   "control"})
     EXPECT_GE(groups[group], 5) << group;
-  EXPECT_EQ(groups.size(), 16u);
+  EXPECT_GE(groups["complement"], 2);
+  EXPECT_EQ(groups.size(), 21u);
 }
 
 /// Those that only one road can see are of these groups; all others are held to two.
 TEST(Defects, areHeldToTwoRoadsButWhereOneAloneCanSee) {
   const std::set<std::string> alone = {"branch",        "kinematics",  "direct",  "hidden",
-                                       "shared motion", "shared load", "reading", "experiment"};
+                                       "shared motion", "shared load", "reading", "experiment",
+                                       "one frame",     "complement",  "fast"};
   for (const Defect& defect : allDefects(*provingGround().manipulator))
-    EXPECT_EQ(defect.roads, alone.count(defect.group) == 1 ? 1 : 2) << defect.name;
+    if (!defect.control) EXPECT_EQ(defect.roads, alone.count(defect.group) == 1 ? 1 : 2) << defect.name;
 }
 
 struct Caught {
@@ -92,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(
     Groups, OneDefect,
     testing::Values(
         Caught{"formula", "(15a) as printed", "kinematics.joint_rates", "kinematics.joint_angles"},
-        Caught{"term", "no Coriolis terms", "kinematics.accelerations", "kinematics.twists"},
+        Caught{"term", "(43): no Coriolis terms", "kinematics.accelerations", "kinematics.twists"},
         Caught{"parameter", "leg[2].proximal.mass off by 1e-06", "torque.pointwise", "kinematics.positions"},
         Caught{"index", "smoothing speed of leg 4 for leg 5", "torque.mujoco", "kinematics.accelerations"},
         Caught{"frame", "tensor of the platform not turned", "torque.maximal", "kinematics.accelerations"},
@@ -107,8 +117,40 @@ INSTANTIATE_TEST_SUITE_P(
         Caught{"shared motion", "omega off by 1e-9 of itself", "motion.twist", "motion.pose"},
         Caught{"shared load", "load between its rows by straight lines", "motion.load", "torque.pointwise"},
         Caught{"reading", "one number off in its last bit", "motion.reading", "torque.pointwise"},
+        Caught{"leg", "leg 1 alone: distal mass", "torque.pointwise", "kinematics.positions"},
+        Caught{"one frame", "platform's mass, where gravity points up", "invariance.rotation", "torque.pointwise"},
+        Caught{"complement", "(33): D with one row twice", "complement.rank", "complement.orthogonality"},
+        Caught{"fast", "fast, portable: batch's effort of motor 1 times 1 + 1e-7", "fast.inverse_batch",
+               "fast.inverse"},
         Caught{"experiment", "sign of f_B, leg 4", "reactions.pointwise", "torque.pointwise"}),
     [](const auto& caught) { return asTestName(caught.param.group); });
+
+/// Each mechanism of a defect, without one, changes nothing: else what it injects is caught for another reason.
+TEST(NoDefect, isCaughtByNoneInAnyMechanism) {
+  int controls = 0;
+  for (const Defect& defect : allDefects(*provingGround().manipulator)) {
+    if (!defect.control) continue;
+    ++controls;
+    EXPECT_EQ(others(checksWith(defect), Verdict::pass), "") << defect.name;
+  }
+  EXPECT_GE(controls, 15);
+}
+
+/// An error of the mechanism itself, beside each of its defects, is noticed by its control.
+TEST(NoDefect, noticesAnErrorOfTheMechanism) {
+  for (const Defect& defect : allDefects(*provingGround().manipulator)) {
+    if (!defect.control || !defect.subject) continue;
+    Defect off = defect;
+    off.subject = [make = defect.subject](const Scenario& scenario) {
+      Subject subject = make(scenario);
+      subject.torques = [right = subject.torques](const Motion<double>& motion) {
+        return Vector6d(1.001 * right(motion));
+      };
+      return subject;
+    };
+    EXPECT_EQ(overall(checksWith(off)), Verdict::fail) << defect.name;
+  }
+}
 
 TEST(NoDefect, isCaughtByNone) { EXPECT_EQ(others(checksWith({"none", ""}), Verdict::pass), ""); }
 

@@ -51,7 +51,7 @@ class Asked {
     }
     for (const Scenario& scenario : scenarios_) {
       const Subject right = solverOf(scenario);
-      subjects_.push_back({right, slippedSubject(*scenario.manipulator, scenario.load, WithSlips(Slip::eq47)),
+      subjects_.push_back({right, wrongNocSubject(*scenario.manipulator, scenario.load, WithSlips(Slip::eq47)),
                            presented(right, Presentation(*scenario.manipulator))});
     }
   }

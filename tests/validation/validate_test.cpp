@@ -103,7 +103,7 @@ TEST(ValidateResult, carriesSeriesAndProvenance) {
 TEST(ValidateControl, theSlipOf15aFailsAndTheJointRatesAreNamedFirst) {
   const Scenario scenario = quick("paper-helix");
   const ValidationResult result =
-      validate(scenario, slippedSubject(*scenario.manipulator, nullptr, WithSlips(Slip::eq15a)), without_extras);
+      validate(scenario, wrongNocSubject(*scenario.manipulator, nullptr, WithSlips(Slip::eq15a)), without_extras);
   EXPECT_EQ(result.verdict, Verdict::fail);
   EXPECT_EQ(firstFailing(result.checks), "kinematics.joint_rates");
   EXPECT_EQ(verdictOf(result.checks, "kinematics.joint_angles"), "pass");

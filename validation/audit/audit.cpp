@@ -8,7 +8,7 @@
 
 #include "model/instants.h"
 #include "model/real50.h"
-#include "nocsolver/paper_solver.h"
+#include "nocsolver/noc/noc.h"
 #include "validation/audit/effect.h"
 #include "validation/audit/formula.h"
 #include "validation/audit/remarks.h"
@@ -110,8 +110,8 @@ std::vector<AuditRow> allTogether(const Scenario& scenario, const std::vector<Fo
 }
 
 void requireReach(const Scenario& scenario) {
-  const PaperSolver<double> solver(*scenario.manipulator);
-  PaperWorkspace<double> work;
+  const Noc<double> solver(*scenario.manipulator);
+  NocWorkspace<double> work;
   for (double t : equallySpaced(scenario.trajectory->duration(), torque_samples))
     solver.inverseDynamics(scenario.trajectory->at(t), work);
 }

@@ -4,8 +4,7 @@
 #include <Eigen/Geometry>
 #include <memory>
 
-#include "nocsolver/assembled.h"
-#include "nocsolver/paper_solver.h"
+#include "nocsolver/noc/noc.h"
 #include "validation/audit/formula.h"
 
 namespace ursula::audit {
@@ -17,28 +16,37 @@ class Shaping {
   explicit Shaping(const Manipulator& manipulator) : solver_(manipulator) {}
 
   TwistShaping<S> T(const Witness& at) const {
-    PaperWorkspace<S> work;
+    NocWorkspace<S> work;
     solver_.inverseKinematics(at.motion, work);
     solver_.jacobians(at.motion, work);
-    TwistShaping<S> T;
-    solver_.twistShaping(at.motion, work, T);
-    return T;
+    solver_.twistShaping(at.motion, work);
+    return work.T;
   }
   TwistShaping<S> TRate(const Witness& at) const {
-    PaperWorkspace<S> work;
+    NocWorkspace<S> work;
     solver_.inverseKinematics(at.motion, work);
     solver_.jacobians(at.motion, work);
-    TwistShaping<S> T_dot;
-    solver_.twistShapingRate(at.motion, work, T_dot);
-    return T_dot;
+    solver_.twistShapingRate(at.motion, work);
+    return work.T_rate;
   }
   Vector6<S> torques(const Witness& at) const {
-    PaperWorkspace<S> work;
+    NocWorkspace<S> work;
     return solver_.inverseDynamics(at.motion, work);
+  }
+  Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> D(const Witness& at) const {
+    NocWorkspace<S> work;
+    solver_.inverseDynamics(at.motion, work);
+    return solver_.D(at.motion, work);
+  }
+  /// Left by (31) under the torques of virtual work.
+  BodyVector<S> constraintWrench(const Witness& at) const {
+    NocWorkspace<S> work;
+    solver_.inverseDynamics(at.motion, work);
+    return solver_.constraintWrench(at.motion, at.torques, work);
   }
 
  private:
-  PaperSolver<S> solver_;
+  Noc<S> solver_;
 };
 
 /// Tᵀ (M x + W M y) over all bodies, for twist-like x and y.
@@ -85,26 +93,25 @@ Side zeros(std::size_t count) {
   return [count](const Witness&) { return Values(count, S(0)); };
 }
 
-Formula complement(const Manipulator& manipulator) {
+Formula complement(const std::shared_ptr<const Shaping>& shaping) {
   Formula f;
   f.equation = "(33)";
   f.printed = "D T = O";
-  f.as_printed = [manipulator](const Witness& at) {
-    const AssembledDynamics<S>::MatrixX D = AssembledDynamics<S>(manipulator, at.motion).D();
-    return values(AssembledDynamics<S>::MatrixX(D * at.T));
+  f.as_printed = [shaping](const Witness& at) {
+    return values(Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>(shaping->D(at) * at.T));
   };
-  f.truth = zeros(6 * body_count * leg_count);
-  f.note = "D of all 13 bodies, 78 × 78 of rank 72, with T by differences.";
+  f.truth = zeros(72 * leg_count);
+  f.note = "D of all 13 bodies, its 72 independent rows, with T by differences.";
   return f;
 }
 
-Formula constraintWrenches(const Manipulator& manipulator) {
+Formula constraintWrenches(const std::shared_ptr<const Shaping>& shaping) {
   Formula f;
   f.equation = "text by (33)";
   f.printed = "Tᵀw^N = 0";
   f.unit = "N m";
-  f.as_printed = [manipulator](const Witness& at) {
-    const AssembledDynamics<S>::VectorX w = AssembledDynamics<S>(manipulator, at.motion).constraintWrench(at.torques);
+  f.as_printed = [shaping](const Witness& at) {
+    const BodyVector<S> w = shaping->constraintWrench(at);
     return values(Vector6<S>(at.T.transpose() * w));
   };
   f.truth = zeros(leg_count);
@@ -185,8 +192,8 @@ Formula centerJacobianText() {
 
 std::vector<Formula> complementFormulas(const Manipulator& manipulator) {
   const auto shaping = std::make_shared<const Shaping>(manipulator);
-  return {shapedTwist(shaping),    shapedTwistRate(shaping), complement(manipulator), constraintWrenches(manipulator),
-          directDynamics(shaping), inverseDynamics(shaping), gravity(shaping),        centerJacobian(),
+  return {shapedTwist(shaping),    shapedTwistRate(shaping), complement(shaping), constraintWrenches(shaping),
+          directDynamics(shaping), inverseDynamics(shaping), gravity(shaping),    centerJacobian(),
           centerJacobianText()};
 }
 

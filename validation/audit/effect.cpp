@@ -8,7 +8,7 @@
 #include <new>
 
 #include "model/instants.h"
-#include "nocsolver/paper_solver.h"
+#include "nocsolver/noc/noc.h"
 #include "validation/replay/replay.h"
 #include "validation/subject/subject.h"
 
@@ -24,14 +24,13 @@ class DynamicsBy36 {
   Vector6d operator()(const Motion<double>& motion) {
     solver_.inverseKinematics(motion, work_);
     solver_.jacobians(motion, work_);
-    solver_.twistShaping(motion, work_, T_);
-    solver_.twistShapingRate(motion, work_, T_dot_);
+    solver_.twistShapingRate(motion, work_);
     solver_.bodyMotions(motion, work_, bodies_);
     const Vector6d phi_dot = solver_.rates(work_).phi, phi_ddot = solver_.accelerations(work_).phi;
     Vector6d torques = Vector6d::Zero();
     for (int k = 0; k < body_count; ++k) {
-      const auto T = T_.middleRows<6>(6 * k);
-      const Vector6d twist = T * phi_dot, rate = T * phi_ddot + T_dot_.middleRows<6>(6 * k) * phi_dot;
+      const auto T = work_.T.middleRows<6>(6 * k);
+      const Vector6d twist = T * phi_dot, rate = T * phi_ddot + work_.T_rate.middleRows<6>(6 * k) * phi_dot;
       torques += T.transpose() * wrench(k, twist, rate);
     }
     return torques;
@@ -52,9 +51,8 @@ class DynamicsBy36 {
   }
 
   Manipulator manipulator_;
-  PaperSolver<double, WithSlips> solver_;
-  PaperWorkspace<double> work_;
-  TwistShaping<double> T_, T_dot_;
+  Noc<double, WithSlips> solver_;
+  NocWorkspace<double> work_;
   BodyMotions<double> bodies_;
 };
 
@@ -71,15 +69,15 @@ double firstBeyond(const Replay& replay, double far) {
 }
 
 Vector6d torquesThatHold(const Scenario& scenario, const Motion<double>& motion) {
-  const PaperSolver<double> solver(*scenario.manipulator);
-  PaperWorkspace<double> work;
+  const Noc<double> solver(*scenario.manipulator);
+  NocWorkspace<double> work;
   return solver.inverseDynamics(motion, work, loadAtP(scenario.load.get(), motion));
 }
 
 }  // namespace
 
 Torques torquesWith(const Scenario& scenario, const WithSlips& slips, bool through_36) {
-  if (!through_36) return slippedSubject(*scenario.manipulator, scenario.load, slips).torques;
+  if (!through_36) return wrongNocSubject(*scenario.manipulator, scenario.load, slips).torques;
   // What (36) adds to its own right answer is the slip's; friction and load are in (37).
   const auto slipped = std::make_shared<DynamicsBy36>(*scenario.manipulator, slips);
   const auto right = std::make_shared<DynamicsBy36>(*scenario.manipulator, WithSlips());

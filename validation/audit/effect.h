@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "nocsolver/reading.h"
+#include "nocsolver/legs/reading.h"
 #include "validation/audit/audit.h"
 
 namespace ursula::audit {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "nocsolver/reading.h"
+#include "nocsolver/legs/reading.h"
 #include "validation/audit/witness.h"
 
 namespace ursula::audit {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "nocsolver/chain_solver.h"
 #include "nocsolver/errors.h"
+#include "nocsolver/noc/noc.h"
 #include "validation/check_scenario/check_scenario.h"
 #include "validation/subject/leg_points.h"
 
@@ -30,8 +30,8 @@ Pose poseAtStart(const Scenario& scenario) {
   const Motion<double> motion = scenario.trajectory->at(0);
   Pose pose{motion.p, {}, rails(scenario), {}, true};
   for (const Leg& leg : machine.parameters().legs) pose.kinds.push_back(leg.kind);
-  const ChainSolver<double> solver(machine);
-  ChainWorkspace<double> work;
+  const Noc<double> solver(machine);
+  NocWorkspace<double> work;
   try {
     solver.displacements(motion, work);
     pose.legs = legPoints(machine, work);

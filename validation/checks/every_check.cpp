@@ -30,7 +30,9 @@ std::string whyNot(const CheckName& check, const Scenario& scenario, const Subje
     case CheckNeeds::other_machines:
       return unless(has.other_machines, "the subject cannot be made for another machine");
     case CheckNeeds::own_reactions:
-      return unless(!has.left_out_reactions, "left out by the caller's options");
+      return has.left_out_reactions ? "left out by the caller's options" : "the subject finds no reactions";
+    case CheckNeeds::own_complement:
+      return "the subject forms no T";
     case CheckNeeds::further_road: {
       const RoadKind& road = *furtherRoadOf(check.name);
       return unless(road.available(), fmt::format("this build has no {}", road.name));

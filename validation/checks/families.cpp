@@ -5,9 +5,12 @@
 #include <iterator>
 
 #include "model/deadline.h"
+#include "model/start_threads.h"
 #include "validation/checks/commanded_motion.h"
+#include "validation/checks/complement_checks.h"
 #include "validation/checks/direct_checks.h"
 #include "validation/checks/external_check.h"
+#include "validation/checks/fast_checks.h"
 #include "validation/checks/invariance.h"
 #include "validation/checks/ladder_checks.h"
 #include "validation/checks/order_check.h"
@@ -43,6 +46,17 @@ std::vector<Check> judgeSamples(const Evidence& e) {
   checks.push_back(judgeAgainstNoc(*e.external, e.units()));
   for (Check& check : checks) check.basis += e.external->precisionInWords(e.units());
   return checks;
+}
+
+/// Where NOC and fast kernels differ at the samples, nothing is learnt between them.
+std::vector<Check> judgeBetweenSamples(const Evidence& e) {
+  const bool by_fast = e.subject->formulation == Formulation::noc;
+  if (by_fast && anyFails(judgeFast(e.fast, e.samples, e.units())))
+    return {
+        notJudgeable(Reason::not_covered, "torque.between", std::nan(""), std::nan(""), e.units().efforts.unit, "",
+                     "the NOC is compared with the fast kernels there, which differ from it at the samples already; "
+                     "torque.pointwise and fast.inverse tell which of them is wrong")};
+  return {judgeBetween(*e.scenario, *e.subject, e.samples, profileOf(e), e.units())};
 }
 
 /// Under the torques that are right; a second look at its growth only where its answers are.
@@ -128,15 +142,16 @@ const std::vector<CheckFamily>& checkFamilies() {
       {"motion", always, judgeMotion, nullptr, true},
       {"samples", sampled, judgeSamples},
       {"roads", [](E e) { return answers(e) && !e.roads.empty(); }, [](E e) { return judgeRoads(e.roads, e.units()); }},
+      {"complement", [](E e) { return !e.complement.empty(); },
+       [](E e) { return judgeComplement(e.complement, e.units()); }},
       {"invariances", [](E e) { return answers(e) && !e.invariances.empty(); },
        [](E e) { return judgeInvariances(e.invariances, e.samples, profileOf(e), e.units()); }},
       {"reactions", [](E e) { return !e.reactions.empty(); },
        [](E e) { return std::vector<Check>{judgeReactions(e.reactions, e.samples, profileOf(e), e.units())}; }},
-      {"between samples", answers,
-       [](E e) {
-         return std::vector<Check>{judgeBetween(*e.scenario, *e.subject, e.samples, profileOf(e), e.units())};
-       }},
+      {"between samples", answers, judgeBetweenSamples},
       {"direct dynamics", [](E e) { return answers(e) && e.has.direct_dynamics; }, judgeDirectDynamics},
+      {"fast kernels", [](E e) { return sampled(e) && !e.samples.empty(); },
+       [](E e) { return judgeFast(e.fast, e.samples, e.units()); }},
       {"replays", replayed, judgeReplays, lookAtReplays},
       {"ladder", climbed, judgeClimbed, lookAtLadder},
       {"order", [](E e) { return e.orders.has_value(); },
@@ -175,12 +190,15 @@ std::vector<Check> judgeAll(Evidence& evidence) {
     });
     if (ready) left.push_back(&family);
   }
-  for (const CheckFamily* family : left)
+  std::vector<std::vector<Check>> judged(left.size());
+  inParallel(evidence.threads, static_cast<int>(left.size()), [&](int k) {
+    const auto i = static_cast<std::size_t>(k);
     inTime([&] {
-      std::vector<Check> checks = family->judge(evidence);
-      if (!family->in_si) checksInSi(evidence.units(), checks);
-      append(out, std::move(checks));
+      judged[i] = left[i]->judge(evidence);
+      if (!left[i]->in_si) checksInSi(evidence.units(), judged[i]);
     });
+  });
+  for (std::vector<Check>& checks : judged) append(out, std::move(checks));
   return out;
 }
 

@@ -16,6 +16,10 @@ Words wordsOf(Symmetry symmetry) {
   switch (symmetry) {
     case Symmetry::rotation:
       return {"invariance.rotation", "the whole world turned, gravity included, leaves the torques"};
+    case Symmetry::axes:
+      return {"invariance.axes", "other axes on the platform and another origin leave the torques"};
+    case Symmetry::units:
+      return {"invariance.units", "much smaller and much larger units leave the torques"};
     case Symmetry::labels:
       return {"invariance.labels", "legs relabelled carry their torques along"};
     case Symmetry::mass:

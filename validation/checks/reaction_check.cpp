@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "validation/limits/viewpoint.h"
+#include "validation/limits/engine_view.h"
 #include "validation/samples/place_name.h"
 #include "validation/verdict/worst_share.h"
 

@@ -74,7 +74,8 @@ class Comparison {
              const RoundingProfile& profile)
       : trajectory_(*scenario.trajectory),
         subject_(subject),
-        right_(nocSubject(*scenario.manipulator, scenario.load)),
+        other_(subject.formulation == Formulation::noc ? fastSubject(*scenario.manipulator, scenario.load)
+                                                       : nocSubject(*scenario.manipulator, scenario.load)),
         limit_(samples),
         profile_(profile),
         look_(profile) {}
@@ -83,7 +84,7 @@ class Comparison {
     const Motion<double> motion = trajectory_.at(t);
     const Instant out{t, subject_.torques(motion)};
     Eigen::Index leg = 0;
-    const double error = (out.torques - right_.torques(motion)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(&leg);
+    const double error = (out.torques - other_.torques(motion)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(&leg);
     double limit = limit_.at(t);
     // A limit of its own is dear: for what would decide, and not for each instant of torques that are wrong all along.
     const bool decided = worst_.beyond() && Worst::share(error, limit) <= Worst::share(worst_.value, worst_.limit);
@@ -100,7 +101,7 @@ class Comparison {
  private:
   const Trajectory& trajectory_;
   const Subject& subject_;
-  Subject right_;
+  Subject other_;  ///< of another formulation than the subject
   SampledTorqueLimit limit_;
   const RoundingProfile& profile_;
   SecondLook look_;
@@ -139,8 +140,9 @@ Check judgeBetween(const Scenario& scenario, const Subject& subject, const std::
   const Worst& shown = comparison.worst();
   Check out = judged(
       check, shown.value, shown.limit, units.efforts.unit, "as for torque.pointwise, at each instant",
-      fmt::format("torques against the formulas that hold, at {} instants between the samples; shown for t = {:.6g} s, "
-                  "leg {}; a pulse longer than {:.2g} s and larger than {:.2g} {} would have been seen",
+      fmt::format("torques against {}, at {} instants between the samples; shown for t = {:.6g} s, leg {}; a pulse "
+                  "longer than {:.2g} s and larger than {:.2g} {} would have been seen",
+                  subject.formulation == Formulation::noc ? "those of the fast kernels" : "the NOC's",
                   count + count / 4, shown.t * units.time, units.legOf(shown.where) + 1, gap * units.time,
                   shown.widest_limit * units.effort(), units.efforts.unit));
   out.largest = {shown.largest, shown.largest_t * units.time, placeName(units.legOf(shown.largest_where), false)};

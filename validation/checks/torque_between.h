@@ -10,10 +10,10 @@
 
 namespace ursula {
 
-/// `torque.between`: the subject's torques at thousands of instants between those of the other checks, against the
-/// formulas that hold, which those checks hold against the other roads. Instants at multiples of the golden ratio,
-/// which meet no period of anything, and more where the subject's torques curve. The result says how narrow a pulse may
-/// be to be missed.
+/// `torque.between`: the subject's torques at thousands of instants between those of the other checks, against
+/// another formulation: the NOC against the fast kernels, somebody else's solver against the NOC. Instants at multiples
+/// of the golden ratio, which meet no period of anything, and more where the subject's torques curve. The result says
+/// how narrow a pulse may be to be missed.
 Check judgeBetween(const Scenario& scenario, const Subject& subject, const std::vector<PointwiseSample>& samples,
                    const RoundingProfile& profile, const Units& units = {});
 

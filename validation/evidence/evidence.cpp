@@ -20,8 +20,12 @@ std::vector<RoadSample> roadSamples(const Evidence& evidence) {
   return out;
 }
 
+/// The subject's, where it has them; the right solver's are known.
 std::vector<ReactionSample> reactionSamples(const Evidence& evidence) {
-  std::vector<ReactionSample> out = evidence.reference->reactions();
+  const bool own = evidence.subject->reactions && !evidence.right;
+  std::vector<ReactionSample> out =
+      own ? runReactions(*evidence.scenario, *evidence.subject, evidence.samples, evidence.reference->simbody())
+          : evidence.reference->reactions();
   for (ReactionSample& sample : out)
     if (evidence.spoil.reactions) evidence.spoil.reactions(sample.recovered);
   return out;
@@ -74,6 +78,8 @@ void lookAtSamples(bool reactions, Evidence& out) {
   if (!out.answered()) return;
   out.roads = roadSamples(out);
   out.invariances = runInvariances(*out.scenario, *out.subject, out.samples);
+  out.complement = runComplement(*out.scenario->manipulator, *out.subject, out.samples);
+  out.fast = runFast(*out.scenario, out.samples, out.spoil.fast);
   if (reactions) out.reactions = reactionSamples(out);
 }
 

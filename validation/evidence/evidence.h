@@ -12,6 +12,8 @@
 #include "validation/replay/ladder.h"
 #include "validation/replay/stabilised_replay.h"
 #include "validation/replay/windows.h"
+#include "validation/samples/complement_samples.h"
+#include "validation/samples/fast_samples.h"
 #include "validation/samples/invariance_samples.h"
 #include "validation/samples/pointwise.h"
 #include "validation/samples/reaction_samples.h"
@@ -41,12 +43,15 @@ struct Evidence {
   const Amplification* amplification = nullptr;  ///< null where nothing was to be replayed
   SubjectHas has;
   bool right = false;  ///< the subject is the right solver
+  int threads = 1;     ///< on which it may be judged; the subject is then asked from several
   Spoil spoil;
 
   std::vector<PointwiseSample> samples;
   std::vector<RoadSample> roads;
   std::vector<InvarianceSamples> invariances;
   std::vector<ReactionSample> reactions;
+  std::vector<ComplementSample> complement;
+  FastSamples fast;
   ReplayPlan plan;  ///< under the torques on trial
   ReplayScales scales;
   std::vector<WindowedReplay> windows;

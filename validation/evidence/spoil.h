@@ -6,6 +6,7 @@
 #include "model/loops/further_roads.h"
 #include "model/scenario.h"
 #include "validation/replay/replay.h"
+#include "validation/samples/fast_samples.h"
 #include "validation/samples/pointwise.h"
 
 namespace ursula {
@@ -17,6 +18,7 @@ struct Spoil {
   using Seen = std::function<Scenario(const Scenario&)>;
   using Settings = std::function<void(ReplaySettings&)>;
 
+  FastFault fast;                                ///< in the kernels that users call
   OfFurtherRoads<Seen> further;                  ///< what each further road is built of
   Seen feedback;                                 ///< what the loop of the stabilised replay is built of
   std::function<void(PointwiseSample&)> sample;  ///< what was measured at one instant

@@ -76,7 +76,7 @@ class Collector {
 
   void addSlip(const WrongFormula& formula, std::optional<double> fixed, double sign) {
     add(formula.name, fixed, sign, [&] {
-      return torquesOf(slippedSubject(*scenario_.manipulator, scenario_.load, WithSlips(formula.slip)), motions_);
+      return torquesOf(wrongNocSubject(*scenario_.manipulator, scenario_.load, WithSlips(formula.slip)), motions_);
     });
   }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "model/scenario.h"
-#include "nocsolver/effort_derivatives.h"
+#include "nocsolver/fast/effort_derivatives.h"
 
 namespace ursula {
 

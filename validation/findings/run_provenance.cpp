@@ -4,7 +4,7 @@
 
 #include "model/loops/mujoco/mujoco_loop.h"
 #include "model/sha1.h"
-#include "nocsolver/instruction_set.h"
+#include "nocsolver/fast/instruction_set.h"
 #include "validation/findings/provenance.h"
 #include "validation/replay/replay.h"
 

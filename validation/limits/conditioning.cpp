@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nocsolver/reactions.h"
 #include "validation/subject/scaled_jacobian.h"
 #include "validation/subject/subject.h"
 
@@ -77,8 +76,8 @@ double complianceAtEnd(const Link& link) {
 }
 
 /// What the platform and the forces that hold it are without its legs.
-void setPlatform(const Solver<double>& solver, const Manipulator& manipulator, const Motion<double>& motion,
-                 const Vector6d& torques, Workspace<double>& work, Conditioning& out) {
+void setPlatform(const Noc<double>& solver, const Manipulator& manipulator, const Motion<double>& motion,
+                 const Vector6d& torques, const NocWorkspace<double>& work, Conditioning& out) {
   const Platform& platform = manipulator.platform();
   const double smallest_moment =
       Eigen::SelfAdjointEigenSolver<Matrix3d>(platform.inertia, Eigen::EigenvaluesOnly).eigenvalues()(0);
@@ -91,16 +90,16 @@ void setPlatform(const Solver<double>& solver, const Manipulator& manipulator, c
   }
   out.compliance = 1 / platform.mass + arm * arm / smallest_moment;
   double squares = 0;
-  for (const LegReactions& leg : recoverReactions(solver, motion, torques, work)) squares += leg.f_B.squaredNorm();
+  for (const LegReactions& leg : solver.reactions(motion, torques, work)) squares += leg.f_B.squaredNorm();
   out.force_scale = std::sqrt(squares);
   const double inertia = platform.mass * (manipulator.gravity().norm() + motion.p_ddot.norm());
   out.weight_ratio = inertia > 0 ? out.force_scale / inertia : 0;
 }
 
-void setLegs(const Solver<double>& solver, const Workspace<double>& work, Conditioning& out) {
+void setLegs(const Noc<double>& solver, const NocWorkspace<double>& work, Conditioning& out) {
   out.smallest_sine = 1;
-  for (int i = 0; i < solver.chain().legCount(); ++i) {
-    const LegMargins<double> margins = solver.margins(work, i);
+  for (int i = 0; i < solver.machine().legs_in_all; ++i) {
+    const LegMargins<double>& margins = work.legs[static_cast<std::size_t>(i)].margins;
     const double sine = margins.sine, lever = margins.leverage;
     out.kappa_legs = std::max(out.kappa_legs, lever * lever / (sine * sine));
     if (sine < out.smallest_sine) {
@@ -111,9 +110,9 @@ void setLegs(const Solver<double>& solver, const Workspace<double>& work, Condit
 }
 
 /// ‖T_PᵀM_P‖ with accelerations [L ω̇; p̈].
-double effortScale(const Solver<double>& solver, const Motion<double>& motion, const Workspace<double>& work,
+double effortScale(const Noc<double>& solver, const Motion<double>& motion, const NocWorkspace<double>& work,
                    double length) {
-  Matrix6d effort = solver.T(work).transpose() * solver.massMatrixAtP(motion, work);
+  Matrix6d effort = solver.platformShaping(work).transpose() * solver.massMatrixAtP(motion, work);
   effort.leftCols<3>() /= length;
   return effort.norm();
 }
@@ -161,8 +160,10 @@ double Conditioning::shape(Rounded quantity) const {
     case Rounded::solver:
       return eps * torque;
     case Rounded::acceleration:
-    case Rounded::direct:
       return eps * platform;
+    case Rounded::direct:
+    case Rounded::solver_direct:  // I of (36) has the condition of B twice
+      return eps * kappa_B * platform;
     case Rounded::effort:
       return eps * (torque + effort_scale * compliance * force_scale);
     case Rounded::gaps:
@@ -175,27 +176,25 @@ double Conditioning::shape(Rounded quantity) const {
   return eps * torque;
 }
 
+double Conditioning::complementRounding() const { return rounding_depth * eps * kappa_B * kappa_legs; }
+
 ConditioningProbe::ConditioningProbe(const Manipulator& manipulator, std::shared_ptr<const Load> load)
     : manipulator_(manipulator), load_(std::move(load)), solver_(manipulator) {}
 
 Conditioning ConditioningProbe::at(const Motion<double>& motion) {
-  BodyMotions<double> bodies;
-  TwistShaping<double> T;
-  solver_.inverseKinematics(motion, work_);
-  solver_.jacobians(motion, work_);
-  solver_.bodyMotions(motion, work_, bodies);
-  solver_.twistShaping(motion, work_, T);
+  const Vector6d load = loadAtP(load_.get(), motion);
+  const Vector6d torques = solver_.inverseDynamics(motion, work_, load);
+  const BodyMotions<double>& bodies = work_.bodies;
 
   Conditioning out;
-  out.length = solver_.length();
+  out.length = solver_.machine().length;
   setLegs(solver_, work_, out);
-  const Matrix6d B = scaledB(solver_, work_);
+  const Matrix6d B = scaledB(work_.B, out.length);
   out.kappa_B = conditionNumber(B);
-  const Projection projection = project(manipulator_, T, bodies, solver_.rates(work_), out.length);
-  Matrix6d T_P = solver_.T(work_);
+  const Projection projection = project(manipulator_, work_.T, bodies, solver_.rates(work_), out.length);
+  Matrix6d T_P = solver_.platformShaping(work_);
   T_P.topRows<3>() *= out.length;
-  const Vector6d load = loadAtP(load_.get(), motion);
-  setPlatform(solver_, manipulator_, motion, solver_.inverseDynamics(motion, work_, load), work_, out);
+  setPlatform(solver_, manipulator_, motion, torques, work_, out);
   out.torque_scale =
       projection.torque_scale + T_P.norm() * (load.head<3>().norm() / out.length + load.tail<3>().norm());
   out.response = (T_P * projection.inertia.llt().solve(Matrix6d::Identity())).norm();

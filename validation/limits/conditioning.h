@@ -7,7 +7,7 @@
 #include "model/loops/further_roads.h"
 #include "model/manipulator.h"
 #include "model/motion.h"
-#include "nocsolver/solver.h"
+#include "nocsolver/noc/noc.h"
 
 namespace ursula {
 
@@ -36,6 +36,7 @@ enum class Rounded {
   gaps,           ///< accelerations at which the loops' gaps open, m/s²
   reactions,      ///< forces at the joints and moments over the machine's length, N
   direct,         ///< solver's and Simbody's direct dynamics under the same torques, m/s²
+  solver_direct,  ///< the solver's direct dynamics alone, m/s²
   further_road,   ///< solver's torque and that of the first further road, N·m; of the others: ofFurtherRoad
 };
 constexpr std::size_t rounded_count = static_cast<std::size_t>(Rounded::further_road) + further_road_count;
@@ -84,6 +85,8 @@ struct Conditioning {
   /// What rounding may make of it: shape × level.
   double rounding(Rounded quantity) const { return shape(quantity) * levels[static_cast<std::size_t>(quantity)]; }
 
+  /// Of ‖D T‖ over ‖D‖‖T‖: not measured.
+  double complementRounding() const;
   /// Rounding of a torque on either road, N·m.
   double torqueRounding() const { return rounding(Rounded::torque); }
   /// Rounding of the platform's acceleration in Simbody under torques, those included that rounding makes of them,
@@ -100,8 +103,8 @@ class ConditioningProbe {
  private:
   Manipulator manipulator_;
   std::shared_ptr<const Load> load_;
-  Solver<double> solver_;
-  Workspace<double> work_;
+  Noc<double> solver_;
+  NocWorkspace<double> work_;
 };
 
 /// What makes a limit of rounding large here, with the number.

@@ -23,9 +23,9 @@ Linearisation::Linearisation(const Scenario& scenario, const AccelerationUnder& 
     : trajectory_(*scenario.trajectory),
       load_(scenario.load),
       own_(!accelerations),
-      right_(nocSubject(*scenario.manipulator, scenario.load)),
+      right_(fastSubject(*scenario.manipulator, scenario.load)),
       accelerations_(own_ ? right_.accelerations : accelerations),
-      length_(Solver<double>(*scenario.manipulator).length()),
+      length_(MachineParameters<double>(*scenario.manipulator).length),
       // Central differences: the cube root of eps balances truncation and rounding.
       step_(step * std::cbrt(Eigen::NumTraits<double>::epsilon()) * length_) {}
 

@@ -1,12 +1,14 @@
 #include "validation/limits/rounding_profile.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <mutex>
 
-#include "nocsolver/solver.h"
-#include "validation/limits/viewpoint.h"
+#include "nocsolver/noc/noc.h"
+#include "validation/limits/engine_view.h"
+#include "validation/limits/solver_rounding.h"
 #include "validation/verdict/worst_share.h"
 
 namespace ursula {
@@ -38,6 +40,7 @@ double angleDistance(const Manipulator& machine, const JointVariables<double>& a
   return largest;
 }
 
+/// The largest difference of a force, or of a moment over `length`, N.
 double reactionDistance(const Reactions& a, const Reactions& b, double length) {
   double largest = 0;
   for (std::size_t i = 0; i < leg_count; ++i) largest = larger(largest, distance(a[i], b[i], length));
@@ -53,67 +56,76 @@ void set(RoundingLevels& levels, Rounded quantity, double value) {
   level = larger(level, value);
 }
 
-void spreadOfBodies(const Manipulator& machine, const View& a, const View& b, double length, RoundingLevels& out) {
+/// What the solver and the engines have in common: joints and bodies.
+template <class View>
+void spreadOfMotions(const Manipulator& machine, const View& a, const View& b, double length, RoundingLevels& out) {
   for (std::size_t i = 0; i < body_count; ++i) {
     // A carriage's frame hangs on what is upright, not on the machine.
     const bool is_carriage =
         i < static_cast<std::size_t>(machine.legCount()) && machine.leg(static_cast<int>(i)).kind == LegKind::PUS;
     const double turn = is_carriage ? 0 : length;
-    const auto pair = [&](const BodyMotions<double> View::*of) {
-      const BodyMotion<double>&x = (a.*of)[i], &y = (b.*of)[i];
-      return std::array<double, 3>{(x.c - y.c).norm() + turn * (x.R - y.R).norm(), spin(x.twist - y.twist, length),
-                                   spin(x.twist_rate - y.twist_rate, length)};
-    };
-    const auto solver = pair(&View::bodies_solver), simbody = pair(&View::bodies_simbody);
-    set(out, Rounded::positions, solver[0] + simbody[0]);
-    set(out, Rounded::twists, solver[1] + simbody[1]);
-    set(out, Rounded::twist_rates, solver[2] + simbody[2]);
+    const BodyMotion<double>&x = a.bodies[i], &y = b.bodies[i];
+    set(out, Rounded::positions, (x.c - y.c).norm() + turn * (x.R - y.R).norm());
+    set(out, Rounded::twists, spin(x.twist - y.twist, length));
+    set(out, Rounded::twist_rates, spin(x.twist_rate - y.twist_rate, length));
   }
+  set(out, Rounded::angles, angleDistance(machine, a.joints.q, b.joints.q, a.bodies, b.bodies, length));
+  set(out, Rounded::rates, jointDistance(a.joints.q_dot, b.joints.q_dot, length));
+  set(out, Rounded::accelerations, jointDistance(a.joints.q_ddot, b.joints.q_ddot, length));
+  set(out, Rounded::reactions, reactionDistance(a.reactions, b.reactions, length));
+  set(out, Rounded::direct, spin(a.direct - b.direct, length));
 }
 
-void spreadOfKinematics(const Manipulator& machine, const View& a, const View& b, double length, RoundingLevels& out) {
-  spreadOfBodies(machine, a, b, length, out);
-  set(out, Rounded::angles,
-      angleDistance(machine, a.joints_solver.q, b.joints_solver.q, a.bodies_solver, b.bodies_solver, length) +
-          angleDistance(machine, a.joints_simbody.q, b.joints_simbody.q, a.bodies_simbody, b.bodies_simbody, length));
-  set(out, Rounded::rates,
-      jointDistance(a.joints_solver.q_dot, b.joints_solver.q_dot, length) +
-          jointDistance(a.joints_simbody.q_dot, b.joints_simbody.q_dot, length));
-  set(out, Rounded::accelerations,
-      jointDistance(a.joints_solver.q_ddot, b.joints_solver.q_ddot, length) +
-          jointDistance(a.joints_simbody.q_ddot, b.joints_simbody.q_ddot, length));
-  set(out, Rounded::jacobian, spin(a.jacobian - b.jacobian, length));
-  set(out, Rounded::jacobian_rate, spin(a.jacobian_rate - b.jacobian_rate, length));
-  const auto size = [length](const Matrix6d& T) { return T.bottomRows<3>().norm() + length * T.topRows<3>().norm(); };
-  set(out, Rounded::shaping, size(a.T - b.T));
-  set(out, Rounded::shaping_rate, size(a.T_rate - b.T_rate));
-}
+/// Rates and accelerations of the driven coordinates.
+struct DrivenMotion {
+  Vector6d q_dot, q_ddot;
+};
 
-/// `effort` is T_PᵀM_P.
-void spreadOfDynamics(const View& a, const View& b, const Matrix6d& effort, double length, RoundingLevels& out) {
-  const double solver = torqueDistance(a.torques_solver, b.torques_solver);
-  set(out, Rounded::solver, solver);
-  set(out, Rounded::torque, solver + torqueDistance(a.torques_simbody, b.torques_simbody));
-  for (std::size_t k = 0; k < further_road_count; ++k)
-    if (a.torques_further[k] && b.torques_further[k])
-      set(out, ofFurtherRoad(k), solver + torqueDistance(*a.torques_further[k], *b.torques_further[k]));
-  set(out, Rounded::acceleration, spin(a.acceleration - b.acceleration, length));
-  set(out, Rounded::effort, (effort * (a.acceleration - b.acceleration)).norm());
-  set(out, Rounded::direct,
-      spin(a.direct_solver - b.direct_solver, length) + spin(a.direct_simbody - b.direct_simbody, length));
-  set(out, Rounded::reactions,
-      reactionDistance(a.reactions_solver, b.reactions_solver, length) +
-          reactionDistance(a.reactions_simbody, b.reactions_simbody, length));
-}
-
-RoundingLevels spreadOf(const Manipulator& machine, const std::vector<View>& views, const Matrix6d& effort,
-                        double length) {
+/// In one and the same frame. `driven` is Simbody's, `effort` T_PᵀM_P: what torques move the platform by.
+RoundingLevels spreadOfSolver(const Manipulator& machine, const std::vector<SolverView>& views,
+                              const DrivenMotion& driven, const Matrix6d& effort, double length) {
+  const Eigen::PartialPivLU<Matrix6d> moved(effort);
   RoundingLevels out = uniformLevels(0);
+  const auto size = [length](const Matrix6d& T) { return T.bottomRows<3>().norm() + length * T.topRows<3>().norm(); };
+  for (std::size_t i = 0; i < views.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const SolverView &a = views[i], &b = views[j];
+      spreadOfMotions(machine, a, b, length, out);
+      const Matrix6d T = a.T - b.T, T_rate = a.T_rate - b.T_rate;
+      set(out, Rounded::shaping, size(T));
+      set(out, Rounded::shaping_rate, size(T_rate));
+      set(out, Rounded::jacobian, spin(T * driven.q_dot, length));
+      set(out, Rounded::jacobian_rate, spin(T * driven.q_ddot + T_rate * driven.q_dot, length));
+      const double torque = torqueDistance(a.torques, b.torques);
+      set(out, Rounded::effort, (a.torques - b.torques).norm());
+      set(out, Rounded::acceleration, spin(moved.solve(a.torques - b.torques), length));
+      set(out, Rounded::solver, torque);
+      set(out, Rounded::solver_direct, spin(a.direct - b.direct, length));
+      set(out, Rounded::torque, torque);
+      for (std::size_t k = 0; k < further_road_count; ++k) set(out, ofFurtherRoad(k), torque);
+    }
+  return out;
+}
+
+/// Over the presentations. `solver` is the NOC as it is, `effort` T_PᵀM_P.
+RoundingLevels spreadOfEngines(const Manipulator& machine, const std::vector<EngineView>& views,
+                               const SolverView& solver, const Matrix6d& effort, double length) {
+  RoundingLevels out = uniformLevels(0);
+  const auto driven = [&machine](const JointVariables<double>& q) { return q.driven(machine.motors()); };
   for (std::size_t i = 0; i < views.size(); ++i) {
     set(out, Rounded::gaps, views[i].gap_acceleration);
     for (std::size_t j = 0; j < i; ++j) {
-      spreadOfKinematics(machine, views[i], views[j], length, out);
-      spreadOfDynamics(views[i], views[j], effort, length, out);
+      const EngineView &a = views[i], &b = views[j];
+      spreadOfMotions(machine, a, b, length, out);
+      const Vector6d q_dot = driven(a.joints.q_dot) - driven(b.joints.q_dot);
+      const Vector6d q_ddot = driven(a.joints.q_ddot) - driven(b.joints.q_ddot);
+      set(out, Rounded::jacobian, spin(solver.T * q_dot, length));
+      set(out, Rounded::jacobian_rate, spin(solver.T * q_ddot + solver.T_rate * q_dot, length));
+      set(out, Rounded::torque, torqueDistance(a.torques, b.torques));
+      for (std::size_t k = 0; k < further_road_count; ++k)
+        if (a.further[k] && b.further[k]) set(out, ofFurtherRoad(k), torqueDistance(*a.further[k], *b.further[k]));
+      set(out, Rounded::acceleration, spin(a.acceleration - b.acceleration, length));
+      set(out, Rounded::effort, (effort * (a.acceleration - b.acceleration)).norm());
     }
   }
   return out;
@@ -125,14 +137,6 @@ void divideByShape(const Conditioning& at, RoundingLevels& spread) {
     const double shape = at.shape(static_cast<Rounded>(q));
     if (spread[q] != 0) spread[q] = shape > 0 ? spread[q] / shape : std::numeric_limits<double>::infinity();
   }
-}
-
-/// As large as the motion's own, so that the direct dynamics are seen off the commanded motion.
-Vector6d otherTorques(const Vector6d& torques) {
-  const double size = torques.cwiseAbs().maxCoeff();
-  Vector6d out = torques;
-  for (int i = 0; i < motor_count; ++i) out(i) += (i % 2 == 0 ? 1 : -1) * size;
-  return out;
 }
 
 /// In units of the shape; `even` is the same machine without condition numbers.
@@ -154,26 +158,30 @@ void nudge(Motion<double>& motion, int k, double length) {
 
 }  // namespace
 
+Vector6d otherTorques(const Vector6d& torques) {
+  const double size = torques.cwiseAbs().maxCoeff();
+  Vector6d out = torques;
+  for (int i = 0; i < motor_count; ++i) out(i) += (i % 2 == 0 ? 1 : -1) * size;
+  return out;
+}
+
 int profileInstants(int samples) { return std::clamp(samples, 2, 61); }
 
 struct RoundingProfile::Workshop {
   explicit Workshop(const Scenario& scenario)
-      : machine(*scenario.manipulator),
-        load(scenario.load),
-        solver(*scenario.manipulator),
-        probe(*scenario.manipulator, scenario.load) {
-    viewpoints.emplace_back(scenario, Presentation(*scenario.manipulator));
+      : machine(*scenario.manipulator), noc(machine), solver(machine, scenario.load), probe(machine, scenario.load) {
+    engines.emplace_back(scenario, Presentation(machine));
     for (unsigned k = 0; k < presentations; ++k)
-      viewpoints.emplace_back(scenario, randomPresentation(k + 1, solver.length(), *scenario.manipulator));
+      engines.emplace_back(scenario, randomPresentation(k + 1, noc.machine().length, machine));
   }
 
   std::mutex guard;
   Manipulator machine;
-  std::shared_ptr<const Load> load;
-  Solver<double> solver;
-  Workspace<double> work;
+  Noc<double> noc;
+  NocWorkspace<double> work;
+  SolverRounding solver;
   ConditioningProbe probe;
-  std::vector<Viewpoint> viewpoints;
+  std::vector<EnginePresentation> engines;
 };
 
 RoundingProfile::RoundingProfile(const Scenario& scenario, int instants)
@@ -183,7 +191,7 @@ RoundingProfile::RoundingProfile(const Scenario& scenario, int instants)
     const double t = instants > 1 ? scenario.trajectory->duration() * k / (instants - 1) : 0;
     Motion<double> motion = scenario.trajectory->at(t);
     if (k > 0 && areSame(motion, first_of_held))
-      nudge(motion, k, workshop_->solver.length());  // or a held pose would be measured once, however often
+      nudge(motion, k, workshop_->noc.machine().length);  // or a held pose would be measured once, however often
     else
       first_of_held = motion;
     measured_.push_back(measure(motion, nullptr));
@@ -198,14 +206,18 @@ RoundingProfile::Measured RoundingProfile::measure(const Motion<double>& motion,
   Measured here;
   here.t = motion.t;
   const Conditioning conditioning = w.probe.at(motion);
-  const Vector6d commanded = w.solver.inverseDynamics(motion, w.work, loadAtP(w.load.get(), motion));
-  w.solver.inverseKinematics(motion, w.work);
-  w.solver.jacobians(motion, w.work);
-  const Matrix6d effort = w.solver.T(w.work).transpose() * w.solver.massMatrixAtP(motion, w.work);
-  std::vector<View> views;
-  for (Viewpoint& viewpoint : w.viewpoints)
-    views.push_back(viewpoint.at(motion, torques != nullptr ? *torques : otherTorques(commanded)));
-  here.spread = spreadOf(w.machine, views, effort, conditioning.length);
+  const Vector6d commanded = w.solver.torques(motion), others = torques != nullptr ? *torques : otherTorques(commanded);
+  const std::vector<SolverView> solver = w.solver.at(motion, others);
+  std::vector<EngineView> engines;
+  for (EnginePresentation& each : w.engines) engines.push_back(each.at(motion, commanded, others));
+  w.noc.displacements(motion, w.work);
+  const Matrix6d effort = solver.front().T.transpose() * w.noc.massMatrixAtP(motion, w.work);
+  const JointMotion& simbody = engines.front().joints;
+  const auto driven = [&w](const JointVariables<double>& q) { return q.driven(w.machine.motors()); };
+  here.spread =
+      spreadOfSolver(w.machine, solver, {driven(simbody.q_dot), driven(simbody.q_ddot)}, effort, conditioning.length);
+  const RoundingLevels of_engines = spreadOfEngines(w.machine, engines, solver.front(), effort, conditioning.length);
+  for (std::size_t q = 0; q < rounded_count; ++q) here.spread[q] += of_engines[q];
   divideByShape(conditioning, here.spread);
   return here;
 }

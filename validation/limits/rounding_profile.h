@@ -58,6 +58,9 @@ class SecondLook {
   bool confirmed_ = false;
 };
 
+/// Changed by as much as the largest, so that direct dynamics are seen off the commanded motion.
+Vector6d otherTorques(const Vector6d& torques);
+
 /// Enough of them for a run that is judged at `samples` instants.
 int profileInstants(int samples);
 

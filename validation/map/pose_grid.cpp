@@ -9,7 +9,7 @@
 
 #include "model/instants.h"
 #include "model/leading_number.h"
-#include "nocsolver/chain_solver.h"
+#include "nocsolver/legs/leg_model.h"
 
 namespace ursula {
 namespace {
@@ -51,7 +51,7 @@ void setAround(const Scenario& scenario, std::array<GridAxis, grid_axes>& axes) 
   constexpr std::array<int, 3> counts = {41, 41, 3};
   Eigen::AlignedBox3d box;
   for (const double t : equallySpaced(scenario.trajectory->duration(), 101)) box.extend(scenario.trajectory->at(t).p);
-  const double beside = ChainSolver<double>(*scenario.manipulator).length() / 4;
+  const double beside = MachineParameters<double>(*scenario.manipulator).length / 4;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     if (!axes[i].given) axes[i] = {box.min()(k) - beside, box.max()(k) + beside, counts[i], true};

@@ -7,7 +7,7 @@
 #include <limits>
 #include <memory>
 
-#include "nocsolver/batch_dynamics.h"
+#include "nocsolver/fast/batch_dynamics.h"
 #include "nocsolver/solver.h"
 #include "validation/subject/effort_columns.h"
 #include "validation/subject/scaled_jacobian.h"
@@ -85,7 +85,7 @@ class PoseMap {
       for (std::size_t i = 0; i < out.sines.size(); ++i) out.sines[i] = solver_.margins(work, static_cast<int>(i)).sine;
       out.sine_min = *std::min_element(out.sines.begin(), out.sines.end());
       solver_.jacobians(pose, work);
-      out.kappa = conditionNumber(scaledB(solver_, work));
+      out.kappa = conditionNumber(scaledB(work.B, solver_.length()));
     } catch (const StretchedLeg&) {
       out.reach = 1;  // to the very end
     } catch (const SingularJacobian&) {

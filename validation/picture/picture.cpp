@@ -95,8 +95,8 @@ std::shared_ptr<const Picture> makePicture(const Scenario& scenario, const std::
   std::vector<LegTracks> legs;
   for (std::size_t k = 0; k < on.size(); ++k)
     legs.emplace_back(machine.leg(static_cast<int>(k)), on[k], picture->origin);
-  const ChainSolver<double> solver(machine);
-  ChainWorkspace<double> work;
+  const Noc<double> solver(machine);
+  NocWorkspace<double> work;
   for (const double t : instants) {
     const Motion<double> motion = scenario.trajectory->at(t);
     solver.displacements(motion, work);

@@ -21,6 +21,7 @@ struct Defect {
   /// On how many roads it must be caught. 1 where by its nature only one can see it: direct dynamics and reactions,
   /// which Simbody alone has beside the solver; what all roads share; an engine; what the motion does not reach.
   int roads = 2;
+  bool control = false;  ///< no defect, by the mechanism of others: it must pass
 };
 
 /// Every defect that `ursula prove` injects into this machine, at least 150, one at a time. What a machine has not (a

@@ -164,6 +164,9 @@ std::vector<Defect> directDefects(const Manipulator& machine) {
   std::vector<Defect> out = wrongMassMatrices(machine);
   append(out, wrongForces());
   append(out, wrongStates());
+  append(out, {control(wrongMassMatrix("mass matrix: no fault", [](Matrix6d&) {})),
+               control(massMatrixOf("mass matrix of another machine: no fault", [](ManipulatorParameters&) {})),
+               control(wrongState("state: no fault", [](Motion<double>&, const Motion<double>&) {}))});
   return out;
 }
 

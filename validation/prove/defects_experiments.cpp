@@ -212,12 +212,25 @@ std::vector<Defect> wrongReplays(const Manipulator& machine) {
   return out;
 }
 
+std::vector<Defect> controls() {
+  std::vector<Defect> out = {control(stabilised("stabilised replay: no fault", [](ManipulatorParameters&) {})),
+                             control(wrongSample("sample: no fault", [](PointwiseSample&) {})),
+                             control(wrongReactions("reactions: no fault", [](Reactions&) {})),
+                             control(eachStep("step: no fault", [](State&) {})),
+                             control(lastStep("last step: no fault", [](State&) {})),
+                             control(wrongLadder("ladder: no fault", Integrator::rkf78, [](ReplaySettings&) {}))};
+  for (const RoadKind& road : furtherRoads())
+    out.push_back(control(engine(std::string(road.engine) + ": no fault", road.check, [](ManipulatorParameters&) {})));
+  return out;
+}
+
 }  // namespace
 
 std::vector<Defect> experimentDefects(const Manipulator& machine) {
   std::vector<Defect> out = wrongEngines(machine);
   append(out, wrongReactionForces(machine));
   append(out, wrongReplays(machine));
+  append(out, controls());
   return out;
 }
 

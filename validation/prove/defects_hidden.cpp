@@ -95,8 +95,8 @@ std::vector<Defect> hiddenDefects(const Manipulator& machine) {
                         [](const Manipulator& m) { return m.leg(0).knee == Knee::negative; }),
           hiddenMachine("wrong where leg 1 is longer than 1.42 m",
                         [](const Manipulator& m) { return m.leg(0).proximal.length > 1.42; }),
-          hiddenMachine("wrong where the platform is heavier than 600 kg",
-                        [](const Manipulator& m) { return m.platform().mass > 600; }),
+          hiddenMachine("wrong where the platform is heavier than 600 kg, and lighter than 1,200",
+                        [](const Manipulator& m) { return m.platform().mass > 600 && m.platform().mass < 1200; }),
           hiddenMachine("wrong where nothing rubs", [](const Manipulator& m) { return m.leg(0).friction.theta == 0; }),
           hidden("wrong at speeds that only the way back has", beyondSpeeds)};
 }

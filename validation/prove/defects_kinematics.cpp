@@ -125,7 +125,8 @@ std::vector<Defect> kinematicDefects(const Manipulator& machine) {
       wrongKinematics("T off by 1e-9 of itself", [](K& k) { k.T *= 1 + 1e-9; }),
       wrongKinematics("T_dot off by 1e-8 of itself", [](K& k) { k.T_rate *= 1 + 1e-8; }),
       wrongKinematics("T_dot off by 1e-6 of itself, but for the rates of the motion",
-                      [motors = machine.motors()](K& k) { spoilAcrossMotion(motors, k); })};
+                      [motors = machine.motors()](K& k) { spoilAcrossMotion(motors, k); }),
+      control(wrongKinematics("kinematics: no fault", [](K&) {}))};
   if (!machine.isOfThePaper()) append(out, otherCoordinates(machine));
   return out;
 }

@@ -11,6 +11,12 @@ Manipulator changedMachine(const Manipulator& machine, const ChangeMachine& chan
   return Manipulator(parameters);
 }
 
+Defect control(Defect without_defect) {
+  without_defect.group = "control";
+  without_defect.control = true;
+  return without_defect;
+}
+
 Defect wrongMachine(const std::string& name, const std::string& group, const ChangeMachine& change) {
   return {name, group, [change](const Scenario& s) {
             Subject wrong = nocSubject(changedMachine(*s.manipulator, change), s.load);
@@ -98,18 +104,12 @@ std::vector<LegKind> kindsOf(const Manipulator& machine) {
   return kinds;
 }
 
-std::vector<Defect> formulaDefects(const Manipulator& machine) {
-  if (machine.isOfThePaper()) return printedFormulas();
-  std::vector<Defect> out = chainTerms(machine);
-  append(out, chainLegs(machine));
-  return out;
-}
-
 std::vector<Defect> allDefects(const Manipulator& machine) {
   std::vector<Defect> out;
-  for (const auto& group : {formulaDefects, parameterDefects, indexDefects, frameDefects, frictionDefects,
-                            motionDefects, torqueDefects, branchDefects, kinematicDefects, directDefects, hiddenDefects,
-                            sharedMotionDefects, sharedLoadDefects, readingDefects, experimentDefects})
+  for (const auto& group :
+       {formulaDefects, legDefects, fastDefects, parameterDefects, indexDefects, frameDefects, frictionDefects,
+        motionDefects, torqueDefects, branchDefects, kinematicDefects, directDefects, hiddenDefects,
+        sharedMotionDefects, sharedLoadDefects, readingDefects, experimentDefects})
     append(out, group(machine));
   return out;
 }

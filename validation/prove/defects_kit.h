@@ -20,6 +20,12 @@ using ChangeTorques = std::function<Vector6d(const Vector6d& right, const Motion
 
 Manipulator changedMachine(const Manipulator& machine, const ChangeMachine& change);
 
+/// The NOC with a fault in its formulas, in what it reads or in a leg.
+Defect wrongFormula(const std::string& name, const char* group, const WithSlips& fault);
+
+/// The same mechanism without a defect: it must pass, or what its defects are caught by says nothing.
+Defect control(Defect without_defect);
+
 /// The solver of another machine.
 Defect wrongMachine(const std::string& name, const std::string& group, const ChangeMachine& change);
 
@@ -61,10 +67,9 @@ inline const std::array<Coordinate, 3>& coordinatesOf(const Manipulator& machine
 std::vector<LegKind> kindsOf(const Manipulator& machine);
 
 // The groups. Each speaks of the paper's machine as of any other, unless it says so.
-std::vector<Defect> formulaDefects(const Manipulator& machine);
-std::vector<Defect> printedFormulas();                       ///< of the paper's machine
-std::vector<Defect> chainTerms(const Manipulator& machine);  ///< of all others
-std::vector<Defect> chainLegs(const Manipulator& machine);   ///< of all others
+std::vector<Defect> formulaDefects(const Manipulator& machine);  ///< of noc/ and the paper's leg
+std::vector<Defect> legDefects(const Manipulator& machine);      ///< of legs of other kinds
+std::vector<Defect> fastDefects(const Manipulator& machine);
 std::vector<Defect> parameterDefects(const Manipulator& machine);
 std::vector<Defect> indexDefects(const Manipulator& machine);
 std::vector<Defect> frameDefects(const Manipulator& machine);

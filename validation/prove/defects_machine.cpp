@@ -223,7 +223,10 @@ std::vector<Defect> frameDefects(const Manipulator& of) {
               }),
       wrongPlatformTensor("tensor of the platform turned the wrong way",
                           [](const Matrix3d& I, const Matrix3d& Q) { return Matrix3d(Q.transpose() * I * Q); }),
-      wrongPlatformTensor("tensor of the platform not turned", [](const Matrix3d& I, const Matrix3d&) { return I; })};
+      wrongPlatformTensor("tensor of the platform not turned", [](const Matrix3d& I, const Matrix3d&) { return I; }),
+      control(machine("machine: no fault", [](P&) {})),
+      control(wrongPlatformTensor(
+          "tensor: no fault", [](const Matrix3d& I, const Matrix3d& Q) { return Matrix3d(Q * I * Q.transpose()); }))};
 }
 
 }  // namespace ursula

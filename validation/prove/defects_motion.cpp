@@ -36,7 +36,8 @@ std::vector<Defect> motionDefects(const Manipulator&) {
       wrongMotion("p off by 1e-10 m", [](M& m) { m.p.y() += 1e-10; }),
       wrongMotion("Q turned by 1e-10", [](M& m) { m.Q = (Eigen::AngleAxisd(1e-10, Vector3d::UnitY()) * m.Q).eval(); }),
       wrongMotion("omega off by 1e-8 of itself", [](M& m) { m.omega *= 1 + 1e-8; }),
-      wrongMotion("acceleration of P off by 1e-9 of itself", [](M& m) { m.p_ddot *= 1 + 1e-9; })};
+      wrongMotion("acceleration of P off by 1e-9 of itself", [](M& m) { m.p_ddot *= 1 + 1e-9; }),
+      control(wrongMotion("motion: no fault", [](M&) {}))};
 }
 
 }  // namespace ursula

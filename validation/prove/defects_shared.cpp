@@ -214,6 +214,7 @@ std::vector<Defect> readingDefects(const Manipulator& machine) {
                        [](Poses& poses) {
                          for (TimedPose& pose : poses) pose.orientation.tail<3>() *= -1;
                        }),
+          control(misread("number as read: no fault", [](P&) {})),
           misreadPoses("a waypoint's time off by 1e-15 of itself", [](Poses& poses) { poses[1].time *= 1 + 4 * eps; })};
 }
 

@@ -146,7 +146,10 @@ std::vector<Defect> torqueDefects(const Manipulator& machine) {
       withLoad("load's point from the mass centre",
                [](Load& load, const M& of) { load.point += of.platform().center_of_mass; }),
       withLoad("load's point off by 1e-9 m", [](Load& load, const M&) { load.point.z() += 1e-9; }),
-      lateLoad()};
+      lateLoad(),
+      control(torque("torque: no fault", [](V&) {})),
+      control(timed("time: no fault", [](double t, double) { return t; })),
+      control(withLoad("load: no fault", [](Load&, const M&) {}))};
   if (!machine.isOfThePaper()) append(out, wrongMotors(machine));
   return out;
 }

@@ -89,25 +89,6 @@ Scenario sampledForMany(Scenario scenario) {
   return scenario;
 }
 
-void inParallel(int jobs, int count, const std::function<void(int)>& task) {
-  std::atomic<int> next{0};
-  std::exception_ptr failure;
-  std::mutex guard;
-  const auto work = [&] {
-    for (int k = next++; k < count; k = next++) try {
-        task(k);
-      } catch (...) {
-        const std::lock_guard<std::mutex> lock(guard);
-        if (!failure) failure = std::current_exception();
-      }
-  };
-  std::vector<std::thread> threads =
-      startThreads(static_cast<std::size_t>(std::max(std::min(jobs, count) - 1, 0)), work);
-  work();
-  for (std::thread& thread : threads) thread.join();
-  if (failure) std::rethrow_exception(failure);
-}
-
 std::vector<Sensitivity> proveSensitivities(const Scenario& scenario) {
   const TorqueReference reference(scenario);
   std::vector<Sensitivity> out;

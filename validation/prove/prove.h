@@ -32,8 +32,10 @@ struct CheckProof {
 
 struct DefectProof {
   std::vector<DefectOutcome> outcomes;
-  std::vector<CheckProof> checks;           ///< every check that the scenario's result has
-  std::vector<std::string> without_defect;  ///< checks that fail the right solver: then nothing is proved
+  std::vector<CheckProof> checks;  ///< every check that the scenario's result has
+  /// Checks that fail the right solver, or a mechanism that injects nothing: then nothing is proved.
+  std::vector<std::string> without_defect;
+  int controls = 0;  ///< mechanisms that were tried without a defect
 };
 
 /// What a check compares with: "Simbody" in either topology, "maximal coordinates", "MuJoCo", or itself where it needs
@@ -52,9 +54,6 @@ struct RandomOutcomes {
   std::vector<std::string> failed, inconclusive;  ///< seed, worst check and why
   std::map<std::string, double> largest_share;    ///< of its limit that a check's value reached, by its name
 };
-
-/// `task(k)` for k = 0 … count − 1 on `jobs` threads; the first exception is thrown again.
-void inParallel(int jobs, int count, const std::function<void(int)>& task);
 
 /// Every defect of allDefects() in turn, judged by the whole validation. Order and content do not depend on `jobs`.
 DefectProof proveDefects(const Scenario& scenario, int jobs, const std::function<void(int)>& done);

@@ -7,6 +7,7 @@
 
 #include "model/errors.h"
 #include "model/loops/further_roads.h"
+#include "model/start_threads.h"
 #include "nocsolver/errors.h"
 #include "validation/checks/commanded_motion.h"
 #include "validation/prove/defects.h"
@@ -117,7 +118,7 @@ std::string roadOf(const std::string& check) {
   const auto begins = [&check](const char* with) { return check.rfind(with, 0) == 0; };
   // Against the solver's own formulas, the pose in 50 digits, a second reading.
   const bool alone = check == "kinematics.jacobian_difference" || check == "torque.between";
-  if (alone || begins("invariance.") || begins("motion.")) return check;
+  if (alone || begins("invariance.") || begins("motion.") || begins("complement.") || begins("fast.")) return check;
   return "Simbody";
 }
 
@@ -130,14 +131,23 @@ int DefectOutcome::roads() const {
 DefectProof proveDefects(const Scenario& scenario, int jobs, const std::function<void(int)>& done) {
   const std::vector<Defect> defects = allDefects(*scenario.manipulator);
   const Proof proof(sampledForMany(scenario));
-  DefectProof out;
-  out.outcomes.resize(defects.size());
+  std::vector<DefectOutcome> outcomes(defects.size());
   inParallel(jobs, static_cast<int>(defects.size()), [&](int k) {
-    out.outcomes[static_cast<std::size_t>(k)] = proof.judge(defects[static_cast<std::size_t>(k)]);
+    outcomes[static_cast<std::size_t>(k)] = proof.judge(defects[static_cast<std::size_t>(k)]);
     done(static_cast<int>(defects.size()));
   });
-  out.checks = proofsOf(proof.checks(), out.outcomes);
+  DefectProof out;
   out.without_defect = failed(proof.checks());
+  for (std::size_t k = 0; k < defects.size(); ++k) {
+    if (!defects[k].control) {
+      out.outcomes.push_back(std::move(outcomes[k]));
+      continue;
+    }
+    ++out.controls;
+    for (const std::string& check : outcomes[k].caught_by)
+      out.without_defect.push_back(fmt::format("{} ({})", check, outcomes[k].name));
+  }
+  out.checks = proofsOf(proof.checks(), out.outcomes);
   return out;
 }
 

@@ -161,7 +161,7 @@ std::string sentenceOf(const ProveFound& found) {
   if (!found.proof) return fmt::format("{} of {} random scenarios passed.", found.random.passed, found.random.runs);
   const DefectProof& proof = *found.proof;
   if (!proof.without_defect.empty())
-    return fmt::format("The right solver fails {}: nothing is proved.", fmt::join(proof.without_defect, ", "));
+    return fmt::format("Without a defect this fails: {}. Nothing is proved.", fmt::join(proof.without_defect, ", "));
   const auto shown = std::count_if(proof.outcomes.begin(), proof.outcomes.end(),
                                    [](const DefectOutcome& outcome) { return outcome.shows; });
   const int weak = weakDefects(proof.outcomes), idle = idleChecks(proof.checks);

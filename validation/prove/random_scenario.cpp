@@ -39,7 +39,7 @@ class Follower {
 
   bool follows(const Motion<double>& motion) {
     solver_.displacements(motion, work_);
-    for (int i = 0; i < solver_.chain().legCount(); ++i) {
+    for (int i = 0; i < solver_.machine().legs_in_all; ++i) {
       const LegMargins<double> margins = solver_.margins(work_, i);
       if (!(margins.sine >= smallest_sine && smallest_lever * margins.leverage <= 1)) return false;
     }

@@ -43,7 +43,7 @@ Eigen::VectorXd roomBetween(const Eigen::VectorXd& a, const Eigen::VectorXd& b) 
 
 RightAnswers::RightAnswers(const Scenario& scenario) {
   const Subject right = nocSubject(*scenario.manipulator, scenario.load);
-  const Subject other = spoiltSubject(*scenario.manipulator, scenario.load, SpoiltChain());
+  const Subject other = longNocSubject(*scenario.manipulator, scenario.load);
   for (int k = 0; k < instants; ++k) try {
       Instant instant{scenario.trajectory->at(instantOf(scenario, k)), {}};
       const auto a = answersOf(right, instant.motion), b = answersOf(other, instant.motion);

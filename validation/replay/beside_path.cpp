@@ -39,9 +39,10 @@ BesidePath::BesidePath(const Scenario& scenario, const SimbodyLoop::TorqueHistor
       length_(amplification.length()),
       stiff_(isStiff(amplification, scenario.trajectory->duration())) {
   const std::size_t last = lastOf(amplification);
-  intervals_ = static_cast<int>(last);
+  // Fewer than the amplification's: an interval that these do not resolve is halved.
+  intervals_ = std::max(1, static_cast<int>(last) / 4);
   end_ = amplification.instants()[last];
-  right_ = growthOf(nocSubject(*scenario.manipulator, scenario.load).accelerations);
+  right_ = growthOf(fastSubject(*scenario.manipulator, scenario.load).accelerations);
   size_ = wanted_deviation * length_ / std::max(1.0, right_.Phi.topRows<6>().norm());
   rounding_ = amplification.carriedBound(0, end_, acceleration_rounding) / size_;
 }

@@ -30,7 +30,9 @@ const char* needsInWords(CheckNeeds needs) {
     case CheckNeeds::other_machines:
       return "a solver that can be made for another machine";
     case CheckNeeds::own_reactions:
-      return "this program's own solver";
+      return "a solver that finds the reactions at the joints: the NOC";
+    case CheckNeeds::own_complement:
+      return "a solver that forms T of (32): the NOC";
     case CheckNeeds::further_road:
       return "a build that has this road";
     case CheckNeeds::torque_file:

@@ -51,6 +51,7 @@ std::string summaryJson(const ValidationResult& result) {
   const std::string deviation = result.deviation ? " " + sentence(*result.deviation) : "";
   Json summary = {{"scenario", result.scenario},
                   {"verdict", name(result.verdict)},
+                  {"formulation", result.formulation},
                   {"limits", name(result.limits)},
                   {"reason", reason(result.verdict, result.checks) + deviation},
                   {"checks", checks},

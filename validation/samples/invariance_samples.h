@@ -12,6 +12,8 @@ namespace ursula {
 /// What changes no physics, or changes torques in a known way.
 enum class Symmetry {
   rotation,       ///< the whole world turned, gravity included: the torques stay
+  axes,           ///< other axes on the platform, another origin: the torques stay
+  units,          ///< other units of length, mass and time: the torques stay
   labels,         ///< legs relabelled: they carry their torques along
   mass,           ///< masses, inertias and friction doubled: so are the torques
   time_reversal,  ///< the mean of forwards and backwards is the torques without friction

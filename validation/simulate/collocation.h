@@ -6,7 +6,7 @@
 
 #include "model/load.h"
 #include "model/motion.h"
-#include "nocsolver/batch_dynamics.h"
+#include "nocsolver/fast/batch_dynamics.h"
 
 namespace ursula {
 

@@ -3,16 +3,15 @@
 #include <fmt/format.h>
 
 #include "model/instants.h"
-#include "nocsolver/chain_solver.h"
+#include "nocsolver/noc/noc.h"
 #include "validation/subject/leg_points.h"
 
 namespace ursula {
 namespace {
 
 /// The points of one instant, in the order of the columns: p, then A, R, B of each leg.
-std::vector<Vector3d> points(const Manipulator& machine, const ChainSolver<double>& solver,
-                             const Motion<double>& motion) {
-  ChainWorkspace<double> work;
+std::vector<Vector3d> points(const Manipulator& machine, const Noc<double>& solver, const Motion<double>& motion) {
+  NocWorkspace<double> work;
   solver.displacements(motion, work);
   std::vector<Vector3d> all = {motion.p};
   for (const LegPoints& leg : legPoints(machine, work)) all.insert(all.end(), {leg.A, leg.R, leg.B});
@@ -30,7 +29,7 @@ std::vector<std::string> pointNames(int legs) {
 
 TimeSeries poseSeries(const Scenario& scenario, int count) {
   const Manipulator& machine = *scenario.manipulator;
-  const ChainSolver<double> solver(machine);
+  const Noc<double> solver(machine);
   const std::vector<double> instants = equallySpaced(scenario.trajectory->duration(), count);
   std::vector<std::vector<Vector3d>> rows;
   rows.reserve(instants.size());

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "model/instants.h"
-#include "nocsolver/batch_dynamics.h"
+#include "nocsolver/fast/batch_dynamics.h"
 #include "nocsolver/solver.h"
 #include "validation/findings/timeseries.h"
 #include "validation/subject/subject.h"

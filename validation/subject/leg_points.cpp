@@ -8,15 +8,15 @@
 
 namespace ursula {
 
-std::vector<LegPoints> legPoints(const Manipulator& machine, const ChainWorkspace<double>& work) {
+std::vector<LegPoints> legPoints(const Manipulator& machine, const NocWorkspace<double>& work) {
   std::vector<LegPoints> out;
   for (int i = 0; i < machine.legCount(); ++i) {
     const Leg& leg = machine.leg(i);
-    const ChainState<double>& state = work.legs[static_cast<std::size_t>(i)];
+    const LegState<double>& state = work.legs[static_cast<std::size_t>(i)];
     LegPoints points;
     points.A = leg.base_point;
     points.S = points.A + state.O_2;
-    points.B = points.S + state.RB;
+    points.B = points.A + state.AB;
     points.R = leg.kind == LegKind::UPS ? Vector3d(points.A + leg.proximal.length * state.axis[2]) : points.S;
     points.axes = state.axis;
     out.push_back(points);
@@ -34,8 +34,8 @@ struct Range {
 };
 
 std::vector<Range> travels(const Scenario& scenario) {
-  const ChainSolver<double> solver(*scenario.manipulator);
-  ChainWorkspace<double> work;
+  const Noc<double> solver(*scenario.manipulator);
+  NocWorkspace<double> work;
   std::vector<Range> out(scenario.manipulator->parameters().legs.size());
   try {
     for (const double t : equallySpaced(scenario.trajectory->duration(), 201)) {

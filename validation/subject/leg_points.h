@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "model/scenario.h"
-#include "nocsolver/chain_solver.h"
+#include "nocsolver/noc/noc.h"
 
 namespace ursula {
 
@@ -19,7 +19,7 @@ struct LegPoints {
 };
 
 /// Of every leg, from the displacements in `work`.
-std::vector<LegPoints> legPoints(const Manipulator& machine, const ChainWorkspace<double>& work);
+std::vector<LegPoints> legPoints(const Manipulator& machine, const NocWorkspace<double>& work);
 
 /// What a carriage passes along its rail.
 struct Stretch {

@@ -198,6 +198,7 @@ Subject presented(const Subject& subject, const Presentation& to) {
   from.units = {1 / units.length, 1 / units.mass, 1 / units.time, units.efforts};
   Subject out;
   out.name = subject.name;
+  out.formulation = subject.formulation;
   out.torques = [=](const Motion<double>& motion) { return to.of(subject.torques(from.of(motion))); };
   if (subject.foresee)
     out.foresee = [=](std::vector<Motion<double>> motions) {
@@ -215,6 +216,17 @@ Subject presented(const Subject& subject, const Presentation& to) {
       found.tail<3>() /= units.acceleration();
       return found;
     };
+  if (subject.complement)
+    out.complement = [=](const Motion<double>& motion) {
+      Complement found = subject.complement(from.of(motion));
+      for (Eigen::Index body = 0; body < body_count; ++body) {
+        found.T.middleRows(6 * body + 3, 3) /= units.length;
+        found.D.middleCols(6 * body + 3, 3) *= units.length;
+      }
+      return found;
+    };
+  if (subject.reactions)
+    out.reactions = [=](const Motion<double>& motion) { return from.back(subject.reactions(from.of(motion))); };
   if (subject.rebuilt)
     out.rebuilt = [=](const Manipulator& machine) {
       Presentation there(machine);  // its motors may stand in another order

@@ -2,14 +2,13 @@
 
 #include <Eigen/SVD>
 
-#include "nocsolver/solver.h"
+#include "model/scalar.h"
 
 namespace ursula {
 
-/// B of (23) with moments over the machine's length. Needs jacobians in `work`.
-inline Matrix6d scaledB(const Solver<double>& solver, const Workspace<double>& work) {
-  Matrix6d B = solver.B(work);
-  B.leftCols<3>() /= solver.length();
+/// B of (23) with moments over the machine's length, m.
+inline Matrix6d scaledB(Matrix6d B, double length) {
+  B.leftCols<3>() /= length;
   return B;
 }
 

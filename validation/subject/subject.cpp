@@ -1,8 +1,10 @@
 #include "validation/subject/subject.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
-#include "nocsolver/solver.h"
+#include "nocsolver/fast/fast_dynamics.h"
+#include "nocsolver/noc/noc.h"
 
 namespace ursula {
 namespace {
@@ -14,37 +16,95 @@ Workspace& workspace() {
   return work;
 }
 
-/// A solver of the class `Of` with a workspace of the class `Work`.
-template <class Of, class Work, class... Reading>
-Subject makeSubject(const std::string& name, const Manipulator& manipulator, const std::shared_ptr<const Load>& load,
-                    const Reading&... reading) {
-  const auto solver = std::make_shared<const Of>(manipulator, reading...);
+template <class S>
+Motion<S> as(const Motion<double>& m) {
+  return {S(m.t),
+          m.p.cast<S>(),
+          m.Q.cast<S>(),
+          m.omega.cast<S>(),
+          m.p_dot.cast<S>(),
+          m.omega_dot.cast<S>(),
+          m.p_ddot.cast<S>()};
+}
+
+template <class S>
+JointVariables<double> inDoubles(const JointVariables<S>& q) {
+  return {q.phi.template cast<double>(), q.psi.template cast<double>(), q.theta.template cast<double>(),
+          q.d.template cast<double>()};
+}
+
+template <class S>
+BodyMotion<double> inDoubles(const BodyMotion<S>& body) {
+  return {body.c.template cast<double>(), body.R.template cast<double>(), body.twist.template cast<double>(),
+          body.twist_rate.template cast<double>()};
+}
+
+template <class S, class Reading>
+KinematicAnswer kinematicsOf(const Noc<S, Reading>& solver, const Motion<double>& motion) {
+  NocWorkspace<S>& work = workspace<NocWorkspace<S>>();
+  const Motion<S> m = as<S>(motion);
+  KinematicAnswer answer;
+  solver.inverseKinematics(m, work);
+  answer.joints = {inDoubles(solver.angles(work)), inDoubles(solver.rates(work)),
+                   inDoubles(solver.accelerations(work))};
+  solver.bodyMotions(m, work, work.bodies);
+  std::transform(work.bodies.begin(), work.bodies.end(), answer.bodies.begin(),
+                 [](const BodyMotion<S>& body) { return inDoubles(body); });
+  solver.jacobians(m, work);
+  answer.T = solver.platformShaping(work).template cast<double>();
+  answer.T_rate = solver.platformShapingRate(m, work).template cast<double>();
+  return answer;
+}
+
+template <class S, class Reading>
+Subject makeSubject(const char* name, const MachineParameters<S>& machine, const std::shared_ptr<const Load>& load,
+                    const Reading& reading) {
+  using Work = NocWorkspace<S>;
+  const auto solver = std::make_shared<const Noc<S, Reading>>(machine, reading);
   Subject subject;
   subject.name = name;
+  subject.formulation = Formulation::noc;
   subject.torques = [solver, load](const Motion<double>& motion) {
-    return solver->inverseDynamics(motion, workspace<Work>(), loadAtP(load.get(), motion));
+    const Vector6<S> on_platform = loadAtP(load.get(), motion).cast<S>();
+    return Vector6d(solver->inverseDynamics(as<S>(motion), workspace<Work>(), on_platform).template cast<double>());
   };
-  subject.kinematics = [solver](const Motion<double>& motion) {
-    Work& work = workspace<Work>();
-    KinematicAnswer answer;
-    solver->inverseKinematics(motion, work);
-    answer.joints = {solver->angles(work), solver->rates(work), solver->accelerations(work)};
-    solver->bodyMotions(motion, work, answer.bodies);
-    solver->jacobians(motion, work);
-    answer.T = solver->T(work);
-    answer.T_rate = solver->TRate(motion, work);
-    return answer;
-  };
+  subject.kinematics = [solver](const Motion<double>& motion) { return kinematicsOf(*solver, motion); };
   subject.accelerations = [solver, load](const Motion<double>& motion, const Vector6d& torques) {
-    return solver->directDynamics(motion, torques, workspace<Work>(), loadAtP(load.get(), motion));
+    const Vector6<S> on_platform = loadAtP(load.get(), motion).cast<S>(), efforts = torques.cast<S>();
+    return Vector6d(
+        solver->directDynamics(as<S>(motion), efforts, workspace<Work>(), on_platform).template cast<double>());
   };
-  subject.rebuilt = [name, reading...](const Manipulator& other) {
-    return makeSubject<Of, Work>(name, other, nullptr, reading...);
+  subject.complement = [solver, load](const Motion<double>& motion) {
+    Work& work = workspace<Work>();
+    const Motion<S> m = as<S>(motion);
+    solver->inverseDynamics(m, work, loadAtP(load.get(), motion).cast<S>());
+    return Complement{solver->D(m, work).template cast<double>(), work.T.template cast<double>()};
+  };
+  subject.reactions = [solver, load](const Motion<double>& motion) {
+    Work& work = workspace<Work>();
+    const Motion<S> m = as<S>(motion);
+    const Vector6<S> efforts = solver->inverseDynamics(m, work, loadAtP(load.get(), motion).cast<S>());
+    return solver->reactions(m, efforts, work);
+  };
+  subject.rebuilt = [name, reading](const Manipulator& other) {
+    return makeSubject<S, Reading>(name, MachineParameters<S>(other), nullptr, reading);
   };
   return subject;
 }
 
 }  // namespace
+
+const char* name(Formulation formulation) {
+  switch (formulation) {
+    case Formulation::noc:
+      return "noc";
+    case Formulation::fast:
+      return "fast";
+    case Formulation::external:
+      break;
+  }
+  return "external";
+}
 
 Vector6d loadAtP(const Load* load, const Motion<double>& motion) {
   if (load == nullptr) return Vector6d::Zero();
@@ -65,19 +125,35 @@ void foresee(const Subject& subject, const Trajectory& trajectory, const std::ve
 }
 
 Subject nocSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load) {
-  return makeSubject<Solver<double>, Workspace<double>>("noc", manipulator, load);
+  return nocSubject(MachineParameters<double>(manipulator), load);
 }
 
-Subject slippedSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load,
-                       const WithSlips& slips) {
-  return makeSubject<PaperSolver<double, WithSlips>, PaperWorkspace<double>>("noc with slips", manipulator, load,
-                                                                             slips);
+Subject nocSubject(const MachineParameters<double>& machine, const std::shared_ptr<const Load>& load) {
+  return makeSubject("noc", machine, load, Corrected{});
 }
 
-Subject spoiltSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load,
-                      const SpoiltChain& reading) {
-  return makeSubject<ChainSolver<double, SpoiltChain>, ChainWorkspace<double>>("noc, spoilt", manipulator, load,
-                                                                               reading);
+Subject wrongNocSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load,
+                        const WithSlips& fault) {
+  return makeSubject("noc with a fault", MachineParameters<double>(manipulator), load, fault);
+}
+
+Subject fastSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load) {
+  const auto solver = std::make_shared<const FastDynamics<double>>(manipulator);
+  Subject subject;
+  subject.name = "fast kernels";
+  subject.formulation = Formulation::fast;
+  subject.torques = [solver, load](const Motion<double>& motion) {
+    return solver->inverseDynamics(motion, loadAtP(load.get(), motion));
+  };
+  subject.accelerations = [solver, load](const Motion<double>& motion, const Vector6d& torques) {
+    return solver->directDynamics(motion, torques, loadAtP(load.get(), motion));
+  };
+  subject.rebuilt = [](const Manipulator& other) { return fastSubject(other, nullptr); };
+  return subject;
+}
+
+Subject longNocSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load) {
+  return makeSubject("noc in long double", MachineParameters<long double>(manipulator), load, Corrected{});
 }
 
 }  // namespace ursula

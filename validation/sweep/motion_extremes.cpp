@@ -46,7 +46,7 @@ void MotionExtremes::margins(const Scenario& scenario, Extremes& out) const {
       out.sine = std::min(out.sine, solver.margins(work, i).sine);
     if (faults_[k] != PoseFault::none) solver.inverseKinematics(motions_[k], work);
     solver.jacobians(motions_[k], work);
-    const Matrix6d B = scaledB(solver, work);
+    const Matrix6d B = scaledB(work.B, solver.length());
     const double bound = B.norm() * B.inverse().norm();
     if (bound > worst || k == 0) {
       worst = bound;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "model/scenario.h"
-#include "nocsolver/batch_dynamics.h"
+#include "nocsolver/fast/batch_dynamics.h"
 
 namespace ursula {
 

@@ -136,6 +136,7 @@ struct LikelyCause {
 /// What one scenario's validation found. Provenance keeps its order: (key, value as text).
 struct ValidationResult {
   std::string scenario;
+  std::string formulation;            ///< that was judged: "noc", "fast", or "external" for somebody else's
   LimitBy limits = LimitBy::derived;  ///< user: a limit of the user's, wider than the derived one, decided
   Verdict verdict = Verdict::fail;
   std::vector<Check> checks;

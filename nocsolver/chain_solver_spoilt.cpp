@@ -1,5 +1,0 @@
-#include "nocsolver/chain_solver_impl.h"
-
-namespace ursula {
-template class ChainSolver<double, SpoiltChain>;
-}  // namespace ursula

@@ -1,0 +1,6 @@
+#include "nocsolver/fast/fast_dynamics_impl.h"
+
+namespace ursula {
+template class FastDynamics<double>;
+template class FastDynamics<float>;
+}  // namespace ursula

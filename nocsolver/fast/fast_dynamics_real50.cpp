@@ -1,0 +1,6 @@
+#include "model/real50.h"
+#include "nocsolver/fast/fast_dynamics_impl.h"
+
+namespace ursula {
+template class FastDynamics<Real50>;
+}

@@ -1,0 +1,37 @@
+#pragma once
+
+// What a leg's displacement requires, in every lane of a pack. Internal; leg_guard.h refuses one pose at a time.
+
+#include "nocsolver/fast/kernels/guard_bounds.h"
+#include "nocsolver/fast/kernels/pack.h"
+#include "nocsolver/fast/pose_fault.h"
+
+namespace ursula::kernel {
+
+/// The first fault of each lane.
+template <class Isa>
+class BatchGuard {
+ public:
+  using P = Pack<Isa>;
+  using Mask = typename P::Mask;
+
+  void reach(const P& inside, const P&, const P&) { require(inside >= P(0.0), PoseFault::out_of_reach); }
+  void stroke(const P& d, const P& least, const P& most) {
+    require((d > least) & (d < most), PoseFault::end_of_stroke);
+  }
+  void offAxis(const P& r, const P& size) { require(r > root_eps * size, PoseFault::point_on_axis); }
+  void regular(const P& sine, const char*) { require(abs(sine) > P(root_eps), PoseFault::stretched_leg); }
+  void regularB(const P& pivots) { require(pivots > P(least_pivots), PoseFault::singular_jacobian); }
+  /// A PoseFault as a number, 0 where there is none.
+  const P& faults() const { return faults_; }
+  bool anyFault() const { return xsimd::any(faults_ > P(0.0)); }
+
+ private:
+  void require(const Mask& holds, PoseFault fault) {
+    if (!xsimd::all(holds))
+      faults_ = select(holds | (faults_ > P(0.0)), faults_, P(static_cast<double>(fault)));  // seldom
+  }
+  P faults_ = P(0.0);
+};
+
+}  // namespace ursula::kernel

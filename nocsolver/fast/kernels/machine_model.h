@@ -1,0 +1,71 @@
+#pragma once
+
+// A machine as the kernels of plane_dynamics.h take it. Internal.
+
+#include <array>
+
+#include "nocsolver/fast/kernels/plane_model.h"
+#include "nocsolver/legs/leg_model.h"
+
+namespace ursula::kernel {
+
+/// What does not change with the motion.
+template <class S>
+struct MachineModel {
+  std::array<PlaneModel<S>, leg_count> legs;
+  int legs_in_all = 0;
+  S mass, per_length;  ///< the platform's; 1 over a length of the machine's size
+  Vector3<S> rho, gravity;
+  Matrix3<S> I_M;
+};
+
+template <class S>
+Vector3<S> alongAxes(const LegModel<S>& leg, const Vector3<S>& v) {
+  return {leg.x_hat.dot(v), leg.u.dot(v), leg.z_hat.dot(v)};
+}
+
+/// The tensor about a point at `distance` from the mass centre along the link; `first` is the mass times that.
+template <class S>
+Matrix3<S> aboutEnd(const Matrix3<S>& I, const S& first, const S& distance) {
+  Matrix3<S> J = I;
+  J(0, 0) += first * distance;
+  J(1, 1) += first * distance;
+  return J;
+}
+
+template <class S>
+PlaneModel<S> planeModel(const LegModel<S>& leg, const Vector3<S>& gravity) {
+  PlaneModel<S> out;
+  static_cast<LegModel<S>&>(out) = leg;
+  out.lift = -alongAxes<S>(leg, gravity);
+  out.first_1 = leg.mass_1 * leg.rho;
+  out.first_2 = leg.mass_2 * leg.sigma;
+  out.J_1 = aboutEnd<S>(leg.I_1, out.first_1, leg.rho);
+  out.J_2 = aboutEnd<S>(leg.I_2, out.first_2, leg.sigma);
+  out.per_l = S(1) / leg.l;
+  out.per_s = S(1) / leg.s;
+  out.per_sum = S(1) / (leg.l + leg.s);
+  out.rubs_dry = out.rubs = false;
+  for (std::size_t j = 0; j < 3; ++j) {
+    out.rubs_dry = out.rubs_dry || leg.coulomb[j] != S(0);
+    out.rubs = out.rubs || out.rubs_dry || leg.viscous[j] != S(0);
+  }
+  out.principal = leg.I_1.isDiagonal(S(0)) && leg.I_2.isDiagonal(S(0));
+  return out;
+}
+
+template <class S>
+MachineModel<S> machineModel(const MachineParameters<S>& from) {
+  MachineModel<S> out;
+  out.legs_in_all = from.legs_in_all;
+  out.mass = from.mass;
+  out.rho = from.rho;
+  out.I_M = from.I_M;
+  out.gravity = from.gravity;
+  out.per_length = S(1) / from.length;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(out.legs_in_all); ++i)
+    out.legs[i] = planeModel<S>(from.legs[i], out.gravity);
+  return out;
+}
+
+}  // namespace ursula::kernel

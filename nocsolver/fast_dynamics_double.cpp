@@ -1,6 +1,0 @@
-#include "nocsolver/fast_dynamics_impl.h"
-
-namespace ursula {
-template class FastDynamics<double>;
-template class FastDynamics<float>;
-}  // namespace ursula

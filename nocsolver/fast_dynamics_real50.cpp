@@ -1,6 +1,0 @@
-#include "model/real50.h"
-#include "nocsolver/fast_dynamics_impl.h"
-
-namespace ursula {
-template class FastDynamics<Real50>;
-}

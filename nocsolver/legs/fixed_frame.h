@@ -1,0 +1,25 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "model/scalar.h"
+
+namespace ursula {
+
+/// (paper, eq. 2a) as it holds for any tilt: x̂ = (u × e_z)/‖·‖, ŷ = u, ẑ = x̂ × u; for an axis along e_z the seed is
+/// e_y.
+template <class S, class Written>
+void setFixedFrame(const Vector3<Written>& axis, Vector3<S>& x_hat, Vector3<S>& y_hat, Vector3<S>& z_hat) {
+  using std::sqrt;
+  const Vector3<S> u = axis.template cast<S>() / sqrt(axis.template cast<S>().squaredNorm());
+  const Vector3<S> e_z = Vector3<S>::UnitZ();
+  // Below this the cross product would be made of rounding errors of uᵢ as it was written.
+  const bool along_e_z = u.cross(e_z).squaredNorm() < S(1e-20);
+  const Vector3<S> seed = along_e_z ? Vector3<S>::UnitY() : e_z;
+  const Vector3<S> x = u.cross(seed);
+  y_hat = u;
+  x_hat = x / sqrt(x.squaredNorm());
+  z_hat = x_hat.cross(u);
+}
+
+}  // namespace ursula

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <bitset>
+#include <functional>
+
+#include "nocsolver/legs/leg_model.h"
+#include "nocsolver/legs/leg_state.h"
+
+namespace ursula {
+
+/// Ways in which a formula of noc/ or of a leg kind can be wrong: as printed in our source of the paper, or with a term
+/// left out. They exist so that it can be shown what each does and which check catches it.
+enum class Slip {
+  eq2,                   ///< (2a,b) frame built as if uᵢ lay in the base plane
+  eq4c,                  ///< (4c) qᵢ² for q̇ᵢ²
+  eq5,                   ///< (5), (27) +aᵢ for −aᵢ
+  eq14a,                 ///< (14a) φ folded into [0, π]
+  eq14b,                 ///< (14b) −k_y for +k_y
+  eq15a,                 ///< (15a) without − l sin ψ
+  eq15b,                 ///< (15b) θ for θ̇
+  eq16,                  ///< (16) −ωᵢ
+  eq17,                  ///< (17a,b) −ω̇ᵢ
+  eq19a,                 ///< (19a) ηφ, and without the terms in l
+  eq19b,                 ///< (19b) without the factor ψ̇
+  eq23,                  ///< (23) aᵢᵢ = s sin(ψ+θ); of other kinds half of A
+  eq26_a_dot,            ///< (26) ȧᵢᵢ = η
+  eq26_b_dot,            ///< (26) first row of Ḃ without Ω's Q
+  eq43b_omega_dot,       ///< (43b) Ω̇ᵢ² for Ωᵢ²
+  eq43b_sigma,           ///< (43b) σᵢ + [sᵢ] for σᵢ[sᵢ]
+  eq43b_doubled,         ///< (43b) last terms twice
+  eq47,                  ///< text by (47): Qbᵢ − ρ for Q(bᵢ − ρ)
+  drop_centrifugal,      ///< Ωᵢ² terms of (43a,b) left out
+  drop_coriolis,         ///< 2Ωᵢ terms of (43a,b) left out
+  drop_gyroscopic_legs,  ///< W M t of (28), ωᵢ × Iᵢωᵢ of (38), left out for the links
+  drop_gyroscopic_platform,
+  drop_platform_centripetal,  ///< Ω² of (43c) left out
+  drop_gravity_legs,          ///< w^g of (45) without the links
+  drop_gravity_platform,
+  drop_friction,       ///< w^d of (35) left out
+  drop_link_coupling,  ///< what the proximal link's motion gives the distal one, l[ė], l[ë] of (41b), (43b), left out
+  half_coriolis,       ///< ω × ė once where a link slides
+  drop_bias,           ///< Ȧ q̇ and ṅ · v_B left out of the accelerations of the joints
+  drop_row_rates,      ///< Ȧ and Ḃ of (26) left out of (25)
+  drop_own_column,     ///< (48) without the driven joint's own unit rate
+  drop_passive_rates,  ///< (48) without the rates of the joints that no motor drives
+  untwisted_tensors,   ///< (46a,b) left out: tensors of links as if in B
+  untwisted_platform,  ///< (46c) left out: the platform's tensor as if in B
+  mass_for_inertia,    ///< (29) M of the platform without its inertia
+  drop_mass_distal,    ///< (29) M of the distal links without m₆₊ᵢ
+  drop_T_rate,         ///< (34) C without M Ṫ
+  drop_W,              ///< (34) C without W M T
+  drop_tau_g,          ///< (36) without τ^g
+  drop_tau_d,          ///< (36) without τ^d
+  drop_inertia,        ///< (37) without wⁿ
+  drop_load,           ///< (35) without the load on the platform
+  scaled_first_effort,  ///< (37) of motor 1 times 1 + 1e-7
+  scaled_efforts,       ///< (37) times 1.001
+  wrong_D,              ///< (33) D with the spherical joints at the distal links' first ends
+  lost_constraint,      ///< (33) D with one row twice, another left out
+  count
+};
+
+/// The formulas that hold; costs nothing.
+struct Corrected {
+  static constexpr bool has(Slip) { return false; }
+  template <class Model>
+  static constexpr void read(Model&) {}
+  template <class Model, class State>
+  static constexpr void placed(const Model&, State&) {}
+  template <class Model, class State>
+  static constexpr void mapped(const Model&, State&) {}
+};
+
+/// The formulas that hold but for the slips set, and what a change makes of the numbers that the solver reads or of
+/// a leg's displacement. For controls that must fail.
+class WithSlips {
+ public:
+  using ReadChange = std::function<void(MachineParameters<double>&)>;
+  using LegChange = std::function<void(const LegModel<double>&, LegState<double>&)>;
+
+  WithSlips() = default;
+  explicit WithSlips(Slip slip) { set(slip); }
+  WithSlips& set(Slip slip) {
+    slips_.set(static_cast<std::size_t>(slip));
+    return *this;
+  }
+  bool has(Slip slip) const { return slips_.test(static_cast<std::size_t>(slip)); }
+
+  void read(MachineParameters<double>& machine) const {
+    if (change_read) change_read(machine);
+  }
+  void placed(const LegModel<double>& model, LegState<double>& leg) const {
+    if (change_leg) change_leg(model, leg);
+  }
+  void mapped(const LegModel<double>& model, LegState<double>& leg) const {
+    if (change_rows) change_rows(model, leg);
+  }
+
+  // The hooks are for doubles.
+  template <class Model>
+  static void read(Model&) {}
+  template <class Model, class State>
+  static void placed(const Model&, State&) {}
+  template <class Model, class State>
+  static void mapped(const Model&, State&) {}
+
+  ReadChange change_read;  ///< of what the constructor has read
+  LegChange change_leg;    ///< after the displacement
+  LegChange change_rows;   ///< after the rows of (23)
+
+ private:
+  std::bitset<static_cast<std::size_t>(Slip::count)> slips_;
+};
+
+}  // namespace ursula

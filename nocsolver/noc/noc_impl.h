@@ -1,0 +1,423 @@
+#pragma once
+
+// Section 3 of the paper; included by the sources that instantiate Noc.
+//
+//   M ṫ = −W M t + w^W + w^N                                           (31)
+//   t = T q̇,  ṫ = T q̈ + Ṫ q̇,  D T = 0                                  (32), (33)
+//   I q̈ + C q̇ = Tᵀw^W,  I = TᵀMT,  C = Tᵀ(MṪ + WMT)                    (34)
+//   w^W = w^a + w^g + w^d                                              (35)
+//   I q̈ + C q̇ − τ^g − τ^d = τ^a                                        (36)
+//   τ^a = −Tᵀ(wⁿ + w^g + w^d),  wⁿ = −Mṫ − WMt                         (37), (38)
+// with q̇ the rates of the driven coordinates, and the load w^e beside w^g where there is one.
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include "nocsolver/noc/noc_kinematics_impl.h"
+
+namespace ursula {
+
+namespace legs {
+
+constexpr int platform = 2 * leg_count;
+
+template <class Of>
+auto block(Of& of, int body) {
+  return of.template middleRows<6>(6 * body);
+}
+
+/// Viscous and smoothed Coulomb friction of one joint, as the force that drives against it.
+template <class S>
+S frictionForce(const S& viscous, const S& coulomb, const S& speed, const S& rate) {
+  using std::tanh;
+  const S force = viscous * rate;
+  return coulomb == S(0) ? force : S(force + coulomb * tanh(rate / speed));
+}
+
+/// Of a point at `arm` from P, for a twist [ω; v] at P.
+template <class S>
+Vector3<S> velocityOf(const Vector6<S>& twist, const Vector3<S>& arm) {
+  return twist.template tail<3>() + Vector3<S>(twist.template head<3>()).cross(arm);
+}
+
+}  // namespace legs
+
+// --- bodies and their twists
+// ------------------------------------------------------------------------------------------
+
+template <class S, class R>
+LinkMotions<S> Noc<S, R>::links(int i, const LegState<S>& at, const Vector3<S>& rate,
+                                const Vector3<S>& acceleration) const {
+  const LegModel<S>& leg = machine_.legs[legs::at(i)];
+  return legs::withLeg(leg.kind, [&](auto kind) { return kind.links(leg, at, rate, acceleration, reading_); });
+}
+
+template <class S, class R>
+Vector3<S> Noc<S, R>::platformArm(const Motion<S>& motion) const {
+  return motion.Q * machine_.rho;
+}
+
+template <class S, class R>
+void Noc<S, R>::bodyMotions(const Motion<S>& motion, const NocWorkspace<S>& work, BodyMotions<S>& bodies) const {
+  bodies = BodyMotions<S>();
+  for (int i = 0; i < machine_.legs_in_all; ++i) {
+    const LegModel<S>& leg = machine_.legs[legs::at(i)];
+    const LegState<S>& at = work.legs[legs::at(i)];
+    const LinkMotions<S> now = links(i, at, at.rate, at.acceleration);
+    const auto set = [&](BodyMotion<S>& body, const Vector3<S>& c, const Matrix3<S>& frame, const LinkMotion<S>& link) {
+      body.c = leg.a + c;  // (paper, eqs. 39a, 39b)
+      body.R = frame;
+      body.twist << link.omega, link.c_dot;
+      body.twist_rate << link.omega_dot, link.c_ddot;
+    };
+    set(bodies[legs::at(i)], at.O_1 + at.arm_1, at.R_1, now.proximal);
+    set(bodies[legs::at(leg_count + i)], at.O_2 + at.arm_2, at.R_2, now.distal);
+  }
+  const Vector3<S> arm = platformArm(motion), across = motion.omega.cross(arm);
+  BodyMotion<S>& body = bodies[legs::platform];
+  body.c = motion.p + arm;  // (paper, eq. 39c)
+  body.R = motion.Q;
+  body.twist << motion.omega, motion.p_dot + across;  // (paper, eq. 41c)
+  Vector3<S> c_ddot = motion.p_ddot + motion.omega_dot.cross(arm);
+  if (!reading_.has(Slip::drop_platform_centripetal)) c_ddot += motion.omega.cross(across);
+  body.twist_rate << motion.omega_dot, c_ddot;  // (paper, eq. 43c)
+}
+
+// --- T and its rate
+// ---------------------------------------------------------------------------------------------------
+
+/// Twists of both links for a unit rate of each joint of the leg, and the rates of these twists where they are wanted.
+template <class S, class R>
+typename Noc<S, R>::UnitTwists Noc<S, R>::unitTwists(int i, const LegState<S>& at, bool with_rate) const {
+  const LegModel<S>& leg = machine_.legs[legs::at(i)];
+  UnitTwists out;
+  legs::withLeg(leg.kind, [&](auto kind) {
+    for (int j = 0; j < 3; ++j) {
+      const Vector3<S> one = Vector3<S>::Unit(j), none = Vector3<S>::Zero();
+      const LinkMotions<S> unit = with_rate ? kind.links(leg, at, one, none, reading_)
+                                            : kind.template links<false>(leg, at, one, none, reading_);
+      out.first.col(j) << unit.proximal.omega, unit.proximal.c_dot;
+      out.second.col(j) << unit.distal.omega, unit.distal.c_dot;
+      if (!with_rate) continue;
+      out.first_rate.col(j) << unit.proximal.omega_dot, unit.proximal.c_ddot;
+      out.second_rate.col(j) << unit.distal.omega_dot, unit.distal.c_ddot;
+    }
+  });
+  return out;
+}
+
+/// Rates of leg i's joints for the twists of the platform that are the columns of `T_P`: linear in the velocity of Bᵢ.
+template <class S, class R>
+typename Noc<S, R>::Rates Noc<S, R>::ratesForTwists(int i, const LegState<S>& at, const Matrix6<S>& T_P) const {
+  const LegModel<S>& leg = machine_.legs[legs::at(i)];
+  Matrix3<S> by_v_B;
+  legs::withLeg(leg.kind, [&](auto kind) {
+    for (int k = 0; k < 3; ++k) by_v_B.col(k) = kind.rates(leg, at, Vector3<S>(Vector3<S>::Unit(k)), reading_);
+  });
+  Rates v_B;
+  for (int m = 0; m < motor_count; ++m) v_B.col(m) = legs::velocityOf<S>(T_P.col(m), at.Qb);
+  return by_v_B * v_B;
+}
+
+/// Rates of leg i's joints for q̇ = e_m, m the column: δ_m of (48) at the leg.
+template <class S, class R>
+typename Noc<S, R>::Rates Noc<S, R>::columnRates(int i, const LegState<S>& at, const Matrix6<S>& T_P) const {
+  const LegModel<S>& leg = machine_.legs[legs::at(i)];
+  Rates out = ratesForTwists(i, at, T_P);
+  for (int j = 0; j < 3; ++j) {
+    const int motor = leg.motor[legs::at(j)];
+    if (motor >= 0) out.row(j) = Vector6<S>::Unit(motor).transpose();  // (paper, eq. 48)
+    if (reading_.has(motor >= 0 ? Slip::drop_own_column : Slip::drop_passive_rates)) out.row(j).setZero();
+  }
+  return out;
+}
+
+/// Their rates; that of a column's own rate, which is constant, is zero.
+template <class S, class R>
+typename Noc<S, R>::Rates Noc<S, R>::columnAccelerations(const Motion<S>& motion, int i, const NocWorkspace<S>& work,
+                                                         const Rates& rates) const {
+  const LegModel<S>& leg = machine_.legs[legs::at(i)];
+  const LegState<S>& at = work.legs[legs::at(i)];
+  Rates out;
+  legs::withLeg(leg.kind, [&](auto kind) {
+    for (int m = 0; m < motor_count; ++m)
+      out.col(m) = kind.accelerations(leg, at, Vector3<S>(rates.col(m)), legs::velocityOf<S>(work.T_P.col(m), at.Qb),
+                                      columnAcceleration(motion, work, m, at.Qb), reading_);
+  });
+  for (int j = 0; j < 3; ++j)
+    if (leg.motor[legs::at(j)] >= 0) out.row(j).setZero();
+  return out;
+}
+
+/// The rate of the velocity that column m gives the platform's point at `arm` from P.
+template <class S, class R>
+Vector3<S> Noc<S, R>::columnAcceleration(const Motion<S>& motion, const NocWorkspace<S>& work, int m,
+                                         const Vector3<S>& arm) const {
+  const Vector3<S> omega = work.T_P.col(m).template head<3>();
+  return legs::velocityOf<S>(work.T_P_rate.col(m), arm) + omega.cross(motion.omega.cross(arm));
+}
+
+/// The platform's twists at its mass centre, `arm` from P, for those at P.
+template <class S, class R>
+void Noc<S, R>::shapePlatform(const Vector3<S>& arm, const Matrix6<S>& T_P, TwistShaping<S>& T) const {
+  auto T_C = legs::block(T, legs::platform);
+  T_C = T_P;
+  for (int m = 0; m < motor_count; ++m)
+    T_C.col(m).template tail<3>() = legs::velocityOf<S>(T_P.col(m), arm);  // (paper, eq. 47)
+}
+
+template <class S, class R>
+void Noc<S, R>::twistShaping(const Motion<S>& motion, NocWorkspace<S>& work) const {
+  shape(motion, work, false);
+}
+
+template <class S, class R>
+void Noc<S, R>::twistShapingRate(const Motion<S>& motion, NocWorkspace<S>& work) const {
+  shape(motion, work, true);
+}
+
+/// T column by column as (48) says; its rate by the accelerations of (17), (43) at the actual motion for the rates of
+/// one column and their rates.
+template <class S, class R>
+void Noc<S, R>::shape(const Motion<S>& motion, NocWorkspace<S>& work, bool with_rate) const {
+  work.T_P = platformShaping(work);
+  work.T.setZero();
+  shapePlatform(reading_.has(Slip::eq47) ? machine_.rho : platformArm(motion), work.T_P, work.T);  // B_C⁻¹A
+  if (with_rate) {
+    work.T_P_rate = platformShapingRate(motion, work);
+    work.T_rate.setZero();
+  }
+  for (int i = 0; i < machine_.legs_in_all; ++i) {
+    const LegState<S>& at = work.legs[legs::at(i)];
+    const Rates rates = columnRates(i, at, work.T_P);
+    const UnitTwists unit = unitTwists(i, at, with_rate);
+    legs::block(work.T, i) = unit.first * rates;
+    legs::block(work.T, leg_count + i) = unit.second * rates;
+    if (!with_rate) continue;
+    const Rates accelerations = columnAccelerations(motion, i, work, rates);
+    legs::block(work.T_rate, i) = unit.first_rate * rates + unit.first * accelerations;
+    legs::block(work.T_rate, leg_count + i) = unit.second_rate * rates + unit.second * accelerations;
+  }
+  if (!with_rate) return;
+  auto T_C_rate = legs::block(work.T_rate, legs::platform);
+  T_C_rate = work.T_P_rate;
+  for (int m = 0; m < motor_count; ++m)
+    T_C_rate.col(m).template tail<3>() = columnAcceleration(motion, work, m, platformArm(motion));
+}
+
+// --- M, W and the wrenches
+// --------------------------------------------------------------------------------------------
+
+template <class S, class R>
+S Noc<S, R>::massOf(int body) const {
+  if (body == legs::platform) return machine_.mass;
+  if (body % leg_count >= machine_.legs_in_all) return S(0);
+  const LegModel<S>& leg = machine_.legs[legs::at(body % leg_count)];
+  if (body < leg_count) return leg.mass_1;
+  return reading_.has(Slip::drop_mass_distal) ? S(0) : leg.mass_2;
+}
+
+/// Tensors about the mass centres, in B, from the displacements.
+template <class S, class R>
+BodyTensors<S> Noc<S, R>::tensors(const NocWorkspace<S>& work) const {
+  BodyTensors<S> out;
+  out.fill(Matrix3<S>::Zero());
+  const auto turned = [](const Matrix3<S>& frame, const Matrix3<S>& I) {
+    return Matrix3<S>(frame * I * frame.transpose());
+  };
+  const bool links_in_B = reading_.has(Slip::untwisted_tensors);
+  for (int i = 0; i < machine_.legs_in_all; ++i) {
+    const LegModel<S>& leg = machine_.legs[legs::at(i)];
+    const LegState<S>& at = work.legs[legs::at(i)];
+    out[legs::at(i)] = links_in_B ? leg.I_1 : turned(at.R_1, leg.I_1);              // (paper, eq. 46a)
+    out[legs::at(leg_count + i)] = links_in_B ? leg.I_2 : turned(at.R_2, leg.I_2);  // (paper, eq. 46b)
+  }
+  if (reading_.has(Slip::mass_for_inertia)) return out;
+  const bool platform_in_B = reading_.has(Slip::untwisted_platform);
+  out.back() = platform_in_B ? machine_.I_M : turned(work.Q, machine_.I_M);  // (paper, eq. 46c)
+  return out;
+}
+
+/// Mᵢ x of (29), (30b).
+template <class S, class R>
+Vector6<S> Noc<S, R>::M(int body, const NocWorkspace<S>& work, const Vector6<S>& x) const {
+  Vector6<S> out;
+  out << work.I_B[legs::at(body)] * x.template head<3>(), massOf(body) * x.template tail<3>();  // (paper, eq. 29)
+  return out;
+}
+
+/// Wᵢ x of (29), (30b).
+template <class S, class R>
+Vector6<S> Noc<S, R>::W(int body, const NocWorkspace<S>& work, const Vector6<S>& x) const {
+  const Vector3<S> omega = work.bodies[legs::at(body)].twist.template head<3>();
+  Vector6<S> out = Vector6<S>::Zero();
+  if (reading_.has(body == legs::platform ? Slip::drop_gyroscopic_platform : Slip::drop_gyroscopic_legs)) return out;
+  out.template head<3>() = omega.cross(Vector3<S>(x.template head<3>()));  // (paper, eq. 29)
+  return out;
+}
+
+template <class S, class R>
+BodyVector<S> Noc<S, R>::inertiaWrench(const NocWorkspace<S>& work) const {
+  BodyVector<S> w_n = BodyVector<S>::Zero();
+  for (int b = 0; b < body_count; ++b) {
+    const BodyMotion<S>& body = work.bodies[legs::at(b)];
+    legs::block(w_n, b) = -M(b, work, body.twist_rate) - W(b, work, M(b, work, body.twist));  // (paper, eqs. 28, 38)
+  }
+  return w_n;
+}
+
+template <class S, class R>
+BodyVector<S> Noc<S, R>::gravityWrench() const {
+  BodyVector<S> w_g = BodyVector<S>::Zero();
+  for (int b = 0; b < body_count; ++b)
+    if (!reading_.has(b == legs::platform ? Slip::drop_gravity_platform : Slip::drop_gravity_legs))
+      legs::block(w_g, b).template tail<3>() = massOf(b) * machine_.gravity;  // (paper, eq. 45)
+  return w_g;
+}
+
+/// The wrench of an effort on joint j of leg i: on the outboard link, and back on the inboard one.
+template <class S, class R>
+void Noc<S, R>::addJointWrench(const NocWorkspace<S>& work, int i, int j, const S& effort, BodyVector<S>& w) const {
+  const LegModel<S>& leg = machine_.legs[legs::at(i)];
+  const LegState<S>& at = work.legs[legs::at(i)];
+  const LegKindRow& row = rowOf(leg.kind);
+  const Vector3<S> along = effort * at.axis[legs::at(j)];
+  const auto add = [&](int body, const Vector3<S>& on) {
+    auto to = legs::block(w, body);
+    if (!slides(row.coordinates[legs::at(j)])) {
+      to.template head<3>() += on;
+      return;
+    }
+    to.template head<3>() += (leg.a + at.O_2 - work.bodies[legs::at(body)].c).cross(on);
+    to.template tail<3>() += on;
+  };
+  const bool before = j < row.joints_of_proximal;
+  add(before ? i : leg_count + i, along);
+  if (!before) add(i, -along);
+}
+
+/// w^d of (35): friction of the joints.
+template <class S, class R>
+BodyVector<S> Noc<S, R>::dissipativeWrench(const NocWorkspace<S>& work) const {
+  BodyVector<S> w_d = BodyVector<S>::Zero();
+  if (reading_.has(Slip::drop_friction)) return w_d;
+  for (int i = 0; i < machine_.legs_in_all; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const LegModel<S>& leg = machine_.legs[legs::at(i)];
+      const std::size_t k = legs::at(j);
+      const S against =
+          legs::frictionForce(leg.viscous[k], leg.coulomb[k], leg.speed[k], work.legs[legs::at(i)].rate(j));
+      if (against != S(0)) addJointWrench(work, i, j, S(-against), w_d);
+    }
+  return w_d;
+}
+
+/// The load, at the platform's mass centre.
+template <class S, class R>
+BodyVector<S> Noc<S, R>::loadWrench(const Motion<S>& motion, const Vector6<S>& load) const {
+  BodyVector<S> w_e = BodyVector<S>::Zero();
+  const Vector3<S> force = load.template tail<3>();
+  if (!reading_.has(Slip::drop_load))
+    legs::block(w_e, legs::platform) << load.template head<3>() - platformArm(motion).cross(force), force;
+  return w_e;
+}
+
+template <class S, class R>
+BodyVector<S> Noc<S, R>::actuatorWrench(const NocWorkspace<S>& work, const Vector6<S>& efforts) const {
+  BodyVector<S> w_a = BodyVector<S>::Zero();
+  for (int m = 0; m < motor_count; ++m) {
+    const Motor& motor = machine_.motors[legs::at(m)];
+    addJointWrench(work, motor.leg, motor.joint, efforts(m), w_a);  // (paper, eq. 35)
+  }
+  return w_a;
+}
+
+/// t and ṫ of (30a), and what M of (30b) is made of.
+template <class S, class R>
+void Noc<S, R>::setBodies(const Motion<S>& motion, NocWorkspace<S>& work) const {
+  bodyMotions(motion, work, work.bodies);
+  work.I_B = tensors(work);
+}
+
+// --- inverse and direct dynamics
+// --------------------------------------------------------------------------------------
+
+template <class S, class R>
+Vector6<S> Noc<S, R>::inverseDynamics(const Motion<S>& motion, NocWorkspace<S>& work, const Vector6<S>& load) const {
+  inverseKinematics(motion, work);
+  jacobians(motion, work);
+  setBodies(motion, work);
+  twistShaping(motion, work);
+  BodyVector<S> w_n = inertiaWrench(work);
+  if (reading_.has(Slip::drop_inertia)) w_n.setZero();
+  const BodyVector<S> w_g = gravityWrench() + loadWrench(motion, load), w_d = dissipativeWrench(work);
+  Vector6<S> tau = -work.T.transpose() * (w_n + w_g + w_d);  // (paper, eq. 37)
+  if (reading_.has(Slip::scaled_efforts)) tau *= S(1.001);
+  if (reading_.has(Slip::scaled_first_effort)) tau(0) *= S(1 + 1e-7);
+  return tau;
+}
+
+/// M X, body by body.
+template <class S, class R>
+TwistShaping<S> Noc<S, R>::massTimes(const BodyTensors<S>& tensors, const TwistShaping<S>& X) const {
+  TwistShaping<S> out;
+  for (int b = 0; b < body_count; ++b) {
+    legs::block(out, b).template topRows<3>().noalias() =
+        tensors[legs::at(b)] * legs::block(X, b).template topRows<3>();
+    legs::block(out, b).template bottomRows<3>() = massOf(b) * legs::block(X, b).template bottomRows<3>();
+  }
+  return out;
+}
+
+template <class S, class R>
+Matrix6<S> Noc<S, R>::I(const NocWorkspace<S>& work) const {
+  return work.T.transpose().lazyProduct(massTimes(work.I_B, work.T));  // (paper, eq. 34)
+}
+
+template <class S, class R>
+Matrix6<S> Noc<S, R>::C(const NocWorkspace<S>& work) const {
+  TwistShaping<S> sum = massTimes(work.I_B, work.T_rate);
+  if (reading_.has(Slip::drop_T_rate)) sum.setZero();
+  const TwistShaping<S> MT = massTimes(work.I_B, work.T);
+  for (int b = 0; b < body_count; ++b)
+    for (int m = 0; m < motor_count && !reading_.has(Slip::drop_W); ++m)
+      legs::block(sum, b).col(m) += W(b, work, legs::block(MT, b).col(m));
+  return work.T.transpose().lazyProduct(sum);  // (paper, eq. 34)
+}
+
+template <class S, class R>
+Vector6<S> Noc<S, R>::directDynamics(const Motion<S>& motion, const Vector6<S>& efforts, NocWorkspace<S>& work,
+                                     const Vector6<S>& load) const {
+  Motion<S> unaccelerated = motion;
+  unaccelerated.omega_dot.setZero();
+  unaccelerated.p_ddot.setZero();
+  inverseKinematics(unaccelerated, work);
+  jacobians(unaccelerated, work);
+  setBodies(unaccelerated, work);
+  twistShapingRate(unaccelerated, work);
+  Vector6<S> tau_g = work.T.transpose() * (gravityWrench() + loadWrench(motion, load));
+  Vector6<S> tau_d = work.T.transpose() * dissipativeWrench(work);
+  if (reading_.has(Slip::drop_tau_g)) tau_g.setZero();
+  if (reading_.has(Slip::drop_tau_d)) tau_d.setZero();
+  const Vector6<S> q_dot = rates(work).driven(machine_.motors);
+  const Vector6<S> q_ddot =
+      I(work).llt().solve(Vector6<S>(efforts + tau_g + tau_d - C(work) * q_dot));  // (paper, eq. 36)
+  return work.T_P * q_ddot + work.T_P_rate * q_dot;                                // (paper, eq. 25)
+}
+
+template <class S, class R>
+Matrix6<S> Noc<S, R>::massMatrixAtP(const Motion<S>& motion, const NocWorkspace<S>& work) const {
+  TwistShaping<S> T = TwistShaping<S>::Zero();
+  const Matrix6<S> unit = Matrix6<S>::Identity();
+  for (int i = 0; i < machine_.legs_in_all; ++i) {
+    const LegState<S>& at = work.legs[legs::at(i)];
+    const Rates rates = ratesForTwists(i, at, unit);
+    const UnitTwists of_legs = unitTwists(i, at, false);
+    legs::block(T, i) = of_legs.first * rates;
+    legs::block(T, leg_count + i) = of_legs.second * rates;
+  }
+  shapePlatform(platformArm(motion), unit, T);
+  return T.transpose().lazyProduct(massTimes(tensors(work), T));
+}
+
+}  // namespace ursula

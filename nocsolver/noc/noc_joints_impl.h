@@ -1,0 +1,146 @@
+#pragma once
+
+// What the complement eliminates: the velocity constraints of (33) and the reactions at the joints; included by the
+// sources that instantiate Noc.
+
+#include <Eigen/Geometry>
+
+#include "nocsolver/noc/noc_impl.h"
+
+namespace ursula {
+namespace legs {
+
+/// Rows of D, joint by joint.
+template <class S>
+class ConstraintRows {
+ public:
+  using MatrixX = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  using Directions = Eigen::Matrix<S, 3, Eigen::Dynamic>;
+
+  /// A body of the chain: its first column in D, −1 for the base, and its mass centre.
+  struct Body {
+    int column;
+    Vector3<S> c;
+  };
+
+  explicit ConstraintRows(int count) : D_(MatrixX::Zero(count, 6 * body_count)) {}
+
+  /// Joints first … last − 1 of a leg lie between the bodies, at O: what turns no axis of theirs and slides along none
+  /// is alike of both.
+  void join(const Body& from, const Body& to, const Vector3<S>& O, const LegModel<S>& leg, const LegState<S>& at,
+            int first, int last) {
+    Directions turning(3, 0), sliding(3, 0);
+    for (int j = first; j < last; ++j) {
+      Directions& axes = slides(rowOf(leg.kind).coordinates[legs::at(j)]) ? sliding : turning;
+      axes.conservativeResize(3, axes.cols() + 1);
+      axes.col(axes.cols() - 1) = at.axis[legs::at(j)];
+    }
+    const Directions stiff = across(turning);
+    for (const auto& column : stiff.colwise()) {
+      const Vector3<S> n = column;
+      set(to, n, Vector3<S>::Zero(), S(1));
+      set(from, n, Vector3<S>::Zero(), S(-1));
+      ++row_;
+    }
+    moveAlike(from, to, O, across(sliding));
+  }
+  /// The bodies' points that are at `O` have equal velocities along `directions`.
+  void moveAlike(const Body& from, const Body& to, const Vector3<S>& O, const Directions& directions) {
+    for (const auto& column : directions.colwise()) {
+      const Vector3<S> n = column;
+      set(to, Vector3<S>((O - to.c).cross(n)), n, S(1));
+      set(from, Vector3<S>((O - from.c).cross(n)), n, S(-1));
+      ++row_;
+    }
+  }
+  const MatrixX& D() const { return D_; }
+
+ private:
+  /// Unit vectors across all of up to two axes.
+  static Directions across(const Directions& axes) {
+    if (axes.cols() == 0) return Matrix3<S>::Identity();
+    const Vector3<S> a = axes.col(0);
+    if (axes.cols() == 2) return a.cross(Vector3<S>(axes.col(1))).normalized();
+    int least = 0;
+    a.cwiseAbs().minCoeff(&least);
+    Directions out(3, 2);
+    out.col(0) = a.cross(Vector3<S>(Vector3<S>::Unit(least))).normalized();
+    out.col(1) = a.cross(Vector3<S>(out.col(0)));
+    return out;
+  }
+
+  void set(const Body& body, const Vector3<S>& on_omega, const Vector3<S>& on_c_dot, const S& sign) {
+    if (body.column >= 0)
+      D_.template block<1, 6>(row_, body.column) << sign * on_omega.transpose(), sign * on_c_dot.transpose();
+  }
+
+  MatrixX D_;
+  Eigen::Index row_ = 0;
+};
+
+}  // namespace legs
+
+template <class S, class R>
+Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> Noc<S, R>::D(const Motion<S>& motion,
+                                                              const NocWorkspace<S>& work) const {
+  using Rows = legs::ConstraintRows<S>;
+  const typename Rows::Body base{-1, Vector3<S>::Zero()}, platform{6 * legs::platform, work.bodies.back().c};
+  Rows rows(12 * machine_.legs_in_all);
+  for (int i = 0; i < machine_.legs_in_all; ++i) {
+    const LegModel<S>& leg = machine_.legs[legs::at(i)];
+    const LegState<S>& at = work.legs[legs::at(i)];
+    const typename Rows::Body first{6 * i, work.bodies[legs::at(i)].c};
+    const typename Rows::Body second{6 * (leg_count + i), work.bodies[legs::at(leg_count + i)].c};
+    const int before = rowOf(leg.kind).joints_of_proximal;
+    const Vector3<S> R_ = leg.a + at.O_2, B = motion.p + at.Qb;
+    rows.join(base, first, leg.a + at.O_1, leg, at, 0, before);
+    rows.join(first, second, R_, leg, at, before, 3);
+    rows.moveAlike(second, platform, reading_.has(Slip::wrong_D) ? R_ : B, Matrix3<S>::Identity());
+  }
+  auto D = rows.D();  // (paper, eq. 33)
+  if (reading_.has(Slip::lost_constraint)) D.row(2) = D.row(1);
+  return D;
+}
+
+template <class S, class R>
+BodyVector<S> Noc<S, R>::constraintWrench(const Motion<S>& motion, const Vector6<S>& efforts,
+                                          const NocWorkspace<S>& work, const Vector6<S>& load) const {
+  const BodyVector<S> w_W = actuatorWrench(work, efforts) + gravityWrench() + dissipativeWrench(work);
+  return -inertiaWrench(work) - w_W - loadWrench(motion, load);  // (paper, eq. 31)
+}
+
+template <class S, class R>
+Reactions Noc<S, R>::reactions(const Motion<S>& motion, const Vector6<S>& efforts, const NocWorkspace<S>& work) const {
+  const BodyVector<S> moving = -inertiaWrench(work) - gravityWrench(), w_d = dissipativeWrench(work);
+  Reactions out;
+  for (int i = 0; i < machine_.legs_in_all; ++i) {
+    const LegModel<S>& leg = machine_.legs[legs::at(i)];
+    const LegState<S>& at = work.legs[legs::at(i)];
+    const auto block = [](const BodyVector<S>& w, int body) { return Vector6<S>(legs::block(w, body)); };
+    const Vector6<S> w_1 = block(moving, i), w_2 = block(moving, leg_count + i);
+    const UnitTwists unit = unitTwists(i, at, false);
+    const Vector3<S> Q =
+        unit.first.transpose() * (w_1 - block(w_d, i)) + unit.second.transpose() * (w_2 - block(w_d, leg_count + i));
+    Vector3<S> f_B = Vector3<S>::Zero();  // what the joints have over, on the platform by the rows of (22)
+    for (int j = 0; j < 3; ++j) {
+      const int motor = leg.motor[legs::at(j)];
+      const JacobianRow<S>& row = at.row[legs::at(j)];
+      f_B += (((motor >= 0 ? efforts(motor) : S(0)) - Q(j)) / row.A) * row.n;
+    }
+    const Vector3<S> A = leg.a + at.O_1, R_ = leg.a + at.O_2, B = motion.p + at.Qb;
+    const Vector3<S>&c_1 = work.bodies[legs::at(i)].c, &c_2 = work.bodies[legs::at(leg_count + i)].c;
+    const Vector3<S> f_R = w_2.template tail<3>() + f_B;
+    const Vector3<S> n_R = w_2.template head<3>() - (R_ - c_2).cross(f_R) + (B - c_2).cross(f_B);
+    const Vector3<S> f_A = w_1.template tail<3>() + f_R;
+    const Vector3<S> n_A = w_1.template head<3>() + n_R - (A - c_1).cross(f_A) + (R_ - c_1).cross(f_R);
+    LegReactions& to = out[legs::at(i)];
+    to.f_B = f_B.template cast<double>();
+    to.f_R = f_R.template cast<double>();
+    to.n_R = n_R.template cast<double>();
+    to.f_A = f_A.template cast<double>();
+    to.n_A = n_A.template cast<double>();  // (paper, eq. 28)
+  }
+  return out;
+}
+
+}  // namespace ursula

@@ -1,0 +1,162 @@
+#pragma once
+
+// Section 2 of the paper, for legs of all kinds; included by noc_impl.h.
+
+#include <cmath>
+
+#include "nocsolver/legs/leg_of.h"
+#include "nocsolver/noc/noc.h"
+
+namespace ursula {
+namespace legs {
+inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
+}  // namespace legs
+
+template <class S, class R>
+Noc<S, R>::Noc(const MachineParameters<S>& machine, R reading) : machine_(machine), reading_(std::move(reading)) {
+  reading_.read(machine_);
+  if (!reading_.has(Slip::eq2)) return;
+  for (LegModel<S>& leg : machine_.legs) {  // (paper, eq. 2b) as printed: orthonormal only without tilt
+    const Vector3<S> u = leg.u;
+    leg.x_hat = Vector3<S>(u.y(), -u.x(), S(0));
+    leg.u = Vector3<S>(u.x(), u.y(), S(0));
+    leg.z_hat = Vector3<S>::UnitZ();
+  }
+}
+
+template <class S, class R>
+void Noc<S, R>::place(const Motion<S>& motion, int i, LegState<S>& out) const {
+  const LegModel<S>& leg = machine_.legs[legs::at(i)];
+  out.Qb.noalias() = motion.Q * leg.b;
+  out.AB = (motion.p - leg.a) + out.Qb;  // (paper, eq. 3), with nothing lost far from the base's origin
+  if (reading_.has(Slip::eq5)) out.AB = motion.p + out.Qb + leg.a;
+  legs::withLeg(leg.kind, [&](auto kind) {
+    kind.displacement(leg, i, motion.t, reading_, out);
+    out.R_1 << out.x_1, out.e.cross(out.x_1), out.e;          // (paper, eq. 40)
+    out.R_2 << out.x_2, out.along.cross(out.x_2), out.along;  // (paper, eq. 40)
+    out.arm_1 = leg.rho * out.e;
+    out.arm_2 = leg.sigma * out.along;
+    kind.ends(leg, out);
+    reading_.placed(leg, out);
+    kind.rows(leg, reading_, out);
+  });
+  reading_.mapped(leg, out);
+}
+
+template <class S, class R>
+void Noc<S, R>::displacements(const Motion<S>& motion, NocWorkspace<S>& work) const {
+  work.Q = motion.Q;
+  for (int i = 0; i < machine_.legs_in_all; ++i) place(motion, i, work.legs[legs::at(i)]);
+}
+
+template <class S, class R>
+void Noc<S, R>::inverseKinematics(const Motion<S>& motion, NocWorkspace<S>& work) const {
+  work.Q = motion.Q;
+  for (int i = 0; i < machine_.legs_in_all; ++i) {
+    const LegModel<S>& leg = machine_.legs[legs::at(i)];
+    LegState<S>& at = work.legs[legs::at(i)];
+    place(motion, i, at);
+    const Vector3<S> across = motion.omega.cross(at.Qb);
+    at.v_B = motion.p_dot + across;
+    at.a_B = motion.p_ddot + motion.omega_dot.cross(at.Qb) + motion.omega.cross(across);
+    legs::withLeg(leg.kind, [&](auto kind) {
+      kind.requireRates(i, motion.t, at);
+      at.rate = kind.rates(leg, at, at.v_B, reading_);
+      kind.rowRates(leg, reading_, at);
+      at.acceleration = kind.accelerations(leg, at, at.rate, at.v_B, at.a_B, reading_);
+    });
+  }
+}
+
+namespace legs {
+/// Calls f with each coordinate of the machine, its leg and its number in it.
+template <class S, class F>
+JointVariables<S> collect(const MachineParameters<S>& machine, const F& f) {
+  JointVariables<S> q;
+  for (int i = 0; i < machine.legs_in_all; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const Coordinate coordinate = rowOf(machine.legs[at(i)].kind).coordinates[at(j)];
+      q.of(coordinate)(i) = f(i, j, coordinate);
+    }
+  return q;
+}
+}  // namespace legs
+
+template <class S, class R>
+JointVariables<S> Noc<S, R>::angles(const NocWorkspace<S>& work) const {
+  using std::atan2;
+  JointVariables<S> q = legs::collect(machine_, [&](int i, int j, Coordinate coordinate) {
+    const LegState<S>& at = work.legs[legs::at(i)];
+    if (slides(coordinate)) return at.cosine[legs::at(j)];
+    return S(atan2(at.sine[legs::at(j)], at.cosine[legs::at(j)]));  // (paper, eqs. 4a, 14a)
+  });
+  for (int i = 0; i < machine_.legs_in_all; ++i) {
+    const LegModel<S>& leg = machine_.legs[legs::at(i)];
+    const LegState<S>& at = work.legs[legs::at(i)];
+    if (leg.kind != LegKind::URS) continue;
+    const S k_y = reading_.has(Slip::eq14b) ? S(-at.AB.dot(leg.u)) : at.AB.dot(leg.u);
+    q.psi(i) = atan2(S(leg.s * at.sine[2]), S(leg.l - leg.s * at.cosine[2])) +
+               atan2(S(at.AB.cross(leg.u).norm()), k_y);  // (paper, eq. 14b)
+  }
+  return q;
+}
+
+template <class S, class R>
+JointVariables<S> Noc<S, R>::rates(const NocWorkspace<S>& work) const {
+  return legs::collect(machine_, [&](int i, int j, Coordinate) { return work.legs[legs::at(i)].rate(j); });
+}
+
+template <class S, class R>
+JointVariables<S> Noc<S, R>::accelerations(const NocWorkspace<S>& work) const {
+  return legs::collect(machine_, [&](int i, int j, Coordinate) { return work.legs[legs::at(i)].acceleration(j); });
+}
+
+template <class S, class R>
+void Noc<S, R>::jacobians(const Motion<S>& motion, NocWorkspace<S>& work) const {
+  for (int m = 0; m < motor_count; ++m) {
+    const Motor& motor = machine_.motors[legs::at(m)];
+    const LegState<S>& leg = work.legs[legs::at(motor.leg)];
+    const JacobianRow<S>& row = leg.row[legs::at(motor.joint)];
+    const S size = row.n.norm();
+    const Vector3<S> n = row.n / size;
+    work.A(m) = row.A / size;
+    work.B.row(m) << leg.Qb.cross(n).transpose(), n.transpose();  // (paper, eq. 23)
+  }
+  // Moments over a length of the machine, so that the pivots do not depend on the unit of length.
+  Matrix6<S> scaled = work.B.transpose();
+  scaled.template topRows<3>() /= machine_.length;
+  work.B_transposed.compute(scaled);
+  const auto pivots = work.B_transposed.matrixLU().diagonal().cwiseAbs();
+  legs::requireRegularB<S>(pivots.minCoeff() / pivots.maxCoeff(), motion.t);
+}
+
+template <class S, class R>
+Matrix6<S> Noc<S, R>::platformShaping(const NocWorkspace<S>& work) const {
+  Matrix6<S> T = work.B_transposed.transpose().solve(Matrix6<S>(work.A.asDiagonal()));  // (paper, eq. 24)
+  T.template topRows<3>() /= machine_.length;
+  return T;
+}
+
+template <class S, class R>
+Matrix6<S> Noc<S, R>::platformShapingRate(const Motion<S>& motion, const NocWorkspace<S>& work) const {
+  if (reading_.has(Slip::drop_row_rates)) return Matrix6<S>::Zero();
+  Matrix6<S> B_dot;
+  Vector6<S> A_dot;
+  for (int m = 0; m < motor_count; ++m) {
+    const Motor& motor = machine_.motors[legs::at(m)];
+    const LegState<S>& leg = work.legs[legs::at(motor.leg)];
+    const JacobianRow<S>& row = leg.row[legs::at(motor.joint)];
+    const S size = row.n.norm();
+    const Vector3<S> n = row.n / size, n_dot = row.n_dot / size;  // a row may be scaled: (25) is the same
+    const Vector3<S> Qb = reading_.has(Slip::eq26_b_dot) ? machine_.legs[legs::at(motor.leg)].b : leg.Qb;
+    const Vector3<S> Qb_dot = motion.omega.cross(Qb);
+    A_dot(m) = row.A_dot / size;
+    B_dot.row(m) << (Qb_dot.cross(n) + leg.Qb.cross(n_dot)).transpose(), n_dot.transpose();  // (paper, eq. 26)
+  }
+  const Matrix6<S> right = Matrix6<S>(A_dot.asDiagonal()) - B_dot * platformShaping(work);
+  Matrix6<S> T_dot = work.B_transposed.transpose().solve(right);  // (paper, eq. 25)
+  T_dot.template topRows<3>() /= machine_.length;
+  return T_dot;
+}
+
+}  // namespace ursula

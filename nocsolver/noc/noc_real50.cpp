@@ -1,0 +1,6 @@
+#include "model/real50.h"
+#include "nocsolver/noc/noc_joints_impl.h"
+
+namespace ursula {
+template class Noc<Real50>;
+}  // namespace ursula

@@ -1,6 +1,0 @@
-#include "model/real50.h"
-#include "nocsolver/paper_solver_impl.h"
-
-namespace ursula {
-template class PaperSolver<Real50, Corrected>;
-}  // namespace ursula

@@ -1,0 +1,51 @@
+#include "nocsolver/poses/ups_poses_roots.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "nocsolver/poses/ups_poses_gathering.h"
+
+namespace ursula::ups {
+namespace {
+
+Roots rootsInChart(const Legs& legs, const LegSection& section, int index) {
+  const Multiplication multiply = multiplication(section.N, index);
+  Roots none;
+  none.pivot = std::min(multiply.pivot, section.pivot);
+  if (!(none.pivot > smallestPivot()) || !multiply.M.allFinite()) return none;
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(multiply.M);
+  if (solver.info() != Eigen::Success) return none;
+  const Eigen::MatrixXcd all = solver.eigenvectors().topRows<section_count>();
+  Gathering gathering(legs);
+  for (int i = 0; i < solution_count; ++i) {
+    const bool real = solver.eigenvalues()(i).imag() == 0;
+    const ComplexCoordinates x = multiply.map.cast<std::complex<double>>() * all.col(i);
+    gathering.addEigenvector(x.normalized(), real ? 1 : 2);
+    if (!real) ++i;
+  }
+  Roots roots = gathering.count();
+  roots.pivot = none.pivot;
+  return roots;
+}
+
+}  // namespace
+
+double smallestPivot() { return 16 * std::pow(Eigen::NumTraits<double>::epsilon(), 0.75); }
+
+/// A plane at infinity that meets a solution spoils one chart, hardly two.
+Roots findRoots(const Legs& legs) {
+  const LegSection section = legSection(legs);
+  Roots best;
+  int spoilt = 0;
+  for (int index = 0; index < chart_count && spoilt < 2 && !best.complete(); ++index) {
+    const Roots roots = rootsInChart(legs, section, index);
+    const double pivot = std::max(best.pivot, roots.pivot);
+    if (!(roots.pivot > smallestPivot())) ++spoilt;
+    if (roots.all() > best.all()) best = roots;
+    best.pivot = pivot;
+  }
+  return best;
+}
+
+}  // namespace ursula::ups

@@ -1,0 +1,166 @@
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <optional>
+
+#include "nocsolver/poses/ups_poses_gathering.h"
+#include "nocsolver/poses/ups_poses_newton.h"
+
+// A machine near by, thrown by s times a fixed generic amount, has 40 solutions for all but a few s. They are followed
+// from s = 1 to 0 on a curved way through the complex plane, which meets none of those few. Each isolated pose of the
+// machine is the end of as many paths as its multiplicity; the others end at infinity, or on a curve of poses, and
+// every such curve has at least one.
+
+namespace ursula::ups {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double eps = Eigen::NumTraits<double>::epsilon();
+constexpr int throw_count = 3, step_limit = 4000;
+const double last_t = std::pow(2.0, -36), late_t = std::pow(2.0, -10), bend = 0.7;
+/// |h| of unit coordinates below which a path that ends is taken to end at infinity; that of a real pose is larger.
+const double little_h = std::pow(eps, 1.0 / 4), hidden_h = std::pow(eps, 3.0 / 16);
+
+/// a, b, d of both ends.
+struct Way {
+  Legs end, change;
+
+  Legs start() const {
+    Legs legs = end;
+    for (std::size_t i = 0; i < 6; ++i) {
+      legs.a[i] += change.a[i];
+      legs.b[i] += change.b[i];
+    }
+    legs.d += change.d;
+    return legs;
+  }
+
+  LegsOver<Complex> at(Complex s) const {
+    LegsOver<Complex> legs;
+    for (std::size_t i = 0; i < 6; ++i) {
+      legs.a[i] = end.a[i] + s * change.a[i];
+      legs.b[i] = end.b[i] + s * change.b[i];
+    }
+    legs.d = end.d + s * change.d;
+    return legs;
+  }
+
+  /// ∂f/∂s
+  Vec6<Complex> slope(const LegsOver<Complex>& legs, const ComplexPose& pose) const {
+    const Mat3<Complex> Q = rotation<Complex>(pose.q);
+    Vec6<Complex> out;
+    for (std::size_t i = 0; i < 6; ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      const Vec3<Complex> v = pose.p + Q * legs.b[i] - legs.a[i], dv = Q * change.b[i] - change.a[i];
+      out(k) = 2.0 * product(v, dv) - 2.0 * legs.d(k) * change.d(k);
+    }
+    return out;
+  }
+};
+
+/// A throw of up to 0.3 units.
+Way thrown(const Legs& legs, int index) {
+  std::uint64_t state = 0xd1b54a32d192ed03u * static_cast<std::uint64_t>(index + 1);
+  const auto next = [&state] {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return 0.3 * (static_cast<double>(state >> 33) / 1073741824.0 - 1);
+  };
+  Way way{legs, legs};
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (int k = 0; k < 3; ++k) way.change.a[i](k) = next();
+    for (int k = 0; k < 3; ++k) way.change.b[i](k) = next();
+    way.change.d(static_cast<Eigen::Index>(i)) = next();
+  }
+  return way;
+}
+
+Complex bent(double t) { return {t, bend * t * (1 - t)}; }
+
+/// Of a step from a pose: turns are relative already.
+double size(const Vec6<Complex>& step, const ComplexPose& pose) {
+  return step.head<3>().norm() + step.tail<3>().norm() / (1 + pose.p.norm());
+}
+
+/// Newton at s; none where it does not begin close to where it ends.
+std::optional<ComplexPose> corrected(const LegsOver<Complex>& legs, ComplexPose pose, double closeness) {
+  double previous = closeness;
+  for (int i = 0; i < 4; ++i) {
+    const Equations<Complex> at = equations<Complex>(legs, pose);
+    const Vec6<Complex> step = -at.J.partialPivLu().solve(at.f);
+    const double length = size(step, pose);
+    if (!(length <= previous)) return std::nullopt;
+    pose = displaced<Complex>(pose, step);
+    if (length <= 1e-9 || at.solved()) return pose;
+    previous = length / 8;
+  }
+  return std::nullopt;
+}
+
+/// The pose at t = 2⁻³⁶, or where rounding hides the path before, as it does near a singular end or infinity. None
+/// where it is lost on the way.
+std::optional<ComplexPose> follow(const Way& way, ComplexPose pose, double closeness) {
+  double t = 1, fraction = 0.05;
+  for (int i = 0; i < step_limit && t > last_t; ++i) {
+    if (t < late_t && std::abs(coordinates(pose)(at_h)) < little_h) break;
+    const double next_t = t * (1 - fraction);
+    const LegsOver<Complex> legs = way.at(bent(t));
+    const Equations<Complex> at = equations<Complex>(legs, pose);
+    const Vec6<Complex> tangent = -at.J.partialPivLu().solve(way.slope(legs, pose));
+    const ComplexPose predicted = displaced<Complex>(pose, tangent * (bent(next_t) - bent(t)));
+    if (const auto next = corrected(way.at(bent(next_t)), predicted, closeness)) {
+      pose = *next;
+      t = next_t;
+      fraction = std::min(0.5, 1.5 * fraction);
+    } else {
+      fraction /= 2;
+      if (fraction < 1e-6) return t < late_t ? std::optional(pose) : std::nullopt;
+    }
+  }
+  return pose;
+}
+
+void finish(const Legs& legs, const ComplexPose& end, Gathering& gathering, bool& free) {
+  const double h = std::abs(coordinates(end)(at_h));
+  ComplexPose pose = end;
+  const double near = std::pow(eps, 1.0 / 8);
+  if (h > little_h && settle(legs, pose) && (coordinates(pose) - coordinates(end)).norm() < near) {
+    free = free || isFree(legs, pose);
+    gathering.addEnd(pose);
+  } else if (h < hidden_h) {
+    gathering.addInfinite(1);
+  }
+}
+
+Roots tracked(const Way& way, const Roots& start, double closeness) {
+  Gathering gathering(way.end);
+  bool free = false;
+  for (const Root& root : start.list)
+    for (int conjugate = 0; conjugate < (root.real ? 1 : 2); ++conjugate) {
+      const ComplexPose from = conjugate ? ComplexPose{root.at.q.conjugate(), root.at.p.conjugate()} : root.at;
+      if (const auto end = follow(way, from, closeness)) finish(way.end, *end, gathering, free);
+    }
+  Roots roots = gathering.count();
+  roots.free = free;
+  return roots;
+}
+
+}  // namespace
+
+Roots trackRoots(const Legs& legs) {
+  Roots best;
+  double closeness = 0.05;
+  for (int index = 0; index < throw_count; ++index, closeness /= 4) {
+    const Way way = thrown(legs, index);
+    const Roots start = findRoots(way.start());
+    if (start.counted != solution_count) continue;
+    const Roots roots = tracked(way, start, closeness);
+    if (roots.free) return roots;
+    if (roots.all() > best.all()) best = roots;
+    if (best.complete()) break;
+  }
+  return best;
+}
+
+}  // namespace ursula::ups

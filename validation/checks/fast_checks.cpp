@@ -1,0 +1,81 @@
+#include "validation/checks/fast_checks.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+
+#include "validation/samples/place_name.h"
+#include "validation/verdict/worst_share.h"
+
+namespace ursula {
+namespace {
+
+/// One kind of answer of the kernels.
+struct Kernel {
+  const char *check, *unit, *what;
+  std::vector<Vector6d> FastAnswers::*answers;
+  std::vector<Vector6d> FastSamples::*expected;
+  Rounded rounded;
+};
+
+constexpr const char* of_efforts = "";
+
+const Kernel kernels[] = {
+    {"fast.inverse", of_efforts, "efforts of one pose at a time", &FastAnswers::torques, &FastSamples::torques,
+     Rounded::solver},
+    {"fast.direct", "m/s^2", "platform accelerations of one pose at a time", &FastAnswers::accelerations,
+     &FastSamples::accelerations, Rounded::solver_direct},
+    {"fast.inverse_batch", of_efforts, "efforts of batches", &FastAnswers::torques_in_batch, &FastSamples::torques,
+     Rounded::solver},
+    {"fast.direct_batch", "m/s^2", "platform accelerations of batches", &FastAnswers::accelerations_in_batch,
+     &FastSamples::accelerations, Rounded::solver_direct},
+};
+
+/// Largest difference and size of two answers: of efforts by motor, of a twist rate with turns over the length.
+double sizeOf(const Kernel& kernel, const Vector6d& v, double length) {
+  if (kernel.unit == of_efforts) return v.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+  return v.tail<3>().norm() + length * v.head<3>().norm();
+}
+
+Check judgeKernel(const Kernel& kernel, const FastSamples& fast, const std::vector<PointwiseSample>& samples,
+                  const Units& units) {
+  const char* unit = kernel.unit == of_efforts ? units.efforts.unit : kernel.unit;
+  if (!fast.refused.empty()) return notMade(kernel.check, unit, "no answer: " + fast.refused);
+  if (fast.answers.empty() || fast.samples.empty()) return notMade(kernel.check, unit, "no instant was compared");
+  Worst worst;
+  double size = 0;
+  std::string sets;
+  for (std::size_t s = 0; s < fast.answers.size(); ++s) {
+    const FastAnswers& answers = fast.answers[s];
+    sets += (s == 0 ? "" : ", ") + std::string(nameOf(answers.set));
+    for (std::size_t k = 0; k < fast.samples.size(); ++k) {
+      const PointwiseSample& sample = samples[fast.samples[k]];
+      const Conditioning& at = sample.conditioning;
+      const Vector6d &expected = (fast.*kernel.expected)[k], &found = (answers.*kernel.answers).at(k);
+      size = std::max(size, sizeOf(kernel, expected, at.length));
+      worst.add(sizeOf(kernel, found - expected, at.length), 2 * at.rounding(kernel.rounded), sample.motion.t,
+                static_cast<int>(s));
+    }
+  }
+  const auto setOf = [&](int where) {
+    return where < 0 ? "" : std::string(nameOf(fast.answers[static_cast<std::size_t>(where)].set));
+  };
+  Check check = judgedIfUseful(
+      kernel.check, worst.value, limitToJudge(worst, useful_share * size), useful_share * size, unit,
+      "twice the rounding of the NOC: both sides round",
+      fmt::format("{} by the fast kernels against the NOC, at {} instants, with {}; shown for t = {:.6g} s, {}",
+                  kernel.what, fast.samples.size(), sets, worst.t * units.time, setOf(worst.where)),
+      fmt::format("it exceeds {:g} of the largest: {}", useful_share, causeOfRounding(samples, worst.widest_t)));
+  check.largest = {worst.largest, worst.largest_t * units.time, setOf(worst.largest_where)};
+  return check;
+}
+
+}  // namespace
+
+std::vector<Check> judgeFast(const FastSamples& fast, const std::vector<PointwiseSample>& samples, const Units& units) {
+  std::vector<Check> out;
+  for (const Kernel& kernel : kernels) out.push_back(judgeKernel(kernel, fast, samples, units));
+  return out;
+}
+
+}  // namespace ursula

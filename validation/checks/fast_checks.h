@@ -1,0 +1,14 @@
+#pragma once
+
+#include "validation/limits/rounding_profile.h"
+#include "validation/samples/fast_samples.h"
+#include "validation/subject/presentation.h"
+#include "validation/verdict/result.h"
+
+namespace ursula {
+
+/// `fast.inverse`, `fast.direct`, `fast.inverse_batch`, `fast.direct_batch`: the kernels that users call, with every
+/// instruction set of the processor, against the NOC. `fast` is at `samples`.
+std::vector<Check> judgeFast(const FastSamples& fast, const std::vector<PointwiseSample>& samples, const Units& units);
+
+}  // namespace ursula

@@ -1,0 +1,62 @@
+#include "validation/limits/engine_view.h"
+
+#include "model/loops/simbody/simbody_loop.h"
+#include "validation/verdict/worst_share.h"
+
+namespace ursula {
+
+struct EnginePresentation::Engines {
+  Engines(const Manipulator& machine, const std::shared_ptr<const Load>& load)
+      : six_balls(machine, SimbodyLoop::Topology::six_balls, load), further(makeFurtherRoads(machine, load)) {}
+
+  SimbodyLoop six_balls;
+  OfFurtherRoads<std::unique_ptr<Road>> further;
+};
+
+namespace {
+
+/// [ω̇; p̈] from there to here.
+Vector6d twistRateBack(const Presentation& p, const Motion<double>& motion) {
+  const double unit = p.units.time * p.units.time;
+  Vector6d out;
+  out << p.turn.transpose() * motion.omega_dot / unit, p.turn.transpose() * motion.p_ddot * p.units.length / unit;
+  return out;
+}
+
+}  // namespace
+
+EnginePresentation::EnginePresentation(const Scenario& scenario, const Presentation& presentation)
+    : presentation_(presentation),
+      engines_(std::make_unique<Engines>(presentation.of(*scenario.manipulator), presentation.of(scenario.load))) {}
+EnginePresentation::~EnginePresentation() = default;
+EnginePresentation::EnginePresentation(EnginePresentation&&) noexcept = default;
+
+EngineView EnginePresentation::at(const Motion<double>& motion, const Vector6d& torques, const Vector6d& others) {
+  const Presentation& p = presentation_;
+  Engines& e = *engines_;
+  const Motion<double> there = p.of(motion);
+  EngineView out;
+  out.joints = p.back(e.six_balls.place(there));
+  out.bodies = p.back(e.six_balls.bodies());
+  out.torques = p.torquesBack(e.six_balls.inverseDynamics());
+  e.six_balls.accelerate(p.of(torques));
+  out.acceleration = twistRateBack(p, e.six_balls.platform());
+  out.gap_acceleration = e.six_balls.gapAcceleration() * p.units.acceleration();
+  out.reactions = p.back(e.six_balls.reactions());
+  e.six_balls.accelerate(p.of(others));
+  out.direct = twistRateBack(p, e.six_balls.platform());
+  for (std::size_t k = 0; k < further_road_count; ++k)
+    if (e.further[k]) out.further[k] = p.torquesBack(e.further[k]->inverseDynamics(there));
+  return out;
+}
+
+double distance(const LegReactions& a, const LegReactions& b, double length) {
+  double difference = 0;
+  for (Vector3d LegReactions::*force : {&LegReactions::f_A, &LegReactions::f_R, &LegReactions::f_B})
+    difference = larger(difference, (a.*force - b.*force).norm());
+  for (Vector3d LegReactions::*moment : {&LegReactions::n_A, &LegReactions::n_R})
+    difference = larger(difference, (a.*moment - b.*moment).norm() / length);
+  return difference;
+}
+
+}  // namespace ursula

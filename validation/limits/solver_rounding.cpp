@@ -1,0 +1,94 @@
+#include "validation/limits/solver_rounding.h"
+
+#include <random>
+#include <utility>
+
+#include "nocsolver/noc/noc.h"
+#include "validation/subject/subject.h"
+
+namespace ursula {
+namespace {
+
+/// How often the inputs are moved, each time otherwise.
+constexpr unsigned moves = 8;
+
+/// Moves numbers by one rounding of what they are components of, up or down; the same way for one seed.
+class Mover {
+ public:
+  explicit Mover(unsigned seed) : sign_(seed) {}
+
+  void operator()(double& number) { number += step(std::abs(number)); }
+  template <class Derived>
+  void operator()(Eigen::MatrixBase<Derived>& of) {
+    const double size = of.norm();
+    for (Eigen::Index k = 0; k < of.size(); ++k) of(k % of.rows(), k / of.rows()) += step(size);
+  }
+  void operator()(std::array<double, 3>& numbers) {
+    for (double& number : numbers) (*this)(number);
+  }
+
+ private:
+  double step(double size) { return ((sign_() & 1U) != 0 ? 1 : -1) * size * Eigen::NumTraits<double>::epsilon() / 2; }
+
+  std::minstd_rand sign_;
+};
+
+MachineParameters<double> moved(const Manipulator& manipulator, unsigned seed) {
+  MachineParameters<double> machine(manipulator);
+  Mover move(seed);
+  for (int i = 0; i < machine.legs_in_all; ++i) {
+    LegModel<double>& leg = machine.legs[static_cast<std::size_t>(i)];
+    for (Vector3d* vector : {&leg.a, &leg.b, &leg.x_hat, &leg.u, &leg.z_hat}) move(*vector);
+    for (double* number : {&leg.l, &leg.s, &leg.rho, &leg.sigma, &leg.mass_1, &leg.mass_2}) move(*number);
+    for (Matrix3d* tensor : {&leg.I_1, &leg.I_2}) move(*tensor);
+    for (std::array<double, 3>* friction : {&leg.viscous, &leg.coulomb, &leg.speed}) move(*friction);
+  }
+  move(machine.gravity);
+  move(machine.mass);
+  move(machine.rho);
+  move(machine.I_M);
+  return machine;
+}
+
+Motion<double> moved(Motion<double> motion, unsigned seed) {
+  Mover move(seed);
+  for (Vector3d* vector : {&motion.p, &motion.omega, &motion.p_dot, &motion.omega_dot, &motion.p_ddot}) move(*vector);
+  for (int k = 0; k < 3; ++k) {
+    Vector3d axis = motion.Q.col(k);
+    move(axis);
+    motion.Q.col(k) = axis;
+  }
+  return motion;
+}
+
+}  // namespace
+
+struct SolverRounding::Formulations {
+  Subject as_they_are, in_long_double;
+  std::vector<Subject> moved;
+};
+
+SolverRounding::SolverRounding(const Manipulator& machine, std::shared_ptr<const Load> load)
+    : formulations_(
+          std::make_unique<Formulations>(Formulations{nocSubject(machine, load), longNocSubject(machine, load), {}})) {
+  for (unsigned k = 0; k < moves; ++k) formulations_->moved.push_back(nocSubject(moved(machine, k + 1), load));
+}
+SolverRounding::~SolverRounding() = default;
+SolverRounding::SolverRounding(SolverRounding&&) noexcept = default;
+
+Vector6d SolverRounding::torques(const Motion<double>& motion) { return formulations_->as_they_are.torques(motion); }
+
+std::vector<SolverView> SolverRounding::at(const Motion<double>& motion, const Vector6d& others) {
+  std::vector<SolverView> out;
+  const auto add = [&](const Subject& of, const Motion<double>& m) {
+    const KinematicAnswer kinematics = of.kinematics(m);
+    out.push_back({kinematics.joints, kinematics.bodies, kinematics.T, kinematics.T_rate, of.torques(m),
+                   of.accelerations(m, others), of.reactions(m)});
+  };
+  add(formulations_->as_they_are, motion);
+  add(formulations_->in_long_double, motion);
+  for (unsigned k = 0; k < moves; ++k) add(formulations_->moved[k], moved(motion, moves + 1 + k));
+  return out;
+}
+
+}  // namespace ursula
