@@ -31,6 +31,9 @@ ENGINE_HEADER = re.compile(r"(?i)^(simbody|simtk|simmath|mujoco/|dart/)|/(simbod
 # What users of the library have: the standard library, Eigen and the library itself.
 PYTHONS_HEADER = re.compile(r"pybind11/[\w/]+\.h")
 USERS_HEADER = re.compile(r"[a-z_]+|Eigen/\w+|ursula/\w+\.h")
+# Within nocsolver/: the NOC that is judged and the fast kernels never see each other.
+WITHIN_SOLVER = {"legs": {"legs"}, "noc": {"noc", "legs"}, "fast": {"fast", "legs"},
+                 "poses": {"poses", "noc", "fast", "legs", ""}, "": {"noc", "fast", "legs", ""}}
 OTHER_ROAD = re.compile(r"^model/loops/(\w+)/")
 
 MAP = "docs/equations.md"
@@ -57,6 +60,10 @@ def check_includes(root):
             top = name.split("/")[0]
             if top in sources.FOLDERS and top not in ALLOWED[folder]:
                 findings.append(f"{place}: {folder}/ may not include {top}/ ({name})")
+            if folder == top == "nocsolver" and name != "nocsolver/errors.h":
+                here, there = (part.split("/")[1] if part.count("/") > 1 else "" for part in (path, name))
+                if there not in WITHIN_SOLVER.get(here, set()):
+                    findings.append(f"{place}: nocsolver/{here} may not include nocsolver/{there} ({name})")
             if sources.is_internal(name) and sources.is_header(path) and not sources.is_internal(path):
                 findings.append(f"{place}: a header that others include may not include {name}, which is internal")
         findings += check_roads(root, path)
@@ -100,7 +107,7 @@ def check_no_simtk(path, text):
 def check_targets(root):
     """What the CMake targets link, by folder."""
     forbidden = {"nocsolver": re.compile(r"(?i)simbody|mujoco|ursula::validation|tbb"),
-                 "nocsolver/parallel": re.compile(r"(?i)simbody|mujoco|ursula::validation"),
+                 "nocsolver/fast/parallel": re.compile(r"(?i)simbody|mujoco|ursula::validation"),
                  "model": re.compile(r"ursula[:_]+(nocsolver|validation)"),
                  "model/loops": re.compile(r"ursula[:_]+(nocsolver|validation)"),
                  "validation": re.compile(r"(?i)ursula::apps|\$\{(simbody|ursula_mujoco)_")}

@@ -81,6 +81,8 @@ class CheckStructure(unittest.TestCase):
         self.assert_caught("the solver may not see another road", nocsolver__leg_DOT_cpp=append("#include <mujoco/mujoco.h>\n"))
         self.assert_caught("a road may not see another",
                            model__loops__mujoco__mujoco_loop_DOT_cpp=append('#include "model/loops/simbody/simbody_loop.h"\n'))
+        self.assert_caught("nocsolver/noc may not include nocsolver/fast", nocsolver__fast__k_DOT_h=("", "#pragma once\n"),
+                           nocsolver__noc__n_DOT_h=("", '#include "nocsolver/fast/k.h"\n'))
         self.assert_caught("model/ may not include nocsolver/", model__machine_DOT_h=append('#include "nocsolver/leg.h"\n'))
         self.assert_caught("tests/ may not include apps/", apps__a_DOT_h=append("\n"),
                            tests__leg_test_DOT_cpp=append('#include "../apps/a.h"\n'))
@@ -109,8 +111,8 @@ class CheckStructure(unittest.TestCase):
     def test_targets(self):
         self.assert_caught("nocsolver may not link", nocsolver__CMakeLists_DOT_txt=("", "link(${Simbody_LIBRARIES})\n"))
         self.assert_caught("nocsolver may not link", nocsolver__CMakeLists_DOT_txt=("", "link(TBB::tbb)\n"))
-        self.assert_caught("nocsolver/parallel may not link",
-                           nocsolver__parallel__CMakeLists_DOT_txt=("", "link(${Simbody_LIBRARIES})\n"))
+        self.assert_caught("nocsolver/fast/parallel may not link",
+                           nocsolver__fast__parallel__CMakeLists_DOT_txt=("", "link(${Simbody_LIBRARIES})\n"))
         self.assert_caught("model may not link", model__CMakeLists_DOT_txt=("", "link(ursula::nocsolver)\n"))
 
     def test_rooms(self):

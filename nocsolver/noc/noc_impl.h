@@ -335,8 +335,8 @@ BodyVector<S> Noc<S, R>::actuatorWrench(const NocWorkspace<S>& work, const Vecto
 /// t and ṫ of (30a), and what M of (30b) is made of.
 template <class S, class R>
 void Noc<S, R>::setBodies(const Motion<S>& motion, NocWorkspace<S>& work) const {
-  bodyMotions(motion, work, work.bodies);
-  work.I_B = tensors(work);
+  bodyMotions(motion, work, work.bodies);  // (paper, eq. 30a)
+  work.I_B = tensors(work);                // (paper, eq. 30b)
 }
 
 // --- inverse and direct dynamics

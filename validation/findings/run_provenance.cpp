@@ -10,11 +10,21 @@
 
 namespace ursula {
 
+namespace {
+
+const char* formulationInWords(const std::string& formulation) {
+  if (formulation == "noc") return "noc: T formed, efforts by (37), accelerations by (36)";
+  return formulation == "fast" ? "fast: the kernels that users call" : "external: somebody else's";
+}
+
+}  // namespace
+
 void addProvenance(const Scenario& scenario, const std::string& subject, ValidationResult& result) {
   const BuildProvenance& build = buildProvenance();
   result.provenance = {{"scenario file", scenario.file.filename().string()},
                        {"scenario sha1", sha1(scenario.text)},
                        {"subject", subject},
+                       {"formulation", formulationInWords(result.formulation)},
                        {"ursula", build.version},
                        {"commit", build.commit},
                        {"compiler", build.compiler},
