@@ -37,16 +37,13 @@ struct Fast {
   Vector6d direct(std::size_t k) const { return dynamics->directDynamics(helix().motions[k], helix().efforts[k]); }
 };
 
-template <class Road, class Work>
-struct ByRoad {
-  std::shared_ptr<Road> road = std::make_shared<Road>(helix().manipulator());
-  std::shared_ptr<Work> work = std::make_shared<Work>();
+struct ByNoc {
+  std::shared_ptr<Noc<double>> noc = std::make_shared<Noc<double>>(helix().manipulator());
+  std::shared_ptr<NocWorkspace<double>> work = std::make_shared<NocWorkspace<double>>();
 
-  Vector6d inverse(std::size_t k) const { return road->inverseDynamics(helix().motions[k], *work); }
-  Vector6d direct(std::size_t k) const { return road->directDynamics(helix().motions[k], helix().efforts[k], *work); }
+  Vector6d inverse(std::size_t k) const { return noc->inverseDynamics(helix().motions[k], *work); }
+  Vector6d direct(std::size_t k) const { return noc->directDynamics(helix().motions[k], helix().efforts[k], *work); }
 };
-using ByPaper = ByRoad<PaperSolver<double>, PaperWorkspace<double>>;
-using ByChain = ByRoad<ChainSolver<double>, ChainWorkspace<double>>;
 
 template <class Solving>
 Answers scalarAnswers(const std::string& name, const Solving& solving) {
@@ -102,8 +99,7 @@ void registerPeer(Peer& peer) {
 
 void registerSideBySide(const Peers& peers) {
   registerScalar("ursula", Fast());
-  registerScalar("ursula, equation by equation", ByPaper());
-  registerScalar("ursula, joint by joint", ByChain());
+  registerScalar("ursula, T formed", ByNoc());
   benchmark::RegisterBenchmark("kinematics/ursula", [](benchmark::State& state) {
     Workspace<double> work;
     roundPoses(state, [&](std::size_t k) { return jointMotion(helix().solver, helix().motions[k], work); });
@@ -112,8 +108,7 @@ void registerSideBySide(const Peers& peers) {
 }
 
 std::vector<Answers> ownAnswers() {
-  std::vector<Answers> out = {scalarAnswers("ursula", Fast()), scalarAnswers("ursula, equation by equation", ByPaper()),
-                              scalarAnswers("ursula, joint by joint", ByChain())};
+  std::vector<Answers> out = {scalarAnswers("ursula", Fast()), scalarAnswers("ursula, T formed", ByNoc())};
   for (const InstructionSet set : instructionSets()) out.push_back(batchAnswers(set));
   return out;
 }

@@ -22,7 +22,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGES = ("libsimbody3.7", "libmujoco2.2.2", "libdart6.12", "libeigen3-dev", "libbenchmark1debian", "g++-12")
 BATCH = "ursula, batch "
-OWN = ("ursula", "ursula, equation by equation", "ursula, joint by joint")
+OWN = ("ursula", "ursula, T formed")
 SAMPLES = 1000  # of the batches in the table: what they need is in the cache
 SCENARIOS, JOBS, TIMES = (1, 2, 4), (1, 2), 3
 

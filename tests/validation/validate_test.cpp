@@ -14,6 +14,7 @@
 #include "tests/support/vectors.h"
 #include "tests/validation/checks.h"
 #include "validation/evidence/reference.h"
+#include "validation/report/report.h"
 #include "validation/report/summary.h"
 
 namespace ursula {
@@ -108,6 +109,36 @@ TEST(ValidateControl, theSlipOf15aFailsAndTheJointRatesAreNamedFirst) {
   EXPECT_EQ(firstFailing(result.checks), "kinematics.joint_rates");
   EXPECT_EQ(verdictOf(result.checks, "kinematics.joint_angles"), "pass");
   EXPECT_EQ(verdictOf(result.checks, "torque.pointwise"), "fail");
+}
+
+/// What users call is judged beside the NOC, and does not make the NOC wrong.
+TEST(ValidateControl, aWrongFastKernelFailsAndTheNocHolds) {
+  const auto spoil = std::make_shared<Spoil>();
+  spoil->fast.answers = [](FastAnswers& answers) {
+    for (Vector6d& torques : answers.torques_in_batch) torques(0) *= 1 + 1e-7;
+  };
+  ValidationOptions options = without_extras;
+  options.spoil = spoil;
+  const ValidationResult result = validate(quick("paper-helix"), options);
+  EXPECT_EQ(result.verdict, Verdict::fail);
+  EXPECT_EQ(result.formulation, "noc");
+  EXPECT_EQ(firstFailing(result.checks), "fast.inverse_batch");
+  EXPECT_TRUE(onlyFastFails(result.checks));
+  EXPECT_EQ(verdictOf(result.checks, "torque.between"), "inconclusive");
+  EXPECT_EQ(verdictOf(result.checks, "torque.pointwise"), "pass");
+}
+
+/// An error of the NOC's own is no error of the fast kernels, though both checks see it.
+TEST(ValidateControl, aWrongNocFailsAndTheTorquesAreNamed) {
+  const Scenario scenario = quick("paper-helix");
+  for (const Slip slip : {Slip::scaled_efforts, Slip::scaled_first_effort}) {
+    const ValidationResult result = validateMade(
+        scenario, [slip](const Scenario& s) { return wrongNocSubject(*s.manipulator, s.load, WithSlips(slip)); },
+        without_extras);
+    EXPECT_EQ(result.verdict, Verdict::fail);
+    EXPECT_EQ(firstFailing(result.checks), "torque.pointwise");
+    EXPECT_FALSE(onlyFastFails(result.checks));
+  }
 }
 
 TEST(ValidateControl, torquesOffByABillionthFail) {

@@ -23,8 +23,8 @@ Linearisation::Linearisation(const Scenario& scenario, const AccelerationUnder& 
     : trajectory_(*scenario.trajectory),
       load_(scenario.load),
       own_(!accelerations),
-      right_(fastSubject(*scenario.manipulator, scenario.load)),
-      accelerations_(own_ ? right_.accelerations : accelerations),
+      right_(nocSubject(*scenario.manipulator, scenario.load)),
+      accelerations_(own_ ? fastSubject(*scenario.manipulator, scenario.load).accelerations : accelerations),
       length_(MachineParameters<double>(*scenario.manipulator).length),
       // Central differences: the cube root of eps balances truncation and rounding.
       step_(step * std::cbrt(Eigen::NumTraits<double>::epsilon()) * length_) {}

@@ -75,13 +75,6 @@ std::string agrees(const Found& found) {
                           : fmt::format("; {} independent formulations agree {}", inWords(found.roads), share);
 }
 
-/// All that failed is of the fast kernels.
-bool onlyFastFails(const ValidationResult& result) {
-  return std::all_of(result.checks.begin(), result.checks.end(), [](const Check& check) {
-    return check.verdict != Verdict::fail || check.name.rfind("fast.", 0) == 0;
-  });
-}
-
 std::string failed(const ValidationResult& result, const Found& found) {
   if (!found.cause.empty()) return fmt::format("{} are wrong. Likely cause: {}.", found.subject, found.cause);
   const Check* worst = worstCheck(result.checks);
@@ -90,7 +83,7 @@ std::string failed(const ValidationResult& result, const Found& found) {
                                   ? fmt::format("off by {}, where {} is the limit", quantity(worst->value, worst->unit),
                                                 quantity(worst->limit, worst->unit))
                                   : worst->why;
-  if (onlyFastFails(result))
+  if (onlyFastFails(result.checks))
     return fmt::format("The fast kernels that users call are wrong, {} hold. {}: {} ({}).", lower(found.subject),
                        checkWords(worst->name).title, numbers, worst->largest.where);
   return fmt::format("{} do not hold. {}: {}.", found.subject, checkWords(worst->name).title, numbers);

@@ -48,6 +48,9 @@ SuiteEntry suiteEntry(const ValidationResult& result, std::filesystem::path fold
 /// The verdict's reason in one sentence: how many checks failed and the worst, or how close the closest came.
 std::string reason(Verdict verdict, const std::vector<Check>& checks);
 
+/// All that failed is of the fast kernels: the NOC itself holds.
+bool onlyFastFails(const std::vector<Check>& checks);
+
 /// "Right to 0.03 %: the largest deviation is 7.4 N m of 25066 N m, leg 3 at t = 2.97 s; …": what errors of that size
 /// do, and the smallest --rtol that would pass.
 std::string sentence(const EffortDeviation& deviation);

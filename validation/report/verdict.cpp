@@ -60,6 +60,12 @@ const Check* worstCheck(const std::vector<Check>& checks) {
   return worst == checks.end() ? nullptr : &*worst;
 }
 
+bool onlyFastFails(const std::vector<Check>& checks) {
+  return std::all_of(checks.begin(), checks.end(), [](const Check& check) {
+    return check.verdict != Verdict::fail || check.name.rfind("fast.", 0) == 0;
+  });
+}
+
 std::string reason(Verdict verdict, const std::vector<Check>& checks) {
   if (checks.empty()) return "No check was made.";
   const Check& worst = *worstCheck(checks);
@@ -70,8 +76,9 @@ std::string reason(Verdict verdict, const std::vector<Check>& checks) {
   if (worst.verdict != verdict) return fmt::format("{} as a whole, for a reason beyond its checks.", name(verdict));
   switch (verdict) {
     case Verdict::fail:
-      return fmt::format("{} of {} failed{} {}, which {}.", count, plural(total), count == 1 ? ":" : ", the worst",
-                         worst.name, standing(worst));
+      return fmt::format("{} of {} failed{} {}, which {}.{}", count, plural(total), count == 1 ? ":" : ", the worst",
+                         worst.name, standing(worst),
+                         onlyFastFails(checks) ? " The fast kernels that users call are wrong; the NOC holds." : "");
     case Verdict::inconclusive:
       return fmt::format("Nothing failed, but {} of {} cannot be judged here, among them {}.", count, plural(total),
                          worst.name);
