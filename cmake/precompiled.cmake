@@ -1,9 +1,10 @@
 # What nearly every source of ours includes is parsed once, not a hundred times: most of what a source takes. Each still
 # includes what it uses; the presets for development and clang-tidy read it without this.
 
-# Without this ccache keeps nothing that was compiled with it.
+# Without this ccache keeps nothing that was compiled with it, or only for this very folder.
 if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache")
-  list(PREPEND CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros)
+  list(PREPEND CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros
+    CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1)
 endif()
 
 set(_ursula_carrier ${PROJECT_BINARY_DIR}/generated/precompiled.cpp)
@@ -12,7 +13,7 @@ add_library(ursula_precompiled OBJECT ${_ursula_carrier})
 target_link_libraries(ursula_precompiled PRIVATE ursula::options ursula::eigen fmt::fmt)
 target_precompile_headers(ursula_precompiled PRIVATE
   <algorithm> <array> <cmath> <functional> <memory> <optional> <string> <vector>
-  <fmt/format.h> <Eigen/Geometry> <Eigen/LU> ${PROJECT_SOURCE_DIR}/model/real50.h)
+  <fmt/format.h> <Eigen/Geometry> <Eigen/LU> <model/real50.h>)
 
 # The header was read with fmt's definitions: who uses it has them too.
 function(ursula_use_precompiled target)
