@@ -34,7 +34,8 @@ struct ValidateOptions {
   std::string torques, out;
   ExternalSolverOptions solver;  ///< with a command, it is judged
   double rtol = 0, atol = 0;     ///< 0: not given
-  double time_limit = 0;         ///< for a scenario, s; 0: not given
+  bool any_tolerance = false;
+  double time_limit = 0;  ///< for a scenario, s; 0: not given
   bool json = false, quiet = false, strict = false;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 
@@ -171,9 +172,12 @@ int validateAll(const ValidateOptions& options) {
       std::none_of(members.begin(), members.end(), [](const auto& each) { return each.error.empty(); });
   if (options.strict || none_good) members = allOrNothing(std::move(members));
   requireSense(options, members);
-  if (options.rtol > 0 || options.atol > 0)
-    for (SuiteMember& member : members)
-      if (member.scenario) member.scenario->tolerance = EffortTolerance{options.rtol, options.atol};
+  for (SuiteMember& member : members) {
+    if (!member.scenario) continue;
+    std::optional<EffortTolerance>& tolerance = member.scenario->tolerance;
+    if (options.rtol > 0 || options.atol > 0) tolerance = EffortTolerance{options.rtol, options.atol};
+    if (tolerance) tolerance->any = options.any_tolerance;
+  }
   const std::filesystem::path dir = folderOf(options, members);
   if (const auto input = report::replacedInput(inputsOf(options, members), dir); !input.empty())
     throw UsageError(fmt::format("--out {}: results would replace {}, which is read, expected another folder",
@@ -233,10 +237,13 @@ void addValidate(CLI::App& app, std::function<int()>& run) {
                  "Of several scenarios nothing is computed or written unless all can be read and their motions made");
   addOtherSolvers(*verb, *options);
   verb->add_option("--rtol", options->rtol,
-                   "Torques pass that are off by no more, relative to the largest effort of the motion; wins over\n"
-                   "[acceptance] torque")
-      ->check(finitePositive());
+                   "Torques pass that are off by no more, relative to the largest effort of the motion, also as 1%;\n"
+                   "wins over [acceptance] torque")
+      ->check(finitePositive())
+      ->transform(withoutPercent);  // the last that is given comes first
   verb->add_option("--atol", options->atol, "The same in N m, or N; both are added")->check(finitePositive());
+  verb->add_flag("--any-tolerance", options->any_tolerance,
+                 "Take a tolerance at which torques of zero would pass, too");
   verb->footer(
       "Several scenarios: one folder each under DIR, with index.html and one junit.xml over all. One that cannot be\n"
       "read, is out of reach or singular is in error there, and the others are judged; with --strict, where all are\n"

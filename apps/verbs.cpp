@@ -29,6 +29,12 @@ CLI::Validator finitePositive() {
   return finite("finite number above 0", [](double value) { return value > 0; });
 }
 
+std::string withoutPercent(std::string text) {
+  const LeadingNumber read = leadingNumber(text);
+  const bool is_share = read.length > 0 && read.length + 1 == text.size() && text.back() == '%';
+  return is_share ? fmt::format("{}", read.value / 100) : text;
+}
+
 CLI::Validator finiteNotNegative() {
   return finite("finite number of 0 or more", [](double value) { return value >= 0; }).description("NONNEGATIVE");
 }

@@ -20,6 +20,8 @@ struct UsageError : std::runtime_error {
 /// For options: a finite number above 0, or not below it. CLI11's own let nan through.
 CLI::Validator finitePositive();
 CLI::Validator finiteNotNegative();
+/// For transform(): "1%" becomes "0.01"; all else stays.
+std::string withoutPercent(std::string text);
 /// An integer of 64 bits without a sign, whole and in range: CLI11's own wraps around.
 CLI::Validator wholeNumber();
 

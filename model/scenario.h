@@ -39,6 +39,7 @@ struct AcceptanceLimit {
 /// (N·m or N); both are added.
 struct EffortTolerance {
   double relative = 0, absolute = 0;
+  bool any = false;  ///< even one at which torques of zero would pass
 };
 
 /// A machine, what it is asked to do, and how that is judged; read from a file, or made by a program.

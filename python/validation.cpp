@@ -52,17 +52,18 @@ std::string nameOf(const py::object& solver) {
 }
 
 /// The scenario with the tolerance given, if any.
-Scenario tolerant(Scenario scenario, std::optional<double> rtol, std::optional<double> atol) {
+Scenario tolerant(Scenario scenario, std::optional<double> rtol, std::optional<double> atol, bool any) {
   for (const auto& [name, value] : {std::pair("rtol", rtol), {"atol", atol}})
     if (value && !(*value > 0 && std::isfinite(*value)))
       throw py::value_error(std::string(name) + " is " + std::to_string(*value) + ", expected a positive number");
   if (rtol || atol) scenario.tolerance = EffortTolerance{rtol.value_or(0), atol.value_or(0)};
+  if (scenario.tolerance) scenario.tolerance->any = any;
   return scenario;
 }
 
 ValidationResult validated(const ScenarioWithSolver& given, const py::object& solver, std::optional<double> rtol,
-                           std::optional<double> atol, const py::object& name) {
-  const Scenario scenario = tolerant(given.scenario, rtol, atol);
+                           std::optional<double> atol, const py::object& name, bool any_tolerance) {
+  const Scenario scenario = tolerant(given.scenario, rtol, atol, any_tolerance);
   if (solver.is_none()) {
     const py::gil_scoped_release unlocked;
     return validate(scenario);
@@ -154,7 +155,8 @@ void addValidation(py::module_& module) {
   addCheck(module);
   addResult(module);
   module.def("validate", &validated, py::arg("s"), py::arg("solver") = py::none(), py::kw_only(),
-             py::arg("rtol") = py::none(), py::arg("atol") = py::none(), py::arg("name") = py::none(), words::validate);
+             py::arg("rtol") = py::none(), py::arg("atol") = py::none(), py::arg("name") = py::none(),
+             py::arg("any_tolerance") = false, words::validate);
 }
 
 }  // namespace ursula::python

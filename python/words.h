@@ -81,7 +81,8 @@ constexpr const char* validate =
     "rtol, atol: torques pass that are off by no more, relative to the largest effort of the motion, and N m or N; "
     "both\n"
     "are added. Where both are left out, [acceptance] torque of the scenario holds, else rounding. name: of the\n"
-    "solver, for the results; its own where left out.\n\n"
+    "solver, for the results; its own where left out.\n"
+    "any_tolerance: takes a tolerance at which efforts of zero would pass, which is refused else.\n\n"
     "Raises what the solver raises, as it was raised; ValueError where it answers with another shape or with what is\n"
     "not finite; PoseError where the commanded motion is out of reach or singular.";
 

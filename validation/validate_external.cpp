@@ -94,6 +94,7 @@ void addFacts(const Evidence& evidence, const ErrorBudget& budget, ValidationRes
 ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& torques, double time_limit) {
   const Deadline deadline(time_limit);
   checkMotion(scenario);
+  requireTellingTolerance(scenario);
   const Presentation natural = naturalPresentation(scenario);
   const Scenario here = timed(natural.of(scenario), deadline);
   const TorqueFile file = within(torques, scenario.trajectory->duration());
@@ -120,7 +121,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   addPicture(scenario, result);
   result.deviation = effortDeviation(evidence, result.checks);
   listEveryCheck(scenario, evidence.has, result);
-  judgeByTolerance(scenario, replay.covered, result);
+  judgeByTolerance(scenario, replay.between * natural.units.effort(), result);
   judgeByUser(scenario.acceptance, result);
   addFileFindings(file, result);
   if (result.verdict == Verdict::fail) {

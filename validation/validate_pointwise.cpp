@@ -38,6 +38,7 @@ std::vector<Check> judgeSamples(Evidence& evidence) {
 
 ValidationResult validatePointwise(const Scenario& given, const std::vector<Check>* of_motion) {
   checkMotion(given);
+  requireTellingTolerance(given);
   Evidence evidence;
   evidence.given = &given;
   evidence.natural = naturalPresentation(given);
@@ -56,7 +57,7 @@ ValidationResult validatePointwise(const Scenario& given, const std::vector<Chec
   for (Check& check : judgeSamples(evidence)) result.checks.push_back(std::move(check));
   if (given.tolerance) result.deviation = effortDeviation(evidence, result.checks);
   listEveryCheck(given, evidence.has, result);
-  judgeByTolerance(given, true, result);
+  judgeByTolerance(given, 0, result);
   judgeByUser(given.acceptance, result);
   addProvenance(given, subject.name, result);
   return result;

@@ -168,5 +168,6 @@ def validate(
     rtol: float | None = None,
     atol: float | None = None,
     name: str | None = None,
+    any_tolerance: bool = False,
 ) -> Result:
     """The whole validation of a scenario, of this program's solver or of `solver`: Motion of N instants -> (N, 6), N m or N."""

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <regex>
 
 #include "nocsolver/errors.h"
@@ -17,6 +18,7 @@
 #include "validation/checks/pointwise_checks.h"
 #include "validation/checks/road_checks.h"
 #include "validation/samples/roads.h"
+#include "validation/validate.h"
 
 namespace ursula {
 namespace {
@@ -102,6 +104,39 @@ TEST_F(Between, seesWhatIsWrongEverywhere) {
     return Vector6d((1 + 1e-9) * right(motion));
   };
   EXPECT_EQ(judge(wrong).verdict, Verdict::fail);
+}
+
+/// Whatever they were asked for: not only those to the check's own questions.
+TEST_F(Between, everyAnswerIsJudged) {
+  std::vector<Answered> answers;
+  Subject late = right_;
+  late.torques = [right = right_.torques, calls = 0](const Motion<double>& motion) mutable {
+    return Vector6d((++calls > 100 ? 1 + 1e-9 : 1) * right(motion));
+  };
+  const Subject subject = recorded(late, answers);
+  const auto ask = [&](int count) {
+    for (int k = 0; k < count; ++k) subject.torques(scenario_.trajectory->at(3 * std::fmod(k * 0.618, 1.0)));
+  };
+  ask(100);
+  ASSERT_EQ(answers.size(), 100u);
+  EXPECT_EQ(judgeAnswers(scenario_, answers, samples_, profile_).verdict, Verdict::pass);
+  ask(5);
+  ASSERT_EQ(answers.size(), 105u);
+  EXPECT_EQ(judgeAnswers(scenario_, answers, samples_, profile_).verdict, Verdict::fail);
+}
+
+TEST_F(Between, aSolverThatIsWrongLaterOnFailsTheValidation) {
+  Subject late = right_;
+  late.formulation = Formulation::external;
+  late.rebuilt = nullptr;
+  const auto calls = std::make_shared<int>(0);
+  late.torques = [right = right_.torques, calls](const Motion<double>& motion) {
+    return Vector6d((++*calls > 13000 ? 1.001 : 1) * right(motion));
+  };
+  const ValidationResult result = validate(scenario_, late);
+  EXPECT_EQ(result.verdict, Verdict::fail);
+  EXPECT_GT(*calls, 13000) << "it was never wrong";
+  EXPECT_EQ(findCheck(result.checks, "torque.between")->verdict, Verdict::fail);
 }
 
 TEST_F(Between, noNumberIsNoAgreement) {

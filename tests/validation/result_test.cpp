@@ -1,4 +1,5 @@
 #include "validation/verdict/result.h"
+#include "validation/verdict/worst_share.h"
 
 #include <gtest/gtest.h>
 
@@ -63,20 +64,43 @@ TEST(Reasons, areOfWhatWasNotJudged) {
   EXPECT_STREQ(name(Reason::not_made), "not_made");
 }
 
-TEST(JudgedIfUseful, isInconclusiveWhateverTheValueWhereTheLimitSaysNothing) {
+TEST(JudgedIfUseful, isInconclusiveOnlyBetweenWhatIsUsefulAndTheDerivedLimit) {
   const auto check = [](double value, double limit) {
-    return judgedIfUseful("name", value, limit, 1, "m", "basis", "why", "the cause");
+    Worst worst;
+    worst.add(value, limit, 0);
+    return judgedIfUseful({"name", "m", 1e6}, worst, "basis", "why", "the cause");  // 1 is useful
   };
-  EXPECT_EQ(check(0.5, 1).verdict, Verdict::pass);
-  EXPECT_EQ(check(0.5, 1).reason, Reason::none);
-  EXPECT_EQ(check(0.5, 2).verdict, Verdict::inconclusive);
-  EXPECT_EQ(check(0.5, 2).reason, Reason::limit_useless);
+  EXPECT_EQ(check(0.5, 0.9).verdict, Verdict::pass);
+  EXPECT_EQ(check(0.5, 0.9).reason, Reason::none);
+  EXPECT_EQ(check(0.5, 0.9).limit, 0.9);
+  EXPECT_DOUBLE_EQ(check(0.5, 0.9).missed, 0.9e-6);
+  EXPECT_EQ(check(0.5, 2).verdict, Verdict::pass) << "a wide limit is a note";
+  EXPECT_EQ(check(0.5, 2).limit, 1) << "no check passes with a limit wider than is useful";
+  EXPECT_DOUBLE_EQ(check(0.5, 2).missed, 1e-6);
   EXPECT_NE(check(0.5, 2).why.find("the cause"), std::string::npos);
-  EXPECT_EQ(check(0.5, infinite).verdict, Verdict::inconclusive);
-  EXPECT_EQ(check(3, 2).verdict, Verdict::inconclusive) << "who rounds to more than what matters fails nobody";
+  EXPECT_EQ(check(0.5, 0.9).why, "why");
+  EXPECT_EQ(check(1.5, 2).verdict, Verdict::inconclusive);
+  EXPECT_EQ(check(1.5, 2).reason, Reason::limit_useless);
+  EXPECT_EQ(check(3, 2).verdict, Verdict::fail) << "beyond the derived limit, however wide";
+  EXPECT_EQ(check(0.5, infinite).verdict, Verdict::inconclusive) << "no limit was found";
   EXPECT_EQ(check(3, 1).verdict, Verdict::fail);
   EXPECT_EQ(check(nan, 2).verdict, Verdict::fail);
   EXPECT_EQ(check(0.5, nan).verdict, Verdict::fail);
+}
+
+TEST(Worst, showsTheValueNearestToTheLesserOfLimitAndUse) {
+  Worst worst;
+  worst.add(0.5, 100, 1, 1);  // a wide limit, which the use of 1 bounds
+  worst.add(0.2, 0.8, 2, 2);  // nearer to its own limit
+  EXPECT_EQ(worst.shown(1).t, 1);
+  EXPECT_EQ(worst.shown(1).limit, 1);
+  EXPECT_EQ(worst.shown(10).t, 2);
+  EXPECT_EQ(worst.shown(10).limit, 0.8);
+  EXPECT_TRUE(worst.shown(0.4).undecided);
+  EXPECT_FALSE(worst.shown(0.4).beyond);
+  worst.add(0.9, 0.8, 3, 3);
+  EXPECT_TRUE(worst.shown(0.4).beyond) << "one that is beyond its own limit decides";
+  EXPECT_EQ(worst.shown(0.4).t, 3);
 }
 
 TEST(Largest, isTheValueUntilMoreIsKnown) {

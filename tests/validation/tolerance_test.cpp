@@ -91,7 +91,7 @@ TEST(Tolerance, isPlainNumbersForMotorsOfBothSorts) {
 }
 
 TEST(Tolerance, noNumberIsNeverWithin) {
-  const ValidationResult result = judgedWith(std::nan(""), EffortTolerance{1, 1e9});
+  const ValidationResult result = judgedWith(std::nan(""), EffortTolerance{1, 1e9, true});
   EXPECT_EQ(result.verdict, Verdict::fail);
 }
 
@@ -165,6 +165,40 @@ TEST(Tolerance, doesNotCoverWhatTheFileLeavesOut) {
   EXPECT_EQ(validateExternal(scenario, half.file()).verdict, Verdict::inconclusive);
 }
 
+/// A tolerance judges what was asked: between 2, 5 or 11 rows the torques may be anything.
+TEST(Tolerance, leavesOpenWhatLiesBetweenFewRows) {
+  Scenario scenario = scenarioOf("paper-helix");
+  for (const double relative : {1e-12, 1e-6, 1e-3}) {
+    scenario.tolerance = EffortTolerance{relative, 0};
+    for (const int rows : {2, 3, 5, 6, 11})
+      EXPECT_EQ(validateExternal(scenario, exactTorques(scenario, rows).file()).verdict, Verdict::inconclusive)
+          << rows << " rows, " << relative;
+  }
+  EXPECT_EQ(validateExternal(scenario, exactTorques(scenario, 301).file()).verdict, Verdict::pass);
+}
+
+TEST(Tolerance, atWhichTorquesOfZeroWouldPassIsRefused) {
+  Scenario scenario = scenarioOf("paper-helix");
+  const TorqueTable right = exactTorques(scenario, 31);
+  for (const EffortTolerance& tolerance : {EffortTolerance{1, 0}, EffortTolerance{0, 3e4}, EffortTolerance{0.5, 2e4}}) {
+    scenario.tolerance = tolerance;
+    EXPECT_THROW(validateExternal(scenario, right.file()), ScenarioError);
+    EXPECT_THROW(validate(scenario), ScenarioError);
+  }
+  scenario.tolerance = EffortTolerance{1, 0, true};
+  EXPECT_EQ(validateExternal(scenario, right.file()).verdict, Verdict::pass);
+  scenario.tolerance = EffortTolerance{0.9, 0};
+  EXPECT_EQ(validateExternal(scenario, right.file()).verdict, Verdict::pass);
+}
+
+TEST(Sentence, saysWhatWouldHaveBeenSeen) {
+  EffortDeviation deviation;
+  deviation.largest_effort = 10;
+  EXPECT_THAT(sentence(deviation), Not(HasSubstr("would have been seen")));
+  deviation.seen = 3e-13;
+  EXPECT_THAT(sentence(deviation), HasSubstr("An error of 3e-13 of the largest torque would have been seen."));
+}
+
 TEST(Sentence, saysHowRightWhereAndWhatFollows) {
   EffortDeviation deviation;
   deviation.largest = 7.4;
@@ -174,10 +208,11 @@ TEST(Sentence, saysHowRightWhereAndWhatFollows) {
   deviation.drift = 0.041;
   deviation.duration = 3;
   deviation.length = 1;
-  EXPECT_EQ(sentence(deviation),
-            "Right to 0.03 %: the largest deviation is 7.4 N m of 25066 N m, leg 3 at t = 2.97 s; from errors of this "
-            "size the open-loop motion would drift by up to 41 mm in 3 s; the smallest --rtol that would pass is "
-            "0.00029523.");
+  EXPECT_EQ(
+      sentence(deviation),
+      "Off by at most 0.03 %: the largest deviation is 7.4 N m of 25066 N m, leg 3 at t = 2.97 s; from errors of this "
+      "size the open-loop motion would drift by up to 41 mm in 3 s; the smallest --rtol that would pass is "
+      "0.00029523.");
   deviation.drift = 2;
   EXPECT_THAT(sentence(deviation), HasSubstr("may be lost within 3 s"));
   deviation.drift = std::nan("");

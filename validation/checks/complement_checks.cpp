@@ -27,10 +27,12 @@ std::vector<Check> judgeComplement(const std::vector<ComplementSample>& samples,
     at = sample.t;
     shown = &sample;
   }
-  Check product = judged(orthogonality, worst.value, worst.limit, "",
-                         "eps x kappa(B) kappa(legs) x what roundings add up to at most, of ||D|| ||T||",
-                         fmt::format("|| D T || over || D || || T || (33), at {} instants; shown for t = {:.6g} s",
-                                     samples.size(), worst.t * units.time));
+  const CheckedQuantity quantity{orthogonality, "", 1};
+  Check product =
+      judgedIfUseful(quantity, worst, "eps x kappa(B) kappa(legs) x what roundings add up to at most, of ||D|| ||T||",
+                     fmt::format("|| D T || over || D || || T || (33), at {} instants; shown for t = {:.6g} s",
+                                 samples.size(), worst.shown(quantity.useful()).t * units.time),
+                     "a singular pose or a stretched leg is near");
   product.largest = {worst.largest, worst.largest_t * units.time, ""};
   Check ranks = judged(rank, missing, 0, "", "D leaves six freedoms, T spans them",
                        fmt::format("D has rank {} of {}, T has rank {} of {}, at t = {:.6g} s", shown->rank_D,

@@ -2,22 +2,31 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "validation/samples/place_name.h"
 #include "validation/verdict/worst_share.h"
 
 namespace ursula {
 
 Check judgeAgainstNoc(const ExternalTorques& torques, const Units& units) {
-  Worst shown;
+  Worst worst;
+  CheckedQuantity quantity{"torque.against_noc", units.efforts.unit};
   for (std::size_t k = 0; k < torques.against_noc.size(); ++k) {
     const Deviation& each = torques.against_noc[k];
-    shown.add(each.error, each.limit, torques.file.t[k], each.where);
+    worst.add(each.error, each.limit, torques.file.t[k], each.where);
+    quantity.given = std::max(quantity.given, each.given);
   }
-  if (!shown.any) return notMade("torque.against_noc", units.efforts.unit, "no instant was compared");
-  Check check = judged("torque.against_noc", shown.value, shown.limit, units.efforts.unit, "as for torque.pointwise",
-                       fmt::format("torques against this program's NOC, at {} instants; shown for t = {:.6g} s, leg {}",
-                                   torques.file.rows(), shown.t * units.time, units.legOf(shown.where) + 1));
-  check.largest = {shown.largest, shown.largest_t * units.time, placeName(units.legOf(shown.largest_where), false)};
+  for (const PointwiseSample& sample : torques.samples)
+    quantity.size = std::max(quantity.size, sample.torques_simbody.cwiseAbs().maxCoeff());
+  if (!worst.any) return notMade(quantity.name, quantity.unit, "no instant was compared");
+  const Shown shown = worst.shown(quantity.useful());
+  Check check =
+      judgedIfUseful(quantity, worst, "as for torque.pointwise",
+                     fmt::format("torques against this program's NOC, at {} instants; shown for t = {:.6g} s, {}",
+                                 torques.file.rows(), shown.t * units.time, motorName(units, shown.where)),
+                     causeOfRounding(torques.samples, worst.widest_t));
+  check.largest = {worst.largest, worst.largest_t * units.time, motorName(units, worst.largest_where)};
   return check;
 }
 

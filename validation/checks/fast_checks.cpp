@@ -60,12 +60,13 @@ Check judgeKernel(const Kernel& kernel, const FastSamples& fast, const std::vect
   const auto setOf = [&](int where) {
     return where < 0 ? "" : std::string(nameOf(fast.answers[static_cast<std::size_t>(where)].set));
   };
+  const CheckedQuantity quantity{kernel.check, unit, size};
+  const Shown shown = worst.shown(quantity.useful());
   Check check = judgedIfUseful(
-      kernel.check, worst.value, limitToJudge(worst, useful_share * size), useful_share * size, unit,
-      "twice the rounding of the NOC: both sides round",
+      quantity, worst, "twice the rounding of the NOC: both sides round",
       fmt::format("{} by the fast kernels against the NOC, at {} instants, with {}; shown for t = {:.6g} s, {}",
-                  kernel.what, fast.samples.size(), sets, worst.t * units.time, setOf(worst.where)),
-      fmt::format("it exceeds {:g} of the largest: {}", useful_share, causeOfRounding(samples, worst.widest_t)));
+                  kernel.what, fast.samples.size(), sets, shown.t * units.time, setOf(shown.where)),
+      causeOfRounding(samples, worst.widest_t));
   check.largest = {worst.largest, worst.largest_t * units.time, setOf(worst.largest_where)};
   return check;
 }

@@ -46,13 +46,13 @@ Check judgeInvariance(const InvarianceSamples& sides, const std::vector<Pointwis
               static_cast<int>(leg));
     torque = std::max(torque, sample.torques_simbody.cwiseAbs().maxCoeff());
   }
-  Check check = judgedIfUseful(
-      words.check, worst.value, limitToJudge(worst, useful_share * torque), useful_share * torque, units.efforts.unit,
-      "twice the solver's own rounding: both sides round",
-      fmt::format("{}, at {} instants; shown for t = {:.6g} s, leg {}", words.what, samples.size(),
-                  worst.t * units.time, units.legOf(worst.where) + 1),
-      fmt::format("it exceeds {:g} of the largest torque: {}", useful_share, causeOfRounding(samples, worst.widest_t)));
-  check.largest = {worst.largest, worst.largest_t * units.time, placeName(units.legOf(worst.largest_where), false)};
+  const CheckedQuantity quantity{words.check, units.efforts.unit, torque};
+  const Shown at = worst.shown(quantity.useful());
+  Check check = judgedIfUseful(quantity, worst, "twice the solver's own rounding: both sides round",
+                               fmt::format("{}, at {} instants; shown for t = {:.6g} s, {}", words.what, samples.size(),
+                                           at.t * units.time, motorName(units, at.where)),
+                               causeOfRounding(samples, worst.widest_t));
+  check.largest = {worst.largest, worst.largest_t * units.time, motorName(units, worst.largest_where)};
   return check;
 }
 

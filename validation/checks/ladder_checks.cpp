@@ -7,6 +7,8 @@
 #include <cmath>
 #include <functional>
 
+#include "validation/verdict/worst_share.h"
+
 namespace ursula {
 namespace {
 
@@ -49,17 +51,20 @@ Check judgeConvergence(const Ladder& ladder, const WindowedReplay& finest, doubl
   const bool heedless =
       steps <= 1 && static_cast<double>(finest.replay.accepted) > 1.5 * static_cast<double>(fine.steps);
   const double share = heedless ? 1 / least_gain : std::max(1 / least_gain, 2 * std::pow(steps, -nominal_order / 2));
-  Check check = judged(
-      "integration.ladder", fine.distance,
-      std::max({coarse.distance * share, roundingBound(finest, position_scale, finest.window.end()),
-                harmless * useful_replay_limit * finest.window.length}),
-      "m",
+  Worst worst;
+  worst.add(fine.distance,
+            std::max({coarse.distance * share, roundingBound(finest, position_scale, finest.window.end()),
+                      harmless * useful_replay_limit * finest.window.length}),
+            finest.window.end());
+  Check check = judgedIfUseful(
+      {"integration.ladder", "m", finest.window.length}, worst,
       fmt::format(
           "{:.3g} of what it is at a tolerance of {:g}, which takes {} steps of {}; or what rounding may make of "
           "it; or {:g} of what a replay's limit may be",
           share, coarse.tolerance, coarse.steps, fine.steps, harmless),
       fmt::format("ends of the replay at tolerances {:g} and {:g}; observed orders {} of {}, {}", fine.tolerance,
-                  finest.replay.tolerance, orders, nominal_order, ladder.asymptotic ? "asymptotic" : "not asymptotic"));
+                  finest.replay.tolerance, orders, nominal_order, ladder.asymptotic ? "asymptotic" : "not asymptotic"),
+      "a coarser tolerance, or rounding, moves the end by as much");
   if (check.verdict == Verdict::fail && ladder.passes_knots)
     check =
         notJudgeable(Reason::limit_useless, check.name, check.value, check.limit, "m", check.basis,
@@ -69,22 +74,31 @@ Check judgeConvergence(const Ladder& ladder, const WindowedReplay& finest, doubl
 
 Check judgeSecond(const Ladder& ladder, const WindowedReplay& finest, double position_scale, const Units& units) {
   static constexpr const char* check = "integration.second";
+  if (!(ladder.second_contradiction <= useful_contradiction))
+    return notApplicable(
+        check, "m",
+        fmt::format("Simbody's integrator takes accelerations of Simbody's own forward dynamics, which are off by "
+                    "{:.2g} m/s^2 from what its constraints and inverse dynamics ask: links are nearly massless",
+                    ladder.second_contradiction * units.acceleration()));
   if (ladder.second.empty()) return notMade(check, "m", "there was no second integrator");
   const Rung& second = ladder.second.back();
   for (const Rung& rung : ladder.second)
     if (!rung.gave_up.empty() || rung.left_path)
       return notJudgeable(Reason::unfinished, check, std::nan(""), std::nan(""), "m", "",
                           "Simbody's integrator did not get there: " + rung.gave_up);
-  return judged(
-      check, second.distance,
-      second_safety * ladder.second_difference + replayLimit(finest, position_scale, ladder.second_end), "m",
+  Worst worst;
+  worst.add(second.distance,
+            second_safety * ladder.second_difference + replayLimit(finest, position_scale, ladder.second_end),
+            ladder.second_end);
+  return judgedIfUseful(
+      {check, "m", finest.window.length}, worst,
       fmt::format("{:g} times what longer steps, at ten times the accuracy, change of it, and the limit of "
                   "replay.position there",
                   second_safety),
       fmt::format("the replay by Simbody's RungeKuttaMerson to t = {:.6g} s, accuracy {:g}, {} derivative evaluations, "
                   "against {}",
-                  ladder.second_end * units.time, second.tolerance, second.evaluations,
-                  name(finest.replay.integrator)));
+                  ladder.second_end * units.time, second.tolerance, second.evaluations, name(finest.replay.integrator)),
+      "longer steps of that integrator move its end by as much");
 }
 
 }  // namespace

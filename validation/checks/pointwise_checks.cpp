@@ -22,9 +22,8 @@ struct Quantity {
   const char* shape;  ///< of the limit, in words; times eps and a level
   Deviation PointwiseSample::*deviation;
   bool of_body;
-  /// The quantity's own size, of which useful_share is what a limit may be; 0 where any limit says something.
-  std::function<double(const PointwiseSample&)> size = nullptr;
-  const char* further = "";  ///< what the limit has beside, in words
+  std::function<double(const PointwiseSample&)> size;  ///< the quantity's own
+  const char* further = "";                            ///< what the limit has beside, in words
 };
 
 /// Every limit is a derived shape and a level: measured (RoundingProfile), or derived (rounding_depth).
@@ -35,10 +34,14 @@ std::string basisOf(const Quantity& quantity, Level level) {
              : fmt::format("eps {} x {:g}, what roundings add up to at most", quantity.shape, rounding_depth);
 }
 
+const PointwiseSample& sampleAt(const std::vector<PointwiseSample>& samples, double t) {
+  return *std::find_if(samples.begin(), std::prev(samples.end()),
+                       [t](const PointwiseSample& sample) { return sample.motion.t == t; });
+}
+
 double largestSize(const std::vector<PointwiseSample>& samples, const Quantity& quantity) {
   double largest = 0;
-  for (const PointwiseSample& sample : samples)
-    if (quantity.size) largest = std::max(largest, quantity.size(sample));
+  for (const PointwiseSample& sample : samples) largest = std::max(largest, quantity.size(sample));
   return largest;
 }
 
@@ -49,35 +52,27 @@ Check judgeQuantity(const std::vector<PointwiseSample>& samples, Quantity quanti
                     Level level = Level::measured) {
   const bool is_effort = quantity.unit == of_efforts;
   if (is_effort) quantity.unit = units.efforts.unit;
-  const auto nameOf = [&](int where) { return placeName(is_effort ? units.legOf(where) : where, quantity.of_body); };
-  Worst shown;
-  const PointwiseSample* at = nullptr;
-  const PointwiseSample* widest = nullptr;  // by rounding alone: digits that were not printed are no fault of a limit
-  double widest_rounding = 0;
+  const auto nameOf = [&](int where) {
+    return is_effort ? motorName(units, where) : placeName(where, quantity.of_body);
+  };
+  Worst worst;
+  double given = 0;  // digits that were not printed are no fault of a limit
   for (const PointwiseSample& sample : samples) {
     if (!sample.refused.empty()) return notMade(quantity.name, quantity.unit, "no answer: " + sample.refused);
     const Deviation& deviation = sample.*quantity.deviation;
-    shown.add(deviation.error, deviation.limit, sample.motion.t, deviation.where);
-    if (shown.t == sample.motion.t) at = &sample;
-    if (widest == nullptr || !(deviation.limit - deviation.given <= widest_rounding))
-      widest = &sample, widest_rounding = deviation.limit - deviation.given;
+    worst.add(deviation.error, deviation.limit, sample.motion.t, deviation.where);
+    given = std::max(given, deviation.given);
   }
-  if (at == nullptr) return notMade(quantity.name, quantity.unit, "no instant was compared");
-  const Conditioning& c = at->conditioning;
+  if (!worst.any) return notMade(quantity.name, quantity.unit, "no instant was compared");
+  const CheckedQuantity of{quantity.name, quantity.unit, largestSize(samples, quantity), given};
+  const Shown shown = worst.shown(of.useful());
+  const Conditioning& c = sampleAt(samples, shown.t).conditioning;
   const std::string basis = fmt::format("{}; there kappa(B) = {:.3g}, kappa(legs) = {:.3g}, eps = {:.3g}",
                                         basisOf(quantity, level), c.kappa_B, c.kappa_legs, eps);
   const std::string why = fmt::format("{}, at {} instants; shown for t = {:.6g} s, {}", quantity.what, samples.size(),
                                       shown.t * units.time, nameOf(shown.where));
-  const double useful = quantity.size ? useful_share * largestSize(samples, quantity) : widest_rounding;
-  Check check = judged(quantity.name, shown.value, shown.limit, quantity.unit, basis, why);
-  const Deviation& shown_at = at->*quantity.deviation;  // what an engine makes there is not to be trusted either way
-  const bool beyond_use = quantity.size && !std::isnan(shown.value) && shown_at.limit - shown_at.given > useful;
-  if (beyond_use || (check.verdict == Verdict::pass && !(widest_rounding <= useful)))
-    check =
-        notJudgeable(Reason::limit_useless, quantity.name, shown.value, widest_rounding, quantity.unit, basis,
-                     fmt::format("{}; at t = {:.6g} s the limit exceeds {:g} of the quantity's size: {}", why,
-                                 widest->motion.t * units.time, useful_share, causeOfRounding(widest->conditioning)));
-  check.largest = {shown.largest, shown.largest_t * units.time, nameOf(shown.largest_where)};
+  Check check = judgedIfUseful(of, worst, basis, why, causeOfRounding(samples, worst.widest_t));
+  check.largest = {worst.largest, worst.largest_t * units.time, nameOf(worst.largest_where)};
   return check;
 }
 
@@ -106,7 +101,8 @@ const std::vector<Quantity>& kinematicQuantities() {
       {"kinematics.jacobian_rate", "m/s^2", "T phi_ddot + T_dot phi_dot (25) with Simbody's joint motion",
        "kappa(legs)^2 kappa(B)^2 x acceleration", &S::jacobian_rate, true, rate},
       {"kinematics.jacobian_difference", "m/s", "T_dot against five-point differences of T along the motion",
-       "kappa(legs) kappa(B) x ||T|| x 1.5 / step", &S::jacobian_difference, true, nullptr,
+       "kappa(legs) kappa(B) x ||T|| x 1.5 / step", &S::jacobian_difference, true,
+       [spin](const S& s) { return s.conditioning.shaping_scale * (1 + spin(s) / s.conditioning.length); },
        ", and what doubling the step changes"},
   };
   return quantities;

@@ -32,15 +32,17 @@ Check judgeReactions(const std::vector<ReactionSample>& reactions, const std::ve
     }
   }
   if (!worst.any) return notMade("reactions.pointwise", "N", "no instant was compared");
+  const CheckedQuantity quantity{"reactions.pointwise", "N", size};
+  const Shown shown = worst.shown(quantity.useful());
   Check check = judgedIfUseful(
-      "reactions.pointwise", worst.value, limitToJudge(worst, useful_share * size), useful_share * size, "N",
+      quantity, worst,
       fmt::format("eps (kappa(B)^2 kappa(legs) x || |T|' |w| || / length + largest mass x the acceleration's) x "
                   "{:g} x the spread measured in turned and rescaled frames",
                   rounding_safety),
       fmt::format("forces, and moments over the machine's length, at all joints against Simbody's mobilizer and "
                   "constraint reactions, at {} instants; shown for t = {:.6g} s, leg {}; the largest is {:.6g} N",
-                  samples.size(), worst.t * units.time, worst.where + 1, size * units.force()),
-      fmt::format("it exceeds {:g} of the largest: {}", useful_share, causeOfRounding(samples, worst.widest_t)));
+                  samples.size(), shown.t * units.time, shown.where + 1, size * units.force()),
+      causeOfRounding(samples, worst.widest_t));
   check.largest = {worst.largest, worst.largest_t * units.time, placeName(worst.largest_where, false)};
   return check;
 }

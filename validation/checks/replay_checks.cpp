@@ -17,7 +17,7 @@ struct Measure {
   std::function<double(const ReplayStep&)> value;
   std::function<double(const WindowedReplay&, const ReplayStep&)> limit;
   std::string basis;
-  double useful = 0;  ///< a larger limit says nothing; 0 where any limit does
+  double size = 0;  ///< of what is measured
 };
 
 Worst worstOf(const std::vector<WindowedReplay>& windows, const Measure& measure) {
@@ -51,9 +51,6 @@ std::string causeOf(const std::vector<WindowedReplay>& windows, double t, const 
   return "";
 }
 
-/// `useful` 0: any limit says something, but for an infinite one.
-bool isUseless(double limit, double useful) { return useful > 0 ? !(limit <= useful) : !std::isfinite(limit); }
-
 Check judgeMeasure(const std::vector<WindowedReplay>& windows, const Measure& measure, const Units& units,
                    const std::string& cause) {
   std::string unfinished;
@@ -64,24 +61,27 @@ Check judgeMeasure(const std::vector<WindowedReplay>& windows, const Measure& me
                     window.replay.stopped_at * units.time, window.replay.gave_up);
     if (!window.replay.too_long) return notMade(measure.name, measure.unit, unfinished);
   }
-  const Worst shown = worstOf(windows, measure);
-  if (!shown.any) return notMade(measure.name, measure.unit, "no step was compared");
+  const Worst worst = worstOf(windows, measure);
+  if (!worst.any) return notMade(measure.name, measure.unit, "no step was compared");
+  const CheckedQuantity quantity{measure.name, measure.unit, measure.size};
+  const Shown shown = worst.shown(quantity.useful());
   const std::string where =
       windows.size() == 1 ? "open loop over the whole motion" : fmt::format("open loop in {} windows", windows.size());
   const std::string why =
       fmt::format("{}, {}, at {} steps; shown for t = {:.6g} s{}{}", measure.what, where, stepsOf(windows),
                   shown.t * units.time, unfinished.empty() ? "" : "; ", unfinished);
-  Check check = judged(measure.name, shown.value, shown.limit, measure.unit, measure.basis, why);
-  if (!unfinished.empty() && shown.value <= shown.limit)
+  Check check = judgedIfUseful(quantity, worst, measure.basis, why, causeOf(windows, worst.widest_t, cause));
+  if (!unfinished.empty() && !shown.beyond)
     check = notJudgeable(Reason::unfinished, measure.name, shown.value, shown.limit, measure.unit, measure.basis, why);
-  else if (shown.value <= shown.limit && isUseless(shown.widest_limit, measure.useful))
-    check =
-        notJudgeable(Reason::limit_useless, measure.name, shown.value, shown.widest_limit, measure.unit, measure.basis,
-                     fmt::format("{}; at t = {:.6g} s the limit exceeds {:.3g} {}, beyond which it says nothing: {}",
-                                 why, shown.widest_t * units.time, measure.useful * units.of(measure.unit),
-                                 measure.unit, causeOf(windows, shown.widest_t, cause)));
-  check.largest = {shown.largest, shown.largest_t * units.time, ""};
+  check.largest = {worst.largest, worst.largest_t * units.time, ""};
   return check;
+}
+
+/// The largest of all steps.
+double energyOf(const std::vector<WindowedReplay>& windows) {
+  double largest = 0;
+  for (const WindowedReplay& window : windows) largest = std::max(largest, window.replay.energy_scale);
+  return largest;
 }
 
 double stepCount(const WindowedReplay& window) { return static_cast<double>(window.replay.steps.size()); }
@@ -128,19 +128,19 @@ std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, doubl
   const std::string opening_basis = "rounding of the accelerations at which gaps open, all one way; " + integration;
   const std::vector<Measure> measures = {
       {"replay.position", "m", "P against the commanded path",
-       [](const ReplayStep& step) { return step.position_error.norm(); }, drift, drift_basis,
-       useful_replay_limit * length},
+       [](const ReplayStep& step) { return step.position_error.norm(); }, drift, drift_basis, length},
       {"replay.orientation", "rad", "orientation against the commanded one",
-       [](const ReplayStep& step) { return step.rotation_error.norm(); }, turn, drift_basis, useful_replay_limit},
+       [](const ReplayStep& step) { return step.rotation_error.norm(); }, turn, drift_basis, 1},
       {"closure.position", "m", "the six loops' gaps", [](const ReplayStep& step) { return step.closure.position; },
-       opening, opening_basis, useful_replay_limit * length},
+       opening, opening_basis, length},
       {"closure.velocity", "m/s", "the rates of the gaps", [](const ReplayStep& step) { return step.closure.velocity; },
-       rate, opening_basis},
+       rate, opening_basis, length},
       {"energy.balance", "J", "kinetic and potential energy against the work of torques, friction and load",
        [](const ReplayStep& step) { return std::abs(step.energy_error); }, energy,
        fmt::format("rounding of the energy, and the work of the {:.3g} N that hold the loops on gaps as wide as "
                    "closure.position allows; {}",
-                   forces.size * units.force(), integration)},
+                   forces.size * units.force(), integration),
+       energyOf(windows)},
   };
   std::vector<Check> checks;
   checks.reserve(measures.size());

@@ -47,15 +47,17 @@ Check judgeRoad(const std::vector<RoadSample>& samples, std::size_t k, const Uni
     torque = std::max(torque, sample.further[k]->cwiseAbs().maxCoeff());
     if (sample.t == shown.widest_t) cause = causeOfRounding(sample.conditioning);
   }
+  const CheckedQuantity quantity{kind.check, units.efforts.unit, torque};
+  const Shown at = shown.shown(quantity.useful());
   Check check = judgedIfUseful(
-      kind.check, shown.value, limitToJudge(shown, useful_share * torque), useful_share * torque, units.efforts.unit,
+      quantity, shown,
       fmt::format("eps kappa(B) kappa(legs) x || |T|' |w| || x {:g} x the spread measured in turned and rescaled "
                   "frames",
                   rounding_safety),
-      fmt::format("torques against {}, at {} instants; shown for t = {:.6g} s, leg {}", kind.made_of, samples.size(),
-                  shown.t * units.time, units.legOf(shown.where) + 1),
-      fmt::format("it exceeds {:g} of the largest torque: {}", useful_share, cause));
-  check.largest = {shown.largest, shown.largest_t * units.time, placeName(units.legOf(shown.largest_where), false)};
+      fmt::format("torques against {}, at {} instants; shown for t = {:.6g} s, {}", kind.made_of, samples.size(),
+                  at.t * units.time, motorName(units, at.where)),
+      cause);
+  check.largest = {shown.largest, shown.largest_t * units.time, motorName(units, shown.largest_where)};
   return check;
 }
 

@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include "validation/verdict/worst_share.h"
+
 namespace ursula {
 namespace {
 
-/// Above this share of the largest torque a limit says nothing worth knowing: torques between the samples have sharper
-/// witnesses, but none that sees all of the motion at once.
-constexpr double useful_feedback = 1e-4;
+/// Above this share of the largest torque a limit proves nothing where the replay gave up: rounding alone may then
+/// throw the machine about.
+constexpr double telling_limit = 1e-4;
 
 }  // namespace
 
@@ -16,14 +18,12 @@ Check judgeStabilised(const StabilisedReplay& found, double largest, const Units
   static constexpr const char* check = "feedback.torque";
   const std::string stopped =
       found.stopped.empty() ? "" : fmt::format("; {} at t = {:.6g} s", found.stopped, found.stopped_at * units.time);
-  const std::string useless = fmt::format("it exceeds {:g} of the largest torque: {}", useful_feedback,
-                                          found.noisiest ? causeOfRounding(*found.noisiest) : "");
+  const std::string cause = found.noisiest ? causeOfRounding(*found.noisiest) : "";
   if (found.gave_up && found.torque <= found.limit) {
     const std::string why = "the stabilised replay gave up" + stopped;
-    // Where rounding alone may throw the machine about, that proves nothing.
-    if (found.limit <= useful_feedback * largest) return notMade(check, units.efforts.unit, why);
+    if (found.limit <= telling_limit * largest) return notMade(check, units.efforts.unit, why);
     return notJudgeable(Reason::limit_useless, check, found.torque, found.limit, units.efforts.unit, "",
-                        why + "; the limit: " + useless);
+                        fmt::format("{}; the limit exceeds {:g} of the largest torque: {}", why, telling_limit, cause));
   }
   const std::string basis = fmt::format(
       "{:.3g} {}, twice the torque's largest rounding and the loops' as torque, answered with {:.3g} of it, and half "
@@ -34,8 +34,9 @@ Check judgeStabilised(const StabilisedReplay& found, double largest, const Units
       "t = {:.6g} s of {} steps, {} derivative evaluations{}",
       largest > 0 ? found.torque / largest : found.torque, found.t * units.time, found.steps, found.evaluations,
       stopped);
-  Check out = judgedIfUseful(check, found.torque, found.limit, useful_feedback * largest, units.efforts.unit, basis,
-                             why, useless);
+  Worst worst;
+  worst.add(found.torque, found.limit, found.t);
+  Check out = judgedIfUseful({check, units.efforts.unit, largest}, worst, basis, why, cause);
   if (found.torque <= found.limit && found.too_long)
     out = notJudgeable(Reason::unfinished, check, found.torque, found.limit, units.efforts.unit, basis, why);
   out.largest = {found.torque, found.t * units.time, ""};

@@ -61,6 +61,7 @@ std::optional<EffortDeviation> effortDeviation(const Evidence& evidence, const s
   bool any = false;
   for (const Check& check : checks) {
     if (!isOfTorques(check) || check.reason == Reason::not_made) continue;
+    if (!(out.seen <= check.missed)) out.seen = check.missed;
     if (any && !(check.largest.value > out.largest) && !std::isnan(check.largest.value)) continue;
     out.largest = check.largest.value;
     out.t = check.largest.t;
@@ -76,18 +77,33 @@ std::optional<EffortDeviation> effortDeviation(const Evidence& evidence, const s
   return out;
 }
 
-void judgeByTolerance(const Scenario& scenario, bool covered, ValidationResult& result) {
+void requireTellingTolerance(const Scenario& scenario) {
+  if (!scenario.tolerance || scenario.tolerance->any) return;
+  const double largest = largestEffort(scenario);
+  const double allowed = scenario.tolerance->relative * largest + scenario.tolerance->absolute;
+  if (!(largest > 0) || allowed < largest) return;
+  const char* unit = effortsOf(*scenario.manipulator).unit;
+  throw ScenarioError(fmt::format(
+      "{}: the tolerance allows {:.6g} {}, and the largest effort of the motion is {:.6g} {}: torques of zero "
+      "would pass. Expected a smaller one; --any-tolerance takes it all the same",
+      scenario.name, allowed, unit, largest, unit));
+}
+
+void judgeByTolerance(const Scenario& scenario, double between, ValidationResult& result) {
   if (!scenario.tolerance || !result.deviation) return;  // nothing was compared: the checks say why
   const EffortTolerance& tolerance = *scenario.tolerance;
   EffortDeviation& deviation = *result.deviation;
   deviation.allowed = tolerance.relative * deviation.largest_effort + tolerance.absolute;
+  if (deviation.largest_effort > 0) deviation.seen = deviation.allowed / deviation.largest_effort;
   const char* unit = effortsOf(*scenario.manipulator).unit;
   const std::string whose = fmt::format("the user's tolerance, {:g} of the largest effort, {:.6g} {}, and {:g} {}",
                                         tolerance.relative, deviation.largest_effort, unit, tolerance.absolute, unit);
   for (Check& check : result.checks) {
     if (isOfTorques(check)) judgeByUser(deviation.allowed, whose, check);
     if (!isReported(check) || check.verdict == Verdict::not_applicable) continue;
-    if (isNamed(scenario.acceptance, check.name) || (check.reason == Reason::not_covered && !covered)) continue;
+    if (isNamed(scenario.acceptance, check.name) ||
+        (check.reason == Reason::not_covered && !(between <= deviation.allowed)))
+      continue;
     check.verdict = Verdict::not_applicable;
     check.reason = Reason::reported;
     check.why = "reported, not judged, for at a tolerance of the user's the torques alone are: " + check.why;

@@ -14,7 +14,12 @@ std::optional<EffortDeviation> effortDeviation(const Evidence& evidence, const s
 
 /// Where the scenario has a tolerance of the user's: the checks of torques are held against it, each by its largest
 /// value, and what errors of that size do to accelerations and replays is reported, not judged, unless [acceptance]
-/// names it. `covered`: the torques are known over the whole motion; else what is missing stays inconclusive.
-void judgeByTolerance(const Scenario& scenario, bool covered, ValidationResult& result);
+/// names it. `between`: what the torques may be off by between the
+/// instants at which they are given, in SI, infinite where they are not known over the whole motion. Where that is more
+/// than the tolerance, what was not covered stays inconclusive.
+void judgeByTolerance(const Scenario& scenario, double between, ValidationResult& result);
+
+/// Throws ScenarioError where torques of zero would pass at the scenario's tolerance, unless it is `any`.
+void requireTellingTolerance(const Scenario& scenario);
 
 }  // namespace ursula

@@ -12,6 +12,8 @@
 namespace ursula {
 namespace {
 
+constexpr const char* check_name = "torque.between";
+
 /// Of the first round, and a quarter of it again where the torques curve. At the spacing that this gives the paper's
 /// motion of 3 s, a pulse of 1 ms is met more than once.
 constexpr int least_instants = 8192;
@@ -19,11 +21,6 @@ constexpr int least_instants = 8192;
 constexpr double instants_per_time = 600;
 /// … but for what would take seconds.
 constexpr int most_instants = 65536;
-
-struct Instant {
-  double t = 0;
-  Vector6d torques = Vector6d::Zero();
-};
 
 /// k φ⁻¹ mod 1: gaps of at most three lengths, none of them in step with anything (Knuth, The Art of Computer
 /// Programming 3, sect. 6.4, theorem S).
@@ -36,10 +33,10 @@ std::vector<double> goldenInstants(double duration, int count) {
 }
 
 /// The middles of the quarter of intervals about whose ends the torques curve most.
-std::vector<double> curvedInstants(const std::vector<Instant>& instants) {
+std::vector<double> curvedInstants(const std::vector<Answered>& instants) {
   std::vector<std::pair<double, double>> curved;  // second difference, middle
   for (std::size_t k = 1; k + 1 < instants.size(); ++k) {
-    const Instant &a = instants[k - 1], &b = instants[k], &c = instants[k + 1];
+    const Answered &a = instants[k - 1], &b = instants[k], &c = instants[k + 1];
     const double share = (b.t - a.t) / (c.t - a.t);
     const double bend = (b.torques - (1 - share) * a.torques - share * c.torques).cwiseAbs().maxCoeff();
     curved.emplace_back(std::isnan(bend) ? std::numeric_limits<double>::infinity() : bend, (b.t + c.t) / 2);
@@ -70,21 +67,21 @@ class SampledTorqueLimit {
 
 class Comparison {
  public:
-  Comparison(const Scenario& scenario, const Subject& subject, const std::vector<PointwiseSample>& samples,
+  Comparison(const Scenario& scenario, Formulation judged, const std::vector<PointwiseSample>& samples,
              const RoundingProfile& profile)
       : trajectory_(*scenario.trajectory),
-        subject_(subject),
-        other_(subject.formulation == Formulation::noc ? fastSubject(*scenario.manipulator, scenario.load)
-                                                       : nocSubject(*scenario.manipulator, scenario.load)),
+        other_(judged == Formulation::noc ? fastSubject(*scenario.manipulator, scenario.load)
+                                          : nocSubject(*scenario.manipulator, scenario.load)),
         limit_(samples),
         profile_(profile),
         look_(profile) {}
 
-  Instant at(double t) {
+  void add(const Answered& answer) {
+    const double t = answer.t;
     const Motion<double> motion = trajectory_.at(t);
-    const Instant out{t, subject_.torques(motion)};
+    const Vector6d expected = other_.torques(motion);
     Eigen::Index leg = 0;
-    const double error = (out.torques - other_.torques(motion)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(&leg);
+    const double error = (answer.torques - expected).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(&leg);
     double limit = limit_.at(t);
     // A limit of its own is dear: for what would decide, and not for each instant of torques that are wrong all along.
     const bool decided = worst_.beyond() && Worst::share(error, limit) <= Worst::share(worst_.value, worst_.limit);
@@ -93,60 +90,91 @@ class Comparison {
       limit = look_.limit(error, here, Rounded::torque, motion);
     }
     worst_.add(error, limit, t, static_cast<int>(leg));
-    return out;
+    size_ = std::max(size_, expected.cwiseAbs().maxCoeff());
   }
 
   const Worst& worst() const { return worst_; }
+  double size() const { return size_; }  ///< of the expected torques
 
  private:
   const Trajectory& trajectory_;
-  const Subject& subject_;
   Subject other_;  ///< of another formulation than the subject
   SampledTorqueLimit limit_;
   const RoundingProfile& profile_;
   SecondLook look_;
   Worst worst_;
+  double size_ = 0;
 };
+
+double widestGap(const std::vector<Answered>& in_order, double duration) {
+  double gap = 0, before = 0;
+  for (const Answered& answer : in_order) {
+    gap = std::max(gap, answer.t - before);
+    before = answer.t;
+  }
+  return std::max(gap, duration - before);
+}
+
+void sortByTime(std::vector<Answered>& answers) {
+  std::stable_sort(answers.begin(), answers.end(), [](const Answered& a, const Answered& b) { return a.t < b.t; });
+}
+
+/// `what` was compared.
+Check checkOf(const Comparison& comparison, const std::string& what, double gap,
+              const std::vector<PointwiseSample>& samples, const Units& units) {
+  const Worst& worst = comparison.worst();
+  const CheckedQuantity quantity{check_name, units.efforts.unit, comparison.size()};
+  const Shown shown = worst.shown(quantity.useful());
+  Check out = judgedIfUseful(
+      quantity, worst, "as for torque.pointwise, at each instant",
+      fmt::format("{}; shown for t = {:.6g} s, {}; a pulse longer than {:.2g} s and larger than {:.2g} {} would "
+                  "have been seen",
+                  what, shown.t * units.time, motorName(units, shown.where), gap * units.time,
+                  std::min(worst.widest_limit, quantity.useful()) * units.effort(), units.efforts.unit),
+      causeOfRounding(samples, worst.widest_t));
+  out.largest = {worst.largest, worst.largest_t * units.time, motorName(units, worst.largest_where)};
+  return out;
+}
 
 }  // namespace
 
 Check judgeBetween(const Scenario& scenario, const Subject& subject, const std::vector<PointwiseSample>& samples,
                    const RoundingProfile& profile, const Units& units) {
-  static constexpr const char* check = "torque.between";
-  if (samples.empty()) return notMade(check, units.efforts.unit, "no instant was compared");
+  if (samples.empty()) return notMade(check_name, units.efforts.unit, "no instant was compared");
   const double duration = scenario.trajectory->duration();
   const int count =
       std::clamp(static_cast<int>(std::min(instants_per_time * duration, 1e9)), least_instants, most_instants);
-  Comparison comparison(scenario, subject, samples, profile);
-  std::vector<Instant> instants;
-  double gap = 0, before = 0;
-  try {
-    // In that order, not in time: what is largest is then met early.
-    const std::vector<double> golden = goldenInstants(duration, count);
-    foresee(subject, *scenario.trajectory, golden);
-    for (double t : golden) instants.push_back(comparison.at(t));
-    std::sort(instants.begin(), instants.end(), [](const Instant& a, const Instant& b) { return a.t < b.t; });
-    for (const Instant& instant : instants) {
-      gap = std::max(gap, instant.t - before);
-      before = instant.t;
+  Comparison comparison(scenario, subject.formulation, samples, profile);
+  std::vector<Answered> instants;
+  const auto ask = [&](const std::vector<double>& at) {
+    foresee(subject, *scenario.trajectory, at);
+    for (double t : at) {
+      instants.push_back({t, subject.torques(scenario.trajectory->at(t))});
+      comparison.add(instants.back());
     }
-    const std::vector<double> curved = curvedInstants(instants);
-    foresee(subject, *scenario.trajectory, curved);
-    for (double t : curved) comparison.at(t);
+  };
+  try {
+    ask(goldenInstants(duration, count));  // in that order, not in time: what is largest is then met early
+    sortByTime(instants);
+    ask(curvedInstants(instants));
   } catch (const PoseError& error) {
-    return notMade(check, units.efforts.unit, std::string("no answer: ") + error.what());
+    return notMade(check_name, units.efforts.unit, std::string("no answer: ") + error.what());
   }
-  gap = std::max(gap, duration - before);
-  const Worst& shown = comparison.worst();
-  Check out = judged(
-      check, shown.value, shown.limit, units.efforts.unit, "as for torque.pointwise, at each instant",
-      fmt::format("torques against {}, at {} instants between the samples; shown for t = {:.6g} s, leg {}; a pulse "
-                  "longer than {:.2g} s and larger than {:.2g} {} would have been seen",
-                  subject.formulation == Formulation::noc ? "those of the fast kernels" : "the NOC's",
-                  count + count / 4, shown.t * units.time, units.legOf(shown.where) + 1, gap * units.time,
-                  shown.widest_limit * units.effort(), units.efforts.unit));
-  out.largest = {shown.largest, shown.largest_t * units.time, placeName(units.legOf(shown.largest_where), false)};
-  return out;
+  sortByTime(instants);
+  const char* other = subject.formulation == Formulation::noc ? "those of the fast kernels" : "the NOC's";
+  return checkOf(comparison,
+                 fmt::format("torques against {}, at {} instants between the samples", other, count + count / 4),
+                 widestGap(instants, duration), samples, units);
+}
+
+Check judgeAnswers(const Scenario& scenario, std::vector<Answered> answers, const std::vector<PointwiseSample>& samples,
+                   const RoundingProfile& profile, const Units& units) {
+  Comparison comparison(scenario, Formulation::external, samples, profile);
+  for (const Answered& answer : answers) comparison.add(answer);
+  sortByTime(answers);
+  return checkOf(comparison,
+                 fmt::format("every one of {} answers against the NOC's at its own instant", answers.size()),
+                 widestGap(answers, scenario.trajectory->duration()), samples, units);
 }
 
 }  // namespace ursula

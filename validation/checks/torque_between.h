@@ -17,4 +17,9 @@ namespace ursula {
 Check judgeBetween(const Scenario& scenario, const Subject& subject, const std::vector<PointwiseSample>& samples,
                    const RoundingProfile& profile, const Units& units = {});
 
+/// Every answer that a subject gave, whatever it was asked for, against the NOC's: in the place of judgeBetween's
+/// check, whose instants are among them. Beyond the first thousands a solver may be wrong, too.
+Check judgeAnswers(const Scenario& scenario, std::vector<Answered> answers, const std::vector<PointwiseSample>& samples,
+                   const RoundingProfile& profile, const Units& units);
+
 }  // namespace ursula

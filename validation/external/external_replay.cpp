@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "validation/external/torque_spline.h"
@@ -105,9 +106,11 @@ ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& t
   const double duration = scenario.trajectory->duration();
   ExternalReplay out;
   out.amplification = std::make_shared<const Amplification>(linearised(scenario));
-  out.covered = covers(torques.file, duration);
   out.not_replayed = missing(torques, duration, units);
-  if (!out.not_replayed.empty()) return out;
+  if (!out.not_replayed.empty()) {
+    out.between = std::numeric_limits<double>::infinity();
+    return out;
+  }
 
   const Amplification& amplification = *out.amplification;
   const auto limit = std::make_shared<const SplineLimit>(scenario, torques, amplification.instants());
@@ -131,6 +134,7 @@ ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& t
         window->start() * units.time, bound * units.length, (window->end() - window->start()) * units.time,
         useful * units.length);
     out.bound = bound;
+    out.between = limit->largestInterpolation() + limit->largestOfDigits();
     out.spline = basis;
     return out;
   }

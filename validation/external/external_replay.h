@@ -17,9 +17,11 @@ struct ExternalReplay {
   ReplayPlan plan;                      ///< how, with the torques replayed
   std::shared_ptr<const Amplification> amplification;
   ReplayScales scales;
-  std::string spline;        ///< what the torques may be off by between the samples, in words
-  bool covered = true;       ///< the instants reach from the start of the motion to its end
-  std::string not_replayed;  ///< why the replay cannot be judged, else empty
+  std::string spline;  ///< what the torques may be off by between the samples, in words
+  /// What the torques may be off by between the instants: 0 where they were replayed, infinite where they are not
+  /// known.
+  double between = 0;
+  std::string not_replayed;                                 ///< why the replay cannot be judged, else empty
   double bound = std::numeric_limits<double>::quiet_NaN();  ///< where the limit is why, that limit, m
 };
 

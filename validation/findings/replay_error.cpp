@@ -88,7 +88,12 @@ void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units&
   const bool limit_too_large = std::any_of(result.checks.begin(), result.checks.end(), [](const Check& check) {
     return check.reason == Reason::limit_useless && check.name.rfind("replay.", 0) == 0;
   });
-  const ErrorSource dominant = limit_too_large   ? ErrorSource::amplification
+  // Torques that are off between the samples leave no residual at them, and the error seems to come from elsewhere.
+  const bool torques_fail = std::any_of(result.checks.begin(), result.checks.end(), [](const Check& check) {
+    return check.verdict == Verdict::fail && check.reason == Reason::none && check.name.rfind("torque.", 0) == 0;
+  });
+  const ErrorSource dominant = torques_fail      ? ErrorSource::model
+                               : limit_too_large ? ErrorSource::amplification
                                : budget.measured ? budget.dominant
                                                  : ErrorSource::model;
   ReplayError found = replayErrorOf(budget, units);

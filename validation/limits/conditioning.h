@@ -110,7 +110,4 @@ class ConditioningProbe {
 /// What makes a limit of rounding large here, with the number.
 std::string causeOfRounding(const Conditioning& at);
 
-/// Above this share of a quantity's own size a limit of rounding says nothing worth knowing.
-constexpr double useful_share = 1e-6;
-
 }  // namespace ursula

@@ -16,15 +16,15 @@ namespace {
 constexpr double heading = 30;  // px
 constexpr int most_slices = 6;
 
-struct Shown {
+struct ShownValues {
   std::string title;
   std::vector<float> values;  ///< NaN: out of reach
   report::HeatScale scale;
 };
 
 /// A pose without a number, being singular, is beyond any.
-Shown shown(const std::string& title, const DrawnMap& drawn, const std::vector<float>& values, bool log) {
-  Shown out{title, values, {values, log}};
+ShownValues shown(const std::string& title, const DrawnMap& drawn, const std::vector<float>& values, bool log) {
+  ShownValues out{title, values, {values, log}};
   for (std::size_t k = 0; k < values.size(); ++k)
     if (std::isnan(values[k]) && !std::isnan(drawn.kappa[k])) out.values[k] = std::numeric_limits<float>::infinity();
   return out;
@@ -39,7 +39,7 @@ report::HeatAxis axisOf(const PoseGrid& grid, std::size_t k) {
   return out;
 }
 
-report::HeatMap sliceOf(const PoseGrid& grid, const Shown& shown, int slice) {
+report::HeatMap sliceOf(const PoseGrid& grid, const ShownValues& shown, int slice) {
   report::HeatMap out{shown.title, axisOf(grid, 0), axisOf(grid, 1), {}};
   const auto cells = static_cast<std::ptrdiff_t>(out.x.values.size() * out.y.values.size());
   out.values.assign(shown.values.begin() + slice * cells, shown.values.begin() + (slice + 1) * cells);
@@ -78,9 +78,10 @@ text { font: 12px sans-serif; fill: #333 } .title { font-size: 13px } .name { fo
 }  // namespace
 
 std::string mapPicture(const Scenario& scenario, const PoseGrid& grid, const DrawnMap& drawn) {
-  const std::array<Shown, 3> all = {{shown("condition number κ(B)", drawn, drawn.kappa, true),
-                                     shown("smallest margin of the legs", drawn, drawn.sine, false),
-                                     shown("largest static effort, " + drawn.effort_unit, drawn, drawn.effort, true)}};
+  const std::array<ShownValues, 3> all = {
+      {shown("condition number κ(B)", drawn, drawn.kappa, true),
+       shown("smallest margin of the legs", drawn, drawn.sine, false),
+       shown("largest static effort, " + drawn.effort_unit, drawn, drawn.effort, true)}};
   const std::vector<int> rows = slices(grid);
   std::string out;
   double y = heading + 6;

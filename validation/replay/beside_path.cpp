@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/instants.h"
 #include "validation/replay/windows.h"
 
 namespace ursula {
@@ -12,6 +13,8 @@ namespace {
 constexpr double wanted_growth = 100;
 /// A deviation at the end of that, over the machine's length: linear to its square.
 constexpr double wanted_deviation = 1e-5;
+/// So many that no step passes over a joint that turns about: what friction does there no error estimate has seen.
+constexpr int stops_of_second_look = 257;
 
 /// The last instant of the first window in which deviations have grown by no more than wanted, at least one interval.
 std::size_t lastOf(const Amplification& amplification) {
@@ -85,7 +88,11 @@ const EndsBeside& BesidePath::ends() const {
 }
 
 const EndsBeside& BesidePath::endsWithStops() const {
-  return ends_with_stops_.get([this] { return replayed(right_.halved_at); });
+  return ends_with_stops_.get([this] {
+    std::vector<double> stops = equallySpaced(end_, stops_of_second_look);
+    stops.insert(stops.end(), right_.halved_at.begin(), right_.halved_at.end());
+    return replayed(stops);
+  });
 }
 
 }  // namespace ursula

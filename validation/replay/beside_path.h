@@ -43,8 +43,8 @@ class BesidePath {
 
   /// Replayed when first asked for.
   const EndsBeside& ends() const;
-  /// The same with steps to where the right solver's equations change fast: a step may pass over a joint that turns
-  /// about, at any tolerance.
+  /// The same with more stops, also where the right solver's equations change fast: a step may pass over a joint that
+  /// turns about, at any tolerance.
   const EndsBeside& endsWithStops() const;
 
  private:

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <functional>
+#include <limits>
+#include <new>
 
 #include "model/instants.h"
 #include "validation/replay/windows.h"
@@ -64,6 +67,19 @@ void makeRung(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torque
   addRung(settings, replayBeside(scenario, torques, settings, change), finest.replay, ladder.rungs, ladder.asked);
 }
 
+double contradictionAt(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, double t) {
+  SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
+  loop.place(scenario.trajectory->at(t));
+  const Vector6d asked = torques(t);
+  try {
+    return loop.ownTwistRateError(asked).norm();  // in natural units, in which turns and moves are alike
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    return std::numeric_limits<double>::infinity();  // Simbody has no accelerations at all
+  }
+}
+
 /// Over the first steps only, a tenth of them at least: it is another integrator that is wanted, not another replay.
 void climbSecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
                  const ChangeSettings& change, Ladder& ladder) {
@@ -73,6 +89,8 @@ void climbSecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& tor
   const std::size_t wanted = finest.replay.stiff ? 1 : std::max<std::size_t>(20, steps.size() / 10);
   const std::size_t last = std::min(steps.size() - 1, wanted);
   ladder.second_end = steps[last].t;
+  ladder.second_contradiction = contradictionAt(scenario, torques, finest.window.start());
+  if (!(ladder.second_contradiction <= useful_contradiction)) return;
   const auto run = [&](double accuracy) {
     ReplaySettings settings = settingsOf(finest, Integrator::rk_merson, accuracy);
     settings.end = ladder.second_end;

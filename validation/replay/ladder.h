@@ -20,14 +20,20 @@ struct Rung {
   bool left_path = false;  ///< the replay ended early, so that its end says nothing
 };
 
+/// Above it Simbody's own forward dynamics is no evidence, in natural units of acceleration.
+constexpr double useful_contradiction = 1e-6;
+
 /// The same window replayed at several tolerances, and its beginning with Simbody's own integrator.
 struct Ladder {
   std::vector<Rung> rungs;  ///< rkf78 from coarse to fine
   /// rk_merson at two accuracies and more, the finest last, over the beginning of the window: distances at
   /// `second_end` from the finest replay.
   std::vector<Rung> second;
-  double second_end = 0;                ///< s
-  double second_difference = 0;         ///< between the last two, m
+  double second_end = 0;         ///< s
+  double second_difference = 0;  ///< between the last two, m
+  /// By how much the accelerations that Simbody's own integrator uses miss Simbody's constraints and inverse dynamics
+  /// at the window's start, m/s².
+  double second_contradiction = 0;
   bool passes_knots = false;            ///< over some it steps, so that it need not converge
   std::vector<double> observed_orders;  ///< between neighbouring rkf78 rungs, of the error against the steps
   bool asymptotic = false;              ///< both orders within 2 of 8

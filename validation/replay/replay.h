@@ -50,7 +50,7 @@ struct ReplaySettings {
   SimbodyLoop::Topology topology = SimbodyLoop::Topology::six_balls;
   /// [δp; L δϑ; δṗ; L δω] by which the start is put off the commanded state, L the machine's length; m and m/s.
   Eigen::Matrix<double, 12, 1> deviation = Eigen::Matrix<double, 12, 1>::Zero();
-  std::vector<double> stops;     ///< rkf78 only: further instants that are stepped to, increasing
+  std::vector<double> stops;     ///< rkf78 only: further instants that are stepped to
   int instants = 101;            ///< rk_merson only: equally spaced instants at which it is compared
   long max_evaluations = 20000;  ///< more than this is giving up
   bool project = false;          ///< rkf78 only: after each step the legs follow the platform, so that no gap is left

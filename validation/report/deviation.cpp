@@ -47,11 +47,17 @@ std::string roundedUp(double value) {
 std::string sentence(const EffortDeviation& deviation) {
   if (std::isnan(deviation.largest)) return "The largest deviation is unknown: a torque is no number.";
   const std::string share = deviation.largest_effort > 0 ? shareText(deviation.relative()) : "no known share";
+  constexpr double right = 1e-6;  // above it nobody calls torques right
+  const std::string seen =
+      std::isfinite(deviation.seen)
+          ? fmt::format(" An error of {:.1g} of the largest torque would have been seen.", deviation.seen)
+          : "";
   return fmt::format(
-      "Right to {}: the largest deviation is {:.3g} {} of {:.6g} {}, {} at t = {:.4g} s; {}the smallest --rtol that "
-      "would pass is {}.",
-      share, deviation.largest, deviation.unit, deviation.largest_effort, deviation.unit, deviation.where, deviation.t,
-      driftText(deviation), roundedUp(deviation.smallestRelative()));
+      "{} {}: the largest deviation is {:.3g} {} of {:.6g} {}, {} at t = {:.4g} s; {}the smallest --rtol that "
+      "would pass is {}.{}",
+      deviation.relative() <= right || deviation.largest == 0 ? "Right to" : "Off by at most", share, deviation.largest,
+      deviation.unit, deviation.largest_effort, deviation.unit, deviation.where, deviation.t, driftText(deviation),
+      roundedUp(deviation.smallestRelative()), seen);
 }
 
 }  // namespace ursula

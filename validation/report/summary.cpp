@@ -20,6 +20,7 @@ Json checkJson(const Check& check) {
           {"why", check.why},
           {"reason", name(check.reason)},
           {"limit_by", name(check.limit_by)},
+          {"could_have_missed", check.missed},
           {"largest", {{"value", check.largest.value}, {"t_s", check.largest.t}, {"where", check.largest.where}}}};
 }
 
@@ -31,6 +32,7 @@ Json deviationJson(const EffortDeviation& deviation) {
           {"largest_effort", deviation.largest_effort},
           {"smallest_rtol", deviation.smallestRelative()},
           {"drift_m", deviation.drift},
+          {"would_have_been_seen", deviation.seen},
           {"allowed", deviation.allowed}};
 }
 

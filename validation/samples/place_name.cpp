@@ -2,9 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "model/scalar.h"
+#include "validation/subject/presentation.h"
 
 namespace ursula {
+
+std::string motorName(const Units& units, int motor) {
+  const std::string leg = placeName(units.legOf(motor), false);
+  const auto& legs = units.efforts.leg;
+  const bool alone = motor < 0 || std::count(legs.begin(), legs.end(), units.legOf(motor)) == 1;
+  return alone ? leg : fmt::format("{}, motor {}", leg, motor + 1);
+}
 
 std::string placeName(int where, bool of_body) {
   if (where < 0) return "platform";

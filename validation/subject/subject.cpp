@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <utility>
 
 #include "nocsolver/fast/fast_dynamics.h"
 #include "nocsolver/noc/noc.h"
@@ -114,6 +115,15 @@ Vector6d loadAtP(const Load* load, const Motion<double>& motion) {
   Vector6d out;
   out << to_base * wrench.moment + (motion.Q * load->point).cross(force), force;
   return out;
+}
+
+Subject recorded(Subject subject, std::vector<Answered>& answers) {
+  subject.torques = [asked = std::move(subject.torques), &answers](const Motion<double>& motion) {
+    const Vector6d torques = asked(motion);
+    answers.push_back({motion.t, torques});
+    return torques;
+  };
+  return subject;
 }
 
 void foresee(const Subject& subject, const Trajectory& trajectory, const std::vector<double>& instants) {

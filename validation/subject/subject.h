@@ -52,6 +52,15 @@ struct Subject {
   std::function<Subject(const Manipulator&)> rebuilt;
 };
 
+/// Torques that a subject gave for the commanded motion at t.
+struct Answered {
+  double t = 0;
+  Vector6d torques = Vector6d::Zero();
+};
+
+/// The same subject; each answer is kept in `answers`, which must outlive it. For one thread.
+Subject recorded(Subject subject, std::vector<Answered>& answers);
+
 /// Makes a subject for a scenario.
 using SubjectOf = std::function<Subject(const Scenario&)>;
 

@@ -1,9 +1,13 @@
 #include "validation/verdict/result.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+
+#include "validation/verdict/worst_share.h"
 
 namespace ursula {
 namespace {
@@ -76,12 +80,24 @@ Check notJudgeable(Reason reason, std::string name, double value, double limit, 
           std::move(basis), std::move(why), reason, {value, 0, ""}};
 }
 
-Check judgedIfUseful(std::string name, double value, double limit, double useful, std::string unit, std::string basis,
-                     std::string why, const std::string& cause) {
-  const bool says_nothing = limit > useful && !std::isnan(value);
-  if (!says_nothing) return judged(std::move(name), value, limit, std::move(unit), std::move(basis), std::move(why));
-  return notJudgeable(Reason::limit_useless, std::move(name), value, limit, std::move(unit), std::move(basis),
-                      why + "; the limit says nothing here: " + cause);
+Check judgedIfUseful(const CheckedQuantity& quantity, const Worst& worst, std::string basis, std::string why,
+                     const std::string& cause) {
+  const double useful = quantity.useful();
+  const Shown shown = worst.shown(useful);
+  const std::string wide =
+      fmt::format("the derived limit is at most {:.3g} of the quantity's size: {}",
+                  quantity.size > 0 ? worst.widest_limit / quantity.size : worst.widest_limit, cause);
+  Check out;
+  if (shown.undecided)
+    out = notJudgeable(Reason::limit_useless, quantity.name, shown.value, shown.limit, quantity.unit, std::move(basis),
+                       fmt::format("{}; more than {:g} of the quantity's size and within the derived limit, it is "
+                                   "neither right nor wrong; {}",
+                                   why, useful_share, wide));
+  else
+    out = judged(quantity.name, shown.value, shown.limit, quantity.unit, std::move(basis),
+                 shown.beyond || worst.widest_limit <= useful ? why : fmt::format("{}; note: {}", why, wide));
+  out.missed = std::min(worst.widest_limit, useful) / quantity.size;
+  return out;
 }
 
 Verdict overall(const std::vector<Check>& checks) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,8 @@
 namespace ursula {
 
 struct Picture;
+struct Shown;
+struct Worst;
 
 /// `not_applicable` is of checks alone: it needs what is not there, and counts neither as passed nor as failed.
 enum class Verdict { pass, fail, inconclusive, not_applicable };
@@ -56,6 +59,8 @@ struct Check {
   Reason reason = Reason::none;
   Largest largest;
   LimitBy limit_by = LimitBy::derived;
+  /// The largest error that would have passed, over the quantity's own size; NaN where that is not known.
+  double missed = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Accepts exactly if `value <= limit` and both are finite.
@@ -71,10 +76,22 @@ Check notApplicable(std::string name, std::string unit, std::string why);
 Check notJudgeable(Reason reason, std::string name, double value, double limit, std::string unit, std::string basis,
                    std::string why);
 
-/// As judged(), but where the limit exceeds `useful`, inconclusive with `cause` whatever the value; no number fails all
-/// the same.
-Check judgedIfUseful(std::string name, double value, double limit, double useful, std::string unit, std::string basis,
-                     std::string why, const std::string& cause);
+/// Above this share of a quantity's own size a value matters.
+constexpr double useful_share = 1e-6;
+
+/// What is known of a quantity whose values were collected.
+struct CheckedQuantity {
+  std::string name;  ///< of the check
+  std::string unit;
+  double size = 0;   ///< of the quantity itself, in the unit of the values
+  double given = 0;  ///< what its values may be off by since digits were not given
+  double useful() const { return useful_share * size + given; }
+};
+
+/// By Worst::shown: passed, failed, or, where the value is between what is useful and a derived limit that is wider,
+/// inconclusive with `cause`. That a limit is wider than is useful is noted.
+Check judgedIfUseful(const CheckedQuantity& quantity, const Worst& worst, std::string basis, std::string why,
+                     const std::string& cause);
 
 /// fail if any failed or there is none, else inconclusive if any was, else pass.
 Verdict overall(const std::vector<Check>& checks);
@@ -106,7 +123,8 @@ struct EffortDeviation {
   double drift = 0;     ///< how far errors of that size may move the platform by the end, open loop, m; NaN: unknown
   double duration = 0;  ///< of the motion, s
   double length = 0;    ///< of the machine, m: a drift beyond says that the motion is lost
-  double allowed = 0;   ///< by a tolerance of the user's; 0 where there is none
+  double seen = std::numeric_limits<double>::quiet_NaN();  ///< an error of this share would have failed; NaN: unknown
+  double allowed = 0;                                      ///< by a tolerance of the user's; 0 where there is none
 
   double relative() const { return largest / largest_effort; }
   /// The smallest `--rtol` that would pass alone.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -8,13 +9,21 @@ namespace ursula {
 /// The larger of two; NaN wins, so that it is seen.
 inline double larger(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 
+/// The one value of many that a check shows.
+struct Shown {
+  double value = 0, limit = 0, t = 0;
+  int where = -1;
+  bool beyond = false;     ///< its derived limit: a failure
+  bool undecided = false;  ///< more than is useful and within its derived limit: it cannot be judged
+};
+
 /// What a check shows of many instants: the value with the largest share of its limit, and the largest value. NaN is
 /// beyond any limit and stays.
 struct Worst {
   double value = 0, limit = 0, t = 0;
   int where = -1;    ///< leg or body, 0-based
   bool any = false;  ///< something was compared
-  double largest = 0, largest_t = 0;
+  double largest = 0, largest_limit = 0, largest_t = 0;
   int largest_where = -1;
   double widest_limit = 0, widest_t = 0;  ///< the largest limit
 
@@ -29,6 +38,7 @@ struct Worst {
   void add(double new_value, double new_limit, double new_t, int new_where = -1) {
     if (!any || (!std::isnan(largest) && !(new_value <= largest))) {
       largest = new_value;
+      largest_limit = new_limit;
       largest_t = new_t;
       largest_where = new_where;
     }
@@ -44,11 +54,17 @@ struct Worst {
     }
     any = true;
   }
-};
 
-/// The limit that a check is judged by: where nothing is beyond its own, the widest, if that is beyond use.
-inline double limitToJudge(const Worst& worst, double useful) {
-  return worst.beyond() || worst.widest_limit <= useful ? worst.limit : worst.widest_limit;
-}
+  /// Each value is held against its derived limit L, and against `useful` U, above which a value matters. Beyond L it
+  /// fails; between U and L, or where L was not found, it cannot be judged; within both it passes, and the limit shown
+  /// is the lesser.
+  Shown shown(double useful) const {
+    if (beyond()) return {value, limit, t, where, true, false};
+    if (!std::isfinite(widest_limit)) return {largest, widest_limit, widest_t, largest_where, false, true};
+    if (!(largest <= useful)) return {largest, largest_limit, largest_t, largest_where, false, true};
+    if (share(largest, useful) > share(value, limit)) return {largest, useful, largest_t, largest_where};
+    return {value, std::min(limit, useful), t, where};
+  }
+};
 
 }  // namespace ursula

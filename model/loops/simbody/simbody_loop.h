@@ -64,7 +64,8 @@ class SimbodyLoop {
   JointMotion joints() const;
   Motion<double> platform() const;  ///< accelerations are those last placed or found
   Closure closure() const;
-  /// The largest acceleration at which a ball's gap opens after accelerate(), m/s²: rounding, and nothing else.
+  /// The largest acceleration at which a ball's gap opens after accelerate(), m/s²: rounding, and nothing else. Only
+  /// for six_balls.
   double gapAcceleration() const;
   Energy energy() const;
 
@@ -77,9 +78,14 @@ class SimbodyLoop {
   /// its constraint Jacobian. N·m.
   Vector6d inverseDynamics() const;
 
-  /// The platform's accelerations and the joints' under these torques, by realize(Acceleration). They are then the
-  /// accelerations last found.
+  /// The platform's accelerations and the joints' under these torques: with six balls by elimination of the legs'
+  /// coordinates from Simbody's mass matrix and forces, else by realize(Acceleration), which drops multipliers where
+  /// links are nearly massless. They are then the accelerations last found.
   void accelerate(const Vector6d& torques);
+
+  /// By how much Simbody's own realize(Acceleration) differs from accelerate() in the platform's twist rate [ω̇; p̈]
+  /// under these torques: rounding, but where it drops multipliers. Only for six_balls.
+  Vector6d ownTwistRateError(const Vector6d& torques);
 
   /// Forces and moments at the joints after accelerate(). Only for six_balls.
   Reactions reactions() const;

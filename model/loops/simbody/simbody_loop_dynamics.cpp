@@ -48,14 +48,6 @@ SimbodyLoop::Closure SimbodyLoop::closure() const {
   return out;
 }
 
-double SimbodyLoop::gapAcceleration() const {
-  impl_->realize(SimTK::Stage::Acceleration);
-  double largest = 0;
-  for (const SimTK::Constraint::Ball& ball : impl_->mechanism.balls)
-    largest = std::max(largest, ball.getAccelerationErrors(impl_->state).norm());
-  return largest;
-}
-
 SimbodyLoop::Energy SimbodyLoop::energy() const {
   impl_->realize(SimTK::Stage::Dynamics);
   return {impl_->system.calcKineticEnergy(impl_->state), impl_->system.calcPotentialEnergy(impl_->state)};
@@ -121,29 +113,25 @@ Vector6d SimbodyLoop::inverseDynamics() const {
 
 void SimbodyLoop::accelerate(const Vector6d& torques) {
   Impl& loop = *impl_;
+  if (loop.topology == Topology::six_balls) {
+    loop.eliminate(torques);
+    return;
+  }
   loop.applied->torques = torques;
   loop.state.invalidateAllCacheAtOrAbove(SimTK::Stage::Dynamics);
   loop.realize(SimTK::Stage::Acceleration);
   loop.u_dot = loop.state.getUDot();
 }
 
-Reactions SimbodyLoop::reactions() const {
-  const Impl& loop = *impl_;
+Vector6d SimbodyLoop::ownTwistRateError(const Vector6d& torques) {
+  accelerate(torques);
+  Impl& loop = *impl_;
+  loop.state.invalidateAllCacheAtOrAbove(SimTK::Stage::Dynamics);
   loop.realize(SimTK::Stage::Acceleration);
-  SimTK::Vector_<SimTK::SpatialVec> at_outboard_frame;  // on the outboard body, at its joint's frame, in Ground
-  loop.matter.calcMobilizerReactionForces(loop.state, at_outboard_frame);
-  Reactions out;
-  for (std::size_t i = 0; i < loop.mechanism.proximal.size(); ++i) {
-    const SimTK::SpatialVec& at_A = at_outboard_frame[loop.mechanism.proximal[i].getMobilizedBodyIndex()];
-    const SimTK::SpatialVec& at_R = at_outboard_frame[loop.mechanism.distal[i].getMobilizedBodyIndex()];
-    out[i].n_A = toEigen(at_A[0]);
-    out[i].f_A = toEigen(at_A[1]);
-    out[i].n_R = toEigen(at_R[0]);
-    out[i].f_R = toEigen(at_R[1]);
-    // Simbody 3.7 keeps multipliers on the left-hand side: what it calls the force on body 2 is the one on body 1.
-    const SimTK::Vec3 on_platform = -loop.mechanism.balls[i].getBallReactionForceOnBody2(loop.state);
-    out[i].f_B = toEigen(SimTK::Vec3(loop.mechanism.platform.getBodyRotation(loop.state) * on_platform));
-  }
+  const SimTK::Vector& own = loop.state.getUDot();
+  const int first = loop.mechanism.platform.getFirstUIndex(loop.state);
+  Vector6d out;
+  for (int k = 0; k < 6; ++k) out(k) = own[first + k] - loop.u_dot[first + k];
   return out;
 }
 
@@ -172,10 +160,7 @@ void SimbodyLoop::setState(double t, const double* x) {
 
 void SimbodyLoop::derivative(double t, const double* x, const Vector6d& torques, double* x_dot) {
   setState(t, x);
-  if (impl_->topology == Topology::six_balls)
-    impl_->eliminate(torques);
-  else
-    accelerate(torques);
+  accelerate(torques);
   const SimTK::Vector& q_dot = impl_->differentiated().getQDot();
   for (int i = 0; i < q_dot.size(); ++i) x_dot[i] = q_dot[i];
   for (int i = 0; i < impl_->u_dot.size(); ++i) x_dot[q_dot.size() + i] = impl_->u_dot[i];

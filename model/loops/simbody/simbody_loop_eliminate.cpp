@@ -1,14 +1,17 @@
 // Accelerations of the loop without multipliers. Simbody's own realize(Acceleration) solves for 18 of them with
-// G M⁻¹Gᵀ, which takes most of a replay's time and loses digits where the platform is light. Here Simbody's tree gives
-// mass matrix, forces and velocities, and the legs' coordinates are eliminated by the balls' constraints, which are of
-// one leg each (García de Jalón and Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994, sect. 5.3):
+// G M⁻¹Gᵀ. That takes most of a replay's time, loses digits where the platform is light, and drops multipliers where a
+// link is nearly massless: the accelerations then miss the constraints. Here Simbody's tree gives mass matrix, forces
+// and velocities, and the legs' coordinates are eliminated by the balls' constraints, which are of one leg each
+// (García de Jalón and Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994, sect. 5.3):
 //   Jᵢ u̇ᵢ + aᵢ = Pᵢ u̇_P + a_Pᵢ,  Pᵢ = [−[Qbᵢ]×, 1]          (a) both sides are the acceleration of Bᵢ
 //   u̇ = N u̇_P + c,  N = [Jᵢ⁻¹Pᵢ; 1],  c = [Jᵢ⁻¹(a_Pᵢ − aᵢ); 0]  (b)
 //   NᵀMN u̇_P = −Nᵀ(M c + bias − applied)                       (c)
+//   Jᵢᵀ fᵢ = (M u̇ + bias − applied)ᵢ                            (d) fᵢ the platform's force on leg i
 // Tests hold it against realize(Acceleration).
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "model/loops/simbody/simbody_loop_internal.h"
 
@@ -86,11 +89,14 @@ void SimbodyLoop::Impl::eliminate(const Vector6d& torques) {
   SimTK::Vector_<SimTK::SpatialVec> at_rest;
   matter.calcBodyAccelerationFromUDot(open, SimTK::Vector(nu, 0.0), at_rest);
 
+  leg_jacobians.resize(static_cast<std::size_t>(legCount()));
   Eigen::Matrix<double, Eigen::Dynamic, 6> N = Eigen::Matrix<double, Eigen::Dynamic, 6>::Zero(nu, 6);
   SimTK::Vector c(nu, 0.0);
   for (int k = 0; k < 6; ++k) N(of_platform + k, k) = 1;
   for (int i = 0; i < legCount(); ++i) {
-    const LegClosure leg = closureOf(mechanism, open, static_cast<std::size_t>(i), parameters.leg(i), at_rest);
+    const auto index = static_cast<std::size_t>(i);
+    const LegClosure leg = closureOf(mechanism, open, index, parameters.leg(i), at_rest);
+    leg_jacobians[index] = leg.J;
     const Eigen::PartialPivLU<Matrix3d> factors(leg.J);
     const Matrix36 rates = factors.solve(leg.P);        // (b)
     const Vector3d constant = factors.solve(leg.bias);  // (b)
@@ -112,6 +118,64 @@ void SimbodyLoop::Impl::eliminate(const Vector6d& torques) {
   const Vector6d platform = mass.llt().solve(-N.transpose() * mapped(residual));  // (c)
   const Eigen::VectorXd found = N * platform + mapped(c);
   for (int row = 0; row < nu; ++row) u_dot[row] = found(row);
+}
+
+double SimbodyLoop::gapAcceleration() const {
+  const Impl& loop = *impl_;
+  SimTK::Vector_<SimTK::SpatialVec> bodies;
+  loop.matter.calcBodyAccelerationFromUDot(loop.open, loop.u_dot, bodies);
+  const auto accelerationOf = [&](const SimTK::MobilizedBody& body, const SimTK::Vec3& station) {
+    const SimTK::Vec3 arm = body.getBodyRotation(loop.open) * station;
+    const SimTK::SpatialVec& of_body = bodies[body.getMobilizedBodyIndex()];
+    const SimTK::Vec3& omega = body.getBodyAngularVelocity(loop.open);
+    return SimTK::Vec3(of_body[1] + of_body[0] % arm + omega % (omega % arm));
+  };
+  double largest = 0;
+  for (int i = 0; i < loop.legCount(); ++i) {
+    const Leg& leg = loop.parameters.leg(i);
+    const SimTK::MobilizedBody& distal = loop.mechanism.distal[static_cast<std::size_t>(i)];
+    const SimTK::Vec3 on_leg = accelerationOf(distal, SimTK::Vec3(0, 0, leg.distal.length));
+    const SimTK::Vec3 on_platform = accelerationOf(loop.mechanism.platform, toSimTK(leg.platform_point));
+    largest = std::max(largest, (on_leg - on_platform).norm());
+  }
+  return largest;
+}
+
+/// The force that closes a loop by (d), then Newton and Euler outboard body by body, with Simbody's inertias,
+/// accelerations and applied forces.
+Reactions SimbodyLoop::reactions() const {
+  const Impl& loop = *impl_;
+  const SimTK::State& open = loop.open;
+  const SimTK::Vector_<SimTK::SpatialVec>& applied = loop.system.getRigidBodyForces(open, SimTK::Stage::Dynamics);
+  SimTK::Vector residual;
+  SimTK::Vector_<SimTK::SpatialVec> accelerations;
+  loop.matter.calcResidualForceIgnoringConstraints(open, loop.system.getMobilityForces(open, SimTK::Stage::Dynamics),
+                                                   applied, loop.u_dot, residual);
+  loop.matter.calcBodyAccelerationFromUDot(open, loop.u_dot, accelerations);
+  /// What moves the body beside the applied forces, about its origin.
+  const auto wrenchOn = [&](const SimTK::MobilizedBody& body) {
+    const SimTK::MobilizedBodyIndex index = body.getMobilizedBodyIndex();
+    return Vector6d(toEigen(SimTK::SpatialVec(body.getBodySpatialInertiaInGround(open) * accelerations[index] +
+                                              loop.matter.getGyroscopicForce(open, index) - applied[index])));
+  };
+  Reactions out;
+  for (int i = 0; i < loop.legCount(); ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    const SimTK::MobilizedBody &first = loop.mechanism.proximal[index], &second = loop.mechanism.distal[index];
+    Vector3d of_joints;
+    for (int joint = 0; joint < 3; ++joint) of_joints(joint) = residual[loop.indexOf(joint, i)];
+    const Vector3d on_leg = loop.leg_jacobians[index].transpose().partialPivLu().solve(of_joints);
+    const Vector3d to_B = loop.parameters.leg(i).distal.length * toEigen(SimTK::Vec3(second.getBodyRotation(open).z()));
+    const Vector3d to_R = toEigen(SimTK::Vec3(second.getBodyOriginLocation(open) - first.getBodyOriginLocation(open)));
+    const Vector6d on_second = wrenchOn(second), on_first = wrenchOn(first);
+    LegReactions& to = out[index];
+    to.f_B = -on_leg;
+    to.f_R = on_second.tail<3>() - on_leg;
+    to.n_R = on_second.head<3>() - to_B.cross(on_leg);
+    to.f_A = on_first.tail<3>() + to.f_R;
+    to.n_A = on_first.head<3>() + to.n_R + to_R.cross(to.f_R);
+  }
+  return out;
 }
 
 }  // namespace ursula

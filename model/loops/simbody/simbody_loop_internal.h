@@ -101,6 +101,7 @@ struct SimbodyLoop::Impl {
   SimTK::State state;
   SimTK::State open;    ///< without the balls: what derivative() asks for needs none of their errors; six balls only
   SimTK::Vector u_dot;  ///< accelerations last placed or found
+  std::vector<Matrix3d> leg_jacobians;  ///< velocities of Bᵢ by the leg's rates, as last eliminated
   OpenTreeScratch scratch;
   Manipulator parameters;
   Topology topology;
