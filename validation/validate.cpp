@@ -51,12 +51,12 @@ void tell(const ValidationOptions& options, double share, const char* now) {
 }
 
 /// What a check of somebody else's solver saw is widened to all answers that were given by now.
-void judgeEveryAnswer(const Evidence& evidence, const std::vector<Answered>& answers, std::vector<Check>& checks) {
+void judgeEveryAnswer(const Evidence& evidence, std::vector<Check>& checks) {
   const auto between =
       std::find_if(checks.begin(), checks.end(), [](const Check& check) { return check.name == "torque.between"; });
-  if (answers.empty() || between == checks.end() || between->reason == Reason::not_made) return;
-  std::vector<Check> all = {
-      judgeAnswers(*evidence.scenario, answers, evidence.samples, evidence.reference->profile, evidence.units())};
+  if (!evidence.subject->answers || between == checks.end() || between->reason == Reason::not_made) return;
+  std::vector<Check> all = {judgeAnswers(*evidence.scenario, evidence.subject->answers(), evidence.samples,
+                                         evidence.reference->profile, evidence.units())};
   checksInSi(evidence.units(), all);
   *between = all.front();
 }
@@ -64,8 +64,8 @@ void judgeEveryAnswer(const Evidence& evidence, const std::vector<Answered>& ans
 ValidationResult run(const Scenario& scenario, const Reference& reference, const Subject& given, bool right,
                      const ValidationOptions& options) {
   requireTellingTolerance(scenario);
-  std::vector<Answered> answers;
-  const Subject subject = given.formulation == Formulation::external ? recorded(given, answers) : given;
+  const bool keeps_nothing = given.formulation == Formulation::external && !given.answers;
+  const Subject subject = keeps_nothing ? recorded(given) : given;
   reference.prepare(static_cast<bool>(subject.accelerations), options.ladder);
   tell(options, 0.35, "experiments");
   Evidence evidence = gather(scenario, reference, subject, right, options.spoil ? *options.spoil : Spoil{},
@@ -81,7 +81,7 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   if (options.budget && evidence.amplification != nullptr)
     budget =
         attributeInTime(*evidence.scenario, evidence.samples, evidence.windows, evidence.amplification, evidence.plan);
-  judgeEveryAnswer(evidence, answers, result.checks);
+  judgeEveryAnswer(evidence, result.checks);
   reference.stop();  // what follows is short, and makes a result of what was reached
   addFacts(evidence, budget, result);
   seriesInSi(evidence.natural, result);

@@ -108,21 +108,20 @@ TEST_F(Between, seesWhatIsWrongEverywhere) {
 
 /// Whatever they were asked for: not only those to the check's own questions.
 TEST_F(Between, everyAnswerIsJudged) {
-  std::vector<Answered> answers;
   Subject late = right_;
   late.torques = [right = right_.torques, calls = 0](const Motion<double>& motion) mutable {
     return Vector6d((++calls > 100 ? 1 + 1e-9 : 1) * right(motion));
   };
-  const Subject subject = recorded(late, answers);
+  const Subject subject = recorded(late);
   const auto ask = [&](int count) {
     for (int k = 0; k < count; ++k) subject.torques(scenario_.trajectory->at(3 * std::fmod(k * 0.618, 1.0)));
   };
   ask(100);
-  ASSERT_EQ(answers.size(), 100u);
-  EXPECT_EQ(judgeAnswers(scenario_, answers, samples_, profile_).verdict, Verdict::pass);
+  ASSERT_EQ(subject.answers().size(), 100u);
+  EXPECT_EQ(judgeAnswers(scenario_, subject.answers(), samples_, profile_, {}).verdict, Verdict::pass);
   ask(5);
-  ASSERT_EQ(answers.size(), 105u);
-  EXPECT_EQ(judgeAnswers(scenario_, answers, samples_, profile_).verdict, Verdict::fail);
+  ASSERT_EQ(subject.answers().size(), 105u);
+  EXPECT_EQ(judgeAnswers(scenario_, subject.answers(), samples_, profile_, {}).verdict, Verdict::fail);
 }
 
 TEST_F(Between, aSolverThatIsWrongLaterOnFailsTheValidation) {

@@ -85,7 +85,7 @@ Check judgeDirect(const std::vector<DirectSample>& direct, const Subject& subjec
 
 Check judgeGrowth(const Growth& growth, const BesidePath& path, const Units& units, bool second_look) {
   const Check first = judgeBeside(growth, path, path.ends(), units);
-  if (first.verdict != Verdict::fail || !second_look) return first;
+  if (first.verdict == Verdict::pass || !second_look) return first;
   return judgeBeside(growth, path, path.endsWithStops(), units);
 }
 

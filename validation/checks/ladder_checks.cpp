@@ -74,7 +74,7 @@ Check judgeConvergence(const Ladder& ladder, const WindowedReplay& finest, doubl
 
 Check judgeSecond(const Ladder& ladder, const WindowedReplay& finest, double position_scale, const Units& units) {
   static constexpr const char* check = "integration.second";
-  if (!(ladder.second_contradiction <= useful_contradiction))
+  if (!(ladder.second_contradiction <= second_accuracy))
     return notApplicable(
         check, "m",
         fmt::format("Simbody's integrator takes accelerations of Simbody's own forward dynamics, which are off by "

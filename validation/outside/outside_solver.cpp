@@ -43,6 +43,11 @@ class Asking {
     ask(unknown);
   }
 
+  std::vector<Answered> answers() {
+    const std::lock_guard<std::mutex> one_at_a_time(mutex_);
+    return all_;
+  }
+
   /// Throws what the solver threw, if it did.
   void rethrow() const {
     if (thrown_) std::rethrow_exception(thrown_);
@@ -76,13 +81,17 @@ class Asking {
       thrown_ = std::current_exception();
       throw SolverStopped{};
     }
-    for (std::size_t k = 0; k < motions.size(); ++k) known_[motions[k].t] = {motions[k], answers[k]};
+    for (std::size_t k = 0; k < motions.size(); ++k) {
+      known_[motions[k].t] = {motions[k], answers[k]};
+      all_.push_back({motions[k].t, answers[k]});
+    }
     return answers;
   }
 
   OutsideSolver solver_;
   std::mutex mutex_;
   std::unordered_map<double, Answer> known_;  ///< by instant: a solver is asked along one motion
+  std::vector<Answered> all_;
   std::exception_ptr thrown_;
 };
 
@@ -95,6 +104,7 @@ ValidationResult validateOutside(const Scenario& scenario, const OutsideSolver& 
   subject.name = solver.name;
   subject.torques = [asking](const Motion<double>& motion) { return asking->one(motion); };
   subject.foresee = [asking](const std::vector<Motion<double>>& motions) { asking->foresee(motions); };
+  subject.answers = [asking] { return asking->answers(); };
   try {
     ValidationResult result = validate(scenario, subject, options);
     asking->rethrow();  // an engine may have kept it to itself

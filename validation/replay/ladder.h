@@ -20,8 +20,9 @@ struct Rung {
   bool left_path = false;  ///< the replay ended early, so that its end says nothing
 };
 
-/// Above it Simbody's own forward dynamics is no evidence, in natural units of acceleration.
-constexpr double useful_contradiction = 1e-6;
+/// Of Simbody's own integrator: error control of fourth order takes too many steps beyond. Where its accelerations are
+/// off by more, in natural units, its steps follow that and not the motion, and it is no evidence.
+constexpr double second_accuracy = 1e-9;
 
 /// The same window replayed at several tolerances, and its beginning with Simbody's own integrator.
 struct Ladder {
@@ -32,7 +33,7 @@ struct Ladder {
   double second_end = 0;         ///< s
   double second_difference = 0;  ///< between the last two, m
   /// By how much the accelerations that Simbody's own integrator uses miss Simbody's constraints and inverse dynamics
-  /// at the window's start, m/s².
+  /// until `second_end`, m/s².
   double second_contradiction = 0;
   bool passes_knots = false;            ///< over some it steps, so that it need not converge
   std::vector<double> observed_orders;  ///< between neighbouring rkf78 rungs, of the error against the steps

@@ -205,6 +205,12 @@ Subject presented(const Subject& subject, const Presentation& to) {
       for (Motion<double>& motion : motions) motion = from.of(motion);
       subject.foresee(motions);
     };
+  if (subject.answers)
+    out.answers = [=] {
+      std::vector<Answered> all = subject.answers();
+      for (Answered& each : all) each = {each.t / units.time, to.of(each.torques)};
+      return all;
+    };
   if (subject.kinematics)
     out.kinematics = [=](const Motion<double>& motion) {
       return answerIn(to, from, subject.kinematics(from.of(motion)));

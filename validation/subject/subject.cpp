@@ -117,12 +117,14 @@ Vector6d loadAtP(const Load* load, const Motion<double>& motion) {
   return out;
 }
 
-Subject recorded(Subject subject, std::vector<Answered>& answers) {
-  subject.torques = [asked = std::move(subject.torques), &answers](const Motion<double>& motion) {
+Subject recorded(Subject subject) {
+  const auto answers = std::make_shared<std::vector<Answered>>();
+  subject.torques = [asked = std::move(subject.torques), answers](const Motion<double>& motion) {
     const Vector6d torques = asked(motion);
-    answers.push_back({motion.t, torques});
+    answers->push_back({motion.t, torques});
     return torques;
   };
+  subject.answers = [answers] { return *answers; };
   return subject;
 }
 

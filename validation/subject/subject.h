@@ -35,6 +35,12 @@ enum class Formulation { noc, fast, external };
 /// "noc", "fast" or "external".
 const char* name(Formulation formulation);
 
+/// Torques that a subject gave for the commanded motion at t.
+struct Answered {
+  double t = 0;
+  Vector6d torques = Vector6d::Zero();
+};
+
 /// What is on trial: a source of torques, and of kinematics where it has one. Called with the commanded motion.
 struct Subject {
   std::string name;
@@ -48,18 +54,14 @@ struct Subject {
   /// Told beforehand which motions torques will be asked for, for a subject that answers many at once sooner than one
   /// by one; empty where that is of no use. Changes no answer.
   std::function<void(const std::vector<Motion<double>>&)> foresee;
+  /// All that it has answered so far; empty where it keeps nothing.
+  std::function<std::vector<Answered>()> answers;
   /// The same solver for another machine, for invariances; empty where the subject is not a solver.
   std::function<Subject(const Manipulator&)> rebuilt;
 };
 
-/// Torques that a subject gave for the commanded motion at t.
-struct Answered {
-  double t = 0;
-  Vector6d torques = Vector6d::Zero();
-};
-
-/// The same subject; each answer is kept in `answers`, which must outlive it. For one thread.
-Subject recorded(Subject subject, std::vector<Answered>& answers);
+/// The same subject, which keeps its answers. For one thread.
+Subject recorded(Subject subject);
 
 /// Makes a subject for a scenario.
 using SubjectOf = std::function<Subject(const Scenario&)>;
