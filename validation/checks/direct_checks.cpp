@@ -15,11 +15,13 @@ namespace {
 
 double spin(const Vector6d& v, double length) { return v.tail<3>().norm() + length * v.head<3>().norm(); }
 
-Check judgeBeside(const Growth& growth, const BesidePath& path, const EndsBeside& beside, const Units& units) {
+/// `between`: by what replays with other deviations and stops end elsewhere, over the deviation.
+Check judgeBeside(const Growth& growth, const BesidePath& path, const EndsBeside& beside, double between,
+                  const Units& units) {
   static constexpr const char* check = "direct.growth";
   if (!beside.gave_up.empty())
     return notJudgeable(Reason::unfinished, check, std::nan(""), std::nan(""), "", "", beside.gave_up);
-  const double size = path.size();
+  const double size = beside.size;
   const Vector6d expected = (growth.Phi * path.direction()).head<6>();
   const double grown = expected.norm(), error = (beside.whole_apart - 2 * size * expected).norm() / (2 * size);
   // What is even in the deviation bounds what is cubic; intervals and differences of twice the length show more than
@@ -29,8 +31,9 @@ Check judgeBeside(const Growth& growth, const BesidePath& path, const EndsBeside
                        ((growth.blunter - growth.coarser) * path.direction()).head<6>().norm();
   const double integration =
       integration_safety * (2 * (beside.above - beside.below) - beside.whole_apart).norm() / (2 * size);
+  const double rounding = path.rounding() * path.size() / size;
   Worst worst;
-  worst.add(error / grown, (bend + steps + integration + path.rounding()) / grown, path.end());
+  worst.add(error / grown, (bend + steps + integration + between + rounding) / grown, path.end());
   return judgedIfUseful(
       {check, "", 1}, worst,
       fmt::format("what is even in the deviation, what intervals and differences of twice the length change, "
@@ -84,9 +87,13 @@ Check judgeDirect(const std::vector<DirectSample>& direct, const Subject& subjec
 }
 
 Check judgeGrowth(const Growth& growth, const BesidePath& path, const Units& units, bool second_look) {
-  const Check first = judgeBeside(growth, path, path.ends(), units);
+  const EndsBeside& ends = path.ends();
+  const Check first = judgeBeside(growth, path, ends, 0, units);
   if (first.verdict == Verdict::pass || !second_look) return first;
-  return judgeBeside(growth, path, path.endsWithStops(), units);
+  const EndsBeside& closer = path.endsWithStops();
+  if (!closer.gave_up.empty() && first.verdict != Verdict::fail) return first;
+  const Vector6d apart = closer.whole_apart / closer.size - ends.whole_apart / ends.size;
+  return judgeBeside(growth, path, closer, ends.gave_up.empty() ? integration_safety * apart.norm() / 2 : 0, units);
 }
 
 }  // namespace ursula

@@ -61,15 +61,16 @@ Growth BesidePath::growthOf(const AccelerationUnder& accelerations) const {
   return ursula::growthOf(scenario_, accelerations, end_, intervals_);
 }
 
-EndsBeside BesidePath::replayed(const std::vector<double>& stops) const {
+EndsBeside BesidePath::replayed(const std::vector<double>& stops, double size) const {
   ReplaySettings settings;
   settings.end = end_;
   settings.stops = stops;
   settings.stiff = stiff_;
   settings.max_evaluations = enoughEvaluations(scenario_, plannedStepRate(scenario_.trajectory->duration()));
   EndsBeside out;
+  out.size = size;
   const auto endOf = [&](double share, double finer_by) {
-    settings.deviation = share * size_ * direction();
+    settings.deviation = share * size * direction();
     settings.tolerance = tolerance_ / finer_by;
     const Replay run = replay(scenario_, torques_, settings);
     if (run.gave_up.empty() && !run.left_path && !run.steps.empty()) return deviationAtEnd(run, length_);
@@ -84,14 +85,14 @@ EndsBeside BesidePath::replayed(const std::vector<double>& stops) const {
 }
 
 const EndsBeside& BesidePath::ends() const {
-  return ends_.get([this] { return replayed({}); });
+  return ends_.get([this] { return replayed({}, size_); });
 }
 
 const EndsBeside& BesidePath::endsWithStops() const {
   return ends_with_stops_.get([this] {
     std::vector<double> stops = equallySpaced(end_, stops_of_second_look);
     stops.insert(stops.end(), right_.halved_at.begin(), right_.halved_at.end());
-    return replayed(stops);
+    return replayed(stops, size_ / 10);
   });
 }
 

@@ -13,6 +13,7 @@ namespace ursula {
 
 /// Where replays from beside the path end: [δp; L δϑ] of the platform there.
 struct EndsBeside {
+  double size = 0;        ///< of a whole deviation, m
   Vector6d on_path;       ///< from the commanded state itself
   Vector6d above, below;  ///< from half a deviation beside it either way
   Vector6d whole_apart;   ///< between the two from a whole one, at a hundredth of the tolerance
@@ -43,12 +44,12 @@ class BesidePath {
 
   /// Replayed when first asked for.
   const EndsBeside& ends() const;
-  /// The same with more stops, also where the right solver's equations change fast: a step may pass over a joint that
-  /// turns about, at any tolerance.
+  /// The same for a tenth of the deviation, so that less of it is not linear, and with more stops, also where the right
+  /// solver's equations change fast: a step may pass over a joint that turns about, at any tolerance.
   const EndsBeside& endsWithStops() const;
 
  private:
-  EndsBeside replayed(const std::vector<double>& stops) const;
+  EndsBeside replayed(const std::vector<double>& stops, double size) const;
 
   const Scenario& scenario_;
   const SimbodyLoop::TorqueHistory& torques_;
