@@ -149,11 +149,16 @@ struct SweepDatabase::Statements {
 
 SweepDatabase::SweepDatabase(const std::filesystem::path& file, const SweepIdentity& identity)
     : sqlite_(file, Sqlite::Access::create), identity_(identity) {
-  const bool is_new = isEmpty(sqlite_);
-  if (!is_new) requireSame(file, readIdentity(sqlite_), identity);
+  // Before anything is changed, as it may be somebody else's.
+  const bool was_empty = isEmpty(sqlite_);
+  if (!was_empty) requireSame(file, readIdentity(sqlite_), identity);
   prepareToWrite(sqlite_);
   sqlite_.run("BEGIN IMMEDIATE");
-  if (is_new && isEmpty(sqlite_)) create(sqlite_, identity);
+  // Who is new is decided here, where nobody else writes: another sweep may have come first in between.
+  if (isEmpty(sqlite_))
+    create(sqlite_, identity);
+  else if (was_empty)
+    requireSame(file, readIdentity(sqlite_), identity);
   statements_ = std::make_unique<Statements>(sqlite_);
   commit();
 }

@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
+#include <future>
+#include <thread>
 
 #include "tests/model/refusals.h"
 #include "tests/validation/sweep/sweeps.h"
@@ -160,6 +163,28 @@ TEST(SweepDatabase, isWrittenByOneAtATime) {
   SweepDatabase one(file, identity());
   EXPECT_THAT(refused(file), HasSubstr("locked by another program"));
   EXPECT_EQ(SweepDatabase(file).pointsDone(), 0) << "but anybody may read it";
+}
+
+/// Another sweep comes first after this one has looked, and found nothing.
+TEST(SweepDatabase, isOfTheSweepThatWroteFirst) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "s.db", made = folder.path() / "made.db";
+  SweepDatabase(made, identity("bb")).finish();
+  std::string tables;
+  {
+    Sqlite database(made, Sqlite::Access::read);
+    Statement each(database, "SELECT sql FROM sqlite_master ORDER BY rowid");
+    while (each.step()) tables += each.text(0) + ";";
+  }
+  Sqlite other(file, Sqlite::Access::create);
+  other.run("PRAGMA journal_mode = WAL; ATTACH '" + made.string() + "' AS made; BEGIN IMMEDIATE");
+  std::future<std::string> says = std::async(std::launch::async, [&] { return refused(file); });
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  other.run(tables +
+            "INSERT INTO sweep SELECT * FROM made.sweep; PRAGMA application_id = 1970434933; "
+            "PRAGMA user_version = 1; COMMIT");
+  EXPECT_THAT(says.get(), HasSubstr("of another sweep, s.toml"));
+  EXPECT_EQ(SweepDatabase(file).identity().hash, "bb");
 }
 
 TEST(SweepMerge, takesEachPointOnceInAnyOrderAndSaysWhatIsMissing) {
