@@ -4,6 +4,7 @@ add_executable(sweep_tests
   sweep/slurm_test.cpp
   sweep/sweep_database_test.cpp
   sweep/sweep_file_test.cpp
+  sweep/sweep_merge_test.cpp
   sweep/sweep_points_test.cpp
   sweep/sweep_run_test.cpp
   sweep/worker_pool_test.cpp

@@ -11,8 +11,13 @@ namespace {
 struct Part {
   std::filesystem::path file;
   SweepIdentity identity;
-  std::int64_t first = 0;  ///< its least point
+  std::int64_t first = 0, last = 0;  ///< its least point and its greatest
 };
+
+/// Points of a database that is being written are those of a moment, and SQLite would name the one that all go into.
+void requireUnlocked(const std::filesystem::path& file) {
+  Sqlite(file, Sqlite::Access::write).run("BEGIN IMMEDIATE; ROLLBACK");
+}
 
 /// Those of one sweep, in the order of their points.
 std::vector<Part> opened(const std::vector<std::filesystem::path>& files) {
@@ -20,7 +25,8 @@ std::vector<Part> opened(const std::vector<std::filesystem::path>& files) {
   for (const std::filesystem::path& file : files) {
     Sqlite database(file, Sqlite::Access::read);
     if (isEmpty(database)) continue;
-    out.push_back({file, readIdentity(database), database.number("SELECT coalesce(min(id), 0) FROM point")});
+    out.push_back({file, readIdentity(database), database.number("SELECT coalesce(min(id), 0) FROM point"),
+                   database.number("SELECT coalesce(max(id), -1) FROM point")});
     const auto differs = [&](const std::string SweepIdentity::*what) {
       return out.back().identity.*what != out.front().identity.*what;
     };
@@ -31,6 +37,7 @@ std::vector<Part> opened(const std::vector<std::filesystem::path>& files) {
       throw DatabaseError(fmt::format("{}: error: was written by ursula {}, {} by {}: their results may differ",
                                       file.string(), out.back().identity.version, out.front().file.string(),
                                       out.front().identity.version));
+    requireUnlocked(file);
   }
   if (out.empty()) throw DatabaseError(fmt::format("{}: error: holds nothing yet", files.front().string()));
   std::stable_sort(out.begin(), out.end(), [](const Part& a, const Part& b) { return a.first < b.first; });
@@ -64,6 +71,26 @@ constexpr const char* meets =
     "SELECT count(*) FROM (SELECT 1 FROM main.point WHERE id >= (SELECT min(id) FROM part.point) AND id <= (SELECT "
     "max(id) FROM part.point) LIMIT 1)";
 
+/// From the root, as Sqlite opens files.
+void attach(Sqlite& database, const std::filesystem::path& file) {
+  Statement(database, "ATTACH ? AS part").bind(0, std::filesystem::absolute(file).string()).run();
+}
+
+/// Throws where a point of `part` is not that of `database`, in which nothing is changed.
+void compare(Sqlite& database, const Part& part) {
+  attach(database, part.file);
+  if (database.number(meets) != 0) requireSame(database, part);
+  database.run("DETACH part");
+}
+
+/// Any two of them, before anything is written: what is refused at the second part has left no points of the first.
+void requireAgreement(const std::vector<Part>& parts) {
+  for (auto one = parts.begin(); one != parts.end(); ++one) {
+    Sqlite database(one->file, Sqlite::Access::read);
+    for (auto other = one + 1; other != parts.end() && other->first <= one->last; ++other) compare(database, *other);
+  }
+}
+
 /// Within one transaction.
 std::int64_t takeIn(SweepDatabase& into, const Part& part) {
   Sqlite& database = into.sqlite();
@@ -79,11 +106,6 @@ std::int64_t takeIn(SweepDatabase& into, const Part& part) {
       "INSERT INTO main.point SELECT * FROM part.point p WHERE NOT EXISTS (SELECT 1 FROM main.point m WHERE m.id = "
       "p.id)");
   return database.changed();
-}
-
-/// From the root, as Sqlite opens files.
-void attach(Sqlite& database, const std::filesystem::path& file) {
-  Statement(database, "ATTACH ? AS part").bind(0, std::filesystem::absolute(file).string()).run();
 }
 
 std::vector<PointRange> missingOf(SweepDatabase& database, std::int64_t points) {
@@ -128,15 +150,17 @@ MergeResult mergeSweeps(const std::vector<std::filesystem::path>& files, const s
           fmt::format("{}: error: is the database that all go into, expected it as --db alone", file.string()));
   }
   const std::vector<Part> parts = opened(files);
+  requireAgreement(parts);
   MergeResult out;
   out.identity = parts.front().identity;
   out.identity.shard = out.identity.shards = 1;
   SweepDatabase database(into, out.identity);
   database.sqlite().run("COMMIT");
+  for (const Part& part : parts) compare(database.sqlite(), part);
   std::size_t done = 0;
   for (const Part& part : parts) {
+    database.sqlite().run("BEGIN IMMEDIATE");  // before the part is there, or it would be locked with it
     attach(database.sqlite(), part.file);
-    database.sqlite().run("BEGIN IMMEDIATE");
     out.added += takeIn(database, part);
     database.sqlite().run("COMMIT; DETACH part");
     if (progress) progress(++done);

@@ -9,43 +9,18 @@
 #include <thread>
 
 #include "tests/model/refusals.h"
-#include "tests/validation/sweep/sweeps.h"
-#include "validation/sweep/merge.h"
+#include "tests/model/temporary_folder.h"
+#include "tests/validation/sweep/small_databases.h"
 
 namespace ursula {
 namespace {
 
+using test::identity;
+using test::point;
 using testing::HasSubstr;
-
-SweepIdentity identity(const std::string& hash = "aa", int shard = 1, int shards = 1) {
-  SweepIdentity out;
-  out.hash = hash;
-  out.version = "1.0";
-  out.file = "s.toml";
-  out.points = 4;
-  out.shard = shard;
-  out.shards = shards;
-  out.keys = {"a.b"};
-  return out;
-}
-
-SweepPoint point(std::int64_t id, double value = 1.5) {
-  return {id, R"({"a.b":1})", "pass", 0.5, "", {{"tau", value, std::nan(""), ""}, {"check", 0.1, 0.2, "pass"}}};
-}
 
 std::string refused(const std::filesystem::path& file, const SweepIdentity& whose = identity()) {
   return refusal<DatabaseError>([&] { SweepDatabase(file, whose); });
-}
-
-/// All rows but their seconds, as text.
-std::string rowsOf(const std::filesystem::path& file) {
-  Sqlite database(file, Sqlite::Access::read);
-  std::string out;
-  Statement points(database, "SELECT id || parameters || verdict || coalesce(error, '-') FROM point");
-  while (points.step()) out += points.text(0) + "\n";
-  Statement results(database, "SELECT point || name || coalesce(value, '-') || coalesce(\"limit\", '-') FROM result");
-  while (results.step()) out += results.text(0) + "\n";
-  return out;
 }
 
 TEST(SweepDatabase, keepsWhatWasCommitted) {
@@ -185,87 +160,6 @@ TEST(SweepDatabase, isOfTheSweepThatWroteFirst) {
             "PRAGMA user_version = 1; COMMIT");
   EXPECT_THAT(says.get(), HasSubstr("of another sweep, s.toml"));
   EXPECT_EQ(SweepDatabase(file).identity().hash, "bb");
-}
-
-TEST(SweepMerge, takesEachPointOnceInAnyOrderAndSaysWhatIsMissing) {
-  const TemporaryFolder folder;
-  const auto part = [&](int shard, std::vector<int> ids) {
-    const std::filesystem::path file = folder.path() / ("part" + std::to_string(shard) + ".db");
-    SweepDatabase database(file, identity("aa", shard, 2));
-    for (const int id : ids) database.add(point(id));
-    database.finish();
-    return file;
-  };
-  const auto second = part(2, {2, 3}), first = part(1, {0});
-  const std::filesystem::path all = folder.path() / "all.db";
-  const MergeResult most = mergeSweeps({second, first}, all);
-  EXPECT_EQ(most.added, 3);
-  ASSERT_EQ(most.missing.size(), 1u);
-  EXPECT_EQ(most.missing[0].first, 1);
-  EXPECT_EQ(most.missing[0].end, 2);
-  ASSERT_EQ(most.missing_shards.size(), 1u);
-  EXPECT_EQ(most.missing_shards[0].index, 1);
-  {
-    SweepDatabase database(first, identity("aa", 1, 2));
-    database.add(point(1));
-    database.finish();
-  }
-  EXPECT_EQ(mergeSweeps({first}, all).added, 1);
-  const MergeResult again = mergeSweeps({first, second, first}, all);
-  EXPECT_EQ(again.added, 0);
-  EXPECT_EQ(again.done, 4);
-  EXPECT_TRUE(again.missing.empty());
-
-  const std::filesystem::path whole = folder.path() / "whole.db";
-  {
-    SweepDatabase database(whole, identity());
-    for (int id = 0; id < 4; ++id) database.add(point(id));
-    database.finish();
-  }
-  EXPECT_EQ(rowsOf(all), rowsOf(whole));
-}
-
-/// An error is the machine's: what a shard made of it again counts, in whatever order they come.
-TEST(SweepMerge, takesAPointThatWasMadeAgainForOneInError) {
-  const TemporaryFolder folder;
-  const auto made = [&](const std::string& name, bool in_error) {
-    SweepDatabase database(folder.path() / name, identity());
-    database.add(point(0));
-    SweepPoint second = point(1);
-    if (in_error) second = {1, second.parameters, "error", 0.1, "out of memory", {}};
-    database.add(second);
-    database.finish();
-    return folder.path() / name;
-  };
-  const auto error = made("error.db", true), again = made("again.db", false);
-  const std::filesystem::path first = folder.path() / "first.db", last = folder.path() / "last.db";
-  EXPECT_EQ(mergeSweeps({error}, first).added, 2);
-  EXPECT_NE(rowsOf(first), rowsOf(again));
-  EXPECT_EQ(mergeSweeps({again}, first).added, 1);
-  EXPECT_EQ(rowsOf(first), rowsOf(again));
-  mergeSweeps({again}, last);
-  EXPECT_EQ(mergeSweeps({error}, last).added, 0);
-  EXPECT_EQ(rowsOf(last), rowsOf(again));
-}
-
-TEST(SweepMerge, refusesOtherSweepsAndPointsThatDiffer) {
-  const TemporaryFolder folder;
-  const auto made = [&](const std::string& name, const SweepIdentity& whose, double value) {
-    SweepDatabase database(folder.path() / name, whose);
-    database.add(point(0, value));
-    database.finish();
-    return folder.path() / name;
-  };
-  const auto one = made("one.db", identity(), 1.5), other = made("other.db", identity("bb"), 1.5),
-             off = made("off.db", identity(), std::nextafter(1.5, 2));
-  const std::filesystem::path all = folder.path() / "all.db";
-  EXPECT_THAT(refusal<DatabaseError>([&] { mergeSweeps({one, other}, all); }), HasSubstr("of another sweep than"));
-  EXPECT_FALSE(std::filesystem::exists(all));
-  EXPECT_THAT(refusal<DatabaseError>([&] { mergeSweeps({one, off}, all); }), HasSubstr("its point 0 is not that of"));
-  EXPECT_EQ(rowsOf(all), rowsOf(one));
-  EXPECT_THAT(refusal<DatabaseError>([&] { mergeSweeps({one, all}, all); }), HasSubstr("that all go into"));
-  EXPECT_THAT(refusal<DatabaseError>([&] { mergeSweeps({folder.path() / "no.db"}, all); }),
-              HasSubstr("cannot be opened"));
 }
 
 }  // namespace
