@@ -33,8 +33,9 @@ Shard shardOf(const std::string& text) {
   if (text.empty()) return shard;
   char rest = '\0';
   if (std::sscanf(text.c_str(), "%d/%d%c", &shard.index, &shard.of, &rest) != 2 || shard.of < 1 || shard.index < 1 ||
-      shard.index > shard.of || shard.of > 1'000'000)
-    throw UsageError(fmt::format("--shard {}: expected I/N with I from 1 to N, and N to 1000000, such as 1/4", text));
+      shard.index > shard.of || shard.of > most_shards)
+    throw UsageError(
+        fmt::format("--shard {}: expected I/N with I from 1 to N, and N to {}, such as 1/4", text, most_shards));
   return shard;
 }
 

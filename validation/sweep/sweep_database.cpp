@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+
+#include "validation/sweep/sweep_file.h"
 
 namespace ursula {
 namespace {
@@ -81,7 +84,8 @@ constexpr const char* without_results =
 
 /// Rows that no sweep writes.
 void requireSound(Sqlite& database, const SweepIdentity& sweep) {
-  if (sweep.points < 1 || sweep.shards < 1 || sweep.shard < 1 || sweep.shard > sweep.shards)
+  if (sweep.points < 1 || sweep.points > most_points || sweep.shards < 1 || sweep.shards > most_shards ||
+      sweep.shard < 1 || sweep.shard > sweep.shards)
     refuse(database.file(), "is damaged: it does not say which points it is to hold");
   Statement odd(database,
                 "SELECT min(id) FROM point WHERE id < 0 OR id >= ? OR verdict NOT IN ('pass', 'fail', 'inconclusive', "
@@ -127,8 +131,8 @@ SweepIdentity readIdentity(Sqlite& database) {
     *text = row.text(k++);
   out.pointwise = row.integer(k++) != 0;
   out.points = row.integer(k++);
-  out.shard = static_cast<int>(row.integer(k++));
-  out.shards = static_cast<int>(row.integer(k++));
+  for (int* count : {&out.shard, &out.shards})  // one that no int holds is refused with those that are too large
+    *count = static_cast<int>(std::clamp<std::int64_t>(row.integer(k++), 0, most_shards + 1));
   try {
     out.keys = nlohmann::json::parse(row.text(k)).get<std::vector<std::string>>();
   } catch (const nlohmann::json::exception&) {

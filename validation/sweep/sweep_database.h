@@ -10,6 +10,9 @@
 
 namespace ursula {
 
+/// Parts that a sweep is cut into.
+constexpr int most_shards = 1'000'000;
+
 /// What a database is of: its table `sweep`, one row.
 struct SweepIdentity {
   std::string text;      ///< the sweep's file

@@ -115,6 +115,11 @@ TEST(SweepDatabase, refusesRowsThatNoSweepWrites) {
                 HasSubstr("is damaged: point 1 is not as a sweep writes it"))
         << value;
   EXPECT_THAT(changed("DELETE FROM result WHERE point = 3"), HasSubstr("is damaged: point 3 has no results"));
+  // A merge looks at each shard: of so many it took all memory.
+  for (const char* value : {"shards = 2147483647", "shards = 1000001", "shards = 4294967297", "shards = 0",
+                            "shard = 4294967297", "points = 9223372036854775807"})
+    EXPECT_THAT(changed("UPDATE sweep SET " + std::string(value)), HasSubstr("does not say which points it is to hold"))
+        << value;
 }
 
 TEST(SweepDatabase, seesDamage) {
