@@ -28,6 +28,13 @@ volatile std::sig_atomic_t asked_to_stop = 0;
 
 extern "C" void askToStop(int signal) { asked_to_stop = signal; }
 
+/// What whoever started this program wants ignored stays ignored: `nohup`, a shell's background, `trap '' INT`.
+void stopAt(int signal) {
+  struct sigaction action {};
+  sigaction(signal, nullptr, &action);
+  if (action.sa_handler != SIG_IGN) std::signal(signal, askToStop);  // NOLINT(performance-no-int-to-ptr)
+}
+
 Shard shardOf(const std::string& text) {
   Shard shard;
   if (text.empty()) return shard;
@@ -84,8 +91,7 @@ int sweep(const SweepOptions& options) {
     return submitSweep(
         plan, {options.sweep, database, options.shards, options.jobs_given ? options.jobs : 1, options.dry_run});
   if (database.has_parent_path()) std::filesystem::create_directories(database.parent_path());
-  std::signal(SIGINT, askToStop);
-  std::signal(SIGTERM, askToStop);
+  for (const int signal : {SIGINT, SIGTERM}) stopAt(signal);
   SweepRunResult result;
   {
     Progress progress(std::filesystem::path(options.sweep).stem().string());

@@ -117,6 +117,19 @@ TEST(SweepVerb, keepsItsDatabaseWhateverItIsCalled) {
   EXPECT_EQ(ursula(said.substr(at + 9, said.find('\n', at) - at - 9)).exit_code, 0) << "as pasted: " << said;
 }
 
+/// A shell's background, where Ctrl-C is for what is in front.
+TEST(SweepVerb, leavesIgnoredWhatWasIgnoredWhenItWasStarted) {
+  const Program ursula;
+  ursula.write("s.toml", sweepOf("inverse", "design = \"random\"\ncount = 20000\nsamples = 5\n"));
+  ursula.write("interrupted.sh",
+               "trap '' INT TERM\n'" URSULA_PROGRAM
+               "' sweep s.toml --jobs 2 >said 2>&1 &\n"
+               "for k in 1 2 3 4 5 6 7 8 9 10; do sleep 0.1; kill -INT $!; kill -TERM $!; done\nwait $!\n");
+  const std::string command = "cd '" + ursula.folder().string() + "' && sh interrupted.sh 2>.err";
+  EXPECT_EQ(std::system(command.c_str()), 0) << TemporaryFolder::read(ursula.folder() / "said");
+  EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "said"), HasSubstr("20000 points: 20000 pass"));
+}
+
 /// A hundredth of each: none may fail, or be in error.
 TEST(SweepVerb, sweepsThatShipPass) {
   const Program ursula;

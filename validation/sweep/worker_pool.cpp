@@ -103,7 +103,7 @@ void WorkerPool::start(Worker& worker) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(exit_lost_parent);
     std::signal(SIGINT, SIG_IGN);  // of a terminal goes to all; the caller sees to it
-    std::signal(SIGTERM, SIG_DFL);
+    if (std::signal(SIGTERM, SIG_DFL) == SIG_IGN) std::signal(SIGTERM, SIG_IGN);  // as whoever started us wants it
     std::signal(SIGPIPE, SIG_IGN);
     for (const auto& other : workers_) {  // or they would never see the end of their questions
       if (other->to >= 0) ::close(other->to);
