@@ -123,6 +123,14 @@ TEST_F(SolverRun, oneIsEndedWithAProgramThatIsInterrupted) {
   EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
 }
 
+/// It looks at nothing that would tell it.
+TEST_F(SolverRun, oneIsEndedByWhateverSignalEndsTheProgram) {
+  for (const char* signal : {"TERM", "HUP", "QUIT", "ALRM", "USR1", "USR2", "XCPU", "VTALRM", "PROF"}) {
+    EXPECT_NE(judge("echo $$ > self; kill -" + std::string(signal) + " $PPID; exec sleep 1000").exit_code, 0) << signal;
+    EXPECT_TRUE(ends(folder() / "self")) << signal;
+  }
+}
+
 TEST_F(SolverRun, whatCannotBeMeantIsRefused) {
   EXPECT_THAT(refused("cat", "--torques tau.csv"), HasSubstr("--torques excludes --solver"));
   EXPECT_THAT(refused(""), HasSubstr("expected a command"));

@@ -124,6 +124,8 @@ TEST(ExternalSolver, answersAreSixNumbers) {
   Vector6d expected;
   expected << 1, -2.5, 3e2, 0.1, 5, 6;
   EXPECT_EQ(solverAnswer("1,-2.5,+3e2, 0.1 ,5,6\r"), expected);
+  // Smaller than any double, which is no reason to refuse it.
+  EXPECT_EQ(solverAnswer("1e-400,-1e-400,+1e-99999,0." + std::string(400, '0') + "1,1e-400,0e400"), Vector6d::Zero());
   for (const char* bad : {"", "1,2,3,4,5", "1,2,3,4,5,6,", "1,2,3,4,5,six", "1,2,,4,5,6", "1,2,3,4,5,0x6",
                           "1;2;3;4;5;6", "1,2,3,4,5,1e999", "1,2,3,4,5,6 7"})
     EXPECT_THROW(solverAnswer(bad), SolverProcessError) << bad;

@@ -75,9 +75,11 @@ class WithoutPipeSignal {
   bool was_pending_ = false;
 };
 
-// A signal that ends this process ends the newest group before.
+// A signal that ends this process ends the newest group before: a command need not look at the end of its input. All
+// that somebody sends or a limit of the system does; not those of a crash, after which nothing can be relied on.
 std::atomic<pid_t> group{0};
-constexpr std::array<int, 3> ends_process = {SIGINT, SIGTERM, SIGHUP};
+constexpr std::array<int, 10> ends_process = {SIGINT,  SIGTERM, SIGHUP,  SIGQUIT,   SIGALRM,
+                                              SIGUSR1, SIGUSR2, SIGXCPU, SIGVTALRM, SIGPROF};
 
 void endGroupAndSelf(int signal) {
   if (const pid_t leader = group.load(); leader > 0) ::kill(-leader, SIGKILL);

@@ -9,8 +9,8 @@
 namespace ursula {
 
 /// A command that is asked line by line: what is written to its standard input is answered on its standard output. Its
-/// standard error is ours. It leads a process group of its own, which ends with this object, or with SIGINT, SIGTERM or
-/// SIGHUP to this process where those have their default action. For one thread at a time.
+/// standard error is ours. It leads a process group of its own, which ends with this object, or with a signal that ends
+/// this process where that has its default action, but for SIGKILL and those of a crash. For one thread at a time.
 class LineProcess {
  public:
   /// Why `text` is all that came.

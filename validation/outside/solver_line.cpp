@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <locale>
+#include <sstream>
 #include <string_view>
 #include <vector>
 
@@ -21,12 +23,22 @@ std::string_view trimmed(std::string_view text) {
   return first == text.npos ? std::string_view{} : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
+/// Of one that std::from_chars says is out of range, which is of both ends: a stream tells them apart.
+bool isBelowRange(std::string_view digits) {
+  std::istringstream stream{std::string(digits)};
+  stream.imbue(std::locale::classic());
+  double value = 1;
+  return stream >> value && std::abs(value) < 1;
+}
+
+/// One that is smaller than any double is 0 to a double.
 double numberOf(std::string_view cell, int index) {
   std::string_view digits = trimmed(cell);
   if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
+  const bool is_small = error == std::errc::result_out_of_range && isBelowRange(digits);
+  if ((error != std::errc{} && !is_small) || end != digits.data() + digits.size() || !std::isfinite(value))
     throw SolverProcessError(
         fmt::format("its effort {} is '{}', expected a finite number", index, shown(trimmed(cell), most_shown)));
   return value;
