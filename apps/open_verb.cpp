@@ -35,15 +35,36 @@ bool isInPath(const std::string& program) {
   return false;
 }
 
-/// For `sh -c`, with the page as $1: the first of $BROWSER, which may have a %s for it, else xdg-open; "" where there
-/// is neither.
+/// For `sh -c`, with the page as $1 in the place of each %s, quoted or not: one word whatever is in its path.
+std::string withPage(const std::string& browser) {
+  std::string out;
+  char quote = '\0';
+  for (std::size_t k = 0; k < browser.size(); ++k) {
+    const char sign = browser[k];
+    if (browser.compare(k, 2, "%s") == 0) {
+      out += quote == '"' ? "${1}" : quote == '\'' ? "'\"$1\"'" : "\"$1\"";
+      ++k;
+      continue;
+    }
+    out += sign;
+    if (sign == '\\' && quote != '\'' && k + 1 < browser.size())
+      out += browser[++k];
+    else if (sign == quote)
+      quote = '\0';
+    else if (quote == '\0' && (sign == '"' || sign == '\''))
+      quote = sign;
+  }
+  return out;
+}
+
+/// For `sh -c`, with the page as $1: the first of $BROWSER, which may have %s for it, else xdg-open; "" where there is
+/// neither.
 std::string browserCommand() {
   const char* browser = std::getenv("BROWSER");
   std::string command = browser == nullptr ? "" : browser;
   command.erase(std::min(command.find(':'), command.size()));
   if (command.empty()) return isInPath("xdg-open") ? "exec xdg-open \"$1\"" : "";
-  const std::size_t place = command.find("%s");
-  return place == std::string::npos ? command + " \"$1\"" : command.replace(place, 2, "\"$1\"");
+  return command.find("%s") == std::string::npos ? command + " \"$1\"" : withPage(command);
 }
 
 /// In a session of its own and without our streams, twice removed, so that nobody waits for it.

@@ -113,6 +113,34 @@ TEST(Open, startsTheBrowserWithTheReportAndDoesNotWait) {
   EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "shown"), run.out);
 }
 
+/// As other programs read it: each %s is the page, one word, also where it stands in quotes.
+TEST(Open, takesTheBrowserAsItIsQuoted) {
+  const Program ursula;
+  const std::filesystem::path folder = ursula.folder() / "a  b's $HOME";
+  std::filesystem::create_directory(folder);
+  ursula.write("a  b's $HOME/report.html", "");
+  ursula.write("browser", "#!/bin/sh\nprintf '<%s>' \"$@\" > shown.part && mv shown.part shown\n");
+  std::filesystem::permissions(ursula.folder() / "browser", std::filesystem::perms::owner_all);
+  const std::string page = (folder / "report.html").string();
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"./browser", "<" + page + ">"},
+      {"./browser %s", "<" + page + ">"},
+      {"./browser \"%s\"", "<" + page + ">"},
+      {"./browser '%s'", "<" + page + ">"},
+      {"./browser '--page=%s' \"at \\\" %s\" %s", "<--page=" + page + "><at \" " + page + "><" + page + ">"},
+      {"./browser --page=%s%s", "<--page=" + page + page + ">"}};
+  for (const auto& [browser, expected] : cases) {
+    ::setenv("BROWSER", browser.c_str(), 1);
+    EXPECT_EQ(ursula("open \"a  b's \\$HOME\"").exit_code, 0) << browser;
+    ::unsetenv("BROWSER");
+    const std::filesystem::path shown = ursula.folder() / "shown";
+    for (int k = 0; k < 12000 && !std::filesystem::exists(shown); ++k)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    EXPECT_EQ(TemporaryFolder::read(shown), expected) << browser;
+    std::filesystem::remove(shown);
+  }
+}
+
 TEST(Open, saysWhereThereIsNoReportOrNoBrowser) {
   const Program ursula;
   std::filesystem::create_directory(ursula.folder() / "out");
