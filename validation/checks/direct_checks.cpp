@@ -24,11 +24,11 @@ Check judgeBeside(const Growth& growth, const BesidePath& path, const EndsBeside
   const double size = beside.size;
   const Vector6d expected = (growth.Phi * path.direction()).head<6>();
   const double grown = expected.norm(), error = (beside.whole_apart - 2 * size * expected).norm() / (2 * size);
-  // What is even in the deviation bounds what is cubic; intervals and differences of twice the length show more than
-  // what these miss.
+  // What is even in the deviation bounds what is cubic. Intervals and differences of twice the length show what these
+  // miss, of smooth equations more.
   const double bend = (beside.above + beside.below - 2 * beside.on_path).norm() / size;
-  const double steps = ((growth.coarser - growth.Phi) * path.direction()).head<6>().norm() +
-                       ((growth.blunter - growth.coarser) * path.direction()).head<6>().norm();
+  const double steps = integration_safety * (((growth.coarser - growth.Phi) * path.direction()).head<6>().norm() +
+                                             ((growth.blunter - growth.coarser) * path.direction()).head<6>().norm());
   const double integration =
       integration_safety * (2 * (beside.above - beside.below) - beside.whole_apart).norm() / (2 * size);
   const double rounding = path.rounding() * path.size() / size;
@@ -36,8 +36,8 @@ Check judgeBeside(const Growth& growth, const BesidePath& path, const EndsBeside
   worst.add(error / grown, (bend + steps + integration + between + rounding) / grown, path.end());
   return judgedIfUseful(
       {check, "", 1}, worst,
-      fmt::format("what is even in the deviation, what intervals and differences of twice the length change, "
-                  "{:g} times what a hundredfold tolerance changes, and rounding of the accelerations",
+      fmt::format("what is even in the deviation, {0:g} times what intervals and differences of twice the length "
+                  "change, {0:g} times what a hundredfold tolerance changes, and rounding of the accelerations",
                   integration_safety),
       fmt::format("a deviation of the state by {:.2g} m grows {:.4g} times until t = {:.6g} s by the "
                   "variational equations; relative difference from Simbody put off the path as much either "

@@ -14,9 +14,11 @@ namespace {
 using Matrix12 = Linearisation::Matrix12;
 
 /// Of an interval's propagator, what halving may change.
-constexpr double resolved = 1e-6;
+constexpr double resolved = 1e-7;
 /// Halvings of one interval, and of all: beyond, what is left shows in what halving changes.
-constexpr int deepest = 16, most_halvings = 1000;
+constexpr int deepest = 16, most_halvings = 2000;
+/// Of its smoothing speed, by what a joint's speed may change within an interval.
+constexpr double smooth_change = 0.5;
 /// A joint whose speed is above this many smoothing speeds throughout rubs as if it were constant.
 constexpr double saturated = 20;
 
@@ -43,7 +45,7 @@ class RubbingJoints {
     const Speeds a = at(from), b = at(to);
     for (std::size_t k = 0; k < a.size(); ++k) {
       const bool away = a[k] * b[k] > 0 && std::min(std::abs(a[k]), std::abs(b[k])) > saturated;
-      if (!away && std::abs(a[k] - b[k]) > 1) return false;
+      if (!away && std::abs(a[k] - b[k]) > smooth_change) return false;
     }
     return true;
   }

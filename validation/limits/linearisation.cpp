@@ -1,6 +1,7 @@
 #include "validation/limits/linearisation.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "nocsolver/solver.h"
@@ -17,6 +18,16 @@ bool sameBits(const Motion<double>& a, const Motion<double>& b) {
          a.omega_dot == b.omega_dot;
 }
 
+/// Coulomb friction changes within its smoothing speed, and not within the machine's own: between the step that suits
+/// the one and that for the other.
+double stepFor(const Manipulator& machine) {
+  double speed = 1;
+  for (const Leg& leg : machine.parameters().legs)
+    for (const Coordinate coordinate : rowOf(leg.kind).coordinates)
+      if (leg.coulomb.on(coordinate) != 0) speed = std::min(speed, leg.coulomb.speedOf(coordinate));
+  return std::cbrt(speed * speed);
+}
+
 }  // namespace
 
 Linearisation::Linearisation(const Scenario& scenario, const AccelerationUnder& accelerations, double step)
@@ -27,7 +38,7 @@ Linearisation::Linearisation(const Scenario& scenario, const AccelerationUnder& 
       accelerations_(own_ ? fastSubject(*scenario.manipulator, scenario.load).accelerations : accelerations),
       length_(MachineParameters<double>(*scenario.manipulator).length),
       // Central differences: the cube root of eps balances truncation and rounding.
-      step_(step * std::cbrt(Eigen::NumTraits<double>::epsilon()) * length_) {}
+      step_(step * stepFor(*scenario.manipulator) * std::cbrt(Eigen::NumTraits<double>::epsilon()) * length_) {}
 
 Linearisation::Linearisation(const Scenario& scenario) : Linearisation(scenario, nullptr, 1) {}
 

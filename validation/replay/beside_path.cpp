@@ -66,7 +66,9 @@ EndsBeside BesidePath::replayed(const std::vector<double>& stops, double size) c
   settings.end = end_;
   settings.stops = stops;
   settings.stiff = stiff_;
-  settings.max_evaluations = enoughEvaluations(scenario_, plannedStepRate(scenario_.trajectory->duration()));
+  constexpr long evaluations_per_stop = 40;  // Fehlberg's pair takes 13 a step
+  settings.max_evaluations = enoughEvaluations(scenario_, plannedStepRate(scenario_.trajectory->duration())) +
+                             evaluations_per_stop * static_cast<long>(stops.size());
   EndsBeside out;
   out.size = size;
   const auto endOf = [&](double share, double finer_by) {
@@ -91,7 +93,8 @@ const EndsBeside& BesidePath::ends() const {
 const EndsBeside& BesidePath::endsWithStops() const {
   return ends_with_stops_.get([this] {
     std::vector<double> stops = equallySpaced(end_, stops_of_second_look);
-    stops.insert(stops.end(), right_.halved_at.begin(), right_.halved_at.end());
+    const std::size_t stride = 1 + right_.halved_at.size() / stops_of_second_look;
+    for (std::size_t k = 0; k < right_.halved_at.size(); k += stride) stops.push_back(right_.halved_at[k]);
     return replayed(stops, size_ / 10);
   });
 }
