@@ -20,9 +20,10 @@ using testing::HasSubstr;
 
 constexpr double position_scale = 2;
 
-/// A window of 1 s in which nothing grows.
-WindowedReplay madeReplay() {
+/// A window of 1 s in which nothing grows. Of a machine of no `length` no distance is harmless.
+WindowedReplay madeReplay(double length = 0) {
   WindowedReplay out;
+  out.window.length = length;
   for (double t : {0.0, 0.5, 1.0}) {
     out.window.t.push_back(t);
     out.window.from_acceleration.push_back(0);
@@ -51,10 +52,10 @@ Ladder madeLadder() {
 
 using Change = std::function<void(Ladder&)>;
 
-std::vector<Check> judge(const Change& change) {
+std::vector<Check> judge(const Change& change, double length = 0) {
   Ladder ladder = madeLadder();
   change(ladder);
-  return judgeLadder(ladder, madeReplay(), position_scale);
+  return judgeLadder(ladder, madeReplay(length), position_scale);
 }
 
 /// The checks after a change of one rung.
@@ -63,7 +64,7 @@ std::vector<Check> judge(std::size_t rung, const std::function<void(Rung&)>& cha
 }
 
 TEST(JudgeLadder, acceptsRungsWithinTheirBounds) {
-  const std::vector<Check> checks = judge([](Ladder&) {});
+  const std::vector<Check> checks = judge([](Ladder&) {}, 1);
   EXPECT_EQ(verdictOf(checks, "integration.ladder"), "pass");
   EXPECT_EQ(verdictOf(checks, "integration.second"), "pass");
 }
@@ -73,9 +74,9 @@ TEST(JudgeLadder, failsARungBeyondItsBoundAndThatOneAlone) {
   for (std::size_t k = 0; k < 2; ++k) {
     const auto with = [k](double distance) {
       return judge(
-          [k, distance](Ladder& ladder) { (k == 0 ? ladder.rungs : ladder.second).back().distance = distance; });
+          [k, distance](Ladder& ladder) { (k == 0 ? ladder.rungs : ladder.second).back().distance = distance; }, 1);
     };
-    const double limit = findCheck(judge([](Ladder&) {}), names[k])->limit;
+    const double limit = findCheck(judge([](Ladder&) {}, 1), names[k])->limit;
     for (const double wrong : {1.01 * limit, std::nan("")}) {
       EXPECT_EQ(verdictOf(with(wrong), names[k]), "fail") << wrong;
       EXPECT_EQ(verdictOf(with(wrong), names[1 - k]), "pass") << wrong;
@@ -133,17 +134,32 @@ TEST(JudgeLadder, failsWithTheReasonWhereARungGaveUp) {
 TEST(JudgeLadder, leavesTheSecondOpenWhereThatIntegratorDidNotGetThere) {
   for (std::size_t rung = 0; rung < 2; ++rung)
     for (const bool left_path : {false, true}) {
-      const std::vector<Check> checks = judge([=](Ladder& ladder) {
-        if (left_path)
-          ladder.second[rung].left_path = true;
-        else
-          ladder.second[rung].gave_up = "the step vanished";
-      });
+      const std::vector<Check> checks = judge(
+          [=](Ladder& ladder) {
+            if (left_path)
+              ladder.second[rung].left_path = true;
+            else
+              ladder.second[rung].gave_up = "the step vanished";
+          },
+          1);
       EXPECT_EQ(verdictOf(checks, "integration.ladder"), "pass");
       EXPECT_EQ(verdictOf(checks, "integration.second"), "inconclusive");
       EXPECT_EQ(findCheck(checks, "integration.second")->reason, Reason::unfinished);
     }
   EXPECT_EQ(verdictOf(judge([](Ladder& ladder) { ladder.second.clear(); }), "integration.second"), "fail");
+}
+
+/// Accelerations that miss Simbody's own constraints are no evidence.
+TEST(JudgeLadder, asksNoIntegratorThatContradictsItself) {
+  const auto second = [](double contradiction) {
+    return *findCheck(judge([=](Ladder& ladder) { ladder.second_contradiction = contradiction; }, 1),
+                      "integration.second");
+  };
+  EXPECT_EQ(second(1e-12).verdict, Verdict::pass);
+  for (const double contradiction : {1e-3, std::nan("")}) {
+    EXPECT_EQ(second(contradiction).verdict, Verdict::not_applicable) << contradiction;
+    EXPECT_THAT(second(contradiction).why, HasSubstr("nearly massless"));
+  }
 }
 
 TEST(JudgeLadder, failsWhereTheJudgedReplayGaveUpOrLeftThePath) {

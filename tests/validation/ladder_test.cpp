@@ -114,7 +114,7 @@ TEST(PaperHelixLadder, extrapolatesNothingWhereTheTorquesJump) {
     EXPECT_FALSE(climb.ladder().asymptotic) << later;
     EXPECT_EQ(climb.ladder().extrapolated, climb.ladder().rungs[2].distance) << later;
     EXPECT_THAT(findCheck(climb.checks(), "integration.ladder")->why, HasSubstr("not asymptotic")) << later;
-    if (verdictOf(climb.checks(), "integration.ladder") == "pass") ++settled;
+    if (verdictOf(climb.checks(), "integration.ladder") != "fail") ++settled;
   }
   EXPECT_GT(settled, 0);
 }

@@ -172,8 +172,7 @@ Check judgeAnswers(const Scenario& scenario, std::vector<Answered> answers, cons
   Comparison comparison(scenario, Formulation::external, samples, profile);
   for (const Answered& answer : answers) comparison.add(answer);
   sortByTime(answers);
-  return checkOf(comparison,
-                 fmt::format("every one of {} answers against the NOC's at its own instant", answers.size()),
+  return checkOf(comparison, "every answer that it gave against the NOC's, at its own instant",
                  widestGap(answers, scenario.trajectory->duration()), samples, units);
 }
 

@@ -134,7 +134,7 @@ ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& t
         window->start() * units.time, bound * units.length, (window->end() - window->start()) * units.time,
         useful * units.length);
     out.bound = bound;
-    out.between = limit->largestInterpolation() + limit->largestOfDigits();
+    out.between = limit->largestInterpolation();
     out.spline = basis;
     return out;
   }
