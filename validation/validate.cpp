@@ -50,7 +50,7 @@ void tell(const ValidationOptions& options, double share, const char* now) {
   if (options.progress) options.progress(share, now);
 }
 
-/// What a check of somebody else's solver saw is widened to all answers that were given by now.
+/// Judges all answers that somebody else's solver gave by now, in the place of those that torque.between asked for.
 void judgeEveryAnswer(const Evidence& evidence, std::vector<Check>& checks) {
   const auto between =
       std::find_if(checks.begin(), checks.end(), [](const Check& check) { return check.name == "torque.between"; });
@@ -81,8 +81,8 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   if (options.budget && evidence.amplification != nullptr)
     budget =
         attributeInTime(*evidence.scenario, evidence.samples, evidence.windows, evidence.amplification, evidence.plan);
-  judgeEveryAnswer(evidence, result.checks);
   reference.stop();  // what follows is short, and makes a result of what was reached
+  judgeEveryAnswer(evidence, result.checks);
   addFacts(evidence, budget, result);
   seriesInSi(evidence.natural, result);
   addPicture(scenario, result);

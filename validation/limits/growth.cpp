@@ -17,7 +17,7 @@ using Matrix12 = Linearisation::Matrix12;
 constexpr double resolved = 1e-7;
 /// Halvings of one interval, and of all: beyond, what is left shows in what halving changes.
 constexpr int deepest = 16, most_halvings = 2000;
-/// Of its smoothing speed, by what a joint's speed may change within an interval.
+/// A joint's speed may change by this share of its smoothing speed within an interval.
 constexpr double smooth_change = 0.5;
 /// A joint whose speed is above this many smoothing speeds throughout rubs as if it were constant.
 constexpr double saturated = 20;

@@ -18,8 +18,8 @@ bool sameBits(const Motion<double>& a, const Motion<double>& b) {
          a.omega_dot == b.omega_dot;
 }
 
-/// Coulomb friction changes within its smoothing speed, and not within the machine's own: between the step that suits
-/// the one and that for the other.
+/// Coulomb friction changes within its smoothing speed, everything else within the machine's own speed. The step lies
+/// between those that suit either.
 double stepFor(const Manipulator& machine) {
   double speed = 1;
   for (const Leg& leg : machine.parameters().legs)

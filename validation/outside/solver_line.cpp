@@ -23,7 +23,7 @@ std::string_view trimmed(std::string_view text) {
   return first == text.npos ? std::string_view{} : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-/// Of one that std::from_chars says is out of range, which is of both ends: a stream tells them apart.
+/// std::from_chars says "out of range" for numbers that are too large and too small: a stream tells them apart.
 bool isBelowRange(std::string_view digits) {
   std::istringstream stream{std::string(digits)};
   stream.imbue(std::locale::classic());

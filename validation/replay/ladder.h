@@ -32,8 +32,7 @@ struct Ladder {
   std::vector<Rung> second;
   double second_end = 0;         ///< s
   double second_difference = 0;  ///< between the last two, m
-  /// By how much the accelerations that Simbody's own integrator uses miss Simbody's constraints and inverse dynamics
-  /// until `second_end`, m/s².
+  /// The largest error of the accelerations that Simbody's own integrator uses, until `second_end`, m/s².
   double second_contradiction = 0;
   bool passes_knots = false;            ///< over some it steps, so that it need not converge
   std::vector<double> observed_orders;  ///< between neighbouring rkf78 rungs, of the error against the steps

@@ -83,8 +83,8 @@ class SimbodyLoop {
   /// links are nearly massless. They are then the accelerations last found.
   void accelerate(const Vector6d& torques);
 
-  /// By how much Simbody's own realize(Acceleration) differs from accelerate() in the platform's twist rate [ω̇; p̈]
-  /// under these torques: rounding, but where it drops multipliers. Only for six_balls.
+  /// The platform's twist rate [ω̇; p̈] by Simbody's own realize(Acceleration), less that by accelerate(), under these
+  /// torques. It is rounding, except where Simbody drops multipliers. Only for six_balls.
   Vector6d ownTwistRateError(const Vector6d& torques);
 
   /// Forces and moments at the joints after accelerate(). Only for six_balls.

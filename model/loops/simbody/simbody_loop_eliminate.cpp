@@ -152,7 +152,7 @@ Reactions SimbodyLoop::reactions() const {
   loop.matter.calcResidualForceIgnoringConstraints(open, loop.system.getMobilityForces(open, SimTK::Stage::Dynamics),
                                                    applied, loop.u_dot, residual);
   loop.matter.calcBodyAccelerationFromUDot(open, loop.u_dot, accelerations);
-  /// What moves the body beside the applied forces, about its origin.
+  // The wrench of the joints alone on a body, about its origin.
   const auto wrenchOn = [&](const SimTK::MobilizedBody& body) {
     const SimTK::MobilizedBodyIndex index = body.getMobilizedBodyIndex();
     return Vector6d(toEigen(SimTK::SpatialVec(body.getBodySpatialInertiaInGround(open) * accelerations[index] +
