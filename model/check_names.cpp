@@ -36,7 +36,7 @@ const std::vector<CheckName>& checkNames() {
       {"reactions.pointwise", "N", N::own_reactions},
       {"torque.between", "N m", N::any_instant},
       {"direct.pointwise", "m/s^2", N::direct_dynamics},
-      {"direct.growth", "", N::direct_dynamics},
+      {"direct.off_path", "m/s^2", N::direct_dynamics},
       {"fast.inverse", "N m", N::nothing},
       {"fast.direct", "m/s^2", N::nothing},
       {"fast.inverse_batch", "N m", N::nothing},

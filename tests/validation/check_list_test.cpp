@@ -56,7 +56,7 @@ TEST(CheckList, isWholeForTorquesAlone) {
   torques.rebuilt = nullptr;
   const ValidationResult result = validate(scenario, torques);
   expectEveryCheck(result);
-  for (const char* name : {"kinematics.positions", "direct.growth", "invariance.mass"})
+  for (const char* name : {"kinematics.positions", "direct.off_path", "invariance.mass"})
     EXPECT_EQ(verdictOf(result.checks, name), "not_applicable") << name;
   EXPECT_EQ(result.verdict, Verdict::pass);
 }

@@ -112,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(
         Caught{"branch", "pulse between samples, leg 3", "torque.between", "torque.pointwise"},
         Caught{"kinematics", "T_dot off by 1e-6 of itself, but for the rates of the motion",
                "kinematics.jacobian_difference", "kinematics.jacobian_rate"},
-        Caught{"direct", "direct dynamics at the commanded pose", "direct.growth", "direct.pointwise"},
+        Caught{"direct", "direct dynamics at the commanded pose", "direct.off_path", "direct.pointwise"},
         Caught{"hidden", "wrong where leg 1 has its knee the other way", "invariance.labels", "invariance.mass"},
         Caught{"shared motion", "omega off by 1e-9 of itself", "motion.twist", "motion.pose"},
         Caught{"shared load", "load between its rows by straight lines", "motion.load", "torque.pointwise"},
@@ -307,7 +307,7 @@ TEST(RoadOf, countsWhatAChecksVerdictRestsOn) {
   EXPECT_EQ(roadOf("torque.mujoco"), "MuJoCo");
   EXPECT_EQ(roadOf("torque.between"), "torque.between");
   EXPECT_EQ(roadOf("motion.pose"), "motion.pose");
-  EXPECT_EQ(roadOf("direct.growth"), "Simbody");
+  EXPECT_EQ(roadOf("direct.off_path"), "Simbody");
   EXPECT_EQ(roadOf("invariance.labels"), "invariance.labels");
   EXPECT_EQ(roadOf("kinematics.jacobian_difference"), "kinematics.jacobian_difference");
 }

@@ -9,7 +9,6 @@
 #include "tests/validation/scenario_files.h"
 #include "validation/checks/order_check.h"
 #include "validation/evidence/reference.h"
-#include "validation/limits/growth.h"
 #include "validation/limits/rounding_profile.h"
 #include "validation/replay/observed_order.h"
 #include "validation/replay/windows.h"
@@ -79,32 +78,6 @@ TEST_P(SecondLooks, seeWhatTheStepsOfAReplayAreOffBy) {
 
 INSTANTIATE_TEST_SUITE_P(Scenarios, SecondLooks, testing::Values("paper-helix", "proving-ground", "near-singular"),
                          [](const auto& name) { return asTestName(name.param); });
-
-class Growths : public testing::TestWithParam<std::string> {
- protected:
-  Scenario scenario_ = scenarioOf(GetParam());
-  AccelerationUnder right_ = solverOf(scenario_).accelerations;
-  double end_ = scenario_.trajectory->duration() / 4;
-};
-
-TEST_P(Growths, areTheSameOverFewAndManyIntervals) {
-  const Growth few = growthOf(scenario_, right_, end_, 10), many = growthOf(scenario_, right_, end_, 200);
-  EXPECT_LT((few.Phi - many.Phi).norm(), 1e-5 * many.Phi.norm());
-  EXPECT_GT((few.Phi - few.coarser).norm(), 0);
-  EXPECT_GT((few.blunter - few.coarser).norm(), 0);
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenarios, Growths, testing::Values("paper-helix", "proving-ground", "load-table"),
-                         [](const auto& name) { return asTestName(name.param); });
-
-/// Joints that turn about with Coulomb friction hold a deviation back for a moment.
-TEST(Growth, halvesWhereAJointTurnsAbout) {
-  const Scenario rubbing = scenarioOf("proving-ground"), smooth = scenarioOf("paper-helix");
-  const auto halvings = [](const Scenario& scenario) {
-    return growthOf(scenario, solverOf(scenario).accelerations, scenario.trajectory->duration(), 60).halved_at.size();
-  };
-  EXPECT_GT(halvings(rubbing), halvings(smooth));
-}
 
 class Orders : public testing::TestWithParam<std::string> {};
 

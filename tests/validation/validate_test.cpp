@@ -39,15 +39,10 @@ const std::vector<std::string> promised = {"kinematics.joint_angles",
                                            "feedback.torque"};
 
 /// Of a subject that is a solver whole.
-const std::vector<std::string> of_solvers = {"direct.pointwise",
-                                             "direct.growth",
-                                             "invariance.rotation",
-                                             "invariance.labels",
-                                             "invariance.mass",
-                                             "invariance.time_reversal",
-                                             "kinematics.jacobian",
-                                             "kinematics.jacobian_rate",
-                                             "kinematics.jacobian_difference"};
+const std::vector<std::string> of_solvers = {
+    "direct.pointwise",    "direct.off_path",          "invariance.rotation",
+    "invariance.labels",   "invariance.mass",          "invariance.time_reversal",
+    "kinematics.jacobian", "kinematics.jacobian_rate", "kinematics.jacobian_difference"};
 
 /// Fewer instants than by default, for speed.
 Scenario quick(const std::string& name) {
@@ -160,7 +155,7 @@ TEST(ValidateControl, torquesThatAreNoNumbersNeverPass) {
   EXPECT_EQ(result.verdict, Verdict::fail);
   for (const std::string& name : promised)
     EXPECT_EQ(verdictOf(result.checks, name), name.rfind("kinematics.", 0) == 0 ? "not_applicable" : "fail") << name;
-  for (const char* name : {"direct.pointwise", "direct.growth"})
+  for (const char* name : {"direct.pointwise", "direct.off_path"})
     EXPECT_EQ(verdictOf(result.checks, name), "pass") << name << ": its direct dynamics are right";
 }
 
@@ -217,7 +212,7 @@ TEST(ValidateControl, aSpoiltReplayFails) {
   spoilt.spoil = std::make_shared<const Spoil>(spoil);
   const ValidationResult result = validate(scenario, spoilt);
   EXPECT_EQ(verdictOf(result.checks, "replay.position"), "fail");
-  for (const char* name : {"torque.pointwise", "torque.between", "acceleration.pointwise", "direct.growth"})
+  for (const char* name : {"torque.pointwise", "torque.between", "acceleration.pointwise", "direct.off_path"})
     EXPECT_EQ(verdictOf(result.checks, name), "pass") << name;
 }
 

@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
 
 #include "nocsolver/errors.h"
-#include "validation/replay/windowed_replay.h"
 #include "validation/samples/place_name.h"
 #include "validation/verdict/worst_share.h"
 
@@ -15,85 +14,63 @@ namespace {
 
 double spin(const Vector6d& v, double length) { return v.tail<3>().norm() + length * v.head<3>().norm(); }
 
-/// `between`: by what replays with other deviations and stops end elsewhere, over the deviation.
-Check judgeBeside(const Growth& growth, const BesidePath& path, const EndsBeside& beside, double between,
-                  const Units& units) {
-  static constexpr const char* check = "direct.growth";
-  if (!beside.gave_up.empty())
-    return notJudgeable(Reason::unfinished, check, std::nan(""), std::nan(""), "", "", beside.gave_up);
-  const double size = beside.size;
-  const Vector6d expected = (growth.Phi * path.direction()).head<6>();
-  const double grown = expected.norm(), error = (beside.whole_apart - 2 * size * expected).norm() / (2 * size);
-  // What is even in the deviation bounds what is cubic. Intervals and differences of twice the length show what these
-  // miss, of smooth equations more.
-  const double bend = (beside.above + beside.below - 2 * beside.on_path).norm() / size;
-  const double steps = integration_safety * (((growth.coarser - growth.Phi) * path.direction()).head<6>().norm() +
-                                             ((growth.blunter - growth.coarser) * path.direction()).head<6>().norm());
-  const double integration =
-      integration_safety * (2 * (beside.above - beside.below) - beside.whole_apart).norm() / (2 * size);
-  const double rounding = path.rounding() * path.size() / size;
+std::string motorChanged(int where) { return where < 0 ? "as commanded" : fmt::format("motor {} changed", where + 1); }
+
+/// One of Simbody's answers, the conditioning there, and the motor that is changed, 0-based, -1 for none.
+using Compare = std::function<void(const DirectAnswer&, const Conditioning&, int motor)>;
+
+/// `what` goes before the instant; `each` hands over what is compared.
+Check judgeAnswers(const char* check, const char* what, const std::function<void(const Compare&)>& each,
+                   const Subject& subject, const std::vector<PointwiseSample>& samples, const RoundingProfile& profile,
+                   const Units& units) {
+  SecondLook look(profile);
   Worst worst;
-  worst.add(error / grown, (bend + steps + integration + between + rounding) / grown, path.end());
-  return judgedIfUseful(
-      {check, "", 1}, worst,
-      fmt::format("what is even in the deviation, {0:g} times what intervals and differences of twice the length "
-                  "change, {0:g} times what a hundredfold tolerance changes, and rounding of the accelerations",
-                  integration_safety),
-      fmt::format("a deviation of the state by {:.2g} m grows {:.4g} times until t = {:.6g} s by the "
-                  "variational equations; relative difference from Simbody put off the path as much either "
-                  "way",
-                  size * units.length, grown, path.end() * units.time),
-      "deviations so small that they grow linearly are near what the replays round");
+  double size = 0;
+  try {
+    each([&](const DirectAnswer& simbody, const Conditioning& at, int motor) {
+      size = std::max(size, spin(simbody.twist_rate, at.length));
+      const Vector6d found = subject.accelerations(simbody.state, simbody.torques);
+      const double error = spin(found - simbody.twist_rate, at.length);
+      worst.add(error, look.limit(error, at, Rounded::direct, simbody.state, 1, &simbody.torques), simbody.state.t,
+                motor);
+    });
+  } catch (const PoseError& error) {
+    return notMade(check, "m/s^2", std::string("no answer: ") + error.what());
+  }
+  if (!worst.any) return notMade(check, "m/s^2", "no state was compared");
+  const CheckedQuantity quantity{check, "m/s^2", size};
+  const Shown at = worst.shown(quantity.useful());
+  Check out = judgedIfUseful(
+      quantity, worst,
+      fmt::format("eps (|| T_P inv(I) || x the torque's and the platform's compliance x the forces that close the "
+                  "loops) x {:g} x the spread measured in turned and rescaled frames",
+                  rounding_safety),
+      fmt::format("platform accelerations by (36) against Simbody's, {}; shown for t = {:.6g} s, torques {}", what,
+                  at.t * units.time, motorChanged(at.where)),
+      causeOfRounding(samples, worst.widest_t));
+  out.largest = {worst.largest, worst.largest_t * units.time, motorChanged(worst.largest_where)};
+  return out;
 }
 
 }  // namespace
 
 Check judgeDirect(const std::vector<DirectSample>& direct, const Subject& subject,
                   const std::vector<PointwiseSample>& samples, const RoundingProfile& profile, const Units& units) {
-  static constexpr const char* check = "direct.pointwise";
-  SecondLook look(profile);
-  Worst shown;
-  double size = 0;
-  try {
-    for (const DirectSample& simbody : direct) {
-      const PointwiseSample& sample = samples[simbody.sample];
-      const double length = sample.conditioning.length;
-      for (std::size_t set = 0; set < simbody.torques.size(); ++set) {
-        const Vector6d &torques = simbody.torques[set], &found = simbody.accelerations[set];
-        size = std::max(size, spin(found, length));
-        const double error = spin(subject.accelerations(sample.motion, torques) - found, length);
-        shown.add(error, look.limit(error, sample.conditioning, Rounded::direct, sample.motion, 1, &torques),
-                  sample.motion.t, static_cast<int>(set) - 1);
-      }
-    }
-  } catch (const PoseError& error) {
-    return notMade(check, "m/s^2", std::string("no answer: ") + error.what());
-  }
-  if (!shown.any) return notMade(check, "m/s^2", "no instant was compared");
-  const auto motor = [](int where) { return where < 0 ? "as commanded" : fmt::format("motor {} changed", where + 1); };
-  const CheckedQuantity quantity{check, "m/s^2", size};
-  const Shown at = shown.shown(quantity.useful());
-  Check out = judgedIfUseful(
-      quantity, shown,
-      fmt::format("eps (|| T_P inv(I) || x the torque's and the platform's compliance x the forces that close the "
-                  "loops) x {:g} x the spread measured in turned and rescaled frames",
-                  rounding_safety),
-      fmt::format("platform accelerations by (36) against Simbody's, under seven sets of torques each; shown for "
-                  "t = {:.6g} s, torques {}",
-                  at.t * units.time, motor(at.where)),
-      causeOfRounding(samples, shown.widest_t));
-  out.largest = {shown.largest, shown.largest_t * units.time, motor(shown.largest_where)};
-  return out;
+  const auto each = [&](const Compare& compare) {
+    for (const DirectSample& here : direct)
+      for (std::size_t set = 0; set < here.commanded.size(); ++set)
+        compare(here.commanded[set], samples[here.sample].conditioning, static_cast<int>(set) - 1);
+  };
+  return judgeAnswers("direct.pointwise", "under seven sets of torques each", each, subject, samples, profile, units);
 }
 
-Check judgeGrowth(const Growth& growth, const BesidePath& path, const Units& units, bool second_look) {
-  const EndsBeside& ends = path.ends();
-  const Check first = judgeBeside(growth, path, ends, 0, units);
-  if (first.verdict == Verdict::pass || !second_look) return first;
-  const EndsBeside& closer = path.endsWithStops();
-  if (!closer.gave_up.empty() && first.verdict != Verdict::fail) return first;
-  const Vector6d apart = closer.whole_apart / closer.size - ends.whole_apart / ends.size;
-  return judgeBeside(growth, path, closer, ends.gave_up.empty() ? integration_safety * apart.norm() / 2 : 0, units);
+Check judgeOffPath(const std::vector<DirectSample>& direct, const Subject& subject,
+                   const std::vector<PointwiseSample>& samples, const RoundingProfile& profile, const Units& units) {
+  const auto each = [&](const Compare& compare) {
+    for (const DirectSample& here : direct)
+      for (const DirectAnswer& answer : here.off_path) compare(answer, samples[here.sample].conditioning, -1);
+  };
+  return judgeAnswers("direct.off_path", "in states beside the path", each, subject, samples, profile, units);
 }
 
 }  // namespace ursula

@@ -2,8 +2,6 @@
 
 #include <vector>
 
-#include "validation/limits/growth.h"
-#include "validation/replay/beside_path.h"
 #include "validation/samples/direct_samples.h"
 #include "validation/samples/pointwise.h"
 #include "validation/subject/presentation.h"
@@ -17,9 +15,9 @@ namespace ursula {
 Check judgeDirect(const std::vector<DirectSample>& direct, const Subject& subject,
                   const std::vector<PointwiseSample>& samples, const RoundingProfile& profile, const Units& units = {});
 
-/// `direct.growth`: how a deviation grows by the variational equations of the subject's direct dynamics, `growth` until
-/// path.end(), against what it does in Simbody's loop, really put off the path by as much either way. `second_look`:
-/// what fails is held against replays with more steps, too.
-Check judgeGrowth(const Growth& growth, const BesidePath& path, const Units& units = {}, bool second_look = true);
+/// `direct.off_path`: the same in states that differ from the commanded ones, where nothing of the trajectory helps.
+Check judgeOffPath(const std::vector<DirectSample>& direct, const Subject& subject,
+                   const std::vector<PointwiseSample>& samples, const RoundingProfile& profile,
+                   const Units& units = {});
 
 }  // namespace ursula

@@ -59,13 +59,11 @@ std::vector<Check> judgeBetweenSamples(const Evidence& e) {
   return {judgeBetween(*e.scenario, *e.subject, e.samples, profileOf(e), e.units())};
 }
 
-/// Under the torques that are right; a second look at its growth only where its answers are.
+/// Under the torques that are right.
 std::vector<Check> judgeDirectDynamics(const Evidence& e) {
-  std::vector<Check> checks = {judgeDirect(e.reference->direct(), *e.subject, e.samples, profileOf(e), e.units())};
-  const bool right_here = checks.back().verdict != Verdict::fail;  // else what is wrong is known
-  const BesidePath& path = e.reference->beside();
-  checks.push_back(judgeGrowth(path.growthOf(e.subject->accelerations), path, e.units(), right_here));
-  return checks;
+  const std::vector<DirectSample>& direct = e.reference->direct();
+  return {judgeDirect(direct, *e.subject, e.samples, profileOf(e), e.units()),
+          judgeOffPath(direct, *e.subject, e.samples, profileOf(e), e.units())};
 }
 
 std::vector<Check> judgeWindows(const Evidence& e, const std::vector<WindowedReplay>& windows) {

@@ -74,7 +74,6 @@ const RightReplays& Reference::replays() const {
 }
 
 void Reference::prepare(bool direct_dynamics, bool ladder) const {
-  if (direct_dynamics) ahead_.add([this] { beside().ends(); });
   ahead_.add([this] { stabilised(); });
   if (direct_dynamics) ahead_.add([this] { direct(); });
   if (ladder) ahead_.add([this] { this->ladder(); });
@@ -115,14 +114,6 @@ const std::vector<ReactionSample>& Reference::reactions() const {
 
 const std::vector<DirectSample>& Reference::direct() const {
   return direct_.get([this] { return runDirect(scenario, rightSamples()); });
-}
-
-const BesidePath& Reference::beside() const {
-  return beside_.get([this] {
-    const ReplayPlan& plan = replays().plan;
-    return BesidePath(scenario, plan.torques, replays().amplification, plan.acceleration,
-                      10 * coarser * plan.tolerance);
-  });
 }
 
 const Ladder& Reference::ladder() const {

@@ -10,7 +10,6 @@
 #include "validation/evidence/ahead.h"
 #include "validation/limits/amplification.h"
 #include "validation/limits/rounding_profile.h"
-#include "validation/replay/beside_path.h"
 #include "validation/replay/ladder.h"
 #include "validation/replay/lazily.h"
 #include "validation/replay/stabilised_replay.h"
@@ -43,7 +42,6 @@ struct Reference {
   Lazily<std::vector<ReactionSample>> reactions_;
   Lazily<std::vector<DirectSample>> direct_;
   Lazily<RightReplays> replays_;
-  Lazily<BesidePath> beside_;
   Lazily<Ladder> ladder_;
   Lazily<StabilisedReplay> stabilised_;
 
@@ -87,8 +85,7 @@ struct Reference {
   const std::vector<RoadTorques>& roads() const;         ///< at the instants
   const std::vector<ReactionSample>& reactions() const;  ///< at the instants
   const std::vector<DirectSample>& direct() const;       ///< at some of the instants
-  const BesidePath& beside() const;
-  const Ladder& ladder() const;  ///< of the first window
+  const Ladder& ladder() const;                          ///< of the first window
   const StabilisedReplay& stabilised() const;
 
  private:

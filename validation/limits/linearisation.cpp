@@ -30,21 +30,17 @@ double stepFor(const Manipulator& machine) {
 
 }  // namespace
 
-Linearisation::Linearisation(const Scenario& scenario, const AccelerationUnder& accelerations, double step)
+Linearisation::Linearisation(const Scenario& scenario)
     : trajectory_(*scenario.trajectory),
       load_(scenario.load),
-      own_(!accelerations),
       right_(nocSubject(*scenario.manipulator, scenario.load)),
-      accelerations_(own_ ? fastSubject(*scenario.manipulator, scenario.load).accelerations : accelerations),
+      fast_(fastSubject(*scenario.manipulator, scenario.load)),
       length_(MachineParameters<double>(*scenario.manipulator).length),
       // Central differences: the cube root of eps balances truncation and rounding.
-      step_(step * stepFor(*scenario.manipulator) * std::cbrt(Eigen::NumTraits<double>::epsilon()) * length_) {}
-
-Linearisation::Linearisation(const Scenario& scenario) : Linearisation(scenario, nullptr, 1) {}
+      step_(stepFor(*scenario.manipulator) * std::cbrt(Eigen::NumTraits<double>::epsilon()) * length_) {}
 
 Linearisation::Matrix12 Linearisation::at(double t) const {
   const Motion<double> motion = trajectory_.at(t);
-  if (!own_) return differenced(motion);
   const Vector6d load = loadAtP(load_.get(), motion);
   if (!last_ || !sameBits(last_->motion, motion) || last_->load != load) last_ = {motion, load, differenced(motion)};
   return last_->J;
@@ -73,7 +69,7 @@ Vector6d Linearisation::acceleration(Motion<double> motion, const Vector12& devi
   if (turn.norm() > 0) motion.Q = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * motion.Q;
   motion.p_dot += deviation.segment<3>(6);
   motion.omega += deviation.segment<3>(9) / length_;
-  const Vector6d found = accelerations_(motion, torques);
+  const Vector6d found = fast_.accelerations(motion, torques);
   Vector6d out;
   out << found.tail<3>(), length_ * found.head<3>();
   return out;

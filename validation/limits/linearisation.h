@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 
@@ -9,9 +8,6 @@
 
 namespace ursula {
 
-/// [ω̇; p̈] of the platform under torques.
-using AccelerationUnder = std::function<Vector6d(const Motion<double>&, const Vector6d& torques)>;
-
 /// The variational equations of direct dynamics along the commanded motion, the torques held as functions of time:
 /// ẋ = J(t) x with x = [δp; L δϑ; δṗ; L δω] of the platform in m and m/s, L a length of the machine. A deviation of the
 /// orientation turns it: Q → exp(δϑ) Q, so δϑ̇ = δω + ω × δϑ.
@@ -19,9 +15,7 @@ class Linearisation {
  public:
   using Matrix12 = Eigen::Matrix<double, 12, 12>;
 
-  /// Of somebody's direct dynamics, by central differences of `step` times the usual step.
-  Linearisation(const Scenario& scenario, const AccelerationUnder& accelerations, double step);
-  /// Of the formulas that hold.
+  /// Of the formulas that hold, by central differences.
   explicit Linearisation(const Scenario& scenario);
 
   /// L, m.
@@ -45,12 +39,10 @@ class Linearisation {
 
   const Trajectory& trajectory_;
   std::shared_ptr<const Load> load_;
-  bool own_;  ///< the accelerations are of the formulas that hold
   mutable std::optional<Place> last_;
   Subject right_;
-  AccelerationUnder accelerations_;
-  double length_;
-  double step_;
+  Subject fast_;
+  double length_, step_;
 };
 
 }  // namespace ursula

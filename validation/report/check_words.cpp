@@ -48,7 +48,7 @@ const Entry entries[] = {
     {"reactions.pointwise", "Joint reactions", "Forces and moments in the joints are Simbody's."},
     {"torque.between", "Between the samples", "Nothing happens between the instants looked at."},
     {"direct.pointwise", "Direct dynamics", "The solver's accelerations under the efforts are the commanded ones."},
-    {"direct.growth", "Growth of deviations", "Deviations grow as the linearised motion says."},
+    {"direct.off_path", "Beside the path", "The accelerations are right in other states, too."},
     {"fast.inverse", "Fast efforts", "The kernels that users call give the NOC's efforts."},
     {"fast.direct", "Fast accelerations", "The kernels that users call give the NOC's accelerations."},
     {"fast.inverse_batch", "Efforts in batches", "Batches with each instruction set give the NOC's efforts."},

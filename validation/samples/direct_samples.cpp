@@ -1,6 +1,9 @@
 #include "validation/samples/direct_samples.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
 #include "model/loops/simbody/simbody_loop.h"
 
@@ -9,12 +12,32 @@ namespace {
 
 /// Of the samples, about as many: the mass matrix changes slowly.
 constexpr std::size_t instants_of_direct = 31;
+/// Of a pose off the path from the commanded one, over the machine's length, where no singular pose is near; and of its
+/// velocity, over that length a second. So large that an error of the accelerations' derivatives stands out of
+/// rounding.
+constexpr double off_path = 1e-3;
 
-Vector6d accelerationsOf(SimbodyLoop& loop, const Vector6d& torques) {
+DirectAnswer answerOf(SimbodyLoop& loop, const Motion<double>& state, const Vector6d& torques) {
   loop.accelerate(torques);
   const Motion<double> found = loop.platform();
-  Vector6d out;
-  out << found.omega_dot, found.p_ddot;
+  DirectAnswer out{state, torques, {}};
+  out.twist_rate << found.omega_dot, found.p_ddot;
+  return out;
+}
+
+/// Differs in every coordinate, and from instant to instant.
+Motion<double> deviated(const PointwiseSample& sample, double sign) {
+  const Conditioning& at = sample.conditioning;
+  Eigen::Matrix<double, 12, 1> direction;
+  for (int i = 0; i < 12; ++i) direction(i) = std::cos(1.0 + 2.3 * i + sample.motion.t);
+  direction *= sign * off_path / direction.norm();
+  const double pose = at.smallest_sine / at.kappa_B;
+  Motion<double> out = sample.motion;
+  const Vector3d turn = pose * direction.segment<3>(3);
+  out.p += pose * at.length * direction.head<3>();
+  out.Q = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * out.Q;
+  out.p_dot += at.length * direction.segment<3>(6);
+  out.omega += direction.tail<3>();
   return out;
 }
 
@@ -26,14 +49,20 @@ std::vector<DirectSample> runDirect(const Scenario& scenario, const std::vector<
   std::vector<DirectSample> out;
   for (std::size_t k = 0; k < samples.size(); k += stride) {
     const Vector6d& commanded = samples[k].torques_simbody;
-    loop.place(samples[k].motion);
     DirectSample here;
     here.sample = k;
-    for (std::size_t set = 0; set < here.torques.size(); ++set) {
-      here.torques[set] = commanded;
-      if (set > 0) here.torques[set](static_cast<Eigen::Index>(set) - 1) += commanded.cwiseAbs().maxCoeff();
-      here.accelerations[set] = accelerationsOf(loop, here.torques[set]);
+    loop.place(samples[k].motion);
+    for (std::size_t set = 0; set < here.commanded.size(); ++set) {
+      Vector6d torques = commanded;
+      if (set > 0) torques(static_cast<Eigen::Index>(set) - 1) += commanded.cwiseAbs().maxCoeff();
+      here.commanded[set] = answerOf(loop, samples[k].motion, torques);
     }
+    for (const double sign : {1.0, -1.0}) try {
+        const Motion<double> state = deviated(samples[k], sign);
+        loop.place(state);
+        here.off_path.push_back(answerOf(loop, state, commanded));
+      } catch (const std::domain_error&) {  // a leg does not reach
+      }
     out.push_back(here);
   }
   return out;

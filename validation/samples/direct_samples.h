@@ -7,14 +7,23 @@
 
 namespace ursula {
 
-/// Accelerations of the platform in Simbody at one instant, under the commanded torques and with each motor's changed
-/// in turn, so that every column of the mass matrix shows.
-struct DirectSample {
-  std::size_t sample = 0;                                        ///< of which of the samples
-  std::array<Vector6d, 1 + motor_count> torques, accelerations;  ///< N·m, [ω̇; p̈]
+/// What Simbody's loop does in one state under given torques.
+struct DirectAnswer {
+  Motion<double> state;          ///< its accelerations are not read
+  Vector6d torques, twist_rate;  ///< N·m, [ω̇; p̈]
 };
 
-/// At some of `samples`, of which motion and Simbody's torques count.
+/// Accelerations of the platform in Simbody at one instant.
+struct DirectSample {
+  std::size_t sample = 0;  ///< of which of the samples
+  /// In the commanded state, under the commanded torques and with each motor's changed in turn, so that every column of
+  /// the mass matrix shows.
+  std::array<DirectAnswer, 1 + motor_count> commanded;
+  /// Under the commanded torques in states off the path; fewer where a leg does not reach.
+  std::vector<DirectAnswer> off_path;
+};
+
+/// At some of `samples`, of which motion, conditioning and Simbody's torques count.
 std::vector<DirectSample> runDirect(const Scenario& scenario, const std::vector<PointwiseSample>& samples);
 
 }  // namespace ursula
