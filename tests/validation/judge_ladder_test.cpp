@@ -162,6 +162,24 @@ TEST(JudgeLadder, asksNoIntegratorThatContradictsItself) {
   }
 }
 
+/// Steps of a fourth-order method that become ten times as many for ten times the accuracy follow noise: what such an
+/// integrator ends up with is no evidence, and what it agrees with is.
+TEST(JudgeLadder, asksNoIntegratorWhoseStepsFollowNoise) {
+  const auto second = [](long evaluations, double distance) {
+    return *findCheck(judge(
+                          [=](Ladder& ladder) {
+                            ladder.second.back().evaluations = evaluations;
+                            ladder.second.back().distance = distance;
+                          },
+                          1),
+                      "integration.second");
+  };
+  EXPECT_EQ(second(1000, 1e-3).verdict, Verdict::fail);
+  EXPECT_EQ(second(6000, 1e-3).verdict, Verdict::not_applicable);
+  EXPECT_THAT(second(6000, 1e-3).why, HasSubstr("6000 evaluations"));
+  EXPECT_EQ(second(6000, 2e-10).verdict, Verdict::pass);
+}
+
 TEST(JudgeLadder, failsWhereTheJudgedReplayGaveUpOrLeftThePath) {
   WindowedReplay gave_up = madeReplay(), lost = madeReplay();
   gave_up.replay.gave_up = "the step vanished";

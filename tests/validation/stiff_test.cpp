@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "model/trajectories.h"
+#include "validation/evidence/reference.h"
 #include "validation/limits/amplification.h"
 #include "validation/replay/replay.h"
 #include "validation/replay/windows.h"
@@ -134,6 +135,20 @@ TEST(Stiffness, isTheFrictions) {
   EXPECT_FALSE(stiff(rubbing({100, 1, 1})));
   EXPECT_FALSE(stiff(readScenario(URSULA_SCENARIOS "/paper-helix.toml")));
   EXPECT_FALSE(stiff(readScenario(URSULA_SCENARIOS "/hold.toml")));
+}
+
+/// Friction of the cylinders shortens explicit steps fifty times as much as the platform's own decay says.
+TEST(Stiffness, isFoundWhereAnExplicitReplayTakesTooLong) {
+  Scenario scenario = readScenario(URSULA_SCENARIOS "/three-legs.toml");
+  ManipulatorParameters machine = scenario.manipulator->parameters();
+  for (Leg& leg : machine.legs) leg.friction.d = 20000;
+  scenario.manipulator = std::make_shared<const Manipulator>(machine);
+  ASSERT_TRUE(replayed(scenario, false, scenario.trajectory->duration()).too_long);
+  const Reference reference(scenario);
+  EXPECT_FALSE(isStiff(reference.replays().amplification, reference.scenario.trajectory->duration()));
+  EXPECT_TRUE(reference.replays().plan.stiff);
+  ASSERT_FALSE(reference.replays().windows.empty());
+  for (const WindowedReplay& window : reference.replays().windows) EXPECT_EQ(window.replay.gave_up, "");
 }
 
 }  // namespace

@@ -67,9 +67,9 @@ void makeRung(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torque
   addRung(settings, replayBeside(scenario, torques, settings, change), finest.replay, ladder.rungs, ladder.asked);
 }
 
-/// Of Simbody's own integrator, in one run: ten times what it takes for the paper's whole motion at its best. Beside
-/// links of no mass it would go on for minutes.
-constexpr long most_second_evaluations = 100000;
+/// Of Simbody's own integrator, in one run: twice what it takes for the paper's whole motion at its best. Beside links
+/// of no mass it would go on for minutes.
+constexpr long most_second_evaluations = 20000;
 
 /// The largest at some instants of the commanded motion, in natural units, in which turns and moves are alike.
 double contradictionBetween(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, double from,
@@ -91,17 +91,11 @@ double contradictionBetween(const Scenario& scenario, const SimbodyLoop::TorqueH
   return largest;
 }
 
-/// Over the first steps only, a tenth of them at least: it is another integrator that is wanted, not another replay.
-void climbSecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-                 const ChangeSettings& change, Ladder& ladder) {
-  const std::vector<ReplayStep>& steps = finest.replay.steps;
-  if (steps.size() < 2) return;
-  // Of a stiff motion a single one: it is Simbody's explicit integrator.
-  const std::size_t wanted = finest.replay.stiff ? 1 : std::max<std::size_t>(20, steps.size() / 10);
-  const std::size_t last = std::min(steps.size() - 1, wanted);
-  ladder.second_end = steps[last].t;
-  ladder.second_contradiction = contradictionBetween(scenario, torques, finest.window.start(), ladder.second_end);
-  if (!(ladder.second_contradiction <= second_accuracy)) return;
+/// Until `ladder.second_end`, at two accuracies and more.
+void replaySecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
+                  const ChangeSettings& change, Ladder& ladder) {
+  ladder.second.clear();
+  ladder.second_difference = std::nan("");
   const auto run = [&](double accuracy) {
     ReplaySettings settings = settingsOf(finest, Integrator::rk_merson, accuracy);
     settings.end = ladder.second_end;
@@ -114,7 +108,9 @@ void climbSecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& tor
     addRung(settings, out, finest.replay, ladder.second, ladder.asked);
     return out;
   };
-  Replay coarse = run(10 * second_accuracy), fine = run(second_accuracy);
+  Replay coarse = run(10 * second_accuracy);
+  if (!coarse.gave_up.empty()) return;
+  Replay fine = run(second_accuracy);
   // Where the accuracy does not decide the steps, both are the same and nothing is learnt of the error.
   for (double accuracy = second_accuracy / 10; accuracy > 1e-14 && fine.evaluations <= coarse.evaluations;
        accuracy /= 10) {
@@ -124,6 +120,23 @@ void climbSecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& tor
   const bool both = !coarse.steps.empty() && !fine.steps.empty();
   ladder.second_difference =
       both ? (coarse.steps.back().position_error - fine.steps.back().position_error).norm() : std::nan("");
+}
+
+/// Over the first steps only, a tenth of them at least: it is another integrator that is wanted, not another replay.
+/// Over fewer where it takes too many steps to get there.
+void climbSecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
+                 const ChangeSettings& change, Ladder& ladder) {
+  const std::vector<ReplayStep>& steps = finest.replay.steps;
+  if (steps.size() < 2) return;
+  // Of a stiff motion a single one: it is Simbody's explicit integrator.
+  const std::size_t wanted = finest.replay.stiff ? 1 : std::max<std::size_t>(20, steps.size() / 10);
+  for (std::size_t last = std::min(steps.size() - 1, wanted); last > 0; last /= 4) {
+    ladder.second_end = steps[last].t;
+    ladder.second_contradiction = contradictionBetween(scenario, torques, finest.window.start(), ladder.second_end);
+    if (!(ladder.second_contradiction <= second_accuracy)) return;
+    replaySecond(scenario, torques, finest, change, ladder);
+    if (ladder.second.back().gave_up.empty()) return;
+  }
 }
 
 double order(const Rung& coarse, const Rung& fine) {
