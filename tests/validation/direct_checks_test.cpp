@@ -120,6 +120,21 @@ TEST_P(Direct, noNumberIsNoAgreement) {
 INSTANTIATE_TEST_SUITE_P(Scenarios, Direct, testing::Values("paper-helix", "proving-ground", "millimetres"),
                          [](const auto& name) { return asTestName(name.param); });
 
+/// Nothing moves and no force acts on the path, so that nothing rounds there: beside it something does.
+TEST(DirectChecks, aMachineAtRestWithoutWeightPasses) {
+  Scenario scenario = scenarioOf("hold");
+  ManipulatorParameters machine = scenario.manipulator->parameters();
+  machine.gravity.setZero();
+  scenario.manipulator = std::make_shared<const Manipulator>(machine);
+  const Reference reference(scenario);
+  const Subject right = solverOf(reference.scenario);
+  const auto samples = runPointwise(reference.scenario, right, reference.instants, reference.profile);
+  EXPECT_EQ(samples.front().torques_simbody.norm(), 0);
+  const Check check = judgeOffPath(reference.direct(), right, samples, reference.profile);
+  EXPECT_EQ(check.verdict, Verdict::pass) << check.value << " of " << check.limit;
+  EXPECT_GT(check.value, 0);
+}
+
 TEST(DirectChecks, noSampleFails) {
   const Scenario scenario = scenarioOf("paper-helix");
   EXPECT_EQ(judgeDirect({}, solverOf(scenario), {}, RoundingProfile(scenario, 2)).verdict, Verdict::fail);

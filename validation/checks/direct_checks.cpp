@@ -68,7 +68,7 @@ Check judgeOffPath(const std::vector<DirectSample>& direct, const Subject& subje
                    const std::vector<PointwiseSample>& samples, const RoundingProfile& profile, const Units& units) {
   const auto each = [&](const Compare& compare) {
     for (const DirectSample& here : direct)
-      for (const DirectAnswer& answer : here.off_path) compare(answer, samples[here.sample].conditioning, -1);
+      for (const DirectAnswer& answer : here.off_path) compare(answer, profile.at(answer.state), -1);
   };
   return judgeAnswers("direct.off_path", "in states beside the path", each, subject, samples, profile, units);
 }
