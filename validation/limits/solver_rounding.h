@@ -20,9 +20,9 @@ struct SolverView {
   Reactions reactions;
 };
 
-/// How the NOC rounds, measured in one and the same frame: its formulas as they are, in long double, and with every
-/// number of the machine and of the motion moved by one rounding. A wrong formula is wrong in all of them alike and
-/// adds nothing, whatever leg, frame or unit it depends on.
+/// How the NOC rounds, measured in one and the same frame: its formulas as they are, and with every number of the
+/// machine and of the motion moved by one rounding. A wrong formula is wrong in all of them alike and adds nothing,
+/// whatever leg, frame, unit or precision it depends on.
 class SolverRounding {
  public:
   SolverRounding(const Manipulator& machine, std::shared_ptr<const Load> load);
@@ -31,7 +31,7 @@ class SolverRounding {
 
   /// The NOC's torques as they are, N·m.
   Vector6d torques(const Motion<double>& motion);
-  /// As they are first, then in long double, then moved. `others` are torques for `direct`. Throws PoseError.
+  /// As they are first, then moved. `others` are torques for `direct`. Throws PoseError.
   std::vector<SolverView> at(const Motion<double>& motion, const Vector6d& others);
 
  private:

@@ -41,8 +41,8 @@ std::vector<Presentation> otherAxes(const Manipulator& machine) {
 /// Far on either side of the machine's own.
 std::vector<Presentation> otherUnits(const Manipulator& machine) {
   std::vector<Presentation> out(2, Presentation(machine));
-  out[0].units.length = 0.0123, out[0].units.mass = 0.00456, out[0].units.time = 0.0789;
-  out[1].units.length = 81.3, out[1].units.mass = 219.0, out[1].units.time = 12.7;
+  out[0].units.length = 1.23e-4, out[0].units.mass = 0.00456, out[0].units.time = 0.0789;
+  out[1].units.length = 8130.0, out[1].units.mass = 219.0, out[1].units.time = 12.7;
   return out;
 }
 
