@@ -131,7 +131,7 @@ std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, doubl
        [](const ReplayStep& step) { return step.position_error.norm(); }, drift, drift_basis, length},
       {"replay.orientation", "rad", "orientation against the commanded one",
        [](const ReplayStep& step) { return step.rotation_error.norm(); }, turn, drift_basis, 1},
-      {"closure.position", "m", "the six loops' gaps", [](const ReplayStep& step) { return step.closure.position; },
+      {"closure.position", "m", "the loops' gaps", [](const ReplayStep& step) { return step.closure.position; },
        opening, opening_basis, length},
       {"closure.velocity", "m/s", "the rates of the gaps", [](const ReplayStep& step) { return step.closure.velocity; },
        rate, opening_basis, length},

@@ -46,7 +46,9 @@ std::string roundedUp(double value) {
 
 std::string sentence(const EffortDeviation& deviation) {
   if (std::isnan(deviation.largest)) return "The largest deviation is unknown: a torque is no number.";
-  const std::string share = deviation.largest_effort > 0 ? shareText(deviation.relative()) : "no known share";
+  if (deviation.largest_effort == 0)
+    return fmt::format("No torque is needed here; the largest that was found is {:.3g} {}.", deviation.largest,
+                       deviation.unit);
   constexpr double right = 1e-6;  // above it nobody calls torques right
   const std::string seen =
       std::isfinite(deviation.seen)
@@ -55,9 +57,9 @@ std::string sentence(const EffortDeviation& deviation) {
   return fmt::format(
       "{} {}: the largest deviation is {:.3g} {} of {:.6g} {}, {} at t = {:.4g} s; {}the smallest --rtol that "
       "would pass is {}.{}",
-      deviation.relative() <= right || deviation.largest == 0 ? "Right to" : "Off by at most", share, deviation.largest,
-      deviation.unit, deviation.largest_effort, deviation.unit, deviation.where, deviation.t, driftText(deviation),
-      roundedUp(deviation.smallestRelative()), seen);
+      deviation.relative() <= right || deviation.largest == 0 ? "Right to" : "Off by at most",
+      shareText(deviation.relative()), deviation.largest, deviation.unit, deviation.largest_effort, deviation.unit,
+      deviation.where, deviation.t, driftText(deviation), roundedUp(deviation.smallestRelative()), seen);
 }
 
 }  // namespace ursula
