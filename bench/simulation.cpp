@@ -1,9 +1,8 @@
-// Direct-dynamics simulation of the paper's helix of 3 s under the efforts of the inverse dynamics: by collocation over
-// batches, and by Runge–Kutta–Fehlberg 7(8), both to where it is commanded within 2e-9 m.
+// Direct-dynamics simulation of the paper's helix of 3 s under the efforts of the inverse dynamics, by
+// Runge–Kutta–Fehlberg 7(8), to where it is commanded within 2e-9 m.
 
 #include "bench/benchmarks.h"
 #include "nocsolver/fast/fast_dynamics.h"
-#include "validation/simulate/collocation.h"
 #include "validation/simulate/simulate.h"
 
 namespace ursula::bench {
@@ -12,7 +11,7 @@ namespace {
 constexpr double close_enough = 2e-9;
 
 struct Simulated {
-  Simulated() : single(scenario.manipulator()), batch(scenario.manipulator()) {}
+  Simulated() : single(scenario.manipulator()) {}
 
   Vector6d efforts(double t) const { return single.inverseDynamics(scenario.scenario.trajectory->at(t)); }
   double end() const { return scenario.scenario.trajectory->duration(); }
@@ -27,18 +26,7 @@ struct Simulated {
 
   const Poses& scenario = helix();
   FastDynamics<double> single;
-  BatchDynamics batch;
 };
-
-void byCollocation(benchmark::State& state) {
-  const Simulated helix;
-  CollocatedMotion run;
-  for ([[maybe_unused]] auto unused : state)
-    run = collocate(
-        helix.batch, nullptr, helix.scenario.scenario.trajectory->at(0), [&](double t) { return helix.efforts(t); },
-        {0, helix.end()}, close_enough);
-  helix.count(state, run.motions.back(), run.evaluations);
-}
 
 void byRungeKutta(benchmark::State& state) {
   const Simulated helix;
@@ -52,7 +40,6 @@ void byRungeKutta(benchmark::State& state) {
 }  // namespace
 
 void registerSimulations() {
-  benchmark::RegisterBenchmark("simulation/collocation", byCollocation)->Unit(benchmark::kMillisecond);
   benchmark::RegisterBenchmark("simulation/Runge-Kutta", byRungeKutta)->Unit(benchmark::kMillisecond);
 }
 

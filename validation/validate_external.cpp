@@ -70,7 +70,7 @@ Evidence gatherExternal(const Scenario& given, const Presentation& natural, cons
   out.amplification = replay.amplification.get();
   out.has.any_instant = out.has.kinematics = out.has.direct_dynamics = out.has.other_machines = false;
   out.samples = external.samples;
-  out.fast = runFast(scenario, out.samples);
+  out.fast = runFast(scenario, natural.units, out.samples);
   out.plan = replay.plan;
   out.scales = replay.scales;
   out.windows = replay.windows;

@@ -119,8 +119,36 @@ TEST(ValidateControl, aWrongFastKernelFailsAndTheNocHolds) {
   EXPECT_EQ(result.formulation, "noc");
   EXPECT_EQ(firstFailing(result.checks), "fast.inverse_batch");
   EXPECT_TRUE(onlyFastFails(result.checks));
+  for (const char* name : {"torque.between", "torque.pointwise"})
+    EXPECT_EQ(verdictOf(result.checks, name), "pass") << "of one pose at a time the kernels are right: " << name;
+  ASSERT_TRUE(result.deviation);
+  EXPECT_FALSE(std::isnan(result.deviation->largest));
+}
+
+/// In the last pose of a long batch alone, which fills no block of any kernel.
+TEST(ValidateControl, aWrongPoseAtTheEndOfABatchFails) {
+  const auto spoil = std::make_shared<Spoil>();
+  spoil->fast.answers = [](FastAnswers& answers) {
+    ASSERT_GT(answers.torques_in_batch.size(), 4000U);
+    answers.torques_in_batch.back()(0) *= 1 + 1e-7;
+  };
+  ValidationOptions options = without_extras;
+  options.spoil = spoil;
+  EXPECT_EQ(firstFailing(validate(quick("paper-helix"), options).checks), "fast.inverse_batch");
+}
+
+/// Where one pose at a time is wrong, nothing is learnt between the samples, and the NOC's deviation is known all the
+/// same.
+TEST(ValidateControl, aWrongKernelOfOnePoseLeavesTheDeviationKnown) {
+  const auto spoil = std::make_shared<Spoil>();
+  spoil->fast.answers = [](FastAnswers& answers) { answers.torques.front()(0) *= 1 + 1e-7; };
+  ValidationOptions options = without_extras;
+  options.spoil = spoil;
+  const ValidationResult result = validate(quick("paper-helix"), options);
+  EXPECT_EQ(firstFailing(result.checks), "fast.inverse");
   EXPECT_EQ(verdictOf(result.checks, "torque.between"), "inconclusive");
-  EXPECT_EQ(verdictOf(result.checks, "torque.pointwise"), "pass");
+  ASSERT_TRUE(result.deviation);
+  EXPECT_FALSE(std::isnan(result.deviation->largest));
 }
 
 /// An error of the NOC's own is no error of the fast kernels, though both checks see it.

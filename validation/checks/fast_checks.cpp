@@ -48,12 +48,15 @@ Check judgeKernel(const Kernel& kernel, const FastSamples& fast, const std::vect
   for (std::size_t s = 0; s < fast.answers.size(); ++s) {
     const FastAnswers& answers = fast.answers[s];
     sets += (s == 0 ? "" : ", ") + std::string(nameOf(answers.set));
-    for (std::size_t k = 0; k < fast.samples.size(); ++k) {
-      const PointwiseSample& sample = samples[fast.samples[k]];
+    const std::vector<Vector6d>& found = answers.*kernel.answers;
+    if (found.size() < fast.samples.size()) return notMade(kernel.check, unit, "answers are missing");
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      const std::size_t instant = k % fast.samples.size();
+      const PointwiseSample& sample = samples[fast.samples[instant]];
       const Conditioning& at = sample.conditioning;
-      const Vector6d &expected = (fast.*kernel.expected)[k], &found = (answers.*kernel.answers).at(k);
+      const Vector6d& expected = (fast.*kernel.expected)[instant];
       size = std::max(size, sizeOf(kernel, expected, at.length));
-      worst.add(sizeOf(kernel, found - expected, at.length), 2 * at.rounding(kernel.rounded), sample.motion.t,
+      worst.add(sizeOf(kernel, found[k] - expected, at.length), 2 * at.rounding(kernel.rounded), sample.motion.t,
                 static_cast<int>(s));
     }
   }

@@ -61,6 +61,7 @@ std::optional<EffortDeviation> effortDeviation(const Evidence& evidence, const s
   bool any = false;
   for (const Check& check : checks) {
     if (!isOfTorques(check) || check.reason == Reason::not_made) continue;
+    if (check.verdict == Verdict::inconclusive && std::isnan(check.largest.value)) continue;  // nothing was compared
     if (!(out.seen <= check.missed)) out.seen = check.missed;
     if (any && !(check.largest.value > out.largest) && !std::isnan(check.largest.value)) continue;
     out.largest = check.largest.value;

@@ -79,7 +79,7 @@ void lookAtSamples(bool reactions, Evidence& out) {
   out.roads = roadSamples(out);
   out.invariances = runInvariances(*out.scenario, *out.subject, out.samples);
   out.complement = runComplement(*out.scenario->manipulator, *out.subject, out.samples);
-  out.fast = runFast(*out.scenario, out.samples, out.spoil.fast);
+  out.fast = runFast(*out.scenario, reference.natural.units, out.samples, out.spoil.fast);
   if (reactions) out.reactions = reactionSamples(out);
 }
 

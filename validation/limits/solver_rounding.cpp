@@ -1,5 +1,7 @@
 #include "validation/limits/solver_rounding.h"
 
+#include <cstring>
+#include <functional>
 #include <random>
 #include <utility>
 
@@ -12,30 +14,35 @@ namespace {
 /// How often the inputs are moved, each time otherwise.
 constexpr unsigned moves = 8;
 
-/// Moves numbers by one rounding, up or down; the same way for one seed. What is zero stays so, or a branch that is
-/// taken at zero would be taken in some evaluations alone.
+/// Moves numbers by one rounding, up or down; the same way for one seed. What is zero stays so, and numbers that are
+/// equal but for their signs stay equal: a branch that is taken there would be taken in some evaluations alone.
 class Mover {
  public:
-  explicit Mover(unsigned seed) : sign_(seed) {}
+  explicit Mover(unsigned seed) : seed_(seed) {}
 
-  void operator()(double& number) {
-    number += ((sign_() & 1U) != 0 ? 1 : -1) * std::abs(number) * Eigen::NumTraits<double>::epsilon() / 2;
+  void operator()(double& number) const {
+    std::uint64_t bits = 0;
+    const double size = std::abs(number);
+    std::memcpy(&bits, &size, sizeof bits);
+    std::minstd_rand draw(static_cast<unsigned>(std::hash<std::uint64_t>()(bits) % 1000000007U) + seed_);
+    draw.discard(2);
+    number *= 1 + ((draw() & 1U) != 0 ? 1 : -1) * Eigen::NumTraits<double>::epsilon();
   }
   template <class Derived>
-  void operator()(Eigen::MatrixBase<Derived>& of) {
+  void operator()(Eigen::MatrixBase<Derived>& of) const {
     for (Eigen::Index k = 0; k < of.size(); ++k) (*this)(of(k % of.rows(), k / of.rows()));
   }
-  void operator()(std::array<double, 3>& numbers) {
+  void operator()(std::array<double, 3>& numbers) const {
     for (double& number : numbers) (*this)(number);
   }
 
  private:
-  std::minstd_rand sign_;
+  unsigned seed_;
 };
 
 MachineParameters<double> moved(const Manipulator& manipulator, unsigned seed) {
   MachineParameters<double> machine(manipulator);
-  Mover move(seed);
+  const Mover move(seed);
   for (int i = 0; i < machine.legs_in_all; ++i) {
     LegModel<double>& leg = machine.legs[static_cast<std::size_t>(i)];
     for (Vector3d* vector : {&leg.a, &leg.b, &leg.x_hat, &leg.u, &leg.z_hat}) move(*vector);
@@ -51,7 +58,7 @@ MachineParameters<double> moved(const Manipulator& manipulator, unsigned seed) {
 }
 
 Motion<double> moved(Motion<double> motion, unsigned seed) {
-  Mover move(seed);
+  const Mover move(seed);
   for (Vector3d* vector : {&motion.p, &motion.omega, &motion.p_dot, &motion.omega_dot, &motion.p_ddot}) move(*vector);
   for (int k = 0; k < 3; ++k) {
     Vector3d axis = motion.Q.col(k);

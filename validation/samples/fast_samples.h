@@ -7,13 +7,14 @@
 #include "nocsolver/fast/instruction_set.h"
 #include "nocsolver/fast/kernels/machine_model.h"
 #include "validation/samples/pointwise.h"
+#include "validation/subject/presentation.h"
 
 namespace ursula {
 
 /// What the kernels that users call answer at the samples, by one instruction set: one pose at a time and in a batch.
 struct FastAnswers {
   InstructionSet set = InstructionSet::portable;
-  std::vector<Vector6d> torques, torques_in_batch;              ///< N·m
+  std::vector<Vector6d> torques, torques_in_batch;              ///< N·m; batches go over the instants again and again
   std::vector<Vector6d> accelerations, accelerations_in_batch;  ///< [ω̇; p̈] under FastSamples::efforts
 };
 
@@ -33,7 +34,8 @@ struct FastFault {
   explicit operator bool() const { return model || answers; }
 };
 
-/// At 500 of the samples, or all.
-FastSamples runFast(const Scenario& scenario, const std::vector<PointwiseSample>& samples, const FastFault& fault = {});
+/// At 500 of the samples, or all. The kernels are asked in SI, as users ask them; `scenario` is in the units `natural`.
+FastSamples runFast(const Scenario& scenario, const Units& natural, const std::vector<PointwiseSample>& samples,
+                    const FastFault& fault = {});
 
 }  // namespace ursula
