@@ -38,11 +38,15 @@ std::vector<Presentation> otherAxes(const Manipulator& machine) {
   return out;
 }
 
-/// Far on either side of the machine's own.
+/// Lengths from a ten-thousandth to ten thousand of the machine's own unit; masses and times grow with them.
 std::vector<Presentation> otherUnits(const Manipulator& machine) {
-  std::vector<Presentation> out(2, Presentation(machine));
-  out[0].units.length = 1.23e-4, out[0].units.mass = 0.00456, out[0].units.time = 0.0789;
-  out[1].units.length = 8130.0, out[1].units.mass = 219.0, out[1].units.time = 12.7;
+  std::vector<Presentation> out;
+  for (const double length : {1.23e-4, 3.71e-3, 0.0917, 7.13, 219.0, 8130.0}) {
+    out.emplace_back(machine);
+    out.back().units.length = length;
+    out.back().units.mass = 1.37 * std::pow(length, 1.1);
+    out.back().units.time = 0.91 * std::cbrt(length);
+  }
   return out;
 }
 
