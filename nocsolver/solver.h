@@ -1,6 +1,7 @@
 #pragma once
 
 #include "nocsolver/fast/fast_dynamics.h"
+#include "nocsolver/finite.h"
 #include "nocsolver/noc/noc.h"
 
 namespace ursula {
@@ -14,7 +15,8 @@ using Workspace = NocWorkspace<S>;
 /// allocates.
 ///
 /// Every function throws OutOfReach, OutOfStroke or PointOnAxis for poses that the legs cannot take, and from the rates
-/// on StretchedLeg; those that need B⁻¹ throw SingularJacobian.
+/// on StretchedLeg; those that need B⁻¹ throw SingularJacobian. Efforts and twist rates that are not finite are thrown
+/// as std::domain_error, which names the instant.
 template <class S>
 class Solver {
  public:
@@ -62,7 +64,7 @@ class Solver {
   /// an external wrench on the platform, [moment about P; force], in B. The workspace is left as it is.
   Vector6<S> inverseDynamics(const Motion<S>& motion, Workspace<S>&,
                              const Vector6<S>& load = Vector6<S>::Zero()) const {
-    return dynamics_.inverseDynamics(motion, load);
+    return finite(dynamics_.inverseDynamics(motion, load), "effort", motion.t);
   }
 
   /// The platform's twist rate [ω̇; p̈] under efforts, by (36) projected on t_P; accelerations in `motion` are not read.
@@ -70,7 +72,7 @@ class Solver {
   /// it is.
   Vector6<S> directDynamics(const Motion<S>& motion, const Vector6<S>& efforts, Workspace<S>&,
                             const Vector6<S>& load = Vector6<S>::Zero()) const {
-    return dynamics_.directDynamics(motion, efforts, load);
+    return finite(dynamics_.directDynamics(motion, efforts, load), "twist rate", motion.t);
   }
 
   /// M_P: the whole machine's mass matrix in the platform's twist at P. Needs displacements.

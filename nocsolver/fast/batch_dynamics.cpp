@@ -16,6 +16,15 @@ namespace {
 static_assert(sizeof(Motion<double>) == 25 * sizeof(double), "a batch reads motions as rows of numbers");
 static_assert(sizeof(Vector6d) == 6 * sizeof(double));
 
+/// A fault for each answer that no double holds: NaN in its place.
+void flagNotFinite(std::size_t count, Vector6d* out, PoseFault* faults) {
+  for (std::size_t k = 0; k < count; ++k)
+    if (faults[k] == PoseFault::none && !out[k].allFinite()) {
+      faults[k] = PoseFault::not_finite;
+      out[k].setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+}
+
 /// One answer after the other.
 template <class F>
 void oneByOne(std::size_t count, Vector6d* out, PoseFault* faults, const F& answer) {
@@ -64,11 +73,8 @@ BatchDynamics::BatchDynamics(const Manipulator& manipulator, InstructionSet set)
     : BatchDynamics(kernel::machineModel(MachineParameters<double>(manipulator)), set) {}
 BatchDynamics::BatchDynamics(const kernel::MachineModel<double>& machine, InstructionSet set) {
   if (!isSupported(set)) throw std::invalid_argument(std::string("this processor has no ") + nameOf(set));
-  impl_ = std::make_unique<Impl>(machine, set);
+  impl_ = std::make_shared<const Impl>(machine, set);
 }
-BatchDynamics::~BatchDynamics() = default;
-BatchDynamics::BatchDynamics(BatchDynamics&&) noexcept = default;
-BatchDynamics& BatchDynamics::operator=(BatchDynamics&&) noexcept = default;
 
 InstructionSet BatchDynamics::instructionSet() const { return impl_->set; }
 
@@ -82,22 +88,26 @@ void BatchDynamics::inverseDynamics(const Motion<double>* motions, std::size_t c
                                     PoseFault* faults, const Vector6d* loads) const {
   if (count == 0) return;
   if (!impl_->functions)
-    return oneByOne(count, efforts, faults, [&](std::size_t k) {
+    oneByOne(count, efforts, faults, [&](std::size_t k) {
       return impl_->single.inverseDynamics(motions[k], loads != nullptr ? loads[k] : Vector6d::Zero());
     });
-  impl_->functions->inverse(impl_->machine, {count, &motions->t, nullptr, numbersOf(loads), efforts->data(),
-                                             reinterpret_cast<std::uint8_t*>(faults)});
+  else
+    impl_->functions->inverse(impl_->machine, {count, &motions->t, nullptr, numbersOf(loads), efforts->data(),
+                                               reinterpret_cast<std::uint8_t*>(faults)});
+  flagNotFinite(count, efforts, faults);
 }
 
 void BatchDynamics::directDynamics(const Motion<double>* motions, const Vector6d* efforts, std::size_t count,
                                    Vector6d* twist_rates, PoseFault* faults, const Vector6d* loads) const {
   if (count == 0) return;
   if (!impl_->functions)
-    return oneByOne(count, twist_rates, faults, [&](std::size_t k) {
+    oneByOne(count, twist_rates, faults, [&](std::size_t k) {
       return impl_->single.directDynamics(motions[k], efforts[k], loads != nullptr ? loads[k] : Vector6d::Zero());
     });
-  impl_->functions->direct(impl_->machine, {count, &motions->t, numbersOf(efforts), numbersOf(loads),
-                                            twist_rates->data(), reinterpret_cast<std::uint8_t*>(faults)});
+  else
+    impl_->functions->direct(impl_->machine, {count, &motions->t, numbersOf(efforts), numbersOf(loads),
+                                              twist_rates->data(), reinterpret_cast<std::uint8_t*>(faults)});
+  flagNotFinite(count, twist_rates, faults);
 }
 
 }  // namespace ursula

@@ -17,16 +17,15 @@ namespace ursula {
 /// Numbers do not depend on where in a batch a pose is, or on how long the batch is. They differ in the last bits
 /// between instruction sets (fused products, tanh) and from FastDynamics.
 ///
-/// Immutable: threads share it. Nothing is allocated after the construction. Throws nothing.
+/// Immutable: threads share it, and so do copies. Nothing is allocated after the construction. Throws nothing.
 class BatchDynamics {
  public:
   /// `set` is to be supported, or std::invalid_argument is thrown.
   explicit BatchDynamics(const Manipulator& manipulator, InstructionSet set = bestInstructionSet());
   /// Of what the kernels are given: with changed numbers, for controls that must fail.
   BatchDynamics(const kernel::MachineModel<double>& machine, InstructionSet set);
-  ~BatchDynamics();
-  BatchDynamics(BatchDynamics&&) noexcept;
-  BatchDynamics& operator=(BatchDynamics&&) noexcept;
+  BatchDynamics(const BatchDynamics&) = default;  // and no move, which would leave a husk
+  BatchDynamics& operator=(const BatchDynamics&) = default;
 
   InstructionSet instructionSet() const;
 
@@ -40,7 +39,7 @@ class BatchDynamics {
 
  private:
   struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::shared_ptr<const Impl> impl_;
 };
 
 }  // namespace ursula

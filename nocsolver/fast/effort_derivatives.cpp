@@ -6,6 +6,7 @@
 #include "nocsolver/fast/kernels/leg_guard.h"
 #include "nocsolver/fast/kernels/plane_dynamics.h"
 #include "nocsolver/fast/machine_numbers.h"
+#include "nocsolver/finite.h"
 #include "nocsolver/legs/leg_model_impl.h"
 
 namespace ursula {
@@ -139,6 +140,7 @@ struct EffortDerivatives::Impl {
       for (int k = 0; k < at_a_time && first + k < static_cast<int>(count); ++k)
         for (int row = 0; row < 6; ++row) out(row, first + k) = found(row).d(k);
     }
+    requireFinite(out.data(), static_cast<std::size_t>(out.size()), "derivative", motion.t);
     return out;
   }
 
@@ -162,10 +164,7 @@ struct EffortDerivatives::Impl {
 };
 
 EffortDerivatives::EffortDerivatives(const Manipulator& manipulator)
-    : impl_(std::make_unique<const Impl>(manipulator)) {}
-EffortDerivatives::~EffortDerivatives() = default;
-EffortDerivatives::EffortDerivatives(EffortDerivatives&&) noexcept = default;
-EffortDerivatives& EffortDerivatives::operator=(EffortDerivatives&&) noexcept = default;
+    : impl_(std::make_shared<const Impl>(manipulator)) {}
 
 EffortsByState EffortDerivatives::byState(const Motion<double>& motion, const Vector6d& load,
                                           const EffortsByState::Block& load_by_turn) const {
@@ -191,6 +190,8 @@ EffortsByState EffortDerivatives::byState(const Motion<double>& motion, const Ve
     out.efforts(row) = found(row).v;
     out.derivatives.row(row) = found(row).d.matrix().transpose();
   }
+  finite(out.efforts, "effort", motion.t);
+  requireFinite(out.derivatives.data(), static_cast<std::size_t>(out.derivatives.size()), "derivative", motion.t);
   return out;
 }
 

@@ -31,13 +31,12 @@ struct EffortsByState {
 /// Derivatives of the efforts of inverse dynamics, exact to rounding, of any machine: the kernels of FastDynamics on
 /// dual numbers (docs/derivatives.md).
 ///
-/// Immutable: threads share it. Throws as Solver does.
+/// Immutable: threads share it, and so do copies. Throws as Solver does.
 class EffortDerivatives {
  public:
   explicit EffortDerivatives(const Manipulator& manipulator);
-  ~EffortDerivatives();
-  EffortDerivatives(EffortDerivatives&&) noexcept;
-  EffortDerivatives& operator=(EffortDerivatives&&) noexcept;
+  EffortDerivatives(const EffortDerivatives&) = default;  // and no move, which would leave a husk
+  EffortDerivatives& operator=(const EffortDerivatives&) = default;
 
   /// By the state. `load` is an external wrench on the platform, [moment about P; force], in B, as in
   /// FastDynamics::inverseDynamics, and `load_by_turn` its derivative by δ, for a load that turns with the platform.
@@ -70,7 +69,7 @@ class EffortDerivatives {
 
  private:
   struct Impl;
-  std::unique_ptr<const Impl> impl_;
+  std::shared_ptr<const Impl> impl_;
 };
 
 }  // namespace ursula

@@ -11,7 +11,8 @@ enum class PoseFault : std::uint8_t {
   end_of_stroke,
   point_on_axis,
   stretched_leg,
-  singular_jacobian
+  singular_jacobian,
+  not_finite  ///< the answer is: numbers of pose, efforts or load are too large, too small or NaN
 };
 
 }  // namespace ursula

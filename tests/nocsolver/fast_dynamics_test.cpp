@@ -9,10 +9,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
+#include <utility>
 
 #include "model/load.h"
 #include "model/real50.h"
 #include "nocsolver/fast/batch_dynamics.h"
+#include "nocsolver/fast/effort_derivatives.h"
 #include "nocsolver/solver.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/motions.h"
@@ -185,6 +188,47 @@ TEST_P(BatchOf, givesWhatSinglePosesGive) {
       }
     }
   }
+}
+
+/// A velocity whose square no double holds: the pose is flagged, and Solver names its instant.
+TEST_P(BatchOf, flagsWhatIsNotFinite) {
+  const Solver<double> solver(*scenario_.manipulator);
+  Workspace<double> work;
+  auto m = motions(9, 9);
+  m[4].p_dot.setConstant(1e200);
+  m[4].t = 1.5;
+  for (const InstructionSet set : supportedSets()) {
+    const BatchDynamics batch(*scenario_.manipulator, set);
+    std::vector<Vector6d> efforts(9), rates(9);
+    std::vector<PoseFault> faults(9), direct_faults(9);
+    batch.inverseDynamics(m.data(), 9, efforts.data(), faults.data());
+    batch.directDynamics(m.data(), efforts.data(), 9, rates.data(), direct_faults.data());
+    for (std::size_t k = 0; k < 9; ++k) {
+      EXPECT_EQ(faults[k], k == 4 ? PoseFault::not_finite : PoseFault::none) << nameOf(set) << ", pose " << k;
+      EXPECT_EQ(direct_faults[k], faults[k]) << nameOf(set) << ", pose " << k;
+    }
+    EXPECT_TRUE(efforts[4].array().isNaN().all() && rates[4].array().isNaN().all()) << nameOf(set);
+  }
+  EXPECT_THAT(
+      [&] { solver.inverseDynamics(m[4], work); },
+      testing::ThrowsMessage<std::domain_error>(testing::ContainsRegex("effort [1-6] = -?(inf|nan) at t = 1.5 s")));
+  EXPECT_THAT([&] { solver.directDynamics(m[4], Vector6d::Zero(), work); },
+              testing::ThrowsMessage<std::domain_error>(testing::HasSubstr("at t = 1.5 s, expected a finite number")));
+  EXPECT_NO_THROW(solver.inverseDynamics(m[3], work));
+}
+
+TEST_P(BatchOf, andDerivativesOutliveAMove) {
+  BatchDynamics batch(*scenario_.manipulator);
+  EffortDerivatives derivatives(*scenario_.manipulator);
+  const BatchDynamics to = std::move(batch);
+  const EffortDerivatives there = std::move(derivatives);
+  const auto m = motions(1, 1);
+  Vector6d by_from, by_to;
+  PoseFault fault = PoseFault::none;
+  batch.inverseDynamics(m.data(), 1, &by_from, &fault);  // NOLINT(bugprone-use-after-move): that is the point
+  to.inverseDynamics(m.data(), 1, &by_to, &fault);
+  EXPECT_EQ(by_from, by_to);
+  EXPECT_EQ(derivatives.byState(m[0]).efforts, there.byState(m[0]).efforts);  // NOLINT(bugprone-use-after-move)
 }
 
 /// Where a pose is in a batch, and what is beside it, is nothing to its numbers.

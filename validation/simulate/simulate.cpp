@@ -9,8 +9,8 @@
 #include <limits>
 #include <new>
 #include <stdexcept>
-#include <utility>
 
+#include "nocsolver/finite.h"
 #include "nocsolver/solver.h"
 #include "validation/subject/subject.h"
 
@@ -179,17 +179,6 @@ class Progress {
   double since_, least_;
   long evaluations_ = 0;
 };
-
-/// Throws std::runtime_error that names instant and quantity.
-void requireFinite(const Motion<double>& motion) {
-  const std::pair<const char*, double> parts[] = {
-      {"position", motion.p.sum()},          {"orientation", motion.Q.sum()},
-      {"velocity", motion.p_dot.sum()},      {"angular velocity", motion.omega.sum()},
-      {"acceleration", motion.p_ddot.sum()}, {"angular acceleration", motion.omega_dot.sum()}};
-  for (const auto& [what, sum] : parts)
-    if (!std::isfinite(sum))
-      throw std::runtime_error(fmt::format("the platform's {} is not finite at t = {:.9g} s", what, motion.t));
-}
 
 template <class System>
 Simulation integrate(System system, const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques,

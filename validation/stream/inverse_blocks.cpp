@@ -1,17 +1,14 @@
 #include "validation/stream/inverse_blocks.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "model/instants.h"
 #include "nocsolver/fast/batch_dynamics.h"
+#include "nocsolver/finite.h"
 #include "nocsolver/solver.h"
 #include "validation/findings/timeseries.h"
 #include "validation/subject/subject.h"
@@ -22,15 +19,11 @@ namespace {
 /// Enough that handing a block on costs nothing, few enough that it stays in a cache of the second level.
 constexpr int rows_of_block = 512;
 
-/// Throws std::domain_error that names instant and quantity: no file has infinities or NaN.
-void requireFinite(const TimeSeries& series, const std::vector<Motion<double>>& motions) {
+/// No file has infinities or NaN.
+void requireFiniteSeries(const TimeSeries& series, const std::vector<Motion<double>>& motions) {
   for (std::size_t row = 0; row < motions.size(); ++row)
     for (std::size_t i = 0; i < series.names.size(); ++i)
-      if (const double value = series.columns[i][row]; !std::isfinite(value))
-        throw std::domain_error(
-            fmt::format("{} = {} at t = {:.9g} s, expected a finite number: the scenario's numbers "
-                        "are too large or too small for doubles",
-                        series.names[i], value, motions[row].t));
+      requireFinite(&series.columns[i][row], 1, series.names[i].c_str(), motions[row].t);
 }
 
 class InverseBlocks {
@@ -66,7 +59,7 @@ class InverseBlocks {
       joints.push_back({solver_.angles(work), solver_.rates(work), solver_.accelerations(work)});
     }
     TimeSeries series = inverseSeries(*scenario_.manipulator, motions, joints, efforts);
-    requireFinite(series, motions);
+    requireFiniteSeries(series, motions);
     return series;
   }
 
