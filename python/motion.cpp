@@ -1,6 +1,7 @@
 #include "python/motion.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -12,12 +13,29 @@ namespace {
 
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-Array numbers(const py::handle& values, const char* what) {
-  const Array out = Array::ensure(values);
-  if (!out) {
-    PyErr_Clear();
-    throw py::value_error(std::string(what) + ": expected numbers");
-  }
+/// Throws ValueError that names the entry, as "tau[2, 1]", unless all are finite.
+void refuseNotFinite(const Array& values, const char* what) {
+  const double *first = values.data(), *last = first + values.size();
+  const double* found = std::find_if_not(first, last, [](double value) { return std::isfinite(value); });
+  if (found == last) return;
+  const py::object place = py::module_::import("numpy").attr("unravel_index")(found - first, values.attr("shape"));
+  std::string at;
+  for (const py::handle index : place) at += (at.empty() ? "[" : ", ") + std::string(py::str(index));
+  throw py::value_error(what + (at.empty() ? at : at + "]") + " is not finite");
+}
+
+bool isMasked(const py::handle& values) {
+  const py::object type = py::module_::import("numpy.ma").attr("MaskedArray");
+  if (py::isinstance<py::list>(values) || py::isinstance<py::tuple>(values))  // of them NumPy makes one without masks
+    for (const py::handle each : values)
+      if (py::isinstance(each, type)) return true;
+  return py::isinstance(values, type);
+}
+
+/// The array_t of pybind11's constructor, which keeps NumPy's error, as ensure() does not.
+Array numbers(const py::object& values, const char* what) {
+  const Array out(numbersIn(values, std::string(what) + ": expected numbers"));
+  refuseNotFinite(out, what);
   return out;
 }
 
@@ -68,15 +86,6 @@ void fill(std::vector<Motion<double>>& rows, const py::object& values, Vector3d 
   for (std::size_t k = 0; k < rows.size(); ++k) rows[k].*which = Eigen::Map<const Vector3d>(given.data() + 3 * k);
 }
 
-void refuseNoNumbers(const std::vector<Motion<double>>& rows) {
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const Motion<double>& row = rows[k];
-    if (!std::isfinite(row.t) || !row.p.allFinite() || !row.p_dot.allFinite() || !row.omega.allFinite() ||
-        !row.p_ddot.allFinite() || !row.omega_dot.allFinite())
-      throw py::value_error("row " + std::to_string(k) + " of the motion holds a value that is not finite");
-  }
-}
-
 Motions made(const py::object& t, const py::object& p, const py::object& q, const py::object& v, const py::object& w,
              const py::object& a, const py::object& alpha) {
   const Array instants = columnOf(t, "t"), orientations = rowsOf(q, 4, "q");
@@ -93,7 +102,6 @@ Motions made(const py::object& t, const py::object& p, const py::object& q, cons
   fill(out.rows, w, &Motion<double>::omega, "w");
   fill(out.rows, a, &Motion<double>::p_ddot, "a");
   fill(out.rows, alpha, &Motion<double>::omega_dot, "alpha");
-  refuseNoNumbers(out.rows);
   return out;
 }
 
@@ -113,7 +121,15 @@ Motions slice(const Motions& motion, const py::slice& which) {
 
 }  // namespace
 
-py::array_t<double> rowsOf(const py::handle& values, py::ssize_t width, const char* what) {
+py::array numbersIn(const py::object& values, const std::string& what) {
+  if (isMasked(values)) throw py::value_error(what + " (found a masked array)");
+  const py::array out(values);
+  if (std::string("iuf").find(out.dtype().kind()) == std::string::npos)
+    throw py::value_error(what + " (found " + std::string(py::str(out.dtype().attr("name"))) + ")");
+  return out;
+}
+
+py::array_t<double> rowsOf(const py::object& values, py::ssize_t width, const char* what) {
   Array given = numbers(values, what);
   if (given.ndim() == 1 && given.shape(0) == width) given = given.reshape({py::ssize_t{1}, width});
   if (given.ndim() != 2 || given.shape(1) != width)
@@ -122,7 +138,7 @@ py::array_t<double> rowsOf(const py::handle& values, py::ssize_t width, const ch
   return given;
 }
 
-py::array_t<double> columnOf(const py::handle& values, const char* what) {
+py::array_t<double> columnOf(const py::object& values, const char* what) {
   Array given = numbers(values, what);
   if (given.ndim() == 0) given = given.reshape({py::ssize_t{1}});
   if (given.ndim() != 1)

@@ -4,7 +4,10 @@
 #include <pybind11/pybind11.h>
 #include <ursula/scenario.h>
 
+#include <string>
 #include <vector>
+
+#include "python/made.h"
 
 namespace ursula::python {
 
@@ -12,6 +15,19 @@ namespace ursula::python {
 struct Motions {
   std::vector<Motion<double>> rows;
 };
+
+}  // namespace ursula::python
+
+template <>
+class pybind11::detail::type_caster<ursula::python::Motions>
+    : public ursula::python::MadeCaster<ursula::python::Motions> {};
+
+namespace ursula::python {
+
+/// What `values` are, as an array of integers or floats, without a copy where they are one. Throws ValueError that
+/// begins with `what` for what are no numbers: text, dates, complex numbers, objects, and masked arrays, whose masks
+/// nobody would heed. An error of NumPy's passes as it is.
+pybind11::array numbersIn(const pybind11::object& values, const std::string& what);
 
 /// N × width, row by row, from `at(row, out)`.
 template <class Rows, class F>
@@ -25,11 +41,12 @@ pybind11::array_t<double> table(const Rows& rows, pybind11::ssize_t width, F&& a
   return out;
 }
 
-/// `values` as N × width doubles. Throws ValueError that names `what` for another shape or no numbers.
-pybind11::array_t<double> rowsOf(const pybind11::handle& values, pybind11::ssize_t width, const char* what);
+/// `values` as N × width doubles. Throws ValueError that names `what` for another shape, no numbers, or what is not
+/// finite.
+pybind11::array_t<double> rowsOf(const pybind11::object& values, pybind11::ssize_t width, const char* what);
 
 /// The same for numbers one a row; a single number is one row.
-pybind11::array_t<double> columnOf(const pybind11::handle& values, const char* what);
+pybind11::array_t<double> columnOf(const pybind11::object& values, const char* what);
 
 void addMotion(pybind11::module_& module);
 

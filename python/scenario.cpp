@@ -15,6 +15,9 @@
 #include "python/motion.h"
 #include "python/words.h"
 
+template <>
+class pybind11::detail::type_caster<ursula::PlatformPose> : public ursula::python::MadeCaster<ursula::PlatformPose> {};
+
 namespace ursula::python {
 namespace py = pybind11;
 namespace {
@@ -30,12 +33,13 @@ Motions motionAt(const ScenarioWithSolver& self, const py::object& t) {
   const py::array_t<double> instants = columnOf(t, "t");
   const double* data = instants.data();
   const auto count = static_cast<std::size_t>(instants.shape(0));
-  for (std::size_t k = 0; k < count; ++k)
-    if (!std::isfinite(data[k])) throw py::value_error("t[" + std::to_string(k) + "] is not finite");
   Motions out;
   const py::gil_scoped_release unlocked;
   out.rows.reserve(count);
-  for (std::size_t k = 0; k < count; ++k) out.rows.push_back(self.scenario.trajectory->at(data[k]));
+  for (std::size_t k = 0; k < count; ++k) {
+    out.rows.push_back(self.scenario.trajectory->at(data[k]));
+    requireFinite(out.rows.back());
+  }
   return out;
 }
 
@@ -143,6 +147,7 @@ py::dict inverseKinematics(const ScenarioWithSolver& self, const Motions& motion
   forRows(motion, [&](std::size_t k) {
     solver.inverseKinematics(motion.rows[k], work);
     joints[k] = {solver.angles(work), solver.rates(work), solver.accelerations(work)};
+    requireFinite(joints[k].q.phi.data(), sizeof(JointMotion) / sizeof(double), "joint variable", motion.rows[k].t);
   });
   py::dict out;
   addJoints("", *self.scenario.manipulator, joints, &JointMotion::q, out);

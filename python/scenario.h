@@ -6,6 +6,8 @@
 
 #include <filesystem>
 
+#include "python/made.h"
+
 namespace ursula::python {
 
 /// A scenario with the solver for its machine.
@@ -21,6 +23,14 @@ struct ScenarioWithSolver {
   EffortDerivatives derivatives;
   BatchDynamics batch;
 };
+
+}  // namespace ursula::python
+
+template <>
+class pybind11::detail::type_caster<ursula::python::ScenarioWithSolver>
+    : public ursula::python::MadeCaster<ursula::python::ScenarioWithSolver> {};
+
+namespace ursula::python {
 
 void addScenario(pybind11::module_& module);
 

@@ -17,6 +17,12 @@
 #include "python/words.h"
 
 namespace ursula::python {
+template <>
+class pybind11::detail::type_caster<ursula::Check> : public ursula::python::MadeCaster<ursula::Check> {};
+template <>
+class pybind11::detail::type_caster<ursula::ValidationResult>
+    : public ursula::python::MadeCaster<ursula::ValidationResult> {};
+
 namespace py = pybind11;
 namespace {
 
@@ -24,17 +30,14 @@ std::string atInstant(const Motion<double>& motion) { return " at t = " + std::t
 
 /// The solver's answer to `motions`: N × 6 finite numbers, and nothing else.
 std::vector<Vector6d> torquesOf(const py::object& answer, const std::vector<Motion<double>>& motions) {
-  const std::string expected = ", expected (" + std::to_string(motions.size()) + ", 6)";
-  const py::array any = py::array::ensure(answer);
-  if (!any) PyErr_Clear();
-  if (!any || std::string("fiu").find(any.dtype().kind()) == std::string::npos)
-    throw py::value_error("the solver's answer" + atInstant(motions.front()) + " is of type " +
-                          std::string(py::str(py::type::of(answer).attr("__name__"))) + " and no array of numbers" +
-                          expected);
-  const auto given = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(any);
-  if (given.ndim() != 2 || static_cast<std::size_t>(given.shape(0)) != motions.size() || given.shape(1) != motor_count)
+  const py::array any =
+      numbersIn(answer, "the solver's answer" + atInstant(motions.front()) + " is of type " +
+                            std::string(py::str(py::type::of(answer).attr("__name__"))) + " and no array of numbers");
+  if (any.ndim() != 2 || static_cast<std::size_t>(any.shape(0)) != motions.size() || any.shape(1) != motor_count)
     throw py::value_error("the solver's answer to " + std::to_string(motions.size()) + " instants has shape " +
-                          std::string(py::str(given.attr("shape"))) + expected);
+                          std::string(py::str(any.attr("shape"))) + ", expected (" + std::to_string(motions.size()) +
+                          ", 6)");
+  const py::array_t<double, py::array::c_style | py::array::forcecast> given(any);  // the last, for it may be a copy
   std::vector<Vector6d> out;
   out.reserve(motions.size());
   for (std::size_t k = 0; k < motions.size(); ++k) {

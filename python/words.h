@@ -34,36 +34,37 @@ constexpr const char* inverse_dynamics =
     "slides. Each is conjugate to the rate of what it drives, of the paper's legs phi_i, positive about -u_i. The\n"
     "scenario's load acts at each t. The same numbers, to the last bit, as `ursula inverse` writes on this machine.\n"
     "jobs: threads, 0 for all that the processor has; the numbers are the same for any.\n"
-    "Raises PoseError where the legs cannot take a pose, or it is singular.";
+    "Raises PoseError where the legs cannot take a pose, or it is singular, and ValueError, which names the instant,\n"
+    "where an effort is not finite.";
 
 constexpr const char* forward_dynamics =
     "Accelerations (a, alpha) of the platform under efforts tau, N m or N, (N, 6), in the states of a motion of N "
     "instants,\n"
     "by (36): of P, m/s², and angular, rad/s², in B, each (N, 3). The motion's own a and alpha are not read.\n"
     "jobs as of inverse_dynamics.\n"
-    "Raises PoseError as inverse_dynamics does.";
+    "Raises PoseError and ValueError as inverse_dynamics does.";
 
 constexpr const char* inverse_kinematics =
     "Joint variables for a motion of N instants, as a dict of arrays (N, number of legs): phi, psi, theta, rad, and "
     "d,\n"
     "m, as far as any leg has them; their rates phidot, …, ddot and accelerations phiddot, …, dddot. NaN for a leg\n"
-    "that has no such coordinate. Raises PoseError as inverse_dynamics does.";
+    "that has no such coordinate. Raises PoseError and ValueError as inverse_dynamics does.";
 
 constexpr const char* effort_derivatives =
     "Derivatives of inverse_dynamics(m), exact to rounding, as a dict of arrays (N, 6, 3): by \"orientation\", \"p\",\n"
     "\"w\", \"v\", \"alpha\" and \"a\", all in B. \"orientation\" is by a small turn d, rad, in B: Q becomes exp([d]x) "
     "Q,\n"
-    "while w, v, alpha and a stay. Raises PoseError as inverse_dynamics does.";
+    "while w, v, alpha and a stay. Raises PoseError and ValueError as inverse_dynamics does.";
 
 constexpr const char* parameter_derivatives =
     "(names, derivatives): by every number of the machine, SI, (N, 6, number of names), as \"leg[2].distal.mass\".\n"
-    "An inertia's xy is yx as well. Raises PoseError as inverse_dynamics does.";
+    "An inertia's xy is yx as well. Raises PoseError and ValueError as inverse_dynamics does.";
 
 constexpr const char* regressor =
     "(names, values, Y): what efforts are linear in once the geometry is given, the machine's own values of them, and\n"
     "Y, (N, 6, number of names), with Y @ values = inverse_dynamics(m) of the machine without its load. Masses, first\n"
     "moments, kg m, inertias about P and about the links' first ends, kg m^2, friction.\n"
-    "Raises PoseError as inverse_dynamics does.";
+    "Raises PoseError and ValueError as inverse_dynamics does.";
 
 constexpr const char* direct_kinematics =
     "Every real pose of the platform for six actuated angles phi of URS legs, rad, at most eight, as a list of Pose: "

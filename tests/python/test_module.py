@@ -135,8 +135,10 @@ def test_wrong_motions_are_refused(helix):
     s = ursula.read_scenario(helix)
     with pytest.raises(ValueError, match=r"t\[1\] is not finite"):
         s.motion([0, np.nan])
-    with pytest.raises(ValueError, match="expected numbers"):
-        s.motion("soon")
+    for no_numbers, found in (("soon", "str128"), (1j, "complex128"), (np.datetime64("2000-01-01"), "datetime64"),
+                              (None, "object"), (np.ma.masked_all(3), "a masked array"), ([True], "bool")):
+        with pytest.raises(ValueError, match=r"t: expected numbers \(found " + found):
+            s.motion(no_numbers)
     with pytest.raises(ValueError, match=r"p: shape \(2, 2\), expected \(N, 3\)"):
         ursula.Motion(0, [[0, 0], [0, 0]], [1, 0, 0, 0])
     with pytest.raises(ValueError, match="expected a unit quaternion"):
@@ -145,6 +147,42 @@ def test_wrong_motions_are_refused(helix):
         ursula.Motion(0, [0, np.inf, 1], [1, 0, 0, 0])
     with pytest.raises(ValueError, match="2 rows, expected one for each of the motion's 1"):
         s.forward_dynamics(s.motion(0), np.zeros((2, 6)))
+
+
+def test_what_is_not_finite_is_refused_with_its_place(helix):
+    s = ursula.read_scenario(helix)
+    m = s.motion(np.linspace(0, s.duration, 700))  # more than one thread takes
+    tau = s.inverse_dynamics(m)
+    tau[432, 1] = np.nan
+    with pytest.raises(ValueError, match=r"tau\[432, 1\] is not finite"):
+        s.forward_dynamics(m, tau)
+    at = f"at t = {m.t[432]:.9g} s, expected a finite number"
+    v = m.v.copy()
+    v[432] = 1e200
+    fast = ursula.Motion(m.t, m.p, m.q, v, m.w, m.a, m.alpha)
+    for call, what in ((s.inverse_dynamics, "effort"), (lambda m: s.forward_dynamics(m, np.zeros((700, 6))), "twist rate"),
+                       (s.inverse_kinematics, "joint variable"), (s.effort_derivatives, "effort"),
+                       (s.parameter_derivatives, "derivative"), (s.regressor, "derivative")):
+        with pytest.raises(ValueError, match=what + r" [0-9]+ = -?(inf|nan) " + at):
+            call(fast)
+    with pytest.raises(ValueError, match=r"position 1 = -?(inf|nan) at t = 1e\+300 s"):
+        s.motion(1e300)
+
+
+@pytest.mark.parametrize("name", ["Scenario", "Motion", "Pose", "Check", "Result"])
+def test_what_was_never_initialised_is_refused(name, helix):
+    kind = getattr(ursula._ursula, name)
+    attributes = [each for each, what in vars(kind).items() if isinstance(what, property)]
+    assert attributes
+    for cls in (kind, type("Mine", (kind,), {})):
+        husk = cls.__new__(cls)
+        for attribute in attributes:
+            with pytest.raises(TypeError, match=name + r": __init__\(\) was never called"):
+                getattr(husk, attribute)
+    s = ursula.read_scenario(helix)
+    for call in (s.inverse_dynamics, s.inverse_kinematics, ursula.validate):
+        with pytest.raises(TypeError):
+            call(kind.__new__(kind))
 
 
 def test_errors_are_the_programs(program, helix, tmp_path):

@@ -75,7 +75,13 @@ def test_a_tolerance_of_ones_own(quick):
     (lambda m: np.full((len(m), 6), -np.inf), "effort 1 at t = 0.000000 s is -inf"),
     (lambda m: None, "of type NoneType and no array of numbers"),
     (lambda m: "torques", "of type str and no array of numbers"),
-    (lambda m: np.zeros((len(m), 6), complex), "of type ndarray and no array of numbers"),
+    (lambda m: np.zeros((len(m), 6), complex), r"of type ndarray and no array of numbers \(found complex128\)"),
+    (lambda m: np.zeros((len(m), 6), "datetime64[s]"), r"no array of numbers \(found datetime64\[s\]\)"),
+    (lambda m: np.full((len(m), 6), "1"), r"no array of numbers \(found str32\)"),
+    (lambda m: [[None] * 6] * len(m), r"no array of numbers \(found object\)"),
+    (lambda m: np.ma.masked_all((len(m), 6)), r"no array of numbers \(found a masked array\)"),
+    (lambda m: [np.ma.masked_all(6)] * len(m), r"no array of numbers \(found a masked array\)"),
+    (lambda m: np.broadcast_to(0.0, (10**12, 6)), r"to 11 instants has shape \(1000000000000, 6\), expected \(11, 6\)"),
 ])
 def test_what_is_no_answer_is_refused(quick, answer, words):
     with pytest.raises(ValueError, match=words):
@@ -85,6 +91,35 @@ def test_what_is_no_answer_is_refused(quick, answer, words):
 def test_what_is_no_function_is_refused(quick):
     with pytest.raises(TypeError, match="solver: expected a function"):
         ursula.validate(ursula.read_scenario(quick), solver=3)
+
+
+def test_an_answer_that_cannot_be_cast_raises_what_numpy_raises(quick):
+    too_large = np.full((11, 6), np.finfo(np.longdouble).max)
+    if too_large[0, 0] == np.finfo(float).max:
+        pytest.skip("long double is double here")
+    with np.errstate(over="raise"), pytest.raises(FloatingPointError):
+        ursula.validate(ursula.read_scenario(quick), solver=lambda m: too_large)
+    with pytest.raises(ValueError, match="effort 1 at t = 0.000000 s is inf"), np.errstate(over="ignore"):
+        ursula.validate(ursula.read_scenario(quick), solver=lambda m: too_large)
+
+
+class Raising:
+    """What gives NumPy an error in the place of numbers."""
+
+    def __init__(self, error):
+        self.error = error
+
+    def __array__(self, *_, **__):
+        raise self.error
+
+
+@pytest.mark.parametrize("error", [MemoryError, KeyboardInterrupt, ZeroDivisionError])
+def test_an_error_within_a_conversion_passes_as_it_is(quick, error):
+    s = ursula.read_scenario(quick)
+    for call in (lambda: s.motion(Raising(error)), lambda: ursula.Motion(0, Raising(error), [1, 0, 0, 0]),
+                 lambda: ursula.validate(s, solver=lambda m: Raising(error))):
+        with pytest.raises(error):
+            call()
 
 
 class Broken(Exception):
