@@ -3,32 +3,39 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace ursula {
 
 /// Thrown through work whose time is up. No std::exception, for of those an experiment makes a result of its own.
 struct OutOfTime {
-  std::string words;  ///< "the time limit of 600 s was reached"
+  std::string words;  ///< "the time limit of 600 s was reached", "it was asked to end"
 };
 
-/// When work that may take long has to end; never, where none is set. Cheap to copy and to ask.
+/// When work that may take long has to end: after some seconds, or once somebody asks for it; never, where none is set.
+/// Cheap to copy and to ask.
 class Deadline {
  public:
   Deadline() = default;
-  /// `seconds` from now; 0: never.
-  explicit Deadline(double seconds)
-      : seconds_(seconds),
-        end_(Clock::now() +
-             std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(seconds, longest)))),
-        lifted_(seconds > 0 ? std::make_shared<std::atomic<bool>>(false) : nullptr) {}
+  /// `seconds` from now, 0: never; or once `asked_to_end`, which is asked again and again, says so from then on.
+  explicit Deadline(double seconds, std::function<bool()> asked_to_end = nullptr) : seconds_(seconds) {
+    if (seconds <= 0 && !asked_to_end) return;
+    const std::chrono::duration<double> left(seconds > 0 ? std::min(seconds, longest) : longest);
+    end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(left);
+    shared_ = std::make_shared<Shared>();
+    shared_->asked_to_end = std::move(asked_to_end);
+  }
 
-  bool isSet() const { return lifted_ != nullptr; }
-  bool isOver() const { return lifted_ && !*lifted_ && Clock::now() >= end_; }
+  bool isSet() const { return shared_ != nullptr; }
+  bool isOver() const {
+    return shared_ && !shared_->lifted && (Clock::now() >= end_ || (shared_->asked_to_end && shared_->asked_to_end()));
+  }
   /// For all copies: what is left is short, and is to be done.
   void lift() const {
-    if (lifted_) *lifted_ = true;
+    if (shared_) shared_->lifted = true;
   }
   /// Throws OutOfTime where it is over.
   void require() const {
@@ -40,9 +47,14 @@ class Deadline {
   using Clock = std::chrono::steady_clock;
   static constexpr double longest = 1e9;  ///< s; a clock of nanoseconds has 64 bits
 
+  struct Shared {
+    std::atomic<bool> lifted{false};
+    std::function<bool()> asked_to_end;
+  };
+
   double seconds_ = 0;
   Clock::time_point end_;
-  std::shared_ptr<std::atomic<bool>> lifted_;
+  std::shared_ptr<Shared> shared_;
 };
 
 }  // namespace ursula

@@ -5,6 +5,7 @@
 #include <ursula/report.h>
 #include <ursula/validate.h>
 
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -16,13 +17,13 @@
 #include "python/scenario.h"
 #include "python/words.h"
 
-namespace ursula::python {
 template <>
 class pybind11::detail::type_caster<ursula::Check> : public ursula::python::MadeCaster<ursula::Check> {};
 template <>
 class pybind11::detail::type_caster<ursula::ValidationResult>
     : public ursula::python::MadeCaster<ursula::ValidationResult> {};
 
+namespace ursula::python {
 namespace py = pybind11;
 namespace {
 
@@ -54,23 +55,65 @@ std::string nameOf(const py::object& solver) {
   return py::str(py::getattr(solver, "__qualname__", py::type::of(solver).attr("__name__")));
 }
 
+void requirePositive(const char* name, std::optional<double> value) {
+  if (value && !(*value > 0 && std::isfinite(*value)))
+    throw py::value_error(std::string(name) + " is " + std::to_string(*value) + ", expected a positive number");
+}
+
 /// The scenario with the tolerance given, if any.
 Scenario tolerant(Scenario scenario, std::optional<double> rtol, std::optional<double> atol, bool any) {
-  for (const auto& [name, value] : {std::pair("rtol", rtol), {"atol", atol}})
-    if (value && !(*value > 0 && std::isfinite(*value)))
-      throw py::value_error(std::string(name) + " is " + std::to_string(*value) + ", expected a positive number");
+  requirePositive("rtol", rtol);
+  requirePositive("atol", atol);
   if (rtol || atol) scenario.tolerance = EffortTolerance{rtol.value_or(0), atol.value_or(0)};
   if (scenario.tolerance) scenario.tolerance->any = any;
   return scenario;
 }
 
-ValidationResult validated(const ScenarioWithSolver& given, const py::object& solver, std::optional<double> rtol,
-                           std::optional<double> atol, const py::object& name, bool any_tolerance) {
-  const Scenario scenario = tolerant(given.scenario, rtol, atol, any_tolerance);
-  if (solver.is_none()) {
-    const py::gil_scoped_release unlocked;
-    return validate(scenario);
+/// What Python's handlers of signals raise, as that of Ctrl-C does, while no bytecode runs.
+class Interruption {
+ public:
+  /// Without Python's lock, which it takes ten times a second at most.
+  bool cameInBetween() {
+    constexpr std::chrono::milliseconds between{100};
+    const auto now = std::chrono::steady_clock::now();
+    if (raised_ || now - last_ < between) return raised_.has_value();
+    last_ = now;
+    const py::gil_scoped_acquire locked;
+    if (PyErr_CheckSignals() != 0) raised_.emplace();
+    return raised_.has_value();
   }
+  void rethrow() const {
+    if (raised_) throw *raised_;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_{};
+  std::optional<py::error_already_set> raised_;
+};
+
+/// What `run` returns, which is given when to end and knows no Python.
+template <class Run>
+ValidationResult interruptible(double time_limit, Run&& run) {
+  Interruption interruption;
+  ValidationOptions options;
+  options.time_limit = time_limit;
+  options.asked_to_end = [&interruption] { return interruption.cameInBetween(); };
+  ValidationResult result = [&] {
+    const py::gil_scoped_release unlocked;
+    return run(options);
+  }();
+  interruption.rethrow();
+  return result;
+}
+
+ValidationResult validated(const ScenarioWithSolver& given, const py::object& solver, std::optional<double> rtol,
+                           std::optional<double> atol, const py::object& name, bool any_tolerance,
+                           std::optional<double> time_limit) {
+  const Scenario scenario = tolerant(given.scenario, rtol, atol, any_tolerance);
+  requirePositive("time_limit", time_limit);
+  const double limit = time_limit.value_or(0);
+  if (solver.is_none())
+    return interruptible(limit, [&](const ValidationOptions& options) { return validate(scenario, options); });
   if (PyCallable_Check(solver.ptr()) == 0) throw py::type_error("solver: expected a function of a Motion");
   OutsideSolver outside;
   outside.name = name.is_none() ? nameOf(solver) : std::string(py::str(name));
@@ -79,8 +122,8 @@ ValidationResult validated(const ScenarioWithSolver& given, const py::object& so
     const py::gil_scoped_acquire locked;
     return torquesOf(solver(Motions{motions}), motions);
   };
-  const py::gil_scoped_release unlocked;
-  return validateOutside(scenario, outside);
+  return interruptible(limit,
+                       [&](const ValidationOptions& options) { return validateOutside(scenario, outside, options); });
 }
 
 py::dict seriesOf(const ValidationResult& result) {
@@ -159,7 +202,7 @@ void addValidation(py::module_& module) {
   addResult(module);
   module.def("validate", &validated, py::arg("s"), py::arg("solver") = py::none(), py::kw_only(),
              py::arg("rtol") = py::none(), py::arg("atol") = py::none(), py::arg("name") = py::none(),
-             py::arg("any_tolerance") = false, words::validate);
+             py::arg("any_tolerance") = false, py::arg("time_limit") = py::none(), words::validate);
 }
 
 }  // namespace ursula::python

@@ -83,7 +83,9 @@ constexpr const char* validate =
     "both\n"
     "are added. Where both are left out, [acceptance] torque of the scenario holds, else rounding. name: of the\n"
     "solver, for the results; its own where left out.\n"
-    "any_tolerance: takes a tolerance at which efforts of zero would pass, which is refused else.\n\n"
+    "any_tolerance: takes a tolerance at which efforts of zero would pass, which is refused else.\n"
+    "time_limit: s; what is not reached by then is inconclusive. Handlers of signals, as that of Ctrl-C, run,\n"
+    "and what they raise ends the validation.\n\n"
     "Raises what the solver raises, as it was raised; ValueError where it answers with another shape or with what is\n"
     "not finite; PoseError where the commanded motion is out of reach or singular.";
 

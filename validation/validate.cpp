@@ -74,7 +74,7 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   result.scenario = scenario.name;
   result.formulation = name(subject.formulation);
   tell(options, 0.8, "checks");
-  if (right && options.time_limit <= 0) evidence.threads = options.threads;
+  if (right && options.time_limit <= 0 && !options.asked_to_end) evidence.threads = options.threads;
   result.checks = judgeAll(evidence);
   tell(options, 0.9, "sources of the error");
   std::optional<ErrorBudget> budget;
@@ -96,7 +96,7 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
 
 std::shared_ptr<const Reference> referenceOf(const Scenario& scenario, const ValidationOptions& options) {
   tell(options, 0, "the right motion");
-  const Deadline deadline(options.time_limit);
+  const Deadline deadline(options.time_limit, options.asked_to_end);
   return options.reference ? options.reference : makeReference(scenario, options.threads, deadline);
 }
 

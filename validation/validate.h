@@ -27,6 +27,9 @@ struct ValidationOptions {
   /// From the call on, s; what is not reached by then is inconclusive (Reason::unfinished), and no number depends on it
   /// otherwise. 0: none. A `reference` made before has its own.
   double time_limit = 0;
+  /// Asked again and again, by any of the threads: once it says so, and from then on, it is as if the limit was
+  /// reached.
+  std::function<bool()> asked_to_end = nullptr;
 };
 
 /// The whole validation of one scenario: pointwise, replay, closure, energy, and the verdict. Deterministic: the same

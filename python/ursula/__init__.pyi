@@ -169,5 +169,6 @@ def validate(
     atol: float | None = None,
     name: str | None = None,
     any_tolerance: bool = False,
+    time_limit: float | None = None,
 ) -> Result:
     """The whole validation of a scenario, of this program's solver or of `solver`: Motion of N instants -> (N, 6), N m or N."""

@@ -2,6 +2,8 @@
 
 import filecmp
 import json
+import subprocess
+import sys
 import threading
 
 import numpy as np
@@ -120,6 +122,42 @@ def test_an_error_within_a_conversion_passes_as_it_is(quick, error):
                  lambda: ursula.validate(s, solver=lambda m: Raising(error))):
         with pytest.raises(error):
             call()
+
+
+LONG = """
+import os, signal, threading, ursula
+s = ursula.read_scenario({file!r})
+class Heard(Exception): pass
+def hear(*_): raise Heard
+if {own}: signal.signal(signal.SIGINT, hear)
+threading.Timer(1, os.kill, (os.getpid(), signal.SIGINT)).start()
+try:
+    ursula.validate(s{more})
+except Heard if {own} else KeyboardInterrupt:
+    print("heard", os.listdir({folder!r}))
+"""
+
+
+@pytest.mark.parametrize("own, more", [(False, ""), (True, ""), (False, ", solver=lambda m: s.inverse_dynamics(m)")])
+def test_a_signal_ends_what_takes_hours(helix, tmp_path, own, more):
+    (tmp_path / "empty").mkdir()
+    file = tmp_path / "long.toml"
+    file.write_text(helix.read_text().replace("duration = 3.0", "duration = 7200.0"))
+    code = LONG.format(file=str(file), own=own, more=more, folder=str(tmp_path / "empty"))
+    run = subprocess.run([sys.executable, "-c", code], cwd=tmp_path / "empty", capture_output=True, text=True,
+                         timeout=300, check=False)
+    assert run.stdout == "heard []\n", run.stderr
+
+
+def test_a_time_limit(quick):
+    s = ursula.read_scenario(quick)
+    r = ursula.validate(s, time_limit=1e-9)
+    assert r.verdict == "inconclusive"
+    assert "the time limit of 1e-09 s was reached" in [check.why for check in r.checks]
+    assert ursula.validate(s, time_limit=1e8).summary == ursula.validate(s).summary
+    for wrong in (0, -1, np.nan, np.inf):
+        with pytest.raises(ValueError, match="time_limit is .*, expected a positive number"):
+            ursula.validate(s, time_limit=wrong)
 
 
 class Broken(Exception):

@@ -142,6 +142,23 @@ TEST(TimedScenario, throwsWhereTheDeadlineIsOverAndUntilItIsLifted) {
   EXPECT_NO_THROW(timed(scenario, Deadline(plenty)).trajectory->at(1.0));
 }
 
+/// As a host in another language wants it: asked a few times, and told so, whenever that is.
+TEST(TimeLimit, isReachedOnceItIsAskedToEnd) {
+  for (const int last : {0, 10, 5000}) {
+    int asked = 0;
+    ValidationOptions options;
+    options.asked_to_end = [&] { return ++asked > last; };
+    const ValidationResult result = validate(quick(), options);
+    EXPECT_EQ(result.verdict, Verdict::inconclusive) << last;
+    EXPECT_TRUE(std::any_of(result.checks.begin(), result.checks.end(), [](const Check& check) {
+      return check.reason == Reason::unfinished && check.why == "it was asked to end";
+    })) << last;
+  }
+  ValidationOptions never;
+  never.asked_to_end = [] { return false; };
+  EXPECT_EQ(report::summaryJson(validate(quick(), never)), report::summaryJson(validate(quick())));
+}
+
 /// 1e300 s would overflow the clock.
 TEST(Deadline, takesAnyLength) { EXPECT_FALSE(Deadline(1e300).isOver()); }
 
