@@ -19,6 +19,7 @@
 #include "validation/findings/run_provenance.h"
 #include "validation/findings/timeseries.h"
 #include "validation/picture/picture.h"
+#include "validation/subject/motion_check.h"
 
 namespace ursula {
 namespace {
@@ -153,6 +154,9 @@ ValidationResult validate(const Scenario& scenario, const ValidationOptions& opt
   return validateOwn(scenario, noc, true, options);
 }
 
-double estimatedSeconds(const Scenario& scenario) { return workSeconds(scenario); }
+double estimatedSeconds(const Scenario& scenario) {
+  requireWhole(scenario);
+  return workSeconds(scenario);
+}
 
 }  // namespace ursula

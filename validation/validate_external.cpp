@@ -133,6 +133,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
 }
 
 ValidationResult validateExternal(const Scenario& scenario, const std::filesystem::path& torques_csv) {
+  requireWhole(scenario);
   return validateExternal(scenario, readTorqueFile(torques_csv, {}, scenario.manipulator->motors()));
 }
 

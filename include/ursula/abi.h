@@ -3,10 +3,14 @@
 #include <ursula/build.h>
 
 #include <Eigen/Core>
+#include <vector>
 
-// Vectors and matrices cross the border of the shared library by their layout, which Eigen chooses by the compiler's
-// options. What is not as in the library is refused here, not found out in a crash.
+// Vectors, matrices and the standard library's containers cross the border of the shared library by their layout, which
+// the compiler's options decide. What is not as in the library is refused here, not found out in a crash.
 
+static_assert(sizeof(std::vector<double>) == URSULA_VECTOR_SIZE,
+              "ursula was built with other containers of the standard library than this file (-D_GLIBCXX_DEBUG changes "
+              "them). Compile without it, or build ursula with the same options; -D_GLIBCXX_ASSERTIONS fits.");
 static_assert(alignof(Eigen::Matrix<double, 8, 8>) == URSULA_EIGEN_ALIGNMENT,
               "ursula was built with another alignment of Eigen's matrices than this file (AVX options such as "
               "-march=native change it). Compile with -DEIGEN_MAX_STATIC_ALIGN_BYTES=<URSULA_EIGEN_ALIGNMENT of "

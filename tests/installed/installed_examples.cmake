@@ -33,6 +33,13 @@ run(0 "" ${CMAKE_COMMAND} -S ${source} -B ${WORK}/build -G ${GENERATOR} -D CMAKE
   -D CMAKE_PREFIX_PATH=${prefix} -D CMAKE_NO_SYSTEM_FROM_IMPORTED=ON "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror -pedantic")
 run(0 "" ${CMAKE_COMMAND} --build ${WORK}/build)
 
+# Containers of another layout are refused by the compiler.
+file(GLOB eigen /usr/include/eigen3)
+set(compile ${CXX} -std=c++17 -fsyntax-only -I${prefix}/include -I${eigen} ${source}/judge_own_solver.cpp)
+run(0 "" ${compile})
+run(0 "" ${compile} -D_GLIBCXX_ASSERTIONS)
+run(1 "ursula was built with other containers of the standard library" ${compile} -D_GLIBCXX_DEBUG)
+
 set(bin ${WORK}/build)
 set(helix ${prefix}/share/ursula/scenarios/paper-helix.toml)
 run(0 "paper-helix: pass" ${bin}/judge_own_solver ${helix})

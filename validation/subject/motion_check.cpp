@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "model/errors.h"
 #include "model/instants.h"
 #include "model/scenario_place.h"
 #include "nocsolver/solver.h"
@@ -132,8 +134,15 @@ std::string inWords(const Scenario& scenario, const PoseError& refusal) {
 
 }  // namespace
 
+void requireWhole(const Scenario& scenario) {
+  for (const auto& [place, is_there] :
+       {std::pair("manipulator", scenario.manipulator != nullptr), {"trajectory", scenario.trajectory != nullptr}})
+    if (!is_there) throw InvalidParameter(place, "none", "a scenario that has one");
+}
+
 /// det B is continuous wherever the legs reach, so that it vanishes between unlike signs.
 void checkMotion(const Scenario& scenario) {
+  requireWhole(scenario);
   const Solver<double> solver(*scenario.manipulator);
   Workspace<double> work;
   double before = 0;
