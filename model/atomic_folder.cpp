@@ -81,11 +81,15 @@ AtomicFolder::AtomicFolder(fs::path folder, OlderFiles older)
   const fs::path above = folder_.parent_path();
   base_ = isFolder(folder_) && (isMountPoint(folder_) || !canHoldFiles(above)) ? folder_ : above;
   stays_ = isFolder(folder_) && (base_ == folder_ || isWorkedIn(folder_));
-  makeParents();
+  {
+    const EndingHeld held;  // until it is known what a signal has to take away
+    makeParents();
+    ending_.emplace([](const void* folder) { static_cast<const AtomicFolder*>(folder)->removeParents(); }, this);
+  }
   try {
     lock_.emplace(base_ / (".ursula-" + own("lock")), shown_);
   } catch (...) {
-    for (auto made = made_.rbegin(); made != made_.rend(); ++made) ::rmdir(made->c_str());
+    removeParents();
     throw;
   }
   if (lock_->isExclusive()) sweep();
@@ -96,7 +100,7 @@ AtomicFolder::~AtomicFolder() {
   if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
   if (!temporary_.empty()) ::rmdir(temporary_.c_str());  // under a umask that forbids to look into it, and it is empty
   lock_.reset();
-  for (auto made = made_.rbegin(); made != made_.rend() && !is_committed_; ++made) ::rmdir(made->c_str());
+  if (!is_committed_) removeParents();
 }
 
 /// Of this folder alone, and short whatever its name.
@@ -110,6 +114,10 @@ void AtomicFolder::makeParents() {
   std::reverse(missing.begin(), missing.end());
   for (const fs::path& each : missing)
     if (fs::create_directory(each)) made_.push_back(each);
+}
+
+void AtomicFolder::removeParents() const {  // may be called within a signal's handler
+  for (auto made = made_.rbegin(); made != made_.rend(); ++made) ::rmdir(made->c_str());
 }
 
 /// What is locked by this process was left by dead ones. Of a swap that was cut off either folder is whole: the one

@@ -41,6 +41,8 @@ class AtomicFolder {
  private:
   std::string own(const std::string& kind) const;
   void makeParents();
+  /// If nothing else is in them.
+  void removeParents() const;
   void sweep() const;
   void makeLikeOld() const;
   void swap();
@@ -52,6 +54,7 @@ class AtomicFolder {
   OlderFiles older_;
   std::vector<std::filesystem::path> made_;  ///< parents, the outermost first
   bool stays_ = false;                       ///< the same folder to its users
+  std::optional<AtEnding> ending_;
   std::optional<FolderLock> lock_;
   std::mutex mutex_;  // guards what follows
   std::filesystem::path temporary_;

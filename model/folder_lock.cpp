@@ -34,8 +34,11 @@ FolderLock::FolderLock(std::filesystem::path file, const std::filesystem::path& 
   static_cast<void>(::ftruncate(descriptor_, 0) == 0 && writeAll(descriptor_, process));  // only for the message above
 }
 
+void FolderLock::remove(const void* lock) { ::unlink(static_cast<const FolderLock*>(lock)->file_.c_str()); }
+
 /// The one before removes the file while it still holds it: what was opened may have no name any more.
 bool FolderLock::take(const std::filesystem::path& what) {
+  const EndingHeld held;  // until it is known that the file is to go
   descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, as_the_user_says);
   if (descriptor_ < 0 && errno == EACCES)  // left by another user's run: to be locked it need not be written
     descriptor_ = ::open(file_.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
@@ -47,7 +50,10 @@ bool FolderLock::take(const std::filesystem::path& what) {
     throw std::runtime_error("cannot write " + what.string() + ": " + file_.string() + ": " + std::strerror(errno));
   const Lock lock = tryLock(descriptor_);
   is_exclusive_ = lock == Lock::free && isStill(descriptor_, file_);
-  if (is_exclusive_ || lock == Lock::unknown) return true;
+  if (is_exclusive_ || lock == Lock::unknown) {
+    ending_.emplace(remove, this);
+    return true;
+  }
   ::close(std::exchange(descriptor_, -1));
   return false;
 }
@@ -59,6 +65,7 @@ std::string FolderLock::holder() const {
 }
 
 FolderLock::~FolderLock() {
+  ending_.reset();  // once it is let go, another's file may have that name
   ::unlink(file_.c_str());
   ::close(descriptor_);
 }

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
+
+#include "model/at_ending.h"
 
 namespace ursula {
 
@@ -11,7 +14,8 @@ struct FolderInUse : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A lock by the name of a file, held until this goes or the process ends, however it ends; the file goes, too. It
+/// A lock by the name of a file, held until this goes or the process ends, however it ends; the file goes, too, but
+/// where the process is killed. It
 /// keeps other processes and threads away that ask for it by the same name, where the file system has locks.
 class FolderLock {
  public:
@@ -27,10 +31,12 @@ class FolderLock {
  private:
   bool take(const std::filesystem::path& what);
   std::string holder() const;
+  static void remove(const void* lock);
 
   std::filesystem::path file_;
   int descriptor_ = -1;
   bool is_exclusive_ = false;
+  std::optional<AtEnding> ending_;
 };
 
 }  // namespace ursula

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
@@ -75,43 +74,8 @@ class WithoutPipeSignal {
   bool was_pending_ = false;
 };
 
-// A signal that ends this process ends the newest group before: a command need not look at the end of its input. All
-// that somebody sends or a limit of the system does; not those of a crash, after which nothing can be relied on.
-std::atomic<pid_t> group{0};
-constexpr std::array<int, 10> ends_process = {SIGINT,  SIGTERM, SIGHUP,  SIGQUIT,   SIGALRM,
-                                              SIGUSR1, SIGUSR2, SIGXCPU, SIGVTALRM, SIGPROF};
-
-void endGroupAndSelf(int signal) {
-  if (const pid_t leader = group.load(); leader > 0) ::kill(-leader, SIGKILL);
-  std::signal(signal, SIG_DFL);
-  std::raise(signal);
-}
-
-void endWithUs(pid_t leader) {
-  group = leader;
-  for (int signal : ends_process) {
-    struct sigaction action {};
-    sigaction(signal, nullptr, &action);
-    if (action.sa_handler == SIG_DFL) std::signal(signal, endGroupAndSelf);  // NOLINT(performance-no-int-to-ptr)
-  }
-}
-
-/// Signals that end this process wait while this is there.
-class EndingHeld {
- public:
-  EndingHeld() {
-    sigset_t held;
-    sigemptyset(&held);
-    for (int signal : ends_process) sigaddset(&held, signal);
-    pthread_sigmask(SIG_BLOCK, &held, &before_);
-  }
-  ~EndingHeld() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  EndingHeld(const EndingHeld&) = delete;
-  EndingHeld& operator=(const EndingHeld&) = delete;
-
- private:
-  sigset_t before_;
-};
+/// A command need not look at the end of its input.
+void endGroup(const void* leader) { ::kill(-*static_cast<const pid_t*>(leader), SIGKILL); }
 
 /// `NAME=value` of ours, but for those set anew.
 std::vector<std::string> environmentWith(const LineProcess::Environment& more) {
@@ -178,7 +142,7 @@ LineProcess::LineProcess(const std::string& command, const Environment& environm
   Pipe there, back;
   const EndingHeld held;  // until it is known what a signal has to end
   pid_ = spawn(command, environment, there.read, back.write);
-  endWithUs(pid_);
+  ends_with_us_.emplace(endGroup, &pid_);
   to_ = release(there.write);
   from_ = release(back.read);
   ::fcntl(to_, F_SETFL, O_NONBLOCK);
@@ -195,7 +159,7 @@ void LineProcess::kill() {
   if (pid_ < 0) return;
   ::kill(-pid_, SIGKILL);  // not yet waited for, so that the number is still the group's
   while (::waitpid(pid_, &status_, 0) < 0 && errno == EINTR) continue;
-  group = 0;
+  ends_with_us_.reset();
   pid_ = -1;
 }
 

@@ -2,9 +2,12 @@
 
 #include <sys/types.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "model/at_ending.h"
 
 namespace ursula {
 
@@ -47,6 +50,7 @@ class LineProcess {
   void kill();
 
   pid_t pid_ = -1;
+  std::optional<AtEnding> ends_with_us_;
   int to_ = -1, from_ = -1;
   int status_ = 0;
   std::string received_;
