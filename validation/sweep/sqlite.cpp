@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <cerrno>
+#include <cstring>
 #include <limits>
 
 namespace ursula {
@@ -23,8 +25,26 @@ int flagsOf(Sqlite::Access access) {
   throw std::logic_error("no such access");
 }
 
+/// What the system answered last with: SQLite tells of a connection, but not where a transaction ends; then its files
+/// know.
+int systemError(sqlite3* handle) {
+  int error = sqlite3_system_errno(handle);
+  sqlite3_file* journal = nullptr;
+  if (error == 0) sqlite3_file_control(handle, "main", SQLITE_FCNTL_JOURNAL_POINTER, &journal);
+  if (journal != nullptr && journal->pMethods != nullptr)
+    journal->pMethods->xFileControl(journal, SQLITE_FCNTL_LAST_ERRNO, &error);
+  if (error == 0) sqlite3_file_control(handle, "main", SQLITE_FCNTL_LAST_ERRNO, &error);
+  return error;
+}
+
+/// What the system said; `message` is SQLite's, which names no cause.
+std::string cause(int system_error, const char* message) {
+  if (system_error == EFBIG) return "a file may not grow further (ulimit -f)";
+  return system_error != 0 ? std::strerror(system_error) : message;
+}
+
 /// What it means to a user, for what he can do something about.
-std::string inWords(int code, const char* message) {
+std::string inWords(int code, const char* message, int system_error) {
   switch (code) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
@@ -38,9 +58,9 @@ std::string inWords(int code, const char* message) {
     case SQLITE_CORRUPT:
       return std::string("it is damaged: ") + message;
     case SQLITE_CANTOPEN:
-      return "it cannot be opened or made here";
+      return "it cannot be opened or made here" + (system_error != 0 ? ": " + cause(system_error, "") : "");
     case SQLITE_IOERR:
-      return std::string("reading or writing failed: ") + message;
+      return "reading or writing failed: " + cause(system_error, message);
     default:
       return message;
   }
@@ -61,7 +81,8 @@ Sqlite::Sqlite(const std::filesystem::path& file, Access access) : file_(file) {
     sqlite3_busy_timeout(handle_, patience);
     return;
   }
-  const std::string why = inWords(status, handle_ == nullptr ? "out of memory" : sqlite3_errmsg(handle_));
+  const std::string why = handle_ == nullptr ? inWords(status, "out of memory", 0)
+                                             : inWords(status, sqlite3_errmsg(handle_), systemError(handle_));
   sqlite3_close(handle_);
   throw DatabaseError(fmt::format("{}: error: {}", file.string(), why));
 }
@@ -71,7 +92,7 @@ Sqlite::~Sqlite() { sqlite3_close(handle_); }
 void Sqlite::fail(const std::string& doing) const {
   const int code = sqlite3_errcode(handle_) & 0xff;
   const std::string what = fmt::format("{}: error: {}{}", file_.string(), doing.empty() ? "" : doing + ": ",
-                                       inWords(code, sqlite3_errmsg(handle_)));
+                                       inWords(code, sqlite3_errmsg(handle_), systemError(handle_)));
   if (code == SQLITE_BUSY || code == SQLITE_LOCKED) throw DatabaseLocked(what);
   throw DatabaseError(what);
 }
@@ -88,6 +109,11 @@ std::int64_t Sqlite::number(const std::string& sql) {
 std::string Sqlite::text(const std::string& sql) {
   Statement statement(*this, sql);
   return statement.step() ? statement.text(0) : "";
+}
+
+bool Sqlite::hasMoved() const {
+  int moved = 0;
+  return sqlite3_file_control(handle_, "main", SQLITE_FCNTL_HAS_MOVED, &moved) == SQLITE_OK && moved != 0;
 }
 
 std::int64_t Sqlite::changed() const { return sqlite3_changes64(handle_); }

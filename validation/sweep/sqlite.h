@@ -35,6 +35,8 @@ class Sqlite {
   /// The first column of the first row.
   std::int64_t number(const std::string& sql);
   std::string text(const std::string& sql);
+  /// Whether the file that is open has another name by now, or none.
+  bool hasMoved() const;
   /// Rows that the last statement changed.
   std::int64_t changed() const;
   const std::filesystem::path& file() const { return file_; }

@@ -204,10 +204,26 @@ void SweepDatabase::add(const SweepPoint& point) {
 }
 
 /// A transaction is open all the time: so nobody else begins to write between two of ours.
-void SweepDatabase::commit() { sqlite_.run("COMMIT; BEGIN IMMEDIATE"); }
+void SweepDatabase::commit() {
+  sqlite_.run("COMMIT");
+  requireInPlace();
+  sqlite_.run("BEGIN IMMEDIATE");
+}
+
+void SweepDatabase::requireInPlace() {
+  if (!sqlite_.hasMoved()) return;
+  sqlite_.run("PRAGMA wal_checkpoint(TRUNCATE)");  // its log keeps the old name, where another database may come
+  std::error_code ignored;
+  refuse(sqlite_.file(),
+         fmt::format("{} while the sweep wrote to it: what was found until then is in the file that was "
+                     "there, if that has another name now, and is lost if not",
+                     std::filesystem::exists(sqlite_.file(), ignored) ? "was replaced by another file"
+                                                                      : "was removed or renamed"));
+}
 
 void SweepDatabase::finish() {
   sqlite_.run("COMMIT");
+  requireInPlace();
   try {
     sqlite_.run("PRAGMA journal_mode = DELETE");
   } catch (const DatabaseError&) {  // somebody reads it: then it stays as it is, which is as good

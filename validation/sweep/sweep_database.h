@@ -65,7 +65,8 @@ class SweepDatabase {
   /// Takes those with verdict "error" out, so that they are made again.
   void dropErrors();
   void add(const SweepPoint& point);
-  /// What was added since the last time is there for good.
+  /// What was added since the last time is there for good. Refuses a file that was removed, renamed or replaced
+  /// meanwhile, after all that was added is in it, wherever it is.
   void commit();
   /// The same for the last time: leaves one file that can be read wherever it is carried.
   void finish();
@@ -74,6 +75,7 @@ class SweepDatabase {
 
  private:
   struct Statements;
+  void requireInPlace();
 
   Sqlite sqlite_;
   SweepIdentity identity_;

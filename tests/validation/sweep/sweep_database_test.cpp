@@ -2,11 +2,14 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <chrono>
+#include <csignal>
 #include <fstream>
 #include <future>
 #include <thread>
+#include <utility>
 
 #include "tests/model/refusals.h"
 #include "tests/model/temporary_folder.h"
@@ -41,6 +44,48 @@ TEST(SweepDatabase, keepsWhatWasCommitted) {
   EXPECT_EQ(again.sqlite().number("SELECT count(*) FROM result WHERE value IS NULL"), 0);
   EXPECT_EQ(again.sqlite().number("SELECT count(*) FROM result WHERE \"limit\" IS NULL"), 1);
   EXPECT_EQ(again.sqlite().number("SELECT count(*) FROM point WHERE error IS NULL"), 1);
+}
+
+/// Somebody renames, replaces or removes it between two batches. What was found by then is in the renamed one.
+TEST(SweepDatabase, refusesToGoOnWithoutItsFile) {
+  for (const bool at_the_end : {false, true})
+    for (const auto& [comes, says] : {std::pair("", "s.db: error: was removed or renamed"),
+                                      {"foreign", "s.db: error: was replaced by another file"}}) {
+      const TemporaryFolder folder;
+      const std::filesystem::path file = folder.path() / "s.db", kept = folder.path() / "kept.db";
+      {
+        SweepDatabase database(file, identity());
+        database.add(point(2));
+        std::filesystem::rename(file, kept);
+        if (*comes != '\0') folder.write("s.db", comes);
+        const auto go_on = [&] { at_the_end ? database.finish() : database.commit(); };
+        EXPECT_THAT(refusal<DatabaseError>(go_on), HasSubstr(says)) << at_the_end;
+      }
+      EXPECT_EQ(SweepDatabase(kept).pointsDone(), 1) << comes << at_the_end;
+      EXPECT_EQ(*comes == '\0' ? "" : TemporaryFolder::read(file), comes) << at_the_end;
+    }
+}
+
+/// As `ulimit -f` has it.
+TEST(SweepDatabase, namesTheLimitOfItsSize) {
+  const TemporaryFolder folder;
+  SweepDatabase database(folder.path() / "s.db", identity("aa", 1, 1));
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit little{1 << 16, before.rlim_max};
+  const auto former = std::signal(SIGXFSZ, SIG_IGN);
+  ::setrlimit(RLIMIT_FSIZE, &little);
+  const std::string said = refusal<DatabaseError>([&] {
+    for (int k = 0; k < 100; ++k) {
+      SweepPoint large = point(k);
+      large.parameters = "{\"x\": \"" + std::string(5000, 'x') + "\"}";
+      database.add(large);
+      database.commit();
+    }
+  });
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, former);
+  EXPECT_THAT(said, HasSubstr("s.db: error: reading or writing failed: a file may not grow further (ulimit -f)"));
 }
 
 TEST(SweepDatabase, refusesThoseOfOthersAndLeavesThemAsTheyAre) {
