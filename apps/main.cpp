@@ -41,8 +41,8 @@ int runVerb(const std::function<int()>& run) {
   } catch (const std::filesystem::filesystem_error& error) {
     std::error_code gone;
     static_cast<void>(std::filesystem::current_path(gone));
-    return complain(fmt::format("error: {}: {}{}", error.path1().string(), error.code().message(),
-                                gone ? ", as the working folder has been removed" : ""));
+    return complain(fmt::format("error: {}{}{}", error.path1().empty() ? "" : error.path1().string() + ": ",
+                                error.code().message(), gone ? ", as the working folder has been removed" : ""));
   } catch (const std::exception& error) {
     return complain(fmt::format("error: {}", error.what()));
   }

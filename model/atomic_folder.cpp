@@ -60,8 +60,8 @@ bool exchanged(const fs::path& a, const fs::path& b) {
 }
 
 void syncFolders(const fs::path& folder) {
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
-    if (entry.is_directory() && !entry.is_symlink()) syncFolder(entry.path());
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (entry.is_directory() && !entry.is_symlink()) syncFolders(entry.path());
   syncFolder(folder);
 }
 

@@ -1,4 +1,4 @@
-// Runs that end before they are done: by a signal.
+// Runs that end before they are done: by a signal, or for want of descriptors.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,6 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
+using testing::HasSubstr;
+using testing::Not;
+
 /// The longest by far is spent before anything is written.
 TEST(EndedRun, ofASignalLeavesNothing) {
   const Program ursula;
@@ -30,6 +33,21 @@ TEST(EndedRun, ofASignalLeavesNothing) {
   while (!fs::exists(lock) && !killed.hasEnded()) std::this_thread::sleep_for(1ms);
   EXPECT_TRUE(killed.isEndedBy(SIGKILL));
   EXPECT_TRUE(fs::exists(lock)) << "or nothing would be seen above";
+}
+
+TEST(EndedRun, ofTooFewDescriptorsNamesAPath) {
+  const Program ursula;
+  for (const char* name : {"one", "two"}) ursula.write(std::string(name) + ".toml", quickScenario(name));
+  bool is_seen = false;
+  for (const char* most : {"4", "5", "6"}) {  // a path, whoever meets the limit first
+    shell(ursula,
+          std::string("prlimit --nofile=") + most + " $URSULA validate one.toml two.toml --out out >said 2>err");
+    const std::string said = TemporaryFolder::read(ursula.folder() / "err");
+    is_seen = is_seen || said.find("Too many open files") != std::string::npos;
+    EXPECT_THAT(said, Not(HasSubstr("error: :"))) << most;
+    fs::remove_all(ursula.folder() / "out");
+  }
+  EXPECT_TRUE(is_seen);
 }
 
 }  // namespace
