@@ -2,11 +2,15 @@
 
 #include "validation/report/run.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <chrono>
+#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "model/atomic_folder.h"
 #include "tests/model/temporary_folder.h"
@@ -47,6 +51,26 @@ TEST(Run, ofTwoTheFilesAreRefused) {
   writeResults(test::passedSample(), dir / "a");
   writeResults(test::failedSample(), dir / "b");
   expectRefusedOf(dir, {report::result_files.begin(), report::result_files.end()});
+}
+
+/// As AtomicFolder swaps it, at any moment while the files are read.
+TEST(Run, isWholeInAFolderThatIsSwappedMeanwhile) {
+  const TemporaryFolder folder;
+  const std::filesystem::path &dir = folder.path(), shown = dir / "shown";
+  writeResults(test::passedSample(), shown);
+  writeResults(test::failedSample(), dir / "next");
+  const auto start = std::chrono::steady_clock::now();
+  report::refuseMixture(shown);
+  const auto look = std::chrono::steady_clock::now() - start;
+  constexpr int swaps = 200;
+  for (int k = 0; k < swaps; ++k) {
+    std::thread swapper([&] {
+      std::this_thread::sleep_for(look * k / swaps);
+      ASSERT_EQ(::renameat2(AT_FDCWD, shown.c_str(), AT_FDCWD, (dir / "next").c_str(), RENAME_EXCHANGE), 0);
+    });
+    EXPECT_NO_THROW(report::refuseMixture(shown)) << k;
+    swapper.join();
+  }
 }
 
 TEST(Run, ofASuiteRefusesAnothersScenario) {

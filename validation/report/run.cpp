@@ -1,10 +1,12 @@
 #include "validation/report/run.h"
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include "model/csv.h"
@@ -147,8 +149,17 @@ std::filesystem::path replacedInput(const std::vector<std::filesystem::path>& in
 }
 
 void refuseMixture(const std::filesystem::path& folder) {
-  refuseMixtureOfOne(folder);
-  refuseMixtureOfSuite(folder);
+  const auto look = [&folder] {
+    refuseMixtureOfOne(folder);
+    refuseMixtureOfSuite(folder);
+  };
+  try {
+    look();
+  } catch (const MixedResults&) {  // as a folder also seems that another run put there between two files
+    constexpr std::chrono::milliseconds until_it_is_whole{20};
+    std::this_thread::sleep_for(until_it_is_whole);
+    look();
+  }
 }
 
 }  // namespace ursula::report

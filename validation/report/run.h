@@ -42,7 +42,8 @@ struct MixedResults : std::runtime_error {
 };
 
 /// Throws MixedResults where what is there of a folder of results, of one scenario or of a suite, is of several runs or
-/// was changed. Results of older versions, which do not say, are taken as they are.
+/// was changed, still at a second look: a run beside may have put its own there while they were read. Results of older
+/// versions, which do not say, are taken as they are.
 void refuseMixture(const std::filesystem::path& folder);
 
 }  // namespace ursula::report
