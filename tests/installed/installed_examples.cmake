@@ -1,5 +1,5 @@
 # Installs into an empty folder, builds the examples there against what was installed, with warnings as errors in our
-# headers too, and runs them. cmake -D BUILD=… -D CXX=… -D GENERATOR=… [-D PYTHON=…] -D WORK=… -P installed_examples.cmake
+# headers too, and runs them. cmake -D BUILD=… -D CXX=… -D GENERATOR=… -D EIGEN=… [-D PYTHON=…] -D WORK=… -P installed_examples.cmake
 cmake_policy(VERSION 3.25)
 
 # run(EXIT_CODE PATTERN COMMAND…): the command's output has to match.
@@ -34,8 +34,7 @@ run(0 "" ${CMAKE_COMMAND} -S ${source} -B ${WORK}/build -G ${GENERATOR} -D CMAKE
 run(0 "" ${CMAKE_COMMAND} --build ${WORK}/build)
 
 # Containers of another layout are refused by the compiler.
-file(GLOB eigen /usr/include/eigen3)
-set(compile ${CXX} -std=c++17 -fsyntax-only -I${prefix}/include -I${eigen} ${source}/judge_own_solver.cpp)
+set(compile ${CXX} -std=c++17 -fsyntax-only -I${prefix}/include -I${EIGEN} ${source}/judge_own_solver.cpp)
 run(0 "" ${compile})
 run(0 "" ${compile} -D_GLIBCXX_ASSERTIONS)
 run(1 "ursula was built with other containers of the standard library" ${compile} -D_GLIBCXX_DEBUG)
