@@ -190,6 +190,20 @@ TEST(Diagnosis, claimsNothingThatTheResidualDoesNotSupport) {
   EXPECT_THAT(diagnosed(mixed).cause, HasSubstr("explains only"));
 }
 
+/// A third of the motion, in which a factor explains all; of a pattern there is none, only the interval is named.
+TEST(Diagnosis, namesAnIntervalAndWhatIsWrongInIt) {
+  const auto within = [](std::size_t k) { return k >= 20 && k <= 40; };
+  const TorqueTable scaled = exact().changed([&](std::size_t k, Vector6d& tau) {
+    if (within(k)) tau *= 1.001;
+  });
+  EXPECT_THAT(diagnosed(scaled).cause, StartsWith("right but from t = 1 to 2 s; there every torque scaled by 1.001"));
+  Dice dice(6);
+  const TorqueTable noisy = exact().changed([&](std::size_t k, Vector6d& tau) {
+    for (int i = 0; i < leg_count && within(k); ++i) tau(i) += dice.between(1, 2);
+  });
+  EXPECT_EQ(diagnosed(noisy).cause, "right but from t = 1 to 2 s");
+}
+
 TEST(Diagnosis, ofOneInstantFitsNothingWithAsManyNumbers) {
   TorqueTable one = exact();
   one.t = {1.5};

@@ -157,18 +157,61 @@ std::string othersText(const std::vector<Hypothesis>& best) {
   return out;
 }
 
+bool isRight(const ExternalTorques& torques, std::size_t k) {
+  for (int i = 0; i < motor_count; ++i)
+    if (!(std::abs(residualAt(torques, k, i)) <= limitAt(torques, k, i))) return false;
+  return true;
+}
+
+/// The instants from the first to the last that is off.
+struct Window {
+  std::size_t off = 0, first = 0, last = 0;
+  std::size_t rows() const { return last + 1 - first; }
+};
+
+Window windowOf(const ExternalTorques& torques) {
+  Window out;
+  for (std::size_t k = 0; k < torques.file.rows(); ++k) {
+    if (isRight(torques, k)) continue;
+    if (out.off++ == 0) out.first = k;
+    out.last = k;
+  }
+  return out;
+}
+
 /// Where one instant in twenty at most is off, as of a spoilt row; else empty.
 std::string loneInstants(const ExternalTorques& torques) {
   const std::size_t rows = torques.file.rows();
-  std::size_t off = 0, first = 0;
-  for (std::size_t k = 0; k < rows; ++k) {
-    bool any = false;
-    for (int i = 0; i < motor_count; ++i) any = any || !(std::abs(residualAt(torques, k, i)) <= limitAt(torques, k, i));
-    if (any && off++ == 0) first = k;
+  const Window window = windowOf(torques);
+  if (window.off == 0 || 20 * window.off > rows) return "";
+  return fmt::format("{} of {} instants {} off, the first at t = {:.6g} s, and the others are right", window.off, rows,
+                     window.off == 1 ? "is" : "are", torques.file.t[window.first]);
+}
+
+/// Where the torques are wrong all through an interval and right in at least a tenth of the motion; else empty. What is
+/// wrong there, if its instants alone tell.
+std::string intervalAlone(const Scenario& scenario, const ExternalTorques& torques, const TorqueResidual& data) {
+  constexpr std::size_t enough = 16;
+  const Window window = windowOf(torques);
+  if (window.rows() < enough || 20 * window.off < 19 * window.rows() || 10 * window.rows() > 9 * torques.file.rows())
+    return "";
+  const double from = torques.file.t[window.first], to = torques.file.t[window.last];
+  std::string out = fmt::format("right but from t = {:.6g} to {:.6g} s", from, to);
+  TorqueResidual there;
+  there.motors = data.motors;
+  for (std::size_t k = 0; k < data.motions.size(); ++k) {
+    if (data.motions[k].t < from || data.motions[k].t > to) continue;
+    there.motions.push_back(data.motions[k]);
+    there.exact.push_back(data.exact[k]);
+    there.residual.push_back(data.residual[k]);
+    there.limit.push_back(data.limit[k]);
   }
-  if (off == 0 || 20 * off > rows) return "";
-  return fmt::format("{} of {} instants {} off, the first at t = {:.6g} s, and the others are right", off, rows,
-                     off == 1 ? "is" : "are", torques.file.t[first]);
+  if (there.motions.size() < enough) return out;
+  const std::vector<Hypothesis> fitted = fitHypotheses(scenario, there);
+  if (fitted.empty()) return out;
+  const Hypothesis best = bestOf(fitted).front();
+  return explains(best) ? fmt::format("{}; there {}, which explains {}", out, best.text, percent(best.explained()))
+                        : out;
 }
 
 /// Of the deviation: a cause that explains less is not worth a word.
@@ -188,6 +231,7 @@ std::string causeText(const Scenario& scenario, const ExternalTorques& torques) 
     return fmt::format("a likely part: {}; what remains is up to {:.3g} times the file's precision{}", how_much,
                        first.beyond, othersText(best));
   if (const std::string alone = loneInstants(torques); !alone.empty()) return "no simple explanation: " + alone;
+  if (const std::string interval = intervalAlone(scenario, torques, data); !interval.empty()) return interval;
   const std::string noise = isNoise(data) ? "no pattern from one instant to the next, as of noise or too few digits"
                                           : "no simple explanation";
   if (first.explained() < worth_naming) return noise;
