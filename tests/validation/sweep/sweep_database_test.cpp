@@ -66,6 +66,15 @@ TEST(SweepDatabase, refusesToGoOnWithoutItsFile) {
     }
 }
 
+/// As where the same sweep was started twice, and the other one came first.
+TEST(SweepDatabase, namesAnotherSweepThatWroteThePoint) {
+  const TemporaryFolder folder;
+  SweepDatabase database(folder.path() / "s.db", identity());
+  database.add(point(2));
+  EXPECT_THAT(refusal<DatabaseError>([&] { database.add(point(2)); }),
+              HasSubstr("another sweep has written the same points meanwhile"));
+}
+
 /// As `ulimit -f` has it.
 TEST(SweepDatabase, namesTheLimitOfItsSize) {
   const TemporaryFolder folder;
