@@ -40,7 +40,7 @@ AtomicFile::AtomicFile(std::filesystem::path file)
     : file_(std::move(file)), end_(endOfLinks(file_)), in_place_(isWrittenThrough(end_)) {
   if (!in_place_) {
     requireWritable(file_);
-    if (end_.has_parent_path()) std::filesystem::create_directories(end_.parent_path());
+    parents_.make(end_.parent_path());
     sweepTemporaries(folder(), kind);
   }
   open();
@@ -113,6 +113,7 @@ void AtomicFile::commit() {
     takeName();
     std::filesystem::rename(temporary_, end_);
     temporary_.clear();
+    parents_.keep();
     syncFolder(folder());
   }
   // What has a name is on the disk: nothing that closing says can take that back.

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "model/fresh_folders.h"
+
 namespace ursula {
 
 /// A file that is written piece by piece and seen by no reader before all of it is there, and is on the disk: what is
@@ -13,7 +15,8 @@ namespace ursula {
 /// is replaced; of hard links one name gets the new file and the others keep the old. A device, a named pipe or what a
 /// process has open (/dev/stdout) is written to as it is. What is read-only is refused.
 ///
-/// Makes missing parent folders. Throws std::filesystem::filesystem_error or std::runtime_error with the path.
+/// Makes missing parent folders, which go again where it is not committed. Throws std::filesystem::filesystem_error or
+/// std::runtime_error with the path.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path file);
@@ -36,6 +39,7 @@ class AtomicFile {
   std::filesystem::path file_;       ///< as the caller calls it
   std::filesystem::path end_;        ///< what its links lead to
   std::filesystem::path temporary_;  ///< empty where the file has no name yet
+  FreshFolders parents_;
   int descriptor_ = -1;
   bool in_place_ = false;
 };

@@ -83,15 +83,10 @@ AtomicFolder::AtomicFolder(fs::path folder, OlderFiles older)
   stays_ = isFolder(folder_) && (base_ == folder_ || isWorkedIn(folder_));
   {
     const EndingHeld held;  // until it is known what a signal has to take away
-    makeParents();
-    ending_.emplace([](const void* folder) { static_cast<const AtomicFolder*>(folder)->removeParents(); }, this);
+    parents_.make(base_);
+    ending_.emplace([](const void* parents) { static_cast<const FreshFolders*>(parents)->remove(); }, &parents_);
   }
-  try {
-    lock_.emplace(base_ / (".ursula-" + own("lock")), shown_);
-  } catch (...) {
-    removeParents();
-    throw;
-  }
+  lock_.emplace(base_ / (".ursula-" + own("lock")), shown_);
   if (lock_->isExclusive()) sweep();
 }
 
@@ -99,25 +94,11 @@ AtomicFolder::~AtomicFolder() {
   std::error_code ignored;
   if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
   if (!temporary_.empty()) ::rmdir(temporary_.c_str());  // under a umask that forbids to look into it, and it is empty
-  lock_.reset();
-  if (!is_committed_) removeParents();
 }
 
 /// Of this folder alone, and short whatever its name.
 std::string AtomicFolder::own(const std::string& kind) const {
   return kind + "-" + sha1(folder_.filename().string()).substr(0, 12);
-}
-
-void AtomicFolder::makeParents() {
-  std::vector<fs::path> missing;
-  for (fs::path each = base_; !isFolder(each); each = each.parent_path()) missing.push_back(each);
-  std::reverse(missing.begin(), missing.end());
-  for (const fs::path& each : missing)
-    if (fs::create_directory(each)) made_.push_back(each);
-}
-
-void AtomicFolder::removeParents() const {  // may be called within a signal's handler
-  for (auto made = made_.rbegin(); made != made_.rend(); ++made) ::rmdir(made->c_str());
 }
 
 /// What is locked by this process was left by dead ones. Of a swap that was cut off either folder is whole: the one
@@ -175,7 +156,7 @@ void AtomicFolder::commit() {
   }
   syncFolder(base_);
   temporary_.clear();
-  is_committed_ = true;
+  parents_.keep();
   lock_.reset();
 }
 

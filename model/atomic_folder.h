@@ -9,6 +9,7 @@
 
 #include "model/carry_over.h"
 #include "model/folder_lock.h"
+#include "model/fresh_folders.h"
 
 namespace ursula {
 
@@ -40,9 +41,6 @@ class AtomicFolder {
 
  private:
   std::string own(const std::string& kind) const;
-  void makeParents();
-  /// If nothing else is in them.
-  void removeParents() const;
   void sweep() const;
   void makeLikeOld() const;
   void swap();
@@ -52,14 +50,13 @@ class AtomicFolder {
   std::filesystem::path folder_;  ///< without links
   std::filesystem::path base_;    ///< where its temporaries are: the folder above, or itself
   OlderFiles older_;
-  std::vector<std::filesystem::path> made_;  ///< parents, the outermost first
-  bool stays_ = false;                       ///< the same folder to its users
+  FreshFolders parents_;
+  bool stays_ = false;  ///< the same folder to its users
   std::optional<AtEnding> ending_;
   std::optional<FolderLock> lock_;
   std::mutex mutex_;  // guards what follows
   std::filesystem::path temporary_;
   std::vector<std::filesystem::path> written_;  ///< relative, in their order
-  bool is_committed_ = false;
 };
 
 }  // namespace ursula

@@ -46,6 +46,20 @@ TEST(AtomicFile, leavesNothingBehindWhenItFails) {
   EXPECT_ANY_THROW(writeFileAtomically(folder.path() / "plain" / "below a file", "text"));
 }
 
+TEST(AtomicFile, takesFreshFoldersAwayWhereItIsNotCommitted) {
+  const TemporaryFolder folder;
+  {
+    AtomicFile file(folder.path() / "deep" / "er" / "file");
+    file.write("half");
+    ASSERT_EQ(filesIn(folder.path()), 1);
+  }
+  EXPECT_EQ(filesIn(folder.path()), 0);
+  std::filesystem::create_directories(folder.path() / "old");
+  { const AtomicFile file(folder.path() / "old" / "new" / "file"); }
+  EXPECT_TRUE(std::filesystem::is_directory(folder.path() / "old")) << "it was there before";
+  EXPECT_EQ(filesIn(folder.path() / "old"), 0);
+}
+
 TEST(AtomicFile, fromManyThreadsIsWholeAtAnyTime) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "file";
