@@ -12,6 +12,7 @@
 #include "model/trajectories.h"
 #include "tests/support/vectors.h"
 #include "tests/validation/checks.h"
+#include "validation/checks/families.h"
 #include "validation/evidence/reference.h"
 #include "validation/evidence/timed.h"
 #include "validation/report/report.h"
@@ -111,6 +112,21 @@ TEST(TimeLimit, keepsWhatWasJudgedWhereTimeIsUpAfterIt) {
     EXPECT_EQ(result.verdict, Verdict::pass) << name(formulation) << others(result.checks, Verdict::pass);
     EXPECT_EQ(result.timeseries.rows(), 21U);
   }
+}
+
+/// Kernels that were not asked before time was up are not wrong; not asked for another reason, they are.
+TEST(TimeLimit, judgesNoKernelsThatWereNotAsked) {
+  const auto& families = checkFamilies();
+  const auto fast = std::find_if(families.begin(), families.end(),
+                                 [](const CheckFamily& each) { return std::string(each.id) == "fast kernels"; });
+  ASSERT_NE(fast, families.end());
+  Evidence evidence;
+  evidence.samples.resize(1);
+  EXPECT_TRUE(fast->applies(evidence));
+  evidence.has.out_of_time = "the time limit of 1 s was reached";
+  EXPECT_FALSE(fast->applies(evidence));
+  evidence.fast.refused = "the pose is singular";
+  EXPECT_TRUE(fast->applies(evidence));
 }
 
 TEST(TimeLimit, holdsForTorquesOfAFile) {

@@ -108,6 +108,12 @@ void lookAtReplays(Evidence& e) {
     if (anyFails(judgeWindows(e, {e.windows[k]}))) lookCloser(e, k);
 }
 
+/// False where time was up before.
+bool asked(const Evidence& e) {
+  const bool any = !e.fast.samples.empty() || !e.fast.refused.empty();
+  return sampled(e) && !e.samples.empty() && (any || e.has.out_of_time.empty());
+}
+
 bool climbed(const Evidence& e) { return !e.ladder.rungs.empty(); }
 
 std::vector<Check> judgeClimbed(const Evidence& e) {
@@ -150,7 +156,7 @@ const std::vector<CheckFamily>& checkFamilies() {
        [](E e) { return std::vector<Check>{judgeReactions(e.reactions, e.samples, profileOf(e), e.units())}; }},
       {"between samples", answers, judgeBetweenSamples},
       {"direct dynamics", [](E e) { return answers(e) && e.has.direct_dynamics; }, judgeDirectDynamics},
-      {"fast kernels", [](E e) { return sampled(e) && !e.samples.empty(); },
+      {"fast kernels", asked,
        [](E e) { return judgeFast(e.fast, e.samples, e.units()); }},
       {"replays", replayed, judgeReplays, lookAtReplays},
       {"ladder", climbed, judgeClimbed, lookAtLadder},
