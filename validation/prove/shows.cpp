@@ -94,7 +94,9 @@ bool sayOtherwise(const std::vector<Check>& a, const std::vector<Check>& b, doub
     if (one.verdict == Verdict::not_applicable || other.verdict == Verdict::not_applicable) return true;
     const bool both_nan = std::isnan(one.value) && std::isnan(other.value);
     const bool same = both_nan || one.value == other.value;
-    return one.verdict == other.verdict && (same || std::abs(one.value - other.value) <= share * other.limit);
+    // Each of its own limit: what rounds may be shown at another instant.
+    const double apart = Worst::share(one.value, one.limit) - Worst::share(other.value, other.limit);
+    return one.verdict == other.verdict && (same || std::abs(apart) <= share);
   };
   return !std::equal(a.begin(), a.end(), b.begin(), b.end(), alike);
 }
