@@ -50,7 +50,8 @@ std::string inWords(int code, const char* message, int system_error) {
     case SQLITE_LOCKED:
       return "it is locked by another program: try again when that has ended";
     case SQLITE_CONSTRAINT:  // the points of a sweep are its own
-      return "another sweep has written the same points meanwhile; what is there is kept, and a new run goes on from it";
+      return "another sweep has written the same points meanwhile; what is there is kept, and a new run goes on from "
+             "it";
     case SQLITE_FULL:
       return "the disk is full; what was written before is kept";
     case SQLITE_READONLY:
