@@ -137,7 +137,9 @@ TEST(DirectChecks, aMachineAtRestWithoutWeightPasses) {
 
 TEST(DirectChecks, noSampleFails) {
   const Scenario scenario = scenarioOf("paper-helix");
-  EXPECT_EQ(judgeDirect({}, solverOf(scenario), {}, RoundingProfile(scenario, 2)).verdict, Verdict::fail);
+  const RoundingProfile profile(scenario, 2);
+  EXPECT_EQ(judgeDirect({}, solverOf(scenario), {}, profile).verdict, Verdict::fail);
+  EXPECT_EQ(judgeOffPath({}, solverOf(scenario), {}, profile).verdict, Verdict::fail);
 }
 
 }  // namespace

@@ -158,7 +158,7 @@ TEST(TimedScenario, throwsWhereTheDeadlineIsOverAndUntilItIsLifted) {
   EXPECT_NO_THROW(timed(scenario, Deadline(plenty)).trajectory->at(1.0));
 }
 
-/// As a host in another language wants it: asked a few times, and told so, whenever that is.
+/// A host asks the run to end after a few questions; the run hears it, whenever that is.
 TEST(TimeLimit, isReachedOnceItIsAskedToEnd) {
   for (const int last : {0, 10, 5000}) {
     int asked = 0;

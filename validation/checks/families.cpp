@@ -51,9 +51,12 @@ std::vector<Check> judgeSamples(const Evidence& e) {
 /// Where NOC and fast kernels differ at the samples, nothing is learnt between them.
 std::vector<Check> judgeBetweenSamples(const Evidence& e) {
   const bool by_fast = e.subject->formulation == Formulation::noc;
-  const std::vector<Check> fast = judgeFast(e.fast, e.samples, e.units());
-  const auto inverse = std::find_if(fast.begin(), fast.end(), [](const Check& c) { return c.name == "fast.inverse"; });
-  if (by_fast && inverse->verdict == Verdict::fail)
+  const auto inverseFails = [&e] {
+    const std::vector<Check> fast = judgeFast(e.fast, e.samples, e.units());
+    return std::any_of(fast.begin(), fast.end(),
+                       [](const Check& each) { return each.name == "fast.inverse" && each.verdict == Verdict::fail; });
+  };
+  if (by_fast && inverseFails())
     return {
         notJudgeable(Reason::not_covered, "torque.between", std::nan(""), std::nan(""), e.units().efforts.unit, "",
                      "the NOC is compared with the fast kernels there, which differ from it at the samples already; "
@@ -109,7 +112,7 @@ void lookAtReplays(Evidence& e) {
 }
 
 /// False where time was up before.
-bool asked(const Evidence& e) {
+bool kernelsAsked(const Evidence& e) {
   const bool any = !e.fast.samples.empty() || !e.fast.refused.empty();
   return sampled(e) && !e.samples.empty() && (any || e.has.out_of_time.empty());
 }
@@ -156,7 +159,7 @@ const std::vector<CheckFamily>& checkFamilies() {
        [](E e) { return std::vector<Check>{judgeReactions(e.reactions, e.samples, profileOf(e), e.units())}; }},
       {"between samples", answers, judgeBetweenSamples},
       {"direct dynamics", [](E e) { return answers(e) && e.has.direct_dynamics; }, judgeDirectDynamics},
-      {"fast kernels", asked, [](E e) { return judgeFast(e.fast, e.samples, e.units()); }},
+      {"fast kernels", kernelsAsked, [](E e) { return judgeFast(e.fast, e.samples, e.units()); }},
       {"replays", replayed, judgeReplays, lookAtReplays},
       {"ladder", climbed, judgeClimbed, lookAtLadder},
       {"order", [](E e) { return e.orders.has_value(); },

@@ -15,7 +15,7 @@ class Linearisation {
  public:
   using Matrix12 = Eigen::Matrix<double, 12, 12>;
 
-  /// Of the formulas that hold, by central differences.
+  /// The fast kernels' direct dynamics are differenced centrally.
   explicit Linearisation(const Scenario& scenario);
 
   /// L, m.

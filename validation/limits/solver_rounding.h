@@ -31,7 +31,8 @@ class SolverRounding {
 
   /// The NOC's torques as they are, N·m.
   Vector6d torques(const Motion<double>& motion);
-  /// As they are first, then moved. `others` are torques for `direct`. Throws PoseError.
+  /// The first answer is to the numbers as they are, the others to moved ones. `others` are torques for `direct`.
+  /// Throws PoseError.
   std::vector<SolverView> at(const Motion<double>& motion, const Vector6d& others);
 
  private:

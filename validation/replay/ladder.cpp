@@ -128,7 +128,7 @@ void climbSecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& tor
                  const ChangeSettings& change, Ladder& ladder) {
   const std::vector<ReplayStep>& steps = finest.replay.steps;
   if (steps.size() < 2) return;
-  // Of a stiff motion a single one: it is Simbody's explicit integrator.
+  // Simbody's integrator is explicit: friction that is stiff leaves it a single step of the judged replay.
   const std::size_t wanted = finest.replay.stiff ? 1 : std::max<std::size_t>(20, steps.size() / 10);
   for (std::size_t last = std::min(steps.size() - 1, wanted); last > 0; last /= 4) {
     ladder.second_end = steps[last].t;

@@ -12,9 +12,8 @@ namespace {
 
 /// Of the samples, about as many: the mass matrix changes slowly.
 constexpr std::size_t instants_of_direct = 31;
-/// Of a pose off the path from the commanded one, over the machine's length, where no singular pose is near; and of its
-/// velocity, over that length a second. So large that an error of the accelerations' derivatives stands out of
-/// rounding.
+/// The pose is moved by this share of the machine's length, less near singular poses, and the velocity by as much a
+/// second. An error of the accelerations' derivatives then stands out of rounding.
 constexpr double off_path = 1e-3;
 
 DirectAnswer answerOf(SimbodyLoop& loop, const Motion<double>& state, const Vector6d& torques) {

@@ -72,6 +72,7 @@ FastSamples runFast(const Scenario& scenario, const Units& natural, const std::v
   const Presentation si = inSi(*scenario.manipulator, natural);
   auto model = kernel::machineModel(MachineParameters<double>(si.of(*scenario.manipulator)));
   if (fault.model) fault.model(model);
+  const std::shared_ptr<const Load> load = si.of(scenario.load);
   FastSamples out;
   Questions asked;
   try {
@@ -84,7 +85,7 @@ FastSamples runFast(const Scenario& scenario, const Units& natural, const std::v
       out.accelerations.push_back(noc.accelerations(motion, out.efforts.back()));
       asked.motions.push_back(si.of(motion));
       asked.efforts.push_back(si.of(out.efforts.back()));
-      if (scenario.load) asked.loads.push_back(loadAtP(si.of(scenario.load).get(), asked.motions.back()));
+      if (load) asked.loads.push_back(loadAtP(load.get(), asked.motions.back()));
     }
     for (const InstructionSet set :
          {InstructionSet::portable, InstructionSet::sse2, InstructionSet::avx2, InstructionSet::avx512}) {

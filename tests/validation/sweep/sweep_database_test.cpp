@@ -66,7 +66,7 @@ TEST(SweepDatabase, refusesToGoOnWithoutItsFile) {
     }
 }
 
-/// As where the same sweep was started twice, and the other one came first.
+/// The same sweep may be started twice: the second one meets points that the first one wrote.
 TEST(SweepDatabase, namesAnotherSweepThatWroteThePoint) {
   const TemporaryFolder folder;
   SweepDatabase database(folder.path() / "s.db", identity());
