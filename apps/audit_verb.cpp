@@ -10,10 +10,10 @@
 #include "apps/progress.h"
 #include "apps/streams.h"
 #include "apps/verbs.h"
-#include "model/atomic_folder.h"
+#include "base/atomic_folder.h"
+#include "base/writable.h"
 #include "model/scenario_input.h"
-#include "model/writable.h"
-#include "validation/audit/audit.h"
+#include "studies/audit/audit.h"
 
 namespace ursula {
 namespace {

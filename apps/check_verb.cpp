@@ -6,10 +6,10 @@
 #include "apps/files_apart.h"
 #include "apps/streams.h"
 #include "apps/verbs.h"
-#include "model/csv.h"
+#include "base/csv.h"
+#include "base/shown_text.h"
 #include "model/scenario_input.h"
-#include "model/shown_text.h"
-#include "validation/check_scenario/check_scenario.h"
+#include "studies/check_scenario/check_scenario.h"
 #include "validation/subject/motion_check.h"
 
 namespace ursula {

@@ -8,9 +8,9 @@
 #include "apps/streams.h"
 #include "apps/validate_output.h"
 #include "apps/verbs.h"
-#include "model/shown_text.h"
-#include "validation/compare/compare_page.h"
-#include "validation/report/junit.h"
+#include "base/shown_text.h"
+#include "report/junit.h"
+#include "studies/compare/compare_page.h"
 
 namespace ursula {
 namespace {

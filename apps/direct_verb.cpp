@@ -12,7 +12,7 @@
 
 #include "apps/streams.h"
 #include "apps/verbs.h"
-#include "model/csv.h"
+#include "base/csv.h"
 #include "model/scenario_input.h"
 #include "nocsolver/poses/direct_kinematics.h"
 #include "nocsolver/poses/ups_poses.h"

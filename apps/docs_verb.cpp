@@ -2,7 +2,7 @@
 
 #include "apps/call_words.h"
 #include "apps/verbs.h"
-#include "validation/scenario_docs/scenario_docs.h"
+#include "studies/scenario_docs/scenario_docs.h"
 
 namespace ursula {
 namespace {

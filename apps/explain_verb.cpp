@@ -2,7 +2,7 @@
 #include <stdexcept>
 
 #include "apps/verbs.h"
-#include "validation/report/check_help.h"
+#include "report/check_help.h"
 
 namespace ursula {
 namespace {

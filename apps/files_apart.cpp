@@ -8,8 +8,8 @@
 
 #include "apps/output.h"
 #include "apps/verbs.h"
+#include "base/writable.h"
 #include "model/scenario_files.h"
-#include "model/writable.h"
 
 namespace ursula {
 namespace {

@@ -9,8 +9,8 @@
 #include "apps/embedded_scenario.h"
 #include "apps/streams.h"
 #include "apps/verbs.h"
-#include "model/nearest.h"
-#include "model/shell_word.h"
+#include "base/nearest.h"
+#include "base/shell_word.h"
 
 namespace ursula {
 namespace {

@@ -10,7 +10,7 @@
 #include "apps/progress.h"
 #include "apps/verbs.h"
 #include "model/scenario_input.h"
-#include "validation/stream/inverse_blocks.h"
+#include "studies/stream/inverse_blocks.h"
 
 namespace ursula {
 namespace {

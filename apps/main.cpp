@@ -10,13 +10,13 @@
 #include "apps/streams.h"
 #include "apps/usage.h"
 #include "apps/verbs.h"
-#include "model/csv.h"
-#include "model/errors.h"
-#include "model/out_of_memory.h"
+#include "base/csv.h"
+#include "base/errors.h"
+#include "base/out_of_memory.h"
 #include "model/scenario.h"
 #include "nocsolver/errors.h"
+#include "studies/sweep/sqlite.h"
 #include "validation/findings/provenance.h"
-#include "validation/sweep/sqlite.h"
 
 namespace {
 

@@ -12,7 +12,7 @@
 #include "apps/progress.h"
 #include "apps/verbs.h"
 #include "model/scenario_input.h"
-#include "validation/map/pose_map.h"
+#include "studies/map/pose_map.h"
 
 namespace ursula {
 namespace {

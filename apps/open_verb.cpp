@@ -11,7 +11,7 @@
 #include <memory>
 
 #include "apps/verbs.h"
-#include "validation/report/run.h"
+#include "report/run.h"
 
 namespace ursula {
 namespace {

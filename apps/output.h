@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "model/atomic_file.h"
-#include "validation/stream/row_format.h"
+#include "base/atomic_file.h"
+#include "studies/stream/row_format.h"
 
 namespace ursula {
 

@@ -2,9 +2,9 @@
 
 #include "apps/files_apart.h"
 #include "apps/verbs.h"
-#include "model/csv.h"
+#include "base/csv.h"
 #include "model/scenario_input.h"
-#include "validation/simulate/pose_series.h"
+#include "studies/simulate/pose_series.h"
 
 namespace ursula {
 namespace {

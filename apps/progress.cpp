@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "apps/streams.h"
-#include "model/shown_text.h"
-#include "model/start_threads.h"
+#include "base/shown_text.h"
+#include "base/start_threads.h"
 
 namespace ursula {
 namespace {

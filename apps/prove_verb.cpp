@@ -13,10 +13,10 @@
 #include "apps/embedded_scenario.h"
 #include "apps/progress.h"
 #include "apps/verbs.h"
+#include "base/writable.h"
 #include "model/scenario_input.h"
-#include "model/writable.h"
-#include "validation/prove/prove_page.h"
-#include "validation/prove/summary.h"
+#include "studies/prove/prove_page.h"
+#include "studies/prove/summary.h"
 
 namespace ursula {
 namespace {
@@ -43,8 +43,8 @@ std::function<void(int)> progress(const char* what) {
 std::string remark(const DefectOutcome& outcome) {
   if (!outcome.refused.empty()) return "  refused: " + outcome.refused;
   if (!outcome.shows) return "  changes nothing here";
-  if (!outcome.caught()) return fmt::format("  TOO FEW of {}", outcome.roads_wanted);
-  return outcome.roads_wanted == 1 ? "  of 1 that can" : "";
+  if (!outcome.caught()) return fmt::format("  TOO FEW of {}", outcome.formulations_wanted);
+  return outcome.formulations_wanted == 1 ? "  of 1 that can" : "";
 }
 
 void printMatrix(const std::vector<DefectOutcome>& outcomes) {
@@ -53,7 +53,7 @@ void printMatrix(const std::vector<DefectOutcome>& outcomes) {
   for (std::size_t k = 0; k < columns.size(); ++k) fmt::print("  {:>2} {}\n", k + 1, columns[k]);
   fmt::print("\n{:<70}", "");
   for (std::size_t k = 0; k < columns.size(); ++k) fmt::print("{:>3}", k + 1);
-  fmt::print(" roads\n");
+  fmt::print(" formulations\n");
   int shown = 0, on_one = 0;
   for (const DefectOutcome& outcome : outcomes) {
     fmt::print("{:<70}", outcome.name);
@@ -63,11 +63,12 @@ void printMatrix(const std::vector<DefectOutcome>& outcomes) {
       fmt::print("{:>3}", caught ? "x" : ".");
     }
     shown += outcome.shows;
-    on_one += outcome.shows && outcome.roads_wanted == 1;
-    fmt::print("{:>4}{}\n", outcome.roads(), remark(outcome));
+    on_one += outcome.shows && outcome.formulations_wanted == 1;
+    fmt::print("{:>4}{}\n", outcome.engines(), remark(outcome));
   }
   fmt::print(
-      "\n{} defects, {} of them change something here; {} of these show on one road by their nature; {} caught on "
+      "\n{} defects, {} of them change something here; {} of these show on one formulation by their nature; {} caught "
+      "on "
       "fewer than they must, which is two for the others\n\n",
       outcomes.size(), shown, on_one, weakDefects(outcomes));
 }

@@ -9,11 +9,11 @@
 #include "apps/streams.h"
 #include "apps/torque_option.h"
 #include "apps/verbs.h"
-#include "model/csv.h"
+#include "base/csv.h"
 #include "model/scenario_input.h"
+#include "studies/simulate/simulate.h"
 #include "validation/external/torque_spline.h"
 #include "validation/findings/timeseries.h"
-#include "validation/simulate/simulate.h"
 
 namespace ursula {
 namespace {
@@ -21,7 +21,7 @@ namespace {
 struct SimulateOptions {
   std::string scenario, torques, out = "-";
   std::vector<std::string> map;
-  Engine engine = Engine::simbody;
+  SimulationEngine engine = SimulationEngine::simbody;
   double time_limit = 0;  ///< s; 0: not given
 };
 
@@ -68,7 +68,8 @@ void addSimulate(CLI::App& app, std::function<int()>& run) {
   verb->add_option("--torques", options->torques, "CSV file with t_s and tau_{1..6}_Nm, or _N of motors that slide")
       ->required();
   addMapOption(*verb, options->map);
-  const std::map<std::string, Engine> engines{{"noc", Engine::noc}, {"simbody", Engine::simbody}};
+  const std::map<std::string, SimulationEngine> engines{{"noc", SimulationEngine::noc},
+                                                        {"simbody", SimulationEngine::simbody}};
   takeOneOf(verb->add_option("--engine", options->engine, "noc: (36); simbody: the closed loop. Default: simbody"),
             engines);
   verb->add_option("--time-limit", options->time_limit,

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "model/shown_text.h"
+#include "base/shown_text.h"
 
 namespace ursula {
 

@@ -5,9 +5,9 @@
 #include "apps/output.h"
 #include "apps/sweep_verbs.h"
 #include "apps/verbs.h"
-#include "model/atomic_file.h"
-#include "validation/sweep_report/sweep_csv.h"
-#include "validation/sweep_report/sweep_page.h"
+#include "base/atomic_file.h"
+#include "studies/sweep_report/sweep_csv.h"
+#include "studies/sweep_report/sweep_page.h"
 
 namespace ursula {
 namespace {

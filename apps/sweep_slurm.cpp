@@ -9,8 +9,8 @@
 #include "apps/streams.h"
 #include "apps/sweep_verbs.h"
 #include "apps/verbs.h"
-#include "model/atomic_file.h"
-#include "validation/sweep/slurm_standing.h"
+#include "base/atomic_file.h"
+#include "studies/sweep/slurm_standing.h"
 
 namespace ursula {
 namespace {

@@ -7,8 +7,8 @@
 #include "apps/streams.h"
 #include "apps/sweep_verbs.h"
 #include "apps/verbs.h"
-#include "model/shell_word.h"
-#include "validation/sweep/merge.h"
+#include "base/shell_word.h"
+#include "studies/sweep/merge.h"
 
 namespace ursula {
 namespace {

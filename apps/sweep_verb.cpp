@@ -10,8 +10,8 @@
 #include "apps/streams.h"
 #include "apps/sweep_verbs.h"
 #include "apps/verbs.h"
-#include "validation/sweep/run.h"
-#include "validation/sweep/slurm.h"
+#include "studies/sweep/run.h"
+#include "studies/sweep/slurm.h"
 
 namespace ursula {
 namespace {

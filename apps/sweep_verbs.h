@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "validation/sweep/run.h"
+#include "studies/sweep/run.h"
 
 namespace ursula {
 

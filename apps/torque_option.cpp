@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "apps/streams.h"
-#include "model/shown_text.h"
+#include "base/shown_text.h"
 #include "validation/subject/effort_columns.h"
 
 namespace ursula {

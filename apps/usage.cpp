@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "model/leading_number.h"
-#include "model/nearest.h"
+#include "base/leading_number.h"
+#include "base/nearest.h"
 
 namespace ursula {
 namespace {

@@ -9,8 +9,8 @@
 #include <iterator>
 
 #include "apps/verbs.h"
-#include "validation/report/summary.h"
-#include "validation/report/terminal.h"
+#include "report/summary.h"
+#include "report/terminal.h"
 
 namespace ursula {
 namespace {

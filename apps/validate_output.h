@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "validation/report/report.h"
+#include "report/report.h"
 
 namespace ursula {
 

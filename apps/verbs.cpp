@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "apps/output.h"
-#include "model/leading_number.h"
-#include "validation/report/run.h"
+#include "base/leading_number.h"
+#include "report/run.h"
 
 namespace ursula {
 namespace {

@@ -33,9 +33,9 @@ std::vector<InstructionSet> instructionSets();
 
 using Peers = std::vector<std::unique_ptr<Peer>>;
 
-/// The solver's roads and the peers on the paper's helix.
+/// The solver's formulations and the peers on the paper's helix.
 void registerSideBySide(const Peers& peers);
-/// What the solver's roads make of the poses that are timed.
+/// What the solver's formulations make of the poses that are timed.
 std::vector<Answers> ownAnswers();
 
 /// Batches by instruction set, number of samples and threads.

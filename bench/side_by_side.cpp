@@ -1,4 +1,4 @@
-// Inverse and direct dynamics along the paper's helix, by every road of the solver and by every peer.
+// Inverse and direct dynamics along the paper's helix, by every formulation of the solver and by every peer.
 
 #include "bench/benchmarks.h"
 

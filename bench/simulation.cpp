@@ -3,7 +3,7 @@
 
 #include "bench/benchmarks.h"
 #include "nocsolver/fast/fast_dynamics.h"
-#include "validation/simulate/simulate.h"
+#include "studies/simulate/simulate.h"
 
 namespace ursula::bench {
 namespace {
@@ -33,7 +33,8 @@ void byRungeKutta(benchmark::State& state) {
   Simulation run;
   for ([[maybe_unused]] auto unused : state)
     run = simulate(
-        helix.scenario.scenario, Engine::noc, [&](double t) { return helix.efforts(t); }, {0, helix.end()}, 1e-13);
+        helix.scenario.scenario, SimulationEngine::noc, [&](double t) { return helix.efforts(t); }, {0, helix.end()},
+        1e-13);
   helix.count(state, run.motions.back(), run.evaluations);
 }
 

@@ -28,8 +28,8 @@ add_custom_target(ursula_headers ALL
 
 # All objects of the static parts, and one source that sees the headers as users do. The parts are linked as well, for
 # the libraries that they need.
-set(parts ursula_model ursula_nocsolver ursula_parallel ursula_simbody_loop ursula_maximal_loop ursula_mujoco ursula_further_roads ursula_verdict
-  ursula_picture ursula_subject ursula_limits ursula_samples ursula_replay ursula_evidence ursula_checks ursula_findings
+set(parts ursula_base ursula_model ursula_nocsolver ursula_parallel ursula_simbody_loop ursula_maximal_loop ursula_mujoco ursula_further_engines ursula_verdict
+  ursula_subject ursula_limits ursula_samples ursula_replay ursula_evidence ursula_checks ursula_findings
   ursula_external ursula_report ursula_validation ursula_outside ursula_provenance)
 list(TRANSFORM parts REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>" OUTPUT_VARIABLE objects)
 add_library(ursula_library SHARED ${PROJECT_SOURCE_DIR}/cmake/library.cpp ${objects})

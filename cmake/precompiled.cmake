@@ -13,7 +13,7 @@ add_library(ursula_precompiled OBJECT ${_ursula_carrier})
 target_link_libraries(ursula_precompiled PRIVATE ursula::options ursula::eigen fmt::fmt)
 target_precompile_headers(ursula_precompiled PRIVATE
   <algorithm> <array> <cmath> <functional> <memory> <optional> <string> <vector>
-  <fmt/format.h> <Eigen/Geometry> <Eigen/LU> <model/real50.h>)
+  <fmt/format.h> <Eigen/Geometry> <Eigen/LU> <base/real50.h>)
 
 # The header was read with fmt's definitions: who uses it has them too.
 function(ursula_use_precompiled target)

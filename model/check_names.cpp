@@ -24,7 +24,7 @@ const std::vector<CheckName>& checkNames() {
       {"torque.against_noc", "N m", N::torque_file},
       {"torque.twin", "N m", N::any_instant},
       {"torque.maximal", "N m", N::any_instant},
-      {"torque.mujoco", "N m", N::further_road},
+      {"torque.mujoco", "N m", N::further_engine},
       {"complement.orthogonality", "", N::own_complement},
       {"complement.rank", "", N::own_complement},
       {"invariance.rotation", "N m", N::other_machines},

@@ -16,7 +16,7 @@ enum class CheckNeeds {
   other_machines,   ///< a subject that can be made for another machine
   own_reactions,    ///< a subject that finds the reactions at the joints
   own_complement,   ///< a subject that forms T and D
-  further_road,     ///< a build that has this road
+  further_engine,   ///< a build that has this formulation
   torque_file,      ///< torques that come from a file
 };
 

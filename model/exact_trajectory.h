@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/real50.h"
+#include "base/real50.h"
 #include "model/trajectory.h"
 
 namespace ursula {

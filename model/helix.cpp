@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "model/errors.h"
+#include "base/errors.h"
+#include "base/real50.h"
 #include "model/kernel_trajectory.h"
-#include "model/real50.h"
 #include "model/trajectory.h"
 
 namespace ursula {

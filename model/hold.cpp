@@ -3,10 +3,10 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "model/errors.h"
+#include "base/errors.h"
+#include "base/real50.h"
 #include "model/kernel_trajectory.h"
 #include "model/pose_spline.h"
-#include "model/real50.h"
 #include "model/trajectories.h"
 
 namespace ursula {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "model/scalar.h"
+#include "base/scalar.h"
 
 namespace ursula {
 

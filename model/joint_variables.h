@@ -2,8 +2,8 @@
 
 #include <array>
 
+#include "base/scalar.h"
 #include "model/manipulator.h"
-#include "model/scalar.h"
 
 namespace ursula {
 

@@ -21,7 +21,7 @@ constexpr const char* nameOf(Coordinate coordinate) {
 }
 
 /// What there is to know of a kind of leg without its geometry. Another kind is a row here, a kernel, and a builder
-/// for each road.
+/// for each formulation.
 struct LegKindRow {
   const char* name;
   std::array<Coordinate, 3> coordinates;  ///< from the base to the tip

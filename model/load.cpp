@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "model/errors.h"
-#include "model/quintic_hermite.h"
-#include "model/real50.h"
+#include "base/errors.h"
+#include "base/quintic_hermite.h"
+#include "base/real50.h"
 
 namespace ursula {
 namespace {

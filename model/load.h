@@ -4,7 +4,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "model/scalar.h"
+#include "base/scalar.h"
 
 namespace ursula {
 

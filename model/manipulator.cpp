@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "model/errors.h"
+#include "base/errors.h"
 
 namespace ursula {
 namespace {

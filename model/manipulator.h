@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "base/scalar.h"
 #include "model/leg_kind.h"
-#include "model/scalar.h"
 
 namespace ursula {
 
@@ -69,7 +69,7 @@ struct Platform {
   Matrix3d inertia = Matrix3d::Zero();         ///< [I_M]_M about the mass centre, kg·m²
 };
 
-/// The raw parameters of the machine, SI: all that the two roads share.
+/// The raw parameters of the machine, SI: all that the two formulations share.
 struct ManipulatorParameters {
   Vector3d gravity = {0.0, 0.0, -9.81};  ///< g, m/s², in B
   Platform platform;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/scalar.h"
+#include "base/scalar.h"
 
 namespace ursula {
 

@@ -5,9 +5,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "base/quintic_spline.h"
+#include "base/real50.h"
 #include "model/kernel_trajectory.h"
-#include "model/quintic_spline.h"
-#include "model/real50.h"
 
 namespace ursula {
 namespace {

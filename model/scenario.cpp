@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
+#include "base/nearest.h"
+#include "base/shown_text.h"
+#include "base/toml_bounds.h"
 #include "model/check_names.h"
-#include "model/nearest.h"
 #include "model/scenario_sections.h"
-#include "model/shown_text.h"
-#include "model/toml_bounds.h"
 
 namespace ursula {
 namespace {

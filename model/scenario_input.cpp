@@ -1,6 +1,6 @@
 #include "model/scenario_input.h"
 
-#include "model/toml_bounds.h"
+#include "base/toml_bounds.h"
 #include "model/toml_reader.h"
 
 namespace ursula {

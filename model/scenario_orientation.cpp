@@ -1,6 +1,6 @@
 #include "model/scenario_orientation.h"
 
-#include "model/real50.h"
+#include "base/real50.h"
 
 namespace ursula {
 namespace {

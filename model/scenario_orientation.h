@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "model/scalar.h"
+#include "base/scalar.h"
 
 namespace ursula {
 

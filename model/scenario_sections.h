@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "model/csv.h"
-#include "model/errors.h"
+#include "base/csv.h"
+#include "base/errors.h"
 #include "model/scenario.h"
 #include "model/toml_reader.h"
 

@@ -1,6 +1,6 @@
+#include "base/shown_text.h"
 #include "model/scenario_orientation.h"
 #include "model/scenario_sections.h"
-#include "model/shown_text.h"
 #include "model/trajectories.h"
 
 namespace ursula {

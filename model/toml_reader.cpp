@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "model/nearest.h"
+#include "base/nearest.h"
+#include "base/shown_text.h"
+#include "base/toml_bounds.h"
 #include "model/scenario_orientation.h"
-#include "model/shown_text.h"
-#include "model/toml_bounds.h"
 
 namespace ursula {
 namespace {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "model/scalar.h"
+#include "base/scalar.h"
+#include "base/text_source.h"
 #include "model/scenario.h"
 #include "model/scenario_keys.h"
-#include "model/text_source.h"
 
 namespace ursula {
 

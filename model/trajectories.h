@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "model/csv.h"
+#include "base/csv.h"
 #include "model/trajectory.h"
 
 // The motions beside the helix. All are twice continuously differentiable in SO(3) × R³ over [0, duration] and extend

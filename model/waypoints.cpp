@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "model/errors.h"
+#include "base/errors.h"
 #include "model/pose_spline.h"
 #include "model/trajectories.h"
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Makes the report's script and style anew from their sources and the lock file, with npm.
 #
-#   tools/bundle.sh           writes validation/report/web/bundle
+#   tools/bundle.sh           writes report/web/bundle
 #   tools/bundle.sh --check   fails unless that folder holds the very bytes; 77 if npm's registry does not answer
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-web=validation/report/web
+web=report/web
 
 if grep -l '"resolved"' "$web"/package-lock.json tests/browser/package-lock.json; then
   echo 'bundle: a lock file records where packages were downloaded from; remove its "resolved" lines' >&2

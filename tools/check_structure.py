@@ -12,20 +12,24 @@ import sys
 from pathlib import Path
 
 sys.dont_write_bytecode = True
-import rooms  # noqa: E402
+import components  # noqa: E402
 import sources  # noqa: E402
 
-# Which folder may include from which.
+# Which folder may include from which, beside itself: from the ground up, so that every arrow points down.
 ALLOWED = {
-    "model": {"model"},
-    "nocsolver": {"nocsolver", "model"},
-    "validation": {"validation", "nocsolver", "model"},
-    "apps": {"apps", "validation", "nocsolver", "model"},
-    "include": {"include", "validation", "nocsolver", "model"},
-    "examples": set(),
-    "python": {"python"},
-    "tests": {"tests", "bench", "validation", "nocsolver", "model"},
-    "bench": {"bench", "validation", "nocsolver", "model"},
+    "base": "",
+    "model": "base",
+    "nocsolver": "base model",
+    "engines": "base model",
+    "validation": "base model nocsolver engines",
+    "report": "base model nocsolver validation",
+    "studies": "base model nocsolver engines validation report",
+    "apps": "base model nocsolver validation report studies",
+    "include": "base model nocsolver validation report",
+    "examples": "",
+    "python": "",
+    "tests": "bench base model nocsolver engines validation report studies",
+    "bench": "base model nocsolver engines validation studies",
 }
 ENGINE_HEADER = re.compile(r"(?i)^(simbody|simtk|simmath|mujoco/|dart/)|/(simbody|simtk|simmath)")
 # What users of the library have: the standard library, Eigen and the library itself.
@@ -34,10 +38,10 @@ USERS_HEADER = re.compile(r"[a-z_]+|Eigen/\w+|ursula/\w+\.h")
 # Within nocsolver/: the NOC that is judged and the fast kernels never see each other.
 WITHIN_SOLVER = {"legs": {"legs"}, "noc": {"noc", "legs"}, "fast": {"fast", "legs"},
                  "poses": {"poses", "noc", "fast", "legs", ""}, "": {"noc", "fast", "legs", ""}}
-OTHER_ROAD = re.compile(r"^model/loops/(\w+)/")
+OTHER_ROAD = re.compile(r"^engines/(\w+)/")
 
 MAP = "docs/equations.md"
-TAGGED_FOLDERS = ("model", "nocsolver", "validation")
+TAGGED_FOLDERS = ("base", "model", "nocsolver", "engines", "validation", "report", "studies")
 LAST_EQUATION = 55
 PARTS = {2: "ab", 4: "abc", 11: "ab", 14: "ab", 15: "ab", 17: "ab", 19: "ab", 20: "ab", 30: "ab", 32: "ab",
          39: "abc", 41: "abc", 42: "ab", 43: "abc", 46: "abc", 51: "abcd"}
@@ -58,7 +62,7 @@ def check_includes(root):
             if quoted and not (root / name).is_file():
                 findings.append(f'{place}: "{name}" is no file of this project: name it from the root, or in <> if it is another\'s')
             top = name.split("/")[0]
-            if top in sources.FOLDERS and top not in ALLOWED[folder]:
+            if top in sources.FOLDERS and top != folder and top not in ALLOWED[folder].split():
                 findings.append(f"{place}: {folder}/ may not include {top}/ ({name})")
             if folder == top == "nocsolver" and name not in ("nocsolver/errors.h", "nocsolver/finite.h"):
                 here, there = (part.split("/")[1] if part.count("/") > 1 else "" for part in (path, name))
@@ -66,7 +70,7 @@ def check_includes(root):
                     findings.append(f"{place}: nocsolver/{here} may not include nocsolver/{there} ({name})")
             if sources.is_internal(name) and sources.is_header(path) and not sources.is_internal(path):
                 findings.append(f"{place}: a header that others include may not include {name}, which is internal")
-        findings += check_roads(root, path)
+        findings += check_engines(root, path)
         if folder in ("include", "examples", "python"):
             findings += check_users(root, path)
         if sources.is_header(path) and not sources.is_internal(path):
@@ -74,17 +78,17 @@ def check_includes(root):
     return findings
 
 
-def check_roads(root, path):
-    """The roads meet nowhere, not through a third file either."""
+def check_engines(root, path):
+    """The engines meet nowhere, not through a third file either."""
     findings = []
     for name, chain in sources.reach(root, path).items():
         via = " -> ".join(chain)
         if path.startswith("nocsolver/") and (ENGINE_HEADER.search(name) or OTHER_ROAD.match(name)):
-            findings.append(f"{path}: the solver may not see another road ({via})")
+            findings.append(f"{path}: the solver may not see another engine ({via})")
         if OTHER_ROAD.match(path) and name.startswith("nocsolver/"):
-            findings.append(f"{path}: a road may not see the solver ({via})")
+            findings.append(f"{path}: a engine may not see the solver ({via})")
         if OTHER_ROAD.match(path) and OTHER_ROAD.match(name) and OTHER_ROAD.match(path)[1] != OTHER_ROAD.match(name)[1]:
-            findings.append(f"{path}: a road may not see another ({via})")
+            findings.append(f"{path}: a engine may not see another ({via})")
     return findings
 
 
@@ -106,11 +110,14 @@ def check_no_simtk(path, text):
 
 def check_targets(root):
     """What the CMake targets link, by folder."""
-    forbidden = {"nocsolver": re.compile(r"(?i)simbody|mujoco|ursula::validation|tbb"),
+    forbidden = {"base": re.compile(r"(?i)ursula::(?!options|eigen|base)\w+|simbody|mujoco"),
+                 "model": re.compile(r"(?i)ursula::(nocsolver|validation|report)|simbody|mujoco"),
+                 "nocsolver": re.compile(r"(?i)simbody|mujoco|ursula::validation|tbb"),
                  "nocsolver/fast/parallel": re.compile(r"(?i)simbody|mujoco|ursula::validation"),
-                 "model": re.compile(r"ursula[:_]+(nocsolver|validation)"),
-                 "model/loops": re.compile(r"ursula[:_]+(nocsolver|validation)"),
-                 "validation": re.compile(r"(?i)ursula::apps|\$\{(simbody|ursula_mujoco)_")}
+                 "engines": re.compile(r"ursula[:_]+(nocsolver|validation)"),
+                 "validation": re.compile(r"(?i)ursula::(apps|report)|\$\{(simbody|ursula_mujoco)_"),
+                 "report": re.compile(r"(?i)ursula::apps|\$\{(simbody|ursula_mujoco)_"),
+                 "studies": re.compile(r"(?i)ursula::apps|\$\{(simbody|ursula_mujoco)_")}
     findings = []
     for folder, pattern in forbidden.items():
         path = root / folder / "CMakeLists.txt"
@@ -242,10 +249,10 @@ def main(arguments):
         for equation in EQUATIONS:
             print(f"({equation})", ", ".join(f"{p}:{n}" for p, n in tags.get(equation, {}).items()) or "—")
     else:
-        findings = check_includes(root) + check_targets(root) + rooms.check_rooms(root) + check_equations(root)
+        findings = check_includes(root) + check_targets(root) + components.check_components(root) + check_equations(root)
     print(*findings, sep="\n", end="\n" if findings else "", file=sys.stderr)
     if not findings and not only_tags:
-        print(f"structure: {len(sources.files(root))} files, {len(rooms.ROOMS)} rooms, {len(EQUATIONS)} equations, nothing amiss")
+        print(f"structure: {len(sources.files(root))} files, {len(components.COMPONENTS)} components, {len(EQUATIONS)} equations, nothing amiss")
     return 1 if findings else 0
 
 

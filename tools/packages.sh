@@ -18,7 +18,7 @@ declare -A needs=(
   [bundle]='node:nodejs npm:npm'
   [fresh]='git:git debootstrap:debootstrap'
 )
-# Done without where they are not to be had: a further road, asked for before the first configuration; a peer of the benchmarks.
+# Done without where they are not to be had: a further formulation, asked for before the first configuration; a peer of the benchmarks.
 declare -A optional=(
   [program]='libmujoco-dev'
   [bench]='libmujoco-dev libdart-dev'

@@ -4,7 +4,8 @@ import posixpath
 import re
 from pathlib import Path
 
-FOLDERS = ("model", "nocsolver", "validation", "apps", "include", "examples", "python", "tests", "bench")
+FOLDERS = ("base", "model", "nocsolver", "engines", "validation", "report", "studies", "apps", "include", "examples", "python",
+           "tests", "bench")
 SUFFIXES = (".h", ".hpp", ".inl", ".cpp")
 HEADER_SUFFIXES = (".h", ".hpp", ".inl")
 

@@ -9,7 +9,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import check_structure  # noqa: E402
-import rooms  # noqa: E402
+import components  # noqa: E402
 import sources  # noqa: E402
 
 
@@ -21,25 +21,32 @@ def sound_tree():
             code, test = "`nocsolver/leg.cpp`: legRates", "`tests/leg_test.cpp`: Leg.Rates"
         rows.append(f"| ({equation}) | what | {code} | {test} | none |")
     return {
-        "model/CMakeLists.txt": "target_link_libraries(m ${Simbody_LIBRARIES})\n",
-        "model/loops/CMakeLists.txt": "target_link_libraries(s ${Simbody_LIBRARIES})\n",
+        "base/CMakeLists.txt": "target_link_libraries(b ursula::eigen)\n",
+        "model/CMakeLists.txt": "target_link_libraries(m ursula::base)\n",
+        "report/CMakeLists.txt": "target_link_libraries(r ursula::verdict)\n",
+        "studies/CMakeLists.txt": "add_subdirectory(suite)\n",
+        "engines/CMakeLists.txt": "target_link_libraries(s ${Simbody_LIBRARIES})\n",
         "nocsolver/CMakeLists.txt": "target_link_libraries(n ursula::model)  # never Simbody\n",
         "nocsolver/fast/parallel/CMakeLists.txt": "target_link_libraries(p ursula::nocsolver TBB::tbb)\n",
         "validation/CMakeLists.txt": "target_link_libraries(v ursula::nocsolver ursula::simbody_loop)\n",
         "model/machine.h": "#include <Eigen/Core>\n",
-        "model/loops/simbody/simbody_loop.h": "// SimTK stays behind this header.\n",
-        "model/loops/simbody/simbody_loop_internal.h": "#include <Simbody.h>\nSimTK::State s;\n",
-        "model/loops/simbody/simbody_loop.cpp": '#include "model/loops/simbody/simbody_loop_internal.h"\n#include "model/loops/simbody/simbody_loop.h"\n',
+        "engines/simbody/simbody_loop.h": "// SimTK stays behind this header.\n",
+        "engines/simbody/simbody_loop_internal.h": "#include <Simbody.h>\nSimTK::State s;\n",
+        "engines/simbody/simbody_loop.cpp": '#include "engines/simbody/simbody_loop_internal.h"\n#include "engines/simbody/simbody_loop.h"\n',
         "nocsolver/leg.h": '#include "model/machine.h"\n',
         "nocsolver/leg.cpp": '#include "nocsolver/leg.h"\nvoid legRates();  // (paper, eqs. 15a–b)\n',
-        "validation/replay/replay.cpp": '#include "model/loops/simbody/simbody_loop.h"\n#include "nocsolver/leg.h"\n',
+        "validation/replay/replay.cpp": '#include "engines/simbody/simbody_loop.h"\n#include "nocsolver/leg.h"\n',
         "validation/verdict/result.h": "// Verdicts.\n",
         "validation/verdict/CMakeLists.txt": "ursula_room(verdict)\n",
-        "validation/checks/roads.cpp": '#include "validation/verdict/result.h"\n#include "validation/replay/replay.h"\n',
+        "validation/checks/engines.cpp": '#include "validation/verdict/result.h"\n#include "validation/replay/replay.h"\n',
         "validation/replay/replay.h": "// Replays.\n",
         "include/ursula/solver.h": '#include <ursula/build.h>\n#include "nocsolver/leg.h"\n',
         "examples/loop.cpp": "#include <ursula/solver.h>\n#include <vector>\n",
         "python/module.cpp": "#include <pybind11/pybind11.h>\n#include <ursula/solver.h>\n",
+        "report/page.cpp": '#include "validation/verdict/result.h"\n',
+        "studies/suite/suite.cpp": '#include "report/page.h"\n#include "validation/validate.h"\n',
+        "report/page.h": "// Pages.\n",
+        "validation/validate.h": "// The front door.\n",
         "apps/main.cpp": '#include "model/machine.h"\n',
         "tests/support.h": '#include "nocsolver/leg.h"\n',
         "tests/leg_test.cpp": '#include "support.h"\nTEST(Leg, Rates) {}\n',
@@ -61,7 +68,7 @@ class CheckStructure(unittest.TestCase):
             for path, text in tree.items():
                 (root / path).parent.mkdir(parents=True, exist_ok=True)
                 (root / path).write_text(text, encoding="utf-8")
-            return (check_structure.check_includes(root) + check_structure.check_targets(root) + rooms.check_rooms(root)
+            return (check_structure.check_includes(root) + check_structure.check_targets(root) + components.check_components(root)
                     + check_structure.check_equations(root))
 
     def assert_caught(self, expected, **changes):
@@ -73,14 +80,14 @@ class CheckStructure(unittest.TestCase):
 
     def test_include_rules(self):
         append = lambda text: ("", text)  # noqa: E731
-        self.assert_caught("the solver may not see another road", nocsolver__leg_DOT_cpp=append("#include <Simbody.h>\n"))
-        self.assert_caught("the solver may not see another road", nocsolver__leg_DOT_cpp=append('#include "model/loops/simbody/simbody_loop.h"\n'))
-        self.assert_caught("leg.h -> model/machine.h -> model/loops/simbody/simbody_loop.h",
-                           model__machine_DOT_h=append('#include "model/loops/simbody/simbody_loop.h"\n'))
-        self.assert_caught("may not see the solver", model__loops__simbody__simbody_loop_DOT_cpp=append('#include "nocsolver/leg.h"\n'))
-        self.assert_caught("the solver may not see another road", nocsolver__leg_DOT_cpp=append("#include <mujoco/mujoco.h>\n"))
-        self.assert_caught("a road may not see another",
-                           model__loops__mujoco__mujoco_loop_DOT_cpp=append('#include "model/loops/simbody/simbody_loop.h"\n'))
+        self.assert_caught("the solver may not see another engine", nocsolver__leg_DOT_cpp=append("#include <Simbody.h>\n"))
+        self.assert_caught("the solver may not see another engine", nocsolver__leg_DOT_cpp=append('#include "engines/simbody/simbody_loop.h"\n'))
+        self.assert_caught("leg.h -> model/machine.h -> engines/simbody/simbody_loop.h",
+                           model__machine_DOT_h=append('#include "engines/simbody/simbody_loop.h"\n'))
+        self.assert_caught("may not see the solver", engines__simbody__simbody_loop_DOT_cpp=append('#include "nocsolver/leg.h"\n'))
+        self.assert_caught("the solver may not see another engine", nocsolver__leg_DOT_cpp=append("#include <mujoco/mujoco.h>\n"))
+        self.assert_caught("a engine may not see another",
+                           engines__mujoco__mujoco_loop_DOT_cpp=append('#include "engines/simbody/simbody_loop.h"\n'))
         self.assert_caught("nocsolver/noc may not include nocsolver/fast", nocsolver__fast__k_DOT_h=("", "#pragma once\n"),
                            nocsolver__noc__n_DOT_h=("", '#include "nocsolver/fast/k.h"\n'))
         self.assert_caught("model/ may not include nocsolver/", model__machine_DOT_h=append('#include "nocsolver/leg.h"\n'))
@@ -88,7 +95,7 @@ class CheckStructure(unittest.TestCase):
                            tests__leg_test_DOT_cpp=append('#include "../apps/a.h"\n'))
         self.assert_caught("tests/ may not include apps/", apps__a_DOT_h=append("\n"),
                            tests__leg_test_DOT_cpp=append('#include "apps/a.h"\n'))
-        self.assert_caught("which is internal", validation__r_DOT_h=append('#include "model/loops/simbody/simbody_loop_internal.h"\n'))
+        self.assert_caught("which is internal", validation__r_DOT_h=append('#include "engines/simbody/simbody_loop_internal.h"\n'))
         self.assert_caught("is no file of this project", nocsolver__leg_DOT_cpp=append('#include "leg.h"\n'))
 
     def test_users_of_the_library(self):
@@ -103,7 +110,7 @@ class CheckStructure(unittest.TestCase):
         self.assert_caught("model/ may not include include/", model__machine_DOT_h=("", '#include "include/ursula/solver.h"\n'))
 
     def test_simtk_in_headers(self):
-        self.assert_caught("SimTK in a header", model__loops__simbody__simbody_loop_DOT_h=("", "const SimTK::State& s();\n"))
+        self.assert_caught("SimTK in a header", engines__simbody__simbody_loop_DOT_h=("", "const SimTK::State& s();\n"))
         self.assert_caught("Simbody.h in a header", validation__r_DOT_h=("", "#include <Simbody.h>\n"))
         self.assert_caught("mujoco.h in a header", validation__r_DOT_h=("", "#include <mujoco/mujoco.h>\n"))
         self.assertEqual(self.findings(model__machine_DOT_h=("", "/* SimTK */ // SimTK\n")), [])
@@ -113,21 +120,26 @@ class CheckStructure(unittest.TestCase):
         self.assert_caught("nocsolver may not link", nocsolver__CMakeLists_DOT_txt=("", "link(TBB::tbb)\n"))
         self.assert_caught("nocsolver/fast/parallel may not link",
                            nocsolver__fast__parallel__CMakeLists_DOT_txt=("", "link(${Simbody_LIBRARIES})\n"))
+        self.assert_caught("base may not link", base__CMakeLists_DOT_txt=("", "link(ursula::model)\n"))
         self.assert_caught("model may not link", model__CMakeLists_DOT_txt=("", "link(ursula::nocsolver)\n"))
 
-    def test_rooms(self):
+    def test_components(self):
         self.assert_caught("verdict may not see checks", validation__checks__a_DOT_h=("", "\n"),
                            validation__verdict__result_DOT_h=("", '#include "validation/checks/a.h"\n'))
-        self.assert_caught("replay may not see the front door", validation__validate_DOT_h=("", "\n"),
+        self.assert_caught("replay may not see the entry",
                            validation__replay__replay_DOT_cpp=("", '#include "validation/validate.h"\n'))
-        self.assert_caught("attic/ is no room", validation__attic__a_DOT_cpp=("", "\n"))
+        self.assert_caught("validation/ may not include report/", validation__validate_DOT_h=("", '#include "report/page.h"\n'))
+        self.assert_caught("report/ may not see replay", report__page_DOT_h=("", '#include "validation/replay/replay.h"\n'))
+        self.assert_caught("suite may not see prove", studies__prove__p_DOT_h=("", "\n"),
+                           studies__suite__suite_DOT_cpp=("", '#include "studies/prove/p.h"\n'))
+        self.assert_caught("attic/ is no component", validation__attic__a_DOT_cpp=("", "\n"))
         self.assert_caught("verdict may not link ursula::checks",
                            validation__verdict__CMakeLists_DOT_txt=("", "target_link_libraries(v ursula::checks)\n"))
-        self.assert_caught("too large for a room", validation__checks__a_DOT_cpp=("", "\n" * 2000))
+        self.assert_caught("too large for a component", validation__checks__a_DOT_cpp=("", "\n" * 2000))
 
     def test_plan_of_rooms(self):
-        self.assertEqual(rooms.check_plan(), [])
-        self.assertTrue(rooms.check_plan({"a": "b", "b": ""}))
+        self.assertEqual(components.check_plan(), [])
+        self.assertTrue(components.check_plan({"a": "b", "b": ""}))
 
     def test_map_against_code(self):
         self.assert_caught("which carries no tag (paper, eq. 15b)", nocsolver__leg_DOT_cpp=("15a–b", "15a"))

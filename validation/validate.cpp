@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "validation/checks/acceptance.h"
+#include "validation/checks/engine_checks.h"
 #include "validation/checks/every_check.h"
 #include "validation/checks/families.h"
-#include "validation/checks/road_checks.h"
 #include "validation/checks/tolerance.h"
 #include "validation/checks/torque_between.h"
 #include "validation/evidence/evidence.h"
@@ -18,7 +18,6 @@
 #include "validation/findings/in_si.h"
 #include "validation/findings/run_provenance.h"
 #include "validation/findings/timeseries.h"
-#include "validation/picture/picture.h"
 #include "validation/subject/motion_check.h"
 
 namespace ursula {
@@ -31,12 +30,12 @@ bool fails(const ValidationResult& result, const char* name) {
 
 std::string oddOne(const Evidence& evidence, const ValidationResult& result) {
   const bool between = fails(result, "torque.between") && !fails(result, "torque.pointwise");
-  return between ? "the torques on trial, between the samples; at the samples: " + oddOneOut(evidence.roads)
-                 : oddOneOut(evidence.roads);
+  return between ? "the torques on trial, between the samples; at the samples: " + oddOneOut(evidence.engines)
+                 : oddOneOut(evidence.engines);
 }
 
 void addFacts(const Evidence& evidence, const std::optional<ErrorBudget>& budget, ValidationResult& result) {
-  if (evidence.answered()) result.findings.emplace_back("odd one out of the roads", oddOne(evidence, result));
+  if (evidence.answered()) result.findings.emplace_back("odd one out of the formulations", oddOne(evidence, result));
   addFindings(evidence.samples, evidence.windows, result, evidence.units());
   if (budget) addBudget(*budget, result, evidence.units());
   result.timeseries = validationSeries(*evidence.scenario->manipulator, evidence.samples, evidence.windows);
@@ -69,7 +68,7 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   const Subject subject = keeps_nothing ? recorded(given) : given;
   reference.prepare(static_cast<bool>(subject.accelerations), options.ladder);
   tell(options, 0.35, "experiments");
-  Evidence evidence = gather(scenario, reference, subject, right, options.spoil ? *options.spoil : Spoil{},
+  Evidence evidence = gather(scenario, reference, subject, right, options.fault ? *options.fault : InjectedFault{},
                              {options.ladder, options.reactions});
   ValidationResult result;
   result.scenario = scenario.name;
@@ -86,7 +85,7 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   judgeEveryAnswer(evidence, result.checks);
   addFacts(evidence, budget, result);
   seriesInSi(evidence.natural, result);
-  addPicture(scenario, result);
+  result.asked = std::make_shared<const Scenario>(scenario);
   result.deviation = effortDeviation(evidence, result.checks);
   listEveryCheck(scenario, evidence.has, result);
   judgeByTolerance(scenario, 0, result);
@@ -112,7 +111,7 @@ ValidationResult nothingReached(const Scenario& scenario, const Subject& subject
   listEveryCheck(scenario, has, result);
   judgeByTolerance(scenario, 0, result);
   judgeByUser(scenario.acceptance, result);
-  addPicture(scenario, result);
+  result.asked = std::make_shared<const Scenario>(scenario);
   addProvenance(scenario, subject.name, result);
   return result;
 }
@@ -121,9 +120,9 @@ ValidationResult validateOwn(const Scenario& scenario, const SubjectOf& make, bo
                              const ValidationOptions& options) {
   try {
     const std::shared_ptr<const Reference> reference = referenceOf(scenario, options);
-    Presentation there = reference->natural;
+    FrameChange there = reference->natural;
     there.origin.setZero();
-    const Subject subject = presented(make(reference->relocated), there);
+    const Subject subject = transformed(make(reference->relocated), there);
     return run(scenario, *reference, subject, right, options);
   } catch (const OutOfTime& over) {
     return nothingReached(scenario, make(scenario), over);
@@ -139,7 +138,7 @@ std::shared_ptr<const Reference> makeReference(const Scenario& scenario, int thr
 ValidationResult validate(const Scenario& scenario, const Subject& subject, const ValidationOptions& options) {
   try {
     const std::shared_ptr<const Reference> reference = referenceOf(scenario, options);
-    return run(scenario, *reference, presented(subject, reference->natural), false, options);
+    return run(scenario, *reference, transformed(subject, reference->natural), false, options);
   } catch (const OutOfTime& over) {
     return nothingReached(scenario, subject, over);
   }

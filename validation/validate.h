@@ -3,7 +3,7 @@
 #include <functional>
 #include <memory>
 
-#include "model/deadline.h"
+#include "base/deadline.h"
 #include "model/scenario.h"
 #include "validation/subject/subject.h"
 #include "validation/verdict/result.h"
@@ -11,7 +11,7 @@
 namespace ursula {
 
 struct Reference;
-struct Spoil;
+struct InjectedFault;
 
 /// What may be left out where many scenarios are judged in a row; `ursula validate` leaves out nothing.
 struct ValidationOptions {
@@ -20,7 +20,7 @@ struct ValidationOptions {
   bool budget = true;     ///< the error's sources, which decide nothing
   /// What depends on the scenario alone, made before, for many subjects on one scenario; null: made afresh.
   std::shared_ptr<const Reference> reference = nullptr;
-  std::shared_ptr<const Spoil> spoil = nullptr;  ///< for controls that must fail; null: nothing is spoilt
+  std::shared_ptr<const InjectedFault> fault = nullptr;  ///< for controls that must fail; null: nothing is falsified
   /// Told what begins, and about which share of the time is over by then; may be empty.
   std::function<void(double share, const char* now)> progress = nullptr;
   int threads = 1;  ///< no number depends on it

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "model/deadline.h"
+#include "base/deadline.h"
 #include "validation/checks/acceptance.h"
 #include "validation/checks/every_check.h"
 #include "validation/checks/families.h"
@@ -18,9 +18,8 @@
 #include "validation/findings/in_si.h"
 #include "validation/findings/run_provenance.h"
 #include "validation/findings/timeseries.h"
-#include "validation/picture/picture.h"
+#include "validation/subject/frame_change.h"
 #include "validation/subject/motion_check.h"
-#include "validation/subject/presentation.h"
 
 namespace ursula {
 namespace {
@@ -47,7 +46,7 @@ void addFileFindings(const TorqueFile& file, ValidationResult& result) {
 }
 
 /// In other units; all are powers of two, so that no digit is lost.
-TorqueFile inUnits(TorqueFile file, const Presentation& there) {
+TorqueFile inUnits(TorqueFile file, const FrameChange& there) {
   const Units& units = there.units;
   Vector6d effort;
   for (int k = 0; k < motor_count; ++k) effort(k) = there.effort(k);
@@ -60,7 +59,7 @@ TorqueFile inUnits(TorqueFile file, const Presentation& there) {
   return file;
 }
 
-Evidence gatherExternal(const Scenario& given, const Presentation& natural, const Scenario& scenario,
+Evidence gatherExternal(const Scenario& given, const FrameChange& natural, const Scenario& scenario,
                         const ExternalTorques& external, const ExternalReplay& replay) {
   Evidence out;
   out.given = &given;
@@ -95,7 +94,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   const Deadline deadline(time_limit);
   checkMotion(scenario);
   requireTellingTolerance(scenario);
-  const Presentation natural = naturalPresentation(scenario);
+  const FrameChange natural = naturalFrameChange(scenario);
   const Scenario here = timed(natural.of(scenario), deadline);
   const TorqueFile file = within(torques, scenario.trajectory->duration());
   ExternalTorques external;
@@ -118,7 +117,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   deadline.lift();  // what follows is short, and makes a result of what was reached
   addFacts(evidence, budget, result);
   seriesInSi(natural, result);
-  addPicture(scenario, result);
+  result.asked = std::make_shared<const Scenario>(scenario);
   result.deviation = effortDeviation(evidence, result.checks);
   listEveryCheck(scenario, evidence.has, result);
   judgeByTolerance(scenario, replay.between * natural.units.effort(), result);

@@ -41,11 +41,11 @@ ValidationResult validatePointwise(const Scenario& given, const std::vector<Chec
   requireTellingTolerance(given);
   Evidence evidence;
   evidence.given = &given;
-  evidence.natural = naturalPresentation(given);
+  evidence.natural = naturalFrameChange(given);
   const Scenario scenario = evidence.natural.of(given), here = relocated(given, evidence.natural.origin);
-  Presentation there = evidence.natural;
+  FrameChange there = evidence.natural;
   there.origin.setZero();
-  const Subject subject = presented(nocSubject(*here.manipulator, here.load), there);
+  const Subject subject = transformed(nocSubject(*here.manipulator, here.load), there);
   evidence.scenario = &scenario;
   evidence.subject = &subject;
   evidence.has.left_out_ladder = evidence.has.left_out_reactions = true;

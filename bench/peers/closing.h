@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/loops/open_tree.h"
+#include "engines/open_tree.h"
 #include "model/manipulator.h"
 
 namespace ursula::bench {

@@ -1,6 +1,6 @@
 #include "bench/peers/closing.h"
 #include "bench/peers/peer.h"
-#include "model/loops/mujoco/mujoco_loop.h"
+#include "engines/mujoco/mujoco_loop.h"
 
 namespace ursula::bench {
 namespace {

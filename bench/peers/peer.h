@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "engines/open_tree.h"
 #include "model/joint_variables.h"
-#include "model/loops/open_tree.h"
 #include "model/manipulator.h"
 
 namespace ursula::bench {

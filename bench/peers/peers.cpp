@@ -1,7 +1,7 @@
 #include <array>
 
 #include "bench/peers/peer.h"
-#include "model/loops/mujoco/mujoco_loop.h"
+#include "engines/mujoco/mujoco_loop.h"
 
 namespace ursula::bench {
 

@@ -1,6 +1,6 @@
 #include "bench/peers/closing.h"
 #include "bench/peers/peer.h"
-#include "model/loops/simbody/simbody_loop.h"
+#include "engines/simbody/simbody_loop.h"
 #include "validation/findings/provenance.h"
 
 namespace ursula::bench {

@@ -4,5 +4,5 @@
 /// A ValidationResult as files: summary.json, timeseries.csv, report.html, junit.xml.
 
 #include "include/ursula/abi.h"
-#include "validation/report/report.h"
-#include "validation/report/summary.h"
+#include "report/report.h"
+#include "report/summary.h"

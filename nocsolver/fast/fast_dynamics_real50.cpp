@@ -1,4 +1,4 @@
-#include "model/real50.h"
+#include "base/real50.h"
 #include "nocsolver/fast/fast_dynamics_impl.h"
 
 namespace ursula {

@@ -25,7 +25,7 @@ struct ByRows {
     Vector3<S> out;
     for (int j = 0; j < 3; ++j) {
       const JacobianRow<S>& row = at.row[static_cast<std::size_t>(j)];
-      const S bias = reading.has(Slip::drop_bias) ? S(0) : S(row.n_dot.dot(v_B) - row.A_dot * rate(j));
+      const S bias = reading.has(FormulaError::drop_bias) ? S(0) : S(row.n_dot.dot(v_B) - row.A_dot * rate(j));
       out(j) = (row.n.dot(a_B) + bias) / row.A;
     }
     return out;

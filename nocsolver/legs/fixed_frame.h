@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "model/scalar.h"
+#include "base/scalar.h"
 
 namespace ursula {
 

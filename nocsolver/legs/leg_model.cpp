@@ -1,4 +1,4 @@
-#include "model/real50.h"
+#include "base/real50.h"
 #include "nocsolver/legs/leg_model_impl.h"
 
 namespace ursula {

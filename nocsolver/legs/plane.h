@@ -63,7 +63,7 @@ LinkMotion<S> turning(const Vector3<S>& omega, const Vector3<S>& omega_dot, cons
                       const Vector3<S>& carried, const R& reading) {
   if constexpr (!with_rates) return {omega, omega.cross(arm), Vector3<S>::Zero(), Vector3<S>::Zero()};
   LinkMotion<S> out{omega, omega.cross(arm), omega_dot, omega_dot.cross(arm)};
-  if (!reading.has(Slip::drop_centrifugal)) out.c_ddot += omega.cross(carried);
+  if (!reading.has(FormulaError::drop_centrifugal)) out.c_ddot += omega.cross(carried);
   return out;
 }
 

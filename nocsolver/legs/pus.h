@@ -74,10 +74,10 @@ struct Pus : ByRows {
     const Vector3<S> now = -at.rate(1) * leg.u + at.rate(2) * at.x;
     const Vector3<S> omega = -rate(1) * leg.u + rate(2) * at.x;  // (b)
     Vector3<S> omega_dot = -acceleration(1) * leg.u + acceleration(2) * at.x;
-    if (!reading.has(Slip::drop_coriolis)) omega_dot += (rate(2) * at.rate(1)) * at.z;
+    if (!reading.has(FormulaError::drop_coriolis)) omega_dot += (rate(2) * at.rate(1)) * at.z;
     LinkMotions<S> out{{zero, v, zero, a},
                        turning<with_rates>(omega, omega_dot, at.arm_2, Vector3<S>(now.cross(at.arm_2)), reading)};
-    if (reading.has(Slip::drop_link_coupling)) return out;
+    if (reading.has(FormulaError::drop_link_coupling)) return out;
     out.distal.c_dot += v;
     out.distal.c_ddot += a;
     return out;

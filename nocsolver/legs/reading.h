@@ -10,7 +10,7 @@ namespace ursula {
 
 /// Ways in which a formula of noc/ or of a leg kind can be wrong: as printed in our source of the paper, or with a term
 /// left out. They exist so that it can be shown what each does and which check catches it.
-enum class Slip {
+enum class FormulaError {
   eq2,                   ///< (2a,b) frame built as if uᵢ lay in the base plane
   eq4c,                  ///< (4c) qᵢ² for q̇ᵢ²
   eq5,                   ///< (5), (27) +aᵢ for −aᵢ
@@ -62,7 +62,7 @@ enum class Slip {
 
 /// The formulas that hold; costs nothing.
 struct Corrected {
-  static constexpr bool has(Slip) { return false; }
+  static constexpr bool has(FormulaError) { return false; }
   template <class Model>
   static constexpr void read(Model&) {}
   template <class Model, class State>
@@ -71,20 +71,20 @@ struct Corrected {
   static constexpr void mapped(const Model&, State&) {}
 };
 
-/// The formulas that hold but for the slips set, and what a change makes of the numbers that the solver reads or of
+/// The formulas that hold but for the errors set, and what a change makes of the numbers that the solver reads or of
 /// a leg's displacement. For controls that must fail.
-class WithSlips {
+class WithFormulaErrors {
  public:
   using ReadChange = std::function<void(MachineParameters<double>&)>;
   using LegChange = std::function<void(const LegModel<double>&, LegState<double>&)>;
 
-  WithSlips() = default;
-  explicit WithSlips(Slip slip) { set(slip); }
-  WithSlips& set(Slip slip) {
-    slips_.set(static_cast<std::size_t>(slip));
+  WithFormulaErrors() = default;
+  explicit WithFormulaErrors(FormulaError formula_error) { set(formula_error); }
+  WithFormulaErrors& set(FormulaError formula_error) {
+    formula_errors_.set(static_cast<std::size_t>(formula_error));
     return *this;
   }
-  bool has(Slip slip) const { return slips_.test(static_cast<std::size_t>(slip)); }
+  bool has(FormulaError formula_error) const { return formula_errors_.test(static_cast<std::size_t>(formula_error)); }
 
   void read(MachineParameters<double>& machine) const {
     if (change_read) change_read(machine);
@@ -109,7 +109,7 @@ class WithSlips {
   LegChange change_rows;   ///< after the rows of (23)
 
  private:
-  std::bitset<static_cast<std::size_t>(Slip::count)> slips_;
+  std::bitset<static_cast<std::size_t>(FormulaError::count)> formula_errors_;
 };
 
 }  // namespace ursula

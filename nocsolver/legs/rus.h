@@ -90,10 +90,11 @@ struct Rus : ByRows {
     const Vector3<S> omega_1_dot = -acceleration(0) * leg.u;
     Vector3<S> omega_2_dot = omega_1_dot - acceleration(1) * leg.u - acceleration(2) * at.x_2;
     // −θ̇ (−(φ̇ + ψ̇) u) × x₂, and x₂ × u is z₂.
-    if (!reading.has(Slip::drop_coriolis)) omega_2_dot -= (rate(2) * (at.rate(0) + at.rate(1))) * at.x_2.cross(leg.u);
+    if (!reading.has(FormulaError::drop_coriolis))
+      omega_2_dot -= (rate(2) * (at.rate(0) + at.rate(1))) * at.x_2.cross(leg.u);
     LinkMotions<S> out{turning<with_rates>(omega_1, omega_1_dot, at.arm_1, Vector3<S>(now_1.cross(at.arm_1)), reading),
                        turning<with_rates>(omega_2, omega_2_dot, at.arm_2, Vector3<S>(now_2.cross(at.arm_2)), reading)};
-    if (reading.has(Slip::drop_link_coupling)) return out;
+    if (reading.has(FormulaError::drop_link_coupling)) return out;
     const LinkMotion<S> R_ =
         turning<with_rates>(omega_1, omega_1_dot, at.O_2, Vector3<S>(now_1.cross(at.O_2)), reading);
     out.distal.c_dot += R_.c_dot;

@@ -72,16 +72,16 @@ struct Ups : ByRows {
     const Vector3<S> now = -at.rate(0) * leg.u + at.rate(1) * at.x;
     const Vector3<S> omega = -rate(0) * leg.u + rate(1) * at.x;  // (b)
     Vector3<S> omega_dot = -acceleration(0) * leg.u + acceleration(1) * at.x;
-    if (!reading.has(Slip::drop_coriolis)) omega_dot += (rate(1) * at.rate(0)) * at.z;
+    if (!reading.has(FormulaError::drop_coriolis)) omega_dot += (rate(1) * at.rate(0)) * at.z;
     const Vector3<S> arm = at.O_2 + at.arm_2;  // from A to the rod's mass centre; it grows by ḋ e
     LinkMotions<S> out{turning<with_rates>(omega, omega_dot, at.arm_1, Vector3<S>(now.cross(at.arm_1)), reading),
                        turning<with_rates>(omega, omega_dot, arm, Vector3<S>(now.cross(arm)), reading)};
-    if (reading.has(Slip::drop_link_coupling)) return out;
+    if (reading.has(FormulaError::drop_link_coupling)) return out;
     out.distal.c_dot += rate(2) * at.e;
     out.distal.c_ddot += acceleration(2) * at.e;
-    if (reading.has(Slip::drop_coriolis)) return out;
+    if (reading.has(FormulaError::drop_coriolis)) return out;
     out.distal.c_ddot += rate(2) * now.cross(at.e);
-    if (!reading.has(Slip::half_coriolis)) out.distal.c_ddot += at.rate(2) * omega.cross(at.e);
+    if (!reading.has(FormulaError::half_coriolis)) out.distal.c_ddot += at.rate(2) * omega.cross(at.e);
     return out;
   }
 };

@@ -11,7 +11,7 @@
 //   φ̇ = h_x / (s sin(ψ+θ) − l sin ψ)                                  (15a)
 //   ψ̇ = (h_y − s θ̇ sin(ψ+θ)) / (s sin(ψ+θ) − l sin ψ)                 (15b)
 // and their derivatives (4c), (8), (18), (19). Where a formula fails as printed the one that holds stands here; the
-// printed one is read where its slip is set.
+// printed one is read where its error is set.
 
 #include "nocsolver/legs/plane.h"
 
@@ -34,13 +34,13 @@ struct Urs {
     const S cos_theta = (one_plus - one_minus) / S(2);  // (paper, eq. 4a)
     const S sin_theta = leg.knee * sqrt(one_minus * one_plus);
     // Both addends of (14b) are angles of triangles with hypotenuse q.
-    const S y = reading.has(Slip::eq14b) ? S(-k.k_y) : k.k_y;
+    const S y = reading.has(FormulaError::eq14b) ? S(-k.k_y) : k.k_y;
     const S sin_1 = leg.s * sin_theta / q, cos_1 = (leg.l - leg.s * cos_theta) / q, sin_2 = k.r / q, cos_2 = y / q;
     const S sin_psi = sin_1 * cos_2 + cos_1 * sin_2, cos_psi = cos_1 * cos_2 - sin_1 * sin_2;  // (paper, eq. 14b)
     out.sin_sum = sin_psi * cos_theta + cos_psi * sin_theta;
     out.cos_sum = cos_psi * cos_theta - sin_psi * sin_theta;
     Plane<S> F = planeOf(leg, k);
-    if (reading.has(Slip::eq14a) && F.sine < S(0)) F = planeAt<S>(leg, -F.sine, -F.cosine);
+    if (reading.has(FormulaError::eq14a) && F.sine < S(0)) F = planeAt<S>(leg, -F.sine, -F.cosine);
     out.sine = {F.sine, sin_psi, sin_theta};
     out.cosine = {F.cosine, cos_psi, cos_theta};
     out.axis = {-leg.u, F.x, F.x};
@@ -81,7 +81,7 @@ struct Urs {
   static void rows(const LegModel<S>& leg, const R& reading, LegState<S>& out) {
     const S a_ii = leg.s * out.sin_sum - leg.l * out.sine[1], ls_sine = leg.l * leg.s * out.sine[2];
     const S lever = leg.s * out.sin_sum;
-    out.row[0].A = reading.has(Slip::eq23) ? lever : a_ii;  // (paper, eq. 23)
+    out.row[0].A = reading.has(FormulaError::eq23) ? lever : a_ii;  // (paper, eq. 23)
     out.row[0].n = out.x;
     out.row[1].A = a_ii * ls_sine;
     out.row[1].n = ls_sine * leg.u - lever * out.AB;
@@ -95,8 +95,8 @@ struct Urs {
     const Distance<S> a_ii = distance(leg, out);
     const S lever = leg.s * out.sin_sum, lever_dot = eta(leg, out);
     const S ls_sine = leg.l * leg.s * out.sine[2], ls_sine_dot = leg.l * leg.s * out.cosine[2] * out.rate(2);
-    out.row[0].A_dot = reading.has(Slip::eq26_a_dot) ? lever_dot : a_ii.rate;  // (paper, eq. 26)
-    out.row[0].n_dot = out.rate(0) * out.z;                                    // Q̂ᵢ Ωᵢ Q̂ᵢᵀ xᵢ with (12)
+    out.row[0].A_dot = reading.has(FormulaError::eq26_a_dot) ? lever_dot : a_ii.rate;  // (paper, eq. 26)
+    out.row[0].n_dot = out.rate(0) * out.z;  // Q̂ᵢ Ωᵢ Q̂ᵢᵀ xᵢ with (12)
     out.row[1].A_dot = a_ii.rate * ls_sine + a_ii.value * ls_sine_dot;
     out.row[1].n_dot = ls_sine_dot * leg.u - lever_dot * out.AB - lever * out.v_B;
     out.row[2].A_dot = ls_sine_dot;
@@ -108,10 +108,10 @@ struct Urs {
   static Vector3<S> rates(const LegModel<S>& leg, const LegState<S>& at, const Vector3<S>& v_B, const R& reading) {
     const Vector3<S> h(at.x.dot(v_B), leg.u.dot(v_B), at.z.dot(v_B));  // (paper, eq. 11b)
     const S lever = leg.s * at.sin_sum, away = lever - leg.l * at.sine[1];
-    const S theta = at.AB.dot(v_B) / (leg.l * leg.s * at.sine[2]);    // (paper, eqs. 4b, 6): q q̇ = AB · v_B
-    const S phi = h.x() / (reading.has(Slip::eq15a) ? lever : away);  // (paper, eq. 15a)
+    const S theta = at.AB.dot(v_B) / (leg.l * leg.s * at.sine[2]);            // (paper, eqs. 4b, 6): q q̇ = AB · v_B
+    const S phi = h.x() / (reading.has(FormulaError::eq15a) ? lever : away);  // (paper, eq. 15a)
     S theta_read = theta;
-    if (reading.has(Slip::eq15b)) {
+    if (reading.has(FormulaError::eq15b)) {
       using std::atan2;
       theta_read = atan2(at.sine[2], at.cosine[2]);
     }
@@ -129,13 +129,13 @@ struct Urs {
     // (Q̂ Ωᵢ Qᵢ)ᵀ v_B = −ωᵢ × h with ωᵢ = [0, −φ̇, 0] of (12).
     const S h_dot_x = at.x.dot(a_B) + at.rate(0) * at.z.dot(v_B), h_dot_y = leg.u.dot(a_B);  // (paper, eq. 18)
     const S q_q_ddot = at.v_B.dot(v_B) + a_B.dot(at.AB) - q_dot2;                            // (paper, eq. 8)
-    const S first = reading.has(Slip::eq4c) ? q2 : q_dot2;
+    const S first = reading.has(FormulaError::eq4c) ? q2 : q_dot2;
     const S theta =
         (first + q_q_ddot - ls * at.rate(2) * rate(2) * at.cosine[2]) / (ls * at.sine[2]);  // (paper, eq. 4c)
     const Distance<S> away = distance(leg, at);
     S phi = (h_dot_x - away.rate * rate(0)) / away.value;  // (paper, eq. 19a)
-    if (reading.has(Slip::eq19a)) phi = (h_dot_x - eta(leg, at) * atan2(at.sine[0], at.cosine[0])) / lever;
-    const S factor = reading.has(Slip::eq19b) ? S(1) : rate(1);
+    if (reading.has(FormulaError::eq19a)) phi = (h_dot_x - eta(leg, at) * atan2(at.sine[0], at.cosine[0])) / lever;
+    const S factor = reading.has(FormulaError::eq19b) ? S(1) : rate(1);
     const S psi =
         (h_dot_y - eta(leg, at) * rate(2) - theta * lever - away.rate * factor) / away.value;  // (paper, eq. 19b)
     return {phi, psi, theta};
@@ -150,12 +150,12 @@ struct Urs {
     const Direction<S> s = direction(S(-at.cos_sum), S(-at.sin_sum), sum_now, sum, sum_dot);
     const Direction<S> first = scaled(leg.rho, e), along = scaled(leg.sigma, s);  // (paper, eqs. 39a, 39b)
     Direction<S> second = scaled(leg.l, e);
-    if (reading.has(Slip::drop_link_coupling)) second = scaled(S(0), second), second.at = leg.l * e.at;
+    if (reading.has(FormulaError::drop_link_coupling)) second = scaled(S(0), second), second.at = leg.l * e.at;
     second = {second.at + along.at, second.now + along.now, second.dot + along.dot, second.ddot + along.ddot};
     const Turn<S> F{at.rate(0), rate(0), acceleration(0)};
     LinkMotions<S> out{inPlane<with_rates>(F, rate(1), acceleration(1), first, reading),
                        inPlane<with_rates>(F, sum, sum_dot, second, reading)};
-    if (with_rates) readSlipsOf43b<S>(F, second, leg.l * e.at + s.at, leg.sigma, reading, out.distal.c_ddot);
+    if (with_rates) readFormulaErrorsOf43b<S>(F, second, leg.l * e.at + s.at, leg.sigma, reading, out.distal.c_ddot);
     Matrix3<S> to_base;
     to_base << at.x, leg.u, at.z;
     for (LinkMotion<S>* link : {&out.proximal, &out.distal}) {
@@ -202,31 +202,33 @@ struct Urs {
   template <bool with_rates, class S, class R>
   static LinkMotion<S> inPlane(const Turn<S>& F, const S& chi_dot, const S& chi_ddot, const Direction<S>& c,
                                const R& reading) {
-    const S sign = reading.has(Slip::eq16) ? S(1) : S(-1), sign_dot = reading.has(Slip::eq17) ? S(1) : S(-1);
+    const S sign = reading.has(FormulaError::eq16) ? S(1) : S(-1),
+            sign_dot = reading.has(FormulaError::eq17) ? S(1) : S(-1);
     LinkMotion<S> out;
     out.omega = Vector3<S>(chi_dot, sign * F.rate, S(0));  // (paper, eq. 16)
     out.c_dot = turned(F.rate, c.at) + c.dot;              // (paper, eqs. 41a, 41b)
     if constexpr (!with_rates) return out;
     out.omega_dot = Vector3<S>(chi_ddot, sign_dot * F.acceleration, F.now * chi_dot);  // (paper, eqs. 17a, 17b)
     out.c_ddot = turned(F.acceleration, c.at) + c.ddot;                                // (paper, eqs. 43a, 43b)
-    if (!reading.has(Slip::drop_centrifugal)) out.c_ddot += turned(F.now, turned(F.rate, c.at));        // Ω²
-    if (!reading.has(Slip::drop_coriolis)) out.c_ddot += turned(F.rate, c.now) + turned(F.now, c.dot);  // 2Ω
+    if (!reading.has(FormulaError::drop_centrifugal)) out.c_ddot += turned(F.now, turned(F.rate, c.at));        // Ω²
+    if (!reading.has(FormulaError::drop_coriolis)) out.c_ddot += turned(F.rate, c.now) + turned(F.now, c.dot);  // 2Ω
     return out;
   }
 
-  /// (43b) with the slips that only it has. `printed` is l [e] + [s].
+  /// (43b) with the errors that only it has. `printed` is l [e] + [s].
   template <class S, class R>
-  static void readSlipsOf43b(const Turn<S>& F, const Direction<S>& d, const Vector3<S>& printed, const S& sigma,
-                             const R& reading, Vector3<S>& d_ddot) {
+  static void readFormulaErrorsOf43b(const Turn<S>& F, const Direction<S>& d, const Vector3<S>& printed, const S& sigma,
+                                     const R& reading, Vector3<S>& d_ddot) {
     // What (Ω̇ᵢ + Ωᵢ²) acts on; as printed σ is added to each component of [s].
-    const bool sigma_slip = reading.has(Slip::eq43b_sigma), rate_slip = reading.has(Slip::eq43b_omega_dot);
-    if (sigma_slip || rate_slip) {
-      const Vector3<S> w = sigma_slip ? Vector3<S>(printed + Vector3<S>::Constant(sigma)) : d.at;
-      const S square = rate_slip ? F.acceleration : F.rate, other = rate_slip ? F.acceleration : F.now;
+    const bool sigma_error = reading.has(FormulaError::eq43b_sigma),
+               rate_error = reading.has(FormulaError::eq43b_omega_dot);
+    if (sigma_error || rate_error) {
+      const Vector3<S> w = sigma_error ? Vector3<S>(printed + Vector3<S>::Constant(sigma)) : d.at;
+      const S square = rate_error ? F.acceleration : F.rate, other = rate_error ? F.acceleration : F.now;
       d_ddot += turned(F.acceleration, Vector3<S>(w - d.at)) + turned(other, turned(square, w)) -
                 turned(F.now, turned(F.rate, d.at));
     }
-    if (reading.has(Slip::eq43b_doubled)) d_ddot += d.ddot;
+    if (reading.has(FormulaError::eq43b_doubled)) d_ddot += d.ddot;
   }
 };
 

@@ -44,7 +44,7 @@ struct NocWorkspace {
 /// a validation judges. Written to be read beside the paper; fast/ has the same numbers without forming T.
 ///
 /// The generalised speeds are the rates q̇ of the driven coordinates, φ̇ in the paper. Immutable: threads share it, each
-/// with a workspace of its own. `Reading` is Corrected, or WithSlips for formulas that are wrong. Nothing here
+/// with a workspace of its own. `Reading` is Corrected, or WithFormulaErrors for formulas that are wrong. Nothing here
 /// allocates but where it is said.
 ///
 /// Every function throws OutOfReach, OutOfStroke or PointOnAxis for poses that the legs cannot take, and from the rates
@@ -154,6 +154,6 @@ class Noc {
 
 extern template class Noc<double>;
 extern template class Noc<long double>;
-extern template class Noc<double, WithSlips>;
+extern template class Noc<double, WithFormulaErrors>;
 
 }  // namespace ursula

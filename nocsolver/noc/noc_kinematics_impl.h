@@ -15,7 +15,7 @@ inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
 template <class S, class R>
 Noc<S, R>::Noc(const MachineParameters<S>& machine, R reading) : machine_(machine), reading_(std::move(reading)) {
   reading_.read(machine_);
-  if (!reading_.has(Slip::eq2)) return;
+  if (!reading_.has(FormulaError::eq2)) return;
   for (LegModel<S>& leg : machine_.legs) {  // (paper, eq. 2b) as printed: orthonormal only without tilt
     const Vector3<S> u = leg.u;
     leg.x_hat = Vector3<S>(u.y(), -u.x(), S(0));
@@ -29,7 +29,7 @@ void Noc<S, R>::place(const Motion<S>& motion, int i, LegState<S>& out) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
   out.Qb.noalias() = motion.Q * leg.b;
   out.AB = (motion.p - leg.a) + out.Qb;  // (paper, eq. 3), with nothing lost far from the base's origin
-  if (reading_.has(Slip::eq5)) out.AB = motion.p + out.Qb + leg.a;
+  if (reading_.has(FormulaError::eq5)) out.AB = motion.p + out.Qb + leg.a;
   legs::withLeg(leg.kind, [&](auto kind) {
     kind.displacement(leg, i, motion.t, reading_, out);
     out.R_1 << out.x_1, out.e.cross(out.x_1), out.e;          // (paper, eq. 40)
@@ -94,7 +94,7 @@ JointVariables<S> Noc<S, R>::angles(const NocWorkspace<S>& work) const {
     const LegModel<S>& leg = machine_.legs[legs::at(i)];
     const LegState<S>& at = work.legs[legs::at(i)];
     if (leg.kind != LegKind::URS) continue;
-    const S k_y = reading_.has(Slip::eq14b) ? S(-at.AB.dot(leg.u)) : at.AB.dot(leg.u);
+    const S k_y = reading_.has(FormulaError::eq14b) ? S(-at.AB.dot(leg.u)) : at.AB.dot(leg.u);
     q.psi(i) = atan2(S(leg.s * at.sine[2]), S(leg.l - leg.s * at.cosine[2])) +
                atan2(S(at.AB.cross(leg.u).norm()), k_y);  // (paper, eq. 14b)
   }
@@ -139,7 +139,7 @@ Matrix6<S> Noc<S, R>::platformShaping(const NocWorkspace<S>& work) const {
 
 template <class S, class R>
 Matrix6<S> Noc<S, R>::platformShapingRate(const Motion<S>& motion, const NocWorkspace<S>& work) const {
-  if (reading_.has(Slip::drop_row_rates)) return Matrix6<S>::Zero();
+  if (reading_.has(FormulaError::drop_row_rates)) return Matrix6<S>::Zero();
   Matrix6<S> B_dot;
   Vector6<S> A_dot;
   for (int m = 0; m < motor_count; ++m) {
@@ -148,7 +148,7 @@ Matrix6<S> Noc<S, R>::platformShapingRate(const Motion<S>& motion, const NocWork
     const JacobianRow<S>& row = leg.row[legs::at(motor.joint)];
     const S size = row.n.norm();
     const Vector3<S> n = row.n / size, n_dot = row.n_dot / size;  // a row may be scaled: (25) is the same
-    const Vector3<S> Qb = reading_.has(Slip::eq26_b_dot) ? machine_.legs[legs::at(motor.leg)].b : leg.Qb;
+    const Vector3<S> Qb = reading_.has(FormulaError::eq26_b_dot) ? machine_.legs[legs::at(motor.leg)].b : leg.Qb;
     const Vector3<S> Qb_dot = motion.omega.cross(Qb);
     A_dot(m) = row.A_dot / size;
     B_dot.row(m) << (Qb_dot.cross(n) + leg.Qb.cross(n_dot)).transpose(), n_dot.transpose();  // (paper, eq. 26)

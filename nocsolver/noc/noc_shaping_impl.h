@@ -62,7 +62,7 @@ void Noc<S, R>::bodyMotions(const Motion<S>& motion, const NocWorkspace<S>& work
   body.R = motion.Q;
   body.twist << motion.omega, motion.p_dot + across;  // (paper, eq. 41c)
   Vector3<S> c_ddot = motion.p_ddot + motion.omega_dot.cross(arm);
-  if (!reading_.has(Slip::drop_platform_centripetal)) c_ddot += motion.omega.cross(across);
+  if (!reading_.has(FormulaError::drop_platform_centripetal)) c_ddot += motion.omega.cross(across);
   body.twist_rate << motion.omega_dot, c_ddot;  // (paper, eq. 43c)
 }
 
@@ -110,7 +110,8 @@ typename Noc<S, R>::Rates Noc<S, R>::columnRates(int i, const LegState<S>& at, c
   for (int j = 0; j < 3; ++j) {
     const int motor = leg.motor[legs::at(j)];
     if (motor >= 0) out.row(j) = Vector6<S>::Unit(motor).transpose();  // (paper, eq. 48)
-    if (reading_.has(motor >= 0 ? Slip::drop_own_column : Slip::drop_passive_rates)) out.row(j).setZero();
+    if (reading_.has(motor >= 0 ? FormulaError::drop_own_column : FormulaError::drop_passive_rates))
+      out.row(j).setZero();
   }
   return out;
 }
@@ -165,7 +166,7 @@ template <class S, class R>
 void Noc<S, R>::shape(const Motion<S>& motion, NocWorkspace<S>& work, bool with_rate) const {
   work.T_P = platformShaping(work);
   work.T.setZero();
-  shapePlatform(reading_.has(Slip::eq47) ? machine_.rho : platformArm(motion), work.T_P, work.T);  // B_C⁻¹A
+  shapePlatform(reading_.has(FormulaError::eq47) ? machine_.rho : platformArm(motion), work.T_P, work.T);  // B_C⁻¹A
   if (with_rate) {
     work.T_P_rate = platformShapingRate(motion, work);
     work.T_rate.setZero();

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "model/scalar.h"
+#include "base/scalar.h"
 
 namespace ursula {
 

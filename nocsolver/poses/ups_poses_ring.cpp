@@ -13,9 +13,9 @@
 //   QQᵀ = QᵀQ = h²1, adj Q = hQᵀ, Qu = hp, Qᵀp = hu, uᵀu = pᵀp = rh, qᵢ × p = Σⱼₖ εᵢⱼₖ uⱼ qₖ,  qᵢ: column i of Q.  (b)
 // Six legs and a chart's plane at infinity cut it to a ring of dimension 40 = 1 + 10 + 18 + 10 + 1, found degree by
 // degree: the quadrics leave 18 of the 55 monomials of degree two; of their 180 products with yⱼ, those that the ways
-// of making one monomial of degree three by two roads leave free are 10; and so on.                            (c)
-// Each step is a QR of relations E w + K l = 0 between the products w and what is known, l: w = V l + (null space) c,
-// and c are the basis of the new degree.                                                                       (d)
+// of making one monomial of degree three by two formulations leave free are 10; and so on. (c) Each step is a QR of
+// relations E w + K l = 0 between the products w and what is known, l: w = V l + (null space) c, and c are the basis of
+// the new degree.                                                                       (d)
 
 namespace ursula::ups {
 namespace {

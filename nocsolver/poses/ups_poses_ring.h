@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "model/scalar.h"
+#include "base/scalar.h"
 
 // The poses of six legs of given lengths as a linear section of the motion group's compactification, and the ring of
 // that section. Internal to nocsolver/ups_poses*.

@@ -33,15 +33,15 @@ Roots rootsInChart(const Legs& legs, const LegSection& section, int index) {
 
 double smallestPivot() { return 16 * std::pow(Eigen::NumTraits<double>::epsilon(), 0.75); }
 
-/// A plane at infinity that meets a solution spoils one chart, hardly two.
+/// A plane at infinity that meets a solution falsifies one chart, hardly two.
 Roots findRoots(const Legs& legs) {
   const LegSection section = legSection(legs);
   Roots best;
-  int spoilt = 0;
-  for (int index = 0; index < chart_count && spoilt < 2 && !best.complete(); ++index) {
+  int faulty = 0;
+  for (int index = 0; index < chart_count && faulty < 2 && !best.complete(); ++index) {
     const Roots roots = rootsInChart(legs, section, index);
     const double pivot = std::max(best.pivot, roots.pivot);
-    if (!(roots.pivot > smallestPivot())) ++spoilt;
+    if (!(roots.pivot > smallestPivot())) ++faulty;
     if (roots.all() > best.all()) best = roots;
     best.pivot = pivot;
   }

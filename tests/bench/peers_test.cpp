@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "bench/peers/agreement.h"
-#include "model/loops/mujoco/mujoco_loop.h"
+#include "engines/mujoco/mujoco_loop.h"
 
 namespace ursula::bench {
 namespace {

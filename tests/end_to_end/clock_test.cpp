@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "model/sha1.h"
+#include "base/sha1.h"
 #include "tests/end_to_end/quick_runs.h"
 
 namespace ursula {

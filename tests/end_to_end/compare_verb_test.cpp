@@ -37,9 +37,9 @@ TEST(CompareVerb, exitsAsEveryVerbDoesAndWritesJUnit) {
   EXPECT_EQ(ursula("compare a.csv none.csv").exit_code, 2);
   EXPECT_EQ(ursula("compare a.csv b.csv").exit_code, 3);
   EXPECT_EQ(ursula("compare a.csv b.csv --columns x").exit_code, 0);
-  const UrsulaRun slip = ursula("compare a.csv a.csv --columns x,yy");
-  EXPECT_EQ(slip.exit_code, 2);
-  EXPECT_THAT(slip.err, HasSubstr("--columns yy: neither side has such a column, did you mean 'y'?"));
+  const UrsulaRun formula_error = ursula("compare a.csv a.csv --columns x,yy");
+  EXPECT_EQ(formula_error.exit_code, 2);
+  EXPECT_THAT(formula_error.err, HasSubstr("--columns yy: neither side has such a column, did you mean 'y'?"));
   for (const char* tolerance : {"nan", "inf", "-1"})
     EXPECT_EQ(ursula(std::string("compare a.csv a.csv --tolerance ") + tolerance).exit_code, 2) << tolerance;
 }

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <thread>
 
-#include "model/sha1.h"
+#include "base/sha1.h"
 #include "tests/end_to_end/quick_runs.h"
 #include "tests/end_to_end/running.h"
 

@@ -6,8 +6,8 @@
 #include <regex>
 #include <sstream>
 
-#include "model/csv.h"
-#include "model/real50.h"
+#include "base/csv.h"
+#include "base/real50.h"
 #include "tests/end_to_end/program.h"
 #include "tests/support/vectors.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/model/temporary_folder.h"
+#include "tests/base/temporary_folder.h"
 
 namespace ursula {
 

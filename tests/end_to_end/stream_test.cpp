@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "model/csv.h"
+#include "base/csv.h"
 #include "tests/end_to_end/program.h"
 
 namespace ursula {

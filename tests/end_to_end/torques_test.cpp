@@ -65,8 +65,8 @@ TEST(TorquesRun, refusalsNameTheLineAndWriteNothing) {
   const Program ursula;
   prepare(ursula, "5");
   const std::string text = TemporaryFolder::read(ursula.folder() / "tau.csv");
-  const auto refused = [&](const std::string& spoilt) {
-    ursula.write("bad.csv", spoilt);
+  const auto refused = [&](const std::string& faulty) {
+    ursula.write("bad.csv", faulty);
     const auto run = ursula("validate small.toml --torques bad.csv --out out");
     EXPECT_EQ(run.exit_code, 2);
     EXPECT_EQ(run.out, "");

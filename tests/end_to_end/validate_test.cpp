@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "model/csv.h"
+#include "base/csv.h"
 #include "tests/end_to_end/program.h"
 
 namespace ursula {

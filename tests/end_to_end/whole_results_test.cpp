@@ -15,7 +15,7 @@
 #include <random>
 #include <thread>
 
-#include "model/sha1.h"
+#include "base/sha1.h"
 #include "tests/end_to_end/quick_runs.h"
 #include "tests/end_to_end/running.h"
 
@@ -68,10 +68,10 @@ void killSomewhere(const Program& ursula, const std::vector<std::string>& call, 
   run.kill();
 }
 
-/// More of them by hand: URSULA_KILLS=500.
+/// More of them in ./dev faults: URSULA_KILLS=500.
 int killsWanted() {
   const char* wanted = std::getenv("URSULA_KILLS");
-  return wanted == nullptr ? 40 : std::atoi(wanted);
+  return wanted == nullptr ? 12 : std::atoi(wanted);
 }
 
 struct Outcomes {

@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "model/shown_text.h"
+#include "base/shown_text.h"
 #include "tests/fuzz/fuzz.h"
 #include "validation/outside/solver_line.h"
 

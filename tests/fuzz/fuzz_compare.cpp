@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "model/csv.h"
+#include "base/csv.h"
+#include "studies/compare/compare.h"
 #include "tests/fuzz/fuzz.h"
-#include "validation/compare/compare.h"
 
 namespace {
 

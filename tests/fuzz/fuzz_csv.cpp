@@ -2,8 +2,8 @@
 
 #include <cstdlib>
 
-#include "model/csv.h"
-#include "model/errors.h"
+#include "base/csv.h"
+#include "base/errors.h"
 #include "model/trajectories.h"
 #include "tests/fuzz/fuzz.h"
 #include "validation/subject/torque_file.h"

@@ -8,9 +8,9 @@
 #include <fstream>
 #include <iterator>
 
+#include "studies/sweep_report/sweep_csv.h"
+#include "studies/sweep_report/sweep_summary.h"
 #include "tests/fuzz/fuzz.h"
-#include "validation/sweep_report/sweep_csv.h"
-#include "validation/sweep_report/sweep_summary.h"
 
 namespace {
 

@@ -3,8 +3,8 @@
 #include <cstdlib>
 
 #include "model/scenario.h"
+#include "studies/sweep/design.h"
 #include "tests/fuzz/fuzz.h"
-#include "validation/sweep/design.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {

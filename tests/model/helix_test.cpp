@@ -1,5 +1,5 @@
-// The helix of the paper's Appendix by two roads: its closed forms against differences of its own pose in 50 digits,
-// and against what (49)-(55) say of a curve: ends, tangent, normal.
+// The helix of the paper's Appendix by two formulations: its closed forms against differences of its own pose in 50
+// digits, and against what (49)-(55) say of a curve: ends, tangent, normal.
 
 #include <gmock/gmock.h>
 
@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
-#include "derivatives.h"
-#include "model/real50.h"
+#include "base/real50.h"
 #include "model/trajectory.h"
-#include "refusals.h"
+#include "tests/model/derivatives.h"
+#include "tests/model/refusals.h"
 
 namespace ursula {
 namespace {

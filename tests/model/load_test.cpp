@@ -7,8 +7,8 @@
 #include <limits>
 #include <random>
 
-#include "model/real50.h"
-#include "refusals.h"
+#include "base/real50.h"
+#include "tests/model/refusals.h"
 
 namespace ursula {
 namespace {
@@ -109,9 +109,9 @@ TEST(LoadHistory, neverLeavesTheRangeOfItsNeighbours) {
 
 TEST(LoadHistory, refusesWhatIsNoHistory) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto refused = [](auto spoil) {
+  const auto refused = [](auto fault) {
     std::vector<TimedWrench> rows = fourRows();
-    spoil(rows);
+    fault(rows);
     return refusedParameter([&] { LoadHistory history(rows); });
   };
   EXPECT_THAT(refused([](auto& r) { r.resize(1); }), FieldsAre("load.table", "1 rows", ">= 2"));

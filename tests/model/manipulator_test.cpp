@@ -26,7 +26,7 @@ using Machine = ManipulatorParameters;
 
 struct Refusal {
   const char* name;
-  void (*spoil)(Machine&);
+  void (*fault)(Machine&);
   const char* place;
   const char* value;
   const char* bound;
@@ -37,7 +37,7 @@ class RefusedManipulator : public testing::TestWithParam<Refusal> {};
 TEST_P(RefusedManipulator, namesPlaceValueAndBound) {
   Machine machine = good();
   EXPECT_NO_THROW(Manipulator{machine});
-  GetParam().spoil(machine);
+  GetParam().fault(machine);
   EXPECT_THAT(refusedParameter([&] { Manipulator{machine}; }),
               FieldsAre(GetParam().place, HasSubstr(GetParam().value), HasSubstr(GetParam().bound)));
 }

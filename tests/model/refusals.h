@@ -6,7 +6,7 @@
 #include <string>
 #include <tuple>
 
-#include "model/errors.h"
+#include "base/errors.h"
 
 namespace ursula {
 

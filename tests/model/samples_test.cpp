@@ -8,10 +8,10 @@
 #include <limits>
 #include <random>
 
-#include "derivatives.h"
-#include "model/real50.h"
+#include "base/real50.h"
 #include "model/trajectories.h"
-#include "refusals.h"
+#include "tests/model/derivatives.h"
+#include "tests/model/refusals.h"
 
 namespace ursula {
 namespace {
@@ -152,9 +152,9 @@ TEST(Samples, withinTheirLooserLengthAreNormalised) {
 
 TEST(Samples, fromATableRefuseWithTheLine) {
   const std::vector<TimedPose> good = sampled(*paperHelix(), 11);
-  const auto refused = [&](auto spoil) {
+  const auto refused = [&](auto fault) {
     std::vector<TimedPose> samples = good;
-    spoil(samples);
+    fault(samples);
     return refusal<CsvError>([&] { makeSamples(tableOf(samples)); });
   };
   EXPECT_THAT(refused([](auto& s) { s[3].time = s[2].time; }),

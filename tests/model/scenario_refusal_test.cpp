@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 
 #include "model/scenario.h"
-#include "refusals.h"
-#include "scenario_text.h"
+#include "tests/model/refusals.h"
+#include "tests/model/scenario_text.h"
 
 namespace ursula {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
+#include "tests/base/temporary_folder.h"
 #include "tests/model/scenario_text.h"
-#include "tests/model/temporary_folder.h"
 
 namespace ursula {
 namespace {

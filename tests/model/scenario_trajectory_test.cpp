@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 
 #include "model/scenario.h"
+#include "tests/base/temporary_folder.h"
 #include "tests/model/refusals.h"
 #include "tests/model/scenario_text.h"
-#include "tests/model/temporary_folder.h"
 
 namespace ursula {
 namespace {

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <limits>
 
-#include "derivatives.h"
-#include "model/real50.h"
-#include "refusals.h"
+#include "base/real50.h"
+#include "tests/model/derivatives.h"
+#include "tests/model/refusals.h"
 
 namespace ursula {
 namespace {
@@ -141,7 +141,7 @@ TEST(Waypoints, normaliseQuaternionsNearUnitLength) {
 
 struct PointRefusal {
   const char* name;
-  void (*spoil)(std::vector<TimedPose>&);
+  void (*fault)(std::vector<TimedPose>&);
   const char* place;
   const char* value;
   const char* bound;
@@ -151,7 +151,7 @@ class RefusedWaypoints : public testing::TestWithParam<PointRefusal> {};
 
 TEST_P(RefusedWaypoints, nameTheFirstBadPoint) {
   std::vector<TimedPose> points = fourPoints();
-  GetParam().spoil(points);
+  GetParam().fault(points);
   EXPECT_THAT(refusedParameter([&] { makeWaypoints(points); }),
               FieldsAre(GetParam().place, HasSubstr(GetParam().value), HasSubstr(GetParam().bound)));
 }

@@ -90,8 +90,10 @@ TEST_P(Constraints, closeTheLoops) {
 /// Controls: formulas that are wrong leave the constraints violated, or the loops open.
 TEST_P(Constraints, areViolatedByWrongFormulas) {
   const Motion<double> motion = randomState(scenario_, dice_);
-  for (const Slip slip : {Slip::eq23, Slip::eq16, Slip::eq47, Slip::eq14b, Slip::drop_link_coupling})
-    EXPECT_GT(found(motion, WithSlips(slip)).violation(), 1e-4) << "slip " << static_cast<int>(slip);
+  for (const FormulaError formula_error : {FormulaError::eq23, FormulaError::eq16, FormulaError::eq47,
+                                           FormulaError::eq14b, FormulaError::drop_link_coupling})
+    EXPECT_GT(found(motion, WithFormulaErrors(formula_error)).violation(), 1e-4)
+        << "error " << static_cast<int>(formula_error);
 }
 
 INSTANTIATE_TEST_SUITE_P(Machines, Constraints, testing::ValuesIn(vectorNames()),

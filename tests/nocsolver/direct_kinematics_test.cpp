@@ -8,7 +8,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "model/real50.h"
+#include "base/real50.h"
 #include "tests/nocsolver/direct_kinematics_cases.h"
 #include "tests/nocsolver/rounding.h"
 

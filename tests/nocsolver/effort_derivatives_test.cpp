@@ -9,9 +9,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/errors.h"
+#include "base/errors.h"
+#include "base/real50.h"
 #include "model/named_number.h"
-#include "model/real50.h"
 #include "nocsolver/fast/fast_dynamics.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/motions.h"

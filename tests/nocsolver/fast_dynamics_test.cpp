@@ -12,8 +12,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/real50.h"
 #include "model/load.h"
-#include "model/real50.h"
 #include "nocsolver/fast/batch_dynamics.h"
 #include "nocsolver/fast/effort_derivatives.h"
 #include "nocsolver/solver.h"

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <iostream>
 
+#include "base/real50.h"
 #include "model/load.h"
-#include "model/real50.h"
 #include "nocsolver/fast/fast_dynamics.h"
 #include "nocsolver/noc/noc.h"
 #include "tests/support/vectors.h"
@@ -200,8 +200,9 @@ TEST_P(Kinds, eachWrongTermOfSectionThreeShows) {
   const Motion<double> motion = rounded(rows_[2].motion);
   const Vector6d load = 100 * Vector6d::Ones();
   NocWorkspace<double> work;
-  const auto answers = [&](const Slip* slip) {
-    const Noc<double, WithSlips> solver(*scenario_.manipulator, slip != nullptr ? WithSlips(*slip) : WithSlips());
+  const auto answers = [&](const FormulaError* formula_error) {
+    const Noc<double, WithFormulaErrors> solver(
+        *scenario_.manipulator, formula_error != nullptr ? WithFormulaErrors(*formula_error) : WithFormulaErrors());
     Eigen::VectorXd out(24);
     const Vector6d efforts = solver.inverseDynamics(motion, work, load);
     const Eigen::MatrixXd DT = solver.D(motion, work) * work.T;
@@ -210,27 +211,27 @@ TEST_P(Kinds, eachWrongTermOfSectionThreeShows) {
     return out;
   };
   const Eigen::VectorXd right = answers(nullptr);
-  for (const Slip slip : {Slip::drop_row_rates,
-                          Slip::drop_own_column,
-                          Slip::drop_passive_rates,
-                          Slip::untwisted_tensors,
-                          Slip::untwisted_platform,
-                          Slip::mass_for_inertia,
-                          Slip::drop_mass_distal,
-                          Slip::drop_T_rate,
-                          Slip::drop_W,
-                          Slip::drop_tau_g,
-                          Slip::drop_inertia,
-                          Slip::drop_load,
-                          Slip::scaled_first_effort,
-                          Slip::scaled_efforts,
-                          Slip::wrong_D,
-                          Slip::drop_gyroscopic_legs,
-                          Slip::drop_gyroscopic_platform,
-                          Slip::drop_gravity_legs,
-                          Slip::drop_gravity_platform,
-                          Slip::eq47})
-    EXPECT_GT((answers(&slip) - right).norm(), 1e-9) << static_cast<int>(slip);
+  for (const FormulaError formula_error : {FormulaError::drop_row_rates,
+                                           FormulaError::drop_own_column,
+                                           FormulaError::drop_passive_rates,
+                                           FormulaError::untwisted_tensors,
+                                           FormulaError::untwisted_platform,
+                                           FormulaError::mass_for_inertia,
+                                           FormulaError::drop_mass_distal,
+                                           FormulaError::drop_T_rate,
+                                           FormulaError::drop_W,
+                                           FormulaError::drop_tau_g,
+                                           FormulaError::drop_inertia,
+                                           FormulaError::drop_load,
+                                           FormulaError::scaled_first_effort,
+                                           FormulaError::scaled_efforts,
+                                           FormulaError::wrong_D,
+                                           FormulaError::drop_gyroscopic_legs,
+                                           FormulaError::drop_gyroscopic_platform,
+                                           FormulaError::drop_gravity_legs,
+                                           FormulaError::drop_gravity_platform,
+                                           FormulaError::eq47})
+    EXPECT_GT((answers(&formula_error) - right).norm(), 1e-9) << static_cast<int>(formula_error);
 }
 
 /// Doubles against long doubles: rounding, and not the same to the last bit.

@@ -4,7 +4,7 @@
 
 #include <iostream>
 
-#include "model/real50.h"
+#include "base/real50.h"
 #include "nocsolver/noc/noc.h"
 #include "tests/model/derivatives.h"
 #include "tests/nocsolver/rounding.h"
@@ -137,38 +137,40 @@ INSTANTIATE_TEST_SUITE_P(Machines, Kinematics, testing::Values("paper-helix", "r
 
 /// Control: each formula as printed in our source, or with a term left out, is seen at its own level.
 struct WrongFormula {
-  Slip slip;
+  FormulaError formula_error;
   double Mismatch::*seen;
 };
 
-void PrintTo(const WrongFormula& wrong, std::ostream* out) { *out << "slip " << static_cast<int>(wrong.slip); }
+void PrintTo(const WrongFormula& wrong, std::ostream* out) {
+  *out << "error " << static_cast<int>(wrong.formula_error);
+}
 
 class WrongKinematics : public testing::TestWithParam<WrongFormula> {};
 
 TEST_P(WrongKinematics, isSeen) {
-  const Mismatch found = mismatchOf("random-2", WithSlips(GetParam().slip));
+  const Mismatch found = mismatchOf("random-2", WithFormulaErrors(GetParam().formula_error));
   std::cout << found.*GetParam().seen << '\n';
   EXPECT_GT(found.*GetParam().seen, 1e12 * difference_tolerance);
 }
 
 INSTANTIATE_TEST_SUITE_P(AsPrinted, WrongKinematics,
-                         testing::Values(WrongFormula{Slip::eq15a, &Mismatch::rates},                   //
-                                         WrongFormula{Slip::eq14b, &Mismatch::rates},                   //
-                                         WrongFormula{Slip::eq4c, &Mismatch::accelerations},            //
-                                         WrongFormula{Slip::eq19a, &Mismatch::accelerations},           //
-                                         WrongFormula{Slip::eq19b, &Mismatch::accelerations},           //
-                                         WrongFormula{Slip::eq23, &Mismatch::t_P},                      //
-                                         WrongFormula{Slip::eq26_a_dot, &Mismatch::a_ii},               //
-                                         WrongFormula{Slip::eq26_b_dot, &Mismatch::T_rate},             //
-                                         WrongFormula{Slip::eq16, &Mismatch::twists},                   //
-                                         WrongFormula{Slip::eq17, &Mismatch::twist_rates},              //
-                                         WrongFormula{Slip::eq43b_omega_dot, &Mismatch::twist_rates},   //
-                                         WrongFormula{Slip::eq43b_sigma, &Mismatch::twist_rates},       //
-                                         WrongFormula{Slip::eq43b_doubled, &Mismatch::twist_rates},     //
-                                         WrongFormula{Slip::drop_centrifugal, &Mismatch::twist_rates},  //
-                                         WrongFormula{Slip::drop_coriolis, &Mismatch::twist_rates},     //
-                                         WrongFormula{Slip::drop_link_coupling, &Mismatch::twists},     //
-                                         WrongFormula{Slip::eq47, &Mismatch::shaped_twists}));
+                         testing::Values(WrongFormula{FormulaError::eq15a, &Mismatch::rates},                   //
+                                         WrongFormula{FormulaError::eq14b, &Mismatch::rates},                   //
+                                         WrongFormula{FormulaError::eq4c, &Mismatch::accelerations},            //
+                                         WrongFormula{FormulaError::eq19a, &Mismatch::accelerations},           //
+                                         WrongFormula{FormulaError::eq19b, &Mismatch::accelerations},           //
+                                         WrongFormula{FormulaError::eq23, &Mismatch::t_P},                      //
+                                         WrongFormula{FormulaError::eq26_a_dot, &Mismatch::a_ii},               //
+                                         WrongFormula{FormulaError::eq26_b_dot, &Mismatch::T_rate},             //
+                                         WrongFormula{FormulaError::eq16, &Mismatch::twists},                   //
+                                         WrongFormula{FormulaError::eq17, &Mismatch::twist_rates},              //
+                                         WrongFormula{FormulaError::eq43b_omega_dot, &Mismatch::twist_rates},   //
+                                         WrongFormula{FormulaError::eq43b_sigma, &Mismatch::twist_rates},       //
+                                         WrongFormula{FormulaError::eq43b_doubled, &Mismatch::twist_rates},     //
+                                         WrongFormula{FormulaError::drop_centrifugal, &Mismatch::twist_rates},  //
+                                         WrongFormula{FormulaError::drop_coriolis, &Mismatch::twist_rates},     //
+                                         WrongFormula{FormulaError::drop_link_coupling, &Mismatch::twists},     //
+                                         WrongFormula{FormulaError::eq47, &Mismatch::shaped_twists}));
 
 }  // namespace
 }  // namespace ursula

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "model/real50.h"
+#include "base/real50.h"
 #include "nocsolver/noc/noc.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/vectors.h"
@@ -79,9 +79,9 @@ TYPED_TEST(NoAllocation, inAnyFunctionOfTheSolver) {
               nonzero(bodies[0].twist_rate));
 }
 
-TEST(NoAllocationWithSlips, either) {
+TEST(NoAllocationWithFormulaErrors, either) {
   const Scenario scenario = vectorScenario("random-4");
-  const Noc<double, WithSlips> solver(*scenario.manipulator, WithSlips(Slip::eq15a));
+  const Noc<double, WithFormulaErrors> solver(*scenario.manipulator, WithFormulaErrors(FormulaError::eq15a));
   const Motion<double> motion = rounded(vectorRows("random-4")[2].motion);
   NocWorkspace<double> work;
   Vector6d torques;

@@ -24,7 +24,7 @@ S conditionNumber(const Noc<S>& solver, const NocWorkspace<S>& work) {
   return B.norm() * inverse.norm() * legs;
 }
 
-/// Relative rounding error that either of two roads to the same number may have at the motion in `work`.
+/// Relative rounding error that either of two formulations to the same number may have at the motion in `work`.
 template <class S>
 double roundingLimit(const Noc<S>& solver, const NocWorkspace<S>& work) {
   return static_cast<double>(S(chain_length * Eigen::NumTraits<S>::epsilon() * conditionNumber(solver, work)));

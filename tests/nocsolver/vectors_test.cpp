@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "model/real50.h"
+#include "base/real50.h"
 #include "nocsolver/noc/noc.h"
 #include "tests/nocsolver/rounding.h"
 #include "tests/support/vectors.h"

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "model/real50.h"
+#include "base/real50.h"
 
 namespace ursula {
 namespace {

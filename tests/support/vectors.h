@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "base/real50.h"
 #include "model/joint_variables.h"
 #include "model/motion.h"
-#include "model/real50.h"
 #include "model/scenario.h"
 
 namespace ursula {

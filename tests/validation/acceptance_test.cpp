@@ -8,11 +8,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "report/report.h"
+#include "report/summary.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/checks/acceptance.h"
-#include "validation/report/report.h"
-#include "validation/report/summary.h"
 
 namespace ursula {
 namespace {

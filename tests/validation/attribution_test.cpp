@@ -22,7 +22,7 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Pair;
 
-using Spoil = std::function<void(double t, std::vector<double>& x)>;
+using InjectedFault = std::function<void(double t, std::vector<double>& x)>;
 using Change = std::function<Vector6d(const Motion<double>& motion, const Vector6d& torques)>;
 
 /// A scenario made ready once; few samples, for speed.
@@ -37,8 +37,8 @@ const Reference& referenceOf(const std::string& name) {
   return *reference;
 }
 
-/// The windows of the right torques replayed under changed ones, with a state that is spoilt where asked for.
-ErrorBudget budgetOf(const std::string& name, const Change& change = nullptr, const Spoil& spoil = nullptr) {
+/// The windows of the right torques replayed under changed ones, with a state that is falsified where asked for.
+ErrorBudget budgetOf(const std::string& name, const Change& change = nullptr, const InjectedFault& fault = nullptr) {
   const Reference& reference = referenceOf(name);
   const Scenario& scenario = reference.scenario;
   Subject subject = solverOf(scenario);
@@ -51,7 +51,7 @@ ErrorBudget budgetOf(const std::string& name, const Change& change = nullptr, co
   std::vector<WindowedReplay> windows = reference.replays().windows;
   for (WindowedReplay& window : windows) {
     ReplaySettings settings = settingsOf(scenario, plan, window.window, 1);
-    settings.spoil = spoil;
+    settings.fault = fault;
     window.replay = replay(scenario, plan.torques, settings);
   }
   const auto samples = runPointwise(scenario, subject, reference.instants, reference.profile);
@@ -115,14 +115,14 @@ TEST(Attribution, namesTheModelWhereTheMotionIsLost) {
   EXPECT_EQ(wrong.dominant, ErrorSource::model);
 }
 
-/// A state that is spoilt after each step is no error of the torques'.
-TEST(Attribution, doesNotNameTheModelWhereTheIntegratorIsSpoilt) {
-  const ErrorBudget spoilt = budgetOf("paper-helix", nullptr, [](double, std::vector<double>& x) {
+/// A state that is falsified after each step is no error of the torques'.
+TEST(Attribution, doesNotNameTheModelWhereTheIntegratorIsFaulty) {
+  const ErrorBudget faulty = budgetOf("paper-helix", nullptr, [](double, std::vector<double>& x) {
     for (double& each : x) each *= 1 + 1e-11;
   });
-  EXPECT_NE(spoilt.dominant, ErrorSource::model);
-  EXPECT_GT(spoilt.observed.norm(), 10 * budgetOf("paper-helix").observed.norm()) << "nothing was spoilt";
-  EXPECT_LT(spoilt.model.error.norm(), 0.1 * spoilt.observed.norm());
+  EXPECT_NE(faulty.dominant, ErrorSource::model);
+  EXPECT_GT(faulty.observed.norm(), 10 * budgetOf("paper-helix").observed.norm()) << "nothing was falsified";
+  EXPECT_LT(faulty.model.error.norm(), 0.1 * faulty.observed.norm());
 }
 
 /// The replay that ends furthest off is the one that is taken apart.

@@ -7,9 +7,9 @@
 
 #include "model/check_names.h"
 #include "model/instants.h"
+#include "report/report.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/report/report.h"
 #include "validation/validate_external.h"
 
 namespace ursula {

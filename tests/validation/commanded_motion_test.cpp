@@ -1,4 +1,4 @@
-// What all roads share: right as it ships, and each way to be wrong is seen by the check that is for it.
+// What all formulations share: right as it ships, and each way to be wrong is seen by the check that is for it.
 
 #include "validation/checks/commanded_motion.h"
 
@@ -11,9 +11,9 @@
 
 #include "model/exact_trajectory.h"
 #include "model/trajectories.h"
+#include "studies/random/random_scenario.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/prove/random_scenario.h"
 
 namespace ursula {
 namespace {
@@ -54,16 +54,17 @@ TEST(CommandedMotionOfRandomMachines, passesAndHasNoFileToBeReadAgain) {
   }
 }
 
-/// A trajectory whose double motion is spoilt; the 50-digit one stays right.
-class Spoilt final : public ExactTrajectory {
+/// A trajectory whose double motion is falsified; the 50-digit one stays right.
+class Faulty final : public ExactTrajectory {
  public:
-  using Spoil = std::function<void(Motion<double>&)>;
-  Spoilt(std::shared_ptr<const Trajectory> truth, Spoil spoil) : truth_(std::move(truth)), spoil_(std::move(spoil)) {}
+  using InjectedFault = std::function<void(Motion<double>&)>;
+  Faulty(std::shared_ptr<const Trajectory> truth, InjectedFault fault)
+      : truth_(std::move(truth)), fault_(std::move(fault)) {}
   std::string kind() const override { return truth_->kind(); }
   double duration() const override { return truth_->duration(); }
   Motion<double> at(double t) const override {
     Motion<double> motion = truth_->at(t);
-    spoil_(motion);
+    fault_(motion);
     return motion;
   }
   Motion<Real50> at(const Real50& t) const override { return truth_->at(t); }
@@ -71,19 +72,19 @@ class Spoilt final : public ExactTrajectory {
 
  private:
   std::shared_ptr<const Trajectory> truth_;
-  Spoil spoil_;
+  InjectedFault fault_;
 };
 
 struct Control {
   const char *name, *scenario, *caught_by;
-  Spoilt::Spoil spoil;
+  Faulty::InjectedFault fault;
 };
 
-class SpoiltMotion : public testing::TestWithParam<Control> {};
+class FaultyMotion : public testing::TestWithParam<Control> {};
 
-TEST_P(SpoiltMotion, failsTheCheckThatIsForIt) {
+TEST_P(FaultyMotion, failsTheCheckThatIsForIt) {
   Scenario scenario = scenarioOf(GetParam().scenario);
-  scenario.trajectory = std::make_shared<const Spoilt>(scenario.trajectory, GetParam().spoil);
+  scenario.trajectory = std::make_shared<const Faulty>(scenario.trajectory, GetParam().fault);
   for (const Check& check : judgeCommandedMotion(scenario)) {
     const bool wanted = check.name == GetParam().caught_by;
     EXPECT_EQ(name(check.verdict), std::string(wanted ? "fail" : "pass")) << check.name << ": " << check.why;
@@ -93,7 +94,7 @@ TEST_P(SpoiltMotion, failsTheCheckThatIsForIt) {
 const double nan_value = std::nan("");
 
 INSTANTIATE_TEST_SUITE_P(
-    By, SpoiltMotion,
+    By, FaultyMotion,
     testing::Values(
         Control{"velocity", "paper-helix", "motion.twist", [](auto& m) { m.p_dot *= 1 + 1e-9; }},
         Control{"velocity_by_little", "paper-helix", "motion.twist", [](auto& m) { m.p_dot *= 1 + 1e-12; }},
@@ -151,7 +152,7 @@ TEST(CommandedMotionLimits, holdForMotionsAtTheEdges) {
 TEST(CommandedMotionLimits, doNotGrowWithWhatIsOnTrial) {
   const Scenario right = scenarioOf("paper-helix");
   Scenario wrong = right;
-  wrong.trajectory = std::make_shared<const Spoilt>(right.trajectory, [](auto& m) { m.p_dot *= 1e6; });
+  wrong.trajectory = std::make_shared<const Faulty>(right.trajectory, [](auto& m) { m.p_dot *= 1e6; });
   const auto limit = [](const Scenario& s) { return findCheck(judgeCommandedMotion(s), "motion.twist")->limit; };
   EXPECT_LE(limit(wrong), 1e-12);
   EXPECT_GT(limit(right), 0);

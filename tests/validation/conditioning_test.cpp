@@ -1,5 +1,5 @@
-// The factors of every pointwise limit: each against its definition by another road, and limits that rounding keeps but
-// that mean something.
+// The factors of every pointwise limit: each against its definition by another formulation, and limits that rounding
+// keeps but that mean something.
 
 #include "validation/limits/conditioning.h"
 #include "nocsolver/solver.h"
@@ -12,11 +12,11 @@
 #include <cmath>
 #include <iostream>
 
-#include "model/real50.h"
+#include "base/real50.h"
 #include "nocsolver/errors.h"
 #include "tests/support/motions.h"
 #include "tests/support/vectors.h"
-#include "validation/subject/presentation.h"
+#include "validation/subject/frame_change.h"
 
 namespace ursula {
 namespace {
@@ -150,10 +150,10 @@ TEST_P(ConditioningOf, limitsAreShapesTimesLevels) {
 }
 
 /// Wherever the machine stands, however it is turned and in whatever units: shapes are measured alike.
-TEST_P(ConditioningOf, shapesDoNotDependOnThePresentation) {
+TEST_P(ConditioningOf, shapesDoNotDependOnTheFrameChange) {
   const Motion<double> motion = randomState(scenario_, dice_);
   const Conditioning here = ConditioningProbe(*scenario_.manipulator, scenario_.load).at(motion);
-  Presentation there = randomPresentation(17, 3 * here.length, *scenario_.manipulator);
+  FrameChange there = randomFrameChange(17, 3 * here.length, *scenario_.manipulator);
   const auto shapeThere = [&](Rounded quantity) {
     return ConditioningProbe(there.of(*scenario_.manipulator), there.of(scenario_.load))
         .at(there.of(motion))

@@ -15,9 +15,9 @@
 #include "tests/support/motions.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
+#include "validation/checks/engine_checks.h"
 #include "validation/checks/pointwise_checks.h"
-#include "validation/checks/road_checks.h"
-#include "validation/samples/roads.h"
+#include "validation/samples/engines.h"
 #include "validation/validate.h"
 
 namespace ursula {
@@ -58,7 +58,7 @@ TEST_F(Between, aPulseBetweenTheSamplesFailsThereAlone) {
   const Subject subject = pulsed(1.2345, 1e-3, 2.5e5);
   const auto samples = runPointwise(scenario_, subject, instants_, profile_);
   std::vector<Check> checks = judgePointwise(samples, true);
-  for (Check& road : judgeRoads(runRoads(scenario_, samples, profile_))) checks.push_back(std::move(road));
+  for (Check& engine : judgeEngines(runEngines(scenario_, samples, profile_))) checks.push_back(std::move(engine));
   EXPECT_EQ(others(checks, Verdict::pass), "");
   EXPECT_NE(findCheck(checks, "torque.twin"), nullptr);
   const Check check = judge(subject);
@@ -88,7 +88,7 @@ TEST_F(Between, theNarrowestPulseSeenIsWhatItSays) {
 
 /// In other units the same is said.
 TEST_F(Between, saysSoInSeconds) {
-  const Presentation natural = naturalPresentation(scenario_);
+  const FrameChange natural = naturalFrameChange(scenario_);
   const Scenario there = natural.of(scenario_);
   const RoundingProfile profile(there, 5);
   const Subject subject = nocSubject(*there.manipulator, there.load);

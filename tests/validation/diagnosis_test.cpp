@@ -165,7 +165,7 @@ TEST(Diagnosis, namesATimeShift) {
 
 TEST(Diagnosis, namesAFormulaAsPrinted) {
   const TorqueTable torques =
-      torquesOf(helix(), wrongNocSubject(*helix().manipulator, nullptr, WithSlips(Slip::eq43b_doubled)),
+      torquesOf(helix(), wrongNocSubject(*helix().manipulator, nullptr, WithFormulaErrors(FormulaError::eq43b_doubled)),
                 equallySpaced(3, instants));
   EXPECT_THAT(diagnosed(torques).cause, StartsWith("(43b) as printed, its last terms doubled"));
 }

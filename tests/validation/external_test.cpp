@@ -55,7 +55,7 @@ TEST(External, everyVectorsExactTorquesPassPointwiseAndFailNowhere) {
   }
 }
 
-TEST(External, anErrorOfOnePartIn1e8FailsOnBothRoads) {
+TEST(External, anErrorOfOnePartIn1e8FailsOnBothEngines) {
   for (int count : {31, 301}) {
     const TorqueTable wrong = exactTorques(helix(), count).changed([](std::size_t, Vector6d& tau) { tau *= 1 + 1e-8; });
     const ValidationResult result = validateExternal(helix(), wrong.file());

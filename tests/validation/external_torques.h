@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "model/csv.h"
+#include "base/csv.h"
 #include "model/instants.h"
 #include "tests/support/vectors.h"
 #include "validation/subject/subject.h"
@@ -16,7 +16,7 @@
 
 namespace ursula {
 
-/// Instants with torques, to be spoilt and written.
+/// Instants with torques, to be falsified and written.
 struct TorqueTable {
   std::vector<double> t;
   std::vector<Vector6d> torques;

@@ -42,7 +42,7 @@ TEST_P(FarAway, everythingRoundsAsAtTheOrigin) {
     };
     for (std::size_t k = 1; k + 1 < near->conditions.size(); ++k) {  // at rest, rates have no size
       const double a = limit(*near, k), b = limit(*far, k);
-      if (a == 0 && b == 0) continue;  // a road that is not built in
+      if (a == 0 && b == 0) continue;  // a formulation that is not built in
       EXPECT_LE(b, 10 * a) << q << " at " << k;
       EXPECT_GE(b, 0.1 * a) << q << " at " << k;
       largest = std::max(largest, b / a);

@@ -4,7 +4,7 @@ add_executable(foundation_tests
   check_list_test.cpp
   dense_torques_test.cpp
   direct_checks_test.cpp
-  presentation_test.cpp
+  frame_change_test.cpp
   relocation_test.cpp
   second_look_test.cpp
   shared_answers_test.cpp
@@ -18,7 +18,7 @@ add_executable(profile_tests
 )
 foreach(program foundation_tests profile_tests)
   target_link_libraries(${program} PRIVATE
-    test_support test_rooms fmt::fmt nlohmann_json::nlohmann_json GTest::gmock GTest::gtest_main)
+    test_support test_components fmt::fmt nlohmann_json::nlohmann_json GTest::gmock GTest::gtest_main)
   target_compile_definitions(${program} PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
   gtest_discover_tests(${program})
 endforeach()

@@ -8,12 +8,12 @@
 
 #include <functional>
 
+#include "studies/prove/defects.h"
+#include "tests/base/temporary_folder.h"
 #include "tests/model/scenario_text.h"
-#include "tests/model/temporary_folder.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/checks/commanded_motion.h"
-#include "validation/prove/defects.h"
 
 namespace ursula {
 namespace {

@@ -59,8 +59,8 @@ TEST(JudgeReplay, acceptsSmallErrors) {
 }
 
 TEST(JudgeReplay, catchesEachErrorByItsName) {
-  const auto only = [](const std::string& name, const std::function<void(ReplayStep&)>& spoil) {
-    const std::vector<Check> checks = judge([&spoil](WindowedReplay& replay) { spoil(replay.replay.steps[4]); });
+  const auto only = [](const std::string& name, const std::function<void(ReplayStep&)>& fault) {
+    const std::vector<Check> checks = judge([&fault](WindowedReplay& replay) { fault(replay.replay.steps[4]); });
     for (const std::string& other : names)
       EXPECT_EQ(verdictOf(checks, other), other == name ? "fail" : "pass") << other;
     EXPECT_NE(findCheck(checks, name)->why.find("t = 0.4 s"), std::string::npos) << findCheck(checks, name)->why;
@@ -78,13 +78,13 @@ TEST(JudgeReplay, catchesEachErrorByItsName) {
 /// The limit is smaller early on: an error that is allowed at the end is not allowed before.
 TEST(JudgeReplay, judgesEveryStepByItsOwnLimit) {
   const double allowed_at_end = 5e-10;
-  const auto spoilt = [allowed_at_end](std::size_t step) {
+  const auto faulty = [allowed_at_end](std::size_t step) {
     return verdictOf(
         judge([&](WindowedReplay& replay) { replay.replay.steps[step].position_error.x() = allowed_at_end; }),
         "replay.position");
   };
-  EXPECT_EQ(spoilt(10), "pass");
-  EXPECT_EQ(spoilt(1), "fail");
+  EXPECT_EQ(faulty(10), "pass");
+  EXPECT_EQ(faulty(1), "fail");
 }
 
 /// Gaps as large as they may be, and the work on them of the forces that hold the loops, on a machine of any size.

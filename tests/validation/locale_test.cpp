@@ -7,12 +7,12 @@
 #include <cstdlib>
 #include <locale>
 
-#include "model/leading_number.h"
+#include "base/leading_number.h"
 #include "model/scenario.h"
 #include "nocsolver/errors.h"
+#include "report/report.h"
+#include "tests/base/temporary_folder.h"
 #include "tests/model/scenario_text.h"
-#include "tests/model/temporary_folder.h"
-#include "validation/report/report.h"
 #include "validation/validate.h"
 
 namespace ursula {

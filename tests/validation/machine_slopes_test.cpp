@@ -8,7 +8,7 @@
 #include <string>
 
 #include "model/scenario.h"
-#include "validation/external/parameter_ties.h"
+#include "validation/external/tied_parameters.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {

@@ -7,9 +7,9 @@
 #include <new>
 
 #include "nocsolver/errors.h"
+#include "studies/simulate/simulate.h"
 #include "tests/model/scenario_text.h"
 #include "validation/replay/replay.h"
-#include "validation/simulate/simulate.h"
 #include "validation/subject/subject.h"
 #include "validation/validate.h"
 

@@ -94,20 +94,20 @@ TEST(PointwiseControl, oneInstantOfMany) {
 
 TEST(PointwiseControl, formulasAsPrinted) {
   const Scenario scenario = vectorScenario("random-4");
-  const std::vector<std::pair<Slip, std::string>> first = {
-      {Slip::eq14b, "kinematics.joint_angles"},
-      {Slip::eq15a, "kinematics.joint_rates"},
-      {Slip::eq19a, "kinematics.joint_accelerations"},
-      {Slip::eq16, "kinematics.twists"},
-      {Slip::eq17, "kinematics.accelerations"},
-      {Slip::eq43b_sigma, "kinematics.accelerations"},
-      {Slip::drop_platform_centripetal, "kinematics.accelerations"},
-      {Slip::eq47, "torque.pointwise"},
-      {Slip::drop_gyroscopic_legs, "torque.pointwise"},
-      {Slip::drop_friction, "torque.pointwise"}};
-  for (const auto& [slip, name] : first) {
-    const Subject subject = wrongNocSubject(*scenario.manipulator, scenario.load, WithSlips(slip));
-    EXPECT_EQ(firstFailing(judge(scenario, subject, 5).checks), name) << "slip " << static_cast<int>(slip);
+  const std::vector<std::pair<FormulaError, std::string>> first = {
+      {FormulaError::eq14b, "kinematics.joint_angles"},
+      {FormulaError::eq15a, "kinematics.joint_rates"},
+      {FormulaError::eq19a, "kinematics.joint_accelerations"},
+      {FormulaError::eq16, "kinematics.twists"},
+      {FormulaError::eq17, "kinematics.accelerations"},
+      {FormulaError::eq43b_sigma, "kinematics.accelerations"},
+      {FormulaError::drop_platform_centripetal, "kinematics.accelerations"},
+      {FormulaError::eq47, "torque.pointwise"},
+      {FormulaError::drop_gyroscopic_legs, "torque.pointwise"},
+      {FormulaError::drop_friction, "torque.pointwise"}};
+  for (const auto& [formula_error, name] : first) {
+    const Subject subject = wrongNocSubject(*scenario.manipulator, scenario.load, WithFormulaErrors(formula_error));
+    EXPECT_EQ(firstFailing(judge(scenario, subject, 5).checks), name) << "error " << static_cast<int>(formula_error);
   }
 }
 

@@ -9,9 +9,9 @@
 #include "model/exact_trajectory.h"
 #include "model/trajectories.h"
 #include "nocsolver/solver.h"
-#include "tests/validation/presented_numbers.h"
+#include "studies/random/random_scenario.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/prove/random_scenario.h"
+#include "tests/validation/transformed_numbers.h"
 
 namespace ursula {
 namespace {
@@ -29,7 +29,7 @@ Scenario movedBase(Scenario scenario, const Vector3d& by) {
   return scenario;
 }
 
-void expectExact(const Scenario& scenario, const Presentation& natural) {
+void expectExact(const Scenario& scenario, const FrameChange& natural) {
   for (double unit : {natural.units.length, natural.units.mass, natural.units.time}) EXPECT_TRUE(isPowerOfTwo(unit));
   EXPECT_EQ(natural.turn, Matrix3d::Identity());
   EXPECT_EQ(natural.platform_turn, Matrix3d::Identity());
@@ -43,12 +43,12 @@ void expectExact(const Scenario& scenario, const Presentation& natural) {
   EXPECT_GE(length, natural.units.length);
 }
 
-TEST(NaturalPresentation, losesNoDigitOfAnyShippedMachine) {
+TEST(NaturalFrameChange, losesNoDigitOfAnyShippedMachine) {
   for (const char* name : {"paper-helix", "proving-ground", "millimetres", "light-legs", "heavy-legs", "full-tensors",
                            "load-table", "gravity-off", "hold", "random-5"}) {
     SCOPED_TRACE(name);
     const Scenario scenario = scenarioOf(name);
-    const Presentation natural = naturalPresentation(scenario);
+    const FrameChange natural = naturalFrameChange(scenario);
     expectExact(scenario, natural);
     EXPECT_EQ(natural.origin, Vector3d::Zero());
     const Motion<double> motion = scenario.trajectory->at(0.3 * scenario.trajectory->duration());
@@ -56,23 +56,23 @@ TEST(NaturalPresentation, losesNoDigitOfAnyShippedMachine) {
   }
 }
 
-TEST(NaturalPresentation, losesNoDigitOfRandomMachines) {
+TEST(NaturalFrameChange, losesNoDigitOfRandomMachines) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
     const Scenario scenario = randomScenario(seed);
-    expectExact(scenario, naturalPresentation(scenario));
+    expectExact(scenario, naturalFrameChange(scenario));
   }
 }
 
 /// Wherever the base stands: near enough to its origin the origin stays, further away it follows.
-TEST(NaturalPresentation, losesNoDigitWhereverTheBaseIs) {
+TEST(NaturalFrameChange, losesNoDigitWhereverTheBaseIs) {
   const Scenario helix = scenarioOf("paper-helix");
   double largest = 0;
   for (double distance = 0.3; distance < 1e7; distance *= 1.37)
     for (const Vector3d& direction : {Vector3d(1, 0, 0), Vector3d(0.1, -0.9, 0.5), Vector3d(-0.6, 0.6, -0.52)}) {
       SCOPED_TRACE(distance);
       const Scenario moved = movedBase(helix, distance * direction);
-      const Presentation natural = naturalPresentation(moved);
+      const FrameChange natural = naturalFrameChange(moved);
       expectExact(moved, natural);
       const Scenario near = relocated(moved, natural.origin);
       double furthest = 0;

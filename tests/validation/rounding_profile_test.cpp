@@ -1,5 +1,5 @@
-// How roads round, measured: limits hold for places that were not measured, know nothing of what is wrong with a model,
-// and are about the same however the world is turned.
+// How formulations round, measured: limits hold for places that were not measured, know nothing of what is wrong with a
+// model, and are about the same however the world is turned.
 
 #include "validation/limits/rounding_profile.h"
 
@@ -10,11 +10,11 @@
 #include <cmath>
 #include <iostream>
 
-#include "model/real50.h"
+#include "base/real50.h"
 #include "nocsolver/noc/noc.h"
+#include "studies/random/random_scenario.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/prove/random_scenario.h"
-#include "validation/subject/presentation.h"
+#include "validation/subject/frame_change.h"
 
 namespace ursula {
 namespace {
@@ -26,7 +26,7 @@ std::vector<Rounded> quantities(const RoundingProfile& profile) {
   std::vector<Rounded> out;
   for (std::size_t q = 0; q < rounded_count; ++q) {
     const auto spreads = profile.spreads(static_cast<Rounded>(q));
-    if (static_cast<Rounded>(q) > Rounded::further_road && *std::max_element(spreads.begin(), spreads.end()) == 0)
+    if (static_cast<Rounded>(q) > Rounded::further_engine && *std::max_element(spreads.begin(), spreads.end()) == 0)
       continue;
     out.push_back(static_cast<Rounded>(q));
   }
@@ -45,7 +45,7 @@ bool isOfOneFrame(Rounded quantity) { return quantity == Rounded::direct || quan
 void expectDominance(const Scenario& scenario, unsigned seed, int of = instants) {
   const RoundingProfile profile(scenario, of);
   const double length = at(scenario, profile, 0, of).length;
-  const RoundingProfile elsewhere(randomPresentation(seed, length, *scenario.manipulator).of(scenario), of);
+  const RoundingProfile elsewhere(randomFrameChange(seed, length, *scenario.manipulator).of(scenario), of);
   double least = 1e300;
   for (const Rounded quantity : quantities(profile)) {
     if (isOfOneFrame(quantity)) continue;
@@ -129,7 +129,7 @@ TEST_P(Profile, dominatesTheTrueErrorOfTheSolver) {
 /// Turned with its gravity and the motion, the limits are the same within a factor of two, where they are nearest to a
 /// verdict: their largest over the motion, and their mean.
 TEST_P(Profile, limitsAreTheSameHoweverTheWorldIsTurned) {
-  Presentation turned;
+  FrameChange turned;
   turned.turn = Eigen::AngleAxisd(1.1, Vector3d(0.6, -0.64, 0.48)).toRotationMatrix();
   const Scenario there = turned.of(scenario_);
   const RoundingProfile a(scenario_, instants), b(there, instants);

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "tests/support/motions.h"
-#include "tests/validation/presented_numbers.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/subject/presentation.h"
+#include "tests/validation/transformed_numbers.h"
+#include "validation/subject/frame_change.h"
 
 namespace ursula {
 namespace {
@@ -40,7 +40,7 @@ Answers ask(const Subject& subject, const Manipulator& machine, const Motion<dou
   return out;
 }
 
-/// Two machines' subjects, right and slipped, presented and not, and motions of each.
+/// Two machines' subjects, right and altered, transformed and not, and motions of each.
 class Asked {
  public:
   Asked() {
@@ -51,8 +51,9 @@ class Asked {
     }
     for (const Scenario& scenario : scenarios_) {
       const Subject right = solverOf(scenario);
-      subjects_.push_back({right, wrongNocSubject(*scenario.manipulator, scenario.load, WithSlips(Slip::eq47)),
-                           presented(right, Presentation(*scenario.manipulator))});
+      subjects_.push_back({right,
+                           wrongNocSubject(*scenario.manipulator, scenario.load, WithFormulaErrors(FormulaError::eq47)),
+                           transformed(right, FrameChange(*scenario.manipulator))});
     }
   }
 
@@ -75,7 +76,7 @@ class Asked {
 TEST(Subjects, answerManyThreadsAsTheyAnswerOne) {
   const Asked asked;
   const std::vector<Answers> alone = asked.all();
-  EXPECT_FALSE(alone[0] == alone[1]) << "the slip changes nothing";
+  EXPECT_FALSE(alone[0] == alone[1]) << "the error changes nothing";
   EXPECT_FALSE(alone[0] == alone[3]) << "motions change nothing";
   std::vector<std::future<std::vector<Answers>>> threads;
   for (int k = 0; k < 6; ++k) threads.push_back(std::async(std::launch::async, [&asked] { return asked.all(); }));

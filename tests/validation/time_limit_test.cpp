@@ -10,13 +10,13 @@
 #include <thread>
 
 #include "model/trajectories.h"
+#include "report/report.h"
+#include "report/summary.h"
 #include "tests/support/vectors.h"
 #include "tests/validation/checks.h"
 #include "validation/checks/families.h"
 #include "validation/evidence/reference.h"
 #include "validation/evidence/timed.h"
-#include "validation/report/report.h"
-#include "validation/report/summary.h"
 #include "validation/validate.h"
 #include "validation/validate_external.h"
 

@@ -4,10 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "report/report.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/external_torques.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/report/report.h"
 #include "validation/validate.h"
 #include "validation/validate_external.h"
 

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "model/csv.h"
+#include "base/csv.h"
 #include "tests/model/refusals.h"
 
 namespace ursula {

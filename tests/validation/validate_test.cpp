@@ -2,7 +2,7 @@
 
 #include "validation/validate.h"
 #include "model/instants.h"
-#include "validation/evidence/spoil.h"
+#include "validation/evidence/injected_fault.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,11 +11,11 @@
 #include <cmath>
 
 #include "nocsolver/errors.h"
+#include "report/report.h"
+#include "report/summary.h"
 #include "tests/support/vectors.h"
 #include "tests/validation/checks.h"
 #include "validation/evidence/reference.h"
-#include "validation/report/report.h"
-#include "validation/report/summary.h"
 
 namespace ursula {
 namespace {
@@ -96,10 +96,11 @@ TEST(ValidateResult, carriesSeriesAndProvenance) {
                                            "integrator", "tolerance", "samples"}));
 }
 
-TEST(ValidateControl, theSlipOf15aFailsAndTheJointRatesAreNamedFirst) {
+TEST(ValidateControl, theFormulaErrorOf15aFailsAndTheJointRatesAreNamedFirst) {
   const Scenario scenario = quick("paper-helix");
   const ValidationResult result =
-      validate(scenario, wrongNocSubject(*scenario.manipulator, nullptr, WithSlips(Slip::eq15a)), without_extras);
+      validate(scenario, wrongNocSubject(*scenario.manipulator, nullptr, WithFormulaErrors(FormulaError::eq15a)),
+               without_extras);
   EXPECT_EQ(result.verdict, Verdict::fail);
   EXPECT_EQ(firstFailing(result.checks), "kinematics.joint_rates");
   EXPECT_EQ(verdictOf(result.checks, "kinematics.joint_angles"), "pass");
@@ -108,12 +109,12 @@ TEST(ValidateControl, theSlipOf15aFailsAndTheJointRatesAreNamedFirst) {
 
 /// What users call is judged beside the NOC, and does not make the NOC wrong.
 TEST(ValidateControl, aWrongFastKernelFailsAndTheNocHolds) {
-  const auto spoil = std::make_shared<Spoil>();
-  spoil->fast.answers = [](FastAnswers& answers) {
+  const auto fault = std::make_shared<InjectedFault>();
+  fault->fast.answers = [](FastAnswers& answers) {
     for (Vector6d& torques : answers.torques_in_batch) torques(0) *= 1 + 1e-7;
   };
   ValidationOptions options = without_extras;
-  options.spoil = spoil;
+  options.fault = fault;
   const ValidationResult result = validate(quick("paper-helix"), options);
   EXPECT_EQ(result.verdict, Verdict::fail);
   EXPECT_EQ(result.formulation, "noc");
@@ -127,23 +128,23 @@ TEST(ValidateControl, aWrongFastKernelFailsAndTheNocHolds) {
 
 /// In the last pose of a long batch alone, which fills no block of any kernel.
 TEST(ValidateControl, aWrongPoseAtTheEndOfABatchFails) {
-  const auto spoil = std::make_shared<Spoil>();
-  spoil->fast.answers = [](FastAnswers& answers) {
+  const auto fault = std::make_shared<InjectedFault>();
+  fault->fast.answers = [](FastAnswers& answers) {
     ASSERT_GT(answers.torques_in_batch.size(), 4000U);
     answers.torques_in_batch.back()(0) *= 1 + 1e-7;
   };
   ValidationOptions options = without_extras;
-  options.spoil = spoil;
+  options.fault = fault;
   EXPECT_EQ(firstFailing(validate(quick("paper-helix"), options).checks), "fast.inverse_batch");
 }
 
 /// Where one pose at a time is wrong, nothing is learnt between the samples, and the NOC's deviation is known all the
 /// same.
 TEST(ValidateControl, aWrongKernelOfOnePoseLeavesTheDeviationKnown) {
-  const auto spoil = std::make_shared<Spoil>();
-  spoil->fast.answers = [](FastAnswers& answers) { answers.torques.front()(0) *= 1 + 1e-7; };
+  const auto fault = std::make_shared<InjectedFault>();
+  fault->fast.answers = [](FastAnswers& answers) { answers.torques.front()(0) *= 1 + 1e-7; };
   ValidationOptions options = without_extras;
-  options.spoil = spoil;
+  options.fault = fault;
   const ValidationResult result = validate(quick("paper-helix"), options);
   EXPECT_EQ(firstFailing(result.checks), "fast.inverse");
   EXPECT_EQ(verdictOf(result.checks, "torque.between"), "inconclusive");
@@ -154,9 +155,12 @@ TEST(ValidateControl, aWrongKernelOfOnePoseLeavesTheDeviationKnown) {
 /// An error of the NOC's own is no error of the fast kernels, though both checks see it.
 TEST(ValidateControl, aWrongNocFailsAndTheTorquesAreNamed) {
   const Scenario scenario = quick("paper-helix");
-  for (const Slip slip : {Slip::scaled_efforts, Slip::scaled_first_effort}) {
+  for (const FormulaError formula_error : {FormulaError::scaled_efforts, FormulaError::scaled_first_effort}) {
     const ValidationResult result = validateMade(
-        scenario, [slip](const Scenario& s) { return wrongNocSubject(*s.manipulator, s.load, WithSlips(slip)); },
+        scenario,
+        [formula_error](const Scenario& s) {
+          return wrongNocSubject(*s.manipulator, s.load, WithFormulaErrors(formula_error));
+        },
         without_extras);
     EXPECT_EQ(result.verdict, Verdict::fail);
     EXPECT_EQ(firstFailing(result.checks), "torque.pointwise");
@@ -227,18 +231,18 @@ TEST(ValidateResult, isTheSameWhateverTheNumberOfThreads) {
   EXPECT_EQ(run(5), alone);
 }
 
-/// The replay's own judges are judged: a state spoilt after each step fails it, and nothing pointwise.
-TEST(ValidateControl, aSpoiltReplayFails) {
+/// The replay's own judges are judged: a state falsified after each step fails it, and nothing pointwise.
+TEST(ValidateControl, aFaultyReplayFails) {
   const Scenario scenario = quick("paper-helix");
-  ValidationOptions spoilt = without_extras;
-  Spoil spoil;
-  spoil.replay = [](ReplaySettings& settings) {
-    settings.spoil = [](double, std::vector<double>& x) {
+  ValidationOptions faulty = without_extras;
+  InjectedFault fault;
+  fault.replay = [](ReplaySettings& settings) {
+    settings.fault = [](double, std::vector<double>& x) {
       for (double& each : x) each *= 1 + 1e-9;
     };
   };
-  spoilt.spoil = std::make_shared<const Spoil>(spoil);
-  const ValidationResult result = validate(scenario, spoilt);
+  faulty.fault = std::make_shared<const InjectedFault>(fault);
+  const ValidationResult result = validate(scenario, faulty);
   EXPECT_EQ(verdictOf(result.checks, "replay.position"), "fail");
   for (const char* name : {"torque.pointwise", "torque.between", "acceleration.pointwise", "direct.off_path"})
     EXPECT_EQ(verdictOf(result.checks, name), "pass") << name;

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "model/real50.h"
+#include "base/real50.h"
 #include "nocsolver/solver.h"
 #include "validation/checks/independent_reading.h"
 #include "validation/checks/load_check.h"

@@ -9,9 +9,9 @@
 
 namespace ursula {
 
-/// What all roads share, and so cannot hold against each other: the commanded motion, the load, the numbers as read.
-/// `motion.pose`, `.twist`, `.twist_rate`; `motion.load` where there is a load; `motion.reading` where the scenario has
-/// the text of a file. Takes nothing from any solver's answer.
+/// What all formulations share, and so cannot hold against each other: the commanded motion, the load, the numbers as
+/// read. `motion.pose`, `.twist`, `.twist_rate`; `motion.load` where there is a load; `motion.reading` where the
+/// scenario has the text of a file. Takes nothing from any solver's answer.
 std::vector<Check> judgeCommandedMotion(const Scenario& scenario);
 
 /// Sizes that are added up on the way to a pose and that the pose does not show: a helix's angles, and their heights.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "validation/samples/complement_samples.h"
-#include "validation/subject/presentation.h"
+#include "validation/subject/frame_change.h"
 #include "validation/verdict/result.h"
 
 namespace ursula {

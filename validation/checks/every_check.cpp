@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engines/further_engines.h"
 #include "model/check_names.h"
-#include "model/loops/further_roads.h"
 
 namespace ursula {
 namespace {
@@ -33,9 +33,9 @@ std::string whyNot(const CheckName& check, const Scenario& scenario, const Subje
       return has.left_out_reactions ? "left out by the caller's options" : "the subject finds no reactions";
     case CheckNeeds::own_complement:
       return "the subject forms no T";
-    case CheckNeeds::further_road: {
-      const RoadKind& road = *furtherRoadOf(check.name);
-      return unless(road.available(), fmt::format("this build has no {}", road.name));
+    case CheckNeeds::further_engine: {
+      const EngineKind& engine = *furtherEngineOf(check.name);
+      return unless(engine.available(), fmt::format("this build has no {}", engine.name));
     }
     case CheckNeeds::torque_file:
       return "the torques do not come from a file";

@@ -4,11 +4,12 @@
 #include <cmath>
 #include <iterator>
 
-#include "model/deadline.h"
-#include "model/start_threads.h"
+#include "base/deadline.h"
+#include "base/start_threads.h"
 #include "validation/checks/commanded_motion.h"
 #include "validation/checks/complement_checks.h"
 #include "validation/checks/direct_checks.h"
+#include "validation/checks/engine_checks.h"
 #include "validation/checks/external_check.h"
 #include "validation/checks/fast_checks.h"
 #include "validation/checks/invariance.h"
@@ -17,7 +18,6 @@
 #include "validation/checks/pointwise_checks.h"
 #include "validation/checks/reaction_check.h"
 #include "validation/checks/replay_checks.h"
-#include "validation/checks/road_checks.h"
 #include "validation/checks/stabilised_check.h"
 #include "validation/checks/torque_between.h"
 #include "validation/replay/windowed_replay.h"
@@ -150,7 +150,8 @@ const std::vector<CheckFamily>& checkFamilies() {
   static const std::vector<CheckFamily> families = {
       {"motion", always, judgeMotion, nullptr, true},
       {"samples", sampled, judgeSamples},
-      {"roads", [](E e) { return answers(e) && !e.roads.empty(); }, [](E e) { return judgeRoads(e.roads, e.units()); }},
+      {"formulations", [](E e) { return answers(e) && !e.engines.empty(); },
+       [](E e) { return judgeEngines(e.engines, e.units()); }},
       {"complement", [](E e) { return !e.complement.empty(); },
        [](E e) { return judgeComplement(e.complement, e.units()); }},
       {"invariances", [](E e) { return answers(e) && !e.invariances.empty(); },

@@ -9,7 +9,7 @@ namespace ursula {
 
 /// Checks that are judged together, from one piece of the evidence.
 struct CheckFamily {
-  const char* id;                    ///< "roads"
+  const char* id;                    ///< "formulations"
   bool (*applies)(const Evidence&);  ///< the evidence has what they need
   std::vector<Check> (*judge)(const Evidence&);
   /// Where a check failed, before it is judged for good: experiments that a value beyond its limit asks for. Null where

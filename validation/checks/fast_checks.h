@@ -2,7 +2,7 @@
 
 #include "validation/limits/rounding_profile.h"
 #include "validation/samples/fast_samples.h"
-#include "validation/subject/presentation.h"
+#include "validation/subject/frame_change.h"
 #include "validation/verdict/result.h"
 
 namespace ursula {

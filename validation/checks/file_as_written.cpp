@@ -5,8 +5,8 @@
 #include <map>
 #include <sstream>
 
-#include "model/leading_number.h"
-#include "model/real50.h"
+#include "base/leading_number.h"
+#include "base/real50.h"
 #include "validation/checks/machine_as_written.h"
 
 namespace ursula {

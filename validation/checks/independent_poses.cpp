@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "model/real50.h"
+#include "base/real50.h"
 #include "validation/checks/independent_reading.h"
 #include "validation/checks/quintic_by_control_points.h"
 #include "validation/limits/conditioning.h"

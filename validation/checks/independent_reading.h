@@ -8,7 +8,7 @@
 namespace ursula {
 
 /// `motion.reading`: the numbers of the scenario as read against those of its file, read a second time. An error here
-/// would be the same on every road.
+/// would be the same on every formulation.
 Check judgeReading(const Scenario& scenario, const FileAsWritten& written);
 
 /// Its part for the motion: poses at the instants that the file names, and what else pins its numbers.

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "validation/samples/invariance_samples.h"
-#include "validation/subject/presentation.h"
+#include "validation/subject/frame_change.h"
 #include "validation/verdict/result.h"
 
 namespace ursula {

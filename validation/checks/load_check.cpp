@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "model/real50.h"
+#include "base/real50.h"
 #include "validation/checks/quintic_by_control_points.h"
 #include "validation/limits/conditioning.h"
 #include "validation/verdict/nearest_to_limit.h"

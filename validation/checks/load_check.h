@@ -9,8 +9,8 @@
 
 namespace ursula {
 
-/// `motion.load`: the load as every road is given it, over time. `written` may be null: a tabulated load is then held
-/// against what it says itself at its rows.
+/// `motion.load`: the load as every formulation is given it, over time. `written` may be null: a tabulated load is then
+/// held against what it says itself at its rows.
 Check judgeLoad(const Load& load, double duration, const LoadAsWritten* written);
 
 /// Its part for a table: `at` goes through the rows by the quintics that LoadHistory promises, and is constant beyond.

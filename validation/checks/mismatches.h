@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "model/scalar.h"
+#include "base/scalar.h"
 
 namespace ursula {
 

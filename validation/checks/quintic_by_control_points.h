@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-#include "model/real50.h"
+#include "base/real50.h"
 
 namespace ursula {
 

@@ -4,12 +4,12 @@
 
 #include "validation/limits/rounding_profile.h"
 #include "validation/samples/reaction_samples.h"
-#include "validation/subject/presentation.h"
+#include "validation/subject/frame_change.h"
 #include "validation/verdict/result.h"
 
 namespace ursula {
 
-/// `reactions.pointwise`: the joint reactions recovered from the solver's road against Simbody's mobilizer and
+/// `reactions.pointwise`: the joint reactions recovered from the solver's formulation against Simbody's mobilizer and
 /// constraint reactions, at the instants of `samples`; only for the formulas that hold.
 Check judgeReactions(const std::vector<ReactionSample>& reactions, const std::vector<PointwiseSample>& samples,
                      const RoundingProfile& profile, const Units& units = {});

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "validation/replay/stabilised_replay.h"
-#include "validation/subject/presentation.h"
+#include "validation/subject/frame_change.h"
 #include "validation/verdict/result.h"
 
 namespace ursula {

@@ -4,7 +4,7 @@
 
 #include "model/scenario.h"
 #include "validation/samples/pointwise.h"
-#include "validation/subject/presentation.h"
+#include "validation/subject/frame_change.h"
 #include "validation/subject/subject.h"
 #include "validation/verdict/result.h"
 

@@ -6,7 +6,7 @@
 
 #include <limits>
 
-#include "model/scalar.h"
+#include "base/scalar.h"
 
 namespace ursula::written {
 

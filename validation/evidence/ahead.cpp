@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "model/start_threads.h"
+#include "base/start_threads.h"
 
 namespace ursula {
 

@@ -1,5 +1,5 @@
 #include "validation/evidence/evidence.h"
-#include "model/deadline.h"
+#include "base/deadline.h"
 #include "validation/replay/observed_order.h"
 
 #include <algorithm>
@@ -8,14 +8,14 @@
 namespace ursula {
 namespace {
 
-std::vector<RoadSample> roadSamples(const Evidence& evidence) {
+std::vector<EngineSample> engineSamples(const Evidence& evidence) {
   const Scenario& scenario = *evidence.scenario;
   const RoundingProfile& profile = evidence.reference->profile;
-  std::vector<RoadSample> out = runRoads(evidence.reference->roads(), evidence.samples, profile);
-  for (std::size_t k = 0; k < further_road_count; ++k) {
-    if (!evidence.spoil.further[k]) continue;
-    const std::vector<RoadSample> spoilt = runRoads(evidence.spoil.further[k](scenario), evidence.samples, profile);
-    for (std::size_t i = 0; i < out.size(); ++i) out[i].further[k] = spoilt[i].further[k];
+  std::vector<EngineSample> out = runEngines(evidence.reference->engines(), evidence.samples, profile);
+  for (std::size_t k = 0; k < further_engine_count; ++k) {
+    if (!evidence.fault.further[k]) continue;
+    const std::vector<EngineSample> faulty = runEngines(evidence.fault.further[k](scenario), evidence.samples, profile);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i].further[k] = faulty[i].further[k];
   }
   return out;
 }
@@ -27,7 +27,7 @@ std::vector<ReactionSample> reactionSamples(const Evidence& evidence) {
       own ? runReactions(*evidence.scenario, *evidence.subject, evidence.samples, evidence.reference->simbody())
           : evidence.reference->reactions();
   for (ReactionSample& sample : out)
-    if (evidence.spoil.reactions) evidence.spoil.reactions(sample.recovered);
+    if (evidence.fault.reactions) evidence.fault.reactions(sample.recovered);
   return out;
 }
 
@@ -43,10 +43,10 @@ bool replayWindows(Evidence& evidence) {
   bool first_is_right = true;
   std::vector<WindowedReplay> windows = evidence.reference->replays().windows;
   for (WindowedReplay& window : windows) {
-    if (!evidence.spoil.replay && answersAs(window.replay.asked, evidence)) continue;
+    if (!evidence.fault.replay && answersAs(window.replay.asked, evidence)) continue;
     if (&window == &windows.front()) first_is_right = false;
     ReplaySettings settings = settingsOf(*evidence.scenario, evidence.plan, window.window, 1);
-    if (evidence.spoil.replay) evidence.spoil.replay(settings);
+    if (evidence.fault.replay) evidence.fault.replay(settings);
     window.replay = replay(*evidence.scenario, evidence.plan.torques, settings);
     window.replay.tolerance = evidence.plan.tolerance;  // that it is taken to have
   }
@@ -57,29 +57,29 @@ bool replayWindows(Evidence& evidence) {
 void runReplays(bool ladder, Evidence& evidence) {
   const Scenario& scenario = *evidence.scenario;
   const Reference& reference = *evidence.reference;
-  const Spoil& spoil = evidence.spoil;
+  const InjectedFault& fault = evidence.fault;
   const bool first_is_right = replayWindows(evidence);
   if (ladder) {
-    const bool climbed = first_is_right && !spoil.ladder && answersAs(reference.ladder().asked, evidence);
+    const bool climbed = first_is_right && !fault.ladder && answersAs(reference.ladder().asked, evidence);
     evidence.ladder = climbed
                           ? reference.ladder()
                           : climb(scenario, evidence.plan.torques, evidence.windows.front(), rungSettings(evidence));
-    evidence.orders = spoil.lower_order ? observedOrders(scenario, true) : reference.orders();
+    evidence.orders = fault.lower_order ? observedOrders(scenario, true) : reference.orders();
   }
-  evidence.stabilised = stabilisedReplay(spoil.feedback ? spoil.feedback(scenario) : scenario, *evidence.subject,
+  evidence.stabilised = stabilisedReplay(fault.feedback ? fault.feedback(scenario) : scenario, *evidence.subject,
                                          reference.replays().amplification, evidence.samples,
-                                         first_is_right && !spoil.feedback ? &reference.stabilised() : nullptr);
+                                         first_is_right && !fault.feedback ? &reference.stabilised() : nullptr);
 }
 
 void lookAtSamples(bool reactions, Evidence& out) {
   const Reference& reference = *out.reference;
   out.samples = runPointwise(*out.scenario, *out.subject, reference.instants, reference.profile, reference.simbody());
-  if (out.spoil.sample) std::for_each(out.samples.begin(), out.samples.end(), out.spoil.sample);
+  if (out.fault.sample) std::for_each(out.samples.begin(), out.samples.end(), out.fault.sample);
   if (!out.answered()) return;
-  out.roads = roadSamples(out);
+  out.engines = engineSamples(out);
   out.invariances = runInvariances(*out.scenario, *out.subject, out.samples);
   out.complement = runComplement(*out.scenario->manipulator, *out.subject, out.samples);
-  out.fast = runFast(*out.scenario, reference.natural.units, out.samples, out.spoil.fast);
+  out.fast = runFast(*out.scenario, reference.natural.units, out.samples, out.fault.fast);
   if (reactions) out.reactions = reactionSamples(out);
 }
 
@@ -105,7 +105,7 @@ bool Evidence::answered() const {
 }
 
 Evidence gather(const Scenario& given, const Reference& reference, const Subject& subject, bool right,
-                const Spoil& spoil, const Experiments& experiments) {
+                const InjectedFault& fault, const Experiments& experiments) {
   Evidence out;
   out.given = &given;
   out.natural = reference.natural;
@@ -113,7 +113,7 @@ Evidence gather(const Scenario& given, const Reference& reference, const Subject
   out.subject = &subject;
   out.reference = &reference;
   out.right = right;
-  out.spoil = spoil;
+  out.fault = fault;
   out.has.kinematics = static_cast<bool>(subject.kinematics);
   out.has.direct_dynamics = static_cast<bool>(subject.accelerations);
   out.has.other_machines = static_cast<bool>(subject.rebuilt);
@@ -130,12 +130,12 @@ Evidence gather(const Scenario& given, const Reference& reference, const Subject
 }
 
 std::function<void(ReplaySettings&)> rungSettings(const Evidence& evidence) {
-  const auto& spoil = evidence.spoil.ladder;
+  const auto& fault = evidence.fault.ladder;
   const auto& foresee = evidence.plan.foresee;
-  if (!foresee) return spoil;
-  return [spoil, foresee](ReplaySettings& settings) {
+  if (!foresee) return fault;
+  return [fault, foresee](ReplaySettings& settings) {
     settings.foresee = foresee;
-    if (spoil) spoil(settings);
+    if (fault) fault(settings);
   };
 }
 

@@ -7,18 +7,18 @@
 
 #include "model/scenario.h"
 #include "validation/evidence/external_torques.h"
+#include "validation/evidence/injected_fault.h"
 #include "validation/evidence/reference.h"
-#include "validation/evidence/spoil.h"
 #include "validation/replay/ladder.h"
 #include "validation/replay/stabilised_replay.h"
 #include "validation/replay/windows.h"
 #include "validation/samples/complement_samples.h"
+#include "validation/samples/engines.h"
 #include "validation/samples/fast_samples.h"
 #include "validation/samples/invariance_samples.h"
 #include "validation/samples/pointwise.h"
 #include "validation/samples/reaction_samples.h"
-#include "validation/samples/roads.h"
-#include "validation/subject/presentation.h"
+#include "validation/subject/frame_change.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {
@@ -35,7 +35,7 @@ struct SubjectHas {
 /// judge nothing; what an experiment did not make is empty.
 struct Evidence {
   const Scenario* given = nullptr;               ///< in SI, as the caller has it
-  Presentation natural;                          ///< of `given`
+  FrameChange natural;                           ///< of `given`
   const Scenario* scenario = nullptr;            ///< in natural's units: what all experiments see
   const Subject* subject = nullptr;              ///< null for torques of a file
   const Reference* reference = nullptr;          ///< null for torques of a file
@@ -44,10 +44,10 @@ struct Evidence {
   SubjectHas has;
   bool right = false;  ///< the subject is the right solver
   int threads = 1;     ///< on which it may be judged; the subject is then asked from several
-  Spoil spoil;
+  InjectedFault fault;
 
   std::vector<PointwiseSample> samples;
-  std::vector<RoadSample> roads;
+  std::vector<EngineSample> engines;
   std::vector<InvarianceSamples> invariances;
   std::vector<ReactionSample> reactions;
   std::vector<ComplementSample> complement;
@@ -76,9 +76,10 @@ struct Experiments {
 /// All experiments on `subject`, which is asked in natural's units. `right`: it is the one whose replays the reference
 /// holds; others have them where they answer the same to the last bit. Keeps pointers to its arguments.
 Evidence gather(const Scenario& given, const Reference& reference, const Subject& subject, bool right,
-                const Spoil& spoil, const Experiments& experiments);
+                const InjectedFault& fault, const Experiments& experiments);
 
-/// What is changed in the settings of the ladder's rungs: foreseen where the subject wants that, spoilt for controls.
+/// What is changed in the settings of the ladder's rungs: foreseen where the subject wants that, falsified for
+/// controls.
 std::function<void(ReplaySettings&)> rungSettings(const Evidence& evidence);
 
 /// What a second look at the judged replay of `window` finds: what steps and rounding really do there.

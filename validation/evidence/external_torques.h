@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "model/scalar.h"
+#include "base/scalar.h"
 #include "validation/samples/pointwise.h"
-#include "validation/subject/presentation.h"
+#include "validation/subject/frame_change.h"
 #include "validation/subject/torque_file.h"
 
 namespace ursula {

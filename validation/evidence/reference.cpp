@@ -10,9 +10,9 @@
 namespace ursula {
 namespace {
 
-Presentation checked(const Scenario& given) {
+FrameChange checked(const Scenario& given) {
   checkMotion(given);
-  return naturalPresentation(given);
+  return naturalFrameChange(given);
 }
 
 }  // namespace
@@ -34,7 +34,7 @@ Reference::Reference(const Scenario& given, int threads, const Deadline& deadlin
       scenario(timed(natural.of(given), deadline)),
       instants(equallySpaced(scenario.trajectory->duration(), scenario.simulation.samples)),
       // The longest first.
-      ahead_(threads - 1, {[this] { orders(); }, [this] { simbody(); }, [this] { roads(); }}),
+      ahead_(threads - 1, {[this] { orders(); }, [this] { simbody(); }, [this] { engines(); }}),
       profile(scenario, profileInstants(scenario.simulation.samples)),
       conditions(conditionsAt(scenario, instants, profile)),
       position_scale(positionScale(conditions)),
@@ -112,8 +112,8 @@ const std::vector<SimbodyAnswer>& Reference::simbody() const {
   return simbody_.get([this] { return simbodyAnswers(scenario, instants); });
 }
 
-const std::vector<RoadTorques>& Reference::roads() const {
-  return roads_.get([this] { return roadTorques(scenario, instants); });
+const std::vector<EngineTorques>& Reference::engines() const {
+  return engines_.get([this] { return engineTorques(scenario, instants); });
 }
 
 const std::vector<ReactionSample>& Reference::reactions() const {

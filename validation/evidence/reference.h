@@ -5,7 +5,7 @@
 #include <mutex>
 #include <vector>
 
-#include "model/deadline.h"
+#include "base/deadline.h"
 #include "model/scenario.h"
 #include "validation/evidence/ahead.h"
 #include "validation/limits/amplification.h"
@@ -15,10 +15,10 @@
 #include "validation/replay/stabilised_replay.h"
 #include "validation/replay/windows.h"
 #include "validation/samples/direct_samples.h"
+#include "validation/samples/engines.h"
 #include "validation/samples/pointwise.h"
 #include "validation/samples/reaction_samples.h"
-#include "validation/samples/roads.h"
-#include "validation/subject/presentation.h"
+#include "validation/subject/frame_change.h"
 
 namespace ursula {
 
@@ -30,7 +30,7 @@ struct RightReplays {
 };
 
 /// What a validation needs of the scenario alone, whoever is on trial: the scenario where its numbers are good, how its
-/// roads round, how deviations grow, and what replays of the right torques do.
+/// formulations round, how deviations grow, and what replays of the right torques do.
 struct Reference {
  private:  // made first: the helpers below fill it while the rest is made
   mutable std::mutex measuring_;
@@ -38,7 +38,7 @@ struct Reference {
   Deadline deadline_;
   Lazily<std::vector<double>> orders_;
   Lazily<std::vector<SimbodyAnswer>> simbody_;
-  Lazily<std::vector<RoadTorques>> roads_;
+  Lazily<std::vector<EngineTorques>> engines_;
   Lazily<std::vector<ReactionSample>> reactions_;
   Lazily<std::vector<DirectSample>> direct_;
   Lazily<RightReplays> replays_;
@@ -53,7 +53,7 @@ struct Reference {
   Reference(const Reference&) = delete;
   Reference& operator=(const Reference&) = delete;
 
-  Presentation natural;          ///< of the scenario as given
+  FrameChange natural;           ///< of the scenario as given
   Scenario relocated;            ///< SI, positions from natural.origin
   Scenario scenario;             ///< in natural's units: what all experiments see
   std::vector<double> instants;  ///< that are judged and written
@@ -82,7 +82,7 @@ struct Reference {
 
   // What the engines say of the scenario alone, and of the right torques: asked when first needed.
   const std::vector<SimbodyAnswer>& simbody() const;     ///< at the instants
-  const std::vector<RoadTorques>& roads() const;         ///< at the instants
+  const std::vector<EngineTorques>& engines() const;     ///< at the instants
   const std::vector<ReactionSample>& reactions() const;  ///< at the instants
   const std::vector<DirectSample>& direct() const;       ///< at some of the instants
   const Ladder& ladder() const;                          ///< of the first window

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/deadline.h"
+#include "base/deadline.h"
 #include "model/scenario.h"
 
 namespace ursula {

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "model/loops/simbody/simbody_loop.h"
+#include "engines/simbody/simbody_loop.h"
 #include "validation/replay/windows.h"
 #include "validation/subject/subject.h"
 
@@ -27,7 +27,8 @@ double evaluationSeconds(const Scenario& scenario) {
 }  // namespace
 
 double workSeconds(const Scenario& scenario) {
-  // What each costs, in evaluations: of a step all replays of it, of a sample all roads, of an interval its growth.
+  // What each costs, in evaluations: of a step all replays of it, of a sample all formulations, of an interval its
+  // growth.
   constexpr double of_step = 150, of_sample = 150, of_interval = 10;
   const double duration = scenario.trajectory->duration();
   const double steps = plannedStepRate(duration) * duration;

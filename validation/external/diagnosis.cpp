@@ -179,7 +179,7 @@ Window windowOf(const ExternalTorques& torques) {
   return out;
 }
 
-/// Where one instant in twenty at most is off, as of a spoilt row; else empty.
+/// Where one instant in twenty at most is off, as of a falsified row; else empty.
 std::string loneInstants(const ExternalTorques& torques) {
   const std::size_t rows = torques.file.rows();
   const Window window = windowOf(torques);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/loops/simbody/simbody_loop.h"
+#include "engines/simbody/simbody_loop.h"
 #include "validation/external/external_samples.h"
 #include "validation/replay/windows.h"
 

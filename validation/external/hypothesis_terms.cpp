@@ -26,37 +26,37 @@ Rows difference(const Rows& a, const Rows& b) {
 }
 
 struct WrongFormula {
-  Slip slip;
+  FormulaError formula_error;
   const char* name;
 };
 
 /// Parts that the solver itself can leave out: they may be scaled as well.
 const WrongFormula parts[] = {
-    {Slip::drop_gravity_platform, "the platform's gravity"},
-    {Slip::drop_gravity_legs, "the links' gravity"},
-    {Slip::drop_centrifugal, "the centrifugal terms of (43a,b)"},
-    {Slip::drop_coriolis, "the Coriolis terms of (43a,b)"},
-    {Slip::drop_gyroscopic_legs, "the links' gyroscopic moments of (38)"},
-    {Slip::drop_gyroscopic_platform, "the platform's gyroscopic moment"},
-    {Slip::drop_platform_centripetal, "the platform's centripetal acceleration of (43c)"},
-    {Slip::drop_link_coupling, "the terms in the elbow's motion of (41b), (43b)"},
+    {FormulaError::drop_gravity_platform, "the platform's gravity"},
+    {FormulaError::drop_gravity_legs, "the links' gravity"},
+    {FormulaError::drop_centrifugal, "the centrifugal terms of (43a,b)"},
+    {FormulaError::drop_coriolis, "the Coriolis terms of (43a,b)"},
+    {FormulaError::drop_gyroscopic_legs, "the links' gyroscopic moments of (38)"},
+    {FormulaError::drop_gyroscopic_platform, "the platform's gyroscopic moment"},
+    {FormulaError::drop_platform_centripetal, "the platform's centripetal acceleration of (43c)"},
+    {FormulaError::drop_link_coupling, "the terms in the elbow's motion of (41b), (43b)"},
 };
 
 const WrongFormula printed[] = {
-    {Slip::eq2, "(2a,b) as printed"},
-    {Slip::eq4c, "(4c) as printed"},
-    {Slip::eq14a, "(14a) as printed"},
-    {Slip::eq14b, "(14b) as printed"},
-    {Slip::eq15a, "(15a) as printed"},
-    {Slip::eq16, "(16) as printed"},
-    {Slip::eq17, "(17a,b) as printed"},
-    {Slip::eq19a, "(19a) as printed"},
-    {Slip::eq19b, "(19b) as printed"},
-    {Slip::eq23, "(23) as printed"},
-    {Slip::eq43b_omega_dot, "(43b) as printed, the rate for the square"},
-    {Slip::eq43b_sigma, "(43b) as printed, sigma + [s]"},
-    {Slip::eq43b_doubled, "(43b) as printed, its last terms doubled"},
-    {Slip::eq47, "the text by (47) as printed"},
+    {FormulaError::eq2, "(2a,b) as printed"},
+    {FormulaError::eq4c, "(4c) as printed"},
+    {FormulaError::eq14a, "(14a) as printed"},
+    {FormulaError::eq14b, "(14b) as printed"},
+    {FormulaError::eq15a, "(15a) as printed"},
+    {FormulaError::eq16, "(16) as printed"},
+    {FormulaError::eq17, "(17a,b) as printed"},
+    {FormulaError::eq19a, "(19a) as printed"},
+    {FormulaError::eq19b, "(19b) as printed"},
+    {FormulaError::eq23, "(23) as printed"},
+    {FormulaError::eq43b_omega_dot, "(43b) as printed, the rate for the square"},
+    {FormulaError::eq43b_sigma, "(43b) as printed, sigma + [s]"},
+    {FormulaError::eq43b_doubled, "(43b) as printed, its last terms doubled"},
+    {FormulaError::eq47, "the text by (47) as printed"},
 };
 
 /// Collects terms; one that the changed machine cannot have, or that throws on the way, is left out.
@@ -74,9 +74,10 @@ class Collector {
     add(name, {}, sign, [&] { return torquesOf(nocSubject(Manipulator(parameters), scenario_.load), motions_); });
   }
 
-  void addSlip(const WrongFormula& formula, std::optional<double> fixed, double sign) {
+  void addFormulaError(const WrongFormula& formula, std::optional<double> fixed, double sign) {
     add(formula.name, fixed, sign, [&] {
-      return torquesOf(wrongNocSubject(*scenario_.manipulator, scenario_.load, WithSlips(formula.slip)), motions_);
+      return torquesOf(
+          wrongNocSubject(*scenario_.manipulator, scenario_.load, WithFormulaErrors(formula.formula_error)), motions_);
     });
   }
 
@@ -152,8 +153,8 @@ std::vector<TorqueTerm> torqueTerms(const Scenario& scenario, const std::vector<
                                     const std::vector<Vector6d>& exact) {
   Collector out(scenario, motions, exact);
   addParts(out, scenario.manipulator->gravity().norm());
-  for (const WrongFormula& part : parts) out.addSlip(part, {}, 1);
-  for (const WrongFormula& formula : printed) out.addSlip(formula, 1.0, -1);
+  for (const WrongFormula& part : parts) out.addFormulaError(part, {}, 1);
+  for (const WrongFormula& formula : printed) out.addFormulaError(formula, 1.0, -1);
   return out.terms();
 }
 

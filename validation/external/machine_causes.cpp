@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "validation/external/machine_slopes.h"
-#include "validation/external/parameter_ties.h"
+#include "validation/external/tied_parameters.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {

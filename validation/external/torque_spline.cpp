@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "model/quintic_spline.h"
+#include "base/quintic_spline.h"
 
 namespace ursula {
 namespace {

@@ -3,8 +3,8 @@
 #include <functional>
 #include <vector>
 
-#include "model/quintic_hermite.h"
-#include "model/scalar.h"
+#include "base/quintic_hermite.h"
+#include "base/scalar.h"
 
 namespace ursula {
 

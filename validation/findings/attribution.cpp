@@ -8,13 +8,13 @@
 #include <mutex>
 #include <stdexcept>
 
-#include "model/deadline.h"
+#include "base/deadline.h"
 
 namespace ursula {
 namespace {
 
 /// Beside the judged one; each is a whole replay.
-constexpr unsigned presentations = 3;
+constexpr unsigned frame_changes = 3;
 
 /// The window whose replay ends furthest off, and reached its end.
 const WindowedReplay* worstWindow(const std::vector<WindowedReplay>& windows) {
@@ -47,7 +47,7 @@ struct Track {
   Vector3d end;
   std::vector<Vector3d> along;
 
-  Track(const Replay& replay, const std::vector<double>& instants, const Presentation& from = {}) {
+  Track(const Replay& replay, const std::vector<double>& instants, const FrameChange& from = {}) {
     const auto back = [&from](const Vector3d& error) -> Vector3d {
       return from.turn.transpose() * error * from.units.length;
     };
@@ -61,18 +61,18 @@ struct Track {
   }
 };
 
-/// The window's replay with the gaps projected away, seen from `presentation`.
+/// The window's replay with the gaps projected away, seen from `change of frame`.
 Track projected(const Scenario& scenario, const ReplayPlan& plan, const WindowedReplay& window,
-                const Presentation& presentation, std::mutex& asking) {
-  const Scenario there = presentation.of(scenario);
-  const Units& units = presentation.units;
+                const FrameChange& frame_change, std::mutex& asking) {
+  const Scenario there = frame_change.of(scenario);
+  const Units& units = frame_change.units;
   ReplaySettings settings = settingsOf(scenario, plan, window.window, 1);
   settings.start /= units.time;
   settings.end = window.replay.steps.back().t / units.time;
   settings.project = true;
   const SimbodyLoop::TorqueHistory torques = [&](double t) {
     const std::lock_guard<std::mutex> one_at_a_time(asking);  // the subject may be anybody's
-    return presentation.of(plan.torques(t * units.time));
+    return frame_change.of(plan.torques(t * units.time));
   };
   if (plan.foresee)
     settings.foresee = [&](std::vector<double> instants) {
@@ -80,7 +80,7 @@ Track projected(const Scenario& scenario, const ReplayPlan& plan, const Windowed
       for (double& t : instants) t *= units.time;
       plan.foresee(instants);
     };
-  return Track(replay(there, torques, settings), drawnInstants(window), presentation);
+  return Track(replay(there, torques, settings), drawnInstants(window), frame_change);
 }
 
 /// The torques' errors at the samples as accelerations of the platform, [p̈; L ω̇]: linear between the samples.
@@ -134,8 +134,8 @@ Track coarse(const Scenario& scenario, const ReplayPlan& plan, const WindowedRep
   return Track(replay(scenario, plan.torques, settings), drawnInstants(window));
 }
 
-/// What the shares come from: the judged replay, the projected ones (as judged, then in other presentations), and that
-/// with a coarser tolerance.
+/// What the shares come from: the judged replay, the projected ones (as judged, then in other changes of frame), and
+/// that with a coarser tolerance.
 struct Tracks {
   Track judged, plain;
   std::vector<Track> turned;
@@ -151,7 +151,7 @@ std::vector<ErrorsAt> sharesAlong(const Tracks& tracks, const std::vector<Pointw
   for (std::size_t k = 0; k < instants.size(); ++k) {
     const Vector3d observed = tracks.judged.along[k], plain = tracks.plain.along[k];
     Vector3d mean = Vector3d::Zero();
-    for (const Track& each : tracks.turned) mean += each.along[k] / presentations;
+    for (const Track& each : tracks.turned) mean += each.along[k] / frame_changes;
     const Vector3d integration = integrationShare(plain, tracks.coarse.along[k]).error;
     const Vector3d model = amplification.carried(window.window.start(), instants[k], residual).head<3>();
     out.push_back({instants[k], observed.norm(), (plain - mean).norm(), integration.norm(), (observed - plain).norm(),
@@ -194,15 +194,15 @@ ErrorBudget attribute(const Scenario& scenario, const std::vector<PointwiseSampl
   budget.observed = endOf(window->replay);
   budget.amplification = window->window.from_start.back();
 
-  std::vector<Presentation> from = {Presentation(*scenario.manipulator)};
-  for (unsigned k = 0; k < presentations; ++k)
-    from.push_back(randomPresentation(k + 101, amplification.length(), *scenario.manipulator));
+  std::vector<FrameChange> from = {FrameChange(*scenario.manipulator)};
+  for (unsigned k = 0; k < frame_changes; ++k)
+    from.push_back(randomFrameChange(k + 101, amplification.length(), *scenario.manipulator));
   std::mutex asking;
   std::vector<std::future<Track>> running;  // deferred where the system gives no more threads
-  for (const Presentation& presentation : from)
+  for (const FrameChange& frame_change : from)
     running.push_back(
-        std::async(std::launch::async | std::launch::deferred, [&scenario, &plan, &asking, window, presentation] {
-          return projected(scenario, plan, *window, presentation, asking);
+        std::async(std::launch::async | std::launch::deferred, [&scenario, &plan, &asking, window, frame_change] {
+          return projected(scenario, plan, *window, frame_change, asking);
         }));
   std::vector<Track> seen;
   for (auto& each : running) seen.push_back(each.get());
@@ -211,7 +211,7 @@ ErrorBudget attribute(const Scenario& scenario, const std::vector<PointwiseSampl
                       {seen.begin() + 1, seen.end()},
                       coarse(scenario, plan, *window)};
   Vector3d mean = Vector3d::Zero();
-  for (const Track& each : tracks.turned) mean += each.end / presentations;
+  for (const Track& each : tracks.turned) mean += each.end / frame_changes;
   double spread = 0;
   for (const Track& each : seen) spread = std::max(spread, (each.end - mean).norm());
   budget.closure.error = budget.observed - tracks.plain.end;

@@ -6,7 +6,7 @@
 #include "model/scenario.h"
 #include "validation/replay/windows.h"
 #include "validation/samples/pointwise.h"
-#include "validation/subject/presentation.h"
+#include "validation/subject/frame_change.h"
 #include "validation/verdict/result.h"
 
 namespace ursula {
@@ -31,8 +31,8 @@ struct ErrorsAt {
 
 /// What moved the replay off the path, at the instant where it was furthest off among the windows' ends. The shares are
 /// differences of one replay and the next in the row
-///   the judged replay → the loops' gaps projected away after each step → the same in other presentations, their mean →
-///   an exact integration → the torques' pointwise errors taken off → the commanded path,
+///   the judged replay → the loops' gaps projected away after each step → the same in other changes of frame, their
+///   mean → an exact integration → the torques' pointwise errors taken off → the commanded path,
 /// so that they add up to the observed error but for what is unexplained.
 struct ErrorBudget {
   double t = 0;                          ///< s

@@ -4,7 +4,7 @@
 
 #include "validation/replay/windowed_replay.h"
 #include "validation/samples/pointwise.h"
-#include "validation/subject/presentation.h"
+#include "validation/subject/frame_change.h"
 #include "validation/verdict/result.h"
 
 namespace ursula {

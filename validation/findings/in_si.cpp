@@ -16,7 +16,7 @@ std::string unitOf(const std::string& column) {
   return open == std::string::npos || column.back() != ')' ? "" : column.substr(open + 1, column.size() - open - 2);
 }
 
-void restoreColumns(const Presentation& from, TimeSeries& series) {
+void restoreColumns(const FrameChange& from, TimeSeries& series) {
   for (std::size_t k = 0; k < series.names.size(); ++k) {
     const std::string& column = series.names[k];
     const double unit = from.units.of(unitOf(column));
@@ -30,7 +30,7 @@ void restoreColumns(const Presentation& from, TimeSeries& series) {
 
 }  // namespace
 
-void seriesInSi(const Presentation& from, ValidationResult& result) {
+void seriesInSi(const FrameChange& from, ValidationResult& result) {
   restoreColumns(from, result.timeseries);
   for (auto& [title, curve] : result.curves) restoreColumns(from, curve);
   for (Event& event : result.events) event.t *= from.units.time;

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "model/loops/mujoco/mujoco_loop.h"
-#include "model/sha1.h"
+#include "base/sha1.h"
+#include "engines/mujoco/mujoco_loop.h"
 #include "nocsolver/fast/instruction_set.h"
 #include "validation/findings/provenance.h"
 #include "validation/replay/replay.h"

@@ -170,7 +170,7 @@ double Conditioning::shape(Rounded quantity) const {
       return eps * (compliance + leg_compliance) * force_scale;
     case Rounded::reactions:
       return eps * (torque / length * kappa_B + largest_mass * platform);
-    case Rounded::further_road:  // and all after it
+    case Rounded::further_engine:  // and all after it
       break;
   }
   return eps * torque;

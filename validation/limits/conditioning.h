@@ -3,8 +3,8 @@
 #include <array>
 #include <memory>
 
+#include "engines/further_engines.h"
 #include "model/load.h"
-#include "model/loops/further_roads.h"
 #include "model/manipulator.h"
 #include "model/motion.h"
 #include "nocsolver/noc/noc.h"
@@ -12,38 +12,38 @@
 namespace ursula {
 
 /// In units of eps, what rounding adds up to on the longest chain of dependent operations from the base to a torque:
-/// n = 38, once for each of 13 bodies and 6 pivots on each of two roads. Roundings are independent, so that they grow
-/// as λ√n with λ = 4, rounded up: Higham and Mary, SIAM J. Sci. Comput. 41 (2019) A2815, theorem 2.4. Stands in where
-/// nothing was measured.
+/// n = 38, once for each of 13 bodies and 6 pivots on each of two formulations. Roundings are independent, so that they
+/// grow as λ√n with λ = 4, rounded up: Higham and Mary, SIAM J. Sci. Comput. 41 (2019) A2815, theorem 2.4. Stands in
+/// where nothing was measured.
 constexpr double rounding_depth = 25;
 
 /// What rounds: each pointwise limit is of one of these.
 enum class Rounded {
-  angles,         ///< joint angles, rad
-  rates,          ///< joint rates, rad/s
-  accelerations,  ///< joint accelerations, rad/s²
-  positions,      ///< of 13 bodies, m
-  twists,         ///< of 13 bodies, m/s
-  twist_rates,    ///< of 13 bodies, m/s²
-  jacobian,       ///< T φ̇, m/s
-  jacobian_rate,  ///< T φ̈ + Ṫ φ̇, m/s²
-  shaping,        ///< T itself, m
-  shaping_rate,   ///< Ṫ, m/s
-  torque,         ///< solver's and Simbody's, N·m
-  solver,         ///< the solver's torque alone, N·m
-  acceleration,   ///< Simbody's of the platform under the solver's torques, m/s²
-  effort,         ///< the same as torques, N·m
-  gaps,           ///< accelerations at which the loops' gaps open, m/s²
-  reactions,      ///< forces at the joints and moments over the machine's length, N
-  direct,         ///< solver's and Simbody's direct dynamics under the same torques, m/s²
-  solver_direct,  ///< the solver's direct dynamics alone, m/s²
-  further_road,   ///< solver's torque and that of the first further road, N·m; of the others: ofFurtherRoad
+  angles,          ///< joint angles, rad
+  rates,           ///< joint rates, rad/s
+  accelerations,   ///< joint accelerations, rad/s²
+  positions,       ///< of 13 bodies, m
+  twists,          ///< of 13 bodies, m/s
+  twist_rates,     ///< of 13 bodies, m/s²
+  jacobian,        ///< T φ̇, m/s
+  jacobian_rate,   ///< T φ̈ + Ṫ φ̇, m/s²
+  shaping,         ///< T itself, m
+  shaping_rate,    ///< Ṫ, m/s
+  torque,          ///< solver's and Simbody's, N·m
+  solver,          ///< the solver's torque alone, N·m
+  acceleration,    ///< Simbody's of the platform under the solver's torques, m/s²
+  effort,          ///< the same as torques, N·m
+  gaps,            ///< accelerations at which the loops' gaps open, m/s²
+  reactions,       ///< forces at the joints and moments over the machine's length, N
+  direct,          ///< solver's and Simbody's direct dynamics under the same torques, m/s²
+  solver_direct,   ///< the solver's direct dynamics alone, m/s²
+  further_engine,  ///< solver's torque and that of the first further formulation, N·m; of the others: ofFurtherEngine
 };
-constexpr std::size_t rounded_count = static_cast<std::size_t>(Rounded::further_road) + further_road_count;
+constexpr std::size_t rounded_count = static_cast<std::size_t>(Rounded::further_engine) + further_engine_count;
 
-/// The solver's torque and that of the k-th further road, N·m.
-constexpr Rounded ofFurtherRoad(std::size_t k) {
-  return static_cast<Rounded>(static_cast<std::size_t>(Rounded::further_road) + k);
+/// The solver's torque and that of the k-th further formulation, N·m.
+constexpr Rounded ofFurtherEngine(std::size_t k) {
+  return static_cast<Rounded>(static_cast<std::size_t>(Rounded::further_engine) + k);
 }
 
 /// How far a quantity's rounding goes, in units of its shape (Conditioning::shape).
@@ -55,9 +55,9 @@ constexpr RoundingLevels uniformLevels(double level) {
   return levels;
 }
 
-/// How rounding errors of either road may show at one instant; the factors of every pointwise limit. The shape of a
-/// limit, how it grows with the pose and the machine, is derived; its level is measured (RoundingProfile). No number
-/// here depends on the frame in which the machine is written. Always from the formulas that hold, never from the
+/// How rounding errors of either formulation may show at one instant; the factors of every pointwise limit. The shape
+/// of a limit, how it grows with the pose and the machine, is derived; its level is measured (RoundingProfile). No
+/// number here depends on the frame in which the machine is written. Always from the formulas that hold, never from the
 /// subject on trial. See docs/validation.md.
 struct Conditioning {
   double kappa_B = 0;         ///< 2-norm condition number of B, moments over the machine's length
@@ -87,7 +87,7 @@ struct Conditioning {
 
   /// Of ‖D T‖ over ‖D‖‖T‖: not measured.
   double complementRounding() const;
-  /// Rounding of a torque on either road, N·m.
+  /// Rounding of a torque on either formulation, N·m.
   double torqueRounding() const { return rounding(Rounded::torque); }
   /// Rounding of the platform's acceleration in Simbody under torques, those included that rounding makes of them,
   /// m/s².

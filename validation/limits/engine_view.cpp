@@ -1,22 +1,22 @@
 #include "validation/limits/engine_view.h"
 
-#include "model/loops/simbody/simbody_loop.h"
+#include "engines/simbody/simbody_loop.h"
 #include "validation/verdict/worst_share.h"
 
 namespace ursula {
 
-struct EnginePresentation::Engines {
+struct EngineFrameChange::Engines {
   Engines(const Manipulator& machine, const std::shared_ptr<const Load>& load)
-      : six_balls(machine, SimbodyLoop::Topology::six_balls, load), further(makeFurtherRoads(machine, load)) {}
+      : six_balls(machine, SimbodyLoop::Topology::six_balls, load), further(makeFurtherEngines(machine, load)) {}
 
   SimbodyLoop six_balls;
-  OfFurtherRoads<std::unique_ptr<Road>> further;
+  OfFurtherEngines<std::unique_ptr<Engine>> further;
 };
 
 namespace {
 
 /// [ω̇; p̈] from there to here.
-Vector6d twistRateBack(const Presentation& p, const Motion<double>& motion) {
+Vector6d twistRateBack(const FrameChange& p, const Motion<double>& motion) {
   const double unit = p.units.time * p.units.time;
   Vector6d out;
   out << p.turn.transpose() * motion.omega_dot / unit, p.turn.transpose() * motion.p_ddot * p.units.length / unit;
@@ -25,14 +25,14 @@ Vector6d twistRateBack(const Presentation& p, const Motion<double>& motion) {
 
 }  // namespace
 
-EnginePresentation::EnginePresentation(const Scenario& scenario, const Presentation& presentation)
-    : presentation_(presentation),
-      engines_(std::make_unique<Engines>(presentation.of(*scenario.manipulator), presentation.of(scenario.load))) {}
-EnginePresentation::~EnginePresentation() = default;
-EnginePresentation::EnginePresentation(EnginePresentation&&) noexcept = default;
+EngineFrameChange::EngineFrameChange(const Scenario& scenario, const FrameChange& frame_change)
+    : frame_change_(frame_change),
+      engines_(std::make_unique<Engines>(frame_change.of(*scenario.manipulator), frame_change.of(scenario.load))) {}
+EngineFrameChange::~EngineFrameChange() = default;
+EngineFrameChange::EngineFrameChange(EngineFrameChange&&) noexcept = default;
 
-EngineView EnginePresentation::at(const Motion<double>& motion, const Vector6d& torques, const Vector6d& others) {
-  const Presentation& p = presentation_;
+EngineView EngineFrameChange::at(const Motion<double>& motion, const Vector6d& torques, const Vector6d& others) {
+  const FrameChange& p = frame_change_;
   Engines& e = *engines_;
   const Motion<double> there = p.of(motion);
   EngineView out;
@@ -45,7 +45,7 @@ EngineView EnginePresentation::at(const Motion<double>& motion, const Vector6d& 
   out.reactions = p.back(e.six_balls.reactions());
   e.six_balls.accelerate(p.of(others));
   out.direct = twistRateBack(p, e.six_balls.platform());
-  for (std::size_t k = 0; k < further_road_count; ++k)
+  for (std::size_t k = 0; k < further_engine_count; ++k)
     if (e.further[k]) out.further[k] = p.torquesBack(e.further[k]->inverseDynamics(there));
   return out;
 }

@@ -3,11 +3,11 @@
 #include <memory>
 #include <optional>
 
+#include "engines/further_engines.h"
 #include "model/joint_reactions.h"
 #include "model/joint_variables.h"
-#include "model/loops/further_roads.h"
 #include "model/scenario.h"
-#include "validation/subject/presentation.h"
+#include "validation/subject/frame_change.h"
 
 namespace ursula {
 
@@ -15,20 +15,20 @@ namespace ursula {
 struct EngineView {
   JointMotion joints;
   BodyMotions<double> bodies;
-  Vector6d torques;                                 ///< Simbody's, N·m
-  OfFurtherRoads<std::optional<Vector6d>> further;  ///< the others', those that are built in
+  Vector6d torques;                                   ///< Simbody's, N·m
+  OfFurtherEngines<std::optional<Vector6d>> further;  ///< the others', those that are built in
   Vector6d acceleration;        ///< Simbody's of the platform under the motion's torques, [ω̇; p̈]
   Vector6d direct;              ///< the same under torques given from outside
   double gap_acceleration = 0;  ///< of the loops, m/s²
   Reactions reactions;          ///< under the motion's torques
 };
 
-/// All engines on one scenario in one presentation. The solver has no part in it.
-class EnginePresentation {
+/// All engines on one scenario in one change of frame. The solver has no part in it.
+class EngineFrameChange {
  public:
-  EnginePresentation(const Scenario& scenario, const Presentation& presentation);
-  ~EnginePresentation();
-  EnginePresentation(EnginePresentation&&) noexcept;
+  EngineFrameChange(const Scenario& scenario, const FrameChange& frame_change);
+  ~EngineFrameChange();
+  EngineFrameChange(EngineFrameChange&&) noexcept;
 
   /// `motion` as the scenario has it, with its `torques`; `others` for direct. Throws std::domain_error where an engine
   /// has no answer.
@@ -36,7 +36,7 @@ class EnginePresentation {
 
  private:
   struct Engines;
-  Presentation presentation_;
+  FrameChange frame_change_;
   std::unique_ptr<Engines> engines_;
 };
 

@@ -15,7 +15,7 @@ namespace ursula {
 namespace {
 
 /// Beside the scenario as it stands.
-constexpr unsigned presentations = 3;
+constexpr unsigned frame_changes = 3;
 /// On either side of an instant, those whose spread counts.
 constexpr std::size_t neighbours = 2;
 
@@ -102,12 +102,12 @@ RoundingLevels spreadOfSolver(const Manipulator& machine, const std::vector<Solv
       set(out, Rounded::solver, torque);
       set(out, Rounded::solver_direct, spin(a.direct - b.direct, length));
       set(out, Rounded::torque, torque);
-      for (std::size_t k = 0; k < further_road_count; ++k) set(out, ofFurtherRoad(k), torque);
+      for (std::size_t k = 0; k < further_engine_count; ++k) set(out, ofFurtherEngine(k), torque);
     }
   return out;
 }
 
-/// Over the presentations. `solver` is the NOC as it is, `effort` T_PᵀM_P.
+/// Over the changes of frame. `solver` is the NOC as it is, `effort` T_PᵀM_P.
 RoundingLevels spreadOfEngines(const Manipulator& machine, const std::vector<EngineView>& views,
                                const SolverView& solver, const Matrix6d& effort, double length) {
   RoundingLevels out = uniformLevels(0);
@@ -122,8 +122,8 @@ RoundingLevels spreadOfEngines(const Manipulator& machine, const std::vector<Eng
       set(out, Rounded::jacobian, spin(solver.T * q_dot, length));
       set(out, Rounded::jacobian_rate, spin(solver.T * q_ddot + solver.T_rate * q_dot, length));
       set(out, Rounded::torque, torqueDistance(a.torques, b.torques));
-      for (std::size_t k = 0; k < further_road_count; ++k)
-        if (a.further[k] && b.further[k]) set(out, ofFurtherRoad(k), torqueDistance(*a.further[k], *b.further[k]));
+      for (std::size_t k = 0; k < further_engine_count; ++k)
+        if (a.further[k] && b.further[k]) set(out, ofFurtherEngine(k), torqueDistance(*a.further[k], *b.further[k]));
       set(out, Rounded::acceleration, spin(a.acceleration - b.acceleration, length));
       set(out, Rounded::effort, (effort * (a.acceleration - b.acceleration)).norm());
     }
@@ -167,12 +167,12 @@ Vector6d otherTorques(const Vector6d& torques) {
 
 int profileInstants(int samples) { return std::clamp(samples, 2, 61); }
 
-struct RoundingProfile::Workshop {
-  explicit Workshop(const Scenario& scenario)
+struct RoundingProfile::Workspace {
+  explicit Workspace(const Scenario& scenario)
       : machine(*scenario.manipulator), noc(machine), solver(machine, scenario.load), probe(machine, scenario.load) {
-    engines.emplace_back(scenario, Presentation(machine));
-    for (unsigned k = 0; k < presentations; ++k)
-      engines.emplace_back(scenario, randomPresentation(k + 1, noc.machine().length, machine));
+    engines.emplace_back(scenario, FrameChange(machine));
+    for (unsigned k = 0; k < frame_changes; ++k)
+      engines.emplace_back(scenario, randomFrameChange(k + 1, noc.machine().length, machine));
   }
 
   std::mutex guard;
@@ -181,17 +181,17 @@ struct RoundingProfile::Workshop {
   NocWorkspace<double> work;
   SolverRounding solver;
   ConditioningProbe probe;
-  std::vector<EnginePresentation> engines;
+  std::vector<EngineFrameChange> engines;
 };
 
 RoundingProfile::RoundingProfile(const Scenario& scenario, int instants)
-    : workshop_(std::make_unique<Workshop>(scenario)) {
+    : workspace_(std::make_unique<Workspace>(scenario)) {
   Motion<double> first_of_held;
   for (int k = 0; k < instants; ++k) {
     const double t = instants > 1 ? scenario.trajectory->duration() * k / (instants - 1) : 0;
     Motion<double> motion = scenario.trajectory->at(t);
     if (k > 0 && areSame(motion, first_of_held))
-      nudge(motion, k, workshop_->noc.machine().length);  // or a held pose would be measured once, however often
+      nudge(motion, k, workspace_->noc.machine().length);  // or a held pose would be measured once, however often
     else
       first_of_held = motion;
     measured_.push_back(measure(motion, nullptr));
@@ -201,7 +201,7 @@ RoundingProfile::RoundingProfile(const Scenario& scenario, int instants)
 RoundingProfile::~RoundingProfile() = default;
 
 RoundingProfile::Measured RoundingProfile::measure(const Motion<double>& motion, const Vector6d* torques) const {
-  Workshop& w = *workshop_;
+  Workspace& w = *workspace_;
   const std::lock_guard<std::mutex> lock(w.guard);
   Measured here;
   here.t = motion.t;
@@ -209,7 +209,7 @@ RoundingProfile::Measured RoundingProfile::measure(const Motion<double>& motion,
   const Vector6d commanded = w.solver.torques(motion), others = torques != nullptr ? *torques : otherTorques(commanded);
   const std::vector<SolverView> solver = w.solver.at(motion, others);
   std::vector<EngineView> engines;
-  for (EnginePresentation& each : w.engines) engines.push_back(each.at(motion, commanded, others));
+  for (EngineFrameChange& each : w.engines) engines.push_back(each.at(motion, commanded, others));
   w.noc.displacements(motion, w.work);
   const Matrix6d effort = solver.front().T.transpose() * w.noc.massMatrixAtP(motion, w.work);
   const JointMotion& simbody = engines.front().joints;
@@ -225,8 +225,8 @@ RoundingProfile::Measured RoundingProfile::measure(const Motion<double>& motion,
 Conditioning RoundingProfile::leveled(const Motion<double>& motion, const Measured* itself) const {
   Conditioning out;
   {
-    const std::lock_guard<std::mutex> lock(workshop_->guard);
-    out = workshop_->probe.at(motion);
+    const std::lock_guard<std::mutex> lock(workspace_->guard);
+    out = workspace_->probe.at(motion);
   }
   const auto after = std::lower_bound(measured_.begin(), measured_.end(), motion.t,
                                       [](const Measured& each, double t) { return each.t < t; });

@@ -8,10 +8,10 @@
 
 namespace ursula {
 
-/// What rounding does on every road along one scenario, measured: the same instants are evaluated in several
-/// presentations (presentation.h), which is the same physics with other roundings. The spread of the answers is the
-/// roads' noise. No error of a model enters it, for it is the same in every presentation, nor anything that is on
-/// trial.
+/// What rounding does on every formulation along one scenario, measured: the same instants are evaluated in several
+/// changes of frame (change of frame.h), which is the same physics with other roundings. The spread of the answers is
+/// the formulations' noise. No error of a model enters it, for it is the same in every change of frame, nor anything
+/// that is on trial.
 ///
 /// Measured at some instants, in units of the derived shape, which carries the level to the instants between: a level
 /// is safety × the largest spread at the five instants about, and a floor.
@@ -24,8 +24,9 @@ class RoundingProfile {
   /// The conditioning at an instant of the motion, with measured levels.
   Conditioning at(const Motion<double>& motion) const;
   /// The same, where the instant itself is measured, too, the direct dynamics under `torques` where they are given.
-  /// What two roads differ by as the scenario stands is no more than their spread and their least difference in any
-  /// presentation: beyond such a limit it is a difference that no presentation takes away, and so no rounding.
+  /// What two formulations differ by as the scenario stands is no more than their spread and their least difference in
+  /// any change of frame: beyond such a limit it is a difference that no change of frame takes away, and so no
+  /// rounding.
   Conditioning closer(const Motion<double>& motion, const Vector6d* torques = nullptr) const;
 
   /// The measured spread of `quantity`, in units of its shape, at each instant measured.
@@ -39,8 +40,8 @@ class RoundingProfile {
   Measured measure(const Motion<double>& motion, const Vector6d* torques) const;
   Conditioning leveled(const Motion<double>& motion, const Measured* itself) const;
 
-  struct Workshop;
-  std::unique_ptr<Workshop> workshop_;  ///< what is worked with, by one thread at a time
+  struct Workspace;
+  std::unique_ptr<Workspace> workspace_;  ///< what is worked with, by one thread at a time
   std::vector<Measured> measured_;
 };
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "model/deadline.h"
-#include "model/shown_text.h"
+#include "base/deadline.h"
+#include "base/shown_text.h"
 #include "validation/outside/line_process.h"
 #include "validation/outside/solver_line.h"
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/at_ending.h"
+#include "base/at_ending.h"
 
 namespace ursula {
 

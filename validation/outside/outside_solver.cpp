@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
-#include "model/deadline.h"
+#include "base/deadline.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {

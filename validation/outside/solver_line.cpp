@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
+#include "base/shown_text.h"
 #include "model/manipulator.h"
 #include "model/quaternions.h"
-#include "model/shown_text.h"
 
 namespace ursula {
 namespace {

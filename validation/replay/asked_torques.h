@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "model/loops/simbody/simbody_loop.h"
+#include "engines/simbody/simbody_loop.h"
 
 namespace ursula {
 

@@ -182,7 +182,7 @@ class Run {
       if (rejected > 500 || t + h == t) throw TooLong("the integrator's step has vanished");
     }
     next_step_ = h;
-    if (settings_.spoil) settings_.spoil(t, x);
+    if (settings_.fault) settings_.fault(t, x);
     if (settings_.project) project(x, t);
     observe(x, t);
     return t - start;
@@ -204,8 +204,8 @@ class Run {
     torques_at_ = t;
     loop_.derivative(t, x.data(), torques_now_, rate.data());
     const SimbodyLoop::Power power = loop_.power();
-    const double spoilt = settings_.spoil_power ? settings_.spoil_power(power) : 0;
-    rate.back() = (power.actuators + power.friction + power.load + spoilt) / weight_;
+    const double faulty = settings_.fault_power ? settings_.fault_power(power) : 0;
+    rate.back() = (power.actuators + power.friction + power.load + faulty) / weight_;
     for (double value : rate)
       if (!std::isfinite(value)) throw GaveUp("the derivatives are not finite");
   }

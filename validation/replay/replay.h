@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "model/loops/simbody/simbody_loop.h"
+#include "engines/simbody/simbody_loop.h"
 #include "model/scenario.h"
 #include "validation/replay/asked_torques.h"
 
@@ -55,10 +55,10 @@ struct ReplaySettings {
   long max_evaluations = 20000;  ///< more than this is giving up
   bool project = false;          ///< rkf78 only: after each step the legs follow the platform, so that no gap is left
   std::function<void(const std::vector<double>&)> foresee;  ///< rkf78 only: told what each step will ask torques for, s
-  /// rkf78 only, for controls that must fail: spoils the state x = [q, u, …] after each step.
-  std::function<void(double t, std::vector<double>& x)> spoil;
+  /// rkf78 only, for controls that must fail: falsifies the state x = [q, u, …] after each step.
+  std::function<void(double t, std::vector<double>& x)> fault;
   /// The same for the power that the energy is held against: what is added to it, W.
-  std::function<double(const SimbodyLoop::Power&)> spoil_power;
+  std::function<double(const SimbodyLoop::Power&)> fault_power;
 };
 
 Replay replay(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const ReplaySettings& settings);

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <new>
 
-#include "model/loops/simbody/simbody_loop.h"
+#include "engines/simbody/simbody_loop.h"
 #include "nocsolver/solver.h"
 #include "validation/replay/radau.h"
 #include "validation/replay/windows.h"

@@ -5,7 +5,7 @@
 
 #include "model/instants.h"
 #include "validation/replay/radau.h"
-#include "validation/subject/presentation.h"
+#include "validation/subject/frame_change.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {
@@ -156,12 +156,12 @@ constexpr unsigned frames_of_replay = 3;
 
 /// Errors of the path turned back to here. Without units, so that one tolerance means one thing.
 Replay replayedElsewhere(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window, unsigned seed) {
-  Presentation there = randomPresentation(seed, window.length, *scenario.manipulator);
+  FrameChange there = randomFrameChange(seed, window.length, *scenario.manipulator);
   there.units = {};
-  ReplayPlan presented = plan;
-  presented.torques = [&](double t) { return there.of(plan.torques(t)); };
+  ReplayPlan transformed = plan;
+  transformed.torques = [&](double t) { return there.of(plan.torques(t)); };
   const Scenario seen = there.of(scenario);
-  Replay out = replay(seen, presented.torques, settingsOf(seen, presented, window, 1));
+  Replay out = replay(seen, transformed.torques, settingsOf(seen, transformed, window, 1));
   for (ReplayStep& step : out.steps)
     for (Vector3d ReplayStep::*part : {&ReplayStep::position_error, &ReplayStep::rotation_error,
                                        &ReplayStep::velocity_error, &ReplayStep::spin_error})

@@ -46,15 +46,15 @@ FastAnswers answersOf(const kernel::MachineModel<double>& model, InstructionSet 
 }
 
 /// From the units of `natural` to SI.
-Presentation inSi(const Manipulator& machine, const Units& natural) {
-  Presentation out(machine);
+FrameChange inSi(const Manipulator& machine, const Units& natural) {
+  FrameChange out(machine);
   out.units.length = 1 / natural.length;
   out.units.mass = 1 / natural.mass;
   out.units.time = 1 / natural.time;
   return out;
 }
 
-void bringBack(const Presentation& si, FastAnswers& answers) {
+void bringBack(const FrameChange& si, FastAnswers& answers) {
   for (auto* torques : {&answers.torques, &answers.torques_in_batch})
     for (Vector6d& each : *torques) each = si.torquesBack(each);
   for (auto* accelerations : {&answers.accelerations, &answers.accelerations_in_batch})
@@ -69,7 +69,7 @@ void bringBack(const Presentation& si, FastAnswers& answers) {
 FastSamples runFast(const Scenario& scenario, const Units& natural, const std::vector<PointwiseSample>& samples,
                     const FastFault& fault) {
   const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
-  const Presentation si = inSi(*scenario.manipulator, natural);
+  const FrameChange si = inSi(*scenario.manipulator, natural);
   auto model = kernel::machineModel(MachineParameters<double>(si.of(*scenario.manipulator)));
   if (fault.model) fault.model(model);
   const std::shared_ptr<const Load> load = si.of(scenario.load);

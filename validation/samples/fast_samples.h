@@ -7,7 +7,7 @@
 #include "nocsolver/fast/instruction_set.h"
 #include "nocsolver/fast/kernels/machine_model.h"
 #include "validation/samples/pointwise.h"
-#include "validation/subject/presentation.h"
+#include "validation/subject/frame_change.h"
 
 namespace ursula {
 

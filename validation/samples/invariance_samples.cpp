@@ -7,7 +7,7 @@
 
 #include "model/manipulator.h"
 #include "nocsolver/errors.h"
-#include "validation/subject/presentation.h"
+#include "validation/subject/frame_change.h"
 
 namespace ursula {
 namespace {
@@ -21,15 +21,15 @@ Matrix3d turnOf(int frame) {
   return Eigen::AngleAxisd(0.7 + 2.4 * frame, axis.normalized()).toRotationMatrix();
 }
 
-std::vector<Presentation> worldTurned(const Manipulator& machine) {
-  std::vector<Presentation> out(frames, Presentation(machine));
+std::vector<FrameChange> worldTurned(const Manipulator& machine) {
+  std::vector<FrameChange> out(frames, FrameChange(machine));
   for (int k = 0; k < frames; ++k) out[static_cast<std::size_t>(k)].turn = turnOf(k);
   return out;
 }
 
 /// Other axes on the platform and another origin.
-std::vector<Presentation> otherAxes(const Manipulator& machine) {
-  std::vector<Presentation> out(frames, Presentation(machine));
+std::vector<FrameChange> otherAxes(const Manipulator& machine) {
+  std::vector<FrameChange> out(frames, FrameChange(machine));
   const double length = machine.parameters().legs.front().platform_point.norm();
   for (int k = 0; k < frames; ++k) {
     out[static_cast<std::size_t>(k)].platform_turn = turnOf(k + frames);
@@ -39,8 +39,8 @@ std::vector<Presentation> otherAxes(const Manipulator& machine) {
 }
 
 /// Lengths from a ten-thousandth to ten thousand of the machine's own unit; masses and times grow with them.
-std::vector<Presentation> otherUnits(const Manipulator& machine) {
-  std::vector<Presentation> out;
+std::vector<FrameChange> otherUnits(const Manipulator& machine) {
+  std::vector<FrameChange> out;
   for (const double length : {1.23e-4, 3.71e-3, 0.0917, 7.13, 219.0, 8130.0}) {
     out.emplace_back(machine);
     out.back().units.length = length;
@@ -51,8 +51,8 @@ std::vector<Presentation> otherUnits(const Manipulator& machine) {
 }
 
 /// Leg i becomes leg i + 1, the last one the first.
-Presentation relabelled(const Manipulator& machine) {
-  Presentation out(machine);
+FrameChange relabelled(const Manipulator& machine) {
+  FrameChange out(machine);
   std::array<int, leg_count> legs = out.leg;
   for (int i = 0; i < machine.legCount(); ++i) legs[static_cast<std::size_t>((i + 1) % machine.legCount())] = i;
   out.relabel(machine, legs);
@@ -103,12 +103,12 @@ InvarianceSamples sampled(Symmetry symmetry, const TorquesOf& expected, const To
   return out;
 }
 
-/// Each sample is seen from one of the presentations in turn, or from several where there are fewer samples.
+/// Each sample is seen from one of the changes of frame in turn, or from several where there are fewer samples.
 InvarianceSamples sampledIn(Symmetry symmetry, const Subject& subject, const Manipulator& machine,
-                            const std::vector<Presentation>& all, const std::vector<PointwiseSample>& samples) {
+                            const std::vector<FrameChange>& all, const std::vector<PointwiseSample>& samples) {
   const Subject own = subject.rebuilt(machine);
   std::vector<Subject> seen;
-  for (const Presentation& there : all) seen.push_back(subject.rebuilt(there.of(machine)));
+  for (const FrameChange& there : all) seen.push_back(subject.rebuilt(there.of(machine)));
   std::size_t k = 0;  // of the sample
   return sampled(
       symmetry, own.torques,
@@ -131,18 +131,18 @@ std::vector<InvarianceSamples> runInvariances(const Scenario& scenario, const Su
                                               const std::vector<PointwiseSample>& samples) {
   if (!subject.rebuilt) return {};
   const Manipulator& machine = *scenario.manipulator;
-  const Presentation labels = relabelled(machine);
+  const FrameChange labels = relabelled(machine);
   const Subject own = subject.rebuilt(machine), with_other_labels = subject.rebuilt(labels.of(machine)),
                 with_double = subject.rebuilt(doubled(machine)),
                 without_friction = subject.rebuilt(frictionless(machine));
   using M = Motion<double>;
-  const auto presented = [&](Symmetry symmetry, const std::vector<Presentation>& all) {
+  const auto transformed = [&](Symmetry symmetry, const std::vector<FrameChange>& all) {
     return sampledIn(symmetry, subject, machine, all, samples);
   };
   return {
-      presented(Symmetry::rotation, worldTurned(machine)),
-      presented(Symmetry::axes, otherAxes(machine)),
-      presented(Symmetry::units, otherUnits(machine)),
+      transformed(Symmetry::rotation, worldTurned(machine)),
+      transformed(Symmetry::axes, otherAxes(machine)),
+      transformed(Symmetry::units, otherUnits(machine)),
       sampled(
           Symmetry::labels, [&](const M& motion) { return labels.of(own.torques(motion)); }, with_other_labels.torques,
           samples),

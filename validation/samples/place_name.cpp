@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "model/scalar.h"
-#include "validation/subject/presentation.h"
+#include "base/scalar.h"
+#include "validation/subject/frame_change.h"
 
 namespace ursula {
 

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <optional>
 
-#include "model/loops/simbody/simbody_loop.h"
+#include "engines/simbody/simbody_loop.h"
 
 namespace ursula {
 namespace {
@@ -92,8 +92,9 @@ Matrix6d differenceOf(const ShapingAt& T, double t, double step) {
   return (8 * (T(t + step) - T(t - step)) - (T(t + 2 * step) - T(t - 2 * step))) / (12 * step);
 }
 
-/// Ṫ against a difference of T along the motion; no other road is needed. The limit is the rounding of T over the step,
-/// and the truncation: what doubling the step changes for the formulas that hold, some 15 times the truncation itself.
+/// Ṫ against a difference of T along the motion; no other formulation is needed. The limit is the rounding of T over
+/// the step, and the truncation: what doubling the step changes for the formulas that hold, some 15 times the
+/// truncation itself.
 void compareJacobianDifferences(const Scenario& scenario, const Subject& subject, const Subject& right,
                                 const KinematicAnswer& answer, PointwiseSample& sample) {
   const Conditioning& c = sample.conditioning;

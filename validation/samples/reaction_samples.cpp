@@ -1,6 +1,6 @@
 #include "validation/samples/reaction_samples.h"
 
-#include "model/loops/simbody/simbody_loop.h"
+#include "engines/simbody/simbody_loop.h"
 
 namespace ursula {
 

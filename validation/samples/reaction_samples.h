@@ -10,7 +10,7 @@ namespace ursula {
 
 /// The joint reactions at one instant, under the torques of whoever recovered them.
 struct ReactionSample {
-  Reactions recovered, simbody;  ///< from the solver's road; Simbody's mobilizer and constraint reactions
+  Reactions recovered, simbody;  ///< from the solver's formulation; Simbody's mobilizer and constraint reactions
 };
 
 /// What `subject` recovers under its own torques, at the motions of `samples`; `simbody` are its answers there.

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "engines/simbody/simbody_loop.h"
 #include "model/joint_reactions.h"
-#include "model/loops/simbody/simbody_loop.h"
 #include "model/scenario.h"
 #include "validation/subject/subject.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/errors.h"
+#include "base/errors.h"
 #include "model/instants.h"
 #include "model/scenario_place.h"
 #include "nocsolver/solver.h"

@@ -145,7 +145,7 @@ Subject nocSubject(const MachineParameters<double>& machine, const std::shared_p
 }
 
 Subject wrongNocSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load,
-                        const WithSlips& fault) {
+                        const WithFormulaErrors& fault) {
   return makeSubject("noc with a fault", MachineParameters<double>(manipulator), load, fault);
 }
 

@@ -74,7 +74,7 @@ Subject nocSubject(const MachineParameters<double>& machine, const std::shared_p
 
 /// The same with an injected fault: a control that must fail.
 Subject wrongNocSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load,
-                        const WithSlips& fault);
+                        const WithFormulaErrors& fault);
 
 /// The kernels that users call: torques and accelerations alone. Another formulation beside the NOC, and a fast one.
 Subject fastSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load);

@@ -8,8 +8,8 @@
 #include <map>
 #include <optional>
 
-#include "model/nearest.h"
-#include "model/shown_text.h"
+#include "base/nearest.h"
+#include "base/shown_text.h"
 #include "validation/subject/torque_names.h"
 
 namespace ursula {

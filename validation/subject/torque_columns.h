@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/csv.h"
+#include "base/csv.h"
 #include "model/manipulator.h"
 
 namespace ursula {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <tuple>
 
-#include "model/csv.h"
+#include "base/csv.h"
 #include "validation/subject/effort_columns.h"
 
 namespace ursula {

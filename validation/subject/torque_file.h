@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "model/scalar.h"
+#include "base/scalar.h"
 #include "validation/subject/torque_columns.h"
 
 namespace ursula {

@@ -9,7 +9,7 @@
 
 namespace ursula {
 
-struct Picture;
+struct Scenario;
 struct Shown;
 struct Worst;
 
@@ -169,8 +169,8 @@ struct ValidationResult {
   /// Curves for the report beside the time series, each with columns of its own (work against precision, amplification,
   /// …).
   std::vector<std::pair<std::string, TimeSeries>> curves;
-  std::vector<Event> events;               ///< replays that start anew or stop, the poses nearest to a limit
-  std::shared_ptr<const Picture> picture;  ///< the machine and what it was asked; null where none was made
+  std::vector<Event> events;              ///< replays that start anew or stop, the poses nearest to a limit
+  std::shared_ptr<const Scenario> asked;  ///< what was validated; null in a result that was read or made up
 };
 
 }  // namespace ursula

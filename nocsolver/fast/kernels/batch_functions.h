@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/scalar.h"
 #include "model/leg_kind.h"
-#include "model/scalar.h"
 
 namespace ursula::kernel {
 

@@ -10,7 +10,7 @@
 // Of principal axes, with D = (J_z − J_y) S C, K = J_y S² + J_z C²:
 //   n_x = J_x χ̈ + D α̇² + …,  n_y = −K α̈ + 2 D α̇ χ̇ + …                                                        (d)
 
-#include "model/scalar.h"
+#include "base/scalar.h"
 
 namespace ursula::kernel {
 

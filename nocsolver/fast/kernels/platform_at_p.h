@@ -2,7 +2,7 @@
 
 // Mass matrices brought to P. Internal.
 
-#include "model/scalar.h"
+#include "base/scalar.h"
 
 namespace ursula::kernel {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "model/scalar.h"
+#include "base/scalar.h"
 
 namespace ursula::kernel {
 

@@ -1,0 +1,161 @@
+#include "base/csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <string_view>
+#include <unordered_set>
+
+#include "base/nearest.h"
+#include "base/shown_text.h"
+#include "base/text_source.h"
+
+namespace ursula {
+namespace {
+
+constexpr TextBounds bounds{most_csv_bytes, "a CSV file"};
+
+[[noreturn]] void fail(const std::filesystem::path& file, int line, const std::string& what) {
+  throw CsvError(fmt::format("{}:{}: error: {}", shownPath(file.string()), line, what));
+}
+
+void requireShort(std::string_view cell, const std::filesystem::path& file, int line) {
+  if (cell.size() > most_csv_cell)
+    fail(file, line,
+         fmt::format("a cell of {} bytes, '{}', expected at most {}", cell.size(), shown(cell), most_csv_cell));
+}
+
+/// The places of the wanted columns among all.
+std::vector<std::size_t> readHeader(const std::vector<std::string>& cells, const CsvOptions& options, CsvTable& table) {
+  const int line = std::max(1, options.dialect.header);
+  std::vector<std::size_t> wanted;
+  std::unordered_set<std::string_view> known;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::string& name = cells[i];
+    requireShort(name, table.file, line);
+    if (name.empty()) fail(table.file, line, "a column without a name, expected quantity_index_unit in each");
+    if (!known.insert(name).second)
+      fail(table.file, line, "duplicate column '" + shown(name) + "', expected each name once");
+    const bool is_wanted = !options.wanted || options.wanted(name);
+    (is_wanted ? table.names : table.ignored).push_back(name);
+    if (is_wanted) wanted.push_back(i);
+  }
+  table.columns.resize(wanted.size());
+  table.last_places.resize(wanted.size());
+  return wanted;
+}
+
+/// Of a cell that is a finite number. Exponents that no double has are cut off.
+int lastPlace(std::string_view cell) {
+  const auto e = cell.find_first_of("eE");
+  const std::string_view mantissa = cell.substr(0, e);
+  const auto point = mantissa.find('.');
+  const int decimals = point == std::string_view::npos ? 0 : static_cast<int>(mantissa.size() - point - 1);
+  int exponent = 0;
+  if (e != std::string_view::npos) {
+    std::string_view digits = cell.substr(e + 1);
+    if (digits[0] == '+') digits.remove_prefix(1);
+    if (std::from_chars(digits.data(), digits.data() + digits.size(), exponent).ec != std::errc()) exponent = 0;
+  }
+  return std::clamp(exponent, -400, 400) - decimals;
+}
+
+/// std::from_chars, since it knows no locale; a leading plus, which it refuses, is harmless.
+double readNumber(std::string_view cell, const CsvTable& table, bool finite, int line, const std::string& column) {
+  if (cell.empty() && !finite) return std::nan("");
+  std::string_view digits = cell;
+  if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error == std::errc() && end == digits.data() + digits.size() && (!finite || std::isfinite(value))) return value;
+  const std::string given = cell.empty() ? "an empty cell" : "'" + shown(cell) + "'";
+  const bool is_beyond = error == std::errc::result_out_of_range && end == digits.data() + digits.size();
+  const std::string expected = is_beyond ? "a number that a double can hold, from 5e-324 to 1.8e308 in size"
+                               : finite  ? "a finite number"
+                                         : "a number";
+  fail(table.file, line, fmt::format("{} in column '{}', expected {}", given, shown(column), expected));
+}
+
+void readRow(std::string_view text, int line, const std::vector<std::size_t>& wanted, const CsvOptions& options,
+             CsvTable& table) {
+  const std::vector<std::string_view> cells = splitCells(text, options.dialect.separator);
+  const std::size_t width = table.names.size() + table.ignored.size();
+  if (cells.size() != width)
+    fail(table.file, line,
+         fmt::format("{} cells, expected {}, one for each column of the header", cells.size(), width));
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    requireShort(cells[wanted[i]], table.file, line);
+    std::string cell(cells[wanted[i]]);
+    if (options.dialect.decimal_comma) std::replace(cell.begin(), cell.end(), ',', '.');
+    table.columns[i].push_back(readNumber(cell, table, options.finite, line, table.names[i]));
+    table.last_places[i].push_back(std::isfinite(table.columns[i].back()) ? lastPlace(cell) : 0);
+  }
+  table.lines.push_back(line);
+}
+
+/// Whether two columns differ in their index alone, as p_x_m and p_y_m do: the one is never an error for the other.
+bool areSiblings(const std::string& a, const std::string& b) {
+  if (a.size() != b.size()) return false;
+  const auto [in_a, in_b] = std::mismatch(a.begin(), a.end(), b.begin());
+  if (in_a == a.end() || !std::equal(in_a + 1, a.end(), in_b + 1)) return false;
+  const bool alone_before = in_a == a.begin() || *(in_a - 1) == '_';
+  return alone_before && (in_a + 1 == a.end() || *(in_a + 1) == '_');
+}
+
+}  // namespace
+
+const std::vector<double>* CsvTable::find(const std::string& name) const {
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? nullptr : &columns[static_cast<std::size_t>(found - names.begin())];
+}
+
+const std::vector<double>& CsvTable::at(const std::string& name) const {
+  if (const std::vector<double>* column = find(name)) return *column;
+  std::vector<std::string> candidates;
+  for (const auto* some : {&names, &ignored})
+    std::copy_if(some->begin(), some->end(), std::back_inserter(candidates),
+                 [&](const std::string& other) { return !areSiblings(name, other); });
+  fail(file, 1, "missing column '" + name + "', expected it in the header" + didYouMean(name, candidates));
+}
+
+std::string CsvTable::place(std::size_t row) const {
+  return fmt::format("{}:{}", shownPath(file.string()), lines.at(row));
+}
+
+CsvTable parseCsv(const std::string& text, const std::filesystem::path& file, const CsvOptions& options) {
+  CsvTable table;
+  table.file = file;
+  const std::vector<std::string_view> lines = splitLines(text);
+  if (lines.size() > most_csv_lines)
+    fail(file, static_cast<int>(most_csv_lines) + 1,
+         fmt::format("more than {0} lines, expected at most {0}", most_csv_lines));
+  if (lines.empty()) fail(file, 1, "an empty file, expected a header line and rows of numbers");
+  std::vector<std::string> names = options.dialect.header_cells;
+  if (names.empty())
+    for (std::string_view cell : splitCells(lines.front(), ',')) names.emplace_back(cell);
+  if (names.size() > most_csv_columns)
+    fail(file, std::max(1, options.dialect.header),
+         fmt::format("more than {0} columns, expected at most {0}", most_csv_columns));
+  const std::vector<std::size_t> wanted = readHeader(names, options, table);
+  for (auto i = static_cast<std::size_t>(options.dialect.header); i < lines.size(); ++i)
+    if (!isPassedOver(lines[i], options.dialect)) readRow(lines[i], static_cast<int>(i) + 1, wanted, options, table);
+  if (table.lines.empty()) fail(file, 1, "no rows, expected at least one below the header");
+  return table;
+}
+
+std::string readCsvText(const std::filesystem::path& file) {
+  try {
+    return readText(file, bounds);
+  } catch (const TextRefusal& refusal) {
+    throw CsvError(fmt::format("{}:{}: error: {}", shownPath(file.string()), refusal.line, refusal.what()));
+  }
+}
+
+CsvTable readCsv(const std::filesystem::path& file, const CsvOptions& options) {
+  return parseCsv(readCsvText(file), file, options);
+}
+
+}  // namespace ursula

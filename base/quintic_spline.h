@@ -1,0 +1,71 @@
+#pragma once
+
+#include <Eigen/LU>
+#include <vector>
+
+#include "base/quintic_hermite.h"
+
+namespace ursula {
+
+/// Fills in the first two derivatives at all inner knots such that the curve through `knots` (times, values, and the
+/// derivatives at both ends given) is four times continuously differentiable.
+///
+/// With h₀, h₁ the durations left and right of a knot, Δ₀, Δ₁ the rises, and the third and fourth derivative of the
+/// quintic Hermite pieces, continuity reads
+///   S⁗: 168/h₀³ v₋ + 24/h₀² a₋ + 192 (1/h₀³ + 1/h₁³) v + 36 (1/h₁² − 1/h₀²) a + 168/h₁³ v₊ − 24/h₁² a₊
+///          = 360 (Δ₀/h₀⁴ + Δ₁/h₁⁴)                                                                              (a)
+///   S‴: −24/h₀² v₋ − 3/h₀ a₋ + 36 (1/h₁² − 1/h₀²) v + 9 (1/h₀ + 1/h₁) a + 24/h₁² v₊ − 3/h₁ a₊
+///          = 60 (Δ₁/h₁³ − Δ₀/h₀³)                                                                               (b)
+/// This is half the gradient of ∫ ‖S‴‖² dt by (v, a): the system is symmetric positive definite, so elimination block
+/// by block needs no pivoting between blocks.
+template <class S, int D>
+void solveQuinticSpline(std::vector<CurvePoint<S, D>>& knots) {
+  using Block = Eigen::Matrix<S, 2, 2>;
+  using Rows = Eigen::Matrix<S, 2, D>;
+  const auto rows = [](const CurvePoint<S, D>& knot) {
+    return (Rows() << knot.rate.transpose(), knot.acceleration.transpose()).finished();
+  };
+  // After elimination, (v, a) of knot i is constants[i] − factors[i] · (v, a) of knot i + 1.
+  std::vector<Rows> constants{rows(knots.front())};
+  std::vector<Block> factors{Block::Zero()};
+  for (std::size_t i = 1; i + 1 < knots.size(); ++i) {
+    const S h = knots[i].t - knots[i - 1].t, k = knots[i + 1].t - knots[i].t;
+    const Eigen::Matrix<S, 1, D> below = (knots[i].value - knots[i - 1].value).transpose() / (h * h * h);
+    const Eigen::Matrix<S, 1, D> above = (knots[i + 1].value - knots[i].value).transpose() / (k * k * k);
+    const S cross = 36 * (1 / (k * k) - 1 / (h * h));
+    Block left, diagonal, right;
+    left << 168 / (h * h * h), 24 / (h * h), -24 / (h * h), -3 / h;
+    diagonal << 192 * (1 / (h * h * h) + 1 / (k * k * k)), cross, cross, 9 * (1 / h + 1 / k);
+    right << 168 / (k * k * k), -24 / (k * k), 24 / (k * k), -3 / k;
+    Rows constant;
+    constant.row(0) = 360 * (below / h + above / k);  // (a)
+    constant.row(1) = 60 * (above - below);           // (b)
+    const Block pivot = (diagonal - left * factors.back()).inverse();
+    constants.push_back(pivot * (constant - left * constants.back()));
+    factors.push_back(pivot * right);
+  }
+  for (std::size_t i = knots.size() - 1; i-- > 1;) {
+    const Rows solved = constants[i] - factors[i] * rows(knots[i + 1]);
+    knots[i].rate = solved.row(0).transpose();
+    knots[i].acceleration = solved.row(1).transpose();
+  }
+}
+
+/// Sets the first two derivatives of `knot` to those of the quintic through the six knots from `first` on.
+template <class S, int D>
+void differentiateBySix(const std::vector<CurvePoint<S, D>>& knots, std::size_t first, CurvePoint<S, D>& knot) {
+  const S scale = knots[first + 5].t - knots[first].t;
+  Eigen::Matrix<S, 6, 6> powers;
+  Eigen::Matrix<S, 6, D> values;
+  for (int i = 0; i < 6; ++i) {
+    const CurvePoint<S, D>& other = knots[first + static_cast<std::size_t>(i)];
+    powers(i, 0) = S(1);
+    for (int k = 1; k < 6; ++k) powers(i, k) = powers(i, k - 1) * (other.t - knot.t) / scale;
+    values.row(i) = other.value.transpose();
+  }
+  const Eigen::Matrix<S, 6, D> coefficients = powers.partialPivLu().solve(values);
+  knot.rate = coefficients.row(1).transpose() / scale;
+  knot.acceleration = 2 * coefficients.row(2).transpose() / (scale * scale);
+}
+
+}  // namespace ursula

@@ -1,0 +1,58 @@
+#include "base/text_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+namespace ursula {
+namespace {
+
+constexpr std::size_t piece = std::size_t{1} << 18;
+
+/// No text has a zero byte; /dev/zero has nothing else.
+void refuseZeroByte(const std::string& text, std::size_t from) {
+  const std::size_t at = text.find('\0', from);
+  if (at == std::string::npos) return;
+  const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+  const std::size_t before = text.rfind('\n', at);
+  throw TextRefusal("a zero byte, expected text", static_cast<std::size_t>(line),
+                    before == std::string::npos ? at + 1 : at - before);
+}
+
+std::string readAll(std::FILE* in, const TextBounds& bounds) {
+  std::string text;
+  std::vector<char> buffer(piece);
+  while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), in)) {
+    const std::size_t before = text.size();
+    text.append(buffer.data(), count);
+    refuseZeroByte(text, before);
+    if (text.size() > bounds.most_bytes)
+      throw TextRefusal(
+          fmt::format("more than {0} bytes, expected at most {0} of {1}", bounds.most_bytes, bounds.kind));
+  }
+  if (std::ferror(in) != 0) throw TextRefusal(fmt::format("cannot be read, expected {}", bounds.kind));
+  return text;
+}
+
+}  // namespace
+
+void requirePath(const std::string& path) {
+  if (path.empty()) throw TextRefusal("an empty path, expected a file");
+  if (path.find('\0') != std::string::npos) throw TextRefusal("a path with a zero byte, expected one without");
+}
+
+std::string readText(const std::filesystem::path& file, const TextBounds& bounds) {
+  requirePath(file.string());
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error)) throw TextRefusal(fmt::format("a folder, expected {}", bounds.kind));
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"), &std::fclose);
+  if (!in) throw TextRefusal(fmt::format("cannot be read, expected {}", bounds.kind));
+  return readAll(in.get(), bounds);
+}
+
+std::string readStandardInput(const TextBounds& bounds) { return readAll(stdin, bounds); }
+
+}  // namespace ursula

@@ -1,0 +1,15 @@
+# A component: one folder as a static library, ursula::NAME. LINKS are the components that its headers may name,
+# PRIVATE those and the libraries that its sources alone need; tools/check_structure.py holds both to the plan.
+function(ursula_component name)
+  cmake_parse_arguments(PARSE_ARGV 1 component "" "" "SOURCES;LINKS;PRIVATE")
+  add_library(ursula_${name} STATIC ${component_SOURCES})
+  add_library(ursula::${name} ALIAS ursula_${name})
+  target_link_libraries(ursula_${name} PUBLIC ursula::options ${component_LINKS} PRIVATE fmt::fmt ${component_PRIVATE})
+  ursula_use_precompiled(ursula_${name})
+  set_property(GLOBAL APPEND PROPERTY URSULA_COMPONENTS ursula_${name})
+endfunction()
+
+# What is compiled together, where sources share much.
+function(ursula_unity name batch)
+  set_target_properties(ursula_${name} PROPERTIES UNITY_BUILD ${URSULA_UNITY} UNITY_BUILD_BATCH_SIZE ${batch})
+endfunction()

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "model/joint_variables.h"
+#include "model/load.h"
+#include "model/manipulator.h"
+#include "model/motion.h"
+
+namespace ursula {
+
+/// A further formulation to the torques, beside the solver's and Simbody's six-ball loop: another engine or
+/// formulation, made of raw parameters and geometry of its own. Not thread-safe: one for each thread.
+class Engine {
+ public:
+  Engine() = default;
+  virtual ~Engine() = default;
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  /// Efforts of the motors for the motion, N·m or N, conjugate to the rates of their coordinates. Throws
+  /// std::domain_error where a leg cannot reach.
+  virtual Vector6d inverseDynamics(const Motion<double>& motion) = 0;
+};
+
+}  // namespace ursula

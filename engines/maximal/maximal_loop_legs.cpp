@@ -1,0 +1,170 @@
+// Where the links of a leg are at a pose of the platform, for each kind.
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <stdexcept>
+
+#include "engines/maximal/maximal_loop_internal.h"
+
+namespace ursula::maximal {
+namespace {
+
+struct Ends {
+  Vector3d u, A, B, AB;
+};
+
+/// AB as a part along u and one across it.
+struct Split {
+  double along, distance;
+  Vector3d outwards;  ///< unit, from u's line to B
+
+  explicit Split(const Ends& ends) : along(ends.u.dot(ends.AB)) {
+    const Vector3d across = ends.AB - along * ends.u;
+    distance = across.norm();
+    outwards = across / distance;
+  }
+};
+
+void requireReach(bool reaches, int index, double distance, double t) {
+  if (!reaches)
+    throw std::domain_error(fmt::format("leg {} cannot reach over {} m at t = {} s", index + 1, distance, t));
+}
+
+double side(const Leg& leg) { return leg.knee == Knee::positive ? 1 : -1; }
+
+Matrix3d frameOf(const Vector3d& x, const Vector3d& axis) {
+  Matrix3d frame;
+  frame << x, axis.cross(x), axis;
+  return frame;
+}
+
+/// [x̂, û, ẑ] with x̂ level.
+Matrix3d fixedFrame(const Vector3d& u) {
+  Vector3d x = u.cross(Vector3d::UnitZ());
+  if (x.squaredNorm() < 1e-20) x = u.cross(Vector3d::UnitY());
+  x.normalize();
+  Matrix3d frame;
+  frame << x, u, x.cross(u);
+  return frame;
+}
+
+/// The knee from the law of cosines at A, to the side that the sign of the knee says.
+void placeUrs(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& out) {
+  const double l = leg.proximal.length, s = leg.distal.length;
+  const double q = ends.AB.norm();
+  const double cosine = (l * l + q * q - s * s) / (2 * l * q);
+  requireReach(std::abs(cosine) <= 1, index, q, t);
+  const Vector3d x = ends.u.cross(ends.AB).normalized();
+  const double angle = side(leg) * std::acos(cosine);
+  const Vector3d e = Eigen::AngleAxisd(angle, x) * (ends.AB / q);
+  const Vector3d d = (ends.AB - l * e).normalized();
+  const Vector3d R = ends.A + l * e;
+  out.R = {frameOf(x, e), frameOf(x, d)};
+  out.c = {ends.A + leg.proximal.center_of_mass * e, R + leg.distal.center_of_mass * d};
+  out.joints[0].axes = {-ends.u, x};
+  out.joints[1].axes[0] = x;
+  out.joints[1].across = out.R[0].rightCols<2>();
+  out.joints[1].point = R;
+}
+
+/// The line AB itself; the rod's inner end is within the cylinder.
+void placeUps(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& out) {
+  const double l = leg.proximal.length, s = leg.distal.length;
+  const double d = ends.AB.norm();
+  requireReach(s < d && d < s + l, index, d, t);
+  const Vector3d x = ends.u.cross(ends.AB).normalized(), e = ends.AB / d;
+  out.R = {frameOf(x, e), frameOf(x, e)};
+  out.c = {ends.A + leg.proximal.center_of_mass * e, ends.B + (leg.distal.center_of_mass - s) * e};
+  out.joints[0].axes = {-ends.u, x};
+  out.joints[1].axes[0] = e;
+  out.joints[1].across = out.R[0].leftCols<2>();
+  out.joints[1].point = ends.B;
+}
+
+/// R is where the crank's circle meets the ball of radius s about B, which cuts the circle's plane in a circle.
+void placeRus(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& out) {
+  const double l = leg.proximal.length, s = leg.distal.length;
+  const Split B(ends);
+  requireReach(std::abs(B.along) < s, index, std::abs(B.along), t);
+  const double c = std::sqrt((s - B.along) * (s + B.along));  // the rod, seen along u
+  requireReach(B.distance <= l + c && B.distance >= std::abs(l - c), index, B.distance, t);
+  const double foot = (B.distance + (l - c) * (l + c) / B.distance) / 2;  // where the circles' chord crosses AB
+  const double half_chord = std::sqrt(std::max((l - foot) * (l + foot), 0.0));
+  // The rod turns on about −u: the crank is behind.
+  const Vector3d e = (foot * B.outwards + side(leg) * half_chord * ends.u.cross(B.outwards)) / l;
+  const Vector3d rod = (ends.AB - l * e).normalized();
+  const Vector3d x = ends.u.cross(e).normalized(), x_2 = ends.u.cross(rod).normalized();
+  const Vector3d R = ends.A + l * e;
+  out.R = {frameOf(x, e), frameOf(x_2, rod)};
+  out.c = {ends.A + leg.proximal.center_of_mass * e, R + leg.distal.center_of_mass * rod};
+  out.joints[0].axes[0] = -ends.u;
+  out.joints[0].across << x, e;
+  out.joints[1].axes = {-ends.u, -x_2};
+  out.joints[1].point = R;
+}
+
+/// The carriage is where the rail meets the ball of radius s about B; a positive knee has it behind B.
+void placePus(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& out) {
+  const double s = leg.distal.length;
+  const Split B(ends);
+  requireReach(B.distance <= s, index, B.distance, t);
+  const double ahead = side(leg) * std::sqrt((s - B.distance) * (s + B.distance));
+  const Vector3d carriage = ends.A + (B.along - ahead) * ends.u;
+  const Vector3d rod = (B.distance * B.outwards + ahead * ends.u).normalized();
+  const Vector3d x = ends.u.cross(B.outwards).normalized();
+  out.R = {fixedFrame(ends.u), frameOf(x, rod)};
+  out.c = {carriage + leg.proximal.center_of_mass * ends.u, carriage + leg.distal.center_of_mass * rod};
+  out.joints[0].axes[0] = ends.u;
+  out.joints[0].across << out.R[0].col(0), out.R[0].col(2);
+  out.joints[0].point = carriage;
+  out.joints[1].axes = {-ends.u, x};
+  out.joints[1].point = carriage;
+}
+
+std::array<Joint::Type, 2> jointsOf(LegKind kind) {
+  using Type = Joint::Type;
+  switch (kind) {
+    case LegKind::URS:
+      return {Type::universal, Type::revolute};
+    case LegKind::UPS:
+      return {Type::universal, Type::prismatic};
+    case LegKind::RUS:
+      return {Type::revolute, Type::universal};
+    case LegKind::PUS:
+      break;
+  }
+  return {Type::prismatic, Type::universal};
+}
+
+}  // namespace
+
+PlacedLeg placeLeg(const Leg& leg, int index, int first, int second, const Motion<double>& motion) {
+  const Vector3d B = motion.p + motion.Q * leg.platform_point;
+  const Ends ends = {leg.base_axis.normalized(), leg.base_point, B, B - leg.base_point};
+  PlacedLeg out;
+  out.B = B;
+  const auto types = jointsOf(leg.kind);
+  out.joints[0].type = types[0], out.joints[1].type = types[1];
+  out.joints[0].child = out.joints[1].parent = first;
+  out.joints[1].child = second;
+  out.joints[0].point = ends.A;
+  switch (leg.kind) {
+    case LegKind::URS:
+      placeUrs(leg, index, ends, motion.t, out);
+      break;
+    case LegKind::UPS:
+      placeUps(leg, index, ends, motion.t, out);
+      break;
+    case LegKind::RUS:
+      placeRus(leg, index, ends, motion.t, out);
+      break;
+    case LegKind::PUS:
+      placePus(leg, index, ends, motion.t, out);
+      break;
+  }
+  return out;
+}
+
+}  // namespace ursula::maximal

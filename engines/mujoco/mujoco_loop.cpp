@@ -1,0 +1,259 @@
+// Open trees with joints q_L and a free platform q_P. The loops are closed where the distal link's and the platform's
+// point Bᵢ coincide; G = [G_L G_P] is the Jacobian of the gaps.
+//
+//   G_L q̇_L = −G_P q̇_P                                                                                         (1)
+//   G_L q̈_L = −(the gaps' acceleration with q̈_L = 0)                                                            (2)
+//   Gᵀλ + Sτ = M q̈ + bias − friction − load, S picking the driven coordinates                                   (3)
+//
+// MuJoCo gives G, the accelerations in (2) and M q̈ + bias; its constraints, contacts and integrators have no part.
+
+#include "engines/mujoco/mujoco_loop.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "engines/mujoco/mujoco_loop_internal.h"
+
+namespace ursula {
+namespace {
+
+using mujoco::dofOf, mujoco::joints_per_leg, mujoco::siteOnLeg, mujoco::siteOnPlatform;
+
+constexpr double pi = 3.14159265358979323846;
+constexpr int most_dofs = mujoco::most_dofs, most_gaps = mujoco::most_gaps;
+using mujoco::GapJacobian, mujoco::VectorOfGaps, mujoco::VectorOfDofs;
+using SquareOfGaps = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_gaps, most_gaps>;
+using SquareOfDofs = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_dofs, most_dofs>;
+
+/// The angle between sides a and b of a triangle, opposite to c; exact to rounding for needles, too (Kahan,
+/// Miscalculating Area and Angles of a Needle-like Triangle, 2014, sect. 2).
+double angleOpposite(double c, double a, double b) {
+  if (a < b) std::swap(a, b);
+  const double slack = b >= c ? c - (a - b) : b - (a - c);
+  const double top = ((a - b) + c) * slack, bottom = (a + (b + c)) * ((a - c) + b);
+  return 2 * std::atan2(std::sqrt(std::max(top, 0.0)), std::sqrt(std::max(bottom, 0.0)));
+}
+
+/// A leg's joints, where it is at a pose: AB in the frame in which its model's coordinates are zero.
+class JointsAt {
+ public:
+  JointsAt(const Leg& leg, int index, const Motion<double>& motion)
+      : l_(leg.proximal.length),
+        s_(leg.distal.length),
+        side_(leg.knee == Knee::positive ? 1 : -1),
+        kind_(leg.kind),
+        index_(index),
+        t_(motion.t),
+        AB_(motion.p + motion.Q * leg.platform_point - leg.base_point),
+        zero_(mujoco::frameAtZero(leg)) {}
+
+  Vector3d coordinates() const {
+    switch (kind_) {
+      case LegKind::URS:
+        return urs();
+      case LegKind::UPS:
+        return ups();
+      case LegKind::RUS:
+        return rus();
+      case LegKind::PUS:
+        break;
+    }
+    return pus();
+  }
+
+ private:
+  void requireReach(bool reaches, double distance) const {
+    if (!reaches)
+      throw std::domain_error(fmt::format("leg {} cannot reach over {} m at t = {} s", index_ + 1, distance, t_));
+  }
+
+  /// Turn about −u from the frame's zero, and between u and AB.
+  Vector3d universal() const {
+    const Vector3d u = zero_.col(2), across = u.cross(AB_);
+    return {std::atan2(-across.dot(zero_.col(1)), across.dot(zero_.col(0))), std::atan2(across.norm(), u.dot(AB_)), 0};
+  }
+
+  Vector3d urs() const {
+    const double q = AB_.norm();
+    requireReach(q <= l_ + s_ && q >= std::abs(l_ - s_), q);
+    const Vector3d towards_B = universal();
+    return {towards_B(0), towards_B(1) + side_ * angleOpposite(s_, l_, q), side_ * angleOpposite(q, l_, s_)};
+  }
+
+  Vector3d ups() const {
+    const double d = AB_.norm();
+    requireReach(s_ < d && d < s_ + l_, d);
+    const Vector3d towards_B = universal();
+    return {towards_B(0), towards_B(1), d};
+  }
+
+  /// Seen along u the leg is a triangle of crank l, rod c and r.
+  Vector3d rus() const {
+    const Vector3d k = zero_.transpose() * AB_;
+    requireReach(std::abs(k.y()) < s_, std::abs(k.y()));
+    const double c = std::sqrt((s_ - k.y()) * (s_ + k.y())), r = std::hypot(k.x(), k.z());
+    requireReach(r <= l_ + c && r >= std::abs(l_ - c), r);
+    return {std::atan2(-k.x(), k.z()) - side_ * angleOpposite(c, l_, r), side_ * (pi - angleOpposite(r, l_, c)),
+            std::atan2(k.y(), c)};
+  }
+
+  Vector3d pus() const {
+    const Vector3d k = zero_.transpose() * AB_;
+    const double r = std::hypot(k.x(), k.z());
+    requireReach(r <= s_, r);
+    const double ahead = side_ * std::sqrt((s_ - r) * (s_ + r));
+    return {k.y() - ahead, std::atan2(-k.x(), k.z()), std::atan2(r, ahead)};
+  }
+
+  double l_, s_, side_;
+  LegKind kind_;
+  int index_;
+  double t_;
+  Vector3d AB_;
+  Matrix3d zero_;
+};
+
+Vector3d centroidOfBase(const Manipulator& manipulator) {
+  Vector3d sum = Vector3d::Zero();
+  for (const Leg& leg : manipulator.parameters().legs) sum += leg.base_point;
+  return sum / manipulator.legCount();
+}
+
+double friction(double viscous, double coulomb, double speed, double rate) {
+  return -viscous * rate - coulomb * std::tanh(rate / speed);
+}
+
+Vector3d frictionOf(const Leg& leg, const Vector3d& rates) {
+  Vector3d out;
+  for (int joint = 0; joint < joints_per_leg; ++joint) {
+    const Coordinate coordinate = rowOf(leg.kind).coordinates[static_cast<std::size_t>(joint)];
+    out(joint) = friction(leg.friction.on(coordinate), leg.coulomb.on(coordinate), leg.coulomb.speedOf(coordinate),
+                          rates(joint));
+  }
+  return out;
+}
+
+}  // namespace
+
+MujocoLoop::Impl::Impl(const Manipulator& from, std::shared_ptr<const Load> on_platform)
+    : manipulator(from),
+      load(std::move(on_platform)),
+      legs(from.legCount()),
+      leg_dofs(mujoco::legDofs(legs)),
+      dofs(mujoco::dofsOf(legs)),
+      origin(centroidOfBase(from)),
+      model(mujoco::buildModel(from, origin)),
+      data(mj_makeData(model.get())),
+      G(leg_dofs, dofs) {
+  if (!data) throw std::runtime_error("MuJoCo: no memory for its data");
+  for (int leg = 0; leg < legs; ++leg)
+    offset_of_phi[static_cast<std::size_t>(leg)] = mujoco::offsetOfPhi(manipulator.leg(leg));
+}
+
+void MujocoLoop::Impl::place(const Motion<double>& motion) {
+  for (int leg = 0; leg < legs; ++leg)
+    Eigen::Map<Vector3d>(data->qpos + dofOf(leg, 0)) = JointsAt(manipulator.leg(leg), leg, motion).coordinates();
+  const Eigen::Quaterniond Q(motion.Q);
+  Eigen::Map<Vector3d>(data->qpos + leg_dofs) = (motion.p - origin) + motion.Q * manipulator.platform().center_of_mass;
+  Eigen::Map<Eigen::Vector4d>(data->qpos + leg_dofs + 3) << Q.w(), Q.x(), Q.y(), Q.z();
+  mj_kinematics(model.get(), data.get());
+  mj_comPos(model.get(), data.get());
+  G = gapJacobian();
+}
+
+/// MuJoCo's free joint has its linear part in the world and its angular part in the body.
+void MujocoLoop::Impl::move(const Motion<double>& motion) {
+  const Vector3d arm = motion.Q * manipulator.platform().center_of_mass;
+  Eigen::Map<VectorOfDofs> rates(data->qvel, dofs), accelerations(data->qacc, dofs);
+  const Eigen::PartialPivLU<SquareOfGaps> factors(G.leftCols(leg_dofs));
+
+  rates.tail<6>() << motion.p_dot + motion.omega.cross(arm), motion.Q.transpose() * motion.omega;
+  rates.head(leg_dofs) = -factors.solve(G.rightCols<6>() * rates.tail<6>());  // (1)
+  mj_comVel(model.get(), data.get());
+
+  accelerations.head(leg_dofs).setZero();
+  accelerations.tail<6>() << motion.p_ddot + motion.omega_dot.cross(arm) + motion.omega.cross(motion.omega.cross(arm)),
+      motion.Q.transpose() * motion.omega_dot;
+  mj_rnePostConstraint(model.get(), data.get());
+  accelerations.head(leg_dofs) = -factors.solve(gapAcceleration());  // (2)
+}
+
+GapJacobian MujocoLoop::Impl::gapJacobian() const {
+  using RowMajor = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor, 3, most_dofs>;
+  GapJacobian jacobian(leg_dofs, dofs);
+  RowMajor on_leg(3, dofs), on_platform(3, dofs);
+  for (int leg = 0; leg < legs; ++leg) {
+    mj_jacSite(model.get(), data.get(), on_leg.data(), nullptr, siteOnLeg(leg));
+    mj_jacSite(model.get(), data.get(), on_platform.data(), nullptr, siteOnPlatform(legs, leg));
+    jacobian.middleRows<3>(3 * leg) = on_leg - on_platform;
+  }
+  return jacobian;
+}
+
+/// Gravity is in MuJoCo's accelerations; it cancels.
+VectorOfGaps MujocoLoop::Impl::gapAcceleration() const {
+  const auto linear = [&](int site) {
+    Vector6d angular_and_linear;
+    mj_objectAcceleration(model.get(), data.get(), mjOBJ_SITE, site, angular_and_linear.data(), 0);
+    return Vector3d(angular_and_linear.tail<3>());
+  };
+  VectorOfGaps gaps(leg_dofs);
+  for (int leg = 0; leg < legs; ++leg)
+    gaps.segment<3>(3 * leg) = linear(siteOnLeg(leg)) - linear(siteOnPlatform(legs, leg));
+  return gaps;
+}
+
+/// The right-hand side of (3).
+VectorOfDofs MujocoLoop::Impl::unbalanced(const Motion<double>& motion) const {
+  VectorOfDofs forces(dofs);
+  mj_rne(model.get(), data.get(), 1, forces.data());
+  return forces - given(*model, *data, motion);
+}
+
+VectorOfDofs MujocoLoop::Impl::given(const mjModel& in_model, mjData& in_data, const Motion<double>& motion) const {
+  VectorOfDofs forces = VectorOfDofs::Zero(dofs);
+  for (int leg = 0; leg < legs; ++leg)
+    forces.segment<3>(dofOf(leg, 0)) =
+        frictionOf(manipulator.leg(leg), Eigen::Map<const Vector3d>(in_data.qvel + dofOf(leg, 0)));
+  if (load) {
+    const Wrench<double> wrench = load->at(motion.t);
+    const bool in_platform = load->frame == Load::Frame::platform;
+    const Vector3d force = in_platform ? motion.Q * wrench.force : wrench.force;
+    const Vector3d moment = in_platform ? motion.Q * wrench.moment : wrench.moment;
+    const Vector3d point = (motion.p - origin) + motion.Q * load->point;
+    mj_applyFT(&in_model, &in_data, force.data(), moment.data(), point.data(), mujoco::platformBody(legs),
+               forces.data());
+  }
+  return forces;
+}
+
+MujocoLoop::MujocoLoop(const Manipulator& manipulator, std::shared_ptr<const Load> load)
+    : impl_(std::make_unique<Impl>(manipulator, std::move(load))) {}
+
+MujocoLoop::~MujocoLoop() = default;
+
+Vector6d MujocoLoop::inverseDynamics(const Motion<double>& motion) {
+  impl_->place(motion);
+  impl_->move(motion);
+  const int dofs = impl_->dofs, leg_dofs = impl_->leg_dofs;
+  SquareOfDofs multipliers_and_efforts = SquareOfDofs::Zero(dofs, dofs);
+  multipliers_and_efforts.leftCols(leg_dofs) = impl_->G.transpose();
+  for (int m = 0; m < motor_count; ++m) {
+    const Motor& motor = impl_->manipulator.motors()[static_cast<std::size_t>(m)];
+    multipliers_and_efforts(dofOf(motor.leg, motor.joint), leg_dofs + m) = 1;
+  }
+  const Eigen::PartialPivLU<SquareOfDofs> factors(multipliers_and_efforts);
+  return factors.solve(impl_->unbalanced(motion)).tail<6>();  // (3)
+}
+
+bool mujocoAvailable() { return true; }
+
+std::string mujocoVersion() { return mj_versionString(); }
+
+}  // namespace ursula

@@ -1,0 +1,221 @@
+// How the machine is put into MuJoCo. A text says what joins what; every number is then written over in binary, as
+// decimal digits and MuJoCo's compiler would round it. The links' body frames are [x, axis × x, axis], a carriage's is
+// [x̂, û, ẑ]. Their origins are at the links' first ends; that of a rod in a cylinder is at its far end, which slides
+// from A.
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "engines/mujoco/mujoco_loop_internal.h"
+
+namespace ursula::mujoco {
+namespace {
+
+[[noreturn]] void throwMessage(const char* message) { throw std::runtime_error(fmt::format("MuJoCo: {}", message)); }
+
+/// All that the text depends on.
+struct Structure {
+  std::vector<LegKind> kinds;
+  Closure closure;
+
+  bool operator<(const Structure& other) const {
+    return std::tie(closure, kinds) < std::tie(other.closure, other.kinds);
+  }
+};
+
+/// How a kind of leg is written: its joints, and how the distal link lies in the proximal one at coordinates zero.
+struct KindText {
+  const char* on_proximal;
+  const char* quaternion;  ///< of the distal link
+  const char* on_distal;
+};
+
+constexpr std::array<KindText, leg_kind_count> kind_texts = {{
+    // URS: θ = 0 folds the leg, s = −e: half a turn about x.
+    {R"(<joint axis="0 0 -1"/><joint axis="1 0 0"/>)", "0 1 0 0", R"(<joint axis="1 0 0"/>)"},
+    {R"(<joint axis="0 0 -1"/><joint axis="1 0 0"/>)", "1 0 0 0", R"(<joint type="slide" axis="0 0 1"/>)"},
+    {R"(<joint axis="0 -1 0"/>)", "1 0 0 0", R"(<joint axis="0 -1 0"/><joint axis="-1 0 0"/>)"},
+    // PUS: θ = 0 lays the rod along u, the carriage's y: a quarter turn about −x.
+    {R"(<joint type="slide" axis="0 1 0"/>)", "1 -1 0 0", R"(<joint axis="0 0 -1"/><joint axis="1 0 0"/>)"},
+}};
+
+/// The numbers of bodies are written over.
+std::string describe(const Structure& structure) {
+  const std::vector<LegKind>& kinds = structure.kinds;
+  const std::string inertial = R"(<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>)";
+  std::string text = R"(<mujoco><worldbody>)";
+  for (std::size_t leg = 0; leg < kinds.size(); ++leg) {
+    const KindText& kind = kind_texts[static_cast<std::size_t>(kinds[leg])];
+    text += fmt::format(R"(<body name="proximal{0}">{1}{2}<body name="distal{0}" quat="{3}">{1}{4})"
+                        R"(<site name="leg{0}"/></body></body>)",
+                        leg, inertial, kind.on_proximal, kind.quaternion, kind.on_distal);
+  }
+  text += fmt::format(R"(<body name="platform"><freejoint/>{})", inertial);
+  for (std::size_t leg = 0; leg < kinds.size(); ++leg) text += fmt::format(R"(<site name="platform{}"/>)", leg);
+  text += "</body></worldbody>";
+  if (structure.closure == Closure::connected) {
+    text += "<equality>";
+    for (std::size_t leg = 0; leg < kinds.size(); ++leg)
+      text += fmt::format(R"(<connect body1="distal{}" body2="platform" anchor="0 0 0"/>)", leg);
+    text += "</equality>";
+  }
+  return text + "</mujoco>";
+}
+
+bool hasJoints(const mjModel& model, int leg, LegKind kind) {
+  const LegKindRow& row = rowOf(kind);
+  bool good = model.body_dofadr[proximalBody(leg)] == dofOf(leg, 0) &&
+              model.body_dofadr[distalBody(leg)] == dofOf(leg, row.joints_of_proximal);
+  for (int joint = 0; joint < joints_per_leg; ++joint)
+    good = good && model.jnt_type[dofOf(leg, joint)] ==
+                       (slides(row.coordinates[static_cast<std::size_t>(joint)]) ? mjJNT_SLIDE : mjJNT_HINGE);
+  return good;
+}
+
+/// Whether things stand where the header says.
+bool isAsExpected(const mjModel& model, const Structure& structure) {
+  const std::vector<LegKind>& kinds = structure.kinds;
+  const int legs = static_cast<int>(kinds.size());
+  bool good = model.nv == dofsOf(legs) && model.nq == dofsOf(legs) + 1 && model.nbody == platformBody(legs) + 1 &&
+              model.nsite == 2 * legs && model.njnt == legDofs(legs) + 1 &&
+              model.neq == (structure.closure == Closure::connected ? legs : 0) &&
+              mj_name2id(&model, mjOBJ_BODY, "platform") == platformBody(legs);
+  for (int leg = 0; good && leg < legs; ++leg) {
+    const auto is = [&](int type, const char* name, int id) {
+      return mj_name2id(&model, type, fmt::format("{}{}", name, leg).c_str()) == id;
+    };
+    good = is(mjOBJ_BODY, "proximal", proximalBody(leg)) && is(mjOBJ_BODY, "distal", distalBody(leg)) &&
+           is(mjOBJ_SITE, "leg", siteOnLeg(leg)) && is(mjOBJ_SITE, "platform", siteOnPlatform(legs, leg)) &&
+           hasJoints(model, leg, kinds[static_cast<std::size_t>(leg)]);
+  }
+  return good;
+}
+
+/// MuJoCo reads files, or here what looks like one in memory.
+Model parse(const Structure& structure) {
+  mju_user_error = mju_user_warning = throwMessage;  // by default it exits, prints and writes a log
+  const std::string text = describe(structure);
+  const auto files = std::make_unique<mjVFS>();
+  mj_defaultVFS(files.get());
+  const char* name = "machine.xml";
+  if (mj_makeEmptyFileVFS(files.get(), name, static_cast<int>(text.size())) != 0) throwMessage("no room for the text");
+  std::memcpy(files->filedata[mj_findFileVFS(files.get(), name)], text.data(), text.size());
+  std::array<char, 1000> error{};
+  Model model(mj_loadXML(name, files.get(), error.data(), static_cast<int>(error.size())));
+  mj_deleteVFS(files.get());
+  if (!model) throwMessage(error.data());
+  if (!isAsExpected(*model, structure))
+    throwMessage("bodies, joints and sites stand in another order than was asked for");
+  return model;
+}
+
+/// MuJoCo's parser keeps global state: one thread at a time, and each structure once.
+const mjModel* parsed(const Structure& structure) {
+  static std::mutex mutex;
+  static std::map<Structure, Model> models;
+  const std::lock_guard<std::mutex> lock(mutex);
+  const auto found = models.find(structure);
+  return found != models.end() ? found->second.get() : models.emplace(structure, parse(structure)).first->second.get();
+}
+
+void write(const Vector3d& from, mjtNum* to, int index) { Eigen::Map<Vector3d>(to + 3 * index) = from; }
+
+void write(const Eigen::Quaterniond& from, mjtNum* to, int index) {
+  Eigen::Map<Eigen::Vector4d>(to + 4 * index) << from.w(), from.x(), from.y(), from.z();
+}
+
+/// MuJoCo keeps principal moments and the rotation to their axes.
+void writeInertia(mjModel& model, int body, double mass, const Vector3d& center, const Matrix3d& inertia) {
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(inertia);
+  Matrix3d axes = principal.eigenvectors();
+  if (axes.determinant() < 0) axes.col(0) *= -1;
+  model.body_mass[body] = mass;
+  write(center, model.body_ipos, body);
+  write(Eigen::Quaterniond(axes).normalized(), model.body_iquat, body);
+  write(principal.eigenvalues(), model.body_inertia, body);
+}
+
+void writeLeg(mjModel& model, int index, const Leg& leg, const Vector3d& origin) {
+  const int proximal = proximalBody(index), distal = distalBody(index);
+  const bool telescopic = leg.kind == LegKind::UPS, carriage = leg.kind == LegKind::PUS;
+  // Where the distal link's origin lies in the proximal one at coordinates zero, and how far the link reaches back.
+  const double joined_at = telescopic || carriage ? 0 : leg.proximal.length;
+  const double behind = telescopic ? leg.distal.length : 0;
+  const Vector3d along_proximal = carriage ? Vector3d::UnitY() : Vector3d::UnitZ();
+  write(leg.base_point - origin, model.body_pos, proximal);
+  write(Eigen::Quaterniond(frameAtZero(leg)).normalized(), model.body_quat, proximal);
+  write(Vector3d(0, 0, joined_at), model.body_pos, distal);
+  if (carriage)  // once more, as the text's digits were MuJoCo's to round
+    write(Eigen::Quaterniond(1, -1, 0, 0).normalized(), model.body_quat, distal);
+  write(Vector3d(0, 0, leg.distal.length - behind), model.site_pos, siteOnLeg(index));
+  writeInertia(model, proximal, leg.proximal.mass, leg.proximal.center_of_mass * along_proximal, leg.proximal.inertia);
+  writeInertia(model, distal, leg.distal.mass, Vector3d(0, 0, leg.distal.center_of_mass - behind), leg.distal.inertia);
+  model.body_subtreemass[distal] = leg.distal.mass;
+  model.body_subtreemass[proximal] = leg.proximal.mass + leg.distal.mass;
+}
+
+/// The constants that MuJoCo makes of inertias when it reads a text; then, as that moves them, its constraints' points
+/// from the sites, as hard as it allows.
+void connect(mjModel& model, int legs) {
+  const Data data(mj_makeData(&model));
+  if (!data) throwMessage("no memory for its data");
+  mj_setConst(&model, data.get());
+  for (int leg = 0; leg < legs; ++leg) {
+    std::copy_n(model.site_pos + 3 * siteOnLeg(leg), 3, model.eq_data + mjNEQDATA * leg);
+    std::copy_n(model.site_pos + 3 * siteOnPlatform(legs, leg), 3, model.eq_data + mjNEQDATA * leg + 3);
+    std::fill_n(model.eq_solimp + mjNIMP * leg, 2, mjMAXIMP);
+  }
+}
+
+}  // namespace
+
+Matrix3d frameAtZero(const Leg& leg) {
+  const Vector3d u = leg.base_axis.normalized();
+  Matrix3d frame;
+  if (rowOf(leg.kind).joints_of_proximal == 2) {
+    const Vector3d x = u.unitOrthogonal();
+    frame << x, u.cross(x), u;
+    return frame;
+  }
+  const Vector3d level = u.cross(Vector3d::UnitZ());
+  const Vector3d x = level.norm() < 1e-10 ? u.cross(Vector3d::UnitY()).normalized() : level.normalized();
+  frame << x, u, x.cross(u);
+  return frame;
+}
+
+Model buildModel(const Manipulator& manipulator, const Vector3d& origin, Closure closure) {
+  const int legs = manipulator.legCount();
+  Structure structure{{}, closure};
+  for (const Leg& leg : manipulator.parameters().legs) structure.kinds.push_back(leg.kind);
+  Model model(mj_copyModel(nullptr, parsed(structure)));
+  if (!model) throwMessage("no memory for its model");
+  // Shortcuts for frames that coincided in the text, and for inertias that were diagonal in it.
+  std::fill_n(model->body_sameframe, model->nbody, mjtByte{0});
+  std::fill_n(model->site_sameframe, model->nsite, mjtByte{0});
+  std::fill_n(model->body_simple, model->nbody, mjtByte{0});
+  std::fill_n(model->dof_simplenum, model->nv, 0);
+  write(manipulator.gravity(), model->opt.gravity, 0);
+  const Platform& platform = manipulator.platform();
+  writeInertia(*model, platformBody(legs), platform.mass, Vector3d::Zero(), platform.inertia);
+  model->body_subtreemass[platformBody(legs)] = platform.mass;
+  for (int leg = 0; leg < legs; ++leg) {
+    writeLeg(*model, leg, manipulator.leg(leg), origin);
+    write(manipulator.leg(leg).platform_point - platform.center_of_mass, model->site_pos, siteOnPlatform(legs, leg));
+  }
+  if (closure == Closure::connected) connect(*model, legs);
+  return model;
+}
+
+}  // namespace ursula::mujoco

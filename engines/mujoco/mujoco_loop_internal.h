@@ -1,0 +1,89 @@
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <array>
+#include <memory>
+
+#include "engines/mujoco/mujoco_loop.h"
+#include "model/manipulator.h"
+
+namespace ursula::mujoco {
+
+static_assert(sizeof(mjtNum) == sizeof(double), "MuJoCo may be built for single precision");
+
+struct Delete {
+  void operator()(mjModel* model) const { mj_deleteModel(model); }
+  void operator()(mjData* data) const { mj_deleteData(data); }
+};
+using Model = std::unique_ptr<mjModel, Delete>;
+using Data = std::unique_ptr<mjData, Delete>;
+
+// Where things stand in the model: leg after leg, then the platform.
+constexpr int joints_per_leg = 3;
+constexpr int legDofs(int legs) { return joints_per_leg * legs; }
+constexpr int dofsOf(int legs) { return legDofs(legs) + 6; }
+constexpr int proximalBody(int leg) { return 1 + 2 * leg; }
+constexpr int distalBody(int leg) { return 2 + 2 * leg; }
+constexpr int platformBody(int legs) { return 1 + 2 * legs; }
+constexpr int siteOnLeg(int leg) { return leg; }
+constexpr int siteOnPlatform(int legs, int leg) { return legs + leg; }
+constexpr int dofOf(int leg, int joint) { return joints_per_leg * leg + joint; }
+
+/// The frame of the proximal link at coordinates zero. With a universal joint at the base: columns x, e × x, e with
+/// e = u, any x across it; else the kinds' fixed frame [x̂, û, ẑ].
+Matrix3d frameAtZero(const Leg& leg);
+
+/// The joints of each leg in the order of its coordinates and the platform free, with its body's origin in its mass
+/// centre; positions in B less `origin`. A site at Bᵢ on either side of each open loop.
+/// What MuJoCo's first coordinate of a leg is more than φ.
+double offsetOfPhi(const Leg& leg);
+
+/// `closure` says whether MuJoCo's own constraints join each pair of sites; its constants for them are then set.
+enum class Closure { open, connected };
+Model buildModel(const Manipulator& manipulator, const Vector3d& origin, Closure closure = Closure::open);
+
+constexpr int most_dofs = dofsOf(leg_count), most_gaps = legDofs(leg_count);
+/// Three gaps a leg: as many as a leg has joints.
+using GapJacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_gaps, most_dofs>;
+using VectorOfGaps = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_gaps, 1>;
+using VectorOfDofs = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_dofs, 1>;
+
+/// The machine whose loops MuJoCo closes.
+struct Connected {
+  Model model;
+  Data data;
+};
+
+}  // namespace ursula::mujoco
+
+namespace ursula {
+
+struct MujocoLoop::Impl {
+  Impl(const Manipulator& from, std::shared_ptr<const Load> on_platform);
+
+  void place(const Motion<double>& motion);
+  void move(const Motion<double>& motion);
+  mujoco::GapJacobian gapJacobian() const;
+  mujoco::VectorOfGaps gapAcceleration() const;
+  mujoco::VectorOfDofs unbalanced(const Motion<double>& motion) const;
+  /// Friction and load on the coordinates, of a model whose rates and positions are set.
+  mujoco::VectorOfDofs given(const mjModel& in_model, mjData& in_data, const Motion<double>& motion) const;
+  void placeTree(const TreeCoordinates& at);
+  /// Jacobians of what was placed; `forces` are what MuJoCo makes of it.
+  void readTree(const Motion<double>& motion, const mujoco::VectorOfDofs& forces, OpenTree& out);
+  /// [ω̇; p̈] of what MuJoCo's free joint has: of the mass centre in the world, and angular in the body.
+  Vector6d twistRate(const Motion<double>& motion, const Vector6d& rates_of_speeds) const;
+
+  Manipulator manipulator;
+  std::shared_ptr<const Load> load;
+  int legs, leg_dofs, dofs;
+  Vector3d origin;  ///< B's origin may be far from the machine, MuJoCo's world is not
+  mujoco::Model model;
+  mujoco::Data data;
+  mujoco::GapJacobian G;
+  std::array<double, leg_count> offset_of_phi{};  ///< what MuJoCo's first coordinate of a leg is more than φ
+  mujoco::Connected connected;                    ///< made when it is first asked for
+};
+
+}  // namespace ursula

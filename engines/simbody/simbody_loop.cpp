@@ -1,0 +1,154 @@
+#include "engines/simbody/simbody_loop.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <stdexcept>
+
+#include "engines/simbody/simbody_loop_internal.h"
+
+namespace ursula {
+
+SimbodyLoop::SimbodyLoop(const Manipulator& manipulator, Topology topology, std::shared_ptr<const Load> load)
+    : impl_(std::make_unique<Impl>(manipulator, topology, std::move(load))) {}
+SimbodyLoop::~SimbodyLoop() = default;
+SimbodyLoop::SimbodyLoop(SimbodyLoop&&) noexcept = default;
+SimbodyLoop& SimbodyLoop::operator=(SimbodyLoop&&) noexcept = default;
+
+int SimbodyLoop::Impl::indexOf(int joint, int leg) const {
+  const Mechanism::Place place = mechanism.place(joint, leg);
+  return place.body.getFirstUIndex(state) + place.coordinate;
+}
+
+void SimbodyLoop::Impl::setLeg(int leg, const std::array<double, 3>& q) {
+  for (int joint = 0; joint < 3; ++joint) {
+    const Mechanism::Place place = mechanism.place(joint, leg);
+    place.body.setOneQ(state, place.coordinate, q[static_cast<std::size_t>(joint)]);
+  }
+}
+
+std::array<double, 3> SimbodyLoop::Impl::legGeometry(int leg, const Motion<double>& motion) const {
+  const Leg& from = parameters.leg(leg);
+  const Vector3d d = motion.p + motion.Q * from.platform_point - from.base_point;
+  if (const auto q = ursula::legGeometry(from, baseFrame(from.base_axis), d)) return *q;
+  throw std::domain_error(
+      fmt::format("leg {} ({}) cannot reach at t = {} s: the distance is {} m, its links {} m and {} m", leg + 1,
+                  rowOf(from.kind).name, motion.t, d.norm(), from.proximal.length, from.distal.length));
+}
+
+void SimbodyLoop::Impl::setPlatformPose(const Motion<double>& motion) {
+  const SimTK::Transform X_GB(toSimTK(motion.Q), toSimTK(motion.p));
+  placed_jacobian.reset();
+  if (topology == Topology::six_balls) {  // on the ground
+    mechanism.platform.setQToFitTransform(
+        state, ~mechanism.platform.getDefaultInboardFrame() * X_GB * mechanism.platform.getDefaultOutboardFrame());
+    return;
+  }
+  mechanism.platform.setQToFitTransform(state, SimTK::Transform());  // what was there may be no number
+  realize(SimTK::Stage::Position);
+  const SimTK::MobilizedBody& parent = mechanism.platform.getParentMobilizedBody();
+  const SimTK::Transform X_GF = parent.getBodyTransform(state) * mechanism.platform.getInboardFrame(state);
+  mechanism.platform.setQToFitTransform(state, ~X_GF * X_GB * mechanism.platform.getOutboardFrame(state));
+}
+
+Eigen::MatrixXd SimbodyLoop::Impl::constraintJacobian() const {
+  SimTK::Matrix G;
+  matter.calcG(state, G);
+  Eigen::MatrixXd out(G.nrow(), G.ncol());
+  for (int i = 0; i < G.nrow(); ++i)
+    for (int j = 0; j < G.ncol(); ++j) out(i, j) = G(i, j);
+  return out;
+}
+
+Eigen::MatrixXd SimbodyLoop::Impl::constraintsAndPlatform() const {
+  SimTK::Matrix J;
+  matter.calcFrameJacobian(state, mechanism.platform.getMobilizedBodyIndex(), SimTK::Vec3(0), J);
+  const Eigen::MatrixXd G = constraintJacobian();
+  Eigen::MatrixXd out(G.rows() + 6, G.cols());
+  out.topRows(G.rows()) = G;
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < J.ncol(); ++j) out(G.rows() + i, j) = J(i, j);
+  return out;
+}
+
+void SimbodyLoop::Impl::setRates(const Motion<double>& motion) {
+  realize(SimTK::Stage::Position);
+  const Eigen::MatrixXd constraints = constraintsAndPlatform();
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(constraints);
+  const Eigen::Index n = factors.rows();
+  placed_jacobian = constraints.topRows(n - 6);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
+  right.tail<6>() << motion.omega, motion.p_dot;
+  const Eigen::VectorXd u = factors.solve(right);
+  if (!u.allFinite())
+    throw std::runtime_error(fmt::format("Simbody's constraints do not determine the rates at t = {} s", motion.t));
+  for (int i = 0; i < state.getNU(); ++i) state.updU()[i] = u(i);
+
+  realize(SimTK::Stage::Velocity);
+  SimTK::Vector bias;
+  matter.calcBiasForAccelerationConstraints(state, bias);
+  const SimTK::SpatialVec platform_bias =
+      matter.calcBiasForFrameJacobian(state, mechanism.platform.getMobilizedBodyIndex(), SimTK::Vec3(0));
+  right.head(n - 6) = -mapped(bias);
+  right.tail<6>() << motion.omega_dot, motion.p_ddot;
+  right.tail<6>() -= toEigen(platform_bias);
+  const Eigen::VectorXd u_dot_found = factors.solve(right);
+  for (int i = 0; i < state.getNU(); ++i) u_dot[i] = u_dot_found(i);
+}
+
+void SimbodyLoop::Impl::setFreePlatform(const Motion<double>& motion) {
+  realize(SimTK::Stage::Position);
+  const int first = mechanism.platform.getFirstUIndex(state);
+  for (int k = 0; k < 3; ++k) {
+    state.updU()[first + k] = motion.omega(k);
+    state.updU()[first + 3 + k] = motion.p_dot(k);
+    u_dot[first + k] = motion.omega_dot(k);
+    u_dot[first + 3 + k] = motion.p_ddot(k);
+  }
+}
+
+JointMotion SimbodyLoop::place(const Motion<double>& motion) {
+  impl_->state.setTime(motion.t);
+  for (int i = 0; i < impl_->legCount(); ++i) impl_->setLeg(i, impl_->legGeometry(i, motion));
+  impl_->setPlatformPose(motion);
+  impl_->setRates(motion);
+  return joints();
+}
+
+void SimbodyLoop::place(const Motion<double>& motion, const JointMotion& joint_motion) {
+  Impl& loop = *impl_;
+  loop.state.setTime(motion.t);
+  const auto coordinates = [&](int leg) { return rowOf(loop.parameters.leg(leg).kind).coordinates; };
+  for (int i = 0; i < loop.legCount(); ++i) {
+    std::array<double, 3> q{};
+    for (std::size_t j = 0; j < 3; ++j) q[j] = joint_motion.q.of(coordinates(i)[j])(i);
+    loop.setLeg(i, q);
+  }
+  loop.setPlatformPose(motion);
+  // Six balls through wrong legs may determine no rates, and the free platform needs none of theirs.
+  loop.topology == Topology::tree_through_leg_1 ? loop.setRates(motion) : loop.setFreePlatform(motion);
+  for (int i = 0; i < loop.legCount(); ++i)
+    for (int joint = 0; joint < 3; ++joint) {
+      const Coordinate coordinate = coordinates(i)[static_cast<std::size_t>(joint)];
+      loop.state.updU()[loop.indexOf(joint, i)] = joint_motion.q_dot.of(coordinate)(i);
+      loop.u_dot[loop.indexOf(joint, i)] = joint_motion.q_ddot.of(coordinate)(i);
+    }
+  loop.realize(SimTK::Stage::Velocity);
+}
+
+JointMotion SimbodyLoop::joints() const {
+  const Impl& loop = *impl_;
+  JointMotion out;
+  for (int i = 0; i < loop.legCount(); ++i)
+    for (int joint = 0; joint < 3; ++joint) {
+      const Coordinate coordinate = rowOf(loop.parameters.leg(i).kind).coordinates[static_cast<std::size_t>(joint)];
+      const Mechanism::Place place = loop.mechanism.place(joint, i);
+      out.q.of(coordinate)(i) = place.body.getOneQ(loop.state, place.coordinate);
+      out.q_dot.of(coordinate)(i) = loop.mechanism.rate(loop.state, joint, i);
+      out.q_ddot.of(coordinate)(i) = loop.u_dot[loop.indexOf(joint, i)];
+    }
+  return out;
+}
+
+}  // namespace ursula

@@ -1,0 +1,227 @@
+// How the closed loop is built. Universal turns about its x, then y; Pin about z; Slider goes along x. Of URS φ turns
+// about −u, ψ and θ about x; of UPS d goes along e; of RUS φ and ψ turn about −u, θ about −x₂; of PUS d goes along u, ψ
+// turns about −u, θ about x. The links' body frames are G = [x, e × x, e] and H = [x, s × x, s] of the paper's (40)
+// (of a carriage [x̂, u, ẑ]) with origins at the links' first ends, so that the raw inertias go in as they are.
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <stdexcept>
+
+#include "engines/simbody/simbody_loop_internal.h"
+
+namespace ursula {
+namespace {
+
+/// Simbody takes the shift off again, and refuses what rounding has then left.
+SimTK::MassProperties massProperties(double mass, const Vector3d& center, const Matrix3d& about_center) try {
+  const SimTK::Inertia central(about_center(0, 0), about_center(1, 1), about_center(2, 2), about_center(0, 1),
+                               about_center(0, 2), about_center(1, 2));
+  const SimTK::MassProperties out(mass, toSimTK(center), central.shiftFromMassCenter(-toSimTK(center), mass));
+  static_cast<void>(out.calcCentralInertia());
+  return out;
+} catch (const SimTK::Exception::Base&) {
+  throw std::domain_error(
+      fmt::format("Simbody cannot hold a body of {:.6g} kg whose center of mass is {:.6g} m from its origin: its "
+                  "moments of inertia of {:.6g} kg m^2 are lost beside {:.6g} kg m^2",
+                  mass, center.norm(), about_center.diagonal().maxCoeff(), mass * center.squaredNorm()));
+}
+
+SimTK::Body::Rigid linkBody(const Link& link, const Vector3d& along = Vector3d::UnitZ()) {
+  const Vector3d center = link.center_of_mass * along;
+  return SimTK::Body::Rigid(massProperties(link.mass, center, link.inertia));
+}
+
+/// A frame in axes of a body.
+SimTK::Transform frameOf(const Vector3d& x, const Vector3d& y, const Vector3d& z,
+                         const Vector3d& origin = Vector3d::Zero()) {
+  Matrix3d R;
+  R << x, y, z;
+  return {toSimTK(R), toSimTK(origin)};
+}
+
+const Vector3d e_x = Vector3d::UnitX(), e_y = Vector3d::UnitY(), e_z = Vector3d::UnitZ();
+
+/// Torques, Coulomb friction and load, as Simbody asks for them.
+class DriverForce : public SimTK::Force::Custom::Implementation {
+ public:
+  DriverForce(Mechanism mechanism, std::shared_ptr<const AppliedForces> applied)
+      : mechanism_(std::move(mechanism)), applied_(std::move(applied)) {}
+
+  void calcForce(const SimTK::State& state, SimTK::Vector_<SimTK::SpatialVec>& body_forces,
+                 SimTK::Vector_<SimTK::Vec3>&, SimTK::Vector& mobility_forces) const override {
+    const Vector6d torques = applied_->history ? applied_->history(state.getTime()) : applied_->torques;
+    for (int m = 0; m < motor_count; ++m) {
+      const Motor& motor = applied_->motors[static_cast<std::size_t>(m)];
+      apply(state, motor.joint, motor.leg, torques(m), mobility_forces);
+    }
+    if (applied_->any_coulomb) addCoulomb(state, mobility_forces);
+    if (applied_->load)
+      body_forces[mechanism_.platform.getMobilizedBodyIndex()] += loadOnPlatform(*applied_->load, mechanism_, state);
+  }
+
+  SimTK::Real calcPotentialEnergy(const SimTK::State&) const override { return 0; }
+
+ private:
+  void apply(const SimTK::State& state, int joint, int leg, double force, SimTK::Vector& mobility_forces) const {
+    const Mechanism::Place place = mechanism_.place(joint, leg);
+    place.body.applyOneMobilityForce(state, place.coordinate, force, mobility_forces);
+  }
+
+  void addCoulomb(const SimTK::State& state, SimTK::Vector& mobility_forces) const {
+    for (std::size_t i = 0; i < applied_->legs.size(); ++i)
+      for (int joint = 0; joint < 3; ++joint) {
+        const int leg = static_cast<int>(i);
+        const double rate = mechanism_.rate(state, joint, leg);
+        apply(state, joint, leg, coulombForce(applied_->legs[i], joint, rate), mobility_forces);
+      }
+  }
+
+  Mechanism mechanism_;
+  std::shared_ptr<const AppliedForces> applied_;
+};
+
+void addDamper(SimTK::GeneralForceSubsystem& forces, const SimTK::MobilizedBody& body, int coordinate, double damping) {
+  if (damping > 0) SimTK::Force::MobilityLinearDamper(forces, body, SimTK::MobilizerUIndex(coordinate), damping);
+}
+
+}  // namespace
+
+Matrix3d baseFrame(const Vector3d& axis) {
+  const Vector3d u = axis.normalized();
+  const bool vertical = u.cross(Vector3d::UnitZ()).norm() < 1e-10;
+  const Vector3d x = u.cross(vertical ? Vector3d(Vector3d::UnitY()) : Vector3d(Vector3d::UnitZ())).normalized();
+  Matrix3d frame;
+  frame << -u, x, x.cross(u);
+  return frame;
+}
+
+Mechanism::Place Mechanism::place(int joint, int leg) const {
+  const auto i = static_cast<std::size_t>(leg);
+  const int first = joints_of_proximal[i];
+  if (joint < first) return {proximal[i], joint};
+  return {distal[i], joint - first};
+}
+
+double Mechanism::rate(const SimTK::State& state, int joint, int leg) const {
+  const Place here = place(joint, leg);
+  return here.body.getOneU(state, here.coordinate);
+}
+
+double coulombForce(const Leg& leg, int joint, double rate) {
+  const Coordinate coordinate = rowOf(leg.kind).coordinates[static_cast<std::size_t>(joint)];
+  return -leg.coulomb.on(coordinate) * std::tanh(rate / leg.coulomb.speedOf(coordinate));
+}
+
+SimTK::SpatialVec loadOnPlatform(const Load& load, const Mechanism& mechanism, const SimTK::State& state) {
+  const SimTK::Rotation& R = mechanism.platform.getBodyRotation(state);
+  const auto wrench = load.at(state.getTime());
+  const bool in_platform = load.frame == Load::Frame::platform;
+  const SimTK::Vec3 force = in_platform ? R * toSimTK(wrench.force) : toSimTK(wrench.force);
+  const SimTK::Vec3 moment = in_platform ? R * toSimTK(wrench.moment) : toSimTK(wrench.moment);
+  return {moment + (R * toSimTK(load.point)) % force, force};
+}
+
+SimbodyLoop::Impl::Impl(const Manipulator& manipulator, Topology topology_, std::shared_ptr<const Load> load)
+    : matter(system), forces(system), parameters(manipulator), topology(topology_) {
+  const SimTK::Force::UniformGravity gravity(forces, matter, toSimTK(manipulator.gravity()));
+  for (int i = 0; i < legCount(); ++i) addLeg(i);
+  addPlatform();
+  addForces(std::move(load));
+  state = system.realizeTopology();
+  system.realizeModel(state);
+  u_dot = SimTK::Vector(state.getNU(), 0.0);
+  if (topology != Topology::six_balls) return;
+  open = state;
+  for (const SimTK::Constraint::Ball& ball : mechanism.balls) ball.disable(open);
+  system.realizeModel(open);
+}
+
+void SimbodyLoop::Impl::addLeg(int leg) {
+  const Leg& from = parameters.leg(leg);
+  switch (from.kind) {
+    case LegKind::URS:
+    case LegKind::UPS:
+      addUniversalLeg(from);
+      break;
+    case LegKind::RUS:
+      addCrank(from);
+      break;
+    case LegKind::PUS:
+      addCarriage(from);
+      break;
+  }
+  mechanism.joints_of_proximal.push_back(rowOf(from.kind).joints_of_proximal);
+}
+
+void SimbodyLoop::Impl::addUniversalLeg(const Leg& from) {
+  // ψ = 0 lays e along u: Universal's axes −u, x, z are then −e, x, −(e × x).
+  SimTK::MobilizedBody::Universal first(matter.Ground(),
+                                        SimTK::Transform(toSimTK(baseFrame(from.base_axis)), toSimTK(from.base_point)),
+                                        linkBody(from.proximal), frameOf(-e_z, e_x, -e_y));
+  mechanism.proximal.push_back(first);
+  if (from.kind == LegKind::UPS) {
+    // d = s puts the rod's inner end at A.
+    mechanism.distal.push_back(SimTK::MobilizedBody::Slider(first, frameOf(e_z, e_x, e_y, -from.distal.length * e_z),
+                                                            linkBody(from.distal), frameOf(e_z, e_x, e_y)));
+    return;
+  }
+  // Pin's z is x of the leg. θ = 0 folds the leg: s = −e.
+  mechanism.distal.push_back(SimTK::MobilizedBody::Pin(first, frameOf(e_y, e_z, e_x, from.proximal.length * e_z),
+                                                       linkBody(from.distal), frameOf(-e_y, -e_z, e_x)));
+}
+
+void SimbodyLoop::Impl::addCrank(const Leg& from) {
+  const Matrix3d base = baseFrame(from.base_axis);
+  SimTK::MobilizedBody::Pin crank(matter.Ground(), frameOf(base.col(1), base.col(2), base.col(0), from.base_point),
+                                  linkBody(from.proximal), frameOf(e_x, e_z, -e_y));
+  mechanism.proximal.push_back(crank);
+  // ψ = θ = 0 lays the rod along the crank.
+  mechanism.distal.push_back(SimTK::MobilizedBody::Universal(
+      crank, frameOf(-e_y, -e_x, -e_z, from.proximal.length * e_z), linkBody(from.distal), frameOf(-e_y, -e_x, -e_z)));
+}
+
+void SimbodyLoop::Impl::addCarriage(const Leg& from) {
+  const Matrix3d base = baseFrame(from.base_axis);
+  SimTK::MobilizedBody::Slider carriage(matter.Ground(),
+                                        frameOf(-base.col(0), base.col(2), base.col(1), from.base_point),
+                                        linkBody(from.proximal, e_y), frameOf(e_y, e_z, e_x));
+  mechanism.proximal.push_back(carriage);
+  // θ = 0 lays the rod along the rail.
+  mechanism.distal.push_back(SimTK::MobilizedBody::Universal(carriage, frameOf(-e_y, e_x, e_z), linkBody(from.distal),
+                                                             frameOf(-e_z, e_x, -e_y)));
+}
+
+void SimbodyLoop::Impl::addPlatform() {
+  const Platform& from = parameters.platform();
+  const SimTK::Body::Rigid body(massProperties(from.mass, from.center_of_mass, from.inertia));
+  const bool on_leg_1 = topology == Topology::tree_through_leg_1;
+  if (on_leg_1)
+    mechanism.platform = SimTK::MobilizedBody::Ball(
+        mechanism.distal[0], SimTK::Transform(SimTK::Vec3(0, 0, parameters.leg(0).distal.length)), body,
+        SimTK::Transform(toSimTK(parameters.leg(0).platform_point)));
+  else
+    mechanism.platform = SimTK::MobilizedBody::Free(matter.Ground(), body);
+  for (int leg = on_leg_1 ? 1 : 0; leg < legCount(); ++leg)
+    mechanism.balls.emplace_back(mechanism.distal[static_cast<std::size_t>(leg)],
+                                 SimTK::Vec3(0, 0, parameters.leg(leg).distal.length), mechanism.platform,
+                                 toSimTK(parameters.leg(leg).platform_point));
+}
+
+void SimbodyLoop::Impl::addForces(std::shared_ptr<const Load> load) {
+  applied->load = std::move(load);
+  for (int leg = 0; leg < legCount(); ++leg) {
+    const Leg& from = parameters.leg(leg);
+    for (int joint = 0; joint < 3; ++joint) {
+      const Mechanism::Place place = mechanism.place(joint, leg);
+      const Coordinate coordinate = rowOf(from.kind).coordinates[static_cast<std::size_t>(joint)];
+      addDamper(forces, place.body, place.coordinate, from.friction.on(coordinate));
+    }
+    applied->legs.push_back(from);
+    applied->any_coulomb |= from.coulomb.any();
+  }
+  applied->motors = parameters.motors();
+  SimTK::Force::Custom(forces, new DriverForce(mechanism, applied));  // Simbody takes ownership
+}
+
+}  // namespace ursula

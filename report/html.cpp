@@ -1,0 +1,112 @@
+#include "report/html.h"
+
+#include <fmt/format.h>
+
+#include "report/assets.h"
+#include "report/checks_list.h"
+#include "report/figures.h"
+#include "report/found.h"
+#include "report/input_card.h"
+#include "report/page_data.h"
+#include "report/picture.h"
+#include "report/plots.h"
+#include "report/statistics.h"
+#include "report/svg_machine.h"
+#include "report/text.h"
+
+namespace ursula::report {
+namespace {
+
+std::string section(const std::string& id, const std::string& title, const std::string& content) {
+  if (content.empty()) return "";
+  return fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n{}\n</section>\n", id, title, content);
+}
+
+std::string factsTable(const char* caption, const std::vector<std::pair<std::string, std::string>>& facts) {
+  if (facts.empty()) return "";
+  std::string rows;
+  for (const auto& [key, text] : facts) {
+    rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", escaped(key), escaped(text));
+  }
+  return fmt::format("<table class=\"facts\">\n<caption>{}</caption>\n<tbody>\n{}</tbody>\n</table>", caption, rows);
+}
+
+constexpr const char* suite_link = "<a class=\"up\" href=\"../index.html\">← The suite</a>\n";
+
+/// As typed in the scenario's own folder.
+std::string command(const ValidationResult& result) {
+  const std::string file = fact(result.provenance, "scenario file"), subject = fact(result.provenance, "subject");
+  if (file.empty()) return "";
+  const bool from_file = subject.size() > 4 && subject.compare(subject.size() - 4, 4, ".csv") == 0;
+  return fmt::format("<p>To do it again: <code>ursula validate {}{}</code></p>", escaped(file),
+                     from_file ? " --torques " + escaped(subject) : "");
+}
+
+std::string keyFiguresHtml(const ValidationResult& result) {
+  std::string out;
+  for (const KeyFigure& figure : keyFigures(result))
+    out += fmt::format("<div><dt>{}</dt><dd><b>{}</b> <span>{}</span></dd></div>", escaped(figure.what),
+                       escaped(figure.value), escaped(figure.remark));
+  return out;
+}
+
+/// The first screen's picture of the error's sources.
+std::string sources(const std::vector<Plot>& plots) {
+  for (std::size_t i = 0; i < plots.size(); ++i)
+    if (plots[i].group == PlotGroup::sources) return figureHtml(plots[i], i, "h2");
+  return "";
+}
+
+std::string stage(const Picture* picture) {
+  return picture == nullptr ? "" : "<div class=\"stage\" id=\"stage\">" + svgMachine(*picture) + "</div>";
+}
+
+struct Part {
+  const char *id, *title;
+  std::string content;
+};
+
+std::vector<Part> parts(const ValidationResult& result, const Picture* picture, const std::vector<Plot>& plots) {
+  return {{"checks", "Checks", checksList(result.checks, result.likely_cause ? result.likely_cause->cause : "")},
+          {"errors", "Errors along the motion", figuresHtml(plots, PlotGroup::errors)},
+          {"efforts", "Efforts", figuresHtml(plots, PlotGroup::efforts)},
+          {"motion", "Motion", figuresHtml(plots, PlotGroup::motion)},
+          {"reactions", "Reactions", figuresHtml(plots, PlotGroup::reactions)},
+          {"numerics", "Numerics", figuresHtml(plots, PlotGroup::numerics)},
+          {"statistics", "Error statistics", statisticsTable(result)},
+          {"input", "Input", picture == nullptr ? "" : inputCard(*picture)},
+          {"findings", "Findings", factsTable("Facts that are not judged", result.findings)},
+          {"provenance", "Provenance",
+           factsTable("What this result was made from and with", result.provenance) + command(result)}};
+}
+
+}  // namespace
+
+std::string reportHtml(const ValidationResult& result, Place place) {
+  const std::vector<Plot> charts = plots(result);
+  const std::shared_ptr<const Picture> picture = pictureOf(result);
+  std::string sections, links;
+  for (const Part& part : parts(result, picture.get(), charts)) {
+    sections += section(part.id, part.title, part.content);
+    if (!part.content.empty()) links += fmt::format("<a href=\"#{}\">{}</a>\n", part.id, part.title);
+  }
+  const std::string why = detail(result);
+  return filled(report_template, {{"scenario", escaped(result.scenario)},
+                                  {"style", std::string(report_style)},
+                                  {"verdict", name(result.verdict)},
+                                  {"badge", verdictBadge(result.verdict)},
+                                  {"sentence", escaped(sentence(result))},
+                                  {"detail", why.empty() ? "" : "<p class=\"why\">" + escaped(why) + "</p>"},
+                                  {"machine", picture == nullptr ? "" : escaped(machineLine(*picture))},
+                                  {"figures", keyFiguresHtml(result)},
+                                  {"reason", escaped(reason(result.verdict, result.checks))},
+                                  {"sources", sources(charts)},
+                                  {"stage", stage(picture.get())},
+                                  {"suite", place == Place::in_suite ? suite_link : ""},
+                                  {"links", links},
+                                  {"sections", sections},
+                                  {"data", pageData(result, picture.get(), charts)},
+                                  {"script", std::string(report_script)}});
+}
+
+}  // namespace ursula::report

@@ -1,0 +1,149 @@
+#include "report/input_card.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "report/quantity.h"
+#include "report/text.h"
+
+namespace ursula::report {
+namespace {
+
+std::string digits(double value) { return fmt::format("{:.6g}", value); }
+
+std::string vectorText(const Vector3d& v) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x(), v.y(), v.z()); }
+
+std::string inertiaText(const Matrix3d& I) {
+  const std::string diagonal = fmt::format("[{:.6g}, {:.6g}, {:.6g}", I(0, 0), I(1, 1), I(2, 2));
+  if (I(0, 1) == 0 && I(0, 2) == 0 && I(1, 2) == 0) return diagonal + "]";
+  return diagonal + fmt::format(", {:.6g}, {:.6g}, {:.6g}]", I(0, 1), I(0, 2), I(1, 2));
+}
+
+std::string fact(const std::string& what, const std::string& value) {
+  return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", what, escaped(value));
+}
+
+std::string linkText(const Link& link) {
+  const std::string length = link.length > 0 ? fmt::format("length {} m, ", digits(link.length)) : "";
+  return length + fmt::format("mass {} kg, mass centre at {} m, inertia {} kg·m²", digits(link.mass),
+                              digits(link.center_of_mass), inertiaText(link.inertia));
+}
+
+constexpr std::array<const char*, coordinate_count> symbols = {"φ", "ψ", "θ", "d"};  // by Coordinate
+
+const char* symbol(Coordinate coordinate) { return symbols[static_cast<std::size_t>(coordinate)]; }
+
+/// The coefficients of the coordinates that the leg has: turning ones in the one unit, sliding ones in the other.
+std::string frictionText(const JointFriction& friction, LegKind kind, const char* turning, const char* sliding) {
+  if (!friction.any()) return "none";
+  const auto list = [&](bool slide, const char* unit) {
+    std::string out;
+    for (const Coordinate each : rowOf(kind).coordinates)
+      if (slides(each) == slide)
+        out += fmt::format("{}{} {}", out.empty() ? "" : ", ", symbol(each), digits(friction.on(each)));
+    return out.empty() ? out : out + " " + unit;
+  };
+  const std::string turned = list(false, turning), slid = list(true, sliding);
+  return turned + (turned.empty() || slid.empty() ? "" : ", ") + slid;
+}
+
+/// What carries the platform, in words: by kind, then what motors drive.
+std::string kindText(const Leg& leg) {
+  static constexpr std::array<const char*, leg_kind_count> words = {
+      "URS: universal joint, pin at the knee, ball", "UPS: telescopic, universal joint, cylinder and rod, ball",
+      "RUS: crank and rod, pin, universal joint, ball", "PUS: carriage and rod, slide, universal joint, ball"};
+  std::string driven;
+  for (std::size_t j = 0; j < 3; ++j)
+    if (leg.actuated[j])
+      driven += (driven.empty() ? "" : " and ") + std::string(symbol(rowOf(leg.kind).coordinates[j]));
+  return fmt::format("{}; {}", words[static_cast<std::size_t>(leg.kind)],
+                     driven.empty() ? "no motor" : "a motor on " + driven);
+}
+
+std::string loadText(const Load* load) {
+  if (load == nullptr) return "none";
+  if (load->history) return fmt::format("a table of {} rows", load->history->rows().size());
+  return fmt::format("force {} N, moment {} N·m, at {} m of M", vectorText(load->force), vectorText(load->moment),
+                     vectorText(load->point));
+}
+
+/// Legs that share a text share a row.
+template <class Text>
+std::string byLegs(const char* what, const Manipulator& machine, const Text& text) {
+  std::string rows;
+  std::set<std::string> done;
+  for (int i = 0; i < machine.legCount(); ++i) {
+    const std::string mine = text(machine.leg(i));
+    if (!done.insert(mine).second) continue;
+    std::string legs;
+    bool all = true;
+    for (int k = 0; k < machine.legCount(); ++k) {
+      const bool shared = text(machine.leg(k)) == mine;
+      all = all && shared;
+      if (shared) legs += (legs.empty() ? "" : ", ") + std::to_string(k + 1);
+    }
+    rows += fact(all ? std::string(what) + ", every leg" : fmt::format("{}, leg {}", what, legs), mine);
+  }
+  return rows;
+}
+
+std::string legRows(const Manipulator& machine) {
+  std::string rows;
+  for (int i = 0; i < machine.legCount(); ++i) {
+    const Leg& leg = machine.leg(i);
+    const char* knee = rowOf(leg.kind).knee == nullptr ? "–" : leg.knee == Knee::positive ? "positive" : "negative";
+    rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", i + 1,
+                        vectorText(leg.base_point), vectorText(leg.base_axis), vectorText(leg.platform_point), knee);
+  }
+  return "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"Where the legs are held\"><table>"
+         "<caption>Where the legs are held: base point and axis in B, platform point in M, m</caption>"
+         "<thead><tr><th scope=\"col\">Leg</th><th scope=\"col\">Base point</th><th scope=\"col\">Base axis</th><th "
+         "scope=\"col\">Platform point</th><th scope=\"col\">Knee</th></tr></thead><tbody>\n" +
+         rows + "</tbody></table></div>";
+}
+
+}  // namespace
+
+std::string machineLine(const Picture& picture) {
+  const Scenario& scenario = picture.scenario;
+  std::set<std::string> kinds;
+  for (const Picture::Leg& leg : picture.legs) kinds.insert(leg.kind);
+  std::string kind;
+  for (const std::string& each : kinds) kind += (kind.empty() ? "" : " and ") + each;
+  std::string line = fmt::format("{} {} legs carry a platform of {} kg", inWords(static_cast<int>(picture.legs.size())),
+                                 kind, digits(scenario.manipulator->platform().mass));
+  line[0] = static_cast<char>(line[0] - 'a' + 'A');
+  return line + fmt::format(" · {}, {}", scenario.trajectory->kind(), quantity(scenario.trajectory->duration(), "s")) +
+         (scenario.load ? " · under a load" : "");
+}
+
+std::string inputCard(const Picture& picture) {
+  const Scenario& scenario = picture.scenario;
+  const Manipulator& machine = *scenario.manipulator;
+  const Platform& platform = machine.platform();
+  std::string rows =
+      fact("Gravity", vectorText(machine.gravity()) + " m/s²") +
+      fact("Platform", fmt::format("mass {} kg, mass centre {} m in M, inertia {} kg·m²", digits(platform.mass),
+                                   vectorText(platform.center_of_mass), inertiaText(platform.inertia)));
+  rows += byLegs("Kind", machine, kindText);
+  rows += byLegs("Proximal link", machine, [](const Leg& leg) { return linkText(leg.proximal); });
+  rows += byLegs("Distal link", machine, [](const Leg& leg) { return linkText(leg.distal); });
+  rows += byLegs("Viscous friction", machine,
+                 [](const Leg& leg) { return frictionText(leg.friction, leg.kind, "N·m·s/rad", "N·s/m"); });
+  rows += byLegs("Coulomb friction", machine,
+                 [](const Leg& leg) { return frictionText(leg.coulomb, leg.kind, "N·m", "N"); });
+  rows += fact("Load", loadText(scenario.load.get()));
+  rows += fact("Motion", fmt::format("{}, {} s, judged at {} instants", scenario.trajectory->kind(),
+                                     digits(scenario.trajectory->duration()), scenario.simulation.samples));
+  return fmt::format(
+      "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"Machine and motion\"><table "
+      "class=\"facts\"><caption>Machine and motion, SI units, inertias as [xx, yy, zz] or with xy, xz, "
+      "yz</caption><tbody>\n{}</tbody></table></div>\n{}",
+      rows, legRows(machine));
+}
+
+}  // namespace ursula::report

@@ -1,0 +1,160 @@
+#include "report/plots.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "model/scenario.h"
+#include "report/found.h"
+#include "report/plot_builder.h"
+#include "report/text.h"
+
+namespace ursula::report {
+namespace {
+
+constexpr double decades_for_log = 3;
+
+/// Zero, where an error starts from, has no place on a logarithmic axis and is left out.
+struct Span {
+  bool positive = true;
+  double least = std::numeric_limits<double>::infinity(), most = -std::numeric_limits<double>::infinity();
+
+  void include(const std::vector<double>& values) {
+    for (const double value : values) {
+      if (!std::isfinite(value) || value == 0) continue;
+      positive = positive && value > 0;
+      least = std::min(least, value);
+      most = std::max(most, value);
+    }
+  }
+  bool isWide() const { return positive && most > least && std::log10(most / least) > decades_for_log; }
+};
+
+/// Those of the machine that was validated; else the paper's.
+Motors motorsOf(const ValidationResult& result) {
+  if (result.asked && result.asked->manipulator) return result.asked->manipulator->motors();
+  Motors out;
+  for (int k = 0; k < motor_count; ++k) out[static_cast<std::size_t>(k)].leg = k;
+  return out;
+}
+
+/// "rounding (m)" → "rounding", "m".
+Line lineOf(const std::string& column, int color) {
+  const std::size_t open = column.rfind(" (");
+  const bool has_unit = open != std::string::npos && column.back() == ')';
+  Line line;
+  line.label = has_unit ? column.substr(0, open) : column;
+  line.unit = has_unit ? column.substr(open + 2, column.size() - open - 3) : "";
+  line.color = color;
+  const bool is_limit = line.label.find("limit") != std::string::npos;
+  line.stroke = is_limit ? Stroke::limit : line.label == "observed" ? Stroke::ghost : Stroke::line;
+  return line;
+}
+
+/// The unit that all lines share, or "" where they do not.
+std::string commonUnit(const Plot& plot) {
+  for (const Line& line : plot.lines)
+    if (line.unit != plot.lines.front().unit) return "";
+  return plot.lines.front().unit;
+}
+
+Plot curvePlot(const std::string& title, const TimeSeries& curve) {
+  Plot plot;
+  plot.title = title;
+  plot.group = title == sources_curve                     ? PlotGroup::sources
+               : title.find("limit") != std::string::npos ? PlotGroup::errors
+                                                          : PlotGroup::numerics;
+  const std::vector<std::size_t> rows = ascending(curve.columns.front());
+  plot.x_label = curve.names.front();
+  plot.x = picked(curve.columns.front(), rows);
+  plot.rows = rows.size();
+  Span x, y;
+  x.include(plot.x);
+  for (std::size_t i = 1; i < curve.columns.size(); ++i) {
+    plot.lines.push_back(lineOf(curve.names[i], static_cast<int>(i) - 1));
+    plot.lines.back().values = picked(curve.columns[i], rows);
+    y.include(plot.lines.back().values);
+  }
+  const std::string unit = commonUnit(plot);
+  plot.y_label = plot.lines.size() == 1 ? curve.names[1] : unit.empty() ? "" : (unit == "m" ? "error (m)" : unit);
+  // Time is read evenly; any other x goes with a logarithmic y, so that a power law is a straight line.
+  plot.over_time = plot.x_label == "t_s";
+  if (plot.over_time) plot.x_label = "t (s)";
+  plot.log_y = y.isWide() || (!plot.over_time && x.isWide() && y.positive);
+  plot.log_x = !plot.over_time && x.positive && plot.log_y;
+  return plot;
+}
+
+/// The least and the largest of values[from, to), in the order in which they come; NaN where there is none.
+std::pair<double, double> extremes(const std::vector<double>& values, std::size_t from, std::size_t to) {
+  std::size_t low = to, high = to;
+  for (std::size_t k = from; k < to; ++k) {
+    if (!std::isfinite(values[k])) continue;
+    if (low == to || values[k] < values[low]) low = k;
+    if (high == to || values[k] > values[high]) high = k;
+  }
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  if (low == to) return {none, none};
+  return low < high ? std::pair(values[low], values[high]) : std::pair(values[high], values[low]);
+}
+
+}  // namespace
+
+std::vector<Plot> plots(const ValidationResult& result) {
+  std::vector<Plot> plots;
+  for (const auto& [title, curve] : result.curves) {
+    if (curve.columns.size() > 1 && curve.rows() > 0) plots.push_back(curvePlot(title, curve));
+  }
+  addSeriesPlots(result.timeseries, motorsOf(result), plots);
+  std::stable_sort(plots.begin(), plots.end(), [](const Plot& a, const Plot& b) { return a.group < b.group; });
+  return plots;
+}
+
+Plot thinned(const Plot& plot, std::size_t buckets) {
+  if (plot.x.size() <= 2 * buckets) return plot;
+  Plot out = plot;
+  out.x.clear();
+  for (Line& line : out.lines) line.values.clear();
+  const std::size_t rows = plot.x.size();
+  for (std::size_t bucket = 0; bucket < buckets; ++bucket) {
+    const std::size_t from = bucket * rows / buckets, to = (bucket + 1) * rows / buckets;
+    out.x.push_back(plot.x[from]);
+    out.x.push_back(plot.x[to - 1]);
+    for (std::size_t i = 0; i < plot.lines.size(); ++i) {
+      const auto [first, second] = extremes(plot.lines[i].values, from, to);
+      out.lines[i].values.push_back(first);
+      out.lines[i].values.push_back(second);
+    }
+  }
+  return out;
+}
+
+bool isDrawable(const Plot& plot, const Line& line) {
+  return std::any_of(line.values.begin(), line.values.end(),
+                     [&plot](double value) { return std::isfinite(value) && (value > 0 || !plot.log_y); });
+}
+
+std::string inWords(const Plot& plot) {
+  const Line* largest = nullptr;
+  std::size_t row = 0;
+  for (const Line& line : plot.lines) {
+    if (line.stroke == Stroke::limit && plot.lines.size() > 1) continue;
+    for (std::size_t i = 0; i < line.values.size() && isDrawable(plot, line); ++i) {
+      const double magnitude = std::abs(line.values[i]);
+      if (!std::isfinite(magnitude)) continue;
+      if (largest == nullptr || magnitude > std::abs(largest->values[row])) {
+        largest = &line;
+        row = i;
+      }
+    }
+  }
+  if (largest == nullptr) return "Nothing to draw: every value is zero or not finite.";
+  const std::string unit = largest->unit.empty() ? "" : " " + largest->unit;
+  const std::string x = number(plot.x[row], 4);
+  return fmt::format("Largest: {} = {}{} at {}.", largest->label, number(largest->values[row], 4), unit,
+                     plot.over_time ? "t = " + x + " s" : plot.x_label + " = " + x);
+}
+
+}  // namespace ursula::report

@@ -1,0 +1,75 @@
+#include "report/report.h"
+
+#include <ctime>
+
+#include "base/atomic_folder.h"
+#include "report/html.h"
+#include "report/junit.h"
+#include "report/run.h"
+#include "report/sparkline.h"
+#include "report/suite_json.h"
+#include "report/summary.h"
+
+namespace ursula {
+
+Stopwatch::Stopwatch() : start_(std::chrono::steady_clock::now()) {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  ::gmtime_r(&now, &utc);
+  char text[32] = "";
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%S", &utc);
+  started_ = text;
+}
+
+RunTime Stopwatch::time() const {
+  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(), started_};
+}
+
+SuiteEntry suiteEntry(const ValidationResult& result, std::filesystem::path folder, const RunTime& time) {
+  SuiteEntry entry{result.scenario, result.verdict, std::move(folder), result.checks, "", time, "", {}, {}};
+  if (result.replay_error) entry.dominant = result.replay_error->dominant;
+  entry.trend = report::trendOf(result.timeseries);
+  entry.properties = {{"verdict", name(result.verdict)}, {"limits", name(result.limits)}};
+  entry.properties.insert(entry.properties.end(), result.provenance.begin(), result.provenance.end());
+  return entry;
+}
+
+SuiteEntry addResults(const ValidationResult& result, AtomicFolder& out, const std::filesystem::path& below,
+                      const RunTime& time, Place place) {
+  const std::string series = report::timeseriesCsv(result);
+  const ValidationResult whole = report::stamped(result, series);
+  SuiteEntry entry = suiteEntry(whole, below, time);
+  out.write(below / "timeseries.csv", series);
+  out.write(below / "junit.xml", report::junitXml({entry}));
+  out.write(below / "report.html", report::reportHtml(whole, place));
+  out.write(below / "summary.json", report::summaryJson(whole));
+  return entry;
+}
+
+void requireResults(const AtomicFolder& out, const std::filesystem::path& below) {
+  for (const char* file : report::result_files) out.require(below / file);
+}
+
+void writeResults(const ValidationResult& result, const std::filesystem::path& dir, const RunTime& time, Place place) {
+  AtomicFolder out(dir, report::resultsIn);
+  requireResults(out, "");
+  addResults(result, out, "", time, place);
+  out.commit();
+}
+
+void addSuiteIndex(const std::vector<SuiteEntry>& entries, AtomicFolder& out) {
+  const std::string run = report::runOf(entries);
+  std::vector<SuiteEntry> named = entries;
+  for (SuiteEntry& entry : named) entry.properties.emplace_back("run of the suite", run);
+  out.write("junit.xml", report::junitXml(named));
+  out.write("suite.json", report::suiteJson(entries));
+  out.write("index.html", report::indexHtml(entries));
+}
+
+void writeSuiteIndex(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir) {
+  AtomicFolder out(dir, [](const std::filesystem::path&) { return Paths(); });  // the scenarios' folders stay
+  addSuiteIndex(entries, out);
+  out.commit();
+}
+
+}  // namespace ursula

@@ -1,0 +1,76 @@
+#include "report/suite_json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "report/found.h"
+#include "report/run.h"
+
+namespace ursula::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// To the millisecond: more would be noise.
+double rounded(double seconds) { return std::round(seconds * 1000) / 1000; }
+
+Json checkCounts(const std::vector<Check>& checks) {
+  Json counts = Json::object();
+  for (const Verdict verdict : {Verdict::pass, Verdict::fail, Verdict::inconclusive, Verdict::not_applicable})
+    counts[name(verdict)] =
+        std::count_if(checks.begin(), checks.end(), [verdict](const Check& check) { return check.verdict == verdict; });
+  return counts;
+}
+
+Json entryJson(const SuiteEntry& entry) {
+  const Check* worst = worstCheck(entry.checks);
+  Json json = {{"name", entry.scenario},
+               {"verdict", name(entry.verdict)},
+               {"checks", checkCounts(entry.checks)},
+               {"seconds", rounded(entry.time.seconds)},
+               {"folder", entry.error.empty() ? entry.folder.generic_string() : ""},
+               {"decided_by", worst == nullptr ? "" : worst->name},
+               {"dominant_error", entry.dominant}};
+  if (!entry.error.empty()) json["error"] = entry.error;
+  if (const std::string run = fact(entry.properties, "run"); !run.empty()) json["run"] = run;
+  return json;
+}
+
+}  // namespace
+
+Verdict suiteVerdict(const std::vector<SuiteEntry>& entries) {
+  std::vector<Check> verdicts;
+  for (const SuiteEntry& entry : entries) {
+    verdicts.emplace_back();
+    verdicts.back().verdict = entry.verdict;
+  }
+  return overall(verdicts);
+}
+
+std::size_t countOf(const std::vector<SuiteEntry>& entries, Verdict verdict) {
+  return static_cast<std::size_t>(std::count_if(
+      entries.begin(), entries.end(), [verdict](const SuiteEntry& entry) { return entry.verdict == verdict; }));
+}
+
+double secondsOf(const std::vector<SuiteEntry>& entries) {
+  double sum = 0;
+  for (const SuiteEntry& entry : entries) sum += entry.time.seconds;
+  return sum;
+}
+
+std::string suiteJson(const std::vector<SuiteEntry>& entries) {
+  Json counts = {{"scenarios", entries.size()}};
+  for (const Verdict verdict : {Verdict::pass, Verdict::fail, Verdict::inconclusive})
+    counts[name(verdict)] = countOf(entries, verdict);
+  Json scenarios = Json::array();
+  for (const SuiteEntry& entry : entries) scenarios.push_back(entryJson(entry));
+  const Json suite = {{"verdict", name(suiteVerdict(entries))},
+                      {"counts", counts},
+                      {"seconds", rounded(secondsOf(entries))},
+                      {"run", runOf(entries)},
+                      {"scenarios", scenarios}};
+  return suite.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace ursula::report

@@ -1,0 +1,71 @@
+#include "report/summary.h"
+
+#include <nlohmann/json.hpp>
+
+#include "report/report.h"
+
+namespace ursula::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// nlohmann::json itself writes null for what is not finite.
+Json checkJson(const Check& check) {
+  return {{"name", check.name},
+          {"value", check.value},
+          {"limit", check.limit},
+          {"unit", check.unit},
+          {"verdict", name(check.verdict)},
+          {"basis", check.basis},
+          {"why", check.why},
+          {"reason", name(check.reason)},
+          {"limit_by", name(check.limit_by)},
+          {"could_have_missed", check.missed},
+          {"largest", {{"value", check.largest.value}, {"t_s", check.largest.t}, {"where", check.largest.where}}}};
+}
+
+Json deviationJson(const EffortDeviation& deviation) {
+  return {{"largest", deviation.largest},
+          {"relative", deviation.relative()},
+          {"t_s", deviation.t},
+          {"where", deviation.where},
+          {"largest_effort", deviation.largest_effort},
+          {"smallest_rtol", deviation.smallestRelative()},
+          {"drift_m", deviation.drift},
+          {"would_have_been_seen", deviation.seen},
+          {"allowed", deviation.allowed}};
+}
+
+// A key that comes twice keeps both texts.
+Json object(const std::vector<std::pair<std::string, std::string>>& facts) {
+  Json json = Json::object();
+  for (const auto& [key, text] : facts) {
+    json[key] = json.contains(key) ? json[key].get<std::string>() + "; " + text : text;
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string summaryJson(const ValidationResult& result) {
+  Json checks = Json::array();
+  for (const Check& check : result.checks) checks.push_back(checkJson(check));
+  const std::string deviation = result.deviation ? " " + sentence(*result.deviation) : "";
+  Json summary = {{"scenario", result.scenario},
+                  {"verdict", name(result.verdict)},
+                  {"formulation", result.formulation},
+                  {"limits", name(result.limits)},
+                  {"reason", reason(result.verdict, result.checks) + deviation},
+                  {"checks", checks},
+                  {"findings", object(result.findings)},
+                  {"provenance", object(result.provenance)}};
+  if (result.deviation) summary["deviation"] = deviationJson(*result.deviation);
+  return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string errorJson(const std::string& scenario, const std::string& error) {
+  const Json json = {{"scenario", scenario}, {"verdict", "error"}, {"error", error}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace ursula::report

@@ -1,0 +1,213 @@
+#include "report/terminal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/shown_text.h"
+#include "report/check_words.h"
+#include "report/columns.h"
+#include "report/found.h"
+#include "report/motors.h"
+#include "report/quantity.h"
+
+namespace ursula::report {
+namespace {
+
+constexpr std::size_t verdict_width = 12;  // "inconclusive"
+
+Paint paintOf(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::pass:
+      return Paint::good;
+    case Verdict::fail:
+      return Paint::bad;
+    case Verdict::inconclusive:
+      return Paint::open;
+    case Verdict::not_applicable:
+      break;
+  }
+  return Paint::quiet;
+}
+
+bool isShown(const Check& check) {
+  return check.verdict != Verdict::not_applicable || check.reason == Reason::reported;
+}
+
+/// Something that is to be seen to: its why stands beside it.
+bool isOpen(const Check& check) { return check.verdict == Verdict::fail || check.verdict == Verdict::inconclusive; }
+
+std::string numberText(double value) {
+  if (std::isnan(value)) return "–";
+  return std::isinf(value) ? "infinite" : fmt::format("{:.3g}", value);
+}
+
+/// Only where value and limit decided: of a limit that says nothing, a share says nothing.
+std::string shareText(const Check& check) {
+  const double share = limitShare(check);
+  if (check.verdict == Verdict::inconclusive || check.verdict == Verdict::not_applicable || std::isnan(share))
+    return "";
+  if (std::isinf(share)) return "beyond";
+  if (share > 1) return share < 1000 ? fmt::format("{:.3g} times", share) : fmt::format("{:.1e} times", share);
+  return share == 0 ? "0 %" : share < 1e-4 ? "< 0.01 %" : fmt::format("{:.2g} %", 100 * share);
+}
+
+/// A number of forces and moments together has no unit that it could be read in: the share says it.
+std::vector<std::string> row(const Check& check) {
+  const bool mixed = check.unit.find(',') != std::string::npos;
+  const bool none = std::isnan(check.value) && std::isnan(check.limit);
+  const std::string value = mixed || none ? "" : numberText(check.value);
+  const std::string limit = mixed || none || check.reason == Reason::reported ? "" : numberText(check.limit);
+  return {check.name, value, limit, mixed || none ? "" : prettyUnit(check.unit), shareText(check)};
+}
+
+std::string word(const Check& check) {
+  return check.reason == Reason::reported ? "not judged" : std::string(name(check.verdict));
+}
+
+std::string causeOf(const ValidationResult& result) { return result.likely_cause ? result.likely_cause->cause : ""; }
+
+/// In one line, without what is said of all checks at once.
+std::string whyLine(const Check& check, const std::string& cause) {
+  std::string why = withoutCause(cause, check.why);
+  std::replace(why.begin(), why.end(), '\n', ' ');
+  if (!why.empty()) return why;
+  return std::isnan(check.value) ? "it has no value" : standing(check);
+}
+
+std::string indented(std::size_t columns, const std::string& text) { return std::string(columns, ' ') + text + "\n"; }
+
+/// Neighbours for the same reason share its line.
+std::string groupText(const std::vector<const Check*>& checks, const std::vector<std::string>& lines,
+                      const std::string& cause, bool coloured) {
+  std::string out;
+  for (std::size_t k = 0; k < checks.size(); ++k) {
+    const Check& check = *checks[k];
+    const Paint paint = check.reason == Reason::reported ? Paint::quiet : paintOf(check.verdict);
+    out += "  " + painted(padded(word(check), verdict_width), paint, coloured) + "  " + lines[k] + "\n";
+    if (!isOpen(check)) continue;
+    const std::string why = whyLine(check, cause);
+    const bool said_next = k + 1 < checks.size() && isOpen(*checks[k + 1]) && whyLine(*checks[k + 1], cause) == why;
+    if (!said_next) out += indented(verdict_width + 4, painted(why, paint, coloured));
+  }
+  return out;
+}
+
+std::string checksTable(const ValidationResult& result, bool coloured) {
+  std::vector<std::vector<const Check*>> groups(checkGroups().size() + 1);
+  for (const Check& check : result.checks)
+    if (isShown(check)) groups[groupOf(check.name)].push_back(&check);
+  std::vector<std::vector<std::string>> rows = {{"", "value", "limit", "unit", "of limit"}};
+  for (const auto& group : groups)
+    for (const Check* check : group) rows.push_back(row(*check));
+  const std::vector<std::string> lines =
+      alignedRows(rows, {Align::left, Align::right, Align::right, Align::left, Align::right});
+  std::string out = indented(verdict_width + 4, painted(lines.front(), Paint::quiet, coloured));
+  auto line = lines.begin() + 1;
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    if (groups[k].empty()) continue;
+    const auto end = line + static_cast<std::ptrdiff_t>(groups[k].size());
+    out +=
+        painted(k < checkGroups().size() ? checkGroups()[k].title : "Further checks", Paint::strong, coloured) + "\n";
+    out += groupText(groups[k], {line, end}, causeOf(result), coloured);
+    line = end;
+  }
+  return out;
+}
+
+std::string notApplicableText(const std::vector<Check>& checks) {
+  std::map<std::string, std::string> names;  // by reason
+  for (const Check& check : checks) {
+    if (isShown(check)) continue;
+    std::string& of = names[check.why];
+    of += (of.empty() ? "" : ", ") + check.name;
+  }
+  std::string out;
+  for (const auto& [why, which] : names) out += wrapped(fmt::format("not applicable, since {}: ", why), 2, which);
+  return out.empty() ? "" : "\n" + out;
+}
+
+std::string optionalText(const std::optional<double>& value, const std::string& unit) {
+  return value ? fmt::format("{:.6g}{}", *value, unit) : "";
+}
+
+/// How far each motor is off: a table, for six of them in a line nobody reads.
+std::string motorsText(const std::vector<MotorDeviation>& motors) {
+  std::vector<std::vector<std::string>> rows = {{"motor", "off by", "at t", "factor", "offset"}};
+  for (const MotorDeviation& motor : motors)
+    rows.push_back({std::to_string(motor.motor + 1), fmt::format("{:.3g} {}", motor.largest, prettyUnit(motor.unit)),
+                    fmt::format("{:.4g} s", motor.t), optionalText(motor.factor, ""),
+                    optionalText(motor.offset, " " + prettyUnit(motor.unit))});
+  std::string out = "torques against the expected ones:\n";
+  for (const std::string& line : alignedRows(rows, std::vector<Align>(5, Align::right))) out += "  " + line + "\n";
+  return out;
+}
+
+/// What moved the replay off the path, a line for each source.
+std::string replayText(const ReplayError& found) {
+  std::string out = "dominant error: " + found.dominant + "\n";
+  if (!found.measured) return out;
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [source, share] : {std::pair("rounding", found.rounding),
+                                      {"integration", found.integration},
+                                      {"gaps", found.closure},
+                                      {"torques", found.model}})
+    rows.push_back({source, fmt::format("{:.3g} m", share.error), fmt::format("± {:.2g} m", share.uncertainty)});
+  out +=
+      fmt::format("  the replay is off by {:.3g} m at t = {:.6g} s, where deviations have grown {:.4g}-fold; of it\n",
+                  found.observed, found.t, found.amplification);
+  for (const std::string& line : alignedRows(rows, {Align::left, Align::right, Align::left})) out += "  " + line + "\n";
+  return out;
+}
+
+bool replayIsOpen(const std::vector<Check>& checks) {
+  return std::any_of(checks.begin(), checks.end(),
+                     [](const Check& check) { return isOpen(check) && check.name.rfind("replay.", 0) == 0; });
+}
+
+/// What is known of a replay and of torques that are wrong; what holds needs nothing.
+std::string reasonsText(const ValidationResult& result) {
+  std::string out;
+  if (result.replay_error && replayIsOpen(result.checks)) out += replayText(*result.replay_error);
+  if (const std::vector<MotorDeviation> motors = motorsOff(result); !motors.empty()) out += motorsText(motors);
+  if (result.likely_cause) out += "likely cause: " + result.likely_cause->cause + "\n";
+  return out.empty() ? "" : "\n" + out;
+}
+
+}  // namespace
+
+std::string validationText(const ValidationResult& result, bool coloured) {
+  const std::string verdict = painted(name(result.verdict), paintOf(result.verdict), coloured);
+  const std::string deviation = result.deviation ? ursula::sentence(*result.deviation) + "\n" : "";
+  return fmt::format("{}: {}\n\n{}{}{}\nverdict: {} — {}\n{}", withoutControls(result.scenario), verdict,
+                     checksTable(result, coloured), notApplicableText(result.checks), reasonsText(result), verdict,
+                     reason(result.verdict, result.checks), deviation);
+}
+
+std::string quietText(const ValidationResult& result, bool coloured) {
+  SuiteEntry entry = suiteEntry(result, "");
+  for (Check& check : entry.checks) check.why = withoutCause(causeOf(result), check.why);
+  const std::string cause = causeOf(result);
+  return quietText(entry, coloured) + (cause.empty() ? "" : "  likely cause: " + cause + "\n");
+}
+
+std::string quietText(const SuiteEntry& entry, bool coloured) {
+  if (!entry.error.empty())
+    return fmt::format("{}: {} — {}\n", withoutControls(entry.scenario), painted("error", Paint::bad, coloured),
+                       withoutControls(entry.error));
+  std::string out =
+      fmt::format("{}: {} — {}\n", withoutControls(entry.scenario),
+                  painted(name(entry.verdict), paintOf(entry.verdict), coloured), reason(entry.verdict, entry.checks));
+  for (const Check& check : entry.checks)
+    if (isOpen(check)) out += fmt::format("  {}: {}\n", check.name, whyLine(check, ""));
+  return out;
+}
+
+bool wantsColour(bool is_terminal, const char* no_color, const char* term) {
+  const bool refused = no_color != nullptr && *no_color != '\0';
+  return is_terminal && !refused && (term == nullptr || std::string(term) != "dumb");
+}
+
+}  // namespace ursula::report

@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "report/report.h"
+
+namespace ursula {
+namespace {
+
+int severity(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::fail:
+      return 3;
+    case Verdict::inconclusive:
+      return 2;
+    case Verdict::pass:
+      return 1;
+    case Verdict::not_applicable:
+      break;
+  }
+  return 0;
+}
+
+// A number beyond its limit tells more than one that is missing, often only its consequence.
+std::pair<int, double> badness(const Check& check) {
+  const double share = limitShare(check);
+  return {severity(check.verdict), std::isnan(share) ? 1.0 : share};
+}
+
+std::string plural(std::ptrdiff_t count) { return fmt::format("{} check{}", count, count == 1 ? "" : "s"); }
+
+}  // namespace
+
+double limitShare(const Check& check) {
+  const bool meaningful = !std::isnan(check.value) && std::isfinite(check.limit) && check.limit >= 0;
+  if (!meaningful) return std::numeric_limits<double>::quiet_NaN();
+  return check.value <= 0 ? 0 : check.value / check.limit;
+}
+
+std::string standing(const Check& check) {
+  const double share = limitShare(check);
+  if (std::isnan(check.value)) return "has no value";
+  if (std::isinf(check.value)) return "is infinite";
+  if (std::isnan(share)) return "cannot be set against its limit";
+  if (std::isinf(share)) return "exceeds its limit of 0";
+  return fmt::format("is at {:.3g} {} its limit", share, share > 1 ? "times" : "of");
+}
+
+std::ptrdiff_t judgedCount(const std::vector<Check>& checks) {
+  return std::count_if(checks.begin(), checks.end(),
+                       [](const Check& check) { return check.verdict != Verdict::not_applicable; });
+}
+
+const Check* worstCheck(const std::vector<Check>& checks) {
+  const auto worst = std::max_element(checks.begin(), checks.end(),
+                                      [](const Check& a, const Check& b) { return badness(a) < badness(b); });
+  return worst == checks.end() ? nullptr : &*worst;
+}
+
+bool onlyFastFails(const std::vector<Check>& checks) {
+  return std::all_of(checks.begin(), checks.end(), [](const Check& check) {
+    return check.verdict != Verdict::fail || check.name.rfind("fast.", 0) == 0;
+  });
+}
+
+std::string reason(Verdict verdict, const std::vector<Check>& checks) {
+  if (checks.empty()) return "No check was made.";
+  const Check& worst = *worstCheck(checks);
+  const auto total = judgedCount(checks);
+  const auto count =
+      std::count_if(checks.begin(), checks.end(), [verdict](const Check& check) { return check.verdict == verdict; });
+  // A caller may judge harder than its checks do; then they are not the reason.
+  if (worst.verdict != verdict) return fmt::format("{} as a whole, for a reason beyond its checks.", name(verdict));
+  switch (verdict) {
+    case Verdict::fail:
+      return fmt::format("{} of {} failed{} {}, which {}.{}", count, plural(total), count == 1 ? ":" : ", the worst",
+                         worst.name, standing(worst),
+                         onlyFastFails(checks) ? " The fast kernels that users call are wrong; the NOC holds." : "");
+    case Verdict::inconclusive:
+      return fmt::format("Nothing failed, but {} of {} cannot be judged here, among them {}.", count, plural(total),
+                         worst.name);
+    case Verdict::pass:
+    case Verdict::not_applicable:
+      break;
+  }
+  const auto by_user =
+      std::count_if(checks.begin(), checks.end(), [](const Check& check) { return check.limit_by == LimitBy::user; });
+  const std::string whose =
+      by_user == 0 ? "" : fmt::format(", {} at the user's limits, wider than the derived ones", by_user);
+  return fmt::format("{} of {} held{}; the closest to its limit, {}, {}.", count, plural(total), whose, worst.name,
+                     standing(worst));
+}
+
+}  // namespace ursula

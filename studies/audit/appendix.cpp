@@ -1,0 +1,195 @@
+// (49)–(55) and ω of the Appendix, for a helix that starts and ends in motion, which the example does not.
+
+#include <Eigen/Geometry>
+#include <limits>
+
+#include "studies/audit/formula.h"
+
+namespace ursula::audit {
+namespace {
+
+/// Data of the helix: the example's, but with rates at both ends and both phases.
+struct Helix {
+  S a{"0.2"}, b{"1.2"}, omega{"0.3"}, omega_bar{"2.2"}, t_f{3};
+  S beta_0{"-1.57"}, rate_0{"0.4"}, acceleration_0{"-0.7"};
+  S beta_f{"-1.05"}, rate_f{"-0.6"}, acceleration_f{"0.9"};
+
+  /// (51)
+  std::array<S, 6> coefficients() const {
+    const S T = t_f, T2 = T * T;
+    return {
+        beta_0,
+        rate_0,
+        acceleration_0 / 2,
+        (20 * beta_f - 20 * beta_0 - (8 * rate_f + 12 * rate_0) * T - (3 * acceleration_0 - acceleration_f) * T2) /
+            (2 * T2 * T),
+        (30 * beta_0 - 30 * beta_f + (14 * rate_f + 16 * rate_0) * T + (3 * acceleration_0 - 2 * acceleration_f) * T2) /
+            (2 * T2 * T2),
+        (12 * beta_f - 12 * beta_0 - (6 * rate_f + 6 * rate_0) * T - (acceleration_0 - acceleration_f) * T2) /
+            (2 * T2 * T2 * T)};
+  }
+  /// (50), and (53) from its first term that is not zero.
+  S beta(const S& t) const {
+    return sum(
+        t, [](int) { return 1; }, 0);
+  }
+  S rate(const S& t) const {
+    return sum(
+        t, [](int k) { return k; }, 1);
+  }
+  S acceleration(const S& t) const {
+    return sum(
+        t, [](int k) { return k * (k - 1); }, 2);
+  }
+
+  /// (49)
+  V p(const S& at) const { return V(a * cos(at + omega), a * sin(at + omega), b * (at + omega_bar)); }
+  V m(const S& at) const { return V(-a * sin(at + omega), a * cos(at + omega), b); }
+  V n(const S& at) const { return V(-a * cos(at + omega), -a * sin(at + omega), S(0)); }
+  /// (54), (55)
+  M Q(const S& at) const {
+    const V e_t = m(at) / sqrt(a * a + b * b), e_n = n(at) / a;
+    M frame;
+    frame << -e_t.cross(e_n), e_n, e_t;
+    return frame;
+  }
+
+ private:
+  template <class Factor>
+  S sum(const S& t, Factor factor, int first) const {
+    S total(0), power(1);
+    const std::array<S, 6> c = coefficients();
+    for (int k = first; k <= 5; ++k, power *= t) total += factor(k) * c[static_cast<std::size_t>(k)] * power;
+    return total;
+  }
+};
+
+using Scalar = Eigen::Matrix<S, 1, 1>;
+
+Derivatives<Scalar> betaByDifferences(const S& t) {
+  const Helix helix;
+  return differentiated([&](const S& dt) { return Scalar(helix.beta(t + dt)); }, S("1e-5"));
+}
+
+Formula formula(const char* equation, const char* printed, const char* unit, Side as_printed, Side truth) {
+  Formula f;
+  f.equation = equation;
+  f.printed = printed;
+  f.unit = unit;
+  f.as_printed = std::move(as_printed);
+  f.truth = std::move(truth);
+  return f;
+}
+
+Formula quintic() {
+  Formula f = formula(
+      "(50), (51)", "β = Σ a_k t^k with a_0 … a_5", "rad, rad/s, rad/s²",
+      [](const Witness&) {
+        const Helix h;
+        const auto start = betaByDifferences(S(0)), end = betaByDifferences(h.t_f);
+        return values(start.value, start.first, start.second, end.value, end.first, end.second);
+      },
+      [](const Witness&) {
+        const Helix h;
+        return values(h.beta_0, h.rate_0, h.acceleration_0, h.beta_f, h.rate_f, h.acceleration_f);
+      });
+  f.note = "Angle, rate and acceleration at both ends, none of them zero.";
+  return f;
+}
+
+Formula helixPoint() {
+  return formula(
+      "(49), (52)", "p; ṗ = m β̇, p̈ = m β̈ + n β̇²", "m/s, m/s²",
+      [](const Witness& at) {
+        const Helix h;
+        const S beta = h.beta(at.t), rate = h.rate(at.t);
+        return values(V(h.m(beta) * rate), V(h.m(beta) * h.acceleration(at.t) + h.n(beta) * (rate * rate)));
+      },
+      [](const Witness& at) {
+        const Helix h;
+        const auto d = differentiated([&](const S& dt) { return h.p(h.beta(at.t + dt)); }, S("1e-5"));
+        return values(d.first, d.second);
+      });
+}
+
+Formula rates() {
+  return formula(
+      "(53)", "β̇ = Σ k a_k t^(k−1), β̈ = Σ k(k−1) a_k t^(k−2)", "rad/s, rad/s²",
+      [](const Witness& at) {
+        const Helix h;
+        return values(h.rate(at.t), h.acceleration(at.t));
+      },
+      [](const Witness& at) {
+        const auto d = betaByDifferences(at.t);
+        return values(d.first, d.second);
+      });
+}
+
+Formula triad() {
+  return formula(
+      "(54), (55)", "Q = [−e_b, e_n, e_t]", "",
+      [](const Witness& at) {
+        const Helix h;
+        const M Q = h.Q(h.beta(at.t));
+        return values(M(Q.transpose() * Q), S(Q.col(0).cross(Q.col(1)).dot(Q.col(2))));
+      },
+      [](const Witness&) { return values(M(M::Identity()), S(1)); });
+}
+
+Formula spin() {
+  return formula(
+      "Appendix ω", "ω = β̇ e_z, ω̇ = β̈ e_z", "rad/s, rad/s²",
+      [](const Witness& at) {
+        const Helix h;
+        return values(V(S(0), S(0), h.rate(at.t)), V(S(0), S(0), h.acceleration(at.t)));
+      },
+      [](const Witness& at) {
+        const Helix h;
+        using Flat = Eigen::Matrix<S, 9, 1>;
+        const auto d = differentiated(
+            [&](const S& dt) {
+              const M Q = h.Q(h.beta(at.t + dt));
+              return Flat(Eigen::Map<const Flat>(Q.data()));
+            },
+            S("1e-5"));
+        const M Q = Eigen::Map<const M>(d.value.data()), Q_dot = Eigen::Map<const M>(d.first.data());
+        const M Q_ddot = Eigen::Map<const M>(d.second.data());
+        return values(vect(Q_dot * Q.transpose()), vect(Q_ddot * Q.transpose() + Q_dot * Q_dot.transpose()));
+      });
+}
+
+/// The sums of (53) begin at k = 0, where the term is 0 · t⁻¹.
+Formula sumsFromZero() {
+  Formula f = formula(
+      "(53) k = 0", "sums from k = 0: the first terms are 0·a_0 t⁻¹, 0·a_0 t⁻²", "rad/s",
+      [](const Witness&) {
+        const Helix h;
+        S total(0);
+        for (int k = 0; k <= 5; ++k) total += k * h.coefficients()[static_cast<std::size_t>(k)] * pow(S(0), k - 1);
+        return values(total);
+      },
+      [](const Witness&) { return values(Helix().rate_0); });
+  f.holds = "sums from k = 1 and k = 2";
+  f.that_holds = [](const Witness&) { return values(Helix().rate(S(0))); };
+  f.note = "Taken to the letter in floating point, β̇ at t = 0 is not a number.";
+  f.misprint = true;
+  return f;
+}
+
+Formula tangent() {
+  Formula f;
+  f.equation = "(54) e_i";
+  f.printed = "e_i = m/(a² + b²)^½";
+  f.holds = "e_t = m/(a² + b²)^½";
+  f.note = "The subscript; e_t is used beside it and in (55).";
+  f.misprint = true;
+  return f;
+}
+
+}  // namespace
+
+std::vector<Formula> appendixFormulas() {
+  return {helixPoint(), quintic(), rates(), triad(), spin(), sumsFromZero(), tangent()};
+}
+
+}  // namespace ursula::audit

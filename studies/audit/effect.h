@@ -1,0 +1,21 @@
+#pragma once
+
+#include <functional>
+
+#include "nocsolver/legs/reading.h"
+#include "studies/audit/audit.h"
+
+namespace ursula::audit {
+
+using Torques = std::function<Vector6d(const Motion<double>&)>;
+
+/// Torques with `errors`, by (37) or, for formulas that only Ṫ needs, by (36).
+Torques torquesWith(const Scenario& scenario, const WithFormulaErrors& formula_errors, bool through_36);
+
+/// Torques and replay against those of the formulas that hold, at `samples` instants.
+AuditEffect effectOf(const Scenario& scenario, const Torques& torques, int samples, double replay_tolerance);
+
+/// The largest torque of the motion, N·m.
+double largestTorque(const Scenario& scenario, int samples);
+
+}  // namespace ursula::audit

@@ -1,0 +1,88 @@
+#pragma once
+
+// One formula of the audit: its two readings and what both should give.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "nocsolver/legs/reading.h"
+#include "studies/audit/witness.h"
+
+namespace ursula::audit {
+
+/// The components of one side of an equation.
+using Values = std::vector<S>;
+
+inline void append(Values& to, const S& value) { to.push_back(value); }
+template <class Derived>
+void append(Values& to, const Eigen::MatrixBase<Derived>& matrix) {
+  const typename Derived::PlainObject plain = matrix;
+  to.insert(to.end(), plain.data(), plain.data() + plain.size());
+}
+template <class... Parts>
+Values values(const Parts&... parts) {
+  Values all;
+  (append(all, parts), ...);
+  return all;
+}
+
+using Side = std::function<Values(const Witness&)>;
+using LegSide = std::function<Values(const Witness&, const LegWitness&)>;
+
+/// A side that every leg has.
+inline Side overLegs(LegSide side) {
+  return [side = std::move(side)](const Witness& witness) {
+    Values all;
+    for (const LegWitness& leg : witness.legs) {
+      const Values one = side(witness, leg);
+      all.insert(all.end(), one.begin(), one.end());
+    }
+    return all;
+  };
+}
+
+struct Formula {
+  std::string equation;
+  std::string printed;  ///< as printed in our source, in plain text; the leg's index is left out
+  std::string holds;    ///< empty where the printed one holds
+  std::string unit;
+  Side as_printed;  ///< every input exact, so that the formula alone is on trial
+  Side that_holds;  ///< empty where the printed one holds
+  Side truth;       ///< from the witness
+  std::string note;
+  std::vector<FormulaError> formula_errors;  ///< the same misreading in the solver, for what it does to the torques
+  bool through_36 = false;                   ///< does not enter (37): its torques are those of (36)
+  bool misprint = false;                     ///< dimensions or types do not match, or a symbol is plainly another's
+};
+
+/// Velocity and acceleration of B as (6), (8) write them.
+inline V velocityOfB(const Witness& at, const LegWitness& leg) {
+  return at.platform.p_dot + crossMatrix(at.platform.omega) * at.platform.Q * leg.b;
+}
+inline V accelerationOfB(const Witness& at, const LegWitness& leg) {
+  const M Omega = crossMatrix(at.platform.omega);
+  return at.platform.p_ddot + (crossMatrix(at.platform.omega_dot) + Omega * Omega) * at.platform.Q * leg.b;
+}
+
+std::vector<Formula> displacementFormulas();
+std::vector<Formula> rateFormulas();
+std::vector<Formula> accelerationFormulas();
+std::vector<Formula> jacobianFormulas();
+std::vector<Formula> bodyFormulas();
+std::vector<Formula> dynamicsFormulas();
+std::vector<Formula> complementFormulas(const Manipulator& manipulator);
+std::vector<Formula> appendixFormulas();
+
+inline Vector6<S> stack(const V& angular, const V& linear) {
+  Vector6<S> six;
+  six << angular, linear;
+  return six;
+}
+
+/// Of B from the axis of φ, signed, m.
+inline S distanceFromAxis(const LegWitness& leg) {
+  return leg.s * sin(leg.at.psi() + leg.at.theta()) - leg.l * sin(leg.at.psi());
+}
+
+}  // namespace ursula::audit

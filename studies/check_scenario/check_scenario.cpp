@@ -1,0 +1,26 @@
+#include "studies/check_scenario/check_scenario.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "model/scenario_place.h"
+#include "studies/check_scenario/oddity.h"
+
+namespace ursula {
+
+std::vector<std::string> warnings(const Scenario& scenario) {
+  std::vector<Oddity> all = oddMachine(scenario);
+  for (Oddity& oddity : oddMotion(scenario)) all.push_back(std::move(oddity));
+  std::vector<std::string> lines;
+  std::set<std::string> said;  // by place: what six legs inherit is odd once
+  for (const Oddity& oddity : all) {
+    const KeyPlace place = placeInFile(scenario, oddity.key);
+    if (place.given && !said.insert(place.place).second) continue;
+    lines.push_back(fmt::format("{}: warning: {}: {}", place.place, place.key, oddity.what));
+  }
+  return lines;
+}
+
+}  // namespace ursula

@@ -1,0 +1,144 @@
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "model/instants.h"
+#include "model/scenario_place.h"
+#include "nocsolver/errors.h"
+#include "nocsolver/solver.h"
+#include "studies/check_scenario/oddity.h"
+
+namespace ursula {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+double turned(const Matrix3d& Q) { return Eigen::AngleAxisd(Q).angle(); }
+
+double degrees(double angle) { return angle * 180 / pi; }
+
+/// What [w, x, y, z] would be had it been meant as [x, y, z, w].
+Matrix3d asScalarLast(const Matrix3d& Q) {
+  const Eigen::Quaterniond q(Q);
+  return Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y()).toRotationMatrix();
+}
+
+/// The scalar last is a habit of many libraries; machines of this kind hardly turn by more than a right angle.
+void scalarLast(const Scenario& scenario, const std::string& key, std::vector<Oddity>& out) {
+  if (!placeInFile(scenario, key).given) return;
+  const Matrix3d Q = scenario.trajectory->at(0).Q;
+  const double read = turned(Q), swapped = turned(asScalarLast(Q));
+  if (!(read > pi / 2 && swapped < pi / 2)) return;
+  out.push_back({key, fmt::format("turns the platform by {:.4g} degrees at the start; read as [x, y, z, w] it would be "
+                                  "{:.4g}: expected is [w, x, y, z]",
+                                  degrees(read), degrees(swapped))});
+}
+
+void radians(const Scenario& scenario, std::vector<Oddity>& out) {
+  for (const char* name : {"start_angle", "end_angle", "phase"}) {
+    const std::string key = std::string("trajectory.") + name;
+    const double value = placeInFile(scenario, key).number.value_or(0);
+    if (std::abs(value) > 2 * pi)
+      out.push_back({key, fmt::format("{:.6g} rad are {:.3g} turns: were degrees meant? Then it is {}_deg = {:.6g}",
+                                      value, std::abs(value) / (2 * pi), name, value)});
+  }
+}
+
+/// The largest acceleration against the machine's gravity, or Earth's.
+void haste(const Scenario& scenario, std::vector<Oddity>& out) {
+  constexpr double g = 9.81, hasty = 20;
+  double most = 0, at = 0;
+  for (double t : equallySpaced(scenario.trajectory->duration(), 201)) {
+    const double size = scenario.trajectory->at(t).p_ddot.norm();
+    if (!(size > most)) continue;
+    most = size;
+    at = t;
+  }
+  const std::string key = placeInFile(scenario, "trajectory.duration").given ? "trajectory.duration" : "trajectory";
+  if (most > hasty * g)
+    out.push_back(
+        {key, fmt::format("{:.6g} s make the platform accelerate by {:.4g} m/s2 at t = {:.4g} s, {:.3g} times "
+                          "9.81 m/s2",
+                          scenario.trajectory->duration(), most, at, most / g)});
+  if (scenario.trajectory->duration() >= 1000)
+    out.push_back(
+        {key, fmt::format("{:.6g} s: milliseconds, where seconds are expected?", scenario.trajectory->duration())});
+}
+
+/// A number of a leg where it is smallest over the motion.
+struct Least {
+  double value = std::numeric_limits<double>::infinity(), at = 0;
+
+  void include(double other, double t) {
+    if (other < value) *this = {other, t};
+  }
+};
+
+/// What a leg comes nearest to.
+struct NearestOfLeg {
+  Least sine;    ///< |sin θ|, or what is like it: 0 where the leg's rates are not determined
+  Least stroke;  ///< of UPS: to either end of the cylinder, m
+};
+
+std::vector<NearestOfLeg> nearestOfLegs(const Scenario& scenario) {
+  const Manipulator& machine = *scenario.manipulator;
+  const Solver<double> solver(machine);
+  Workspace<double> work;
+  std::vector<NearestOfLeg> all(machine.parameters().legs.size());
+  for (double t : equallySpaced(scenario.trajectory->duration(), 201)) {
+    solver.displacements(scenario.trajectory->at(t), work);
+    const JointVariables<double> q = solver.angles(work);
+    for (int i = 0; i < machine.legCount(); ++i) {
+      NearestOfLeg& nearest = all[static_cast<std::size_t>(i)];
+      const Leg& leg = machine.leg(i);
+      nearest.sine.include(solver.margins(work, i).sine, t);
+      if (leg.kind != LegKind::UPS) continue;
+      const double out = q.d(i) - leg.distal.length;  // how far the rod's inner end is from A
+      nearest.stroke.include(std::min(out, leg.proximal.length - out), t);
+    }
+  }
+  return all;
+}
+
+/// Within 3° of where a leg's rates are not determined, or a fiftieth of a cylinder from its end.
+void legsAtTheirLimits(const Scenario& scenario, std::vector<Oddity>& out) {
+  constexpr double near = 3 * pi / 180;
+  const std::vector<NearestOfLeg> all = nearestOfLegs(scenario);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Leg& leg = scenario.manipulator->leg(static_cast<int>(i));
+    const auto& [sine, stroke] = all[i];
+    const bool on_rail = leg.kind == LegKind::PUS;
+    if (sine.value < std::sin(near))
+      out.push_back({"trajectory", fmt::format("brings the {} of leg {} to {:.3g} degrees from {} at t = {:.4g} s: "
+                                               "efforts and rounding grow there",
+                                               on_rail ? "rod" : "knee", i + 1, degrees(std::asin(sine.value)),
+                                               on_rail ? "across its rail" : "straight or folded", sine.at)});
+    if (leg.kind == LegKind::UPS && stroke.value < leg.proximal.length / 50)
+      out.push_back({"trajectory", fmt::format("brings the rod of leg {} to {:.3g} m from an end of its cylinder, "
+                                               "which is {:.6g} m long, at t = {:.4g} s",
+                                               i + 1, stroke.value, leg.proximal.length, stroke.at)});
+  }
+}
+
+}  // namespace
+
+std::vector<Oddity> oddMotion(const Scenario& scenario) {
+  std::vector<Oddity> out;
+  const std::string kind = scenario.trajectory->kind();
+  if (kind == "helix") radians(scenario, out);
+  if (kind == "hold") scalarLast(scenario, "trajectory.orientation", out);
+  if (kind == "waypoints") scalarLast(scenario, "trajectory.points[1].orientation", out);
+  if (kind == "samples") scalarLast(scenario, "trajectory.file", out);
+  haste(scenario, out);
+  try {
+    legsAtTheirLimits(scenario, out);
+  } catch (const PoseError&) {
+    // Out of reach is no oddity: tryMotion refuses it.
+  }
+  return out;
+}
+
+}  // namespace ursula

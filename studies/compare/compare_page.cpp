@@ -1,0 +1,227 @@
+#include "studies/compare/compare_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "base/atomic_folder.h"
+#include "report/assets.h"
+#include "report/checks_list.h"
+#include "report/figures.h"
+#include "report/junit.h"
+#include "report/page.h"
+#include "report/quantity.h"
+#include "report/text.h"
+
+namespace ursula {
+namespace {
+
+using report::escaped;
+using report::Line;
+using report::Plot;
+using report::quantity;
+using report::Stroke;
+
+// A page of a hundred channels stays below 3 MB: so many points in all, and drawings for readers without scripts of the
+// worst alone.
+constexpr std::size_t buckets_in_all = 9000, fewest_buckets = 60, most_buckets = 400;
+constexpr std::size_t drawn_without_script = 24;
+constexpr std::size_t open_at_first = 3;
+
+/// The unit that a column's name ends in: "tau_3_Nm" → "Nm".
+std::string unitOf(const std::string& channel) {
+  for (const std::string unit : {"rad_s2", "m_s2", "rad_s", "m_s", "Nm", "rad", "N", "m", "J", "W", "s"}) {
+    const std::string ending = "_" + unit;
+    if (channel.size() > ending.size() && channel.compare(channel.size() - ending.size(), ending.size(), ending) == 0)
+      return unit;
+  }
+  return "";
+}
+
+/// How much of its tolerance a channel uses; where the tolerance is 0, whatever is off is infinitely much.
+double shareOf(const ChannelComparison& channel) {
+  if (channel.outside == 0) return 0;
+  return channel.tolerance > 0 ? channel.outside / channel.tolerance : std::numeric_limits<double>::infinity();
+}
+
+int rank(Verdict verdict) { return verdict == Verdict::fail ? 0 : verdict == Verdict::inconclusive ? 1 : 2; }
+
+/// NaN, which is no share, counts as the worst.
+bool isWorse(const ChannelComparison& a, const ChannelComparison& b) {
+  if (rank(a.verdict) != rank(b.verdict)) return rank(a.verdict) < rank(b.verdict);
+  const double of_a = shareOf(a), of_b = shareOf(b);
+  if (std::isnan(of_a) || std::isnan(of_b)) return std::isnan(of_a) && !std::isnan(of_b);
+  return of_a > of_b;
+}
+
+std::vector<std::size_t> worstFirst(const std::vector<ChannelComparison>& channels) {
+  std::vector<std::size_t> order(channels.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&channels](std::size_t a, std::size_t b) { return isWorse(channels[a], channels[b]); });
+  return order;
+}
+
+std::string shareText(const ChannelComparison& channel) {
+  const double share = shareOf(channel);
+  if (std::isnan(share)) return "is not a number somewhere";
+  if (std::isinf(share)) return "differs, with a tolerance of 0";
+  if (share > 1) return fmt::format("is off by {} times its tolerance", report::plainNumber(share, 2));
+  return fmt::format("is at {} of its tolerance", report::plainNumber(share, 2));
+}
+
+Plot timePlot(const ChannelCurves& curves, const std::string& title, const std::string& y_label) {
+  Plot plot;
+  plot.title = title;
+  plot.x_label = "t (s)";
+  plot.y_label = y_label;
+  plot.over_time = plot.tube = true;
+  plot.x = curves.t;
+  plot.rows = curves.t.size();
+  return plot;
+}
+
+std::vector<double> less(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> out(a.size());
+  std::transform(a.begin(), a.end(), b.begin(), out.begin(), std::minus<>());
+  return out;
+}
+
+std::string table(const std::vector<ChannelComparison>& channels, const std::vector<std::size_t>& order) {
+  std::string rows;
+  for (const std::size_t k : order) {
+    const ChannelComparison& c = channels[k];
+    const std::string unit = unitOf(c.name);
+    rows += fmt::format("<tr class=\"{}\"><td>{}</td><th scope=\"row\"><a href=\"#channel-{}\">{}</a></th>",
+                        name(c.verdict), report::verdictBadge(c.verdict), k, escaped(c.name));
+    for (const std::string& cell : {quantity(c.max_error, unit), quantity(c.max_at, "s"), quantity(c.rms_error, unit),
+                                    quantity(c.final_error, unit), quantity(c.tolerance, unit)})
+      rows += fmt::format("<td class=\"number\">{}</td>", escaped(cell));
+    rows += "</tr>\n";
+  }
+  std::string heads = "<th scope=\"col\">Verdict</th><th scope=\"col\">Channel</th>";
+  for (const char* head : {"Maximum", "at", "RMS", "Last", "Tolerance"})
+    heads += fmt::format("<th scope=\"col\" class=\"number\">{}</th>", head);
+  return fmt::format(
+      "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"Every channel\"><table>\n<caption>Deviations of "
+      "the test from the reference at the same instants, the worst channel first.</caption>\n<thead><tr>{}</tr></thead>"
+      "\n<tbody>\n{}</tbody></table></div>",
+      heads, rows);
+}
+
+std::string channelHtml(const ChannelComparison& channel, const ChannelCharts& charts, std::size_t index,
+                        std::size_t place) {
+  const report::Drawing drawing = place < drawn_without_script ? report::Drawing::with : report::Drawing::without;
+  const bool open = place < open_at_first || channel.verdict == Verdict::fail;
+  return fmt::format(
+      "<details class=\"group {0}\" id=\"channel-{1}\"{2}><summary>{3} <span class=\"title\">{4}</span> <span "
+      "class=\"aside\">{5}</span></summary>\n<div class=\"charts\">{6}{7}</div></details>\n",
+      name(channel.verdict), index, open ? " open" : "", report::verdictBadge(channel.verdict), escaped(channel.name),
+      shareText(channel), report::figureHtml(charts.curves, 2 * place, "h3", drawing),
+      report::figureHtml(charts.difference, 2 * place + 1, "h3", drawing));
+}
+
+std::string missing(const char* side, const std::vector<std::string>& names) {
+  std::string items;
+  for (const std::string& each : names) items += fmt::format("<li><code>{}</code></li>", escaped(each));
+  return items.empty() ? "" : fmt::format("<h3>Only in the {}</h3>\n<ul class=\"names\">{}</ul>\n", side, items);
+}
+
+std::vector<std::string> linesOf(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t from = 0, to = 0; (to = text.find('\n', from)) != std::string::npos; from = to + 1)
+    lines.push_back(text.substr(from, to - from));
+  return lines;
+}
+
+std::ptrdiff_t countOf(const Comparison& comparison, Verdict verdict) {
+  return std::count_if(comparison.channels.begin(), comparison.channels.end(),
+                       [verdict](const ChannelComparison& channel) { return channel.verdict == verdict; });
+}
+
+}  // namespace
+
+ChannelCharts channelCharts(const ChannelComparison& channel, const ChannelCurves& curves, std::size_t channel_count) {
+  const std::size_t buckets =
+      std::clamp(buckets_in_all / std::max<std::size_t>(channel_count, 1), fewest_buckets, most_buckets);
+  const std::string unit = report::prettyUnit(unitOf(channel.name));
+  const std::string label = unit.empty() ? "" : " (" + unit + ")";
+  ChannelCharts out;
+  out.curves = timePlot(curves, channel.name, channel.name + label);
+  out.curves.lines = {{"upper limit", unit, 0, Stroke::limit, curves.high},
+                      {"lower limit", unit, 0, Stroke::limit, curves.low},
+                      {"reference", unit, 0, Stroke::ghost, curves.reference},
+                      {"test", unit, 0, Stroke::line, curves.test}};
+  out.difference = timePlot(curves, channel.name + ": test less reference", "difference" + label);
+  out.difference.lines = {{"upper limit", unit, 0, Stroke::limit, less(curves.high, curves.reference)},
+                          {"lower limit", unit, 0, Stroke::limit, less(curves.low, curves.reference)},
+                          {"difference", unit, 0, Stroke::line, less(curves.test, curves.reference)}};
+  out.curves = thinned(out.curves, buckets);
+  out.difference = thinned(out.difference, buckets);
+  return out;
+}
+
+std::string comparisonSentence(const Comparison& c) {
+  if (c.channels.empty()) return "Nothing is common to both.";
+  if (c.instants + c.left_out == 0) return "The two histories have no time in common.";
+  const ChannelComparison& worst = c.channels[worstFirst(c.channels).front()];
+  const std::string off =
+      fmt::format("{} at t = {:.6g} s", quantity(worst.max_error, unitOf(worst.name)), worst.max_at);
+  const std::string of = fmt::format("of {} channels at {} instants", c.channels.size(), c.instants);
+  if (worst.verdict == Verdict::fail)
+    return fmt::format("The test differs from the reference in {} {}: most in {}, by up to {}, which {}.",
+                       countOf(c, Verdict::fail), of, worst.name, off, shareText(worst));
+  if (worst.verdict == Verdict::inconclusive)
+    return fmt::format("Nothing surely differs, but {} {} cannot be judged.", countOf(c, Verdict::inconclusive), of);
+  if (worst.max_error == 0)
+    return fmt::format("The test is the same as the reference in {} {}.", countOf(c, Verdict::pass), of);
+  return fmt::format("The test agrees with the reference in {} {}: the worst, {}, is off by {} and {}.",
+                     countOf(c, Verdict::pass), of, worst.name, off, shareText(worst));
+}
+
+std::string comparisonHtml(const Comparison& comparison, const std::vector<ChannelCharts>& charts,
+                           const ComparedFiles& files) {
+  report::Page page;
+  page.kind = "Comparison";
+  page.title = files.test;
+  page.subtitle = "against the reference " + files.reference;
+  page.verdict = comparison.verdict;
+  page.sentence = comparisonSentence(comparison);
+  page.remarks = linesOf(comparisonRemarks(comparison));
+  page.script = report::charts_script;
+  std::string channels;
+  const std::vector<std::size_t> order = worstFirst(comparison.channels);
+  for (std::size_t place = 0; place < order.size(); ++place) {
+    const std::size_t k = order[place];
+    channels += channelHtml(comparison.channels[k], charts.at(k), k, place);
+    page.charts.push_back(charts.at(k).curves);
+    page.charts.push_back(charts.at(k).difference);
+  }
+  page.sections = {{"channels", "Channels", channels},
+                   {"table", "In numbers", order.empty() ? "" : table(comparison.channels, order)},
+                   {"missing", "Not compared",
+                    missing("reference", comparison.only_in_reference) + missing("test", comparison.only_in_test)}};
+  page.footer =
+      "<p>The same in numbers: <a href=\"compare.csv\">compare.csv</a>, <a href=\"junit.xml\">junit.xml</a>.</p>";
+  return report::pageHtml(page);
+}
+
+Comparison writeComparison(const TimeSeries& reference, const TimeSeries& test, const CompareOptions& options,
+                           const ComparedFiles& files, const std::filesystem::path& dir) {
+  std::vector<ChannelCharts> charts;
+  const Comparison comparison =
+      compare(reference, test, options, [&](const ChannelComparison& channel, const ChannelCurves& curves) {
+        charts.push_back(channelCharts(channel, curves, reference.names.size()));
+      });
+  AtomicFolder out(dir, [](const std::filesystem::path&) { return Paths(); });
+  out.write("junit.xml", report::junitXml({comparisonSuite(comparison, files.reference + " : " + files.test)}));
+  out.write("compare.csv", comparisonCsv(comparison));
+  out.write("compare.html", comparisonHtml(comparison, charts, files));
+  out.commit();
+  return comparison;
+}
+
+}  // namespace ursula

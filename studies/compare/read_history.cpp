@@ -1,0 +1,25 @@
+#include "base/csv.h"
+#include "report/run.h"
+#include "studies/compare/compare.h"
+
+namespace ursula {
+namespace {
+
+/// What `validate` leaves, or what ships of it.
+std::filesystem::path historyIn(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  const bool is_short = !std::filesystem::exists(folder / "timeseries.csv", ignored) &&
+                        std::filesystem::exists(folder / "inverse.csv", ignored);
+  return folder / (is_short ? "inverse.csv" : "timeseries.csv");
+}
+
+}  // namespace
+
+TimeSeries readHistory(const std::filesystem::path& file_or_folder) {
+  std::error_code ignored;
+  const bool is_folder = std::filesystem::is_directory(file_or_folder, ignored);
+  if (is_folder) report::refuseMixture(file_or_folder);
+  return historyOf(readCsv(is_folder ? historyIn(file_or_folder) : file_or_folder, {{}, false}));
+}
+
+}  // namespace ursula

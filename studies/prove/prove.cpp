@@ -1,0 +1,134 @@
+#include "studies/prove/prove.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <thread>
+
+#include "base/errors.h"
+#include "base/start_threads.h"
+#include "model/instants.h"
+#include "nocsolver/errors.h"
+#include "studies/prove/defects.h"
+#include "studies/random/random_scenario.h"
+#include "validation/samples/pointwise.h"
+#include "validation/validate.h"
+
+namespace ursula {
+namespace {
+
+/// Instants for one of many validations: enough for three a step of the replay.
+constexpr int samples_in_a_row = 101;
+constexpr int samples_of_sensitivity = 31;
+
+/// The torques of the right machine by Simbody, and whether other torques would be caught.
+class TorqueReference {
+ public:
+  explicit TorqueReference(const Scenario& scenario)
+      : samples_(runPointwise(scenario, nocSubject(*scenario.manipulator, scenario.load),
+                              equallySpaced(scenario.trajectory->duration(), samples_of_sensitivity))) {
+    for (const PointwiseSample& sample : samples_)
+      largest_ = std::max(largest_, sample.torques_simbody.cwiseAbs().maxCoeff());
+  }
+
+  /// The change of torque relative to the largest, negative where it is not caught.
+  double caught(const Subject& subject) const {
+    double change = 0;
+    bool beyond = false;
+    try {
+      for (const PointwiseSample& sample : samples_) {
+        const double error =
+            (subject.torques(sample.motion) - sample.torques_simbody).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+        change = std::max(change, error);
+        beyond |= !(error <= sample.torque.limit);
+      }
+    } catch (const PoseError&) {
+      return 1;  // no answer is caught as well
+    }
+    return beyond ? change / largest_ : -1;
+  }
+
+ private:
+  std::vector<PointwiseSample> samples_;
+  double largest_ = 0;
+};
+
+/// Sixteen decades from 0.1 down, then the last of them halved until what is left is a hundredth of the error.
+Sensitivity findSensitivity(const Scenario& scenario, const TorqueReference& reference, const Parameter& parameter) {
+  Sensitivity out{parameter.name, parameter.group, std::numeric_limits<double>::infinity(), 0};
+  const auto tryError = [&](double exponent) {
+    const double relative = std::pow(10, exponent);
+    double change = 1;
+    try {
+      change = reference.caught(disturbedSubject(scenario, parameter, relative));
+    } catch (const InvalidParameter&) {
+      // No machine can be so: refused before any check.
+    }
+    if (change < 0) return false;
+    out.smallest_caught = relative;
+    out.torque_change = change;
+    return true;
+  };
+  double exponent = -1;
+  if (!tryError(exponent)) return out;
+  while (exponent > -16 && tryError(exponent - 1)) exponent -= 1;
+  for (double step = 0.5; step > 0.002; step /= 2)
+    if (tryError(exponent - step)) exponent -= step;
+  return out;
+}
+
+}  // namespace
+
+Scenario sampledForMany(Scenario scenario) {
+  scenario.simulation.samples = samples_in_a_row;
+  return scenario;
+}
+
+std::vector<Sensitivity> proveSensitivities(const Scenario& scenario) {
+  const TorqueReference reference(scenario);
+  std::vector<Sensitivity> out;
+  for (const Parameter& parameter : allParameters(*scenario.manipulator))
+    out.push_back(findSensitivity(scenario, reference, parameter));
+  return out;
+}
+
+RandomOutcomes proveRandom(std::uint64_t seed, int count, int jobs, const std::function<void(int)>& done,
+                           RandomKind kind) {
+  std::vector<Verdict> verdicts(static_cast<std::size_t>(count), Verdict::fail);
+  std::vector<std::string> why(static_cast<std::size_t>(count));
+  std::vector<std::vector<Check>> checks(static_cast<std::size_t>(count));
+  inParallel(jobs, count, [&](int k) {
+    const auto i = static_cast<std::size_t>(k);
+    const Scenario scenario = sampledForMany(randomScenario(seed + i, kind));
+    ValidationOptions options;
+    options.budget = false;
+    const ValidationResult result = validate(scenario, options);
+    verdicts[i] = result.verdict;
+    checks[i] = result.checks;
+    for (const Check& check : result.checks)
+      if (check.verdict == result.verdict && result.verdict != Verdict::pass && why[i].empty())
+        why[i] = fmt::format("seed {}: {} {:.3g} of {:.3g} {}: {}", seed + i, check.name, check.value, check.limit,
+                             check.unit, check.why);
+    done(count);
+  });
+  RandomOutcomes out;
+  out.runs = count;
+  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    if (verdicts[i] == Verdict::pass) ++out.passed;
+    if (verdicts[i] == Verdict::fail) out.failed.push_back(why[i]);
+    if (verdicts[i] == Verdict::inconclusive) out.inconclusive.push_back(why[i]);
+    for (const Check& check : checks[i]) {
+      if (!(check.limit > 0)) continue;
+      double& share = out.largest_share[check.name];
+      share = std::max(share, check.value / check.limit);
+    }
+  }
+  return out;
+}
+
+}  // namespace ursula

@@ -1,0 +1,106 @@
+#include <algorithm>
+#include <cmath>
+
+#include "studies/random/random_machine.h"
+
+namespace ursula {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// Exactly at one of the ends for one leg at most, so that no two legs share a number.
+double massCentre(Dice& dice, const Recipe& recipe, bool may_be_at_end, double length) {
+  if (!recipe.centres_anywhere) return dice.uniform(0.2, 0.8) * length;
+  if (may_be_at_end) return dice.chance(0.5) ? 0 : length;
+  if (dice.chance(0.3)) {
+    const double end = dice.whole(0, 1);
+    return (end + dice.spreadOfEitherSign(1e-6, 0.05)) * length;
+  }
+  return dice.uniform(-1.5, 2.5) * length;
+}
+
+/// Squares of the mass's extents: all alike, all but nothing beside m l², along a line, or in a plane.
+Vector3d extents(Dice& dice, Inertias kind) {
+  if (kind == Inertias::mixed) kind = dice.pick<Inertias>(4);
+  const double scale = kind == Inertias::points ? dice.spread(1e-6, 1e-3) : dice.spread(0.01, 0.15);
+  Vector3d squares = dice.vector(0.2, 1);
+  if (kind == Inertias::rods) squares.head<2>() *= dice.spread(1e-6, 1e-3);
+  if (kind == Inertias::laminae) squares.z() *= dice.spread(1e-12, 1e-4);
+  return scale * squares;
+}
+
+/// Principal moments within the triangle inequality, turned any way.
+Matrix3d randomInertia(Dice& dice, Inertias kind, double mass, double size) {
+  const Vector3d squares = mass * size * size * extents(dice, kind);
+  const Vector3d moments(squares.y() + squares.z(), squares.z() + squares.x(), squares.x() + squares.y());
+  const Matrix3d R = dice.turn(pi).toRotationMatrix();
+  const Matrix3d I = R * moments.asDiagonal() * R.transpose();
+  return (I + I.transpose()) / 2;
+}
+
+/// `largest` of what turns, and over `length` of what slides.
+JointFriction randomFriction(Dice& dice, LegKind kind, double largest, double length) {
+  JointFriction out;
+  for (const Coordinate q : rowOf(kind).coordinates)
+    out.on(q) = dice.uniform(0.001, 1) * (slides(q) ? largest / length : largest);
+  return out;
+}
+
+/// F q̇ and c tanh(q̇ / v), at most `share` of the weight that the leg carries.
+void drawFriction(Dice& dice, const Recipe& recipe, double torque, Leg& leg) {
+  const double time = recipe.time(), length = recipe.length;
+  if (recipe.viscous) {
+    const double largest = dice.spread(0.01, 0.5) * torque * time;
+    // A rate of one length a time: of what slides twice over the length.
+    leg.friction = randomFriction(dice, leg.kind, largest, length * length);
+  }
+  leg.coulomb.smoothing_speed = dice.spread(0.003, 0.3) / time;
+  if (leg.kind == LegKind::UPS || leg.kind == LegKind::PUS)
+    leg.coulomb.sliding_speed = dice.spread(0.003, 0.3) / time * length;
+  if (recipe.coulomb)
+    static_cast<JointFriction&>(leg.coulomb) = randomFriction(dice, leg.kind, dice.spread(0.01, 0.2) * torque, length);
+}
+
+/// Means of the platform's and the links' masses, one share of what `even` bodies weigh or unlike each other.
+struct MassScales {
+  double platform, links, within;
+};
+
+MassScales massScales(Dice& dice, const Recipe& recipe) {
+  MassScales scales{recipe.mass * dice.spread(1, 50), recipe.mass, 2};
+  if (recipe.masses == Masses::apart) {
+    scales.platform = recipe.mass * dice.spread(1e-3, 1e3);
+    scales.links = recipe.mass * dice.spread(1e-3, 1e3);
+  }
+  if (recipe.masses == Masses::mixed) scales.within = 1e3;
+  return scales;
+}
+
+Link randomLink(Dice& dice, const Recipe& recipe, const MassScales& scales, bool may_be_at_end, Link link) {
+  link.mass = scales.links * dice.spread(1 / scales.within, scales.within);
+  link.center_of_mass = massCentre(dice, recipe, may_be_at_end, link.length);
+  link.inertia = randomInertia(dice, recipe.inertias, link.mass, link.length);
+  return link;
+}
+
+}  // namespace
+
+void drawBodies(Dice& dice, const Recipe& recipe, const Vector3d& middle, ManipulatorParameters& machine) {
+  const MassScales scales = massScales(dice, recipe);
+  Platform& platform = machine.platform;
+  platform.mass = scales.platform;
+  platform.center_of_mass = middle + recipe.platform_centre * dice.direction();
+  platform.inertia = randomInertia(dice, recipe.inertias, platform.mass, recipe.length);
+  const std::size_t at_end = dice.pick<std::size_t>(static_cast<int>(machine.legs.size()));
+  for (std::size_t i = 0; i < machine.legs.size(); ++i) {
+    Leg& leg = machine.legs[i];
+    const bool proximal_at_end = i == at_end && dice.chance(0.5);
+    leg.proximal = randomLink(dice, recipe, scales, proximal_at_end, leg.proximal);
+    leg.distal = randomLink(dice, recipe, scales, i == at_end && !proximal_at_end, leg.distal);
+    const double carried =
+        platform.mass / static_cast<double>(machine.legs.size()) + leg.proximal.mass + leg.distal.mass;
+    drawFriction(dice, recipe, carried * recipe.acceleration * recipe.length, leg);
+  }
+}
+
+}  // namespace ursula

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <memory>
+
+#include "model/load.h"
+#include "model/trajectory.h"
+#include "studies/random/random_machine.h"
+
+namespace ursula {
+
+/// A motion of the recipe's kind about the design's pose. `share` makes it smaller where the legs cannot follow.
+/// Throws InvalidParameter where the spline between the poses swings too far.
+std::shared_ptr<const Trajectory> randomMotion(Dice& dice, const Recipe& recipe, const Design& design, double share);
+
+/// Null where the recipe has none.
+std::shared_ptr<const Load> randomLoad(Dice& dice, const Recipe& recipe, const Design& design);
+
+}  // namespace ursula

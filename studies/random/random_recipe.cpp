@@ -1,0 +1,131 @@
+#include "studies/random/random_recipe.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace ursula {
+namespace {
+
+/// Draws whether something is out of the ordinary, and notes it.
+class Oddities {
+ public:
+  Oddities(Dice& dice, Recipe& recipe) : dice_(dice), recipe_(recipe) {}
+  bool happens(double probability, const char* words) {
+    const bool odd = dice_.chance(probability);
+    if (odd) recipe_.unusual.emplace_back(words);
+    return odd;
+  }
+
+ private:
+  Dice& dice_;
+  Recipe& recipe_;
+};
+
+/// Masses grow with the volume of a machine of the paper's kind, 10 kg at 1.4 m, or have nothing to do with it.
+void drawUnits(Dice& dice, Oddities& odd, Recipe& recipe) {
+  recipe.length = dice.spread(0.4, 4);
+  if (odd.happens(0.2, "size")) recipe.length = dice.spread(2e-3, 300);
+  const double volume = std::pow(recipe.length, 3);
+  recipe.mass = odd.happens(0.15, "masses of another size") ? dice.spread(1e-3, 1e3) : dice.spread(1, 15) * volume;
+  recipe.acceleration = dice.uniform(9.78, 9.83);
+  if (odd.happens(0.15, "gravity's size")) recipe.acceleration = dice.spread(1.6, 274);
+}
+
+void drawGeometry(Dice& dice, Oddities& odd, Recipe& recipe) {
+  if (dice.chance(0.6)) {
+    recipe.arrangement = dice.pick<Arrangement>(5);
+    recipe.axes = dice.pick<Axes>(4);
+  }
+  recipe.unequal_links = odd.happens(0.1, "unequal links");
+  recipe.axis_along_z = odd.happens(0.05, "an axis along z");
+  recipe.turned = !recipe.axis_along_z && odd.happens(0.15, "turned");
+  recipe.offset = dice.uniform(0, 1) * recipe.length;
+  // Beyond a million lengths a double does not tell where the joints are.
+  if (odd.happens(0.12, "far from the origin"))
+    recipe.offset = dice.spread(10 * recipe.length, std::min(1e6 * recipe.length, 1e5));
+  recipe.platform_offset = dice.uniform(0, 0.4) * recipe.length;
+  if (odd.happens(0.12, "P off the platform")) recipe.platform_offset = dice.spread(1, 30) * recipe.length;
+}
+
+/// What only legs of other kinds than URS can be.
+void drawLegs(Dice& dice, Oddities& odd, Recipe& recipe) {
+  const RandomKind kind = recipe.kind;
+  const bool of_any = kind == RandomKind::mixture || kind == RandomKind::two_motors;
+  const bool other_motors = kind != RandomKind::URS && odd.happens(of_any ? 0.4 : 0.15, "other motors");
+  recipe.legs = randomLegs(dice, kind, other_motors);
+  const auto some = [&](LegKind of) {
+    return std::any_of(recipe.legs.begin(), recipe.legs.end(), [of](const LegRecipe& leg) { return leg.kind == of; });
+  };
+  recipe.stroke_end = some(LegKind::UPS) && odd.happens(0.15, "near a stroke's end");
+  recipe.far_zero = some(LegKind::PUS) && odd.happens(0.15, "carriage far from its zero");
+}
+
+void drawBodies(Dice& dice, Oddities& odd, Recipe& recipe) {
+  if (odd.happens(0.15, "links' masses unlike the platform's")) recipe.masses = Masses::apart;
+  if (odd.happens(0.1, "masses mixed")) recipe.masses = Masses::mixed;
+  recipe.centres_anywhere = odd.happens(0.15, "mass centres outside of links");
+  recipe.platform_centre = dice.uniform(0, 1) * recipe.length;
+  if (odd.happens(0.1, "platform's mass centre away")) recipe.platform_centre = dice.spread(1, 10) * recipe.length;
+  if (odd.happens(0.15, "inertias")) recipe.inertias = static_cast<Inertias>(dice.whole(1, 4));
+  recipe.viscous = dice.chance(0.5);
+  recipe.coulomb = dice.chance(0.25);
+}
+
+void drawSurroundings(Dice& dice, Oddities& odd, Recipe& recipe) {
+  if (odd.happens(0.15, "gravity's direction")) recipe.gravity = dice.pick<GravityKind>(4);
+  if (dice.chance(0.2)) recipe.load = LoadKind::constant;
+  if (dice.chance(0.15)) recipe.load = LoadKind::table;
+  if (odd.happens(0.08, "load jumps")) recipe.load = LoadKind::jumps;
+  recipe.load_far = recipe.load != LoadKind::none && odd.happens(0.2, "load far off");
+}
+
+void drawMotion(Dice& dice, Oddities& odd, Recipe& recipe) {
+  const double kind = dice.uniform(0, 1);
+  recipe.motion = kind < 0.3    ? MotionKind::helix
+                  : kind < 0.42 ? MotionKind::hold
+                  : kind < 0.75 ? MotionKind::waypoints
+                                : MotionKind::samples;
+  if (recipe.motion == MotionKind::waypoints && odd.happens(0.15, "tight waypoints")) recipe.pace = Pace::tight;
+  if (recipe.motion == MotionKind::waypoints && odd.happens(0.15, "abrupt waypoints")) recipe.pace = Pace::abrupt;
+  if (recipe.motion == MotionKind::samples && odd.happens(0.15, "many samples")) recipe.pace = Pace::tight;
+  recipe.noisy = recipe.motion == MotionKind::samples && odd.happens(0.3, "noisy samples");
+  recipe.near_singular = odd.happens(0.08, "near a singularity");
+  double units = dice.spread(1, 8);
+  if (odd.happens(0.08, "short")) units = dice.spread(0.02, 1);
+  if (odd.happens(0.06, "long")) units = dice.spread(8, 60);
+  recipe.duration = units * recipe.time();
+}
+
+}  // namespace
+
+std::string Recipe::text() const {
+  static constexpr const char* arrangements[] = {"the paper's layout", "a ring", "3-3", "6-3", "no order"};
+  static constexpr const char* directions[] = {"tilted", "radial", "tangential", "random"};
+  const std::string odd = unusual.empty() ? "nothing unusual" : fmt::format("{}", fmt::join(unusual, ", "));
+  const std::string stands_on = kind == RandomKind::URS ? "" : wordsOf(legs) + ", ";
+  return stands_on + fmt::format("L {:.3g} m, m {:.3g} kg, a {:.3g} m/s^2, {:.3g} T, {}, {} axes; {}", length, mass,
+                                 acceleration, duration / time(), arrangements[static_cast<int>(arrangement)],
+                                 directions[static_cast<int>(axes)], odd);
+}
+
+double Recipe::largestKappa() const {
+  // P far off the platform's points makes B worse by as many lengths.
+  return near_singular || platform_offset > length ? 1e6 : 1e4;
+}
+
+Recipe randomRecipe(Dice& dice, RandomKind kind) {
+  Recipe recipe;
+  recipe.kind = kind;
+  Oddities odd(dice, recipe);
+  drawUnits(dice, odd, recipe);
+  drawLegs(dice, odd, recipe);
+  drawGeometry(dice, odd, recipe);
+  drawBodies(dice, odd, recipe);
+  drawSurroundings(dice, odd, recipe);
+  drawMotion(dice, odd, recipe);
+  return recipe;
+}
+
+}  // namespace ursula

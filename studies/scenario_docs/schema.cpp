@@ -1,0 +1,132 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "model/scenario_keys.h"
+#include "studies/scenario_docs/scenario_docs.h"
+
+namespace ursula {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json schemaOf(const ScenarioTable& table);
+
+Json arrayOf(int least, int most) {
+  return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", least}, {"maxItems", most}};
+}
+
+/// Of a bound as the table has it: > 0 is all above the smallest positive number.
+void addBound(const KeyBound& bound, Json& out) {
+  if (std::fpclassify(bound.least) == FP_SUBNORMAL)
+    out["exclusiveMinimum"] = 0;
+  else if (bound.zero_too && std::isfinite(bound.least))
+    out["minimum"] = bound.least;
+  if (bound.zero_too && std::isfinite(bound.most)) out["maximum"] = bound.most;
+  if (!bound.zero_too) out["not"] = {{"const", 0}};
+}
+
+Json typeOf(const ScenarioKey& key) {
+  switch (key.type) {
+    case KeyType::number:
+      return {{"type", "number"}};
+    case KeyType::integer:
+      return {{"type", "integer"}};
+    case KeyType::string:
+      return {{"type", "string"}};
+    case KeyType::choice:
+      return {{"enum", key.choices}};
+    case KeyType::choices:
+      return {{"type", "array"}, {"items", {{"enum", key.choices}}}, {"uniqueItems", true}};
+    case KeyType::vector:
+      return arrayOf(3, 3);
+    case KeyType::quaternion:
+      return arrayOf(4, 4);
+    case KeyType::inertia:
+      return {{"oneOf", {arrayOf(3, 3), arrayOf(6, 6)}}};
+    case KeyType::tables:
+      return {{"type", "array"}, {"items", schemaOf(scenarioTable(key.of))}};
+    case KeyType::limits:
+    case KeyType::table:
+      break;
+  }
+  return schemaOf(scenarioTable(key.of));
+}
+
+std::string description(const ScenarioKey& key) {
+  const std::string unit = key.unit;
+  return std::string(key.meaning) + (unit.empty() ? "" : (key.meaning[0] == '\0' ? "" : ", ") + unit);
+}
+
+Json schemaOf(const ScenarioKey& key) {
+  Json out = typeOf(key);
+  addBound(key.bound, out);
+  if (const std::string text = description(key); !text.empty()) out["description"] = text;
+  if (key.fallback[0] != '\0' && !key.isRequired()) out["default"] = Json::parse(key.fallback);
+  return out;
+}
+
+/// Where a key may be given in degrees or by another one, one of the two is required and both are refused.
+const char* standInFor(const ScenarioTable& table, const std::string& name) {
+  for (const ScenarioKey& key : table.keys)
+    if (key.name == name + "_deg" || (name == "orientation" && key.name == std::string("rpy_deg"))) return key.name;
+  return nullptr;
+}
+
+/// Required keys of a leg may stand in the defaults instead: an editor sees one table at a time.
+bool mayBeElsewhere(const ScenarioTable& table) {
+  return table.name == std::string("manipulator.leg") || table.name == std::string("manipulator.leg.link");
+}
+
+Json plainSchemaOf(const ScenarioTable& table) {
+  Json out = {{"type", "object"}, {"additionalProperties", false}};
+  Json properties = Json::object(), required = Json::array(), all = Json::array();
+  for (const ScenarioKey& key : table.keys) {
+    properties[key.name] = schemaOf(key);
+    const char* other = standInFor(table, key.name);
+    if (other != nullptr) {
+      const Json first = {{"required", {key.name}}}, second = {{"required", {other}}};
+      all.push_back(key.isRequired() ? Json{{"oneOf", {first, second}}}
+                                     : Json{{"not", {{"required", {key.name, other}}}}});
+    } else if (key.isRequired() && !mayBeElsewhere(table)) {
+      required.push_back(key.name);
+    }
+  }
+  out["properties"] = properties;
+  if (!required.empty()) out["required"] = required;
+  if (!all.empty()) out["allOf"] = all;
+  return out;
+}
+
+/// [trajectory]: one of its kinds.
+Json kindsOf(const ScenarioTable& trajectory) {
+  Json out = {{"type", "object"}, {"oneOf", Json::array()}};
+  for (const std::string& kind : trajectory.key("kind").choices) {
+    Json each = plainSchemaOf(scenarioTable("trajectory." + kind));
+    each["properties"]["kind"] = {{"const", kind}};
+    out["oneOf"].push_back(each);
+  }
+  return out;
+}
+
+Json schemaOf(const ScenarioTable& table) {
+  if (table.name == std::string("trajectory")) return kindsOf(table);
+  Json out = plainSchemaOf(table);
+  if (table.name == std::string("acceptance"))  // names of checks, which may be dotted keys and so tables
+    out["additionalProperties"] = {{"type", {"number", "object"}}};
+  if (table.name == std::string("acceptance.torque")) out["additionalProperties"] = {{"type", {"number", "object"}}};
+  return out;
+}
+
+}  // namespace
+
+std::string scenarioSchema() {
+  Json out = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+              {"title", "A scenario of ursula"},
+              {"description", scenarioTable("").meaning}};
+  out.update(schemaOf(scenarioTable("")));
+  out["properties"]["manipulator"]["properties"]["leg"]["minItems"] = 3;
+  out["properties"]["manipulator"]["properties"]["leg"]["maxItems"] = 6;
+  return out.dump(2) + "\n";
+}
+
+}  // namespace ursula

@@ -1,0 +1,231 @@
+#include "studies/simulate/simulate.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <boost/numeric/odeint.hpp>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <stdexcept>
+
+#include "nocsolver/finite.h"
+#include "nocsolver/solver.h"
+#include "validation/subject/subject.h"
+
+namespace ursula {
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+using OdeState = std::vector<double>;
+
+/// x = [p, q (w, x, y, z), ṗ, ω].
+class NocSystem {
+ public:
+  NocSystem(const Scenario& scenario) : load_(scenario.load), solver_(*scenario.manipulator) {}
+
+  OdeState start(const Motion<double>& motion) const {
+    const Eigen::Quaterniond q(motion.Q);
+    OdeState x(13);
+    Eigen::Map<Eigen::Matrix<double, 13, 1>>(x.data()) << motion.p, q.w(), q.vec(), motion.p_dot, motion.omega;
+    return x;
+  }
+
+  Motion<double> motion(double t, const OdeState& x, const Vector6d& torques) {
+    const Eigen::Map<const Eigen::Matrix<double, 13, 1>> state(x.data());
+    Motion<double> motion;
+    motion.t = t;
+    motion.p = state.segment<3>(0);
+    motion.Q = Eigen::Quaterniond(state(3), state(4), state(5), state(6)).normalized().toRotationMatrix();
+    motion.p_dot = state.segment<3>(7);
+    motion.omega = state.segment<3>(10);
+    const Vector6d found = solver_.directDynamics(motion, torques, work_, loadAtP(load_.get(), motion));
+    last_ = motion;
+    motion.omega_dot = found.head<3>();
+    motion.p_ddot = found.tail<3>();
+    return motion;
+  }
+
+  /// Of the state last differentiated.
+  JointVariables<double> joints() {
+    solver_.displacements(last_, work_);
+    return solver_.angles(work_);
+  }
+  /// Of an accepted step: where a leg does not reach, the solver has refused before.
+  void check(double, const OdeState&) const {}
+
+  void derivative(double t, const OdeState& x, const Vector6d& torques, OdeState& rate) {
+    const Motion<double> now = motion(t, x, torques);
+    const Eigen::Quaterniond q(x[3], x[4], x[5], x[6]);
+    const Eigen::Quaterniond spin(0, now.omega.x(), now.omega.y(), now.omega.z());
+    const Eigen::Quaterniond q_dot = spin * q;  // twice q̇, ω in B
+    Eigen::Map<Eigen::Matrix<double, 13, 1>>(rate.data()) << now.p_dot, q_dot.w() / 2, q_dot.vec() / 2, now.p_ddot,
+        now.omega_dot;
+  }
+
+ private:
+  std::shared_ptr<const Load> load_;
+  Solver<double> solver_;
+  Workspace<double> work_;
+  Motion<double> last_;  ///< that the solver did not refuse
+};
+
+/// What ends the reach of a leg, told of its joints' variables: signed, zero where the leg is stretched or folded (of
+/// PUS across its rail); of UPS how far its rod is from the nearer end of the cylinder, m.
+struct ReachEnds {
+  explicit ReachEnds(const Manipulator& machine) : legs(machine.parameters().legs) {}
+
+  double of(const JointVariables<double>& q, int i) const {
+    const Leg& leg = legs[static_cast<std::size_t>(i)];
+    const double out = q.d(i) - leg.distal.length;
+    switch (leg.kind) {
+      case LegKind::UPS:
+        return std::min(out, leg.proximal.length - out);
+      case LegKind::RUS:
+        return std::sin(q.psi(i));
+      case LegKind::PUS:
+        return std::cos(q.theta(i));
+      case LegKind::URS:
+        break;
+    }
+    return std::sin(q.theta(i));
+  }
+
+  std::runtime_error outOfReach(const JointVariables<double>& q, int i, double t) const {
+    return std::runtime_error(
+        fmt::format("the motion leaves what leg {} reaches: it is {} at t = {:.9g} s", i + 1, words(q, i), t));
+  }
+
+  std::vector<Leg> legs;
+
+ private:
+  const char* words(const JointVariables<double>& q, int i) const {
+    const Leg& leg = legs[static_cast<std::size_t>(i)];
+    if (leg.kind == LegKind::UPS) return "at the end of its stroke";
+    if (leg.kind == LegKind::PUS) return "across its rail";
+    const bool straight = leg.kind == LegKind::URS ? std::cos(q.theta(i)) < 0 : std::cos(q.psi(i)) > 0;
+    return straight ? "stretched" : "folded";
+  }
+};
+
+/// A leg whose knee bends the other way has come through where it was stretched or folded, the end of what it reaches;
+/// so has a rod out of its cylinder.
+void checkKnees(const ReachEnds& ends, const JointVariables<double>& before, const JointVariables<double>& now,
+                double t) {
+  for (std::size_t k = 0; k < ends.legs.size(); ++k)
+    if (const int i = static_cast<int>(k); ends.of(before, i) * ends.of(now, i) <= 0) throw ends.outOfReach(now, i, t);
+}
+
+/// Within this of 0, it is what shrinks the steps.
+constexpr double at_edge = 1e-3;
+
+void stopped(const ReachEnds& ends, const JointVariables<double>& q, double t) {
+  for (std::size_t k = 0; k < ends.legs.size(); ++k)
+    if (const int i = static_cast<int>(k); std::abs(ends.of(q, i)) < at_edge) throw ends.outOfReach(q, i, t);
+  throw std::runtime_error(fmt::format("the steps shrink to nothing at t = {:.9g} s", t));
+}
+
+class SimbodySystem {
+ public:
+  SimbodySystem(const Scenario& scenario)
+      : loop_(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load), ends_(*scenario.manipulator) {}
+
+  OdeState start(const Motion<double>& motion) {
+    start_ = loop_.place(motion).q;
+    return loop_.state();
+  }
+
+  Motion<double> motion(double t, const OdeState& x, const Vector6d& torques) {
+    loop_.setState(t, x.data());
+    loop_.accelerate(torques);
+    return loop_.platform();
+  }
+
+  void derivative(double t, const OdeState& x, const Vector6d& torques, OdeState& rate) {
+    loop_.derivative(t, x.data(), torques, rate.data());
+  }
+
+  /// Of the state last differentiated.
+  JointVariables<double> joints() const { return loop_.joints().q; }
+  /// Of an accepted step.
+  void check(double t, const OdeState& x) {
+    loop_.setState(t, x.data());
+    checkKnees(ends_, start_, joints(), t);
+  }
+
+ private:
+  SimbodyLoop loop_;
+  ReachEnds ends_;
+  JointVariables<double> start_;  ///< in the commanded state
+};
+
+/// Steps that shrink to nothing end the run.
+class Progress {
+ public:
+  explicit Progress(const std::vector<double>& instants)
+      : since_(instants.front()), least_(1e-3 * (instants.back() - instants.front())) {}
+
+  /// Called for each evaluation: false where `patience` of them gained less than a thousandth of the time.
+  bool goesOn(double t) {
+    if (++evaluations_ % patience != 0) return true;
+    const double gained = t - since_;
+    since_ = t;
+    return gained > least_;
+  }
+
+ private:
+  static constexpr long patience = 20'000;
+  double since_, least_;
+  long evaluations_ = 0;
+};
+
+template <class System>
+Simulation integrate(System system, const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques,
+                     const std::vector<double>& instants, double tolerance, const Deadline& deadline) {
+  Simulation out;
+  OdeState x = system.start(scenario.trajectory->at(instants.front()));
+  auto stepper = odeint::make_controlled(tolerance, tolerance, odeint::runge_kutta_fehlberg78<OdeState>());
+  Progress progress(instants);
+  const auto derivative = [&](const OdeState& at, OdeState& rate, double t) {
+    ++out.evaluations;
+    if (deadline.isOver()) throw std::runtime_error(deadline.words());
+    system.derivative(t, at, torques(t), rate);
+    for (double value : rate)
+      if (!std::isfinite(value)) throw std::runtime_error(fmt::format("derivatives not finite at t = {} s", t));
+    if (!progress.goesOn(t)) stopped(ReachEnds(*scenario.manipulator), system.joints(), t);
+  };
+  double t = instants.front(), dt = (instants.back() - instants.front()) / 128;
+  try {
+    for (double instant : instants) {
+      while (instant - t > std::numeric_limits<double>::epsilon() * std::abs(instant)) {
+        double step = std::min(dt, instant - t);
+        const bool cut = step < dt;
+        const auto outcome = stepper.try_step(derivative, x, t, step);
+        dt = cut && outcome == odeint::success ? std::max(dt, step) : step;
+        if (outcome == odeint::success) system.check(t, x);
+      }
+      const Vector6d now = torques(instant);
+      const Motion<double> motion = system.motion(instant, x, now);
+      requireFinite(motion);
+      out.torques.push_back(now);
+      out.motions.push_back(motion);
+    }
+  } catch (const std::bad_alloc&) {
+    throw;  // says nothing of the motion
+  } catch (const std::exception& error) {
+    out.gave_up = error.what();  // what was reached is still reported
+  }
+  return out;
+}
+
+}  // namespace
+
+Simulation simulate(const Scenario& scenario, SimulationEngine engine, const SimbodyLoop::TorqueHistory& torques,
+                    const std::vector<double>& instants, double tolerance, const Deadline& deadline) {
+  return engine == SimulationEngine::noc
+             ? integrate(NocSystem(scenario), scenario, torques, instants, tolerance, deadline)
+             : integrate(SimbodySystem(scenario), scenario, torques, instants, tolerance, deadline);
+}
+
+}  // namespace ursula

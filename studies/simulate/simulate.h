@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "base/deadline.h"
+#include "engines/simbody/simbody_loop.h"
+#include "model/scenario.h"
+
+namespace ursula {
+
+enum class SimulationEngine { noc, simbody };
+
+/// What a torque history makes of the machine.
+struct Simulation {
+  std::vector<Motion<double>> motions;  ///< platform, with its accelerations, at the instants reached
+  std::vector<Vector6d> torques;        ///< at the same instants
+  long evaluations = 0;                 ///< of the derivatives
+  std::string gave_up;                  ///< why, where it did not reach the last instant; else empty
+};
+
+/// Integrates from the commanded state at the first of `instants` (increasing, two or more) with rkf78 at `tolerance`,
+/// stopping at each instant.
+///
+/// The NOC engine integrates (36) with the platform's pose and twist as the state, so that no direct kinematics is
+/// solved in the loop and the assembly is never in doubt; the Simbody engine integrates the closed loop's own
+/// coordinates. Stops where the deadline is over.
+Simulation simulate(const Scenario& scenario, SimulationEngine engine, const SimbodyLoop::TorqueHistory& torques,
+                    const std::vector<double>& instants, double tolerance, const Deadline& deadline = {});
+
+}  // namespace ursula

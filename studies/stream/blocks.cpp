@@ -1,0 +1,102 @@
+#include "studies/stream/blocks.h"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "base/start_threads.h"
+
+namespace ursula {
+namespace {
+
+struct Block {
+  std::size_t k = 0;
+  TimeSeries series = {};
+  std::exception_ptr refusal = {};
+  std::string text = {};
+};
+using Handed = Block*;  // of the stream: TBB lets go of what is on its way when something is thrown
+
+/// Handed out in order, made by any thread, settled in order, formatted by any thread, written in order.
+class Stream {
+ public:
+  Stream(const BlockTable& table, const StreamOptions& options, const Sink& sink)
+      : table_(table), options_(options), sink_(sink) {}
+
+  void run() {
+    using tbb::filter_mode;
+    const auto chain =
+        tbb::make_filter<void, Handed>(filter_mode::serial_in_order,
+                                       [this](tbb::flow_control& control) { return next(control); }) &
+        tbb::make_filter<Handed, Handed>(filter_mode::parallel, [this](Handed block) { return make(block); }) &
+        tbb::make_filter<Handed, Handed>(filter_mode::serial_in_order, [this](Handed block) { return settle(block); }) &
+        tbb::make_filter<Handed, Handed>(filter_mode::parallel, [this](Handed block) { return format(block); }) &
+        tbb::make_filter<Handed, void>(filter_mode::serial_in_order, [this](Handed block) { write(block); });
+    // TBB ends where the system gives fewer threads than it wants.
+    const int jobs = 1 + static_cast<int>(threadsThatStart(static_cast<std::size_t>(options_.jobs - 1)));
+    blocks_.resize(static_cast<std::size_t>(jobs) + 2);  // those that wait for their turn
+    // As many threads as were asked for, even if the processor has fewer: TBB would warn of it.
+    const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(jobs));
+    tbb::task_arena arena(jobs);
+    arena.execute([&] { tbb::parallel_pipeline(blocks_.size(), chain); });
+  }
+
+ private:
+  Handed next(tbb::flow_control& control) {
+    if (next_ == table_.blocks) {
+      control.stop();
+      return nullptr;
+    }
+    Block& block = blocks_[next_ % blocks_.size()];  // the last one there has been written, as that is done in order
+    block = {};
+    block.k = next_++;
+    return &block;
+  }
+
+  /// A refusal waits until those before it are through: which one is told does not depend on who was first.
+  Handed make(Handed block) const {
+    try {
+      block->series = table_.make(block->k);
+    } catch (...) {
+      block->refusal = std::current_exception();
+    }
+    return block;
+  }
+
+  Handed settle(Handed block) const {
+    if (!block->refusal && table_.settle) table_.settle(block->series);
+    return block;
+  }
+
+  Handed format(Handed block) const {
+    if (block->refusal) return block;
+    if (block->k == 0) block->text = rowHeader(options_.format, block->series.names, table_.rows);
+    appendRows(options_.format, block->series, block->text);
+    block->series = {};
+    return block;
+  }
+
+  void write(Handed block) const {
+    if (block->refusal) std::rethrow_exception(block->refusal);
+    sink_(block->text);
+    if (options_.written) options_.written(static_cast<double>(block->k + 1) / static_cast<double>(table_.blocks));
+  }
+
+  const BlockTable& table_;
+  const StreamOptions& options_;
+  const Sink& sink_;
+  std::vector<Block> blocks_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+void streamBlocks(const BlockTable& table, const StreamOptions& options, const Sink& sink) {
+  Stream(table, options, sink).run();
+}
+
+}  // namespace ursula

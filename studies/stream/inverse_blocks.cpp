@@ -1,0 +1,107 @@
+#include "studies/stream/inverse_blocks.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/instants.h"
+#include "nocsolver/fast/batch_dynamics.h"
+#include "nocsolver/finite.h"
+#include "nocsolver/solver.h"
+#include "validation/findings/timeseries.h"
+#include "validation/subject/subject.h"
+
+namespace ursula {
+namespace {
+
+/// Enough that handing a block on costs nothing, few enough that it stays in a cache of the second level.
+constexpr int rows_of_block = 512;
+
+/// No file has infinities or NaN.
+void requireFiniteSeries(const TimeSeries& series, const std::vector<Motion<double>>& motions) {
+  for (std::size_t row = 0; row < motions.size(); ++row)
+    for (std::size_t i = 0; i < series.names.size(); ++i)
+      requireFinite(&series.columns[i][row], 1, series.names[i].c_str(), motions[row].t);
+}
+
+class InverseBlocks {
+ public:
+  InverseBlocks(const Scenario& scenario, int samples)
+      : scenario_(scenario), samples_(samples), solver_(*scenario.manipulator), batch_(*scenario.manipulator) {}
+
+  TimeSeries block(std::size_t k) const {
+    const int first = static_cast<int>(k) * rows_of_block, count = std::min(rows_of_block, samples_ - first);
+    std::vector<Motion<double>> motions;
+    std::vector<Vector6d> loads;
+    motions.reserve(static_cast<std::size_t>(count));
+    loads.reserve(static_cast<std::size_t>(count));
+    for (int row = first; row < first + count; ++row) {
+      motions.push_back(scenario_.trajectory->at(instantOf(scenario_.trajectory->duration(), row, samples_)));
+      loads.push_back(loadAtP(scenario_.load.get(), motions.back()));
+    }
+    return completed(motions, loads);
+  }
+
+ private:
+  /// Row by row after the batch, so that of several poses the first is refused.
+  TimeSeries completed(const std::vector<Motion<double>>& motions, const std::vector<Vector6d>& loads) const {
+    std::vector<Vector6d> efforts(motions.size());
+    std::vector<PoseFault> faults(motions.size());
+    batch_.inverseDynamics(motions.data(), motions.size(), efforts.data(), faults.data(), loads.data());
+    std::vector<JointMotion> joints;
+    joints.reserve(motions.size());
+    Workspace<double> work;
+    for (std::size_t k = 0; k < motions.size(); ++k) {
+      if (faults[k] != PoseFault::none) efforts[k] = solver_.inverseDynamics(motions[k], work, loads[k]);
+      solver_.inverseKinematics(motions[k], work);
+      joints.push_back({solver_.angles(work), solver_.rates(work), solver_.accelerations(work)});
+    }
+    TimeSeries series = inverseSeries(*scenario_.manipulator, motions, joints, efforts);
+    requireFiniteSeries(series, motions);
+    return series;
+  }
+
+  const Scenario& scenario_;
+  int samples_;
+  Solver<double> solver_;
+  BatchDynamics batch_;
+};
+
+/// Keeps q and −q apart over the blocks' borders, where each block begins with w >= 0: on the side of the row before.
+class Turning {
+ public:
+  void operator()(TimeSeries& block) {
+    std::array<std::vector<double>*, 4> q{};
+    for (std::size_t i = 0; i < q.size(); ++i)
+      q[i] = &block.columns[static_cast<std::size_t>(std::find(block.names.begin(), block.names.end(), names[i]) -
+                                                     block.names.begin())];
+    double along = 0;
+    for (std::size_t i = 0; i < q.size(); ++i) along += before_[i] * q[i]->front();
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      if (along < 0)
+        for (double& value : *q[i]) value = -value;
+      before_[i] = q[i]->back();
+    }
+  }
+
+ private:
+  static constexpr std::array<const char*, 4> names = {"q_w", "q_x", "q_y", "q_z"};
+  std::array<double, 4> before_{};
+};
+
+}  // namespace
+
+BlockTable inverseBlocks(const Scenario& scenario, int samples) {
+  const auto made = std::make_shared<InverseBlocks>(scenario, samples);
+  const auto turning = std::make_shared<Turning>();
+  BlockTable table;
+  table.rows = static_cast<std::size_t>(samples);
+  table.blocks = (table.rows + rows_of_block - 1) / rows_of_block;
+  table.make = [made](std::size_t k) { return made->block(k); };
+  table.settle = [turning](TimeSeries& block) { (*turning)(block); };
+  return table;
+}
+
+}  // namespace ursula

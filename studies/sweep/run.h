@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "studies/sweep/sweep_database.h"
+#include "studies/sweep/sweep_plan.h"
+
+namespace ursula {
+
+/// A part of a sweep: neighbouring points, so that parts come together in order.
+struct Shard {
+  int index = 1, of = 1;  ///< from 1
+
+  std::int64_t first(std::int64_t points) const { return bound(index - 1, points); }
+  std::int64_t end(std::int64_t points) const { return bound(index, points); }
+
+ private:
+  std::int64_t bound(int k, std::int64_t points) const {
+    return points / of * k + std::min<std::int64_t>(points % of, k);
+  }
+};
+
+struct SweepRunOptions {
+  int jobs = 1;  ///< processes
+  Shard shard;
+  bool retry_errors = false;   ///< points with verdict "error" are made again
+  std::function<bool()> stop;  ///< asked often; true ends the run
+  std::function<void(std::int64_t done, std::int64_t of)> progress = {};  ///< points of this shard; may be empty
+};
+
+struct SweepRunResult {
+  std::int64_t points = 0, done = 0, new_ones = 0;  ///< of the shard
+  std::map<std::string, std::int64_t> verdicts;     ///< counts of those that are there
+  bool stopped = false;
+};
+
+/// Works on the points that `database` does not hold yet, until all are there. Rows do not depend on jobs or shards,
+/// but for their seconds. Throws DatabaseError, and what the plan throws; what was committed before is kept.
+SweepRunResult runSweep(SweepPlan& plan, const std::filesystem::path& database, const SweepRunOptions& options);
+
+}  // namespace ursula

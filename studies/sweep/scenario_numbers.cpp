@@ -1,0 +1,228 @@
+#include "studies/sweep/scenario_numbers.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "base/nearest.h"
+#include "model/scenario_keys.h"
+
+namespace ursula {
+namespace {
+
+/// Between dots; a part with dots of its own, as the name of a check, is written "as.this".
+std::vector<std::string> partsOf(const std::string& key) {
+  std::vector<std::string> parts(1);
+  bool is_quoted = false;
+  for (const char c : key) {
+    if (c == '"')
+      is_quoted = !is_quoted;
+    else if (c == '.' && !is_quoted)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+bool isTop(const std::string& part) {
+  const std::vector<std::string> top = scenarioTable("").names();
+  return std::find(top.begin(), top.end(), part) != top.end();
+}
+
+std::string withManipulator(const std::string& key) {
+  const std::string first = partsOf(key).front();
+  const std::vector<std::string> machine = scenarioTable("manipulator").names();
+  const bool of_machine = std::find(machine.begin(), machine.end(), first) != machine.end();
+  return !isTop(first) && of_machine ? "manipulator." + key : key;
+}
+
+/// On the way from the document to a number: where it is, what else it may take its numbers from, and what it may hold.
+struct Spot {
+  toml::node* node;
+  const toml::node* inherited;  ///< the same in leg_defaults; null where there is none
+  std::string table;            ///< of scenarioTables(), where `node` is a table or an array of them
+  bool integer = false;
+};
+
+[[noreturn]] void fail(const std::string& key, const std::string& what) {
+  throw NumberKeyError(fmt::format("'{}': {}", key, what));
+}
+
+const ScenarioTable& keysOf(const Spot& spot) {
+  if (spot.table != "trajectory") return scenarioTable(spot.table);
+  const std::string kind = spot.node->as_table()->get("kind")->value_or(std::string());
+  return scenarioTable("trajectory." + kind);
+}
+
+std::string childTable(const std::string& key, const ScenarioKey& about) {
+  if (about.of[0] != '\0') return about.of;
+  return key == "trajectory" ? "trajectory" : "";
+}
+
+/// Written out of the leg's defaults, or of the program's; a table is begun.
+void writeOut(toml::table& table, const ScenarioKey& about, const toml::node* inherited, const std::string& whole) {
+  if (about.type == KeyType::table) {
+    table.insert(about.name, toml::table{});
+    return;
+  }
+  if (inherited != nullptr) {
+    inherited->visit([&](const auto& value) { table.insert(about.name, value); });
+    return;
+  }
+  if (about.isRequired() || about.fallback[0] == '\0')
+    fail(whole, fmt::format("the scenario does not give '{}', and it has no default", about.name));
+  toml::table parsed = toml::parse(fmt::format("value = {}", about.fallback));
+  parsed.get("value")->visit([&](auto& value) { table.insert(about.name, std::move(value)); });
+}
+
+Spot intoTable(const Spot& spot, const std::string& part, const std::string& whole) {
+  // Limits are named after checks, with dots or in tables: what the scenario gives can vary.
+  if (spot.table.compare(0, 10, "acceptance") == 0)
+    if (toml::node* given = spot.node->as_table()->get(part)) return {given, nullptr, "acceptance"};
+  const ScenarioTable& keys = keysOf(spot);
+  const std::vector<std::string> names = keys.names();
+  if (std::find(names.begin(), names.end(), part) == names.end())
+    fail(whole, fmt::format("no key '{}' in {}, expected one of {}{}", part, keys.written, fmt::join(names, ", "),
+                            didYouMean(part, names)));
+  const ScenarioKey& about = keys.key(part);
+  const toml::table* defaults = spot.inherited == nullptr ? nullptr : spot.inherited->as_table();
+  const toml::node* inherited = defaults == nullptr ? nullptr : defaults->get(part);
+  toml::table& table = *spot.node->as_table();
+  if (!table.contains(part)) writeOut(table, about, inherited, whole);
+  return {table.get(part), inherited, childTable(part, about), about.type == KeyType::integer};
+}
+
+std::size_t indexOf(const std::string& part, std::size_t from, std::size_t size, const std::string& whole) {
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
+  if (error != std::errc() || end != part.data() + part.size() || part != std::to_string(index) || index < from ||
+      index - from >= size)
+    fail(whole, fmt::format("'{}', expected an index from {} to {}", part, from, from + size - 1));
+  return index - from;
+}
+
+Spot intoArray(const Spot& spot, const std::string& part, const std::string& whole, const toml::table& document) {
+  toml::array& array = *spot.node->as_array();
+  const bool of_tables = !array.empty() && array.front().is_table();
+  const std::size_t index = indexOf(part, of_tables ? 1 : 0, array.size(), whole);
+  Spot out{array.get(index), nullptr, spot.table};
+  if (spot.table == "manipulator.leg") out.inherited = document["manipulator"]["leg_defaults"].node();
+  return out;
+}
+
+Spot into(const Spot& spot, const std::string& part, const std::string& whole, const toml::table& document) {
+  if (spot.node->is_table() && (!spot.table.empty() || spot.node == &document)) return intoTable(spot, part, whole);
+  if (spot.node->is_array()) return intoArray(spot, part, whole, document);
+  fail(whole, fmt::format("there is nothing '{}' within what comes before it", part));
+}
+
+/// A number written as 5 becomes 5.0; whoever holds others of the table keeps them.
+toml::node* asFloat(toml::node& parent, const std::string& part, toml::node* node) {
+  const auto value = static_cast<double>(node->as_integer()->get());
+  if (toml::table* table = parent.as_table()) {
+    table->insert_or_assign(part, value);
+    return table->get(part);
+  }
+  toml::array& array = *parent.as_array();
+  for (auto it = array.begin(); it != array.end(); ++it)
+    if (&*it == node) return &*array.replace(it, value);
+  return node;
+}
+
+const toml::node* shallow(const toml::table& document, const std::vector<std::string>& parts, std::size_t count) {
+  const toml::node* at = &document;
+  for (std::size_t k = 0; k < count && at != nullptr; ++k) {
+    if (const toml::table* table = at->as_table()) {
+      at = table->get(parts[k]);
+      continue;
+    }
+    const toml::array* array = at->as_array();
+    std::size_t index = 0;
+    std::from_chars(parts[k].data(), parts[k].data() + parts[k].size(), index);
+    const bool of_tables = array != nullptr && !array->empty() && array->front().is_table();
+    at = array == nullptr ? nullptr : array->get(of_tables ? index - 1 : index);
+  }
+  return at;
+}
+
+/// A default that every leg overrides moves nothing.
+void requireUse(const toml::table& document, const std::string& whole) {
+  const std::vector<std::string> parts = partsOf(whole);
+  const toml::array* legs = document["manipulator"]["leg"].as_array();
+  if (parts.size() < 3 || parts[0] != "manipulator" || parts[1] != "leg_defaults" || legs == nullptr) return;
+  const auto overrides = [&](const toml::node& leg) {
+    const toml::node* at = &leg;
+    for (std::size_t k = 2; k < parts.size() && at != nullptr && at->is_table(); ++k)
+      at = at->as_table()->get(parts[k]);
+    return at != nullptr;
+  };
+  if (std::all_of(legs->begin(), legs->end(), overrides))
+    fail(whole, "every leg gives its own, expected 'manipulator.leg.*' in place of 'manipulator.leg_defaults'");
+}
+
+}  // namespace
+
+std::vector<std::string> ScenarioNumbers::expanded(const std::string& key) const {
+  const std::string whole = withManipulator(key);
+  const std::vector<std::string> parts = partsOf(whole);
+  const auto star = std::find(parts.begin(), parts.end(), "*");
+  if (star == parts.end()) return {whole};
+  const auto before = static_cast<std::size_t>(star - parts.begin());
+  const auto with = [&](std::size_t index) {
+    std::vector<std::string> out = parts;
+    out[before] = std::to_string(index);
+    return fmt::format("{}", fmt::join(out, "."));
+  };
+  toml::table scratch = document_;  // numbers that are inherited are written out there
+  const toml::node* node = shallow(scratch, parts, before);
+  if (node == nullptr) {
+    try {
+      ScenarioNumbers(scratch).hold(fmt::format("{}", fmt::join(parts.begin(), star, ".")));
+    } catch (const NumberKeyError&) {  // an array is no number, but is written out now
+    }
+    node = shallow(scratch, parts, before);
+  }
+  const toml::array* array = node == nullptr ? nullptr : node->as_array();
+  if (array == nullptr || array->empty()) fail(key, "'*' stands for no array, expected legs or entries");
+  const std::size_t first = array->front().is_table() ? 1 : 0;
+  std::vector<std::string> out;
+  for (std::size_t k = 0; k < array->size(); ++k)
+    for (std::string& each : expanded(with(first + k))) out.push_back(std::move(each));
+  return out;
+}
+
+double ScenarioNumbers::hold(const std::string& key) {
+  Spot spot{&document_, nullptr, ""};
+  toml::node* parent = nullptr;
+  std::string last;
+  for (const std::string& part : partsOf(key)) {
+    parent = spot.node;
+    last = part;
+    spot = into(spot, part, key, document_);
+  }
+  if (!spot.node->is_number())
+    fail(key, spot.node->is_array() || spot.node->is_table()
+                  ? "has numbers within it, expected the key of one, such as '" + key + ".0'"
+                  : "is no number");
+  requireUse(document_, key);
+  if (spot.node->is_integer() && !spot.integer) spot.node = asFloat(*parent, last, spot.node);
+  held_.push_back({key, spot.node});
+  return *spot.node->value<double>();
+}
+
+void ScenarioNumbers::set(std::size_t k, double value) {
+  const Held& held = held_[k];
+  if (toml::value<double>* number = held.node->as_floating_point()) {
+    *number = value;
+    return;
+  }
+  if (value != std::floor(value) || std::abs(value) > 1e9)
+    fail(held.key, fmt::format("{}, expected an integer", value));
+  *held.node->as_integer() = static_cast<std::int64_t>(value);
+}
+
+}  // namespace ursula

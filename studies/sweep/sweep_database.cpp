@@ -1,0 +1,233 @@
+#include "studies/sweep/sweep_database.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "studies/sweep/sweep_file.h"
+
+namespace ursula {
+namespace {
+
+constexpr std::int64_t application = 0x75727375;  ///< "ursu": whose database it is
+constexpr std::int64_t layout = 1;                ///< PRAGMA user_version
+
+constexpr const char* tables = R"(
+CREATE TABLE sweep(text TEXT NOT NULL, hash TEXT NOT NULL, version TEXT NOT NULL, file TEXT NOT NULL,
+  scenario TEXT NOT NULL, name TEXT NOT NULL, what TEXT NOT NULL, design TEXT NOT NULL, pointwise INTEGER NOT NULL,
+  points INTEGER NOT NULL, shard INTEGER NOT NULL, shards INTEGER NOT NULL, keys TEXT NOT NULL);
+CREATE TABLE point(id INTEGER PRIMARY KEY, parameters TEXT NOT NULL, verdict TEXT NOT NULL, seconds REAL NOT NULL,
+  error TEXT);
+CREATE TABLE result(point INTEGER NOT NULL, name TEXT NOT NULL, value REAL, "limit" REAL, verdict TEXT,
+  PRIMARY KEY(point, name)) WITHOUT ROWID;
+)";
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
+  throw DatabaseError(fmt::format("{}: error: {}", file.string(), why));
+}
+
+void create(Sqlite& database, const SweepIdentity& identity) {
+  database.run(tables);
+  database.run(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", application, layout));
+  Statement insert(database, "INSERT INTO sweep VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?)");
+  int k = 0;
+  for (const std::string* text : {&identity.text, &identity.hash, &identity.version, &identity.file, &identity.scenario,
+                                  &identity.name, &identity.what, &identity.design})
+    insert.bind(k++, *text);
+  for (const std::int64_t number : {std::int64_t{identity.pointwise ? 1 : 0}, identity.points,
+                                    std::int64_t{identity.shard}, std::int64_t{identity.shards}})
+    insert.bind(k++, number);
+  insert.bind(k, nlohmann::json(identity.keys).dump()).run();
+}
+
+/// Somebody else may be writing.
+void prepareToWrite(Sqlite& database) {
+  database.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 4000");
+}
+
+/// Ours are as create() made them, and nothing runs by itself: a view in the place of a table, or a trigger, need not
+/// end. Indexes, views and tables that somebody added for queries of his own are left alone.
+void requireOurTables(Sqlite& database) {
+  Statement each(database,
+                 "SELECT sql FROM sqlite_master WHERE type = 'trigger' OR name IN ('sweep', 'point', 'result') "
+                 "ORDER BY rowid");
+  std::string found = "\n";
+  while (each.step()) found += each.text(0) + ";\n";
+  if (found != tables) refuse(database.file(), "is damaged: its tables are not those of a sweep");
+}
+
+/// Foreign and newer ones before anything of theirs is believed.
+void requireOurs(Sqlite& database) {
+  const std::filesystem::path& file = database.file();
+  const std::int64_t whose = database.number("PRAGMA application_id"), version = database.number("PRAGMA user_version");
+  if (whose != application) refuse(file, "is no database of a sweep");
+  if (version > layout)
+    refuse(file, fmt::format("has layout {}, of a newer ursula than this, which knows {}", version, layout));
+  requireOurTables(database);
+  if (const std::string found = database.text("PRAGMA quick_check(1)"); found != "ok")
+    refuse(file, "it is damaged: " + found);
+}
+
+// SQLite keeps what is given to it, whatever the column's type.
+constexpr const char* odd_points =
+    "SELECT id FROM point WHERE typeof(parameters) <> 'text' OR NOT json_valid(parameters) OR json_type(parameters) <> "
+    "'object' OR typeof(seconds) <> 'real' OR typeof(error) NOT IN ('text', 'null') LIMIT 1";
+// Text sorts behind all numbers, and BLOBs behind all text: a third of the time that typeof() takes.
+constexpr const char* odd_results =
+    "SELECT point FROM result WHERE value >= '' OR \"limit\" >= '' OR verdict >= x'' OR name >= x'' LIMIT 1";
+constexpr const char* without_results =
+    "SELECT id FROM point WHERE verdict IN ('pass', 'fail', 'inconclusive') AND NOT EXISTS (SELECT 1 FROM result WHERE "
+    "point = id) LIMIT 1";
+
+/// Rows that no sweep writes.
+void requireSound(Sqlite& database, const SweepIdentity& sweep) {
+  if (sweep.points < 1 || sweep.points > most_points || sweep.shards < 1 || sweep.shards > most_shards ||
+      sweep.shard < 1 || sweep.shard > sweep.shards)
+    refuse(database.file(), "is damaged: it does not say which points it is to hold");
+  Statement odd(database,
+                "SELECT min(id) FROM point WHERE id < 0 OR id >= ? OR verdict NOT IN ('pass', 'fail', 'inconclusive', "
+                "'out_of_reach', 'singular', 'error')");
+  odd.bind(0, sweep.points).step();
+  if (!odd.isNull(0))
+    refuse(database.file(), fmt::format("is damaged: point {} is none of this sweep", odd.integer(0)));
+  for (const auto& [sql, what] : {std::pair(odd_points, "point {} is not as a sweep writes it"),
+                                  {odd_results, "a result of point {} is not as a sweep writes it"},
+                                  {without_results, "point {} has no results"}})
+    if (Statement row(database, sql); row.step())
+      refuse(database.file(), "is damaged: " + fmt::format(fmt::runtime(what), row.integer(0)));
+}
+
+}  // namespace
+
+bool isEmpty(Sqlite& database) { return database.number("SELECT count(*) FROM sqlite_master") == 0; }
+
+void requireSame(const std::filesystem::path& file, const SweepIdentity& there, const SweepIdentity& ours) {
+  if (there.hash != ours.hash)
+    refuse(file, fmt::format("is of another sweep, {}, or of that before it or its scenario changed; expected an empty "
+                             "place, or --db with another file",
+                             there.file));
+  if (there.version != ours.version)
+    refuse(file, fmt::format("was written by ursula {}, whose results may differ from those of {}; expected --db with "
+                             "another file",
+                             there.version, ours.version));
+  if (there.shard != ours.shard || there.shards != ours.shards)
+    refuse(file, fmt::format("holds shard {}/{}, expected {}/{}", there.shard, there.shards, ours.shard, ours.shards));
+}
+
+SweepIdentity readIdentity(Sqlite& database) {
+  requireOurs(database);
+  Statement row(
+      database,
+      "SELECT text, hash, version, file, scenario, name, what, design, pointwise, points, shard, shards, keys "
+      "FROM sweep");
+  if (!row.step()) refuse(database.file(), "is damaged: it does not say of which sweep it is");
+  SweepIdentity out;
+  int k = 0;
+  for (std::string* text :
+       {&out.text, &out.hash, &out.version, &out.file, &out.scenario, &out.name, &out.what, &out.design})
+    *text = row.text(k++);
+  out.pointwise = row.integer(k++) != 0;
+  out.points = row.integer(k++);
+  for (int* count : {&out.shard, &out.shards})  // one that no int holds is refused with those that are too large
+    *count = static_cast<int>(std::clamp<std::int64_t>(row.integer(k++), 0, most_shards + 1));
+  try {
+    out.keys = nlohmann::json::parse(row.text(k)).get<std::vector<std::string>>();
+  } catch (const nlohmann::json::exception&) {
+    refuse(database.file(), "is damaged: it does not say what varies");
+  }
+  requireSound(database, out);
+  return out;
+}
+
+struct SweepDatabase::Statements {
+  explicit Statements(Sqlite& database)
+      : point(database, "INSERT INTO point VALUES(?,?,?,?,?)"),
+        stale(database, "DELETE FROM result WHERE point = ?"),
+        result(database, "INSERT INTO result VALUES(?,?,?,?,?)"),
+        first(database, "SELECT min(id) FROM point WHERE id >= ? AND id < ?") {}
+  Statement point, stale, result, first;
+};
+
+SweepDatabase::SweepDatabase(const std::filesystem::path& file, const SweepIdentity& identity)
+    : sqlite_(file, Sqlite::Access::create), identity_(identity) {
+  // Before anything is changed, as it may be somebody else's.
+  const bool was_empty = isEmpty(sqlite_);
+  if (!was_empty) requireSame(file, readIdentity(sqlite_), identity);
+  prepareToWrite(sqlite_);
+  sqlite_.run("BEGIN IMMEDIATE");
+  // Who is new is decided here, where nobody else writes: another sweep may have come first in between.
+  if (isEmpty(sqlite_))
+    create(sqlite_, identity);
+  else if (was_empty)
+    requireSame(file, readIdentity(sqlite_), identity);
+  statements_ = std::make_unique<Statements>(sqlite_);
+  commit();
+}
+
+SweepDatabase::SweepDatabase(const std::filesystem::path& file)
+    : sqlite_(file, Sqlite::Access::read), identity_(readIdentity(sqlite_)) {
+  statements_ = std::make_unique<Statements>(sqlite_);
+}
+
+SweepDatabase::~SweepDatabase() = default;
+
+std::int64_t SweepDatabase::pointsDone() { return sqlite_.number("SELECT count(*) FROM point"); }
+
+std::int64_t SweepDatabase::firstDone(std::int64_t from, std::int64_t end) {
+  Statement& first = statements_->first;
+  first.bind(0, from).bind(1, end).step();
+  const std::int64_t found = first.isNull(0) ? end : first.integer(0);
+  first.reset();
+  return found;
+}
+
+void SweepDatabase::dropErrors() {
+  sqlite_.run("DELETE FROM result WHERE point IN (SELECT id FROM point WHERE verdict = 'error')");
+  sqlite_.run("DELETE FROM point WHERE verdict = 'error'");
+}
+
+void SweepDatabase::add(const SweepPoint& point) {
+  Statement& into = statements_->point;
+  into.bind(0, point.id).bind(1, point.parameters).bind(2, point.verdict).bind(3, point.seconds);
+  point.error.empty() ? into.bindNull(4) : into.bind(4, point.error);
+  into.run();
+  statements_->stale.bind(0, point.id).run();  // of a point that somebody took out by hand
+  Statement& result = statements_->result;
+  for (const SweepValue& value : point.values) {
+    result.bind(0, point.id).bind(1, value.name).bind(2, value.value).bind(3, value.limit);
+    value.verdict.empty() ? result.bindNull(4) : result.bind(4, value.verdict);
+    result.run();
+  }
+}
+
+/// A transaction is open all the time: so nobody else begins to write between two of ours.
+void SweepDatabase::commit() {
+  sqlite_.run("COMMIT");
+  requireInPlace();
+  sqlite_.run("BEGIN IMMEDIATE");
+}
+
+void SweepDatabase::requireInPlace() {
+  if (!sqlite_.hasMoved()) return;
+  sqlite_.run("PRAGMA wal_checkpoint(TRUNCATE)");  // its log keeps the old name, where another database may come
+  std::error_code ignored;
+  refuse(sqlite_.file(),
+         fmt::format("{} while the sweep wrote to it: what was found until then is in the file that was "
+                     "there, if that has another name now, and is lost if not",
+                     std::filesystem::exists(sqlite_.file(), ignored) ? "was replaced by another file"
+                                                                      : "was removed or renamed"));
+}
+
+void SweepDatabase::finish() {
+  sqlite_.run("COMMIT");
+  requireInPlace();
+  try {
+    sqlite_.run("PRAGMA journal_mode = DELETE");
+  } catch (const DatabaseError&) {  // somebody reads it: then it stays as it is, which is as good
+  }
+}
+
+}  // namespace ursula

@@ -1,0 +1,205 @@
+#include "studies/sweep/sweep_plan.h"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "base/leading_number.h"
+#include "base/sha1.h"
+#include "model/scenario_files.h"
+#include "model/scenario_sections.h"
+#include "studies/sweep/scenario_numbers.h"
+#include "validation/findings/provenance.h"
+
+namespace ursula {
+namespace {
+
+std::string bytesOf(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// 0.7 for the 0.69999999999999996 that toml++ writes: the shortest that reads as the same number. Strings stay.
+std::string withShortNumbers(const std::string& toml) {
+  std::string out;
+  char quote = '\0';
+  for (const char* at = toml.c_str(); *at != '\0';) {
+    const bool begins = quote == '\0' && (std::isdigit(static_cast<unsigned char>(*at)) != 0) &&
+                        (out.empty() || std::strchr(" [=,-+", out.back()) != nullptr);
+    const LeadingNumber read =
+        begins ? leadingNumber({at, static_cast<std::size_t>(toml.c_str() + toml.size() - at)}) : LeadingNumber();
+    if (std::string_view(at, read.length).find('.') != std::string_view::npos) {
+      const std::string number = fmt::format("{}", read.value);
+      out += number + (number.find_first_of(".e") == std::string::npos ? ".0" : "");
+      at += read.length;
+      continue;
+    }
+    if (quote == *at)
+      quote = '\0';
+    else if (quote == '\0' && (*at == '\'' || *at == '"'))
+      quote = *at;
+    else if (quote == '"' && *at == '\\' && at[1] != '\0')
+      out += *at++;
+    out += *at++;
+  }
+  return out;
+}
+
+/// What decides a sweep's rows, to the last bit.
+class Meaning {
+ public:
+  void add(std::string_view text) {
+    said_ += fmt::format("{}:", text.size());
+    said_ += text;
+  }
+  void add(double value) { add(fmt::format("{:a}", value)); }
+
+  std::string hash() const { return sha1(said_); }
+
+ private:
+  std::string said_;
+};
+
+}  // namespace
+
+struct SweepPlan::Document {
+  toml::table table;
+  ScenarioNumbers numbers{table};
+  std::vector<std::filesystem::path> files;
+
+  Document(const SweepFile& sweep, const Scenario& base) : table(parseToml(base.text, base.file.string())) {
+    files = makeFilesAbsolute(table, base.file);
+    if (!sweep.samples) return;
+    if (!table.contains("simulation")) table.insert("simulation", toml::table{});
+    table["simulation"].as_table()->insert_or_assign("samples", *sweep.samples);
+  }
+
+  std::string text() const {
+    std::ostringstream out;
+    out << table << '\n';
+    return withShortNumbers(out.str());
+  }
+
+  /// Throws ScenarioError at the sweep's key.
+  std::vector<VariedNumber> hold(const SweepFile& sweep) {
+    std::vector<VariedNumber> out;
+    std::set<std::string> seen;
+    for (const Vary& vary : sweep.vary) try {
+        for (const std::string& key : numbers.expanded(vary.key)) {
+          if (!seen.insert(key).second) throw NumberKeyError(fmt::format("'{}' varies twice, expected once", key));
+          out.push_back({key, vary.by, numbers.hold(key)});
+          if (vary.by.values.empty() && numbers.isInteger(out.size() - 1))
+            throw NumberKeyError(fmt::format("'{}': expected an integer, so 'values'", key));
+          if (vary.by.kind == Variation::Kind::relative && out.back().nominal == 0)
+            throw NumberKeyError(fmt::format(
+                "'{}' is 0 in the scenario, and 'relative' leaves it so, expected another way to vary", key));
+        }
+      } catch (const NumberKeyError& error) {
+        throw ScenarioError(fmt::format("{}: error: {}", vary.place, error.what()));
+      }
+    return out;
+  }
+};
+
+SweepPlan::SweepPlan(SweepFile file)
+    : file_(std::move(file)),
+      base_(readScenario(file_.scenario)),
+      document_(std::make_unique<Document>(file_, base_)),
+      points_(file_, document_->hold(file_)) {
+  for (const VariedNumber& number : points_.numbers()) {
+    const std::string part = number.key.substr(0, number.key.find('.'));
+    bool& varies = part == "manipulator"  ? varies_machine_
+                   : part == "trajectory" ? varies_trajectory_
+                   : part == "load"       ? varies_load_
+                                          : varies_other_;
+    varies = true;
+  }
+  base_ = parseScenario(document_->text(), file_.scenario);  // with the sweep's samples
+}
+
+SweepPlan::~SweepPlan() = default;
+
+void SweepPlan::setTo(std::int64_t i) {
+  const std::vector<double> values = points_.at(i);
+  try {
+    for (std::size_t k = 0; k < values.size(); ++k) document_->numbers.set(k, values[k]);
+  } catch (const NumberKeyError& error) {
+    throw ScenarioError(fmt::format("point {}: error: {}", i, error.what()));
+  }
+}
+
+std::string SweepPlan::parameters(std::int64_t i) const {
+  const std::vector<double> values = points_.at(i);
+  std::string out = "{";
+  for (std::size_t k = 0; k < values.size(); ++k)
+    out += fmt::format("{}{}:{}", k == 0 ? "" : ",", nlohmann::json(points_.numbers()[k].key).dump(), values[k]);
+  return out + "}";
+}
+
+std::string SweepPlan::text(std::int64_t i) {
+  setTo(i);
+  const std::string name = document_->table["name"].value_or(std::string());
+  *document_->table["name"].as_string() = fmt::format("{}-{}", name, i);
+  const std::string text = document_->text();
+  *document_->table["name"].as_string() = name;
+  return fmt::format("# Point {} of the sweep {}\n\n{}", i, file_.file.filename().string(), text);
+}
+
+/// Lines are those that `sweep show` prints, and not the base scenario's.
+Scenario SweepPlan::read(std::int64_t i) {
+  return parseScenario(text(i), fmt::format("point {} of {}", i, file_.file.filename().string()));
+}
+
+Scenario SweepPlan::make(std::int64_t i) {
+  if (varies_other_) return read(i);
+  setTo(i);
+  const TomlSection document(document_->table, "", file_.scenario.string());
+  Scenario out = base_;
+  out.name = fmt::format("{}-{}", base_.name, i);
+  out.text.clear();
+  try {
+    if (varies_machine_)
+      out.manipulator = std::make_shared<Manipulator>(readManipulator(document.requiredSection("manipulator")));
+    if (varies_trajectory_) out.trajectory = readTrajectory(document.requiredSection("trajectory"));
+    if (varies_load_) out.load = readLoad(document.requiredSection("load"));
+  } catch (const std::exception&) {
+    return read(i);  // which refuses it, with its place
+  }
+  return out;
+}
+
+SweepIdentity SweepPlan::identity() const {
+  SweepIdentity out;
+  out.text = file_.text;
+  out.version = buildProvenance().version;
+  out.file = file_.file.string();
+  out.scenario = bytesOf(file_.scenario);
+  out.name = base_.name;
+  out.what = ursula::name(file_.work);
+  out.design = ursula::name(file_.design);
+  out.pointwise = file_.pointwise;
+  out.points = points_.count();
+  Meaning meaning;
+  for (const std::string& text :
+       {out.what, out.design, out.scenario,
+        fmt::format("{} {} {} {}", out.points, file_.seed, file_.pointwise, file_.samples.value_or(0))})
+    meaning.add(text);
+  for (const std::filesystem::path& file : document_->files) meaning.add(bytesOf(file));
+  for (const VariedNumber& number : points_.numbers()) {
+    out.keys.push_back(number.key);
+    meaning.add(number.key);
+    meaning.add(static_cast<double>(number.by.kind));
+    for (const double value : {number.by.a, number.by.b}) meaning.add(value);
+    for (const double value : number.by.values) meaning.add(value);
+  }
+  out.hash = meaning.hash();
+  return out;
+}
+
+}  // namespace ursula

@@ -1,0 +1,210 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+
+#include "report/text.h"
+#include "studies/sweep_report/sweep_tables.h"
+#include "studies/sweep_report/sweep_words.h"
+
+namespace ursula {
+namespace {
+
+using report::escaped;
+
+constexpr std::size_t most_bars = 10, most_rows = 20, most_columns = 14;
+
+/// What a table of parameters against outputs shows, and how much it leaves out.
+struct Shown {
+  std::vector<std::size_t> parameters, outputs;
+  std::size_t constant = 0, outputs_left_out = 0, parameters_left_out = 0;
+};
+
+/// The primary one first; of checks those nearest to their limits.
+std::vector<std::size_t> outputsByWeight(const SweepSummary& summary) {
+  std::vector<std::size_t> out;
+  for (std::size_t k = 0; k < summary.outputs.size(); ++k)
+    if (!summary.outputs[k].spread.constant) out.push_back(k);
+  const auto weight = [&summary](std::size_t k) {
+    const SweepOutput& output = summary.outputs[k];
+    return output.kind == OutputKind::check_share ? -output.spread.max : -std::numeric_limits<double>::infinity();
+  };
+  std::stable_sort(out.begin(), out.end(), [&](std::size_t a, std::size_t b) {
+    return a == summary.primary ? b != summary.primary : b != summary.primary && weight(a) < weight(b);
+  });
+  return out;
+}
+
+/// Of the rank correlation; 0 where there is none.
+double sizeOf(const Relation& relation) { return std::isnan(relation.spearman) ? 0 : std::abs(relation.spearman); }
+
+Shown shownOf(const SweepSummary& summary) {
+  Shown out;
+  out.outputs = outputsByWeight(summary);
+  out.constant = summary.outputs.size() - out.outputs.size();
+  if (out.outputs.size() > most_columns) out.outputs_left_out = out.outputs.size() - most_columns;
+  out.outputs.resize(out.outputs.size() - out.outputs_left_out);
+  std::vector<double> weight(summary.parameters.size());
+  for (const std::size_t k : out.outputs)
+    for (std::size_t p = 0; p < weight.size(); ++p) {
+      const Relation& relation = summary.outputs[k].relations[p];
+      weight[p] = std::max({weight[p], sizeOf(relation), strength(relation)});
+    }
+  out.parameters.resize(weight.size());
+  std::iota(out.parameters.begin(), out.parameters.end(), std::size_t{0});
+  if (weight.size() <= most_rows) return out;
+  std::stable_sort(out.parameters.begin(), out.parameters.end(),
+                   [&weight](std::size_t a, std::size_t b) { return weight[a] > weight[b]; });
+  out.parameters_left_out = weight.size() - most_rows;
+  out.parameters.resize(most_rows);
+  return out;
+}
+
+std::string leftOut(const Shown& shown) {
+  std::string out;
+  if (shown.parameters_left_out > 0)
+    out += fmt::format(" The {} numbers with the weakest relations are left out.", shown.parameters_left_out);
+  if (shown.outputs_left_out > 0)
+    out += fmt::format(" The {} checks farthest from their limits are left out.", shown.outputs_left_out);
+  if (shown.constant > 0)
+    out += fmt::format(" {} the same at every point and left out.",
+                       shown.constant == 1 ? "One output is" : fmt::format("{} outputs are", shown.constant));
+  return out;
+}
+
+struct Cell {
+  double value = 0;
+  bool told = false;  ///< from chance
+  std::string text;
+};
+
+std::string cellHtml(const Cell& cell) {
+  if (std::isnan(cell.value)) return "<td class=\"number none\">–</td>";
+  if (!cell.told) return fmt::format("<td class=\"number none\">{}</td>", cell.text);
+  return fmt::format("<td class=\"number tie{}\" style=\"--depth:{:.0f}%\">{}</td>", cell.value < 0 ? " minus" : "",
+                     5 + 40 * std::min(1.0, std::abs(cell.value)), cell.text);
+}
+
+template <class CellOf>
+std::string matrix(const SweepSummary& summary, const Shown& shown, const std::string& label,
+                   const std::string& caption, const CellOf& cell_of) {
+  if (shown.outputs.empty() || shown.parameters.empty()) return "";
+  std::string heads, rows;
+  for (const std::size_t k : shown.outputs)
+    heads += fmt::format("<th scope=\"col\" class=\"number\">{}</th>", breakable(titleOf(summary.outputs[k])));
+  for (const std::size_t p : shown.parameters) {
+    rows += fmt::format("<tr><th scope=\"row\"><code>{}</code></th>", escaped(summary.parameters[p].key));
+    for (const std::size_t k : shown.outputs) rows += cellHtml(cell_of(summary.outputs[k], p));
+    rows += "</tr>\n";
+  }
+  return fmt::format(
+      "<p class=\"aside\">{}{}</p>\n<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"{}\"><table "
+      "class=\"ties\">\n<thead><tr><th scope=\"col\">Number</th>{}</tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
+      caption, leftOut(shown), label, heads, rows);
+}
+
+std::string bar(double share) {
+  return fmt::format("<span class=\"bar\" aria-hidden=\"true\"><span style=\"width:{:.1f}%\"></span></span>",
+                     100 * std::clamp(share, 0.0, 1.0));
+}
+
+/// How much is left for numbers acting together, where the indices are of independent numbers.
+std::string togetherWords(const SweepSummary& summary, const SweepOutput& output) {
+  if (output.no_index != NoIndex::none)
+    return fmt::format(" There are no first-order indices: {}.", reasonOf(output.no_index));
+  if (output.spread.count != static_cast<std::size_t>(summary.points_done))
+    return " The indices are over the points that have a value, where the numbers may depend on each other: "
+           "their sum says nothing.";
+  double sum = 0;
+  for (const Relation& relation : output.relations)
+    if (relation.acts) sum += relation.first_order;
+  if (sum == 0) return " No number alone is told from chance: more points may tell.";
+  const double percent = 100 * std::min(sum, 1.0);
+  return fmt::format(
+      " Each alone, they make {:.0f} % of the variance{}", percent,
+      percent > 99.5 ? "." : "; what is left comes of numbers acting together, or too little to be told from chance.");
+}
+
+}  // namespace
+
+std::string driversTable(const SweepSummary& summary) {
+  if (summary.primary >= summary.outputs.size()) return "";
+  const SweepOutput& output = summary.outputs[summary.primary];
+  if (output.spread.constant) return "";
+  std::vector<std::size_t> order(summary.parameters.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const Relation &of_a = output.relations[a], &of_b = output.relations[b];
+    return std::pair(strength(of_a), sizeOf(of_a)) > std::pair(strength(of_b), sizeOf(of_b));
+  });
+  std::string rows;
+  for (std::size_t place = 0; place < std::min(order.size(), most_bars); ++place) {
+    const Relation& relation = output.relations[order[place]];
+    const bool by_index = output.no_index == NoIndex::none;
+    rows += fmt::format(
+        "<tr><th scope=\"row\"><code>{}</code></th><td class=\"bars\">{}</td><td class=\"number\">{}</td>"
+        "<td class=\"number\">{}</td><td class=\"number\">{}</td><td>{}</td></tr>\n",
+        escaped(summary.parameters[order[place]].key),
+        bar(by_index ? relation.first_order : std::abs(relation.spearman)), shareNumber(relation.first_order),
+        signedNumber(relation.spearman), signedNumber(relation.pearson),
+        strength(relation) > 0 ? "" : "no more than chance");
+  }
+  const std::string more =
+      order.size() > most_bars ? fmt::format(" The strongest {} of {} numbers.", most_bars, order.size()) : "";
+  return fmt::format(
+      "<p class=\"aside\"><b>{}</b>: the share of its variance that each number makes alone (first-order Sobol’ "
+      "index), "
+      "and its correlations.{}{}</p>\n<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"What drives it "
+      "most\"><table class=\"drivers\">\n<thead><tr><th scope=\"col\">Number</th><th scope=\"col\">{}</th><th "
+      "scope=\"col\" class=\"number\">Index</th><th scope=\"col\" class=\"number\">Rank correlation</th><th "
+      "scope=\"col\" class=\"number\">Linear correlation</th><th scope=\"col\"><span class=\"unseen\">Remark</span>"
+      "</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
+      escaped(titleOf(output)), togetherWords(summary, output), more,
+      output.no_index == NoIndex::none ? "Share" : "Size of the rank correlation", rows);
+}
+
+std::string correlationTable(const SweepSummary& summary) {
+  return matrix(summary, shownOf(summary), "Correlations",
+                "Rank correlations (Spearman), from −1 to +1: the deeper the colour, the stronger; blue rises, orange "
+                "falls. Pale numbers are no more than chance makes: below the bound that one in a hundred sweeps of "
+                "unrelated numbers would exceed anywhere.",
+                [](const SweepOutput& output, std::size_t p) {
+                  const Relation& relation = output.relations[p];
+                  return Cell{relation.spearman, relation.correlates, signedNumber(relation.spearman)};
+                });
+}
+
+std::string indexTable(const SweepSummary& summary) {
+  Shown shown = shownOf(summary);
+  std::map<NoIndex, std::string> without;
+  std::vector<std::size_t> with;
+  for (const std::size_t k : shown.outputs) {
+    const SweepOutput& output = summary.outputs[k];
+    std::string& names = without[output.no_index];
+    if (output.no_index == NoIndex::none) with.push_back(k);
+    if (output.no_index != NoIndex::none) names += (names.empty() ? "" : ", ") + escaped(titleOf(output));
+  }
+  without.erase(NoIndex::none);
+  std::string reasons;
+  for (const auto& [reason, names] : without)
+    reasons += fmt::format("<p class=\"aside\">None of {}: {}.</p>\n", names, reasonOf(reason));
+  const bool alone = with.size() == 1 && summary.outputs[with[0]].kind == OutputKind::not_passed;
+  shown.outputs = alone ? std::vector<std::size_t>() : with;
+  const std::string how =
+      summary.identity.design == "grid"
+          ? "Exact main effects over the complete grid."
+          : "Estimated from the points as they are (Plischke, Borgonovo, Smith 2013), less the bias "
+            "of finite classes. Pale numbers are no more than chance makes.";
+  return matrix(summary, shown, "First-order indices",
+                "First-order Sobol’ indices: the share of an output’s variance that each number makes alone. " + how,
+                [](const SweepOutput& output, std::size_t p) {
+                  const Relation& relation = output.relations[p];
+                  return Cell{relation.first_order, relation.acts, shareNumber(relation.first_order)};
+                }) +
+         reasons;
+}
+
+}  // namespace ursula

@@ -1,0 +1,295 @@
+// A folder that is swapped in as a whole: what is carried over, what goes, what a failure leaves, who may write.
+
+#include "base/atomic_folder.h"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <sys/file.h>
+#include <sys/mount.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <map>
+
+#include "base/sha1.h"
+#include "tests/base/temporary_folder.h"
+#include "tests/model/refusals.h"
+
+namespace ursula {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Pair;
+
+/// An older run has written these, and the folder of one of its scenarios.
+Paths older(const fs::path&) { return {"a", "b", "gone", "gone/a"}; }
+
+/// Every file by its path, folders with a stroke at their end.
+std::map<std::string, std::string> contents(const fs::path& folder) {
+  std::map<std::string, std::string> all;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = entry.path().lexically_relative(folder).string();
+    all[entry.is_directory() ? name + "/" : name] = entry.is_directory() ? "" : TemporaryFolder::read(entry.path());
+  }
+  return all;
+}
+
+void writeRun(const fs::path& folder, const std::string& text) {
+  AtomicFolder out(folder, older);
+  out.write("a", text);
+  out.write("sub/a", text);
+  out.commit();
+}
+
+TEST(AtomicFolder, isThereAsAWholeOnceItIsCommitted) {
+  const TemporaryFolder folder;
+  const fs::path dir = folder.path() / "deep" / "dir";
+  {
+    AtomicFolder out(dir, older);
+    out.write("a", "text");
+    EXPECT_FALSE(fs::exists(dir));
+    out.commit();
+  }
+  EXPECT_THAT(contents(folder.path()),
+              ElementsAre(Pair("deep/", ""), Pair("deep/dir/", ""), Pair("deep/dir/a", "text")));
+}
+
+TEST(AtomicFolder, thatIsNotCommittedLeavesEverythingAsItWas) {
+  const TemporaryFolder folder;
+  writeRun(folder.path() / "dir", "old");
+  const auto before = contents(folder.path());
+  for (const char* dir : {"dir", "new", "new/deep"}) {
+    AtomicFolder out(folder.path() / dir, older);
+    out.write("a", "new");
+  }
+  EXPECT_EQ(contents(folder.path()), before);
+}
+
+TEST(AtomicFolder, carriesOverWhatNoRunWroteAndDropsTheOlderRun) {
+  const TemporaryFolder folder;
+  const fs::path dir = folder.path() / "dir";
+  writeRun(dir, "old");
+  folder.write("dir/b", "of the older run, which the new one has not");
+  fs::create_directories(dir / "gone");
+  folder.write("dir/gone/a", "likewise");
+  fs::create_directories(dir / "empty");
+  const fs::path note = folder.write("dir/sub/note", "a user's");
+  ASSERT_EQ(::chmod(note.c_str(), 0640), 0);
+  ASSERT_EQ(::chmod(dir.c_str(), 0750), 0);
+  fs::create_symlink("nowhere", dir / "link");
+  writeRun(dir, "new");
+  EXPECT_TRUE(fs::is_symlink(dir / "link"));
+  fs::remove(dir / "link");
+  EXPECT_THAT(contents(folder.path()),
+              ElementsAre(Pair("dir/", ""), Pair("dir/a", "new"), Pair("dir/empty/", ""), Pair("dir/sub/", ""),
+                          Pair("dir/sub/a", "new"), Pair("dir/sub/note", "a user's")));
+  struct stat found {};
+  ASSERT_EQ(::stat(note.c_str(), &found), 0);
+  EXPECT_EQ(found.st_mode & 07777, 0640u);
+  ASSERT_EQ(::stat(dir.c_str(), &found), 0);
+  EXPECT_EQ(found.st_mode & 07777, 0750u);
+}
+
+TEST(AtomicFolder, keepsAUsersNoteInAFolderThatTheNewRunHasNot) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder.path() / "dir" / "gone");
+  folder.write("dir/gone/a", "of the older run");
+  folder.write("dir/gone/note", "a user's");
+  writeRun(folder.path() / "dir", "new");
+  EXPECT_EQ(TemporaryFolder::read(folder.path() / "dir/gone/note"), "a user's");
+  EXPECT_FALSE(fs::exists(folder.path() / "dir/gone/a"));
+}
+
+TEST(AtomicFolder, refusesWhereAUsersFolderHasAFilesName) {
+  const TemporaryFolder folder;
+  const fs::path dir = folder.path() / "dir";
+  fs::create_directories(dir / "a" / "mine");
+  const auto before = contents(folder.path());
+  EXPECT_THAT(refusal<std::runtime_error>([&] { AtomicFolder(dir, older).require("a"); }), HasSubstr("is a folder"));
+  EXPECT_THAT(refusal<std::runtime_error>([&] { writeRun(dir, "new"); }), HasSubstr("expected a file"));
+  EXPECT_EQ(contents(folder.path()), before);
+}
+
+TEST(AtomicFolder, behindALinkIsTheLinksTarget) {
+  const TemporaryFolder folder;
+  writeRun(folder.path() / "there", "old");
+  fs::create_directory_symlink("there", folder.path() / "link");
+  writeRun(folder.path() / "link", "new");
+  EXPECT_TRUE(fs::is_symlink(folder.path() / "link"));
+  EXPECT_EQ(TemporaryFolder::read(folder.path() / "there/a"), "new");
+}
+
+TEST(AtomicFolder, isWrittenByOneAtATime) {
+  const TemporaryFolder folder;
+  const fs::path dir = folder.path() / "dir";
+  AtomicFolder first(dir, older);
+  EXPECT_EQ(refusal<FolderInUse>([&] { AtomicFolder(dir, older); }),
+            dir.string() + ": another run (process " + std::to_string(::getpid()) +
+                ") is writing there, expected a folder that no other run has");
+  AtomicFolder(folder.path() / "other", older);  // in nobody's way
+  first.write("a", "first");
+  first.commit();
+  AtomicFolder second(dir, older);
+  EXPECT_EQ(TemporaryFolder::read(dir / "a"), "first");
+}
+
+/// Names as a process that died has left them.
+fs::path left(const TemporaryFolder& folder, const std::string& kind) {
+  return folder.path() / (".ursula-" + kind + "-" + sha1("dir").substr(0, 12) + "-1-0");
+}
+
+TEST(AtomicFolder, removesWhatADeadProcessLeft) {
+  const TemporaryFolder folder;
+  fs::create_directories(left(folder, "new") / "sub");
+  folder.write(left(folder, "new").filename().string() + "/sub/a", "half");
+  folder.write(".ursula-lock-" + sha1("dir").substr(0, 12), "1\n");
+  fs::create_directory(folder.path() / ".ursula-new-others-1-0");
+  writeRun(folder.path() / "dir", "new");
+  EXPECT_THAT(contents(folder.path()),
+              ElementsAre(Pair(".ursula-new-others-1-0/", ""), Pair("dir/", ""), Pair("dir/a", "new"),
+                          Pair("dir/sub/", ""), Pair("dir/sub/a", "new")));
+}
+
+TEST(AtomicFolder, bringsANoteAfterThatASwapWasKilledWith) {
+  const TemporaryFolder folder;
+  writeRun(folder.path() / "dir", "new");
+  fs::create_directory(left(folder, "old"));
+  folder.write(left(folder, "old").filename().string() + "/a", "old");
+  folder.write(left(folder, "old").filename().string() + "/note", "a user's");
+  writeRun(folder.path() / "dir", "newer");
+  EXPECT_THAT(contents(folder.path()),
+              ElementsAre(Pair("dir/", ""), Pair("dir/a", "newer"), Pair("dir/note", "a user's"), Pair("dir/sub/", ""),
+                          Pair("dir/sub/a", "newer")));
+}
+
+TEST(AtomicFolder, putsBackWhatWasRenamedAwayAndNeverReplaced) {
+  const TemporaryFolder folder;
+  writeRun(folder.path() / "dir", "old");
+  fs::rename(folder.path() / "dir", left(folder, "old"));
+  AtomicFolder(folder.path() / "dir", older);
+  EXPECT_EQ(TemporaryFolder::read(folder.path() / "dir/a"), "old");
+}
+
+/// Comes back to where the tests are.
+class WorkingIn {
+ public:
+  explicit WorkingIn(const fs::path& folder) : before_(fs::current_path()) { fs::current_path(folder); }
+  ~WorkingIn() { fs::current_path(before_); }
+  WorkingIn(const WorkingIn&) = delete;
+  WorkingIn& operator=(const WorkingIn&) = delete;
+
+ private:
+  fs::path before_;
+};
+
+TEST(AtomicFolder, thatIsWorkedInStaysTheSameFolder) {
+  const TemporaryFolder folder;
+  writeRun(folder.path() / "dir", "old");
+  folder.write("dir/b", "of the older run");
+  folder.write("dir/note", "a user's");
+  const WorkingIn here(folder.path() / "dir");
+  writeRun(".", "new");
+  EXPECT_EQ(TemporaryFolder::read("a"), "new") << "by the old folder, which the shell is in";
+  EXPECT_THAT(contents(folder.path()), ElementsAre(Pair("dir/", ""), Pair("dir/a", "new"), Pair("dir/note", "a user's"),
+                                                   Pair("dir/sub/", ""), Pair("dir/sub/a", "new")));
+}
+
+/// A small file system of its own, where the machine lets one have it.
+class SmallDisk {
+ public:
+  explicit SmallDisk(fs::path folder) : folder_(std::move(folder)) {
+    fs::create_directory(folder_);
+    is_there_ = ::mount("none", folder_.c_str(), "tmpfs", 0, "size=256k") == 0;
+  }
+  ~SmallDisk() {
+    if (is_there_) ::umount2(folder_.c_str(), MNT_DETACH);
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+  bool isThere() const { return is_there_; }
+
+ private:
+  fs::path folder_;
+  bool is_there_ = false;
+};
+
+TEST(AtomicFolder, ofAFullDiskIsTheOldOne) {
+  const TemporaryFolder folder;
+  const SmallDisk disk(folder.path() / "disk");
+  if (!disk.isThere()) GTEST_SKIP() << "no file system can be mounted here";
+  const std::string large(400'000, 'x');
+  for (const fs::path& dir : {folder.path() / "disk" / "dir", folder.path() / "disk"}) {  // swapped; a mount point
+    writeRun(dir, "old");
+    const auto before = contents(folder.path());
+    EXPECT_EQ(refusal<std::runtime_error>([&] { writeRun(dir, large); }),
+              "cannot write " + (dir / "a").string() + ": No space left on device");
+    EXPECT_EQ(contents(folder.path()), before);
+    writeRun(dir, "new");
+    EXPECT_EQ(TemporaryFolder::read(dir / "a"), "new");
+  }
+}
+
+TEST(AtomicFolder, leavesAloneWhatIsMountedInIt) {
+  const TemporaryFolder folder;
+  const fs::path dir = folder.path() / "dir", data = dir / "notes" / "data";
+  writeRun(dir, "old");
+  fs::create_directories(data.parent_path());
+  const SmallDisk disk(data);
+  if (!disk.isThere()) GTEST_SKIP() << "no file system can be mounted here";
+  folder.write("dir/notes/data/precious", "a user's");
+  writeRun(dir, "new");
+  EXPECT_THAT(contents(folder.path()),
+              ElementsAre(Pair("dir/", ""), Pair("dir/a", "new"), Pair("dir/notes/", ""), Pair("dir/notes/data/", ""),
+                          Pair("dir/notes/data/precious", "a user's"), Pair("dir/sub/", ""), Pair("dir/sub/a", "new")));
+  fs::rename(dir / "a", dir / "kept");
+  EXPECT_TRUE(fs::exists(data / "precious")) << "and still where it was mounted";
+}
+
+/// Somebody who may not do everything.
+class OtherUser {
+ public:
+  OtherUser() : is_another_(::geteuid() == 0 && ::seteuid(65534) == 0) {}
+  ~OtherUser() {
+    if (is_another_) static_cast<void>(::seteuid(0) == 0);
+  }
+  OtherUser(const OtherUser&) = delete;
+  OtherUser& operator=(const OtherUser&) = delete;
+
+ private:
+  bool is_another_;
+};
+
+TEST(AtomicFolder, ofWhichAPartCannotBeReadIsWrittenAllTheSame) {
+  const TemporaryFolder folder;
+  const fs::path dir = folder.path() / "dir";
+  writeRun(dir, "old");
+  fs::create_directory(dir / "secret");
+  folder.write("dir/secret/key", "somebody's");
+  fs::permissions(dir / "secret", fs::perms::none);
+  for (const fs::path& open : {folder.path(), dir, dir / "sub"}) fs::permissions(open, fs::perms::all);
+  {
+    const OtherUser other;
+    EXPECT_THROW(contents(dir), fs::filesystem_error) << "the control";
+    writeRun(dir, "new");
+    EXPECT_EQ(TemporaryFolder::read(dir / "a"), "new");
+    EXPECT_EQ(TemporaryFolder::read(dir / "sub/a"), "new");
+  }
+  fs::permissions(dir / "secret", fs::perms::owner_all);
+  EXPECT_EQ(TemporaryFolder::read(dir / "secret/key"), "somebody's");
+}
+
+TEST(AtomicFolder, isNotKeptByTheLockThatAnotherUsersRunLeft) {
+  const TemporaryFolder folder;
+  fs::permissions(folder.path(), fs::perms::all);
+  const fs::path lock = folder.write(".ursula-lock-" + sha1("dir").substr(0, 12), "1\n");
+  fs::permissions(lock, fs::perms(0444));
+  const OtherUser other;
+  writeRun(folder.path() / "dir", "new");
+  EXPECT_THAT(contents(folder.path()),
+              ElementsAre(Pair("dir/", ""), Pair("dir/a", "new"), Pair("dir/sub/", ""), Pair("dir/sub/a", "new")));
+}
+
+}  // namespace
+}  // namespace ursula

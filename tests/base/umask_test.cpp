@@ -1,0 +1,57 @@
+// Under a umask that leaves the user nothing, a results folder cannot be filled, and what was begun goes.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/atomic_folder.h"
+#include "tests/base/temporary_folder.h"
+
+namespace ursula {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Somebody whom modes bind, while this exists: root they do not.
+class Bound {
+ public:
+  explicit Bound(const fs::path& home) : user_(::geteuid()), mask_(::umask(0777)) {
+    constexpr uid_t nobody = 65534;
+    if (user_ != 0) return;
+    EXPECT_EQ(::chown(home.c_str(), nobody, gid_t(-1)), 0);
+    EXPECT_EQ(::seteuid(nobody), 0);
+  }
+  ~Bound() {
+    static_cast<void>(::seteuid(user_) == 0);
+    ::umask(mask_);
+  }
+  Bound(const Bound&) = delete;
+  Bound& operator=(const Bound&) = delete;
+
+ private:
+  uid_t user_;
+  mode_t mask_;
+};
+
+TEST(AtomicFolder, leavesNothingWhereTheUmaskForbidsAll) {
+  const TemporaryFolder folder;
+  const fs::path home = folder.path() / "home";
+  fs::create_directory(home);
+  bool refused = false;
+  {
+    const Bound somebody(home);
+    try {
+      AtomicFolder out(home / "dir", [](const fs::path&) { return Paths{}; });
+      out.write("a", "new");
+      out.commit();
+    } catch (const std::exception&) {
+      refused = true;
+    }
+  }
+  EXPECT_TRUE(refused);
+  EXPECT_TRUE(fs::is_empty(home)) << *fs::directory_iterator(home);
+}
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,152 @@
+// What the two formulations must see and refuse: a parameter that is wrong, friction on each coordinate, a leg that
+// cannot reach.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+
+#include "tests/engines/engine_kinds.h"
+
+namespace ursula {
+namespace {
+
+constexpr LegKind U = LegKind::URS, T = LegKind::UPS, R = LegKind::RUS, P = LegKind::PUS;
+
+struct Wrong {
+  const char* what;
+  std::function<void(Leg&, double)> change;  ///< by that part of itself
+};
+
+const std::vector<Wrong> wrongs = {
+    {"base_point", [](Leg& leg, double by) { leg.base_point.y() += by; }},
+    {"base_axis", [](Leg& leg, double by) { leg.base_axis.z() += by; }},
+    {"platform_point", [](Leg& leg, double by) { leg.platform_point.z() += by; }},
+    {"proximal.mass", [](Leg& leg, double by) { leg.proximal.mass *= 1 + by; }},
+    {"distal.length", [](Leg& leg, double by) { leg.distal.length *= 1 + by; }},
+    {"distal.mass", [](Leg& leg, double by) { leg.distal.mass *= 1 + by; }},
+    {"distal.center_of_mass", [](Leg& leg, double by) { leg.distal.center_of_mass += by; }},
+    {"distal.inertia", [](Leg& leg, double by) { leg.distal.inertia *= 1 + by; }},
+};
+
+/// What a carriage has to no effect, as it does not turn; and the length of a cylinder is for its stroke alone.
+const std::vector<Wrong> at_times_idle = {
+    {"proximal.length", [](Leg& leg, double by) { leg.proximal.length *= 1 + by; }},
+    {"proximal.center_of_mass", [](Leg& leg, double by) { leg.proximal.center_of_mass += by; }},
+    {"proximal.inertia", [](Leg& leg, double by) { leg.proximal.inertia *= 1 + by; }},
+};
+
+bool isIdle(LegKind kind, const std::string& what) {
+  return kind == LegKind::PUS || (kind == LegKind::UPS && what == "proximal.length");
+}
+
+class OnEachKind : public testing::TestWithParam<int> {
+ protected:
+  const std::size_t leg_ = static_cast<std::size_t>(GetParam());
+  const KindCase right_ = goodCase({U, T, R, P}, 102);
+  const LegKind kind_ = right_.machine.legs[leg_].kind;
+  const std::vector<Vector6d> efforts_ = byEngines(Manipulator(right_.machine), right_.load, right_.motion);
+  const double size_ = largest(efforts_[0]);
+
+  /// The least change that any formulation has by it; and all change alike.
+  double leastChange(const std::function<void(Leg&)>& change, const char* what) {
+    ManipulatorParameters parameters = right_.machine;
+    change(parameters.legs[leg_]);
+    const Manipulator machine(parameters);
+    const std::vector<Vector6d> changed = byEngines(machine, right_.load, right_.motion);
+    const Vector6d expected = bySolver(machine, right_.load.get(), right_.motion).value();
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < changed.size(); ++k) {
+      least = std::min(least, largest(changed[k] - efforts_[k]));
+      EXPECT_LE(largest(changed[k] - expected), room * size_) << what;
+    }
+    return least / size_;
+  }
+};
+
+TEST_P(OnEachKind, everyParameterHasASay) {
+  for (const Wrong& wrong : wrongs)
+    EXPECT_GT(leastChange([&](Leg& leg) { wrong.change(leg, 1e-3); }, wrong.what), 1e3 * room) << wrong.what;
+  for (const Wrong& wrong : at_times_idle) {
+    const double change = leastChange([&](Leg& leg) { wrong.change(leg, 1e-3); }, wrong.what);
+    EXPECT_EQ(change > 1e3 * room, !isIdle(kind_, wrong.what)) << wrong.what << ' ' << change;
+  }
+  const auto bend = [](Leg& leg) { leg.knee = leg.knee == Knee::positive ? Knee::negative : Knee::positive; };
+  EXPECT_EQ(leastChange(bend, "knee") > 1e-3, rowOf(kind_).knee != nullptr);
+}
+
+/// Friction on a driven coordinate falls on its motor, along its rate; on another it is seen as well.
+TEST_P(OnEachKind, frictionActsAgainstItsCoordinate) {
+  const Noc<double> solver{Manipulator(right_.machine)};
+  NocWorkspace<double> work;
+  solver.inverseKinematics(right_.motion, work);
+  const JointVariables<double> rates = solver.rates(work);
+  int driven = 0;
+  for (const Coordinate coordinate : rowOf(kind_).coordinates) {
+    const double rate = rates.of(coordinate)(GetParam());
+    for (const bool dry : {false, true}) {
+      ManipulatorParameters parameters = right_.machine;
+      Leg& leg = parameters.legs[leg_];
+      (dry ? leg.coulomb.on(coordinate) : leg.friction.on(coordinate)) += 100;
+      const double more = 100 * (dry ? std::tanh(rate / leg.coulomb.speedOf(coordinate)) : rate);
+      const std::vector<Vector6d> changed = byEngines(Manipulator(parameters), right_.load, right_.motion);
+      for (std::size_t k = 0; k < changed.size(); ++k) {
+        const Vector6d change = changed[k] - efforts_[k];
+        EXPECT_GT(largest(change), 1e3 * room * size_) << nameOf(coordinate);
+        for (int m = 0; m < motor_count; ++m) {
+          const Motor& motor = solver.machine().motors[static_cast<std::size_t>(m)];
+          if (motor.leg != GetParam() || motor.coordinate != coordinate) continue;
+          EXPECT_LE(largest(change - more * Vector6d::Unit(m)), room * size_) << nameOf(coordinate);
+          ++driven;
+        }
+      }
+    }
+  }
+  EXPECT_GT(driven, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Legs, OnEachKind, testing::Range(0, 4));
+
+/// Each way out of reach, by the length that is too short or too long at a pose that is right.
+TEST(EnginesOfKinds, refuseWhatALegCannotReach) {
+  const KindCase right = goodCase({U, T, R, P}, 102);
+  const auto refuses = [&](std::size_t leg, double proximal, double distal) {
+    ManipulatorParameters parameters = right.machine;
+    parameters.legs[leg].proximal.length *= proximal;
+    parameters.legs[leg].distal.length *= distal;
+    const Manipulator machine(parameters);
+    const std::string expected = "leg " + std::to_string(leg + 1) + " cannot reach";
+    const auto thrown = [&](Engine& engine) {
+      try {
+        engine.inverseDynamics(right.motion);
+        return false;
+      } catch (const std::domain_error& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr(expected));
+        return true;
+      }
+    };
+    MaximalLoop maximal(machine);
+    const bool refused = thrown(maximal);
+    if (mujocoAvailable()) {
+      MujocoLoop loop(machine);
+      EXPECT_EQ(thrown(loop), refused) << leg;
+    }
+    return refused;
+  };
+  for (std::size_t leg = 0; leg < 4; ++leg) EXPECT_FALSE(refuses(leg, 1, 1)) << leg;
+  EXPECT_TRUE(refuses(0, 0.3, 0.3));
+  EXPECT_TRUE(refuses(0, 0.1, 3));
+  EXPECT_TRUE(refuses(1, 0.05, 1)) << "drawn out";
+  EXPECT_TRUE(refuses(1, 5, 5)) << "pushed in";
+  EXPECT_TRUE(refuses(2, 0.1, 1)) << "crank and rod too short";
+  EXPECT_TRUE(refuses(2, 1, 0.01)) << "rod shorter than its way along u";
+  EXPECT_TRUE(refuses(2, 9, 1)) << "crank too long";
+  EXPECT_TRUE(refuses(3, 1, 0.4)) << "rail too far";
+  EXPECT_FALSE(refuses(3, 0.1, 1)) << "a carriage's length is for drawing";
+}
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,113 @@
+#include "tests/report/page_samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/atomic_file.h"
+#include "model/scenario.h"
+#include "studies/compare/compare_page.h"
+#include "tests/report/report_samples.h"
+
+namespace ursula::test {
+namespace {
+
+constexpr std::size_t long_rows = 60001;
+
+TimeSeries stretched(const TimeSeries& series) {
+  TimeSeries out;
+  for (std::size_t k = 0; k < series.names.size(); ++k) {
+    const std::vector<double>& from = series.columns[k];
+    std::vector<double> values(long_rows);
+    for (std::size_t i = 0; i < long_rows; ++i) {
+      const double place = static_cast<double>(i) / (long_rows - 1) * static_cast<double>(from.size() - 1);
+      const std::size_t before = std::min(static_cast<std::size_t>(place), from.size() - 2);
+      const double share = place - static_cast<double>(before);
+      values[i] = series.names[k] == "t_s" ? 1e-3 * static_cast<double>(i)
+                                           : ((1 - share) * from[before] + share * from[before + 1]) *
+                                                 (1 + 1e-3 * std::sin(0.7 * static_cast<double>(i)));
+    }
+    out.add(series.names[k], values);
+  }
+  return out;
+}
+
+}  // namespace
+
+ValidationResult longSample() {
+  ValidationResult result = passedSample();
+  result.scenario = "long";
+  result.timeseries = stretched(result.timeseries);
+  for (auto& [title, curve] : result.curves)
+    if (curve.names.front() == "t_s") curve = stretched(curve);
+  result.asked = std::make_shared<const Scenario>(readScenario(std::string(URSULA_SCENARIOS) + "/helix-60s.toml"));
+  for (Event& event : result.events) event.t *= 20;
+  return result;
+}
+
+TimeSeries comparedSample() {
+  TimeSeries series = passedSample().timeseries;
+  for (std::size_t k = 0; k < series.names.size(); ++k) {
+    if (series.names[k] == "tau_3_Nm")
+      for (double& value : series.columns[k]) value *= 1.001;
+    if (series.names[k] == "closure_v_m_s") series.names[k] = "another_m_s";
+  }
+  return series;
+}
+
+ProveFound proveSample(bool weak) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  ProveFound found;
+  found.scenario = "proving-ground";
+  found.seed = 7;
+  DefectProof proof;
+  proof.outcomes = {{"Coriolis force left out", "formula", {"torque.pointwise", "torque.maximal"}, 2, true, ""},
+                    {"mass of the platform × 1.001 <b>", "parameter", {"torque.pointwise"}, weak ? 2 : 1, true, ""},
+                    {"friction of leg 3", "parameter", {}, 2, false, ""},
+                    {"a link of no length", "machine", {}, 2, true, "length = 0, expected > 0"}};
+  proof.checks = {{"torque.pointwise", {"mass of the platform × 1.001 <b>"}, {"Coriolis force left out"}},
+                  {"torque.maximal", {"Coriolis force left out"}, {}}};
+  found.proof = proof;
+  found.sensitivities = {{"platform.mass", "mass", 1.2e-12, 3e-12}, {"leg.3.friction", "friction", infinite, 0}};
+  found.random.runs = found.random.passed = 24;
+  found.random.largest_share = {{"torque.pointwise", 0.031}};
+  return found;
+}
+
+Audit auditSample() {
+  Audit audit;
+  audit.scenario = "paper-helix";
+  audit.duration = 3;
+  audit.instants = {0.3, 1.5};
+  AuditRow fails;
+  fails.kind = AuditRow::Kind::fails;
+  fails.equation = "(15a)";
+  fails.printed = "φ̇ = h_x/(s sin(ψ+θ))";
+  fails.holds = "φ̇ = h_x/(s sin(ψ+θ) − l sin ψ)";
+  fails.unit = "rad/s";
+  fails.note = "No formula: 1 < 2.";
+  fails.residual_printed = 4.63;
+  fails.residual_holds = 3e-42;
+  fails.size = 0.33;
+  fails.effect = AuditEffect{"", 1.9e7, 756, 0.336, 0.455, 0.5, 0.6};
+  AuditRow holds;
+  holds.equation = "(37)";
+  holds.printed = "τ^a = −Tᵀ(wⁿ + w^g + w^d)";
+  holds.unit = "N m";
+  holds.residual_printed = 7e-36;
+  holds.size = 22000;
+  audit.rows = {fails, holds};
+  audit.remarks = {{"Table I", "a₃ has 0.9018", "0.9016 by symmetry"}};
+  return audit;
+}
+
+void writePageSamples(const std::filesystem::path& dir) {
+  const TimeSeries reference = passedSample().timeseries;
+  writeComparison(reference, comparedSample(), {}, {"passed", "<b>tested</b>"}, dir / "comparison");
+  writeComparison(reference, reference, {}, {"passed", "passed"}, dir / "same");
+  writeFileAtomically(dir / "prove.html", proveHtml(proveSample(false)));
+  writeFileAtomically(dir / "weak.html", proveHtml(proveSample(true)));
+  writeFileAtomically(dir / "audit.html", auditHtml(auditSample()));
+}
+
+}  // namespace ursula::test

@@ -1,0 +1,160 @@
+// What a result looks like on a terminal, and what is said of each check.
+
+#include "report/terminal.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "model/check_names.h"
+#include "report/check_help.h"
+#include "report/check_words.h"
+#include "report/columns.h"
+#include "tests/report/report_samples.h"
+
+namespace ursula {
+namespace {
+
+using testing::AllOf;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+ValidationResult of(std::vector<Check> checks) {
+  ValidationResult result;
+  result.scenario = "s";
+  result.checks = std::move(checks);
+  result.verdict = overall(result.checks);
+  return result;
+}
+
+TEST(TerminalText, alignsValueLimitUnitAndShareUnderTheirGroup) {
+  const std::string text = report::validationText(
+      of({judged("torque.pointwise", 1.25e-9, 5e-9, "N m", "", ""),
+          judged("torque.twin", 3, 2, "N m", "", "leg 3, t = 1 s"), judged("motion.reading", 0, 0, "numbers", "", "")}),
+      false);
+  EXPECT_EQ(text, R"(s: fail
+
+                                     value  limit  unit      of limit
+Motors: the engines agree on the efforts
+  pass          torque.pointwise  1.25e-09  5e-09  N·m           25 %
+  fail          torque.twin              3      2  N·m      1.5 times
+                leg 3, t = 1 s
+Input: the motion asked for is well defined
+  pass          motion.reading           0      0  numbers        0 %
+
+verdict: fail — 1 of 3 checks failed: torque.twin, which is at 1.5 times its limit.
+)");
+}
+
+TEST(TerminalText, saysWhyInsteadOfWhatIsNoNumber) {
+  const std::string text = report::validationText(
+      of({notJudgeable(Reason::not_covered, "closure.position", nan, nan, "m", "", "not replayed: too few samples"),
+          notJudgeable(Reason::not_covered, "closure.velocity", nan, nan, "m/s", "", "not replayed: too few samples"),
+          judged("motion.load", 1, 4, "N, N m", "", ""),
+          notApplicable("torque.mujoco", "N m", "this build has no MuJoCo")}),
+      false);
+  EXPECT_THAT(text, AllOf(HasSubstr("  inconclusive  closure.position\n  inconclusive  closure.velocity\n"
+                                    "                not replayed: too few samples\n"),
+                          HasSubstr("not applicable, since this build has no MuJoCo: torque.mujoco\n"),
+                          Not(HasSubstr("nan")), Not(HasSubstr("N, N")), HasSubstr(" 25 %\n")));
+}
+
+TEST(TerminalText, ofACleanPassHasNoDominantErrorAndNoColour) {
+  const std::string text = report::validationText(test::passedSample(), false);
+  EXPECT_THAT(text,
+              AllOf(Not(HasSubstr("dominant error")), Not(HasSubstr("\033")), HasSubstr("\nverdict: pass — 8 of 8")));
+  ValidationResult failed = test::failedSample();
+  EXPECT_THAT(report::validationText(failed, false), HasSubstr("\ndominant error: "));
+  for (Check& check : failed.checks)
+    if (check.name == "replay.position") check.verdict = Verdict::pass;
+  EXPECT_THAT(report::validationText(failed, false), Not(HasSubstr("dominant error"))) << "the replay holds";
+}
+
+TEST(TerminalText, showsWrongMotorsAsATable) {
+  ValidationResult result = of({judged("torque.pointwise", 12.5, 1e-9, "N m", "", "leg 2")});
+  result.timeseries.add("t_s", {0, 1, 2});
+  result.timeseries.add("tau_1_Nm", {10.01, -20.02, 30.03});
+  result.timeseries.add("simbody_tau_1_Nm", {10, -20, 30});
+  result.timeseries.add("tau_2_Nm", {-12.5, -2.5, 7.5});
+  result.timeseries.add("simbody_tau_2_Nm", {0, 10, 20});
+  result.timeseries.add("tau_3_Nm", {1, 2, nan});
+  result.timeseries.add("simbody_tau_3_Nm", {1, 2.5, 3});
+  result.likely_cause = LikelyCause{"", "of two kinds"};
+  EXPECT_THAT(report::validationText(result, false), HasSubstr(R"(
+torques against the expected ones:
+  motor    off by  at t  factor     offset
+      1  0.03 N·m   2 s   1.001
+      2  12.5 N·m   0 s          -12.5 N·m
+      3   0.5 N·m   1 s
+likely cause: of two kinds
+)"));
+}
+
+TEST(TerminalText, saysNothingOfMotorsThatAreRight) {
+  EXPECT_THAT(report::validationText(test::passedSample(), false), Not(HasSubstr("torques against")));
+}
+
+TEST(TerminalText, isColouredOnlyWhereThatIsWanted) {
+  EXPECT_THAT(report::validationText(test::failedSample(), true), HasSubstr("\033[1;31mfail\033[0m"));
+  EXPECT_TRUE(report::wantsColour(true, nullptr, "xterm"));
+  EXPECT_TRUE(report::wantsColour(true, "", nullptr));
+  EXPECT_FALSE(report::wantsColour(true, "1", "xterm"));
+  EXPECT_FALSE(report::wantsColour(true, nullptr, "dumb"));
+  EXPECT_FALSE(report::wantsColour(false, nullptr, "xterm"));
+}
+
+TEST(TerminalText, quietlyIsTheVerdictAndWhatDidNotPass) {
+  EXPECT_EQ(report::quietText(test::passedSample(), false),
+            "paper-helix: pass — 8 of 8 checks held; the closest to its limit, replay.position, is at 0.806 of its "
+            "limit.\n");
+  EXPECT_THAT(report::quietText(test::externalSample(), false),
+              AllOf(StartsWith("leg-3-off: fail — "), HasSubstr("\n  torque.pointwise: leg 3, t = 2.2 s\n"),
+                    EndsWith("  likely cause: a factor of 1.001 on leg 3\n")));
+}
+
+TEST(Columns, countCharactersAndNotBytes) {
+  EXPECT_EQ(report::columnsOf("N·m"), 3u);
+  EXPECT_EQ(report::padded("µm", 4), "µm  ");
+  EXPECT_EQ(report::padded("µm", 4, report::Align::right), "  µm");
+  EXPECT_EQ(report::padded("longer", 4), "longer");
+}
+
+TEST(CheckHelp, ofEachCheckSaysThreeThingsOfItsOwn) {
+  std::set<std::string> texts;
+  ASSERT_GT(checkNames().size(), 30u);
+  for (const CheckName& check : checkNames()) {
+    const report::CheckHelp help = report::checkHelp(check.name);
+    for (const std::string& text : {help.proves, help.limit, help.on_failure}) {
+      EXPECT_NE(text, "") << check.name;
+      EXPECT_TRUE(texts.insert(text).second) << check.name << " shares: " << text;
+    }
+    EXPECT_NE(report::checkWords(check.name).meaning, "") << check.name;
+    EXPECT_LT(report::groupOf(check.name), report::checkGroups().size()) << check.name;
+  }
+  EXPECT_EQ(texts.size(), 3 * checkNames().size());
+}
+
+TEST(CheckHelp, isAPageWithLinesOfAtMostAHundredColumns) {
+  std::istringstream lines(report::explanation("feedback.torque"));
+  std::size_t count = 0, longest = 0;
+  for (std::string line; std::getline(lines, line); ++count) longest = std::max(longest, report::columnsOf(line));
+  EXPECT_GT(count, 6u);
+  EXPECT_GT(longest, 60u);
+  EXPECT_LE(longest, 100u);
+  try {
+    report::explanation("torque.pontwise");
+    ADD_FAILURE() << "there is no such check";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "no check 'torque.pontwise', did you mean 'torque.pointwise'?");
+  }
+}
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,147 @@
+// The audit's formulas to the letter against the solver's errors: two readings of the same print, written apart. And
+// the audit's witness against the solver: two formulations to every angle, rate and torque.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "model/scenario.h"
+#include "nocsolver/noc/noc.h"
+#include "studies/audit/formula.h"
+
+namespace ursula::audit {
+namespace {
+
+Scenario paperHelix() { return readScenario(URSULA_SCENARIOS "/paper-helix.toml"); }
+
+/// What the solver with an error says, in the order of the formula's values.
+using Reading = std::function<Values(const Noc<S, WithFormulaErrors>&, const Motion<S>&, NocWorkspace<S>&)>;
+
+template <class F>
+Reading overJoints(F pick) {
+  return [pick](const Noc<S, WithFormulaErrors>& solver, const Motion<S>& motion, NocWorkspace<S>& work) {
+    solver.inverseKinematics(motion, work);
+    solver.jacobians(motion, work);
+    Values all;
+    for (int i = 0; i < leg_count; ++i) append(all, S(pick(solver, work, i)));
+    return all;
+  };
+}
+
+/// Three components of a link's twist or its rate, of proximal or distal links or both.
+Reading overLinks(bool rate, int first, bool proximal, bool distal) {
+  return [=](const Noc<S, WithFormulaErrors>& solver, const Motion<S>& motion, NocWorkspace<S>& work) {
+    BodyMotions<S> bodies;
+    solver.inverseKinematics(motion, work);
+    solver.bodyMotions(motion, work, bodies);
+    Values all;
+    for (std::size_t i = 0; i < leg_count; ++i)
+      for (const bool far : {false, true}) {
+        if (!(far ? distal : proximal)) continue;
+        const BodyMotion<S>& body = bodies[far ? leg_count + i : i];
+        append(all, V((rate ? body.twist_rate : body.twist).segment<3>(first)));
+      }
+    return all;
+  };
+}
+
+std::vector<std::pair<std::string, Reading>> readings() {
+  const auto rates = [](int which) {
+    return overJoints([which](const auto&, const NocWorkspace<S>& work, int i) {
+      return work.legs[static_cast<std::size_t>(i)].rate(which);
+    });
+  };
+  const auto accelerations = [](int which) {
+    return overJoints([which](const auto&, const NocWorkspace<S>& work, int i) {
+      return work.legs[static_cast<std::size_t>(i)].acceleration(which);
+    });
+  };
+  return {{"(4c)", accelerations(2)},
+          {"(14a)", overJoints([](const auto& solver, const auto& work, int i) { return solver.angles(work).phi(i); })},
+          {"(14b)", overJoints([](const auto& solver, const auto& work, int i) { return solver.angles(work).psi(i); })},
+          {"(15a)", rates(0)},
+          {"(15b)", rates(1)},
+          {"(16)", overLinks(false, 0, true, true)},
+          {"(17a)", overLinks(true, 0, true, false)},
+          {"(17b)", overLinks(true, 0, false, true)},
+          {"(19a)", accelerations(0)},
+          {"(19b)", accelerations(1)},
+          {"(23) a", overJoints([](const auto&, const auto& work, int i) { return work.A(i); })},
+          {"(26) ȧ", overJoints([](const auto&, const auto& work, int i) {
+             return work.legs[static_cast<std::size_t>(i)].row[0].A_dot;
+           })},
+          {"(43b)", overLinks(true, 3, false, true)},
+          {"(43b) Ω̇²", overLinks(true, 3, false, true)},
+          {"(43b) σ + [s]", overLinks(true, 3, false, true)},
+          {"(43b) twice", overLinks(true, 3, false, true)}};
+}
+
+std::vector<Formula> formulas() {
+  std::vector<Formula> all;
+  for (auto make : {displacementFormulas, rateFormulas, accelerationFormulas, jacobianFormulas, bodyFormulas})
+    for (Formula& formula : make()) all.push_back(std::move(formula));
+  return all;
+}
+
+double largestDifference(const Values& a, const Values& b) {
+  if (a.size() != b.size() || a.empty()) return std::nan("");
+  S worst(0);
+  for (std::size_t k = 0; k < a.size(); ++k) worst = std::max(worst, S(abs(S(a[k] - b[k]))));
+  return worst.convert_to<double>();
+}
+
+/// As in audit_test.cpp: what second differences in 50 digits leave, with room for conditioning.
+constexpr double rounding = 1e-33;
+
+TEST(AuditFormulas, asPrintedAreTheSolversFormulaErrors) {
+  const Scenario scenario = paperHelix();
+  const Witness witness = WitnessStand(*scenario.manipulator, *scenario.trajectory).at(S("1.1"));
+  const std::vector<Formula> all = formulas();
+  for (const auto& [name, reading] : readings()) {
+    const std::string& equation = name;  // C++17 lambdas cannot capture a structured binding
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Formula& f) { return f.equation == equation; });
+    ASSERT_NE(found, all.end()) << equation;
+    WithFormulaErrors formula_errors;
+    for (FormulaError formula_error : found->formula_errors) formula_errors.set(formula_error);
+    NocWorkspace<S> work;
+    const Values printed = found->as_printed(witness);
+    EXPECT_LE(
+        largestDifference(
+            reading(Noc<S, WithFormulaErrors>(*scenario.manipulator, formula_errors), witness.motion, work), printed),
+        rounding)
+        << equation;
+    // The control: without the error the solver says something else, and that is the truth.
+    const Values right = reading(Noc<S, WithFormulaErrors>(*scenario.manipulator), witness.motion, work);
+    EXPECT_GT(largestDifference(right, printed), 1e-6) << equation;
+    EXPECT_LE(largestDifference(right, found->truth(witness)), rounding) << equation;
+  }
+}
+
+TEST(AuditWitness, agreesWithTheSolver) {
+  const Scenario scenario = paperHelix();
+  const WitnessStand stand(*scenario.manipulator, *scenario.trajectory);
+  const Noc<S> solver(*scenario.manipulator);
+  for (const char* instant : {"0.4", "1.7", "2.9"}) {
+    const Witness witness = stand.at(S(instant));
+    NocWorkspace<S> work;
+    const double off =
+        (solver.inverseDynamics(witness.motion, work) - witness.torques).cwiseAbs().maxCoeff().convert_to<double>();
+    EXPECT_LE(off, rounding * witness.torques.cwiseAbs().maxCoeff().convert_to<double>());
+    EXPECT_GT(witness.torques.norm(), 1000);
+    EXPECT_LE((solver.accelerations(work).phi - witness.phi_ddot()).norm(), rounding);
+  }
+}
+
+TEST(AuditWitness, differencesAreOfEighthOrder) {
+  using One = Eigen::Matrix<S, 1, 1>;
+  const auto f = [](const S& x) { return One(exp(x)); };
+  const auto error = [&](const char* step) {
+    const auto d = differentiated(f, S(step));
+    return std::max(abs(S(d.first(0) - 1)), abs(S(d.second(0) - 1)));
+  };
+  const double order = std::log10((error("1e-2") / error("1e-3")).convert_to<double>());
+  EXPECT_NEAR(order, 8, 0.1);
+}
+
+}  // namespace
+}  // namespace ursula::audit

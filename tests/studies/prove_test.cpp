@@ -1,0 +1,326 @@
+// Who guards the guard: defects that are caught, parameters that are seen, random machines that raise no alarm.
+
+#include "studies/prove/prove.h"
+#include "base/start_threads.h"
+#include "model/instants.h"
+#include "report/report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "studies/prove/defects.h"
+#include "studies/random/random_scenario.h"
+#include "tests/validation/checks.h"
+#include "tests/validation/scenario_files.h"
+#include "validation/checks/pointwise_checks.h"
+#include "validation/evidence/reference.h"
+
+namespace ursula {
+namespace {
+
+const Scenario& provingGround() {
+  static const Scenario scenario = [] {
+    Scenario read = scenarioOf("proving-ground");
+    read.simulation.samples = 31;  // for speed
+    return read;
+  }();
+  return scenario;
+}
+
+/// A defect is in the solver, in what all are given, or in an experiment.
+int placesOf(const Defect& defect) {
+  const bool in_experiment = !defect.subject && !defect.scenario;
+  return (defect.subject ? 1 : 0) + (defect.scenario ? 1 : 0) + (in_experiment ? 1 : 0);
+}
+
+/// One reference for all that leave the scenario alone.
+std::vector<Check> checksWith(const Defect& defect) {
+  static const auto reference = makeReference(provingGround());
+  ValidationOptions options;
+  options.budget = false;
+  options.fault = std::make_shared<const InjectedFault>(defect.fault);
+  if (defect.scenario) return validate(defect.scenario(provingGround()), options).checks;
+  options.reference = reference;
+  return validateMade(provingGround(), defect.subject ? defect.subject : solverOf, options).checks;
+}
+
+TEST(Defects, areManyAndOfEveryGroup) {
+  std::set<std::string> names;
+  std::map<std::string, int> groups;
+  const std::vector<Defect> defects = allDefects(*provingGround().manipulator);
+  for (const Defect& defect : defects) {
+    names.insert(defect.name);
+    ++groups[defect.group];
+    EXPECT_EQ(placesOf(defect), 1) << defect.name << " is put into more than one place, or into none";
+  }
+  EXPECT_GE(defects.size(), 150u);
+  EXPECT_EQ(names.size(), defects.size()) << "a name is there twice";
+  for (const char* group :
+       {"formula", "term",       "parameter",  "index",     "frame",  "friction",      "motion",
+        "torque",  "branch",     "kinematics", "direct",    "hidden", "shared motion", "shared load",
+        "reading", "experiment", "leg",        "one frame", "fast",   "control"})
+    EXPECT_GE(groups[group], 5) << group;
+  EXPECT_GE(groups["complement"], 2);
+  EXPECT_EQ(groups.size(), 21u);
+}
+
+/// Those that only one formulation can see are of these groups; all others are held to two.
+TEST(Defects, areHeldToTwoEnginesButWhereOneAloneCanSee) {
+  const std::set<std::string> alone = {"branch",        "kinematics",  "direct",  "hidden",
+                                       "shared motion", "shared load", "reading", "experiment",
+                                       "one frame",     "complement",  "fast"};
+  for (const Defect& defect : allDefects(*provingGround().manipulator))
+    if (!defect.control) EXPECT_EQ(defect.engines, alone.count(defect.group) == 1 ? 1 : 2) << defect.name;
+}
+
+struct Caught {
+  const char *group, *name;
+  const char* by;      ///< a check that must be among those that fail
+  const char* not_by;  ///< one that has nothing to do with it
+};
+
+class OneDefect : public testing::TestWithParam<Caught> {};
+
+TEST_P(OneDefect, isCaughtByWhatMustSeeIt) {
+  const std::vector<Defect> defects = allDefects(*provingGround().manipulator);
+  const auto found =
+      std::find_if(defects.begin(), defects.end(), [](const Defect& defect) { return defect.name == GetParam().name; });
+  ASSERT_NE(found, defects.end());
+  EXPECT_EQ(found->group, GetParam().group);
+  const std::vector<Check> checks = checksWith(*found);
+  EXPECT_EQ(overall(checks), Verdict::fail);
+  EXPECT_EQ(verdictOf(checks, GetParam().by), "fail");
+  EXPECT_EQ(verdictOf(checks, GetParam().not_by), "pass");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Groups, OneDefect,
+    testing::Values(
+        Caught{"formula", "(15a) as printed", "kinematics.joint_rates", "kinematics.joint_angles"},
+        Caught{"term", "(43): no Coriolis terms", "kinematics.accelerations", "kinematics.twists"},
+        Caught{"parameter", "leg[2].proximal.mass off by 1e-06", "torque.pointwise", "kinematics.positions"},
+        Caught{"index", "smoothing speed of leg 4 for leg 5", "torque.mujoco", "kinematics.accelerations"},
+        Caught{"frame", "tensor of the platform not turned", "torque.maximal", "kinematics.accelerations"},
+        Caught{"friction", "atan for tanh", "direct.pointwise", "kinematics.accelerations"},
+        Caught{"motion", "omega in M for omega in B", "kinematics.joint_rates", "kinematics.joint_angles"},
+        Caught{"torque", "torque 1 off by 1e-9 of itself", "torque.maximal", "kinematics.jacobian"},
+        Caught{"branch", "pulse between samples, leg 3", "torque.between", "torque.pointwise"},
+        Caught{"kinematics", "T_dot off by 1e-6 of itself, but for the rates of the motion",
+               "kinematics.jacobian_difference", "kinematics.jacobian_rate"},
+        Caught{"direct", "direct dynamics at the commanded pose", "direct.off_path", "direct.pointwise"},
+        Caught{"hidden", "wrong where leg 1 has its knee the other way", "invariance.labels", "invariance.mass"},
+        Caught{"shared motion", "omega off by 1e-9 of itself", "motion.twist", "motion.pose"},
+        Caught{"shared load", "load between its rows by straight lines", "motion.load", "torque.pointwise"},
+        Caught{"reading", "one number off in its last bit", "motion.reading", "torque.pointwise"},
+        Caught{"leg", "leg 1 alone: distal mass", "torque.pointwise", "kinematics.positions"},
+        Caught{"one frame", "platform's mass, where gravity points up", "invariance.rotation", "torque.pointwise"},
+        Caught{"complement", "(33): D with one row twice", "complement.rank", "complement.orthogonality"},
+        Caught{"fast", "fast, portable: batch's effort of motor 1 times 1 + 1e-7", "fast.inverse_batch",
+               "fast.inverse"},
+        Caught{"experiment", "sign of f_B, leg 4", "reactions.pointwise", "torque.pointwise"}),
+    [](const auto& caught) { return asTestName(caught.param.group); });
+
+/// Each mechanism of a defect, without one, changes nothing: else what it injects is caught for another reason.
+TEST(NoDefect, isCaughtByNoneInAnyMechanism) {
+  int controls = 0;
+  for (const Defect& defect : allDefects(*provingGround().manipulator)) {
+    if (!defect.control) continue;
+    ++controls;
+    EXPECT_EQ(others(checksWith(defect), Verdict::pass), "") << defect.name;
+  }
+  EXPECT_GE(controls, 15);
+}
+
+/// An error of the mechanism itself, beside each of its defects, is noticed by its control.
+TEST(NoDefect, noticesAnErrorOfTheMechanism) {
+  for (const Defect& defect : allDefects(*provingGround().manipulator)) {
+    if (!defect.control || !defect.subject) continue;
+    Defect off = defect;
+    off.subject = [make = defect.subject](const Scenario& scenario) {
+      Subject subject = make(scenario);
+      subject.torques = [right = subject.torques](const Motion<double>& motion) {
+        return Vector6d(1.001 * right(motion));
+      };
+      return subject;
+    };
+    EXPECT_EQ(overall(checksWith(off)), Verdict::fail) << defect.name;
+  }
+}
+
+TEST(NoDefect, isCaughtByNone) { EXPECT_EQ(others(checksWith({"none", ""}), Verdict::pass), ""); }
+
+/// What is not there cannot be falsified, and is not said to be.
+TEST(NoDefect, changesNothing) {
+  const Defect none{"none", "", nullptr, [](const Scenario& s) { return s; }};
+  const std::vector<Check> alone = checksWith({"none", ""}), afresh = checksWith(none);
+  ASSERT_EQ(alone.size(), afresh.size());
+  EXPECT_GT(judgedCount(alone), 30);
+  for (std::size_t k = 0; k < alone.size(); ++k)
+    if (alone[k].verdict != Verdict::not_applicable)
+      EXPECT_EQ(alone[k].value, afresh[k].value) << alone[k].name;
+    else
+      EXPECT_EQ(afresh[k].verdict, Verdict::not_applicable) << alone[k].name;
+}
+
+TEST(DefectOutcome, countsEnginesAndNotChecks) {
+  DefectOutcome outcome;
+  outcome.caught_by = {"torque.pointwise", "torque.twin"};
+  EXPECT_EQ(outcome.engines(), 1);
+  EXPECT_FALSE(outcome.caught());
+  outcome.caught_by.emplace_back("torque.maximal");
+  EXPECT_TRUE(outcome.caught());
+  EXPECT_TRUE((DefectOutcome{"", "", {"motion.pose"}, 1, false, ""}.caught()));
+  EXPECT_FALSE((DefectOutcome{"", "", {}, 1, false, ""}.caught()));
+  EXPECT_TRUE((DefectOutcome{"", "", {}, 2, true, "no such machine"}.caught()));
+}
+
+TEST(Parameters, areThoseOfPlatformGravityAndSixLegs) {
+  std::set<std::string> names;
+  std::map<std::string, int> groups;
+  for (const Parameter& parameter : allParameters(*provingGround().manipulator)) {
+    names.insert(parameter.name);
+    ++groups[parameter.group];
+  }
+  EXPECT_EQ(names.size(), 13u + 6 * 33);
+  EXPECT_EQ(groups, (std::map<std::string, int>{{"gravity", 3},
+                                                {"mass", 1 + 12},
+                                                {"center", 3 + 12},
+                                                {"inertia", 6 + 72},
+                                                {"length", 12},
+                                                {"point", 36},
+                                                {"axis", 12},
+                                                {"friction", 42}}));
+}
+
+TEST(Sensitivities, everyParameterShowsOnTheProvingGround) {
+  const std::vector<Sensitivity> sensitivities = proveSensitivities(provingGround());
+  EXPECT_EQ(sensitivities.size(), allParameters(*provingGround().manipulator).size());
+  const std::set<std::string> sharp = {"mass", "center", "length", "point", "axis", "gravity"};
+  for (const Sensitivity& each : sensitivities) {
+    EXPECT_LE(each.smallest_caught, sharp.count(each.group) == 1 ? 1e-8 : 1e-5) << each.parameter;
+    EXPECT_LE(each.torque_change, 1e-11) << each.parameter;
+    EXPECT_GT(each.smallest_caught, 1e-16) << each.parameter << ": rounding is taken for an error";
+  }
+}
+
+/// torque.pointwise for the solver with one parameter wrong.
+std::string verdictWith(const Parameter& parameter, double relative) {
+  Subject subject = disturbedSubject(provingGround(), parameter, relative);
+  subject.kinematics = nullptr;
+  const auto times = equallySpaced(provingGround().trajectory->duration(), 31);
+  return verdictOf(judgePointwise(runPointwise(provingGround(), subject, times), false), "torque.pointwise");
+}
+
+TEST(Sensitivities, areTheThresholdOfTheCheckItself) {
+  const std::vector<Parameter> parameters = allParameters(*provingGround().manipulator);
+  const std::vector<Sensitivity> sensitivities = proveSensitivities(provingGround());
+  std::set<std::string> groups;
+  for (std::size_t k = 0; k < parameters.size(); k += 7) {
+    groups.insert(parameters[k].group);
+    ASSERT_EQ(sensitivities[k].parameter, parameters[k].name);
+    EXPECT_EQ(verdictWith(parameters[k], sensitivities[k].smallest_caught), "fail") << parameters[k].name;
+    EXPECT_EQ(verdictWith(parameters[k], 0.9 * sensitivities[k].smallest_caught), "pass") << parameters[k].name;
+  }
+  EXPECT_EQ(groups.size(), 8u) << "a group is left out";
+}
+
+TEST(Sensitivities, whatIsNotThereDoesNotShow) {
+  for (const Sensitivity& each : proveSensitivities(scenarioOf("paper-helix"))) {
+    if (each.group != "friction") continue;  // the helix has none: a part of nothing is nothing
+    EXPECT_TRUE(std::isinf(each.smallest_caught)) << each.parameter;
+    EXPECT_EQ(each.torque_change, 0) << each.parameter;
+  }
+}
+
+/// What two scenarios differ in.
+std::vector<double> numbersOf(const Scenario& scenario) {
+  const Motion<double> motion = scenario.trajectory->at(0.4 * scenario.trajectory->duration());
+  const Vector6d torques = solverOf(scenario).torques(motion);
+  std::vector<double> out(torques.data(), torques.data() + 6);
+  out.insert(out.end(), motion.p.data(), motion.p.data() + 3);
+  out.push_back(scenario.trajectory->duration());
+  return out;
+}
+
+TEST(RandomScenario, isTheSeeds) {
+  std::set<std::vector<double>> seen;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const Scenario scenario = randomScenario(seed);
+    EXPECT_EQ(numbersOf(scenario), numbersOf(randomScenario(seed))) << seed;
+    seen.insert(numbersOf(scenario));
+  }
+  EXPECT_EQ(seen.size(), 10u) << "two seeds give the same";
+}
+
+/// Between them, few seeds hold what machines differ in; else whole kinds would never be judged.
+TEST(RandomScenario, isOfEveryKind) {
+  std::set<std::string> kinds;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const Scenario scenario = randomScenario(seed);
+    kinds.insert(scenario.trajectory->kind());
+    kinds.insert(scenario.load ? "load" : "no load");
+    for (const Leg& leg : scenario.manipulator->parameters().legs) {
+      kinds.insert(leg.knee == Knee::positive ? "knee out" : "knee in");
+      kinds.insert(leg.friction.theta > 0 ? "viscous" : "smooth");
+      kinds.insert(leg.coulomb.theta > 0 ? "dry" : "oiled");
+    }
+  }
+  EXPECT_THAT(kinds, testing::UnorderedElementsAre("helix", "waypoints", "samples", "hold", "load", "no load",
+                                                   "knee out", "knee in", "viscous", "smooth", "dry", "oiled"));
+}
+
+TEST(ProveRandom, raisesNoAlarmForAnyNumberOfJobs) {
+  std::atomic<int> told{0};
+  const RandomOutcomes one = proveRandom(1, 2, 1, [&](int) { ++told; });
+  EXPECT_EQ(told, 2);
+  EXPECT_EQ(one.runs, 2);
+  EXPECT_EQ(one.passed, 2);
+  EXPECT_TRUE(one.failed.empty() && one.inconclusive.empty());
+  for (const char* check : {"torque.pointwise", "torque.maximal", "integration.ladder", "reactions.pointwise"}) {
+    ASSERT_EQ(one.largest_share.count(check), 1u) << check;
+    EXPECT_GT(one.largest_share.at(check), 0) << check;
+    EXPECT_LT(one.largest_share.at(check), 1) << check;
+  }
+  double share = 0;
+  for (std::uint64_t seed : {1, 2}) {
+    Scenario scenario = randomScenario(seed);
+    scenario.simulation.samples = 101;
+    const Check torque = *findCheck(validate(scenario).checks, "torque.pointwise");
+    share = std::max(share, torque.value / torque.limit);
+  }
+  EXPECT_EQ(one.largest_share.at("torque.pointwise"), share);
+  const RandomOutcomes two = proveRandom(1, 2, 2, [](int) {});
+  EXPECT_EQ(two.passed, one.passed);
+  EXPECT_EQ(two.largest_share, one.largest_share) << "to the last bit";
+}
+
+TEST(EngineOf, countsWhatAChecksVerdictRestsOn) {
+  EXPECT_EQ(engineOf("torque.pointwise"), "Simbody");
+  EXPECT_EQ(engineOf("replay.position"), "Simbody");
+  EXPECT_EQ(engineOf("torque.twin"), "Simbody") << "the same engine and the same builder";
+  EXPECT_EQ(engineOf("torque.maximal"), "maximal coordinates");
+  EXPECT_EQ(engineOf("torque.mujoco"), "MuJoCo");
+  EXPECT_EQ(engineOf("torque.between"), "torque.between");
+  EXPECT_EQ(engineOf("motion.pose"), "motion.pose");
+  EXPECT_EQ(engineOf("direct.off_path"), "Simbody");
+  EXPECT_EQ(engineOf("invariance.labels"), "invariance.labels");
+  EXPECT_EQ(engineOf("kinematics.jacobian_difference"), "kinematics.jacobian_difference");
+}
+
+TEST(InParallel, doesEachTaskOnceAndThrowsWhatATaskThrew) {
+  for (int jobs : {1, 2, 5}) {
+    std::vector<std::atomic<int>> done(20);
+    inParallel(jobs, 20, [&](int k) { ++done[static_cast<std::size_t>(k)]; });
+    EXPECT_THAT(std::vector<int>(done.begin(), done.end()), testing::Each(1)) << jobs;
+    EXPECT_THROW(inParallel(jobs, 20, [](int k) { k == 7 ? throw std::domain_error("seven") : void(); }),
+                 std::domain_error);
+  }
+}
+
+}  // namespace
+}  // namespace ursula

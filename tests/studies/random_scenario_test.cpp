@@ -1,0 +1,124 @@
+// Random scenarios differ in every number, from each other and from leg to leg. Nothing is validated.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "tests/studies/drawn_scenarios.h"
+#include "tests/validation/scenario_numbers.h"
+
+namespace ursula {
+namespace {
+
+std::vector<ManipulatorParameters> machines() {
+  std::vector<ManipulatorParameters> out;
+  for (const Scenario& scenario : drawnScenarios()) out.push_back(scenario.manipulator->parameters());
+  return out;
+}
+
+using Seen = std::map<std::string, std::vector<double>>;
+
+/// Names of which two values out of many are alike; what is left out (zero) in most is no variety.
+std::vector<std::string> constantsIn(const Seen& seen, std::size_t at_least) {
+  std::vector<std::string> out;
+  for (const auto& [name, values] : seen) {
+    const std::set<double> different(values.begin(), values.end());
+    if (values.size() < at_least || different.size() != values.size()) out.push_back(name);
+  }
+  return out;
+}
+
+/// Machine numbers that two of the machines share, or that are zero in nearly all.
+std::vector<std::string> constantsOf(std::vector<ManipulatorParameters> all) {
+  Seen seen;
+  for (const MachineNumber& number : machineNumbers()) {
+    std::vector<double>& values = seen[number.name];
+    for (ManipulatorParameters& machine : all)
+      if (const double value = number.at(machine); value != 0) values.push_back(value);
+  }
+  return constantsIn(seen, all.size() / 5);
+}
+
+/// The numbers of legs that another leg has as well.
+std::vector<std::string> sharedByLegs(ManipulatorParameters machine) {
+  std::map<double, std::pair<std::string, int>> owners;
+  std::vector<std::string> out;
+  for (const MachineNumber& number : machineNumbers()) {
+    const double value = number.at(machine);
+    if (number.leg < 0 || value == 0) continue;
+    const auto [owner, is_new] = owners.insert({value, {number.name, number.leg}});
+    if (!is_new && owner->second.second != number.leg) out.push_back(owner->second.first + " = " + number.name);
+  }
+  return out;
+}
+
+TEST(RandomMachines, varyInEveryNumber) {
+  EXPECT_EQ(machineNumbers().size(), 13u + 6 * 34);
+  EXPECT_THAT(constantsOf(machines()), testing::IsEmpty());
+}
+
+/// Negative control: a generator that leaves any one number alone is found out, by the number's name.
+TEST(RandomMachines, wouldBeFoundOutWithOneNumberConstant) {
+  std::vector<ManipulatorParameters> all = machines();
+  all.resize(60);
+  for (const MachineNumber& number : machineNumbers()) {
+    std::vector<ManipulatorParameters> fake = all;
+    for (ManipulatorParameters& machine : fake) number.at(machine) = 0.25;
+    EXPECT_THAT(constantsOf(fake), testing::Contains(number.name));
+    for (ManipulatorParameters& machine : fake) number.at(machine) = 0;
+    EXPECT_THAT(constantsOf(fake), testing::Contains(number.name));
+  }
+}
+
+TEST(RandomMachines, haveLegsThatShareNothing) {
+  for (const ManipulatorParameters& machine : machines()) ASSERT_THAT(sharedByLegs(machine), testing::IsEmpty());
+}
+
+TEST(RandomMachines, wouldBeFoundOutWithSharedLegs) {
+  const ManipulatorParameters machine = machines().front();
+  ManipulatorParameters friction = machine, twins = machine;
+  friction.legs[4].coulomb.smoothing_speed = friction.legs[1].coulomb.smoothing_speed;
+  EXPECT_THAT(sharedByLegs(friction),
+              testing::ElementsAre("leg[2].coulomb.smoothing_speed = leg[5].coulomb.smoothing_speed"));
+  twins.legs[5] = twins.legs[0];
+  EXPECT_GE(sharedByLegs(twins).size(), 28u);
+}
+
+/// Every kind of motion and of load has numbers that vary, too.
+TEST(RandomScenarios, varyInMotionAndLoad) {
+  Seen seen;
+  const auto note = [&](const std::vector<NamedNumber>& numbers) {
+    for (const NamedNumber& number : numbers) seen[number.name].push_back(number.value);
+  };
+  for (const Scenario& scenario : drawnScenarios()) {
+    note(motionNumbers(*scenario.trajectory));
+    if (scenario.load) note(loadNumbers(*scenario.load, scenario.trajectory->duration()));
+  }
+  // The helix's normal is level: its triad has a zero, which no motion of the kind can vary.
+  for (auto entry = seen.begin(); entry != seen.end();)
+    entry = entry->first.find("helix") == 0 && entry->second.front() == 0 ? seen.erase(entry) : std::next(entry);
+  EXPECT_EQ(seen.size(), 4u * 37 - 3 + 2 * 21);
+  EXPECT_THAT(constantsIn(seen, scenarios_drawn / 20), testing::IsEmpty());
+}
+
+TEST(RandomScenarios, areTheSeeds) {
+  std::set<std::string> texts;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Scenario& first = drawnScenarios()[seed - 1];
+    const Scenario again = randomScenario(seed);
+    ManipulatorParameters one = first.manipulator->parameters(), other = again.manipulator->parameters();
+    for (const MachineNumber& number : machineNumbers()) ASSERT_EQ(number.at(one), number.at(other)) << number.name;
+    const auto numbers = motionNumbers(*first.trajectory), same = motionNumbers(*again.trajectory);
+    ASSERT_EQ(numbers.size(), same.size());
+    for (std::size_t k = 0; k < numbers.size(); ++k) ASSERT_EQ(numbers[k].value, same[k].value) << numbers[k].name;
+    EXPECT_EQ(first.text, again.text);
+    EXPECT_EQ(first.name, "random-" + std::to_string(seed));
+    texts.insert(first.text);
+  }
+  EXPECT_EQ(texts.size(), 20u);
+}
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,48 @@
+// docs/scenario.md and docs/scenario.schema.json are what the reader's table gives: ./dev docs writes them.
+
+#include "studies/scenario_docs/scenario_docs.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "model/scenario_keys.h"
+#include "tests/base/temporary_folder.h"
+
+namespace ursula {
+namespace {
+
+using testing::HasSubstr;
+
+std::string committed(const std::string& name) {
+  return TemporaryFolder::read(std::filesystem::path(URSULA_DOCS) / name);
+}
+
+TEST(ScenarioDocs, areTheTables) {
+  EXPECT_TRUE(committed("scenario.md") == scenarioMarkdown()) << "run ./dev docs";
+  EXPECT_TRUE(committed("scenario.schema.json") == scenarioSchema()) << "run ./dev docs";
+}
+
+TEST(ScenarioDocs, nameEveryKey) {
+  const std::string page = scenarioMarkdown();
+  for (const ScenarioTable& table : scenarioTables())
+    for (const ScenarioKey& key : table.keys) EXPECT_THAT(page, HasSubstr("\n| `" + std::string(key.name) + "` | "));
+}
+
+TEST(ScenarioDocs, theSchemaHoldsTypesBoundsAndWhatIsRequired) {
+  const auto schema = nlohmann::json::parse(scenarioSchema());
+  EXPECT_EQ(schema["required"], nlohmann::json({"name", "manipulator", "trajectory"}));
+  const auto& platform = schema["properties"]["manipulator"]["properties"]["platform"];
+  EXPECT_EQ(platform["properties"]["mass"]["exclusiveMinimum"], 0);
+  EXPECT_EQ(platform["additionalProperties"], false);
+  EXPECT_EQ(schema["properties"]["simulation"]["properties"]["samples"]["maximum"], 1000000);
+  EXPECT_EQ(schema["properties"]["trajectory"]["oneOf"].size(), 4u);
+  EXPECT_EQ(schema["properties"]["manipulator"]["properties"]["leg"]["minItems"], 3);
+  const auto& leg = schema["properties"]["manipulator"]["properties"]["leg"]["items"]["properties"];
+  EXPECT_EQ(leg["kind"]["enum"].size(), 4u);
+  EXPECT_EQ(leg["actuated"]["items"]["enum"], nlohmann::json({"phi", "psi", "theta", "d"}));
+}
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "studies/sweep/sweep_database.h"
+
+namespace ursula::test {
+
+/// Of a sweep of four points.
+inline SweepIdentity identity(const std::string& hash = "aa", int shard = 1, int shards = 1) {
+  SweepIdentity out;
+  out.hash = hash;
+  out.version = "1.0";
+  out.file = "s.toml";
+  out.points = 4;
+  out.shard = shard;
+  out.shards = shards;
+  out.keys = {"a.b"};
+  return out;
+}
+
+inline SweepPoint point(std::int64_t id, double value = 1.5) {
+  return {id, R"({"a.b":1})", "pass", 0.5, "", {{"tau", value, std::nan(""), ""}, {"check", 0.1, 0.2, "pass"}}};
+}
+
+/// All rows but their seconds, as text.
+inline std::string rowsOf(const std::filesystem::path& file) {
+  Sqlite database(file, Sqlite::Access::read);
+  std::string out;
+  Statement points(database, "SELECT id || parameters || verdict || coalesce(error, '-') FROM point");
+  while (points.step()) out += points.text(0) + "\n";
+  Statement results(database, "SELECT point || name || coalesce(value, '-') || coalesce(\"limit\", '-') FROM result");
+  while (results.step()) out += results.text(0) + "\n";
+  return out;
+}
+
+}  // namespace ursula::test

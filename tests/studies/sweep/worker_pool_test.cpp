@@ -1,0 +1,115 @@
+// Processes that work on points, and what becomes of those that crash.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <map>
+
+#include "studies/sweep/wire.h"
+#include "studies/sweep/worker_pool.h"
+#include "tests/base/temporary_folder.h"
+
+namespace ursula {
+namespace {
+
+SweepPoint answer(std::int64_t id) {
+  return {id, "{}", "pass", 0.25, "", {{"square", double(id) * double(id), 1, "pass"}}};
+}
+
+/// All points of [0, count), each handed out with `handful` others; what `work` makes of them, by id.
+std::map<std::int64_t, SweepPoint> run(int workers, std::int64_t count, std::int64_t handful,
+                                       const std::function<SweepPoint(std::int64_t)>& work) {
+  std::map<std::int64_t, SweepPoint> out;
+  std::int64_t next = 0;
+  WorkerPool::Tasks tasks;
+  tasks.next = [&] {
+    const std::int64_t from = next;
+    next = std::min(count, next + handful);
+    return PointRange{from, next};
+  };
+  tasks.makeWork = [&] { return work; };
+  tasks.parameters = [](std::int64_t id) { return "p" + std::to_string(id); };
+  tasks.done = [&](const SweepPoint& point) {
+    EXPECT_TRUE(out.emplace(point.id, point).second) << "twice: " << point.id;
+  };
+  tasks.stop = [] { return false; };
+  EXPECT_TRUE(WorkerPool(workers, tasks).run());
+  return out;
+}
+
+TEST(WorkerPool, makesEachPointOnceWhateverTheNumberOfWorkers) {
+  for (const int workers : {1, 2, 7}) {
+    const auto found = run(workers, 1000, 9, answer);
+    ASSERT_EQ(found.size(), 1000u);
+    for (const auto& [id, point] : found) EXPECT_EQ(point.values[0].value, double(id) * double(id));
+  }
+}
+
+TEST(WorkerPool, triesAPointThatCrashesOnceMoreAndGoesOn) {
+  for (const int signal : {SIGABRT, SIGKILL}) {
+    const auto found = run(2, 100, 8, [signal](std::int64_t id) {
+      if (id == 13 || id == 14 || id == 99) ::raise(signal);
+      return answer(id);
+    });
+    ASSERT_EQ(found.size(), 100u);
+    for (const auto& [id, point] : found) {
+      const bool crashes = id == 13 || id == 14 || id == 99;
+      EXPECT_EQ(point.verdict, crashes ? "error" : "pass") << id;
+      if (!crashes) continue;
+      EXPECT_THAT(point.error, testing::HasSubstr("ended by signal " + std::to_string(signal))) << id;
+      EXPECT_EQ(point.parameters, "p" + std::to_string(id));
+    }
+  }
+}
+
+TEST(WorkerPool, whatCrashesOnceHasItsResult) {
+  const TemporaryFolder folder;
+  const std::filesystem::path mark = folder.path() / "tried";
+  const auto found = run(1, 10, 3, [&](std::int64_t id) {
+    if (id == 4 && !std::filesystem::exists(mark)) {
+      folder.write("tried", "");
+      ::_exit(7);
+    }
+    return answer(id);
+  });
+  ASSERT_EQ(found.size(), 10u);
+  EXPECT_EQ(found.at(4).verdict, "pass");
+  EXPECT_TRUE(std::filesystem::exists(mark));
+}
+
+TEST(WorkerPool, stopsWhenAskedTo) {
+  WorkerPool::Tasks tasks;
+  std::int64_t next = 0;
+  int done = 0;
+  tasks.next = [&] { return PointRange{next, next + 1}; };
+  tasks.makeWork = [] { return answer; };
+  tasks.parameters = [](std::int64_t) { return ""; };
+  tasks.done = [&](const SweepPoint&) { ++next, ++done; };
+  tasks.stop = [&] { return done >= 5; };
+  EXPECT_FALSE(WorkerPool(2, tasks).run());
+  EXPECT_GE(done, 5);
+}
+
+TEST(Wire, carriesWholePointsFromPieces) {
+  SweepPoint sent = answer(-3);
+  sent.error = std::string("text with \0 and \n", 17);
+  const std::string bytes = packed(sent) + packed(answer(8));
+  Unpacker unpacker;
+  SweepPoint got;
+  std::vector<std::int64_t> ids;
+  for (const char byte : bytes) {
+    unpacker.add({&byte, 1});
+    while (unpacker.next(got)) {
+      ids.push_back(got.id);
+      EXPECT_EQ(got.error, ids.size() == 1 ? sent.error : "");
+    }
+  }
+  EXPECT_EQ(ids, (std::vector<std::int64_t>{-3, 8}));
+  EXPECT_EQ(got.values[0].name, "square");
+  EXPECT_EQ(got.values[0].value, 64);
+}
+
+}  // namespace
+}  // namespace ursula

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "studies/sweep/sweep_database.h"
+
+namespace ursula::test {
+
+/// Databases of sweeps that were not run, in a folder of the test's own.
+struct MadeSweep {
+  SweepIdentity identity;
+  std::vector<SweepPoint> points;
+
+  /// Adds a point with the next id; `values` in the order of the identity's keys.
+  SweepPoint& add(const std::vector<double>& values, const std::string& verdict = "pass",
+                  const std::string& error = "");
+  /// A result that is no check.
+  static void result(SweepPoint& point, const std::string& name, double value);
+  static void check(SweepPoint& point, const std::string& name, double value, double limit, const std::string& verdict);
+
+  /// Writes it and opens it anew to be read.
+  std::unique_ptr<Sqlite> written(const std::string& name) const;
+};
+
+MadeSweep madeSweep(const std::string& what, const std::string& design, const std::vector<std::string>& keys,
+                    std::int64_t points);
+
+/// Uniform in [0, 1), the same on every machine.
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : state_(seed) {}
+  double roll();
+
+ private:
+  std::uint64_t state_;
+};
+
+}  // namespace ursula::test

@@ -1,0 +1,10 @@
+# What a sweep's database says.
+add_executable(sweep_report_tests
+  heat_map_test.cpp
+  sweep_databases.cpp
+  sweep_relations_test.cpp
+  sweep_report_test.cpp
+  sweep_rows_test.cpp)
+target_link_libraries(sweep_report_tests PRIVATE
+  ursula::sweep_report ursula::report ursula::eigen fmt::fmt GTest::gmock GTest::gtest_main)
+gtest_discover_tests(sweep_report_tests)

@@ -1,8 +1,0 @@
-// The formulas as printed in 50 digits, for tests alone.
-
-#include "model/real50.h"
-#include "nocsolver/noc/noc_joints_impl.h"
-
-namespace ursula {
-template class Noc<Real50, WithSlips>;
-}  // namespace ursula

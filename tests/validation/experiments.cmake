@@ -1,0 +1,26 @@
+# The witnesses beside the replay: each shows that a wrong input fails it.
+add_executable(witness_tests
+  attribution_test.cpp
+  extremes_test.cpp
+  feedback_test.cpp
+  invariance_test.cpp
+  judge_ladder_test.cpp
+  ladder_test.cpp
+  engines_test.cpp
+  windows_test.cpp
+)
+target_link_libraries(witness_tests PRIVATE
+  test_support test_components ursula::mujoco fmt::fmt GTest::gmock GTest::gtest_main)
+target_compile_definitions(witness_tests PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
+gtest_discover_tests(witness_tests)
+
+# What all formulations share: the commanded motion, the load, the numbers as read.
+add_executable(commanded_tests
+  commanded_motion_test.cpp
+  independent_reading_test.cpp
+  load_check_test.cpp
+  motion_in_doubles_test.cpp
+)
+target_link_libraries(commanded_tests PRIVATE test_support test_components fmt::fmt GTest::gmock GTest::gtest_main)
+target_compile_definitions(commanded_tests PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
+gtest_discover_tests(commanded_tests)

@@ -1,0 +1,246 @@
+// Whole scenarios in a change of frame, and the changes of frame that are used. See change of frame.h.
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "model/exact_trajectory.h"
+#include "nocsolver/solver.h"
+#include "validation/subject/frame_change.h"
+
+namespace ursula {
+namespace {
+
+/// A trajectory as it looks in a change of frame; positions from its origin already.
+class TransformedTrajectory final : public ExactTrajectory {
+ public:
+  TransformedTrajectory(std::shared_ptr<const Trajectory> from, const FrameChange& frame_change)
+      : from_(std::move(from)), frame_change_(frame_change), knots_(from_->knots()) {
+    frame_change_.origin.setZero();
+    for (double& knot : knots_) knot /= frame_change.units.time;
+  }
+  std::string kind() const override { return from_->kind(); }
+  double duration() const override { return from_->duration() / frame_change_.units.time; }
+  Motion<double> at(double t) const override {
+    Motion<double> motion = frame_change_.of(from_->at(t * frame_change_.units.time));
+    motion.t = t;  // the instant that was asked for, to the last bit
+    return motion;
+  }
+  Motion<Real50> at(const Real50& t) const override {
+    const FrameChange& p = frame_change_;
+    const Motion<Real50> from = from_->at(Real50(t * p.units.time));
+    const auto turn = p.turn.cast<Real50>().eval();
+    const Real50 length = p.units.length, time = p.units.time;
+    Motion<Real50> out;
+    out.t = t;
+    out.p = turn * from.p / length;
+    out.Q = turn * from.Q * p.platform_turn.cast<Real50>();
+    out.omega = turn * from.omega * time;
+    out.p_dot = turn * from.p_dot * Real50(time / length);
+    out.omega_dot = turn * from.omega_dot * Real50(time * time);
+    out.p_ddot = turn * from.p_ddot * Real50(time * time / length);
+    return out;
+  }
+  const ExactTrajectory* exact() const override { return from_->exact() ? this : nullptr; }
+  const std::vector<double>& knots() const override { return knots_; }
+
+ private:
+  std::shared_ptr<const Trajectory> from_;
+  FrameChange frame_change_;
+  std::vector<double> knots_;
+};
+
+/// For trajectories that cannot move their origin themselves.
+class ShiftedTrajectory final : public ExactTrajectory {
+ public:
+  ShiftedTrajectory(std::shared_ptr<const Trajectory> from, const Vector3d& origin)
+      : from_(std::move(from)), origin_(origin) {}
+  std::string kind() const override { return from_->kind(); }
+  double duration() const override { return from_->duration(); }
+  Motion<double> at(double t) const override {
+    Motion<double> motion = from_->at(t);
+    motion.p -= origin_;
+    return motion;
+  }
+  Motion<Real50> at(const Real50& t) const override {
+    Motion<Real50> motion = from_->at(t);
+    motion.p -= origin_.cast<Real50>();
+    return motion;
+  }
+  const ExactTrajectory* exact() const override { return from_->exact() ? this : nullptr; }
+  const std::vector<double>& knots() const override { return from_->knots(); }
+
+ private:
+  std::shared_ptr<const Trajectory> from_;
+  Vector3d origin_;
+};
+
+std::shared_ptr<const Trajectory> shifted(const std::shared_ptr<const Trajectory>& from, const Vector3d& origin) {
+  if (origin.isZero(0)) return from;
+  if (std::shared_ptr<const Trajectory> moved = from->relativeTo(origin)) return moved;
+  return std::make_shared<const ShiftedTrajectory>(from, origin);
+}
+
+double powerOfTwo(double x) { return std::exp2(std::floor(std::log2(x))); }
+
+/// Multiples of a power of two above the machine's size are taken off without rounding (Sterbenz), but for the first:
+/// about it coordinates are still too small.
+Vector3d roundOrigin(const Manipulator& machine, double length) {
+  Vector3d middle = Vector3d::Zero();
+  for (const Leg& leg : machine.parameters().legs) middle += leg.base_point / machine.legCount();
+  double spread = length;
+  for (const Leg& leg : machine.parameters().legs) spread = std::max(spread, (leg.base_point - middle).norm());
+  const double grid = 4 * powerOfTwo(spread);
+  const Vector3d steps = (middle / grid).array().round();
+  return (steps.array().abs() < 2).select(Vector3d::Zero(), steps * grid);
+}
+
+/// The largest acceleration that the platform or gravity has, m/s².
+double accelerationOf(const Scenario& scenario, double length) {
+  double largest = scenario.manipulator->gravity().norm();
+  constexpr int instants = 16;
+  for (int k = 0; k <= instants; ++k) {
+    const Motion<double> motion = scenario.trajectory->at(scenario.trajectory->duration() * k / instants);
+    largest = std::max(
+        {largest, motion.p_ddot.norm(), length * motion.omega_dot.norm(), length * motion.omega.squaredNorm()});
+  }
+  return largest;
+}
+
+double massOf(const ManipulatorParameters& machine) {
+  double mass = machine.platform.mass;
+  for (const Leg& leg : machine.legs) mass += leg.proximal.mass + leg.distal.mass;
+  return mass;
+}
+
+Matrix3d randomTurn(std::mt19937_64& engine) {
+  // Four normal deviates by the sum of twelve uniform ones make a quaternion; which exactly does not matter here.
+  const auto normal = [&engine] {
+    double sum = -6;
+    for (int k = 0; k < 12; ++k) sum += static_cast<double>(engine() >> 11) * 0x1p-53;
+    return sum;
+  };
+  Eigen::Quaterniond q(normal(), normal(), normal(), normal());
+  return q.normalized().toRotationMatrix();
+}
+
+/// `back` is the way from `to`.
+KinematicAnswer answerIn(const FrameChange& to, const FrameChange& back, KinematicAnswer answer) {
+  answer.joints = back.back(answer.joints);
+  answer.bodies = back.back(answer.bodies);
+  for (Matrix6d* T : {&answer.T, &answer.T_rate}) *T = shapingBack(back, *T);
+  answer.T_rate *= to.units.time;
+  return answer;
+}
+
+/// Motors of both sorts are compared by their numbers: on a machine of any usual size its own unit of length is then
+/// 1 m, so that a newton counts as a newton metre and a tolerance means what it says.
+double lengthUnit(const Manipulator& machine, double length) {
+  constexpr double usual = 64;
+  const Motors& motors = machine.motors();
+  const auto pushing = std::count_if(motors.begin(), motors.end(), [](const Motor& motor) { return motor.slides(); });
+  const bool mixed = pushing > 0 && pushing < motor_count;
+  return mixed && length > 1 / usual && length < usual ? 1 : powerOfTwo(length);
+}
+
+}  // namespace
+
+Scenario relocated(const Scenario& scenario, const Vector3d& origin) {
+  Scenario out = scenario;
+  ManipulatorParameters machine = scenario.manipulator->parameters();
+  for (Leg& leg : machine.legs) leg.base_point -= origin;
+  out.manipulator = std::make_shared<const Manipulator>(machine);
+  out.trajectory = shifted(scenario.trajectory, origin);
+  return out;
+}
+
+Scenario FrameChange::of(const Scenario& scenario) const {
+  Scenario out = scenario;
+  out.manipulator = std::make_shared<const Manipulator>(of(*scenario.manipulator));
+  out.trajectory = std::make_shared<const TransformedTrajectory>(shifted(scenario.trajectory, origin), *this);
+  out.load = of(scenario.load);
+  return out;
+}
+
+FrameChange randomFrameChange(unsigned seed, double size, const Manipulator& machine) {
+  std::mt19937_64 engine(seed);
+  const auto uniform = [&engine](double low, double high) {
+    return low + (high - low) * static_cast<double>(engine() >> 11) * 0x1p-53;
+  };
+  FrameChange out(machine);
+  out.turn = randomTurn(engine);
+  out.platform_turn = randomTurn(engine);
+  out.origin = size * Vector3d(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+  std::array<int, leg_count> legs = out.leg;
+  for (std::size_t i = machine.parameters().legs.size() - 1; i > 0; --i) std::swap(legs[i], legs[engine() % (i + 1)]);
+  out.relabel(machine, legs);
+  out.units = {uniform(0.6, 1.9), uniform(0.6, 1.9), uniform(0.6, 1.9), {}};
+  return out;
+}
+
+FrameChange naturalFrameChange(const Scenario& scenario) {
+  const double length = Solver<double>(*scenario.manipulator).length();
+  const double acceleration = accelerationOf(scenario, length);
+  FrameChange out(*scenario.manipulator);
+  out.origin = roundOrigin(*scenario.manipulator, length);
+  out.units.efforts = effortsOf(*scenario.manipulator);
+  out.units.length = lengthUnit(*scenario.manipulator, length);
+  out.units.mass = powerOfTwo(massOf(scenario.manipulator->parameters()));
+  out.units.time = powerOfTwo(acceleration > 0 ? std::sqrt(length / acceleration) : scenario.trajectory->duration());
+  return out;
+}
+
+Subject transformed(const Subject& subject, const FrameChange& to) {
+  const Units units = to.units;
+  FrameChange from = to;
+  from.origin = -to.origin / units.length;
+  from.units = {1 / units.length, 1 / units.mass, 1 / units.time, units.efforts};
+  Subject out;
+  out.name = subject.name;
+  out.formulation = subject.formulation;
+  out.torques = [=](const Motion<double>& motion) { return to.of(subject.torques(from.of(motion))); };
+  if (subject.foresee)
+    out.foresee = [=](std::vector<Motion<double>> motions) {
+      for (Motion<double>& motion : motions) motion = from.of(motion);
+      subject.foresee(motions);
+    };
+  if (subject.answers)
+    out.answers = [=] {
+      std::vector<Answered> all = subject.answers();
+      for (Answered& each : all) each = {each.t / units.time, to.of(each.torques)};
+      return all;
+    };
+  if (subject.kinematics)
+    out.kinematics = [=](const Motion<double>& motion) {
+      return answerIn(to, from, subject.kinematics(from.of(motion)));
+    };
+  if (subject.accelerations)
+    out.accelerations = [=](const Motion<double>& motion, const Vector6d& torques) {
+      Vector6d found = subject.accelerations(from.of(motion), from.of(torques));
+      found.head<3>() *= units.time * units.time;
+      found.tail<3>() /= units.acceleration();
+      return found;
+    };
+  if (subject.complement)
+    out.complement = [=](const Motion<double>& motion) {
+      Complement found = subject.complement(from.of(motion));
+      for (Eigen::Index body = 0; body < body_count; ++body) {
+        found.T.middleRows(6 * body + 3, 3) /= units.length;
+        found.D.middleCols(6 * body + 3, 3) *= units.length;
+      }
+      return found;
+    };
+  if (subject.reactions)
+    out.reactions = [=](const Motion<double>& motion) { return from.back(subject.reactions(from.of(motion))); };
+  if (subject.rebuilt)
+    out.rebuilt = [=](const Manipulator& machine) {
+      FrameChange there(machine);  // its motors may stand in another order
+      there.origin = to.origin;
+      there.units = to.units;
+      return transformed(subject.rebuilt(from.of(machine)), there);
+    };
+  return out;
+}
+
+}  // namespace ursula
