@@ -12,7 +12,6 @@
 #include "apps/verbs.h"
 #include "base/csv.h"
 #include "base/errors.h"
-#include "base/out_of_memory.h"
 #include "model/scenario.h"
 #include "nocsolver/errors.h"
 #include "studies/sweep/sqlite.h"
@@ -25,7 +24,7 @@ int complain(const std::string& what) {
   return ursula::exit_bad_input;
 }
 
-int runVerb(const std::function<int()>& run) {
+int runVerb(const CLI::App& app, const std::function<int()>& run) {
   try {
     return run();
   } catch (const ursula::ScenarioError& error) {
@@ -37,7 +36,7 @@ int runVerb(const std::function<int()>& run) {
   } catch (const ursula::PoseError& error) {
     return complain(fmt::format("error: the motion cannot be made: {}", error.what()));
   } catch (const std::bad_alloc&) {
-    return complain(fmt::format("error: {}", ursula::out_of_memory));
+    return complain("error: " + ursula::outOfMemory(app));
   } catch (const std::filesystem::filesystem_error& error) {
     std::error_code gone;
     static_cast<void>(std::filesystem::current_path(gone));
@@ -69,7 +68,7 @@ int runProgram(int argc, char** argv) {
   if (const std::string empty = ursula::emptyValue(app); !empty.empty()) return complain(empty);
   if (const std::string odd = ursula::oddNumber(app); !odd.empty()) return complain(odd);
   if (const std::string twice = ursula::namedTwice(app); !twice.empty()) return complain("error: " + twice);
-  return runVerb(run);
+  return runVerb(app, run);
 }
 
 /// What was printed is data: a pass that nobody can read is none.

@@ -110,4 +110,13 @@ std::string oddNumber(const CLI::App& app) {
   });
 }
 
+std::string outOfMemory(const CLI::App& app) {
+  const CLI::App& verb = *app.get_subcommands().front();
+  const auto has = [&verb](const char* option) { return verb.get_option_no_throw(option) != nullptr; };
+  if (verb.get_name() == "validate" || verb.get_name() == "sweep") return out_of_memory_for_scenario;
+  std::string less = has("--samples") ? "--samples" : "";
+  if (has("--jobs")) less += less.empty() ? "--jobs" : " or --jobs";
+  return less.empty() ? out_of_memory : fmt::format("{}: fewer {} need less", out_of_memory, less);
+}
+
 }  // namespace ursula

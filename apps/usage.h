@@ -23,4 +23,7 @@ std::string oddNumber(const CLI::App& app);
 /// a script that was never set, and stands for nothing.
 std::string emptyValue(const CLI::App& app);
 
+/// That memory ran out, and which of the verb's numbers may be less.
+std::string outOfMemory(const CLI::App& app);
+
 }  // namespace ursula

@@ -30,7 +30,7 @@ std::string summaryOf(const SuiteEntry& entry, const std::filesystem::path& dir)
 void printResult(const ValidationResult& result, const std::filesystem::path& dir, Said said) {
   switch (said) {
     case Said::json:
-      return writeOutput("-", report::summaryJson(report::stamped(result)));
+      return writeOutput("-", report::summaryJson(result));
     case Said::verdict:
       return writeOutput("-", report::quietText(result, coloured()));
     case Said::table:

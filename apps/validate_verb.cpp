@@ -82,7 +82,7 @@ int validateOne(const Scenario& scenario, const ValidateOptions& options, const 
   AtomicFolder out(dir, report::resultsIn);
   requireResults(out, "");
   const Stopwatch watch;
-  const ValidationResult result = judge(scenario, options);
+  ValidationResult result = judge(scenario, options);
   addResults(result, out, "", watch.time(), Place::alone);
   out.commit();
   printResult(result, dir, options.said());

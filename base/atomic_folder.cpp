@@ -65,12 +65,21 @@ void syncFolders(const fs::path& folder) {
   syncFolder(folder);
 }
 
-void writeSynced(const fs::path& file, const fs::path& shown, const std::string& content) {
+void writeSynced(const fs::path& file, const fs::path& shown,
+                 const std::function<void(const AtomicFolder::Take&)>& fill) {
+  const auto require = [&shown](bool done) {
+    if (!done) throw std::runtime_error("cannot write " + shown.string() + ": " + std::strerror(errno));
+  };
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, as_the_user_says);
-  const bool is_written = descriptor >= 0 && writeAll(descriptor, content) && ::fsync(descriptor) == 0;
-  const int error = errno;
-  if (descriptor >= 0) ::close(descriptor);
-  if (!is_written) throw std::runtime_error("cannot write " + shown.string() + ": " + std::strerror(error));
+  require(descriptor >= 0);
+  try {
+    fill([&](const std::string& piece) { require(writeAll(descriptor, piece)); });
+    require(::fsync(descriptor) == 0);
+  } catch (...) {
+    ::close(descriptor);
+    throw;
+  }
+  ::close(descriptor);
 }
 
 }  // namespace
@@ -125,6 +134,10 @@ void AtomicFolder::sweep() const {
 void AtomicFolder::require(const fs::path& name) const { requireWritable(shown_ / name); }
 
 void AtomicFolder::write(const fs::path& name, const std::string& content) {
+  write(name, [&content](const Take& take) { take(content); });
+}
+
+void AtomicFolder::write(const fs::path& name, const std::function<void(const Take&)>& fill) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (temporary_.empty()) {
     fs::path fresh;
@@ -133,7 +146,7 @@ void AtomicFolder::write(const fs::path& name, const std::string& content) {
     temporary_ = fresh;
   }
   if (name.has_parent_path()) fs::create_directories(temporary_ / name.parent_path());
-  writeSynced(temporary_ / name, shown_ / name, content);
+  writeSynced(temporary_ / name, shown_ / name, fill);
   written_.push_back(name);
 }
 

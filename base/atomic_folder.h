@@ -35,6 +35,9 @@ class AtomicFolder {
   void require(const std::filesystem::path& name) const;
   /// From any thread. Throws std::runtime_error with the path that the file will have.
   void write(const std::filesystem::path& name, const std::string& content);
+  /// The same of what `fill` gives piece by piece.
+  using Take = std::function<void(const std::string& piece)>;
+  void write(const std::filesystem::path& name, const std::function<void(const Take&)>& fill);
   /// The last that is done; others may then write there. Throws std::runtime_error or
   /// std::filesystem::filesystem_error.
   void commit();

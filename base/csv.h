@@ -61,4 +61,8 @@ enum class NanAs { word, empty_cell };
 std::string csvText(const std::vector<std::string>& names, const std::vector<std::vector<double>>& columns,
                     NanAs nan = NanAs::word);
 
+/// The same, piece by piece to `take`: a long table's text is several times as large as the table.
+void csvPieces(const std::vector<std::string>& names, const std::vector<std::vector<double>>& columns, NanAs nan,
+               const std::function<void(const std::string&)>& take);
+
 }  // namespace ursula

@@ -27,11 +27,13 @@ void appendCsvCell(std::string_view text, std::string& out) {
   out += '"';
 }
 
-void appendCsvRows(const std::vector<std::vector<double>>& columns, std::string& out, NanAs nan) {
-  const std::size_t rows = columns.empty() ? 0 : columns.front().size();
+namespace {
+
+void appendRowsBetween(std::size_t from, std::size_t to_row, const std::vector<std::vector<double>>& columns, NanAs nan,
+                       std::string& out) {
   constexpr std::size_t usual = 21;  // 17 digits, a sign, a point, "0." or the like, and a comma
-  out.reserve(out.size() + rows * columns.size() * usual + columns.size() * longest_number);
-  for (std::size_t row = 0; row < rows; ++row) {
+  out.reserve(out.size() + (to_row - from) * columns.size() * usual + columns.size() * longest_number);
+  for (std::size_t row = from; row < to_row; ++row) {
     const std::size_t before = out.size();
     out.resize(before + columns.size() * (longest_number + 1));
     char* to = &out[before];
@@ -45,12 +47,31 @@ void appendCsvRows(const std::vector<std::vector<double>>& columns, std::string&
   }
 }
 
-std::string csvText(const std::vector<std::string>& names, const std::vector<std::vector<double>>& columns, NanAs nan) {
+}  // namespace
+
+void appendCsvRows(const std::vector<std::vector<double>>& columns, std::string& out, NanAs nan) {
+  if (!columns.empty()) appendRowsBetween(0, columns.front().size(), columns, nan, out);
+}
+
+void csvPieces(const std::vector<std::string>& names, const std::vector<std::vector<double>>& columns, NanAs nan,
+               const std::function<void(const std::string&)>& take) {
   if (names.empty() || names.size() != columns.size()) throw std::invalid_argument("csvText: one column for each name");
   for (const auto& column : columns)
     if (column.size() != columns.front().size()) throw std::invalid_argument("csvText: columns of unequal length");
-  std::string out = csvHeader(names);
-  appendCsvRows(columns, out, nan);
+  constexpr std::size_t numbers_at_once = 1 << 16;
+  const std::size_t step = std::max<std::size_t>(1, numbers_at_once / columns.size()), rows = columns.front().size();
+  std::string piece = csvHeader(names);
+  for (std::size_t row = 0; row < rows; row += step) {
+    appendRowsBetween(row, std::min(row + step, rows), columns, nan, piece);
+    take(piece);
+    piece.clear();
+  }
+  if (!piece.empty()) take(piece);
+}
+
+std::string csvText(const std::vector<std::string>& names, const std::vector<std::vector<double>>& columns, NanAs nan) {
+  std::string out;
+  csvPieces(names, columns, nan, [&out](const std::string& piece) { out += piece; });
   return out;
 }
 

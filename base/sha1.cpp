@@ -2,18 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <boost/uuid/detail/sha1.hpp>
-
 namespace ursula {
 
-std::string sha1(const std::string& text) {
-  boost::uuids::detail::sha1 hash;
-  hash.process_bytes(text.data(), text.size());
+std::string Sha1::digits() {
   boost::uuids::detail::sha1::digest_type digest;
-  hash.get_digest(digest);
+  hash_.get_digest(digest);
   std::string out;
   for (unsigned word : digest) out += fmt::format("{:08x}", word);
   return out;
+}
+
+std::string sha1(const std::string& text) {
+  Sha1 hash;
+  hash.add(text);
+  return hash.digits();
 }
 
 }  // namespace ursula

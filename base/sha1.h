@@ -1,10 +1,22 @@
 #pragma once
 
+#include <boost/uuid/detail/sha1.hpp>
 #include <string>
 
 namespace ursula {
 
-/// 40 hexadecimal digits, as `sha1sum` prints them.
+/// Of a text that comes in pieces.
+class Sha1 {
+ public:
+  void add(const std::string& piece) { hash_.process_bytes(piece.data(), piece.size()); }
+  /// 40 hexadecimal digits, as `sha1sum` prints them; once.
+  std::string digits();
+
+ private:
+  boost::uuids::detail::sha1 hash_;
+};
+
+/// Of a whole text.
 std::string sha1(const std::string& text);
 
 }  // namespace ursula

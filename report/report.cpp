@@ -34,15 +34,16 @@ SuiteEntry suiteEntry(const ValidationResult& result, std::filesystem::path fold
   return entry;
 }
 
-SuiteEntry addResults(const ValidationResult& result, AtomicFolder& out, const std::filesystem::path& below,
+SuiteEntry addResults(ValidationResult& result, AtomicFolder& out, const std::filesystem::path& below,
                       const RunTime& time, Place place) {
-  const std::string series = report::timeseriesCsv(result);
-  const ValidationResult whole = report::stamped(result, series);
-  SuiteEntry entry = suiteEntry(whole, below, time);
-  out.write(below / "timeseries.csv", series);
+  std::string series_sha1;
+  out.write(below / "timeseries.csv",
+            [&](const AtomicFolder::Take& take) { series_sha1 = report::timeseriesCsv(result, take); });
+  report::stamp(series_sha1, result);
+  SuiteEntry entry = suiteEntry(result, below, time);
   out.write(below / "junit.xml", report::junitXml({entry}));
-  out.write(below / "report.html", report::reportHtml(whole, place));
-  out.write(below / "summary.json", report::summaryJson(whole));
+  out.write(below / "report.html", report::reportHtml(result, place));
+  out.write(below / "summary.json", report::summaryJson(result));
   return entry;
 }
 
@@ -53,7 +54,8 @@ void requireResults(const AtomicFolder& out, const std::filesystem::path& below)
 void writeResults(const ValidationResult& result, const std::filesystem::path& dir, const RunTime& time, Place place) {
   AtomicFolder out(dir, report::resultsIn);
   requireResults(out, "");
-  addResults(result, out, "", time, place);
+  ValidationResult whole = result;
+  addResults(whole, out, "", time, place);
   out.commit();
 }
 

@@ -76,8 +76,9 @@ enum class Place { alone, in_suite };
 void writeResults(const ValidationResult& result, const std::filesystem::path& dir, const RunTime& time = {},
                   Place place = Place::alone);
 
-/// The same into a folder that is committed by the caller, in its folder `below`. The line of what was written.
-SuiteEntry addResults(const ValidationResult& result, AtomicFolder& out, const std::filesystem::path& below,
+/// The same into a folder that is committed by the caller, in its folder `below`; `result` is stamped. The line of what
+/// was written.
+SuiteEntry addResults(ValidationResult& result, AtomicFolder& out, const std::filesystem::path& below,
                       const RunTime& time, Place place);
 
 /// Throws std::runtime_error where results could not be written into a folder's folder `below`; writes nothing.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -18,12 +19,12 @@ constexpr std::array<const char*, 4> result_files = {"timeseries.csv", "junit.xm
 /// And over all scenarios of a suite.
 constexpr std::array<const char*, 3> suite_files = {"junit.xml", "suite.json", "index.html"};
 
-/// The text of `timeseries.csv`.
-std::string timeseriesCsv(const ValidationResult& result);
+/// The text of `timeseries.csv`, piece by piece, and its sha1.
+std::string timeseriesCsv(const ValidationResult& result, const std::function<void(const std::string&)>& take);
 
-/// With the run in its provenance: `timeseries.csv sha1`, and `run`, a hash of everything that the run found, so that
+/// Puts the run into its provenance: `timeseries.csv sha1`, and `run`, a hash of everything that the run found, so that
 /// two runs that write the same have the same. One that has it already is left as it is.
-ValidationResult stamped(ValidationResult result, const std::string& timeseries);
+void stamp(const std::string& timeseries_sha1, ValidationResult& result);
 
 /// Of a suite: a hash of its scenarios' runs and errors.
 std::string runOf(const std::vector<SuiteEntry>& entries);

@@ -34,13 +34,16 @@ std::string oddOne(const Evidence& evidence, const ValidationResult& result) {
                  : oddOneOut(evidence.engines);
 }
 
-void addFacts(const Evidence& evidence, const std::optional<ErrorBudget>& budget, ValidationResult& result) {
+/// Lets go of what is judged: the time series needs the room.
+void addFacts(const std::optional<ErrorBudget>& budget, Evidence& evidence, ValidationResult& result) {
   if (evidence.answered()) result.findings.emplace_back("odd one out of the formulations", oddOne(evidence, result));
+  evidence.engines = std::vector<EngineSample>();
+  evidence.invariances = std::vector<InvarianceSamples>();
   addFindings(evidence.samples, evidence.windows, result, evidence.units());
   if (budget) addBudget(*budget, result, evidence.units());
   result.timeseries = validationSeries(*evidence.scenario->manipulator, evidence.samples, evidence.windows);
-  if (!evidence.reactions.empty())
-    addReactionColumns(*evidence.scenario->manipulator, evidence.reactions, result.timeseries);
+  if (!evidence.reactions().empty())
+    addReactionColumns(*evidence.scenario->manipulator, evidence.reactions(), result.timeseries);
   addCurves(evidence.samples, evidence.windows, result);
   if (!evidence.ladder.rungs.empty()) result.curves.emplace_back("Work and precision", workPrecision(evidence.ladder));
 }
@@ -83,7 +86,7 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
         attributeInTime(*evidence.scenario, evidence.samples, evidence.windows, evidence.amplification, evidence.plan);
   reference.stop();  // what follows is short, and makes a result of what was reached
   judgeEveryAnswer(evidence, result.checks);
-  addFacts(evidence, budget, result);
+  addFacts(budget, evidence, result);
   seriesInSi(evidence.natural, result);
   result.asked = std::make_shared<const Scenario>(scenario);
   result.deviation = effortDeviation(evidence, result.checks);

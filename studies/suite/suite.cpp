@@ -108,7 +108,7 @@ class SuiteRun {
     try {
       if (error.empty()) result = options_.judge(*member.scenario);
     } catch (const std::bad_alloc&) {
-      error = out_of_memory;
+      error = out_of_memory_for_scenario;
     } catch (const std::exception& refusal) {
       error = refusal.what();
     }

@@ -70,7 +70,7 @@ SweepPoint SweepWorker::at(std::int64_t i) {
   } catch (const PoseError& refusal) {
     refused(verdictOf(refusal), refusal.leg(), refusal.instant(), point);
   } catch (const std::bad_alloc&) {
-    failed(out_of_memory, point);
+    failed(out_of_memory_for_scenario, point);
   } catch (const std::exception& error) {
     failed(error.what(), point);
   }

@@ -76,7 +76,7 @@ TEST(Run, isWholeInAFolderThatIsSwappedMeanwhile) {
 TEST(Run, ofASuiteRefusesAnothersScenario) {
   const TemporaryFolder folder;
   const std::filesystem::path& dir = folder.path();
-  const auto write = [](const ValidationResult& result, const std::filesystem::path& to) {
+  const auto write = [](ValidationResult result, const std::filesystem::path& to) {
     AtomicFolder out(to, report::resultsIn);
     addSuiteIndex({addResults(result, out, "s", {}, Place::in_suite)}, out);
     out.commit();

@@ -35,18 +35,15 @@ Worst compareEngines(const std::vector<EngineSample>& samples, const PairOf& pai
 }
 
 /// The k-th further formulation.
-Check judgeEngine(const std::vector<EngineSample>& samples, std::size_t k, const Units& units) {
+Check judgeEngine(const std::vector<EngineSample>& samples, std::size_t k, const Units& units,
+                  const std::vector<PointwiseSample>& conditions) {
   const EngineKind& kind = furtherEngines()[k];
   if (samples.empty()) return notMade(kind.check, units.efforts.unit, "no instant was compared");
   const Worst shown = compareEngines(samples, [k](const EngineSample& sample) {
     return Pair{&sample.subject, given(sample.further[k]), sample.limits[k]};
   });
   double torque = 0;
-  std::string cause;
-  for (const EngineSample& sample : samples) {
-    torque = std::max(torque, sample.further[k]->cwiseAbs().maxCoeff());
-    if (sample.t == shown.widest_t) cause = causeOfRounding(sample.conditioning);
-  }
+  for (const EngineSample& sample : samples) torque = std::max(torque, sample.further[k]->cwiseAbs().maxCoeff());
   const CheckedQuantity quantity{kind.check, units.efforts.unit, torque};
   const Shown at = shown.shown(quantity.useful());
   Check check = judgedIfUseful(
@@ -56,7 +53,7 @@ Check judgeEngine(const std::vector<EngineSample>& samples, std::size_t k, const
                   rounding_safety),
       fmt::format("torques against {}, at {} instants; shown for t = {:.6g} s, {}", kind.made_of, samples.size(),
                   at.t * units.time, motorName(units, at.where)),
-      cause);
+      causeOfRounding(conditions, shown.widest_t));
   check.largest = {shown.largest, shown.largest_t * units.time, motorName(units, shown.largest_where)};
   return check;
 }
@@ -79,11 +76,12 @@ std::vector<Named> enginesOf(const EngineSample& first) {
 
 }  // namespace
 
-std::vector<Check> judgeEngines(const std::vector<EngineSample>& samples, const Units& units) {
+std::vector<Check> judgeEngines(const std::vector<EngineSample>& samples, const Units& units,
+                                const std::vector<PointwiseSample>& conditions) {
   std::vector<Check> checks;
   for (std::size_t k = 0; k < further_engine_count; ++k)
     if (samples.empty() ? furtherEngines()[k].available() : samples.front().further[k].has_value())
-      checks.push_back(judgeEngine(samples, k, units));
+      checks.push_back(judgeEngine(samples, k, units, conditions));
   return checks;
 }
 

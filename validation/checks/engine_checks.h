@@ -10,7 +10,9 @@
 namespace ursula {
 
 /// The subject against each further formulation that this build has: `torque.twin`, `torque.maximal`, `torque.mujoco`.
-std::vector<Check> judgeEngines(const std::vector<EngineSample>& samples, const Units& units = {});
+/// `conditions`, at the same instants, say why a limit is wide; without them nothing does.
+std::vector<Check> judgeEngines(const std::vector<EngineSample>& samples, const Units& units = {},
+                                const std::vector<PointwiseSample>& conditions = {});
 
 /// Which formulation stands alone when the others agree, in words; "none" where all agree.
 std::string oddOneOut(const std::vector<EngineSample>& samples);

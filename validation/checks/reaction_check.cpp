@@ -26,7 +26,7 @@ Check judgeReactions(const std::vector<ReactionSample>& reactions, const std::ve
     for (std::size_t leg = 0; leg < leg_count; ++leg) {
       const LegReactions& recovered = reactions.at(k).recovered[leg];
       size = std::max(size, largest(recovered, at.length));
-      const double error = distance(recovered, reactions[k].simbody[leg], at.length);
+      const double error = reactions[k].errors[leg];
       worst.add(error, look.limit(error, at, Rounded::reactions, sample.motion), sample.motion.t,
                 static_cast<int>(leg));
     }

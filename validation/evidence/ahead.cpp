@@ -1,16 +1,23 @@
 #include "validation/evidence/ahead.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/start_threads.h"
 
 namespace ursula {
 
-Ahead::Ahead(int threads, const std::vector<Task>& first) : tasks_(first.begin(), first.end()) {
+Ahead::Ahead(int threads, const std::vector<Task>& first, Task cut_short)
+    : cut_short_(std::move(cut_short)), tasks_(first.begin(), first.end()) {
   threads_ = startThreads(static_cast<std::size_t>(std::max(threads, 0)), [this] { work(); });
 }
 
-Ahead::~Ahead() { finish(); }
+Ahead::~Ahead() { abandon(); }
+
+void Ahead::abandon() {
+  if (cut_short_) cut_short_();
+  finish();
+}
 
 void Ahead::add(const Task& task) {
   if (threads_.empty()) return;

@@ -15,9 +15,9 @@ class Ahead {
  public:
   using Task = std::function<void()>;
 
-  /// With `first` to do. Without threads nothing is done ahead.
-  explicit Ahead(int threads, const std::vector<Task>& first = {});
-  /// As finish().
+  /// With `first` to do. Without threads nothing is done ahead. `cut_short` makes tasks that have begun end soon.
+  explicit Ahead(int threads, const std::vector<Task>& first = {}, Task cut_short = nullptr);
+  /// As abandon().
   ~Ahead();
   Ahead(const Ahead&) = delete;
   Ahead& operator=(const Ahead&) = delete;
@@ -25,10 +25,13 @@ class Ahead {
   void add(const Task& task);
   /// Waits for tasks that have begun, and forgets the others.
   void finish();
+  /// Cuts them short: nobody will ask for what they make.
+  void abandon();
 
  private:
   void work();
 
+  Task cut_short_;
   std::mutex guard_;
   std::condition_variable changed_;
   std::deque<Task> tasks_;

@@ -20,15 +20,23 @@ std::vector<EngineSample> engineSamples(const Evidence& evidence) {
   return out;
 }
 
-/// The subject's, where it has them; the right solver's are known.
-std::vector<ReactionSample> reactionSamples(const Evidence& evidence) {
+/// The subject's, where it has them or they are falsified; the right solver's are known.
+void lookAtReactions(Evidence& evidence) {
+  const Scenario& scenario = *evidence.scenario;
   const bool own = evidence.subject->reactions && !evidence.right;
-  std::vector<ReactionSample> out =
-      own ? runReactions(*evidence.scenario, *evidence.subject, evidence.samples, evidence.reference->simbody())
-          : evidence.reference->reactions();
-  for (ReactionSample& sample : out)
-    if (evidence.fault.reactions) evidence.fault.reactions(sample.recovered);
-  return out;
+  if (own || evidence.fault.reactions) {
+    Subject subject = own ? *evidence.subject : nocSubject(*scenario.manipulator, scenario.load);
+    if (evidence.fault.reactions)
+      subject.reactions = [right = subject.reactions, &evidence](const Motion<double>& motion) {
+        Reactions out = right(motion);
+        evidence.fault.reactions(out);
+        return out;
+      };
+    evidence.own_reactions = runReactions(scenario, subject, evidence.samples);
+  } else {
+    evidence.reference->reactions();
+  }
+  evidence.has_reactions = true;
 }
 
 /// The torques on trial are the right ones to the last bit, wherever somebody asked. Of a subject that wants to
@@ -80,7 +88,7 @@ void lookAtSamples(bool reactions, Evidence& out) {
   out.invariances = runInvariances(*out.scenario, *out.subject, out.samples);
   out.complement = runComplement(*out.scenario->manipulator, *out.subject, out.samples);
   out.fast = runFast(*out.scenario, reference.natural.units, out.samples, out.fault.fast);
-  if (reactions) out.reactions = reactionSamples(out);
+  if (reactions) lookAtReactions(out);
 }
 
 void planReplays(Evidence& out) {
@@ -98,6 +106,10 @@ void planReplays(Evidence& out) {
 }
 
 }  // namespace
+
+const std::vector<ReactionSample>& Evidence::reactions() const {
+  return has_reactions && own_reactions.empty() ? reference->reactions() : own_reactions;
+}
 
 bool Evidence::answered() const {
   return std::all_of(samples.begin(), samples.end(),

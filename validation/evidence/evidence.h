@@ -49,7 +49,8 @@ struct Evidence {
   std::vector<PointwiseSample> samples;
   std::vector<EngineSample> engines;
   std::vector<InvarianceSamples> invariances;
-  std::vector<ReactionSample> reactions;
+  std::vector<ReactionSample> own_reactions;  ///< where they are not the right solver's
+  bool has_reactions = false;
   std::vector<ComplementSample> complement;
   FastSamples fast;
   ReplayPlan plan;  ///< under the torques on trial
@@ -64,6 +65,8 @@ struct Evidence {
   double replay_bound = std::numeric_limits<double>::quiet_NaN();  ///< where a limit is why, that limit, m
 
   const Units& units() const { return natural.units; }
+  /// The reference's, of the right solver; none where the experiment was not made.
+  const std::vector<ReactionSample>& reactions() const;
   /// The subject had an answer at each of the samples.
   bool answered() const;
 };

@@ -17,9 +17,9 @@ FrameChange checked(const Scenario& given) {
 
 }  // namespace
 
-std::vector<PointwiseSample> conditionsAt(const Scenario& scenario, const std::vector<double>& instants,
-                                          const RoundingProfile& profile) {
-  std::vector<PointwiseSample> out(instants.size());
+std::vector<Conditions> conditionsAt(const Scenario& scenario, const std::vector<double>& instants,
+                                     const RoundingProfile& profile) {
+  std::vector<Conditions> out(instants.size());
   for (std::size_t k = 0; k < instants.size(); ++k) {
     out[k].motion = scenario.trajectory->at(instants[k]);
     out[k].conditioning = profile.at(out[k].motion);
@@ -29,12 +29,15 @@ std::vector<PointwiseSample> conditionsAt(const Scenario& scenario, const std::v
 
 Reference::Reference(const Scenario& given, int threads, const Deadline& deadline)
     : deadline_(deadline),
+      abandoned_(std::make_shared<std::atomic<bool>>(false)),
       natural(checked(given)),
       relocated(ursula::relocated(given, natural.origin)),
-      scenario(timed(natural.of(given), deadline)),
+      scenario(timed(timed(natural.of(given), deadline),
+                     Deadline(0, [abandoned = abandoned_] { return abandoned->load(); }))),
       instants(equallySpaced(scenario.trajectory->duration(), scenario.simulation.samples)),
       // The longest first.
-      ahead_(threads - 1, {[this] { orders(); }, [this] { simbody(); }, [this] { engines(); }}),
+      ahead_(threads - 1, {[this] { orders(); }, [this] { simbody(); }, [this] { engines(); }},
+             [abandoned = abandoned_] { *abandoned = true; }),
       profile(scenario, profileInstants(scenario.simulation.samples)),
       conditions(conditionsAt(scenario, instants, profile)),
       position_scale(positionScale(conditions)),
@@ -42,7 +45,7 @@ Reference::Reference(const Scenario& given, int threads, const Deadline& deadlin
   if (!deadline.isSet()) replays();
 }
 
-Reference::~Reference() { ahead_.finish(); }  // before what its tasks work with
+Reference::~Reference() { ahead_.abandon(); }  // before what its tasks work with
 
 void Reference::stop() const {
   ahead_.finish();
@@ -99,15 +102,6 @@ const IntegrationError& Reference::closer(std::size_t window) const {
   return closer_[window] = closerLook(scenario, replays().plan, here.window, here.replay);
 }
 
-std::vector<PointwiseSample> Reference::rightSamples() const {
-  std::vector<PointwiseSample> out = conditions;
-  for (std::size_t k = 0; k < out.size(); ++k) {
-    out[k].torques_simbody = simbody()[k].torques;
-    out[k].torque.limit = out[k].conditioning.rounding(Rounded::torque);
-  }
-  return out;
-}
-
 const std::vector<SimbodyAnswer>& Reference::simbody() const {
   return simbody_.get([this] { return simbodyAnswers(scenario, instants); });
 }
@@ -117,11 +111,12 @@ const std::vector<EngineTorques>& Reference::engines() const {
 }
 
 const std::vector<ReactionSample>& Reference::reactions() const {
-  return reactions_.get([this] { return runReactions(scenario, conditions, simbody()); });
+  return reactions_.get(
+      [this] { return runReactions(scenario, nocSubject(*scenario.manipulator, scenario.load), conditions); });
 }
 
 const std::vector<DirectSample>& Reference::direct() const {
-  return direct_.get([this] { return runDirect(scenario, rightSamples()); });
+  return direct_.get([this] { return runDirect(scenario, conditions, simbody()); });
 }
 
 const Ladder& Reference::ladder() const {
@@ -131,7 +126,7 @@ const Ladder& Reference::ladder() const {
 const StabilisedReplay& Reference::stabilised() const {
   return stabilised_.get([this] {
     const Subject right = nocSubject(*scenario.manipulator, scenario.load);
-    return stabilisedReplay(scenario, right, replays().amplification, rightSamples());
+    return stabilisedReplay(scenario, right, replays().amplification, conditions);
   });
 }
 

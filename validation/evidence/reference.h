@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -36,6 +37,7 @@ struct Reference {
   mutable std::mutex measuring_;
   mutable std::map<std::size_t, IntegrationError> closer_;
   Deadline deadline_;
+  std::shared_ptr<std::atomic<bool>> abandoned_;  ///< then the scenario's motion throws OutOfTime, too
   Lazily<std::vector<double>> orders_;
   Lazily<std::vector<SimbodyAnswer>> simbody_;
   Lazily<std::vector<EngineTorques>> engines_;
@@ -63,7 +65,7 @@ struct Reference {
 
  public:
   RoundingProfile profile;
-  std::vector<PointwiseSample> conditions;  ///< motion and conditioning at the instants
+  std::vector<Conditions> conditions;  ///< at the instants
   double position_scale = 0;
   LoopForces forces;
 
@@ -90,12 +92,9 @@ struct Reference {
 
  private:
   RightReplays rightReplays() const;
-  /// Conditions, and Simbody's torques.
-  std::vector<PointwiseSample> rightSamples() const;
 };
 
-/// Motion and conditioning alone.
-std::vector<PointwiseSample> conditionsAt(const Scenario& scenario, const std::vector<double>& instants,
-                                          const RoundingProfile& profile);
+std::vector<Conditions> conditionsAt(const Scenario& scenario, const std::vector<double>& instants,
+                                     const RoundingProfile& profile);
 
 }  // namespace ursula

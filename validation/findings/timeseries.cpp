@@ -40,9 +40,8 @@ void addEfforts(TimeSeries& series, const std::string& prefix, const Motors& mot
 }
 
 /// φ, ψ, θ, d of the legs that have them, by kind of coordinate.
-template <class F>
-void addCoordinates(TimeSeries& series, const std::string& rate, const Manipulator& machine,
-                    const std::vector<JointMotion>& joints, F&& of) {
+template <class Rows, class F>
+void addCoordinates(TimeSeries& series, const std::string& rate, const Manipulator& machine, const Rows& rows, F&& of) {
   const std::string per = rate.empty() ? "" : rate == "dot" ? "_s" : "_s2";
   for (const Coordinate coordinate : {Coordinate::phi, Coordinate::psi, Coordinate::theta, Coordinate::d})
     for (int i = 0; i < machine.legCount(); ++i) {
@@ -50,7 +49,7 @@ void addCoordinates(TimeSeries& series, const std::string& rate, const Manipulat
       if (std::find(has.begin(), has.end(), coordinate) == has.end()) continue;
       addColumn(series,
                 fmt::format("{}{}_{}_{}{}", nameOf(coordinate), rate, i + 1, slides(coordinate) ? "m" : "rad", per),
-                joints, [&](const JointMotion& row) { return of(row).of(coordinate)(i); });
+                rows, [&](const auto& row) { return of(row).of(coordinate)(i); });
     }
 }
 
@@ -66,12 +65,14 @@ void addMotion(TimeSeries& series, const std::vector<Motion<double>>& motions) {
   addVector(series, "alpha_{}_rad_s2", motions, [](const Motion<double>& m) { return m.omega_dot; });
 }
 
-void addJoints(TimeSeries& series, const Manipulator& machine, const std::vector<JointMotion>& joints) {
-  using Joints = JointMotion;
+/// `joints` are those of a row.
+template <class Rows, class F>
+void addJoints(TimeSeries& series, const Manipulator& machine, const Rows& rows, F&& joints) {
   using Variables = JointVariables<double>;
-  addCoordinates(series, "", machine, joints, [](const Joints& j) -> const Variables& { return j.q; });
-  addCoordinates(series, "dot", machine, joints, [](const Joints& j) -> const Variables& { return j.q_dot; });
-  addCoordinates(series, "ddot", machine, joints, [](const Joints& j) -> const Variables& { return j.q_ddot; });
+  addCoordinates(series, "", machine, rows, [&](const auto& row) -> const Variables& { return joints(row).q; });
+  addCoordinates(series, "dot", machine, rows, [&](const auto& row) -> const Variables& { return joints(row).q_dot; });
+  addCoordinates(series, "ddot", machine, rows,
+                 [&](const auto& row) -> const Variables& { return joints(row).q_ddot; });
 }
 
 const WindowedReplay* windowAt(const std::vector<WindowedReplay>& windows, double t) {
@@ -94,6 +95,7 @@ ReplayStep notComputed(double t) {
 void addReplay(TimeSeries& series, const std::vector<Motion<double>>& motions,
                const std::vector<WindowedReplay>& windows) {
   std::vector<ReplayStep> steps;
+  steps.reserve(motions.size());
   for (const Motion<double>& motion : motions) {
     const WindowedReplay* window = windowAt(windows, motion.t);
     if (window == nullptr) return;
@@ -124,7 +126,7 @@ TimeSeries inverseSeries(const Manipulator& machine, const std::vector<Motion<do
                          const std::vector<JointMotion>& joints, const std::vector<Vector6d>& efforts) {
   TimeSeries series;
   addMotion(series, motions);
-  addJoints(series, machine, joints);
+  addJoints(series, machine, joints, [](const JointMotion& row) -> const JointMotion& { return row; });
   addEfforts(series, "", machine.motors(), efforts, [](const Vector6d& tau) { return tau; });
   return series;
 }
@@ -140,14 +142,12 @@ TimeSeries simulatedSeries(const Manipulator& machine, const std::vector<Motion<
 TimeSeries validationSeries(const Manipulator& machine, const std::vector<PointwiseSample>& samples,
                             const std::vector<WindowedReplay>& windows) {
   std::vector<Motion<double>> motions;
-  std::vector<JointMotion> joints;
-  std::vector<Vector6d> torques;
-  for (const PointwiseSample& sample : samples) {
-    motions.push_back(sample.motion);
-    joints.push_back(sample.joints);
-    torques.push_back(sample.torques);
-  }
-  TimeSeries series = inverseSeries(machine, motions, joints, torques);
+  motions.reserve(samples.size());
+  for (const PointwiseSample& sample : samples) motions.push_back(sample.motion);
+  TimeSeries series;
+  addMotion(series, motions);
+  addJoints(series, machine, samples, [](const PointwiseSample& s) -> const JointMotion& { return s.joints; });
+  addEfforts(series, "", machine.motors(), samples, [](const PointwiseSample& s) { return s.torques; });
   using Sample = PointwiseSample;
   addEfforts(series, "simbody_", machine.motors(), samples, [](const Sample& s) { return s.torques_simbody; });
   const std::string unit = effortSuffix(machine.motors());

@@ -35,7 +35,10 @@ template <class Stepper>
 class LetGo {
  public:
   explicit LetGo(const Scenario& scenario)
-      : machine_(frictionless(*scenario.manipulator)), loop_(machine_), start_(scenario.trajectory->at(0)) {
+      : trajectory_(*scenario.trajectory),
+        machine_(frictionless(*scenario.manipulator)),
+        loop_(machine_),
+        start_(trajectory_.at(0)) {
     // As if to accelerate by a natural unit or so every way: else a motion from rest would stay there.
     Motion<double> pushed = start_;
     pushed.p_ddot += Vector3d(0.3, -0.4, 0.5);
@@ -86,13 +89,16 @@ class LetGo {
       x[k] *= 1 + ((k >> pattern) % 2 == 0 ? 1 : -1) * std::numeric_limits<double>::epsilon();
     Stepper stepper;
     const double h = duration / steps;
-    for (int k = 0; k < steps; ++k)
+    for (int k = 0; k < steps; ++k) {
+      static_cast<void>(trajectory_.at(0));  // which throws where time is up
       stepper.do_step([this](const OdeState& at, OdeState& rate,
                              double t) { loop_.derivative(t, at.data(), torques_, rate.data()); },
                       x, k * h, h);
+    }
     return x;
   }
 
+  const Trajectory& trajectory_;
   Manipulator machine_;
   SimbodyLoop loop_;
   Motion<double> start_;

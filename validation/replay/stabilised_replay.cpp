@@ -63,12 +63,13 @@ Vector3d rotationVectorRate(const Vector3d& theta, const Vector3d& spin) {
 /// loops stay closed and no gap can pile up.
 class Stabilised {
  public:
-  Stabilised(const Scenario& scenario, const Amplification& amplification, const std::vector<PointwiseSample>& samples)
+  template <class Sample>
+  Stabilised(const Scenario& scenario, const Amplification& amplification, const std::vector<Sample>& samples)
       : trajectory_(*scenario.trajectory),
         amplification_(amplification),
         loop_(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load),
         solver_(*scenario.manipulator) {
-    for (const PointwiseSample& sample : samples) scale_ = std::max(scale_, frequency(sample.motion.t));
+    for (const Sample& sample : samples) scale_ = std::max(scale_, frequency(sample.motion.t));
   }
 
   /// Torque for a deviation of one, at the most, N·m/(m/s).
@@ -220,11 +221,12 @@ void follow(Stabilised& loop, const Subject& subject, const SimbodyLoop::TorqueH
 }
 
 /// What the samples say of the limit and the tolerance.
-StabilisedReplay planned(Stabilised& loop, const std::vector<PointwiseSample>& samples) {
+template <class Sample>
+StabilisedReplay planned(Stabilised& loop, const std::vector<Sample>& samples) {
   StabilisedReplay out;
   double gain = 0;
-  for (const PointwiseSample& sample : samples) {
-    const double here = 2 * sample.torque.limit + sample.conditioning.rounding(Rounded::effort);
+  for (const Sample& sample : samples) {
+    const double here = 2 * sample.conditioning.torqueRounding() + sample.conditioning.rounding(Rounded::effort);
     if (!out.noisiest || !(here <= out.rounding)) out.noisiest = sample.conditioning, out.rounding = here;
     gain = std::max(gain, loop.gain(sample.motion));
   }
@@ -236,8 +238,9 @@ StabilisedReplay planned(Stabilised& loop, const std::vector<PointwiseSample>& s
 
 }  // namespace
 
+template <class Sample>
 StabilisedReplay stabilisedReplay(const Scenario& scenario, const Subject& subject, const Amplification& amplification,
-                                  const std::vector<PointwiseSample>& samples, const StabilisedReplay* known) {
+                                  const std::vector<Sample>& samples, const StabilisedReplay* known) {
   Stabilised loop(scenario, amplification, samples);
   const SimbodyLoop::TorqueHistory torques = [&](double t) { return subject.torques(scenario.trajectory->at(t)); };
   StabilisedReplay found = planned(loop, samples);
@@ -259,5 +262,10 @@ StabilisedReplay stabilisedReplay(const Scenario& scenario, const Subject& subje
   found.evaluations = loop.evaluations();
   return found;
 }
+
+template StabilisedReplay stabilisedReplay(const Scenario&, const Subject&, const Amplification&,
+                                           const std::vector<Conditions>&, const StabilisedReplay*);
+template StabilisedReplay stabilisedReplay(const Scenario&, const Subject&, const Amplification&,
+                                           const std::vector<PointwiseSample>&, const StabilisedReplay*);
 
 }  // namespace ursula

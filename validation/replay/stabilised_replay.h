@@ -36,9 +36,11 @@ struct StabilisedReplay {
 /// the Mathematics and Methods of Astrodynamics, 1999, chapter 9), so that its errors are relative to the deviation and
 /// not to the motion.
 ///
-/// Of `samples` motion, conditioning and the torque's limit count. `known`, which may be null, is a replay of the same
-/// scenario at the same instants: it stands for the subject's own where that could not differ from it in any bit.
+/// Of `samples`, Conditions or PointwiseSample, motion and conditioning count. `known`, which may be null, is a replay
+/// of the same scenario at the same instants: it stands for the subject's own where that could not differ from it in
+/// any bit.
+template <class Sample>
 StabilisedReplay stabilisedReplay(const Scenario& scenario, const Subject& subject, const Amplification& amplification,
-                                  const std::vector<PointwiseSample>& samples, const StabilisedReplay* known = nullptr);
+                                  const std::vector<Sample>& samples, const StabilisedReplay* known = nullptr);
 
 }  // namespace ursula

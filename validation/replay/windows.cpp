@@ -10,14 +10,18 @@
 
 namespace ursula {
 
-double SampledLimit::operator()(double t) const {
+template <class Sample>
+double SampledLimit<Sample>::operator()(double t) const {
   const auto after = std::lower_bound(samples_.begin(), samples_.end(), t,
-                                      [](const PointwiseSample& sample, double at) { return sample.motion.t < at; });
+                                      [](const Sample& sample, double at) { return sample.motion.t < at; });
   const auto last = static_cast<std::ptrdiff_t>(samples_.size()) - 1;
   const auto i = static_cast<std::size_t>(std::min(after - samples_.begin(), last));
   return std::max(samples_[i].conditioning.accelerationRounding(),
                   samples_[i == 0 ? 0 : i - 1].conditioning.accelerationRounding());
 }
+
+template class SampledLimit<Conditions>;
+template class SampledLimit<PointwiseSample>;
 
 namespace {
 
@@ -69,14 +73,16 @@ long enoughEvaluations(const Scenario& scenario, double step_rate) {
          4 * 13 * knots;
 }
 
-double positionScale(const std::vector<PointwiseSample>& samples) {
+template <class Sample>
+double positionScale(const std::vector<Sample>& samples) {
   double scale = 0;
-  for (const PointwiseSample& sample : samples) scale = std::max(scale, sample.conditioning.position_scale);
+  for (const Sample& sample : samples) scale = std::max(scale, sample.conditioning.position_scale);
   return scale;
 }
 
 /// ∫ n(s) ds and ∫ (end − s) n(s) ds, the larger n of the two samples beside s.
-void measureOpening(const std::vector<PointwiseSample>& samples, std::vector<WindowedReplay>& windows) {
+template <class Sample>
+void measureOpening(const std::vector<Sample>& samples, std::vector<WindowedReplay>& windows) {
   for (WindowedReplay& window : windows) {
     const double start = window.window.start(), end = window.window.end();
     window.opening = {};
@@ -91,11 +97,19 @@ void measureOpening(const std::vector<PointwiseSample>& samples, std::vector<Win
   }
 }
 
-LoopForces loopForces(const std::vector<PointwiseSample>& samples) {
+template <class Sample>
+LoopForces loopForces(const std::vector<Sample>& samples) {
   LoopForces forces;
-  for (const PointwiseSample& sample : samples) forces.include(sample.conditioning);
+  for (const Sample& sample : samples) forces.include(sample.conditioning);
   return forces;
 }
+
+template double positionScale(const std::vector<Conditions>&);
+template double positionScale(const std::vector<PointwiseSample>&);
+template void measureOpening(const std::vector<Conditions>&, std::vector<WindowedReplay>&);
+template void measureOpening(const std::vector<PointwiseSample>&, std::vector<WindowedReplay>&);
+template LoopForces loopForces(const std::vector<Conditions>&);
+template LoopForces loopForces(const std::vector<PointwiseSample>&);
 
 int linearisedIntervals(double duration) {
   constexpr double least = 300, most = 300'000;  // a kilobyte each

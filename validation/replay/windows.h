@@ -75,23 +75,27 @@ bool isStiff(const Amplification& amplification, double duration);
 long enoughEvaluations(const Scenario& scenario, double step_rate);
 
 /// Rounding of the platform's acceleration along the motion: the larger of the two samples beside t, m/s². Keeps a
-/// reference to `samples`.
+/// reference to `samples`: Conditions or PointwiseSample, as below.
+template <class Sample>
 class SampledLimit {
  public:
-  explicit SampledLimit(const std::vector<PointwiseSample>& samples) : samples_(samples) {}
+  explicit SampledLimit(const std::vector<Sample>& samples) : samples_(samples) {}
   double operator()(double t) const;
 
  private:
-  const std::vector<PointwiseSample>& samples_;
+  const std::vector<Sample>& samples_;
 };
 
 /// Of each window, from the conditioning of its samples.
-void measureOpening(const std::vector<PointwiseSample>& samples, std::vector<WindowedReplay>& windows);
+template <class Sample>
+void measureOpening(const std::vector<Sample>& samples, std::vector<WindowedReplay>& windows);
 
 /// Over the samples.
-LoopForces loopForces(const std::vector<PointwiseSample>& samples);
+template <class Sample>
+LoopForces loopForces(const std::vector<Sample>& samples);
 
 /// The largest coordinate over the samples, m.
-double positionScale(const std::vector<PointwiseSample>& samples);
+template <class Sample>
+double positionScale(const std::vector<Sample>& samples);
 
 }  // namespace ursula

@@ -25,7 +25,7 @@ DirectAnswer answerOf(SimbodyLoop& loop, const Motion<double>& state, const Vect
 }
 
 /// Differs in every coordinate, and from instant to instant.
-Motion<double> deviated(const PointwiseSample& sample, double sign) {
+Motion<double> deviated(const Conditions& sample, double sign) {
   const Conditioning& at = sample.conditioning;
   Eigen::Matrix<double, 12, 1> direction;
   for (int i = 0; i < 12; ++i) direction(i) = std::cos(1.0 + 2.3 * i + sample.motion.t);
@@ -42,22 +42,23 @@ Motion<double> deviated(const PointwiseSample& sample, double sign) {
 
 }  // namespace
 
-std::vector<DirectSample> runDirect(const Scenario& scenario, const std::vector<PointwiseSample>& samples) {
+std::vector<DirectSample> runDirect(const Scenario& scenario, const std::vector<Conditions>& conditions,
+                                    const std::vector<SimbodyAnswer>& simbody) {
   SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
-  const std::size_t stride = std::max<std::size_t>(1, samples.size() / instants_of_direct);
+  const std::size_t stride = std::max<std::size_t>(1, conditions.size() / instants_of_direct);
   std::vector<DirectSample> out;
-  for (std::size_t k = 0; k < samples.size(); k += stride) {
-    const Vector6d& commanded = samples[k].torques_simbody;
+  for (std::size_t k = 0; k < conditions.size(); k += stride) {
+    const Vector6d& commanded = simbody[k].torques;
     DirectSample here;
     here.sample = k;
-    loop.place(samples[k].motion);
+    loop.place(conditions[k].motion);
     for (std::size_t set = 0; set < here.commanded.size(); ++set) {
       Vector6d torques = commanded;
       if (set > 0) torques(static_cast<Eigen::Index>(set) - 1) += commanded.cwiseAbs().maxCoeff();
-      here.commanded[set] = answerOf(loop, samples[k].motion, torques);
+      here.commanded[set] = answerOf(loop, conditions[k].motion, torques);
     }
     for (const double sign : {1.0, -1.0}) try {
-        const Motion<double> state = deviated(samples[k], sign);
+        const Motion<double> state = deviated(conditions[k], sign);
         loop.place(state);
         here.off_path.push_back(answerOf(loop, state, commanded));
       } catch (const std::domain_error&) {  // a leg does not reach

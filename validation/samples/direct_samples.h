@@ -23,7 +23,8 @@ struct DirectSample {
   std::vector<DirectAnswer> off_path;
 };
 
-/// At some of `samples`, of which motion, conditioning and Simbody's torques count.
-std::vector<DirectSample> runDirect(const Scenario& scenario, const std::vector<PointwiseSample>& samples);
+/// At some of `conditions`, where `simbody` are its answers.
+std::vector<DirectSample> runDirect(const Scenario& scenario, const std::vector<Conditions>& conditions,
+                                    const std::vector<SimbodyAnswer>& simbody);
 
 }  // namespace ursula

@@ -22,7 +22,6 @@ std::vector<EngineSample> runEngines(const std::vector<EngineTorques>& engines,
     const PointwiseSample& sample = samples[i];
     EngineSample engine;
     engine.t = sample.motion.t;
-    engine.conditioning = sample.conditioning;
     engine.subject = sample.torques;
     engine.simbody = sample.torques_simbody;
     engine.further = engines[i];

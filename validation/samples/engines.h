@@ -19,7 +19,6 @@ struct EngineSample {
   EngineTorques further;
   OfFurtherEngines<double> limits{};  ///< of rounding between the subject and each further formulation, N·m
   double limit = 0;                   ///< of rounding between any two, N·m
-  Conditioning conditioning;
 };
 
 /// At the instants.

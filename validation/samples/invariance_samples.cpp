@@ -91,6 +91,8 @@ using TorquesOf = std::function<Vector6d(const Motion<double>&)>;
 InvarianceSamples sampled(Symmetry symmetry, const TorquesOf& expected, const TorquesOf& found,
                           const std::vector<PointwiseSample>& samples) {
   InvarianceSamples out{symmetry, {}, {}, ""};
+  out.expected.reserve(samples.size());
+  out.found.reserve(samples.size());
   try {
     for (const PointwiseSample& sample : samples) {
       const Vector6d one_side = expected(sample.motion), other_side = found(sample.motion);

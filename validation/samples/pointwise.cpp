@@ -119,8 +119,8 @@ std::optional<int> unplaceable(const JointVariables<double>& q) {
   return std::nullopt;
 }
 
-void runKinematics(const Scenario& scenario, const Subject& subject, const Subject& right, const SimbodyAnswer& simbody,
-                   SimbodyLoop& loop, PointwiseSample& sample) {
+void runKinematics(const Scenario& scenario, const Subject& subject, const Subject& right, SimbodyLoop& loop,
+                   PointwiseSample& sample) {
   const KinematicAnswer answer = subject.kinematics(sample.motion);
   compareJoints(answer.joints, sample);
   compareJacobians(answer, scenario.manipulator->motors(), sample);
@@ -130,7 +130,8 @@ void runKinematics(const Scenario& scenario, const Subject& subject, const Subje
       raise(*deviation, std::nan(""), *leg);
     return;
   }
-  compareBodies(answer.bodies, simbody.bodiesIn(answer.joints, loop, sample.motion), sample);
+  loop.place(sample.motion, answer.joints);
+  compareBodies(answer.bodies, loop.bodies(), sample);
 }
 
 void compareTorques(PointwiseSample& sample) {
@@ -141,11 +142,11 @@ void compareTorques(PointwiseSample& sample) {
 void runDynamics(const SimbodyAnswer& simbody, SimbodyLoop& loop, PointwiseSample& sample) {
   sample.torques_simbody = simbody.torques;
   compareTorques(sample);
-  const double length = sample.conditioning.length;
-  const Motion<double> found = simbody.platformUnder(sample.torques, loop, sample.motion);
-  sample.acceleration_error << found.omega_dot - sample.motion.omega_dot, found.p_ddot - sample.motion.p_ddot;
-  raise(sample.acceleration,
-        (found.p_ddot - sample.motion.p_ddot).norm() + length * (found.omega_dot - sample.motion.omega_dot).norm(), -1);
+  Vector6d commanded;
+  commanded << sample.motion.omega_dot, sample.motion.p_ddot;
+  sample.acceleration_error = simbody.twistRateUnder(sample.torques, loop, sample.motion) - commanded;
+  const Vector6d& error = sample.acceleration_error;
+  raise(sample.acceleration, error.tail<3>().norm() + sample.conditioning.length * error.head<3>().norm(), -1);
 }
 
 PointwiseSample runInstant(const Scenario& scenario, const Subject& subject, const Subject& right,
@@ -154,11 +155,11 @@ PointwiseSample runInstant(const Scenario& scenario, const Subject& subject, con
   PointwiseSample sample;
   sample.motion = motion;
   sample.conditioning = conditioning;
-  sample.joints = simbody.joints;
+  sample.joints = loop.place(motion);
   setLimits(sample);
   try {
     sample.torques = subject.torques(sample.motion);
-    if (subject.kinematics) runKinematics(scenario, subject, right, simbody, loop, sample);
+    if (subject.kinematics) runKinematics(scenario, subject, right, loop, sample);
     runDynamics(simbody, loop, sample);
   } catch (const PoseError& error) {
     sample.refused = error.what();

@@ -18,6 +18,12 @@ struct Deviation {
   double given = 0;  ///< part of the limit that comes with what is judged, as printed digits do
 };
 
+/// The motion at one instant, and how answers round there.
+struct Conditions {
+  Motion<double> motion;
+  Conditioning conditioning;
+};
+
 /// Everything that the pointwise experiments see at one instant.
 struct PointwiseSample {
   Motion<double> motion;

@@ -1,27 +1,26 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "model/joint_reactions.h"
 #include "validation/samples/pointwise.h"
-#include "validation/samples/simbody_answers.h"
 
 namespace ursula {
 
 /// The joint reactions at one instant, under the torques of whoever recovered them.
 struct ReactionSample {
-  Reactions recovered, simbody;  ///< from the solver's formulation; Simbody's mobilizer and constraint reactions
+  Reactions recovered;                     ///< from the solver's formulation
+  std::array<double, leg_count> errors{};  ///< of each leg's from Simbody's mobilizer and constraint reactions, N
 };
 
-/// What `subject` recovers under its own torques, at the motions of `samples`; `simbody` are its answers there.
+/// What `subject` recovers under its own torques at the motions of `samples`, which may be Conditions or
+/// PointwiseSample.
+template <class Sample>
 std::vector<ReactionSample> runReactions(const Scenario& scenario, const Subject& subject,
-                                         const std::vector<PointwiseSample>& samples,
-                                         const std::vector<SimbodyAnswer>& simbody);
+                                         const std::vector<Sample>& samples);
 
 /// The NOC's, at the motions of `samples`. Throws PoseError as the solver does.
 std::vector<ReactionSample> runReactions(const Scenario& scenario, const std::vector<PointwiseSample>& samples);
-/// `simbody` are its answers at the instants of `samples`.
-std::vector<ReactionSample> runReactions(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
-                                         const std::vector<SimbodyAnswer>& simbody);
 
 }  // namespace ursula

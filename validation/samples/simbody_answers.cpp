@@ -6,49 +6,31 @@
 namespace ursula {
 namespace {
 
-Motion<double> moved(SimbodyLoop& loop, const Motion<double>& motion, const Vector6d& torques) {
-  loop.place(motion);
-  loop.accelerate(torques);
-  return loop.platform();
-}
-
-BodyMotions<double> placed(SimbodyLoop& loop, const Motion<double>& motion, const JointMotion& joints) {
-  loop.place(motion, joints);
-  return loop.bodies();
+Vector6d twistRate(SimbodyLoop& loop) {
+  const Motion<double> moved = loop.platform();
+  Vector6d out;
+  out << moved.omega_dot, moved.p_ddot;
+  return out;
 }
 
 }  // namespace
 
-Motion<double> SimbodyAnswer::platformUnder(const Vector6d& subjects, SimbodyLoop& loop,
-                                            const Motion<double>& motion) const {
-  return right && sameBits(right->torques, subjects) ? right->moved : moved(loop, motion, subjects);
-}
-
-Reactions SimbodyAnswer::reactionsUnder(const Vector6d& subjects, SimbodyLoop& loop,
-                                        const Motion<double>& motion) const {
-  if (right && sameBits(right->torques, subjects)) return right->reactions;
-  moved(loop, motion, subjects);
-  return loop.reactions();
-}
-
-BodyMotions<double> SimbodyAnswer::bodiesIn(const JointMotion& subjects, SimbodyLoop& loop,
-                                            const Motion<double>& motion) const {
-  return right && sameBits(right->joints, subjects) ? right->bodies : placed(loop, motion, subjects);
+Vector6d SimbodyAnswer::twistRateUnder(const Vector6d& subjects, SimbodyLoop& loop,
+                                       const Motion<double>& motion) const {
+  if (right && sameBits(right->torques, subjects)) return right->twist_rate;
+  loop.place(motion);
+  loop.accelerate(subjects);
+  return twistRate(loop);
 }
 
 SimbodyAnswer simbodyAnswer(SimbodyLoop& loop, const Subject& right, const Motion<double>& motion) {
   SimbodyAnswer out;
-  out.joints = loop.place(motion);
+  loop.place(motion);
   out.torques = loop.inverseDynamics();
   try {
-    SimbodyAnswer::OfRight of_right;
-    of_right.torques = right.torques(motion);
-    loop.accelerate(of_right.torques);
-    of_right.moved = loop.platform();
-    of_right.reactions = loop.reactions();
-    of_right.joints = right.kinematics(motion).joints;
-    of_right.bodies = placed(loop, motion, of_right.joints);
-    out.right = of_right;
+    const Vector6d torques = right.torques(motion);
+    loop.accelerate(torques);
+    out.right = SimbodyAnswer::OfRight{torques, twistRate(loop)};
   } catch (const PoseError&) {
     // Whoever is on trial is asked himself.
   }
