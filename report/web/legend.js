@@ -1,4 +1,4 @@
-import { colorOf, dashOf, widthOf } from "./plots.js";
+import { colorOf, dashOf, widthOf } from "./line_style.js";
 
 const sample = (line) =>
   `<svg width="26" height="8" aria-hidden="true"><path d="M0 4H26" fill="none" stroke="${colorOf(line)}"

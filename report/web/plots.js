@@ -1,19 +1,13 @@
 import uPlot from "uplot";
 import { addTools } from "./plot_tools.js";
 import { drawLegend } from "./legend.js";
-import { color, lineColor, watchTheme } from "./theme.js";
+import { color, watchTheme } from "./theme.js";
+import { colorOf, dashOf, widthOf } from "./line_style.js";
 import { isDecade, linearTicks, logTicks, shortNumber } from "./ticks.js";
 
-// Distinct without colour too: every line has its own dashes.
-const dashes = [[], [8, 4], [2, 3], [10, 3, 2, 3], [14, 5], [5, 2], [3, 2]];
 // Zero has no place on a logarithmic axis; it becomes a gap. So does what is as good as zero: uPlot throws at less than
 // 1e-32.
 const least_on_log = 1e-30;
-
-export const dashOf = (line) => (line.stroke === "ghost" ? [] : line.stroke === "limit" ? [6, 4] : dashes[line.color % 7]);
-export const widthOf = (line) => (line.stroke === "ghost" ? 5 : line.stroke === "limit" ? 1.5 : 1.75);
-export const colorOf = (line) =>
-  line.stroke === "limit" ? color("limit") : lineColor(line.color) + (line.stroke === "ghost" ? "66" : "");
 
 function seriesOptions(line, plot, few) {
   const said = !line.unit || plot.yLabel.endsWith(`(${line.unit})`); // by the axis

@@ -65,11 +65,12 @@ std::set<std::string> namesOf(const std::vector<Call>& calls) {
   return names;
 }
 
-/// Numbers from 0 of the calls that are made to fail: all with URSULA_EVERY_CALL set (./dev faults). Else one in so many,
-/// and the first and last of each name.
+/// Numbers from 0 of the calls that are made to fail: all with URSULA_EVERY_CALL set (./dev faults). Else one in so
+/// many, and the first and last of each name.
 std::set<std::size_t> failing(const std::vector<Call>& calls) {
   constexpr std::size_t wanted = 16;
-  const std::size_t step = std::getenv("URSULA_EVERY_CALL") != nullptr ? 1 : std::max<std::size_t>(1, calls.size() / wanted);
+  const std::size_t step =
+      std::getenv("URSULA_EVERY_CALL") != nullptr ? 1 : std::max<std::size_t>(1, calls.size() / wanted);
   std::set<std::size_t> chosen;
   std::map<std::string, std::pair<std::size_t, std::size_t>> ends;
   for (std::size_t k = 0; k < calls.size(); ++k) {
