@@ -70,11 +70,12 @@ void Progress::draw() {
   drawn_ = true;
 }
 
-/// As the last share foretold, counted down since; of what has no share, how long it has taken.
+/// As the last share foretold, counted down since; of what has no share or takes longer, how long it has taken.
 std::string Progress::timeText() const {
   if (share_ <= 0) return fmt::format("{}{:.0f} s", note_.empty() ? "" : ", ", seconds());
   const double left = at_seconds_ / share_ * (1 - share_) - (seconds() - at_seconds_);
-  return share_ < 1 ? fmt::format(", about {:.0f} s left", std::max(left, 1.0)) : "";
+  if (share_ >= 1) return "";
+  return left > 0 ? fmt::format(", about {:.0f} s left", std::max(left, 1.0)) : fmt::format(", {:.0f} s", seconds());
 }
 
 }  // namespace ursula

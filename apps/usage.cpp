@@ -6,6 +6,7 @@
 
 #include "base/leading_number.h"
 #include "base/nearest.h"
+#include "base/out_of_memory.h"
 
 namespace ursula {
 namespace {

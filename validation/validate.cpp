@@ -48,9 +48,9 @@ void addFacts(const std::optional<ErrorBudget>& budget, Evidence& evidence, Vali
   if (!evidence.ladder.rungs.empty()) result.curves.emplace_back("Work and precision", workPrecision(evidence.ladder));
 }
 
-/// The shares are about those of the scenarios that ship.
-void tell(const ValidationOptions& options, double share, const char* now) {
-  if (options.progress) options.progress(share, now);
+/// `done` of all work.
+void tell(const ValidationOptions& options, const WorkParts& work, double done, const char* now) {
+  if (options.progress) options.progress(done / work.total(), now);
 }
 
 /// Judges all answers that somebody else's solver gave by now, in the place of those that torque.between asked for.
@@ -70,16 +70,21 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   const bool keeps_nothing = given.formulation == Formulation::external && !given.answers;
   const Subject subject = keeps_nothing ? recorded(given) : given;
   reference.prepare(static_cast<bool>(subject.accelerations), options.ladder);
-  tell(options, 0.35, "experiments");
+  const WorkParts work = workParts(scenario);
+  double done = work.reference;
+  tell(options, work, done, "experiments");
   Evidence evidence = gather(scenario, reference, subject, right, options.fault ? *options.fault : InjectedFault{},
-                             {options.ladder, options.reactions});
+                             {options.ladder, options.reactions,
+                              [&](double share) { tell(options, work, done + share * work.samples, "experiments"); }});
   ValidationResult result;
   result.scenario = scenario.name;
   result.formulation = name(subject.formulation);
-  tell(options, 0.8, "checks");
+  done += work.samples + work.replays;
+  tell(options, work, done, "checks");
   if (right && options.time_limit <= 0 && !options.asked_to_end) evidence.threads = options.threads;
   result.checks = judgeAll(evidence);
-  tell(options, 0.9, "sources of the error");
+  done += work.checks;
+  tell(options, work, done, "sources of the error");
   std::optional<ErrorBudget> budget;
   if (options.budget && evidence.amplification != nullptr)
     budget =
@@ -98,7 +103,7 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
 }
 
 std::shared_ptr<const Reference> referenceOf(const Scenario& scenario, const ValidationOptions& options) {
-  tell(options, 0, "the right motion");
+  if (options.progress) options.progress(0, "the right motion");
   const Deadline deadline(options.time_limit, options.asked_to_end);
   return options.reference ? options.reference : makeReference(scenario, options.threads, deadline);
 }

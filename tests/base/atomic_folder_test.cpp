@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <map>
+#include <stdexcept>
 
 #include "base/sha1.h"
 #include "tests/base/temporary_folder.h"
@@ -54,6 +55,21 @@ TEST(AtomicFolder, isThereAsAWholeOnceItIsCommitted) {
   }
   EXPECT_THAT(contents(folder.path()),
               ElementsAre(Pair("deep/", ""), Pair("deep/dir/", ""), Pair("deep/dir/a", "text")));
+}
+
+TEST(AtomicFolder, takesAFilePieceByPiece) {
+  const TemporaryFolder folder;
+  const fs::path dir = folder.path() / "dir";
+  {
+    AtomicFolder out(dir, older);
+    out.write("a", [](const AtomicFolder::Take& take) {
+      for (const char* piece : {"one,", "", "two"}) take(piece);
+    });
+    EXPECT_THROW(out.write("b", [](const AtomicFolder::Take&) { throw std::domain_error("no more"); }),
+                 std::domain_error);
+    out.commit();
+  }
+  EXPECT_EQ(TemporaryFolder::read(dir / "a"), "one,two");
 }
 
 TEST(AtomicFolder, thatIsNotCommittedLeavesEverythingAsItWas) {

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -134,6 +135,23 @@ TEST(Csv, writtenAndReadAgainGivesTheSameDoubles) {
   EXPECT_THAT(text, StartsWith("t_s,x\n0,0.10000000000000001\n1,0.33333333333333331\n2,-0\n"));
   const CsvTable table = readCsv(folder.write("a.csv", text));
   EXPECT_THAT(table.at("x"), testing::ElementsAreArray(hard));
+}
+
+/// A piece of a long table is a small part of it, and every row comes once.
+TEST(Csv, isWrittenInPieces) {
+  constexpr std::size_t rows = 200'000;
+  std::vector<double> column(rows);
+  for (std::size_t k = 0; k < rows; ++k) column[k] = static_cast<double>(k);
+  std::string whole;
+  std::size_t longest = 0;
+  csvPieces({"x", "y"}, {column, column}, NanAs::word, [&](const std::string& piece) {
+    whole += piece;
+    longest = std::max(longest, piece.size());
+  });
+  EXPECT_LT(longest, whole.size() / 4);
+  const CsvTable table = parseCsv(whole, "pieces");
+  EXPECT_EQ(table.at("x"), column);
+  EXPECT_EQ(table.at("y"), column);
 }
 
 TEST(Csv, writerRefusesUnevenColumns) {

@@ -16,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::AnyOf;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr int passed = 0, in_error_of_suite = 1, refused = 2, in_error_of_sweep = 3;
 constexpr int limits[] = {700, 250, 150, 80, 60};  // MB
@@ -109,6 +110,30 @@ TEST(LittleMemory, whatNeedsMoreThanThereIsIsRefused) {
   const int times_refused = holdsUnderEveryLimit(call);
   EXPECT_GT(times_refused, 0) << "or no limit was felt";
   EXPECT_LT(times_refused, static_cast<int>(std::size(limits))) << "or nothing but the limit was";
+}
+
+std::string withSamples(int count) {
+  return replaced(quickScenario("one"), "samples = 3", "samples = " + std::to_string(count));
+}
+
+/// Some 5 kB a sample beside what every run takes: three times that would not fit.
+TEST(LittleMemory, manySamplesFit) {
+  const Program ursula;
+  ursula.write("a.toml", withSamples(15000));
+  ASSERT_EQ(limited(ursula, 215, "validate a.toml --jobs 1 --out out"), passed) << complaint(ursula);
+  const std::string series = TemporaryFolder::read(ursula.folder() / "out" / "timeseries.csv");
+  EXPECT_EQ(std::count(series.begin(), series.end(), '\n'), 15001);
+}
+
+/// What needs less is named as the verb has it.
+TEST(LittleMemory, isExplainedByWhatTheVerbHas) {
+  const Program ursula;
+  ursula.write("a.toml", withSamples(1000000));
+  ASSERT_EQ(limited(ursula, 250, "validate a.toml --quiet --jobs 1 --out out"), refused);
+  EXPECT_THAT(complaint(ursula), HasSubstr("samples in the scenario's [simulation]"));
+  EXPECT_THAT(complaint(ursula), Not(HasSubstr("--samples")));
+  ASSERT_EQ(limited(ursula, 80, "inverse a.toml --samples 1000000 --jobs 1 --out out.csv"), refused);
+  EXPECT_THAT(complaint(ursula), HasSubstr("fewer --samples or --jobs need less"));
 }
 
 /// One of a suite may be in error, which says why; the other is judged as anywhere.

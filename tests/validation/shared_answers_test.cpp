@@ -114,24 +114,13 @@ TEST_P(Shared, theLoopSaysTheSameWhateverItWasAskedBefore) {
     const Motion<double> motion = here().trajectory->at(reference_->instants[k]);
     ASSERT_TRUE(known.right.has_value());
     const Vector6d torques = right.torques(motion);
-    const Motion<double> shared = known.platformUnder(torques, loop, motion);
+    const Vector6d shared = known.twistRateUnder(torques, loop, motion);
     loop.place(motion);
     EXPECT_EQ(loop.inverseDynamics(), known.torques);
     loop.accelerate(torques);
-    EXPECT_EQ(loop.platform().p_ddot, shared.p_ddot);
-    EXPECT_EQ(loop.platform().omega_dot, shared.omega_dot);
-    const Motion<double> others = known.platformUnder(1.001 * torques, loop, motion);
-    EXPECT_GT((others.p_ddot - shared.p_ddot).norm() + (others.omega_dot - shared.omega_dot).norm(), 0);
-    const JointMotion joints = right.kinematics(motion).joints;
-    const BodyMotions<double> bodies = known.bodiesIn(joints, loop, motion);
-    JointMotion moved = joints;
-    moved.q.theta(3) += 1e-6;
-    EXPECT_NE(known.bodiesIn(moved, loop, motion)[leg_count + 3].c, bodies[leg_count + 3].c);
-    loop.place(motion, joints);
-    for (std::size_t b = 0; b < body_count; ++b) {
-      EXPECT_EQ(loop.bodies()[b].c, bodies[b].c);
-      EXPECT_EQ(loop.bodies()[b].twist_rate, bodies[b].twist_rate);
-    }
+    EXPECT_EQ(loop.platform().p_ddot, shared.tail<3>());
+    EXPECT_EQ(loop.platform().omega_dot, shared.head<3>());
+    EXPECT_GT((known.twistRateUnder(1.001 * torques, loop, motion) - shared).norm(), 0);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <thread>
@@ -15,8 +16,11 @@
 #include "tests/support/vectors.h"
 #include "tests/validation/checks.h"
 #include "validation/checks/families.h"
+#include "validation/evidence/ahead.h"
 #include "validation/evidence/reference.h"
 #include "validation/evidence/timed.h"
+#include "validation/evidence/work_estimate.h"
+#include "validation/replay/observed_order.h"
 #include "validation/validate.h"
 #include "validation/validate_external.h"
 
@@ -37,6 +41,37 @@ ValidationOptions within(double seconds) {
 
 constexpr double none_at_all = 1e-9, plenty = 1e8;
 
+/// Or this would wait for ever.
+TEST(Ahead, cutsShortWhatHasBegunWhenNobodyWillAsk) {
+  std::atomic<bool> begun{false}, cut_short{false}, ended{false};
+  {
+    const Ahead::Task task = [&] {
+      begun = true;
+      while (!cut_short) std::this_thread::yield();
+      ended = true;
+    };
+    const Ahead ahead(1, {task}, [&] { cut_short = true; });
+    while (!begun) std::this_thread::yield();
+  }
+  EXPECT_TRUE(ended);
+}
+
+TEST(Ahead, ofAReferenceEndsWithIt) {
+  auto reference = makeReference(quick());
+  const std::shared_ptr<const Trajectory> motion = reference->scenario.trajectory;
+  EXPECT_NO_THROW(motion->at(0));
+  reference.reset();
+  EXPECT_THROW(motion->at(0), OutOfTime) << "what is under way asks for the motion, and ends";
+}
+
+TEST(TimeLimit, holdsForTheObservedOrders) {
+  int asked = 0;
+  EXPECT_FALSE(observedOrders(timed(quick(), Deadline(0, [&asked] { return ++asked < 0; }))).empty());
+  EXPECT_GT(asked, 100) << "at every step";
+  asked = 0;
+  EXPECT_THROW(observedOrders(timed(quick(), Deadline(0, [&asked] { return ++asked > 10; }))), OutOfTime);
+}
+
 void expectAllUnfinished(const ValidationResult& result) {
   EXPECT_EQ(result.verdict, Verdict::inconclusive) << others(result.checks, Verdict::inconclusive);
   std::size_t unfinished = 0;
@@ -48,6 +83,32 @@ void expectAllUnfinished(const ValidationResult& result) {
   EXPECT_GE(unfinished, 10U);
   for (const char* name : {"torque.pointwise", "replay.position", "energy.balance"})
     EXPECT_EQ(verdictOf(result.checks, name), "inconclusive") << name;
+}
+
+/// Measured: a sample takes some 30 evaluations of the loop, and few samples little of a whole validation.
+TEST(Work, isForetoldByTheNumberOfSamples) {
+  Scenario scenario = quick();
+  const WorkParts few = workParts(scenario);
+  EXPECT_LT(few.samples, 0.1 * few.total());
+  constexpr int many = 100'000;
+  scenario.simulation.samples = many;
+  const WorkParts parts = workParts(scenario);
+  EXPECT_GT(parts.samples, 0.8 * parts.total());
+  EXPECT_GT(parts.total() - few.total(), 20.0 * many);
+  EXPECT_LT(parts.total() - few.total(), 50.0 * many);
+}
+
+TEST(Work, isSaidAsItIsDone) {
+  std::vector<double> shares;
+  ValidationOptions options;
+  options.progress = [&shares](double share, const std::string&) { shares.push_back(share); };
+  Scenario scenario = quick();
+  validate(scenario, options);
+  ASSERT_GE(shares.size(), 8U) << "also between the experiments at the samples";
+  EXPECT_EQ(shares.front(), 0);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_LT(shares.back(), 1);
+  EXPECT_NEAR(shares[1], workParts(scenario).reference / workParts(scenario).total(), 1e-12);
 }
 
 TEST(TimeLimit, leavesAReportWhereNothingWasReached) {

@@ -79,16 +79,24 @@ void runReplays(bool ladder, Evidence& evidence) {
                                          first_is_right && !fault.feedback ? &reference.stabilised() : nullptr);
 }
 
-void lookAtSamples(bool reactions, Evidence& out) {
+/// The shares are those measured with many samples.
+void lookAtSamples(const Experiments& experiments, Evidence& out) {
+  const auto tell = [&experiments](double share) {
+    if (experiments.progress) experiments.progress(share);
+  };
   const Reference& reference = *out.reference;
   out.samples = runPointwise(*out.scenario, *out.subject, reference.instants, reference.profile, reference.simbody());
   if (out.fault.sample) std::for_each(out.samples.begin(), out.samples.end(), out.fault.sample);
   if (!out.answered()) return;
+  tell(0.45);
   out.engines = engineSamples(out);
+  tell(0.7);
   out.invariances = runInvariances(*out.scenario, *out.subject, out.samples);
   out.complement = runComplement(*out.scenario->manipulator, *out.subject, out.samples);
   out.fast = runFast(*out.scenario, reference.natural.units, out.samples, out.fault.fast);
-  if (reactions) lookAtReactions(out);
+  tell(0.8);
+  if (experiments.reactions) lookAtReactions(out);
+  tell(1);
 }
 
 void planReplays(Evidence& out) {
@@ -132,7 +140,7 @@ Evidence gather(const Scenario& given, const Reference& reference, const Subject
   out.has.left_out_ladder = !experiments.ladder;
   out.has.left_out_reactions = !experiments.reactions;
   try {
-    lookAtSamples(experiments.reactions, out);
+    lookAtSamples(experiments, out);
     planReplays(out);
     if (out.answered()) runReplays(experiments.ladder, out);
   } catch (const OutOfTime& over) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -74,6 +75,7 @@ struct Evidence {
 /// Which of the experiments are left out.
 struct Experiments {
   bool ladder = true, reactions = true;
+  std::function<void(double share)> progress = nullptr;  ///< told how much of what is done at the samples is done
 };
 
 /// All experiments on `subject`, which is asked in natural's units. `right`: it is the one whose replays the reference

@@ -26,14 +26,19 @@ double evaluationSeconds(const Scenario& scenario) {
 
 }  // namespace
 
-double workSeconds(const Scenario& scenario) {
-  // What each costs, in evaluations: of a step all replays of it, of a sample all formulations, of an interval its
-  // growth.
-  constexpr double of_step = 150, of_sample = 150, of_interval = 10;
-  const double duration = scenario.trajectory->duration();
-  const double steps = plannedStepRate(duration) * duration;
-  return evaluationSeconds(scenario) *
-         (of_step * steps + of_sample * scenario.simulation.samples + of_interval * linearisedIntervals(duration));
+WorkParts workParts(const Scenario& scenario) {
+  constexpr double of_step = 150, of_interval = 10;  // all replays of a step; an interval's growth
+  const double duration = scenario.trajectory->duration(), samples = scenario.simulation.samples;
+  const double over_time = of_step * plannedStepRate(duration) * duration + of_interval * linearisedIntervals(duration);
+  WorkParts out;
+  out.reference = 0.35 * over_time + samples;
+  out.samples = 28 * samples;
+  out.replays = 0.45 * over_time;
+  out.checks = 0.1 * over_time;
+  out.sources = 0.1 * over_time + samples;  // and the time series
+  return out;
 }
+
+double workSeconds(const Scenario& scenario) { return evaluationSeconds(scenario) * workParts(scenario).total(); }
 
 }  // namespace ursula
