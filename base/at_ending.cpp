@@ -1,5 +1,6 @@
 #include "base/at_ending.h"
 
+#include <pthread.h>
 #include <unistd.h>
 
 #include <array>
@@ -19,14 +20,41 @@ struct Slot {
 };
 std::array<Slot, 64> slots;
 
+std::atomic<int> holders{0};  ///< threads
+std::atomic<int> came{0};     ///< the first signal that is to end the process
+thread_local int depth = 0;   ///< of holds within each other
+
 void nothing(const void*) {}
 
-void workAndEnd(int signal) {
+/// May be done twice, by two threads.
+void workAndEnd() {
   for (auto slot = slots.rbegin(); slot != slots.rend(); ++slot)
     if (const AtEnding::Work work = slot->work; work != nullptr && slot->process == ::getpid()) work(slot->what);
+  const int signal = came;
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }
+
+void endUnlessHeld(int signal) {
+  int none = 0;
+  came.compare_exchange_strong(none, signal);
+  if (holders == 0) workAndEnd();
+}
+
+void letGo() {
+  if (--holders == 0 && came != 0) workAndEnd();
+}
+
+void catchSignals() {
+  for (const int signal : ends_process) {
+    struct sigaction action {};
+    sigaction(signal, nullptr, &action);
+    if (action.sa_handler == SIG_DFL) std::signal(signal, endUnlessHeld);  // NOLINT(performance-no-int-to-ptr)
+  }
+}
+
+/// Threads that held have not come along.
+[[maybe_unused]] const int in_child = pthread_atfork(nullptr, nullptr, [] { holders = depth > 0 ? 1 : 0; });
 
 }  // namespace
 
@@ -38,24 +66,24 @@ AtEnding::AtEnding(Work work, const void* what) : slot_(0) {
   slots[slot_].what = what;
   slots[slot_].process = ::getpid();
   slots[slot_].work = work;
-  for (const int signal : ends_process) {
-    struct sigaction action {};
-    sigaction(signal, nullptr, &action);
-    if (action.sa_handler == SIG_DFL) std::signal(signal, workAndEnd);  // NOLINT(performance-no-int-to-ptr)
-  }
 }
 
 AtEnding::~AtEnding() {
+  const EndingHeld held;  // what is taken away may be at work in another thread's handler
   if (slot_ < slots.size()) slots[slot_].work = nullptr;
 }
 
 EndingHeld::EndingHeld() {
-  sigset_t held;
-  sigemptyset(&held);
-  for (const int signal : ends_process) sigaddset(&held, signal);
-  pthread_sigmask(SIG_BLOCK, &held, &before_);
+  if (depth++ > 0) return;
+  catchSignals();
+  ++holders;
+  if (came == 0) return;
+  letGo();
+  for (;;) ::pause();  // another thread ends the process
 }
 
-EndingHeld::~EndingHeld() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+EndingHeld::~EndingHeld() {
+  if (--depth == 0) letGo();
+}
 
 }  // namespace ursula

@@ -22,16 +22,14 @@ class AtEnding {
   std::size_t slot_;
 };
 
-/// Such signals wait while this is there.
+/// Such signals wait while this is there, whatever thread they come to; one that came ends the process when the last of
+/// these goes, and none begins after it.
 class EndingHeld {
  public:
   EndingHeld();
   ~EndingHeld();
   EndingHeld(const EndingHeld&) = delete;
   EndingHeld& operator=(const EndingHeld&) = delete;
-
- private:
-  sigset_t before_;
 };
 
 }  // namespace ursula

@@ -93,16 +93,28 @@ AtomicFolder::AtomicFolder(fs::path folder, OlderFiles older)
   {
     const EndingHeld held;  // until it is known what a signal has to take away
     parents_.make(base_);
-    ending_.emplace([](const void* parents) { static_cast<const FreshFolders*>(parents)->remove(); }, &parents_);
+    ending_.emplace(
+        [](const void* folder) {
+          static_cast<const AtomicFolder*>(folder)->removeMade();
+          static_cast<const AtomicFolder*>(folder)->parents_.remove();
+        },
+        this);
   }
   lock_.emplace(base_ / (".ursula-" + own("lock")), shown_);
   if (lock_->isExclusive()) sweep();
 }
 
 AtomicFolder::~AtomicFolder() {
+  const EndingHeld held;
   std::error_code ignored;
-  if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
-  if (!temporary_.empty()) ::rmdir(temporary_.c_str());  // under a umask that forbids to look into it, and it is empty
+  removeMade();
+  if (!temporary_.empty()) fs::remove_all(temporary_, ignored);  // what was carried over
+}
+
+/// May be called within a signal's handler; needs no descriptor, and no look into a folder that a umask forbids.
+void AtomicFolder::removeMade() const {
+  for (auto made = made_.rbegin(); made != made_.rend(); ++made)
+    if (::unlink(made->c_str()) != 0) ::rmdir(made->c_str());
 }
 
 /// Of this folder alone, and short whatever its name.
@@ -138,16 +150,26 @@ void AtomicFolder::write(const fs::path& name, const std::string& content) {
 }
 
 void AtomicFolder::write(const fs::path& name, const std::function<void(const Take&)>& fill) {
+  const EndingHeld held;  // until it is known what a signal has to take away
   const std::lock_guard<std::mutex> lock(mutex_);
   if (temporary_.empty()) {
     fs::path fresh;
     do fresh = temporaryIn(base_, own(unfinished));
     while (!fs::create_directory(fresh));
-    temporary_ = fresh;
+    made_.push_back(temporary_ = fresh);
   }
-  if (name.has_parent_path()) fs::create_directories(temporary_ / name.parent_path());
+  makeFolder(temporary_ / name.parent_path());
+  made_.push_back(temporary_ / name);
   writeSynced(temporary_ / name, shown_ / name, fill);
   written_.push_back(name);
+}
+
+/// Within the temporary one.
+void AtomicFolder::makeFolder(const fs::path& folder) {
+  if (isFolder(folder)) return;
+  makeFolder(folder.parent_path());
+  fs::create_directory(folder);
+  made_.push_back(folder);
 }
 
 void AtomicFolder::makeLikeOld() const {
@@ -158,6 +180,7 @@ void AtomicFolder::makeLikeOld() const {
 }
 
 void AtomicFolder::commit() {
+  const EndingHeld held;  // who ends it meanwhile, ends it with the results there
   const std::lock_guard<std::mutex> lock(mutex_);
   if (stays_) {
     replaceOneByOne();
@@ -169,6 +192,7 @@ void AtomicFolder::commit() {
   }
   syncFolder(base_);
   temporary_.clear();
+  made_.clear();
   parents_.keep();
   lock_.reset();
 }

@@ -48,13 +48,16 @@ class AtomicFolder {
   void makeLikeOld() const;
   void swap();
   void replaceOneByOne();
+  void makeFolder(const std::filesystem::path& folder);
+  void removeMade() const;
 
   std::filesystem::path shown_;   ///< as the caller calls it
   std::filesystem::path folder_;  ///< without links
   std::filesystem::path base_;    ///< where its temporaries are: the folder above, or itself
   OlderFiles older_;
   FreshFolders parents_;
-  bool stays_ = false;  ///< the same folder to its users
+  std::vector<std::filesystem::path> made_;  ///< the temporary and what is written into it, the outermost first
+  bool stays_ = false;                       ///< the same folder to its users
   std::optional<AtEnding> ending_;
   std::optional<FolderLock> lock_;
   std::mutex mutex_;  // guards what follows

@@ -9,8 +9,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <map>
 #include <stdexcept>
+#include <thread>
 
 #include "base/sha1.h"
 #include "tests/base/temporary_folder.h"
@@ -81,6 +83,38 @@ TEST(AtomicFolder, thatIsNotCommittedLeavesEverythingAsItWas) {
     out.write("a", "new");
   }
   EXPECT_EQ(contents(folder.path()), before);
+}
+
+TEST(AtomicFolder, thatASignalEndsLeavesEverythingAsItWas) {
+  const TemporaryFolder folder;
+  writeRun(folder.path() / "dir", "old");
+  const auto before = contents(folder.path());
+  for (const char* dir : {"dir", "new/deep"}) {
+    const auto ended = [&] {
+      AtomicFolder out(folder.path() / dir, older);
+      for (const char* name : {"a", "sub/a", "sub/deep/a"}) out.write(name, "new");
+      std::raise(SIGTERM);
+    };
+    EXPECT_EXIT(ended(), testing::KilledBySignal(SIGTERM), "");
+    EXPECT_EQ(contents(folder.path()), before);
+  }
+}
+
+/// Whatever thread the signal comes to.
+TEST(AtomicFolder, isThereAsAWholeWhereASignalComesWhileItIsCommitted) {
+  const TemporaryFolder folder;
+  writeRun(folder.path() / "dir", "old");
+  const auto ended = [&] {
+    AtomicFolder out(folder.path() / "dir", [](const fs::path& path) {
+      std::thread([] { std::raise(SIGTERM); }).join();
+      return older(path);
+    });
+    out.write("a", "new");
+    out.commit();
+  };
+  EXPECT_EXIT(ended(), testing::KilledBySignal(SIGTERM), "");
+  EXPECT_THAT(contents(folder.path()),
+              ElementsAre(Pair("dir/", ""), Pair("dir/a", "new"), Pair("dir/sub/", ""), Pair("dir/sub/a", "old")));
 }
 
 TEST(AtomicFolder, carriesOverWhatNoRunWroteAndDropsTheOlderRun) {

@@ -46,6 +46,7 @@ TEST(EndedRun, ofTooFewDescriptorsNamesAPath) {
     is_seen = is_seen || said.find("Too many open files") != std::string::npos;
     EXPECT_THAT(said, Not(HasSubstr("error: :"))) << most;
     fs::remove_all(ursula.folder() / "out");
+    EXPECT_EQ(ursula.files(), 4u) << most << ": something is left beside two scenarios, said and err";
   }
   EXPECT_TRUE(is_seen);
 }
