@@ -83,7 +83,7 @@ void fill(std::vector<Motion<double>>& rows, const py::object& values, Vector3d 
   if (static_cast<std::size_t>(given.shape(0)) != rows.size())
     throw py::value_error(std::string(what) + ": shape " + shapeOf(given) + ", expected (" +
                           std::to_string(rows.size()) + ", 3) as there are so many instants");
-  for (std::size_t k = 0; k < rows.size(); ++k) rows[k].*which = Eigen::Map<const Vector3d>(given.data() + 3 * k);
+  forRows(rows.size(), [&](std::size_t k) { rows[k].*which = Eigen::Map<const Vector3d>(given.data() + 3 * k); });
 }
 
 Motions made(const py::object& t, const py::object& p, const py::object& q, const py::object& v, const py::object& w,
@@ -93,10 +93,10 @@ Motions made(const py::object& t, const py::object& p, const py::object& q, cons
   out.rows.resize(static_cast<std::size_t>(instants.shape(0)));
   if (orientations.shape(0) != instants.shape(0))
     throw py::value_error("q: shape " + shapeOf(orientations) + ", expected as many rows as t has");
-  for (std::size_t k = 0; k < out.rows.size(); ++k) {
+  forRows(out.rows.size(), [&](std::size_t k) {
     out.rows[k].t = instants.data()[k];
     out.rows[k].Q = orientationOf(orientations.data() + 4 * k, k);
-  }
+  });
   fill(out.rows, p, &Motion<double>::p, "p");
   fill(out.rows, v, &Motion<double>::p_dot, "v");
   fill(out.rows, w, &Motion<double>::omega, "w");

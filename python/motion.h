@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "python/made.h"
+#include "python/signals.h"
 
 namespace ursula::python {
 
@@ -34,10 +35,7 @@ template <class Rows, class F>
 pybind11::array_t<double> table(const Rows& rows, pybind11::ssize_t width, F&& at) {
   pybind11::array_t<double> out({static_cast<pybind11::ssize_t>(rows.size()), width});
   double* to = out.mutable_data();
-  for (const auto& row : rows) {
-    at(row, to);
-    to += width;
-  }
+  forRows(rows.size(), [&](std::size_t k) { at(rows[k], to + static_cast<std::size_t>(width) * k); });
   return out;
 }
 

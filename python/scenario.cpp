@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -22,52 +23,57 @@ namespace ursula::python {
 namespace py = pybind11;
 namespace {
 
-/// Calls `each(row index)` for every row without Python's lock.
-template <class F>
-void forRows(const Motions& motion, F&& each) {
-  const py::gil_scoped_release unlocked;
-  for (std::size_t k = 0; k < motion.rows.size(); ++k) each(k);
+/// Throws ValueError for an instant that the motion has not. One beyond its end by a few roundings is on it, as the
+/// last of numpy.arange(0, duration + step, step) is.
+void refuseOutside(const py::array_t<double>& instants, double duration) {
+  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+  const double *first = instants.data(), *last = first + instants.size(), slack = rounding * duration;
+  const double* found = std::find_if(first, last, [&](double t) { return t < -slack || t > duration + slack; });
+  if (found == last) return;
+  const auto shown = [](double number) { return std::string(py::repr(py::float_(number))); };
+  throw py::value_error("t[" + std::to_string(found - first) + "] = " + shown(*found) +
+                        " s is outside of the motion, expected 0 to " + shown(duration) + " s");
 }
 
 Motions motionAt(const ScenarioWithSolver& self, const py::object& t) {
   const py::array_t<double> instants = columnOf(t, "t");
+  const Trajectory& trajectory = *self.scenario.trajectory;
+  const double duration = trajectory.duration();
+  refuseOutside(instants, duration);
   const double* data = instants.data();
   const auto count = static_cast<std::size_t>(instants.shape(0));
   Motions out;
   const py::gil_scoped_release unlocked;
   out.rows.reserve(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    out.rows.push_back(self.scenario.trajectory->at(data[k]));
+  forRows(count, [&](std::size_t k) {
+    out.rows.push_back(trajectory.at(std::clamp(data[k], 0.0, duration)));
     requireFinite(out.rows.back());
-  }
+  });
   return out;
 }
 
-std::vector<Vector6d> loadsOf(const Scenario& scenario, const Motions& motion) {
-  std::vector<Vector6d> out;
-  if (!scenario.load) return out;
-  out.reserve(motion.rows.size());
-  for (const Motion<double>& row : motion.rows) out.push_back(loadAtP(scenario.load.get(), row));
-  return out;
+/// Answers of a batch, `all` of a block; poses that it has flagged are one(k)'s, which refuses them as the program
+/// does.
+template <class All, class One, class Put>
+void answers(const ScenarioWithSolver& self, const Motions& motion, All&& all, One&& one, Put&& put) {
+  const py::gil_scoped_release unlocked;
+  const Load* load = self.scenario.load.get();
+  std::vector<Vector6d> loads, out;
+  std::vector<PoseFault> faults;
+  inBlocks(motion.rows.size(), batch_at_once, [&](std::size_t first, std::size_t last) {
+    loads.clear();
+    for (std::size_t k = first; k < last; ++k) loads.push_back(loadAtP(load, motion.rows[k]));
+    out.resize(loads.size());
+    faults.assign(loads.size(), PoseFault::none);
+    all(first, loads.size(), load == nullptr ? nullptr : loads.data(), out.data(), faults.data());
+    for (std::size_t k = 0; k < out.size(); ++k)
+      put(first + k, faults[k] == PoseFault::none ? out[k] : one(first + k, loads[k]));
+  });
 }
 
-/// Those of N × 6 numbers, row by row.
-std::vector<Vector6d> vectorsOf(const double* from, std::size_t count) {
-  std::vector<Vector6d> out(count);
-  for (std::size_t k = 0; k < count; ++k) out[k] = Eigen::Map<const Vector6d>(from + 6 * k);
-  return out;
-}
-
-/// Answers of a batch, `all` of it; poses that it has flagged are one(k)'s, which refuses them as the program does.
-template <class All, class One>
-std::vector<Vector6d> answers(const ScenarioWithSolver& self, const Motions& motion, All&& all, One&& one) {
-  const std::vector<Vector6d> loads = loadsOf(self.scenario, motion);
-  std::vector<Vector6d> out(motion.rows.size());
-  std::vector<PoseFault> faults(out.size());
-  all(loads.empty() ? nullptr : loads.data(), out.data(), faults.data());
-  for (std::size_t k = 0; k < out.size(); ++k)
-    if (faults[k] != PoseFault::none) out[k] = one(k, loads.empty() ? Vector6d::Zero() : loads[k]);
-  return out;
+/// N × width, to be filled.
+py::array_t<double> rowsFor(const Motions& motion, py::ssize_t width) {
+  return py::array_t<double>({static_cast<py::ssize_t>(motion.rows.size()), width});
 }
 
 void refuseJobs(int jobs) {
@@ -76,20 +82,19 @@ void refuseJobs(int jobs) {
 
 py::array_t<double> inverseDynamics(const ScenarioWithSolver& self, const Motions& motion, int jobs) {
   refuseJobs(jobs);
-  std::vector<Vector6d> efforts;
-  {
-    const py::gil_scoped_release unlocked;
-    Workspace<double> work;
-    efforts = answers(
-        self, motion,
-        [&](const Vector6d* loads, Vector6d* out, PoseFault* faults) {
-          ursula::inverseDynamics(self.batch, motion.rows.data(), motion.rows.size(), out, faults, loads, jobs);
-        },
-        [&](std::size_t k, const Vector6d& load) {
-          return self.kinematics.solver().inverseDynamics(motion.rows[k], work, load);
-        });
-  }
-  return table(efforts, motor_count, [](const Vector6d& tau, double* to) { Eigen::Map<Vector6d>{to} = tau; });
+  py::array_t<double> efforts = rowsFor(motion, motor_count);
+  double* to = efforts.mutable_data();
+  Workspace<double> work;
+  answers(
+      self, motion,
+      [&](std::size_t first, std::size_t count, const Vector6d* loads, Vector6d* out, PoseFault* faults) {
+        ursula::inverseDynamics(self.batch, motion.rows.data() + first, count, out, faults, loads, jobs);
+      },
+      [&](std::size_t k, const Vector6d& load) {
+        return self.kinematics.solver().inverseDynamics(motion.rows[k], work, load);
+      },
+      [&](std::size_t k, const Vector6d& tau) { Eigen::Map<Vector6d>(to + motor_count * k) = tau; });
+  return efforts;
 }
 
 py::tuple forwardDynamics(const ScenarioWithSolver& self, const Motions& motion, const py::object& tau, int jobs) {
@@ -98,26 +103,28 @@ py::tuple forwardDynamics(const ScenarioWithSolver& self, const Motions& motion,
   if (static_cast<std::size_t>(given.shape(0)) != motion.rows.size())
     throw py::value_error("tau: " + std::to_string(given.shape(0)) + " rows, expected one for each of the motion's " +
                           std::to_string(motion.rows.size()));
-  std::vector<Vector6d> rates;
-  {
-    const py::gil_scoped_release unlocked;
-    const std::vector<Vector6d> efforts = vectorsOf(given.data(), motion.rows.size());
-    Workspace<double> work;
-    rates = answers(
-        self, motion,
-        [&](const Vector6d* loads, Vector6d* out, PoseFault* faults) {
-          ursula::directDynamics(self.batch, motion.rows.data(), efforts.data(), efforts.size(), out, faults, loads,
-                                 jobs);
-        },
-        [&](std::size_t k, const Vector6d& load) {
-          return self.kinematics.solver().directDynamics(motion.rows[k], efforts[k], work, load);
-        });
-  }
-  const auto part = [&rates](Eigen::Index first) {
-    return table(rates, 3,
-                 [first](const Vector6d& rate, double* to) { Eigen::Map<Vector3d>{to} = rate.segment<3>(first); });
+  py::array_t<double> a = rowsFor(motion, 3), alpha = rowsFor(motion, 3);
+  double *to_a = a.mutable_data(), *to_alpha = alpha.mutable_data();
+  const auto effort = [from = given.data()](std::size_t k) {
+    return Vector6d(Eigen::Map<const Vector6d>(from + motor_count * k));
   };
-  return py::make_tuple(part(3), part(0));
+  std::vector<Vector6d> efforts;
+  Workspace<double> work;
+  answers(
+      self, motion,
+      [&](std::size_t first, std::size_t count, const Vector6d* loads, Vector6d* out, PoseFault* faults) {
+        efforts.clear();
+        for (std::size_t k = 0; k < count; ++k) efforts.push_back(effort(first + k));
+        ursula::directDynamics(self.batch, motion.rows.data() + first, efforts.data(), count, out, faults, loads, jobs);
+      },
+      [&](std::size_t k, const Vector6d& load) {
+        return self.kinematics.solver().directDynamics(motion.rows[k], effort(k), work, load);
+      },
+      [&](std::size_t k, const Vector6d& rate) {
+        Eigen::Map<Vector3d>(to_alpha + 3 * k) = rate.head<3>();
+        Eigen::Map<Vector3d>(to_a + 3 * k) = rate.tail<3>();
+      });
+  return py::make_tuple(a, alpha);
 }
 
 bool has(const Leg& leg, Coordinate coordinate) {
@@ -144,11 +151,14 @@ py::dict inverseKinematics(const ScenarioWithSolver& self, const Motions& motion
   const Solver<double>& solver = self.kinematics.solver();
   Workspace<double> work;
   std::vector<JointMotion> joints(motion.rows.size());
-  forRows(motion, [&](std::size_t k) {
-    solver.inverseKinematics(motion.rows[k], work);
-    joints[k] = {solver.angles(work), solver.rates(work), solver.accelerations(work)};
-    requireFinite(joints[k].q.phi.data(), sizeof(JointMotion) / sizeof(double), "joint variable", motion.rows[k].t);
-  });
+  {
+    const py::gil_scoped_release unlocked;
+    forRows(motion.rows.size(), [&](std::size_t k) {
+      solver.inverseKinematics(motion.rows[k], work);
+      joints[k] = {solver.angles(work), solver.rates(work), solver.accelerations(work)};
+      requireFinite(joints[k].q.phi.data(), sizeof(JointMotion) / sizeof(double), "joint variable", motion.rows[k].t);
+    });
+  }
   py::dict out;
   addJoints("", *self.scenario.manipulator, joints, &JointMotion::q, out);
   addJoints("dot", *self.scenario.manipulator, joints, &JointMotion::q_dot, out);

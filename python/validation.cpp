@@ -5,7 +5,6 @@
 #include <ursula/report.h>
 #include <ursula/validate.h>
 
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -15,6 +14,7 @@
 
 #include "python/motion.h"
 #include "python/scenario.h"
+#include "python/signals.h"
 #include "python/words.h"
 
 template <>
@@ -68,28 +68,6 @@ Scenario tolerant(Scenario scenario, std::optional<double> rtol, std::optional<d
   if (scenario.tolerance) scenario.tolerance->any = any;
   return scenario;
 }
-
-/// What Python's handlers of signals raise, as that of Ctrl-C does, while no bytecode runs.
-class Interruption {
- public:
-  /// Without Python's lock, which it takes ten times a second at most.
-  bool cameInBetween() {
-    constexpr std::chrono::milliseconds between{100};
-    const auto now = std::chrono::steady_clock::now();
-    if (raised_ || now - last_ < between) return raised_.has_value();
-    last_ = now;
-    const py::gil_scoped_acquire locked;
-    if (PyErr_CheckSignals() != 0) raised_.emplace();
-    return raised_.has_value();
-  }
-  void rethrow() const {
-    if (raised_) throw *raised_;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_{};
-  std::optional<py::error_already_set> raised_;
-};
 
 /// What `run` returns, which is given when to end and knows no Python.
 template <class Run>

@@ -26,8 +26,8 @@ constexpr const char* read_scenario =
 constexpr const char* scenario = "A machine, what it is asked to do, and how that is judged; made by read_scenario.";
 
 constexpr const char* at =
-    "The commanded motion at t, s: (N,) or a number. Instants outside of [0, duration] are those of the\n"
-    "motion's smooth continuation. Raises ValueError for what is not finite.";
+    "The commanded motion at t, s: (N,) or a number, in [0, duration]. An instant beyond either end by no more than\n"
+    "4 eps duration is put on it. Raises ValueError for one that is further out or not finite.";
 
 constexpr const char* inverse_dynamics =
     "Efforts of the six motors, in leg order, for a motion of N instants: (N, 6), by (37); N m, or N where a motor\n"

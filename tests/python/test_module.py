@@ -165,8 +165,22 @@ def test_what_is_not_finite_is_refused_with_its_place(helix):
                        (s.parameter_derivatives, "derivative"), (s.regressor, "derivative")):
         with pytest.raises(ValueError, match=what + r" [0-9]+ = -?(inf|nan) " + at):
             call(fast)
-    with pytest.raises(ValueError, match=r"position 1 = -?(inf|nan) at t = 1e\+300 s"):
-        s.motion(1e300)
+
+
+def test_instants_beyond_the_motion_are_refused_but_for_rounding(helix, tmp_path):
+    odd = tmp_path / "odd.toml"
+    odd.write_text(helix.read_text().replace("duration = 3.0", "duration = 0.3", 1))
+    s = ursula.read_scenario(odd)
+    end = s.motion(s.duration)
+    for t in (np.arange(0, 0.35, 0.1)[-1], np.nextafter(0.3, 1)):
+        assert t > s.duration
+        assert s.motion(t).t[0] == s.duration and np.array_equal(s.motion(t).p, end.p)
+    assert s.motion(-1e-17).t[0] == 0
+    with pytest.raises(ValueError, match=r"t\[2\] = 0.4 s is outside of the motion, expected 0 to 0.3 s"):
+        s.motion([0, 0.3, 0.4, 0.5])
+    for t in (-1e-9, 0.3 * (1 + 1e-14), 1e300):
+        with pytest.raises(ValueError, match=r"t\[0\] = .* s is outside of the motion"):
+            s.motion(t)
 
 
 @pytest.mark.parametrize("name", ["Scenario", "Motion", "Pose", "Check", "Result"])

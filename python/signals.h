@@ -1,0 +1,56 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <optional>
+
+namespace ursula::python {
+
+/// What Python's handlers of signals raise, as that of Ctrl-C does, while no bytecode runs.
+class Interruption {
+ public:
+  /// With or without Python's lock, which it takes twenty times a second at most.
+  bool cameInBetween() {
+    constexpr std::chrono::milliseconds between{50};
+    const auto now = std::chrono::steady_clock::now();
+    if (raised_ || now - last_ < between) return raised_.has_value();
+    last_ = now;
+    const pybind11::gil_scoped_acquire locked;
+    if (PyErr_CheckSignals() != 0) raised_.emplace();
+    return raised_.has_value();
+  }
+  void rethrow() const {
+    if (raised_) throw *raised_;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_{};
+  std::optional<pybind11::error_already_set> raised_;
+};
+
+/// Rows between two looks for signals: some milliseconds, and enough for the threads of a batch.
+constexpr std::size_t rows_at_once = 256, batch_at_once = 16384;
+
+/// `each(first, last)` for one block of `count` rows after the other, with or without Python's lock. Throws what a
+/// handler of signals raises between them.
+template <class F>
+void inBlocks(std::size_t count, std::size_t at_once, F&& each) {
+  Interruption interruption;
+  for (std::size_t first = 0; first < count; first += at_once) {
+    each(first, std::min(first + at_once, count));
+    if (interruption.cameInBetween()) interruption.rethrow();
+  }
+}
+
+/// `each(row)`, likewise.
+template <class F>
+void forRows(std::size_t count, F&& each) {
+  inBlocks(count, rows_at_once, [&each](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) each(k);
+  });
+}
+
+}  // namespace ursula::python
