@@ -9,7 +9,6 @@ const std::vector<CheckName>& checkNames() {
       {"motion.twist", "m/s", N::nothing},
       {"motion.twist_rate", "m/s^2", N::nothing},
       {"motion.load", "N, N m", N::load_history},
-      {"motion.reading", "numbers", N::scenario_file},
       {"kinematics.joint_angles", "rad", N::kinematics},
       {"kinematics.joint_rates", "rad/s", N::kinematics},
       {"kinematics.joint_accelerations", "rad/s^2", N::kinematics},

@@ -9,7 +9,6 @@ namespace ursula {
 enum class CheckNeeds {
   nothing,
   load_history,     ///< a load that varies over time
-  scenario_file,    ///< a file that the scenario was read from
   kinematics,       ///< a subject that says more than torques
   any_instant,      ///< torques at any instant, not those of a file alone
   direct_dynamics,  ///< a subject that solves (36)

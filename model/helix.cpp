@@ -141,10 +141,19 @@ void validateRange(const HelixParameters& helix, const HelixKernel<double>& kern
   }
 }
 
+HiddenTerms hiddenIn(const HelixParameters& helix) {
+  HiddenTerms hidden;
+  const double start = std::abs(helix.start_angle);
+  hidden.angle = start + std::abs(helix.phase);
+  hidden.length = helix.radius * (1 + hidden.angle) + std::abs(helix.pitch) * (start + std::abs(helix.height_phase));
+  return hidden;
+}
+
 std::unique_ptr<Trajectory> helixFrom(const HelixParameters& parameters, const Vector3d& origin) {
   return std::make_unique<KernelTrajectory<HelixKernel>>(
       "helix", parameters.duration, HelixKernel<double>(parameters, origin), HelixKernel<Real50>(parameters, origin),
-      [parameters, origin](const Vector3d& further) { return helixFrom(parameters, origin + further); });
+      [parameters, origin](const Vector3d& further) { return helixFrom(parameters, origin + further); },
+      std::vector<double>{}, hiddenIn(parameters));
 }
 
 }  // namespace

@@ -18,13 +18,14 @@ class KernelTrajectory final : public ExactTrajectory {
   using Relocate = std::function<std::unique_ptr<Trajectory>(const Vector3d& origin)>;
 
   KernelTrajectory(std::string kind, double duration, Kernel<double> kernel, Kernel<Real50> kernel50, Relocate relocate,
-                   std::vector<double> knots = {})
+                   std::vector<double> knots = {}, HiddenTerms hidden = {})
       : kind_(std::move(kind)),
         duration_(duration),
         kernel_(std::move(kernel)),
         kernel50_(std::move(kernel50)),
         relocate_(std::move(relocate)),
-        knots_(std::move(knots)) {}
+        knots_(std::move(knots)),
+        hidden_(hidden) {}
 
   std::string kind() const override { return kind_; }
   double duration() const override { return duration_; }
@@ -32,6 +33,7 @@ class KernelTrajectory final : public ExactTrajectory {
   Motion<Real50> at(const Real50& t) const override { return kernel50_.at(t); }
   std::unique_ptr<Trajectory> relativeTo(const Vector3d& origin) const override { return relocate_(origin); }
   const std::vector<double>& knots() const override { return knots_; }
+  HiddenTerms hiddenTerms() const override { return hidden_; }
 
  private:
   std::string kind_;
@@ -40,6 +42,7 @@ class KernelTrajectory final : public ExactTrajectory {
   Kernel<Real50> kernel50_;
   Relocate relocate_;
   std::vector<double> knots_;
+  HiddenTerms hidden_;
 };
 
 }  // namespace ursula

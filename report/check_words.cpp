@@ -15,8 +15,6 @@ const Entry entries[] = {
     {"motion.twist", "Commanded velocity", "Velocities are the pose's derivatives."},
     {"motion.twist_rate", "Commanded acceleration", "Accelerations are the pose's second derivatives."},
     {"motion.load", "Load over time", "The load passes through its table and never leaves its range."},
-    {"motion.reading", "Numbers as in the file",
-     "Other code reads the scenario a second time and finds the same numbers."},
     {"kinematics.joint_angles", "Joint coordinates", "The solver's joint coordinates are those of Simbody's loop."},
     {"kinematics.joint_rates", "Joint rates", "Likewise their rates, against Simbody's constraint Jacobian."},
     {"kinematics.joint_accelerations", "Joint accelerations", "Likewise their accelerations."},

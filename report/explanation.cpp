@@ -19,8 +19,6 @@ const char* needsInWords(CheckNeeds needs) {
   switch (needs) {
     case CheckNeeds::load_history:
       return "a load that varies over time";
-    case CheckNeeds::scenario_file:
-      return "a scenario that was read from a file";
     case CheckNeeds::kinematics:
       return "a solver that gives kinematics, not torques alone";
     case CheckNeeds::any_instant:

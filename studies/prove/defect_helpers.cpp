@@ -106,10 +106,9 @@ std::vector<LegKind> kindsOf(const Manipulator& machine) {
 
 std::vector<Defect> allDefects(const Manipulator& machine) {
   std::vector<Defect> out;
-  for (const auto& group :
-       {formulaDefects, legDefects, fastDefects, parameterDefects, indexDefects, frameDefects, frictionDefects,
-        motionDefects, torqueDefects, branchDefects, kinematicDefects, directDefects, hiddenDefects,
-        sharedMotionDefects, sharedLoadDefects, readingDefects, experimentDefects})
+  for (const auto& group : {formulaDefects, legDefects, fastDefects, parameterDefects, indexDefects, frameDefects,
+                            frictionDefects, motionDefects, torqueDefects, branchDefects, kinematicDefects,
+                            directDefects, hiddenDefects, sharedMotionDefects, sharedLoadDefects, experimentDefects})
     append(out, group(machine));
   return out;
 }

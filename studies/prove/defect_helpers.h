@@ -82,7 +82,6 @@ std::vector<Defect> directDefects(const Manipulator& machine);
 std::vector<Defect> hiddenDefects(const Manipulator& machine);
 std::vector<Defect> sharedMotionDefects(const Manipulator& machine);
 std::vector<Defect> sharedLoadDefects(const Manipulator& machine);
-std::vector<Defect> readingDefects(const Manipulator& machine);
 std::vector<Defect> experimentDefects(const Manipulator& machine);
 
 }  // namespace ursula

@@ -16,7 +16,7 @@ struct Defect {
   std::string name;
   std::string group;                       ///< "formula", "term", "parameter", …
   SubjectOf subject = nullptr;             ///< the solver on trial
-  InjectedFault::Seen scenario = nullptr;  ///< what all formulations are given: commanded motion, load, numbers as read
+  InjectedFault::Seen scenario = nullptr;  ///< what all formulations are given: commanded motion, load
   InjectedFault fault = {};                ///< an experiment
   /// On how many formulations it must be caught. 1 where by its nature only one can see it: direct dynamics and
   /// reactions, which Simbody alone has beside the solver; what all formulations share; an engine; what the motion does

@@ -1,22 +1,17 @@
-// What all formulations share, so that none of them can see it: the commanded motion, the load, the numbers as read.
+// What all formulations share, so that none of them can see it: the commanded motion and the load.
 
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <cmath>
-#include <limits>
+#include <Eigen/LU>
 
 #include "model/exact_trajectory.h"
-#include "model/trajectories.h"
 #include "studies/prove/defect_helpers.h"
-#include "validation/checks/file_as_written.h"
 
 namespace ursula {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-
-/// `wrong`, which is still held against the file where `right` is.
+/// `wrong`, which counts as read from a file where `right` was.
 Scenario asRead(const Scenario& right, Scenario wrong) {
   if (right.isAsRead()) wrong.markAsRead();
   return wrong;
@@ -42,6 +37,7 @@ class FaultyTrajectory final : public ExactTrajectory {
     return moved ? std::make_unique<FaultyTrajectory>(std::move(moved), change_) : nullptr;
   }
   const std::vector<double>& knots() const override { return right_->knots(); }
+  HiddenTerms hiddenTerms() const override { return right_->exact() ? right_->exact()->hiddenTerms() : HiddenTerms(); }
 
  private:
   std::shared_ptr<const Trajectory> right_;
@@ -63,74 +59,37 @@ Defect sharedMotion(const char* name, const ChangeAt& change) {
   });
 }
 
-Defect sharedLoad(const char* name, const std::function<void(Load&, const Scenario&)>& change) {
-  return shared(name, "shared load", [change](const Scenario& s) {
-    if (!s.load) return s;
+/// Through the right rows, but slopes are limited for other components, of which `map` makes the right ones; where the
+/// load is constant it stays.
+Defect slopesOf(const char* components, const Matrix6d& map) {
+  const std::string name = fmt::format("load's slopes limited for {}", components);
+  return shared(name, "shared load", [map](const Scenario& s) {
+    if (!s.load || !s.load->history) return s;
+    const Matrix6d back = map.inverse();
+    std::vector<TimedWrench> rows = s.load->history->rows();
+    for (TimedWrench& row : rows) {
+      const Vector6d other = back * (Vector6d() << row.wrench.force, row.wrench.moment).finished();
+      row.wrench = {other.head<3>(), other.tail<3>()};
+    }
     const auto load = std::make_shared<Load>(*s.load);
-    change(*load, s);
+    load->history = std::make_shared<const LoadHistory>(LoadHistory(rows), map, 1);
     Scenario wrong = s;
     wrong.load = load;
     return asRead(s, wrong);
   });
 }
 
-using ChangeRows = std::function<std::vector<TimedWrench>(std::vector<TimedWrench>, const Scenario&)>;
-
-/// Other rows; where the load is constant it stays.
-Defect sharedRows(const char* name, const ChangeRows& change) {
-  return sharedLoad(name, [change](Load& load, const Scenario& s) {
-    if (load.history) load.history = std::make_shared<const LoadHistory>(change(load.history->rows(), s));
-  });
+/// Makes component i of the sum of itself and `share` of component j; of [f; m].
+Matrix6d outOfSum(int i, int j, double share) {
+  Matrix6d map = Matrix6d::Identity();
+  map(i, j) = -share;
+  return map;
 }
 
-Wrench<double> between(const TimedWrench& a, const TimedWrench& b, double share) {
-  return {(1 - share) * a.wrench.force + share * b.wrench.force,
-          (1 - share) * a.wrench.moment + share * b.wrench.moment};
-}
-
-std::vector<TimedWrench> interpolatedLinearly(const std::vector<TimedWrench>& rows, const Scenario&) {
-  constexpr int pieces = 20;
-  std::vector<TimedWrench> out;
-  for (std::size_t i = 0; i + 1 < rows.size(); ++i)
-    for (int k = 0; k < pieces; ++k) {
-      const double share = static_cast<double>(k) / pieces;
-      out.push_back({rows[i].time + share * (rows[i + 1].time - rows[i].time), between(rows[i], rows[i + 1], share)});
-    }
-  out.push_back(rows.back());
-  return out;
-}
-
-/// Each row changed.
-ChangeRows eachRow(const std::function<void(TimedWrench&, const Scenario&)>& change) {
-  return [change](std::vector<TimedWrench> rows, const Scenario& s) {
-    for (TimedWrench& row : rows) change(row, s);
-    return rows;
-  };
-}
-
-Defect misread(const std::string& name, const ChangeMachine& change) {
-  return shared(name, "reading", [change](const Scenario& s) {
-    Scenario wrong = s;
-    wrong.manipulator = std::make_shared<const Manipulator>(changedMachine(*s.manipulator, change));
-    return asRead(s, wrong);
-  });
-}
-
-/// Other poses, where the motion goes through some.
-Defect misreadPoses(const char* name, const std::function<void(std::vector<TimedPose>&)>& change) {
-  return shared(name, "reading", [change](const Scenario& s) {
-    std::optional<FileAsWritten> file = asWritten(s);
-    if (!file || file->trajectory.kind != "waypoints") return s;
-    change(file->trajectory.poses);
-    Scenario wrong = s;
-    wrong.trajectory = makeWaypoints(file->trajectory.poses);
-    return asRead(s, wrong);
-  });
-}
-
-void swapProducts(Matrix3d& inertia, int a, int b, int c, int d) {
-  std::swap(inertia(a, b), inertia(c, d));
-  std::swap(inertia(b, a), inertia(d, c));
+Matrix6d inAnotherOrder() {
+  Matrix6d map = Matrix6d::Zero();
+  for (int i = 0; i < 6; ++i) map(i, (i + 2) % 6) = 1;
+  return map;
 }
 
 }  // namespace
@@ -157,65 +116,12 @@ std::vector<Defect> sharedMotionDefects(const Manipulator&) {
 }
 
 std::vector<Defect> sharedLoadDefects(const Manipulator&) {
-  return {
-      sharedRows("load between its rows by straight lines", interpolatedLinearly),
-      sharedRows("load's rows late by 1e-6 s", eachRow([](TimedWrench& row, const Scenario&) { row.time += 1e-6; })),
-      sharedRows("load's moment about the mass centre", eachRow([](TimedWrench& row, const Scenario& s) {
-                   row.wrench.moment += s.manipulator->platform().center_of_mass.cross(row.wrench.force);
-                 })),
-      sharedRows("load's force and moment exchanged",
-                 eachRow([](TimedWrench& row, const Scenario&) { std::swap(row.wrench.force, row.wrench.moment); })),
-      sharedRows("second row of the load off by 1e-15 of itself",
-                 [](std::vector<TimedWrench> rows, const Scenario&) {
-                   rows[1].wrench.force.z() *= 1 + 4 * eps;
-                   return rows;
-                 }),
-      sharedLoad("load read in the other frame",
-                 [](Load& load, const Scenario&) {
-                   load.frame = load.frame == Load::Frame::base ? Load::Frame::platform : Load::Frame::base;
-                 }),
-      sharedLoad("load's point not read", [](Load& load, const Scenario&) { load.point.setZero(); })};
-}
-
-std::vector<Defect> readingDefects(const Manipulator& machine) {
-  const std::size_t first = legOf(machine, 1), second = legOf(machine, 2), fourth = legOf(machine, 4),
-                    sixth = legOf(machine, 6);
-  const Coordinate last = coordinatesOf(machine, first)[2];
-  using P = ManipulatorParameters;
-  using Poses = std::vector<TimedPose>;
-  return {misread("xz and yz exchanged in the platform's tensor",
-                  [](P& m) { swapProducts(m.platform.inertia, 0, 2, 1, 2); }),
-          misread("xy and xz exchanged in leg 2's tensors",
-                  [=](P& m) {
-                    swapProducts(m.legs[second].proximal.inertia, 0, 1, 0, 2);
-                    swapProducts(m.legs[second].distal.inertia, 0, 1, 0, 2);
-                  }),
-          misread("one number off by 1e-15 of itself", [=](P& m) { m.legs[fourth].base_point.y() *= 1 + 4 * eps; }),
-          misread("one number off in its last bit", [=](P& m) { m.legs[first].coulomb.on(last) *= 1 + eps; }),
-          misread("axes normalised on reading",
-                  [](P& m) {
-                    for (Leg& leg : m.legs) leg.base_axis.normalize();
-                  }),
-          misread(fmt::format("smoothing speed of leg {} not read", sixth + 1),
-                  [=](P& m) {
-                    m.legs[sixth].coulomb.smoothing_speed = CoulombFriction{}.smoothing_speed;
-                    m.legs[sixth].coulomb.sliding_speed = CoulombFriction{}.sliding_speed;
-                  }),
-          misread("numbers in single precision",
-                  [](P& m) { m.platform.mass = static_cast<double>(static_cast<float>(m.platform.mass)); }),
-          misreadPoses("quaternions as x, y, z, w",
-                       [](Poses& poses) {
-                         for (TimedPose& pose : poses) {
-                           const Eigen::Vector4d q = pose.orientation;
-                           pose.orientation << q(3), q(0), q(1), q(2);
-                         }
-                       }),
-          misreadPoses("quaternions the other way round",
-                       [](Poses& poses) {
-                         for (TimedPose& pose : poses) pose.orientation.tail<3>() *= -1;
-                       }),
-          control(misread("number as read: no fault", [](P&) {})),
-          misreadPoses("a waypoint's time off by 1e-15 of itself", [](Poses& poses) { poses[1].time *= 1 + 4 * eps; })};
+  return {slopesOf("f_x + f_y / 2, not for f_x", outOfSum(0, 1, 0.5)),
+          slopesOf("f_y + 1e-6 f_z, not for f_y", outOfSum(1, 2, 0x1p-20)),
+          slopesOf("f_z + m_x / 4, not for f_z", outOfSum(2, 3, 0.25)),
+          slopesOf("m_x + f_y / 4, not for m_x", outOfSum(3, 1, 0.25)),
+          slopesOf("m_z + m_y / 2, not for m_z", outOfSum(5, 4, 0.5)),
+          control(slopesOf("the components in another order: no fault", inAnotherOrder()))};
 }
 
 }  // namespace ursula

@@ -37,7 +37,7 @@ ValidationResult of(std::vector<Check> checks) {
 TEST(TerminalText, alignsValueLimitUnitAndShareUnderTheirGroup) {
   const std::string text = report::validationText(
       of({judged("torque.pointwise", 1.25e-9, 5e-9, "N m", "", ""),
-          judged("torque.twin", 3, 2, "N m", "", "leg 3, t = 1 s"), judged("motion.reading", 0, 0, "numbers", "", "")}),
+          judged("torque.twin", 3, 2, "N m", "", "leg 3, t = 1 s"), judged("motion.pose", 0, 0, "numbers", "", "")}),
       false);
   EXPECT_EQ(text, R"(s: fail
 
@@ -47,7 +47,7 @@ Motors: the engines agree on the efforts
   fail          torque.twin              3      2  N·m      1.5 times
                 leg 3, t = 1 s
 Input: the motion asked for is well defined
-  pass          motion.reading           0      0  numbers        0 %
+  pass          motion.pose              0      0  numbers        0 %
 
 verdict: fail — 1 of 3 checks failed: torque.twin, which is at 1.5 times its limit.
 )");

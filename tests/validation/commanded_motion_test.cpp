@@ -37,7 +37,7 @@ TEST_P(CommandedMotion, isRightWithAMargin) {
     EXPECT_LE(check.value, check.limit / 3) << check.name << ": " << check.why;
     if (check.limit > 0) RecordProperty(check.name, std::to_string(check.value / check.limit));
   }
-  for (const char* name : {"motion.pose", "motion.twist", "motion.twist_rate", "motion.reading"})
+  for (const char* name : {"motion.pose", "motion.twist", "motion.twist_rate"})
     EXPECT_NE(findCheck(checks, name), nullptr) << name;
   EXPECT_EQ(findCheck(checks, "motion.load") != nullptr, scenario.load != nullptr);
 }
@@ -45,11 +45,10 @@ TEST_P(CommandedMotion, isRightWithAMargin) {
 INSTANTIATE_TEST_SUITE_P(Shipped, CommandedMotion, testing::ValuesIn(shipped()),
                          [](const auto& name) { return asTestName(name.param); });
 
-TEST(CommandedMotionOfRandomMachines, passesAndHasNoFileToBeReadAgain) {
+TEST(CommandedMotionOfRandomMachines, passes) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const std::vector<Check> checks = judgeCommandedMotion(randomScenario(seed));
     EXPECT_EQ(others(checks, Verdict::pass), "") << seed;
-    EXPECT_EQ(findCheck(checks, "motion.reading"), nullptr);
     for (const Check& check : checks) EXPECT_LE(check.value, check.limit / 3) << seed << " " << check.name;
   }
 }
@@ -69,6 +68,7 @@ class Faulty final : public ExactTrajectory {
   }
   Motion<Real50> at(const Real50& t) const override { return truth_->at(t); }
   const std::vector<double>& knots() const override { return truth_->knots(); }
+  HiddenTerms hiddenTerms() const override { return truth_->exact()->hiddenTerms(); }
 
  private:
   std::shared_ptr<const Trajectory> truth_;

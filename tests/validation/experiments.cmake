@@ -14,10 +14,9 @@ target_link_libraries(witness_tests PRIVATE
 target_compile_definitions(witness_tests PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
 gtest_discover_tests(witness_tests)
 
-# What all formulations share: the commanded motion, the load, the numbers as read.
+# What all formulations share: the commanded motion and the load.
 add_executable(commanded_tests
   commanded_motion_test.cpp
-  independent_reading_test.cpp
   load_check_test.cpp
   motion_in_doubles_test.cpp
 )

@@ -74,19 +74,24 @@ INSTANTIATE_TEST_SUITE_P(Ways, WrongCurve,
                          testing::Values("straight lines", "off by 1e-9", "out of range", "no number",
                                          "not constant beyond"));
 
-TEST(LoadCheck, holdsAConstantLoadAgainstItsFile) {
+TEST(LoadCheck, holdsAConstantLoadAgainstItself) {
   Load load;
   load.force = {1, 2, 3};
   load.moment = {4, 5, 6};
-  LoadAsWritten written;
-  written.force = load.force;
-  written.moment = load.moment;
-  EXPECT_EQ(judgeLoad(load, 3, &written).verdict, Verdict::pass);
-  EXPECT_EQ(judgeLoad(load, 3, nullptr).verdict, Verdict::pass);
-  written.moment.z() *= 1 + 1e-15;
-  EXPECT_EQ(judgeLoad(load, 3, &written).verdict, Verdict::fail);
-  written.moment.z() = std::nan("");
-  EXPECT_EQ(judgeLoad(load, 3, &written).verdict, Verdict::fail);
+  EXPECT_EQ(judgeLoad(load, 3).verdict, Verdict::pass);
+  load.moment.z() = std::nan("");
+  EXPECT_EQ(judgeLoad(load, 3).verdict, Verdict::fail);
+}
+
+/// A mapped history goes through its rows, and not as their table does: slopes are limited by component.
+TEST(LoadCheck, seesSlopesThatAreNotOfTheRows) {
+  Load load;
+  Matrix6d map = Matrix6d::Identity();
+  load.history = std::make_shared<const LoadHistory>(LoadHistory(table()), map, 1);
+  EXPECT_EQ(judgeLoad(load, 3).verdict, Verdict::pass);
+  map(0, 1) = 1e-6;
+  load.history = std::make_shared<const LoadHistory>(LoadHistory(table()), map, 1);
+  EXPECT_EQ(judgeLoad(load, 3).verdict, Verdict::fail);
 }
 
 }  // namespace

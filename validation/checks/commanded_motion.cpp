@@ -9,7 +9,6 @@
 
 #include "base/real50.h"
 #include "nocsolver/solver.h"
-#include "validation/checks/independent_reading.h"
 #include "validation/checks/load_check.h"
 #include "validation/limits/conditioning.h"
 #include "validation/verdict/nearest_to_limit.h"
@@ -236,16 +235,6 @@ Check judgedAs(const std::string& name, const NearestToLimit& shown, const std::
                   parts[static_cast<std::size_t>(shown.where)]));
 }
 
-HiddenTerms hiddenOf(const std::optional<FileAsWritten>& written) {
-  if (!written || written->trajectory.kind != "helix") return {};
-  const HelixParameters& helix = written->trajectory.helix;
-  HiddenTerms hidden;
-  const double start = std::abs(helix.start_angle);
-  hidden.angle = start + std::abs(helix.phase);
-  hidden.length = helix.radius * (1 + hidden.angle) + std::abs(helix.pitch) * (start + std::abs(helix.height_phase));
-  return hidden;
-}
-
 }  // namespace
 
 std::vector<Check> judgeTrajectory(const Trajectory& trajectory, double length, const HiddenTerms& hidden) {
@@ -262,13 +251,11 @@ std::vector<Check> judgeTrajectory(const Trajectory& trajectory, double length, 
 }
 
 std::vector<Check> judgeCommandedMotion(const Scenario& scenario) {
-  const std::optional<FileAsWritten> written = scenario.isAsRead() ? asWritten(scenario) : std::nullopt;
+  const ExactTrajectory* exact = scenario.isAsRead() ? scenario.trajectory->exact() : nullptr;
   const double length = Solver<double>(*scenario.manipulator).length();
-  std::vector<Check> checks = judgeTrajectory(*scenario.trajectory, length, hiddenOf(written));
-  if (scenario.load)
-    checks.push_back(judgeLoad(*scenario.load, scenario.trajectory->duration(),
-                               written && written->load ? &*written->load : nullptr));
-  if (written) checks.push_back(judgeReading(scenario, *written));
+  std::vector<Check> checks =
+      judgeTrajectory(*scenario.trajectory, length, exact == nullptr ? HiddenTerms() : exact->hiddenTerms());
+  if (scenario.load) checks.push_back(judgeLoad(*scenario.load, scenario.trajectory->duration()));
   return checks;
 }
 

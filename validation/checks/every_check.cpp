@@ -16,13 +16,11 @@ std::string whyNot(const CheckName& check, const Scenario& scenario, const Subje
   const auto unless = [](bool there, const std::string& why) { return there ? "" : why; };
   const bool of_files = check.needs == CheckNeeds::nothing || check.needs == CheckNeeds::torque_file;
   if (!has.any_instant && of_files) return "";
-  if (!has.any_instant && check.needs != CheckNeeds::load_history && check.needs != CheckNeeds::scenario_file)
+  if (!has.any_instant && check.needs != CheckNeeds::load_history)
     return "a file gives torques alone, at its own instants";
   switch (check.needs) {
     case CheckNeeds::load_history:
       return scenario.load ? "the load is constant" : "there is no load";
-    case CheckNeeds::scenario_file:
-      return "the scenario was not read from a file";
     case CheckNeeds::kinematics:
       return unless(has.kinematics, "the subject gives no kinematics");
     case CheckNeeds::direct_dynamics:

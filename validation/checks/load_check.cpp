@@ -120,15 +120,9 @@ Check judgeLoadTable(const std::vector<TimedWrench>& rows, const std::function<W
                   rows.size(), shown.t, componentName(shown.where)));
 }
 
-Check judgeLoad(const Load& load, double duration, const LoadAsWritten* written) {
-  if (load.history) {
-    std::vector<TimedWrench> rows;
-    for (const double t : load.history->knots()) rows.push_back({t, load.history->at(t)});
-    return judgeLoadTable(written != nullptr && written->tabulated ? written->rows : rows,
-                          [&](double t) { return load.at(t); });
-  }
-  const Vector6d constant = stacked(written == nullptr ? Wrench<double>{load.force, load.moment}
-                                                       : Wrench<double>{written->force, written->moment});
+Check judgeLoad(const Load& load, double duration) {
+  if (load.history) return judgeLoadTable(load.history->rows(), [&](double t) { return load.at(t); });
+  const Vector6d constant = stacked({load.force, load.moment});
   NearestToLimit shown;
   for (const double t : {0.0, 0.3 * duration, duration}) {
     const Vector6d error = stacked(load.at(t)) - constant;

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/real50.h"
-#include "validation/checks/independent_reading.h"
+#include "tests/model/second_reading/second_reading.h"
 #include "validation/checks/quintic_by_control_points.h"
 #include "validation/limits/conditioning.h"
 

@@ -34,9 +34,8 @@ struct FileAsWritten {
   std::optional<LoadAsWritten> load;
 };
 
-/// A scenario's text read a second time, by code that shares with model/scenario*.cpp, model/toml_reader and model/csv
+/// A scenario's text read a second time, by code that shares with model/scenario*.cpp, model/toml_reader and base/csv
 /// nothing but toml++. It judges nothing: a number that is missing or of another type is NaN, which equals none.
-/// Nullopt where the text is no scenario's: generated machines, scenarios put together by a program.
-std::optional<FileAsWritten> asWritten(const Scenario& scenario);
+FileAsWritten asWritten(const Scenario& scenario);
 
 }  // namespace ursula

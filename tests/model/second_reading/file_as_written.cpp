@@ -1,4 +1,4 @@
-#include "validation/checks/file_as_written.h"
+#include "tests/model/second_reading/file_as_written.h"
 
 #include <filesystem>
 #include <fstream>
@@ -7,7 +7,7 @@
 
 #include "base/leading_number.h"
 #include "base/real50.h"
-#include "validation/checks/machine_as_written.h"
+#include "tests/model/second_reading/written_numbers.h"
 
 namespace ursula {
 namespace {
@@ -166,15 +166,8 @@ LoadAsWritten loadOf(const View& table, const std::filesystem::path& folder) {
 
 }  // namespace
 
-std::optional<FileAsWritten> asWritten(const Scenario& scenario) {
-  toml::table document;
-  try {
-    document = toml::parse(std::string_view(scenario.text));
-  } catch (const toml::parse_error&) {
-    return std::nullopt;
-  }
-  const toml::table& read = document;
-  if (!read.contains("manipulator")) return std::nullopt;
+FileAsWritten asWritten(const Scenario& scenario) {
+  const toml::table read = toml::parse(std::string_view(scenario.text));
   const std::filesystem::path folder = scenario.file.parent_path();
   FileAsWritten out;
   out.machine = machineOf(read["manipulator"]);

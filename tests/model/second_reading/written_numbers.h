@@ -1,12 +1,12 @@
 #pragma once
 
-// What a scenario's text is read with a second time: numbers of toml++'s nodes, and nothing refused. Internal.
+// What a scenario's text is read with a second time: numbers of toml++'s nodes, and nothing refused.
 
 #include <toml++/toml.h>
 
 #include <limits>
 
-#include "base/scalar.h"
+#include "model/manipulator.h"
 
 namespace ursula::written {
 
@@ -43,5 +43,8 @@ inline Matrix3d tensor(const View& node) {
       entry(4), entry(5), entry(2);
   return out;
 }
+
+/// `[manipulator]` as its file has it.
+ManipulatorParameters machineOf(const View& table);
 
 }  // namespace ursula::written

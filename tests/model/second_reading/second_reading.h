@@ -6,6 +6,10 @@
 #include <string>
 
 #include "base/scalar.h"
+#include "tests/model/second_reading/file_as_written.h"
+
+// The numbers of a scenario as read against those of its file, read a second time: an error of the reader would be the
+// same on every formulation, and so no check of a validation sees it.
 
 namespace ursula {
 
@@ -48,5 +52,11 @@ class Mismatches {
   int compared_ = 0, count_ = 0;
   std::string first_;
 };
+
+/// None where the reader is right: parameters to the last bit, 50-digit poses by rounding in the 50th digit.
+Mismatches mismatchesOf(const Scenario& scenario);
+
+/// Their part for the motion: poses at the instants that the file names, by other formulas than the trajectory's.
+void compareTrajectory(const Trajectory& trajectory, const TrajectoryAsWritten& written, Mismatches& mismatches);
 
 }  // namespace ursula

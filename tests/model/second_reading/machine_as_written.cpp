@@ -1,8 +1,8 @@
-#include "validation/checks/machine_as_written.h"
-
 #include <algorithm>
 #include <array>
 #include <string>
+
+#include "tests/model/second_reading/written_numbers.h"
 
 namespace ursula::written {
 namespace {
