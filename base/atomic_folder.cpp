@@ -150,16 +150,18 @@ void AtomicFolder::write(const fs::path& name, const std::string& content) {
 }
 
 void AtomicFolder::write(const fs::path& name, const std::function<void(const Take&)>& fill) {
-  const EndingHeld held;  // until it is known what a signal has to take away
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (temporary_.empty()) {
-    fs::path fresh;
-    do fresh = temporaryIn(base_, own(unfinished));
-    while (!fs::create_directory(fresh));
-    made_.push_back(temporary_ = fresh);
+  {
+    const EndingHeld held;  // until it is known what a signal has to take away
+    if (temporary_.empty()) {
+      fs::path fresh;
+      do fresh = temporaryIn(base_, own(unfinished));
+      while (!fs::create_directory(fresh));
+      made_.push_back(temporary_ = fresh);
+    }
+    makeFolder(temporary_ / name.parent_path());
+    made_.push_back(temporary_ / name);
   }
-  makeFolder(temporary_ / name.parent_path());
-  made_.push_back(temporary_ / name);
   writeSynced(temporary_ / name, shown_ / name, fill);
   written_.push_back(name);
 }

@@ -57,7 +57,8 @@ constexpr const char* effort_derivatives =
     "while w, v, alpha and a stay. Raises PoseError and ValueError as inverse_dynamics does.";
 
 constexpr const char* parameter_derivatives =
-    "(names, derivatives): by every number of the machine, SI, (N, 6, number of names), as \"leg[2].distal.mass\".\n"
+    "(names, derivatives): by every number of the machine, SI, (N, 6, number of names), named as the keys of a\n"
+    "sweep: \"manipulator.leg.2.distal.mass\", \"manipulator.platform.inertia.3\" for its fourth entry, xy.\n"
     "An inertia's xy is yx as well. Raises PoseError and ValueError as inverse_dynamics does.";
 
 constexpr const char* regressor =

@@ -1,11 +1,12 @@
 #include "nocsolver/fast/effort_derivatives.h"
 
+#include <algorithm>
 #include <array>
 
+#include "model/machine_numbers.h"
 #include "nocsolver/fast/dual.h"
 #include "nocsolver/fast/kernels/leg_guard.h"
 #include "nocsolver/fast/kernels/plane_dynamics.h"
-#include "nocsolver/fast/machine_numbers.h"
 #include "nocsolver/finite.h"
 #include "nocsolver/legs/leg_model_impl.h"
 
@@ -48,17 +49,70 @@ void seed(int first, Vector3<ByState>& v) {
   for (int k = 0; k < 3; ++k) v(k).d(first + k) = 1;
 }
 
-template <class S>
-WrittenMachine<S> written(const Manipulator& manipulator) {
-  WrittenMachine<S> out{MachineParameters<S>(manipulator), {}};
-  for (int i = 0; i < out.parameters.legs_in_all; ++i)
-    out.axis[static_cast<std::size_t>(i)] = constant<S>(manipulator.leg(i).base_axis);
-  return out;
+/// A machine with its axes as they are written, not of length 1.
+struct WrittenMachine {
+  MachineParameters<ByNumbers> parameters;
+  std::array<Vector3<ByNumbers>, leg_count> axis;
+
+  explicit WrittenMachine(const Manipulator& manipulator) : parameters(manipulator) {
+    for (int i = 0; i < manipulator.legCount(); ++i)
+      axis[static_cast<std::size_t>(i)] = constant<ByNumbers>(manipulator.leg(i).base_axis);
+  }
+};
+
+/// Has the number vary along a slope.
+void vary(WrittenMachine& machine, const MachineNumber& number, int slope) {
+  MachineParameters<ByNumbers>& m = machine.parameters;
+  const auto i = static_cast<std::size_t>(std::max(number.leg, 0)), k = static_cast<std::size_t>(number.entry);
+  LegModel<ByNumbers>& leg = m.legs[i];
+  const bool proximal = number.body == "proximal";
+  const auto one = [slope](ByNumbers& place) { place.d(slope) = 1; };
+  const auto entry = [&](Matrix3<ByNumbers>& I) {
+    const auto& [row, column] = tensor_entries[k];
+    one(I(row, column));
+    one(I(column, row));
+  };
+  const auto speeds = [&](bool sliding) {
+    for (std::size_t j = 0; j < 3; ++j)
+      if (slides(rowOf(leg.kind).coordinates[j]) == sliding) one(leg.speed[j]);
+  };
+  switch (number.quantity) {
+    case Quantity::gravity:
+      return one(m.gravity(number.entry));
+    case Quantity::platform_mass:
+      return one(m.mass);
+    case Quantity::platform_center:
+      return one(m.rho(number.entry));
+    case Quantity::platform_inertia:
+      return entry(m.I_M);
+    case Quantity::base_point:
+      return one(leg.a(number.entry));
+    case Quantity::platform_point:
+      return one(leg.b(number.entry));
+    case Quantity::base_axis:
+      return one(machine.axis[i](number.entry));
+    case Quantity::length:
+      return one(proximal ? leg.l : leg.s);
+    case Quantity::mass:
+      return one(proximal ? leg.mass_1 : leg.mass_2);
+    case Quantity::center:
+      return one(proximal ? leg.rho : leg.sigma);
+    case Quantity::inertia:
+      return entry(proximal ? leg.I_1 : leg.I_2);
+    case Quantity::friction:
+      return one(leg.viscous[k]);
+    case Quantity::coulomb:
+      return one(leg.coulomb[k]);
+    case Quantity::smoothing_speed:
+      return speeds(false);
+    case Quantity::sliding_speed:
+      return speeds(true);
+  }
 }
 
 /// Bodies of mass 1 at P and at the links' first ends, without inertia: derivatives there, by mass, distance and
 /// inertia, are the columns of the regressor.
-WrittenMachine<ByNumbers> unitBodies(WrittenMachine<ByNumbers> machine) {
+WrittenMachine unitBodies(WrittenMachine machine) {
   MachineParameters<ByNumbers>& m = machine.parameters;
   m.mass = 1;
   m.rho.setZero();
@@ -72,36 +126,38 @@ WrittenMachine<ByNumbers> unitBodies(WrittenMachine<ByNumbers> machine) {
   return machine;
 }
 
-/// What numbers efforts are linear in are at their own values.
-void addTensorAbout(double mass, const Vector3d& r, const Matrix3d& I, std::vector<double>& out) {
-  const Matrix3d about = I + mass * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
-  for (const double value : {about(0, 0), about(1, 1), about(2, 2), about(0, 1), about(0, 2), about(1, 2)})
-    out.push_back(value);
+Matrix3d about(double mass, const Vector3d& r, const Matrix3d& I) {
+  return I + mass * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
 }
 
-void addLink(const Link& link, std::vector<double>& out) {
-  out.push_back(link.mass);
-  out.push_back(link.mass * link.center_of_mass);
-  addTensorAbout(link.mass, link.center_of_mass * Vector3d::UnitZ(), link.inertia, out);
-}
-
-std::vector<double> regressorValuesOf(const Manipulator& machine) {
-  const Platform& platform = machine.platform();
-  std::vector<double> out = {platform.mass};
-  for (int k = 0; k < 3; ++k) out.push_back(platform.mass * platform.center_of_mass(k));
-  addTensorAbout(platform.mass, platform.center_of_mass, platform.inertia, out);
-  for (const Leg& leg : machine.parameters().legs) {
-    if (leg.kind == LegKind::PUS)
-      out.push_back(leg.proximal.mass);
-    else
-      addLink(leg.proximal, out);
-    addLink(leg.distal, out);
-    for (const Coordinate coordinate : rowOf(leg.kind).coordinates) {
-      out.push_back(leg.friction.on(coordinate));
-      out.push_back(leg.coulomb.on(coordinate));
+/// With first moments for mass centres, and inertias about P and the links' first ends: what efforts are linear in.
+ManipulatorParameters withMoments(ManipulatorParameters machine) {
+  Platform& platform = machine.platform;
+  platform.inertia = about(platform.mass, platform.center_of_mass, platform.inertia);
+  platform.center_of_mass *= platform.mass;
+  for (Leg& leg : machine.legs)
+    for (Link* link : {&leg.proximal, &leg.distal}) {
+      link->inertia = about(link->mass, link->center_of_mass * Vector3d::UnitZ(), link->inertia);
+      link->center_of_mass *= link->mass;
     }
-  }
+  return machine;
+}
+
+/// The name of the number that takes its place there: "manipulator.leg.2.distal.first_moment".
+std::string momentName(const MachineNumber& number) {
+  std::string out = number.path;
+  const auto rename = [&out](const std::string& from, const char* to) {
+    if (const auto at = out.find(from); at != std::string::npos) out.replace(at, from.size(), to);
+  };
+  rename("center_of_mass", "first_moment");
+  rename("inertia", number.leg < 0 ? "inertia_at_P" : "inertia_at_end");
   return out;
+}
+
+bool isLinear(const MachineNumber& number) {
+  const bool speed = number.quantity == Quantity::smoothing_speed || number.quantity == Quantity::sliding_speed;
+  const auto& group = number.group;
+  return group == "mass" || group == "center" || group == "inertia" || (group == "friction" && !speed);
 }
 
 }  // namespace
@@ -109,35 +165,32 @@ std::vector<double> regressorValuesOf(const Manipulator& machine) {
 struct EffortDerivatives::Impl {
   explicit Impl(const Manipulator& manipulator)
       : by_state(kernel::machineModel(MachineParameters<ByState>(manipulator))),
-        machine(written<ByNumbers>(manipulator)),
+        machine(manipulator),
         unit(unitBodies(machine)),
-        parameters(namesOf(machine, Numbers::parameters)),
-        regressor(namesOf(machine, Numbers::regressor)),
-        values(regressorValuesOf(manipulator)) {}
-
-  static std::vector<std::string> namesOf(WrittenMachine<ByNumbers> machine, Numbers which) {
-    std::vector<std::string> names;
-    eachNumber(machine, which,
-               [&names](const std::string& name, const std::vector<ByNumbers*>&) { names.push_back(name); });
-    return names;
+        numbers(machineNumbers(manipulator.parameters())) {
+    const ManipulatorParameters moments = withMoments(manipulator.parameters());
+    for (const MachineNumber& number : numbers) {
+      parameters.push_back(number.path);
+      if (!isLinear(number)) continue;
+      linear.push_back(number);
+      regressor.push_back(momentName(number));
+      values.push_back(number.get(moments));
+    }
   }
 
   /// A column for each number of `at`, as many at a time as a dual number has slopes.
-  Columns columns(const WrittenMachine<ByNumbers>& at, Numbers which, std::size_t count, const Motion<double>& motion,
-                  const Vector6d& load) const {
-    Columns out(6, static_cast<Eigen::Index>(count));
+  static Columns columns(const WrittenMachine& at, const std::vector<MachineNumber>& numbers,
+                         const Motion<double>& motion, const Vector6d& load) {
+    const int count = static_cast<int>(numbers.size());
+    Columns out(6, count);
     const Motion<ByNumbers> m = constant<ByNumbers>(motion);
     const Vector6<ByNumbers> on_platform = load.cast<ByNumbers>();
-    for (int first = 0; first < static_cast<int>(count); first += at_a_time) {
-      WrittenMachine<ByNumbers> seeded = at;
-      int next = 0;
-      eachNumber(seeded, which, [&](const std::string&, const std::vector<ByNumbers*>& places) {
-        const int slope = next++ - first;
-        for (ByNumbers* place : places)
-          if (slope >= 0 && slope < at_a_time) place->d(slope) = 1;
-      });
+    for (int first = 0; first < count; first += at_a_time) {
+      const int here = std::min(at_a_time, count - first);
+      WrittenMachine seeded = at;
+      for (int k = 0; k < here; ++k) vary(seeded, numbers[static_cast<std::size_t>(first + k)], k);
       const Vector6<ByNumbers> found = efforts(modelOf(seeded), m, on_platform);
-      for (int k = 0; k < at_a_time && first + k < static_cast<int>(count); ++k)
+      for (int k = 0; k < here; ++k)
         for (int row = 0; row < 6; ++row) out(row, first + k) = found(row).d(k);
     }
     requireFinite(out.data(), static_cast<std::size_t>(out.size()), "derivative", motion.t);
@@ -145,7 +198,7 @@ struct EffortDerivatives::Impl {
   }
 
   /// With friction wherever there could be some, and the frames of the axes as they are varied.
-  static kernel::MachineModel<ByNumbers> modelOf(WrittenMachine<ByNumbers>& seeded) {
+  static kernel::MachineModel<ByNumbers> modelOf(WrittenMachine& seeded) {
     MachineParameters<ByNumbers>& m = seeded.parameters;
     for (std::size_t i = 0; i < static_cast<std::size_t>(m.legs_in_all); ++i)
       setFixedFrame<ByNumbers>(seeded.axis[i], m.legs[i].x_hat, m.legs[i].u, m.legs[i].z_hat);
@@ -158,7 +211,8 @@ struct EffortDerivatives::Impl {
   }
 
   kernel::MachineModel<ByState> by_state;
-  WrittenMachine<ByNumbers> machine, unit;
+  WrittenMachine machine, unit;
+  std::vector<MachineNumber> numbers, linear;
   std::vector<std::string> parameters, regressor;
   std::vector<double> values;
 };
@@ -198,7 +252,7 @@ EffortsByState EffortDerivatives::byState(const Motion<double>& motion, const Ve
 const std::vector<std::string>& EffortDerivatives::parameterNames() const { return impl_->parameters; }
 
 EffortDerivatives::Columns EffortDerivatives::byParameters(const Motion<double>& motion, const Vector6d& load) const {
-  return impl_->columns(impl_->machine, Numbers::parameters, impl_->parameters.size(), motion, load);
+  return Impl::columns(impl_->machine, impl_->numbers, motion, load);
 }
 
 const std::vector<std::string>& EffortDerivatives::regressorNames() const { return impl_->regressor; }
@@ -208,7 +262,7 @@ Eigen::VectorXd EffortDerivatives::regressorValues() const {
 }
 
 EffortDerivatives::Columns EffortDerivatives::regressor(const Motion<double>& motion) const {
-  return impl_->columns(impl_->unit, Numbers::regressor, impl_->regressor.size(), motion, Vector6d::Zero());
+  return Impl::columns(impl_->unit, impl_->linear, motion, Vector6d::Zero());
 }
 
 }  // namespace ursula

@@ -47,8 +47,9 @@ class EffortDerivatives {
   /// One row of six numbers for each column of a table of derivatives.
   using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-  /// Names of the machine's numbers: "gravity.x", "platform.inertia.xy", "leg[2].distal.mass". Left out are those that
-  /// efforts cannot depend on: the length of a cylinder, of a carriage all but its mass.
+  /// Names of the machine's numbers, as the keys of a sweep: "manipulator.gravity.0", "manipulator.platform.inertia.3"
+  /// (xy), "manipulator.leg.2.distal.mass". Left out are those that efforts cannot depend on: the length of a cylinder,
+  /// of a carriage all but its mass.
   const std::vector<std::string>& parameterNames() const;
 
   /// By each of them, in SI. An inertia's xy is yx as well; `base_axis` is by its components as they are written, not
@@ -57,7 +58,7 @@ class EffortDerivatives {
 
   /// What efforts are linear in, once the geometry is given: mass, first moment and inertia of the platform about P, in
   /// M, and of each link about its first end, in its frame of (40), first moment along the link; viscous and Coulomb
-  /// friction. "platform.first_moment.x", kg·m, "leg[2].distal.inertia_at_end.xx", kg·m².
+  /// friction. "manipulator.platform.first_moment.0", kg·m, "manipulator.leg.2.distal.inertia_at_end.0", kg·m².
   const std::vector<std::string>& regressorNames() const;
 
   /// The machine's own values of them, π.

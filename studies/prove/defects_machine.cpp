@@ -84,13 +84,13 @@ std::vector<std::size_t> kneesOf(const Manipulator& machine) {
 }
 
 /// One leg of each kind, the second of it where there are two.
-std::vector<std::string> legsMet(const Manipulator& machine) {
-  std::vector<std::string> out;
+std::vector<int> legsMet(const Manipulator& machine) {
+  std::vector<int> out;
   for (const LegKind kind : kindsOf(machine)) {
     int last = 0, met = 0;
     for (int i = 0; i < machine.legCount() && met < 2; ++i)
       if (machine.leg(i).kind == kind) last = i, ++met;
-    out.push_back(fmt::format("leg[{}]", last + 1));
+    out.push_back(last);
   }
   return out;
 }
@@ -177,12 +177,10 @@ std::vector<Defect> indexDefects(const Manipulator& machine) {
 
 std::vector<Defect> parameterDefects(const Manipulator& machine) {
   std::vector<Defect> out;
-  const std::vector<std::string> legs = legsMet(machine);
+  const std::vector<int> legs = legsMet(machine);
   for (const Parameter& parameter : allParameters(machine)) {
-    const bool of_leg = parameter.name.rfind("leg[", 0) == 0;
-    const std::string leg = parameter.name.substr(0, parameter.name.find('.'));
-    if (of_leg && std::find(legs.begin(), legs.end(), leg) == legs.end()) continue;
-    out.push_back({fmt::format("{} off by {:g}", parameter.name, parameter_error), "parameter",
+    if (parameter.leg >= 0 && std::find(legs.begin(), legs.end(), parameter.leg) == legs.end()) continue;
+    out.push_back({fmt::format("{} off by {:g}", parameter.path, parameter_error), "parameter",
                    [parameter](const Scenario& s) { return disturbedSubject(s, parameter, parameter_error); }});
   }
   append(out, largerErrors(machine));

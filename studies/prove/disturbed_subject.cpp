@@ -11,7 +11,7 @@ Subject disturbedSubject(const Scenario& scenario, const Parameter& parameter, d
     return Manipulator(machine);
   };
   Subject subject = nocSubject(rebuilt(*scenario.manipulator), scenario.load);
-  subject.name = fmt::format("noc with {} off by {:g}", parameter.name, relative);
+  subject.name = fmt::format("noc with {} off by {:g}", parameter.path, relative);
   return subject;
 }
 

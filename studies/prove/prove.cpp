@@ -60,7 +60,7 @@ class TorqueReference {
 
 /// Sixteen decades from 0.1 down, then the last of them halved until what is left is a hundredth of the error.
 Sensitivity findSensitivity(const Scenario& scenario, const TorqueReference& reference, const Parameter& parameter) {
-  Sensitivity out{parameter.name, parameter.group, std::numeric_limits<double>::infinity(), 0};
+  Sensitivity out{parameter.path, parameter.group, std::numeric_limits<double>::infinity(), 0};
   const auto tryError = [&](double exponent) {
     const double relative = std::pow(10, exponent);
     double change = 1;

@@ -120,33 +120,18 @@ Spot into(const Spot& spot, const std::string& part, const std::string& whole, c
   fail(whole, fmt::format("there is nothing '{}' within what comes before it", part));
 }
 
-/// A number written as 5 becomes 5.0; whoever holds others of the table keeps them.
-toml::node* asFloat(toml::node& parent, const std::string& part, toml::node* node) {
-  const auto value = static_cast<double>(node->as_integer()->get());
-  if (toml::table* table = parent.as_table()) {
-    table->insert_or_assign(part, value);
-    return table->get(part);
-  }
-  toml::array& array = *parent.as_array();
-  for (auto it = array.begin(); it != array.end(); ++it)
-    if (&*it == node) return &*array.replace(it, value);
-  return node;
+/// What the first `count` parts lead to.
+Spot follow(toml::table& document, const std::vector<std::string>& parts, std::size_t count, const std::string& whole) {
+  Spot spot{&document, nullptr, ""};
+  for (std::size_t k = 0; k < count; ++k) spot = into(spot, parts[k], whole, document);
+  return spot;
 }
 
-const toml::node* shallow(const toml::table& document, const std::vector<std::string>& parts, std::size_t count) {
-  const toml::node* at = &document;
-  for (std::size_t k = 0; k < count && at != nullptr; ++k) {
-    if (const toml::table* table = at->as_table()) {
-      at = table->get(parts[k]);
-      continue;
-    }
-    const toml::array* array = at->as_array();
-    std::size_t index = 0;
-    std::from_chars(parts[k].data(), parts[k].data() + parts[k].size(), index);
-    const bool of_tables = array != nullptr && !array->empty() && array->front().is_table();
-    at = array == nullptr ? nullptr : array->get(of_tables ? index - 1 : index);
-  }
-  return at;
+/// A number written as 5 becomes 5.0; whoever holds others of the table keeps them.
+toml::node* asFloat(toml::node& parent, const std::string& part, const toml::node& number) {
+  const double value = *number.value<double>();
+  if (toml::array* array = parent.as_array()) return &*array->replace(array->cbegin() + std::stol(part), value);
+  return &parent.as_table()->insert_or_assign(part, value).first->second;
 }
 
 /// A default that every leg overrides moves nothing.
@@ -178,15 +163,7 @@ std::vector<std::string> ScenarioNumbers::expanded(const std::string& key) const
     return fmt::format("{}", fmt::join(out, "."));
   };
   toml::table scratch = document_;  // numbers that are inherited are written out there
-  const toml::node* node = shallow(scratch, parts, before);
-  if (node == nullptr) {
-    try {
-      ScenarioNumbers(scratch).hold(fmt::format("{}", fmt::join(parts.begin(), star, ".")));
-    } catch (const NumberKeyError&) {  // an array is no number, but is written out now
-    }
-    node = shallow(scratch, parts, before);
-  }
-  const toml::array* array = node == nullptr ? nullptr : node->as_array();
+  const toml::array* array = follow(scratch, parts, before, whole).node->as_array();
   if (array == nullptr || array->empty()) fail(key, "'*' stands for no array, expected legs or entries");
   const std::size_t first = array->front().is_table() ? 1 : 0;
   std::vector<std::string> out;
@@ -196,20 +173,15 @@ std::vector<std::string> ScenarioNumbers::expanded(const std::string& key) const
 }
 
 double ScenarioNumbers::hold(const std::string& key) {
-  Spot spot{&document_, nullptr, ""};
-  toml::node* parent = nullptr;
-  std::string last;
-  for (const std::string& part : partsOf(key)) {
-    parent = spot.node;
-    last = part;
-    spot = into(spot, part, key, document_);
-  }
+  const std::vector<std::string> parts = partsOf(key);
+  const Spot parent = follow(document_, parts, parts.size() - 1, key);
+  Spot spot = into(parent, parts.back(), key, document_);
   if (!spot.node->is_number())
     fail(key, spot.node->is_array() || spot.node->is_table()
                   ? "has numbers within it, expected the key of one, such as '" + key + ".0'"
                   : "is no number");
   requireUse(document_, key);
-  if (spot.node->is_integer() && !spot.integer) spot.node = asFloat(*parent, last, spot.node);
+  if (spot.node->is_integer() && !spot.integer) spot.node = asFloat(*parent.node, parts.back(), *spot.node);
   held_.push_back({key, spot.node});
   return *spot.node->value<double>();
 }

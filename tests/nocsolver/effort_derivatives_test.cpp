@@ -11,7 +11,7 @@
 
 #include "base/errors.h"
 #include "base/real50.h"
-#include "model/named_number.h"
+#include "model/machine_numbers.h"
 #include "nocsolver/fast/fast_dynamics.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/motions.h"
@@ -110,11 +110,9 @@ EffortsByState::Block turning(const Vector6d& load) {
 }
 
 /// Norm of the k-th column, or of the three of a vector to which it belongs: their errors mix.
-double sizeOf(const EffortDerivatives::Columns& columns, const std::vector<std::string>& names, std::size_t k) {
-  const std::string& name = names[k];
+double sizeOf(const EffortDerivatives::Columns& columns, const MachineNumber& number, std::size_t k) {
   const auto at = static_cast<Eigen::Index>(k);
-  if (name.at(name.size() - 2) != '.' || name.back() < 'x') return columns.col(at).norm();
-  return columns.middleCols(at - (name.back() - 'x'), 3).norm();
+  return number.entries == 3 ? columns.middleCols(at - number.entry, 3).norm() : columns.col(at).norm();
 }
 
 class DerivativesOf : public testing::TestWithParam<std::string> {
@@ -218,41 +216,43 @@ TEST_P(DerivativesOf, byParametersAreTheDifferencesInFiftyDigits) {
   const Vector6d load = someLoad().cast<double>();
   const EffortDerivatives of(machine());
   const EffortDerivatives::Columns found = of.byParameters(at, load);
-  ASSERT_EQ(static_cast<std::size_t>(found.cols()), of.parameterNames().size());
-  const auto efforts = [&](const std::string& name, double by, double& value) -> Six {
+  const std::vector<MachineNumber> numbers = machineNumbers(machine().parameters());
+  ASSERT_EQ(static_cast<std::size_t>(found.cols()), numbers.size());
+  const auto efforts = [&](const MachineNumber& number, double by, double& value) -> Six {
     ManipulatorParameters changed = machine().parameters();
-    changeNumber(changed, name, by);
-    value = valueOfNumber(changed, name);
+    value = number.get(changed) + by;
+    number.set(changed, value);
     return FastDynamics<Real50>(Manipulator(changed)).inverseDynamics(exactly(at), someLoad());
   };
-  const auto slope = [&](const std::string& name, double h) -> Six {
+  const auto slope = [&](const MachineNumber& number, double h) -> Six {
     double above = 0, below = 0;
-    const Six to = efforts(name, h, above);
+    const Six to = efforts(number, h, above);
     Six from;
     try {
-      from = efforts(name, -h, below);
+      from = efforts(number, -h, below);
     } catch (const InvalidParameter&) {
-      from = efforts(name, 0, below);
+      from = efforts(number, 0, below);
     }
     return (to - from) / (Real50(above) - Real50(below));
   };
   const double largest = FastDynamics<double>(machine()).inverseDynamics(at, load).norm();
   int seen = 0;
-  for (std::size_t k = 0; k < of.parameterNames().size(); ++k) {
-    const std::string& name = of.parameterNames()[k];
-    const double scale = std::max(std::abs(valueOfNumber(machine().parameters(), name)), 0x1p-6), h = 0x1p-18 * scale;
-    const Vector6d expected = Six((4 * slope(name, h / 2) - slope(name, h)) / 3).cast<double>();
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const MachineNumber& number = numbers[k];
+    EXPECT_EQ(of.parameterNames().at(k), number.path);
+    const double scale = std::max(std::abs(number.get(machine().parameters())), 0x1p-6), h = 0x1p-18 * scale;
+    const Vector6d expected = Six((4 * slope(number, h / 2) - slope(number, h)) / 3).cast<double>();
     const auto column = found.col(static_cast<Eigen::Index>(k));
     // What has next to no effect is right to rounding of the efforts.
-    const double size = sizeOf(found, of.parameterNames(), k);
+    const double size = sizeOf(found, number, k);
     const double limit = promised * std::max(size, 1e-4 * largest / scale);
-    EXPECT_LE((column - expected).norm(), limit) << name << ": " << expected.transpose();
+    EXPECT_LE((column - expected).norm(), limit) << number.path << ": " << expected.transpose();
     seen += expected.norm() > 1e-6 ? 1 : 0;
     if (expected.norm() > 1e-3 * size && promised * size == limit) {
-      EXPECT_GT((1.000001 * column - expected).norm(), limit) << name;
+      EXPECT_GT((1.000001 * column - expected).norm(), limit) << number.path;
     }
   }
-  EXPECT_GT(seen, static_cast<int>(of.parameterNames().size() / 2));
+  EXPECT_GT(seen, static_cast<int>(numbers.size() / 2));
 }
 
 std::string testName(const testing::TestParamInfo<std::string>& name) {

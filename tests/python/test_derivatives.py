@@ -50,9 +50,9 @@ def test_regressor_gives_the_efforts(name, helix):
     scenario = read(helix, name)
     m = scenario.motion(np.linspace(0.1, 0.9, 5) * scenario.duration)
     names, values, Y = scenario.regressor(m)
-    assert Y.shape == (5, 6, len(names)) and values.shape == (len(names),) and "platform.first_moment.z" in names
+    assert Y.shape == (5, 6, len(names)) and values.shape == (len(names),) and "manipulator.platform.first_moment.2" in names
     by_names, slopes = scenario.parameter_derivatives(m)
-    assert slopes.shape == (5, 6, len(by_names)) and "leg[2].distal.mass" in by_names
+    assert slopes.shape == (5, 6, len(by_names)) and "manipulator.leg.2.distal.mass" in by_names
     tau = scenario.inverse_dynamics(m)
     assert np.abs(Y @ values - tau).max() < 1e-11 * np.abs(tau).max()
     assert np.abs(Y @ (1.001 * values) - tau).max() > 1e-4 * np.abs(tau).max()

@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Caught{"formula", "(15a) as printed", "kinematics.joint_rates", "kinematics.joint_angles"},
         Caught{"term", "(43): no Coriolis terms", "kinematics.accelerations", "kinematics.twists"},
-        Caught{"parameter", "leg[2].proximal.mass off by 1e-06", "torque.pointwise", "kinematics.positions"},
+        Caught{"parameter", "manipulator.leg.2.proximal.mass off by 1e-06", "torque.pointwise", "kinematics.positions"},
         Caught{"index", "smoothing speed of leg 4 for leg 5", "torque.mujoco", "kinematics.accelerations"},
         Caught{"frame", "tensor of the platform not turned", "torque.maximal", "kinematics.accelerations"},
         Caught{"friction", "atan for tanh", "direct.pointwise", "kinematics.accelerations"},
@@ -181,7 +181,7 @@ TEST(Parameters, areThoseOfPlatformGravityAndSixLegs) {
   std::set<std::string> names;
   std::map<std::string, int> groups;
   for (const Parameter& parameter : allParameters(*provingGround().manipulator)) {
-    names.insert(parameter.name);
+    names.insert(parameter.path);
     ++groups[parameter.group];
   }
   EXPECT_EQ(names.size(), 13u + 6 * 33);
@@ -220,9 +220,9 @@ TEST(Sensitivities, areTheThresholdOfTheCheckItself) {
   std::set<std::string> groups;
   for (std::size_t k = 0; k < parameters.size(); k += 7) {
     groups.insert(parameters[k].group);
-    ASSERT_EQ(sensitivities[k].parameter, parameters[k].name);
-    EXPECT_EQ(verdictWith(parameters[k], sensitivities[k].smallest_caught), "fail") << parameters[k].name;
-    EXPECT_EQ(verdictWith(parameters[k], 0.9 * sensitivities[k].smallest_caught), "pass") << parameters[k].name;
+    ASSERT_EQ(sensitivities[k].parameter, parameters[k].path);
+    EXPECT_EQ(verdictWith(parameters[k], sensitivities[k].smallest_caught), "fail") << parameters[k].path;
+    EXPECT_EQ(verdictWith(parameters[k], 0.9 * sensitivities[k].smallest_caught), "pass") << parameters[k].path;
   }
   EXPECT_EQ(groups.size(), 8u) << "a group is left out";
 }

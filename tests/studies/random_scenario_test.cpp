@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "model/machine_numbers.h"
 #include "tests/studies/drawn_scenarios.h"
 #include "tests/validation/scenario_numbers.h"
 
@@ -20,6 +21,9 @@ std::vector<ManipulatorParameters> machines() {
 
 using Seen = std::map<std::string, std::vector<double>>;
 
+/// Of six legs of the paper's.
+std::vector<MachineNumber> numbers() { return machineNumbers({}); }
+
 /// Names of which two values out of many are alike; what is left out (zero) in most is no variety.
 std::vector<std::string> constantsIn(const Seen& seen, std::size_t at_least) {
   std::vector<std::string> out;
@@ -33,29 +37,29 @@ std::vector<std::string> constantsIn(const Seen& seen, std::size_t at_least) {
 /// Machine numbers that two of the machines share, or that are zero in nearly all.
 std::vector<std::string> constantsOf(std::vector<ManipulatorParameters> all) {
   Seen seen;
-  for (const MachineNumber& number : machineNumbers()) {
-    std::vector<double>& values = seen[number.name];
+  for (const MachineNumber& number : numbers()) {
+    std::vector<double>& values = seen[number.path];
     for (ManipulatorParameters& machine : all)
-      if (const double value = number.at(machine); value != 0) values.push_back(value);
+      if (const double value = number.get(machine); value != 0) values.push_back(value);
   }
   return constantsIn(seen, all.size() / 5);
 }
 
 /// The numbers of legs that another leg has as well.
-std::vector<std::string> sharedByLegs(ManipulatorParameters machine) {
+std::vector<std::string> sharedByLegs(const ManipulatorParameters& machine) {
   std::map<double, std::pair<std::string, int>> owners;
   std::vector<std::string> out;
-  for (const MachineNumber& number : machineNumbers()) {
-    const double value = number.at(machine);
+  for (const MachineNumber& number : numbers()) {
+    const double value = number.get(machine);
     if (number.leg < 0 || value == 0) continue;
-    const auto [owner, is_new] = owners.insert({value, {number.name, number.leg}});
-    if (!is_new && owner->second.second != number.leg) out.push_back(owner->second.first + " = " + number.name);
+    const auto [owner, is_new] = owners.insert({value, {number.path, number.leg}});
+    if (!is_new && owner->second.second != number.leg) out.push_back(owner->second.first + " = " + number.path);
   }
   return out;
 }
 
 TEST(RandomMachines, varyInEveryNumber) {
-  EXPECT_EQ(machineNumbers().size(), 13u + 6 * 34);
+  EXPECT_EQ(numbers().size(), 13u + 6 * 34);
   EXPECT_THAT(constantsOf(machines()), testing::IsEmpty());
 }
 
@@ -63,12 +67,12 @@ TEST(RandomMachines, varyInEveryNumber) {
 TEST(RandomMachines, wouldBeFoundOutWithOneNumberConstant) {
   std::vector<ManipulatorParameters> all = machines();
   all.resize(60);
-  for (const MachineNumber& number : machineNumbers()) {
+  for (const MachineNumber& number : numbers()) {
     std::vector<ManipulatorParameters> fake = all;
-    for (ManipulatorParameters& machine : fake) number.at(machine) = 0.25;
-    EXPECT_THAT(constantsOf(fake), testing::Contains(number.name));
-    for (ManipulatorParameters& machine : fake) number.at(machine) = 0;
-    EXPECT_THAT(constantsOf(fake), testing::Contains(number.name));
+    for (ManipulatorParameters& machine : fake) number.set(machine, 0.25);
+    EXPECT_THAT(constantsOf(fake), testing::Contains(number.path));
+    for (ManipulatorParameters& machine : fake) number.set(machine, 0);
+    EXPECT_THAT(constantsOf(fake), testing::Contains(number.path));
   }
 }
 
@@ -80,8 +84,8 @@ TEST(RandomMachines, wouldBeFoundOutWithSharedLegs) {
   const ManipulatorParameters machine = machines().front();
   ManipulatorParameters friction = machine, twins = machine;
   friction.legs[4].coulomb.smoothing_speed = friction.legs[1].coulomb.smoothing_speed;
-  EXPECT_THAT(sharedByLegs(friction),
-              testing::ElementsAre("leg[2].coulomb.smoothing_speed = leg[5].coulomb.smoothing_speed"));
+  EXPECT_THAT(sharedByLegs(friction), testing::ElementsAre("manipulator.leg.2.coulomb.smoothing_speed = "
+                                                           "manipulator.leg.5.coulomb.smoothing_speed"));
   twins.legs[5] = twins.legs[0];
   EXPECT_GE(sharedByLegs(twins).size(), 28u);
 }
@@ -89,8 +93,8 @@ TEST(RandomMachines, wouldBeFoundOutWithSharedLegs) {
 /// Every kind of motion and of load has numbers that vary, too.
 TEST(RandomScenarios, varyInMotionAndLoad) {
   Seen seen;
-  const auto note = [&](const std::vector<NamedNumber>& numbers) {
-    for (const NamedNumber& number : numbers) seen[number.name].push_back(number.value);
+  const auto note = [&](const std::vector<NamedNumber>& found) {
+    for (const NamedNumber& number : found) seen[number.name].push_back(number.value);
   };
   for (const Scenario& scenario : drawnScenarios()) {
     note(motionNumbers(*scenario.trajectory));
@@ -108,11 +112,11 @@ TEST(RandomScenarios, areTheSeeds) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Scenario& first = drawnScenarios()[seed - 1];
     const Scenario again = randomScenario(seed);
-    ManipulatorParameters one = first.manipulator->parameters(), other = again.manipulator->parameters();
-    for (const MachineNumber& number : machineNumbers()) ASSERT_EQ(number.at(one), number.at(other)) << number.name;
-    const auto numbers = motionNumbers(*first.trajectory), same = motionNumbers(*again.trajectory);
-    ASSERT_EQ(numbers.size(), same.size());
-    for (std::size_t k = 0; k < numbers.size(); ++k) ASSERT_EQ(numbers[k].value, same[k].value) << numbers[k].name;
+    const ManipulatorParameters &one = first.manipulator->parameters(), &other = again.manipulator->parameters();
+    for (const MachineNumber& number : numbers()) ASSERT_EQ(number.get(one), number.get(other)) << number.path;
+    const auto found = motionNumbers(*first.trajectory), same = motionNumbers(*again.trajectory);
+    ASSERT_EQ(found.size(), same.size());
+    for (std::size_t k = 0; k < found.size(); ++k) ASSERT_EQ(found[k].value, same[k].value) << found[k].name;
     EXPECT_EQ(first.text, again.text);
     EXPECT_EQ(first.name, "random-" + std::to_string(seed));
     texts.insert(first.text);

@@ -1,6 +1,6 @@
 #include "validation/external/machine_slopes.h"
 
-#include "model/named_number.h"
+#include "model/machine_numbers.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {
@@ -12,10 +12,10 @@ std::vector<Vector6d> MachineSlopes::along(const Change& change, const std::vect
   ManipulatorParameters above = scenario_.manipulator->parameters(), below = above;
   change(above, step);
   change(below, -step);
-  const std::vector<std::string>& names = derivatives_.parameterNames();
-  Eigen::VectorXd by_x(static_cast<Eigen::Index>(names.size()));
-  for (std::size_t k = 0; k < names.size(); ++k)
-    by_x(static_cast<Eigen::Index>(k)) = (valueOfNumber(above, names[k]) - valueOfNumber(below, names[k])) / (2 * step);
+  const std::vector<MachineNumber> numbers = machineNumbers(above);
+  Eigen::VectorXd by_x(static_cast<Eigen::Index>(numbers.size()));
+  for (std::size_t k = 0; k < numbers.size(); ++k)
+    by_x(static_cast<Eigen::Index>(k)) = (numbers[k].get(above) - numbers[k].get(below)) / (2 * step);
   std::vector<Vector6d> out;
   for (const EffortDerivatives::Columns& J : byNumbers(motions)) out.emplace_back(J * by_x);
   return out;

@@ -10,7 +10,6 @@ namespace ursula {
 /// Parameters that are wrong together, by the same relative error: one alone, or the same of several links or legs.
 struct TiedParameters {
   std::string words;  ///< "mass centre of the distal links"
-  std::string unit;   ///< "kg"; "rad" for axes
   std::vector<Parameter> members;
 
   void disturb(ManipulatorParameters& machine, double relative) const;

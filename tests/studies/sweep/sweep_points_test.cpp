@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "model/machine_numbers.h"
 #include "tests/studies/sweep/sweeps.h"
 
 namespace ursula {
@@ -82,6 +83,28 @@ TEST(SweepPoints, starVariesEveryLegAndEntryByItself) {
     EXPECT_GT(moved.cwiseAbs().minCoeff(), 0);
     EXPECT_LE(moved.cwiseAbs().maxCoeff(), 1.0000001e-3);
   }
+}
+
+/// By the path that derivatives and causes name it by. No two numbers of this machine are alike.
+TEST(SweepPoints, everyNumberOfTheMachineIsAKey) {
+  std::string scenario = TemporaryFolder::read(URSULA_SCENARIOS "/proving-ground.toml");
+  for (const auto& [from, to] : {std::pair<std::string, std::string>{"{ actuated =", "{ phi ="},
+                                 {", universal =", ", psi ="},
+                                 {", knee =", ", theta ="}})
+    for (std::size_t at = 0; (at = scenario.find(from, at)) != std::string::npos;)
+      scenario.replace(at, from.size(), to);
+  const TemporaryFolder folder;
+  const std::string file = folder.write("a.toml", scenario);
+  const ManipulatorParameters machine = readScenario(file).manipulator->parameters();
+  const std::vector<MachineNumber> numbers = machineNumbers(machine);
+  std::string varied;
+  for (const MachineNumber& number : numbers) varied += vary(number.path, "values = [1.0]");
+  SweepFile sweep = parseSweepFile(sweepText("inverse", "design = \"grid\"\n" + varied), "sweep.toml");
+  sweep.scenario = file;
+  const SweepPlan plan(sweep);
+  ASSERT_EQ(plan.points().numbers().size(), numbers.size());
+  for (std::size_t k = 0; k < numbers.size(); ++k)
+    EXPECT_EQ(plan.points().numbers()[k].nominal, numbers[k].get(machine)) << numbers[k].path;
 }
 
 TEST(SweepPoints, aDefaultMovesAllLegsAndALegsOwnOnlyIt) {

@@ -1,0 +1,136 @@
+#include "model/machine_numbers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ursula {
+namespace {
+
+/// Where to look: i of a vector, i and j of a tensor.
+struct Place {
+  ManipulatorParameters& machine;
+  Leg& leg;
+  Link& link;
+  Coordinate coordinate;
+  int i, j;
+};
+using Number = double&;
+
+struct Row {
+  const char *key, *group, *words, *unit;
+  int entries;
+  Number (*at)(Place);
+};
+
+/// In the order of Quantity.
+constexpr Row rows[] = {
+    {"gravity", "gravity", "gravity", "m/s^2", 3, [](Place p) -> Number { return p.machine.gravity(p.i); }},
+    {"platform.mass", "mass", "mass", "kg", 1, [](Place p) -> Number { return p.machine.platform.mass; }},
+    {"platform.center_of_mass", "center", "mass centre", "m", 3,
+     [](Place p) -> Number { return p.machine.platform.center_of_mass(p.i); }},
+    {"platform.inertia", "inertia", "inertia", "kg m^2", 6,
+     [](Place p) -> Number { return p.machine.platform.inertia(p.i, p.j); }},
+    {"base_point", "point", "base point", "m", 3, [](Place p) -> Number { return p.leg.base_point(p.i); }},
+    {"platform_point", "point", "platform point", "m", 3, [](Place p) -> Number { return p.leg.platform_point(p.i); }},
+    {"base_axis", "axis", "base axis", "", 3, [](Place p) -> Number { return p.leg.base_axis(p.i); }},
+    {"length", "length", "length", "m", 1, [](Place p) -> Number { return p.link.length; }},
+    {"mass", "mass", "mass", "kg", 1, [](Place p) -> Number { return p.link.mass; }},
+    {"center_of_mass", "center", "mass centre", "m", 1, [](Place p) -> Number { return p.link.center_of_mass; }},
+    {"inertia", "inertia", "inertia", "kg m^2", 6, [](Place p) -> Number { return p.link.inertia(p.i, p.j); }},
+    {"friction", "friction", "viscous friction on ", "N m s/rad", 1,
+     [](Place p) -> Number { return p.leg.friction.on(p.coordinate); }},
+    {"coulomb", "friction", "Coulomb friction on ", "N m", 1,
+     [](Place p) -> Number { return p.leg.coulomb.on(p.coordinate); }},
+    {"coulomb.smoothing_speed", "friction", "smoothing speed of the Coulomb friction", "rad/s", 1,
+     [](Place p) -> Number { return p.leg.coulomb.smoothing_speed; }},
+    {"coulomb.sliding_speed", "friction", "smoothing speed of the Coulomb friction on d", "m/s", 1,
+     [](Place p) -> Number { return p.leg.coulomb.sliding_speed; }}};
+
+const Row& rowOf(Quantity quantity) { return rows[static_cast<std::size_t>(quantity)]; }
+
+Number at(ManipulatorParameters& machine, const MachineNumber& number, int entry, bool across = false) {
+  Leg& leg = machine.legs.at(static_cast<std::size_t>(std::max(number.leg, 0)));
+  const auto& [i, j] = tensor_entries[entry];
+  return rowOf(number.quantity)
+      .at({machine, leg, number.body == "proximal" ? leg.proximal : leg.distal,
+           rowOf(leg.kind).coordinates[static_cast<std::size_t>(entry % 3)], across ? j : i, across ? i : j});
+}
+
+using Numbers = std::vector<MachineNumber>;
+
+MachineNumber& add(Numbers& out, Quantity quantity, int leg, const std::string& body, int entry) {
+  const Row& row = rowOf(quantity);
+  const std::string of = leg < 0        ? ""
+                         : body.empty() ? fmt::format("leg.{}.", leg + 1)
+                                        : fmt::format("leg.{}.{}.", leg + 1, body);
+  out.push_back(
+      {quantity, leg, body, entry, row.entries, "manipulator." + of + row.key, row.group, row.words, row.unit});
+  return out.back();
+}
+
+void add(Numbers& out, const std::vector<Quantity>& quantities, int leg, const std::string& body) {
+  for (const Quantity quantity : quantities)
+    for (int k = 0; k < rowOf(quantity).entries; ++k) {
+      MachineNumber& number = add(out, quantity, leg, body, k);
+      if (number.entries == 1) continue;
+      const auto& [i, j] = tensor_entries[k];
+      number.path += fmt::format(".{}", k);
+      number.words += std::string(" ") + "xyz"[i];
+      if (number.entries == 6) number.words += "xyz"[j];
+    }
+}
+
+void addFriction(Numbers& out, int leg, LegKind kind) {
+  bool any_slides = false;
+  for (int k = 0; k < 3; ++k) {
+    const Coordinate coordinate = rowOf(kind).coordinates[static_cast<std::size_t>(k)];
+    for (const Quantity quantity : {Quantity::friction, Quantity::coulomb}) {
+      MachineNumber& number = add(out, quantity, leg, "", k);
+      number.path += std::string(".") + nameOf(coordinate);
+      number.words += nameOf(coordinate);
+      if (slides(coordinate)) number.unit = quantity == Quantity::friction ? "N s/m" : "N";
+    }
+    any_slides |= slides(coordinate);
+  }
+  add(out, Quantity::smoothing_speed, leg, "", 0);
+  if (any_slides) add(out, Quantity::sliding_speed, leg, "", 0);
+}
+
+}  // namespace
+
+double MachineNumber::get(const ManipulatorParameters& machine) const {
+  return at(const_cast<ManipulatorParameters&>(machine), *this, entry);  // read alone
+}
+
+void MachineNumber::set(ManipulatorParameters& machine, double value) const {
+  at(machine, *this, entry) = at(machine, *this, entry, entries == 6) = value;
+}
+
+double MachineNumber::size(const ManipulatorParameters& machine) const {
+  const double* first = &at(const_cast<ManipulatorParameters&>(machine), *this, 0);
+  if (entries > 1)
+    return entries == 3 ? Eigen::Map<const Vector3d>(first).norm()
+                        : Eigen::Map<const Matrix3d>(first).cwiseAbs().maxCoeff();
+  return std::abs(*first);
+}
+
+Numbers machineNumbers(const ManipulatorParameters& machine) {
+  using Q = Quantity;
+  Numbers out;
+  add(out, {Q::gravity}, -1, "");
+  add(out, {Q::platform_mass, Q::platform_center, Q::platform_inertia}, -1, "platform");
+  for (int i = 0; i < static_cast<int>(machine.legs.size()); ++i) {
+    const LegKind kind = machine.legs[static_cast<std::size_t>(i)].kind;
+    add(out, {Q::base_point, Q::platform_point, Q::base_axis}, i, "");
+    const bool telescopic = kind == LegKind::UPS, carriage = kind == LegKind::PUS;
+    if (!telescopic && !carriage) add(out, {Q::length}, i, "proximal");
+    add(out, carriage ? std::vector{Q::mass} : std::vector{Q::mass, Q::center, Q::inertia}, i, "proximal");
+    add(out, {Q::length, Q::mass, Q::center, Q::inertia}, i, "distal");
+    addFriction(out, i, kind);
+  }
+  return out;
+}
+
+}  // namespace ursula
