@@ -31,7 +31,7 @@ Scenario misreadByARounding(const Scenario& right, std::uint64_t seed) {
   const std::vector<Parameter> parameters = allParameters(*right.manipulator);
   ManipulatorParameters machine = right.manipulator->parameters();
   std::size_t k = seed * 17 % parameters.size();
-  while (parameters[k].value && parameters[k].value(machine) == 0) k = (k + 1) % parameters.size();
+  while (!parameters[k].turns() && parameters[k].get(machine) == 0) k = (k + 1) % parameters.size();
   parameters[k].disturb(machine, 2e-15);
   Scenario wrong = right;
   wrong.manipulator = std::make_shared<const Manipulator>(machine);

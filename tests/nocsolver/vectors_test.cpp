@@ -116,14 +116,14 @@ TEST_P(Vectors, areMissedByAWrongMotionAndByWrongFormulas) {
   const Noc<double> solver(*scenario_.manipulator);
   const Errors other = errorsAt(solver, rounded(rows_[1].motion), rows_[2], {});
   EXPECT_GT(std::min({other.torques, other.angles, other.rates, other.accelerations}), 1e9 * promised);
-  const auto slipped = [&](Slip slip) {
-    const Noc<double, WithSlips> wrong(*scenario_.manipulator, WithSlips(slip));
+  const auto altered = [&](FormulaError formula_error) {
+    const Noc<double, WithFormulaErrors> wrong(*scenario_.manipulator, WithFormulaErrors(formula_error));
     return errorsAt(wrong, rounded(rows_[2].motion), rows_[2], {});
   };
-  EXPECT_GT(slipped(Slip::eq14b).angles, 1e9 * promised);
-  EXPECT_GT(slipped(Slip::eq15a).rates, 1e9 * promised);
-  EXPECT_GT(slipped(Slip::eq19b).accelerations, 1e9 * promised);
-  EXPECT_GT(slipped(Slip::eq23).torques, 1e9 * promised);
+  EXPECT_GT(altered(FormulaError::eq14b).angles, 1e9 * promised);
+  EXPECT_GT(altered(FormulaError::eq15a).rates, 1e9 * promised);
+  EXPECT_GT(altered(FormulaError::eq19b).accelerations, 1e9 * promised);
+  EXPECT_GT(altered(FormulaError::eq23).torques, 1e9 * promised);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Vectors, testing::ValuesIn(vectorNames()), [](const auto& name) {
