@@ -152,8 +152,8 @@ TEST(Attribution, comesOutTheSameTwice) {
 
 TEST(Attribution, withoutAReplayNothingIsMeasured) {
   const Reference& reference = referenceOf("paper-helix");
-  const ErrorBudget none = attribute(reference.scenario, reference.conditions, {}, reference.replays().amplification,
-                                     reference.replays().plan);
+  const ErrorBudget none =
+      attribute(reference.scenario, {}, {}, reference.replays().amplification, reference.replays().plan);
   EXPECT_FALSE(none.measured);
   ValidationResult result;
   addBudget(none, result);
