@@ -1,10 +1,12 @@
 #include "tests/report/report_samples.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
+
+#include "model/scenario.h"
 
 namespace ursula::test {
 namespace {

@@ -66,7 +66,7 @@ TEST(MemoryShortage, isNoEndOfAReplay) {
 
 TEST(MemoryShortage, isNoEndOfASimulation) {
   const Scenario scenario = small();
-  for (const Engine engine : {Engine::noc, Engine::simbody}) {
+  for (const SimulationEngine engine : {SimulationEngine::noc, SimulationEngine::simbody}) {
     EXPECT_THROW(simulate(scenario, engine, history<std::bad_alloc>(scenario, 20), {0, 0.1, 0.2}, 1e-10),
                  std::bad_alloc);
     EXPECT_NE(simulate(scenario, engine, history<Refusal>(scenario, 20), {0, 0.1, 0.2}, 1e-10).gave_up, "");
