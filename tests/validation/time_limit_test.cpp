@@ -101,7 +101,7 @@ TEST(Work, isForetoldByTheNumberOfSamples) {
 TEST(Work, isSaidAsItIsDone) {
   std::vector<double> shares;
   ValidationOptions options;
-  options.progress = [&shares](double share, const std::string&) { shares.push_back(share); };
+  options.progress = [&shares](double share, const char*) { shares.push_back(share); };
   Scenario scenario = quick();
   validate(scenario, options);
   ASSERT_GE(shares.size(), 8U) << "also between the experiments at the samples";
