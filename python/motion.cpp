@@ -5,10 +5,19 @@
 #include <cmath>
 #include <string>
 
+#include "python/archive.h"
 #include "python/words.h"
 
 namespace ursula::python {
 namespace py = pybind11;
+
+static void members(Archive& archive, Motion<double>& row) {
+  auto& [t, p, Q, omega, p_dot, omega_dot, p_ddot] = row;
+  archive(t, p, Q, omega, p_dot, omega_dot, p_ddot);
+}
+
+static void members(Archive& archive, Motions& motion) { archive(motion.rows); }
+
 namespace {
 
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -149,7 +158,9 @@ py::array_t<double> columnOf(const py::object& values, const char* what) {
 void addMotion(py::module_& module) {
   using M = Motion<double>;
   constexpr py::ssize_t size = sizeof(double);
-  py::class_<Motions>(module, "Motion", words::motion)
+  py::class_<Motions> motion(module, "Motion", words::motion);
+  addCopies(motion);
+  motion.def(pickled<Motions>())
       .def(py::init(&made), py::arg("t"), py::arg("p"), py::arg("q"), py::arg("v") = py::none(),
            py::arg("w") = py::none(), py::arg("a") = py::none(), py::arg("alpha") = py::none())
       .def_property_readonly("t", member(&M::t, {}, {}), "Instants, s: (N,).")

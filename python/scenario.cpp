@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "python/archive.h"
 #include "python/derivatives.h"
 #include "python/motion.h"
 #include "python/words.h"
@@ -180,6 +181,17 @@ std::vector<PlatformPose> directKinematics(const ScenarioWithSolver& self, const
 
 py::array_t<double> vectorOf(const double* from, py::ssize_t count) { return py::array_t<double>(count, from); }
 
+/// What a scenario is made of, wherever it is read.
+py::tuple textOf(const ScenarioWithSolver& self) {
+  return py::make_tuple(self.scenario.text, std::filesystem::absolute(self.scenario.file).string());
+}
+
+std::shared_ptr<ScenarioWithSolver> scenarioOf(const py::tuple& state) {
+  const auto text = state[0].cast<std::string>(), file = state[1].cast<std::string>();
+  const py::gil_scoped_release unlocked;
+  return std::make_shared<ScenarioWithSolver>(parseScenario(text, file));
+}
+
 void addPose(py::module_& module) {
   using Pose = PlatformPose;
   py::class_<Pose>(module, "Pose", "One pose of the platform for given actuated angles.")
@@ -205,7 +217,8 @@ void addPose(py::module_& module) {
 void addScenario(py::module_& module) {
   addPose(module);
   py::class_<ScenarioWithSolver, std::shared_ptr<ScenarioWithSolver>> scenario(module, "Scenario", words::scenario);
-  scenario
+  addCopies(scenario);
+  scenario.def(py::pickle(&textOf, &scenarioOf))
       .def_property_readonly(
           "name", [](const ScenarioWithSolver& self) { return self.scenario.name; }, "As the file gives it.")
       .def_property_readonly(
@@ -226,7 +239,7 @@ void addScenario(py::module_& module) {
       "read_scenario",
       [](const std::filesystem::path& file) {
         const py::gil_scoped_release unlocked;
-        return std::make_shared<ScenarioWithSolver>(file);
+        return std::make_shared<ScenarioWithSolver>(readScenario(file));
       },
       py::arg("path"), words::read_scenario);
 }

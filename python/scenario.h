@@ -4,7 +4,7 @@
 #include <ursula/scenario.h>
 #include <ursula/solver.h>
 
-#include <filesystem>
+#include <utility>
 
 #include "python/made.h"
 
@@ -12,8 +12,8 @@ namespace ursula::python {
 
 /// A scenario with the solver for its machine.
 struct ScenarioWithSolver {
-  explicit ScenarioWithSolver(const std::filesystem::path& file)
-      : scenario(readScenario(file)),
+  explicit ScenarioWithSolver(Scenario given)
+      : scenario(std::move(given)),
         kinematics(*scenario.manipulator),
         derivatives(*scenario.manipulator),
         batch(*scenario.manipulator) {}

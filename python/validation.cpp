@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "python/archive.h"
 #include "python/motion.h"
 #include "python/scenario.h"
 #include "python/signals.h"
@@ -25,6 +26,67 @@ class pybind11::detail::type_caster<ursula::ValidationResult>
 
 namespace ursula::python {
 namespace py = pybind11;
+
+// Every member is named, so that a new one is a compiler's error here.
+
+static void members(Archive& archive, Largest& largest) {
+  auto& [value, t, where] = largest;
+  archive(value, t, where);
+}
+
+static void members(Archive& archive, Check& check) {
+  auto& [name, value, limit, unit, verdict, basis, why, reason, largest, limit_by, missed] = check;
+  archive(name, value, limit, unit, verdict, basis, why, reason, largest, limit_by, missed);
+}
+
+static void members(Archive& archive, TimeSeries& series) {
+  auto& [names, columns] = series;
+  archive(names, columns);
+}
+
+static void members(Archive& archive, Event& event) {
+  auto& [t, what] = event;
+  archive(t, what);
+}
+
+static void members(Archive& archive, EffortDeviation& deviation) {
+  auto& [unit, largest, t, where, largest_effort, drift, duration, length, seen, allowed] = deviation;
+  archive(unit, largest, t, where, largest_effort, drift, duration, length, seen, allowed);
+}
+
+static void members(Archive& archive, ReplayError& error) {
+  auto& [dominant, measured, t, observed, rounding, integration, closure, model, rest, uncertainty, growth] = error;
+  archive(dominant, measured, t, observed, rounding, integration, closure, model, rest, uncertainty, growth);
+}
+
+static void members(Archive& archive, LikelyCause& likely) {
+  auto& [off, cause] = likely;
+  archive(off, cause);
+}
+
+/// Drawn anew from what it was drawn from.
+static void members(Archive& archive, std::shared_ptr<const Picture>& picture) {
+  bool has = picture != nullptr;
+  archive(has);
+  if (!has) return;
+  std::string text, file;
+  std::vector<double> t;
+  if (!archive.reads()) {
+    text = picture->scenario.text;
+    file = std::filesystem::absolute(picture->scenario.file).string();
+    t = picture->t;
+  }
+  archive(text, file, t);
+  if (archive.reads()) picture = makePicture(parseScenario(text, file), t);
+}
+
+static void members(Archive& archive, ValidationResult& result) {
+  auto& [scenario, formulation, limits, verdict, checks, provenance, findings, replay_error, cause, windows, deviation,
+         timeseries, curves, events, picture] = result;
+  archive(scenario, formulation, limits, verdict, checks, provenance, findings, replay_error, cause, windows, deviation,
+          timeseries, curves, events, picture);
+}
+
 namespace {
 
 std::string atInstant(const Motion<double>& motion) { return " at t = " + std::to_string(motion.t) + " s"; }
@@ -114,6 +176,24 @@ py::dict seriesOf(const ValidationResult& result) {
   return out;
 }
 
+[[noreturn]] void refuseFile(const std::string& words) {
+  PyErr_SetString(PyExc_OSError, words.c_str());
+  throw py::error_already_set();
+}
+
+/// Throws Python's OSError in the program's words.
+void written(const ValidationResult& result, const std::filesystem::path& dir) {
+  if (dir.empty()) refuseFile("cannot write '': an empty path, expected a folder");
+  try {
+    const py::gil_scoped_release unlocked;
+    writeResults(result, dir);
+  } catch (const std::filesystem::filesystem_error& error) {
+    refuseFile("cannot write " + dir.string() + ": " + error.code().message());
+  } catch (const std::runtime_error& error) {
+    refuseFile(error.what());
+  }
+}
+
 template <class Pairs>
 py::dict dictOf(const Pairs& pairs) {
   py::dict out;
@@ -122,7 +202,9 @@ py::dict dictOf(const Pairs& pairs) {
 }
 
 void addCheck(py::module_& module) {
-  py::class_<Check>(module, "Check", words::check)
+  py::class_<Check> check(module, "Check", words::check);
+  addCopies(check);
+  check.def(pickled<Check>())
       .def_readonly("name", &Check::name, "`group.what`, as in \"torque.pointwise\".")
       .def_readonly("value", &Check::value, "In `unit`.")
       .def_readonly("limit", &Check::limit, "In `unit`.")
@@ -141,7 +223,9 @@ void addCheck(py::module_& module) {
 
 void addResult(py::module_& module) {
   using Result = ValidationResult;
-  py::class_<Result>(module, "Result", words::result)
+  py::class_<Result> made(module, "Result", words::result);
+  addCopies(made);
+  made.def(pickled<Result>())
       .def_readonly("scenario", &Result::scenario, "Its name.")
       .def_property_readonly(
           "verdict", [](const Result& result) { return ursula::name(result.verdict); },
@@ -161,13 +245,7 @@ void addResult(py::module_& module) {
             return py::module_::import("json").attr("loads")(report::summaryJson(report::stamped(result)));
           },
           "What summary.json holds, as a dict.")
-      .def(
-          "write",
-          [](const Result& result, const std::filesystem::path& dir) {
-            const py::gil_scoped_release unlocked;
-            writeResults(result, dir);
-          },
-          py::arg("dir"), "Writes summary.json, timeseries.csv, report.html and junit.xml into a folder.")
+      .def("write", &written, py::arg("dir"), words::write)
       .def("__repr__", [](const Result& result) {
         return "<ursula.Result " + result.scenario + ": " + ursula::name(result.verdict) + ">";
       });

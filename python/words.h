@@ -92,6 +92,10 @@ constexpr const char* validate =
 
 constexpr const char* result = "What one validation found.";
 
+constexpr const char* write =
+    "Writes summary.json, timeseries.csv, report.html and junit.xml into a folder, which is made, at once: a reader\n"
+    "sees all of them or what was there. Raises OSError where it cannot be written.";
+
 constexpr const char* check =
     "One statement that was judged. It passes exactly if value <= limit; basis says where the limit comes from, why\n"
     "what was found.";

@@ -160,6 +160,20 @@ def test_a_time_limit(quick):
             ursula.validate(s, time_limit=wrong)
 
 
+@pytest.mark.parametrize("folder, words", [
+    ("", "cannot write '': an empty path, expected a folder"),
+    ("n" * 300, "cannot write n+: File name too long"),
+    ("file/below", "cannot write file/below: file is a file, expected a folder"),
+])
+def test_a_folder_that_cannot_be_written_is_an_os_error(quick, tmp_path, monkeypatch, folder, words):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "file").write_text("")
+    before = sorted(tmp_path.iterdir())
+    with pytest.raises(OSError, match=f"^{words}$"):
+        ursula.validate(ursula.read_scenario(quick), time_limit=1e-9).write(folder)
+    assert sorted(tmp_path.iterdir()) == before
+
+
 class Broken(Exception):
     pass
 

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+#include <ursula/build.h>
+#include <ursula/scenario.h>
+#include <ursula/validate.h>
+
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace ursula::python {
+
+/// Values as bytes for this version of the program on this kind of machine, and back: one walk for both ways.
+class Archive {
+ public:
+  Archive() = default;  ///< writes
+  explicit Archive(std::string from) : bytes_(std::move(from)), reads_(true) {}
+
+  const std::string& bytes() const { return bytes_; }
+  bool reads() const { return reads_; }
+
+  template <class... T>
+  void operator()(T&... values) {
+    (walk(values), ...);
+  }
+
+ private:
+  void raw(void* data, std::size_t size) {
+    if (!reads_) {
+      bytes_.append(static_cast<const char*>(data), size);
+      return;
+    }
+    if (size > bytes_.size() - taken_) throw std::invalid_argument("a pickle that ends early");
+    std::memcpy(data, bytes_.data() + taken_, size);
+    taken_ += size;
+  }
+
+  template <class T>
+  void walk(T& value) {
+    if constexpr (std::is_trivially_copyable_v<T>)
+      raw(&value, sizeof value);
+    else
+      members(*this, value);
+  }
+  template <int rows, int columns>
+  void walk(Eigen::Matrix<double, rows, columns>& value) {
+    raw(value.data(), sizeof(double) * static_cast<std::size_t>(value.size()));
+  }
+  template <class Sequence>
+  void walkAll(Sequence& values) {
+    std::size_t size = values.size();
+    walk(size);
+    if (reads_ && size > bytes_.size() - taken_) throw std::invalid_argument("a pickle that ends early");
+    values.resize(size);
+    for (auto& each : values) walk(each);
+  }
+  void walk(std::string& text) { walkAll(text); }
+  template <class T>
+  void walk(std::vector<T>& values) {
+    walkAll(values);
+  }
+  template <class A, class B>
+  void walk(std::pair<A, B>& both) {
+    (*this)(both.first, both.second);
+  }
+  template <class T>
+  void walk(std::optional<T>& value) {
+    bool has = value.has_value();
+    walk(has);
+    if (reads_ && has) value.emplace();
+    if (has) walk(*value);
+  }
+
+  std::string bytes_;
+  std::size_t taken_ = 0;
+  bool reads_ = false;
+};
+
+/// pickle's two ways for a T that an Archive walks.
+template <class T>
+auto pickled() {
+  namespace py = pybind11;
+  return py::pickle(
+      [](const T& value) {
+        Archive archive;
+        T copy = value;
+        archive(copy);
+        return py::make_tuple(URSULA_VERSION, py::bytes(archive.bytes()));
+      },
+      [](const py::tuple& state) {
+        const auto version = state[0].cast<std::string>();
+        if (version != URSULA_VERSION)
+          throw py::value_error("pickled by ursula " + version + ", expected " URSULA_VERSION);
+        Archive archive(state[1].cast<std::string>());
+        T value;
+        archive(value);
+        return value;
+      });
+}
+
+/// Copies of what nobody can change are itself.
+template <class Class>
+void addCopies(Class& of) {
+  namespace py = pybind11;
+  of.def("__copy__", [](const py::object& self) { return self; })
+      .def(
+          "__deepcopy__", [](const py::object& self, const py::dict&) { return self; }, py::arg("memo"));
+}
+
+}  // namespace ursula::python
