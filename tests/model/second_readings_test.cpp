@@ -132,7 +132,9 @@ INSTANTIATE_TEST_SUITE_P(
         Misread{"products_of_a_link", machine([](auto& m) { swapProducts(m.legs[1].distal.inertia, 0, 1, 0, 2); })},
         Misread{"a_number_by_1e_15", machine([](auto& m) { m.legs[3].base_point.y() *= 1 + 4 * eps; })},
         Misread{"a_number_in_its_last_bit", machine([](auto& m) { m.legs[0].coulomb.theta *= 1 + eps; })},
-        Misread{"axes_normalised", machine([](auto& m) { m.legs[2].base_axis.normalize(); })},
+        Misread{"axes_normalised", machine([](auto& m) {
+                  for (auto& leg : m.legs) leg.base_axis.normalize();
+                })},
         Misread{"smoothing_speed_not_read", machine([](auto& m) { m.legs[5].coulomb.smoothing_speed = 0.01; })},
         Misread{"single_precision",
                 machine([](auto& m) { m.platform.mass = static_cast<double>(static_cast<float>(m.platform.mass)); })},

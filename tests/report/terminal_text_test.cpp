@@ -42,7 +42,7 @@ TEST(TerminalText, alignsValueLimitUnitAndShareUnderTheirGroup) {
   EXPECT_EQ(text, R"(s: fail
 
                                      value  limit  unit      of limit
-Motors: the engines agree on the efforts
+Motors: the formulations agree on the efforts
   pass          torque.pointwise  1.25e-09  5e-09  N·m           25 %
   fail          torque.twin              3      2  N·m      1.5 times
                 leg 3, t = 1 s

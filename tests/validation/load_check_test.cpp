@@ -89,7 +89,7 @@ TEST(LoadCheck, seesSlopesThatAreNotOfTheRows) {
   Matrix6d map = Matrix6d::Identity();
   load.history = std::make_shared<const LoadHistory>(LoadHistory(table()), map, 1);
   EXPECT_EQ(judgeLoad(load, 3).verdict, Verdict::pass);
-  map(0, 1) = 1e-6;
+  map(0, 2) = 1;
   load.history = std::make_shared<const LoadHistory>(LoadHistory(table()), map, 1);
   EXPECT_EQ(judgeLoad(load, 3).verdict, Verdict::fail);
 }

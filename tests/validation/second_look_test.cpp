@@ -82,7 +82,8 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, SecondLooks, testing::Values("paper-helix", 
 class Orders : public testing::TestWithParam<std::string> {};
 
 TEST_P(Orders, ofTheJudgedIntegratorIsEightAndAnotherFails) {
-  const Scenario scenario = Reference(scenarioOf(GetParam())).scenario;
+  const Reference reference(scenarioOf(GetParam()));  // ends the motion with itself
+  const Scenario& scenario = reference.scenario;
   const Check right = judgeOrder(observedOrders(scenario)), lower = judgeOrder(observedOrders(scenario, true));
   EXPECT_EQ(right.verdict, Verdict::pass) << right.why;
   EXPECT_THAT(right.why, HasSubstr("stretches"));
