@@ -64,27 +64,25 @@ static void members(Archive& archive, LikelyCause& likely) {
   archive(off, cause);
 }
 
-/// Drawn anew from what it was drawn from.
-static void members(Archive& archive, std::shared_ptr<const Picture>& picture) {
-  bool has = picture != nullptr;
+/// Read anew from its text.
+static void members(Archive& archive, std::shared_ptr<const Scenario>& asked) {
+  bool has = asked != nullptr;
   archive(has);
   if (!has) return;
   std::string text, file;
-  std::vector<double> t;
   if (!archive.reads()) {
-    text = picture->scenario.text;
-    file = std::filesystem::absolute(picture->scenario.file).string();
-    t = picture->t;
+    text = asked->text;
+    file = std::filesystem::absolute(asked->file).string();
   }
-  archive(text, file, t);
-  if (archive.reads()) picture = makePicture(parseScenario(text, file), t);
+  archive(text, file);
+  if (archive.reads()) asked = std::make_shared<const Scenario>(parseScenario(text, file));
 }
 
 static void members(Archive& archive, ValidationResult& result) {
   auto& [scenario, formulation, limits, verdict, checks, provenance, findings, replay_error, cause, windows, deviation,
-         timeseries, curves, events, picture] = result;
+         timeseries, curves, events, asked] = result;
   archive(scenario, formulation, limits, verdict, checks, provenance, findings, replay_error, cause, windows, deviation,
-          timeseries, curves, events, picture);
+          timeseries, curves, events, asked);
 }
 
 namespace {

@@ -4,6 +4,5 @@
 /// A ValidationResult as files: summary.json, timeseries.csv, report.html, junit.xml.
 
 #include "include/ursula/abi.h"
-#include "report/picture.h"
 #include "report/report.h"
 #include "report/summary.h"
