@@ -136,7 +136,7 @@ TEST(LittleMemory, isExplainedByWhatTheVerbHas) {
   ASSERT_EQ(limited(ursula, 250, "validate a.toml --quiet --jobs 1 --out out"), refused);
   EXPECT_THAT(complaint(ursula), HasSubstr("samples in the scenario's [simulation]"));
   EXPECT_THAT(complaint(ursula), Not(HasSubstr("--samples")));
-  ASSERT_EQ(limited(ursula, 80, "inverse a.toml --samples 1000000 --jobs 1 --out out.csv"), refused);
+  ASSERT_EQ(limited(ursula, 55, "inverse a.toml --samples 100000 --jobs 1 --out out.csv"), refused);
   EXPECT_THAT(complaint(ursula), HasSubstr("fewer --samples or --jobs need less"));
 }
 

@@ -43,7 +43,7 @@ test("what is the same is a pass, and needs no script", async () => {
 test("a proof's defects are filtered and sorted", async () => {
   const proof = await opened("weak.html");
   const { page } = proof;
-  assert.match(await page.locator("header").innerText(), /FAIL[\s\S]*1 of 3 defects were caught on fewer roads/);
+  assert.match(await page.locator("header").innerText(), /FAIL[\s\S]*1 of 3 defects were caught on fewer formulations/);
   const rows = page.locator("tr.scenario");
   assert.match(await rows.first().innerText(), /✗ too few/);
   await page.getByLabel("Outcome").selectOption({ label: "too few" });
@@ -53,7 +53,7 @@ test("a proof's defects are filtered and sorted", async () => {
   assert.equal(await page.locator("tr.scenario:visible").count(), 1);
   assert.equal(await page.locator("tr.scenario:visible .cell").first().innerText(), "◆");
   await page.getByLabel("Find").fill("");
-  await page.getByRole("button", { name: "Roads" }).click();
+  await page.getByRole("button", { name: "Formulations" }).click();
   assert.match(await rows.first().innerText(), /0 of 2/);
   assertQuietAndOffline(proof);
 });
