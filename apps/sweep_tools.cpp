@@ -34,12 +34,19 @@ void sayMissing(const MergeResult& result, const std::string& database) {
 
 int merge(const MergeOptions& options) {
   MergeResult result;
-  {
+  catchStops();
+  try {
     Progress progress("merge");
     const auto count = static_cast<double>(options.parts.size());
-    result = mergeSweeps({options.parts.begin(), options.parts.end()}, options.database, [&](std::size_t done) {
-      progress.at(static_cast<double>(done) / count, fmt::format("{} of {} databases", done, options.parts.size()));
-    });
+    result = mergeSweeps(
+        {options.parts.begin(), options.parts.end()}, options.database,
+        [&](std::size_t done) {
+          progress.at(static_cast<double>(done) / count, fmt::format("{} of {} databases", done, options.parts.size()));
+        },
+        [] { return stopSignal() != 0; });
+  } catch (const DatabaseStopped&) {
+    say("stopped: databases that were done are in {}; the same command goes on from there\n", options.database);
+    return 128 + stopSignal();
   }
   fmt::print("{} of {} points, {} of them new\n{}\n", result.done, result.identity.points, result.added,
              options.database);
@@ -70,7 +77,8 @@ void addSweepMerge(CLI::App& sweep, std::function<int()>& run) {
   verb->add_option("databases", options->parts, "Databases of one sweep")->required();
   verb->add_option("--db", options->database, "Database that all go into; made where it is not there")->required();
   verb->footer(
-      "Exit: 0 where all points are there, 3 where some are missing; then it says which, and how to make them.");
+      "Exit: 0 where all points are there, 3 where some are missing; then it says which, and how to make them.\n"
+      "130 or 143 where Ctrl-C or SIGTERM stopped it: the same command goes on.");
   verb->callback([options, &run] { run = [options] { return merge(*options); }; });
 }
 

@@ -28,13 +28,6 @@ volatile std::sig_atomic_t asked_to_stop = 0;
 
 extern "C" void askToStop(int signal) { asked_to_stop = signal; }
 
-/// What whoever started this program wants ignored stays ignored: `nohup`, a shell's background, `trap '' INT`.
-void stopAt(int signal) {
-  struct sigaction action {};
-  sigaction(signal, nullptr, &action);
-  if (action.sa_handler != SIG_IGN) std::signal(signal, askToStop);  // NOLINT(performance-no-int-to-ptr)
-}
-
 Shard shardOf(const std::string& text) {
   Shard shard;
   if (text.empty()) return shard;
@@ -63,7 +56,7 @@ std::string inWords(const std::map<std::string, std::int64_t>& verdicts) {
 }
 
 int codeOf(const SweepRunResult& result) {
-  if (result.stopped) return 128 + static_cast<int>(asked_to_stop);
+  if (result.stopped) return 128 + stopSignal();
   if (result.verdicts.count("fail") > 0) return exit_failed;
   return result.verdicts.count("inconclusive") + result.verdicts.count("error") > 0 ? exit_inconclusive : exit_passed;
 }
@@ -90,14 +83,13 @@ int sweep(const SweepOptions& options) {
   if (options.slurm)
     return submitSweep(
         plan, {options.sweep, database, options.shards, options.jobs_given ? options.jobs : 1, options.dry_run});
-  if (database.has_parent_path()) std::filesystem::create_directories(database.parent_path());
-  for (const int signal : {SIGINT, SIGTERM}) stopAt(signal);
+  catchStops();
   SweepRunResult result;
   {
     Progress progress(std::filesystem::path(options.sweep).stem().string());
     const auto start = std::chrono::steady_clock::now();
     std::int64_t before = -1;
-    SweepRunOptions run{options.jobs, shard, options.retry_errors, [] { return asked_to_stop != 0; }};
+    SweepRunOptions run{options.jobs, shard, options.retry_errors, [] { return stopSignal() != 0; }};
     run.progress = [&](std::int64_t done, std::int64_t of) {
       if (before < 0) before = done - 1;
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -122,6 +114,16 @@ void addSlurmOptions(CLI::App& verb, SweepOptions& options) {
 }
 
 }  // namespace
+
+void catchStops() {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    struct sigaction action {};
+    sigaction(signal, nullptr, &action);
+    if (action.sa_handler != SIG_IGN) std::signal(signal, askToStop);  // NOLINT(performance-no-int-to-ptr)
+  }
+}
+
+int stopSignal() { return static_cast<int>(asked_to_stop); }
 
 std::string defaultDatabase(const std::string& stem, const Shard& shard) {
   return shard.of == 1 ? stem + ".db" : fmt::format("{}.shard-{}-of-{}.db", stem, shard.index, shard.of);

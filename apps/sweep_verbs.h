@@ -13,6 +13,12 @@ void addSweepMerge(CLI::App& sweep, std::function<int()>& run);
 void addSweepReport(CLI::App& sweep, std::function<int()>& run);
 void addSweepShow(CLI::App& sweep, std::function<int()>& run);
 
+/// From now on Ctrl-C and SIGTERM ask to stop. What whoever started this program wants ignored stays ignored: `nohup`,
+/// a shell's background, `trap '' INT`.
+void catchStops();
+/// The one that asked; 0: none.
+int stopSignal();
+
 /// "tolerances.db", "tolerances.shard-2-of-4.db".
 std::string defaultDatabase(const std::string& stem, const Shard& shard);
 

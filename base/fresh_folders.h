@@ -12,6 +12,7 @@ namespace ursula {
 class FreshFolders {
  public:
   FreshFolders() = default;
+  explicit FreshFolders(const std::filesystem::path& folder) { make(folder); }
   ~FreshFolders() {
     if (!kept_) remove();
   }

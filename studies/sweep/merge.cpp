@@ -8,6 +8,8 @@
 namespace ursula {
 namespace {
 
+using Stop = std::function<bool()>;
+
 struct Part {
   std::filesystem::path file;
   SweepIdentity identity;
@@ -20,10 +22,11 @@ void requireUnlocked(const std::filesystem::path& file) {
 }
 
 /// Those of one sweep, in the order of their points.
-std::vector<Part> opened(const std::vector<std::filesystem::path>& files) {
+std::vector<Part> opened(const std::vector<std::filesystem::path>& files, const Stop& stop) {
   std::vector<Part> out;
   for (const std::filesystem::path& file : files) {
     Sqlite database(file, Sqlite::Access::read);
+    database.stopWhen(stop);
     if (isEmpty(database)) continue;
     out.push_back({file, readIdentity(database), database.number("SELECT coalesce(min(id), 0) FROM point"),
                    database.number("SELECT coalesce(max(id), -1) FROM point")});
@@ -84,9 +87,10 @@ void compare(Sqlite& database, const Part& part) {
 }
 
 /// Any two of them, before anything is written: what is refused at the second part has left no points of the first.
-void requireAgreement(const std::vector<Part>& parts) {
+void requireAgreement(const std::vector<Part>& parts, const Stop& stop) {
   for (auto one = parts.begin(); one != parts.end(); ++one) {
     Sqlite database(one->file, Sqlite::Access::read);
+    database.stopWhen(stop);
     for (auto other = one + 1; other != parts.end() && other->first <= one->last; ++other) compare(database, *other);
   }
 }
@@ -142,19 +146,20 @@ std::vector<Shard> shardsOf(const std::vector<PointRange>& missing, const std::v
 }  // namespace
 
 MergeResult mergeSweeps(const std::vector<std::filesystem::path>& files, const std::filesystem::path& into,
-                        const std::function<void(std::size_t parts)>& progress) {
+                        const std::function<void(std::size_t parts)>& progress, const std::function<bool()>& stop) {
   for (const std::filesystem::path& file : files) {
     std::error_code ignored;
     if (std::filesystem::equivalent(file, into, ignored))
       throw DatabaseError(
           fmt::format("{}: error: is the database that all go into, expected it as --db alone", file.string()));
   }
-  const std::vector<Part> parts = opened(files);
-  requireAgreement(parts);
+  const std::vector<Part> parts = opened(files, stop);
+  requireAgreement(parts, stop);
   MergeResult out;
   out.identity = parts.front().identity;
   out.identity.shard = out.identity.shards = 1;
   SweepDatabase database(into, out.identity);
+  database.sqlite().stopWhen(stop);
   database.sqlite().run("COMMIT");
   for (const Part& part : parts) compare(database.sqlite(), part);
   std::size_t done = 0;

@@ -22,8 +22,10 @@ constexpr std::size_t most_named = 1000;
 /// Takes all points of `parts` into the database `into`, which may be there already, in part or as a whole: those that
 /// it has are left as they are. Throws DatabaseError, and changes nothing of `into` that it had, for a part of another
 /// sweep or of another version of the program, for one that is damaged, and where a point is not the same in both.
-/// `progress` is told of each part that is done; may be empty.
+/// `progress` is told of each part that is done; `stop` is asked now and then, and where it says yes, the parts that
+/// are done stay and DatabaseStopped is thrown; either may be empty.
 MergeResult mergeSweeps(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& into,
-                        const std::function<void(std::size_t parts)>& progress = {});
+                        const std::function<void(std::size_t parts)>& progress = {},
+                        const std::function<bool()>& stop = {});
 
 }  // namespace ursula

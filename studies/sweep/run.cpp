@@ -93,8 +93,8 @@ SweepRunResult runSweep(SweepPlan& plan, const std::filesystem::path& file, cons
     database.commit();
   }
   out.done += out.new_ones;
-  out.verdicts = verdictsOf(database.sqlite());
   if (!out.stopped) database.finish();
+  out.verdicts = verdictsOf(database.sqlite());
   return out;
 }
 

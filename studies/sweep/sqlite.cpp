@@ -6,12 +6,15 @@
 #include <cerrno>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 namespace ursula {
 namespace {
 
 /// Others may hold the database for as long as one batch takes to write.
 constexpr int patience = 5000;  // ms
+/// Of SQLite's machine, until it asks whether to stop: some microseconds.
+constexpr int steps_between = 100;
 
 int flagsOf(Sqlite::Access access) {
   switch (access) {
@@ -97,7 +100,15 @@ void Sqlite::fail(const std::string& doing) const {
   const std::string what = fmt::format("{}: error: {}{}", file_.string(), doing.empty() ? "" : doing + ": ",
                                        inWords(code, sqlite3_errmsg(handle_), systemError(handle_)));
   if (code == SQLITE_BUSY || code == SQLITE_LOCKED) throw DatabaseLocked(what);
+  if (code == SQLITE_INTERRUPT) throw DatabaseStopped(what);
   throw DatabaseError(what);
+}
+
+void Sqlite::stopWhen(std::function<bool()> stop) {
+  stop_ = std::move(stop);
+  if (!stop_) return;
+  const auto ask = [](void* stop_of) { return (*static_cast<std::function<bool()>*>(stop_of))() ? 1 : 0; };
+  sqlite3_progress_handler(handle_, steps_between, ask, &stop_);
 }
 
 void Sqlite::run(const std::string& sql) {

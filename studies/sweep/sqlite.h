@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -21,6 +22,11 @@ struct DatabaseLocked : DatabaseError {
   using DatabaseError::DatabaseError;
 };
 
+/// What was asked ended it: Sqlite::stopWhen.
+struct DatabaseStopped : DatabaseError {
+  using DatabaseError::DatabaseError;
+};
+
 /// One connection, for one thread. Everything throws DatabaseError.
 class Sqlite {
  public:
@@ -31,6 +37,8 @@ class Sqlite {
   Sqlite(const Sqlite&) = delete;
   Sqlite& operator=(const Sqlite&) = delete;
 
+  /// Asks now and then, also within a statement, and throws DatabaseStopped where the answer is yes; may be empty.
+  void stopWhen(std::function<bool()> stop);
   void run(const std::string& sql);
   /// The first column of the first row.
   std::int64_t number(const std::string& sql);
@@ -46,6 +54,7 @@ class Sqlite {
   friend class Statement;
   std::filesystem::path file_;
   sqlite3* handle_ = nullptr;
+  std::function<bool()> stop_;
 };
 
 /// A statement made once and run often. Parameters and columns count from 0.

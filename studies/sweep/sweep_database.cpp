@@ -152,7 +152,7 @@ struct SweepDatabase::Statements {
 };
 
 SweepDatabase::SweepDatabase(const std::filesystem::path& file, const SweepIdentity& identity)
-    : sqlite_(file, Sqlite::Access::create), identity_(identity) {
+    : folders_(file.parent_path()), sqlite_(file, Sqlite::Access::create), identity_(identity) {
   // Before anything is changed, as it may be somebody else's.
   const bool was_empty = isEmpty(sqlite_);
   if (!was_empty) requireSame(file, readIdentity(sqlite_), identity);
@@ -226,7 +226,18 @@ void SweepDatabase::finish() {
   requireInPlace();
   try {
     sqlite_.run("PRAGMA journal_mode = DELETE");
-  } catch (const DatabaseError&) {  // somebody reads it: then it stays as it is, which is as good
+  } catch (const DatabaseLocked&) {  // somebody reads it: then it stays as it is, which is as good
+  }
+  requireSoundFile();
+}
+
+/// What this connection holds in memory need not be in the file: another program may have cut its log short.
+void SweepDatabase::requireSoundFile() {
+  try {
+    SweepDatabase(sqlite_.file());
+  } catch (const DatabaseError& error) {
+    throw DatabaseError(
+        fmt::format("{}; another program has changed it, or its -wal, while it was written", error.what()));
   }
 }
 

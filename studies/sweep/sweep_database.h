@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/fresh_folders.h"
 #include "studies/sweep/sqlite.h"
 
 namespace ursula {
@@ -51,7 +52,8 @@ struct SweepPoint {
 /// or is written to by somebody else.
 class SweepDatabase {
  public:
-  /// Opens, or makes, the one of `identity`; refuses one of another sweep, another shard or another program version.
+  /// Opens, or makes, the one of `identity`, with folders that are missing; refuses one of another sweep, another shard
+  /// or another program version.
   SweepDatabase(const std::filesystem::path& file, const SweepIdentity& identity);
   /// To be read.
   explicit SweepDatabase(const std::filesystem::path& file);
@@ -68,7 +70,8 @@ class SweepDatabase {
   /// What was added since the last time is there for good. Refuses a file that was removed, renamed or replaced
   /// meanwhile, after all that was added is in it, wherever it is.
   void commit();
-  /// The same for the last time: leaves one file that can be read wherever it is carried.
+  /// The same for the last time: leaves one file that can be read wherever it is carried. Refuses one that is damaged,
+  /// read anew.
   void finish();
 
   Sqlite& sqlite() { return sqlite_; }
@@ -76,7 +79,9 @@ class SweepDatabase {
  private:
   struct Statements;
   void requireInPlace();
+  void requireSoundFile();
 
+  FreshFolders folders_;
   Sqlite sqlite_;
   SweepIdentity identity_;
   std::unique_ptr<Statements> statements_;

@@ -40,6 +40,14 @@ class Running {
     ::waitpid(process_, nullptr, 0);
     process_ = -1;
   }
+  void send(int signal) const { ::kill(process_, signal); }
+  /// When it has ended by itself; −1 where a signal ended it.
+  int exitCode() {
+    int status = 0;
+    ::waitpid(process_, &status, 0);
+    process_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
   /// Whether that signal has ended it.
   bool isEndedBy(int signal) {
     int status = 0;

@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "tests/end_to_end/program.h"
+#include "tests/end_to_end/running.h"
 
 namespace ursula {
 namespace {
@@ -65,6 +68,36 @@ TEST(SweepVerb, shardsMergeToTheWholeAndWhatIsMissingIsNamed) {
   EXPECT_EQ(whole.exit_code, 0) << whole.err;
   EXPECT_THAT(whole.out, HasSubstr("64 of 64 points, 16 of them new"));
   EXPECT_THAT(ursula("sweep s.toml --db all.db").err, HasSubstr("nothing to do"));
+}
+
+TEST(SweepVerb, mergeMakesFoldersWhereItWritesAlone) {
+  const Program ursula;
+  ursula.write("s.toml", sweepOf("inverse", "design = \"random\"\ncount = 4\nsamples = 5\n"));
+  ASSERT_EQ(ursula("sweep s.toml --db a/b/s.db").exit_code, 0);
+  EXPECT_EQ(ursula("sweep merge none.db --db c/d/all.db").exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(ursula.folder() / "c"));
+  const UrsulaRun merged = ursula("sweep merge a/b/s.db --db c/d/all.db");
+  EXPECT_EQ(merged.exit_code, 0) << merged.err;
+  EXPECT_TRUE(std::filesystem::exists(ursula.folder() / "c/d/all.db"));
+}
+
+/// Stopped while its log is there, and so in the middle.
+TEST(SweepVerb, mergeThatASignalStopsLeavesOneFile) {
+  const Program ursula;
+  ursula.write("s.toml", sweepOf("inverse", "design = \"random\"\ncount = 20000\nsamples = 5\n"));
+  ASSERT_EQ(ursula("sweep s.toml --db s.db").exit_code, 0);
+  const std::filesystem::path log = ursula.folder() / "all.db-wal";
+  for (const int signal : {SIGINT, SIGTERM}) {
+    Running merge(ursula, {"sweep", "merge", "s.db", "--db", "all.db"});
+    while (!std::filesystem::exists(log) && !merge.hasEnded()) std::this_thread::yield();
+    merge.send(SIGSTOP);
+    ASSERT_TRUE(std::filesystem::exists(log)) << "or nothing would be seen below";
+    merge.send(signal);
+    merge.send(SIGCONT);
+    EXPECT_EQ(merge.exitCode(), 128 + signal);
+    EXPECT_EQ(ursula.files(), 3u) << "s.toml, s.db, all.db";
+  }
+  EXPECT_EQ(ursula("sweep merge s.db --db all.db").exit_code, 0);
 }
 
 TEST(SweepVerb, refusesInOneLineWhatCannotBe) {

@@ -66,6 +66,26 @@ TEST(SweepDatabase, refusesToGoOnWithoutItsFile) {
     }
 }
 
+/// Another program cuts its log short: what was in it is lost, and what this connection has in memory hides it.
+TEST(SweepDatabase, refusesToFinishWhereItsLogWasCutShort) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "s.db";
+  SweepIdentity many = identity();
+  many.points = 4000;
+  for (const int left : {0, 4096 + 57, 100'000}) {
+    std::filesystem::remove(file);
+    SweepDatabase database(file, many);
+    for (int id = 0; id < 4000; ++id) {
+      database.add(point(id));
+      if (id % 100 == 0) database.commit();
+      if (id == 2000) std::filesystem::resize_file(folder.path() / "s.db-wal", static_cast<std::uintmax_t>(left));
+    }
+    EXPECT_THAT(refusal<DatabaseError>([&] { database.finish(); }),
+                testing::AllOf(HasSubstr("s.db: error: it is damaged"), HasSubstr("or its -wal, while it was written")))
+        << left;
+  }
+}
+
 /// The same sweep may be started twice: the second one meets points that the first one wrote.
 TEST(SweepDatabase, namesAnotherSweepThatWroteThePoint) {
   const TemporaryFolder folder;
@@ -116,7 +136,14 @@ TEST(SweepDatabase, refusesThoseOfOthersAndLeavesThemAsTheyAre) {
   const std::filesystem::path text = folder.write("text.db", "this is a text, and long enough that it is one\n");
   EXPECT_THAT(refused(text), HasSubstr("no SQLite database"));
   EXPECT_THAT(TemporaryFolder::read(text), HasSubstr("this is a text"));
-  EXPECT_THAT(refused(folder.path() / "none" / "s.db"), HasSubstr("cannot be opened or made"));
+  EXPECT_THAT(refused(text / "s.db"), HasSubstr("cannot be opened or made"));
+}
+
+TEST(SweepDatabase, makesItsFolders) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "a" / "b" / "s.db";
+  SweepDatabase(file, identity()).finish();
+  EXPECT_EQ(SweepDatabase(file).pointsDone(), 0);
 }
 
 TEST(SweepDatabase, refusesTablesThatAreNoneOfOursBeforeTheyAreRead) {

@@ -120,6 +120,31 @@ TEST(SweepMerge, writesNothingWhereAPartIsRefused) {
   EXPECT_EQ(rowsOf(all), before);
 }
 
+/// Between two parts, and before anything is read: what is there is whole, with nothing beside it.
+TEST(SweepMerge, stopsWhereItIsAskedAndGoesOnLater) {
+  const TemporaryFolder folder;
+  const auto part = [&](int shard) {
+    SweepIdentity whose = identity("aa", shard, 2);
+    whose.points = 400;
+    SweepDatabase database(folder.path() / (std::to_string(shard) + ".db"), whose);
+    for (int id = 200 * (shard - 1); id < 200 * shard; ++id) database.add(point(id));
+    database.finish();
+    return folder.path() / (std::to_string(shard) + ".db");
+  };
+  const std::vector<std::filesystem::path> parts = {part(1), part(2)};
+  const std::filesystem::path all = folder.path() / "all.db";
+  EXPECT_THROW(mergeSweeps(parts, all, {}, [] { return true; }), DatabaseStopped);
+  EXPECT_FALSE(std::filesystem::exists(all));
+  std::size_t done = 0;
+  const auto count = [&](std::size_t of) { done = of; };
+  EXPECT_THROW(mergeSweeps(parts, all, count, [&] { return done == 1; }), DatabaseStopped);
+  EXPECT_EQ(SweepDatabase(all).pointsDone(), 200);
+  std::size_t files = 0;
+  for (const auto& each : std::filesystem::directory_iterator(folder.path())) files += each.exists() ? 1 : 0;
+  EXPECT_EQ(files, 3u);
+  EXPECT_EQ(mergeSweeps(parts, all).added, 200);
+}
+
 TEST(SweepMerge, namesThePartThatIsBeingWritten) {
   const TemporaryFolder folder;
   const std::filesystem::path part = folder.path() / "part.db", all = folder.path() / "all.db";
