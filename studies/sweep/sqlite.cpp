@@ -93,7 +93,10 @@ Sqlite::Sqlite(const std::filesystem::path& file, Access access) : file_(file) {
   throw DatabaseError(fmt::format("{}: error: {}", file.string(), why));
 }
 
-Sqlite::~Sqlite() { sqlite3_close(handle_); }
+Sqlite::~Sqlite() {
+  sqlite3_progress_handler(handle_, 0, nullptr, nullptr);  // or what is asked to stop leaves its log behind
+  sqlite3_close(handle_);
+}
 
 void Sqlite::fail(const std::string& doing) const {
   const int code = sqlite3_errcode(handle_) & 0xff;

@@ -100,6 +100,13 @@ void requireSound(Sqlite& database, const SweepIdentity& sweep) {
       refuse(database.file(), "is damaged: " + fmt::format(fmt::runtime(what), row.integer(0)));
 }
 
+/// None below what is a file: SQLite refuses that by name.
+std::filesystem::path folderFor(const std::filesystem::path& file) {
+  std::filesystem::path there = file.parent_path();
+  while (!there.empty() && !std::filesystem::exists(there)) there = there.parent_path();
+  return there.empty() || std::filesystem::is_directory(there) ? file.parent_path() : std::filesystem::path();
+}
+
 }  // namespace
 
 bool isEmpty(Sqlite& database) { return database.number("SELECT count(*) FROM sqlite_master") == 0; }
@@ -152,7 +159,7 @@ struct SweepDatabase::Statements {
 };
 
 SweepDatabase::SweepDatabase(const std::filesystem::path& file, const SweepIdentity& identity)
-    : folders_(file.parent_path()), sqlite_(file, Sqlite::Access::create), identity_(identity) {
+    : folders_(folderFor(file)), sqlite_(file, Sqlite::Access::create), identity_(identity) {
   // Before anything is changed, as it may be somebody else's.
   const bool was_empty = isEmpty(sqlite_);
   if (!was_empty) requireSame(file, readIdentity(sqlite_), identity);
