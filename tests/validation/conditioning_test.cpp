@@ -182,6 +182,32 @@ TEST_P(ConditioningOf, shapesDoNotDependOnTheFrameChange) {
 INSTANTIATE_TEST_SUITE_P(Machines, ConditioningOf, testing::ValuesIn(vectorNames()),
                          [](const auto& name) { return "of_" + std::string(1, name.param.back()); });
 
+/// κ(I) of a machine's inertia by the inverse's norm; a motor's unit changes nothing, and within the paper's range
+/// there are digits.
+TEST_P(ConditioningOf, inertiaHasDigits) {
+  const Conditioning found = ConditioningProbe(*scenario_.manipulator, nullptr).at(randomState(scenario_, dice_));
+  EXPECT_GE(found.kappa_I, 1);
+  EXPECT_LT(found.kappa_I, 1e8);
+  EXPECT_TRUE(found.hasDigitsOfI());
+  EXPECT_TRUE(std::isfinite(found.rounding(Rounded::direct)));
+}
+
+/// A platform so heavy that its rotations are lost in I: direct dynamics has no limit there, and inverse dynamics has.
+TEST(ConditioningOfAHeavyPlatform, directDynamicsCannotBeJudged) {
+  const Scenario scenario = vectorScenario("paper-helix");
+  for (const auto& [mass, has_digits] : {std::pair{1e6, true}, {1e18, false}}) {
+    ManipulatorParameters parameters = scenario.manipulator->parameters();
+    parameters.platform.mass = mass;
+    const Conditioning found = ConditioningProbe(Manipulator(parameters), nullptr).at(scenario.trajectory->at(1));
+    EXPECT_EQ(found.hasDigitsOfI(), has_digits) << found.kappa_I;
+    for (const Rounded quantity : {Rounded::direct, Rounded::solver_direct}) {
+      EXPECT_EQ(std::isfinite(found.rounding(quantity)), has_digits);
+      EXPECT_EQ(causeOfRounding(found, quantity).find("kappa(I)") == std::string::npos, has_digits);
+    }
+    EXPECT_TRUE(std::isfinite(found.rounding(Rounded::torque)));
+  }
+}
+
 /// Up to where a leg is stretched the limits grow without bound, and there the probe refuses.
 TEST(ConditioningNearTheReach, growsAndThenRefuses) {
   const Scenario scenario = vectorScenario("paper-helix");

@@ -47,7 +47,7 @@ Check judgeAnswers(const char* check, const char* what, const std::function<void
                   rounding_safety),
       fmt::format("platform accelerations by (36) against Simbody's, {}; shown for t = {:.6g} s, torques {}", what,
                   at.t * units.time, motorChanged(at.where)),
-      causeOfRounding(samples, worst.widest_t));
+      causeOfRounding(samples, worst.widest_t, Rounded::direct));
   out.largest = {worst.largest, worst.largest_t * units.time, motorChanged(worst.largest_where)};
   return out;
 }

@@ -69,7 +69,7 @@ Check judgeKernel(const Kernel& kernel, const FastSamples& fast, const std::vect
       quantity, worst, "twice the rounding of the NOC: both sides round",
       fmt::format("{} by the fast kernels against the NOC, at {} instants, with {}; shown for t = {:.6g} s, {}",
                   kernel.what, fast.samples.size(), sets, shown.t * units.time, setOf(shown.where)),
-      causeOfRounding(samples, worst.widest_t));
+      causeOfRounding(samples, worst.widest_t, kernel.rounded));
   check.largest = {worst.largest, worst.largest_t * units.time, setOf(worst.largest_where)};
   return check;
 }

@@ -67,6 +67,15 @@ Projection project(const Manipulator& manipulator, const TwistShaping<double>& T
   return out;
 }
 
+/// Of I over the roots of its diagonal: no unit of a motor's coordinate changes it. Infinite where rounding makes I
+/// indefinite.
+double conditionOfI(const Matrix6d& I) {
+  const Vector6d root = I.diagonal().cwiseSqrt();
+  const Matrix6d scaled = root.cwiseInverse().asDiagonal() * I * root.cwiseInverse().asDiagonal();
+  const Vector6d eigenvalues = Eigen::SelfAdjointEigenSolver<Matrix6d>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
+  return eigenvalues(0) > 0 ? eigenvalues(5) / eigenvalues(0) : std::numeric_limits<double>::infinity();
+}
+
 /// ‖1/m + [d]ᵀ I⁻¹ [d]‖ of a free link at its far end, [d] the cross product with the vector from its mass centre.
 double complianceAtEnd(const Link& link) {
   const double d = link.length - link.center_of_mass;
@@ -176,6 +185,11 @@ double Conditioning::shape(Rounded quantity) const {
   return eps * torque;
 }
 
+double Conditioning::rounding(Rounded quantity) const {
+  if (solvesWithI(quantity) && !hasDigitsOfI()) return std::numeric_limits<double>::infinity();
+  return shape(quantity) * levels[static_cast<std::size_t>(quantity)];
+}
+
 double Conditioning::complementRounding() const { return rounding_depth * eps * kappa_B * kappa_legs; }
 
 ConditioningProbe::ConditioningProbe(const Manipulator& manipulator, std::shared_ptr<const Load> load)
@@ -192,6 +206,7 @@ Conditioning ConditioningProbe::at(const Motion<double>& motion) {
   const Matrix6d B = scaledB(work_.B, out.length);
   out.kappa_B = conditionNumber(B);
   const Projection projection = project(manipulator_, work_.T, bodies, solver_.rates(work_), out.length);
+  out.kappa_I = conditionOfI(projection.inertia);
   Matrix6d T_P = solver_.platformShaping(work_);
   T_P.topRows<3>() *= out.length;
   setPlatform(solver_, manipulator_, motion, torques, work_, out);
@@ -210,7 +225,9 @@ Conditioning ConditioningProbe::at(const Motion<double>& motion) {
   return out;
 }
 
-std::string causeOfRounding(const Conditioning& at) {
+std::string causeOfRounding(const Conditioning& at, Rounded quantity) {
+  if (solvesWithI(quantity) && !at.hasDigitsOfI())
+    return fmt::format("rounding leaves the inertia I of (34) no digit, kappa(I) = {:.2g}", at.kappa_I);
   const double platform = at.compliance * at.largest_mass, link = at.leg_compliance * at.largest_mass;
   const double largest = std::max({at.weight_ratio, at.kappa_B, at.kappa_legs, platform, link});
   if (largest == at.weight_ratio)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <memory>
 
 #include "engines/further_engines.h"
@@ -46,6 +47,11 @@ constexpr Rounded ofFurtherEngine(std::size_t k) {
   return static_cast<Rounded>(static_cast<std::size_t>(Rounded::further_engine) + k);
 }
 
+/// Direct dynamics solves with I of (34).
+constexpr bool solvesWithI(Rounded quantity) {
+  return quantity == Rounded::direct || quantity == Rounded::solver_direct;
+}
+
 /// How far a quantity's rounding goes, in units of its shape (Conditioning::shape).
 using RoundingLevels = std::array<double, rounded_count>;
 
@@ -61,6 +67,7 @@ constexpr RoundingLevels uniformLevels(double level) {
 /// subject on trial. See docs/validation.md.
 struct Conditioning {
   double kappa_B = 0;         ///< 2-norm condition number of B, moments over the machine's length
+  double kappa_I = 1;         ///< that of I of (34), each row and column over the root of its diagonal entry
   double kappa_legs = 0;      ///< largest of 1/sin²θᵢ · (qᵢ/rᵢ)²: how rounding grows in a leg's rates
   double smallest_sine = 0;   ///< min |sin θᵢ|: the distance from a stretched or folded leg
   int smallest_sine_leg = 0;  ///< 0-based
@@ -80,10 +87,12 @@ struct Conditioning {
   double weight_ratio = 0;   ///< force_scale over the platform's weight and inertia
   RoundingLevels levels = uniformLevels(rounding_depth);
 
+  /// Whether rounding leaves I of (34) a digit: Higham, Accuracy and Stability of Numerical Algorithms (2002), p. 198.
+  bool hasDigitsOfI() const { return rounding_depth * std::numeric_limits<double>::epsilon() * kappa_I < 1; }
   /// How `quantity` rounds with the pose and the machine, times eps: its unit.
   double shape(Rounded quantity) const;
-  /// What rounding may make of it: shape × level.
-  double rounding(Rounded quantity) const { return shape(quantity) * levels[static_cast<std::size_t>(quantity)]; }
+  /// What rounding may make of it: shape × level; infinite where I has no digit and `quantity` needs it.
+  double rounding(Rounded quantity) const;
 
   /// Of ‖D T‖ over ‖D‖‖T‖: not measured.
   double complementRounding() const;
@@ -107,7 +116,7 @@ class ConditioningProbe {
   NocWorkspace<double> work_;
 };
 
-/// What makes a limit of rounding large here, with the number.
-std::string causeOfRounding(const Conditioning& at);
+/// What makes the limit of `quantity` large here, with the number.
+std::string causeOfRounding(const Conditioning& at, Rounded quantity = Rounded::torque);
 
 }  // namespace ursula

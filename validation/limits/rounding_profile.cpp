@@ -254,8 +254,9 @@ double SecondLook::limit(double error, const Conditioning& at, Rounded quantity,
                          double factor, const Vector6d* torques) {
   const double first = factor * at.rounding(quantity);
   if (error <= first || confirmed_ || !std::isfinite(error)) return first;
-  const RoundingLevels levels = profile_.closer(motion, torques).levels;
-  const double second = factor * at.shape(quantity) * levels[static_cast<std::size_t>(quantity)];
+  Conditioning closer = at;
+  closer.levels = profile_.closer(motion, torques).levels;
+  const double second = factor * closer.rounding(quantity);
   confirmed_ = error > second;
   return second;
 }

@@ -244,11 +244,11 @@ std::vector<double> instantsOf(const std::vector<PointwiseSample>& samples) {
   return out;
 }
 
-std::string causeOfRounding(const std::vector<PointwiseSample>& samples, double t) {
+std::string causeOfRounding(const std::vector<PointwiseSample>& samples, double t, Rounded quantity) {
   if (samples.empty()) return "";
   const auto at = std::lower_bound(samples.begin(), samples.end(), t,
                                    [](const PointwiseSample& each, double x) { return each.motion.t < x; });
-  return causeOfRounding((at == samples.end() ? samples.back() : *at).conditioning);
+  return causeOfRounding((at == samples.end() ? samples.back() : *at).conditioning, quantity);
 }
 
 }  // namespace ursula

@@ -60,6 +60,6 @@ std::vector<PointwiseSample> runJointsAndTorques(const Scenario& scenario, const
 std::vector<double> instantsOf(const std::vector<PointwiseSample>& samples);
 
 /// causeOfRounding at the sample at t, or at the first after it; "" where there is none.
-std::string causeOfRounding(const std::vector<PointwiseSample>& samples, double t);
+std::string causeOfRounding(const std::vector<PointwiseSample>& samples, double t, Rounded quantity = Rounded::torque);
 
 }  // namespace ursula

@@ -85,8 +85,10 @@ Check judgedIfUseful(const CheckedQuantity& quantity, const Worst& worst, std::s
   const double useful = quantity.useful();
   const Shown shown = worst.shown(useful);
   const std::string wide =
-      fmt::format("the derived limit is at most {:.3g} of the quantity's size: {}",
-                  quantity.size > 0 ? worst.widest_limit / quantity.size : worst.widest_limit, cause);
+      std::isfinite(worst.widest_limit)
+          ? fmt::format("the derived limit is at most {:.3g} of the quantity's size: {}",
+                        quantity.size > 0 ? worst.widest_limit / quantity.size : worst.widest_limit, cause)
+          : fmt::format("no limit can be derived: {}", cause);
   Check out;
   if (shown.undecided)
     out = notJudgeable(Reason::limit_useless, quantity.name, shown.value, shown.limit, quantity.unit, std::move(basis),
