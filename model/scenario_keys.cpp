@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace ursula {
 namespace {
@@ -267,6 +268,16 @@ const std::vector<ScenarioTable>& scenarioTables() {
     return all;
   }();
   return tables;
+}
+
+std::string otherFrictionName(const std::string& key) {
+  constexpr std::pair<const char*, const char*> names[] = {
+      {"phi", "actuated"}, {"psi", "universal"}, {"theta", "knee"}};
+  for (const auto& [one, other] : names) {
+    if (key == one) return other;
+    if (key == other) return one;
+  }
+  return "";
 }
 
 const ScenarioTable& scenarioTable(const std::string& name) {

@@ -48,6 +48,10 @@ struct ScenarioTable {
 /// docs/scenario.schema.json are made of it.
 const std::vector<ScenarioTable>& scenarioTables();
 
+/// The other name that the friction of a coordinate may have on a leg of the paper's: `actuated` of `phi`, and back.
+/// Empty where there is none.
+std::string otherFrictionName(const std::string& key);
+
 /// Throws std::out_of_range for what is no table.
 const ScenarioTable& scenarioTable(const std::string& name);
 

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "model/scenario_keys.h"
 #include "model/scenario_sections.h"
 
 namespace ursula {
@@ -30,17 +31,11 @@ std::vector<Step> stepsOf(const std::string& place) {
   return steps;
 }
 
-/// What else a file may call a coordinate's friction on a leg of the paper's.
-std::string otherNameOf(const std::string& key) {
-  if (key == "phi") return "actuated";
-  if (key == "psi") return "universal";
-  return key == "theta" ? "knee" : "";
-}
-
 const toml::node* child(const toml::node& node, Step& step) {
   const toml::table* table = node.as_table();
   const toml::node* found = table ? table->get(step.key) : nullptr;
-  if (const std::string other = otherNameOf(step.key); table && !found && !other.empty() && table->contains(other)) {
+  if (const std::string other = otherFrictionName(step.key);
+      table && !found && !other.empty() && table->contains(other)) {
     step.key = other;
     found = table->get(other);
   }

@@ -79,7 +79,21 @@ void writeOut(toml::table& table, const ScenarioKey& about, const toml::node* in
   parsed.get("value")->visit([&](auto& value) { table.insert(about.name, std::move(value)); });
 }
 
-Spot intoTable(const Spot& spot, const std::string& part, const std::string& whole) {
+/// Friction has two names on a leg of the paper's: the one that the leg or its defaults use, `part` where neither does.
+std::string asWritten(const Spot& spot, const std::string& part) {
+  const bool of_friction = spot.table == "manipulator.leg.friction" || spot.table == "manipulator.leg.coulomb";
+  const std::string other = of_friction ? otherFrictionName(part) : "";
+  if (other.empty()) return part;
+  for (const toml::node* node : {static_cast<const toml::node*>(spot.node), spot.inherited}) {
+    const toml::table* table = node == nullptr ? nullptr : node->as_table();
+    if (table != nullptr && (table->contains(part) || table->contains(other)))
+      return table->contains(part) ? part : other;
+  }
+  return part;
+}
+
+Spot intoTable(const Spot& spot, const std::string& asked, const std::string& whole) {
+  const std::string part = asWritten(spot, asked);
   // Limits are named after checks, with dots or in tables: what the scenario gives can vary.
   if (spot.table.compare(0, 10, "acceptance") == 0)
     if (toml::node* given = spot.node->as_table()->get(part)) return {given, nullptr, "acceptance"};
@@ -141,8 +155,10 @@ void requireUse(const toml::table& document, const std::string& whole) {
   if (parts.size() < 3 || parts[0] != "manipulator" || parts[1] != "leg_defaults" || legs == nullptr) return;
   const auto overrides = [&](const toml::node& leg) {
     const toml::node* at = &leg;
-    for (std::size_t k = 2; k < parts.size() && at != nullptr && at->is_table(); ++k)
-      at = at->as_table()->get(parts[k]);
+    for (std::size_t k = 2; k < parts.size() && at != nullptr && at->is_table(); ++k) {
+      const toml::table& table = *at->as_table();
+      at = table.get(table.contains(parts[k]) ? parts[k] : otherFrictionName(parts[k]));
+    }
     return at != nullptr;
   };
   if (std::all_of(legs->begin(), legs->end(), overrides))

@@ -92,15 +92,17 @@ TEST(SweepFile, refusesAtItsPlaceAKeyThatLeadsToNoNumber) {
 
 TEST(SweepFile, refusesADefaultThatEveryLegOverrides) {
   const TemporaryFolder folder;
-  std::string helix = TemporaryFolder::read(helix_file);
   const std::string leg = "[[manipulator.leg]]\n";
-  for (std::size_t at = helix.find(leg); at != std::string::npos; at = helix.find(leg, at + 1))
-    helix.insert(at + leg.size(), "friction = { phi = 1.0 }\n");
-  SweepFile sweep = parseSweepFile(
-      sweepText("inverse", "design = \"random\"\ncount = 5\n" + vary("leg_defaults.friction.phi", "plus_minus = 1.0")),
-      "sweep.toml");
-  sweep.scenario = folder.write("helix.toml", helix);
-  EXPECT_THAT(refusal<ScenarioError>([&] { SweepPlan plan(sweep); }), HasSubstr("every leg gives its own"));
+  for (const std::string name : {"phi", "actuated"}) {
+    std::string helix = TemporaryFolder::read(helix_file);
+    for (std::size_t at = helix.find(leg); at != std::string::npos; at = helix.find(leg, at + 1))
+      helix.insert(at + leg.size(), "friction = { " + name + " = 1.0 }\n");
+    SweepFile sweep = parseSweepFile(sweepText("inverse", "design = \"random\"\ncount = 5\n" +
+                                                              vary("leg_defaults.friction.phi", "plus_minus = 1.0")),
+                                     "sweep.toml");
+    sweep.scenario = folder.write("helix.toml", helix);
+    EXPECT_THAT(refusal<ScenarioError>([&] { SweepPlan plan(sweep); }), HasSubstr("every leg gives its own")) << name;
+  }
 }
 
 }  // namespace

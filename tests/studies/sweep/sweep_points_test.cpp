@@ -123,6 +123,25 @@ TEST(SweepPoints, aDefaultMovesAllLegsAndALegsOwnOnlyIt) {
   }
 }
 
+/// `actuated` and `phi` are one number; a leg or the defaults may have either name for it.
+TEST(SweepPoints, frictionVariesByEitherOfItsNames) {
+  const TemporaryFolder folder;
+  const std::string helix = TemporaryFolder::read(helix_file), defaults = "[manipulator.leg_defaults]\n";
+  const auto at = helix.find("\n", helix.find(defaults)) + 1;
+  for (const std::string written : {"actuated", "phi"})
+    for (const char* varied : {"leg.1.friction.actuated", "leg.1.friction.phi"}) {
+      std::string text = helix;
+      text.insert(at, "friction = { " + written + " = 3.0 }\n");
+      SweepFile sweep = parseSweepFile(sweepText("inverse", random_500 + vary(varied, "relative = 0.1")), "sweep.toml");
+      sweep.scenario = folder.write("helix.toml", text);
+      SweepPlan plan(sweep);
+      EXPECT_EQ(plan.points().numbers()[0].nominal, 3) << written << varied;
+      const Scenario point = plan.make(0);
+      EXPECT_EQ(point.manipulator->leg(0).friction.phi, plan.points().at(0)[0]) << written << varied;
+      EXPECT_EQ(point.manipulator->leg(1).friction.phi, 3) << written << varied;
+    }
+}
+
 TEST(SweepPoints, limitsOfTheUsersOwnCanVary) {
   const TemporaryFolder folder;
   const std::string scenario =
