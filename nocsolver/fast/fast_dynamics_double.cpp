@@ -2,5 +2,4 @@
 
 namespace ursula {
 template class FastDynamics<double>;
-template class FastDynamics<float>;
 }  // namespace ursula

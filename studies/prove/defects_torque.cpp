@@ -33,26 +33,25 @@ Defect timed(const char* name, const std::function<double(double t, double sampl
   });
 }
 
-Vector6d inSinglePrecision(const Solver<float>& solver, const Load* load, const Motion<double>& m) {
-  Motion<float> single;
-  single.t = static_cast<float>(m.t);
-  single.p = m.p.cast<float>();
-  single.Q = m.Q.cast<float>();
-  single.omega = m.omega.cast<float>();
-  single.p_dot = m.p_dot.cast<float>();
-  single.omega_dot = m.omega_dot.cast<float>();
-  single.p_ddot = m.p_ddot.cast<float>();
-  Workspace<float> work;
-  const Vector6<float> wrench = loadAtP(load, m).cast<float>();
-  return solver.inverseDynamics(single, work, wrench).cast<double>();
+template <class Vector>
+Vector toSingle(const Vector& v) {
+  return v.template cast<float>().template cast<double>();
 }
 
+/// The motion and the efforts pass through numbers of single precision.
 Defect singlePrecision() {
   return wrongTorques("single precision", "torque", [](const Scenario& s) -> ChangeTorques {
-    const auto solver = std::make_shared<const Solver<float>>(*s.manipulator);
-    const auto load = s.load;
-    return
-        [solver, load](const Vector6d&, const Motion<double>& m) { return inSinglePrecision(*solver, load.get(), m); };
+    const Subject right = nocSubject(*s.manipulator, s.load);
+    return [right](const Vector6d&, const Motion<double>& m) {
+      const Motion<double> single{static_cast<double>(static_cast<float>(m.t)),
+                                  toSingle(m.p),
+                                  toSingle(m.Q),
+                                  toSingle(m.omega),
+                                  toSingle(m.p_dot),
+                                  toSingle(m.omega_dot),
+                                  toSingle(m.p_ddot)};
+      return toSingle(right.torques(single));
+    };
   });
 }
 
