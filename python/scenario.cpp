@@ -14,6 +14,7 @@
 
 #include "python/archive.h"
 #include "python/derivatives.h"
+#include "python/documents.h"
 #include "python/motion.h"
 #include "python/words.h"
 
@@ -235,6 +236,7 @@ void addScenario(py::module_& module) {
       .def("direct_kinematics", &directKinematics, py::arg("phi"), words::direct_kinematics)
       .def("__repr__", [](const ScenarioWithSolver& self) { return "<ursula.Scenario '" + self.scenario.name + "'>"; });
   addDerivatives(scenario);
+  addDocuments(module, scenario);
   module.def(
       "read_scenario",
       [](const std::filesystem::path& file) {

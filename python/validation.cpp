@@ -1,5 +1,6 @@
 #include "python/validation.h"
 
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 #include <ursula/report.h>
@@ -13,16 +14,9 @@
 #include <vector>
 
 #include "python/archive.h"
-#include "python/motion.h"
-#include "python/scenario.h"
-#include "python/signals.h"
+#include "python/judging.h"
+#include "python/result.h"
 #include "python/words.h"
-
-template <>
-class pybind11::detail::type_caster<ursula::Check> : public ursula::python::MadeCaster<ursula::Check> {};
-template <>
-class pybind11::detail::type_caster<ursula::ValidationResult>
-    : public ursula::python::MadeCaster<ursula::ValidationResult> {};
 
 namespace ursula::python {
 namespace py = pybind11;
@@ -86,83 +80,6 @@ static void members(Archive& archive, ValidationResult& result) {
 }
 
 namespace {
-
-std::string atInstant(const Motion<double>& motion) { return " at t = " + std::to_string(motion.t) + " s"; }
-
-/// The solver's answer to `motions`: N × 6 finite numbers, and nothing else.
-std::vector<Vector6d> torquesOf(const py::object& answer, const std::vector<Motion<double>>& motions) {
-  const py::array any =
-      numbersIn(answer, "the solver's answer" + atInstant(motions.front()) + " is of type " +
-                            std::string(py::str(py::type::of(answer).attr("__name__"))) + " and no array of numbers");
-  if (any.ndim() != 2 || static_cast<std::size_t>(any.shape(0)) != motions.size() || any.shape(1) != motor_count)
-    throw py::value_error("the solver's answer to " + std::to_string(motions.size()) + " instants has shape " +
-                          std::string(py::str(any.attr("shape"))) + ", expected (" + std::to_string(motions.size()) +
-                          ", 6)");
-  const py::array_t<double, py::array::c_style | py::array::forcecast> given(any);  // the last, for it may be a copy
-  std::vector<Vector6d> out;
-  out.reserve(motions.size());
-  for (std::size_t k = 0; k < motions.size(); ++k) {
-    out.emplace_back(Eigen::Map<const Vector6d>(given.data() + motor_count * k));
-    for (int i = 0; i < motor_count; ++i)
-      if (!std::isfinite(out.back()(i)))
-        throw py::value_error("the solver's effort " + std::to_string(i + 1) + atInstant(motions[k]) + " is " +
-                              std::to_string(out.back()(i)) + ", expected a finite number");
-  }
-  return out;
-}
-
-std::string nameOf(const py::object& solver) {
-  return py::str(py::getattr(solver, "__qualname__", py::type::of(solver).attr("__name__")));
-}
-
-void requirePositive(const char* name, std::optional<double> value) {
-  if (value && !(*value > 0 && std::isfinite(*value)))
-    throw py::value_error(std::string(name) + " is " + std::to_string(*value) + ", expected a positive number");
-}
-
-/// The scenario with the tolerance given, if any.
-Scenario tolerant(Scenario scenario, std::optional<double> rtol, std::optional<double> atol, bool any) {
-  requirePositive("rtol", rtol);
-  requirePositive("atol", atol);
-  if (rtol || atol) scenario.tolerance = EffortTolerance{rtol.value_or(0), atol.value_or(0)};
-  if (scenario.tolerance) scenario.tolerance->any = any;
-  return scenario;
-}
-
-/// What `run` returns, which is given when to end and knows no Python.
-template <class Run>
-ValidationResult interruptible(double time_limit, Run&& run) {
-  Interruption interruption;
-  ValidationOptions options;
-  options.time_limit = time_limit;
-  options.asked_to_end = [&interruption] { return interruption.cameInBetween(); };
-  ValidationResult result = [&] {
-    const py::gil_scoped_release unlocked;
-    return run(options);
-  }();
-  interruption.rethrow();
-  return result;
-}
-
-ValidationResult validated(const ScenarioWithSolver& given, const py::object& solver, std::optional<double> rtol,
-                           std::optional<double> atol, const py::object& name, bool any_tolerance,
-                           std::optional<double> time_limit) {
-  const Scenario scenario = tolerant(given.scenario, rtol, atol, any_tolerance);
-  requirePositive("time_limit", time_limit);
-  const double limit = time_limit.value_or(0);
-  if (solver.is_none())
-    return interruptible(limit, [&](const ValidationOptions& options) { return validate(scenario, options); });
-  if (PyCallable_Check(solver.ptr()) == 0) throw py::type_error("solver: expected a function of a Motion");
-  OutsideSolver outside;
-  outside.name = name.is_none() ? nameOf(solver) : std::string(py::str(name));
-  // By reference: what copies this holds no lock.
-  outside.torques = [&solver](const std::vector<Motion<double>>& motions) {
-    const py::gil_scoped_acquire locked;
-    return torquesOf(solver(Motions{motions}), motions);
-  };
-  return interruptible(limit,
-                       [&](const ValidationOptions& options) { return validateOutside(scenario, outside, options); });
-}
 
 py::dict seriesOf(const ValidationResult& result) {
   py::dict out;
@@ -254,9 +171,7 @@ void addResult(py::module_& module) {
 void addValidation(py::module_& module) {
   addCheck(module);
   addResult(module);
-  module.def("validate", &validated, py::arg("s"), py::arg("solver") = py::none(), py::kw_only(),
-             py::arg("rtol") = py::none(), py::arg("atol") = py::none(), py::arg("name") = py::none(),
-             py::arg("any_tolerance") = false, py::arg("time_limit") = py::none(), words::validate);
+  addJudging(module);
 }
 
 }  // namespace ursula::python

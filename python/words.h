@@ -23,7 +23,25 @@ constexpr const char* q =
 constexpr const char* read_scenario =
     "Reads and checks a scenario file (TOML). Raises ScenarioError, with file, line and column.";
 
-constexpr const char* scenario = "A machine, what it is asked to do, and how that is judged; made by read_scenario.";
+constexpr const char* scenario_of =
+    "A Scenario of a dict or of text in TOML, with the keys of a scenario's file. Arrays of NumPy and paths may stand "
+    "in\n"
+    "a dict. folder: that relative paths are taken from; the current one where left out. Raises ScenarioError: with "
+    "line\n"
+    "and column of a text, with the key of a dict, whose lines are those of its to_toml().";
+
+constexpr const char* to_dict =
+    "What the scenario was read from, as a dict: every key that it gives, and files that it names by their whole "
+    "paths.\n"
+    "scenario(s.to_dict()) has the same numbers.";
+
+constexpr const char* to_toml =
+    "The text that the scenario was read from. scenario(s.to_toml()) is the same scenario, with the same hash; "
+    "relative\n"
+    "paths in it are from the folder of s.file.";
+
+constexpr const char* scenario =
+    "A machine, what it is asked to do, and how that is judged; made by read_scenario and scenario.";
 
 constexpr const char* at =
     "The commanded motion at t, s: (N,) or a number, in [0, duration]. An instant beyond either end by no more than\n"
@@ -80,6 +98,9 @@ constexpr const char* validate =
     "N m or N, for a Motion of N instants, any number. It is called by one thread at a time, in any order of "
     "instants.\n"
     "What needs a second machine, kinematics or direct dynamics is not applicable then.\n\n"
+    "torques, t: efforts (N, 6), N m or N, at instants (N,), s, that are judged instead, as `ursula validate "
+    "--torques`\n"
+    "judges a file that gives each number by its shortest text.\n\n"
     "rtol, atol: torques pass that are off by no more, relative to the largest effort of the motion, and N m or N; "
     "both\n"
     "are added. Where both are left out, [acceptance] torque of the scenario holds, else rounding. name: of the\n"

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "base/deadline.h"
 #include "validation/checks/acceptance.h"
 #include "validation/checks/every_check.h"
@@ -90,8 +92,9 @@ void addFacts(const Evidence& evidence, const ErrorBudget& budget, ValidationRes
 
 }  // namespace
 
-ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& torques, double time_limit) {
-  const Deadline deadline(time_limit);
+ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& torques, double time_limit,
+                                  std::function<bool()> asked_to_end) {
+  const Deadline deadline(time_limit, std::move(asked_to_end));
   checkMotion(scenario);
   requireTellingTolerance(scenario);
   const FrameChange natural = naturalFrameChange(scenario);

@@ -8,4 +8,5 @@
 #include "model/instants.h"
 #include "model/quaternions.h"
 #include "model/scenario.h"
+#include "model/scenario_json.h"
 #include "model/trajectories.h"

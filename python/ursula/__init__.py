@@ -20,6 +20,7 @@ from ._ursula import (
     UndeterminedPose,
     __version__,
     read_scenario,
+    scenario,
     validate,
 )
 
@@ -34,6 +35,7 @@ __all__ = [
     "UndeterminedPose",
     "__version__",
     "read_scenario",
+    "scenario",
     "validate",
 ]
 

@@ -115,6 +115,10 @@ class Scenario:
         """(names, values, Y): Y @ values is inverse_dynamics without the load; Y is (N, 6, number of names)."""
     def direct_kinematics(self, phi: npt.ArrayLike) -> list[Pose]:
         """Every real pose for six actuated angles of URS legs, rad."""
+    def to_dict(self) -> dict[str, Any]:
+        """What it was read from, as a dict."""
+    def to_toml(self) -> str:
+        """The text that it was read from."""
 
 class Check:
     """One statement that was judged: it passes exactly if value <= limit."""
@@ -161,10 +165,15 @@ class Result:
 def read_scenario(path: str | os.PathLike[str]) -> Scenario:
     """Reads and checks a scenario file (TOML)."""
 
+def scenario(dict_or_text: dict[str, Any] | str, *, folder: str | os.PathLike[str] | None = None) -> Scenario:
+    """A scenario of a dict or of text in TOML; relative paths are from `folder`, by default the current one."""
+
 def validate(
     s: Scenario,
     solver: Callable[[Motion], npt.ArrayLike] | None = None,
     *,
+    torques: npt.ArrayLike | None = None,
+    t: npt.ArrayLike | None = None,
     rtol: float | None = None,
     atol: float | None = None,
     name: str | None = None,

@@ -2,18 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
-#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 #include <utility>
 
-#include "base/leading_number.h"
 #include "base/sha1.h"
 #include "model/scenario_files.h"
 #include "model/scenario_sections.h"
+#include "model/toml_writer.h"
 #include "studies/sweep/scenario_numbers.h"
 #include "validation/findings/provenance.h"
 
@@ -23,32 +20,6 @@ namespace {
 std::string bytesOf(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-/// 0.7 for the 0.69999999999999996 that toml++ writes: the shortest that reads as the same number. Strings stay.
-std::string withShortNumbers(const std::string& toml) {
-  std::string out;
-  char quote = '\0';
-  for (const char* at = toml.c_str(); *at != '\0';) {
-    const bool begins = quote == '\0' && (std::isdigit(static_cast<unsigned char>(*at)) != 0) &&
-                        (out.empty() || std::strchr(" [=,-+", out.back()) != nullptr);
-    const LeadingNumber read =
-        begins ? leadingNumber({at, static_cast<std::size_t>(toml.c_str() + toml.size() - at)}) : LeadingNumber();
-    if (std::string_view(at, read.length).find('.') != std::string_view::npos) {
-      const std::string number = fmt::format("{}", read.value);
-      out += number + (number.find_first_of(".e") == std::string::npos ? ".0" : "");
-      at += read.length;
-      continue;
-    }
-    if (quote == *at)
-      quote = '\0';
-    else if (quote == '\0' && (*at == '\'' || *at == '"'))
-      quote = *at;
-    else if (quote == '"' && *at == '\\' && at[1] != '\0')
-      out += *at++;
-    out += *at++;
-  }
-  return out;
 }
 
 /// What decides a sweep's rows, to the last bit.
@@ -80,11 +51,7 @@ struct SweepPlan::Document {
     table["simulation"].as_table()->insert_or_assign("samples", *sweep.samples);
   }
 
-  std::string text() const {
-    std::ostringstream out;
-    out << table << '\n';
-    return withShortNumbers(out.str());
-  }
+  std::string text() const { return tomlText(table); }
 
   /// Throws ScenarioError at the sweep's key.
   std::vector<VariedNumber> hold(const SweepFile& sweep) {

@@ -212,3 +212,65 @@ def test_two_threads_at_once(quick):
     for thread in threads:
         thread.join()
     assert verdicts == {"right": "pass", "wrong": "fail"}
+
+
+def exact(s, instants=301):
+    m = s.motion(np.linspace(0, s.duration, instants))
+    return m.t, s.inverse_dynamics(m)
+
+
+def write_csv(path, t, tau):
+    rows = [",".join(["t_s", *(f"tau_{i + 1}_Nm" for i in range(6))])]
+    rows += [",".join(repr(float(each)) for each in (at, *row)) for at, row in zip(t, tau)]
+    path.write_text("\n".join(rows) + "\n")
+
+
+@pytest.mark.parametrize("factor, rtol, verdict", [(1, None, "pass"), (1.01, None, "fail"), (1.01, 0.02, "pass"),
+                                                   (1.01, 0.005, "fail")])
+def test_torques_of_ones_own_are_judged_as_the_programs_file(program, quick, tmp_path, factor, rtol, verdict):
+    s = ursula.read_scenario(quick)
+    t, tau = exact(s)
+    r = ursula.validate(s, torques=factor * tau, t=t, rtol=rtol, name="mine.csv")
+    assert r.verdict == verdict, r.reason
+    write_csv(tmp_path / "mine.csv", t, factor * tau)
+    more = ["--rtol", rtol] if rtol else []
+    program("validate", quick, "--torques", "mine.csv", "--out", "out", *more)
+    assert r.summary == json.loads((tmp_path / "out" / "summary.json").read_text())
+
+
+def test_rounded_torques_count_as_rounded(quick):
+    s = ursula.read_scenario(quick)
+    t, tau = exact(s)
+    assert ursula.validate(s, torques=np.round(tau, 6), t=t).verdict != "fail"
+    off = np.round(tau, 6)
+    off[150, 2] += 1e-4
+    assert ursula.validate(s, torques=off, t=t).verdict == "fail"
+
+
+def test_a_time_limit_and_any_tolerance_hold_for_torques(quick):
+    s = ursula.read_scenario(quick)
+    t, tau = exact(s)
+    assert ursula.validate(s, torques=tau, t=t, time_limit=1e-9).verdict == "inconclusive"
+    with pytest.raises(ValueError, match="torques of zero|zero"):
+        ursula.validate(s, torques=0 * tau, t=t, rtol=2.0)
+    assert ursula.validate(s, torques=0 * tau, t=t, rtol=2.0, any_tolerance=True).verdict == "pass"
+    with pytest.raises(ValueError, match="time_limit is .*, expected a positive number"):
+        ursula.validate(s, torques=tau, t=t, time_limit=-1)
+
+
+@pytest.mark.parametrize("error, words, change", [
+    (TypeError, "torques are given without t", lambda t, tau: {"torques": tau}),
+    (TypeError, "t is given without torques", lambda t, tau: {"t": t}),
+    (TypeError, "solver and torques are given", lambda t, tau: {"torques": tau, "t": t, "solver": len}),
+    (ValueError, r"torques: shape \(301, 5\), expected \(N, 6\)", lambda t, tau: {"torques": tau[:, :5], "t": t}),
+    (ValueError, "torques: 300 rows, expected one for each of the 301", lambda t, tau: {"torques": tau[1:], "t": t}),
+    (ValueError, r"torques\[0, 0\] is not finite", lambda t, tau: {"torques": tau * np.nan, "t": t}),
+    (ValueError, "lies outside of the motion, expected 0 to 3 s; they look like milliseconds",
+     lambda t, tau: {"torques": tau, "t": 1000 * t}),
+    (ValueError, "expected increasing instants", lambda t, tau: {"torques": tau, "t": t[::-1]}),
+    (ValueError, "torques:1: error: ", lambda t, tau: {"torques": tau[:0], "t": t[:0]}),
+])
+def test_torques_that_cannot_be_judged_are_refused(quick, error, words, change):
+    s = ursula.read_scenario(quick)
+    with pytest.raises(error, match=words):
+        ursula.validate(s, **change(*exact(s)))

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <tuple>
 
@@ -147,6 +148,18 @@ TorqueFile parseTorqueFile(const std::string& text, const std::filesystem::path&
   TorqueFile out = torquesOf(columns.table, motors);
   out.read_as = columns.read_as;
   return out;
+}
+
+TorqueFile torqueFileOf(const GivenTorques& table, const Motors& motors) {
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "t_s");
+  for (int i = 0; i < motor_count; ++i) fmt::format_to(out, ",{}", effortColumn(motors, i));
+  for (std::size_t k = 0; k < table.t.size(); ++k) {
+    fmt::format_to(out, "\n{}", table.t[k]);
+    for (const double torque : table.torques[k]) fmt::format_to(out, ",{}", torque);
+  }
+  return parseTorqueFile(fmt::to_string(text), table.name, {}, motors);
 }
 
 double timeRounding(const TorqueFile& file, double duration) {

@@ -41,6 +41,17 @@ TorqueFile readTorqueFile(const std::filesystem::path& file, const ColumnMap& ma
 TorqueFile parseTorqueFile(const std::string& text, const std::filesystem::path& file, const ColumnMap& map = {},
                            const Motors& motors = {});
 
+/// A program's own torques at its instants.
+struct GivenTorques {
+  std::string name;  ///< in the place of a file's
+  std::vector<double> t;
+  std::vector<Vector6d> torques;
+};
+
+/// As a file of these numbers is read that gives each by its shortest text: numbers that were rounded to few digits
+/// count as such. Lines in errors are those of that file, whose first is the header.
+TorqueFile torqueFileOf(const GivenTorques& table, const Motors& motors = {});
+
 /// What an instant near `duration` may be off by where its writer added one step to the instant before, s: half an eps
 /// for each row, and as much again for the step's own rounding. At least four eps.
 double timeRounding(const TorqueFile& file, double duration);

@@ -1,0 +1,94 @@
+#include "python/documents.h"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+#include <ursula/scenario.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "python/scenario.h"
+#include "python/words.h"
+
+namespace ursula::python {
+namespace py = pybind11;
+namespace {
+
+constexpr const char *from_dict = "<dict>", *from_text = "<text>";
+
+std::string typeOf(const py::handle& value) { return py::str(py::type::of(value).attr("__name__")); }
+
+[[noreturn]] void refuse(const std::string& place, const std::string& what) {
+  throw ScenarioError(std::string(from_dict) + ": error: " + (place.empty() ? "" : place + ": ") + what);
+}
+
+/// Python's own limit of depth, for a dict that holds itself.
+struct Depth {
+  Depth() {
+    if (Py_EnterRecursiveCall(" in a scenario's dict") != 0) throw py::error_already_set();
+  }
+  ~Depth() { Py_LeaveRecursiveCall(); }
+  Depth(const Depth&) = delete;
+  Depth& operator=(const Depth&) = delete;
+};
+
+/// What json writes for a value of a dict: arrays and numbers of NumPy as Python's, paths as text. Throws ScenarioError
+/// with the key of anything else.
+py::object plain(const py::handle& value, const std::string& place) {
+  const Depth depth;
+  if (py::isinstance<py::str>(value) || py::isinstance<py::bool_>(value) || py::isinstance<py::int_>(value))
+    return py::reinterpret_borrow<py::object>(value);
+  if (py::isinstance<py::float_>(value)) {
+    if (!std::isfinite(value.cast<double>())) refuse(place, std::string(py::str(value)) + ", expected a finite number");
+    return py::float_(value.cast<double>());
+  }
+  if (py::isinstance<py::dict>(value)) {
+    py::dict out;
+    for (const auto& [key, each] : py::reinterpret_borrow<py::dict>(value)) {
+      if (!py::isinstance<py::str>(key)) refuse(place, "the key " + std::string(py::repr(key)) + ", expected a string");
+      out[key] = plain(each, place.empty() ? std::string(py::str(key)) : place + "." + std::string(py::str(key)));
+    }
+    return out;
+  }
+  if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
+    py::list out;
+    for (const py::handle each : value) out.append(plain(each, place + "[" + std::to_string(out.size() + 1) + "]"));
+    return out;
+  }
+  if (py::hasattr(value, "dtype")) return plain(value.attr("tolist")(), place);
+  if (py::hasattr(value, "__fspath__")) return value.attr("__fspath__")();
+  refuse(place, typeOf(value) + ", expected a number, text, a list or a dict");
+}
+
+std::shared_ptr<ScenarioWithSolver> scenarioOf(const py::object& given,
+                                               const std::optional<std::filesystem::path>& folder) {
+  const bool is_text = py::isinstance<py::str>(given);
+  if (!is_text && !py::isinstance<py::dict>(given))
+    throw py::type_error("scenario: expected a dict or text in TOML, found " + typeOf(given) +
+                         "; read_scenario reads files");
+  const std::string text = py::str(is_text ? given : py::module_::import("json").attr("dumps")(plain(given, "")));
+  const std::filesystem::path file = folder.value_or("") / (is_text ? from_text : from_dict);
+  const py::gil_scoped_release unlocked;
+  return std::make_shared<ScenarioWithSolver>(parseScenario(is_text ? text : tomlOfJson(text, file), file));
+}
+
+}  // namespace
+
+void addDocuments(py::module_& module, ScenarioClass& scenario) {
+  scenario
+      .def(
+          "to_dict",
+          [](const ScenarioWithSolver& self) {
+            return py::module_::import("json").attr("loads")(scenarioJson(self.scenario));
+          },
+          words::to_dict)
+      .def(
+          "to_toml", [](const ScenarioWithSolver& self) { return self.scenario.text; }, words::to_toml);
+  module.def("scenario", &scenarioOf, py::arg("dict_or_text"), py::kw_only(), py::arg("folder") = py::none(),
+             words::scenario_of);
+}
+
+}  // namespace ursula::python

@@ -1,0 +1,128 @@
+#include "python/judging.h"
+
+#include <pybind11/stl.h>
+#include <ursula/validate.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "python/motion.h"
+#include "python/result.h"
+#include "python/words.h"
+
+namespace ursula::python {
+namespace py = pybind11;
+namespace {
+
+std::string atInstant(const Motion<double>& motion) { return " at t = " + std::to_string(motion.t) + " s"; }
+
+/// The solver's answer to `motions`: N × 6 finite numbers, and nothing else.
+std::vector<Vector6d> torquesOf(const py::object& answer, const std::vector<Motion<double>>& motions) {
+  const py::array any =
+      numbersIn(answer, "the solver's answer" + atInstant(motions.front()) + " is of type " +
+                            std::string(py::str(py::type::of(answer).attr("__name__"))) + " and no array of numbers");
+  if (any.ndim() != 2 || static_cast<std::size_t>(any.shape(0)) != motions.size() || any.shape(1) != motor_count)
+    throw py::value_error("the solver's answer to " + std::to_string(motions.size()) + " instants has shape " +
+                          std::string(py::str(any.attr("shape"))) + ", expected (" + std::to_string(motions.size()) +
+                          ", 6)");
+  const py::array_t<double, py::array::c_style | py::array::forcecast> given(any);  // the last, for it may be a copy
+  std::vector<Vector6d> out;
+  out.reserve(motions.size());
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    out.emplace_back(Eigen::Map<const Vector6d>(given.data() + motor_count * k));
+    for (int i = 0; i < motor_count; ++i)
+      if (!std::isfinite(out.back()(i)))
+        throw py::value_error("the solver's effort " + std::to_string(i + 1) + atInstant(motions[k]) + " is " +
+                              std::to_string(out.back()(i)) + ", expected a finite number");
+  }
+  return out;
+}
+
+std::string nameOf(const py::object& solver) {
+  return py::str(py::getattr(solver, "__qualname__", py::type::of(solver).attr("__name__")));
+}
+
+/// The scenario with the tolerance given, if any.
+Scenario tolerant(Scenario scenario, std::optional<double> rtol, std::optional<double> atol, bool any) {
+  requirePositive("rtol", rtol);
+  requirePositive("atol", atol);
+  if (rtol || atol) scenario.tolerance = EffortTolerance{rtol.value_or(0), atol.value_or(0)};
+  if (scenario.tolerance) scenario.tolerance->any = any;
+  return scenario;
+}
+
+/// Somebody's own function on trial.
+ValidationResult ofSolver(const Scenario& scenario, const py::object& solver, std::string name, double limit) {
+  if (PyCallable_Check(solver.ptr()) == 0) throw py::type_error("solver: expected a function of a Motion");
+  OutsideSolver outside;
+  outside.name = std::move(name);
+  // By reference: what copies this holds no lock.
+  outside.torques = [&solver](const std::vector<Motion<double>>& motions) {
+    const py::gil_scoped_acquire locked;
+    return torquesOf(solver(Motions{motions}), motions);
+  };
+  return interruptible(limit,
+                       [&](const ValidationOptions& options) { return validateOutside(scenario, outside, options); });
+}
+
+/// Somebody's own numbers on trial.
+ValidationResult ofTorques(const Scenario& scenario, const TorqueFile& torques, double limit) {
+  return interruptible(limit, [&](const ValidationOptions& options) {
+    return validateExternal(scenario, torques, options.time_limit, options.asked_to_end);
+  });
+}
+
+ValidationResult validated(const ScenarioWithSolver& given, const py::object& solver, const py::object& torques,
+                           const py::object& t, std::optional<double> rtol, std::optional<double> atol,
+                           const py::object& name, bool any_tolerance, std::optional<double> time_limit) {
+  const Scenario scenario = tolerant(given.scenario, rtol, atol, any_tolerance);
+  requirePositive("time_limit", time_limit);
+  const double limit = time_limit.value_or(0);
+  if (!solver.is_none() && !torques.is_none())
+    throw py::type_error("validate: solver and torques are given, expected one of them");
+  const auto called = [&name](const std::string& otherwise) {
+    return name.is_none() ? otherwise : std::string(py::str(name));
+  };
+  if (!torques.is_none() || !t.is_none())
+    return ofTorques(scenario, torquesAt(given, torques, t, called("torques")), limit);
+  if (!solver.is_none()) return ofSolver(scenario, solver, called(nameOf(solver)), limit);
+  return interruptible(limit, [&](const ValidationOptions& options) { return validate(scenario, options); });
+}
+
+}  // namespace
+
+TorqueFile torquesAt(const ScenarioWithSolver& given, const py::object& torques, const py::object& t,
+                     const std::string& name) {
+  if (torques.is_none() || t.is_none())
+    throw py::type_error(torques.is_none() ? "t is given without torques, expected both"
+                                           : "torques are given without t, expected both: their instants, s");
+  const py::array_t<double> instants = columnOf(t, "t"), rows = rowsOf(torques, motor_count, "torques");
+  const auto count = static_cast<std::size_t>(instants.shape(0));
+  if (rows.shape(0) != instants.shape(0))
+    throw py::value_error("torques: " + std::to_string(rows.shape(0)) + " rows, expected one for each of the " +
+                          std::to_string(count) + " instants t");
+  GivenTorques table{name, {instants.data(), instants.data() + count}, {}};
+  for (std::size_t k = 0; k < count; ++k)
+    table.torques.emplace_back(Eigen::Map<const Vector6d>(rows.data() + motor_count * k));
+  try {
+    return within(torqueFileOf(table, given.scenario.manipulator->motors()), given.scenario.trajectory->duration());
+  } catch (const CsvError& error) {
+    throw py::value_error(error.what());
+  }
+}
+
+void requirePositive(const char* name, std::optional<double> value) {
+  if (value && !(*value > 0 && std::isfinite(*value)))
+    throw py::value_error(std::string(name) + " is " + std::to_string(*value) + ", expected a positive number");
+}
+
+void addJudging(py::module_& module) {
+  module.def("validate", &validated, py::arg("s"), py::arg("solver") = py::none(), py::kw_only(),
+             py::arg("torques") = py::none(), py::arg("t") = py::none(), py::arg("rtol") = py::none(),
+             py::arg("atol") = py::none(), py::arg("name") = py::none(), py::arg("any_tolerance") = false,
+             py::arg("time_limit") = py::none(), words::validate);
+}
+
+}  // namespace ursula::python

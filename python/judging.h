@@ -1,0 +1,39 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+#include <ursula/validate.h>
+
+#include <optional>
+#include <string>
+
+#include "python/scenario.h"
+#include "python/signals.h"
+
+namespace ursula::python {
+
+/// Torques (N, 6) at instants t (N,), as their own machine's motion has them. Throws TypeError unless both are given,
+/// ValueError for other shapes and for instants that do not increase or lie outside of the motion.
+TorqueFile torquesAt(const ScenarioWithSolver& given, const pybind11::object& torques, const pybind11::object& t,
+                     const std::string& name);
+
+/// Throws ValueError that names `name`.
+void requirePositive(const char* name, std::optional<double> value);
+
+/// What `run` returns, which is given when to end and knows no Python. Throws what a handler of signals raises.
+template <class Run>
+auto interruptible(double time_limit, Run&& run) {
+  Interruption interruption;
+  ValidationOptions options;
+  options.time_limit = time_limit;
+  options.asked_to_end = [&interruption] { return interruption.cameInBetween(); };
+  auto result = [&] {
+    const pybind11::gil_scoped_release unlocked;
+    return run(options);
+  }();
+  interruption.rethrow();
+  return result;
+}
+
+void addJudging(pybind11::module_& module);
+
+}  // namespace ursula::python
