@@ -139,32 +139,6 @@ int directOfPaper(const Scenario& scenario, const DirectOptions& options) {
   return exit_passed;                                // no real pose is an answer, too
 }
 
-/// Six telescopic legs that push: a Stewart–Gough platform.
-bool isStewartGough(const Manipulator& machine) {
-  const std::vector<Leg>& legs = machine.parameters().legs;
-  return legs.size() == leg_count && std::all_of(legs.begin(), legs.end(), [](const Leg& leg) {
-           return leg.kind == LegKind::UPS && leg.actuated == std::array<bool, 3>{false, false, true};
-         });
-}
-
-/// A leg whose length its stroke does not hold, 0-based; −1 for none.
-int beyondStroke(const Manipulator& machine, const Vector6d& lengths) {
-  for (int i = 0; i < leg_count; ++i) {
-    const double s = machine.leg(i).distal.length, l = machine.leg(i).proximal.length;
-    if (!(lengths(i) > s && lengths(i) < s + l)) return i;
-  }
-  return -1;
-}
-
-UpsPoses posesOf(const Manipulator& machine, const Vector6d& lengths) {
-  std::array<Vector3d, leg_count> base, platform;
-  for (std::size_t i = 0; i < leg_count; ++i) {
-    base[i] = machine.leg(static_cast<int>(i)).base_point;
-    platform[i] = machine.leg(static_cast<int>(i)).platform_point;
-  }
-  return upsPoses(base, platform, lengths);
-}
-
 std::string csvOf(const UpsPoses& poses) {
   std::vector<std::string> names = {"pose", "p_x_m", "p_y_m", "p_z_m",        "q_w",
                                     "q_x",  "q_y",   "q_z",   "multiplicity", "residual_m"};
@@ -191,7 +165,7 @@ int directOfStewartGough(const Scenario& scenario, const DirectOptions& options)
   if (lengths.minCoeff() < 0) throw UsageError("--d: a length is negative, expected >= 0 m");
   UpsPoses poses;
   try {
-    poses = posesOf(*scenario.manipulator, lengths);
+    poses = upsPoses(*scenario.manipulator, lengths);
   } catch (const UndeterminedPose& undetermined) {
     say("these lengths do not determine the platform's poses: {}\n", undetermined.what());
     return exit_inconclusive;

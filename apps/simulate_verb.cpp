@@ -12,7 +12,6 @@
 #include "base/csv.h"
 #include "model/scenario_input.h"
 #include "studies/simulate/simulate.h"
-#include "validation/external/torque_spline.h"
 #include "validation/findings/timeseries.h"
 
 namespace ursula {
@@ -41,14 +40,8 @@ int simulateVerb(const SimulateOptions& options) {
   requireApart(scenario, {options.out});
   const TorqueFile file = within(readTorquesAloud(options.torques, options.map, scenario.manipulator->motors()),
                                  scenario.trajectory->duration());
-  if (file.rows() < TorqueSpline::least_samples)
-    throw UsageError(fmt::format("{}: {} instants, expected at least {} to interpolate between", options.torques,
-                                 file.rows(), TorqueSpline::least_samples));
-  const TorqueSpline spline(file.t, file.torques);
   const Deadline deadline(options.time_limit);
-  const Simulation run = alongMotion(scenario, [&] {
-    return simulate(scenario, options.engine, spline, file.t, scenario.simulation.tolerance, deadline);
-  });
+  const Simulation run = alongMotion(scenario, [&] { return simulate(scenario, options.engine, file, deadline); });
   const TimeSeries series = simulatedSeries(*scenario.manipulator, run.motions, run.torques);
   writeOutput(options.out, csvText(series.names, series.columns));
   const std::string missing = whatIsMissing(run, file, scenario.trajectory->duration());

@@ -7,6 +7,7 @@
 
 #include "python/motion.h"
 #include "python/scenario.h"
+#include "python/studies.h"
 #include "python/validation.h"
 #include "python/words.h"
 
@@ -29,7 +30,7 @@ void addErrors(py::module_& module) {
   py::register_exception<ursula::ScenarioError>(module, "ScenarioError", PyExc_ValueError).doc() =
       "A scenario that cannot be read: file, line, column, what, and what was expected.";
   py::register_exception<ursula::UndeterminedPose>(module, "UndeterminedPose", PyExc_ValueError).doc() =
-      "Actuated angles that do not determine the platform's pose.";
+      "Actuated coordinates that do not determine the platform's pose.";
   py::register_exception<ursula::PoseError>(module, "PoseError", PyExc_ValueError).doc() =
       "A pose that the legs cannot take, or that is singular. leg: 1 to 6, or None; instant, s; measure and bound: "
       "the\n"
@@ -55,4 +56,5 @@ PYBIND11_MODULE(_ursula, module) {
   ursula::python::addMotion(module);
   ursula::python::addScenario(module);
   ursula::python::addValidation(module);
+  ursula::python::addStudies(module);
 }

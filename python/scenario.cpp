@@ -2,6 +2,7 @@
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
+#include <ursula/studies.h>
 #include <ursula/validate.h>
 
 #include <algorithm>
@@ -168,16 +169,41 @@ py::dict inverseKinematics(const ScenarioWithSolver& self, const Motions& motion
   return out;
 }
 
-std::vector<PlatformPose> directKinematics(const ScenarioWithSolver& self, const py::object& phi) {
-  const py::array_t<double> given = rowsOf(phi, leg_count, "phi");
-  if (given.shape(0) != 1) throw py::value_error("phi: expected six angles");
-  const Vector6d angles = Eigen::Map<const Vector6d>(given.data());
-  const py::gil_scoped_release unlocked;
-  const PlatformPoses poses = self.kinematics.poses(angles);
-  if (poses.counted != 8)
-    throw std::runtime_error("a pose may be missing: " + std::to_string(poses.counted) +
-                             " of 8 solutions in the complex numbers were found");
+[[noreturn]] void refuseIncomplete(int found, int of) {
+  throw std::runtime_error("a pose may be missing: " + std::to_string(found) + " of " + std::to_string(of) +
+                           " solutions in the complex numbers were found");
+}
+
+std::vector<PlatformPose> posesOfPaper(const DirectKinematics& kinematics, const Vector6d& phi) {
+  const PlatformPoses poses = kinematics.poses(phi);
+  if (poses.counted != 8) refuseIncomplete(poses.counted, 8);
   return {poses.begin(), poses.end()};
+}
+
+std::vector<PlatformPose> posesOfStewartGough(const Manipulator& machine, const Vector6d& lengths) {
+  const UpsPoses poses = upsPoses(machine, lengths);
+  if (!poses.complete()) refuseIncomplete(poses.counted + poses.at_infinity, 40);
+  std::vector<PlatformPose> out;
+  for (const UpsPose& pose : poses.list) {
+    PlatformPose& row = out.emplace_back();
+    row.p = pose.p;
+    row.Q = pose.Q;
+    row.q = pose.q;
+    row.multiplicity = pose.multiplicity;
+    row.residual = pose.residual;
+    row.assembles = beyondStroke(machine, lengths) < 0;
+    row.front = true;  // a length has one inverse
+  }
+  return out;
+}
+
+std::vector<PlatformPose> directKinematics(const ScenarioWithSolver& self, const py::object& coordinates) {
+  const py::array_t<double> given = rowsOf(coordinates, leg_count, "coordinates");
+  if (given.shape(0) != 1) throw py::value_error("coordinates: expected six numbers, of one pose");
+  const Vector6d driven = Eigen::Map<const Vector6d>(given.data());
+  const py::gil_scoped_release unlocked;
+  const Manipulator& machine = *self.scenario.manipulator;
+  return isStewartGough(machine) ? posesOfStewartGough(machine, driven) : posesOfPaper(self.kinematics, driven);
 }
 
 py::array_t<double> vectorOf(const double* from, py::ssize_t count) { return py::array_t<double>(count, from); }
@@ -195,7 +221,7 @@ std::shared_ptr<ScenarioWithSolver> scenarioOf(const py::tuple& state) {
 
 void addPose(py::module_& module) {
   using Pose = PlatformPose;
-  py::class_<Pose>(module, "Pose", "One pose of the platform for given actuated angles.")
+  py::class_<Pose>(module, "Pose", "One pose of the platform for given actuated coordinates.")
       .def_property_readonly(
           "p", [](const Pose& pose) { return vectorOf(pose.p.data(), 3); }, "Position of P in B, m: (3,).")
       .def_property_readonly(
@@ -210,7 +236,11 @@ void addPose(py::module_& module) {
       .def_readonly("multiplicity", &Pose::multiplicity, "How many poses cannot be told from this one.")
       .def_readonly("residual", &Pose::residual, "Largest mismatch of the legs, m.")
       .def_readonly("assembles", &Pose::assembles, "Every leg is in reach.")
-      .def_readonly("front", &Pose::front, "Inverse kinematics answers with the angles given.");
+      .def_readonly("front", &Pose::front, "Inverse kinematics answers with the coordinates given.")
+      .def("__repr__", [](const Pose& pose) {
+        return "<ursula.Pose p=" + std::string(py::str(vectorOf(pose.p.data(), 3))) +
+               " q=" + std::string(py::str(vectorOf(pose.q.data(), 4))) + (pose.assembles ? ">" : ", out of reach>");
+      });
 }
 
 }  // namespace
@@ -233,7 +263,10 @@ void addScenario(py::module_& module) {
       .def("forward_dynamics", &forwardDynamics, py::arg("m"), py::arg("tau"), py::kw_only(), py::arg("jobs") = 0,
            words::forward_dynamics)
       .def("inverse_kinematics", &inverseKinematics, py::arg("m"), words::inverse_kinematics)
-      .def("direct_kinematics", &directKinematics, py::arg("phi"), words::direct_kinematics)
+      .def("direct_kinematics", &directKinematics, py::arg("coordinates"), words::direct_kinematics)
+      .def(
+          "_repr_svg_", [](const ScenarioWithSolver& self) { return picture(self.scenario); },
+          "The machine at the start of the motion, for notebooks.")
       .def("__repr__", [](const ScenarioWithSolver& self) { return "<ursula.Scenario '" + self.scenario.name + "'>"; });
   addDerivatives(scenario);
   addDocuments(module, scenario);

@@ -86,11 +86,44 @@ constexpr const char* regressor =
     "Raises PoseError and ValueError as inverse_dynamics does.";
 
 constexpr const char* direct_kinematics =
-    "Every real pose of the platform for six actuated angles phi of URS legs, rad, at most eight, as a list of Pose: "
-    "first\n"
-    "those that assemble. Raises UndeterminedPose where the angles leave the platform free to move, ValueError unless "
-    "they\n"
-    "are six finite numbers, and RuntimeError where a pose may be missing.";
+    "Every real pose of the platform, as a list of Pose, for six actuated coordinates: angles phi of URS legs, rad, at "
+    "most\n"
+    "eight poses, first those that assemble; lengths d of UPS legs that push, m, at most 40. Raises UndeterminedPose\n"
+    "where they leave the platform free to move, ValueError unless they are six finite numbers and for legs of other\n"
+    "kinds, and RuntimeError where a pose may be missing.";
+
+constexpr const char* simulate =
+    "The motion that efforts (N, 6), N m or N, at instants t (N,), s, produce, as a Simulation: from the commanded "
+    "state\n"
+    "at the first of them, on a spline through them. engine: 'noc', by (36), or 'simbody', the closed loop. "
+    "time_limit: "
+    "s;\n"
+    "the motion stops where it is after so many seconds of work. Raises ValueError for fewer than six instants.";
+
+constexpr const char* simulation = "What efforts make of the machine; made by simulate.";
+
+constexpr const char* check_scenario =
+    "Warnings of what is possible in the scenario but odd, a list of text with file, line and column. Raises "
+    "ScenarioError\n"
+    "or PoseError where its motion cannot be made.";
+
+constexpr const char* map =
+    "What the machine can do over a grid of poses at rest, as a dict of arrays, those that `ursula map` writes: "
+    "reach,\n"
+    "condition number, leg margins, largest effort. x, y, z, m, roll, pitch, yaw, degrees: a number, or (from, to, "
+    "count);\n"
+    "two or three vary, by default x, y, z around the path. at: the instant, s, whose pose gives what is not said. "
+    "jobs:\n"
+    "threads, 0 for all. Raises ValueError for a grid that cannot be made.";
+
+constexpr const char* compare =
+    "Two histories channel by channel, as a Comparison. reference, test: a Result, a dict of arrays with t_s, or the "
+    "path\n"
+    "of a CSV or of a result folder. tolerance: relative to the largest of the channel's group. time_tolerance: s.\n"
+    "interpolate: the reference between its instants; by default where it is at least as fine as the test. columns:\n"
+    "patterns such as \"tau_*\"; all where left out. Raises ValueError for what cannot be compared.";
+
+constexpr const char* comparison = "Two histories channel by channel; made by compare. str() is the program's table.";
 
 constexpr const char* validate =
     "The whole validation of a scenario: a Result.\n\n"

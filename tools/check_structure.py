@@ -25,7 +25,7 @@ ALLOWED = {
     "report": "base model nocsolver validation",
     "studies": "base model nocsolver engines validation report",
     "apps": "base model nocsolver validation report studies",
-    "include": "base model nocsolver validation report",
+    "include": "base model nocsolver validation report studies",
     "examples": "",
     "python": "",
     "tests": "bench base model nocsolver engines validation report studies",

@@ -27,7 +27,7 @@ STUDIES = {
     "check_scenario": "subject",
     "scenario_docs": "",
     "compare": "verdict",
-    "simulate": "verdict subject",
+    "simulate": "verdict subject external",
     "suite": "verdict subject",
     "stream": "verdict subject findings",
     "map": "verdict subject stream",

@@ -9,4 +9,5 @@
 #include "nocsolver/fast/effort_derivatives.h"
 #include "nocsolver/fast/parallel/threaded_batch.h"
 #include "nocsolver/poses/direct_kinematics.h"
+#include "nocsolver/poses/ups_poses.h"
 #include "nocsolver/solver.h"

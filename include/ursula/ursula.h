@@ -7,4 +7,5 @@
 #include "include/ursula/report.h"
 #include "include/ursula/scenario.h"
 #include "include/ursula/solver.h"
+#include "include/ursula/studies.h"
 #include "include/ursula/validate.h"

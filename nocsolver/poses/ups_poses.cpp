@@ -115,4 +115,28 @@ UpsPoses upsPoses(const Points& base_points, const Points& platform_points, cons
   return out;
 }
 
+bool isStewartGough(const Manipulator& machine) {
+  const std::vector<Leg>& legs = machine.parameters().legs;
+  return legs.size() == leg_count && std::all_of(legs.begin(), legs.end(), [](const Leg& leg) {
+           return leg.kind == LegKind::UPS && leg.actuated == std::array<bool, 3>{false, false, true};
+         });
+}
+
+UpsPoses upsPoses(const Manipulator& machine, const Vector6d& lengths) {
+  Points base, platform;
+  for (std::size_t i = 0; i < leg_count; ++i) {
+    base[i] = machine.leg(static_cast<int>(i)).base_point;
+    platform[i] = machine.leg(static_cast<int>(i)).platform_point;
+  }
+  return upsPoses(base, platform, lengths);
+}
+
+int beyondStroke(const Manipulator& machine, const Vector6d& lengths) {
+  for (int i = 0; i < leg_count; ++i) {
+    const double s = machine.leg(i).distal.length, l = machine.leg(i).proximal.length;
+    if (!(lengths(i) > s && lengths(i) < s + l)) return i;
+  }
+  return -1;
+}
+
 }  // namespace ursula

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "base/scalar.h"
+#include "model/manipulator.h"
 
 namespace ursula {
 
@@ -31,5 +31,12 @@ struct UpsPoses {
 /// and no length is negative.
 UpsPoses upsPoses(const std::array<Vector3d, 6>& base_points, const std::array<Vector3d, 6>& platform_points,
                   const Vector6d& lengths);
+
+/// Six telescopic legs that push: of these machines upsPoses() finds the poses.
+bool isStewartGough(const Manipulator& machine);
+/// The same with the points of such a machine.
+UpsPoses upsPoses(const Manipulator& machine, const Vector6d& lengths);
+/// The first leg, 0-based, of such a machine whose stroke does not hold its length; −1 where all hold them.
+int beyondStroke(const Manipulator& machine, const Vector6d& lengths);
 
 }  // namespace ursula

@@ -10,35 +10,49 @@ NumPy in and out; rows are instants; SI units; frames: B is the base's, M the pl
 """
 
 from ._ursula import (
+    Channel,
     Check,
+    Comparison,
     Motion,
     Pose,
     PoseError,
     Result,
     Scenario,
     ScenarioError,
+    Simulation,
     UndeterminedPose,
     __version__,
+    check,
+    compare,
+    map,
     read_scenario,
     scenario,
+    simulate,
     validate,
 )
 
 __all__ = [
+    "Channel",
     "Check",
+    "Comparison",
     "Motion",
     "Pose",
     "PoseError",
     "Result",
     "Scenario",
     "ScenarioError",
+    "Simulation",
     "UndeterminedPose",
     "__version__",
+    "check",
+    "compare",
+    "map",
     "read_scenario",
     "scenario",
+    "simulate",
     "validate",
 ]
 
-for _each in (Check, Motion, Pose, PoseError, Result, Scenario, ScenarioError, UndeterminedPose):
+for _each in (Channel, Check, Comparison, Motion, Pose, PoseError, Result, Scenario, ScenarioError, Simulation, UndeterminedPose):
     _each.__module__ = __name__
 del _each

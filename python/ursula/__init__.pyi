@@ -22,7 +22,7 @@ class PoseError(ValueError):
     bound: float
 
 class UndeterminedPose(ValueError):
-    """Actuated angles that do not determine the platform's pose."""
+    """Actuated coordinates that do not determine the platform's pose."""
 
 class Motion:
     """Pose, twist and twist rate of the platform at N instants, in B, SI."""
@@ -68,7 +68,7 @@ class Motion:
     def __getitem__(self, rows: slice) -> Motion: ...
 
 class Pose:
-    """One pose of the platform for given actuated angles."""
+    """One pose of the platform for given actuated coordinates."""
 
     @property
     def p(self) -> Array:
@@ -113,8 +113,8 @@ class Scenario:
         """(names, derivatives) by every number of the machine: (N, 6, number of names)."""
     def regressor(self, m: Motion) -> tuple[list[str], Array, Array]:
         """(names, values, Y): Y @ values is inverse_dynamics without the load; Y is (N, 6, number of names)."""
-    def direct_kinematics(self, phi: npt.ArrayLike) -> list[Pose]:
-        """Every real pose for six actuated angles of URS legs, rad."""
+    def direct_kinematics(self, coordinates: npt.ArrayLike) -> list[Pose]:
+        """Every real pose for six angles of URS legs, rad, or six lengths of UPS legs, m."""
     def to_dict(self) -> dict[str, Any]:
         """What it was read from, as a dict."""
     def to_toml(self) -> str:
@@ -161,6 +161,104 @@ class Result:
     def summary(self) -> dict[str, Any]: ...
     def write(self, dir: str | os.PathLike[str]) -> None:
         """Writes summary.json, timeseries.csv, report.html and junit.xml into a folder."""
+
+class Simulation:
+    """What efforts make of the machine."""
+
+    @property
+    def motion(self) -> Motion:
+        """Of the platform, at the instants reached."""
+    @property
+    def tau(self) -> Array:
+        """Efforts at the same instants, N m or N: (N, 6)."""
+    @property
+    def gave_up(self) -> str | None:
+        """Why the last instant was not reached."""
+
+class Channel:
+    """One channel of a comparison."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def scale(self) -> float: ...
+    @property
+    def tolerance(self) -> float: ...
+    @property
+    def max_error(self) -> float: ...
+    @property
+    def max_at(self) -> float: ...
+    @property
+    def rms_error(self) -> float: ...
+    @property
+    def final_error(self) -> float: ...
+    @property
+    def outside(self) -> float: ...
+    @property
+    def interpolation(self) -> float: ...
+    @property
+    def verdict(self) -> Literal["pass", "fail", "inconclusive"]: ...
+
+class Comparison:
+    """Two histories channel by channel."""
+
+    @property
+    def verdict(self) -> Literal["pass", "fail", "inconclusive"]: ...
+    @property
+    def channels(self) -> list[Channel]: ...
+    @property
+    def only_in_reference(self) -> list[str]: ...
+    @property
+    def only_in_test(self) -> list[str]: ...
+    @property
+    def instants(self) -> int: ...
+    @property
+    def interpolated(self) -> int: ...
+    @property
+    def left_out(self) -> int: ...
+    @property
+    def skipped(self) -> int: ...
+
+History = Result | dict[str, npt.ArrayLike] | str | os.PathLike[str]
+Axis = float | tuple[float, float, int] | None
+
+def check(s: Scenario) -> list[str]:
+    """Warnings of what is possible in the scenario but odd."""
+
+def compare(
+    reference: History,
+    test: History,
+    *,
+    tolerance: float = 1e-9,
+    time_tolerance: float = 0.0,
+    interpolate: bool | None = None,
+    columns: list[str] = ...,
+) -> Comparison:
+    """Two histories channel by channel."""
+
+def map(
+    s: Scenario,
+    *,
+    x: Axis = None,
+    y: Axis = None,
+    z: Axis = None,
+    roll: Axis = None,
+    pitch: Axis = None,
+    yaw: Axis = None,
+    at: float = 0.0,
+    jobs: int = 0,
+) -> dict[str, Array]:
+    """Reach, condition number, leg margins and largest static effort over a grid of poses."""
+
+def simulate(
+    s: Scenario,
+    torques: npt.ArrayLike,
+    t: npt.ArrayLike,
+    *,
+    engine: Literal["noc", "simbody"] = "simbody",
+    time_limit: float | None = None,
+) -> Simulation:
+    """The motion that efforts (N, 6) at instants t (N,) produce."""
 
 def read_scenario(path: str | os.PathLike[str]) -> Scenario:
     """Reads and checks a scenario file (TOML)."""

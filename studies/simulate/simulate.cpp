@@ -10,8 +10,11 @@
 #include <new>
 #include <stdexcept>
 
+#include "base/csv.h"
+#include "engines/simbody/simbody_loop.h"
 #include "nocsolver/finite.h"
 #include "nocsolver/solver.h"
+#include "validation/external/torque_spline.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {
@@ -181,7 +184,7 @@ class Progress {
 };
 
 template <class System>
-Simulation integrate(System system, const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques,
+Simulation integrate(System system, const Scenario& scenario, const EffortHistory& torques,
                      const std::vector<double>& instants, double tolerance, const Deadline& deadline) {
   Simulation out;
   OdeState x = system.start(scenario.trajectory->at(instants.front()));
@@ -221,11 +224,20 @@ Simulation integrate(System system, const Scenario& scenario, const SimbodyLoop:
 
 }  // namespace
 
-Simulation simulate(const Scenario& scenario, SimulationEngine engine, const SimbodyLoop::TorqueHistory& torques,
+Simulation simulate(const Scenario& scenario, SimulationEngine engine, const EffortHistory& torques,
                     const std::vector<double>& instants, double tolerance, const Deadline& deadline) {
   return engine == SimulationEngine::noc
              ? integrate(NocSystem(scenario), scenario, torques, instants, tolerance, deadline)
              : integrate(SimbodySystem(scenario), scenario, torques, instants, tolerance, deadline);
+}
+
+Simulation simulate(const Scenario& scenario, SimulationEngine engine, const TorqueFile& torques,
+                    const Deadline& deadline) {
+  if (torques.rows() < TorqueSpline::least_samples)
+    throw CsvError(fmt::format("{}: {} instants, expected at least {} to interpolate between", torques.file.string(),
+                               torques.rows(), TorqueSpline::least_samples));
+  const TorqueSpline spline(torques.t, torques.torques);
+  return simulate(scenario, engine, spline, torques.t, scenario.simulation.tolerance, deadline);
 }
 
 }  // namespace ursula

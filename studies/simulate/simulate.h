@@ -1,12 +1,17 @@
 #pragma once
 
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "base/deadline.h"
-#include "engines/simbody/simbody_loop.h"
 #include "model/scenario.h"
+#include "validation/subject/torque_file.h"
 
 namespace ursula {
+
+/// Efforts at any instant, N·m or N.
+using EffortHistory = std::function<Vector6d(double t)>;
 
 enum class SimulationEngine { noc, simbody };
 
@@ -24,7 +29,12 @@ struct Simulation {
 /// The NOC engine integrates (36) with the platform's pose and twist as the state, so that no direct kinematics is
 /// solved in the loop and the assembly is never in doubt; the Simbody engine integrates the closed loop's own
 /// coordinates. Stops where the deadline is over.
-Simulation simulate(const Scenario& scenario, SimulationEngine engine, const SimbodyLoop::TorqueHistory& torques,
+Simulation simulate(const Scenario& scenario, SimulationEngine engine, const EffortHistory& torques,
                     const std::vector<double>& instants, double tolerance, const Deadline& deadline = {});
+
+/// The same under torques at their own instants, which are within the motion: on the quintic spline through them, from
+/// the first to the last, at the scenario's tolerance. Throws CsvError for too few of them to interpolate between.
+Simulation simulate(const Scenario& scenario, SimulationEngine engine, const TorqueFile& torques,
+                    const Deadline& deadline = {});
 
 }  // namespace ursula

@@ -70,8 +70,9 @@ def test_legs_of_every_kind(kind, program, tmp_path):
                 assert np.array_equal(joints[name + rate][:, i], of_program[column])
     a, alpha = s.forward_dynamics(m, tau)
     assert np.allclose(a, m.a, rtol=0, atol=1e-11) and np.allclose(alpha, m.alpha, rtol=0, atol=1e-11)
-    with pytest.raises(ValueError, match="URS"):
-        s.direct_kinematics(np.zeros(6))
+    if kind != "UPS":
+        with pytest.raises(ValueError, match="URS"):
+            s.direct_kinematics(np.zeros(6))
 
 
 def test_any_number_of_threads_gives_the_same_numbers(helix):
@@ -108,7 +109,7 @@ def test_direct_kinematics_find_the_pose(helix):
     poses = s.direct_kinematics(s.inverse_kinematics(m)["phi"][0])
     assert min(np.abs(pose.p - m.p[0]).max() + np.abs(pose.Q - m.Q[0]).max() for pose in poses) < 1e-9
     assert poses[0].assembles and poses[0].q.shape == (4,)
-    with pytest.raises(ValueError, match=r"phi: shape \(5,\), expected \(N, 6\)"):
+    with pytest.raises(ValueError, match=r"coordinates: shape \(5,\), expected \(N, 6\)"):
         s.direct_kinematics(np.zeros(5))
 
 

@@ -1,0 +1,118 @@
+#include "python/comparison.h"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+#include <ursula/studies.h>
+
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "python/motion.h"
+#include "python/result.h"
+#include "python/words.h"
+
+template <>
+class pybind11::detail::type_caster<ursula::Comparison> : public ursula::python::MadeCaster<ursula::Comparison> {};
+template <>
+class pybind11::detail::type_caster<ursula::ChannelComparison>
+    : public ursula::python::MadeCaster<ursula::ChannelComparison> {};
+
+namespace ursula::python {
+namespace py = pybind11;
+namespace {
+
+/// Columns of a dict, each (N,); they may hold NaN, as those of a file.
+TimeSeries seriesIn(const py::dict& columns, const std::string& what) {
+  CsvTable out;
+  out.file = what;
+  for (const auto& [key, values] : columns) {
+    const std::string name = py::str(key);
+    const py::array_t<double, py::array::c_style | py::array::forcecast> column(
+        numbersIn(py::reinterpret_borrow<py::object>(values), what + "['" + name + "']: expected numbers"));
+    if (column.ndim() != 1 ||
+        (!out.columns.empty() && static_cast<std::size_t>(column.size()) != out.columns[0].size()))
+      throw py::value_error(what + "['" + name + "']: shape " + std::string(py::str(column.attr("shape"))) +
+                            ", expected (N,), the same N for each column");
+    out.names.push_back(name);
+    out.columns.emplace_back(column.data(), column.data() + column.size());
+  }
+  const std::size_t rows = out.columns.empty() ? 0 : out.columns[0].size();
+  for (std::size_t k = 0; k < rows; ++k) out.lines.push_back(static_cast<int>(k) + 1);
+  return historyOf(out);
+}
+
+TimeSeries historyFrom(const py::object& given, const std::string& what) {
+  if (py::isinstance<ValidationResult>(given)) return given.cast<const ValidationResult&>().timeseries;
+  if (py::isinstance<py::dict>(given)) return seriesIn(given, what);
+  if (py::isinstance<py::str>(given) || py::hasattr(given, "__fspath__"))
+    return readHistory(given.cast<std::filesystem::path>());
+  throw py::type_error(what + ": expected a Result, a dict of arrays, or the path of a CSV or of a result folder");
+}
+
+Comparison compared(const py::object& reference, const py::object& test, double tolerance, double time_tolerance,
+                    std::optional<bool> interpolate, const std::vector<std::string>& columns) {
+  for (const auto& [name, value] : {std::pair("tolerance", tolerance), {"time_tolerance", time_tolerance}})
+    if (!(value >= 0 && std::isfinite(value)))
+      throw py::value_error(std::string(name) + " is " + std::to_string(value) + ", expected 0 or a positive number");
+  try {
+    const TimeSeries before = historyFrom(reference, "reference"), after = historyFrom(test, "test");
+    const py::gil_scoped_release unlocked;
+    return compare(before, after, {tolerance, time_tolerance, interpolate, columns});
+  } catch (const py::builtin_exception&) {
+    throw;
+  } catch (const std::runtime_error& error) {  // of a file, or of a column's name
+    throw py::value_error(error.what());
+  }
+}
+
+void addChannel(py::module_& module) {
+  using Channel = ChannelComparison;
+  py::class_<Channel>(module, "Channel", "One channel of a comparison.")
+      .def_readonly("name", &Channel::name, "The column's.")
+      .def_readonly("scale", &Channel::scale, "Largest magnitude in its group, as of all tau_*, in its unit.")
+      .def_readonly("tolerance", &Channel::tolerance, "In its unit.")
+      .def_readonly("max_error", &Channel::max_error, "In its unit.")
+      .def_readonly("max_at", &Channel::max_at, "When, s.")
+      .def_readonly("rms_error", &Channel::rms_error)
+      .def_readonly("final_error", &Channel::final_error)
+      .def_readonly("outside", &Channel::outside, "How far beyond the tube about the reference.")
+      .def_readonly("interpolation", &Channel::interpolation, "What interpolation of the reference may miss.")
+      .def_property_readonly(
+          "verdict", [](const Channel& self) { return ursula::name(self.verdict); },
+          "\"pass\", \"fail\" or \"inconclusive\".")
+      .def("__repr__", [](const Channel& self) {
+        return "<ursula.Channel " + self.name + ": " + ursula::name(self.verdict) + ">";
+      });
+}
+
+}  // namespace
+
+void addComparison(py::module_& module) {
+  addChannel(module);
+  py::class_<Comparison>(module, "Comparison", words::comparison)
+      .def_property_readonly(
+          "verdict", [](const Comparison& self) { return ursula::name(self.verdict); },
+          "\"pass\", \"fail\" or \"inconclusive\".")
+      .def_property_readonly(
+          "channels", [](const Comparison& self) { return self.channels; },
+          "Those of both, in the reference's order: a list of Channel.")
+      .def_readonly("only_in_reference", &Comparison::only_in_reference, "Names of channels.")
+      .def_readonly("only_in_test", &Comparison::only_in_test, "Names of channels.")
+      .def_readonly("instants", &Comparison::instants, "How many of the test were compared.")
+      .def_readonly("interpolated", &Comparison::interpolated, "Of them, between two of the reference.")
+      .def_readonly("left_out", &Comparison::left_out, "Instants of the test that the reference has nothing for.")
+      .def_readonly("skipped", &Comparison::skipped, "Instants of the reference in gaps of the test.")
+      .def("__str__", [](const Comparison& self) { return comparisonText(self); })
+      .def("__repr__", [](const Comparison& self) {
+        return "<ursula.Comparison of " + std::to_string(self.channels.size()) +
+               " channels: " + ursula::name(self.verdict) + ">";
+      });
+  module.def("compare", &compared, py::arg("reference"), py::arg("test"), py::kw_only(),
+             py::arg("tolerance") = CompareOptions().tolerance, py::arg("time_tolerance") = 0.0,
+             py::arg("interpolate") = py::none(), py::arg("columns") = std::vector<std::string>(), words::compare);
+}
+
+}  // namespace ursula::python

@@ -1,0 +1,148 @@
+#include "python/studies.h"
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+#include <ursula/studies.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "python/archive.h"
+#include "python/comparison.h"
+#include "python/judging.h"
+#include "python/motion.h"
+#include "python/scenario.h"
+#include "python/words.h"
+
+namespace ursula::python {
+
+/// What Python sees of a Simulation: the same, in NumPy's terms.
+struct Simulated {
+  Motions motion;
+  pybind11::array_t<double> tau;
+  std::string gave_up;
+};
+
+}  // namespace ursula::python
+
+template <>
+class pybind11::detail::type_caster<ursula::python::Simulated>
+    : public ursula::python::MadeCaster<ursula::python::Simulated> {};
+
+namespace ursula::python {
+namespace py = pybind11;
+namespace {
+
+SimulationEngine engineOf(const std::string& name) {
+  if (name == "noc") return SimulationEngine::noc;
+  if (name == "simbody") return SimulationEngine::simbody;
+  throw py::value_error("engine: '" + name + "', expected 'noc' or 'simbody'");
+}
+
+Simulated simulated(const ScenarioWithSolver& self, const py::object& torques, const py::object& t,
+                    const std::string& engine, std::optional<double> time_limit) {
+  const SimulationEngine chosen = engineOf(engine);
+  requirePositive("time_limit", time_limit);
+  const TorqueFile given = torquesAt(self, torques, t, "torques");
+  Simulation run;
+  try {
+    run = interruptible(time_limit.value_or(0), [&](const ValidationOptions& options) {
+      return simulate(self.scenario, chosen, given, Deadline(options.time_limit, options.asked_to_end));
+    });
+  } catch (const CsvError& error) {
+    throw py::value_error(error.what());
+  }
+  const py::array_t<double> tau =
+      table(run.torques, motor_count, [](const Vector6d& row, double* to) { Eigen::Map<Vector6d>{to} = row; });
+  return {{std::move(run.motions)}, tau, run.gave_up};
+}
+
+std::vector<std::string> checked(const ScenarioWithSolver& self) {
+  const py::gil_scoped_release unlocked;
+  tryMotion(self.scenario);
+  return warnings(self.scenario);
+}
+
+/// None, a number, or (from, to, count), as the program's option has it.
+GridAxis axisOf(const char* name, const py::object& given) {
+  if (given.is_none()) return {};
+  std::string text;
+  const bool is_number = py::isinstance<py::float_>(given) || py::isinstance<py::int_>(given);
+  const py::tuple parts = is_number ? py::make_tuple(given) : py::tuple(given);
+  for (const py::handle part : parts) text += (text.empty() ? "" : ",") + std::string(py::str(part));
+  return gridAxis(name, text);
+}
+
+/// The rows that the program writes, as columns by name.
+py::dict columnsOf(const BlockTable& blocks, int jobs) {
+  std::string bytes;
+  Interruption interruption;
+  {
+    const py::gil_scoped_release unlocked;
+    streamBlocks(blocks, {RowFormat::binary, jobs, {}}, [&](std::string_view rows) {
+      bytes += rows;
+      if (interruption.cameInBetween()) interruption.rethrow();
+    });
+  }
+  const py::dict header = py::module_::import("json").attr("loads")(bytes.substr(0, bytes.find('\n')));
+  const py::list names = header["columns"];
+  const auto width = static_cast<py::ssize_t>(names.size());
+  const double* first = reinterpret_cast<const double*>(bytes.data() + header["offset"].cast<std::size_t>());
+  py::dict out;
+  for (py::ssize_t k = 0; k < width; ++k)
+    out[names[static_cast<std::size_t>(k)]] = py::array_t<double>(
+        {static_cast<py::ssize_t>(blocks.rows)}, {width * static_cast<py::ssize_t>(sizeof(double))}, first + k);
+  return out;
+}
+
+py::dict mapped(const ScenarioWithSolver& self, const py::object& x, const py::object& y, const py::object& z,
+                const py::object& roll, const py::object& pitch, const py::object& yaw, double at, int jobs) {
+  if (jobs < 0) throw py::value_error("jobs: " + std::to_string(jobs) + ", expected 0 or more");
+  const std::array<py::object, grid_axes> given = {x, y, z, roll, pitch, yaw};
+  std::array<GridAxis, grid_axes> axes;
+  try {
+    for (std::size_t k = 0; k < grid_axes; ++k) axes[k] = axisOf(grid_axis_names[k], given[k]);
+    const PoseGrid grid(self.scenario, axes, at);
+    return columnsOf(mapBlocks(self.scenario, grid, nullptr),
+                     jobs > 0 ? jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+  } catch (const GridError& error) {
+    throw py::value_error(error.what());
+  }
+}
+
+}  // namespace
+
+void addStudies(py::module_& module) {
+  py::class_<Simulated> simulation(module, "Simulation", words::simulation);
+  addCopies(simulation);
+  simulation
+      .def(py::pickle([](const Simulated& self) { return py::make_tuple(self.motion, self.tau, self.gave_up); },
+                      [](const py::tuple& state) {
+                        return Simulated{state[0].cast<Motions>(), state[1].cast<py::array_t<double>>(),
+                                         state[2].cast<std::string>()};
+                      }))
+      .def_readonly("motion", &Simulated::motion, "Of the platform, at the instants reached.")
+      .def_readonly("tau", &Simulated::tau, "Efforts at the same instants, N m or N: (N, 6).")
+      .def_property_readonly(
+          "gave_up",
+          [](const Simulated& self) { return self.gave_up.empty() ? py::object(py::none()) : py::str(self.gave_up); },
+          "Why the last instant was not reached; None where it was.")
+      .def("__repr__", [](const Simulated& self) {
+        return "<ursula.Simulation of " + std::to_string(self.motion.rows.size()) + " instants" +
+               (self.gave_up.empty() ? "" : ", gave up") + ">";
+      });
+  module.def("simulate", &simulated, py::arg("s"), py::arg("torques"), py::arg("t"), py::kw_only(),
+             py::arg("engine") = "simbody", py::arg("time_limit") = py::none(), words::simulate);
+  module.def("check", &checked, py::arg("s"), words::check_scenario);
+  module.def("map", &mapped, py::arg("s"), py::kw_only(), py::arg("x") = py::none(), py::arg("y") = py::none(),
+             py::arg("z") = py::none(), py::arg("roll") = py::none(), py::arg("pitch") = py::none(),
+             py::arg("yaw") = py::none(), py::arg("at") = 0.0, py::arg("jobs") = 0, words::map);
+  addComparison(module);
+}
+
+}  // namespace ursula::python
