@@ -53,9 +53,19 @@ static void members(Archive& archive, ReplayError& error) {
   archive(dominant, measured, t, observed, rounding, integration, closure, model, rest, uncertainty, growth);
 }
 
+static void members(Archive& archive, NamedCause& cause) {
+  auto& [kind, term, body, parameter, unit, expected, found, uncertainty, leg, motor, legs, from, to, explained] = cause;
+  archive(kind, term, body, parameter, unit, expected, found, uncertainty, leg, motor, legs, from, to, explained);
+}
+
+static void members(Archive& archive, TermError& each) {
+  auto& [term, error] = each;
+  archive(term, error);
+}
+
 static void members(Archive& archive, LikelyCause& likely) {
-  auto& [off, cause] = likely;
-  archive(off, cause);
+  auto& [off, cause, named, others, terms] = likely;
+  archive(off, cause, named, others, terms);
 }
 
 /// Read anew from its text.

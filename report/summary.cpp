@@ -45,6 +45,39 @@ Json object(const std::vector<std::pair<std::string, std::string>>& facts) {
   return json;
 }
 
+// Fields that do not apply are absent.
+Json causeJson(const NamedCause& cause) {
+  Json json = {{"kind", name(cause.kind)}};
+  const auto addText = [&](const char* key, const std::string& text) {
+    if (!text.empty()) json[key] = text;
+  };
+  const auto addNumber = [&](const char* key, const std::optional<double>& number) {
+    if (number) json[key] = *number;
+  };
+  addText("term", cause.term);
+  addText("body", cause.body);
+  if (cause.leg > 0) json["leg"] = cause.leg;
+  if (cause.motor > 0) json["motor"] = cause.motor;
+  if (!cause.legs.empty()) json["legs"] = cause.legs;
+  addText("parameter", cause.parameter);
+  addNumber("expected", cause.expected);
+  addNumber("found", cause.found);
+  addNumber("uncertainty", cause.uncertainty);
+  addText("unit", cause.unit);
+  addNumber("from_s", cause.from_s);
+  addNumber("to_s", cause.to_s);
+  json["explained"] = cause.explained;
+  return json;
+}
+
+void addCauses(const LikelyCause& likely, Json& summary) {
+  summary["cause"] = likely.named ? causeJson(*likely.named) : Json();
+  summary["causes"] = Json::array();
+  for (const NamedCause& other : likely.others) summary["causes"].push_back(causeJson(other));
+  summary["terms"] = Json::array();
+  for (const TermError& each : likely.terms) summary["terms"].push_back({{"term", each.term}, {"error", each.error}});
+}
+
 }  // namespace
 
 std::string summaryJson(const ValidationResult& result) {
@@ -60,6 +93,7 @@ std::string summaryJson(const ValidationResult& result) {
                   {"findings", object(result.findings)},
                   {"provenance", object(result.provenance)}};
   if (result.deviation) summary["deviation"] = deviationJson(*result.deviation);
+  addCauses(result.likely_cause ? *result.likely_cause : LikelyCause{}, summary);
   return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -16,7 +16,7 @@ VALIDATION = {
     "evidence": "subject limits samples replay",
     "checks": "verdict subject limits samples replay evidence",
     "findings": "verdict subject limits samples replay",
-    "external": "subject limits samples replay evidence",
+    "external": "verdict subject limits samples replay evidence",
     "": "verdict subject limits samples evidence checks findings external",  # the entry: validation/*.cpp
     "outside": "verdict subject ",
 }

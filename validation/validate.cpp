@@ -12,12 +12,16 @@
 #include "validation/evidence/evidence.h"
 #include "validation/evidence/reference.h"
 #include "validation/evidence/work_estimate.h"
+#include "validation/external/asked_apart.h"
+#include "validation/external/diagnosis.h"
+#include "validation/external/external_samples.h"
 #include "validation/findings/attribution.h"
 #include "validation/findings/curves.h"
 #include "validation/findings/facts.h"
 #include "validation/findings/in_si.h"
 #include "validation/findings/run_provenance.h"
 #include "validation/findings/timeseries.h"
+#include "validation/subject/frame_change.h"
 #include "validation/subject/motion_check.h"
 
 namespace ursula {
@@ -64,6 +68,32 @@ void judgeEveryAnswer(const Evidence& evidence, std::vector<Check>& checks) {
   *between = all.front();
 }
 
+/// What a solver answered at the samples, as a file that gives every digit; empty where an answer is no number.
+GivenTorques answersOf(const Evidence& evidence, const std::string& name) {
+  GivenTorques out;
+  out.name = name;
+  for (const PointwiseSample& sample : evidence.samples) {
+    if (!sample.refused.empty() || !sample.torques.allFinite()) return {};
+    out.t.push_back(sample.motion.t * evidence.natural.units.time);
+    out.torques.push_back(sample.torques);
+    for (int k = 0; k < motor_count; ++k) out.torques.back()(k) *= evidence.natural.effort(k);
+  }
+  return out;
+}
+
+/// A solver's answers are explained as a file's are, and it is asked besides.
+void diagnoseSolver(const Scenario& scenario, const Evidence& evidence, const Subject& subject,
+                    ValidationResult& result) {
+  const GivenTorques answers = answersOf(evidence, subject.name);
+  if (answers.t.empty()) return;
+  std::vector<Motion<double>> motions;
+  for (const PointwiseSample& sample : evidence.samples) motions.push_back(sample.motion);
+  const Scenario here = relocated(scenario, evidence.natural.origin);  // in SI: its words are
+  const TorqueFile file =
+      within(torqueFileOf(answers, scenario.manipulator->motors()), scenario.trajectory->duration());
+  addDiagnosis(diagnose(here, runExternal(here, file)), askedApart(subject, *evidence.scenario, motions), result);
+}
+
 ValidationResult run(const Scenario& scenario, const Reference& reference, const Subject& given, bool right,
                      const ValidationOptions& options) {
   requireTellingTolerance(scenario);
@@ -98,6 +128,9 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   listEveryCheck(scenario, evidence.has, result);
   judgeByTolerance(scenario, 0, result);
   judgeByUser(scenario.acceptance, result);
+  if (result.verdict == Verdict::fail && subject.formulation == Formulation::external &&
+      evidence.has.out_of_time.empty())
+    diagnoseSolver(scenario, evidence, subject, result);
   addProvenance(scenario, subject.name, result);
   return result;
 }

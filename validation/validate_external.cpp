@@ -26,16 +26,6 @@
 namespace ursula {
 namespace {
 
-void addDiagnosis(const Diagnosis& diagnosis, ValidationResult& result) {
-  if (diagnosis.summary.empty()) return;
-  result.likely_cause = LikelyCause{diagnosis.deviation, diagnosis.cause};
-  result.findings.emplace_back("torques that are off", diagnosis.deviation);
-  result.findings.emplace_back("likely cause", diagnosis.cause);
-  for (Check& check : result.checks)
-    if (check.verdict == Verdict::fail)
-      check.why += fmt::format(". Off: {}. Likely cause: {}", diagnosis.summary, diagnosis.cause);
-}
-
 void addFileFindings(const TorqueFile& file, ValidationResult& result) {
   result.findings.emplace_back("torque file", fmt::format("{} instants from {:.6g} to {:.6g} s, up to {} digits",
                                                           file.rows(), file.t.front(), file.t.back(), file.digits));
@@ -128,7 +118,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   addFileFindings(file, result);
   if (result.verdict == Verdict::fail) {
     const Scenario relocated = ursula::relocated(scenario, natural.origin);  // in SI: its words are
-    addDiagnosis(diagnose(relocated, runExternal(relocated, file)), result);
+    addDiagnosis(diagnose(relocated, runExternal(relocated, file)), {}, result);
   }
   addProvenance(scenario, torques.file.filename().string(), result);
   return result;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,19 @@ struct Cause {
   std::function<std::string(double x, double deviation)> words;
   /// The torques' derivative by x at 0; empty where none is known but differences.
   std::function<std::vector<Vector6d>(const std::vector<Motion<double>>&)> slope = {};
+  /// The same as `words`, typed; empty for what has no name in the contract.
+  std::function<std::optional<NamedCause>(double x, double deviation)> named = {};
 };
+
+/// What a cause that is not fitted is called, in words and by the contract.
+struct CauseName {
+  std::string text;
+  std::optional<NamedCause> named = {};
+};
+
+/// A cause without a number that is fitted; `torques` as above, x is 0.
+Cause fixedCause(const CauseName& name,
+                 std::function<std::vector<Vector6d>(const std::vector<Motion<double>>&)> torques);
 
 /// Fits each cause to the residual: all of them to first order on a few instants, the likely ones there by
 /// Gauss–Newton, and those that do best on all instants. Left out are those without effect, those that the motion does

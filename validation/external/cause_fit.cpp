@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "nocsolver/errors.h"
 #include "validation/external/cause.h"
@@ -73,6 +74,7 @@ class Fit {
     const double deviation = cause_.fitted ? deviationAt(left) : 0;
     Hypothesis out{cause_.words(x_, deviation), std::sqrt(dot(left, left)) / data_.norm(), cause_.fitted ? 1 : 0};
     out.beyond = data_.beyond(left);
+    if (cause_.named) out.named = cause_.named(x_, deviation);
     return out;
   }
 
@@ -186,6 +188,16 @@ std::vector<Hypothesis> fitCauses(const std::vector<Cause>& causes, const Torque
     whole.start(fit.x());
     if (std::isfinite(whole.unexplained())) out.push_back(whole.hypothesis());
   }
+  return out;
+}
+
+Cause fixedCause(const CauseName& name,
+                 std::function<std::vector<Vector6d>(const std::vector<Motion<double>>&)> torques) {
+  Cause out{
+      false,
+      [torques = std::move(torques)](double, const std::vector<Motion<double>>& motions) { return torques(motions); },
+      [text = name.text](double, double) { return text; }};
+  if (name.named) out.named = [named = name.named](double, double) { return named; };
   return out;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "validation/external/hypotheses.h"
 
@@ -188,15 +189,52 @@ std::string loneInstants(const ExternalTorques& torques) {
                      window.off == 1 ? "is" : "are", torques.file.t[window.first]);
 }
 
+/// What is said of a cause, and by what name.
+struct Explanation {
+  std::string text;
+  std::optional<NamedCause> named = {};
+  std::vector<NamedCause> others = {};
+};
+
+/// One pose, held or repeated: six numbers, which too many causes can make.
+bool isOnePose(const TorqueResidual& data) {
+  const Motion<double>& first = data.motions.front();
+  return std::all_of(data.motions.begin(), data.motions.end(), [&](const Motion<double>& each) {
+    return each.p == first.p && each.Q == first.Q && each.p_dot == first.p_dot && each.omega == first.omega &&
+           each.p_ddot == first.p_ddot && each.omega_dot == first.omega_dot;
+  });
+}
+
+/// `best` explain everything. The first is named where no other does so with as few numbers: silence is better than a
+/// wrong cause.
+Explanation named(const std::vector<Hypothesis>& best, bool is_one_pose, std::string text) {
+  Explanation out{std::move(text)};
+  if (is_one_pose) return out;
+  for (const Hypothesis& one : best) {
+    if (!one.named) continue;
+    out.others.push_back(*one.named);
+    out.others.back().explained = 1 - one.unexplained * one.unexplained;
+  }
+  const bool is_alone = best.size() == 1 || best[1].free_numbers > best[0].free_numbers;
+  if (!is_alone || !best.front().named) return out;
+  out.named = out.others.front();
+  out.others.erase(out.others.begin());
+  return out;
+}
+
 /// Where the torques are wrong all through an interval and right in at least a tenth of the motion; else empty. What is
 /// wrong there, if its instants alone tell.
-std::string intervalAlone(const Scenario& scenario, const ExternalTorques& torques, const TorqueResidual& data) {
+Explanation intervalAlone(const Scenario& scenario, const ExternalTorques& torques, const TorqueResidual& data) {
   constexpr std::size_t enough = 16;
   const Window window = windowOf(torques);
   if (window.rows() < enough || 20 * window.off < 19 * window.rows() || 10 * window.rows() > 9 * torques.file.rows())
-    return "";
+    return {};
   const double from = torques.file.t[window.first], to = torques.file.t[window.last];
-  std::string out = fmt::format("right but from t = {:.6g} to {:.6g} s", from, to);
+  Explanation out{fmt::format("right but from t = {:.6g} to {:.6g} s", from, to)};
+  out.named = NamedCause{CauseKind::window};
+  out.named->from_s = from;
+  out.named->to_s = to;
+  out.named->explained = 1;
   TorqueResidual there;
   there.motors = data.motors;
   for (std::size_t k = 0; k < data.motions.size(); ++k) {
@@ -210,41 +248,57 @@ std::string intervalAlone(const Scenario& scenario, const ExternalTorques& torqu
   const std::vector<Hypothesis> fitted = fitHypotheses(scenario, there);
   if (fitted.empty()) return out;
   const Hypothesis best = bestOf(fitted).front();
-  return explains(best) ? fmt::format("{}; there {}, which explains {}", out, best.text, percent(best.explained()))
-                        : out;
+  if (explains(best)) out.text += fmt::format("; there {}, which explains {}", best.text, percent(best.explained()));
+  return out;
 }
 
 /// Of the deviation: a cause that explains less is not worth a word.
 constexpr double worth_naming = 0.01;
 
-std::string causeText(const Scenario& scenario, const ExternalTorques& torques) {
+Explanation explanationOf(const Scenario& scenario, const ExternalTorques& torques) {
   const TorqueResidual data = residualOf(scenario, torques);
   if (isSinglePrecision(torques))
-    return "single precision: every torque is a 24-bit number, off by no more than such numbers are";
+    return {"single precision: every torque is a 24-bit number, off by no more than such numbers are",
+            NamedCause{CauseKind::digits, "", "all"}};
   const std::vector<Hypothesis> fitted = fitHypotheses(scenario, data);
-  if (fitted.empty()) return "no simple explanation";
+  if (fitted.empty()) return {"no simple explanation"};
   const std::vector<Hypothesis> best = bestOf(fitted);
   const Hypothesis& first = best.front();
   const std::string how_much = fmt::format("{}, which explains {}", first.text, percent(first.explained()));
-  if (explains(first)) return how_much + othersText(best);
+  if (explains(first)) return named(best, isOnePose(data), how_much + othersText(best));
   if (first.unexplained < may_remain)
-    return fmt::format("a likely part: {}; what remains is up to {:.3g} times the file's precision{}", how_much,
-                       first.beyond, othersText(best));
-  if (const std::string alone = loneInstants(torques); !alone.empty()) return "no simple explanation: " + alone;
-  if (const std::string interval = intervalAlone(scenario, torques, data); !interval.empty()) return interval;
+    return {fmt::format("a likely part: {}; what remains is up to {:.3g} times the file's precision{}", how_much,
+                        first.beyond, othersText(best))};
+  if (const std::string alone = loneInstants(torques); !alone.empty()) return {"no simple explanation: " + alone};
+  if (const Explanation interval = intervalAlone(scenario, torques, data); !interval.text.empty()) return interval;
   const std::string noise = isNoise(data) ? "no pattern from one instant to the next, as of noise or too few digits"
                                           : "no simple explanation";
-  if (first.explained() < worth_naming) return noise;
-  return fmt::format("{}; the best, {}, explains only {}", noise, first.text,
-                     percent(std::max(0.0, first.explained())));
+  if (first.explained() < worth_naming) return {noise};
+  return {
+      fmt::format("{}; the best, {}, explains only {}", noise, first.text, percent(std::max(0.0, first.explained())))};
 }
 
 }  // namespace
 
 Diagnosis diagnose(const Scenario& scenario, const ExternalTorques& torques) {
   Diagnosis out = deviationTexts(motorNames(*scenario.manipulator), torques);
-  if (!out.summary.empty()) out.cause = causeText(scenario, torques);
+  if (out.summary.empty()) return out;
+  Explanation explanation = explanationOf(scenario, torques);
+  out.cause = std::move(explanation.text);
+  out.named = std::move(explanation.named);
+  out.others = std::move(explanation.others);
   return out;
+}
+
+void addDiagnosis(const Diagnosis& diagnosis, std::vector<TermError> terms, ValidationResult& result) {
+  if (diagnosis.summary.empty()) return;
+  result.likely_cause =
+      LikelyCause{diagnosis.deviation, diagnosis.cause, diagnosis.named, diagnosis.others, std::move(terms)};
+  result.findings.emplace_back("torques that are off", diagnosis.deviation);
+  result.findings.emplace_back("likely cause", diagnosis.cause);
+  for (Check& check : result.checks)
+    if (check.verdict == Verdict::fail)
+      check.why += fmt::format(". Off: {}. Likely cause: {}", diagnosis.summary, diagnosis.cause);
 }
 
 }  // namespace ursula

@@ -54,6 +54,17 @@ std::string knownGravity(double value) {
   return "";
 }
 
+/// What (1 + c) times a term is: left out, with the wrong sign, or scaled; gravity has a size of its own.
+std::optional<NamedCause> namedScale(const TorqueTerm& term, double factor) {
+  if (term.term.empty()) return std::nullopt;
+  if (std::abs(factor) < 1e-3) return NamedCause{CauseKind::missing_term, term.term, term.body};
+  if (std::abs(factor + 1) < 1e-3) return NamedCause{CauseKind::sign, term.term, term.body};
+  if (term.name == "gravity")
+    return NamedCause{CauseKind::parameter, "gravity", "all", "manipulator.gravity", "m/s^2", term.size,
+                      term.size * factor};
+  return NamedCause{CauseKind::scale, term.term, term.body, "", "", 1, factor};
+}
+
 /// residual = c · term: the torques hold (1 + c) times the term.
 std::optional<Hypothesis> scaledTerm(const TorqueResidual& data, const TorqueTerm& term) {
   const double size = norm(term.torques);
@@ -66,7 +77,9 @@ std::optional<Hypothesis> scaledTerm(const TorqueResidual& data, const TorqueTer
   if (std::abs(factor) < 1e-3) text = term.name + " left out";
   if (std::abs(factor + 1) < 1e-3) text = term.name + " with the wrong sign";
   if (term.name == "gravity") text += knownGravity(term.size * factor);
-  return hypothesis(data, text, left, 1);
+  Hypothesis out = hypothesis(data, text, left, 1);
+  out.named = namedScale(term, factor);
+  return out;
 }
 
 std::optional<Hypothesis> scaled(const TorqueResidual& data) {
@@ -77,18 +90,27 @@ std::optional<Hypothesis> scaled(const TorqueResidual& data) {
       hypothesis(data, fmt::format("every torque scaled by {}{}", factorText(c), unit.empty() ? "" : " (" + unit + ")"),
                  minus(data.residual, data.exact, c), 1);
   out.beyond /= std::max(1.0, std::abs(1 + c));  // rounding grows with the torques
+  out.named = NamedCause{unit.empty() ? CauseKind::scale : CauseKind::units, "", "all", "", "", 1, 1 + c};
   return out;
 }
 
 /// What a fit of one number for each motor found, with those in which it matters.
 Hypothesis perLeg(const TorqueResidual& data, const Vector6d& fitted, const Rows& predicted,
-                  const std::function<std::string(double, int)>& show, const std::string& what) {
+                  const std::function<std::string(double, int)>& show, const std::string& what, NamedCause named) {
   std::string text;
   std::vector<int> legs;
   for (int i = 0; i < motor_count; ++i)
     if (std::abs(fitted(i)) > 0.01 * fitted.cwiseAbs().maxCoeff()) legs.push_back(i);
   for (int i : legs) text += fmt::format("{}{} on {}", text.empty() ? "" : ", ", show(fitted(i), i), data.motors(i));
-  return hypothesis(data, what + text, minus(data.residual, predicted, 1), motor_count);
+  Hypothesis out = hypothesis(data, what + text, minus(data.residual, predicted, 1), motor_count);
+  if (legs.size() == 1) {
+    named.motor = legs.front() + 1;
+    named.found = *named.expected + fitted(legs.front());
+  } else {
+    named.expected.reset();
+  }
+  out.named = named;
+  return out;
 }
 
 std::optional<Hypothesis> offsets(const TorqueResidual& data) {
@@ -97,7 +119,7 @@ std::optional<Hypothesis> offsets(const TorqueResidual& data) {
   return perLeg(
       data, mean, Rows(data.residual.size(), mean),
       [&data](double value, int i) { return fmt::format("{:+.6g} {}", value, data.motors.unit(i)); },
-      "a constant offset: ");
+      "a constant offset: ", NamedCause{CauseKind::offset, "", "", "", "", 0.0});
 }
 
 std::optional<Hypothesis> gains(const TorqueResidual& data) {
@@ -110,7 +132,8 @@ std::optional<Hypothesis> gains(const TorqueResidual& data) {
   Rows predicted;
   for (const Vector6d& row : data.exact) predicted.push_back(c.cwiseProduct(row));
   return perLeg(
-      data, c, predicted, [](double value, int) { return "a factor of " + factorText(value); }, "");
+      data, c, predicted, [](double value, int) { return "a factor of " + factorText(value); }, "",
+      NamedCause{CauseKind::scale, "", "", "", "", 1.0});
 }
 
 }  // namespace

@@ -2,10 +2,12 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "model/scenario.h"
+#include "validation/verdict/likely_cause.h"
 
 namespace ursula {
 
@@ -39,6 +41,7 @@ struct Hypothesis {
   double unexplained = 1;                                   ///< ‖residual − predicted‖ / ‖residual‖
   int free_numbers = 0;                                     ///< that were fitted
   double beyond = std::numeric_limits<double>::infinity();  ///< what remains, in limits, where that is largest
+  std::optional<NamedCause> named = {};                     ///< none for what has no name in the contract
   double explained() const { return 1 - unexplained; }
 };
 

@@ -28,18 +28,21 @@ Rows difference(const Rows& a, const Rows& b) {
 struct WrongFormula {
   FormulaError formula_error;
   const char* name;
+  const char* term = "";  ///< by the contract
+  const char* body = "";
 };
 
 /// Parts that the solver itself can leave out: they may be scaled as well.
 const WrongFormula parts[] = {
-    {FormulaError::drop_gravity_platform, "the platform's gravity"},
-    {FormulaError::drop_gravity_legs, "the links' gravity"},
-    {FormulaError::drop_centrifugal, "the centrifugal terms of (43a,b)"},
-    {FormulaError::drop_coriolis, "the Coriolis terms of (43a,b)"},
-    {FormulaError::drop_gyroscopic_legs, "the links' gyroscopic moments of (38)"},
-    {FormulaError::drop_gyroscopic_platform, "the platform's gyroscopic moment"},
-    {FormulaError::drop_platform_centripetal, "the platform's centripetal acceleration of (43c)"},
-    {FormulaError::drop_link_coupling, "the terms in the elbow's motion of (41b), (43b)"},
+    {FormulaError::drop_gravity_platform, "the platform's gravity", "gravity", "platform"},
+    {FormulaError::drop_gravity_legs, "the links' gravity", "gravity", "legs"},
+    {FormulaError::drop_centrifugal, "the centrifugal terms of (43a,b)", "centripetal", "legs"},
+    {FormulaError::drop_coriolis, "the Coriolis terms of (43a,b)", "coriolis", "legs"},
+    {FormulaError::drop_gyroscopic_legs, "the links' gyroscopic moments of (38)", "gyroscopic", "legs"},
+    {FormulaError::drop_gyroscopic_platform, "the platform's gyroscopic moment", "gyroscopic", "platform"},
+    {FormulaError::drop_platform_centripetal, "the platform's centripetal acceleration of (43c)", "centripetal",
+     "platform"},
+    {FormulaError::drop_link_coupling, "the terms in the elbow's motion of (41b), (43b)", "coriolis", "distal"},
 };
 
 const WrongFormula printed[] = {
@@ -81,9 +84,12 @@ class Collector {
     });
   }
 
-  /// Of the term last added.
-  void setSize(double size) {
-    if (!terms_.empty()) terms_.back().size = size;
+  /// Of the term `of`, if it was the last added.
+  void describe(const char* of, const char* term, const char* body, double size = 0) {
+    if (terms_.empty() || terms_.back().name != of) return;
+    terms_.back().term = term;
+    terms_.back().body = body;
+    terms_.back().size = size;
   }
 
   void addLoad() {
@@ -139,12 +145,15 @@ void addParts(Collector& out, double scenario_gravity) {
   };
   out.addChange(
       "gravity", [](ManipulatorParameters& machine) { machine.gravity.setZero(); }, 1);
-  out.setSize(scenario_gravity);
+  out.describe("gravity", "gravity", "all", scenario_gravity);
   out.addMotionChange("everything that moves (all but statics)", same, at_rest);
   out.addMotionChange("the torques of acceleration (inertia)", same, unaccelerated);
+  out.describe("the torques of acceleration (inertia)", "inertia", "all");
   out.addMotionChange("the torques of velocity (Coriolis, centrifugal, gyroscopic, friction)", unaccelerated, at_rest);
   out.addChange("friction", withoutFriction, 1);
+  out.describe("friction", "friction", "all");
   out.addLoad();
+  out.describe("the load", "load", "platform");
 }
 
 }  // namespace
@@ -153,7 +162,10 @@ std::vector<TorqueTerm> torqueTerms(const Scenario& scenario, const std::vector<
                                     const std::vector<Vector6d>& exact) {
   Collector out(scenario, motions, exact);
   addParts(out, scenario.manipulator->gravity().norm());
-  for (const WrongFormula& part : parts) out.addFormulaError(part, {}, 1);
+  for (const WrongFormula& part : parts) {
+    out.addFormulaError(part, {}, 1);
+    out.describe(part.name, part.term, part.body);
+  }
   for (const WrongFormula& formula : printed) out.addFormulaError(formula, 1.0, -1);
   return out.terms();
 }

@@ -11,9 +11,10 @@ namespace ursula {
 /// A part of the torques, or the difference that a wrong formula makes to them.
 struct TorqueTerm {
   std::string name;
-  std::vector<Vector6d> torques;  ///< N·m, one for each motion
-  std::optional<double> fixed;    ///< how often it must show in the residual; empty where that is to be found
-  double size = 0;                ///< of what makes it, where people know that: of gravity, m/s²
+  std::vector<Vector6d> torques;     ///< N·m, one for each motion
+  std::optional<double> fixed;       ///< how often it must show in the residual; empty where that is to be found
+  double size = 0;                   ///< of what makes it, where people know that: of gravity, m/s²
+  std::string term = {}, body = {};  ///< by the contract; empty for what has no name there
 };
 
 /// Gravity, inertia, velocity terms, friction and load as parts; formulas as printed or with terms

@@ -16,6 +16,7 @@ using Machine = ManipulatorParameters;
 using Rows = std::vector<Vector6d>;
 using Change = std::function<void(Machine&, double)>;
 using Words = std::function<std::string(double, double)>;
+using Named = std::function<std::optional<NamedCause>(double, double)>;
 
 Rows torquesOf(const Machine& machine, const Scenario& scenario, const std::vector<Motion<double>>& motions) {
   const Subject noc = nocSubject(Manipulator(machine), scenario.load);
@@ -50,8 +51,16 @@ class Collector {
   explicit Collector(const Scenario& scenario)
       : scenario_(scenario), slopes_(std::make_shared<MachineSlopes>(scenario)) {}
 
-  void addFitted(const Change& change, const Words& words) {
-    add(true, change, words);
+  void addFitted(const Change& change, const Words& words, const Named& named) {
+    const Scenario& scenario = scenario_;
+    causes.push_back({true,
+                      [&scenario, change](double x, const std::vector<Motion<double>>& motions) {
+                        Machine machine = scenario.manipulator->parameters();
+                        change(machine, x);
+                        return torquesOf(machine, scenario, motions);
+                      },
+                      words});
+    causes.back().named = named;
     causes.back().slope = [slopes = slopes_, change](const std::vector<Motion<double>>& motions) {
       return slopes->along(change, motions);
     };
@@ -60,7 +69,9 @@ class Collector {
   void addTied(const TiedParameters& tied) {
     const Machine& machine = scenario_.manipulator->parameters();
     const Change change = [tied](Machine& changed, double x) { tied.disturb(changed, x); };
-    addFitted(change, [tied, machine](double x, double deviation) { return tied.text(machine, x, deviation); });
+    addFitted(
+        change, [tied, machine](double x, double deviation) { return tied.text(machine, x, deviation); },
+        [tied, machine](double x, double deviation) { return tied.named(machine, x, deviation); });
     if (tied.members.front().group != "inertia") return;
     const Scenario& scenario = scenario_;
     causes.back().torques = [&scenario, change](double x, const std::vector<Motion<double>>& motions) {
@@ -68,19 +79,22 @@ class Collector {
     };
   }
 
-  void addFixed(const std::string& text, const std::function<void(Machine&)>& change) {
-    add(
-        false, [change](Machine& machine, double) { change(machine); }, [text](double, double) { return text; });
+  void addFixed(const CauseName& name, const std::function<void(Machine&)>& change) {
+    const Scenario& scenario = scenario_;
+    causes.push_back(fixedCause(name, [&scenario, change](const std::vector<Motion<double>>& motions) {
+      Machine machine = scenario.manipulator->parameters();
+      change(machine);
+      return torquesOf(machine, scenario, motions);
+    }));
   }
 
-  /// A change of one link, for the proximal links, the distal ones, and all.
-  void addLinks(const std::string& before, const std::string& after, const std::function<void(Link&)>& change) {
+  /// A change of one link, for all links, the proximal ones, and the distal ones. `kind` and `term` name it.
+  void addLinks(const std::string& before, const std::string& after, CauseKind kind, const char* term,
+                const std::function<void(Link&)>& change) {
+    const std::pair<const char*, const char*> links[] = {
+        {"the proximal links", "proximal"}, {"the distal links", "distal"}, {"all links", "legs"}};
     for (const int which : {2, 0, 1})
-      addFixed(before +
-                   (which == 0   ? "the proximal links"
-                    : which == 1 ? "the distal links"
-                                 : "all links") +
-                   after,
+      addFixed({before + links[which].first + after, NamedCause{kind, term, links[which].second}},
                [change, which](Machine& machine) {
                  for (Leg& leg : machine.legs) {
                    if (which != 1) change(leg.proximal);
@@ -92,17 +106,6 @@ class Collector {
   std::vector<Cause> causes;
 
  private:
-  void add(bool fitted, const Change& change, const Words& words) {
-    const Scenario& scenario = scenario_;
-    causes.push_back({fitted,
-                      [&scenario, change](double x, const std::vector<Motion<double>>& motions) {
-                        Machine machine = scenario.manipulator->parameters();
-                        change(machine, x);
-                        return torquesOf(machine, scenario, motions);
-                      },
-                      words});
-  }
-
   const Scenario& scenario_;
   std::shared_ptr<MachineSlopes> slopes_;
 };
@@ -113,57 +116,64 @@ Matrix3d moved(const Matrix3d& inertia, double mass, const Vector3d& r, double s
 }
 
 void addInertias(Collector& out) {
+  const NamedCause platform_inertia{CauseKind::reference_point, "inertia", "platform"};
   const auto link = [](double sign, bool from_end) {
     return [sign, from_end](Link& one) {
       const double r = from_end ? one.length - one.center_of_mass : one.center_of_mass;
       one.inertia = moved(one.inertia, one.mass, Vector3d(0, 0, r), sign);
     };
   };
-  out.addLinks("inertias of ", " about the first joint used as about the mass centre", link(1, false));
-  out.addLinks("inertias of ", ", about the mass centre, taken for such about the first joint", link(-1, false));
-  out.addFixed("inertia of the platform about P used as about its mass centre", [](Machine& machine) {
-    Platform& one = machine.platform;
-    one.inertia = moved(one.inertia, one.mass, one.center_of_mass, 1);
-  });
-  out.addFixed("inertia of the platform, about its mass centre, taken for such about P", [](Machine& machine) {
-    Platform& one = machine.platform;
-    one.inertia = moved(one.inertia, one.mass, one.center_of_mass, -1);
-  });
-  out.addLinks("inertias of ", " with x and y exchanged", [](Link& one) {
+  out.addLinks("inertias of ", " about the first joint used as about the mass centre", CauseKind::reference_point,
+               "inertia", link(1, false));
+  out.addLinks("inertias of ", ", about the mass centre, taken for such about the first joint",
+               CauseKind::reference_point, "inertia", link(-1, false));
+  out.addFixed({"inertia of the platform about P used as about its mass centre", platform_inertia},
+               [](Machine& machine) {
+                 Platform& one = machine.platform;
+                 one.inertia = moved(one.inertia, one.mass, one.center_of_mass, 1);
+               });
+  out.addFixed({"inertia of the platform, about its mass centre, taken for such about P", platform_inertia},
+               [](Machine& machine) {
+                 Platform& one = machine.platform;
+                 one.inertia = moved(one.inertia, one.mass, one.center_of_mass, -1);
+               });
+  out.addLinks("inertias of ", " with x and y exchanged", CauseKind::frame, "inertia", [](Link& one) {
     one.inertia.row(0).swap(one.inertia.row(1));
     one.inertia.col(0).swap(one.inertia.col(1));
   });
-  out.addLinks("inertias of ", " with x and z exchanged", [](Link& one) {
+  out.addLinks("inertias of ", " with x and z exchanged", CauseKind::frame, "inertia", [](Link& one) {
     one.inertia.row(0).swap(one.inertia.row(2));
     one.inertia.col(0).swap(one.inertia.col(2));
   });
-  out.addLinks("inertias of ", " without products of inertia",
+  out.addLinks("inertias of ", " without products of inertia", CauseKind::missing_term, "inertia",
                [](Link& one) { one.inertia = one.inertia.diagonal().asDiagonal().toDenseMatrix(); });
-  out.addLinks("products of inertia of ", " with the wrong sign",
+  out.addLinks("products of inertia of ", " with the wrong sign", CauseKind::sign, "inertia",
                [](Link& one) { one.inertia = 2 * one.inertia.diagonal().asDiagonal().toDenseMatrix() - one.inertia; });
 }
 
 void addExchanged(Collector& out) {
-  out.addLinks("mass centres of ", " measured from the other end",
+  const NamedCause platform_centre{CauseKind::reference_point, "", "platform"};
+  out.addLinks("mass centres of ", " measured from the other end", CauseKind::reference_point, "",
                [](Link& one) { one.center_of_mass = one.length - one.center_of_mass; });
-  out.addLinks("mass centres of ", " at their first joints", [](Link& one) { one.center_of_mass = 0; });
-  out.addFixed("mass centre of the platform taken at P",
+  out.addLinks("mass centres of ", " at their first joints", CauseKind::reference_point, "",
+               [](Link& one) { one.center_of_mass = 0; });
+  out.addFixed({"mass centre of the platform taken at P", platform_centre},
                [](Machine& machine) { machine.platform.center_of_mass.setZero(); });
-  out.addFixed("mass centre of the platform on the other side of P",
+  out.addFixed({"mass centre of the platform on the other side of P", platform_centre},
                [](Machine& machine) { machine.platform.center_of_mass *= -1; });
-  out.addFixed("proximal and distal links exchanged, but for their lengths", [](Machine& machine) {
+  out.addFixed({"proximal and distal links exchanged, but for their lengths"}, [](Machine& machine) {
     for (Leg& leg : machine.legs) {
       std::swap(leg.proximal, leg.distal);
       std::swap(leg.proximal.length, leg.distal.length);
     }
   });
-  out.addFixed("proximal and distal inertias exchanged", [](Machine& machine) {
+  out.addFixed({"proximal and distal inertias exchanged"}, [](Machine& machine) {
     for (Leg& leg : machine.legs) std::swap(leg.proximal.inertia, leg.distal.inertia);
   });
-  out.addFixed("base axes without their part along z", [](Machine& machine) {
+  out.addFixed({"base axes without their part along z"}, [](Machine& machine) {
     for (Leg& leg : machine.legs) leg.base_axis.z() = 0;
   });
-  out.addFixed("base axes with the wrong sign of z", [](Machine& machine) {
+  out.addFixed({"base axes with the wrong sign of z"}, [](Machine& machine) {
     for (Leg& leg : machine.legs) leg.base_axis.z() *= -1;
   });
 }
@@ -184,8 +194,16 @@ void addKnees(const Manipulator& machine, Collector& out) {
     int count = 0;
     for (int i = 0; i < all; ++i)
       if (legs >> i & 1) names += fmt::format("{}{}", count++ == 0 ? "" : ", ", bent[static_cast<std::size_t>(i)] + 1);
-    out.addFixed(count == machine.legCount() ? std::string("the other knee on every leg")
-                                             : fmt::format("the other knee on leg{} {}", count == 1 ? "" : "s", names),
+    NamedCause named{CauseKind::parameter, "", "legs"};
+    if (count == 1) {
+      named.leg = std::stoi(names);
+      named.parameter = "manipulator.leg." + names + ".knee";
+    } else if (count == machine.legCount()) {
+      named.parameter = "manipulator.leg_defaults.knee";
+    }
+    out.addFixed({count == machine.legCount() ? std::string("the other knee on every leg")
+                                              : fmt::format("the other knee on leg{} {}", count == 1 ? "" : "s", names),
+                  named},
                  [legs, bent](Machine& changed) {
                    for (std::size_t i = 0; i < bent.size(); ++i) {
                      Knee& knee = changed.legs[bent[i]].knee;
@@ -193,6 +211,12 @@ void addKnees(const Manipulator& machine, Collector& out) {
                    }
                  });
   }
+}
+
+/// `expected` and `found` are what is beyond the scenario's.
+NamedCause moreFriction(const std::string& key, const char* unit, double x, double deviation) {
+  NamedCause out{CauseKind::parameter, "friction", "legs", "manipulator.leg_defaults." + key, unit, 0, x, deviation};
+  return out;
 }
 
 /// Friction that the scenario does not have: a fit of its coefficients, of every leg.
@@ -208,7 +232,8 @@ void addFriction(Collector& out) {
         [joint](double x, double deviation) {
           return fmt::format("viscous friction on every {} of {} N m s/rad more than the scenario's", joint,
                              withDeviation(x, deviation));
-        });
+        },
+        [joint](double x, double deviation) { return moreFriction("friction." + joint, "N m s/rad", x, deviation); });
     out.addFitted(
         [member = member](Machine& machine, double x) {
           for (Leg& leg : machine.legs) leg.coulomb.*member += x;
@@ -216,7 +241,8 @@ void addFriction(Collector& out) {
         [joint](double x, double deviation) {
           return fmt::format("Coulomb friction on every {} of {} N m more than the scenario's", joint,
                              withDeviation(x, deviation));
-        });
+        },
+        [joint](double x, double deviation) { return moreFriction("coulomb." + joint, "N m", x, deviation); });
   }
 }
 
@@ -224,6 +250,9 @@ void addPlatform(Collector& out) {
   out.addFitted([](Machine& machine, double x) { machine.platform.inertia *= 1 + x; },
                 [](double x, double deviation) {
                   return fmt::format("platform inertia tensor scaled by {}", withDeviation(1 + x, deviation));
+                },
+                [](double x, double deviation) {
+                  return NamedCause{CauseKind::scale, "inertia", "platform", "", "", 1, 1 + x, deviation};
                 });
   out.addFitted(
       [](Machine& machine, double x) {  // in units of the platform's mass
@@ -235,6 +264,9 @@ void addPlatform(Collector& out) {
       },
       [](double x, double deviation) {
         return fmt::format("a point mass at P of {} times the platform's mass", withDeviation(x, deviation));
+      },
+      [](double, double) {
+        return NamedCause{CauseKind::parameter, "", "platform"};
       });
 }
 

@@ -15,33 +15,29 @@ using Motions = std::vector<Motion<double>>;
 using MotionChange = std::function<void(Motion<double>&)>;
 using MachineChange = std::function<void(ManipulatorParameters&, const Matrix3d& Q)>;
 
-Cause readOtherwise(const Scenario& scenario, const std::string& text, const MotionChange& change) {
-  return {false,
-          [&scenario, change](double, const Motions& motions) {
-            const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
-            Rows out;
-            for (Motion<double> motion : motions) {
-              change(motion);
-              out.push_back(noc.torques(motion));
-            }
-            return out;
-          },
-          [text](double, double) { return text; }};
+Cause readOtherwise(const Scenario& scenario, const CauseName& name, const MotionChange& change) {
+  return fixedCause(name, [&scenario, change](const Motions& motions) {
+    const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
+    Rows out;
+    for (Motion<double> motion : motions) {
+      change(motion);
+      out.push_back(noc.torques(motion));
+    }
+    return out;
+  });
 }
 
 /// Another machine at each instant.
-Cause notTurned(const Scenario& scenario, const std::string& text, const MachineChange& change) {
-  return {false,
-          [&scenario, change](double, const Motions& motions) {
-            Rows out;
-            for (const Motion<double>& motion : motions) {
-              ManipulatorParameters machine = scenario.manipulator->parameters();
-              change(machine, motion.Q);
-              out.push_back(nocSubject(Manipulator(machine), scenario.load).torques(motion));
-            }
-            return out;
-          },
-          [text](double, double) { return text; }};
+Cause notTurned(const Scenario& scenario, const CauseName& name, const MachineChange& change) {
+  return fixedCause(name, [&scenario, change](const Motions& motions) {
+    Rows out;
+    for (const Motion<double>& motion : motions) {
+      ManipulatorParameters machine = scenario.manipulator->parameters();
+      change(machine, motion.Q);
+      out.push_back(nocSubject(Manipulator(machine), scenario.load).torques(motion));
+    }
+    return out;
+  });
 }
 
 /// τ + J φ̈.
@@ -57,6 +53,14 @@ Cause motorInertia(const Scenario& scenario) {
           },
           [](double x, double deviation) {
             return fmt::format("an inertia of {} kg m^2 on every motor's axis", withDeviation(x, deviation));
+          },
+          {},
+          [](double x, double deviation) {
+            NamedCause out{CauseKind::missing_term, "rotor_inertia", "all"};
+            out.expected = 0;
+            out.found = x;
+            out.uncertainty = deviation;
+            return out;
           }};
 }
 
@@ -68,74 +72,96 @@ void ofMassCentre(Motion<double>& motion, const Vector3d& rho, double sign) {
 }
 
 void addFrames(const Scenario& scenario, std::vector<Cause>& out) {
-  const auto add = [&](const char* text, const MotionChange& change) {
-    out.push_back(readOtherwise(scenario, text, change));
+  const auto add = [&](const CauseName& name, const MotionChange& change) {
+    out.push_back(readOtherwise(scenario, name, change));
   };
-  add("Q taken for its transpose", [](Motion<double>& motion) { motion.Q.transposeInPlace(); });
-  add("the quaternion read as x, y, z, w where it is w, x, y, z", [](Motion<double>& motion) {
-    const Eigen::Quaterniond q(motion.Q);
-    motion.Q = Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y()).toRotationMatrix();
-  });
-  add("omega and its rate taken in the platform's frame for such in the base's", [](Motion<double>& motion) {
-    motion.omega = (motion.Q.transpose() * motion.omega).eval();
-    motion.omega_dot = (motion.Q.transpose() * motion.omega_dot).eval();
-  });
-  add("omega and its rate in the base's frame taken for such in the platform's", [](Motion<double>& motion) {
-    motion.omega = (motion.Q * motion.omega).eval();
-    motion.omega_dot = (motion.Q * motion.omega_dot).eval();
-  });
-  add("omega and its rate with the wrong sign", [](Motion<double>& motion) {
-    motion.omega *= -1;
-    motion.omega_dot *= -1;
-  });
+  add({"Q taken for its transpose", NamedCause{CauseKind::frame, "orientation", "all"}},
+      [](Motion<double>& motion) { motion.Q.transposeInPlace(); });
+  add({"the quaternion read as x, y, z, w where it is w, x, y, z", NamedCause{CauseKind::frame, "orientation", "all"}},
+      [](Motion<double>& motion) {
+        const Eigen::Quaterniond q(motion.Q);
+        motion.Q = Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y()).toRotationMatrix();
+      });
+  add({"omega and its rate taken in the platform's frame for such in the base's",
+       NamedCause{CauseKind::frame, "angular_velocity", "all"}},
+      [](Motion<double>& motion) {
+        motion.omega = (motion.Q.transpose() * motion.omega).eval();
+        motion.omega_dot = (motion.Q.transpose() * motion.omega_dot).eval();
+      });
+  add({"omega and its rate in the base's frame taken for such in the platform's",
+       NamedCause{CauseKind::frame, "angular_velocity", "all"}},
+      [](Motion<double>& motion) {
+        motion.omega = (motion.Q * motion.omega).eval();
+        motion.omega_dot = (motion.Q * motion.omega_dot).eval();
+      });
+  add({"omega and its rate with the wrong sign", NamedCause{CauseKind::sign, "angular_velocity", "all"}},
+      [](Motion<double>& motion) {
+        motion.omega *= -1;
+        motion.omega_dot *= -1;
+      });
   const Vector3d rho = scenario.manipulator->platform().center_of_mass;
-  add("velocity and acceleration of the platform's mass centre taken for those of P",
+  add({"velocity and acceleration of the platform's mass centre taken for those of P",
+       NamedCause{CauseKind::reference_point, "", "platform"}},
       [rho](Motion<double>& motion) { ofMassCentre(motion, rho, 1); });
-  add("velocity and acceleration of P taken for those of the platform's mass centre",
+  add({"velocity and acceleration of P taken for those of the platform's mass centre",
+       NamedCause{CauseKind::reference_point, "", "platform"}},
       [rho](Motion<double>& motion) { ofMassCentre(motion, rho, -1); });
-  add("the path of P taken for that of the platform's mass centre", [rho](Motion<double>& motion) {
-    ofMassCentre(motion, rho, -1);
-    motion.p -= motion.Q * rho;
-  });
+  add({"the path of P taken for that of the platform's mass centre",
+       NamedCause{CauseKind::reference_point, "", "platform"}},
+      [rho](Motion<double>& motion) {
+        ofMassCentre(motion, rho, -1);
+        motion.p -= motion.Q * rho;
+      });
 }
 
 void addLeftOut(const Scenario& scenario, std::vector<Cause>& out) {
-  const auto add = [&](const char* text, const MotionChange& change) {
-    out.push_back(readOtherwise(scenario, text, change));
+  const auto add = [&](const CauseName& name, const MotionChange& change) {
+    out.push_back(readOtherwise(scenario, name, change));
   };
-  add("the angular acceleration left out", [](Motion<double>& motion) { motion.omega_dot.setZero(); });
-  add("the acceleration of P left out", [](Motion<double>& motion) { motion.p_ddot.setZero(); });
-  add("the angular velocity left out", [](Motion<double>& motion) { motion.omega.setZero(); });
-  add("the velocity of P left out", [](Motion<double>& motion) { motion.p_dot.setZero(); });
-  add("the angular acceleration with the wrong sign", [](Motion<double>& motion) { motion.omega_dot *= -1; });
-  add("the acceleration of P with the wrong sign", [](Motion<double>& motion) { motion.p_ddot *= -1; });
-  add("velocities with the wrong sign", [](Motion<double>& motion) {
-    motion.omega *= -1;
-    motion.p_dot *= -1;
-  });
-  add("the motion run backwards in time, velocities as well", [&scenario](Motion<double>& motion) {
+  add({"the angular acceleration left out", NamedCause{CauseKind::missing_term, "angular_acceleration", "all"}},
+      [](Motion<double>& motion) { motion.omega_dot.setZero(); });
+  add({"the acceleration of P left out", NamedCause{CauseKind::missing_term, "inertia", "all"}},
+      [](Motion<double>& motion) { motion.p_ddot.setZero(); });
+  add({"the angular velocity left out", NamedCause{CauseKind::missing_term, "angular_velocity", "all"}},
+      [](Motion<double>& motion) { motion.omega.setZero(); });
+  add({"the velocity of P left out", NamedCause{CauseKind::missing_term, "coriolis", "all"}},
+      [](Motion<double>& motion) { motion.p_dot.setZero(); });
+  add({"the angular acceleration with the wrong sign", NamedCause{CauseKind::sign, "angular_acceleration", "all"}},
+      [](Motion<double>& motion) { motion.omega_dot *= -1; });
+  add({"the acceleration of P with the wrong sign", NamedCause{CauseKind::sign, "inertia", "all"}},
+      [](Motion<double>& motion) { motion.p_ddot *= -1; });
+  add({"velocities with the wrong sign", NamedCause{CauseKind::sign, "angular_velocity", "all"}},
+      [](Motion<double>& motion) {
+        motion.omega *= -1;
+        motion.p_dot *= -1;
+      });
+  add({"the motion run backwards in time, velocities as well"}, [&scenario](Motion<double>& motion) {
     motion = scenario.trajectory->at(scenario.trajectory->duration() - motion.t);
   });
 }
 
 void addNotTurned(const Scenario& scenario, std::vector<Cause>& out) {
-  const auto add = [&](const char* text, const MachineChange& change) {
-    out.push_back(notTurned(scenario, text, change));
+  const auto add = [&](const CauseName& name, const MachineChange& change) {
+    out.push_back(notTurned(scenario, name, change));
   };
-  add("the platform's inertia not turned into the base's frame", [](ManipulatorParameters& machine, const Matrix3d& Q) {
-    machine.platform.inertia = (Q.transpose() * machine.platform.inertia * Q).eval();
-  });
-  add("the platform's inertia turned the wrong way", [](ManipulatorParameters& machine, const Matrix3d& Q) {
-    const Matrix3d twice = Q * Q;  // Q (Qᵀ Qᵀ I Q Q) Qᵀ = Qᵀ I Q
-    machine.platform.inertia = (twice.transpose() * machine.platform.inertia * twice).eval();
-  });
-  add("the platform's mass centre not turned into the base's frame",
+  add({"the platform's inertia not turned into the base's frame", NamedCause{CauseKind::frame, "inertia", "platform"}},
+      [](ManipulatorParameters& machine, const Matrix3d& Q) {
+        machine.platform.inertia = (Q.transpose() * machine.platform.inertia * Q).eval();
+      });
+  add({"the platform's inertia turned the wrong way", NamedCause{CauseKind::frame, "inertia", "platform"}},
+      [](ManipulatorParameters& machine, const Matrix3d& Q) {
+        const Matrix3d twice = Q * Q;  // Q (Qᵀ Qᵀ I Q Q) Qᵀ = Qᵀ I Q
+        machine.platform.inertia = (twice.transpose() * machine.platform.inertia * twice).eval();
+      });
+  add({"the platform's mass centre not turned into the base's frame",
+       NamedCause{CauseKind::frame, "orientation", "platform"}},
       [](ManipulatorParameters& machine, const Matrix3d& Q) {
         machine.platform.center_of_mass = (Q.transpose() * machine.platform.center_of_mass).eval();
       });
-  add("gravity taken in the platform's frame",
+  add({"gravity taken in the platform's frame", NamedCause{CauseKind::frame, "gravity", "all"}},
       [](ManipulatorParameters& machine, const Matrix3d& Q) { machine.gravity = (Q * machine.gravity).eval(); });
-  add("gravity turned into the platform's frame, where the base's belongs",
+  add({"gravity turned into the platform's frame, where the base's belongs",
+       NamedCause{CauseKind::frame, "gravity", "all"}},
       [](ManipulatorParameters& machine, const Matrix3d& Q) {
         machine.gravity = (Q.transpose() * machine.gravity).eval();
       });

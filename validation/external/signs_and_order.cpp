@@ -93,6 +93,17 @@ double beyondOf(const TorqueResidual& data, const std::vector<int>& from, const 
   return data.beyond(left);
 }
 
+NamedCause namedOrder(const std::vector<int>& from, const std::vector<int>& flipped) {
+  NamedCause out{std::is_sorted(from.begin(), from.end()) ? CauseKind::sign : CauseKind::order, "", ""};
+  if (out.kind == CauseKind::order) {
+    for (const int leg : from) out.legs.push_back(leg + 1);
+    return out;
+  }
+  if (flipped.size() == motor_count) out.body = "all";
+  if (flipped.size() == 1) out.motor = flipped.front() + 1;
+  return out;
+}
+
 }  // namespace
 
 std::optional<Hypothesis> signsAndOrder(const TorqueResidual& data) {
@@ -120,6 +131,7 @@ std::optional<Hypothesis> signsAndOrder(const TorqueResidual& data) {
   if (unit != 1) text += fmt::format(", and {}", unitOf(unit));
   Hypothesis out{text, std::sqrt(least) / data.norm(), 0};
   out.beyond = beyondOf(data, best, sign, unit) / std::max(1.0, unit);  // rounding grows with the torques
+  out.named = namedOrder(best, flipped);
   return out;
 }
 

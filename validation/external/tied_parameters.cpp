@@ -41,6 +41,42 @@ std::string TiedParameters::text(const ManipulatorParameters& machine, double re
   return fmt::format("{} off by a relative {}", words, withDeviation(relative, deviation));
 }
 
+std::optional<NamedCause> TiedParameters::named(const ManipulatorParameters& machine, double relative,
+                                                double deviation) const {
+  const Parameter& first = members.front();
+  ManipulatorParameters changed = machine, further = machine;
+  disturb(changed, relative);
+  disturb(further, relative + deviation);
+  const double before = first.get(machine), after = first.get(changed);
+  const bool is_size =
+      first.group == "mass" || first.group == "length" || (first.group == "inertia" && first.entry < 3);
+  if (is_size && !(after > 0)) return std::nullopt;
+  NamedCause out{CauseKind::parameter, "", first.body.empty() && first.leg >= 0 ? "legs" : first.body};
+  const bool one = members.size() == 1;
+  const bool is_legs = std::all_of(members.begin(), members.end(), [&](const Parameter& member) {
+    return member.body == first.body && member.quantity == first.quantity && member.entry == first.entry &&
+           isEqual(member.get(machine), before) && isEqual(member.get(changed), after);
+  });
+  if (one ||
+      (std::all_of(members.begin(), members.end(), [&](const Parameter& each) { return each.leg == first.leg; })))
+    out.leg = first.leg + 1;
+  if (!one && !is_legs) {
+    if (first.leg >= 0) out.body = members.front().body == members.back().body ? first.body : "legs";
+    return out;  // several numbers, each with a value of its own
+  }
+  out.parameter = first.path;
+  if (!one) out.parameter.replace(0, first.path.find('.', sizeof("manipulator.leg.") - 1), "manipulator.leg_defaults");
+  if (first.turns()) {
+    out.parameter.erase(out.parameter.rfind('.'));  // a turn is none of its numbers
+    return out;
+  }
+  out.unit = first.unit;
+  out.expected = before;
+  out.found = after;
+  out.uncertainty = std::abs(first.get(further) - after);
+  return out;
+}
+
 std::vector<TiedParameters> tiedParameters(const Manipulator& machine) {
   std::vector<TiedParameters> out, all_legs, all_links, of_legs, both_links;
   const auto add = [](std::vector<TiedParameters>& list, const std::string& words, const Parameter& member) {

@@ -83,6 +83,7 @@ std::optional<Hypothesis> timeShift(const Scenario& scenario, const TorqueResidu
                              best < 0 ? "before (late)" : "after (early)", inSamples(data, std::abs(best))),
                  fit.unexplained, 1};
   out.beyond = fit.beyond;
+  out.named = NamedCause{CauseKind::delay, "", "all", "", "s", 0, -best};
   return out;
 }
 

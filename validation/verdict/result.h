@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "validation/verdict/likely_cause.h"
+
 namespace ursula {
 
 struct Scenario;
@@ -144,11 +146,6 @@ struct ReplayError {
   SourceOfError rounding, integration, closure, model;
   double unexplained = 0, uncertainty = 0;  ///< of the sum of the sources, m
   double amplification = 0;                 ///< by which a deviation at the window's start grows
-};
-
-/// Of torques that are wrong: which, and what may have made them so, in words.
-struct LikelyCause {
-  std::string off, cause;
 };
 
 /// What one scenario's validation found. Provenance keeps its order: (key, value as text).
