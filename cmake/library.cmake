@@ -63,6 +63,10 @@ configure_package_config_file(cmake/ursula-config.cmake.in ${PROJECT_BINARY_DIR}
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/ursula-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/ursula-config.cmake ${PROJECT_BINARY_DIR}/ursula-config-version.cmake
   DESTINATION ${package_folder})
+file(RELATIVE_PATH to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+string(REGEX REPLACE "/$" "" to_prefix ${to_prefix})
+configure_file(cmake/ursula.pc.in ${PROJECT_BINARY_DIR}/ursula.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/ursula.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 install(DIRECTORY scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/ursula)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
 

@@ -54,6 +54,24 @@ foreach(file summary.json timeseries.csv report.html junit.xml)
     message(FATAL_ERROR "machine_in_code did not write ${file}")
   endif()
 endforeach()
+
+# The same by pkg-config, as meson and make ask it. Eigen's own file says where it would be if it was installed.
+find_program(PKG_CONFIG NAMES pkg-config pkgconf)
+if(PKG_CONFIG)
+  file(GLOB_RECURSE pc ${prefix}/lib*/ursula.pc)
+  cmake_path(GET pc PARENT_PATH pc_folder)
+  set(ENV{PKG_CONFIG_PATH} ${pc_folder}:${EIGEN}/../../share/pkgconfig)
+  execute_process(COMMAND ${PKG_CONFIG} --cflags --libs ursula OUTPUT_VARIABLE flags ERROR_VARIABLE refused
+    OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE code)
+  if(NOT code EQUAL 0 OR NOT flags MATCHES "-lursula")
+    message(FATAL_ERROR "pkg-config --cflags --libs ursula: '${flags}' ${refused}")
+  endif()
+  separate_arguments(flags UNIX_COMMAND "${flags}")
+  set(by_hand ${CXX} -std=c++17 ${source}/inverse_dynamics.cpp -I${EIGEN} -o ${WORK}/by_hand)
+  run(0 "" ${by_hand} ${flags} -Wl,-rpath,${pc_folder}/..)
+  run(0 "3.000 s: .* N m\n.*come back within" ${WORK}/by_hand ${helix})
+  run(1 "ursula/" ${by_hand})
+endif()
 run(0 "[0-9]" ${prefix}/bin/ursula --version)
 
 # What the README shows, beside a telescopic machine of one's own; zeros are no efforts.
