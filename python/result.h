@@ -7,5 +7,10 @@
 template <>
 class pybind11::detail::type_caster<ursula::Check> : public ursula::python::MadeCaster<ursula::Check> {};
 template <>
+class pybind11::detail::type_caster<ursula::EffortDeviation>
+    : public ursula::python::MadeCaster<ursula::EffortDeviation> {};
+template <>
+class pybind11::detail::type_caster<ursula::ReplayError> : public ursula::python::MadeCaster<ursula::ReplayError> {};
+template <>
 class pybind11::detail::type_caster<ursula::ValidationResult>
     : public ursula::python::MadeCaster<ursula::ValidationResult> {};

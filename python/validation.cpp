@@ -119,11 +119,76 @@ void written(const ValidationResult& result, const std::filesystem::path& dir) {
   }
 }
 
-template <class Pairs>
-py::dict dictOf(const Pairs& pairs) {
-  py::dict out;
-  for (const auto& [key, value] : pairs) out[py::str(key)] = value;
+/// A fact that is not judged.
+struct Finding {
+  std::string name, text;
+};
+
+std::optional<ReplayError> replayErrorOf(const ValidationResult& result) {
+  const bool any = result.replay_error && result.replay_error->measured;
+  return any ? result.replay_error : std::nullopt;
+}
+
+std::vector<Finding> findingsOf(const ValidationResult& result) {
+  std::vector<Finding> out;
+  for (const auto& [name, text] : result.findings) out.push_back({name, text});
   return out;
+}
+
+void addFindings(py::module_& module) {
+  py::class_<Finding> finding(module, "Finding", words::finding);
+  addCopies(finding);
+  finding
+      .def(py::pickle([](const Finding& self) { return py::make_tuple(self.name, self.text); },
+                      [](const py::tuple& state) {
+                        return Finding{state[0].cast<std::string>(), state[1].cast<std::string>()};
+                      }))
+      .def_readonly("name", &Finding::name, "What it is about.")
+      .def_readonly("text", &Finding::text, "What was found.")
+      .def("__repr__", [](const Finding& self) { return "<ursula.Finding " + self.name + ": " + self.text + ">"; });
+}
+
+void addDeviation(py::module_& module) {
+  using Deviation = EffortDeviation;
+  py::class_<Deviation> made(module, "Deviation", words::deviation);
+  addCopies(made);
+  made.def(pickled<Deviation>())
+      .def_readonly("largest", &Deviation::largest, "In `unit`.")
+      .def_readonly("unit", &Deviation::unit, "Of the efforts: \"N m\", or \"N\" where all motors slide.")
+      .def_readonly("t", &Deviation::t, "When, s.")
+      .def_readonly("where", &Deviation::where, "The leg or the motor.")
+      .def_readonly("largest_effort", &Deviation::largest_effort, "Of the expected ones along the motion, in `unit`.")
+      .def_property_readonly("relative", &Deviation::relative, "To the largest effort.")
+      .def_property_readonly("smallest_rtol", &Deviation::smallestRelative, "The smallest rtol that would pass alone.")
+      .def_readonly("drift", &Deviation::drift, "How far such errors may move the platform, m; NaN where unknown.")
+      .def_readonly("allowed", &Deviation::allowed, "By a tolerance of the user's, in `unit`; 0 where there is none.")
+      .def("__repr__", [](const Deviation& self) {
+        return "<ursula.Deviation of " + std::string(py::repr(py::float_(self.largest))) + " " + self.unit + ", " +
+               self.where + ">";
+      });
+}
+
+void addReplayError(py::module_& module) {
+  const auto errorOf = [](SourceOfError ReplayError::*source) {
+    return [source](const ReplayError& self) { return (self.*source).error; };
+  };
+  py::class_<ReplayError> made(module, "ReplayError", words::replay_error);
+  addCopies(made);
+  made.def(pickled<ReplayError>())
+      .def_readonly("dominant", &ReplayError::dominant, "The largest source, by name.")
+      .def_readonly("t", &ReplayError::t, "Where the replay ended furthest off, s.")
+      .def_readonly("observed", &ReplayError::observed, "How far, m.")
+      .def_property_readonly("rounding", errorOf(&ReplayError::rounding), "Its share, m.")
+      .def_property_readonly("integration", errorOf(&ReplayError::integration), "Its share, m.")
+      .def_property_readonly("closure", errorOf(&ReplayError::closure), "Its share, m.")
+      .def_property_readonly("model", errorOf(&ReplayError::model), "Its share, m.")
+      .def_readonly("unexplained", &ReplayError::unexplained, "m.")
+      .def_readonly("uncertainty", &ReplayError::uncertainty, "Of the sum of the shares, m.")
+      .def_readonly("amplification", &ReplayError::amplification, "By which a deviation at the start grows.")
+      .def("__repr__", [](const ReplayError& self) {
+        return "<ursula.ReplayError of " + std::string(py::repr(py::float_(self.observed))) + " m: " + self.dominant +
+               ">";
+      });
 }
 
 void addCheck(py::module_& module) {
@@ -160,8 +225,12 @@ void addResult(py::module_& module) {
           "The verdict's, in one sentence.")
       .def_property_readonly(
           "checks", [](const Result& result) { return result.checks; }, "All checks, in their order: a list of Check.")
+      .def_property_readonly("findings", &findingsOf, "Facts that are not judged, in their order: a list of Finding.")
       .def_property_readonly(
-          "findings", [](const Result& result) { return dictOf(result.findings); }, "Facts that are not judged.")
+          "deviation", [](const Result& result) { return result.deviation; },
+          "How far the efforts are off at most: a Deviation, None where no effort was compared.")
+      .def_property_readonly("replay_error", &replayErrorOf,
+                             "What moved the replay off the path: a ReplayError, None where there was no replay.")
       .def_property_readonly("timeseries", &seriesOf,
                              "The columns of timeseries.csv, each (N,): motion, torques, errors.")
       .def_property_readonly(
@@ -180,6 +249,9 @@ void addResult(py::module_& module) {
 
 void addValidation(py::module_& module) {
   addCheck(module);
+  addFindings(module);
+  addDeviation(module);
+  addReplayError(module);
   addResult(module);
   addJudging(module);
 }

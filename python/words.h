@@ -144,6 +144,12 @@ constexpr const char* validate =
     "Raises what the solver raises, as it was raised; ValueError where it answers with another shape or with what is\n"
     "not finite; PoseError where the commanded motion is out of reach or singular.";
 
+constexpr const char* finding = "A fact of a validation that is not judged.";
+
+constexpr const char* deviation = "How far the efforts on trial are from the expected ones, where that is furthest.";
+
+constexpr const char* replay_error = "What moved the judged replay off the path, source by source.";
+
 constexpr const char* result = "What one validation found.";
 
 constexpr const char* write =

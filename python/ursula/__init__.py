@@ -9,13 +9,17 @@ NumPy in and out; rows are instants; SI units; frames: B is the base's, M the pl
     print(r.verdict, r.reason)
 """
 
+from . import _notebook
 from ._ursula import (
     Channel,
     Check,
     Comparison,
+    Deviation,
+    Finding,
     Motion,
     Pose,
     PoseError,
+    ReplayError,
     Result,
     Scenario,
     ScenarioError,
@@ -35,9 +39,12 @@ __all__ = [
     "Channel",
     "Check",
     "Comparison",
+    "Deviation",
+    "Finding",
     "Motion",
     "Pose",
     "PoseError",
+    "ReplayError",
     "Result",
     "Scenario",
     "ScenarioError",
@@ -53,6 +60,9 @@ __all__ = [
     "validate",
 ]
 
-for _each in (Channel, Check, Comparison, Motion, Pose, PoseError, Result, Scenario, ScenarioError, Simulation, UndeterminedPose):
+Result.plot = _notebook.plot
+Result._repr_html_ = _notebook.html
+
+for _each in (Channel, Check, Comparison, Deviation, Finding, Motion, Pose, PoseError, ReplayError, Result, Scenario, ScenarioError, Simulation, UndeterminedPose):
     _each.__module__ = __name__
 del _each

@@ -142,6 +142,65 @@ class Check:
     @property
     def reason(self) -> str: ...
 
+class Finding:
+    """A fact of a validation that is not judged."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def text(self) -> str: ...
+
+class Deviation:
+    """How far the efforts on trial are from the expected ones, where that is furthest."""
+
+    @property
+    def largest(self) -> float:
+        """In `unit`."""
+    @property
+    def unit(self) -> str: ...
+    @property
+    def t(self) -> float:
+        """When, s."""
+    @property
+    def where(self) -> str:
+        """The leg or the motor."""
+    @property
+    def largest_effort(self) -> float: ...
+    @property
+    def relative(self) -> float: ...
+    @property
+    def smallest_rtol(self) -> float: ...
+    @property
+    def drift(self) -> float:
+        """m; NaN where unknown."""
+    @property
+    def allowed(self) -> float: ...
+
+class ReplayError:
+    """What moved the judged replay off the path, source by source, m."""
+
+    @property
+    def dominant(self) -> str: ...
+    @property
+    def t(self) -> float:
+        """s."""
+    @property
+    def observed(self) -> float: ...
+    @property
+    def rounding(self) -> float: ...
+    @property
+    def integration(self) -> float: ...
+    @property
+    def closure(self) -> float: ...
+    @property
+    def model(self) -> float: ...
+    @property
+    def unexplained(self) -> float: ...
+    @property
+    def uncertainty(self) -> float: ...
+    @property
+    def amplification(self) -> float: ...
+
 class Result:
     """What one validation found."""
 
@@ -154,11 +213,17 @@ class Result:
     @property
     def checks(self) -> list[Check]: ...
     @property
-    def findings(self) -> dict[str, str]: ...
+    def findings(self) -> list[Finding]: ...
+    @property
+    def deviation(self) -> Deviation | None: ...
+    @property
+    def replay_error(self) -> ReplayError | None: ...
     @property
     def timeseries(self) -> dict[str, Array]: ...
     @property
     def summary(self) -> dict[str, Any]: ...
+    def plot(self) -> Any:
+        """Efforts and their error over time: a figure of Matplotlib, which has to be installed."""
     def write(self, dir: str | os.PathLike[str]) -> None:
         """Writes summary.json, timeseries.csv, report.html and junit.xml into a folder."""
 

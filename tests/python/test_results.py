@@ -1,0 +1,71 @@
+"""What a result holds beside its verdict, and what a notebook shows of it."""
+
+import importlib.util
+import pickle
+import sys
+
+import numpy as np
+import pytest
+
+import ursula
+
+
+def judged(quick, factor):
+    s = ursula.read_scenario(quick)
+    return ursula.validate(s, lambda m: factor * s.inverse_dynamics(m), name="mine")
+
+
+def test_findings_are_those_of_the_summary(quick):
+    r = judged(quick, 1.01)
+    found = {each.name: each.text for each in r.findings}
+    assert found and found == r.summary["findings"]
+    again = pickle.loads(pickle.dumps(r.findings[0]))
+    assert (again.name, again.text) == (r.findings[0].name, r.findings[0].text) and again.name in repr(again)
+
+
+@pytest.mark.parametrize("factor", [1.01, 1 + 1e-6])
+def test_the_deviation_has_fields(quick, factor):
+    r = judged(quick, factor)
+    found = r.deviation
+    assert r.verdict == "fail" and found.unit == "N m" and found.where.startswith("leg ")
+    assert found.relative == pytest.approx(factor - 1, rel=1e-6)
+    assert found.largest == pytest.approx(found.relative * found.largest_effort, rel=1e-12)
+    assert 0 <= found.t <= 3 and found.allowed == 0
+    s = ursula.read_scenario(quick)
+    for rtol, verdict in ((1.01 * found.smallest_rtol, "pass"), (0.99 * found.smallest_rtol, "fail")):
+        assert ursula.validate(s, lambda m: factor * s.inverse_dynamics(m), rtol=rtol).verdict == verdict
+    assert pickle.loads(pickle.dumps(found)).largest == found.largest
+
+
+def test_the_replays_error_has_sources(quick):
+    found = judged(quick, 1).replay_error
+    assert found.dominant in ("model", "integration", "rounding", "closure", "amplification", "unexplained")
+    parts = [found.rounding, found.integration, found.closure, found.model]
+    assert 0 < found.observed < 1e-6 and all(0 <= each < 1e-6 for each in parts) and found.amplification >= 1
+    assert pickle.loads(pickle.dumps(found)).observed == found.observed
+
+
+def test_what_was_not_reached_is_none(quick):
+    r = ursula.validate(ursula.read_scenario(quick), time_limit=1e-9)
+    assert r.deviation is None and r.replay_error is None
+    if importlib.util.find_spec("matplotlib"):
+        with pytest.raises(ValueError, match="no instant was computed"):
+            r.plot()
+
+
+def test_a_notebook_shows_the_verdict(quick):
+    wrong, right = judged(quick, 1.01)._repr_html_(), judged(quick, 1)._repr_html_()
+    assert ">fail</b>" in wrong and "torque.pointwise" in wrong and ">fail</b>" not in right
+    named = ursula.scenario(quick.read_text().replace('name = "paper-helix"', 'name = "a-b"'))
+    assert "<b>a-b</b>" in ursula.validate(named, time_limit=1e-9)._repr_html_()
+
+
+def test_plot_needs_matplotlib(quick, monkeypatch):
+    r = judged(quick, 1.01)
+    if importlib.util.find_spec("matplotlib"):
+        above, below = r.plot().axes
+        assert len(above.lines) == 6 and len(below.lines) == 2
+        assert np.array_equal(above.lines[2].get_ydata(), r.timeseries["tau_3_Nm"])
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    with pytest.raises(ImportError, match="plot.. draws with Matplotlib, which is not installed"):
+        r.plot()
