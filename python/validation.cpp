@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,78 +17,11 @@
 #include "python/archive.h"
 #include "python/judging.h"
 #include "python/result.h"
+#include "python/result_archive.h"
 #include "python/words.h"
 
 namespace ursula::python {
 namespace py = pybind11;
-
-// Every member is named, so that a new one is a compiler's error here.
-
-static void members(Archive& archive, Largest& largest) {
-  auto& [value, t, where] = largest;
-  archive(value, t, where);
-}
-
-static void members(Archive& archive, Check& check) {
-  auto& [name, value, limit, unit, verdict, basis, why, reason, largest, limit_by, missed] = check;
-  archive(name, value, limit, unit, verdict, basis, why, reason, largest, limit_by, missed);
-}
-
-static void members(Archive& archive, TimeSeries& series) {
-  auto& [names, columns] = series;
-  archive(names, columns);
-}
-
-static void members(Archive& archive, Event& event) {
-  auto& [t, what] = event;
-  archive(t, what);
-}
-
-static void members(Archive& archive, EffortDeviation& deviation) {
-  auto& [unit, largest, t, where, largest_effort, drift, duration, length, seen, allowed] = deviation;
-  archive(unit, largest, t, where, largest_effort, drift, duration, length, seen, allowed);
-}
-
-static void members(Archive& archive, ReplayError& error) {
-  auto& [dominant, measured, t, observed, rounding, integration, closure, model, rest, uncertainty, growth] = error;
-  archive(dominant, measured, t, observed, rounding, integration, closure, model, rest, uncertainty, growth);
-}
-
-static void members(Archive& archive, NamedCause& cause) {
-  auto& [kind, term, body, parameter, unit, expected, found, uncertainty, leg, motor, legs, from, to, explained] = cause;
-  archive(kind, term, body, parameter, unit, expected, found, uncertainty, leg, motor, legs, from, to, explained);
-}
-
-static void members(Archive& archive, TermError& each) {
-  auto& [term, error] = each;
-  archive(term, error);
-}
-
-static void members(Archive& archive, LikelyCause& likely) {
-  auto& [off, cause, named, others, terms] = likely;
-  archive(off, cause, named, others, terms);
-}
-
-/// Read anew from its text.
-static void members(Archive& archive, std::shared_ptr<const Scenario>& asked) {
-  bool has = asked != nullptr;
-  archive(has);
-  if (!has) return;
-  std::string text, file;
-  if (!archive.reads()) {
-    text = asked->text;
-    file = std::filesystem::absolute(asked->file).string();
-  }
-  archive(text, file);
-  if (archive.reads()) asked = std::make_shared<const Scenario>(parseScenario(text, file));
-}
-
-static void members(Archive& archive, ValidationResult& result) {
-  auto& [scenario, formulation, limits, verdict, checks, provenance, findings, replay_error, cause, windows, deviation,
-         timeseries, curves, events, asked] = result;
-  archive(scenario, formulation, limits, verdict, checks, provenance, findings, replay_error, cause, windows, deviation,
-          timeseries, curves, events, asked);
-}
 
 namespace {
 
@@ -191,6 +125,47 @@ void addReplayError(py::module_& module) {
       });
 }
 
+/// Text that says nothing, and a number that counts from 1, are None where they do not apply.
+template <class Value>
+std::optional<Value> unlessEmpty(const Value& value) {
+  return value == Value{} ? std::nullopt : std::optional(value);
+}
+
+void addCause(py::module_& module) {
+  py::class_<NamedCause> made(module, "Cause", words::cause);
+  addCopies(made);
+  made.def(pickled<NamedCause>())
+      .def_property_readonly(
+          "kind", [](const NamedCause& self) { return ursula::name(self.kind); }, "\"parameter\", \"frame\", …")
+      .def_readonly("explained", &NamedCause::explained, "Share of the deviation's square, 0 to 1.")
+      .def("__repr__", [](const NamedCause& self) {
+        return "<ursula.Cause " + std::string(ursula::name(self.kind)) + (self.term.empty() ? "" : " " + self.term) +
+               (self.parameter.empty() ? "" : " " + self.parameter) + ">";
+      });
+  const auto add = [&made](const char* name, auto NamedCause::*member) {
+    made.def_property_readonly(name, [member](const NamedCause& self) { return unlessEmpty(self.*member); });
+  };
+  add("term", &NamedCause::term);
+  add("body", &NamedCause::body);
+  add("parameter", &NamedCause::parameter);
+  add("unit", &NamedCause::unit);
+  add("leg", &NamedCause::leg);
+  add("motor", &NamedCause::motor);
+  add("legs", &NamedCause::legs);
+  made.def_readonly("expected", &NamedCause::expected)
+      .def_readonly("found", &NamedCause::found)
+      .def_readonly("uncertainty", &NamedCause::uncertainty)
+      .def_readonly("from_s", &NamedCause::from_s)
+      .def_readonly("to_s", &NamedCause::to_s);
+}
+
+std::map<std::string, double> termsOf(const ValidationResult& result) {
+  std::map<std::string, double> out;
+  if (result.likely_cause)
+    for (const TermError& each : result.likely_cause->terms) out[each.term] = each.error;
+  return out;
+}
+
 void addCheck(py::module_& module) {
   py::class_<Check> check(module, "Check", words::check);
   addCopies(check);
@@ -229,6 +204,16 @@ void addResult(py::module_& module) {
       .def_property_readonly(
           "deviation", [](const Result& result) { return result.deviation; },
           "How far the efforts are off at most: a Deviation, None where no effort was compared.")
+      .def_property_readonly(
+          "cause", [](const Result& result) { return result.likely_cause ? result.likely_cause->named : std::nullopt; },
+          "Why the efforts are wrong: a Cause, None where none is sure.")
+      .def_property_readonly(
+          "causes",
+          [](const Result& result) {
+            return result.likely_cause ? result.likely_cause->others : std::vector<NamedCause>{};
+          },
+          "Others that explain the deviation as well: a list of Cause.")
+      .def_property_readonly("terms", &termsOf, "Relative error of what a solver answers to one thing at a time.")
       .def_property_readonly("replay_error", &replayErrorOf,
                              "What moved the replay off the path: a ReplayError, None where there was no replay.")
       .def_property_readonly("timeseries", &seriesOf,
@@ -250,6 +235,7 @@ void addResult(py::module_& module) {
 void addValidation(py::module_& module) {
   addCheck(module);
   addFindings(module);
+  addCause(module);
   addDeviation(module);
   addReplayError(module);
   addResult(module);

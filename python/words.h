@@ -144,6 +144,7 @@ constexpr const char* validate =
     "Raises what the solver raises, as it was raised; ValueError where it answers with another shape or with what is\n"
     "not finite; PoseError where the commanded motion is out of reach or singular.";
 
+constexpr const char* cause = "One cause of wrong efforts; fields that do not apply are None.";
 constexpr const char* finding = "A fact of a validation that is not judged.";
 
 constexpr const char* deviation = "How far the efforts on trial are from the expected ones, where that is furthest.";

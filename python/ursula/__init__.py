@@ -11,6 +11,7 @@ NumPy in and out; rows are instants; SI units; frames: B is the base's, M the pl
 
 from . import _notebook
 from ._ursula import (
+    Cause,
     Channel,
     Check,
     Comparison,
@@ -36,6 +37,7 @@ from ._ursula import (
 )
 
 __all__ = [
+    "Cause",
     "Channel",
     "Check",
     "Comparison",
@@ -63,6 +65,6 @@ __all__ = [
 Result.plot = _notebook.plot
 Result._repr_html_ = _notebook.html
 
-for _each in (Channel, Check, Comparison, Deviation, Finding, Motion, Pose, PoseError, ReplayError, Result, Scenario, ScenarioError, Simulation, UndeterminedPose):
+for _each in (Cause, Channel, Check, Comparison, Deviation, Finding, Motion, Pose, PoseError, ReplayError, Result, Scenario, ScenarioError, Simulation, UndeterminedPose):
     _each.__module__ = __name__
 del _each

@@ -37,6 +37,31 @@ def test_the_deviation_has_fields(quick, factor):
     assert pickle.loads(pickle.dumps(found)).largest == found.largest
 
 
+def test_a_solver_gets_a_cause(quick):
+    s = ursula.read_scenario(quick)
+    heavy = s.to_dict()
+    heavy["manipulator"]["platform"]["mass"] *= 1.01
+    wrong = ursula.scenario(heavy)
+    r = ursula.validate(s, wrong.inverse_dynamics, name="mine")
+    cause = r.cause
+    assert cause.kind == "parameter" and cause.parameter == "manipulator.platform.mass" and cause.body == "platform"
+    assert cause.expected == 500 and cause.found == pytest.approx(505, rel=1e-9) and cause.unit == "kg"
+    assert cause.explained > 1 - 1e-9 and cause.leg is None and cause.legs is None
+    assert r.summary["cause"]["found"] == cause.found and r.summary["causes"] == []
+    assert {each["term"]: each["error"] for each in r.summary["terms"]} == r.terms
+    assert 1e-3 < r.terms["statics"] < 0.1 and r.terms["repeat"] == 0 and r.terms["angular_velocity"] < 0.1
+    again = pickle.loads(pickle.dumps(r))
+    assert again.cause.found == cause.found and again.terms == r.terms
+
+
+def test_where_no_cause_is_sure_none_is_named(quick):
+    s = ursula.read_scenario(quick)
+    noise = ursula.validate(s, lambda m: s.inverse_dynamics(m) * (1 + 1e-3 * np.sin(1e6 * np.asarray(m.t)))[:, None])
+    assert noise.verdict == "fail" and noise.cause is None and noise.summary["cause"] is None
+    right = ursula.validate(s, s.inverse_dynamics)
+    assert right.verdict == "pass" and right.cause is None and right.causes == [] and right.terms == {}
+
+
 def test_the_replays_error_has_sources(quick):
     found = judged(quick, 1).replay_error
     assert found.dominant in ("model", "integration", "rounding", "closure", "amplification", "unexplained")

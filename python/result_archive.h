@@ -1,0 +1,82 @@
+#pragma once
+
+#include <ursula/validate.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "python/archive.h"
+
+namespace ursula::python {
+
+// Every member is named, so that a new one is a compiler's error here.
+
+inline void members(Archive& archive, Largest& largest) {
+  auto& [value, t, where] = largest;
+  archive(value, t, where);
+}
+
+inline void members(Archive& archive, Check& check) {
+  auto& [name, value, limit, unit, verdict, basis, why, reason, largest, limit_by, missed] = check;
+  archive(name, value, limit, unit, verdict, basis, why, reason, largest, limit_by, missed);
+}
+
+inline void members(Archive& archive, TimeSeries& series) {
+  auto& [names, columns] = series;
+  archive(names, columns);
+}
+
+inline void members(Archive& archive, Event& event) {
+  auto& [t, what] = event;
+  archive(t, what);
+}
+
+inline void members(Archive& archive, EffortDeviation& deviation) {
+  auto& [unit, largest, t, where, largest_effort, drift, duration, length, seen, allowed] = deviation;
+  archive(unit, largest, t, where, largest_effort, drift, duration, length, seen, allowed);
+}
+
+inline void members(Archive& archive, ReplayError& error) {
+  auto& [dominant, measured, t, observed, rounding, integration, closure, model, rest, uncertainty, growth] = error;
+  archive(dominant, measured, t, observed, rounding, integration, closure, model, rest, uncertainty, growth);
+}
+
+inline void members(Archive& archive, NamedCause& cause) {
+  auto& [kind, term, body, parameter, unit, expected, found, uncertainty, leg, motor, legs, from, to, explained] =
+      cause;
+  archive(kind, term, body, parameter, unit, expected, found, uncertainty, leg, motor, legs, from, to, explained);
+}
+
+inline void members(Archive& archive, TermError& each) {
+  auto& [term, error] = each;
+  archive(term, error);
+}
+
+inline void members(Archive& archive, LikelyCause& likely) {
+  auto& [off, cause, named, others, terms] = likely;
+  archive(off, cause, named, others, terms);
+}
+
+/// Read anew from its text.
+inline void members(Archive& archive, std::shared_ptr<const Scenario>& asked) {
+  bool has = asked != nullptr;
+  archive(has);
+  if (!has) return;
+  std::string text, file;
+  if (!archive.reads()) {
+    text = asked->text;
+    file = std::filesystem::absolute(asked->file).string();
+  }
+  archive(text, file);
+  if (archive.reads()) asked = std::make_shared<const Scenario>(parseScenario(text, file));
+}
+
+inline void members(Archive& archive, ValidationResult& result) {
+  auto& [scenario, formulation, limits, verdict, checks, provenance, findings, replay_error, cause, windows, deviation,
+         timeseries, curves, events, asked] = result;
+  archive(scenario, formulation, limits, verdict, checks, provenance, findings, replay_error, cause, windows, deviation,
+          timeseries, curves, events, asked);
+}
+
+}  // namespace ursula::python
