@@ -2,7 +2,7 @@
 #include <fmt/ranges.h>
 
 #include "apps/call_words.h"
-#include "model/check_names.h"
+#include "model/check_catalogue.h"
 
 namespace ursula {
 namespace {

@@ -2,6 +2,7 @@
 
 #include "apps/call_words.h"
 #include "apps/verbs.h"
+#include "report/explanation.h"
 #include "studies/scenario_docs/scenario_docs.h"
 
 namespace ursula {
@@ -21,6 +22,7 @@ int docs(const DocsOptions& options, const CLI::App& app) {
   if (options.folder.empty() && options.shell.empty() && !options.man)
     throw UsageError("docs: nothing to write, expected a folder, --completion or --man");
   if (!options.folder.empty()) {
+    writeOutput(options.folder + "/checks.md", report::checksMarkdown());
     writeOutput(options.folder + "/scenario.md", scenarioMarkdown());
     writeOutput(options.folder + "/scenario.schema.json", scenarioSchema());
   }
@@ -35,7 +37,8 @@ void addDocs(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<DocsOptions>();
   CLI::App* verb = app.add_subcommand("docs", "Writes what is made of the program's own definitions");
   verb->group("");  // for those who work on the program: not listed
-  verb->add_option("folder", options->folder, "Where scenario.md and scenario.schema.json go, for ./dev docs");
+  verb->add_option("folder", options->folder,
+                   "Where checks.md, scenario.md and scenario.schema.json go, for ./dev docs");
   CLI::Option* shell =
       verb->add_option("--completion", options->shell, "The completion for bash, zsh or fish, on standard output")
           ->check(CLI::IsMember({"bash", "zsh", "fish"}));

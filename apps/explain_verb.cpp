@@ -2,7 +2,7 @@
 #include <stdexcept>
 
 #include "apps/verbs.h"
-#include "report/check_help.h"
+#include "report/explanation.h"
 
 namespace ursula {
 namespace {

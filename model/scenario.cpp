@@ -7,7 +7,7 @@
 #include "base/nearest.h"
 #include "base/shown_text.h"
 #include "base/toml_bounds.h"
-#include "model/check_names.h"
+#include "model/check_catalogue.h"
 #include "model/scenario_sections.h"
 
 namespace ursula {

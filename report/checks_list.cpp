@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "report/check_words.h"
+#include "model/check_catalogue.h"
 #include "report/found.h"
 #include "report/quantity.h"
 #include "report/report.h"
@@ -80,15 +80,16 @@ std::string word(Verdict verdict) {
 }
 
 std::string item(const Check& check, const Decades& decades) {
-  const CheckWords words = checkWords(check.name);
+  const CheckRow* row = checkRow(check.name);
   const bool open = check.verdict == Verdict::fail || check.verdict == Verdict::inconclusive;
   return fmt::format(
       "<details class=\"check {0}\"{1}><summary><span class=\"sign\"><span aria-hidden=\"true\">{2}</span>"
       "<span class=\"unseen\">{3}: </span></span><span class=\"what\">{4}</span>{5}<span class=\"numbers\">{6}</span>"
       "</summary><dl>{7}{8}{9}{10}</dl></details>\n",
-      name(check.verdict), open ? " open" : "", sign(check.verdict), word(check.verdict), escaped(words.title),
-      bar(check, decades), numbers(check), entry("Means", words.meaning), entry("Found", check.why),
-      entry("Limit from", check.basis), entry("In full", inFull(check)));
+      name(check.verdict), open ? " open" : "", sign(check.verdict), word(check.verdict),
+      escaped(checkTitle(check.name)), bar(check, decades), numbers(check),
+      entry("Means", row == nullptr ? "" : row->meaning), entry("Found", check.why), entry("Limit from", check.basis),
+      entry("In full", inFull(check)));
 }
 
 int severity(const std::vector<Check>& checks) {
@@ -127,7 +128,7 @@ std::string notApplicable(const std::vector<Check>& checks) {
   for (const Check& check : checks) {
     if (check.verdict != Verdict::not_applicable) continue;
     std::string& of = names[check.why];
-    of += (of.empty() ? "" : ", ") + checkWords(check.name).title;
+    of += (of.empty() ? "" : ", ") + checkTitle(check.name);
     ++count;
   }
   if (count == 0) return "";
@@ -164,7 +165,7 @@ std::string checksList(const std::vector<Check>& all, const std::string& cause) 
                    [&by_group](std::size_t a, std::size_t b) { return severity(by_group[a]) > severity(by_group[b]); });
   std::string out;
   for (const std::size_t k : order)
-    out += group(k < checkGroups().size() ? checkGroups()[k].title : "Further checks", by_group[k], decades);
+    out += group(k < checkGroups().size() ? checkGroups()[k] : "Further checks", by_group[k], decades);
   return fmt::format(
       "<p class=\"aside\">Each bar is value / limit on a logarithmic scale from 10<sup>{:.0f}</sup> to "
       "10<sup>{:.0f}</sup>; the upright line is the limit. A check opens on a click.</p>\n{}{}",

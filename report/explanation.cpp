@@ -1,12 +1,12 @@
+#include "report/explanation.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <stdexcept>
 
 #include "base/nearest.h"
-#include "model/check_names.h"
-#include "report/check_help.h"
-#include "report/check_words.h"
+#include "model/check_catalogue.h"
 #include "report/columns.h"
 
 namespace ursula::report {
@@ -41,34 +41,45 @@ const char* needsInWords(CheckNeeds needs) {
   return "nothing beside the scenario";
 }
 
-std::string limitText(const CheckHelp& help) { return fmt::format("{}: {}", name(help.from), help.limit); }
+std::string limitText(const CheckRow& row) { return fmt::format("{}: {}", name(row.from), row.limit); }
 
 }  // namespace
 
 std::string explanation(const std::string& check) {
-  const std::vector<CheckName>& known = checkNames();
-  const auto found =
-      std::find_if(known.begin(), known.end(), [&check](const CheckName& each) { return check == each.name; });
-  if (found == known.end())
+  const CheckRow* row = checkRow(check);
+  if (row == nullptr)
     throw std::invalid_argument(fmt::format("no check '{}'{}", check, didYouMean(check, namesOfChecks())));
-  const CheckHelp help = checkHelp(check);
-  const std::string unit = *found->unit == '\0' ? "a number" : fmt::format("in {}", found->unit);
+  const std::string unit = *row->unit == '\0' ? "a number" : fmt::format("in {}", row->unit);
   const std::string own = fmt::format(
       "[acceptance] \"{}\" = X in the scenario; where it is wider than the derived one, the result says so.", check);
-  return fmt::format("{}: {}, {}\n\n{}{}{}{}{}", check, checkWords(check).title, unit, paragraph("proves", help.proves),
-                     paragraph("limit", limitText(help)), paragraph("limit of yours", own),
-                     paragraph("if it fails", help.on_failure), paragraph("needs", needsInWords(found->needs)));
+  return fmt::format("{}: {}, {}\n\n{}{}{}{}{}", check, row->title, unit, paragraph("proves", row->proves),
+                     paragraph("limit", limitText(*row)), paragraph("limit of yours", own),
+                     paragraph("if it fails", row->on_failure), paragraph("needs", needsInWords(row->needs)));
 }
 
 std::string explanations() {
   std::string out;
   std::size_t width = 0;
-  for (const CheckName& check : checkNames()) width = std::max(width, columnsOf(check.name));
+  for (const CheckRow& row : checkCatalogue()) width = std::max(width, columnsOf(row.name));
   for (std::size_t k = 0; k < checkGroups().size(); ++k) {
-    out += checkGroups()[k].title + "\n";
-    for (const CheckName& check : checkNames())
-      if (groupOf(check.name) == k)
-        out += fmt::format("  {}  {}\n", padded(check.name, width), checkWords(check.name).meaning);
+    out += checkGroups()[k] + "\n";
+    for (const CheckRow& row : checkCatalogue())
+      if (groupOf(row.name) == k) out += fmt::format("  {}  {}\n", padded(row.name, width), row.meaning);
+  }
+  return out;
+}
+
+std::string checksMarkdown() {
+  std::string out =
+      "# The checks\n\nThis page is made by `./dev docs` from the catalogue of checks (`model/check_catalogue.h`), as "
+      "`ursula explain` is. How limits are\nderived, and by which formulas, is in [validation.md](validation.md).\n";
+  for (std::size_t k = 0; k < checkGroups().size(); ++k) {
+    out += fmt::format("\n## {}\n\n| check | proves | cannot see | limit | if it fails |\n", checkGroups()[k]);
+    out += "| --- | --- | --- | --- | --- |\n";
+    for (const CheckRow& row : checkCatalogue())
+      if (groupOf(row.name) == k)
+        out += fmt::format("| `{}` | {} | {} | {} | {} |\n", row.name, row.proves, row.cannot_see, limitText(row),
+                           row.on_failure);
   }
   return out;
 }

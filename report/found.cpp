@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "report/check_words.h"
+#include "model/check_catalogue.h"
 #include "report/quantity.h"
 #include "report/report.h"
 
@@ -85,8 +85,8 @@ std::string failed(const ValidationResult& result, const Found& found) {
                                   : worst->why;
   if (onlyFastFails(result.checks))
     return fmt::format("The fast kernels that users call are wrong, {} hold. {}: {} ({}).", lower(found.subject),
-                       checkWords(worst->name).title, numbers, worst->largest.where);
-  return fmt::format("{} do not hold. {}: {}.", found.subject, checkWords(worst->name).title, numbers);
+                       checkTitle(worst->name), numbers, worst->largest.where);
+  return fmt::format("{} do not hold. {}: {}.", found.subject, checkTitle(worst->name), numbers);
 }
 
 /// The limit where the replay ends; NaN where that is not known.

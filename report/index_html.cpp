@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/check_catalogue.h"
 #include "report/assets.h"
-#include "report/check_words.h"
 #include "report/checks_list.h"
 #include "report/html.h"
 #include "report/quantity.h"
@@ -42,7 +42,7 @@ std::string cell(const SuiteEntry& entry, const std::string& name) {
   return fmt::format(
       "<td class=\"cell {0} shade{1}\" title=\"{2}: {0}, {3}\"><span aria-hidden=\"true\">{4}</span>"
       "<span class=\"unseen\">{0}</span></td>",
-      report::escaped(ursula::name(check->verdict)), shade(limitShare(*check)), escaped(checkWords(name).title),
+      report::escaped(ursula::name(check->verdict)), shade(limitShare(*check)), escaped(checkTitle(name)),
       escaped(standing(*check)), sign);
 }
 
@@ -50,7 +50,7 @@ std::string deciding(const SuiteEntry& entry) {
   const Check* worst = worstCheck(entry.checks);
   if (!entry.error.empty()) return escaped(entry.error);
   if (worst == nullptr) return "no check was made";
-  return fmt::format("{} <span class=\"aside\">{}</span>", escaped(checkWords(worst->name).title), standing(*worst));
+  return fmt::format("{} <span class=\"aside\">{}</span>", escaped(checkTitle(worst->name)), standing(*worst));
 }
 
 std::string row(const SuiteEntry& entry, const std::vector<std::string>& names) {
@@ -86,7 +86,7 @@ std::string heads(const std::vector<std::string>& names) {
   std::size_t group = checkGroups().size() + 1;
   for (const std::string& name : names) {
     out += fmt::format("<th scope=\"col\" class=\"upright{}\"><span>{}</span></th>",
-                       groupOf(name) != group ? " first" : "", escaped(checkWords(name).title));
+                       groupOf(name) != group ? " first" : "", escaped(checkTitle(name)));
     group = groupOf(name);
   }
   return out;

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "base/shown_text.h"
-#include "report/check_words.h"
+#include "model/check_catalogue.h"
 #include "report/columns.h"
 #include "report/found.h"
 #include "report/motors.h"
@@ -109,8 +109,7 @@ std::string checksTable(const ValidationResult& result, bool coloured) {
   for (std::size_t k = 0; k < groups.size(); ++k) {
     if (groups[k].empty()) continue;
     const auto end = line + static_cast<std::ptrdiff_t>(groups[k].size());
-    out +=
-        painted(k < checkGroups().size() ? checkGroups()[k].title : "Further checks", Paint::strong, coloured) + "\n";
+    out += painted(k < checkGroups().size() ? checkGroups()[k] : "Further checks", Paint::strong, coloured) + "\n";
     out += groupText(groups[k], {line, end}, causeOf(result), coloured);
     line = end;
   }

@@ -8,6 +8,7 @@
 #include "base/errors.h"
 #include "base/start_threads.h"
 #include "engines/further_engines.h"
+#include "model/check_catalogue.h"
 #include "nocsolver/errors.h"
 #include "studies/prove/defects.h"
 #include "studies/prove/effect.h"
@@ -116,10 +117,8 @@ std::vector<CheckProof> proofsOf(const std::vector<Check>& checks, const std::ve
 
 std::string engineOf(const std::string& check) {
   if (const EngineKind* further = furtherEngineOf(check)) return further->engine;
-  const auto begins = [&check](const char* with) { return check.rfind(with, 0) == 0; };
-  // Against the solver's own formulas, the pose in 50 digits, a second reading.
-  const bool alone = check == "kinematics.jacobian_difference" || check == "torque.between";
-  if (alone || begins("invariance.") || begins("motion.") || begins("complement.") || begins("fast.")) return check;
+  const CheckRow* row = checkRow(check);
+  if (row != nullptr && row->stands_on == StandsOn::itself) return check;
   return "Simbody";
 }
 

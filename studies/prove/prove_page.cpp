@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/check_catalogue.h"
 #include "report/assets.h"
-#include "report/check_words.h"
 #include "report/checks_list.h"
 #include "report/page.h"
 #include "report/quantity.h"
@@ -61,7 +61,7 @@ std::string matrix(const std::vector<DefectOutcome>& outcomes) {
   std::string heads, rows;
   for (const std::string& check : checks)
     heads += fmt::format("<th scope=\"col\" class=\"upright\" title=\"{}\"><span>{}</span></th>", escaped(check),
-                         escaped(report::checkWords(check).title));
+                         escaped(checkTitle(check)));
   for (const int wanted : {0, 1, 2})  // what was missed first, what shows nothing last
     for (const DefectOutcome& outcome : outcomes)
       if ((!outcome.shows ? 2 : outcome.caught() ? 1 : 0) == wanted) rows += matrixRow(outcome, checks);
@@ -94,7 +94,7 @@ std::string checksTable(const std::vector<CheckProof>& checks) {
         "class=\"number\">{}</td><td>"
         "{}</td></tr>\n",
         name(verdict), isNeeded(proof) ? "✓" : "✗", isNeeded(proof) ? "needed" : "idle",
-        escaped(report::checkWords(proof.check).title), escaped(proof.check), proof.alone.size(), proof.first.size(),
+        escaped(checkTitle(proof.check)), escaped(proof.check), proof.alone.size(), proof.first.size(),
         escaped(listed(proof.alone.empty() ? proof.first : proof.alone)));
   }
   return region(
@@ -146,7 +146,7 @@ std::string randomTable(const RandomOutcomes& random) {
   for (const auto& [check, share] : random.largest_share)
     rows += fmt::format(
         "<tr><th scope=\"row\">{} <span class=\"aside\"><code>{}</code></span></th><td class=\"number\">{}</td></tr>\n",
-        escaped(report::checkWords(check).title), escaped(check), plainNumber(share, 2));
+        escaped(checkTitle(check)), escaped(check), plainNumber(share, 2));
   for (const std::string& why : random.failed) items += "<li>✗ false alarm: " + escaped(why) + "</li>\n";
   for (const std::string& why : random.inconclusive) items += "<li>? inconclusive: " + escaped(why) + "</li>\n";
   return (items.empty() ? "" : "<ul>\n" + items + "</ul>\n") +

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/shell_word.h"
-#include "report/check_words.h"
+#include "model/check_catalogue.h"
 #include "report/quantity.h"
 #include "report/text.h"
 
@@ -104,7 +104,7 @@ std::string titleOf(const SweepOutput& output) {
     case OutputKind::largest_share:
       return "Largest share of a limit";
     case OutputKind::check_share:
-      return report::checkWords(output.name).title;
+      return checkTitle(output.name);
     case OutputKind::not_passed:
       return "Not passed (0 or 1)";
     case OutputKind::other:

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "model/check_names.h"
+#include "model/check_catalogue.h"
 #include "tests/end_to_end/program.h"
 #include "tests/model/scenario_text.h"
 
@@ -28,7 +28,7 @@ TEST(Terminal, tableListsEveryCheckAndSaysWhatFailed) {
   ursula.write("a.toml", quick("[acceptance]\n\"torque.pointwise\" = 1e-30\n"));
   const UrsulaRun run = ursula("validate a.toml --out out");
   EXPECT_EQ(run.exit_code, 1) << run.err;
-  for (const CheckName& check : checkNames()) EXPECT_THAT(run.out, HasSubstr(check.name));
+  for (const CheckRow& check : checkCatalogue()) EXPECT_THAT(run.out, HasSubstr(check.name));
   EXPECT_THAT(run.out,
               AllOf(StartsWith("small: fail\n"), HasSubstr("\nMotors: the formulations agree on the efforts\n"),
                     HasSubstr("\n  fail          torque.pointwise"), HasSubstr("\nnot applicable, since "),
@@ -86,7 +86,7 @@ TEST(Explain, hasAPageForEachCheckAndAListOfAll) {
   const UrsulaRun all = ursula("explain");
   EXPECT_EQ(all.exit_code, 0);
   EXPECT_THAT(all.out, HasSubstr("Kinematics: solver and Simbody agree\n"));
-  for (const CheckName& check : checkNames()) {
+  for (const CheckRow& check : checkCatalogue()) {
     EXPECT_THAT(all.out, HasSubstr(std::string("\n  ") + check.name + " "));
     const UrsulaRun page = ursula(std::string("explain ") + check.name);
     EXPECT_EQ(page.exit_code, 0);

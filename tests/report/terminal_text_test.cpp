@@ -9,10 +9,9 @@
 #include <set>
 #include <sstream>
 
-#include "model/check_names.h"
-#include "report/check_help.h"
-#include "report/check_words.h"
+#include "model/check_catalogue.h"
 #include "report/columns.h"
+#include "report/explanation.h"
 #include "tests/report/report_samples.h"
 
 namespace ursula {
@@ -128,17 +127,19 @@ TEST(Columns, countCharactersAndNotBytes) {
 
 TEST(CheckHelp, ofEachCheckSaysThreeThingsOfItsOwn) {
   std::set<std::string> texts;
-  ASSERT_GT(checkNames().size(), 30u);
-  for (const CheckName& check : checkNames()) {
-    const report::CheckHelp help = report::checkHelp(check.name);
-    for (const std::string& text : {help.proves, help.limit, help.on_failure}) {
+  ASSERT_GT(checkCatalogue().size(), 30u);
+  for (const CheckRow& check : checkCatalogue()) {
+    for (const std::string text : {check.proves, check.limit, check.on_failure}) {
       EXPECT_NE(text, "") << check.name;
       EXPECT_TRUE(texts.insert(text).second) << check.name << " shares: " << text;
     }
-    EXPECT_NE(report::checkWords(check.name).meaning, "") << check.name;
-    EXPECT_LT(report::groupOf(check.name), report::checkGroups().size()) << check.name;
+    EXPECT_STRNE(check.title, "") << check.name;
+    EXPECT_STRNE(check.meaning, "") << check.name;
+    EXPECT_LT(groupOf(check.name), checkGroups().size()) << check.name;
   }
-  EXPECT_EQ(texts.size(), 3 * checkNames().size());
+  EXPECT_EQ(texts.size(), 3 * checkCatalogue().size());
+  EXPECT_EQ(groupOf("torque.unheard_of"), checkGroups().size());
+  EXPECT_EQ(checkTitle("torque.unheard_of"), "torque.unheard_of");
 }
 
 TEST(CheckHelp, isAPageWithLinesOfAtMostAHundredColumns) {

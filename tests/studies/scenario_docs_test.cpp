@@ -1,4 +1,4 @@
-// docs/scenario.md and docs/scenario.schema.json are what the reader's table gives: ./dev docs writes them.
+// docs/scenario.md, docs/scenario.schema.json and docs/checks.md are what their tables give: ./dev docs writes them.
 
 #include "studies/scenario_docs/scenario_docs.h"
 
@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/scenario_keys.h"
+#include "report/explanation.h"
 #include "tests/base/temporary_folder.h"
 
 namespace ursula {
@@ -22,6 +23,10 @@ std::string committed(const std::string& name) {
 TEST(ScenarioDocs, areTheTables) {
   EXPECT_TRUE(committed("scenario.md") == scenarioMarkdown()) << "run ./dev docs";
   EXPECT_TRUE(committed("scenario.schema.json") == scenarioSchema()) << "run ./dev docs";
+}
+
+TEST(CheckDocs, areTheCatalogue) {
+  EXPECT_TRUE(committed("checks.md") == report::checksMarkdown()) << "run ./dev docs";
 }
 
 TEST(ScenarioDocs, nameEveryKey) {

@@ -5,11 +5,13 @@
 
 #include <cmath>
 
-#include "model/check_names.h"
+#include "model/check_catalogue.h"
 #include "model/instants.h"
 #include "report/report.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
+#include "validation/checks/every_check.h"
+#include "validation/checks/families.h"
 #include "validation/validate_external.h"
 
 namespace ursula {
@@ -22,21 +24,40 @@ Scenario quick(const std::string& name) {
 }
 
 void expectEveryCheck(const ValidationResult& result) {
-  ASSERT_EQ(result.checks.size(), checkNames().size());
+  ASSERT_EQ(result.checks.size(), checkCatalogue().size());
   std::size_t applicable = 0;
   for (std::size_t k = 0; k < result.checks.size(); ++k) {
     const Check& check = result.checks[k];
-    EXPECT_EQ(check.name, checkNames()[k].name);
+    EXPECT_EQ(check.name, checkCatalogue()[k].name);
     applicable += check.verdict != Verdict::not_applicable;
     if (check.verdict == Verdict::not_applicable) {
       EXPECT_NE(check.why, "") << check.name;
       EXPECT_TRUE(std::isnan(check.value)) << check.name;
     } else {
-      EXPECT_EQ(check.unit, checkNames()[k].unit) << check.name;
+      EXPECT_EQ(check.unit, checkCatalogue()[k].unit) << check.name;
     }
   }
   EXPECT_GT(applicable, 10u);
   EXPECT_EQ(judgedCount(result.checks), static_cast<std::ptrdiff_t>(applicable));
+}
+
+/// Words and functions are bound by the name.
+TEST(CheckList, hasOneFamilyForEachRowOfTheCatalogue) {
+  std::vector<std::string> judged;
+  for (const CheckFamily& family : checkFamilies())
+    judged.insert(judged.end(), family.checks.begin(), family.checks.end());
+  ASSERT_GT(judged.size(), 30u);
+  EXPECT_THAT(judged, testing::UnorderedElementsAreArray(namesOfChecks()));
+}
+
+TEST(CheckList, refusesACheckWithoutARow) {
+  ValidationResult result;
+  result.checks.emplace_back();
+  result.checks.back().name = "torque.unheard_of";
+  EXPECT_THROW(listEveryCheck(quick("paper-helix"), {}, result), std::logic_error);
+  result.checks.back().name = "torque.twin";
+  listEveryCheck(quick("paper-helix"), {}, result);
+  EXPECT_EQ(result.checks.size(), checkCatalogue().size());
 }
 
 TEST(CheckList, isWholeForTheSolver) {

@@ -4,15 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "engines/further_engines.h"
-#include "model/check_names.h"
+#include "model/check_catalogue.h"
 
 namespace ursula {
 namespace {
 
 /// Why a check that was not made does not apply; empty where it would.
-std::string whyNot(const CheckName& check, const Scenario& scenario, const SubjectHas& has) {
+std::string whyNot(const CheckRow& check, const Scenario& scenario, const SubjectHas& has) {
   const auto unless = [](bool there, const std::string& why) { return there ? "" : why; };
   const bool of_files = check.needs == CheckNeeds::nothing || check.needs == CheckNeeds::torque_file;
   if (!has.any_instant && of_files) return "";
@@ -44,7 +45,7 @@ std::string whyNot(const CheckName& check, const Scenario& scenario, const Subje
   return unless(!has.left_out_ladder, "left out by the caller's options");
 }
 
-Check notMadeBy(const CheckName& check, const Scenario& scenario, const SubjectHas& has) {
+Check notMadeBy(const CheckRow& check, const Scenario& scenario, const SubjectHas& has) {
   const std::string why = whyNot(check, scenario, has);
   if (why.empty() && !has.out_of_time.empty())
     return notJudgeable(Reason::unfinished, check.name, std::nan(""), std::nan(""), check.unit, "", has.out_of_time);
@@ -54,8 +55,10 @@ Check notMadeBy(const CheckName& check, const Scenario& scenario, const SubjectH
 }  // namespace
 
 void listEveryCheck(const Scenario& scenario, const SubjectHas& has, ValidationResult& result) {
+  for (const Check& check : result.checks)
+    if (checkRow(check.name) == nullptr) throw std::logic_error(check.name + " has no row in the catalogue of checks");
   std::vector<Check> listed;
-  for (const CheckName& wanted : checkNames()) {
+  for (const CheckRow& wanted : checkCatalogue()) {
     const auto found = std::find_if(result.checks.begin(), result.checks.end(),
                                     [&wanted](const Check& check) { return check.name == wanted.name; });
     listed.push_back(found != result.checks.end() ? std::move(*found) : notMadeBy(wanted, scenario, has));

@@ -6,6 +6,7 @@
 
 #include "base/deadline.h"
 #include "base/start_threads.h"
+#include "engines/further_engines.h"
 #include "validation/checks/commanded_motion.h"
 #include "validation/checks/complement_checks.h"
 #include "validation/checks/direct_checks.h"
@@ -31,6 +32,12 @@ bool always(const Evidence&) { return true; }
 bool sampled(const Evidence& e) { return e.has.out_of_time.empty() || !e.samples.empty(); }
 
 bool answers(const Evidence& e) { return e.subject != nullptr && sampled(e) && e.answered(); }
+
+std::vector<std::string> checksOfFurtherEngines() {
+  std::vector<std::string> names;
+  for (const EngineKind& engine : furtherEngines()) names.emplace_back(engine.check);
+  return names;
+}
 
 bool anyFails(const std::vector<Check>& checks) {
   return std::any_of(checks.begin(), checks.end(), [](const Check& each) { return each.verdict == Verdict::fail; });
@@ -148,24 +155,53 @@ void append(std::vector<Check>& checks, std::vector<Check> more) {
 const std::vector<CheckFamily>& checkFamilies() {
   using E = const Evidence&;
   static const std::vector<CheckFamily> families = {
-      {"motion", always, judgeMotion, nullptr, true},
-      {"samples", sampled, judgeSamples},
-      {"formulations", [](E e) { return answers(e) && !e.engines.empty(); },
+      {"motion",
+       {"motion.pose", "motion.twist", "motion.twist_rate", "motion.load"},
+       always,
+       judgeMotion,
+       nullptr,
+       true},
+      {"samples",
+       {"kinematics.joint_angles", "kinematics.joint_rates", "kinematics.joint_accelerations", "kinematics.positions",
+        "kinematics.twists", "kinematics.accelerations", "kinematics.jacobian", "kinematics.jacobian_rate",
+        "kinematics.jacobian_difference", "torque.pointwise", "acceleration.pointwise", "torque.against_noc"},
+       sampled,
+       judgeSamples},
+      {"formulations", checksOfFurtherEngines(), [](E e) { return answers(e) && !e.engines.empty(); },
        [](E e) { return judgeEngines(e.engines, e.units(), e.samples); }},
-      {"complement", [](E e) { return !e.complement.empty(); },
+      {"complement",
+       {"complement.orthogonality", "complement.rank"},
+       [](E e) { return !e.complement.empty(); },
        [](E e) { return judgeComplement(e.complement, e.units()); }},
-      {"invariances", [](E e) { return answers(e) && !e.invariances.empty(); },
+      {"invariances",
+       {"invariance.rotation", "invariance.axes", "invariance.units", "invariance.labels", "invariance.mass",
+        "invariance.time_reversal"},
+       [](E e) { return answers(e) && !e.invariances.empty(); },
        [](E e) { return judgeInvariances(e.invariances, e.samples, profileOf(e), e.units()); }},
-      {"reactions", [](E e) { return !e.reactions().empty(); },
+      {"reactions",
+       {"reactions.pointwise"},
+       [](E e) { return !e.reactions().empty(); },
        [](E e) { return std::vector<Check>{judgeReactions(e.reactions(), e.samples, profileOf(e), e.units())}; }},
-      {"between samples", answers, judgeBetweenSamples},
-      {"direct dynamics", [](E e) { return answers(e) && e.has.direct_dynamics; }, judgeDirectDynamics},
-      {"fast kernels", kernelsAsked, [](E e) { return judgeFast(e.fast, e.samples, e.units()); }},
-      {"replays", replayed, judgeReplays, lookAtReplays},
-      {"ladder", climbed, judgeClimbed, lookAtLadder},
-      {"order", [](E e) { return e.orders.has_value(); },
+      {"between samples", {"torque.between"}, answers, judgeBetweenSamples},
+      {"direct dynamics",
+       {"direct.pointwise", "direct.off_path"},
+       [](E e) { return answers(e) && e.has.direct_dynamics; },
+       judgeDirectDynamics},
+      {"fast kernels",
+       {"fast.inverse", "fast.direct", "fast.inverse_batch", "fast.direct_batch"},
+       kernelsAsked,
+       [](E e) { return judgeFast(e.fast, e.samples, e.units()); }},
+      {"replays",
+       {"replay.position", "replay.orientation", "closure.position", "closure.velocity", "energy.balance"},
+       replayed,
+       judgeReplays,
+       lookAtReplays},
+      {"ladder", {"integration.ladder", "integration.second"}, climbed, judgeClimbed, lookAtLadder},
+      {"order",
+       {"integration.order"},
+       [](E e) { return e.orders.has_value(); },
        [](E e) { return std::vector<Check>{judgeOrder(*e.orders)}; }},
-      {"stabilised replay", [](E e) { return e.stabilised.has_value(); }, judgeStabilisedReplay},
+      {"stabilised replay", {"feedback.torque"}, [](E e) { return e.stabilised.has_value(); }, judgeStabilisedReplay},
   };
   return families;
 }
