@@ -19,6 +19,14 @@ struct HelixParameter {
   S beta, rise, rate, acceleration;  ///< rise: β − β₀
 };
 
+/// An angle without whole turns, which would take its last digits; as it is within one turn.
+template <class S>
+S withoutTurns(double angle) {
+  const Real50 turn = 2 * acos(Real50(-1));
+  if (!(std::abs(angle) > turn)) return S(angle);
+  return S(Real50(angle - turn * round(Real50(angle / turn))));
+}
+
 /// Coefficients aₖ t_fᵏ of the quintic in s = t / t_f: scaled so, no power of t_f can overflow or underflow.
 ///   a₀ … a₅ from the values, rates and accelerations at both ends (paper, eq. 51)
 template <class S>
@@ -29,7 +37,7 @@ std::array<S, 6> quinticCoefficients(const HelixParameters& helix) {
   const S rate_f = S(helix.end_rate) * duration;
   const S acceleration_0 = S(helix.start_acceleration) * duration * duration;
   const S acceleration_f = S(helix.end_acceleration) * duration * duration;
-  return {S(helix.start_angle),
+  return {withoutTurns<S>(helix.start_angle),
           rate_0,
           acceleration_0 / 2,
           (20 * rise - (8 * rate_f + 12 * rate_0) - (3 * acceleration_0 - acceleration_f)) / 2,
@@ -45,7 +53,7 @@ class HelixKernel {
       : duration_(helix.duration),
         a_(helix.radius),
         b_(helix.pitch),
-        phase_(helix.phase),
+        phase_(withoutTurns<S>(helix.phase)),
         start_(startOf(helix, origin)),
         coefficients_(quinticCoefficients<S>(helix)) {}
 
@@ -143,9 +151,9 @@ void validateRange(const HelixParameters& helix, const HelixKernel<double>& kern
 
 HiddenTerms hiddenIn(const HelixParameters& helix) {
   HiddenTerms hidden;
-  const double start = std::abs(helix.start_angle);
-  hidden.angle = start + std::abs(helix.phase);
-  hidden.length = helix.radius * (1 + hidden.angle) + std::abs(helix.pitch) * (start + std::abs(helix.height_phase));
+  hidden.angle = std::abs(withoutTurns<double>(helix.start_angle)) + std::abs(withoutTurns<double>(helix.phase));
+  hidden.length = helix.radius * (1 + hidden.angle) +
+                  std::abs(helix.pitch) * (std::abs(helix.start_angle) + std::abs(helix.height_phase));
   return hidden;
 }
 

@@ -106,6 +106,26 @@ TEST_P(Helix, inDoubleIsTheExactOneRounded) {
   EXPECT_LE(roundingError(*helix, instantsInside(helix->duration(), 100)), 200 * eps);
 }
 
+/// A rounding of the angle itself, 1e6 eps, would show.
+TEST(HelixOfManyTurns, losesNoDigits) {
+  HelixParameters far = generalHelix();
+  far.phase = 1e6;
+  HelixParameters begun_late = generalHelix();
+  begun_late.start_angle += 0x1p20;
+  begun_late.end_angle += 0x1p20;
+  begun_late.height_phase = -0x1p20;
+  for (const HelixParameters& each : {far, begun_late}) {
+    const auto helix = makeHelix(each);
+    for (const double t : {0.0, 0.3, 1.1, 1.7}) {
+      const Motion<double> rounded = helix->at(t);
+      const Motion<Real50> exact = helix->at(Real50(t));
+      EXPECT_LE((rounded.Q - exact.Q.cast<double>()).norm(), 16 * eps);
+      EXPECT_LE((rounded.p_ddot - exact.p_ddot.cast<double>()).norm(), 64 * eps * exact.p_ddot.cast<double>().norm());
+    }
+    EXPECT_GT((helix->at(0).Q - makeHelix(generalHelix())->at(0).Q).norm(), 0.01);  // another angle it is
+  }
+}
+
 TEST(PaperHelix, startsAndEndsAtRest) {
   const auto helix = makeHelix(paperHelix());
   for (const Real50& t : {Real50(0), Real50(3)}) {
