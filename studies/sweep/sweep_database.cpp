@@ -81,6 +81,8 @@ constexpr const char* odd_results =
 constexpr const char* without_results =
     "SELECT id FROM point WHERE verdict IN ('pass', 'fail', 'inconclusive') AND NOT EXISTS (SELECT 1 FROM result WHERE "
     "point = id) LIMIT 1";
+constexpr const char* without_point =
+    "SELECT point FROM result WHERE NOT EXISTS (SELECT 1 FROM point WHERE id = result.point) LIMIT 1";
 
 /// Rows that no sweep writes.
 void requireSound(Sqlite& database, const SweepIdentity& sweep) {
@@ -95,7 +97,8 @@ void requireSound(Sqlite& database, const SweepIdentity& sweep) {
     refuse(database.file(), fmt::format("is damaged: point {} is none of this sweep", odd.integer(0)));
   for (const auto& [sql, what] : {std::pair(odd_points, "point {} is not as a sweep writes it"),
                                   {odd_results, "a result of point {} is not as a sweep writes it"},
-                                  {without_results, "point {} has no results"}})
+                                  {without_results, "point {} has no results"},
+                                  {without_point, "there are results of point {}, which is not there"}})
     if (Statement row(database, sql); row.step())
       refuse(database.file(), "is damaged: " + fmt::format(fmt::runtime(what), row.integer(0)));
 }
