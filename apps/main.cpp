@@ -83,6 +83,7 @@ int main(int argc, char** argv) {
   try {
     ursula::secureStreams();
     ursula::loadUnwinder();
+    ursula::shareArenaInBoundedMemory();
     return finished(runProgram(argc, argv));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());  // the last resort is not to throw itself

@@ -2,6 +2,8 @@
 
 #include <execinfo.h>
 #include <fcntl.h>
+#include <malloc.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <array>
@@ -29,6 +31,13 @@ void secureStreams() {
 void loadUnwinder() {
   void* frame = nullptr;
   ::backtrace(&frame, 1);
+}
+
+void shareArenaInBoundedMemory() {
+#ifdef __GLIBC__
+  rlimit space{};
+  if (::getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY) ::mallopt(M_ARENA_MAX, 1);
+#endif
 }
 
 std::string lostOutput() {

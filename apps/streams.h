@@ -27,6 +27,10 @@ void secureStreams();
 /// The C library loads what unwinds threads when it first needs it, and ends the program where memory is short then.
 void loadUnwinder();
 
+/// Where the address space is bounded (`ulimit -v`), threads allocate from one arena: glibc reserves 64 MB for each of
+/// others, and where it cannot, tries again at every call.
+void shareArenaInBoundedMemory();
+
 /// Why what was printed to standard output is not there; "" where all of it is.
 std::string lostOutput();
 
