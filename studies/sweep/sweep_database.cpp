@@ -63,7 +63,8 @@ void requireOurTables(Sqlite& database) {
 void requireOurs(Sqlite& database) {
   const std::filesystem::path& file = database.file();
   const std::int64_t whose = database.number("PRAGMA application_id"), version = database.number("PRAGMA user_version");
-  if (whose != application) refuse(file, "is no database of a sweep");
+  if (whose != application)
+    refuse(file, isEmpty(database) ? "is empty: no sweep has begun to write it" : "is no database of a sweep");
   if (version > layout)
     refuse(file, fmt::format("has layout {}, of a newer ursula than this, which knows {}", version, layout));
   requireOurTables(database);

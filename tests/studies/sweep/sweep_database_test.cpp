@@ -132,6 +132,9 @@ TEST(SweepDatabase, refusesThoseOfOthersAndLeavesThemAsTheyAre) {
   const std::filesystem::path foreign = folder.path() / "foreign.db";
   Sqlite(foreign, Sqlite::Access::create).run("CREATE TABLE x(y); INSERT INTO x VALUES(1)");
   EXPECT_THAT(refused(foreign), HasSubstr("is no database of a sweep"));
+  const std::filesystem::path empty = folder.write("empty.db", "");
+  EXPECT_THAT(refusal<DatabaseError>([&] { SweepDatabase database(empty); }),
+              HasSubstr("is empty: no sweep has begun"));
   EXPECT_EQ(Sqlite(foreign, Sqlite::Access::read).number("SELECT y FROM x"), 1);
   const std::filesystem::path text = folder.write("text.db", "this is a text, and long enough that it is one\n");
   EXPECT_THAT(refused(text), HasSubstr("no SQLite database"));
