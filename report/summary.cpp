@@ -1,5 +1,6 @@
 #include "report/summary.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "report/report.h"
@@ -66,7 +67,7 @@ Json causeJson(const NamedCause& cause) {
   addText("unit", cause.unit);
   addNumber("from_s", cause.from_s);
   addNumber("to_s", cause.to_s);
-  json["explained"] = cause.explained;
+  if (std::isfinite(cause.explained)) json["explained"] = cause.explained;
   return json;
 }
 

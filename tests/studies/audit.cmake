@@ -1,6 +1,6 @@
 # One program and one test: the audit takes its time, and is made once.
 add_executable(audit_tests audit_formula_errors_test.cpp audit_test.cpp)
-target_link_libraries(audit_tests PRIVATE test_real50 test_components nlohmann_json::nlohmann_json GTest::gtest_main)
+target_link_libraries(audit_tests PRIVATE test_scalars test_components nlohmann_json::nlohmann_json GTest::gtest_main)
 target_compile_definitions(audit_tests PRIVATE
   URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios" URSULA_DOCS="${PROJECT_SOURCE_DIR}/docs")
 add_test(NAME audit COMMAND audit_tests)

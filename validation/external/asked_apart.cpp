@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t most_poses = 5;
 constexpr const char* names[] = {
-    "statics", "acceleration", "angular_acceleration", "velocity", "angular_velocity", "mixed", "odd", "repeat"};
+    "statics", "acceleration", "angular_acceleration", "velocity", "angular_velocity", "mixed", "odd", repeat_term};
 constexpr std::size_t parts_count = std::size(names), repeat = parts_count - 1;
 /// A part of less than this share of all efforts is nothing.
 constexpr double nothing = 1e-9;

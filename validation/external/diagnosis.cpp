@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "validation/external/explanation.h"
 #include "validation/external/hypotheses.h"
 
 namespace ursula {
@@ -189,39 +190,6 @@ std::string loneInstants(const ExternalTorques& torques) {
                      window.off == 1 ? "is" : "are", torques.file.t[window.first]);
 }
 
-/// What is said of a cause, and by what name.
-struct Explanation {
-  std::string text;
-  std::optional<NamedCause> named = {};
-  std::vector<NamedCause> others = {};
-};
-
-/// One pose, held or repeated: six numbers, which too many causes can make.
-bool isOnePose(const TorqueResidual& data) {
-  const Motion<double>& first = data.motions.front();
-  return std::all_of(data.motions.begin(), data.motions.end(), [&](const Motion<double>& each) {
-    return each.p == first.p && each.Q == first.Q && each.p_dot == first.p_dot && each.omega == first.omega &&
-           each.p_ddot == first.p_ddot && each.omega_dot == first.omega_dot;
-  });
-}
-
-/// `best` explain everything. The first is named where no other does so with as few numbers: silence is better than a
-/// wrong cause.
-Explanation named(const std::vector<Hypothesis>& best, bool is_one_pose, std::string text) {
-  Explanation out{std::move(text)};
-  if (is_one_pose) return out;
-  for (const Hypothesis& one : best) {
-    if (!one.named) continue;
-    out.others.push_back(*one.named);
-    out.others.back().explained = 1 - one.unexplained * one.unexplained;
-  }
-  const bool is_alone = best.size() == 1 || best[1].free_numbers > best[0].free_numbers;
-  if (!is_alone || !best.front().named) return out;
-  out.named = out.others.front();
-  out.others.erase(out.others.begin());
-  return out;
-}
-
 /// Where the torques are wrong all through an interval and right in at least a tenth of the motion; else empty. What is
 /// wrong there, if its instants alone tell.
 Explanation intervalAlone(const Scenario& scenario, const ExternalTorques& torques, const TorqueResidual& data) {
@@ -259,13 +227,13 @@ Explanation explanationOf(const Scenario& scenario, const ExternalTorques& torqu
   const TorqueResidual data = residualOf(scenario, torques);
   if (isSinglePrecision(torques))
     return {"single precision: every torque is a 24-bit number, off by no more than such numbers are",
-            NamedCause{CauseKind::digits, "", "all"}};
+            NamedCause{CauseKind::digits, "", "all", "", "", {}, {}, {}, 0, 0, {}, {}, {}, 1}};
   const std::vector<Hypothesis> fitted = fitHypotheses(scenario, data);
   if (fitted.empty()) return {"no simple explanation"};
   const std::vector<Hypothesis> best = bestOf(fitted);
   const Hypothesis& first = best.front();
   const std::string how_much = fmt::format("{}, which explains {}", first.text, percent(first.explained()));
-  if (explains(first)) return named(best, isOnePose(data), how_much + othersText(best));
+  if (explains(first)) return named(best, data, how_much + othersText(best));
   if (first.unexplained < may_remain)
     return {fmt::format("a likely part: {}; what remains is up to {:.3g} times the file's precision{}", how_much,
                         first.beyond, othersText(best))};
@@ -292,13 +260,14 @@ Diagnosis diagnose(const Scenario& scenario, const ExternalTorques& torques) {
 
 void addDiagnosis(const Diagnosis& diagnosis, std::vector<TermError> terms, ValidationResult& result) {
   if (diagnosis.summary.empty()) return;
-  result.likely_cause =
-      LikelyCause{diagnosis.deviation, diagnosis.cause, diagnosis.named, diagnosis.others, std::move(terms)};
+  LikelyCause likely{diagnosis.deviation, diagnosis.cause, diagnosis.named, diagnosis.others, std::move(terms)};
+  nameState(likely);
   result.findings.emplace_back("torques that are off", diagnosis.deviation);
-  result.findings.emplace_back("likely cause", diagnosis.cause);
+  result.findings.emplace_back("likely cause", likely.cause);
   for (Check& check : result.checks)
     if (check.verdict == Verdict::fail)
-      check.why += fmt::format(". Off: {}. Likely cause: {}", diagnosis.summary, diagnosis.cause);
+      check.why += fmt::format(". Off: {}. Likely cause: {}", diagnosis.summary, likely.cause);
+  result.likely_cause = std::move(likely);
 }
 
 }  // namespace ursula

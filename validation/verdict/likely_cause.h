@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,11 +35,14 @@ struct NamedCause {
   std::string parameter = {};  ///< "manipulator.leg.4.distal.mass"
   std::string unit = {};       ///< of the three numbers
   std::optional<double> expected = {}, found = {}, uncertainty = {};
-  int leg = 0, motor = 0;                        ///< 1-based; 0 for none
-  std::vector<int> legs = {};                    ///< which leg's efforts each column holds, 1-based
-  std::optional<double> from_s = {}, to_s = {};  ///< the interval in which the efforts are wrong
-  double explained = 0;                          ///< share of the deviation's square
+  int leg = 0, motor = 0;                                       ///< 1-based; 0 for none
+  std::vector<int> legs = {};                                   ///< which leg's efforts each column holds, 1-based
+  std::optional<double> from_s = {}, to_s = {};                 ///< the interval in which the efforts are wrong
+  double explained = std::numeric_limits<double>::quiet_NaN();  ///< share of the deviation's square; NaN: unknown
 };
+
+/// What is said of a question that is asked again.
+constexpr const char* repeat_term = "repeat";
 
 /// Relative error of what a solver answers where one thing at a time is asked: "statics", "angular_velocity", …
 struct TermError {

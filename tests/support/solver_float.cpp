@@ -1,0 +1,11 @@
+// The solver in single precision, for tests alone.
+
+#include "nocsolver/fast/fast_dynamics_impl.h"
+#include "nocsolver/legs/leg_model_impl.h"
+#include "nocsolver/noc/noc_joints_impl.h"
+
+namespace ursula {
+template struct MachineParameters<float>;
+template class Noc<float>;
+template class FastDynamics<float>;
+}  // namespace ursula

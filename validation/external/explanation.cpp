@@ -1,0 +1,63 @@
+#include "validation/external/explanation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ursula {
+namespace {
+
+/// One pose, held or repeated: six numbers, which too many causes can make.
+bool isOnePose(const TorqueResidual& data) {
+  const Motion<double>& first = data.motions.front();
+  return std::all_of(data.motions.begin(), data.motions.end(), [&](const Motion<double>& each) {
+    return each.p == first.p && each.Q == first.Q && each.p_dot == first.p_dot && each.omega == first.omega &&
+           each.p_ddot == first.p_ddot && each.omega_dot == first.omega_dot;
+  });
+}
+
+/// Gravity's size and its component are one number; and what is left out or has the wrong sign is also a number that
+/// is 0 or turned about.
+bool sayTheSame(const NamedCause& first, const NamedCause& other) {
+  if (other.kind != CauseKind::parameter || !other.expected || !other.found) return false;
+  const double expected = *other.expected, found = *other.found, little = 1e-3 * std::abs(expected);
+  if (first.kind == CauseKind::missing_term) return std::abs(found) <= little;
+  if (first.kind == CauseKind::sign) return std::abs(found + expected) <= little;
+  return first.kind == CauseKind::parameter &&
+         other.parameter.compare(0, first.parameter.size(), first.parameter) == 0 && !first.parameter.empty();
+}
+
+}  // namespace
+
+Explanation named(const std::vector<Hypothesis>& best, const TorqueResidual& data, std::string text) {
+  Explanation out{std::move(text)};
+  if (isOnePose(data)) return out;
+  const Hypothesis& first = best.front();
+  bool is_alone = first.named.has_value();
+  for (const Hypothesis& one : best) {
+    if (&one != &first && first.named && one.named && sayTheSame(*first.named, *one.named)) continue;
+    if (&one != &first && one.free_numbers <= first.free_numbers) is_alone = false;
+    if (!one.named) continue;
+    out.others.push_back(*one.named);
+    out.others.back().explained = 1 - one.unexplained * one.unexplained;
+  }
+  if (!is_alone) return out;
+  out.named = out.others.front();
+  out.others.erase(out.others.begin());
+  return out;
+}
+
+void nameState(LikelyCause& likely) {
+  const auto repeat = std::find_if(likely.terms.begin(), likely.terms.end(),
+                                   [](const TermError& each) { return each.term == repeat_term; });
+  if (repeat == likely.terms.end() || !(repeat->error > 1e-12)) return;
+  if (likely.named) likely.others.insert(likely.others.begin(), *likely.named);
+  likely.named = NamedCause{CauseKind::state, "", "all"};
+  likely.cause = fmt::format(
+      "the solver answers the same question otherwise when it is asked again, by {:.2g} of the efforts; else: {}",
+      repeat->error, likely.cause);
+}
+
+}  // namespace ursula
