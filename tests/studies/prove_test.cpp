@@ -73,7 +73,9 @@ TEST(Defects, areHeldToTwoEnginesButWhereOneAloneCanSee) {
   const std::set<std::string> alone = {"branch",      "kinematics", "direct",    "hidden",     "shared motion",
                                        "shared load", "experiment", "one frame", "complement", "fast"};
   for (const Defect& defect : allDefects(*provingGround().manipulator))
-    if (!defect.control) EXPECT_EQ(defect.engines, alone.count(defect.group) == 1 ? 1 : 2) << defect.name;
+    if (!defect.control) {
+      EXPECT_EQ(defect.engines, alone.count(defect.group) == 1 ? 1 : 2) << defect.name;
+    }
 }
 
 struct Caught {
