@@ -82,8 +82,6 @@ constexpr const char* odd_results =
 constexpr const char* without_results =
     "SELECT id FROM point WHERE verdict IN ('pass', 'fail', 'inconclusive') AND NOT EXISTS (SELECT 1 FROM result WHERE "
     "point = id) LIMIT 1";
-constexpr const char* without_point =
-    "SELECT point FROM result WHERE NOT EXISTS (SELECT 1 FROM point WHERE id = result.point) LIMIT 1";
 
 /// Rows that no sweep writes.
 void requireSound(Sqlite& database, const SweepIdentity& sweep) {
@@ -96,10 +94,13 @@ void requireSound(Sqlite& database, const SweepIdentity& sweep) {
   odd.bind(0, sweep.points).step();
   if (!odd.isNull(0))
     refuse(database.file(), fmt::format("is damaged: point {} is none of this sweep", odd.integer(0)));
+  Statement foreign(database, "SELECT point FROM result WHERE point < 0 OR point >= ? LIMIT 1");
+  if (foreign.bind(0, sweep.points).step())
+    refuse(database.file(),
+           fmt::format("is damaged: it has results of point {}, which is none of this sweep", foreign.integer(0)));
   for (const auto& [sql, what] : {std::pair(odd_points, "point {} is not as a sweep writes it"),
                                   {odd_results, "a result of point {} is not as a sweep writes it"},
-                                  {without_results, "point {} has no results"},
-                                  {without_point, "there are results of point {}, which is not there"}})
+                                  {without_results, "point {} has no results"}})
     if (Statement row(database, sql); row.step())
       refuse(database.file(), "is damaged: " + fmt::format(fmt::runtime(what), row.integer(0)));
 }
