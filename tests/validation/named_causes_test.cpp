@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <memory>
 
@@ -200,6 +201,11 @@ TEST(AskedApart, showsWhatIsOff) {
   const auto weightless = asked(ofMachine([](auto& machine) { machine.gravity.setZero(); }));
   EXPECT_GT(weightless.at("statics"), 0.99);
   EXPECT_LE(weightless.at("angular_acceleration"), 1e-9);
+  Subject blind = nocSubject(*helix().manipulator, nullptr);
+  blind.torques = [right = blind.torques](const Motion<double>& motion) -> Vector6d {
+    return right(motion) * (motion.omega.isZero() ? 1 : std::nan(""));
+  };
+  EXPECT_TRUE(std::isnan(asked(blind).at("angular_velocity")));
   Subject forgetful = nocSubject(*helix().manipulator, nullptr);
   const auto calls = std::make_shared<int>(0);
   forgetful.torques = [right = forgetful.torques, calls](const Motion<double>& motion) -> Vector6d {

@@ -6,6 +6,8 @@
 #include <exception>
 #include <functional>
 
+#include "validation/verdict/worst_share.h"
+
 namespace ursula {
 namespace {
 
@@ -19,8 +21,7 @@ constexpr double nothing = 1e-9;
 using Parts = std::array<Vector6d, parts_count>;
 using Efforts = std::function<Vector6d(const Motion<double>&)>;
 
-/// The parts of the efforts at the pose of `at`, with its own accelerations and velocities or, of a motion that has
-/// none, with some.
+/// The parts of the efforts at the pose of `at`. The motion's own velocities are not used: they may be zero.
 Parts partsOf(const Efforts& efforts, const Motion<double>& at, const Vector3d& v, const Vector3d& w) {
   const auto asked = [&](const Vector3d& p_dot, const Vector3d& omega, const Vector3d& p_ddot,
                          const Vector3d& omega_dot) {
@@ -47,7 +48,7 @@ Parts partsOf(const Efforts& efforts, const Motion<double>& at, const Vector3d& 
   return out;
 }
 
-/// Of a size that shows in the efforts beside gravity, another direction at each pose.
+/// Points in another direction at each pose. Its size lets the efforts show beside gravity's.
 Vector3d someVector(double size, std::size_t k) {
   const auto x = static_cast<double>(k);
   return size * Vector3d(std::cos(1 + 2 * x), std::sin(2 + 3 * x), std::cos(3 - x));
@@ -70,7 +71,7 @@ std::vector<TermError> askedApart(const Subject& subject, const Scenario& scenar
       const Vector3d v = someVector(rate * length, k), w = someVector(rate, k + 7);
       const Parts found = partsOf(subject.torques, at, v, w), expected = partsOf(noc.torques, at, v, w);
       for (std::size_t part = 0; part < parts_count; ++part) {
-        error[part] = std::max(error[part], (found[part] - expected[part]).norm());
+        error[part] = larger(error[part], (found[part] - expected[part]).norm());
         size[part] = std::max(size[part], expected[part].norm());
         if (part != repeat) all = std::max(all, expected[part].norm());
       }
