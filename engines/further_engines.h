@@ -18,14 +18,28 @@ struct EngineKind {
   std::unique_ptr<Engine> (*make)(const Manipulator& manipulator, std::shared_ptr<const Load> load);
 };
 
-/// Another engine is a folder here, its row in further_engines.cpp, and one more in this count.
-constexpr std::size_t further_engine_count = 3;
+using MakeEngine = std::unique_ptr<Engine>(const Manipulator& manipulator, std::shared_ptr<const Load> load);
+
+// Each engine's folder defines its own.
+MakeEngine makeSimbodyTree, makeMaximalLoop, makeMujocoLoop;
+bool mujocoAvailable();  ///< false where this was built without MuJoCo
+inline bool alwaysAvailable() { return true; }
+
+/// The table of them all. Another engine is a folder here and its row.
+inline constexpr std::array further_engines = {
+    EngineKind{"torque.twin", "Simbody, tree through leg 1", "Simbody's loop grown through leg 1, balls at the others",
+               "Simbody", alwaysAvailable, makeSimbodyTree},
+    EngineKind{"torque.maximal", "maximal coordinates",
+               "links and platform in maximal coordinates with Lagrange multipliers", "maximal coordinates",
+               alwaysAvailable, makeMaximalLoop},
+    EngineKind{"torque.mujoco", "MuJoCo", "MuJoCo's trees, closed by Lagrange multipliers", "MuJoCo", mujocoAvailable,
+               makeMujocoLoop},
+};
+constexpr std::size_t further_engine_count = further_engines.size();
 
 /// An object for each further formulation.
 template <typename T>
 using OfFurtherEngines = std::array<T, further_engine_count>;
-
-const OfFurtherEngines<EngineKind>& furtherEngines();
 
 /// Null where `check` holds nothing against a further formulation.
 const EngineKind* furtherEngineOf(const std::string& check);

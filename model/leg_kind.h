@@ -20,14 +20,19 @@ constexpr const char* nameOf(Coordinate coordinate) {
   return names[static_cast<std::size_t>(coordinate)];
 }
 
-/// What there is to know of a kind of leg without its geometry. Another kind is a row here, a kernel, and a builder
-/// for each formulation.
+/// What there is to know of a kind of leg without its geometry; model/legs/ has the rest. CONTRIBUTING.md says what
+/// another kind needs.
 struct LegKindRow {
   const char* name;
   std::array<Coordinate, 3> coordinates;  ///< from the base to the tip
   int joints_of_proximal;                 ///< how many of them come before the proximal link
   std::size_t actuated;                   ///< which of them a motor drives if nothing is said
   const char* knee;                       ///< what `knee` is the sign of, "sin theta"; null where there is one branch
+
+  /// The proximal link is a carriage: it slides along the base axis, never turns, and has no length.
+  constexpr bool hasCarriage() const { return slides(coordinates[0]); }
+  /// The distal link is a rod that slides in the proximal one, a cylinder.
+  constexpr bool isTelescopic() const { return slides(coordinates[2]); }
 };
 
 inline constexpr std::array<LegKindRow, leg_kind_count> leg_kinds = {{

@@ -124,7 +124,7 @@ Numbers machineNumbers(const ManipulatorParameters& machine) {
   for (int i = 0; i < static_cast<int>(machine.legs.size()); ++i) {
     const LegKind kind = machine.legs[static_cast<std::size_t>(i)].kind;
     add(out, {Q::base_point, Q::platform_point, Q::base_axis}, i, "");
-    const bool telescopic = kind == LegKind::UPS, carriage = kind == LegKind::PUS;
+    const bool telescopic = rowOf(kind).isTelescopic(), carriage = rowOf(kind).hasCarriage();
     if (!telescopic && !carriage) add(out, {Q::length}, i, "proximal");
     add(out, carriage ? std::vector{Q::mass} : std::vector{Q::mass, Q::center, Q::inertia}, i, "proximal");
     add(out, {Q::length, Q::mass, Q::center, Q::inertia}, i, "distal");

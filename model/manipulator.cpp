@@ -67,7 +67,7 @@ void requireLeg(const std::string& place, const Leg& leg) {
   if (!(leg.base_axis.stableNorm() > 0))
     throw InvalidParameter(place + ".base_axis", text(leg.base_axis), "a vector that is not zero");
   requireFinite(place + ".platform_point", leg.platform_point);
-  if (leg.kind == LegKind::PUS)  // a carriage's length is for drawing only
+  if (rowOf(leg.kind).hasCarriage())  // a carriage's length is for drawing only
     requireNotNegative(place + ".proximal.length", leg.proximal.length);
   else
     requirePositive(place + ".proximal.length", leg.proximal.length);
@@ -104,7 +104,7 @@ Motors motorsOf(const ManipulatorParameters& machine) {
 void requireSpan(const ManipulatorParameters& machine, int i, int j) {
   const Leg& first = machine.legs[static_cast<std::size_t>(i)];
   const Leg& second = machine.legs[static_cast<std::size_t>(j)];
-  if (first.kind == LegKind::PUS || second.kind == LegKind::PUS) return;  // rails have no end
+  if (rowOf(first.kind).hasCarriage() || rowOf(second.kind).hasCarriage()) return;  // rails have no end
   const double base = (first.base_point - second.base_point).norm();
   const double platform = (first.platform_point - second.platform_point).norm();
   const double reach = first.proximal.length + first.distal.length + second.proximal.length + second.distal.length;

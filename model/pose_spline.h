@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/trajectories.h"
+#include "model/trajectories/trajectories.h"
 
 // What the trajectories through given poses (waypoints, samples) have in common.
 

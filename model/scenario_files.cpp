@@ -1,5 +1,7 @@
 #include "model/scenario_files.h"
 
+#include "base/shown_text.h"
+#include "model/scenario_sections.h"
 #include "model/toml_reader.h"
 
 namespace ursula {
@@ -20,6 +22,21 @@ std::vector<std::filesystem::path> filesNamedBy(const Scenario& scenario) {
   if (scenario.text.empty()) return {};
   toml::table document = parseToml(scenario.text, scenario.file.string());
   return makeFilesAbsolute(document, scenario.file);
+}
+
+CsvTable readCsvBeside(const TomlSection& table, const std::string& key) {
+  std::string name;
+  table.require(key, name);
+  try {
+    requirePath(name);
+  } catch (const TextRefusal& refusal) {
+    table.fail(key, refusal.what());
+  }
+  const std::filesystem::path file = std::filesystem::path(table.file()).parent_path() / name;
+  std::error_code error;
+  if (!std::filesystem::exists(file, error) || std::filesystem::is_directory(file, error))
+    table.fail(key, "'" + shownPath(file.string()) + "', expected a CSV file");
+  return readCsv(file);
 }
 
 }  // namespace ursula

@@ -1,8 +1,11 @@
-#include "model/scenario_keys_motion.h"
+#include "model/scenario_keys.h"
 
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
+
+#include "model/key_bounds.h"
+#include "model/trajectories/trajectory_kinds.h"
 
 namespace ursula {
 namespace {
@@ -55,7 +58,7 @@ ScenarioTable platform() {
   return {"manipulator.platform",
           "[manipulator.platform]",
           "",
-          {{"mass", KeyType::number, "kg", required_key, "m", positive},
+          {{"mass", KeyType::number, "kg", required_key, "m", above_zero},
            {"center_of_mass", KeyType::vector, "m", required_key, "ρ: from P, the platform's origin, in M"},
            {"inertia", KeyType::inertia, "kg·m²", required_key,
             "about the mass centre, in M: `[xx, yy, zz]` or `[xx, yy, zz, xy, xz, yz]`, entries of the tensor"}}};
@@ -131,17 +134,17 @@ ScenarioTable leg() {
 }
 
 ScenarioTable link() {
-  return {
-      "manipulator.leg.link",
-      "proximal = { … }, distal = { … }",
-      "A link of a leg: from its first joint along its length to the second.",
-      {{"length", KeyType::number, "m", required_key,
-        "l of the proximal, s of the distal link; of the carriage of PUS for drawing only, and not required", positive},
-       {"mass", KeyType::number, "kg", required_key, "", positive},
-       {"center_of_mass", KeyType::number, "m", required_key,
-        "distance along the link from its first end; of a rod of UPS from the end within the cylinder"},
-       {"inertia", KeyType::inertia, "kg·m²", required_key,
-        "about the mass centre, in the link's frame, whose third axis is along the link"}}};
+  return {"manipulator.leg.link",
+          "proximal = { … }, distal = { … }",
+          "A link of a leg: from its first joint along its length to the second.",
+          {{"length", KeyType::number, "m", required_key,
+            "l of the proximal, s of the distal link; of the carriage of PUS for drawing only, and not required",
+            above_zero},
+           {"mass", KeyType::number, "kg", required_key, "", above_zero},
+           {"center_of_mass", KeyType::number, "m", required_key,
+            "distance along the link from its first end; of a rod of UPS from the end within the cylinder"},
+           {"inertia", KeyType::inertia, "kg·m²", required_key,
+            "about the mass centre, in the link's frame, whose third axis is along the link"}}};
 }
 
 std::vector<ScenarioKey> perCoordinate(const char* turning, const char* sliding) {
@@ -164,7 +167,7 @@ ScenarioTable coulomb() {
                        "A moment (on d a force) −c tanh(q̇ / smoothing_speed) on a joint coordinate q that the leg has.",
                        perCoordinate("N·m", "N")};
   out.keys.push_back(
-      {"smoothing_speed", KeyType::number, "rad/s, m/s", "0.01", "at which 76 % of the friction acts", positive});
+      {"smoothing_speed", KeyType::number, "rad/s, m/s", "0.01", "at which 76 % of the friction acts", above_zero});
   return out;
 }
 
@@ -241,8 +244,8 @@ ScenarioTable tolerance() {
   return {"acceptance.torque",
           "torque = { … }",
           "At least one of the two.",
-          {{"relative", KeyType::number, "", no_default, "of the largest effort of the motion", positive},
-           {"absolute", KeyType::number, "N·m or N", no_default, "", positive}}};
+          {{"relative", KeyType::number, "", no_default, "of the largest effort of the motion", above_zero},
+           {"absolute", KeyType::number, "N·m or N", no_default, "", above_zero}}};
 }
 
 }  // namespace

@@ -128,7 +128,7 @@ class LegReader {
   void requireAll() const {
     require({"base_point", "base_axis", "platform_point"}, "an array of 3 numbers");
     for (const std::string link : {"proximal", "distal"}) {
-      if (leg_.kind != LegKind::PUS || link == "distal") require({link + ".length"}, "a number");
+      if (!rowOf(leg_.kind).hasCarriage() || link == "distal") require({link + ".length"}, "a number");
       require({link + ".mass", link + ".center_of_mass"}, "a number");
       require({link + ".inertia"}, "an array of 3 or 6 numbers");
     }

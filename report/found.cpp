@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "model/check_catalogue.h"
+#include "model/trajectories/trajectory_kinds.h"
 #include "report/quantity.h"
 #include "report/report.h"
 
@@ -123,8 +124,8 @@ Found found(const ValidationResult& result) {
   Found out;
   out.subject = ofWhom(fact(result.provenance, "subject"));
   const std::string motion = fact(result.provenance, "trajectory");
-  out.motion = motion.empty() ? "the motion" : motion == "helix" ? "the helix" : "the motion through " + motion;
-  if (motion == "hold") out.motion = "its hold";
+  const TrajectoryKind* kind = trajectoryKind(motion);
+  out.motion = kind != nullptr ? kind->words : motion.empty() ? "the motion" : "the motion through " + motion;
   const std::vector<double>* t = result.timeseries.find("t_s");
   out.duration = t == nullptr || t->empty() ? none : t->back();
   const Check* replay = find(result, "replay.position");

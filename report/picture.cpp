@@ -40,7 +40,7 @@ class LegTracks {
     const LegKindRow& row = rowOf(leg_.kind);
     std::vector<Picture::Joint> out;
     const auto first = static_cast<std::size_t>(row.joints_of_proximal);
-    addJoint(0, first, leg_.kind == LegKind::PUS ? R_ : A_, out);
+    addJoint(0, first, row.hasCarriage() ? R_ : A_, out);
     addJoint(first, 3, R_, out);
     out.push_back({"ball", B_, {}, false, false});
     return out;

@@ -270,4 +270,8 @@ Vector6d MaximalLoop::inverseDynamics(const Motion<double>& motion) {
   return solution.tail<6>();
 }
 
+std::unique_ptr<Engine> makeMaximalLoop(const Manipulator& manipulator, std::shared_ptr<const Load> load) {
+  return std::make_unique<MaximalLoop>(manipulator, std::move(load));
+}
+
 }  // namespace ursula

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "engines/engine.h"
+#include "engines/further_engines.h"
 
 namespace ursula {
 

@@ -256,4 +256,8 @@ bool mujocoAvailable() { return true; }
 
 std::string mujocoVersion() { return mj_versionString(); }
 
+std::unique_ptr<Engine> makeMujocoLoop(const Manipulator& manipulator, std::shared_ptr<const Load> load) {
+  return std::make_unique<MujocoLoop>(manipulator, std::move(load));
+}
+
 }  // namespace ursula

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "engines/engine.h"
+#include "engines/further_engines.h"
 #include "engines/open_tree.h"
 
 namespace ursula {
@@ -41,9 +41,6 @@ class MujocoLoop : public Engine {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// MuJoCo is optional: false where this was built without it.
-bool mujocoAvailable();
 
 /// Of the library that is loaded, "2.2.2"; "none" without it.
 std::string mujocoVersion();

@@ -29,4 +29,8 @@ bool mujocoAvailable() { return false; }
 
 std::string mujocoVersion() { return "none"; }
 
+std::unique_ptr<Engine> makeMujocoLoop(const Manipulator& manipulator, std::shared_ptr<const Load> load) {
+  return std::make_unique<MujocoLoop>(manipulator, std::move(load));
+}
+
 }  // namespace ursula

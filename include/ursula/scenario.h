@@ -9,4 +9,4 @@
 #include "model/quaternions.h"
 #include "model/scenario.h"
 #include "model/scenario_json.h"
-#include "model/trajectories.h"
+#include "model/trajectories/trajectories.h"

@@ -76,7 +76,7 @@ void legs(const ManipulatorParameters& machine, std::vector<Oddity>& out) {
   const double base = extent(machine, [](const Leg& leg) { return leg.base_point; });
   for (int i = 0; i < static_cast<int>(machine.legs.size()); ++i) {
     const Leg& leg = machine.legs[static_cast<std::size_t>(i)];
-    if (leg.kind != LegKind::PUS)
+    if (!rowOf(leg.kind).hasCarriage())
       link(leg.proximal, legKey(i, "proximal"), out);  // a carriage has no length and never turns
     link(leg.distal, legKey(i, "distal"), out);
     if (const double size = leg.base_axis.norm(); std::abs(size - 1) > 0.01)
@@ -115,7 +115,7 @@ void units(const ManipulatorParameters& machine, std::vector<Oddity>& out) {
   const double base = extent(machine, [](const Leg& leg) { return leg.base_point; });
   for (int i = 0; i < static_cast<int>(machine.legs.size()); ++i) {
     const Leg& leg = machine.legs[static_cast<std::size_t>(i)];
-    const bool on_rail = leg.kind == LegKind::PUS;
+    const bool on_rail = rowOf(leg.kind).hasCarriage();
     const double first = on_rail ? 0 : leg.proximal.length, reach = first + leg.distal.length;
     const double shorter = std::min(first, leg.distal.length), longer = reach - shorter;
     const std::string which = first > leg.distal.length ? "proximal.length" : "distal.length";

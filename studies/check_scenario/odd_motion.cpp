@@ -6,7 +6,9 @@
 #include <limits>
 
 #include "model/instants.h"
+#include "model/legs/leg_type.h"
 #include "model/scenario_place.h"
+#include "model/trajectories/trajectory_kinds.h"
 #include "nocsolver/errors.h"
 #include "nocsolver/solver.h"
 #include "studies/check_scenario/oddity.h"
@@ -95,9 +97,7 @@ std::vector<NearestOfLeg> nearestOfLegs(const Scenario& scenario) {
       NearestOfLeg& nearest = all[static_cast<std::size_t>(i)];
       const Leg& leg = machine.leg(i);
       nearest.sine.include(solver.margins(work, i).sine, t);
-      if (leg.kind != LegKind::UPS) continue;
-      const double out = q.d(i) - leg.distal.length;  // how far the rod's inner end is from A
-      nearest.stroke.include(std::min(out, leg.proximal.length - out), t);
+      if (rowOf(leg.kind).isTelescopic()) nearest.stroke.include(typeOf(leg.kind).margin(leg, q, i), t);
     }
   }
   return all;
@@ -110,13 +110,13 @@ void legsAtTheirLimits(const Scenario& scenario, std::vector<Oddity>& out) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Leg& leg = scenario.manipulator->leg(static_cast<int>(i));
     const auto& [sine, stroke] = all[i];
-    const bool on_rail = leg.kind == LegKind::PUS;
+    const LegType& type = typeOf(leg.kind);
     if (sine.value < std::sin(near))
-      out.push_back({"trajectory", fmt::format("brings the {} of leg {} to {:.3g} degrees from {} at t = {:.4g} s: "
-                                               "efforts and rounding grow there",
-                                               on_rail ? "rod" : "knee", i + 1, degrees(std::asin(sine.value)),
-                                               on_rail ? "across its rail" : "straight or folded", sine.at)});
-    if (leg.kind == LegKind::UPS && stroke.value < leg.proximal.length / 50)
+      out.push_back({"trajectory",
+                     fmt::format("brings the {} of leg {} to {:.3g} degrees from {} at t = {:.4g} s: "
+                                 "efforts and rounding grow there",
+                                 type.bends(), i + 1, degrees(std::asin(sine.value)), type.atDeadCentre(), sine.at)});
+    if (rowOf(leg.kind).isTelescopic() && stroke.value < leg.proximal.length / 50)
       out.push_back({"trajectory", fmt::format("brings the rod of leg {} to {:.3g} m from an end of its cylinder, "
                                                "which is {:.6g} m long, at t = {:.4g} s",
                                                i + 1, stroke.value, leg.proximal.length, stroke.at)});
@@ -127,11 +127,9 @@ void legsAtTheirLimits(const Scenario& scenario, std::vector<Oddity>& out) {
 
 std::vector<Oddity> oddMotion(const Scenario& scenario) {
   std::vector<Oddity> out;
-  const std::string kind = scenario.trajectory->kind();
-  if (kind == "helix") radians(scenario, out);
-  if (kind == "hold") scalarLast(scenario, "trajectory.orientation", out);
-  if (kind == "waypoints") scalarLast(scenario, "trajectory.points[1].orientation", out);
-  if (kind == "samples") scalarLast(scenario, "trajectory.file", out);
+  radians(scenario, out);
+  const TrajectoryKind* kind = trajectoryKind(scenario.trajectory->kind());
+  if (kind != nullptr && kind->orientation != nullptr) scalarLast(scenario, kind->orientation, out);
   haste(scenario, out);
   try {
     legsAtTheirLimits(scenario, out);

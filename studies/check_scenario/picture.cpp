@@ -60,7 +60,7 @@ class View {
  private:
   std::string leg(std::size_t i) const {
     const LegPoints& leg = pose_.legs[i];
-    const bool slides = pose_.kinds[i] == LegKind::UPS;
+    const bool slides = rowOf(pose_.kinds[i]).isTelescopic();
     std::string out;
     if (pose_.rails[i]) out += line(pose_.rails[i]->from, pose_.rails[i]->to, "rail");
     if (!pose_.reached) {

@@ -74,7 +74,7 @@ std::vector<Defect> wrongMassMatrices(const Manipulator& machine) {
   using P = ManipulatorParameters;
   const std::size_t third = legOf(machine, 3), fifth = legOf(machine, 5);
   // The tensor of a carriage, which does not turn, does nothing.
-  const bool turns = machine.parameters().legs[fifth].kind != LegKind::PUS;
+  const bool turns = !rowOf(machine.parameters().legs[fifth].kind).hasCarriage();
   return {wrongMassMatrix("mass matrix off by 1e-8 in one entry", [](Matrix6d& M) { M(1, 1) *= 1 + 1e-8; }),
           wrongMassMatrix("mass matrix off by 1e-9 of itself", [](Matrix6d& M) { M *= 1 + 1e-9; }),
           wrongMassMatrix("mass matrix not symmetric by 1e-8", [](Matrix6d& M) { M(0, 4) += 1e-8 * M.norm(); }),

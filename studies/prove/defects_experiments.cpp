@@ -48,7 +48,7 @@ InjectedFault::Seen another(const ChangeMachine& change) {
 Defect engine(const std::string& name, const char* check, const ChangeMachine& change) {
   InjectedFault fault;
   for (std::size_t k = 0; k < further_engine_count; ++k)
-    if (furtherEngines()[k].check == std::string(check)) fault.further[k] = another(change);
+    if (further_engines[k].check == std::string(check)) fault.further[k] = another(change);
   return faulty(name, fault);
 }
 
@@ -219,7 +219,7 @@ std::vector<Defect> controls() {
                              control(eachStep("step: no fault", [](State&) {})),
                              control(lastStep("last step: no fault", [](State&) {})),
                              control(wrongLadder("ladder: no fault", Integrator::rkf78, [](ReplaySettings&) {}))};
-  for (const EngineKind& kind : furtherEngines())
+  for (const EngineKind& kind : further_engines)
     out.push_back(control(engine(std::string(kind.engine) + ": no fault", kind.check, [](ManipulatorParameters&) {})));
   return out;
 }

@@ -38,7 +38,7 @@ void faultAcrossMotion(const Motors& motors, KinematicAnswer& answer) {
 /// A leg whose proximal link turns; the first where none does.
 std::size_t turningLink(const Manipulator& machine) {
   for (std::size_t i = 1; i < machine.parameters().legs.size(); ++i)
-    if (machine.parameters().legs[i].kind != LegKind::PUS) return i;
+    if (!rowOf(machine.parameters().legs[i].kind).hasCarriage()) return i;
   return 0;
 }
 

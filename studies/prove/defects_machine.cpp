@@ -116,7 +116,7 @@ std::vector<Defect> wrongTelescopes(const Manipulator& machine) {
   const auto telescopes = [](const std::string& name, void (*change)(Leg&)) {
     return wrongMachine(name, "parameter", [change](P& m) {
       for (Leg& leg : m.legs)
-        if (leg.kind == LegKind::UPS) change(leg);
+        if (rowOf(leg.kind).isTelescopic()) change(leg);
     });
   };
   return {telescopes("cylinder for rod and rod for cylinder", [](Leg& leg) { std::swap(leg.proximal, leg.distal); }),

@@ -55,7 +55,7 @@ void drawFriction(Dice& dice, const Recipe& recipe, double torque, Leg& leg) {
     leg.friction = randomFriction(dice, leg.kind, largest, length * length);
   }
   leg.coulomb.smoothing_speed = dice.spread(0.003, 0.3) / time;
-  if (leg.kind == LegKind::UPS || leg.kind == LegKind::PUS)
+  if (rowOf(leg.kind).isTelescopic() || rowOf(leg.kind).hasCarriage())
     leg.coulomb.sliding_speed = dice.spread(0.003, 0.3) / time * length;
   if (recipe.coulomb)
     static_cast<JointFriction&>(leg.coulomb) = randomFriction(dice, leg.kind, dice.spread(0.01, 0.2) * torque, length);

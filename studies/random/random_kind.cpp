@@ -44,20 +44,8 @@ std::array<bool, 3> randomMotors(Dice& dice, LegKind kind, int count, bool other
 }
 
 LegKind randomLegKind(Dice& dice, RandomKind kind) {
-  switch (kind) {
-    case RandomKind::URS:
-      return LegKind::URS;
-    case RandomKind::UPS:
-      return LegKind::UPS;
-    case RandomKind::RUS:
-      return LegKind::RUS;
-    case RandomKind::PUS:
-      return LegKind::PUS;
-    case RandomKind::mixture:
-    case RandomKind::two_motors:
-      break;
-  }
-  return dice.pick<LegKind>(static_cast<int>(leg_kind_count));
+  const bool of_one_kind = kind < RandomKind::mixture;  // these stand first, in the order of LegKind
+  return of_one_kind ? static_cast<LegKind>(kind) : dice.pick<LegKind>(static_cast<int>(leg_kind_count));
 }
 
 std::string wordsOf(const LegRecipe& leg) {

@@ -32,7 +32,7 @@ void drawHelix(Dice& dice, const Recipe& recipe, Design& design) {
   }
 }
 
-/// The helix's triad at its middle, as model/helix.cpp has it.
+/// The helix's triad at its middle, as model/trajectories/helix.cpp has it.
 Eigen::Quaterniond helixTriad(const HelixParameters& helix) {
   const double angle = (helix.start_angle + helix.end_angle) / 2 + helix.phase;
   const double c = std::cos(angle), s = std::sin(angle);

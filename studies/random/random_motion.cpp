@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/trajectories.h"
+#include "model/trajectories/trajectories.h"
 
 namespace ursula {
 namespace {

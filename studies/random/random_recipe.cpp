@@ -55,11 +55,12 @@ void drawLegs(Dice& dice, Oddities& odd, Recipe& recipe) {
   const bool of_any = kind == RandomKind::mixture || kind == RandomKind::two_motors;
   const bool other_motors = kind != RandomKind::URS && odd.happens(of_any ? 0.4 : 0.15, "other motors");
   recipe.legs = randomLegs(dice, kind, other_motors);
-  const auto some = [&](LegKind of) {
-    return std::any_of(recipe.legs.begin(), recipe.legs.end(), [of](const LegRecipe& leg) { return leg.kind == of; });
+  const auto some = [&](bool (LegKindRow::*is)() const) {
+    return std::any_of(recipe.legs.begin(), recipe.legs.end(),
+                       [is](const LegRecipe& leg) { return (rowOf(leg.kind).*is)(); });
   };
-  recipe.stroke_end = some(LegKind::UPS) && odd.happens(0.15, "near a stroke's end");
-  recipe.far_zero = some(LegKind::PUS) && odd.happens(0.15, "carriage far from its zero");
+  recipe.stroke_end = some(&LegKindRow::isTelescopic) && odd.happens(0.15, "near a stroke's end");
+  recipe.far_zero = some(&LegKindRow::hasCarriage) && odd.happens(0.15, "carriage far from its zero");
 }
 
 void drawBodies(Dice& dice, Oddities& odd, Recipe& recipe) {

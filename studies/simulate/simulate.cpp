@@ -12,6 +12,7 @@
 
 #include "base/csv.h"
 #include "engines/simbody/simbody_loop.h"
+#include "model/legs/leg_type.h"
 #include "nocsolver/finite.h"
 #include "nocsolver/solver.h"
 #include "validation/external/torque_spline.h"
@@ -74,42 +75,21 @@ class NocSystem {
   Motion<double> last_;  ///< that the solver did not refuse
 };
 
-/// What ends the reach of a leg, told of its joints' variables: signed, zero where the leg is stretched or folded (of
-/// PUS across its rail); of UPS how far its rod is from the nearer end of the cylinder, m.
+/// What ends the reach of the legs, told of their joints' variables.
 struct ReachEnds {
   explicit ReachEnds(const Manipulator& machine) : legs(machine.parameters().legs) {}
 
   double of(const JointVariables<double>& q, int i) const {
     const Leg& leg = legs[static_cast<std::size_t>(i)];
-    const double out = q.d(i) - leg.distal.length;
-    switch (leg.kind) {
-      case LegKind::UPS:
-        return std::min(out, leg.proximal.length - out);
-      case LegKind::RUS:
-        return std::sin(q.psi(i));
-      case LegKind::PUS:
-        return std::cos(q.theta(i));
-      case LegKind::URS:
-        break;
-    }
-    return std::sin(q.theta(i));
+    return typeOf(leg.kind).margin(leg, q, i);
   }
 
   std::runtime_error outOfReach(const JointVariables<double>& q, int i, double t) const {
-    return std::runtime_error(
-        fmt::format("the motion leaves what leg {} reaches: it is {} at t = {:.9g} s", i + 1, words(q, i), t));
+    return std::runtime_error(fmt::format("the motion leaves what leg {} reaches: it is {} at t = {:.9g} s", i + 1,
+                                          typeOf(legs[static_cast<std::size_t>(i)].kind).endOfReach(q, i), t));
   }
 
   std::vector<Leg> legs;
-
- private:
-  const char* words(const JointVariables<double>& q, int i) const {
-    const Leg& leg = legs[static_cast<std::size_t>(i)];
-    if (leg.kind == LegKind::UPS) return "at the end of its stroke";
-    if (leg.kind == LegKind::PUS) return "across its rail";
-    const bool straight = leg.kind == LegKind::URS ? std::cos(q.theta(i)) < 0 : std::cos(q.psi(i)) > 0;
-    return straight ? "stretched" : "folded";
-  }
 };
 
 /// A leg whose knee bends the other way has come through where it was stretched or folded, the end of what it reaches;

@@ -4,7 +4,7 @@
 
 #include "base/csv.h"
 #include "base/errors.h"
-#include "model/trajectories.h"
+#include "model/trajectories/trajectories.h"
 #include "tests/fuzz/fuzz.h"
 #include "validation/subject/torque_file.h"
 

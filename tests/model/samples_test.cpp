@@ -9,7 +9,7 @@
 #include <random>
 
 #include "base/real50.h"
-#include "model/trajectories.h"
+#include "model/trajectories/trajectories.h"
 #include "tests/model/derivatives.h"
 #include "tests/model/refusals.h"
 

@@ -1,6 +1,6 @@
 // Waypoints and hold: derivatives against differences of the pose in 50 digits, smoothness at the knots, and refusals.
 
-#include "model/trajectories.h"
+#include "model/trajectories/trajectories.h"
 
 #include <gmock/gmock.h>
 

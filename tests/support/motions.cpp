@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "model/trajectories.h"
+#include "model/trajectories/trajectories.h"
 
 namespace ursula {
 namespace {

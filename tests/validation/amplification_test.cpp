@@ -11,7 +11,7 @@
 #include <iostream>
 #include <limits>
 
-#include "model/trajectories.h"
+#include "model/trajectories/trajectories.h"
 #include "nocsolver/solver.h"
 #include "tests/support/vectors.h"
 

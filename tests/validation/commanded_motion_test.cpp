@@ -10,7 +10,7 @@
 #include <functional>
 
 #include "model/exact_trajectory.h"
-#include "model/trajectories.h"
+#include "model/trajectories/trajectories.h"
 #include "studies/random/random_scenario.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"

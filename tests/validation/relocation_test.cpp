@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "model/exact_trajectory.h"
-#include "model/trajectories.h"
+#include "model/trajectories/trajectories.h"
 #include "nocsolver/solver.h"
 #include "studies/random/random_scenario.h"
 #include "tests/validation/scenario_files.h"

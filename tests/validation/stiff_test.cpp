@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "model/trajectories.h"
+#include "model/trajectories/trajectories.h"
 #include "validation/evidence/reference.h"
 #include "validation/limits/amplification.h"
 #include "validation/replay/replay.h"

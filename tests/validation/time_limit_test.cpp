@@ -10,7 +10,7 @@
 #include <memory>
 #include <thread>
 
-#include "model/trajectories.h"
+#include "model/trajectories/trajectories.h"
 #include "report/report.h"
 #include "report/summary.h"
 #include "tests/support/vectors.h"

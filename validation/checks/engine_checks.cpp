@@ -37,7 +37,7 @@ Worst compareEngines(const std::vector<EngineSample>& samples, const PairOf& pai
 /// The k-th further formulation.
 Check judgeEngine(const std::vector<EngineSample>& samples, std::size_t k, const Units& units,
                   const std::vector<PointwiseSample>& conditions) {
-  const EngineKind& kind = furtherEngines()[k];
+  const EngineKind& kind = further_engines[k];
   if (samples.empty()) return notMade(kind.check, units.efforts.unit, "no instant was compared");
   const Worst shown = compareEngines(samples, [k](const EngineSample& sample) {
     return Pair{&sample.subject, given(sample.further[k]), sample.limits[k]};
@@ -70,7 +70,7 @@ std::vector<Named> enginesOf(const EngineSample& first) {
   for (std::size_t k = 0; k < further_engine_count; ++k)
     if (first.further[k])
       engines.push_back(
-          {furtherEngines()[k].name, [k](const EngineSample& sample) { return given(sample.further[k]); }});
+          {further_engines[k].name, [k](const EngineSample& sample) { return given(sample.further[k]); }});
   return engines;
 }
 
@@ -80,7 +80,7 @@ std::vector<Check> judgeEngines(const std::vector<EngineSample>& samples, const 
                                 const std::vector<PointwiseSample>& conditions) {
   std::vector<Check> checks;
   for (std::size_t k = 0; k < further_engine_count; ++k)
-    if (samples.empty() ? furtherEngines()[k].available() : samples.front().further[k].has_value())
+    if (samples.empty() ? further_engines[k].available() : samples.front().further[k].has_value())
       checks.push_back(judgeEngine(samples, k, units, conditions));
   return checks;
 }

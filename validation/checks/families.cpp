@@ -35,7 +35,7 @@ bool answers(const Evidence& e) { return e.subject != nullptr && sampled(e) && e
 
 std::vector<std::string> checksOfFurtherEngines() {
   std::vector<std::string> names;
-  for (const EngineKind& engine : furtherEngines()) names.emplace_back(engine.check);
+  for (const EngineKind& engine : further_engines) names.emplace_back(engine.check);
   return names;
 }
 

@@ -27,13 +27,13 @@ double angleDistance(const Manipulator& machine, const JointVariables<double>& a
   double largest = 0;
   for (int i = 0; i < machine.legCount(); ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const LegKind kind = machine.leg(i).kind;
-    // The plane of PUS is its rod's; ψ of it counts from an axis that is not turned along, too.
-    const std::size_t in_plane = kind == LegKind::PUS ? leg_count + k : k;
+    const bool carriage = rowOf(machine.leg(i).kind).hasCarriage();
+    // The plane of a leg with a carriage is its rod's; ψ of it counts from an axis that is not turned along, too.
+    const std::size_t in_plane = carriage ? leg_count + k : k;
     const double plane = (of_a[in_plane].R.col(0) - of_b[in_plane].R.col(0)).norm();
     const auto turn = [](double x, double y) { return std::abs(std::remainder(x - y, 2 * std::acos(-1.0))); };
     largest = larger(largest, plane);
-    if (kind != LegKind::PUS) largest = larger(largest, turn(a.psi(i), b.psi(i)));
+    if (!carriage) largest = larger(largest, turn(a.psi(i), b.psi(i)));
     largest = larger(largest, turn(a.theta(i), b.theta(i)));
     largest = larger(largest, std::abs(a.d(i) - b.d(i)) / length);
   }
@@ -62,7 +62,7 @@ void spreadOfMotions(const Manipulator& machine, const View& a, const View& b, d
   for (std::size_t i = 0; i < body_count; ++i) {
     // A carriage's frame hangs on what is upright, not on the machine.
     const bool is_carriage =
-        i < static_cast<std::size_t>(machine.legCount()) && machine.leg(static_cast<int>(i)).kind == LegKind::PUS;
+        i < static_cast<std::size_t>(machine.legCount()) && rowOf(machine.leg(static_cast<int>(i)).kind).hasCarriage();
     const double turn = is_carriage ? 0 : length;
     const BodyMotion<double>&x = a.bodies[i], &y = b.bodies[i];
     set(out, Rounded::positions, (x.c - y.c).norm() + turn * (x.R - y.R).norm());

@@ -17,7 +17,7 @@ std::vector<LegPoints> legPoints(const Manipulator& machine, const NocWorkspace<
     points.A = leg.base_point;
     points.S = points.A + state.O_2;
     points.B = points.A + state.AB;
-    points.R = leg.kind == LegKind::UPS ? Vector3d(points.A + leg.proximal.length * state.axis[2]) : points.S;
+    points.R = rowOf(leg.kind).isTelescopic() ? Vector3d(points.A + leg.proximal.length * state.axis[2]) : points.S;
     points.axes = state.axis;
     out.push_back(points);
   }
@@ -53,7 +53,7 @@ std::vector<Range> travels(const Scenario& scenario) {
 std::vector<std::optional<Stretch>> rails(const Scenario& scenario) {
   const std::vector<Leg>& legs = scenario.manipulator->parameters().legs;
   std::vector<std::optional<Stretch>> out(legs.size());
-  const auto slides = [](const Leg& leg) { return leg.kind == LegKind::PUS; };
+  const auto slides = [](const Leg& leg) { return rowOf(leg.kind).hasCarriage(); };
   if (std::none_of(legs.begin(), legs.end(), slides)) return out;
   std::vector<Range> travelled = travels(scenario);
   for (std::size_t i = 0; i < legs.size(); ++i) {

@@ -10,6 +10,7 @@
 
 #include "base/errors.h"
 #include "model/instants.h"
+#include "model/legs/leg_type.h"
 #include "model/scenario_place.h"
 #include "nocsolver/solver.h"
 
@@ -24,40 +25,12 @@ std::vector<double> instantsToCheck(const Scenario& scenario) {
   return equallySpaced(scenario.trajectory->duration(), intervals * parts + 1);
 }
 
-/// A distance that a leg has to span, and what it can, m; with the words around them.
-struct Span {
-  double distance, least, most;
-  const char *before, *after;
+double missed(const Reach& reach) { return std::max({reach.distance - reach.most, reach.least - reach.distance, 0.0}); }
 
-  double missed() const { return std::max({distance - most, least - distance, 0.0}); }
-};
-
-/// Of crank and rod: across the crank's plane first, then within it.
-Span spanOfCrank(const Leg& leg, double along, double across) {
-  const double l = leg.proximal.length, s = leg.distal.length;
-  if (along > s) return {along, 0, s, "its platform point is", "m from its crank's plane, and its rod spans"};
-  const double c = std::sqrt((s - along) * (s + along));
-  return {across, std::abs(l - c), l + c, "its platform point is",
-          "m from its crank's axis, and from there crank and rod span"};
-}
-
-Span spanOf(const Leg& leg, const Motion<double>& motion) {
-  const double l = leg.proximal.length, s = leg.distal.length;
+Reach reachOf(const Leg& leg, const Motion<double>& motion) {
   const Vector3d AB = motion.p - leg.base_point + motion.Q * leg.platform_point;
   const Vector3d u = leg.base_axis.stableNormalized();
-  const double along = std::abs(AB.dot(u)), across = AB.cross(u).norm();
-  const char* const apart = "its base and platform points are";
-  switch (leg.kind) {
-    case LegKind::UPS:
-      return {AB.norm(), s, l + s, apart, "m apart, and its cylinder and rod span"};
-    case LegKind::RUS:
-      return spanOfCrank(leg, along, across);
-    case LegKind::PUS:
-      return {across, 0, s, "its platform point is", "m from its rail, and its rod spans"};
-    case LegKind::URS:
-      break;
-  }
-  return {AB.norm(), std::abs(l - s), l + s, apart, "m apart, and its two links span"};
+  return typeOf(leg.kind).reach(leg, {AB.norm(), std::abs(AB.dot(u)), AB.cross(u).norm()});
 }
 
 /// ", and by up to 0.3 m, leg 2 at t = 3 s": where the motion misses most, if that is more than `already`.
@@ -67,9 +40,9 @@ std::string worstMiss(const Scenario& scenario, double already) {
   for (double t : instantsToCheck(scenario)) {
     const Motion<double> motion = scenario.trajectory->at(t);
     for (int i = 0; i < scenario.manipulator->legCount(); ++i) {
-      const double missed = spanOf(scenario.manipulator->leg(i), motion).missed();
-      if (!(missed > most)) continue;
-      most = missed;
+      const double by = missed(reachOf(scenario.manipulator->leg(i), motion));
+      if (!(by > most)) continue;
+      most = by;
       at = t;
       worst = i;
     }
@@ -78,48 +51,27 @@ std::string worstMiss(const Scenario& scenario, double already) {
 }
 
 std::string outOfReach(const Scenario& scenario, const PoseError& refusal) {
-  const Span span = spanOf(scenario.manipulator->leg(refusal.leg()), scenario.trajectory->at(refusal.instant()));
+  const Reach reach = reachOf(scenario.manipulator->leg(refusal.leg()), scenario.trajectory->at(refusal.instant()));
   const bool too_far = refusal.measure() > refusal.bound();
-  const double missed = std::abs(refusal.measure() - refusal.bound());
+  const double by = std::abs(refusal.measure() - refusal.bound());
   return fmt::format("leg {} is out of reach at t = {:.6g} s: {} {:.6g} {} {} {:.6g} m; it misses by {:.4g} m{}",
-                     refusal.leg() + 1, refusal.instant(), span.before, refusal.measure(), span.after,
-                     too_far ? "at most" : "at least", too_far ? span.most : span.least, missed,
-                     worstMiss(scenario, missed));
+                     refusal.leg() + 1, refusal.instant(), reach.before, refusal.measure(), reach.after,
+                     too_far ? "at most" : "at least", too_far ? reach.most : reach.least, by, worstMiss(scenario, by));
 }
 
 /// A knee within √eps of straight: as a length, what its links can span less the distance.
 std::string stretched(const Scenario& scenario, const PoseError& refusal) {
   const Leg& leg = scenario.manipulator->leg(refusal.leg());
-  const Span span = spanOf(leg, scenario.trajectory->at(refusal.instant()));
-  if (leg.kind == LegKind::PUS)
-    return fmt::format(
-        "leg {} has its rod across its rail at t = {:.6g} s: its platform point is {:.6g} m from the rail, {:.3g} m "
-        "less than the rod is long, and there its carriage's speed is not determined",
-        refusal.leg() + 1, refusal.instant(), span.distance, span.most - span.distance);
-  const bool is_straight = span.most - span.distance < span.distance - span.least;
-  return fmt::format(
-      "leg {} is {} at t = {:.6g} s: {} {:.6g} m {}, {:.3g} m from where its knee can bend neither way, and there its "
-      "speed is not determined",
-      refusal.leg() + 1, is_straight ? "stretched straight" : "folded flat", refusal.instant(), span.before,
-      span.distance, leg.kind == LegKind::RUS ? "from its crank's axis" : "apart",
-      is_straight ? span.most - span.distance : span.distance - span.least);
+  const DeadCentre at = typeOf(leg.kind).deadCentre(reachOf(leg, scenario.trajectory->at(refusal.instant())));
+  return fmt::format("leg {} {} at t = {:.6g} s: {}", refusal.leg() + 1, at.state, refusal.instant(), at.measure);
 }
 
 std::string onAxis(const Scenario& scenario, const PoseError& refusal) {
-  const auto [axis, angle] = [&]() -> std::pair<const char*, const char*> {
-    switch (scenario.manipulator->leg(refusal.leg()).kind) {
-      case LegKind::UPS:
-        return {"base axis of its universal joint", "leg's"};
-      case LegKind::PUS:
-        return {"rail of its carriage", "rod's"};
-      default:
-        return {"axis of its motor", "motor's"};
-    }
-  }();
+  const LegType& type = typeOf(scenario.manipulator->leg(refusal.leg()).kind);
   return fmt::format(
       "leg {} has its platform point on the {} at t = {:.6g} s: {:.3g} m from it, expected more than {:.3g} m, for "
       "there the {} angle is not determined",
-      refusal.leg() + 1, axis, refusal.instant(), refusal.measure(), refusal.bound(), angle);
+      refusal.leg() + 1, type.firstAxis(), refusal.instant(), refusal.measure(), refusal.bound(), type.firstAngle());
 }
 
 std::string inWords(const Scenario& scenario, const PoseError& refusal) {

@@ -7,7 +7,7 @@
 #include "model/load.h"
 #include "model/manipulator.h"
 #include "model/scenario.h"
-#include "model/trajectories.h"
+#include "model/trajectories/trajectories.h"
 #include "model/trajectory.h"
 
 namespace ursula {

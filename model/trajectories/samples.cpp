@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "model/key_bounds.h"
 #include "model/pose_spline.h"
-#include "model/trajectories.h"
+#include "model/scenario_sections.h"
+#include "model/trajectories/trajectories.h"
+#include "model/trajectories/trajectory_kinds.h"
 
 namespace ursula {
 namespace {
@@ -38,6 +41,21 @@ std::unique_ptr<Trajectory> makeSamples(const CsvTable& table) {
                           const std::string what = key.empty() ? value : key + ": " + value;
                           throw CsvError(fmt::format("{}: error: {}, expected {}", table.place(i), what, bound));
                         });
+}
+
+std::vector<ScenarioTable> samplesKeys() {
+  return {{"trajectory.samples",
+           "[trajectory], kind = \"samples\"",
+           "Through the poses of a motion sampled densely.",
+           {kindKey(),
+            {"file", KeyType::string, "", required_key,
+             "a CSV with `t_s`, `p_{x,y,z}_m`, `q_{w,x,y,z}`, at least six rows; a relative path is taken from the "
+             "scenario's folder"}}}};
+}
+
+std::shared_ptr<const Trajectory> readSamples(const TomlSection& table) {
+  table.allowOnly(scenarioTable("trajectory.samples"));
+  return makeSamples(readCsvBeside(table, "file"));
 }
 
 }  // namespace ursula

@@ -6,8 +6,10 @@
 #include "base/errors.h"
 #include "base/real50.h"
 #include "model/kernel_trajectory.h"
+#include "model/key_bounds.h"
 #include "model/pose_spline.h"
-#include "model/trajectories.h"
+#include "model/trajectories/trajectories.h"
+#include "model/trajectories/trajectory_kinds.h"
 
 namespace ursula {
 namespace {
@@ -43,6 +45,27 @@ std::unique_ptr<Trajectory> makeHold(const Vector3d& position, const Eigen::Vect
   return std::make_unique<KernelTrajectory<HoldKernel>>(
       "hold", duration, HoldKernel<double>(position, orientation), HoldKernel<Real50>(position, orientation),
       [=](const Vector3d& origin) { return makeHold(position - origin, orientation, duration); });
+}
+
+std::vector<ScenarioTable> holdKeys() {
+  return {{"trajectory.hold",
+           "[trajectory], kind = \"hold\"",
+           "Stays where it is.",
+           {kindKey(),
+            positionKey(),
+            orientationKeys()[0],
+            orientationKeys()[1],
+            {"duration", KeyType::number, "s", required_key, "", above_zero}}}};
+}
+
+std::shared_ptr<const Trajectory> readHold(const TomlSection& table) {
+  table.allowOnly(scenarioTable("trajectory.hold"));
+  TimedPose pose;
+  double duration = 0;
+  table.require("position", pose.position);
+  pose.orientation = readOrientation(table);
+  table.require("duration", duration);
+  return makeHold(pose.position, pose.orientation, duration);
 }
 
 }  // namespace ursula

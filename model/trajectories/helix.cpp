@@ -8,6 +8,8 @@
 #include "base/errors.h"
 #include "base/real50.h"
 #include "model/kernel_trajectory.h"
+#include "model/key_bounds.h"
+#include "model/trajectories/trajectory_kinds.h"
 #include "model/trajectory.h"
 
 namespace ursula {
@@ -164,12 +166,61 @@ std::unique_ptr<Trajectory> helixFrom(const HelixParameters& parameters, const V
       std::vector<double>{}, hiddenIn(parameters));
 }
 
+ScenarioKey angle(const char* name, const char* fallback, const char* meaning) {
+  return {name, KeyType::number, "rad", fallback, meaning};
+}
+
+ScenarioKey inDegrees(const char* name, const char* meaning) {
+  return {name, KeyType::number, "°", no_default, meaning};
+}
+
 }  // namespace
 
 std::unique_ptr<Trajectory> makeHelix(const HelixParameters& parameters) {
   validate(parameters);
   validateRange(parameters, HelixKernel<double>(parameters, Vector3d::Zero()));
   return helixFrom(parameters, Vector3d::Zero());
+}
+
+std::vector<ScenarioTable> helixKeys() {
+  return {
+      {"trajectory.helix",
+       "[trajectory], kind = \"helix\"",
+       "P on a helix about the z axis of B, the platform along with its triad. The helix' angle is a quintic in time "
+       "between the values, rates and accelerations given at both ends.",
+       {kindKey(),
+        {"duration", KeyType::number, "s", required_key, "t_f", above_zero},
+        {"radius", KeyType::number, "m", required_key, "a", above_zero},
+        {"pitch", KeyType::number, "m/rad", required_key, "b: the rise for an angle of 1 rad", not_zero},
+        angle("start_angle", required_key, "β₀"),
+        inDegrees("start_angle_deg", "instead of `start_angle`"),
+        angle("end_angle", required_key, "β_f"),
+        inDegrees("end_angle_deg", "instead of `end_angle`"),
+        angle("phase", "0.0", "ω"),
+        inDegrees("phase_deg", "instead of `phase`"),
+        angle("height_phase", "0.0", "ω̄: adds its own times b to the height"),
+        inDegrees("height_phase_deg", "instead of `height_phase`"),
+        {"start_rate", KeyType::number, "rad/s", "0.0", "at t = 0"},
+        {"end_rate", KeyType::number, "rad/s", "0.0", "at t_f"},
+        {"start_acceleration", KeyType::number, "rad/s²", "0.0", "at t = 0"},
+        {"end_acceleration", KeyType::number, "rad/s²", "0.0", "at t_f"}}}};
+}
+
+std::shared_ptr<const Trajectory> readHelix(const TomlSection& table) {
+  table.allowOnly(scenarioTable("trajectory.helix"));
+  HelixParameters helix;
+  table.require("duration", helix.duration);
+  table.require("radius", helix.radius);
+  table.require("pitch", helix.pitch);
+  table.requireAngle("start_angle", helix.start_angle);
+  table.requireAngle("end_angle", helix.end_angle);
+  table.readAngle("phase", helix.phase);
+  table.readAngle("height_phase", helix.height_phase);
+  table.read("start_rate", helix.start_rate);
+  table.read("end_rate", helix.end_rate);
+  table.read("start_acceleration", helix.start_acceleration);
+  table.read("end_acceleration", helix.end_acceleration);
+  return makeHelix(helix);
 }
 
 }  // namespace ursula

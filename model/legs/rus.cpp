@@ -1,0 +1,45 @@
+#include <cmath>
+
+#include "model/legs/leg_type.h"
+
+namespace ursula {
+namespace {
+
+/// Crank and rod.
+class Rus : public LegType {
+ public:
+  /// Across the crank's plane first, then within it.
+  Reach reach(const Leg& leg, const LegSpan& span) const override {
+    const double l = leg.proximal.length, s = leg.distal.length;
+    if (span.along > s)
+      return {span.along, 0, s, "its platform point is", "m from its crank's plane, and its rod spans"};
+    const double c = std::sqrt((s - span.along) * (s + span.along));
+    return {span.across, std::abs(l - c), l + c, "its platform point is",
+            "m from its crank's axis, and from there crank and rod span"};
+  }
+
+  double margin(const Leg& /*leg*/, const JointVariables<double>& q, int i) const override {
+    return std::sin(q.psi(i));
+  }
+  const char* endOfReach(const JointVariables<double>& q, int i) const override {
+    return std::cos(q.psi(i)) > 0 ? "stretched" : "folded";
+  }
+
+  /// The triangle of URS as seen along the axis; the rod is as long as what it has along the axis leaves.
+  LinkLengths lengths(const LegSpan& span, double angle, double ratio) const override {
+    const double c = sideOfTriangle(span.across, angle, ratio);
+    return {ratio * c, std::hypot(c, span.along)};
+  }
+
+ private:
+  const char* measuredFrom() const override { return "from its crank's axis"; }
+};
+
+}  // namespace
+
+const LegType& rusLeg() {
+  static const Rus type;
+  return type;
+}
+
+}  // namespace ursula

@@ -1,0 +1,38 @@
+#include <cmath>
+
+#include "model/legs/leg_type.h"
+
+namespace ursula {
+namespace {
+
+/// The paper's leg: universal joint, proximal link, knee, distal link.
+class Urs : public LegType {
+ public:
+  Reach reach(const Leg& leg, const LegSpan& span) const override {
+    const double l = leg.proximal.length, s = leg.distal.length;
+    return {span.distance, std::abs(l - s), l + s, "its base and platform points are",
+            "m apart, and its two links span"};
+  }
+
+  double margin(const Leg& /*leg*/, const JointVariables<double>& q, int i) const override {
+    return std::sin(q.theta(i));
+  }
+  const char* endOfReach(const JointVariables<double>& q, int i) const override {
+    return std::cos(q.theta(i)) < 0 ? "stretched" : "folded";
+  }
+
+  /// |AB|² = l² + s² − 2 l s cos γ, γ the angle at the knee.
+  LinkLengths lengths(const LegSpan& span, double angle, double ratio) const override {
+    const double s = sideOfTriangle(span.distance, angle, ratio);
+    return {ratio * s, s};
+  }
+};
+
+}  // namespace
+
+const LegType& ursLeg() {
+  static const Urs type;
+  return type;
+}
+
+}  // namespace ursula
