@@ -10,8 +10,8 @@
 #include "apps/progress.h"
 #include "apps/streams.h"
 #include "apps/verbs.h"
-#include "base/atomic_folder.h"
-#include "base/writable.h"
+#include "base/output_file.h"
+#include "base/output_folder.h"
 #include "model/scenario_input.h"
 #include "studies/audit/audit.h"
 
@@ -36,7 +36,7 @@ int audit(const AuditOptions& options) {
   });
   if (!options.out.empty()) {
     const std::filesystem::path dir = options.out;
-    AtomicFolder out(dir, [](const std::filesystem::path&) { return Paths(); });
+    OutputFolder out(dir);
     out.write("audit.json", auditJson(result));
     out.write("audit.html", auditHtml(result));
     out.commit();

@@ -8,7 +8,7 @@
 
 #include "apps/output.h"
 #include "apps/verbs.h"
-#include "base/writable.h"
+#include "base/output_file.h"
 #include "model/scenario_files.h"
 
 namespace ursula {

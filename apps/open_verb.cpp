@@ -1,16 +1,13 @@
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
 
 #include "apps/verbs.h"
+#include "base/child_process.h"
 #include "report/run.h"
 
 namespace ursula {
@@ -67,23 +64,6 @@ std::string browserCommand() {
   return command.find("%s") == std::string::npos ? command + " \"$1\"" : withPage(command);
 }
 
-/// In a session of its own and without our streams, twice removed, so that nobody waits for it.
-void startDetached(const std::string& command, const std::string& page) {
-  const pid_t child = ::fork();
-  if (child < 0) throw std::runtime_error("no process could be started for the browser");
-  if (child > 0) {
-    ::waitpid(child, nullptr, 0);
-    return;
-  }
-  ::setsid();
-  if (::fork() != 0) ::_exit(0);
-  const int nothing = ::open("/dev/null", O_RDWR);
-  for (const int stream : std::array<int, 3>{0, 1, 2}) ::dup2(nothing, stream);
-  for (const int error : {SIGPIPE, SIGXFSZ}) std::signal(error, SIG_DFL);
-  ::execl("/bin/sh", "sh", "-c", command.c_str(), "sh", page.c_str(), static_cast<char*>(nullptr));
-  ::_exit(127);
-}
-
 int openResults(const std::string& folder) {
   const std::string page = pageIn(folder).string();
   report::refuseMixture(folder);
@@ -91,7 +71,7 @@ int openResults(const std::string& folder) {
   const std::string command = browserCommand();
   if (command.empty())
     throw UsageError("no browser: neither $BROWSER nor xdg-open is there; open the page above yourself");
-  startDetached(command, page);
+  startDetached({"/bin/sh", "-c", command, "sh", page});
   return exit_passed;
 }
 

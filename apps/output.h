@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 #include "studies/stream/row_format.h"
 
 namespace ursula {
@@ -23,7 +23,7 @@ class Output {
   void commit();
 
  private:
-  std::optional<AtomicFile> file_;
+  std::optional<OutputFile> file_;
 };
 
 /// `--format` and `--jobs` of verbs that write rows.

@@ -13,7 +13,7 @@
 #include "apps/embedded_scenario.h"
 #include "apps/progress.h"
 #include "apps/verbs.h"
-#include "base/writable.h"
+#include "base/output_file.h"
 #include "model/scenario_input.h"
 #include "studies/prove/prove_page.h"
 #include "studies/prove/summary.h"

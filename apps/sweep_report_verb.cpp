@@ -5,7 +5,7 @@
 #include "apps/output.h"
 #include "apps/sweep_verbs.h"
 #include "apps/verbs.h"
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 #include "studies/sweep_report/sweep_csv.h"
 #include "studies/sweep_report/sweep_page.h"
 

@@ -9,7 +9,7 @@
 #include "apps/streams.h"
 #include "apps/sweep_verbs.h"
 #include "apps/verbs.h"
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 #include "studies/sweep/slurm_standing.h"
 
 namespace ursula {

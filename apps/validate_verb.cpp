@@ -13,7 +13,7 @@
 #include "apps/torque_option.h"
 #include "apps/validate_output.h"
 #include "apps/verbs.h"
-#include "base/atomic_folder.h"
+#include "base/output_folder.h"
 #include "model/scenario.h"
 #include "model/scenario_files.h"
 #include "report/report.h"
@@ -79,7 +79,7 @@ ValidationResult judge(const Scenario& scenario, const ValidateOptions& options)
 }
 
 int validateOne(const Scenario& scenario, const ValidateOptions& options, const std::filesystem::path& dir) {
-  AtomicFolder out(dir, report::resultsIn);
+  OutputFolder out(dir, report::resultsIn);
   requireResults(out, "");
   const Stopwatch watch;
   ValidationResult result = judge(scenario, options);

@@ -2,7 +2,7 @@
 
 #include <ctime>
 
-#include "base/atomic_folder.h"
+#include "base/output_folder.h"
 #include "report/html.h"
 #include "report/junit.h"
 #include "report/run.h"
@@ -34,11 +34,11 @@ SuiteEntry suiteEntry(const ValidationResult& result, std::filesystem::path fold
   return entry;
 }
 
-SuiteEntry addResults(ValidationResult& result, AtomicFolder& out, const std::filesystem::path& below,
+SuiteEntry addResults(ValidationResult& result, OutputFolder& out, const std::filesystem::path& below,
                       const RunTime& time, Place place) {
   std::string series_sha1;
   out.write(below / "timeseries.csv",
-            [&](const AtomicFolder::Take& take) { series_sha1 = report::timeseriesCsv(result, take); });
+            [&](const OutputFolder::Take& take) { series_sha1 = report::timeseriesCsv(result, take); });
   report::stamp(series_sha1, result);
   SuiteEntry entry = suiteEntry(result, below, time);
   out.write(below / "junit.xml", report::junitXml({entry}));
@@ -47,19 +47,19 @@ SuiteEntry addResults(ValidationResult& result, AtomicFolder& out, const std::fi
   return entry;
 }
 
-void requireResults(const AtomicFolder& out, const std::filesystem::path& below) {
+void requireResults(const OutputFolder& out, const std::filesystem::path& below) {
   for (const char* file : report::result_files) out.require(below / file);
 }
 
 void writeResults(const ValidationResult& result, const std::filesystem::path& dir, const RunTime& time, Place place) {
-  AtomicFolder out(dir, report::resultsIn);
+  OutputFolder out(dir, report::resultsIn);
   requireResults(out, "");
   ValidationResult whole = result;
   addResults(whole, out, "", time, place);
   out.commit();
 }
 
-void addSuiteIndex(const std::vector<SuiteEntry>& entries, AtomicFolder& out) {
+void addSuiteIndex(const std::vector<SuiteEntry>& entries, OutputFolder& out) {
   const std::string run = report::runOf(entries);
   std::vector<SuiteEntry> named = entries;
   for (SuiteEntry& entry : named) entry.properties.emplace_back("run of the suite", run);
@@ -69,7 +69,7 @@ void addSuiteIndex(const std::vector<SuiteEntry>& entries, AtomicFolder& out) {
 }
 
 void writeSuiteIndex(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir) {
-  AtomicFolder out(dir, [](const std::filesystem::path&) { return Paths(); });  // the scenarios' folders stay
+  OutputFolder out(dir);  // the scenarios' folders stay
   addSuiteIndex(entries, out);
   out.commit();
 }

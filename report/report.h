@@ -10,7 +10,7 @@
 
 namespace ursula {
 
-class AtomicFolder;
+class OutputFolder;
 
 /// When something was run, for the JUnit files alone: nothing else that is written differs from run to run.
 struct RunTime {
@@ -72,22 +72,22 @@ const Check* worstCheck(const std::vector<Check>& checks);
 enum class Place { alone, in_suite };
 
 /// Writes `timeseries.csv`, `junit.xml`, `report.html` and, last, `summary.json` into `dir`, which has the older run's
-/// until it has all of these: see AtomicFolder, whose errors it throws. All but the first name the run: see stamped.
+/// until it has all of these: see OutputFolder, whose errors it throws. All but the first name the run: see stamped.
 void writeResults(const ValidationResult& result, const std::filesystem::path& dir, const RunTime& time = {},
                   Place place = Place::alone);
 
 /// The same into a folder that is committed by the caller, in its folder `below`; `result` is stamped. The line of what
 /// was written.
-SuiteEntry addResults(ValidationResult& result, AtomicFolder& out, const std::filesystem::path& below,
+SuiteEntry addResults(ValidationResult& result, OutputFolder& out, const std::filesystem::path& below,
                       const RunTime& time, Place place);
 
 /// Throws std::runtime_error where results could not be written into a folder's folder `below`; writes nothing.
-void requireResults(const AtomicFolder& out, const std::filesystem::path& below);
+void requireResults(const OutputFolder& out, const std::filesystem::path& below);
 
 /// Writes `junit.xml` and `suite.json` over all entries and, last, `index.html` into `dir`. Throws as writeResults.
 void writeSuiteIndex(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir);
 
 /// The same into a folder that is committed by the caller.
-void addSuiteIndex(const std::vector<SuiteEntry>& entries, AtomicFolder& out);
+void addSuiteIndex(const std::vector<SuiteEntry>& entries, OutputFolder& out);
 
 }  // namespace ursula

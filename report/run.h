@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/carry_over.h"
+#include "base/output_folder.h"
 #include "report/report.h"
 #include "validation/verdict/result.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/atomic_folder.h"
+#include "base/output_folder.h"
 #include "report/assets.h"
 #include "report/checks_list.h"
 #include "report/figures.h"
@@ -216,7 +216,7 @@ Comparison writeComparison(const TimeSeries& reference, const TimeSeries& test, 
       compare(reference, test, options, [&](const ChannelComparison& channel, const ChannelCurves& curves) {
         charts.push_back(channelCharts(channel, curves, reference.names.size()));
       });
-  AtomicFolder out(dir, [](const std::filesystem::path&) { return Paths(); });
+  OutputFolder out(dir);
   out.write("junit.xml", report::junitXml({comparisonSuite(comparison, files.reference + " : " + files.test)}));
   out.write("compare.csv", comparisonCsv(comparison));
   out.write("compare.html", comparisonHtml(comparison, charts, files));

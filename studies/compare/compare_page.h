@@ -32,7 +32,7 @@ std::string comparisonHtml(const Comparison& comparison, const std::vector<Chann
                            const ComparedFiles& files);
 
 /// Compares, and writes `junit.xml`, `compare.csv` and `compare.html` into `dir`, all or none. Throws what
-/// AtomicFolder throws.
+/// OutputFolder throws.
 Comparison writeComparison(const TimeSeries& reference, const TimeSeries& test, const CompareOptions& options,
                            const ComparedFiles& files, const std::filesystem::path& dir);
 

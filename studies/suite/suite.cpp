@@ -14,7 +14,7 @@
 #include <string>
 #include <thread>
 
-#include "base/atomic_folder.h"
+#include "base/output_folder.h"
 #include "base/out_of_memory.h"
 #include "base/start_threads.h"
 #include "model/scenario_input.h"
@@ -73,7 +73,7 @@ void checkNames(const std::vector<SuiteMember>& members) {
 /// Scenarios are handed out one by one to whichever thread is free; each writes where no other does.
 class SuiteRun {
  public:
-  SuiteRun(const std::vector<SuiteMember>& members, AtomicFolder& out, const SuiteOptions& options)
+  SuiteRun(const std::vector<SuiteMember>& members, OutputFolder& out, const SuiteOptions& options)
       : members_(members), out_(out), options_(options), entries_(members.size()) {}
 
   std::vector<SuiteEntry> run() {
@@ -121,7 +121,7 @@ class SuiteRun {
   }
 
   const std::vector<SuiteMember>& members_;
-  AtomicFolder& out_;
+  OutputFolder& out_;
   const SuiteOptions& options_;
   std::vector<SuiteEntry> entries_;
   std::atomic<std::size_t> next_{0};
@@ -156,7 +156,7 @@ std::vector<SuiteMember> allOrNothing(std::vector<SuiteMember> members) {
 std::vector<SuiteEntry> runSuite(const std::vector<SuiteMember>& members, const std::filesystem::path& dir,
                                  const SuiteOptions& options) {
   if (options.jobs < 1) throw std::invalid_argument(fmt::format("{} jobs, expected at least 1", options.jobs));
-  AtomicFolder out(dir, report::resultsIn);
+  OutputFolder out(dir, report::resultsIn);
   for (const char* file : report::suite_files) out.require(file);
   for (const SuiteMember& member : members)
     if (member.scenario) requireResults(out, member.name);

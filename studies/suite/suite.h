@@ -39,7 +39,7 @@ struct SuiteOptions {
 };
 
 /// Judges each scenario and writes its results into dir/NAME, then one JUnit file, `suite.json` and the index over all
-/// into `dir`, which has the older run's until all are there: see AtomicFolder. What cannot be written is found before
+/// into `dir`, which has the older run's until all are there: see OutputFolder. What cannot be written is found before
 /// anything is judged. What is written is the same to the byte for any number of jobs, but for wall times, which are in
 /// these and the JUnit files alone. A member in error, or one where `judge` throws, has no result: that entry fails and
 /// holds the error. Entries keep the members' order. Throws std::invalid_argument for jobs < 1, and what writing

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 
 namespace ursula {
 namespace {

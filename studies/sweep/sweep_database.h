@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/fresh_folders.h"
+#include "base/fresh_paths.h"
 #include "studies/sweep/sqlite.h"
 
 namespace ursula {
@@ -81,7 +81,7 @@ class SweepDatabase {
   void requireInPlace();
   void requireSoundFile();
 
-  FreshFolders folders_;
+  FreshPaths folders_;
   Sqlite sqlite_;
   SweepIdentity identity_;
   std::unique_ptr<Statements> statements_;

@@ -12,8 +12,8 @@
 
 namespace ursula {
 
-/// Processes that work on points: one that crashes takes nothing with it. The point that it was at is tried once more,
-/// then it is a point with verdict "error" that says how its worker ended.
+/// Processes that work on points, where threads do elsewhere: one that crashes takes nothing with it. The point that it
+/// was at is tried once more, then it is a point with verdict "error" that says how its worker ended.
 ///
 /// Made of copies of the calling process (fork): it should have no threads that hold locks.
 class WorkerPool {

@@ -5,7 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/atomic_folder.h"
+#include "base/output_folder.h"
 #include "tests/base/temporary_folder.h"
 
 namespace ursula {
@@ -34,7 +34,7 @@ class Bound {
   mode_t mask_;
 };
 
-TEST(AtomicFolder, leavesNothingWhereTheUmaskForbidsAll) {
+TEST(OutputFolder, leavesNothingWhereTheUmaskForbidsAll) {
   const TemporaryFolder folder;
   const fs::path home = folder.path() / "home";
   fs::create_directory(home);
@@ -42,7 +42,7 @@ TEST(AtomicFolder, leavesNothingWhereTheUmaskForbidsAll) {
   {
     const Bound somebody(home);
     try {
-      AtomicFolder out(home / "dir", [](const fs::path&) { return Paths{}; });
+      OutputFolder out(home / "dir");
       out.write("a", "new");
       out.commit();
     } catch (const std::exception&) {

@@ -129,6 +129,8 @@ FAILS_ON(path, int, rmdir, (const char* path), (path), __THROW)
 FAILS_ON(path, int, unlink, (const char* path), (path), __THROW)
 FAILS_ON(path, int, remove, (const char* path), (path), __THROW)
 FAILS_ON(to, int, rename, (const char* from, const char* to), (from, to), __THROW)
+FAILS_ON(to, int, renameat2, (int in, const char* from, int at, const char* to, unsigned flags),
+         (in, from, at, to, flags), __THROW)
 FAILS_ON(to, int, linkat, (int in, const char* from, int at, const char* to, int flags), (in, from, at, to, flags),
          __THROW)
 
@@ -163,16 +165,4 @@ extern "C" __attribute__((visibility("default"))) int fcntl64(int file, int comm
   void* argument = va_arg(rest, void*);
   va_end(rest);
   return command == F_SETLK && fails("fcntl64", file) ? -1 : real(file, command, argument);
-}
-
-/// renameat2, which has a function of its own in newer C libraries alone.
-extern "C" __attribute__((visibility("default"))) long syscall(long number, ...) __THROW {
-  static const auto real = next<long (*)(long, ...)>("syscall");
-  va_list rest;
-  va_start(rest, number);
-  long a[6];
-  for (long& each : a) each = va_arg(rest, long);
-  va_end(rest);
-  if (number == SYS_renameat2 && fails("renameat2", reinterpret_cast<const char*>(a[3]))) return -1;
-  return real(number, a[0], a[1], a[2], a[3], a[4], a[5]);
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 #include "model/scenario.h"
 #include "studies/compare/compare_page.h"
 #include "tests/report/report_samples.h"

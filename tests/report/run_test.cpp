@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "base/atomic_folder.h"
+#include "base/output_folder.h"
 #include "tests/base/temporary_folder.h"
 #include "tests/report/report_samples.h"
 
@@ -53,7 +53,7 @@ TEST(Run, ofTwoTheFilesAreRefused) {
   expectRefusedOf(dir, {report::result_files.begin(), report::result_files.end()});
 }
 
-/// As AtomicFolder swaps it, at any moment while the files are read.
+/// As OutputFolder swaps it, at any moment while the files are read.
 TEST(Run, isWholeInAFolderThatIsSwappedMeanwhile) {
   const TemporaryFolder folder;
   const std::filesystem::path &dir = folder.path(), shown = dir / "shown";
@@ -77,7 +77,7 @@ TEST(Run, ofASuiteRefusesAnothersScenario) {
   const TemporaryFolder folder;
   const std::filesystem::path& dir = folder.path();
   const auto write = [](ValidationResult result, const std::filesystem::path& to) {
-    AtomicFolder out(to, report::resultsIn);
+    OutputFolder out(to, report::resultsIn);
     addSuiteIndex({addResults(result, out, "s", {}, Place::in_suite)}, out);
     out.commit();
   };

@@ -1,19 +1,16 @@
 #pragma once
 
-#include <sys/types.h>
-
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "base/at_ending.h"
+#include "base/child_process.h"
 
 namespace ursula {
 
 /// A command that is asked line by line: what is written to its standard input is answered on its standard output. Its
-/// standard error is ours. It leads a process group of its own, which ends with this object, or with a signal that ends
-/// this process where that has its default action, but for SIGKILL and those of a crash. For one thread at a time.
+/// standard error is ours. It ends with this object, or with this process, with all that it has started: see
+/// ChildProcess. For one thread at a time.
 class LineProcess {
  public:
   /// Why `text` is all that came.
@@ -26,10 +23,6 @@ class LineProcess {
 
   /// Starts `sh -c command` with further variables in its environment. Throws std::system_error where it cannot be.
   LineProcess(const std::string& command, const Environment& environment);
-  /// Kills the whole group and waits for the command.
-  ~LineProcess();
-  LineProcess(const LineProcess&) = delete;
-  LineProcess& operator=(const LineProcess&) = delete;
 
   /// Writes the line and waits for one, for at most `timeout` seconds in all.
   Answer ask(const std::string& line, double timeout);
@@ -47,12 +40,8 @@ class LineProcess {
   bool write(const std::string& text, double deadline);
   /// Waits for more output until the deadline; false at its end, with `ended` set, or at the deadline.
   bool receive(double deadline, bool& ended);
-  void kill();
 
-  pid_t pid_ = -1;
-  std::optional<AtEnding> ends_with_us_;
-  int to_ = -1, from_ = -1;
-  int status_ = 0;
+  ChildProcess process_;
   std::string received_;
 };
 

@@ -1,4 +1,4 @@
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -21,7 +21,7 @@ int filesIn(const std::filesystem::path& folder) {
   return static_cast<int>(std::distance(std::filesystem::directory_iterator(folder), {}));
 }
 
-TEST(AtomicFile, writesEveryByteAndMakesFolders) {
+TEST(OutputFile, writesEveryByteAndMakesFolders) {
   const TemporaryFolder folder;
   const std::string content("a\r\nb\0c", 6);
   writeFileAtomically(folder.path() / "deep" / "er" / "file.bin", content);
@@ -29,7 +29,7 @@ TEST(AtomicFile, writesEveryByteAndMakesFolders) {
   EXPECT_EQ(filesIn(folder.path() / "deep" / "er"), 1);
 }
 
-TEST(AtomicFile, replacesWhatIsThere) {
+TEST(OutputFile, replacesWhatIsThere) {
   const TemporaryFolder folder;
   writeFileAtomically(folder.path() / "file", "a long first text");
   writeFileAtomically(folder.path() / "file", "second");
@@ -37,7 +37,7 @@ TEST(AtomicFile, replacesWhatIsThere) {
   EXPECT_EQ(filesIn(folder.path()), 1);
 }
 
-TEST(AtomicFile, leavesNothingBehindWhenItFails) {
+TEST(OutputFile, leavesNothingBehindWhenItFails) {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder.path() / "taken" / "child");
   EXPECT_ANY_THROW(writeFileAtomically(folder.path() / "taken", "a file cannot replace a folder"));
@@ -46,21 +46,21 @@ TEST(AtomicFile, leavesNothingBehindWhenItFails) {
   EXPECT_ANY_THROW(writeFileAtomically(folder.path() / "plain" / "below a file", "text"));
 }
 
-TEST(AtomicFile, takesFreshFoldersAwayWhereItIsNotCommitted) {
+TEST(OutputFile, takesFreshFoldersAwayWhereItIsNotCommitted) {
   const TemporaryFolder folder;
   {
-    AtomicFile file(folder.path() / "deep" / "er" / "file");
+    OutputFile file(folder.path() / "deep" / "er" / "file");
     file.write("half");
     ASSERT_EQ(filesIn(folder.path()), 1);
   }
   EXPECT_EQ(filesIn(folder.path()), 0);
   std::filesystem::create_directories(folder.path() / "old");
-  { const AtomicFile file(folder.path() / "old" / "new" / "file"); }
+  { const OutputFile file(folder.path() / "old" / "new" / "file"); }
   EXPECT_TRUE(std::filesystem::is_directory(folder.path() / "old")) << "it was there before";
   EXPECT_EQ(filesIn(folder.path() / "old"), 0);
 }
 
-TEST(AtomicFile, fromManyThreadsIsWholeAtAnyTime) {
+TEST(OutputFile, fromManyThreadsIsWholeAtAnyTime) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "file";
   std::vector<std::thread> writers;
@@ -86,7 +86,7 @@ std::string refusalOf(const fs::path& file) {
   return refusal<std::runtime_error>([&] { writeFileAtomically(file, "new"); });
 }
 
-TEST(AtomicFile, goesThroughAPipe) {
+TEST(OutputFile, goesThroughAPipe) {
   const TemporaryFolder folder;
   const fs::path pipe = folder.path() / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -98,7 +98,7 @@ TEST(AtomicFile, goesThroughAPipe) {
   EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
-TEST(AtomicFile, goesToADeviceAndLeavesItOne) {
+TEST(OutputFile, goesToADeviceAndLeavesItOne) {
   const TemporaryFolder folder;
   fs::create_symlink("/dev/null", folder.path() / "link");
   for (const fs::path& device : {fs::path("/dev/null"), folder.path() / "link"}) {
@@ -109,7 +109,7 @@ TEST(AtomicFile, goesToADeviceAndLeavesItOne) {
   EXPECT_THAT(refusalOf("/dev/full"), HasSubstr("cannot write /dev/full: No space left on device"));
 }
 
-TEST(AtomicFile, toWhatAProcessHasOpenIsAddedThere) {
+TEST(OutputFile, toWhatAProcessHasOpenIsAddedThere) {
   const TemporaryFolder folder;
   const fs::path file = folder.write("open", "before, ");
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
@@ -118,7 +118,7 @@ TEST(AtomicFile, toWhatAProcessHasOpenIsAddedThere) {
   EXPECT_EQ(TemporaryFolder::read(file), "before, after");
 }
 
-TEST(AtomicFile, behindALinkIsTheLinksTarget) {
+TEST(OutputFile, behindALinkIsTheLinksTarget) {
   const TemporaryFolder folder;
   fs::create_directory(folder.path() / "there");
   folder.write("there/target", "old");
@@ -136,7 +136,7 @@ TEST(AtomicFile, behindALinkIsTheLinksTarget) {
   EXPECT_THAT(refusalOf(folder.path() / "circle"), HasSubstr("circle: too many symbolic links"));
 }
 
-TEST(AtomicFile, keepsTheModeAndLeavesOtherNamesOfTheOldFile) {
+TEST(OutputFile, keepsTheModeAndLeavesOtherNamesOfTheOldFile) {
   const TemporaryFolder folder;
   const fs::path file = folder.write("file", "old"), other = folder.path() / "other";
   fs::create_hard_link(file, other);
@@ -148,7 +148,7 @@ TEST(AtomicFile, keepsTheModeAndLeavesOtherNamesOfTheOldFile) {
 }
 
 /// Root could, and is refused all the same.
-TEST(AtomicFile, thatIsReadOnlyOrInAReadOnlyFolderIsRefused) {
+TEST(OutputFile, thatIsReadOnlyOrInAReadOnlyFolderIsRefused) {
   const TemporaryFolder folder;
   const fs::path file = folder.write("file", "old");
   fs::create_symlink(file, folder.path() / "link");
@@ -166,7 +166,7 @@ TEST(AtomicFile, thatIsReadOnlyOrInAReadOnlyFolderIsRefused) {
   EXPECT_EQ(TemporaryFolder::read(file), "old");
 }
 
-TEST(AtomicFile, saysWhatIsInTheWay) {
+TEST(OutputFile, saysWhatIsInTheWay) {
   const TemporaryFolder folder;
   const fs::path plain = folder.write("plain", "");
   EXPECT_THAT(refusalOf(folder.path()), HasSubstr("is a folder, expected a file"));
@@ -176,7 +176,7 @@ TEST(AtomicFile, saysWhatIsInTheWay) {
   EXPECT_EQ(filesIn(folder.path()), 1);
 }
 
-TEST(AtomicFile, removesWhatADeadProcessLeftAndNothingOfALivingOne) {
+TEST(OutputFile, removesWhatADeadProcessLeftAndNothingOfALivingOne) {
   const TemporaryFolder folder;
   const fs::path dead = folder.write(".ursula-file-1-0", "half"), living = folder.write(".ursula-file-2-0", "half");
   const fs::path users = folder.write(".ursula-notes", "mine");

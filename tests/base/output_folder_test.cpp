@@ -1,6 +1,6 @@
 // A folder that is swapped in as a whole: what is carried over, what goes, what a failure leaves, who may write.
 
-#include "base/atomic_folder.h"
+#include "base/output_folder.h"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -40,17 +40,17 @@ std::map<std::string, std::string> contents(const fs::path& folder) {
 }
 
 void writeRun(const fs::path& folder, const std::string& text) {
-  AtomicFolder out(folder, older);
+  OutputFolder out(folder, older);
   out.write("a", text);
   out.write("sub/a", text);
   out.commit();
 }
 
-TEST(AtomicFolder, isThereAsAWholeOnceItIsCommitted) {
+TEST(OutputFolder, isThereAsAWholeOnceItIsCommitted) {
   const TemporaryFolder folder;
   const fs::path dir = folder.path() / "deep" / "dir";
   {
-    AtomicFolder out(dir, older);
+    OutputFolder out(dir, older);
     out.write("a", "text");
     EXPECT_FALSE(fs::exists(dir));
     out.commit();
@@ -59,39 +59,39 @@ TEST(AtomicFolder, isThereAsAWholeOnceItIsCommitted) {
               ElementsAre(Pair("deep/", ""), Pair("deep/dir/", ""), Pair("deep/dir/a", "text")));
 }
 
-TEST(AtomicFolder, takesAFilePieceByPiece) {
+TEST(OutputFolder, takesAFilePieceByPiece) {
   const TemporaryFolder folder;
   const fs::path dir = folder.path() / "dir";
   {
-    AtomicFolder out(dir, older);
-    out.write("a", [](const AtomicFolder::Take& take) {
+    OutputFolder out(dir, older);
+    out.write("a", [](const OutputFolder::Take& take) {
       for (const char* piece : {"one,", "", "two"}) take(piece);
     });
-    EXPECT_THROW(out.write("b", [](const AtomicFolder::Take&) { throw std::domain_error("no more"); }),
+    EXPECT_THROW(out.write("b", [](const OutputFolder::Take&) { throw std::domain_error("no more"); }),
                  std::domain_error);
     out.commit();
   }
   EXPECT_EQ(TemporaryFolder::read(dir / "a"), "one,two");
 }
 
-TEST(AtomicFolder, thatIsNotCommittedLeavesEverythingAsItWas) {
+TEST(OutputFolder, thatIsNotCommittedLeavesEverythingAsItWas) {
   const TemporaryFolder folder;
   writeRun(folder.path() / "dir", "old");
   const auto before = contents(folder.path());
   for (const char* dir : {"dir", "new", "new/deep"}) {
-    AtomicFolder out(folder.path() / dir, older);
+    OutputFolder out(folder.path() / dir, older);
     out.write("a", "new");
   }
   EXPECT_EQ(contents(folder.path()), before);
 }
 
-TEST(AtomicFolder, thatASignalEndsLeavesEverythingAsItWas) {
+TEST(OutputFolder, thatASignalEndsLeavesEverythingAsItWas) {
   const TemporaryFolder folder;
   writeRun(folder.path() / "dir", "old");
   const auto before = contents(folder.path());
   for (const char* dir : {"dir", "new/deep"}) {
     const auto ended = [&] {
-      AtomicFolder out(folder.path() / dir, older);
+      OutputFolder out(folder.path() / dir, older);
       for (const char* name : {"a", "sub/a", "sub/deep/a"}) out.write(name, "new");
       std::raise(SIGTERM);
     };
@@ -101,11 +101,11 @@ TEST(AtomicFolder, thatASignalEndsLeavesEverythingAsItWas) {
 }
 
 /// Whatever thread the signal comes to.
-TEST(AtomicFolder, isThereAsAWholeWhereASignalComesWhileItIsCommitted) {
+TEST(OutputFolder, isThereAsAWholeWhereASignalComesWhileItIsCommitted) {
   const TemporaryFolder folder;
   writeRun(folder.path() / "dir", "old");
   const auto ended = [&] {
-    AtomicFolder out(folder.path() / "dir", [](const fs::path& path) {
+    OutputFolder out(folder.path() / "dir", [](const fs::path& path) {
       std::thread([] { std::raise(SIGTERM); }).join();
       return older(path);
     });
@@ -117,7 +117,7 @@ TEST(AtomicFolder, isThereAsAWholeWhereASignalComesWhileItIsCommitted) {
               ElementsAre(Pair("dir/", ""), Pair("dir/a", "new"), Pair("dir/sub/", ""), Pair("dir/sub/a", "old")));
 }
 
-TEST(AtomicFolder, carriesOverWhatNoRunWroteAndDropsTheOlderRun) {
+TEST(OutputFolder, carriesOverWhatNoRunWroteAndDropsTheOlderRun) {
   const TemporaryFolder folder;
   const fs::path dir = folder.path() / "dir";
   writeRun(dir, "old");
@@ -142,7 +142,7 @@ TEST(AtomicFolder, carriesOverWhatNoRunWroteAndDropsTheOlderRun) {
   EXPECT_EQ(found.st_mode & 07777, 0750u);
 }
 
-TEST(AtomicFolder, keepsAUsersNoteInAFolderThatTheNewRunHasNot) {
+TEST(OutputFolder, keepsAUsersNoteInAFolderThatTheNewRunHasNot) {
   const TemporaryFolder folder;
   fs::create_directories(folder.path() / "dir" / "gone");
   folder.write("dir/gone/a", "of the older run");
@@ -152,17 +152,17 @@ TEST(AtomicFolder, keepsAUsersNoteInAFolderThatTheNewRunHasNot) {
   EXPECT_FALSE(fs::exists(folder.path() / "dir/gone/a"));
 }
 
-TEST(AtomicFolder, refusesWhereAUsersFolderHasAFilesName) {
+TEST(OutputFolder, refusesWhereAUsersFolderHasAFilesName) {
   const TemporaryFolder folder;
   const fs::path dir = folder.path() / "dir";
   fs::create_directories(dir / "a" / "mine");
   const auto before = contents(folder.path());
-  EXPECT_THAT(refusal<std::runtime_error>([&] { AtomicFolder(dir, older).require("a"); }), HasSubstr("is a folder"));
+  EXPECT_THAT(refusal<std::runtime_error>([&] { OutputFolder(dir, older).require("a"); }), HasSubstr("is a folder"));
   EXPECT_THAT(refusal<std::runtime_error>([&] { writeRun(dir, "new"); }), HasSubstr("expected a file"));
   EXPECT_EQ(contents(folder.path()), before);
 }
 
-TEST(AtomicFolder, behindALinkIsTheLinksTarget) {
+TEST(OutputFolder, behindALinkIsTheLinksTarget) {
   const TemporaryFolder folder;
   writeRun(folder.path() / "there", "old");
   fs::create_directory_symlink("there", folder.path() / "link");
@@ -171,17 +171,17 @@ TEST(AtomicFolder, behindALinkIsTheLinksTarget) {
   EXPECT_EQ(TemporaryFolder::read(folder.path() / "there/a"), "new");
 }
 
-TEST(AtomicFolder, isWrittenByOneAtATime) {
+TEST(OutputFolder, isWrittenByOneAtATime) {
   const TemporaryFolder folder;
   const fs::path dir = folder.path() / "dir";
-  AtomicFolder first(dir, older);
-  EXPECT_EQ(refusal<FolderInUse>([&] { AtomicFolder(dir, older); }),
+  OutputFolder first(dir, older);
+  EXPECT_EQ(refusal<std::runtime_error>([&] { OutputFolder(dir, older); }),
             dir.string() + ": another run (process " + std::to_string(::getpid()) +
                 ") is writing there, expected a folder that no other run has");
-  AtomicFolder(folder.path() / "other", older);  // in nobody's way
+  OutputFolder(folder.path() / "other", older);  // in nobody's way
   first.write("a", "first");
   first.commit();
-  AtomicFolder second(dir, older);
+  OutputFolder second(dir, older);
   EXPECT_EQ(TemporaryFolder::read(dir / "a"), "first");
 }
 
@@ -190,7 +190,7 @@ fs::path left(const TemporaryFolder& folder, const std::string& kind) {
   return folder.path() / (".ursula-" + kind + "-" + sha1("dir").substr(0, 12) + "-1-0");
 }
 
-TEST(AtomicFolder, removesWhatADeadProcessLeft) {
+TEST(OutputFolder, removesWhatADeadProcessLeft) {
   const TemporaryFolder folder;
   fs::create_directories(left(folder, "new") / "sub");
   folder.write(left(folder, "new").filename().string() + "/sub/a", "half");
@@ -202,7 +202,7 @@ TEST(AtomicFolder, removesWhatADeadProcessLeft) {
                           Pair("dir/sub/", ""), Pair("dir/sub/a", "new")));
 }
 
-TEST(AtomicFolder, bringsANoteAfterThatASwapWasKilledWith) {
+TEST(OutputFolder, bringsANoteAfterThatASwapWasKilledWith) {
   const TemporaryFolder folder;
   writeRun(folder.path() / "dir", "new");
   fs::create_directory(left(folder, "old"));
@@ -214,11 +214,11 @@ TEST(AtomicFolder, bringsANoteAfterThatASwapWasKilledWith) {
                           Pair("dir/sub/a", "newer")));
 }
 
-TEST(AtomicFolder, putsBackWhatWasRenamedAwayAndNeverReplaced) {
+TEST(OutputFolder, putsBackWhatWasRenamedAwayAndNeverReplaced) {
   const TemporaryFolder folder;
   writeRun(folder.path() / "dir", "old");
   fs::rename(folder.path() / "dir", left(folder, "old"));
-  AtomicFolder(folder.path() / "dir", older);
+  OutputFolder(folder.path() / "dir", older);
   EXPECT_EQ(TemporaryFolder::read(folder.path() / "dir/a"), "old");
 }
 
@@ -234,16 +234,21 @@ class WorkingIn {
   fs::path before_;
 };
 
-TEST(AtomicFolder, thatIsWorkedInStaysTheSameFolder) {
+/// The shell would be left in a folder that is gone.
+TEST(OutputFolder, thatIsWorkedInIsRefused) {
   const TemporaryFolder folder;
   writeRun(folder.path() / "dir", "old");
-  folder.write("dir/b", "of the older run");
-  folder.write("dir/note", "a user's");
-  const WorkingIn here(folder.path() / "dir");
-  writeRun(".", "new");
-  EXPECT_EQ(TemporaryFolder::read("a"), "new") << "by the old folder, which the shell is in";
-  EXPECT_THAT(contents(folder.path()), ElementsAre(Pair("dir/", ""), Pair("dir/a", "new"), Pair("dir/note", "a user's"),
-                                                   Pair("dir/sub/", ""), Pair("dir/sub/a", "new")));
+  const auto before = contents(folder.path());
+  for (const char* here : {"dir", "dir/sub"}) {
+    const WorkingIn there(folder.path() / here);
+    EXPECT_EQ(refusal<std::runtime_error>([&] { writeRun(folder.path() / "dir", "new"); }),
+              "cannot write " + (folder.path() / "dir").string() + ": is worked in, expected another folder, as " +
+                  (folder.path() / "dir/results").string());
+    writeRun("results", "new");
+    EXPECT_EQ(TemporaryFolder::read("results/a"), "new") << "one below is not";
+    fs::remove_all("results");
+  }
+  EXPECT_EQ(contents(folder.path()), before);
 }
 
 /// A small file system of its own, where the machine lets one have it.
@@ -265,23 +270,22 @@ class SmallDisk {
   bool is_there_ = false;
 };
 
-TEST(AtomicFolder, ofAFullDiskIsTheOldOne) {
+TEST(OutputFolder, ofAFullDiskIsTheOldOne) {
   const TemporaryFolder folder;
   const SmallDisk disk(folder.path() / "disk");
   if (!disk.isThere()) GTEST_SKIP() << "no file system can be mounted here";
   const std::string large(400'000, 'x');
-  for (const fs::path& dir : {folder.path() / "disk" / "dir", folder.path() / "disk"}) {  // swapped; a mount point
-    writeRun(dir, "old");
-    const auto before = contents(folder.path());
-    EXPECT_EQ(refusal<std::runtime_error>([&] { writeRun(dir, large); }),
-              "cannot write " + (dir / "a").string() + ": No space left on device");
-    EXPECT_EQ(contents(folder.path()), before);
-    writeRun(dir, "new");
-    EXPECT_EQ(TemporaryFolder::read(dir / "a"), "new");
-  }
+  const fs::path dir = folder.path() / "disk" / "dir";
+  writeRun(dir, "old");
+  const auto before = contents(folder.path());
+  EXPECT_EQ(refusal<std::runtime_error>([&] { writeRun(dir, large); }),
+            "cannot write " + (dir / "a").string() + ": No space left on device");
+  EXPECT_EQ(contents(folder.path()), before);
+  writeRun(dir, "new");
+  EXPECT_EQ(TemporaryFolder::read(dir / "a"), "new");
 }
 
-TEST(AtomicFolder, leavesAloneWhatIsMountedInIt) {
+TEST(OutputFolder, thatIsOrHoldsAMountPointIsRefused) {
   const TemporaryFolder folder;
   const fs::path dir = folder.path() / "dir", data = dir / "notes" / "data";
   writeRun(dir, "old");
@@ -289,12 +293,33 @@ TEST(AtomicFolder, leavesAloneWhatIsMountedInIt) {
   const SmallDisk disk(data);
   if (!disk.isThere()) GTEST_SKIP() << "no file system can be mounted here";
   folder.write("dir/notes/data/precious", "a user's");
-  writeRun(dir, "new");
-  EXPECT_THAT(contents(folder.path()),
-              ElementsAre(Pair("dir/", ""), Pair("dir/a", "new"), Pair("dir/notes/", ""), Pair("dir/notes/data/", ""),
-                          Pair("dir/notes/data/precious", "a user's"), Pair("dir/sub/", ""), Pair("dir/sub/a", "new")));
-  fs::rename(dir / "a", dir / "kept");
-  EXPECT_TRUE(fs::exists(data / "precious")) << "and still where it was mounted";
+  const auto before = contents(folder.path());
+  EXPECT_EQ(refusal<std::runtime_error>([&] { writeRun(data, "new"); }),
+            "cannot write " + data.string() + ": is a mount point, expected another folder, as " +
+                (data / "results").string());
+  EXPECT_EQ(refusal<std::runtime_error>([&] { writeRun(dir, "new"); }),
+            "cannot write " + dir.string() + ": " + data.string() + " cannot be carried over: Device or resource busy");
+  EXPECT_EQ(contents(folder.path()), before);
+  writeRun(data / "results", "new");
+  EXPECT_EQ(TemporaryFolder::read(data / "results/a"), "new");
+}
+
+/// What is mounted is the same file system: its number does not tell.
+TEST(OutputFolder, thatIsOrHoldsAFolderOfElsewhereIsRefused) {
+  const TemporaryFolder folder;
+  const fs::path dir = folder.path() / "dir", elsewhere = folder.path() / "elsewhere";
+  writeRun(dir, "old");
+  for (const fs::path& place : {dir / "sub", dir}) {
+    fs::create_directory(elsewhere);
+    folder.write("elsewhere/a", "a user's");
+    ASSERT_TRUE(fs::is_directory(place));
+    if (::mount(elsewhere.c_str(), place.c_str(), nullptr, MS_BIND, nullptr) != 0)
+      GTEST_SKIP() << "nothing can be mounted here";
+    EXPECT_THROW(writeRun(dir, "new"), std::runtime_error) << place;
+    EXPECT_EQ(::umount2(place.c_str(), MNT_DETACH), 0);
+    EXPECT_EQ(TemporaryFolder::read(elsewhere / "a"), "a user's");
+    EXPECT_EQ(TemporaryFolder::read(dir / "a"), "old");
+  }
 }
 
 /// Somebody who may not do everything.
@@ -311,26 +336,37 @@ class OtherUser {
   bool is_another_;
 };
 
-TEST(AtomicFolder, ofWhichAPartCannotBeReadIsWrittenAllTheSame) {
+TEST(OutputFolder, ofWhichAPartCannotBeReadIsRefused) {
   const TemporaryFolder folder;
-  const fs::path dir = folder.path() / "dir";
+  const fs::path dir = folder.path() / "dir", secret = dir / "secret";
   writeRun(dir, "old");
-  fs::create_directory(dir / "secret");
+  fs::create_directory(secret);
   folder.write("dir/secret/key", "somebody's");
-  fs::permissions(dir / "secret", fs::perms::none);
+  fs::permissions(secret, fs::perms::none);
   for (const fs::path& open : {folder.path(), dir, dir / "sub"}) fs::permissions(open, fs::perms::all);
   {
     const OtherUser other;
     EXPECT_THROW(contents(dir), fs::filesystem_error) << "the control";
-    writeRun(dir, "new");
-    EXPECT_EQ(TemporaryFolder::read(dir / "a"), "new");
-    EXPECT_EQ(TemporaryFolder::read(dir / "sub/a"), "new");
+    EXPECT_EQ(refusal<std::runtime_error>([&] { OutputFolder(dir, older); }),
+              "cannot write " + dir.string() + ": " + secret.string() + " cannot be carried over: Permission denied");
   }
-  fs::permissions(dir / "secret", fs::perms::owner_all);
-  EXPECT_EQ(TemporaryFolder::read(dir / "secret/key"), "somebody's");
+  fs::permissions(secret, fs::perms::owner_all);
+  EXPECT_THAT(contents(folder.path()),
+              ElementsAre(Pair("dir/", ""), Pair("dir/a", "old"), Pair("dir/secret/", ""),
+                          Pair("dir/secret/key", "somebody's"), Pair("dir/sub/", ""), Pair("dir/sub/a", "old")));
 }
 
-TEST(AtomicFolder, isNotKeptByTheLockThatAnotherUsersRunLeft) {
+TEST(OutputFolder, inAFolderThatIsReadOnlyIsRefused) {
+  const TemporaryFolder folder;
+  writeRun(folder.path() / "dir", "old");
+  fs::permissions(folder.path(), fs::perms(0555));
+  EXPECT_EQ(
+      refusal<std::runtime_error>([&] { OutputFolder(folder.path() / "dir", older); }),
+      "cannot write " + (folder.path() / "dir").string() + ": the folder " + folder.path().string() + " is read-only");
+  fs::permissions(folder.path(), fs::perms(0755));
+}
+
+TEST(OutputFolder, isNotKeptByTheLockThatAnotherUsersRunLeft) {
   const TemporaryFolder folder;
   fs::permissions(folder.path(), fs::perms::all);
   const fs::path lock = folder.write(".ursula-lock-" + sha1("dir").substr(0, 12), "1\n");

@@ -1,0 +1,90 @@
+#include "base/fresh_paths.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+
+namespace ursula {
+
+FreshPaths::FreshPaths()
+    : ending_([](const void* paths) { static_cast<const FreshPaths*>(paths)->unlinkAll(); }, this) {}
+
+void FreshPaths::makeFolder(const std::filesystem::path& folder) {
+  if (folder.empty() || std::filesystem::is_directory(folder)) return;
+  makeFolder(folder.parent_path());
+  const EndingHeld held;  // until it is known what a signal has to take away
+  if (std::filesystem::create_directory(folder)) made_.push_back(folder);
+}
+
+int FreshPaths::makeFile(const std::filesystem::path& file) {
+  constexpr mode_t as_the_user_says = 0666;
+  const EndingHeld held;
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, as_the_user_says);
+  if (descriptor >= 0) made_.push_back(file);
+  return descriptor;
+}
+
+void FreshPaths::add(const std::filesystem::path& path) {
+  const EndingHeld held;
+  made_.push_back(path);
+}
+
+void FreshPaths::keep() {
+  const EndingHeld held;
+  made_.clear();
+}
+
+void FreshPaths::remove() {
+  const EndingHeld held;
+  unlinkAll();
+  made_.clear();
+}
+
+/// May be called within a signal's handler; needs no descriptor, and no look into a folder that a umask forbids.
+void FreshPaths::unlinkAll() const {
+  for (auto made = made_.rbegin(); made != made_.rend(); ++made)
+    if (::unlink(made->c_str()) != 0) ::rmdir(made->c_str());
+}
+
+std::filesystem::path temporaryIn(const std::filesystem::path& folder, const std::string& kind) {
+  static std::atomic<unsigned> count{0};
+  return folder / (".ursula-" + kind + "-" + std::to_string(::getpid()) + "-" + std::to_string(count++));
+}
+
+Lock tryLock(int descriptor) {
+  for (;;) {
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return Lock::free;
+    if (errno == EWOULDBLOCK) return Lock::taken;
+    if (errno != EINTR) return Lock::unknown;
+  }
+}
+
+bool isStill(int descriptor, const std::filesystem::path& name) {
+  struct stat open {};
+  struct stat named {};
+  return ::fstat(descriptor, &open) == 0 && ::lstat(name.c_str(), &named) == 0 && open.st_dev == named.st_dev &&
+         open.st_ino == named.st_ino;
+}
+
+bool writeAll(int descriptor, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(descriptor, content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+void syncFolder(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+}  // namespace ursula

@@ -1,0 +1,291 @@
+#include "base/output_folder.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "base/output_file.h"
+#include "base/sha1.h"
+
+namespace ursula {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *unfinished = "new", *whole = "old";
+enum class Carry { linked, moved };
+
+bool isThere(const fs::path& path) { return fs::exists(fs::symlink_status(path)); }
+bool isFolder(const fs::path& path) { return fs::is_directory(fs::symlink_status(path)); }
+
+fs::path withoutLinks(const fs::path& folder) {
+  const fs::path path = fs::weakly_canonical(fs::absolute(endOfLinks(folder)));
+  return path.has_filename() ? path : path.parent_path();
+}
+
+/// Such a folder cannot be renamed, or what is mounted goes along; to remove it empties the other file system.
+bool isMountPoint(const fs::path& path) {
+  struct statx own {};
+  struct statx above {};
+  ::statx(AT_FDCWD, path.c_str(), AT_SYMLINK_NOFOLLOW, STATX_TYPE, &own);
+  ::statx(AT_FDCWD, path.parent_path().c_str(), 0, STATX_TYPE, &above);
+  return (own.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0 || own.stx_dev_major != above.stx_dev_major ||
+         own.stx_dev_minor != above.stx_dev_minor;
+}
+
+/// Relative to `top`; folders come before what is in them, and links to folders are no folders.
+std::vector<fs::path> allIn(const fs::path& top, const fs::path& below = "") {
+  std::vector<fs::path> all;
+  for (const fs::directory_entry& entry : fs::directory_iterator(top / below)) {
+    const fs::path name = below / entry.path().filename();
+    if (isMountPoint(top / name))
+      throw fs::filesystem_error("is mounted", top / name, std::make_error_code(std::errc::device_or_resource_busy));
+    all.push_back(name);
+    if (!isFolder(top / name)) continue;
+    const std::vector<fs::path> deeper = allIn(top, name);
+    all.insert(all.end(), deeper.begin(), deeper.end());
+  }
+  return all;
+}
+
+/// Of a folder: mode and, where the system lets it, owner.
+void becomeLike(const fs::path& folder, const fs::path& model) {
+  struct stat found {};
+  if (::stat(model.c_str(), &found) != 0) return;
+  static_cast<void>(::chown(folder.c_str(), found.st_uid, found.st_gid) == 0);
+  ::chmod(folder.c_str(), found.st_mode & 07777);
+}
+
+void makeLike(const fs::path& folder, const fs::path& model) {
+  if (isThere(folder)) return;
+  makeLike(folder.parent_path(), model.parent_path());
+  fs::create_directory(folder);
+  becomeLike(folder, model);
+}
+
+/// False of the same file, linked or copied.
+bool isNewer(const fs::path& a, const fs::path& b) {
+  std::error_code ignored;
+  return fs::last_write_time(a, ignored) > fs::last_write_time(b, ignored);
+}
+
+/// What is not `ours` of the folder `old` comes into `fresh`: linked, so that it is in both, or copied where the file
+/// system has no links; or moved where it is not in both, or was changed since. Throws what the file system throws.
+void carry(const fs::path& old, const fs::path& fresh, const Paths& ours, Carry how) {
+  for (const fs::path& name : allIn(old)) {
+    const fs::path from = old / name, to = fresh / name;
+    const bool is_folder = isFolder(from), is_there = isThere(to);
+    if (is_there && isFolder(to) != is_folder)
+      throw std::runtime_error(from.string() + ": is a " +
+                               (is_folder ? "folder, expected a file" : "file, expected a folder"));
+    if (ours.count(name) != 0 || (is_there && (is_folder || how == Carry::linked || !isNewer(from, to)))) continue;
+    makeLike(is_folder ? to : to.parent_path(), is_folder ? from : from.parent_path());
+    if (is_folder) continue;
+    if (how == Carry::moved)
+      fs::rename(from, to);
+    else if (::linkat(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), 0) != 0)
+      fs::copy(from, to, fs::copy_options::copy_symlinks);
+  }
+}
+
+void syncFolders(const fs::path& folder) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (isFolder(entry.path())) syncFolders(entry.path());
+  syncFolder(folder);
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(fs::path folder, OlderFiles older)
+    : shown_(std::move(folder)),
+      folder_(withoutLinks(shown_)),
+      above_(folder_.parent_path()),
+      lock_file_(above_ / (".ursula-" + own("lock"))),
+      older_(std::move(older)) {
+  requireWritableFolder(shown_, shown_);
+  if (isFolder(folder_)) requireSwappable();
+  lock();
+  if (is_alone_) sweep();
+}
+
+OutputFolder::~OutputFolder() {
+  const EndingHeld held;
+  std::error_code ignored;
+  if (!temporary_.empty()) fs::remove_all(temporary_, ignored);  // what was carried over
+  fresh_.remove();                                               // with the lock's file, while it is locked
+  if (lock_ >= 0) ::close(lock_);
+}
+
+/// Before anything is computed. Whoever works in a folder that is swapped is left in one that is gone.
+void OutputFolder::requireSwappable() const {
+  std::error_code error;
+  const fs::path here = fs::current_path(error), below = shown_ / "results";
+  if (isMountPoint(folder_)) refuseToWrite(shown_, "is a mount point, expected another folder, as " + below.string());
+  if (!error && std::mismatch(folder_.begin(), folder_.end(), here.begin(), here.end()).first == folder_.end())
+    refuseToWrite(shown_, "is worked in, expected another folder, as " + below.string());
+  requireWritableFolder(above_, shown_);
+  try {
+    allIn(folder_);
+  } catch (const fs::filesystem_error& in_the_way) {
+    refuseToWrite(shown_, in_the_way.path1().string() + " cannot be carried over: " + in_the_way.code().message());
+  }
+}
+
+/// Of this folder alone, and short whatever its name.
+std::string OutputFolder::own(const std::string& kind) const {
+  return kind + "-" + sha1(folder_.filename().string()).substr(0, 12);
+}
+
+/// Waits some seconds for another to end.
+void OutputFolder::lock() {
+  constexpr std::chrono::seconds patience{2};
+  constexpr std::chrono::milliseconds between_tries{20};
+  const auto deadline = std::chrono::steady_clock::now() + patience;
+  while (!tryToLock()) {
+    if (std::chrono::steady_clock::now() >= deadline) {
+      std::string process;
+      std::ifstream(lock_file_) >> process;
+      throw std::runtime_error(shown_.string() + ": another run" +
+                               (process.empty() ? "" : " (process " + process + ")") +
+                               " is writing there, expected a folder that no other run has");
+    }
+    std::this_thread::sleep_for(between_tries);
+  }
+  const std::string process = std::to_string(::getpid()) + "\n";
+  static_cast<void>(::ftruncate(lock_, 0) == 0 && writeAll(lock_, process));  // only for the message above
+}
+
+/// The one before removes the file while it still holds it, and the folders that it had made: what was opened may have
+/// no name any more.
+bool OutputFolder::tryToLock() {
+  constexpr mode_t as_the_user_says = 0666;
+  fresh_.makeFolder(above_);
+  const EndingHeld held;  // until it is known that the file is to go
+  lock_ = ::open(lock_file_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, as_the_user_says);
+  if (lock_ < 0 && errno == EACCES)  // left by another user's run: to be locked it need not be written
+    lock_ = ::open(lock_file_.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
+  if (lock_ < 0 && errno == ENOENT) return false;
+  if (lock_ < 0) refuseToWrite(shown_, lock_file_.string() + ": " + std::strerror(errno));
+  const Lock lock = tryLock(lock_);
+  is_alone_ = lock == Lock::free && isStill(lock_, lock_file_);
+  if (is_alone_ || lock == Lock::unknown) {
+    fresh_.add(lock_file_);
+    return true;
+  }
+  ::close(std::exchange(lock_, -1));
+  return false;
+}
+
+/// What dead processes left. Of a swap that was cut off either folder is whole: one takes the place where there is
+/// none, and what came into the other last is brought after.
+void OutputFolder::sweep() const {
+  std::vector<fs::path> left;
+  std::error_code error;
+  for (fs::directory_iterator each(above_, error), end; !error && each != end; each.increment(error))
+    left.push_back(each->path());
+  const auto isOf = [this](const fs::path& path, const char* kind) {
+    const std::string prefix = ".ursula-" + own(kind) + "-";
+    return path.filename().string().compare(0, prefix.size(), prefix) == 0;
+  };
+  for (const fs::path& path : left) try {
+      if (isOf(path, whole) && !isFolder(folder_)) {
+        fs::rename(path, folder_);
+      } else if (isOf(path, whole)) {
+        Paths ours = olderIn(path);
+        ours.merge(olderIn(folder_));
+        carry(path, folder_, ours, Carry::moved);
+        fs::remove_all(path);
+      } else if (isOf(path, unfinished)) {
+        fs::remove_all(path);
+      }
+    } catch (const std::runtime_error&) {  // another user's: it stays, and is in nobody's way
+    }
+}
+
+void OutputFolder::require(const fs::path& name) const { requireWritable(shown_ / name); }
+
+void OutputFolder::write(const fs::path& name, const std::string& content) {
+  write(name, [&content](const Take& take) { take(content); });
+}
+
+void OutputFolder::write(const fs::path& name, const std::function<void(const Take&)>& fill) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (temporary_.empty()) do
+      temporary_ = temporaryIn(above_, own(unfinished));
+    while (isThere(temporary_));
+  fresh_.makeFolder((temporary_ / name).parent_path());
+  const int descriptor = fresh_.makeFile(temporary_ / name);
+  const auto require = [&](bool done) {
+    if (!done) refuseToWrite(shown_ / name, std::strerror(errno));
+  };
+  require(descriptor >= 0);
+  try {
+    fill([&](const std::string& piece) { require(writeAll(descriptor, piece)); });
+    require(::fsync(descriptor) == 0);
+  } catch (...) {
+    ::close(descriptor);
+    throw;
+  }
+  ::close(descriptor);
+  written_.insert(name);
+}
+
+void OutputFolder::commit() {
+  const EndingHeld held;  // who ends it meanwhile, ends it with the results there
+  const std::lock_guard<std::mutex> lock(mutex_);
+  try {
+    if (isFolder(folder_)) {
+      swap();
+    } else {
+      syncFolders(temporary_);
+      fs::rename(temporary_, folder_);
+    }
+  } catch (const fs::filesystem_error& error) {
+    refuseToWrite(shown_, error.path1().string() + ": " + error.code().message());
+  }
+  syncFolder(above_);
+  temporary_.clear();
+  fresh_.keep();
+  ::unlink(lock_file_.c_str());
+  ::close(std::exchange(lock_, -1));
+}
+
+/// Its name says that it is whole before it is swapped: a swap that is cut off leaves two whole folders.
+void OutputFolder::swap() {
+  Paths ours = olderIn(folder_);
+  ours.insert(written_.begin(), written_.end());
+  carry(folder_, temporary_, ours, Carry::linked);
+  becomeLike(temporary_, folder_);
+  syncFolders(temporary_);
+  fs::path old = temporaryIn(above_, own(whole));
+  fs::rename(temporary_, old);
+  temporary_ = old;
+  if (::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, folder_.c_str(), RENAME_EXCHANGE) != 0) {  // as on NFS
+    old = temporaryIn(above_, own(whole));
+    fs::rename(folder_, old);
+    std::error_code error;
+    fs::rename(temporary_, folder_, error);
+    if (error) fs::rename(old, folder_);
+    if (error) throw fs::filesystem_error("cannot write", folder_, error);
+  }
+  temporary_.clear();
+  syncFolder(above_);
+  try {
+    carry(old, folder_, ours, Carry::moved);
+    fs::remove_all(old);
+  } catch (const std::runtime_error&) {  // the results are there; the next run goes on with what is left
+  }
+}
+
+}  // namespace ursula
