@@ -28,7 +28,8 @@ std::vector<std::thread> startThreads(std::size_t count, const Work& work) {
   return threads;
 }
 
-/// `task(k)` for k = 0 … count − 1 on `jobs` threads; the first exception is thrown again.
+/// `task(k)` for k = 0 … count − 1 on `jobs` threads; the first exception is thrown again, and nothing begins after it.
+/// Not oneTBB's: these tasks take seconds, wait for each other's answers, and must go on with fewer threads.
 template <class Task>
 void inParallel(int jobs, int count, const Task& task) {
   std::atomic<int> next{0};
@@ -38,6 +39,7 @@ void inParallel(int jobs, int count, const Task& task) {
     for (int k = next++; k < count; k = next++) try {
         task(k);
       } catch (...) {
+        next = count;
         const std::lock_guard<std::mutex> lock(guard);
         if (!failure) failure = std::current_exception();
       }

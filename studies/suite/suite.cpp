@@ -4,18 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <map>
 #include <mutex>
 #include <new>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <thread>
 
-#include "base/output_folder.h"
 #include "base/out_of_memory.h"
+#include "base/output_folder.h"
 #include "base/start_threads.h"
 #include "model/scenario_input.h"
 #include "report/run.h"
@@ -77,30 +74,17 @@ class SuiteRun {
       : members_(members), out_(out), options_(options), entries_(members.size()) {}
 
   std::vector<SuiteEntry> run() {
-    const std::size_t count = std::min(static_cast<std::size_t>(options_.jobs), members_.size());
-    std::vector<std::thread> threads = startThreads(count > 0 ? count - 1 : 0, [this] { work(); });
-    work();
-    for (std::thread& thread : threads) thread.join();
-    if (broken_) std::rethrow_exception(broken_);
+    inParallel(options_.jobs, static_cast<int>(members_.size()), [this](int k) {
+      const auto index = static_cast<std::size_t>(k);
+      entries_[index] = judgeOne(members_[index]);
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ++done_;
+      if (options_.finished) options_.finished(entries_[index], done_);
+    });
     return std::move(entries_);
   }
 
  private:
-  void work() {
-    try {
-      for (std::size_t i = next_++; i < members_.size(); i = next_++) {
-        entries_[i] = judgeOne(members_[i]);
-        const std::lock_guard<std::mutex> lock(mutex_);
-        ++done_;
-        if (options_.finished) options_.finished(entries_[i], done_);
-      }
-    } catch (...) {
-      next_ = members_.size();  // the others stop after what they are at
-      const std::lock_guard<std::mutex> lock(mutex_);
-      if (!broken_) broken_ = std::current_exception();
-    }
-  }
-
   SuiteEntry judgeOne(const SuiteMember& member) {
     const Stopwatch watch;
     std::string error = member.error;
@@ -124,10 +108,8 @@ class SuiteRun {
   OutputFolder& out_;
   const SuiteOptions& options_;
   std::vector<SuiteEntry> entries_;
-  std::atomic<std::size_t> next_{0};
   std::mutex mutex_;  // guards what follows
   std::size_t done_ = 0;
-  std::exception_ptr broken_;
 };
 
 }  // namespace

@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <future>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 
 #include "base/deadline.h"
+#include "base/start_threads.h"
 
 namespace ursula {
 namespace {
@@ -198,22 +199,18 @@ ErrorBudget attribute(const Scenario& scenario, const std::vector<PointwiseSampl
   for (unsigned k = 0; k < frame_changes; ++k)
     from.push_back(randomFrameChange(k + 101, amplification.length(), *scenario.manipulator));
   std::mutex asking;
-  std::vector<std::future<Track>> running;  // deferred where the system gives no more threads
-  for (const FrameChange& frame_change : from)
-    running.push_back(
-        std::async(std::launch::async | std::launch::deferred, [&scenario, &plan, &asking, window, frame_change] {
-          return projected(scenario, plan, *window, frame_change, asking);
-        }));
-  std::vector<Track> seen;
-  for (auto& each : running) seen.push_back(each.get());
-  const Tracks tracks{Track(window->replay, drawnInstants(*window)),
-                      seen[0],
-                      {seen.begin() + 1, seen.end()},
-                      coarse(scenario, plan, *window)};
+  std::vector<std::optional<Track>> seen(from.size());
+  inParallel(static_cast<int>(from.size()), static_cast<int>(from.size()), [&](int k) {
+    const auto index = static_cast<std::size_t>(k);
+    seen[index] = projected(scenario, plan, *window, from[index], asking);
+  });
+  std::vector<Track> turned;
+  for (unsigned k = 1; k <= frame_changes; ++k) turned.push_back(*seen[k]);
+  const Tracks tracks{Track(window->replay, drawnInstants(*window)), *seen[0], turned, coarse(scenario, plan, *window)};
   Vector3d mean = Vector3d::Zero();
   for (const Track& each : tracks.turned) mean += each.end / frame_changes;
   double spread = 0;
-  for (const Track& each : seen) spread = std::max(spread, (each.end - mean).norm());
+  for (const auto& each : seen) spread = std::max(spread, (each->end - mean).norm());
   budget.closure.error = budget.observed - tracks.plain.end;
   budget.rounding = {tracks.plain.end - mean, spread};  // of the mean of three, and of the judged replay against it
   budget.closure.uncertainty = spread;
