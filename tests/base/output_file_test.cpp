@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <thread>
 #include <vector>
 
@@ -58,6 +59,33 @@ TEST(OutputFile, takesFreshFoldersAwayWhereItIsNotCommitted) {
   { const OutputFile file(folder.path() / "old" / "new" / "file"); }
   EXPECT_TRUE(std::filesystem::is_directory(folder.path() / "old")) << "it was there before";
   EXPECT_EQ(filesIn(folder.path() / "old"), 0);
+}
+
+TEST(OutputFile, thatASignalEndsLeavesNothing) {
+  const TemporaryFolder folder;
+  const auto ended = [&] {
+    OutputFile file(folder.path() / "new" / "file");
+    file.write("half");
+    if (filesIn(folder.path() / "new") == 1) std::raise(SIGTERM);  // or nothing would be seen
+  };
+  EXPECT_EXIT(ended(), testing::KilledBySignal(SIGTERM), "");
+  EXPECT_EQ(filesIn(folder.path()), 0);
+}
+
+/// No reader takes it for the file, and the next that is written removes it.
+TEST(OutputFile, thatIsKilledLeavesTheOldOne) {
+  const TemporaryFolder folder;
+  folder.write("file", "old");
+  const auto ended = [&] {
+    OutputFile file(folder.path() / "file");
+    file.write("half");
+    std::raise(SIGKILL);
+  };
+  EXPECT_EXIT(ended(), testing::KilledBySignal(SIGKILL), "");
+  EXPECT_EQ(TemporaryFolder::read(folder.path() / "file"), "old");
+  EXPECT_EQ(filesIn(folder.path()), 2);
+  writeFileAtomically(folder.path() / "other", "new");
+  EXPECT_EQ(filesIn(folder.path()), 2) << "file and other";
 }
 
 TEST(OutputFile, fromManyThreadsIsWholeAtAnyTime) {
