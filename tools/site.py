@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Builds the documentation site from docs/: site.py OUT --program build/ursula [--without-pictures].
+"""Builds the documentation site from docs/: site.py OUT --program build/ursula.
 
 Stages a copy of docs/ beside OUT, adds what is generated (the references of the libraries, drawings of the legs, reports
 on wrong efforts), lets Sphinx make the pages, warnings being errors, and follows every link of the result.
@@ -68,7 +68,7 @@ def main():
     source = stage(out.with_name(out.name + "_source"))
     site_api.write(ROOT, source)
     site_legs.write(source)
-    site_reports.write(given.program.resolve(), given.chromium, source)
+    site_reports.write(given.program.resolve(), given.chromium, source, out.with_name(out.name + "_reports"))
     shutil.rmtree(out, ignore_errors=True)
     subprocess.run([sys.executable, "-m", "sphinx", "-W", "--keep-going", "-n", "-q", "-j", "auto", "-b", "html", "-d",
                     str(out.with_name(out.name + "_doctrees")), str(source), str(out)],
