@@ -71,7 +71,8 @@ def findings(folder):
             if to is None:
                 continue
             file, anchor = to
-            reached.add(file)
+            if file != path:
+                reached.add(file)
             if not file.exists():
                 yield f"{name}: leads to {url}, which is not there"
             elif not file.is_relative_to(folder):

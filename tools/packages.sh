@@ -4,7 +4,7 @@
 # What a verb needs: a command and the package that brings it where the command is not there already, or a library's package.
 declare -A needs=(
   [program]='g++:g++ cmake:cmake ninja:ninja-build libeigen3-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libxsimd-dev libtbb-dev libsqlite3-dev'
-  [test]='libgtest-dev libgmock-dev python3 python3-dev python3-numpy python3-pytest pybind11-dev pkg-config:pkgconf octave-cli:octave node:nodejs npm:npm chromium:chromium sbatch:slurm-wlm munged:munge'
+  [test]='libgtest-dev libgmock-dev python3 python3-dev python3-numpy python3-pytest pybind11-dev pkg-config:pkgconf octave-cli:octave node:nodejs npm:npm chromium:chromium sbatch:slurm-wlm munged:munge furo python3-myst-parser python3-sphinx'
   [prove]='libgtest-dev libgmock-dev'
   [bench]='libbenchmark-dev'
   [format]='git:git clang-format:clang-format'
@@ -14,6 +14,7 @@ declare -A needs=(
   [tidy]='libgtest-dev libgmock-dev libbenchmark-dev clang-tidy:clang-tidy python3:python3'
   [results]='git:git gnuplot:gnuplot-nox chromium:chromium python3:python3'
   [docs]='doxygen:doxygen python3:python3'
+  [site]='furo python3-myst-parser python3-sphinx python3 python3-dev python3-numpy pybind11-dev chromium:chromium'
   [package]='dpkg-shlibdeps:dpkg-dev file:file python3 python3-dev python3-numpy pybind11-dev'
   [bundle]='node:nodejs npm:npm'
   [fresh]='git:git debootstrap:debootstrap'

@@ -19,9 +19,11 @@ def turn(phi):
 
 
 def fixed_frame(u):
-    """F̂ of (2a): columns x̂, û, ẑ."""
+    """F̂ of (2a): columns x̂, û, ẑ; for an axis along e_z the seed is e_y."""
     u = np.asarray(u, float) / np.linalg.norm(u)
     x = np.cross(u, [0, 0, 1])
+    if x @ x < 1e-20:
+        x = np.cross(u, [0, 1, 0])
     x /= np.linalg.norm(x)
     return np.column_stack([x, u, np.cross(x, u)])
 

@@ -7,6 +7,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
+SAMPLES = 151
 WIDTH, HEIGHT = 1100, 720
 LARGEST = 300_000  # bytes of a picture
 
@@ -27,7 +28,7 @@ def run(program, *arguments, folder, allowed=(0,)):
 
 
 def efforts(program, scenario, folder):
-    lines = run(program, "inverse", scenario, "--samples", 301, folder=folder).splitlines()
+    lines = run(program, "inverse", scenario, "--samples", SAMPLES, folder=folder).splitlines()
     header = lines[0].split(",")
     columns = [0] + [k for k, name in enumerate(header) if name.startswith("tau_")]
     return [header[k] for k in columns], [[float(line.split(",")[k]) for k in columns] for line in lines[1:]]
@@ -74,5 +75,5 @@ def make(program, chromium, pictures, reports):
             write_rows(work / f"{name}.csv", header, rows)
             run(program, "validate", "my.toml", "--torques", f"{name}.csv", "--out", name, folder=work,
                 allowed=(0,) if name == "right" else (1,))
-            shutil.copyfile(work / name / "report.html", reports / f"{name}.html")
+            shutil.copytree(work / name, reports / name)
             screenshot(chromium, work / name / "report.html", pictures / f"{name}.png")

@@ -5,13 +5,13 @@ import xml.etree.ElementTree as ElementTree
 
 
 def main(path):
-    print("| scenario | checks | failed | in error | first that failed |")
+    print("| scenario | verdict | checks | not passed | the first of them |")
     print("| --- | --- | --- | --- | --- |")
     for suite in ElementTree.parse(path).getroot().iter("testsuite"):
         cases = suite.findall("testcase")
-        failed = [case.get("name") for case in cases if case.find("failure") is not None]
-        errors = [case.get("name") for case in cases if case.find("error") is not None]
-        print(f"| {suite.get('name')} | {len(cases)} | {len(failed)} | {len(errors)} | {(failed + errors + ['–'])[0]} |")
+        failed = [case.get("name") for case in cases if case.find("failure") is not None or case.find("error") is not None]
+        verdict = next((each.get("value") for each in suite.iter("property") if each.get("name") == "verdict"), "error")
+        print(f"| {suite.get('name')} | {verdict} | {len(cases)} | {len(failed)} | {(failed + ['–'])[0]} |")
 
 
 if __name__ == "__main__":
