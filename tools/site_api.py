@@ -97,7 +97,12 @@ def signature(function, is_method):
     if is_method:
         arguments = re.sub(r"^self(, )?(\*$)?", "", arguments)
     result = f" -> {ast.unparse(function.returns)}" if function.returns else ""
-    return f"{function.name}({arguments}){result}".replace("npt.ArrayLike", "ArrayLike")
+    line = f"{function.name}({arguments}){result}".replace("npt.ArrayLike", "ArrayLike")
+    if len(line) <= 84:
+        return line
+    # One argument a line; commas within brackets stay.
+    each = re.split(r", (?![^\[(]*[\])])", arguments.replace("npt.ArrayLike", "ArrayLike"))
+    return f"{function.name}(\n" + "".join(f"    {argument},\n" for argument in each) + f"){result}"
 
 
 def python(root):
