@@ -25,7 +25,7 @@ NAMED = re.compile(r"(?:#|//|%) ([\w-]+\.\w+)$")
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?(?![\w.]*\d)")
 NOT_RUN = ("./dev ", "cmake ", "git ", "apt", "sudo ", "docker ", "podman ", "#", "cd ")
 SMALL = 1e-6
-SECONDS = 300
+SECONDS = 600
 
 
 class Wrong(Exception):
