@@ -1,0 +1,160 @@
+#include "exchange/write/graph_of.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "exchange/write/leg_pose.h"
+
+namespace ursula::exchange {
+namespace {
+
+/// Letters and digits of any language, '-', '_' and '.': what every format takes for a name.
+std::string safeName(const std::string& name) {
+  std::string out = name;
+  for (char& c : out) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = (byte >= '0' && byte <= '9') || (byte >= 'A' && byte <= 'Z') || (byte >= 'a' && byte <= 'z');
+    if (!plain && byte < 0x80 && c != '-' && c != '_' && c != '.') c = '_';
+  }
+  return out.empty() || out == "world" || out.rfind("__", 0) == 0 ? "machine" + out : out;
+}
+
+class Builder {
+ public:
+  explicit Builder(const Scenario& scenario) : machine_(*scenario.manipulator), pose_(scenario.trajectory->at(0)) {
+    ModelGraph& graph = out_.graph;
+    graph.name = safeName(scenario.name);
+    graph.gravity = machine_.gravity();
+    addBody("base", Eigen::Isometry3d::Identity(), 0, {});
+    graph.bodies.front().fixed = true;
+    for (int leg = 0; leg < machine_.legCount(); ++leg) addLeg(leg);
+    addPlatform();
+    if (graph.name != scenario.name)
+      note(fmt::format("The name is written '{}', as other characters are not for names everywhere", graph.name),
+           "name", 0, "1");
+    note("The motion is left out: the file has the machine at its first instant", "trajectory",
+         scenario.trajectory->duration(), "s");
+    if (scenario.load) noteLoad(*scenario.load);
+  }
+
+  MachineModel take() { return std::move(out_); }
+
+ private:
+  std::size_t addBody(const std::string& name, const Eigen::Isometry3d& frame, double mass, const OwnNumbers& own) {
+    GraphBody body;
+    body.name = name;
+    body.frame = frame;
+    body.mass = mass;
+    body.center_of_mass = frame * own.center_of_mass;
+    body.inertia = frame.linear() * own.inertia * frame.linear().transpose();
+    out_.graph.bodies.push_back(body);
+    out_.own.push_back(own);
+    return out_.graph.bodies.size() - 1;
+  }
+
+  void addLeg(int index) {
+    const Leg& leg = machine_.leg(index);
+    const LegPose at = legPose(leg, index, pose_.p + pose_.Q * leg.platform_point);
+    const std::string name = fmt::format("leg_{}", index + 1);
+    const auto before_proximal = static_cast<std::size_t>(rowOf(leg.kind).joints_of_proximal);
+    std::size_t body = 0;
+    for (std::size_t k = 0; k < at.joints.size(); ++k) {
+      const bool to_proximal = k + 1 == before_proximal, to_distal = k + 1 == at.joints.size();
+      const Eigen::Isometry3d& frame = k < before_proximal ? at.proximal : at.distal;
+      const std::size_t next = to_proximal ? addLink(name + "_proximal", frame, leg.proximal, leg.kind == LegKind::PUS)
+                               : to_distal ? addLink(name + "_distal", frame, leg.distal, false)
+                                           : addBody(name + "_cross", frame, 0, {});
+      addCoordinate(index, k, at.joints[k], body, next);
+      if (to_proximal) draw(next, frame.translation(), at.far_end, 0.02);
+      if (to_distal) draw(next, frame.translation(), at.tip, 0.014);
+      body = next;
+    }
+    tips_.push_back({body, at.tip});
+    if (leg.kind == LegKind::PUS && leg.proximal.length != 0)
+      note("The carriage's length is for drawing and is left out", name, leg.proximal.length, "m");
+  }
+
+  /// A carriage's mass centre is along the rail, its y; that of other links along z.
+  std::size_t addLink(const std::string& name, const Eigen::Isometry3d& frame, const Link& link, bool carriage) {
+    const Vector3d along = carriage ? Vector3d::UnitY() : Vector3d::UnitZ();
+    return addBody(name, frame, link.mass, {link.center_of_mass * along, link.inertia});
+  }
+
+  void addCoordinate(int index, std::size_t k, const JointAt& at, std::size_t parent, std::size_t child) {
+    const Leg& leg = machine_.leg(index);
+    GraphJoint joint;
+    joint.name = fmt::format("leg_{}_{}", index + 1, nameOf(at.coordinate));
+    joint.kind = slides(at.coordinate) ? JointKind::prismatic : JointKind::revolute;
+    joint.parent = parent;
+    joint.child = child;
+    joint.centre = joint.centre_of_child = at.centre;
+    joint.axis[0] = at.axis;
+    joint.position = at.position;
+    joint.damping = leg.friction.on(at.coordinate);
+    joint.friction = leg.coulomb.on(at.coordinate);
+    joint.driven = leg.actuated[k];
+    if (leg.kind == LegKind::UPS && slides(at.coordinate)) {
+      joint.lower = leg.distal.length;
+      joint.upper = leg.distal.length + leg.proximal.length;
+    }
+    if (joint.friction != 0)
+      note("Coulomb friction loses its smoothing and is sharp", joint.name, leg.coulomb.speedOf(at.coordinate),
+           slides(at.coordinate) ? "m/s" : "rad/s");
+    out_.graph.joints.push_back(joint);
+  }
+
+  void addPlatform() {
+    const Platform& platform = machine_.platform();
+    Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+    frame.linear() = pose_.Q;
+    frame.translation() = pose_.p;
+    const std::size_t body = addBody("platform", frame, platform.mass, {platform.center_of_mass, platform.inertia});
+    Vector3d centre = Vector3d::Zero();
+    for (const auto& tip : tips_) centre += tip.second / static_cast<double>(tips_.size());
+    for (std::size_t i = 0; i < tips_.size(); ++i) {
+      GraphJoint ball;
+      ball.name = fmt::format("leg_{}_ball", i + 1);
+      ball.kind = JointKind::ball;
+      ball.parent = tips_[i].first;
+      ball.child = body;
+      ball.centre = ball.centre_of_child = tips_[i].second;
+      ball.closure = i > 0;
+      out_.graph.joints.push_back(ball);
+      draw(body, centre, tips_[i].second, 0.02);
+    }
+  }
+
+  void draw(std::size_t body, const Vector3d& from, const Vector3d& to, double slenderness) {
+    const Leg& leg = machine_.leg(0);
+    const double size = leg.proximal.length + leg.distal.length;
+    if ((to - from).norm() > 1e-6 * size) out_.rods.push_back({body, from, to, slenderness * size});
+  }
+
+  void note(const std::string& what, const std::string& where, double size, const std::string& unit) {
+    out_.graph.assumptions.push_back({what, where, size, unit});
+  }
+
+  void noteLoad(const Load& load) {
+    double force = load.force.norm(), moment = load.moment.norm();
+    if (load.history)
+      for (const TimedWrench& row : load.history->rows()) {
+        force = std::max(force, row.wrench.force.norm());
+        moment = std::max(moment, row.wrench.moment.norm());
+      }
+    note("The load's force on the platform is left out", "load.force", force, "N");
+    note("The load's moment on the platform is left out", "load.moment", moment, "N m");
+  }
+
+  const Manipulator& machine_;
+  Motion<double> pose_;
+  MachineModel out_;
+  std::vector<std::pair<std::size_t, Vector3d>> tips_;  ///< the last body of each leg, and where it ends
+};
+
+}  // namespace
+
+MachineModel modelOf(const Scenario& scenario) { return Builder(scenario).take(); }
+
+}  // namespace ursula::exchange

@@ -1,0 +1,139 @@
+// MJCF, as MuJoCo 2.2 and later read it. The platform floats; each leg is a tree of its own and is connected to it.
+// Coordinates have the scenario's values: `ref` says where they are at the file's pose.
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "exchange/write/export.h"
+#include "exchange/write/xml_text.h"
+
+namespace ursula::exchange {
+namespace {
+
+/// A gap pulls itself shut within this time, s, and the step is a quarter of it; MuJoCo asks for half or less.
+constexpr double closing_time = 0.002, step = closing_time / 4;
+/// The share of the closing acceleration that MuJoCo reaches, the most that it takes. What a closure gives way by is
+/// in proportion to the rest.
+constexpr double impedance = 0.9999;
+
+class Writer {
+ public:
+  explicit Writer(const MachineModel& machine)
+      : machine_(machine), graph_(machine.graph), limbs_(limbsOf(graph_)), document_("mujoco") {}
+
+  std::string text() {
+    const Xml root = document_.root();
+    root.with("model", graph_.name);
+    root.add("compiler").with("angle", "radian").with("inertiafromgeom", "false");
+    root.add("option")
+        .with("gravity", graph_.gravity)
+        .with("timestep", step)
+        .with("integrator", "RK4")
+        .with("solver", "Newton")
+        .with("tolerance", 1e-14);
+    root.add("default")
+        .add("geom")
+        .with("type", "capsule")
+        .with("contype", "0")
+        .with("conaffinity", "0")
+        .with("mass", "0");
+    const Xml world = root.add("worldbody");
+    world.add("light").with("pos", "0 0 10").with("dir", "0 0 -1").with("directional", "true");
+    addChildren(world, 0);
+    addClosures(root.add("equality"));
+    const Xml actuators = root.add("actuator");
+    for (const GraphJoint& joint : graph_.joints)
+      if (joint.driven) actuators.add("motor").with("name", joint.name).with("joint", joint.name).with("gear", "1");
+    return document_.text();
+  }
+
+ private:
+  bool floats(const Limb& limb) const {
+    return limb.joints.size() == 1 && graph_.joints[limb.joints.front()].kind == JointKind::ball;
+  }
+
+  void addChildren(const Xml& xml, std::size_t parent) {
+    for (const Limb& limb : limbs_)
+      if ((floats(limb) ? 0 : limb.parent) == parent) addBody(xml, limb, parent);
+  }
+
+  void addBody(const Xml& xml, const Limb& limb, std::size_t parent) {
+    const GraphBody& body = graph_.bodies[limb.child];
+    const Eigen::Isometry3d in_parent = graph_.bodies[parent].frame.inverse() * body.frame;
+    const Xml element = xml.add("body");
+    element.with("name", body.name)
+        .with("pos", Vector3d(in_parent.translation()))
+        .with("quat", quaternionText(in_parent.linear()));
+    if (floats(limb)) element.add("freejoint").with("name", body.name);
+    for (const std::size_t joint : limb.joints)
+      if (!floats(limb)) addJoint(element, graph_.joints[joint], body.frame);
+    addInertial(element.add("inertial"), limb.child);
+    const Eigen::Isometry3d to_own = body.frame.inverse();
+    for (const DrawnRod& rod : machine_.rods)
+      if (rod.body == limb.child)
+        element.add("geom")
+            .with("size", rod.radius)
+            .with("fromto", numberText(to_own * rod.from) + " " + numberText(to_own * rod.to));
+    addChildren(element, limb.child);
+  }
+
+  static void addJoint(const Xml& xml, const GraphJoint& joint, const Eigen::Isometry3d& frame) {
+    const Xml element = xml.add("joint");
+    element.with("name", joint.name)
+        .with("type", joint.kind == JointKind::prismatic ? "slide" : "hinge")
+        .with("pos", Vector3d(frame.inverse() * joint.centre_of_child))
+        .with("axis", Vector3d(frame.linear().transpose() * joint.axis[0]))
+        .with("ref", joint.position);
+    if (std::isfinite(joint.lower) && std::isfinite(joint.upper))
+      element.with("limited", "true").with("range", numberText(joint.lower) + " " + numberText(joint.upper));
+    if (joint.damping != 0) element.with("damping", joint.damping);
+    if (joint.friction != 0) element.with("frictionloss", joint.friction);
+    if (joint.rotor_inertia != 0) element.with("armature", joint.rotor_inertia);
+  }
+
+  /// MuJoCo keeps principal moments. It stops at a largest that is above the sum of the others by one rounding, as that
+  /// of a plate may be.
+  void addInertial(const Xml& xml, std::size_t body) const {
+    const OwnNumbers& own = machine_.own[body];
+    xml.with("pos", own.center_of_mass).with("mass", graph_.bodies[body].mass);
+    Vector3d moments = own.inertia.diagonal();
+    if (!own.inertia.isDiagonal(0)) {
+      const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(own.inertia);
+      Matrix3d axes = principal.eigenvectors();
+      if (axes.determinant() < 0) axes.col(0) *= -1;
+      moments = principal.eigenvalues();
+      xml.with("quat", quaternionText(axes));
+    }
+    Eigen::Index last = 0;
+    const double largest = moments.maxCoeff(&last), others = moments.sum() - largest;
+    if (largest > others) moments(last) = std::nextafter(std::min(largest, others), 0);
+    xml.with("diaginertia", moments);
+  }
+
+  /// The anchor is in the platform; MuJoCo takes the leg's point where that is at the file's pose.
+  void addClosures(const Xml& xml) const {
+    for (const GraphJoint& joint : graph_.joints) {
+      if (joint.kind != JointKind::ball) continue;
+      const GraphBody& platform = graph_.bodies[joint.child];
+      xml.add("connect")
+          .with("name", joint.name)
+          .with("body1", platform.name)
+          .with("body2", graph_.bodies[joint.parent].name)
+          .with("anchor", Vector3d(platform.frame.inverse() * joint.centre_of_child))
+          .with("solref", numberText(closing_time) + " 1")
+          .with("solimp", numberText(impedance) + " " + numberText(impedance) + " 0.001");
+    }
+  }
+
+  const MachineModel& machine_;
+  const ModelGraph& graph_;
+  std::vector<Limb> limbs_;
+  XmlDocument document_;
+};
+
+}  // namespace
+
+std::string mjcfText(const MachineModel& machine, std::vector<Assumption>&) { return Writer(machine).text(); }
+
+}  // namespace ursula::exchange

@@ -1,0 +1,147 @@
+// SDF 1.7, which Gazebo 11 reads as well as its successors. The platform is the child of a ball at each leg: a joint
+// whose child has a parent already is how Gazebo closes loops. All coordinates are zero at the file's pose.
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "exchange/write/export.h"
+#include "exchange/write/xml_text.h"
+
+namespace ursula::exchange {
+namespace {
+
+constexpr double step = 0.0005;  ///< s
+
+class Writer {
+ public:
+  Writer(const MachineModel& machine, std::vector<Assumption>& notes)
+      : machine_(machine), graph_(machine.graph), notes_(notes), document_("sdf") {}
+
+  std::string text() {
+    const Xml root = document_.root();
+    root.with("version", "1.7");
+    const Xml world = root.add("world");
+    world.with("name", graph_.name).add("gravity", numberText(graph_.gravity));
+    const Xml physics = world.add("physics").with("name", "small_steps").with("type", "ode");
+    physics.add("max_step_size", step);
+    physics.add("real_time_factor", 1.0);
+    physics.add("real_time_update_rate", 1 / step);
+    const Xml model = world.add("model").with("name", graph_.name);
+    const std::string motors = motorNames();
+    model.comment(fmt::format(" motors drive the first axis of {}; no motor has effort 0 ", motors));
+    notes_.push_back({"SDF has no motors. They are in a comment and in limits: to import, say --actuated " + motors,
+                      motors, 6, "motors"});
+    for (std::size_t body = 0; body < graph_.bodies.size(); ++body)
+      if (!graph_.bodies[body].fixed && graph_.bodies[body].mass != 0) addLink(model, body);
+    for (const Limb& limb : limbsOf(graph_)) addLimb(model, limb);
+    for (const GraphJoint& joint : graph_.joints)
+      if (joint.closure) addBall(model, joint.name, joint.parent, joint);
+    return document_.text();
+  }
+
+ private:
+  /// Of joints as this file names them.
+  std::string motorNames() {
+    std::string out;
+    for (const Limb& limb : limbsOf(graph_))
+      for (std::size_t k = 0; k < limb.joints.size(); ++k)
+        if (graph_.joints[limb.joints[k]].driven)
+          out += (out.empty() ? "" : ",") + nameOf(limb) + (k > 0 ? ":" + std::to_string(k + 1) : "");
+    return out;
+  }
+
+  /// "leg_1_phi_psi" of leg_1_phi and leg_1_psi.
+  std::string nameOf(const Limb& limb) const {
+    std::string out = graph_.joints[limb.joints.front()].name;
+    for (std::size_t k = 1; k < limb.joints.size(); ++k) {
+      const std::string& name = graph_.joints[limb.joints[k]].name;
+      out += name.substr(name.rfind('_'));
+    }
+    return out;
+  }
+
+  void addLink(const Xml& model, std::size_t index) const {
+    const GraphBody& body = graph_.bodies[index];
+    const OwnNumbers& own = machine_.own[index];
+    const Xml link = model.add("link").with("name", body.name);
+    link.add("pose", poseText(body.frame));
+    const Xml inertial = link.add("inertial");
+    inertial.add("pose", numberText(own.center_of_mass) + " 0 0 0");
+    inertial.add("mass", body.mass);
+    const Xml inertia = inertial.add("inertia");
+    inertia.add("ixx", own.inertia(0, 0));
+    inertia.add("ixy", own.inertia(0, 1));
+    inertia.add("ixz", own.inertia(0, 2));
+    inertia.add("iyy", own.inertia(1, 1));
+    inertia.add("iyz", own.inertia(1, 2));
+    inertia.add("izz", own.inertia(2, 2));
+    int drawn = 0;
+    for (const DrawnRod& rod : machine_.rods) {
+      if (rod.body != index) continue;
+      const Xml visual = link.add("visual").with("name", fmt::format("{}_{}", body.name, ++drawn));
+      visual.add("pose", poseText(body.frame.inverse() * between(rod.from, rod.to)));
+      const Xml cylinder = visual.add("geometry").add("cylinder");
+      cylinder.add("radius", rod.radius);
+      cylinder.add("length", (rod.to - rod.from).norm());
+    }
+  }
+
+  void addLimb(const Xml& model, const Limb& limb) {
+    const GraphJoint& last = graph_.joints[limb.joints.back()];
+    if (last.kind == JointKind::ball || limb.joints.size() > 2) return addBall(model, nameOf(limb), limb.parent, last);
+    const char* type = limb.joints.size() == 2             ? "universal"
+                       : last.kind == JointKind::prismatic ? "prismatic"
+                                                           : "revolute";
+    const Xml element = addJoint(model, nameOf(limb), type, limb.parent, last);
+    for (std::size_t k = 0; k < limb.joints.size(); ++k)
+      addAxis(element.add(k == 0 ? "axis" : "axis2"), graph_.joints[limb.joints[k]]);
+  }
+
+  void addBall(const Xml& model, const std::string& name, std::size_t parent, const GraphJoint& joint) const {
+    addJoint(model, name, "ball", parent, joint);
+  }
+
+  /// Its frame has the model's axes: what is said in either is the same.
+  Xml addJoint(const Xml& model, const std::string& name, const char* type, std::size_t parent,
+               const GraphJoint& joint) const {
+    const Xml element = model.add("joint").with("name", name).with("type", type);
+    const GraphBody& from = graph_.bodies[parent];
+    element.add("parent", from.fixed ? "world" : from.name);
+    element.add("child", graph_.bodies[joint.child].name);
+    element.add("pose", numberText(joint.centre) + " 0 0 0").with("relative_to", "__model__");
+    return element;
+  }
+
+  void addAxis(const Xml& axis, const GraphJoint& joint) {
+    axis.add("xyz", numberText(joint.axis[0]));
+    if (joint.damping != 0 || joint.friction != 0) {
+      const Xml dynamics = axis.add("dynamics");
+      dynamics.add("damping", joint.damping);
+      dynamics.add("friction", joint.friction);
+    }
+    const bool limited = std::isfinite(joint.lower) && std::isfinite(joint.upper);
+    if (limited || !joint.driven) {
+      const Xml limit = axis.add("limit");
+      limit.add("lower", limited ? joint.lower - joint.position : -1e16);
+      limit.add("upper", limited ? joint.upper - joint.position : 1e16);
+      if (!joint.driven) limit.add("effort", 0.0);
+    }
+    if (joint.rotor_inertia != 0)
+      notes_.push_back({"SDF has no rotor inertia: it is left out", joint.name, joint.rotor_inertia,
+                        joint.kind == JointKind::prismatic ? "kg" : "kg m2"});
+  }
+
+  const MachineModel& machine_;
+  const ModelGraph& graph_;
+  std::vector<Assumption>& notes_;
+  XmlDocument document_;
+};
+
+}  // namespace
+
+std::string sdfText(const MachineModel& machine, std::vector<Assumption>& notes) {
+  return Writer(machine, notes).text();
+}
+
+}  // namespace ursula::exchange

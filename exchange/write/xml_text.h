@@ -1,0 +1,61 @@
+#pragma once
+
+#include <tinyxml2.h>
+
+#include <Eigen/Geometry>
+#include <string>
+
+#include "base/scalar.h"
+
+namespace ursula::exchange {
+
+/// The shortest digits that read back as the same number; a zero has no sign.
+std::string numberText(double value);
+/// With spaces between.
+std::string numberText(const Vector3d& values);
+/// [w, x, y, z], w not negative.
+std::string quaternionText(const Matrix3d& rotation);
+/// Roll, pitch, yaw, rad: turns about the fixed x, y and z, in this order. Exact to rounding at a pitch of ±π/2, too.
+Vector3d rollPitchYaw(const Matrix3d& rotation);
+/// Position, then roll, pitch and yaw.
+std::string poseText(const Eigen::Isometry3d& pose);
+/// A frame in the middle between two points, its z from the first to the second.
+Eigen::Isometry3d between(const Vector3d& from, const Vector3d& to);
+
+/// An element that is being filled. tinyxml2 escapes what is text.
+class Xml {
+ public:
+  explicit Xml(tinyxml2::XMLElement* element) : element_(element) {}
+
+  Xml add(const char* name) const { return Xml(element_->InsertNewChildElement(name)); }
+  /// A child with nothing but text.
+  Xml add(const char* name, const std::string& text) const {
+    const Xml child = add(name);
+    child.element_->SetText(text.c_str());
+    return child;
+  }
+  Xml add(const char* name, double value) const { return add(name, numberText(value)); }
+  const Xml& with(const char* attribute, const std::string& value) const {
+    element_->SetAttribute(attribute, value.c_str());
+    return *this;
+  }
+  const Xml& with(const char* attribute, double value) const { return with(attribute, numberText(value)); }
+  const Xml& with(const char* attribute, const Vector3d& values) const { return with(attribute, numberText(values)); }
+  void comment(const std::string& text) const { element_->InsertNewComment(text.c_str()); }
+
+ private:
+  tinyxml2::XMLElement* element_;
+};
+
+/// A document with one root.
+class XmlDocument {
+ public:
+  explicit XmlDocument(const char* root);
+  Xml root() { return Xml(document_.RootElement()); }
+  std::string text() const;
+
+ private:
+  tinyxml2::XMLDocument document_;
+};
+
+}  // namespace ursula::exchange
