@@ -21,14 +21,15 @@ ALLOWED = {
     "model": "base",
     "nocsolver": "base model",
     "engines": "base model",
+    "exchange": "base model",
     "validation": "base model nocsolver engines",
     "report": "base model nocsolver validation",
     "studies": "base model nocsolver engines validation report",
-    "apps": "base model nocsolver validation report studies",
+    "apps": "base model nocsolver exchange validation report studies",
     "include": "base model nocsolver validation report studies",
     "examples": "",
     "python": "",
-    "tests": "bench base model nocsolver engines validation report studies",
+    "tests": "bench examples base model nocsolver engines exchange validation report studies",
     "bench": "base model nocsolver engines validation studies",
 }
 ENGINE_HEADER = re.compile(r"(?i)^(simbody|simtk|simmath|mujoco/|dart/)|/(simbody|simtk|simmath)")

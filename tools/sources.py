@@ -4,7 +4,7 @@ import posixpath
 import re
 from pathlib import Path
 
-FOLDERS = ("base", "model", "nocsolver", "engines", "validation", "report", "studies", "apps", "include", "examples", "python",
+FOLDERS = ("base", "model", "nocsolver", "engines", "exchange", "validation", "report", "studies", "apps", "include", "examples", "python",
            "tests", "bench")
 SUFFIXES = (".h", ".hpp", ".inl", ".cpp")
 HEADER_SUFFIXES = (".h", ".hpp", ".inl")

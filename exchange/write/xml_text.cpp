@@ -5,17 +5,27 @@
 #include <cmath>
 
 namespace ursula::exchange {
+namespace {
+
+/// What the digits of `size` are too few to know is zero.
+Vector3d withoutRounding(const Vector3d& values, double size) {
+  const double known = 4 * Eigen::NumTraits<double>::epsilon() * size;
+  return (values.array().abs() > known).select(values, 0.0);
+}
+
+}  // namespace
 
 std::string numberText(double value) { return fmt::format("{}", value + 0.0); }
 
 std::string numberText(const Vector3d& values) {
-  return numberText(values.x()) + " " + numberText(values.y()) + " " + numberText(values.z());
+  const Vector3d clean = withoutRounding(values, values.cwiseAbs().maxCoeff());
+  return numberText(clean.x()) + " " + numberText(clean.y()) + " " + numberText(clean.z());
 }
 
 std::string quaternionText(const Matrix3d& rotation) {
   Eigen::Quaterniond q = Eigen::Quaterniond(rotation).normalized();
   if (q.w() < 0) q.coeffs() *= -1;
-  return numberText(q.w()) + " " + numberText(Vector3d(q.vec()));
+  return numberText(q.w()) + " " + numberText(withoutRounding(q.vec(), 1));
 }
 
 /// The yaw is taken off before the roll is read: where it is made of rounding, the roll makes up for it.
@@ -23,7 +33,7 @@ Vector3d rollPitchYaw(const Matrix3d& rotation) {
   const double yaw = std::atan2(rotation(1, 0), rotation(0, 0)), c = std::cos(yaw), s = std::sin(yaw);
   const double pitch = std::atan2(-rotation(2, 0), c * rotation(0, 0) + s * rotation(1, 0));
   const double roll = std::atan2(s * rotation(0, 2) - c * rotation(1, 2), c * rotation(1, 1) - s * rotation(0, 1));
-  return {roll, pitch, yaw};
+  return withoutRounding({roll, pitch, yaw}, 1);
 }
 
 std::string poseText(const Eigen::Isometry3d& pose) {

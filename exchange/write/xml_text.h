@@ -11,7 +11,7 @@ namespace ursula::exchange {
 
 /// The shortest digits that read back as the same number; a zero has no sign.
 std::string numberText(double value);
-/// With spaces between.
+/// With spaces between. An entry that is within rounding of zero beside the others is zero.
 std::string numberText(const Vector3d& values);
 /// [w, x, y, z], w not negative.
 std::string quaternionText(const Matrix3d& rotation);
