@@ -1,0 +1,145 @@
+// MuJoCo reads what was exported, has the scenario's bodies and closed loops, and answers with the scenario's efforts.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "examples/engines/closed_chain_internal.h"
+#include "exchange/write/graph_of.h"
+#include "nocsolver/noc/noc.h"
+#include "tests/exchange/export_support.h"
+
+namespace ursula::exchange {
+namespace {
+
+using closed_chain::Machine, closed_chain::Recipe;
+using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+
+class Read : public Machine {
+ public:
+  explicit Read(const std::string& text) : Machine(written(text)) {}
+
+  SeenBodies bodies() {
+    gap();
+    SeenBodies out;
+    for (int body = 1; body < model().nbody; ++body) {
+      const Matrix3d axes = Eigen::Map<const RowMajor>(data().ximat + 9 * body);
+      const Vector3d moments = Eigen::Map<const Vector3d>(model().body_inertia + 3 * body);
+      out[mj_id2name(&model(), mjOBJ_BODY, body)] = {model().body_mass[body],
+                                                     Eigen::Map<const Vector3d>(data().xipos + 3 * body),
+                                                     axes * moments.asDiagonal() * axes.transpose()};
+    }
+    return out;
+  }
+
+ private:
+  static std::string written(const std::string& text) {
+    const auto file = std::filesystem::path(testing::TempDir()) /
+                      (std::string("export_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".xml");
+    std::ofstream(file) << text;
+    return file.string();
+  }
+};
+
+closed_chain::Motion asked(const Motion<double>& m) {
+  return {m.p, m.p_dot, m.omega, m.p_ddot, m.omega_dot, Eigen::Quaterniond(m.Q)};
+}
+
+Vector6d expectedEfforts(const Scenario& scenario, double t) {
+  NocWorkspace<double> work;
+  return Noc<double>(*scenario.manipulator).inverseDynamics(scenario.trajectory->at(t), work);
+}
+
+double errorOf(Machine& machine, const Scenario& scenario, double t, Recipe recipe = Recipe::exact) {
+  const Vector6d expected = expectedEfforts(scenario, t);
+  return (machine.efforts(asked(scenario.trajectory->at(t)), recipe) - expected).norm() / expected.norm();
+}
+
+TEST(ExportMujoco, HasTheBodies) {
+  for (const std::string& name : machines()) {
+    const Scenario scenario = machine(name);
+    Read model(textOf(scenario, ModelFormat::mjcf));
+    EXPECT_LE(deviation(model.bodies(), expectedBodies(scenario)), rounding) << name;
+  }
+}
+
+TEST(ExportMujoco, LoopsAreClosedAtTheFilesPose) {
+  for (const std::string& name : machines()) {
+    const Scenario scenario = machine(name);
+    Read model(textOf(scenario, ModelFormat::mjcf));
+    mj_resetData(&model.model(), &model.data());
+    const Eigen::VectorXd gap = model.gap();
+    ASSERT_EQ(gap.size(), 3 * scenario.manipulator->legCount());
+    EXPECT_LT(gap.cwiseAbs().maxCoeff(), 1e-12) << name;
+  }
+}
+
+TEST(ExportMujoco, CoordinatesAreTheScenarios) {
+  for (const std::string& name : machines()) {
+    const Scenario scenario = machine(name);
+    const Read read(textOf(scenario, ModelFormat::mjcf));
+    auto& model = const_cast<Read&>(read).model();
+    const Noc<double> noc(*scenario.manipulator);
+    NocWorkspace<double> work;
+    noc.inverseKinematics(scenario.trajectory->at(0), work);
+    const JointVariables<double> q = noc.angles(work);
+    int found = 0;
+    for (int leg = 0; leg < scenario.manipulator->legCount(); ++leg)
+      for (const Coordinate coordinate : rowOf(scenario.manipulator->leg(leg).kind).coordinates) {
+        const std::string joint = fmt::format("leg_{}_{}", leg + 1, nameOf(coordinate));
+        const int id = mj_name2id(&model, mjOBJ_JOINT, joint.c_str());
+        ASSERT_GE(id, 0) << name << ' ' << joint;
+        const double apart = model.qpos0[model.jnt_qposadr[id]] - q.of(coordinate)(leg);
+        EXPECT_NEAR(slides(coordinate) ? apart : std::remainder(apart, 2 * M_PI), 0, 1e-12) << name << ' ' << joint;
+        ++found;
+      }
+    EXPECT_EQ(found, 3 * scenario.manipulator->legCount());
+  }
+}
+
+/// Both sides solve 24 equations, whose condition costs some three digits of the sixteen; 1e-9 leaves three more.
+TEST(ExportMujoco, GivesTheScenariosEfforts) {
+  for (const std::string& name : machines()) {
+    const Scenario scenario = machine(name);
+    Read model(textOf(scenario, ModelFormat::mjcf));
+    for (const double share : {0.0, 0.37, 1.0})
+      EXPECT_LT(errorOf(model, scenario, share * scenario.trajectory->duration()), 1e-9) << name << ' ' << share;
+  }
+}
+
+TEST(ExportMujoco, OtherRecipesAreWrong) {
+  const Scenario scenario = machine("apps/starting/UPS.toml");
+  Read model(textOf(scenario, ModelFormat::mjcf));
+  const double t = 0.37 * scenario.trajectory->duration();
+  EXPECT_LT(errorOf(model, scenario, t), 1e-9);
+  for (const Recipe recipe :
+       {Recipe::inverse, Recipe::tree, Recipe::least_squares, Recipe::no_bias, Recipe::global_angular})
+    EXPECT_GT(errorOf(model, scenario, t, recipe), 1e-6) << static_cast<int>(recipe);
+}
+
+TEST(ExportMujoco, ATensorThatIsNotTurnedIsSeen) {
+  const Scenario scenario = machine("scenarios/full-tensors.toml");
+  std::vector<Assumption> notes;
+  Read model(mjcfText(withTensorNotTurned(scenario), notes));
+  EXPECT_GT(deviation(model.bodies(), expectedBodies(scenario)), 1e-3);
+  EXPECT_GT(errorOf(model, scenario, 0.37 * scenario.trajectory->duration()), 1e-6);
+}
+
+TEST(ExportMujoco, MotorsStandInTheScenariosOrder) {
+  for (const std::string& name : machines()) {
+    const Scenario scenario = machine(name);
+    Read model(textOf(scenario, ModelFormat::mjcf));
+    ASSERT_EQ(model.model().nu, motor_count);
+    for (int k = 0; k < motor_count; ++k) {
+      const Motor& motor = scenario.manipulator->motors()[static_cast<std::size_t>(k)];
+      EXPECT_EQ(std::string(mj_id2name(&model.model(), mjOBJ_ACTUATOR, k)),
+                fmt::format("leg_{}_{}", motor.leg + 1, nameOf(motor.coordinate)));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ursula::exchange
