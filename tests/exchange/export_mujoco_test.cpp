@@ -1,9 +1,9 @@
 // MuJoCo reads what was exported, has the scenario's bodies and closed loops, and answers with the scenario's efforts.
 
-#include <gmock/gmock.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -80,8 +80,8 @@ TEST(ExportMujoco, LoopsAreClosedAtTheFilesPose) {
 TEST(ExportMujoco, CoordinatesAreTheScenarios) {
   for (const std::string& name : machines()) {
     const Scenario scenario = machine(name);
-    const Read read(textOf(scenario, ModelFormat::mjcf));
-    auto& model = const_cast<Read&>(read).model();
+    Read read(textOf(scenario, ModelFormat::mjcf));
+    const mjModel& model = read.model();
     const Noc<double> noc(*scenario.manipulator);
     NocWorkspace<double> work;
     noc.inverseKinematics(scenario.trajectory->at(0), work);

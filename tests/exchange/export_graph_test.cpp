@@ -1,0 +1,99 @@
+// The graph that the writers are given: closed at every leg, with what the scenario has, and refused where a leg
+// cannot.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "exchange/write/graph_of.h"
+#include "exchange/write/leg_pose.h"
+#include "exchange/write/xml_text.h"
+#include "tests/exchange/export_support.h"
+
+namespace ursula::exchange {
+namespace {
+
+using testing::AllOf, testing::HasSubstr;
+
+/// A link's far end, from its frame alone, is where the next joint is.
+TEST(ExportGraph, LegsReachThePlatform) {
+  for (const std::string& name : machines()) {
+    const Scenario scenario = machine(name);
+    const Motion<double> pose = scenario.trajectory->at(0);
+    for (int i = 0; i < scenario.manipulator->legCount(); ++i) {
+      const Leg& leg = scenario.manipulator->leg(i);
+      const Vector3d tip = pose.p + pose.Q * leg.platform_point;
+      const LegPose at = legPose(leg, i, tip);
+      EXPECT_LT((at.distal * Vector3d(0, 0, leg.distal.length) - tip).norm(), 1e-14 * 64) << name << " leg " << i + 1;
+      for (const Matrix3d& axes : {Matrix3d(at.proximal.linear()), Matrix3d(at.distal.linear())}) {
+        EXPECT_TRUE((axes.transpose() * axes).isIdentity(1e-14)) << name;
+        EXPECT_GT(axes.determinant(), 0) << name;
+      }
+    }
+  }
+}
+
+TEST(ExportGraph, OutOfReachNamesTheLegAndTheNumber) {
+  Leg leg = machine("apps/starting/URS.toml").manipulator->leg(2);
+  const Vector3d far = leg.base_point + Vector3d(0.5, 0.5, 9);
+  for (const LegKind kind : {LegKind::URS, LegKind::UPS, LegKind::RUS, LegKind::PUS}) {
+    leg.kind = kind;
+    leg.base_axis = Vector3d::UnitX();
+    try {
+      static_cast<void>(legPose(leg, 2, far));
+      ADD_FAILURE() << "kind " << static_cast<int>(kind) << " reached over 9 m";
+    } catch (const UnreachablePose& refusal) {
+      EXPECT_THAT(refusal.what(), AllOf(HasSubstr("leg 3 "), HasSubstr("expected"), HasSubstr(" m")));
+    }
+  }
+}
+
+TEST(ExportGraph, SingularLegsAreRefused) {
+  Leg leg = machine("apps/starting/URS.toml").manipulator->leg(0);
+  leg.base_axis = Vector3d::UnitX();
+  const double reach = leg.proximal.length + leg.distal.length;
+  EXPECT_THROW(legPose(leg, 0, leg.base_point + Vector3d(0, 0, reach)), UnreachablePose);        // stretched
+  EXPECT_THROW(legPose(leg, 0, leg.base_point + Vector3d(0.5 * reach, 0, 0)), UnreachablePose);  // on its axis
+  EXPECT_NO_THROW(legPose(leg, 0, leg.base_point + Vector3d(0, 0, 0.7 * reach)));
+}
+
+TEST(ExportGraph, NothingIsDroppedInSilence) {
+  const auto notesOf = [](const char* name, ModelFormat format) {
+    std::string out;
+    for (const Assumption& note : exportScenario(machine(name), format).notes)
+      out += note.where + ": " + note.what + "\n";
+    return out;
+  };
+  EXPECT_THAT(notesOf("scenarios/load-base.toml", ModelFormat::mjcf), HasSubstr("load.force"));
+  EXPECT_THAT(notesOf("scenarios/coulomb-friction.toml", ModelFormat::mjcf), HasSubstr("leg_1_phi: Coulomb"));
+  EXPECT_THAT(notesOf("scenarios/gravity-sideways.toml", ModelFormat::urdf), HasSubstr("URDF has no gravity: set ["));
+  EXPECT_THAT(notesOf("apps/starting/UPS.toml", ModelFormat::sdf), HasSubstr("--actuated leg_1_d,leg_2_d"));
+}
+
+TEST(ExportGraph, AnglesReadBackAtEveryPitch) {
+  for (const double pitch : {-M_PI_2, -1.5707963, -0.3, 0.0, 0.7, 1.5707963267, M_PI_2})
+    for (const double roll : {-3.0, -0.4, 0.0, 1.1})
+      for (const double yaw : {-2.2, 0.0, 0.3, 3.1}) {
+        const auto turn = [](const Vector3d& rpy) {
+          return Matrix3d(Eigen::AngleAxisd(rpy.z(), Vector3d::UnitZ()) *
+                          Eigen::AngleAxisd(rpy.y(), Vector3d::UnitY()) *
+                          Eigen::AngleAxisd(rpy.x(), Vector3d::UnitX()));
+        };
+        const Matrix3d rotation = turn({roll, pitch, yaw});
+        EXPECT_LT((turn(rollPitchYaw(rotation)) - rotation).norm(), 1e-15 * 8) << roll << ' ' << pitch << ' ' << yaw;
+      }
+}
+
+TEST(ExportGraph, ANameThatXmlWouldReadIsWrittenSafely) {
+  Scenario scenario = machine("apps/starting/UPS.toml");
+  scenario.name = "a<b & \"c\"::d";
+  for (const ModelFormat format : {ModelFormat::sdf, ModelFormat::mjcf, ModelFormat::urdf}) {
+    const WrittenModel written = exportScenario(scenario, format);
+    tinyxml2::XMLDocument document;
+    EXPECT_EQ(document.Parse(written.text.c_str()), tinyxml2::XML_SUCCESS);
+    EXPECT_THAT(written.text, HasSubstr("\"a_b____c___d\""));
+    EXPECT_EQ(written.notes.front().where, "name");
+  }
+}
+
+}  // namespace
+}  // namespace ursula::exchange
