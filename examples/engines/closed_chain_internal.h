@@ -121,8 +121,12 @@ class Machine {
     }
     Eigen::MatrixXd unknown(nv, gaps() + motors);
     unknown << jacobian().transpose(), S;
-    return unknown.partialPivLu().solve(wanted).tail(motors);  // (3)
+    const Eigen::VectorXd found = unknown.partialPivLu().solve(wanted);  // (3)
+    multipliers_ = found.head(gaps());
+    return found.tail(motors);
   }
+  /// Forces λ of the loops that the last exact answer found, N, stacked as the gaps are.
+  const Eigen::VectorXd& multipliers() const { return multipliers_; }
 
   Eigen::MatrixXd jacobian() {
     using Rows = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
@@ -210,6 +214,7 @@ class Machine {
   std::unique_ptr<mjData, Free> data_;
   int free_ = -1, platform_ = 0;  ///< the platform's joint, and its first coordinate's rate
   std::vector<int> legs_;         ///< rates of the other coordinates
+  Eigen::VectorXd multipliers_;
 };
 
 }  // namespace closed_chain

@@ -4,54 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
+#include <string>
 
-#include "examples/engines/closed_chain_internal.h"
 #include "exchange/write/graph_of.h"
-#include "nocsolver/noc/noc.h"
-#include "tests/exchange/export_support.h"
+#include "tests/exchange/export_mujoco_internal.h"
 
 namespace ursula::exchange {
 namespace {
 
 using closed_chain::Machine, closed_chain::Recipe;
-using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-
-class Read : public Machine {
- public:
-  explicit Read(const std::string& text) : Machine(written(text)) {}
-
-  SeenBodies bodies() {
-    gap();
-    SeenBodies out;
-    for (int body = 1; body < model().nbody; ++body) {
-      const Matrix3d axes = Eigen::Map<const RowMajor>(data().ximat + 9 * body);
-      const Vector3d moments = Eigen::Map<const Vector3d>(model().body_inertia + 3 * body);
-      out[mj_id2name(&model(), mjOBJ_BODY, body)] = {model().body_mass[body],
-                                                     Eigen::Map<const Vector3d>(data().xipos + 3 * body),
-                                                     axes * moments.asDiagonal() * axes.transpose()};
-    }
-    return out;
-  }
-
- private:
-  static std::string written(const std::string& text) {
-    const auto file = std::filesystem::path(testing::TempDir()) /
-                      (std::string("export_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".xml");
-    std::ofstream(file) << text;
-    return file.string();
-  }
-};
-
-closed_chain::Motion asked(const Motion<double>& m) {
-  return {m.p, m.p_dot, m.omega, m.p_ddot, m.omega_dot, Eigen::Quaterniond(m.Q)};
-}
-
-Vector6d expectedEfforts(const Scenario& scenario, double t) {
-  NocWorkspace<double> work;
-  return Noc<double>(*scenario.manipulator).inverseDynamics(scenario.trajectory->at(t), work);
-}
 
 double errorOf(Machine& machine, const Scenario& scenario, double t, Recipe recipe = Recipe::exact) {
   const Vector6d expected = expectedEfforts(scenario, t);
@@ -61,7 +22,7 @@ double errorOf(Machine& machine, const Scenario& scenario, double t, Recipe reci
 TEST(ExportMujoco, HasTheBodies) {
   for (const std::string& name : machines()) {
     const Scenario scenario = machine(name);
-    Read model(textOf(scenario, ModelFormat::mjcf));
+    InMujoco model(textOf(scenario, ModelFormat::mjcf));
     EXPECT_LE(deviation(model.bodies(), expectedBodies(scenario)), rounding) << name;
   }
 }
@@ -69,7 +30,7 @@ TEST(ExportMujoco, HasTheBodies) {
 TEST(ExportMujoco, LoopsAreClosedAtTheFilesPose) {
   for (const std::string& name : machines()) {
     const Scenario scenario = machine(name);
-    Read model(textOf(scenario, ModelFormat::mjcf));
+    InMujoco model(textOf(scenario, ModelFormat::mjcf));
     mj_resetData(&model.model(), &model.data());
     const Eigen::VectorXd gap = model.gap();
     ASSERT_EQ(gap.size(), 3 * scenario.manipulator->legCount());
@@ -80,7 +41,7 @@ TEST(ExportMujoco, LoopsAreClosedAtTheFilesPose) {
 TEST(ExportMujoco, CoordinatesAreTheScenarios) {
   for (const std::string& name : machines()) {
     const Scenario scenario = machine(name);
-    Read read(textOf(scenario, ModelFormat::mjcf));
+    InMujoco read(textOf(scenario, ModelFormat::mjcf));
     const mjModel& model = read.model();
     const Noc<double> noc(*scenario.manipulator);
     NocWorkspace<double> work;
@@ -104,7 +65,7 @@ TEST(ExportMujoco, CoordinatesAreTheScenarios) {
 TEST(ExportMujoco, GivesTheScenariosEfforts) {
   for (const std::string& name : machines()) {
     const Scenario scenario = machine(name);
-    Read model(textOf(scenario, ModelFormat::mjcf));
+    InMujoco model(textOf(scenario, ModelFormat::mjcf));
     for (const double share : {0.0, 0.37, 1.0})
       EXPECT_LT(errorOf(model, scenario, share * scenario.trajectory->duration()), 1e-9) << name << ' ' << share;
   }
@@ -112,7 +73,7 @@ TEST(ExportMujoco, GivesTheScenariosEfforts) {
 
 TEST(ExportMujoco, OtherRecipesAreWrong) {
   const Scenario scenario = machine("apps/starting/UPS.toml");
-  Read model(textOf(scenario, ModelFormat::mjcf));
+  InMujoco model(textOf(scenario, ModelFormat::mjcf));
   const double t = 0.37 * scenario.trajectory->duration();
   EXPECT_LT(errorOf(model, scenario, t), 1e-9);
   for (const Recipe recipe :
@@ -123,7 +84,7 @@ TEST(ExportMujoco, OtherRecipesAreWrong) {
 TEST(ExportMujoco, ATensorThatIsNotTurnedIsSeen) {
   const Scenario scenario = machine("scenarios/full-tensors.toml");
   std::vector<Assumption> notes;
-  Read model(mjcfText(withTensorNotTurned(scenario), notes));
+  InMujoco model(mjcfText(withTensorNotTurned(scenario), notes));
   EXPECT_GT(deviation(model.bodies(), expectedBodies(scenario)), 1e-3);
   EXPECT_GT(errorOf(model, scenario, 0.37 * scenario.trajectory->duration()), 1e-6);
 }
@@ -131,7 +92,7 @@ TEST(ExportMujoco, ATensorThatIsNotTurnedIsSeen) {
 TEST(ExportMujoco, MotorsStandInTheScenariosOrder) {
   for (const std::string& name : machines()) {
     const Scenario scenario = machine(name);
-    Read model(textOf(scenario, ModelFormat::mjcf));
+    InMujoco model(textOf(scenario, ModelFormat::mjcf));
     ASSERT_EQ(model.model().nu, motor_count);
     for (int k = 0; k < motor_count; ++k) {
       const Motor& motor = scenario.manipulator->motors()[static_cast<std::size_t>(k)];
