@@ -72,7 +72,7 @@ TEST(ExportMujoco, GivesTheScenariosEfforts) {
 }
 
 TEST(ExportMujoco, OtherRecipesAreWrong) {
-  const Scenario scenario = machine("apps/starting/UPS.toml");
+  const Scenario scenario = machine("scenarios/flight-simulator.toml");
   InMujoco model(textOf(scenario, ModelFormat::mjcf));
   const double t = 0.37 * scenario.trajectory->duration();
   EXPECT_LT(errorOf(model, scenario, t), 1e-9);
