@@ -100,8 +100,9 @@ class Machine {
     setLegs(data_->qvel, solveLegs(Eigen::VectorXd::Zero(gaps()), rates, false), rates);
     mj_comVel(model_.get(), data_.get());
     setLegs(data_->qacc, Eigen::VectorXd::Zero(gaps()), Eigen::VectorXd::Zero(6));
-    const Eigen::VectorXd drift = recipe == Recipe::no_bias ? Eigen::VectorXd::Zero(gaps()) : gapAcceleration();
-    setLegs(data_->qacc, solveLegs(-drift, accelerations, false), accelerations);
+    bias_ = gapAcceleration();
+    if (recipe == Recipe::no_bias) bias_.setZero();
+    setLegs(data_->qacc, solveLegs(-bias_, accelerations, false), accelerations);
   }
 
   /// In the order of the file's actuators. Places and moves first.
@@ -127,6 +128,8 @@ class Machine {
   }
   /// Forces λ of the loops that the last exact answer found, N, stacked as the gaps are.
   const Eigen::VectorXd& multipliers() const { return multipliers_; }
+  /// Ġq̇ where it last moved, m/s².
+  const Eigen::VectorXd& bias() const { return bias_; }
 
   Eigen::MatrixXd jacobian() {
     using Rows = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
@@ -214,7 +217,7 @@ class Machine {
   std::unique_ptr<mjData, Free> data_;
   int free_ = -1, platform_ = 0;  ///< the platform's joint, and its first coordinate's rate
   std::vector<int> legs_;         ///< rates of the other coordinates
-  Eigen::VectorXd multipliers_;
+  Eigen::VectorXd multipliers_, bias_;
 };
 
 }  // namespace closed_chain
