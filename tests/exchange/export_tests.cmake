@@ -24,3 +24,10 @@ find_package(urdfdom QUIET)
 if(urdfdom_FOUND)
   ursula_export_test(urdf urdfdom::urdfdom_model)
 endif()
+
+add_executable(export_verb_tests export_verb_test.cpp)
+target_link_libraries(export_verb_tests PRIVATE ursula::options GTest::gmock GTest::gtest_main)
+target_compile_definitions(export_verb_tests PRIVATE
+  URSULA_PROGRAM="$<TARGET_FILE:ursula>" URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
+add_dependencies(export_verb_tests ursula)
+gtest_discover_tests(export_verb_tests)
