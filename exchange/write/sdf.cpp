@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "exchange/write/export.h"
@@ -89,13 +90,30 @@ class Writer {
 
   void addLimb(const Xml& model, const Limb& limb) {
     const GraphJoint& last = graph_.joints[limb.joints.back()];
-    if (last.kind == JointKind::ball || limb.joints.size() > 2) return addBall(model, nameOf(limb), limb.parent, last);
+    if (last.kind == JointKind::ball || limb.joints.size() > 2) {
+      for (const std::size_t joint : limb.joints) noteBall(graph_.joints[joint]);
+      return addBall(model, nameOf(limb), limb.parent, last);
+    }
     const char* type = limb.joints.size() == 2             ? "universal"
                        : last.kind == JointKind::prismatic ? "prismatic"
                                                            : "revolute";
     const Xml element = addJoint(model, nameOf(limb), type, limb.parent, last);
     for (std::size_t k = 0; k < limb.joints.size(); ++k)
       addAxis(element.add(k == 0 ? "axis" : "axis2"), graph_.joints[limb.joints[k]]);
+  }
+
+  /// Three hinges through a point are a ball, which has no axes to say more of.
+  void noteBall(const GraphJoint& joint) {
+    if (joint.damping != 0 || joint.friction != 0)
+      notes_.push_back({"Friction on one axis of a ball is left out", joint.name,
+                        std::max(joint.damping, joint.friction), "N m s or N m"});
+    noteRotor(joint);
+  }
+
+  void noteRotor(const GraphJoint& joint) {
+    if (joint.rotor_inertia != 0)
+      notes_.push_back({"SDF has no rotor inertia: it is left out", joint.name, joint.rotor_inertia,
+                        joint.kind == JointKind::prismatic ? "kg" : "kg m2"});
   }
 
   void addBall(const Xml& model, const std::string& name, std::size_t parent, const GraphJoint& joint) const {
@@ -127,9 +145,7 @@ class Writer {
       limit.add("upper", limited ? joint.upper - joint.position : 1e16);
       if (!joint.driven) limit.add("effort", 0.0);
     }
-    if (joint.rotor_inertia != 0)
-      notes_.push_back({"SDF has no rotor inertia: it is left out", joint.name, joint.rotor_inertia,
-                        joint.kind == JointKind::prismatic ? "kg" : "kg m2"});
+    noteRotor(joint);
   }
 
   const MachineModel& machine_;

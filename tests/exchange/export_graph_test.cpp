@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "exchange/write/graph_of.h"
 #include "exchange/write/leg_pose.h"
 #include "exchange/write/xml_text.h"
@@ -67,6 +70,45 @@ TEST(ExportGraph, NothingIsDroppedInSilence) {
   EXPECT_THAT(notesOf("scenarios/coulomb-friction.toml", ModelFormat::mjcf), HasSubstr("leg_1_phi: Coulomb"));
   EXPECT_THAT(notesOf("scenarios/gravity-sideways.toml", ModelFormat::urdf), HasSubstr("URDF has no gravity: set ["));
   EXPECT_THAT(notesOf("apps/starting/UPS.toml", ModelFormat::sdf), HasSubstr("--actuated leg_1_d,leg_2_d"));
+}
+
+TEST(ExportGraph, RotorInertiaIsWrittenWhereTheFormatHasIt) {
+  MachineModel model = modelOf(machine("apps/starting/UPS.toml"));
+  for (GraphJoint& joint : model.graph.joints)
+    if (joint.driven) joint.rotor_inertia = 0.375;
+  std::vector<Assumption> notes;
+  EXPECT_THAT(mjcfText(model, notes), HasSubstr("armature=\"0.375\""));
+  EXPECT_TRUE(notes.empty());
+  EXPECT_THAT(urdfText(model, notes), HasSubstr("<drake:rotor_inertia value=\"0.375\"/>"));
+  notes.clear();
+  static_cast<void>(sdfText(model, notes));
+  ASSERT_EQ(notes.size(), 7U);  // of each motor, and that there are motors
+  EXPECT_THAT(notes.back().what, HasSubstr("rotor inertia"));
+  EXPECT_EQ(notes.back().size, 0.375);
+}
+
+/// What a rod between two balls will be: a third hinge along it, through another body of no mass.
+TEST(ExportGraph, ThreeHingesThroughAPointAreABallInSdf) {
+  MachineModel model = modelOf(machine("apps/starting/PUS.toml"));
+  ModelGraph& graph = model.graph;
+  const auto theta = std::find_if(graph.joints.begin(), graph.joints.end(),
+                                  [](const GraphJoint& joint) { return joint.name == "leg_1_theta"; });
+  GraphJoint spin = *theta;
+  GraphBody frame = graph.bodies[spin.child];
+  frame.name = "leg_1_spin_frame";
+  frame.mass = 0;
+  spin.name = "leg_1_spin";
+  spin.axis[0] = frame.frame.linear().col(2);
+  spin.parent = theta->child = graph.bodies.size();
+  spin.damping = 2;
+  graph.joints.push_back(spin);
+  graph.bodies.push_back(frame);
+  model.own.emplace_back();
+  std::vector<Assumption> notes;
+  EXPECT_THAT(sdfText(model, notes), HasSubstr("<joint name=\"leg_1_psi_theta_spin\" type=\"ball\">"));
+  EXPECT_EQ(notes.back().where, "leg_1_spin");
+  EXPECT_THAT(mjcfText(model, notes), HasSubstr("<joint name=\"leg_1_spin\" type=\"hinge\""));
+  EXPECT_THAT(urdfText(model, notes), HasSubstr("<link name=\"leg_1_spin_frame\"/>"));
 }
 
 TEST(ExportGraph, AnglesReadBackAtEveryPitch) {
