@@ -56,7 +56,7 @@ int runProgram(int argc, char** argv) {
   for (const auto add :
        {ursula::addValidate, ursula::addInverse, ursula::addInit, ursula::addCheck, ursula::addCompare,
         ursula::addDirect, ursula::addMap, ursula::addProve, ursula::addSimulate, ursula::addSweep, ursula::addAudit,
-        ursula::addPoses, ursula::addExplain, ursula::addExport, ursula::addOpen, ursula::addDocs})
+        ursula::addPoses, ursula::addExplain, ursula::addImport, ursula::addExport, ursula::addOpen, ursula::addDocs})
     add(app, run);
   ursula::refuseFlagValues(app);
   if (argc < 2) return complain(app.help());

@@ -34,6 +34,7 @@ void addCompare(CLI::App& app, std::function<int()>& run);
 void addDocs(CLI::App& app, std::function<int()>& run);
 void addExplain(CLI::App& app, std::function<int()>& run);
 void addExport(CLI::App& app, std::function<int()>& run);
+void addImport(CLI::App& app, std::function<int()>& run);
 void addInit(CLI::App& app, std::function<int()>& run);
 void addInverse(CLI::App& app, std::function<int()>& run);
 void addMap(CLI::App& app, std::function<int()>& run);

@@ -20,6 +20,8 @@ struct GraphBody {
   double mass = 0;                                          ///< kg
   Vector3d center_of_mass = Vector3d::Zero();               ///< position in the world, m
   Matrix3d inertia = Matrix3d::Zero();                      ///< about the mass centre, world axes, kg·m²
+  double inertia_rounding = 0;                              ///< half a unit of the last digit that the file writes
+  bool weightless = false;                                  ///< the file switches gravity off for it
 };
 
 enum class JointKind { fixed, revolute, prismatic, universal, ball, cylindrical, free };

@@ -26,7 +26,7 @@ ALLOWED = {
     "report": "base model nocsolver validation",
     "studies": "base model nocsolver engines validation report",
     "apps": "base model nocsolver exchange validation report studies",
-    "include": "base model nocsolver validation report studies",
+    "include": "base model nocsolver exchange validation report studies",
     "examples": "",
     "python": "",
     "tests": "bench examples base model nocsolver engines exchange validation report studies",
@@ -42,7 +42,7 @@ WITHIN_SOLVER = {"legs": {"legs"}, "noc": {"noc", "legs"}, "fast": {"fast", "leg
 OTHER_ROAD = re.compile(r"^engines/(\w+)/")
 
 MAP = "docs/equations.md"
-TAGGED_FOLDERS = ("base", "model", "nocsolver", "engines", "validation", "report", "studies")
+TAGGED_FOLDERS = ("base", "model", "nocsolver", "engines", "exchange", "validation", "report", "studies")
 LAST_EQUATION = 55
 PARTS = {2: "ab", 4: "abc", 11: "ab", 14: "ab", 15: "ab", 17: "ab", 19: "ab", 20: "ab", 30: "ab", 32: "ab",
          39: "abc", 41: "abc", 42: "ab", 43: "abc", 46: "abc", 51: "abcd"}
@@ -118,6 +118,7 @@ def check_targets(root):
                  "nocsolver/fast/parallel": re.compile(r"(?i)simbody|mujoco|ursula::validation"),
                  "exchange/write": re.compile(r"(?i)ursula::(?!options|eigen|base|model)\w+|simbody|mujoco"),
                  "engines": re.compile(r"ursula[:_]+(nocsolver|validation)"),
+                 "exchange": re.compile(r"(?i)ursula::(?!base|model|import|export)\w+|simbody|mujoco"),
                  "validation": re.compile(r"(?i)ursula::(apps|report)|\$\{(simbody|ursula_mujoco)_"),
                  "report": re.compile(r"(?i)ursula::apps|\$\{(simbody|ursula_mujoco)_"),
                  "studies": re.compile(r"(?i)ursula::apps|\$\{(simbody|ursula_mujoco)_")}

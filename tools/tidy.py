@@ -21,7 +21,7 @@ sys.dont_write_bytecode = True
 import sources  # noqa: E402
 
 ROOT = Path(__file__).resolve().parent.parent
-FOLDERS = ("base", "model", "nocsolver", "engines", "validation", "report", "studies", "apps", "tests", "bench")
+FOLDERS = ("base", "model", "nocsolver", "engines", "exchange", "validation", "report", "studies", "apps", "tests", "bench")
 
 
 def units(build, only):

@@ -1,0 +1,375 @@
+// MJCF by MuJoCo's XML reference, without MuJoCo: files newer than the one that is installed are read as well.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <unordered_map>
+
+#include "base/nearest.h"
+#include "base/shown_text.h"
+#include "exchange/read/mjcf_inertia.h"
+#include "exchange/read/readers.h"
+
+namespace ursula::exchange {
+namespace {
+
+const std::set<std::string> known_in_body = {"body", "joint",  "freejoint", "inertial", "geom",
+                                             "site", "camera", "light",     "frame"};
+
+/// What an element's numbers are relative to.
+struct Place {
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();  ///< in the world
+  std::string childclass;
+};
+
+class MjcfReader {
+ public:
+  explicit MjcfReader(const Element& root) : root_(root) {
+    graph_.format = "mjcf";
+    graph_.name = attribute(root, "model");
+    graph_.bodies.emplace_back();
+    graph_.bodies[0].name = "world";
+    graph_.bodies[0].fixed = true;
+    bodies_["world"] = 0;
+  }
+
+  ModelGraph read() {
+    refuseParts();
+    eachChild(root_, "compiler", [this](const Element& e) { compiler_.read(e); });
+    eachChild(root_, "option", [this](const Element& e) { readOption(e); });
+    defaults_.read(root_);
+    eachChild(root_, "worldbody", [this](const Element& e) { readChildren(e, 0, Place(), e); });
+    scaleMasses();
+    eachChild(root_, "equality",
+              [this](const Element& e) { eachChild(e, nullptr, [this](const Element& c) { readEquality(c); }); });
+    eachChild(root_, "actuator",
+              [this](const Element& e) { eachChild(e, nullptr, [this](const Element& c) { readActuator(c); }); });
+    if (const Element* keys = root_.FirstChildElement("keyframe");
+        keys != nullptr && keys->FirstChildElement() != nullptr)
+      graph_.assumptions.push_back(
+          {"Keyframes are left out: the initial pose is the one that the bodies are written in", "<keyframe>", 0, "1"});
+    return graph_;
+  }
+
+ private:
+  void refuseParts() const {
+    if (const Element* include = root_.FirstChildElement("include"))
+      refuse(*include, fmt::format("includes {}, which is not read; make one file of it: mj_saveLastXML, or MuJoCo's "
+                                   "compile FILE.xml ONE.xml",
+                                   shown(attribute(*include, "file"))));
+    for (const char* name : {"tendon", "deformable", "extension"})
+      if (const Element* part = root_.FirstChildElement(name); part != nullptr && part->FirstChildElement() != nullptr)
+        refuse(*part->FirstChildElement(), fmt::format("of <{}>, which a scenario has no words for", name));
+  }
+
+  void readOption(const Element& option) {
+    if (const std::string gravity = attribute(option, "gravity"); !gravity.empty())
+      graph_.gravity = vectorOf(option, gravity, "gravity");
+    for (const char* name : {"density", "viscosity"})
+      if (const std::string value = attribute(option, name); !value.empty() && numberOf(option, value, name) != 0)
+        refuse(option, fmt::format("{} {}: forces of a fluid, which a scenario has no words for", name, value));
+    if (const Element* flag = option.FirstChildElement("flag")) {
+      if (attribute(*flag, "gravity") == "disable") gravity_off_ = true;
+      for (const char* name : {"equality", "constraint", "passive", "spring", "damper", "frictionloss", "actuation"})
+        if (attribute(*flag, name) == "disable")
+          refuse(*flag, fmt::format("{}=\"disable\", which switches off what the file says elsewhere; expected a file "
+                                    "without it",
+                                    name));
+    }
+    if (gravity_off_) graph_.gravity.setZero();
+  }
+
+  Eigen::Isometry3d placeOf(const Element& element, const std::function<std::string(const char*)>& get) const {
+    const std::string pos = get("pos");
+    return placed(pos.empty() ? Vector3d::Zero() : vectorOf(element, pos, "pos"),
+                  mjcfOrientation(element, compiler_, get));
+  }
+
+  Eigen::Isometry3d ownPlace(const Element& element) const {
+    return placeOf(element, [&](const char* name) { return attribute(element, name); });
+  }
+
+  /// Elements of a body, those within its <frame>s too.
+  template <class Visit>
+  void eachContent(const Element& element, const Place& place, const Visit& visit) const {
+    eachChild(element, nullptr, [&](const Element& e) {
+      if (known_in_body.count(e.Name()) == 0)
+        refuse(e, fmt::format("in {}, which is not read; mj_saveLastXML writes a model without it", named(element)));
+      if (std::string(e.Name()) != "frame") return visit(e, place);
+      Place inner = place;
+      inner.frame = place.frame * ownPlace(e);
+      if (const std::string own = attribute(e, "childclass"); !own.empty()) inner.childclass = own;
+      eachContent(e, inner, visit);
+    });
+  }
+
+  /// Geoms, sites and bodies of a body, whose index is given.
+  void readChildren(const Element& element, std::size_t body, const Place& place, const Element&) {
+    const Element* inertial = element.FirstChildElement("inertial");
+    const bool from_geoms = compiler_.from_geom == MjcfCompiler::FromGeom::yes ||
+                            (compiler_.from_geom == MjcfCompiler::FromGeom::automatic && inertial == nullptr);
+    if (body != 0 && !from_geoms && inertial != nullptr)
+      takeInertial(*inertial, compiler_, place.frame, graph_.bodies[body]);
+    eachContent(element, place, [&](const Element& e, const Place& at) {
+      const std::string kind = e.Name();
+      const auto get = [&](const char* name) { return defaults_.get(e, at.childclass, name); };
+      if (kind == "geom" && body != 0 && from_geoms) addGeom(e, compiler_, at.frame, get, graph_.bodies[body]);
+      if (kind == "site" && !attribute(e, "name").empty())
+        sites_[attribute(e, "name")] = {body, at.frame * placeOf(e, get)};
+    });
+    if (body != 0) boundInertia(element, compiler_, graph_.bodies[body]);
+    eachContent(element, place, [&](const Element& e, const Place& at) {
+      if (std::string(e.Name()) == "body") readBody(e, body, at);
+    });
+  }
+
+  void readBody(const Element& element, std::size_t parent, const Place& around) {
+    Place place = around;
+    place.frame = around.frame * ownPlace(element);
+    if (const std::string own = attribute(element, "childclass"); !own.empty()) {
+      defaults_.requireClass(element, own);
+      place.childclass = own;
+    }
+    const std::string given = attribute(element, "name"), compensated = attribute(element, "gravcomp");
+    const std::string name = given.empty() ? fmt::format("body of line {}", element.GetLineNum()) : given;
+    if (!compensated.empty() && numberOf(element, compensated, "gravcomp") != 0)
+      refuse(element,
+             fmt::format("gravcomp {}: gravity is taken off a body, which a scenario has no key for", compensated));
+    if (attribute(element, "mocap") == "true")
+      refuse(element, "mocap: moved from outside, which a scenario has no words for");
+    const std::size_t body = addFrames(element, name, parent, place);
+    if (!bodies_.emplace(name, body).second) refuse(element, "a second body of that name, expected names of their own");
+    readChildren(element, body, place, element);
+  }
+
+  GraphBody emptyBody(const Element& element, const std::string& name, const Eigen::Isometry3d& frame) const {
+    GraphBody out;
+    out.name = name;
+    out.line = element.GetLineNum();
+    out.frame = frame;
+    return out;
+  }
+
+  /// The body, and frames of no mass between its joints, which act in their order.
+  std::size_t addFrames(const Element& element, const std::string& name, std::size_t parent, const Place& place) {
+    std::vector<std::pair<const Element*, Place>> joints;
+    eachContent(element, place, [&](const Element& e, const Place& at) {
+      if (std::string(e.Name()) == "joint" || std::string(e.Name()) == "freejoint") joints.emplace_back(&e, at);
+    });
+    GraphJoint none;
+    none.name = name + " (fixed)";
+    none.line = element.GetLineNum();
+    for (std::size_t k = 0; k + 1 < joints.size(); ++k) {
+      const std::size_t middle = graph_.bodies.size();
+      graph_.bodies.push_back(
+          emptyBody(*joints[k].first, fmt::format("{} (before its joint {})", name, k + 2), place.frame));
+      addJoint(*joints[k].first, joints[k].second, parent, middle);
+      parent = middle;
+    }
+    const std::size_t body = graph_.bodies.size();
+    graph_.bodies.push_back(emptyBody(element, name, place.frame));
+    if (!joints.empty()) {
+      addJoint(*joints.back().first, joints.back().second, parent, body);
+    } else {
+      none.parent = parent;
+      none.child = body;
+      none.centre = none.centre_of_child = place.frame.translation();
+      graph_.joints.push_back(none);
+    }
+    return body;
+  }
+
+  void addJoint(const Element& element, const Place& at, std::size_t parent, std::size_t child) {
+    const bool free = std::string(element.Name()) == "freejoint";
+    const auto get = [&](const char* name) {
+      return free ? std::string() : defaults_.get(element, at.childclass, name);
+    };
+    GraphJoint joint;
+    joint.name = attribute(element, "name").empty() ? fmt::format("joint of line {}", element.GetLineNum())
+                                                    : attribute(element, "name");
+    joint.line = element.GetLineNum();
+    joint.parent = parent;
+    joint.child = child;
+    const std::string type = free ? "free" : get("type").empty() ? "hinge" : get("type");
+    joint.kind = type == "hinge"   ? JointKind::revolute
+                 : type == "slide" ? JointKind::prismatic
+                 : type == "ball"  ? JointKind::ball
+                                   : JointKind::free;
+    if (type != "hinge" && type != "slide" && type != "ball" && type != "free")
+      refuse(element, fmt::format("type '{}', expected hinge, slide, ball or free", shown(type)));
+    const std::string pos = get("pos"), axis = get("axis");
+    joint.centre = joint.centre_of_child =
+        joint.kind == JointKind::free ? at.frame.translation()
+                                      : at.frame * (pos.empty() ? Vector3d::Zero() : vectorOf(element, pos, "pos"));
+    joint.axis[0] = at.frame.linear() *
+                    directionOf(element, axis.empty() ? Vector3d::UnitZ() : vectorOf(element, axis, "axis"), "axis");
+    takeJointNumbers(element, get, joint);
+    if (!attribute(element, "name").empty() && !joints_.emplace(joint.name, graph_.joints.size()).second)
+      refuse(element, "a second joint of that name, expected names of their own");
+    graph_.joints.push_back(joint);
+  }
+
+  void takeJointNumbers(const Element& element, const std::function<std::string(const char*)>& get, GraphJoint& joint) {
+    const auto number = [&](const char* name) {
+      const std::string text = get(name);
+      const double value = text.empty() ? 0 : numberOf(element, text, name);
+      if (value < 0) refuse(element, fmt::format("{} {}, expected none below zero", name, value));
+      return value;
+    };
+    if (const double stiffness = number("stiffness"); stiffness != 0)
+      refuse(element, fmt::format("a spring of stiffness {}, which a scenario has no words for", stiffness));
+    joint.damping = number("damping");
+    joint.friction = number("frictionloss");
+    joint.rotor_inertia = number("armature");
+    if (joint.kind == JointKind::free && (joint.damping != 0 || joint.friction != 0 || joint.rotor_inertia != 0))
+      refuse(element,
+             fmt::format("a free joint with damping {}, frictionloss {} and armature {}, which a scenario has no "
+                         "key for",
+                         joint.damping, joint.friction, joint.rotor_inertia));
+    if (joint.kind == JointKind::ball || joint.kind == JointKind::free) return;
+    const bool turns = joint.kind == JointKind::revolute;
+    const auto inUnits = [&](double value) { return turns ? compiler_.angle(value) : value; };
+    if (const std::string ref = get("ref"); !ref.empty()) joint.position = inUnits(numberOf(element, ref, "ref"));
+    const std::string limited = get("limited"), range = get("range");
+    if (range.empty() || limited == "false" || (limited != "true" && !compiler_.auto_limits)) return;
+    const std::vector<double> ends = numbersOf(element, range, 2, "range");
+    if (!(ends[0] < ends[1])) return;
+    joint.lower = inUnits(ends[0]);
+    joint.upper = inUnits(ends[1]);
+  }
+
+  void scaleMasses() {
+    double sum = 0;
+    for (const GraphBody& body : graph_.bodies) sum += body.mass;
+    if (!(compiler_.total_mass > 0) || !(sum > 0)) return;
+    const double scale = compiler_.total_mass / sum;
+    for (GraphBody& body : graph_.bodies) {
+      body.mass *= scale;
+      body.inertia *= scale;
+      body.inertia_rounding *= scale;
+    }
+    graph_.assumptions.push_back(
+        {"All masses and inertias were scaled, as settotalmass says", "<compiler>", scale, "1"});
+  }
+
+  struct Site {
+    std::size_t body = 0;
+    Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  };
+
+  template <class Map>
+  const typename Map::mapped_type& find(const Element& at, const Map& map, const std::string& name,
+                                        const char* what) const {
+    if (const auto found = map.find(name); found != map.end()) return found->second;
+    std::vector<std::string> names;
+    for (const auto& [each, index] : map)
+      if (names.size() < 1000) names.push_back(each);
+    std::sort(names.begin(), names.end());
+    refuse(at, fmt::format("{} '{}': nothing has that name{}", what, shown(name), didYouMean(name, names)));
+  }
+
+  void readEquality(const Element& element) {
+    const std::string kind = element.Name();
+    const auto get = [&](const char* name) { return defaults_.get(element, "", name, "equality"); };
+    const std::string name = attribute(element, "name").empty()
+                                 ? fmt::format("{} of line {}", shown(kind), element.GetLineNum())
+                                 : attribute(element, "name");
+    if (get("active") == "false") {
+      graph_.assumptions.push_back({"This constraint is switched off in the file and is left out", name, 0, "1"});
+      return;
+    }
+    if (kind != "connect" && kind != "weld")
+      refuse(element,
+             fmt::format("couples what it names ({}), as a gear does, which a scenario has no words for, expected "
+                         "connect or weld",
+                         shown(kind)));
+    GraphJoint joint;
+    joint.name = name;
+    joint.line = element.GetLineNum();
+    joint.kind = kind == "connect" ? JointKind::ball : JointKind::fixed;
+    joint.closure = true;
+    if (const std::string site = attribute(element, "site1"); !site.empty())
+      joinSites(element, site, joint);
+    else
+      joinBodies(element, joint);
+    graph_.joints.push_back(joint);
+  }
+
+  void joinSites(const Element& element, const std::string& first, GraphJoint& joint) {
+    const Site& a = find(element, sites_, first, "site1");
+    const Site& b = find(element, sites_, requiredAttribute(element, "site2"), "site2");
+    joint.parent = a.body;
+    joint.child = b.body;
+    joint.centre = a.frame.translation();
+    joint.centre_of_child = b.frame.translation();
+    if (joint.kind == JointKind::fixed) sayGap(joint.name, a.frame, b.frame);
+  }
+
+  void joinBodies(const Element& element, GraphJoint& joint) {
+    const std::string second = attribute(element, "body2");
+    joint.parent = find(element, bodies_, requiredAttribute(element, "body1"), "body1");
+    joint.child = second.empty() ? 0 : find(element, bodies_, second, "body2");
+    const Eigen::Isometry3d &a = graph_.bodies[joint.parent].frame, &b = graph_.bodies[joint.child].frame;
+    if (joint.kind == JointKind::ball) {
+      joint.centre = joint.centre_of_child = a * vectorOf(element, requiredAttribute(element, "anchor"), "anchor");
+      return;
+    }
+    joint.centre = joint.centre_of_child = b.translation();
+    const std::string relative = attribute(element, "relpose");
+    if (relative.empty()) return;
+    const std::vector<double> v = numbersOf(element, relative, 7, "relpose");
+    const Eigen::Quaterniond q(v[3], v[4], v[5], v[6]);
+    // A quaternion of zero stands for the pose that the file has.
+    if (q.norm() > 1e-12) sayGap(joint.name, a * placed({v[0], v[1], v[2]}, q.normalized().toRotationMatrix()), b);
+  }
+
+  void sayGap(const std::string& name, const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+    const double gap = (a.translation() - b.translation()).norm();
+    const double angle = Eigen::AngleAxisd(Matrix3d(a.linear().transpose() * b.linear())).angle();
+    if (gap > 1e-12) graph_.assumptions.push_back({"This weld is open at the file's initial pose", name, gap, "m"});
+    if (angle > 1e-9)
+      graph_.assumptions.push_back({"This weld is turned at the file's initial pose", name, angle, "rad"});
+  }
+
+  void readActuator(const Element& element) {
+    const std::string kind = element.Name();
+    const auto get = [&](const char* name) {
+      const std::string own = defaults_.get(element, "", name);
+      return own.empty() ? defaults_.get(element, "", name, "general") : own;
+    };
+    const std::string target = get("joint").empty() ? get("jointinparent") : get("joint");
+    const bool known = kind == "motor" || kind == "position" || kind == "velocity" || kind == "general" ||
+                       kind == "intvelocity" || kind == "cylinder" || kind == "dcmotor";
+    if (!known || target.empty())
+      refuse(element,
+             fmt::format("a {} that acts on {}, expected a motor, position, velocity or general actuator on a joint",
+                         shown(kind), target.empty() ? "no joint" : "joint " + shown(target)));
+    GraphJoint& joint = graph_.joints[find(element, joints_, target, "joint")];
+    joint.driven = true;
+    const std::string gear = get("gear");
+    const double ratio = gear.empty() ? 1 : numbersOf(element, gear, 0, "gear").at(0);
+    if (ratio == 0) refuse(element, "a gear of zero, expected another");
+    if (ratio != 1)
+      graph_.assumptions.push_back(
+          {"The actuator's gear is left out: efforts are the joint's own", joint.name, ratio, "1"});
+    if (kind != "motor" && kind != "general")
+      graph_.assumptions.push_back(
+          {fmt::format("The {} servo is taken as a motor: its gains are the controller's", kind), joint.name, 1, "1"});
+  }
+
+  const Element& root_;
+  MjcfCompiler compiler_;
+  MjcfDefaults defaults_;
+  bool gravity_off_ = false;
+  std::unordered_map<std::string, std::size_t> bodies_, joints_;
+  std::unordered_map<std::string, Site> sites_;
+  ModelGraph graph_;
+};
+
+}  // namespace
+
+ModelGraph readMjcf(const Element& root) { return MjcfReader(root).read(); }
+
+}  // namespace ursula::exchange

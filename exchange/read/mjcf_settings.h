@@ -1,0 +1,49 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+
+#include "exchange/read/xml.h"
+
+namespace ursula::exchange {
+
+/// What <compiler> says of how numbers are read.
+struct MjcfCompiler {
+  bool degrees = true;
+  std::string euler = "xyz";  ///< lower case: about the axes as they have turned; upper case: about fixed ones
+  bool auto_limits = true;
+  enum class FromGeom { no, yes, automatic } from_geom = FromGeom::automatic;
+  int least_group = 0, most_group = 5;
+  bool balance_inertia = false;
+  double least_mass = 0, least_inertia = 0, total_mass = -1;
+
+  void read(const Element& compiler);
+  double angle(double value) const { return degrees ? value * 3.14159265358979323846 / 180 : value; }
+};
+
+/// Classes of <default>, each with all that it inherits: class, element, attribute.
+class MjcfDefaults {
+ public:
+  void read(const Element& root);
+  /// An attribute as it holds: the element's own, else that of its class, of the nearest childclass, or of the main
+  /// class; "" where none says it. `kind`: the element's name in <default>, its own where empty.
+  std::string get(const Element& element, const std::string& childclass, const char* name,
+                  const std::string& kind = "") const;
+  void requireClass(const Element& at, const std::string& name) const;
+
+ private:
+  using Attributes = std::map<std::string, std::string>;
+  using Class = std::map<std::string, Attributes>;
+  void read(const Element& element, const Class& inherited, bool top);
+
+  std::map<std::string, Class> classes_;
+  std::string main_ = "main";
+  std::size_t inherited_ = 0;  ///< how many entries all classes have: they are copied down
+};
+
+/// Orientation by quat, axisangle, euler, xyaxes or zaxis, of which at most one is given. Throws ImportError otherwise.
+Matrix3d mjcfOrientation(const Element& element, const MjcfCompiler& compiler,
+                         const std::function<std::string(const char*)>& get);
+
+}  // namespace ursula::exchange

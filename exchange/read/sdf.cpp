@@ -1,0 +1,347 @@
+// SDF of any version, by the rules of http://sdformat.org/spec and of its proposal for pose frame semantics.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/shown_text.h"
+#include "exchange/read/drake.h"
+#include "exchange/read/readers.h"
+#include "exchange/read/sdf_frames.h"
+
+namespace ursula::exchange {
+namespace {
+
+using Kind = SdfFrames::Kind;
+
+class SdfReader {
+ public:
+  explicit SdfReader(const Element& root) : root_(root) {
+    const std::string version = attribute(root, "version");
+    const std::size_t dot = version.find('.');
+    if (version.substr(0, dot) != "1" || dot == std::string::npos)
+      refuse(root, fmt::format("version '{}', expected 1.0 to 1.12", shown(version)));
+    minor_ = static_cast<int>(numberOf(root, version.substr(dot + 1), "version"));
+    graph_.format = "sdf";
+    graph_.gravity = Vector3d(0, 0, -9.8);
+    graph_.bodies.emplace_back();
+    graph_.bodies[0].name = "world";
+    graph_.bodies[0].fixed = true;
+  }
+
+  ModelGraph read() {
+    const Element* world = root_.FirstChildElement("world");
+    const Element& top = world == nullptr ? root_ : *world;
+    if (world != nullptr && world->NextSiblingElement("world") != nullptr)
+      refuse(*world->NextSiblingElement("world"), "a second world, expected one");
+    readGravity(top);
+    refuseIncludes(top);
+    eachChild(top, "frame", [&](const Element& e) { addFrame(e, SdfFrames::world); });
+    eachChild(top, "model", [&](const Element& e) { addModel(e, SdfFrames::world, false); });
+    if (models_.empty()) refuse(top, "no <model>, expected one");
+    graph_.name = attribute(*frames_[models_[0]].element, "name");
+    for (const std::size_t link : links_) readLink(link);
+    for (const std::size_t joint : joints_) readJoint(joint);
+    if (world != nullptr) eachChild(top, "joint", [&](const Element& e) { readJoint(addJoint(e, SdfFrames::world)); });
+    for (const std::size_t model : models_)
+      readDrakeConstraints(*frames_[model].element, graph_, [&](const Element& at, const std::string& name) {
+        return bodyIndex(at, frames_.find(at, model, name, "body"));
+      });
+    return graph_;
+  }
+
+ private:
+  void readGravity(const Element& top) {
+    const Element* gravity = top.FirstChildElement("gravity");
+    const Element* physics = top.FirstChildElement("physics");
+    if (gravity == nullptr && physics != nullptr) gravity = physics->FirstChildElement("gravity");
+    if (gravity != nullptr)
+      graph_.gravity = vectorOf(*gravity, textOf(*gravity), "gravity");
+    else
+      graph_.assumptions.push_back({"The file gives no gravity: SDF's default of 9.8 m/s² along −z was taken",
+                                    fmt::format("<{}>", top.Name()), 9.8, "m/s²"});
+  }
+
+  static void refuseIncludes(const Element& scope) {
+    if (const Element* include = scope.FirstChildElement("include"))
+      refuse(*include, fmt::format("includes {}, which is not fetched; put its <model> into this file (gz sdf -p FILE)",
+                                   shown(childText(*include, "uri"))));
+  }
+
+  /// Position and turn of a <pose>.
+  Eigen::Isometry3d poseOf(const Element& element) const {
+    const Element* pose = element.FirstChildElement("pose");
+    if (pose == nullptr || textOf(*pose).empty()) return Eigen::Isometry3d::Identity();
+    const bool quaternion = attribute(*pose, "rotation_format") == "quat_xyzw";
+    const std::vector<double> v = numbersOf(*pose, textOf(*pose), quaternion ? 7 : 6, "<pose>");
+    const Vector3d position(v[0], v[1], v[2]);
+    if (quaternion) {
+      const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
+      if (!(q.norm() > 1e-12)) refuse(*pose, "a quaternion of zero");
+      return placed(position, q.normalized().toRotationMatrix());
+    }
+    Vector3d angles(v[3], v[4], v[5]);
+    const std::string degrees = attribute(*pose, "degrees");
+    if (!degrees.empty() && truthOf(*pose, degrees, "degrees")) angles *= 3.14159265358979323846 / 180;
+    return placed(position, rollPitchYaw(angles));
+  }
+
+  /// Before 1.7 what `frame` said was never done.
+  std::string relativeTo(const Element& element) const {
+    const Element* pose = element.FirstChildElement("pose");
+    return pose == nullptr || minor_ < 7 ? "" : attribute(*pose, "relative_to");
+  }
+
+  SdfFrames::Frame frameOf(const Element& element, std::size_t scope, Kind kind) const {
+    SdfFrames::Frame out;
+    out.kind = kind;
+    out.element = &element;
+    out.scope = scope;
+    out.parent = scope;
+    out.pose = poseOf(element);
+    out.relative_to = relativeTo(element);
+    return out;
+  }
+
+  void addFrame(const Element& element, std::size_t scope) {
+    SdfFrames::Frame frame = frameOf(element, scope, Kind::frame);
+    frame.attached_to = attribute(element, "attached_to");
+    if (frame.relative_to.empty()) frame.relative_to = frame.attached_to;
+    frames_.add(requiredAttribute(element, "name"), frame);
+  }
+
+  std::size_t addJoint(const Element& element, std::size_t scope) {
+    SdfFrames::Frame joint = frameOf(element, scope, Kind::joint);
+    joint.attached_to = childText(element, "child");
+    if (joint.attached_to.empty()) refuse(element, "no <child>, expected a link's name");
+    if (joint.relative_to.empty()) joint.relative_to = joint.attached_to;
+    return frames_.add(requiredAttribute(element, "name"), joint);
+  }
+
+  void addModel(const Element& element, std::size_t scope, bool fixed) {
+    const std::string name = requiredAttribute(element, "name"), placement = attribute(element, "placement_frame");
+    refuseIncludes(element);
+    const std::size_t model = frames_.add(name, frameOf(element, scope, Kind::model));
+    models_.push_back(model);
+    const std::string is_static = childText(element, "static");
+    fixed = fixed || (!is_static.empty() && truthOf(element, is_static, "<static>"));
+    const std::string path = scope == SdfFrames::world ? "" : paths_[scope] + name + "::";
+    paths_.resize(model + 1);
+    paths_[model] = path;
+    eachChild(element, "link", [&](const Element& e) { addLink(e, model, path, fixed); });
+    eachChild(element, "model", [&](const Element& e) { addModel(e, model, fixed); });
+    eachChild(element, "frame", [&](const Element& e) { addFrame(e, model); });
+    eachChild(element, "joint", [&](const Element& e) { joints_.push_back(addJoint(e, model)); });
+    if (frames_[model].body == SdfFrames::none) takeFirstLink(element, model);
+    if (!placement.empty()) place(element, model, placement);
+  }
+
+  /// A nested model's first link stands for a model that has none of its own.
+  void takeFirstLink(const Element& element, std::size_t model) {
+    if (const Element* inner = element.FirstChildElement("model"))
+      frames_[model].body = frames_[frames_.find(*inner, model, attribute(*inner, "name"), "model")].body;
+  }
+
+  /// The pose that is given is another frame's of the model.
+  void place(const Element& element, std::size_t model, const std::string& placement) {
+    Eigen::Isometry3d inside = Eigen::Isometry3d::Identity();
+    std::size_t at = frames_.find(element, model, placement, "placement_frame");
+    for (std::size_t step = 0; at != model; ++step) {
+      const SdfFrames::Frame& frame = frames_[at];
+      if (step > 1000 || frame.kind == Kind::world) refuse(element, "its placement frame does not hang on the model");
+      inside = frame.pose * inside;
+      at = frame.relative_to.empty() ? frame.parent
+                                     : frames_.find(*frame.element, frame.scope, frame.relative_to, "relative_to");
+    }
+    frames_[model].pose = frames_[model].pose * inside.inverse();
+  }
+
+  void addLink(const Element& element, std::size_t model, const std::string& path, bool fixed) {
+    const std::string name = requiredAttribute(element, "name");
+    const std::size_t link = frames_.add(name, frameOf(element, model, Kind::link));
+    frames_[link].body = graph_.bodies.size();
+    const std::string canonical = attribute(*frames_[model].element, "canonical_link");
+    if (frames_[model].body == SdfFrames::none || canonical == name) frames_[model].body = graph_.bodies.size();
+    GraphBody body;
+    body.name = path + name;
+    body.line = element.GetLineNum();
+    body.fixed = fixed;
+    graph_.bodies.push_back(body);
+    links_.push_back(link);
+  }
+
+  void readLink(std::size_t link) {
+    const Element& element = *frames_[link].element;
+    GraphBody& body = graph_.bodies[frames_[link].body];
+    body.frame = frames_.inWorld(link);
+    const std::string gravity = childText(element, "gravity"), kinematic = childText(element, "kinematic");
+    body.weightless = !gravity.empty() && !truthOf(element, gravity, "<gravity>");
+    if (!kinematic.empty() && truthOf(element, kinematic, "<kinematic>"))
+      refuse(element, "<kinematic>, moved from outside, which a scenario has no words for");
+    const Element* inertial = element.FirstChildElement("inertial");
+    if (inertial != nullptr && inertial->FirstChildElement("fluid_added_mass"))
+      refuse(element, "<fluid_added_mass>, which a scenario has no words for");
+    if (inertial != nullptr && attribute(*inertial, "auto") == "true")
+      refuse(element, "an inertia that is left to the program (auto), expected numbers; run: gz sdf -p FILE");
+    takeInertia(element, inertial, body);
+  }
+
+  void takeInertia(const Element& element, const Element* inertial, GraphBody& body) {
+    const std::string mass = inertial == nullptr ? "" : childText(*inertial, "mass");
+    const Element* inertia = inertial == nullptr ? nullptr : inertial->FirstChildElement("inertia");
+    body.mass = mass.empty() ? 1 : numberOf(element, mass, "<mass>");
+    if (body.mass < 0) refuse(element, fmt::format("a mass of {}, expected none below zero", body.mass));
+    std::array<double, 6> entries = {1, 1, 1, 0, 0, 0};
+    constexpr std::array<const char*, 6> names = {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"};
+    for (std::size_t k = 0; k < names.size() && inertia != nullptr; ++k) {
+      const std::string text = childText(*inertia, names[k]);
+      if (text.empty()) continue;
+      entries[k] = numberOf(*inertia, text, names[k]);
+      body.inertia_rounding = std::max(body.inertia_rounding, halfLastDigit(text));
+    }
+    if ((mass.empty() || inertia == nullptr) && !body.fixed)
+      graph_.assumptions.push_back({mass.empty()
+                                        ? "The file gives no mass: SDF's default of 1 kg, with 1 kg·m² where no "
+                                          "inertia is given, was taken"
+                                        : "The file gives no inertia: SDF's default of 1 kg·m² was taken",
+                                    body.name, 1, mass.empty() ? "kg" : "kg·m²"});
+    const Eigen::Isometry3d at = body.frame * (inertial == nullptr ? Eigen::Isometry3d::Identity() : poseOf(*inertial));
+    const Matrix3d turn = at.linear();
+    body.center_of_mass = at.translation();
+    body.inertia =
+        turn * tensorOf({entries[0], entries[1], entries[2]}, {entries[3], entries[4], entries[5]}) * turn.transpose();
+  }
+
+  std::size_t bodyIndex(const Element& at, std::size_t frame) const {
+    const std::size_t body = frames_.bodyOf(at, frame);
+    return body == SdfFrames::none ? 0 : body;
+  }
+
+  void readJoint(std::size_t index) {
+    const SdfFrames::Frame frame = frames_[index];
+    const Element& element = *frame.element;
+    const std::string type = requiredAttribute(element, "type");
+    const std::string parent = childText(element, "parent");
+    if (parent.empty()) refuse(element, "no <parent>, expected a link's name");
+    GraphJoint joint;
+    joint.name = (frame.scope == SdfFrames::world ? "" : paths_[frame.scope]) + attribute(element, "name");
+    joint.line = element.GetLineNum();
+    joint.parent = bodyIndex(element, frames_.find(element, frame.scope, parent, "<parent>"));
+    joint.child = bodyIndex(element, frames_.find(element, frame.scope, frame.attached_to, "<child>"));
+    const Eigen::Isometry3d at = frames_.inWorld(index);
+    joint.centre = joint.centre_of_child = at.translation();
+    joint.closure = !have_parent_.insert(joint.child).second;
+    joint.rotor_inertia = drakeRotorInertia(element);
+    if (element.FirstChildElement("drake:mimic")) refuse(element, "mimic, which a scenario has no words for");
+    if (type == "fixed" || type == "ball") {
+      joint.kind = type == "fixed" ? JointKind::fixed : JointKind::ball;
+      graph_.joints.push_back(joint);
+    } else if (type == "revolute" || type == "prismatic" || type == "continuous") {
+      joint.kind = type == "prismatic" ? JointKind::prismatic : JointKind::revolute;
+      takeAxis(element, "axis", frame.scope, at, type == "continuous", joint);
+      graph_.joints.push_back(joint);
+    } else if (type == "universal" || type == "revolute2") {
+      addTwoAxes(element, type, frame.scope, at, joint);
+    } else {
+      refuse(element,
+             fmt::format("a {} joint, which a scenario has no words for, expected revolute, prismatic, universal, "
+                         "revolute2, ball or fixed",
+                         shown(type)));
+    }
+  }
+
+  /// Two hinges with a frame of no mass between them.
+  void addTwoAxes(const Element& element, const std::string& type, std::size_t scope, const Eigen::Isometry3d& at,
+                  GraphJoint joint) {
+    if (!element.FirstChildElement("axis") || !element.FirstChildElement("axis2"))
+      refuse(element, fmt::format("a {} joint with one axis is unfinished, expected <axis> and <axis2>", type));
+    GraphBody cross;
+    cross.name = joint.name + " (cross)";
+    cross.line = joint.line;
+    cross.frame = at;
+    const std::size_t child = joint.child, middle = graph_.bodies.size();
+    const std::string name = joint.name;
+    graph_.bodies.push_back(cross);
+    joint.kind = JointKind::revolute;
+    GraphJoint second = joint;
+    joint.name = name + "/axis";
+    joint.child = middle;
+    takeAxis(element, "axis", scope, at, false, joint);
+    second.name = name + "/axis2";
+    second.parent = middle;
+    second.child = child;
+    second.rotor_inertia = 0;
+    takeAxis(element, "axis2", scope, at, false, second);
+    graph_.joints.push_back(joint);
+    graph_.joints.push_back(second);
+  }
+
+  void takeAxis(const Element& element, const char* which, std::size_t scope, const Eigen::Isometry3d& at, bool endless,
+                GraphJoint& joint) {
+    const Element* axis = element.FirstChildElement(which);
+    if (axis == nullptr) refuse(element, fmt::format("no <{}>, expected one", which));
+    const Element* xyz = axis->FirstChildElement("xyz");
+    const Vector3d given = xyz == nullptr ? Vector3d::UnitZ() : vectorOf(*xyz, textOf(*xyz), "<xyz>");
+    Matrix3d frame = at.linear();
+    const std::string of_model = childText(*axis, "use_parent_model_frame");
+    const bool in_model = !of_model.empty() && truthOf(*axis, of_model, "<use_parent_model_frame>");
+    if (minor_ <= 4 || (minor_ <= 6 && in_model)) frame = frames_.inWorld(scope).linear();
+    const std::string expressed_in = xyz == nullptr || minor_ < 7 ? "" : attribute(*xyz, "expressed_in");
+    if (!expressed_in.empty())
+      frame = frames_.inWorld(frames_.find(*xyz, scope, expressed_in, "expressed_in")).linear();
+    joint.axis[0] = frame * directionOf(*axis, given, "<xyz>");
+    if (minor_ >= 7 && in_model) {
+      const Vector3d other = frames_.inWorld(scope).linear() * directionOf(*axis, given, "<xyz>");
+      graph_.assumptions.push_back(
+          {"use_parent_model_frame has no meaning from SDF 1.7 on and was left out; the axis would "
+           "turn by this",
+           joint.name, std::atan2(other.cross(joint.axis[0]).norm(), other.dot(joint.axis[0])), "rad"});
+    }
+    if (axis->FirstChildElement("mimic")) refuse(element, "mimic, which a scenario has no words for");
+    takeLimits(*axis, endless, joint);
+    if (const Element* dynamics = axis->FirstChildElement("dynamics")) takeDynamics(element, *dynamics, joint);
+  }
+
+  /// Numbers of 1e16 and more, and "inf", mean none.
+  static void takeLimits(const Element& axis, bool endless, GraphJoint& joint) {
+    const Element* limit = axis.FirstChildElement("limit");
+    if (limit == nullptr || endless) return;
+    const auto take = [&](const char* name, double& to) {
+      const std::string text = childText(*limit, name);
+      if (text.empty() || text == "inf" || text == "-inf" || text == "+inf") return;
+      const double value = numberOf(*limit, text, name);
+      if (std::abs(value) < 1e16) to = value;
+    };
+    take("lower", joint.lower);
+    take("upper", joint.upper);
+    if (joint.lower > joint.upper) joint.lower = -(joint.upper = std::numeric_limits<double>::infinity());
+  }
+
+  static void takeDynamics(const Element& element, const Element& dynamics, GraphJoint& joint) {
+    const auto read = [&](const char* name) {
+      const std::string text = childText(dynamics, name);
+      const double value = text.empty() ? 0 : numberOf(dynamics, text, name);
+      if (value < 0) refuse(element, fmt::format("<{}> {}, expected none below zero", name, value));
+      return value;
+    };
+    joint.damping = read("damping");
+    joint.friction = read("friction");
+    if (const double stiffness = read("spring_stiffness"); stiffness != 0)
+      refuse(element, fmt::format("a spring of {}, which a scenario has no words for", stiffness));
+  }
+
+  const Element& root_;
+  int minor_ = 0;
+  SdfFrames frames_;
+  std::vector<std::size_t> models_, links_, joints_;
+  std::vector<std::string> paths_;
+  std::set<std::size_t> have_parent_;
+  ModelGraph graph_;
+};
+
+}  // namespace
+
+ModelGraph readSdf(const Element& root) { return SdfReader(root).read(); }
+
+}  // namespace ursula::exchange

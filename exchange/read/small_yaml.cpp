@@ -1,0 +1,76 @@
+#include "exchange/read/small_yaml.h"
+
+#include <fmt/format.h>
+
+#include <sstream>
+
+#include "base/shown_text.h"
+#include "exchange/import_error.h"
+
+namespace ursula::exchange {
+namespace {
+
+/// Words apart by brackets, commas, dashes of lists and white space; quotes go.
+void appendWords(const std::string& text, std::vector<std::string>& out) {
+  std::string word;
+  char quote = 0;
+  const auto end = [&] {
+    if (!word.empty() && word != "-") out.push_back(word);
+    word.clear();
+  };
+  for (const char c : text) {
+    if (quote != 0) {
+      if (c == quote)
+        quote = 0;
+      else
+        word += c;
+    } else if (c == '\'' || c == '"') {
+      quote = c;
+    } else if (c == '#') {
+      break;
+    } else if (c == '[' || c == ']' || c == ',' || c == ' ' || c == '\t' || c == '\r') {
+      end();
+    } else {
+      word += c;
+    }
+  }
+  end();
+}
+
+}  // namespace
+
+std::vector<std::string> SmallYaml::list(const std::string& key) const {
+  const auto found = values.find(key);
+  return found == values.end() ? std::vector<std::string>() : found->second;
+}
+
+std::string SmallYaml::word(const std::string& key) const {
+  const std::vector<std::string> all = list(key);
+  return all.empty() ? "" : all[0];
+}
+
+SmallYaml readSmallYaml(const std::string& text, const std::string& name) {
+  SmallYaml out;
+  std::istringstream lines(text);
+  std::string line, key;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const std::size_t from = line.find_first_not_of(" \t\r");
+    if (from == std::string::npos || line[from] == '#' || line.compare(0, 3, "---") == 0) continue;
+    if (line.find_first_of("{&*|>!") != std::string::npos)
+      throw ImportError(
+          fmt::format("{}:{}: '{}' is no list or word, expected `key: [a, b]`", name, number, shown(line)));
+    const std::size_t colon = line.find(':');
+    if (from == 0 && line[0] != '-' && line[0] != '[' && colon != std::string::npos) {
+      key = line.substr(0, colon);
+      out.values[key];
+      appendWords(line.substr(colon + 1), out.values[key]);
+    } else if (key.empty()) {
+      throw ImportError(fmt::format("{}:{}: '{}' is of no key, expected `key: [a, b]`", name, number, shown(line)));
+    } else {
+      appendWords(line, out.values[key]);
+    }
+  }
+  return out;
+}
+
+}  // namespace ursula::exchange

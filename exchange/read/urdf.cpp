@@ -1,0 +1,259 @@
+// URDF: a tree of links, with motors by transmissions or ros2_control and closures by extensions.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/nearest.h"
+#include "base/shown_text.h"
+#include "exchange/read/drake.h"
+#include "exchange/read/readers.h"
+#include "exchange/read/urdf_closures.h"
+
+namespace ursula::exchange {
+namespace {
+
+Eigen::Isometry3d originOf(const Element& element) {
+  const Element* origin = element.FirstChildElement("origin");
+  if (origin == nullptr) return Eigen::Isometry3d::Identity();
+  const std::string xyz = attribute(*origin, "xyz"), rpy = attribute(*origin, "rpy");
+  return placed(xyz.empty() ? Vector3d::Zero() : vectorOf(*origin, xyz, "xyz"),
+                rpy.empty() ? Matrix3d::Identity() : rollPitchYaw(vectorOf(*origin, rpy, "rpy")));
+}
+
+class UrdfReader {
+ public:
+  UrdfReader(const Element& root, const std::filesystem::path& file) : root_(root), file_(file) {
+    graph_.format = "urdf";
+    graph_.name = attribute(root, "name");
+  }
+
+  ModelGraph read() {
+    graph_.assumptions.push_back(
+        {"URDF has no gravity: 9.81 m/s² along −z of the root link was taken", "<robot>", 9.81, "m/s²"});
+    takeLinks();
+    eachChild(root_, "joint", [this](const Element& e) { takeJoint(e); });
+    eachChild(root_, "drake:joint", [this](const Element& e) { takeJoint(e); });
+    placeTree();
+    for (const Element* element : elements_) readJoint(*element);
+    readUrdfClosures(root_, file_, links_, graph_);
+    readMotors();
+    readGazebo();
+    return graph_;
+  }
+
+ private:
+  void takeLinks() {
+    eachChild(root_, "link", [this](const Element& e) {
+      GraphBody body;
+      body.name = requiredAttribute(e, "name");
+      body.line = e.GetLineNum();
+      if (!links_.emplace(body.name, graph_.bodies.size()).second)
+        refuse(e, "a second link of that name, expected names of their own");
+      graph_.bodies.push_back(body);
+      link_elements_.push_back(&e);
+    });
+    if (graph_.bodies.empty()) refuse(root_, "no <link>, expected some");
+  }
+
+  std::size_t linkOf(const Element& joint, const char* side) const {
+    const Element* child = joint.FirstChildElement(side);
+    const std::string name = child == nullptr ? "" : attribute(*child, "link");
+    if (const auto found = links_.find(name); found != links_.end()) return found->second;
+    std::vector<std::string> names;
+    for (const GraphBody& body : graph_.bodies)
+      if (names.size() < 1000) names.push_back(body.name);
+    refuse(joint, fmt::format("<{}> '{}': no link has that name{}", side, shown(name), didYouMean(name, names)));
+  }
+
+  void takeJoint(const Element& element) {
+    const std::string name = requiredAttribute(element, "name");
+    if (!joints_.emplace(name, elements_.size()).second)
+      refuse(element, "a second joint of that name, expected names of their own");
+    elements_.push_back(&element);
+    ends_.emplace_back(linkOf(element, "parent"), linkOf(element, "child"));
+  }
+
+  /// Every link but the root is the child of one joint.
+  void placeTree() {
+    std::vector<std::size_t> joint_of(graph_.bodies.size(), elements_.size());
+    std::vector<std::vector<std::size_t>> children(graph_.bodies.size());
+    for (std::size_t j = 0; j < elements_.size(); ++j) {
+      const auto [parent, child] = ends_[j];
+      if (joint_of[child] != elements_.size())
+        refuse(*elements_[j], fmt::format("link {} is the child of two joints, expected a tree; a loop is closed by an "
+                                          "extension, or by --close A:B",
+                                          shown(graph_.bodies[child].name)));
+      joint_of[child] = j;
+      children[parent].push_back(j);
+    }
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < joint_of.size(); ++i)
+      if (joint_of[i] == elements_.size()) order.push_back(i);
+    if (order.size() != 1)
+      refuse(root_, order.empty()
+                        ? "its joints go in a circle, expected a tree"
+                        : fmt::format("{} links have no parent ({}, {}, …), expected one root", order.size(),
+                                      shown(graph_.bodies[order[0]].name), shown(graph_.bodies[order[1]].name)));
+    graph_.bodies[order[0]].fixed = true;
+    if (graph_.bodies[order[0]].name != "world")
+      graph_.assumptions.push_back(
+          {"The root link stands still: the file does not say what does", graph_.bodies[order[0]].name, 0, "1"});
+    for (std::size_t k = 0; k < order.size(); ++k)
+      for (const std::size_t j : children[order[k]]) {
+        graph_.bodies[ends_[j].second].frame = graph_.bodies[order[k]].frame * originOf(*elements_[j]);
+        order.push_back(ends_[j].second);
+      }
+    if (order.size() != graph_.bodies.size()) refuse(root_, "some of its joints go in a circle, expected a tree");
+    for (std::size_t i = 0; i < graph_.bodies.size(); ++i) readInertial(*link_elements_[i], graph_.bodies[i]);
+  }
+
+  static void readInertial(const Element& link, GraphBody& body) {
+    const Element* inertial = link.FirstChildElement("inertial");
+    if (inertial == nullptr) return;
+    const Element* mass = inertial->FirstChildElement("mass");
+    const Element* inertia = inertial->FirstChildElement("inertia");
+    if (mass == nullptr) refuse(*inertial, "no <mass>, expected one");
+    body.mass = numberOf(*mass, requiredAttribute(*mass, "value"), "mass");
+    if (body.mass < 0) refuse(*mass, fmt::format("a mass of {}, expected none below zero", body.mass));
+    const Eigen::Isometry3d at = body.frame * originOf(*inertial);
+    body.center_of_mass = at.translation();
+    if (inertia == nullptr) return;
+    std::array<double, 6> entries = {};
+    constexpr std::array<const char*, 6> names = {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"};
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      const std::string text = attribute(*inertia, names[k]);
+      if (text.empty()) continue;
+      entries[k] = numberOf(*inertia, text, names[k]);
+      body.inertia_rounding = std::max(body.inertia_rounding, halfLastDigit(text));
+    }
+    body.inertia = at.linear() * tensorOf({entries[0], entries[1], entries[2]}, {entries[3], entries[4], entries[5]}) *
+                   at.linear().transpose();
+  }
+
+  void readJoint(const Element& element) {
+    const std::size_t index = joints_.at(attribute(element, "name"));
+    const std::string type = requiredAttribute(element, "type");
+    GraphJoint joint;
+    joint.name = attribute(element, "name");
+    joint.line = element.GetLineNum();
+    joint.parent = ends_[index].first;
+    joint.child = ends_[index].second;
+    const Eigen::Isometry3d& at = graph_.bodies[joint.child].frame;
+    joint.centre = joint.centre_of_child = at.translation();
+    joint.rotor_inertia = drakeRotorInertia(element);
+    if (element.FirstChildElement("mimic"))
+      refuse(element, "mimic: it follows another joint, which a scenario has no words for");
+    if (type == "fixed")
+      joint.kind = JointKind::fixed;
+    else if (type == "floating")
+      joint.kind = JointKind::free;
+    else if (type == "ball" || type == "spherical")
+      joint.kind = JointKind::ball;
+    else if (type == "revolute" || type == "continuous" || type == "prismatic")
+      joint.kind = type == "prismatic" ? JointKind::prismatic : JointKind::revolute;
+    else if (type == "universal")
+      joint.kind = JointKind::universal;
+    else
+      refuse(element,
+             fmt::format("a {} joint, which a scenario has no words for, expected revolute, continuous, prismatic or "
+                         "fixed",
+                         shown(type)));
+    const Element* axis = element.FirstChildElement("axis");
+    const std::string xyz = axis == nullptr ? "" : attribute(*axis, "xyz");
+    const Vector3d given = xyz.empty() ? Vector3d::UnitX() : vectorOf(*axis, xyz, "axis");
+    joint.axis = {Vector3d(at.linear() * directionOf(element, given, "axis")), Vector3d(at.linear().col(1))};
+    if (joint.kind == JointKind::universal) joint.axis[0] = at.linear().col(0);
+    takeLimits(element, type, joint);
+    index_of_.emplace(joint.name, graph_.joints.size());
+    graph_.joints.push_back(joint);
+  }
+
+  static void takeLimits(const Element& element, const std::string& type, GraphJoint& joint) {
+    if (const Element* limit = element.FirstChildElement("limit"); limit != nullptr && type != "continuous") {
+      const auto take = [&](const char* name, double& to) {
+        const std::string text = attribute(*limit, name);
+        if (text.empty() || text == "inf" || text == "-inf") return;
+        const double value = numberOf(*limit, text, name);
+        if (std::abs(value) < 1e16) to = value;
+      };
+      take("lower", joint.lower);
+      take("upper", joint.upper);
+      // URDF's own default of both is zero: a joint that cannot move is one whose limits were not given.
+      if (!(joint.lower < joint.upper)) joint.lower = -(joint.upper = std::numeric_limits<double>::infinity());
+    }
+    const Element* dynamics = element.FirstChildElement("dynamics");
+    if (dynamics == nullptr) return;
+    const auto read = [&](const char* name) {
+      const std::string text = attribute(*dynamics, name);
+      const double value = text.empty() ? 0 : numberOf(*dynamics, text, name);
+      if (value < 0) refuse(element, fmt::format("{} {}, expected none below zero", name, value));
+      return value;
+    };
+    joint.damping = read("damping");
+    joint.friction = read("friction");
+  }
+
+  /// Transmissions, and joints of ros2_control that take commands.
+  void readMotors() {
+    eachChild(root_, "transmission", [this](const Element& e) {
+      const Element* actuator = e.FirstChildElement("actuator");
+      eachChild(e, "joint", [&](const Element& of) {
+        GraphJoint& joint = driven(of, attribute(of, "name"));
+        if (actuator == nullptr) return;
+        if (const double rotor = drakeRotorInertia(*actuator); rotor != 0) joint.rotor_inertia = rotor;
+        const Element* reduction = actuator->FirstChildElement("mechanicalReduction");
+        const double ratio = reduction == nullptr || textOf(*reduction).empty()
+                                 ? 1
+                                 : numberOf(*reduction, textOf(*reduction), "mechanicalReduction");
+        if (ratio != 1)
+          graph_.assumptions.push_back(
+              {"The transmission's reduction is left out: efforts are the joint's own", joint.name, ratio, "1"});
+      });
+    });
+    eachChild(root_, "ros2_control", [this](const Element& e) {
+      eachChild(e, "joint", [this](const Element& of) {
+        if (of.FirstChildElement("command_interface") != nullptr) driven(of, attribute(of, "name"));
+      });
+    });
+  }
+
+  /// What <gazebo reference="…"> changes of a link or a joint.
+  void readGazebo() {
+    eachChild(root_, "gazebo", [this](const Element& e) {
+      const std::string of = attribute(e, "reference"), on = childText(e, "gravity"),
+                        off = childText(e, "turnGravityOff");
+      const auto link = links_.find(of);
+      if (link != links_.end() &&
+          ((!on.empty() && !truthOf(e, on, "<gravity>")) || (!off.empty() && truthOf(e, off, "<turnGravityOff>"))))
+        graph_.bodies[link->second].weightless = true;
+      const std::string spring = childText(e, "springStiffness");
+      if (!spring.empty() && numberOf(e, spring, "<springStiffness>") != 0)
+        refuse(e, fmt::format("a spring of {} in joint {}, which a scenario has no words for", spring, shown(of)));
+    });
+  }
+
+  GraphJoint& driven(const Element& at, const std::string& name) {
+    const auto found = index_of_.find(name);
+    if (found == index_of_.end()) refuse(at, fmt::format("joint '{}': no joint has that name", shown(name)));
+    GraphJoint& joint = graph_.joints[found->second];
+    joint.driven = true;
+    return joint;
+  }
+
+  const Element& root_;
+  const std::filesystem::path& file_;
+  UrdfLinks links_;
+  std::vector<const Element*> link_elements_, elements_;
+  std::vector<std::pair<std::size_t, std::size_t>> ends_;
+  std::unordered_map<std::string, std::size_t> joints_, index_of_;
+  ModelGraph graph_;
+};
+
+}  // namespace
+
+ModelGraph readUrdf(const Element& root, const std::filesystem::path& file) { return UrdfReader(root, file).read(); }
+
+}  // namespace ursula::exchange

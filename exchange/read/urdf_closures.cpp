@@ -1,0 +1,156 @@
+#include "exchange/read/urdf_closures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "base/shown_text.h"
+#include "base/text_source.h"
+#include "exchange/read/drake.h"
+#include "exchange/read/small_yaml.h"
+
+namespace ursula::exchange {
+namespace {
+
+class Closer {
+ public:
+  Closer(const UrdfLinks& links, ModelGraph& graph) : links_(links), graph_(graph) {}
+
+  std::size_t link(const Element& at, const std::string& name) const {
+    const auto found = links_.find(name);
+    if (found == links_.end()) refuse(at, fmt::format("link '{}': no link has that name", shown(name)));
+    return found->second;
+  }
+
+  void isaac(const Element& element) {
+    const std::string type = requiredAttribute(element, "type");
+    if (type != "spherical") refuse(element, fmt::format("a {} loop joint, expected a spherical one", shown(type)));
+    // Isaac Sim's own documentation writes link1 twice.
+    const Element* first = element.FirstChildElement("link1");
+    const Element* second = element.FirstChildElement("link2");
+    if (first != nullptr && second == nullptr) second = first->NextSiblingElement("link1");
+    if (first == nullptr || second == nullptr) refuse(element, "no <link1> or no <link2>, expected both");
+    GraphJoint ball = closure(element, attribute(element, "name"), JointKind::ball);
+    const auto side = [&](const Element& e, std::size_t& body, Vector3d& centre) {
+      body = link(e, requiredAttribute(e, "link"));
+      const std::string xyz = attribute(e, "xyz");
+      centre = graph_.bodies[body].frame * (xyz.empty() ? Vector3d::Zero() : vectorOf(e, xyz, "xyz"));
+    };
+    side(*first, ball.parent, ball.centre);
+    side(*second, ball.child, ball.centre_of_child);
+    graph_.joints.push_back(ball);
+  }
+
+  /// As SDF 1.7, which URDF is turned into today: pose in the child, axis in the joint's frame.
+  void gazebo(const Element& element) {
+    const std::string type = requiredAttribute(element, "type");
+    const bool hinge = type == "revolute" || type == "continuous", slide = type == "prismatic";
+    if (type != "ball" && type != "fixed" && !hinge && !slide)
+      refuse(element,
+             fmt::format("a {} joint that closes a loop, expected ball, revolute, prismatic or fixed", shown(type)));
+    GraphJoint joint = closure(element, attribute(element, "name"),
+                               type == "ball" ? JointKind::ball
+                               : hinge        ? JointKind::revolute
+                               : slide        ? JointKind::prismatic
+                                              : JointKind::fixed);
+    joint.parent = link(element, childText(element, "parent"));
+    joint.child = link(element, childText(element, "child"));
+    Eigen::Isometry3d at = graph_.bodies[joint.child].frame;
+    if (const std::string pose = childText(element, "pose"); !pose.empty()) {
+      const std::vector<double> v = numbersOf(element, pose, 6, "<pose>");
+      at = at * placed({v[0], v[1], v[2]}, rollPitchYaw({v[3], v[4], v[5]}));
+    }
+    joint.centre = joint.centre_of_child = at.translation();
+    if (hinge || slide) {
+      const Element* axis = element.FirstChildElement("axis");
+      const std::string xyz = axis == nullptr ? "" : childText(*axis, "xyz");
+      if (xyz.empty()) refuse(element, "no <axis> with <xyz>, expected one");
+      const Vector3d given = directionOf(element, vectorOf(element, xyz, "<xyz>"), "<xyz>");
+      joint.axis[0] = at.linear() * given;
+      if (!joint.axis[0].isApprox(given, 1e-9))
+        graph_.assumptions.push_back(
+            {"The axis is taken in the joint's frame, as SDF 1.7 has it; in the model's, as before "
+             "1.5, it would turn by this",
+             joint.name, std::acos(std::clamp(joint.axis[0].dot(given), -1.0, 1.0)), "rad"});
+    }
+    graph_.joints.push_back(joint);
+  }
+
+  /// `closed_loop: [[A, B], …]`, `type: [3d, …]`, `name_mot: TEXT`.
+  void yaml(const std::filesystem::path& file) {
+    const SmallYaml text = readSmallYaml(readText(file, {1 << 20, "robot.yaml"}), file.filename().string());
+    std::vector<std::string> types = text.list("type");
+    const std::vector<std::string> ends = text.list("closed_loop");
+    if (ends.size() % 2 != 0) throw ImportError("robot.yaml: closed_loop has an odd number of frames, expected pairs");
+    for (std::size_t k = 0; k + 1 < ends.size(); k += 2) {
+      const std::string type = types.empty() ? "6d" : types[std::min(k / 2, types.size() - 1)];
+      if (type != "3d" && type != "3D" && type != "6d" && type != "6D")
+        throw ImportError(fmt::format("robot.yaml: type '{}', expected 3d or 6d", shown(type)));
+      pair(ends[k], ends[k + 1], type[0] == '3' ? JointKind::ball : JointKind::fixed, "robot.yaml");
+    }
+    if (const std::string motors = text.word("name_mot"); !motors.empty())
+      for (GraphJoint& joint : graph_.joints)
+        if (!joint.closure && joint.name.find(motors) != std::string::npos) joint.driven = true;
+  }
+
+  void named() {
+    std::map<std::string, int> first;
+    for (const auto& [name, index] : links_)
+      if (name.rfind("closing_", 0) == 0 && name.size() > 10 && name.compare(name.size() - 2, 2, "_1") == 0)
+        first.emplace(name.substr(0, name.size() - 2), 1);
+    for (const auto& [name, count] : first)
+      if (links_.count(name + "_2") != 0) pair(name + "_1", name + "_2", JointKind::ball, "by their names");
+  }
+
+ private:
+  GraphJoint closure(const Element& element, const std::string& name, JointKind kind) const {
+    GraphJoint out;
+    out.name = name.empty() ? fmt::format("closure of line {}", element.GetLineNum()) : name;
+    out.line = element.GetLineNum();
+    out.kind = kind;
+    out.closure = true;
+    return out;
+  }
+
+  void pair(const std::string& a, const std::string& b, JointKind kind, const char* from) {
+    for (const std::string& name : {a, b})
+      if (links_.count(name) == 0) throw ImportError(fmt::format("{}: no link has the name '{}'", from, shown(name)));
+    GraphJoint joint;
+    joint.name = a + ":" + b;
+    joint.kind = kind;
+    joint.closure = true;
+    joint.parent = links_.at(a);
+    joint.child = links_.at(b);
+    joint.centre = graph_.bodies[joint.parent].frame.translation();
+    joint.centre_of_child = graph_.bodies[joint.child].frame.translation();
+    joint.line = graph_.bodies[joint.child].line;
+    graph_.assumptions.push_back(
+        {fmt::format("These frames are joined, {}, as {}", from, kind == JointKind::ball ? "a ball" : "one body"),
+         joint.name, (joint.centre - joint.centre_of_child).norm(), "m"});
+    graph_.joints.push_back(joint);
+  }
+
+  const UrdfLinks& links_;
+  ModelGraph& graph_;
+};
+
+}  // namespace
+
+void readUrdfClosures(const Element& robot, const std::filesystem::path& file, const UrdfLinks& links,
+                      ModelGraph& graph) {
+  Closer closer(links, graph);
+  const std::size_t before = graph.joints.size();
+  const auto found = [&] { return graph.joints.size() > before; };
+  readDrakeConstraints(robot, graph, [&](const Element& at, const std::string& name) { return closer.link(at, name); });
+  if (!found()) eachChild(robot, "loop_joint", [&](const Element& e) { closer.isaac(e); });
+  if (!found())
+    eachChild(robot, "gazebo",
+              [&](const Element& e) { eachChild(e, "joint", [&](const Element& joint) { closer.gazebo(joint); }); });
+  const std::filesystem::path yaml = file.parent_path() / "robot.yaml";
+  std::error_code none;
+  if (!found() && std::filesystem::is_regular_file(yaml, none)) closer.yaml(yaml);
+  if (!found()) closer.named();
+}
+
+}  // namespace ursula::exchange

@@ -1,0 +1,256 @@
+#include "exchange/recognise/chains.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+
+#include "base/shown_text.h"
+#include "exchange/import_error.h"
+
+namespace ursula::exchange {
+namespace {
+
+struct Edge {
+  std::size_t joint, to;
+};
+
+/// Groups and the joints that move between them.
+class Net {
+ public:
+  Net(const ModelGraph& graph, const Groups& groups) : graph_(graph), groups_(groups), edges_(groups.groups.size()) {
+    for (std::size_t j = 0; j < graph.joints.size(); ++j) {
+      const GraphJoint& joint = graph.joints[j];
+      if (joint.kind == JointKind::fixed || joint.kind == JointKind::free) continue;
+      const std::size_t a = groups.group_of[joint.parent], b = groups.group_of[joint.child];
+      if (a == b)
+        throw ImportError(fmt::format("joint {}: both of its sides are fixed to body {}, expected two bodies",
+                                      shown(joint.name), shown(groups.groups[a].name)),
+                          joint.line);
+      edges_[a].push_back({j, b});
+      edges_[b].push_back({j, a});
+    }
+  }
+
+  const std::vector<Edge>& at(std::size_t group) const { return edges_[group]; }
+  std::string name(std::size_t group) const { return shown(groups_.groups[group].name); }
+
+  /// Branches that end in the air: frames go, a mass is refused.
+  void trimFrames() {
+    std::vector<std::size_t> ends;
+    for (std::size_t i = 0; i < edges_.size(); ++i)
+      if (isEnd(i)) ends.push_back(i);
+    while (!ends.empty()) {
+      const std::size_t end = ends.back();
+      ends.pop_back();
+      if (!isEnd(end)) continue;
+      const std::size_t to = edges_[end][0].to, joint = edges_[end][0].joint;
+      edges_[end].clear();
+      auto& others = edges_[to];
+      others.erase(std::remove_if(others.begin(), others.end(), [&](const Edge& e) { return e.joint == joint; }),
+                   others.end());
+      if (isEnd(to)) ends.push_back(to);
+    }
+  }
+
+  std::vector<std::size_t> hubs() const {
+    std::vector<std::size_t> out;
+    for (std::size_t i = 0; i < edges_.size(); ++i)
+      if (edges_[i].size() >= 3) out.push_back(i);
+    return out;
+  }
+
+  std::string names(const std::vector<std::size_t>& groups) const {
+    std::vector<std::string> out;
+    for (std::size_t i = 0; i < groups.size() && i < 12; ++i) out.push_back(name(groups[i]));
+    if (groups.size() > 12) out.push_back(fmt::format("… {} more", groups.size() - 12));
+    return fmt::format("{}", fmt::join(out, ", "));
+  }
+
+ private:
+  bool isEnd(std::size_t i) const {
+    return edges_[i].size() == 1 && !groups_.groups[i].fixed && groups_.groups[i].isFrame();
+  }
+
+  const ModelGraph& graph_;
+  const Groups& groups_;
+  std::vector<std::vector<Edge>> edges_;
+};
+
+std::size_t findBase(const ModelGraph& graph, const Groups& groups, const Net& net, const ImportChoices& choices) {
+  if (!choices.base.empty()) return groups.named(graph, choices.base, "--base");
+  for (std::size_t i = 0; i < groups.groups.size(); ++i)
+    if (groups.groups[i].fixed && !net.at(i).empty()) return i;
+  const std::vector<std::size_t> hubs = net.hubs();
+  throw ImportError(
+      fmt::format("nothing that moves is joined to the world or to a static body; --base BODY says what "
+                  "stands still: {}",
+                  hubs.empty() ? "but no body has three joints" : net.names(hubs)));
+}
+
+std::size_t findPlatform(const ModelGraph& graph, const Groups& groups, const Net& net, const ImportChoices& choices,
+                         std::size_t base) {
+  if (!choices.platform.empty()) {
+    const std::size_t platform = groups.named(graph, choices.platform, "--platform");
+    if (platform == base)
+      throw ImportError(
+          fmt::format("--platform {}: is the base, expected the body that the legs carry", shown(choices.platform)));
+    return platform;
+  }
+  std::vector<std::size_t> hubs = net.hubs();
+  hubs.erase(std::remove(hubs.begin(), hubs.end(), base), hubs.end());
+  if (hubs.size() == 1) return hubs[0];
+  if (hubs.empty())
+    throw ImportError(
+        fmt::format("no platform: no body but the base, {}, has three joints, expected one that three to "
+                    "six legs carry; {}",
+                    net.name(base),
+                    graph.format == "urdf" ? "URDF is a tree: --close A:B closes its loops" : "are its loops closed?"));
+  throw ImportError(
+      fmt::format("more than one body has three joints or more: {}; --platform BODY says which one the "
+                  "legs carry",
+                  net.names(hubs)));
+}
+
+void append(const ModelGraph& graph, std::size_t index, bool outwards, Chain& chain) {
+  const GraphJoint& joint = graph.joints[index];
+  const double sign = outwards ? 1 : -1;
+  Primitive primitive;
+  primitive.joint = index;
+  primitive.inner = outwards ? joint.centre : joint.centre_of_child;
+  primitive.outer = outwards ? joint.centre_of_child : joint.centre;
+  const auto add = [&](Primitive::Kind kind, const Vector3d& axis, bool first = true) {
+    if (!first) chain.bodies.emplace_back();
+    primitive.kind = kind;
+    primitive.axis = sign * axis;
+    chain.primitives.push_back(primitive);
+  };
+  switch (joint.kind) {
+    case JointKind::revolute:
+      return add(Primitive::Kind::R, joint.axis[0]);
+    case JointKind::prismatic:
+      return add(Primitive::Kind::P, joint.axis[0]);
+    case JointKind::ball:
+      return add(Primitive::Kind::S, Vector3d::Zero());
+    case JointKind::universal:
+      add(Primitive::Kind::R, joint.axis[outwards ? 0 : 1]);
+      return add(Primitive::Kind::R, joint.axis[outwards ? 1 : 0], false);
+    case JointKind::cylindrical:
+      add(Primitive::Kind::R, joint.axis[0]);
+      return add(Primitive::Kind::P, joint.axis[0], false);
+    case JointKind::fixed:
+    case JointKind::free:
+      break;
+  }
+}
+
+/// From the base along one joint to the platform.
+Chain walk(const ModelGraph& graph, const Groups& groups, const Net& net, const Chains& ends, const Edge& first) {
+  Chain chain;
+  Edge edge = first;
+  std::size_t from = ends.base;
+  while (true) {
+    append(graph, edge.joint, groups.group_of[graph.joints[edge.joint].parent] == from, chain);
+    if (edge.to == ends.platform) return chain;
+    const std::vector<Edge>& on = net.at(edge.to);
+    const std::string where = fmt::format("the leg from joint {}", shown(graph.joints[first.joint].name));
+    if (edge.to == ends.base) throw ImportError(where + " comes back to the base, expected the platform");
+    if (on.size() == 1)
+      throw ImportError(
+          fmt::format("{} ends at body {} in the air, expected the platform, {}{}", where, net.name(edge.to),
+                      net.name(ends.platform), graph.format == "urdf" ? "; --close A:B closes a loop" : ""),
+          groups.groups[edge.to].line);
+    if (on.size() > 2)
+      throw ImportError(fmt::format("{} branches at body {}, which has {} joints, expected legs that join base and "
+                                    "platform only",
+                                    where, net.name(edge.to), on.size()),
+                        groups.groups[edge.to].line);
+    chain.bodies.emplace_back(edge.to);
+    from = edge.to;
+    edge = on[0].joint == edge.joint ? on[1] : on[0];
+    if (chain.primitives.size() > 12)
+      throw ImportError(fmt::format("{} has more than 12 freedoms, expected six", where));
+  }
+}
+
+/// Six joints of nothing but frames, that nothing drives or rubs, hold nothing: a file's way of leaving the platform
+/// free.
+bool holdsNothing(const ModelGraph& graph, const Groups& groups, const Chain& chain) {
+  std::size_t freedoms = 0, slides = 0;
+  for (const auto& body : chain.bodies)
+    if (body && !groups.groups[*body].isFrame()) return false;
+  for (const Primitive& p : chain.primitives) {
+    const GraphJoint& joint = graph.joints[p.joint];
+    if (joint.driven || joint.damping != 0 || joint.friction != 0 || joint.rotor_inertia != 0) return false;
+    freedoms += p.kind == Primitive::Kind::S ? 3 : 1;
+    slides += p.kind == Primitive::Kind::P ? 1 : 0;
+  }
+  return freedoms == 6 && slides == 3;
+}
+
+std::size_t firstJoint(const Chain& chain) {
+  std::size_t first = chain.primitives[0].joint;
+  for (const Primitive& primitive : chain.primitives) first = std::min(first, primitive.joint);
+  return first;
+}
+
+/// What is in the file and not in the machine is said with its mass.
+void sayWhatIsApart(const Groups& groups, const Chains& chains, std::vector<Assumption>& assumptions) {
+  std::set<std::size_t> used = {chains.base, chains.platform};
+  for (const Chain& chain : chains.legs)
+    for (const auto& body : chain.bodies)
+      if (body) used.insert(*body);
+  for (std::size_t i = 0; i < groups.groups.size(); ++i) {
+    const Group& group = groups.groups[i];
+    if (used.count(i) != 0 || group.fixed || group.isFrame()) continue;
+    assumptions.push_back({"This body is not of the machine and is left out", group.name, group.mass, "kg"});
+    if (assumptions.size() > 200)
+      throw ImportError("more than 200 bodies are not of the machine, expected a model of the machine alone");
+  }
+}
+
+}  // namespace
+
+std::string Chain::place(const ModelGraph& graph) const {
+  std::vector<std::string> names;
+  for (const Primitive& primitive : primitives) {
+    const std::string name = shown(graph.joints[primitive.joint].name);
+    if (names.empty() || names.back() != name) names.push_back(name);
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+Chains findChains(const ModelGraph& graph, const Groups& groups, const ImportChoices& choices,
+                  std::vector<Assumption>& assumptions) {
+  Net net(graph, groups);
+  net.trimFrames();
+  Chains out;
+  out.base = findBase(graph, groups, net, choices);
+  out.platform = findPlatform(graph, groups, net, choices, out.base);
+  if (groups.groups[out.platform].fixed && choices.base.empty())
+    throw ImportError(fmt::format("the platform, {}, is static, expected a body that moves", net.name(out.platform)));
+  std::size_t arriving = net.at(out.platform).size();
+  if (net.at(out.base).size() <= 12)
+    for (const Edge& edge : net.at(out.base)) {
+      Chain chain = walk(graph, groups, net, out, edge);
+      if (holdsNothing(graph, groups, chain)) {
+        assumptions.push_back({"These joints leave the platform free and are left out", chain.place(graph), 6, "1"});
+        --arriving;
+      } else {
+        out.legs.push_back(std::move(chain));
+      }
+    }
+  const std::size_t count = out.legs.empty() ? net.at(out.base).size() : out.legs.size();
+  if (count < 3 || count > 6)
+    throw ImportError(fmt::format("{} joints at the base, {}, expected three to six legs", count, net.name(out.base)));
+  if (arriving != count)
+    throw ImportError(fmt::format("{} joints at the base, {}, and {} at the platform, {}, expected one a leg at either",
+                                  count, net.name(out.base), arriving, net.name(out.platform)));
+  std::sort(out.legs.begin(), out.legs.end(),
+            [](const Chain& a, const Chain& b) { return firstJoint(a) < firstJoint(b); });
+  sayWhatIsApart(groups, out, assumptions);
+  return out;
+}
+
+}  // namespace ursula::exchange

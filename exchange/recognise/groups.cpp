@@ -1,0 +1,89 @@
+#include "exchange/recognise/groups.h"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+#include "base/nearest.h"
+#include "base/shown_text.h"
+#include "exchange/import_error.h"
+
+namespace ursula::exchange {
+namespace {
+
+std::size_t rootOf(std::vector<std::size_t>& parents, std::size_t i) {
+  while (parents[i] != i) i = parents[i] = parents[parents[i]];
+  return i;
+}
+
+}  // namespace
+
+Matrix3d pointInertia(double mass, const Vector3d& r) {
+  return mass * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
+}
+
+Matrix3d Group::inertiaAbout(const Vector3d& point) const {
+  return inertia + pointInertia(mass, center_of_mass - point);
+}
+
+void Group::add(double mass_of_it, const Vector3d& center, const Matrix3d& inertia_of_it) {
+  if (mass + mass_of_it > 0) {
+    const Vector3d apart = center - center_of_mass;
+    inertia += pointInertia(mass * (mass_of_it / (mass + mass_of_it)), apart);
+    center_of_mass += apart * (mass_of_it / (mass + mass_of_it));
+  }
+  inertia += inertia_of_it;
+  mass += mass_of_it;
+}
+
+Groups::Groups(const ModelGraph& graph) : group_of(graph.bodies.size()) {
+  std::vector<std::size_t> parents(graph.bodies.size());
+  std::iota(parents.begin(), parents.end(), std::size_t{0});
+  std::size_t ground = parents.size();
+  const auto join = [&parents](std::size_t a, std::size_t b) {
+    const std::size_t x = rootOf(parents, a), y = rootOf(parents, b);
+    parents[std::max(x, y)] = std::min(x, y);
+  };
+  for (std::size_t i = 0; i < graph.bodies.size(); ++i) {
+    if (!graph.bodies[i].fixed) continue;
+    if (ground == parents.size()) ground = i;
+    join(ground, i);
+  }
+  for (const GraphJoint& joint : graph.joints)
+    if (joint.kind == JointKind::fixed) join(joint.parent, joint.child);
+  std::vector<std::size_t> index(parents.size(), parents.size());
+  std::vector<double> heaviest;
+  for (std::size_t i = 0; i < parents.size(); ++i) {
+    const std::size_t root = rootOf(parents, i);
+    if (index[root] == parents.size()) {
+      index[root] = groups.size();
+      groups.emplace_back();
+      heaviest.push_back(-1);
+    }
+    group_of[i] = index[root];
+    Group& group = groups[index[root]];
+    const GraphBody& body = graph.bodies[i];
+    group.bodies.push_back(i);
+    if (body.mass > heaviest[index[root]]) {
+      heaviest[index[root]] = body.mass;
+      group.name = body.name;
+      group.line = body.line;
+    }
+    group.fixed = group.fixed || body.fixed;
+    group.weightless = group.weightless || (body.weightless && body.mass > 0);
+    group.add(body.mass, body.center_of_mass, body.inertia);
+    group.inertia_rounding += body.inertia_rounding;
+  }
+}
+
+std::size_t Groups::named(const ModelGraph& graph, const std::string& name, const std::string& option) const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < graph.bodies.size(); ++i) {
+    if (graph.bodies[i].name == name) return group_of[i];
+    names.push_back(graph.bodies[i].name);
+  }
+  if (names.size() > 1000) names.resize(1000);
+  throw ImportError(fmt::format("{} {}: no such body{}", option, shown(name), didYouMean(name, names)));
+}
+
+}  // namespace ursula::exchange

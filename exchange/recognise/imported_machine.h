@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "exchange/model_graph.h"
+#include "model/leg_kind.h"
+
+namespace ursula::exchange {
+
+/// As model/manipulator.h has it, with what only files of others have.
+struct ImportedLink {
+  double length = 0;                           ///< m; 0 for a carriage
+  double mass = 0;                             ///< kg
+  Vector3d center_of_mass = Vector3d::Zero();  ///< in the link's frame, from its first end, m
+  Matrix3d inertia = Matrix3d::Zero();         ///< about the mass centre, in the link's frame, kg·m²
+  std::string bodies;                          ///< of the file
+};
+
+struct ImportedLeg {
+  LegKind kind = LegKind::UPS;
+  std::array<bool, 3> actuated = {};
+  Vector3d base_point = Vector3d::Zero(), base_axis = Vector3d::UnitX(), platform_point = Vector3d::Zero();
+  ImportedLink proximal, distal;
+  bool knee_positive = true;
+  bool free_spin = false;
+  std::array<double, 3> damping = {}, friction = {}, rotor_inertia = {};  ///< by the kind's coordinates
+  std::string joints;                                                     ///< of the file
+  bool stroke_from_file = false;                                          ///< lengths of UPS are of the file's limits
+};
+
+struct ImportedPose {
+  double time = 0;
+  Vector3d position = Vector3d::Zero();
+  Matrix3d orientation = Matrix3d::Identity();
+};
+
+/// A machine that the program can judge, in B and M, and what was taken for granted.
+struct ImportedMachine {
+  std::string name, base, platform, format;
+  Vector3d gravity = Vector3d::Zero();
+  double platform_mass = 0;
+  Vector3d platform_center = Vector3d::Zero();
+  Matrix3d platform_inertia = Matrix3d::Zero();
+  std::vector<ImportedLeg> legs;
+  ImportedPose initial;              ///< of M in B
+  std::vector<ImportedPose> motion;  ///< the proposed one: waypoints; helix.h says how they were found
+  double motion_radius = 0;          ///< m
+  std::vector<Assumption> assumptions;
+};
+
+}  // namespace ursula::exchange

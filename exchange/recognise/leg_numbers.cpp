@@ -1,0 +1,331 @@
+#include "exchange/recognise/leg_numbers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/shown_text.h"
+#include "exchange/import_error.h"
+#include "exchange/recognise/link_numbers.h"
+
+namespace ursula::exchange {
+namespace {
+
+constexpr double degrees = 180 / 3.14159265358979323846;
+
+Matrix3d frameOf(const Vector3d& x, const Vector3d& along) {
+  Matrix3d out;
+  out << x, along.cross(x), along;
+  return out;
+}
+
+Vector3d offAxis(const Vector3d& v, const Vector3d& unit) { return v - unit * unit.dot(v); }
+
+Group sumOf(const LegTask& task, const std::vector<std::size_t>& groups) {
+  Group out = task.groups.groups[groups.at(0)];
+  for (std::size_t k = 1; k < groups.size(); ++k) {
+    const Group& more = task.groups.groups[groups[k]];
+    out.add(more.mass, more.center_of_mass, more.inertia);
+    out.inertia_rounding += more.inertia_rounding;
+    out.weightless = out.weightless || more.weightless;
+  }
+  return out;
+}
+
+/// Points and axes in the world; F̂ alone looks at B's axes.
+class LegMaker {
+ public:
+  LegMaker(const LegTask& task, Group& platform, std::vector<Assumption>& assumptions)
+      : task_(task), shape_(task.shape), joints_(task.shape.joints), platform_(platform), assumptions_(assumptions) {}
+
+  ImportedLeg make() {
+    leg_.kind = shape_.kind;
+    leg_.joints = shape_.place;
+    leg_.free_spin = shape_.has_inner_ball;
+    B_ = joints_.back().inner;
+    proximal_ = sumOf(task_, shape_.proximal);
+    distal_ = sumOf(task_, shape_.distal);
+    switch (shape_.kind) {
+      case LegKind::UPS:
+        makeUps();
+        break;
+      case LegKind::URS:
+        makeUrs();
+        break;
+      case LegKind::RUS:
+        makeRus();
+        break;
+      case LegKind::PUS:
+        makePus();
+        break;
+    }
+    lumpCrosses(task_, A_, proximal_, distal_, platform_, assumptions_);
+    makeLinks();
+    leg_.base_point = task_.base.inverse() * base_point_;
+    leg_.base_axis = task_.base.linear().transpose() * u_;
+    leg_.platform_point = task_.platform.inverse() * joints_.back().outer;
+    takeDynamics();
+    sayGaps();
+    return leg_;
+  }
+
+ private:
+  [[noreturn]] void refuseLeg(const std::string& what) const {
+    throw ImportError(fmt::format("the leg of {}: {}", shape_.place, what), joint(0).line);
+  }
+
+  const GraphJoint& joint(std::size_t k) const { return task_.graph.joints[joints_[k].joint]; }
+
+  /// A direction that has to be another's, but for the sign.
+  void requireParallel(const Vector3d& a, const Vector3d& b, const std::string& what) const {
+    requireSmallSine(a.cross(b).norm(), what + ", expected them parallel");
+  }
+  void requireSquare(const Vector3d& a, const Vector3d& b, const std::string& what) const {
+    requireSmallSine(std::abs(a.dot(b)), what + ", expected them at right angles");
+  }
+  void requireSmallSine(double sine, const std::string& what) const {
+    const double angle = std::asin(std::min(sine, 1.0));
+    if (!(angle <= task_.choices.tolerance))
+      refuseLeg(fmt::format("{}, off by {:.6g}° ({:.3g} rad), more than {:g} (--tolerance)", what, angle * degrees,
+                            angle, task_.choices.tolerance));
+  }
+
+  /// Any direction across the line is as good where a ball stands for the universal joint.
+  Vector3d someAcross(const Vector3d& line) const {
+    const Vector3d up = task_.base.linear().col(2), side = task_.base.linear().col(0);
+    const Vector3d across = line.cross(up);
+    return (across.norm() > 0.1 ? across : line.cross(side)).normalized();
+  }
+
+  void makeUps() {
+    const bool ball = shape_.has_inner_ball;
+    // With a ball at the base joints_ are S, P, S: the slide stands second.
+    const Primitive& slide = joints_[ball ? 1 : 2];
+    if (ball) {
+      A_ = joints_[0].outer;
+      base_point_ = joints_[0].inner;
+    } else {
+      A_ = meetingOf(joints_[0].outer, joints_[0].axis, joints_[1].inner, joints_[1].axis).at;
+      base_point_ = A_ + joints_[0].inner - joints_[0].outer;
+    }
+    const double d = (B_ - A_).norm();
+    if (!(d > 0)) refuseLeg("its ball is at its universal joint, expected a leg with a length");
+    const Vector3d e = (B_ - A_) / d;
+    requireParallel(
+        slide.axis, e,
+        fmt::format("the slide {} and the line between its joints", shown(task_.graph.joints[slide.joint].name)));
+    u_ = ball ? someAcross(e) : Vector3d(-joints_[0].axis);
+    if (!ball)
+      requireSquare(joints_[1].axis, e, fmt::format("the axis of {} and the leg's line", shown(joint(1).name)));
+    if (!(u_.cross(e).norm() > 1e-6)) refuseLeg("its first axis lies along its line, expected it across");
+    const Vector3d x = u_.cross(e).normalized();
+    makeStroke(slide, e, d);
+    proximal_frame_ = placedAt(A_, frameOf(x, e));
+    distal_frame_ = placedAt(A_ + (d - s_) * e, frameOf(x, e));
+  }
+
+  /// The rod's inner end stays in the cylinder: s < d < s + l is all that their lengths mean.
+  void makeStroke(const Primitive& slide, const Vector3d& e, double d) {
+    const GraphJoint& joint = task_.graph.joints[slide.joint];
+    const double sign = slide.axis.dot(e) > 0 ? 1 : -1;
+    double least = d + sign * (sign > 0 ? joint.lower - joint.position : joint.upper - joint.position);
+    double most = d + sign * (sign > 0 ? joint.upper - joint.position : joint.lower - joint.position);
+    leg_.stroke_from_file = std::isfinite(least) && std::isfinite(most) && least > 0 && most > least;
+    if (!leg_.stroke_from_file) {
+      least = 2 * d / 3;
+      most = 4 * d / 3;
+      assumptions_.push_back(
+          {"The file limits this slide's stroke to no usable range: a third of the leg's length either "
+           "way was taken",
+           joint.name, d / 3, "m"});
+    } else if (!(least < d && d < most)) {
+      assumptions_.push_back({"The initial pose lies outside the slide's limits, or at one; the stroke was widened",
+                              joint.name, std::max(least - d, d - most), "m"});
+      const double margin = 0.05 * (most - least);
+      if (!(least < d)) least = std::max(d - margin, d / 2);
+      if (!(d < most)) most = d + margin;
+    }
+    if (sign < 0)
+      assumptions_.push_back(
+          {"The file's coordinate of this slide shortens the leg; d lengthens it", joint.name, -1, "1"});
+    s_ = least;
+    l_ = most - least;
+  }
+
+  void makeUrs() {
+    A_ = meetingOf(joints_[0].outer, joints_[0].axis, joints_[1].inner, joints_[1].axis).at;
+    base_point_ = A_ + joints_[0].inner - joints_[0].outer;
+    u_ = -joints_[0].axis;
+    const Vector3d x = joints_[1].axis;
+    requireParallel(joints_[2].axis, x,
+                    fmt::format("the axes of {} and {}", shown(joint(1).name), shown(joint(2).name)));
+    const auto inPlane = [&](const Vector3d& point) { return point - x * x.dot(point - A_); };
+    const Vector3d R = inPlane(joints_[2].inner);
+    const Vector3d R_outer = R + joints_[2].outer - joints_[2].inner;
+    requireOnPlane(x.dot(B_ - A_) - x.dot(R_outer - R));
+    const Vector3d e = lengthAndDirection(R - A_, l_), along = lengthAndDirection(B_ - R_outer, s_);
+    if (!(u_.cross(B_ - A_).norm() > 1e-9 * task_.size)) refuseLeg("its ball lies on its first axis");
+    const Vector3d x_of_leg = u_.cross(B_ - A_).dot(x) > 0 ? x : Vector3d(-x);
+    leg_.knee_positive = along.dot(x_of_leg.cross(e)) < 0;
+    proximal_frame_ = placedAt(A_, frameOf(x_of_leg, e));
+    distal_frame_ = placedAt(R_outer, frameOf(x_of_leg, along));
+  }
+
+  void makeRus() {
+    const bool ball = shape_.has_inner_ball;
+    u_ = -joints_[0].axis;
+    Vector3d C, C_outer;
+    middleJoint(ball, 0, C, C_outer);
+    A_ = joints_[0].outer + u_ * u_.dot(C - joints_[0].outer);
+    base_point_ = A_ + joints_[0].inner - joints_[0].outer;
+    const Vector3d e = lengthAndDirection(C - A_, l_), along = lengthAndDirection(B_ - C_outer, s_);
+    const Vector3d across = offAxis(along, u_);
+    if (!(across.norm() > 1e-6)) refuseLeg("its rod lies along the crank's axis, expected it across");
+    const Vector3d x_2 = u_.cross(across).normalized();
+    if (!ball) requireUniversalAlong(along);
+    leg_.knee_positive = across.dot(u_.cross(e)) < 0;
+    proximal_frame_ = placedAt(A_, frameOf(u_.cross(e).normalized(), e));
+    distal_frame_ = placedAt(C_outer, frameOf(x_2, along));
+  }
+
+  void makePus() {
+    const bool ball = shape_.has_inner_ball;
+    u_ = joints_[0].axis;
+    Vector3d C, C_outer;
+    middleJoint(ball, 0, C, C_outer);
+    A_ = C;
+    base_point_ = C + (joints_[0].inner - joints_[0].outer) - joint(0).position * u_;
+    const Vector3d along = lengthAndDirection(B_ - C_outer, s_);
+    const Vector3d across = offAxis(along, u_);
+    if (!(across.norm() > 1e-6)) refuseLeg("its rod lies along the rail, expected it across");
+    if (!ball) requireUniversalAlong(along);
+    leg_.knee_positive = along.dot(u_) > 0;
+    const Matrix3d to_world = task_.base.linear();
+    proximal_frame_ = placedAt(C, to_world * fixedFrame(to_world.transpose() * u_));
+    distal_frame_ = placedAt(C_outer, frameOf(u_.cross(across).normalized(), along));
+  }
+
+  /// Where crank or carriage and rod meet, as either has it.
+  void middleJoint(bool ball, std::size_t before, Vector3d& inner, Vector3d& outer) const {
+    const Primitive& first = joints_[before + 1];
+    if (ball) {
+      inner = first.inner;
+      outer = first.outer;
+      return;
+    }
+    const Primitive& second = joints_[before + 2];
+    const Vector3d met = meetingOf(first.outer, first.axis, second.inner, second.axis).at;
+    inner = met + first.inner - first.outer;
+    outer = met + second.outer - second.inner;
+  }
+
+  /// The universal joint's first axis is the crank's or the rail's, its second across the rod.
+  void requireUniversalAlong(const Vector3d& rod) const {
+    requireParallel(joints_[1].axis, u_,
+                    fmt::format("the axes of {} and {}", shown(joint(0).name), shown(joint(1).name)));
+    requireSquare(joints_[2].axis, rod, fmt::format("the axis of {} and the rod", shown(joint(2).name)));
+  }
+
+  void requireOnPlane(double off) const {
+    if (!(std::abs(off) <= task_.choices.tolerance * task_.size))
+      refuseLeg(
+          fmt::format("its ball is {:.6g} m off the plane of its links, expected within {:g} of the machine's size, "
+                      "{:.4g} m",
+                      std::abs(off), task_.choices.tolerance, task_.size));
+  }
+
+  Vector3d lengthAndDirection(const Vector3d& v, double& length) const {
+    length = v.norm();
+    if (!(length > 1e-9 * task_.size)) refuseLeg("two of its joints coincide, expected a link between them");
+    return v / length;
+  }
+
+  static Eigen::Isometry3d placedAt(const Vector3d& point, const Matrix3d& turn) {
+    Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
+    out.translation() = point;
+    out.linear() = turn;
+    return out;
+  }
+
+  void makeLinks() {
+    const bool telescopic = leg_.kind == LegKind::UPS, carriage = leg_.kind == LegKind::PUS;
+    leg_.proximal = linkOf(task_, proximal_, proximal_frame_, carriage ? 0 : l_, telescopic, assumptions_);
+    leg_.distal = linkOf(task_, distal_, distal_frame_, s_, true, assumptions_);
+    if (leg_.free_spin) {
+      if (telescopic) freeSpin(task_, proximal_, proximal_frame_, true, leg_.proximal, assumptions_);
+      freeSpin(task_, distal_, distal_frame_, true, leg_.distal, assumptions_);
+    }
+    if (leg_.free_spin) return;
+    for (const std::size_t group : shape_.spinning) {
+      const bool outer = std::find(shape_.distal.begin(), shape_.distal.end(), group) != shape_.distal.end();
+      freeSpin(task_, task_.groups.groups[group], outer ? distal_frame_ : proximal_frame_, false,
+               outer ? leg_.distal : leg_.proximal, assumptions_);
+    }
+  }
+
+  /// Friction, motors and rotors by the kind's coordinates. What a ball stands for was found plain before.
+  void takeDynamics() {
+    const auto coordinates = rowOf(leg_.kind).coordinates;
+    for (std::size_t k = 0; k < coordinates.size(); ++k) {
+      std::size_t at = k;
+      if (shape_.has_inner_ball) {
+        const bool mine = leg_.kind == LegKind::UPS ? k == 2 : k == 0;
+        if (!mine) continue;
+        at = leg_.kind == LegKind::UPS ? 1 : 0;
+      }
+      const GraphJoint& from = joint(at);
+      leg_.actuated[k] = from.driven;
+      leg_.damping[k] = from.damping;
+      leg_.friction[k] = from.friction;
+      leg_.rotor_inertia[k] = from.rotor_inertia;
+      if (from.rotor_inertia != 0 && !from.driven)
+        throw ImportError(
+            fmt::format("joint {} has a rotor's inertia of {} (armature) and is not driven, which a scenario "
+                        "has no key for",
+                        shown(from.name), from.rotor_inertia),
+            from.line);
+      if (from.friction != 0)
+        assumptions_.push_back(
+            {fmt::format("Coulomb friction is smoothed below 0.01 {}, of which the file says nothing",
+                         slides(coordinates[k]) ? "m/s" : "rad/s"),
+             from.name, from.friction, slides(coordinates[k]) ? "N" : "N·m"});
+    }
+  }
+
+  void sayGaps() {
+    for (std::size_t k = 0; k < joints_.size(); ++k) {
+      const double gap = (joints_[k].outer - joints_[k].inner).norm();
+      if (gap > 1e-12 * task_.size && !(k > 0 && joints_[k].joint == joints_[k - 1].joint))
+        assumptions_.push_back({"This joint is open at the file's initial pose", joint(k).name, gap, "m"});
+    }
+  }
+
+  const LegTask& task_;
+  const LegShape& shape_;
+  std::vector<Primitive> joints_;
+  Group& platform_;
+  std::vector<Assumption>& assumptions_;
+  ImportedLeg leg_;
+  Group proximal_, distal_;
+  Vector3d A_ = Vector3d::Zero(), B_ = Vector3d::Zero(), base_point_ = Vector3d::Zero(), u_ = Vector3d::UnitX();
+  double l_ = 0, s_ = 0;
+  Eigen::Isometry3d proximal_frame_ = Eigen::Isometry3d::Identity(), distal_frame_ = Eigen::Isometry3d::Identity();
+};
+
+}  // namespace
+
+Matrix3d fixedFrame(const Vector3d& u) {
+  Vector3d x = u.cross(Vector3d::UnitZ());
+  if (x.squaredNorm() < 1e-20) x = u.cross(Vector3d::UnitY());
+  x.normalize();
+  Matrix3d out;
+  out << x, u, x.cross(u);
+  return out;
+}
+
+ImportedLeg legOf(const LegTask& task, Group& platform, std::vector<Assumption>& assumptions) {
+  return LegMaker(task, platform, assumptions).make();
+}
+
+}  // namespace ursula::exchange

@@ -1,0 +1,270 @@
+#include "exchange/recognise/leg_shape.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "base/shown_text.h"
+#include "exchange/import_error.h"
+
+namespace ursula::exchange {
+namespace {
+
+using Kind = Primitive::Kind;
+using Body = std::optional<std::size_t>;
+
+constexpr double degrees = 180 / 3.14159265358979323846;
+
+/// A freedom, or a ball made of one joint or of three hinges, with what lies between it and the next.
+struct Token {
+  Primitive primitive;
+  Body behind;
+};
+
+class Shaper {
+ public:
+  Shaper(const ModelGraph& graph, const Groups& groups, const Chain& chain, double size, const ImportChoices& choices)
+      : graph_(graph), groups_(groups), chain_(chain), size_(size), choices_(choices) {
+    shape_.place = chain.place(graph);
+    for (std::size_t k = 0; k < chain.primitives.size(); ++k)
+      tokens_.push_back({chain.primitives[k], k < chain.bodies.size() ? chain.bodies[k] : Body()});
+  }
+
+  LegShape shape() {
+    gatherBalls();
+    dropIdleSpin();
+    const std::string found = word();
+    if (found == "SPRR")
+      refuseLeg("is S P U from the base; the legs are U P S, and base and platform cannot be exchanged");
+    if (found == "SPS" || found == "RSS" || found == "PSS") return withFreeRod(found);
+    if (found == "RRPS" || found == "PRRS" || found == "RRRS") return withUniversal(found);
+    refuseLeg(
+        fmt::format("has the joints {} from the base, expected U P S, R U S, U R S or P U S (U: two hinges that "
+                    "meet at right angles, S: a ball or three hinges through one point)",
+                    spaced(found)));
+  }
+
+ private:
+  [[noreturn]] void refuseLeg(const std::string& what) const {
+    throw ImportError(fmt::format("the leg of {} {}", shape_.place, what),
+                      graph_.joints[chain_.primitives[0].joint].line);
+  }
+
+  std::string word() const {
+    std::string out;
+    for (const Token& token : tokens_) out += "RPS"[static_cast<int>(token.primitive.kind)];
+    return out;
+  }
+
+  static std::string spaced(const std::string& word) {
+    std::string out;
+    for (const char letter : word) out += (out.empty() ? "" : " ") + std::string(1, letter);
+    return out;
+  }
+
+  double tolerance() const { return choices_.tolerance * size_; }
+
+  /// Three hinges through one point, not in one plane: from the platform inwards.
+  void gatherBalls() {
+    for (std::size_t end = tokens_.size(); end >= 3;) {
+      const std::optional<Vector3d> centre = commonPoint(end - 3);
+      if (!centre) {
+        --end;
+        continue;
+      }
+      Token ball;
+      ball.primitive = tokens_[end - 3].primitive;
+      ball.primitive.kind = Kind::S;
+      ball.primitive.axis.setZero();
+      const Vector3d gap = tokens_[end - 1].primitive.outer - tokens_[end - 1].primitive.inner;
+      ball.primitive.inner = *centre;
+      ball.primitive.outer = *centre + gap;
+      ball.behind = tokens_[end - 1].behind;
+      requirePlain({end - 3, end - 2, end - 1}, "a ball");
+      for (const std::size_t k : {end - 3, end - 2})
+        if (tokens_[k].behind) noteCross(*tokens_[k].behind, *centre, end == tokens_.size(), end == 3);
+      tokens_.erase(tokens_.begin() + static_cast<std::ptrdiff_t>(end) - 3,
+                    tokens_.begin() + static_cast<std::ptrdiff_t>(end));
+      tokens_.insert(tokens_.begin() + static_cast<std::ptrdiff_t>(end) - 3, ball);
+      end = std::max<std::size_t>(end - 3, 0);
+      if (end < 3) break;
+    }
+    for (std::size_t k = 0; k < tokens_.size(); ++k)
+      if (tokens_[k].primitive.kind == Kind::S) requirePlain({k}, "a ball");
+  }
+
+  std::optional<Vector3d> commonPoint(std::size_t first) const {
+    Matrix3d sum = Matrix3d::Zero(), axes;
+    Vector3d right = Vector3d::Zero();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Primitive& p = tokens_[first + k].primitive;
+      if (p.kind != Kind::R) return {};
+      axes.col(static_cast<Eigen::Index>(k)) = p.axis;
+      const Matrix3d across = Matrix3d::Identity() - p.axis * p.axis.transpose();
+      sum += across;
+      right += across * p.inner;
+    }
+    if (std::abs(axes.determinant()) < 1e-2) return {};
+    const Vector3d point = sum.ldlt().solve(right);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Primitive& p = tokens_[first + k].primitive;
+      if (!((point - p.inner).cross(p.axis).norm() <= tolerance())) return {};
+    }
+    return point;
+  }
+
+  void noteCross(std::size_t group, const Vector3d& centre, bool at_platform, bool at_base) {
+    shape_.crosses.push_back({group,
+                              at_platform ? Cross::Rides::platform
+                              : at_base   ? Cross::Rides::base
+                                          : Cross::Rides::proximal,
+                              centre});
+  }
+
+  /// Nothing drives it or rubs in it: the scenario has no words for that.
+  void requirePlain(const std::vector<std::size_t>& tokens, const char* what) const {
+    for (const std::size_t k : tokens) {
+      const GraphJoint& joint = graph_.joints[tokens_[k].primitive.joint];
+      const auto complain = [&](const std::string& why) {
+        throw ImportError(fmt::format("joint {}, {} of the leg of {}, {}", shown(joint.name), what, shape_.place, why),
+                          joint.line);
+      };
+      if (joint.driven) complain("is driven, expected a motor on a coordinate of the leg");
+      if (joint.damping != 0 || joint.friction != 0)
+        complain(fmt::format("rubs (damping {}, friction {}), which a scenario has no key for", joint.damping,
+                             joint.friction));
+      if (joint.rotor_inertia != 0)
+        complain(
+            fmt::format("has a rotor's inertia of {} (armature) and is not driven, which a scenario has no key for",
+                        joint.rotor_inertia));
+    }
+  }
+
+  /// A hinge along the leg's own line beside a ball lets the rod spin and moves nothing else.
+  void dropIdleSpin() {
+    const std::string found = word();
+    std::size_t at = 0;
+    if (found == "RRPRS" || found == "SPRS" || found == "RRRRS" || found == "PRRRS") at = found.size() - 2;
+    if (found == "RRRPS" || found == "SRPS") at = found.size() - 3;
+    if (at == 0) return;
+    const std::size_t last = tokens_.size() - 1;
+    const Primitive& hinge = tokens_[at].primitive;
+    // The line ends at the ball; it begins at the joint before, or at the base.
+    const Vector3d ball = tokens_[last].primitive.inner;
+    const bool telescopic = found.find('P') != std::string::npos && found[0] != 'P';
+    const Vector3d from =
+        telescopic ? tokens_[found[0] == 'S' ? 0 : 1].primitive.outer : tokens_[at - 1].primitive.outer;
+    const double off = (ball - hinge.inner).cross(hinge.axis).norm();
+    const double angle = std::asin(std::min(1.0, (ball - from).normalized().cross(hinge.axis).norm()));
+    if (!(off <= tolerance() && angle <= choices_.tolerance)) return;
+    requirePlain({at}, "idle spin");
+    if (tokens_[at].behind) shape_.spinning.push_back(*tokens_[at].behind);
+    if (at + 2 < tokens_.size() && tokens_[at + 1].behind) shape_.spinning.push_back(*tokens_[at + 1].behind);
+    // What spins before a slide goes with the cylinder, what spins before the ball with the rod.
+    Token& before = tokens_[at - 1];
+    (found[at + 1] == 'P' ? extra_proximal_ : extra_distal_) = tokens_[at].behind;
+    if (!before.behind) {
+      before.behind = tokens_[at].behind;
+      (found[at + 1] == 'P' ? extra_proximal_ : extra_distal_).reset();
+    }
+    tokens_.erase(tokens_.begin() + static_cast<std::ptrdiff_t>(at));
+  }
+
+  void takeJoints() {
+    for (const Token& token : tokens_) shape_.joints.push_back(token.primitive);
+  }
+
+  std::size_t link(std::size_t token) const {
+    if (tokens_[token].behind) return *tokens_[token].behind;
+    refuseLeg(fmt::format("has no body between joints {} and {}, expected a link",
+                          shown(graph_.joints[tokens_[token].primitive.joint].name),
+                          shown(graph_.joints[tokens_[token + 1].primitive.joint].name)));
+  }
+
+  LegShape finish(std::size_t proximal, std::size_t distal) {
+    takeJoints();
+    shape_.proximal.push_back(proximal);
+    shape_.distal.push_back(distal);
+    if (extra_proximal_) shape_.proximal.push_back(*extra_proximal_);
+    if (extra_distal_) shape_.distal.push_back(*extra_distal_);
+    return shape_;
+  }
+
+  LegShape withFreeRod(const std::string& found) {
+    shape_.kind = found == "SPS" ? LegKind::UPS : found == "RSS" ? LegKind::RUS : LegKind::PUS;
+    shape_.has_inner_ball = true;
+    shape_.inner_ball = found == "SPS" ? 0 : 1;
+    return finish(link(0), link(1));
+  }
+
+  LegShape withUniversal(const std::string& found) {
+    std::size_t first = found == "PRRS" ? 1 : 0;
+    shape_.kind = found == "PRRS" ? LegKind::PUS : LegKind::UPS;
+    if (found == "RRRS") {
+      first = badness(1) < badness(0) ? 1 : 0;
+      shape_.kind = first == 1 ? LegKind::RUS : LegKind::URS;
+    }
+    requireUniversal(first);
+    if (tokens_[first].behind) noteCross(*tokens_[first].behind, meeting(first).at, false, first == 0);
+    return first == 0 ? finish(link(1), link(2)) : finish(link(0), link(2));
+  }
+
+  Meeting meeting(std::size_t k) const {
+    const Primitive &a = tokens_[k].primitive, &b = tokens_[k + 1].primitive;
+    return meetingOf(a.outer, a.axis, b.inner, b.axis);
+  }
+
+  /// How far two hinges are from a universal joint.
+  double badness(std::size_t k) const { return std::abs(std::cos(meeting(k).angle)) + meeting(k).apart / size_; }
+
+  void requireUniversal(std::size_t k) const {
+    const Meeting met = meeting(k);
+    const double off_square = std::abs(std::asin(std::min(1.0, std::cos(met.angle))));
+    if (met.apart <= tolerance() && off_square <= choices_.tolerance) return;
+    refuseLeg(
+        fmt::format("has hinges {} and {} whose axes pass each other at {:.6g} m ({:.3g} of the machine's size) and "
+                    "have an angle of {:.6g}° between them, expected a universal joint: axes that meet at 90°, "
+                    "within {:g} (--tolerance)",
+                    shown(graph_.joints[tokens_[k].primitive.joint].name),
+                    shown(graph_.joints[tokens_[k + 1].primitive.joint].name), met.apart, met.apart / size_,
+                    met.angle * degrees, choices_.tolerance));
+  }
+
+  const ModelGraph& graph_;
+  const Groups& groups_;
+  const Chain& chain_;
+  double size_;
+  const ImportChoices& choices_;
+  std::vector<Token> tokens_;
+  Body extra_proximal_, extra_distal_;
+  LegShape shape_;
+};
+
+}  // namespace
+
+Meeting meetingOf(const Vector3d& p, const Vector3d& along_p, const Vector3d& q, const Vector3d& along_q) {
+  Meeting out;
+  const Vector3d across = along_p.cross(along_q), from = q - p;
+  const double sine = across.norm(), cosine = along_p.dot(along_q);
+  out.angle = std::atan2(sine, std::abs(cosine));
+  if (sine < 1e-9) {
+    out.at = p + along_p * from.dot(along_p) / 2;
+    out.apart = from.cross(along_p).norm();
+    return out;
+  }
+  const double square = sine * sine;
+  const double on_p = (from.dot(along_p) - from.dot(along_q) * cosine) / square;
+  const double on_q = (from.dot(along_p) * cosine - from.dot(along_q)) / square;
+  out.at = (p + on_p * along_p + q + on_q * along_q) / 2;
+  out.apart = std::abs(from.dot(across)) / sine;
+  return out;
+}
+
+LegShape shapeOf(const ModelGraph& graph, const Groups& groups, const Chain& chain, double size,
+                 const ImportChoices& choices) {
+  return Shaper(graph, groups, chain, size, choices).shape();
+}
+
+}  // namespace ursula::exchange

@@ -1,0 +1,143 @@
+#include "exchange/recognise/link_numbers.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "base/shown_text.h"
+#include "exchange/import_error.h"
+
+namespace ursula::exchange {
+namespace {
+
+constexpr double eps = 2.3e-16;
+
+std::string moments(const Vector3d& m) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", m.x(), m.y(), m.z()); }
+
+/// Off-diagonal entries and offsets that are nothing but the rounding of turning them are zero.
+void cleanRounding(ImportedLink& link, double mass, double size) {
+  const double largest = link.inertia.cwiseAbs().maxCoeff() + mass * link.center_of_mass.squaredNorm();
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (i != j && std::abs(link.inertia(i, j)) <= 64 * eps * largest) link.inertia(i, j) = 0;
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(link.center_of_mass(k)) <= 64 * eps * size) link.center_of_mass(k) = 0;
+}
+
+double largestMoment(const Matrix3d& inertia) {
+  return Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues().cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+Matrix3d snapped(const Matrix3d& inertia, double rounding, bool line_may_be_zero, const std::string& body, int line,
+                 std::vector<Assumption>& assumptions) {
+  const Matrix3d symmetric = (inertia + inertia.transpose()) / 2;
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(symmetric);
+  Vector3d m = principal.eigenvalues();
+  const double noise = 256 * eps * m.cwiseAbs().maxCoeff(), slack = 3 * rounding + noise;
+  const bool line_is_zero = line_may_be_zero && std::abs(symmetric(2, 2)) <= noise;
+  if (!(m(0) > noise) && !line_is_zero)
+    throw ImportError(fmt::format("body {}: principal moments of inertia {}, expected all of them above zero",
+                                  shown(body), moments(m)),
+                      line);
+  const double excess = m(2) - m(1) - std::max(m(0), 0.0);
+  if (excess <= 8 * eps * m(2)) return symmetric;
+  if (!(excess <= slack))
+    throw ImportError(
+        fmt::format("body {}: principal moments of inertia {}: the largest exceeds the sum of the others by "
+                    "{:.3g}, more than the file's digits leave open ({:.1g})",
+                    shown(body), moments(m), excess, slack),
+        line);
+  assumptions.push_back(
+      {"The largest principal moment exceeded the sum of the others, by the file's digits; all three "
+       "were moved by a third of that",
+       body, excess, "kg·m²"});
+  m += excess / 3 * Vector3d(1, 1, -1);
+  const Matrix3d out = principal.eigenvectors() * m.asDiagonal() * principal.eigenvectors().transpose();
+  return (out + out.transpose()) / 2;
+}
+
+ImportedLink linkOf(const LegTask& task, const Group& link, const Eigen::Isometry3d& frame, double length,
+                    bool line_may_be_zero, std::vector<Assumption>& assumptions) {
+  if (!(link.mass > 0))
+    throw ImportError(fmt::format("body {}, a link of the leg of {}, has no mass, expected one above zero",
+                                  shown(link.name), task.shape.place),
+                      link.line);
+  if (link.weightless)
+    throw ImportError(
+        fmt::format("body {} has its gravity switched off, which a scenario has no key for", shown(link.name)),
+        link.line);
+  ImportedLink out;
+  out.length = length;
+  out.mass = link.mass;
+  out.bodies = link.name;
+  out.center_of_mass = frame.inverse() * link.center_of_mass;
+  const Matrix3d turn = frame.linear();
+  out.inertia = turn.transpose() * link.inertia * turn;
+  out.inertia = ((out.inertia + out.inertia.transpose()) / 2).eval();
+  cleanRounding(out, link.mass, task.size);
+  out.inertia = snapped(out.inertia, link.inertia_rounding, line_may_be_zero, link.name, link.line, assumptions);
+  return out;
+}
+
+void freeSpin(const LegTask& task, const Group& body, const Eigen::Isometry3d& frame, bool keep_moment,
+              ImportedLink& link, std::vector<Assumption>& assumptions) {
+  const Matrix3d local = frame.linear().transpose() * body.inertia * frame.linear();
+  const Vector3d center = frame.inverse() * body.center_of_mass;
+  const double off = center.head<2>().norm(), largest = local.cwiseAbs().maxCoeff();
+  const double unequal = std::max(
+      {std::abs(local(0, 0) - local(1, 1)), std::abs(local(0, 1)), std::abs(local(0, 2)), std::abs(local(1, 2))});
+  const double share = largest > 0 ? unequal / largest : 0;
+  if (!(off <= task.choices.tolerance * task.size) || !(share <= task.choices.tolerance))
+    throw ImportError(
+        fmt::format("body {} spins freely about the line of its leg, of {}: its transverse moments differ by "
+                    "{:.3g} of the largest and its mass centre is {:.3g} m off the line, expected equal ones "
+                    "and a mass centre on the line",
+                    shown(body.name), task.shape.place, share, off),
+        body.line);
+  if (!keep_moment) {
+    link.inertia(2, 2) -= local(2, 2);
+    if (std::abs(link.inertia(2, 2)) <= 64 * eps * largest) link.inertia(2, 2) = 0;
+  }
+  assumptions.push_back(
+      {"This rod may spin freely about its line; it does not, and then its moment about the line has no "
+       "effect",
+       body.name, share, "1"});
+}
+
+void lumpCrosses(const LegTask& task, const Vector3d& base_point, Group& proximal, const Group& distal, Group& platform,
+                 std::vector<Assumption>& assumptions) {
+  const double leg_moment =
+      largestMoment(proximal.inertiaAbout(base_point)) + largestMoment(distal.inertiaAbout(base_point));
+  const double leg_weight = proximal.mass * (proximal.center_of_mass - base_point).norm() +
+                            distal.mass * (distal.center_of_mass - base_point).norm();
+  for (const Cross& cross : task.shape.crosses) {
+    const Group& group = task.groups.groups[cross.group];
+    if (group.isFrame()) continue;
+    if (group.weightless)
+      throw ImportError(
+          fmt::format("body {} has its gravity switched off, which a scenario has no key for", shown(group.name)),
+          group.line);
+    const double share = std::max(largestMoment(group.inertiaAbout(cross.centre)) / leg_moment,
+                                  group.mass * (group.center_of_mass - cross.centre).norm() / leg_weight);
+    if (!(share <= task.choices.lump))
+      throw ImportError(
+          fmt::format("body {}, between the hinges of one joint of the leg of {}, has {:.3g} of the leg's "
+                      "moments, which would be lost, expected at most {:g} (--lump)",
+                      shown(group.name), task.shape.place, share, task.choices.lump),
+          group.line);
+    const bool at_base = cross.rides == Cross::Rides::base, at_platform = cross.rides == Cross::Rides::platform;
+    if (at_platform) platform.add(group.mass, cross.centre, Matrix3d::Zero());
+    if (!at_base && !at_platform) proximal.add(group.mass, cross.centre, Matrix3d::Zero());
+    assumptions.push_back({fmt::format("Its tensor is left out, as a share of the leg's moments; its mass {}",
+                                       at_base       ? "rests on the base"
+                                       : at_platform ? "rides on the platform's joint"
+                                                     : "rides on the first link's end"),
+                           group.name, share, "1"});
+  }
+}
+
+}  // namespace ursula::exchange

@@ -1,0 +1,229 @@
+#include "exchange/recognise/recognise.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "base/nearest.h"
+#include "base/shown_text.h"
+#include "exchange/import_error.h"
+#include "exchange/recognise/leg_numbers.h"
+#include "exchange/recognise/link_numbers.h"
+#include "exchange/recognise/motion.h"
+
+namespace ursula::exchange {
+namespace {
+
+std::size_t bodyNamed(const ModelGraph& graph, const std::string& name, const std::string& option) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < graph.bodies.size(); ++i) {
+    if (graph.bodies[i].name == name) return i;
+    if (names.size() < 1000) names.push_back(graph.bodies[i].name);
+  }
+  throw ImportError(fmt::format("{}: no body '{}'{}", option, shown(name), didYouMean(name, names)));
+}
+
+/// `--close A:B`: a ball joins the origins of two links' frames.
+void close(ModelGraph& graph, const std::vector<std::string>& pairs) {
+  for (const std::string& pair : pairs) {
+    std::size_t colon = pair.find(':');
+    // Names of nested models have two colons.
+    while (colon != std::string::npos && pair.compare(colon, 2, "::") == 0) colon = pair.find(':', colon + 2);
+    if (colon == std::string::npos || colon == 0 || colon + 1 == pair.size())
+      throw ImportError(fmt::format("--close {}: expected two links, A:B", shown(pair)));
+    GraphJoint ball;
+    ball.name = "close " + pair;
+    ball.kind = JointKind::ball;
+    ball.closure = true;
+    ball.parent = bodyNamed(graph, pair.substr(0, colon), "--close " + shown(pair));
+    ball.child = bodyNamed(graph, pair.substr(colon + 1), "--close " + shown(pair));
+    ball.centre = graph.bodies[ball.parent].frame.translation();
+    ball.centre_of_child = graph.bodies[ball.child].frame.translation();
+    graph.joints.push_back(ball);
+  }
+}
+
+/// `--actuated J,…` instead of what the file says.
+void drive(ModelGraph& graph, const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  std::vector<std::string> known;
+  for (GraphJoint& joint : graph.joints) {
+    joint.driven = false;
+    if (known.size() < 1000) known.push_back(joint.name);
+  }
+  for (const std::string& name : names) {
+    bool found = false;
+    for (GraphJoint& joint : graph.joints) {
+      if (joint.name != name) continue;
+      if (found) throw ImportError(fmt::format("--actuated {}: two joints have that name", shown(name)), joint.line);
+      found = joint.driven = true;
+    }
+    if (!found) throw ImportError(fmt::format("--actuated {}: no such joint{}", shown(name), didYouMean(name, known)));
+  }
+}
+
+/// Two balls between the same bodies are a hinge through both: so MJCF closes a loop at a hinge.
+void takeHinges(ModelGraph& graph) {
+  const Groups groups(graph);
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> balls;
+  for (std::size_t j = 0; j < graph.joints.size(); ++j) {
+    GraphJoint& second = graph.joints[j];
+    if (second.kind != JointKind::ball || !second.closure) continue;
+    const auto [a, b] = std::minmax(groups.group_of[second.parent], groups.group_of[second.child]);
+    const auto [found, is_new] = balls.emplace(std::pair(a, b), j);
+    if (is_new) continue;
+    GraphJoint& first = graph.joints[found->second];
+    const Vector3d apart = second.centre - first.centre;
+    if (first.kind != JointKind::ball || !(apart.norm() > 0)) continue;
+    first.kind = JointKind::revolute;
+    first.axis[0] = apart.normalized();
+    second.kind = JointKind::free;
+    graph.assumptions.push_back({"Two balls between the same bodies are taken as a hinge; they are this far apart",
+                                 first.name + ", " + second.name, apart.norm(), "m"});
+  }
+}
+
+/// The diagonal of the box around all joints of the legs.
+double sizeOf(const Chains& chains) {
+  Vector3d least = Vector3d::Constant(1e300), most = Vector3d::Constant(-1e300);
+  for (const Chain& leg : chains.legs)
+    for (const Primitive& primitive : leg.primitives)
+      for (const Vector3d& point : {primitive.inner, primitive.outer}) {
+        least = least.cwiseMin(point);
+        most = most.cwiseMax(point);
+      }
+  const double size = (most - least).norm();
+  if (!(size > 0) || !std::isfinite(size))
+    throw ImportError("all joints of the legs are at one point, expected a machine");
+  return size;
+}
+
+class Recogniser {
+ public:
+  Recogniser(ModelGraph graph, const ImportChoices& choices) : graph_(std::move(graph)), choices_(choices) {}
+
+  ImportedMachine machine() {
+    close(graph_, choices_.closed);
+    drive(graph_, choices_.actuated);
+    takeHinges(graph_);
+    machine_.name = graph_.name;
+    machine_.format = graph_.format;
+    machine_.assumptions = graph_.assumptions;
+    const Groups groups(graph_);
+    const Chains chains = findChains(graph_, groups, choices_, machine_.assumptions);
+    const double size = sizeOf(chains);
+    Group platform = groups.groups[chains.platform];
+    const Eigen::Isometry3d B = frameOfBase(groups.groups[chains.base]), M = frameOfPlatform(platform);
+    std::vector<LegShape> shapes;
+    for (const Chain& chain : chains.legs) shapes.push_back(shapeOf(graph_, groups, chain, size, choices_));
+    requireMotors(chains, shapes);
+    for (const LegShape& shape : shapes)
+      machine_.legs.push_back(legOf({graph_, groups, shape, choices_, size, B, M}, platform, machine_.assumptions));
+    takePlatform(groups, platform, B, M, size);
+    sayLimits(chains);
+    proposeMotion(machine_, size);
+    return machine_;
+  }
+
+ private:
+  Eigen::Isometry3d frameOfBase(const Group& base) {
+    machine_.base = choices_.base;
+    static_cast<void>(base);
+    if (choices_.base.empty()) return Eigen::Isometry3d::Identity();
+    return graph_.bodies[bodyNamed(graph_, choices_.base, "--base")].frame;
+  }
+
+  Eigen::Isometry3d frameOfPlatform(const Group& platform) {
+    machine_.platform = choices_.platform.empty() ? platform.name : choices_.platform;
+    if (!choices_.platform.empty()) return graph_.bodies[bodyNamed(graph_, choices_.platform, "--platform")].frame;
+    for (const std::size_t body : platform.bodies)
+      if (graph_.bodies[body].name == platform.name) return graph_.bodies[body].frame;
+    return graph_.bodies[platform.bodies.at(0)].frame;
+  }
+
+  /// Six, in all; where the file names too few or none, those that could be are listed.
+  void requireMotors(const Chains& chains, const std::vector<LegShape>& shapes) const {
+    std::size_t driven = 0;
+    std::set<std::size_t> used;
+    for (const Chain& chain : chains.legs)
+      for (const Primitive& p : chain.primitives)
+        if (used.insert(p.joint).second && graph_.joints[p.joint].driven) ++driven;
+    for (std::size_t j = 0; j < graph_.joints.size(); ++j)
+      if (graph_.joints[j].driven && used.count(j) == 0)
+        throw ImportError(fmt::format("joint {} is driven and is not of a leg, expected motors of the legs alone",
+                                      shown(graph_.joints[j].name)),
+                          graph_.joints[j].line);
+    if (driven == 6) return;
+    std::vector<std::string> names, usual;
+    for (const LegShape& shape : shapes) {
+      const bool ball = shape.has_inner_ball;
+      for (const Primitive& p : shape.joints)
+        if (p.kind != Primitive::Kind::S) names.push_back(shown(graph_.joints[p.joint].name));
+      const std::size_t at = shape.kind == LegKind::UPS ? (ball ? 1 : 2) : 0;
+      usual.push_back(shown(graph_.joints[shape.joints[at].joint].name));
+    }
+    throw ImportError(
+        fmt::format("{} driven joints, expected six: {} --actuated J,… names them. Candidates: {}{}", driven,
+                    driven == 0 ? fmt::format("{} says nothing of motors here;", upper()) : "", fmt::join(names, ", "),
+                    usual.size() == 6 ? fmt::format(". As a rule: --actuated {}", fmt::join(usual, ",")) : ""));
+  }
+
+  std::string upper() const { return graph_.format == "urdf" ? "URDF" : graph_.format == "sdf" ? "SDF" : "the file"; }
+
+  void takePlatform(const Groups& groups, const Group& platform, const Eigen::Isometry3d& B, const Eigen::Isometry3d& M,
+                    double size) {
+    if (platform.weightless)
+      throw ImportError(
+          fmt::format("body {} has its gravity switched off, which a scenario has no key for", shown(platform.name)),
+          platform.line);
+    if (!(platform.mass > 0))
+      throw ImportError(fmt::format("the platform, {}, has no mass, expected one above zero", shown(platform.name)),
+                        platform.line);
+    static_cast<void>(groups);
+    static_cast<void>(size);
+    machine_.gravity = B.linear().transpose() * graph_.gravity;
+    machine_.platform_mass = platform.mass;
+    machine_.platform_center = M.inverse() * platform.center_of_mass;
+    const Matrix3d local = M.linear().transpose() * platform.inertia * M.linear();
+    machine_.platform_inertia =
+        snapped(local, platform.inertia_rounding, false, platform.name, platform.line, machine_.assumptions);
+    const Eigen::Isometry3d pose = B.inverse() * M;
+    machine_.initial = {0, pose.translation(), pose.linear()};
+  }
+
+  /// Strokes of telescopic legs are kept; a scenario has no place for other limits.
+  void sayLimits(const Chains& chains) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < chains.legs.size(); ++i)
+      for (const Primitive& p : chains.legs[i].primitives) {
+        const GraphJoint& joint = graph_.joints[p.joint];
+        const bool kept = machine_.legs[i].kind == LegKind::UPS && p.kind == Primitive::Kind::P;
+        if (!kept && (std::isfinite(joint.lower) || std::isfinite(joint.upper))) {
+          names.push_back(shown(joint.name));
+          if (!(joint.lower <= joint.position && joint.position <= joint.upper))
+            machine_.assumptions.push_back({"The initial pose lies outside this joint's limits", joint.name,
+                                            std::max(joint.lower - joint.position, joint.position - joint.upper),
+                                            p.kind == Primitive::Kind::P ? "m" : "rad"});
+        }
+      }
+    if (!names.empty())
+      machine_.assumptions.push_back({"Limits of these joints are left out: a scenario has no key for them",
+                                      fmt::format("{}", fmt::join(names, ", ")), static_cast<double>(names.size()),
+                                      "1"});
+  }
+
+  ModelGraph graph_;
+  const ImportChoices& choices_;
+  ImportedMachine machine_;
+};
+
+}  // namespace
+
+ImportedMachine recognise(ModelGraph graph, const ImportChoices& choices) {
+  return Recogniser(std::move(graph), choices).machine();
+}
+
+}  // namespace ursula::exchange

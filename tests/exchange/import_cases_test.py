@@ -1,0 +1,187 @@
+#!/usr/bin/env python3
+"""Machines that files describe in roundabout ways: free rods, crosses with a mass, bodies cut in two, closures of two balls.
+
+    import_cases_test.py PROGRAM
+"""
+
+import sys
+import unittest
+
+import numpy as np
+
+sys.dont_write_bytecode = True
+import import_files as files  # noqa: E402
+import import_machines as machines  # noqa: E402
+import import_test  # noqa: E402
+from import_test import COORDINATES, tensor  # noqa: E402
+
+
+def made(seed, kinds=("UPS",), **more):
+    rng = np.random.default_rng(seed)
+    machine = machines.random_machine(rng, kinds=kinds, **more)
+    bodies, joints = machines.bodies_of(machine, rng, split=False)
+    return machine, bodies, joints, rng
+
+
+class Cases(import_test.Imports):
+    # The random machines are import_test's own.
+    test_sdf_of_every_version = test_mjcf = test_urdf_by_each_closure = None
+
+    def said(self, assumptions, words):
+        found = [a for a in assumptions if words in a["what"]]
+        self.assertTrue(found, f"'{words}' in {assumptions}")
+        return found
+
+    def with_balls(self, machine, joints):
+        """The universal joint of each leg becomes a ball."""
+        out = []
+        for j in joints:
+            k, kind = int(j["name"][-1]), j["leg"]["kind"]
+            if k == {"UPS": 0, "RUS": 1, "PUS": 1}[kind]:
+                out.append({**j, "kind": "S", "to": joints[joints.index(j) + 1]["to"], "friction": 0})
+            elif k != {"UPS": 1, "RUS": 2, "PUS": 2}[kind]:
+                out.append(j)
+        return out
+
+    def test_rods_that_spin_freely(self):
+        for seed, kind in enumerate(("UPS", "RUS", "PUS") * 4):
+            with self.subTest(seed=seed, kind=kind):
+                machine, bodies, joints, rng = made(seed, (kind,), free=True)
+                text = files.write_sdf(bodies, self.with_balls(machine, joints), machine["gravity"], rng)
+                driven = ",".join(j["name"] for j in joints if j["driven"])
+                scenario, assumptions = self.imported(text, "m.sdf", "--actuated", driven)
+                self.said(assumptions, "spin freely")
+                for leg, found in zip(machine["legs"], scenario["manipulator"]["leg"]):
+                    self.assertEqual((found["kind"], found["spin"], found["actuated"]), (kind, "free", [COORDINATES[kind][leg["driven"]]]))
+                    self.near(found["distal"]["center_of_mass"], leg["links"][1]["com"][2], 10, "mass centre")
+                    self.near(tensor(found["distal"]["inertia"]), leg["links"][1]["I"], 1, "inertia")
+                    self.near(tensor(found["distal"]["inertia"]), leg["links"][1]["I"], 1, "inertia")
+                    if kind == "UPS":  # the axis is free, but across the leg's line
+                        line = machine["platform"]["p"] + machine["platform"]["Q"] @ leg["b"] - leg["A"]
+                        self.near(np.dot(found["base_axis"], line), 0, 10, "base_axis")
+
+    def test_a_free_rod_that_is_not_round_is_refused(self):
+        machine, bodies, joints, rng = made(3, ("UPS",))
+        text = files.write_sdf(bodies, self.with_balls(machine, joints), machine["gravity"], rng)
+        self.refused(text, "m.sdf", ["leg1_", "spins freely", "transverse"], "--actuated", ",".join(f"leg{i}_j2" for i in range(1, 7)))
+
+    def refused(self, text, name, words, *options):
+        from pathlib import Path
+        path = Path(self.folder.name) / name
+        path.write_text(text)
+        done = import_test.run(path, *options)
+        self.assertEqual(done.returncode, 2, done.stdout)
+        for word in words:
+            self.assertIn(word, done.stderr)
+
+    def test_a_cross_with_a_mass(self):
+        for kind in ("UPS", "RUS"):
+            machine, bodies, joints, rng = made(11, (kind,))
+            first = next(j for j in joints if j["to"] is None)
+            second = joints[joints.index(first) + 1]
+            cross = {"name": "cross", "T": (first["centre"], machines.random_rotation(rng)), "mass": 1e-3, "com": first["centre"],
+                     "I": np.eye(3) * 1e-6}
+            bodies["cross"] = cross
+            first["to"] = second["from"] = "cross"
+            text = files.write_sdf(bodies, joints, machine["gravity"], rng)
+            driven = ",".join(j["name"] for j in joints if j["driven"])
+            scenario, assumptions = self.imported(text, "m.sdf", "--actuated", driven)
+            lost = self.said(assumptions, "tensor is left out")[0]
+            self.assertEqual(lost["where"], "cross")
+            self.assertLess(0, lost["size"])
+            self.assertLess(lost["size"], 1e-4)
+            mass = scenario["manipulator"]["leg"][0]["proximal"]["mass"]
+            self.near(mass, machine["legs"][0]["links"][0]["mass"] + (1e-3 if kind == "RUS" else 0), 5, "mass")
+            self.refused(text, "m.sdf", ["cross", "--lump"], "--actuated", driven, "--lump", "1e-9")
+
+    def test_a_base_with_a_frame_of_its_own(self):
+        machine, bodies, joints, rng = made(12, ("URS", "UPS"))
+        T = (np.array([0.5, -1, 2]), machines.random_rotation(rng))
+        for b in bodies.values():
+            b["T"], b["com"], b["I"] = files.times(T, b["T"]), T[0] + T[1] @ b["com"], T[1] @ b["I"] @ T[1].T
+        for j in joints:
+            j["centre"] = T[0] + T[1] @ j["centre"]
+            if j["axis"] is not None:
+                j["axis"] = T[1] @ j["axis"]
+        text = files.write_mjcf(bodies, joints, T[1] @ machine["gravity"], rng)
+        scenario, _ = self.imported(text, "m.xml", "--base", "base")
+        self.hold(scenario, machine, False, machine["gravity"], True)
+
+    def test_a_body_cut_in_two(self):
+        """Half a rod of one's own at either side of a weld."""
+        machine, bodies, joints, rng = made(13)
+        whole = bodies["leg2_second"]
+        half = {**whole, "name": "half", "T": (whole["com"], machines.random_rotation(rng)), "mass": whole["mass"] / 2, "I": whole["I"] / 2}
+        whole.update(mass=whole["mass"] / 2, I=whole["I"] / 2)
+        text = files.write_mjcf(bodies, joints, machine["gravity"], rng)
+        m = files.Mjcf(rng)
+        m.degrees, m.sequence = 'angle="degree"' in text, "none"
+        body = f'<body name="half" {m.place(half["T"])}><freejoint/>{m.inertial(half)}</body>'
+        text = text.replace("</worldbody>", body + "</worldbody>")
+        text = text.replace("</equality>", '<weld name="glue" body1="leg2_second" body2="half"/></equality>')
+        scenario, _ = self.imported(text, "m.xml")
+        self.hold(scenario, machine, False, machine["gravity"], True)
+
+    def test_a_platform_left_free_by_six_joints(self):
+        machine, bodies, joints, rng = made(14)
+        text = files.write_mjcf(bodies, joints, machine["gravity"], rng)
+        free = "".join(f'<joint name="free{k}" type="slide" axis="{a}"/>' for k, a in enumerate(("1 0 0", "0 1 0", "0 0 1")))
+        text = text.replace("<freejoint/>", free + '<joint name="free3" type="ball"/>')
+        scenario, assumptions = self.imported(text, "m.xml")
+        self.said(assumptions, "leave the platform free")
+        self.hold(scenario, machine, False, machine["gravity"], True)
+
+    def test_a_hinge_closed_by_two_balls(self):
+        """The platform's side of a leg hangs on the platform; its knee is closed by two connects."""
+        machine, bodies, joints, rng = made(15, ("URS",))
+        knee = next(j for j in joints if j["name"] == "leg1_j2")
+        ball = next(j for j in joints if j["name"] == "leg1_j3")
+        text = files.write_mjcf(bodies, [j for j in joints if j not in (knee, ball)], machine["gravity"], rng)
+        m = files.Mjcf(rng)
+        m.degrees, m.sequence = 'angle="degree"' in text, "none"
+        rod, platform, crank = bodies["leg1_second"], bodies["platform"], bodies["leg1_first"]
+        local = rod["T"][1].T @ (ball["centre"] - rod["T"][0])
+        body = (f'<body name="leg1_second" {m.place(files.relative(platform["T"], rod["T"]))}>'
+                f'<joint name="leg1_j3" type="ball" pos="{files.num(local)}"/>{m.inertial(rod)}</body>')
+        start = text.index('<body name="platform"')
+        end = text.index("</body>", start)
+        text = text[:end] + body + text[end:]
+        connects = ""
+        for k in (0, 1):
+            point = knee["centre"] + (0.05 + 0.1 * k) * knee["axis"]
+            connects += f'<connect body1="leg1_first" body2="leg1_second" anchor="{files.num(crank["T"][1].T @ (point - crank["T"][0]))}"/>'
+        text = text.replace("</equality>", connects + "</equality>")
+        machine["legs"][0]["friction"][2] = None
+        scenario, assumptions = self.imported(text, "m.xml")
+        self.said(assumptions, "taken as a hinge")
+        found = scenario["manipulator"]["leg"][0]
+        self.near(found["proximal"]["length"], machine["legs"][0]["l"], 10, "l")
+        self.near(found["distal"]["length"], machine["legs"][0]["s"], 10, "s")
+
+    def test_a_gap_is_said(self):
+        machine, bodies, joints, rng = made(16)
+        text = files.write_urdf(bodies, joints, rng)
+        text = text.replace('p_BQ value="', 'p_BQ value="1e-3+', 1)
+        number = text.split('p_BQ value="1e-3+', 1)[1].split(" ", 1)[0]
+        text = text.replace("1e-3+" + number, repr(float(number) + 1e-3), 1)
+        _, assumptions = self.imported(text, "m.urdf")
+        gap = self.said(assumptions, "open at the file's initial pose")[0]
+        self.assertAlmostEqual(gap["size"], 1e-3, delta=1e-12)
+        self.assertEqual(gap["unit"], "m")
+
+    def test_digits_of_the_file_may_break_the_triangle(self):
+        """[0.33, 0.33, 0.67] is a rod of 1 %; its digits allow for the rest."""
+        machine, bodies, joints, rng = made(17)
+        text = files.write_mjcf(bodies, joints, machine["gravity"], rng)
+        start = text.index("<inertial", text.index('name="platform"'))
+        rest = text[text.index("/>", start):]
+        thin = text[:start] + '<inertial pos="0 0 0" mass="5" diaginertia="{}"' + rest
+        _, assumptions = self.imported(thin.format("0.33 0.33 0.67"), "m.xml")
+        self.assertAlmostEqual(self.said(assumptions, "exceeded")[0]["size"], 0.01, delta=1e-12)
+        self.refused(thin.format("0.33 0.33 0.70"), "m.xml", ["platform", "exceeds"])
+        self.refused(thin.format("0.3300 0.3300 0.6700"), "m.xml", ["platform", "exceeds"])
+
+
+if __name__ == "__main__":
+    import_test.PROGRAM = sys.argv.pop(1)
+    unittest.main()

@@ -1,0 +1,173 @@
+#!/usr/bin/env python3
+"""What `ursula import` refuses, with what its messages name, and that nothing is written then.
+
+    import_refusal_test.py PROGRAM
+"""
+
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+sys.dont_write_bytecode = True
+import import_files as files  # noqa: E402
+import import_machines as machines  # noqa: E402
+
+PROGRAM = "ursula"
+
+
+def machine_of(seed=7, kinds=("UPS",), split=False, **more):
+    rng = np.random.default_rng(seed)
+    machine = machines.random_machine(rng, kinds=kinds, **more)
+    return (*machines.bodies_of(machine, rng, split=split), machine, rng)
+
+
+def mjcf(**more):
+    bodies, joints, machine, rng = machine_of(**more)
+    return files.write_mjcf(bodies, joints, machine["gravity"], rng)
+
+
+def sdf(**more):
+    bodies, joints, machine, rng = machine_of(**more)
+    return files.write_sdf(bodies, joints, machine["gravity"], rng)
+
+
+def urdf(closure="drake", **more):
+    bodies, joints, machine, rng = machine_of(**more)
+    return files.write_urdf(bodies, joints, rng, closure)
+
+
+class Refusals(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def call(self, text, name, *options):
+        path = Path(self.folder.name) / name
+        path.write_text(text)
+        out = Path(self.folder.name) / "out.toml"
+        done = subprocess.run([PROGRAM, "import", str(path), "--out", str(out), *options], capture_output=True, text=True, timeout=120)
+        return done, out
+
+    def refused(self, text, name, words, *options):
+        done, out = self.call(text, name, *options)
+        self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+        self.assertFalse(out.exists())
+        self.assertIn(name, done.stderr)
+        for word in words:
+            self.assertIn(word, done.stderr)
+        self.assertEqual(done.stdout, "")
+
+    def changed(self, text, pattern, to, count=1):
+        result = re.sub(pattern, to, text, count=count)
+        self.assertNotEqual(result, text, pattern)
+        return result
+
+    def test_what_is_whole_is_taken(self):
+        """The files below are refused for what was changed in them, not for what they are."""
+        for text, name, options in ((mjcf(), "m.xml", []), (urdf(), "m.urdf", []),
+                                    (sdf(), "m.sdf", ["--actuated", ",".join(f"leg{i}_j2" for i in range(1, 7))])):
+            done, out = self.call(text, name, *options)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertTrue(out.exists())
+            out.unlink()
+
+    def test_mjcf(self):
+        whole = mjcf()
+        hinge = r'(<joint name="leg2_j0" type="hinge")'
+        for pattern, to, words in (
+                (hinge, r'\1 stiffness="3.5"', ["leg2_j0", "spring", "3.5"]),
+                (hinge, r'\1 armature="0.25"', ["leg2_j0", "rotor", "0.25"]),
+                (hinge, r'\1 class="none"', ["leg2_j0", "none"]),
+                (hinge, '<joint name="leg2_j1" type="hinge"', ["leg2_j1", "second joint"]),
+                (r'(<body name="leg3_first")', r'\1 gravcomp="1"', ["leg3_first", "gravcomp"]),
+                (r'(<body name="leg3_first")', r'\1 mocap="true"', ["leg3_first", "mocap"]),
+                (r"<compiler ", '<compiler coordinate="global" ', ["global"]),
+                (r"<compiler ", '<include file="x.xml"/><compiler ', ["x.xml", "mj_saveLastXML"]),
+                (r"<worldbody>", '<tendon><fixed name="t"/></tendon><worldbody>', ["t", "tendon"]),
+                (r"<equality>", '<equality><joint name="g" joint1="leg1_j0" joint2="leg2_j0"/>', ['name="g"', "gear"]),
+                (r'<inertial [^>]*>(</body>)', r'<geom name="g" type="mesh" mesh="rod"/>\1', ["rod", "mesh", "<inertial>"]),
+                (r'anchor="\S+', 'anchor="nan', ["nan"]),
+                (r'anchor="\S+', 'anchor="0x10', ["0x10"]),
+                (r'body1="\w+"', 'body1="platfrom"', ["platfrom", "did you mean 'platform'"]),
+                (r'<motor joint="leg6_j2"/>', "", ["5 driven joints", "leg6_j2", "--actuated"]),
+                (r'<actuator>', '<actuator><muscle name="m" joint="leg1_j0"/>', ["muscle", "leg1_j0"]),
+                (r"<freejoint/>", '<joint name="f" type="free" armature="0.5"/>', ['name="f"', "free joint", "0.5"]),
+                (r"<option ", '<option viscosity="0.1" ', ["viscosity"])):
+            with self.subTest(words=words):
+                self.refused(self.changed(whole, pattern, to), "m.xml", words)
+
+    def test_sdf(self):
+        whole = sdf()
+        drives = ("--actuated", ",".join(f"leg{i}_j2" for i in range(1, 7)))
+        self.refused(whole, "m.sdf", ["0 driven joints", "leg1_j2,leg2_j2,leg3_j2,leg4_j2,leg5_j2,leg6_j2"])
+        for pattern, to, words in (
+                (r'(<link name="leg1_first">)', r"\1<gravity>false</gravity>", ["leg1_first", "gravity"]),
+                (r"<dynamics>", "<dynamics><spring_stiffness>2.5</spring_stiffness>", ["spring", "2.5"]),
+                (r'name="leg2_j2" type="prismatic"', 'name="leg2_j2" type="screw"', ["leg2_j2", "screw"]),
+                (r"<model ", "<include><uri>model://legs</uri></include><model ", ["model://legs"]),
+                (r'<sdf version="1\.\d+"', '<sdf version="2.0"', ["2.0"]),
+                (r"<axis2>.*?</axis2>", "", ["axis2", "unfinished"]),
+                (r"<parent>platform</parent>|<child>platform</child>", "", ["expected a link's name"]),
+                (r'<joint name="ground"', '<joint name="leg1_j2"', ["leg1_j2", "second"])):
+            with self.subTest(words=words):
+                self.refused(self.changed(whole, pattern, to), "m.sdf", words, *drives)
+        self.refused(whole, "m.sdf", ["leg1_j9", "did you mean"], "--actuated", "leg1_j9")
+        self.refused(whole.replace("<world ", "<%= 1 %><world "), "m.sdf", ["ERB", "erb m.sdf"])
+
+    def test_urdf(self):
+        whole = urdf()
+        for pattern, to, words in (
+                (r'(<joint name="leg2_j2".*?)</joint>', r'\1<mimic joint="leg1_j2"/></joint>', ["leg2_j2", "mimic"]),
+                (r'type="prismatic"', 'type="planar"', ["planar"]),
+                (r"<robot ", '<robot xmlns:xacro="http://x"><xacro:x/><robot ', ["xacro m.urdf"]),
+                (r"<drake:ball_constraint>.*?</drake:ball_constraint>", "", ["ends at body", "--close"]),
+                (r"</robot>", '<gazebo reference="leg2_first"><turnGravityOff>true</turnGravityOff></gazebo></robot>', ["leg2_first", "gravity"]),
+                (r'<parent link="base"/>', '<parent link="bse"/>', ["bse", "did you mean 'base'"])):
+            with self.subTest(words=words):
+                self.refused(self.changed(whole, pattern, to), "m.urdf", words)
+
+    def test_names_of_base_and_platform(self):
+        whole = mjcf()
+        self.refused(whole, "m.xml", ["--base", "bass", "did you mean 'base'"], "--base", "bass")
+        self.refused(whole, "m.xml", ["--platform", "is the base"], "--platform", "base")
+
+    def test_geometry(self):
+        """A skew universal joint, a slide off its line: the distance and the angle are said."""
+        bodies, joints, machine, rng = machine_of()
+        joints[1]["centre"] = joints[1]["centre"] + 0.075 * np.cross(joints[0]["axis"], joints[1]["axis"])
+        text = files.write_mjcf(bodies, joints, machine["gravity"], rng)
+        self.refused(text, "m.xml", ["leg1_j0", "leg1_j1", "0.075 m", "90°", "--tolerance"])
+        bodies, joints, machine, rng = machine_of()
+        joints[1]["axis"] = machines.rotation(np.cross(joints[0]["axis"], joints[1]["axis"]), np.radians(40)) @ joints[1]["axis"]
+        text = files.write_mjcf(bodies, joints, machine["gravity"], rng)
+        self.refused(text, "m.xml", ["leg1_j0", "leg1_j1", "50°"])
+        bodies, joints, machine, rng = machine_of()
+        joints[2]["axis"] = machines.rotation(joints[1]["axis"], np.radians(3)) @ joints[2]["axis"]
+        text = files.write_mjcf(bodies, joints, machine["gravity"], rng)
+        self.refused(text, "m.xml", ["leg1_j2", "3°"])
+
+    def test_a_platform_that_stands_still(self):
+        whole = self.changed(mjcf(), "<freejoint/>", "")
+        self.refused(whole, "m.xml", ["no platform", "platform", "three joints"])
+
+    def test_files(self):
+        bomb = '<!DOCTYPE x [<!ENTITY a "aaaaaaaaaa">' + "".join(
+            f'<!ENTITY {chr(98 + k)} "{("&" + chr(97 + k) + ";") * 10}">' for k in range(9)) + "]><sdf version='1.7'>&j;</sdf>"
+        deep = "<sdf version='1.7'>" + "<model name='m'>" * 5000 + "</model>" * 5000 + "</sdf>"
+        crowd = "<mujoco><worldbody>" + "<body><joint/></body>" * 100000 + "</worldbody></mujoco>"
+        circle = ('<sdf version="1.7"><model name="m"><link name="a"><pose relative_to="b">0 0 0 0 0 0</pose></link>'
+                  '<link name="b"><pose relative_to="a">0 0 0 0 0 0</pose></link></model></sdf>')
+        for text, words in ((bomb, ["entity"]), (deep, ["nested deeper"]), (crowd, []), (circle, ["circle"]), ("", []), ("<a", ["XML"]),
+                            ("<html/>", ["<html>", "<sdf>"]), ("<sdf version='1.7'/>", ["no <model>"]), ("x" * (9 << 20), ["bytes"])):
+            with self.subTest(text=text[:40]):
+                self.refused(text, "m.sdf", words)
+
+
+if __name__ == "__main__":
+    PROGRAM = sys.argv.pop(1)
+    unittest.main()

@@ -1,0 +1,116 @@
+// What a reader makes of small files, by numbers that are seen at once.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "exchange/import.h"
+#include "exchange/import_error.h"
+
+namespace ursula::exchange {
+namespace {
+
+ModelGraph read(const std::string& text, const std::string& name) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / ("read_graph_" + name);
+  std::ofstream(file) << text;
+  return readModel(file);
+}
+
+/// A link that is turned a quarter about z, with a hinge about "x" as each version means it.
+std::string sdf(const std::string& version, const std::string& axis, const std::string& joint_pose = "") {
+  return R"(<sdf version=")" + version + R"("><model name="m"><pose>0 0 1 0 0 0</pose><link name="a"/>
+    <link name="b"><pose>1 0 0 0 0 1.5707963267948966</pose></link>
+    <joint name="j" type="revolute"><parent>a</parent><child>b</child>)" +
+         joint_pose + "<axis>" + axis + "</axis></joint></model></sdf>";
+}
+
+Vector3d axisOf(const std::string& text) {
+  const ModelGraph graph = read(text, "axis.sdf");
+  EXPECT_EQ(graph.joints.size(), 1U);
+  EXPECT_LE((graph.joints.at(0).centre - Vector3d(1, 0, 1)).norm(), 1e-15);
+  return graph.joints.at(0).axis[0];
+}
+
+TEST(ReadSdf, axisIsInTheFrameOfItsVersion) {
+  const std::string x = "<xyz>1 0 0</xyz>", in_model = "<use_parent_model_frame>1</use_parent_model_frame>";
+  EXPECT_LE((axisOf(sdf("1.4", x)) - Vector3d::UnitX()).norm(), 1e-15);
+  EXPECT_LE((axisOf(sdf("1.5", x)) - Vector3d::UnitY()).norm(), 1e-15);
+  EXPECT_LE((axisOf(sdf("1.6", x + in_model)) - Vector3d::UnitX()).norm(), 1e-15);
+  EXPECT_LE((axisOf(sdf("1.7", x)) - Vector3d::UnitY()).norm(), 1e-15);
+  EXPECT_LE((axisOf(sdf("1.7", x + in_model)) - Vector3d::UnitY()).norm(), 1e-15);
+  EXPECT_LE((axisOf(sdf("1.9", R"(<xyz expressed_in="__model__">1 0 0</xyz>)")) - Vector3d::UnitX()).norm(), 1e-15);
+  EXPECT_LE((axisOf(sdf("1.9", R"(<xyz expressed_in="a">1 0 0</xyz>)")) - Vector3d::UnitX()).norm(), 1e-15);
+}
+
+TEST(ReadSdf, whatHasNoMeaningAnyMoreIsSaid) {
+  const ModelGraph graph =
+      read(sdf("1.8", "<xyz>1 0 0</xyz><use_parent_model_frame>1</use_parent_model_frame>"), "said.sdf");
+  const auto said = std::find_if(graph.assumptions.begin(), graph.assumptions.end(), [](const Assumption& a) {
+    return a.what.find("use_parent_model_frame") != std::string::npos;
+  });
+  ASSERT_NE(said, graph.assumptions.end());
+  EXPECT_NEAR(said->size, 1.5707963267948966, 1e-15);
+}
+
+TEST(ReadSdf, nestedModelsAndPlacement) {
+  const ModelGraph graph = read(R"(<sdf version="1.8"><model name="m"><link name="a"/>
+    <model name="n" placement_frame="tip"><pose relative_to="a">0 0 5 0 0 0</pose><link name="c"/>
+      <frame name="tip" attached_to="c"><pose>0 0 2 0 0 0</pose></frame></model>
+    <frame name="f" attached_to="n::c"><pose>1 0 0 0 0 0</pose></frame>
+    <joint name="j" type="ball"><parent>a</parent><child>f</child></joint></model></sdf>)",
+                                "nested.sdf");
+  ASSERT_EQ(graph.bodies.size(), 3U);
+  EXPECT_EQ(graph.bodies[2].name, "n::c");
+  EXPECT_LE((graph.bodies[2].frame.translation() - Vector3d(0, 0, 3)).norm(), 1e-15);
+  EXPECT_EQ(graph.joints.at(0).child, 2U);
+  EXPECT_LE((graph.joints.at(0).centre - Vector3d(1, 0, 3)).norm(), 1e-15);
+}
+
+TEST(ReadMjcf, sitesAndFramesOfNewerFiles) {
+  const ModelGraph graph = read(R"(<mujoco><option integrator="implicitfast"/><worldbody>
+    <frame pos="0 0 1"><body name="a" pos="1 0 0"><joint name="j" axis="1 0 0"/><geom size="0.1"/><site name="s" pos="0 0 1"/></body></frame>
+    <body name="b" pos="1 0 2.5"><freejoint/><geom size="0.1"/><site name="t" pos="0 0 0"/></body></worldbody>
+    <equality><connect name="c" site1="s" site2="t"/></equality></mujoco>)",
+                                "newer.xml");
+  const GraphJoint& closure = graph.joints.at(2);
+  EXPECT_TRUE(closure.closure);
+  EXPECT_LE((closure.centre - Vector3d(1, 0, 2)).norm(), 1e-15);
+  EXPECT_LE((closure.centre_of_child - Vector3d(1, 0, 2.5)).norm(), 1e-15);
+}
+
+TEST(ReadUrdf, gearedRotorAndGravity) {
+  const ModelGraph graph = read(R"(<robot name="r"><link name="a"/><link name="b"/>
+    <joint name="j" type="revolute"><parent link="a"/><child link="b"/><origin xyz="0 0 1" rpy="0 0 1.5707963267948966"/>
+      <axis xyz="0 1 0"/><limit lower="0" upper="0" effort="3" velocity="1"/></joint>
+    <transmission name="t"><joint name="j"/><actuator name="m"><drake:rotor_inertia value="0.5"/><drake:gear_ratio value="3"/>
+    </actuator></transmission></robot>)",
+                                "geared.urdf");
+  const GraphJoint& joint = graph.joints.at(0);
+  EXPECT_TRUE(joint.driven);
+  EXPECT_EQ(joint.rotor_inertia, 4.5);
+  EXPECT_LE((joint.axis[0] + Vector3d::UnitX()).norm(), 1e-15);
+  EXPECT_FALSE(std::isfinite(joint.lower));
+  EXPECT_EQ(graph.gravity.z(), -9.81);
+}
+
+TEST(ReadUrdf, robotYamlNamesPairsAndMotors) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "read_graph_yaml";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "robot.yaml") << "name: r\nclosed_loop: [['b', c]]\ntype: [3d]\nname_mot: mot\n";
+  std::ofstream(folder / "r.urdf") << R"(<robot name="r"><link name="a"/><link name="b"/><link name="c"/>
+    <joint name="mot1" type="continuous"><parent link="a"/><child link="b"/></joint>
+    <joint name="free1" type="continuous"><parent link="a"/><child link="c"/><origin xyz="0 0 0.5"/></joint></robot>)";
+  const ModelGraph graph = readModel(folder / "r.urdf");
+  ASSERT_EQ(graph.joints.size(), 3U);
+  EXPECT_TRUE(graph.joints[0].driven);
+  EXPECT_FALSE(graph.joints[1].driven);
+  EXPECT_TRUE(graph.joints[2].closure);
+  EXPECT_EQ(graph.joints[2].kind, JointKind::ball);
+  EXPECT_EQ(graph.joints[2].centre_of_child.z() - graph.joints[2].centre.z(), 0.5);
+}
+
+}  // namespace
+}  // namespace ursula::exchange

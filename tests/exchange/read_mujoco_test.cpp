@@ -1,0 +1,134 @@
+// The reader of MJCF against MuJoCo's own, on files that use what changes numbers: compiler, defaults, orientations,
+// shapes. Bodies, inertias and joints at the initial pose must agree.
+
+#include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+
+#include "exchange/import.h"
+
+namespace ursula::exchange {
+namespace {
+
+using Map3 = Eigen::Map<const Vector3d>;
+using MapRows = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
+
+/// MuJoCo turns to principal axes until a turn has a cosine within 1e-12 of 1: an angle of 1.4e-6.
+constexpr double inertia_tolerance = 2e-6, tolerance = 1e-12;
+
+class ReadMujoco : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::replace(name.begin(), name.end(), '/', '_');
+    file_ = std::filesystem::path(testing::TempDir()) / ("read_mujoco_" + name + ".xml");
+    std::ofstream(file_) << GetParam();
+    std::array<char, 1000> error{};
+    model_.reset(mj_loadXML(file_.c_str(), nullptr, error.data(), static_cast<int>(error.size())));
+    ASSERT_TRUE(model_) << error.data();
+    data_.reset(mj_makeData(model_.get()));
+    mj_kinematics(model_.get(), data_.get());
+    mj_comPos(model_.get(), data_.get());
+  }
+
+  std::filesystem::path file_;
+  std::unique_ptr<mjModel, void (*)(mjModel*)> model_{nullptr, mj_deleteModel};
+  std::unique_ptr<mjData, void (*)(mjData*)> data_{nullptr, mj_deleteData};
+};
+
+TEST_P(ReadMujoco, agreesOnBodies) {
+  const ModelGraph graph = readModel(file_);
+  int compared = 0;
+  for (const GraphBody& body : graph.bodies) {
+    const int id = mj_name2id(model_.get(), mjOBJ_BODY, body.name.c_str());
+    if (id <= 0) continue;
+    SCOPED_TRACE(body.name);
+    ++compared;
+    EXPECT_LE((body.frame.translation() - Map3(data_->xpos + 3 * id)).norm(), tolerance);
+    EXPECT_LE((body.frame.linear() - MapRows(data_->xmat + 9 * id)).norm(), tolerance);
+    EXPECT_NEAR(body.mass, model_->body_mass[id], tolerance * model_->body_mass[id]);
+    EXPECT_LE((body.center_of_mass - Map3(data_->xipos + 3 * id)).norm(), tolerance);
+    const Matrix3d axes = MapRows(data_->ximat + 9 * id);
+    const Matrix3d inertia = axes * Map3(model_->body_inertia + 3 * id).asDiagonal() * axes.transpose();
+    EXPECT_LE((body.inertia - inertia).norm(), inertia_tolerance * inertia.norm());
+  }
+  EXPECT_EQ(compared, model_->nbody - 1);
+}
+
+TEST_P(ReadMujoco, agreesOnJoints) {
+  const ModelGraph graph = readModel(file_);
+  EXPECT_LE((graph.gravity - Map3(model_->opt.gravity)).norm(), 0);
+  int compared = 0;
+  for (const GraphJoint& joint : graph.joints) {
+    const int id = mj_name2id(model_.get(), mjOBJ_JOINT, joint.name.c_str());
+    if (id < 0 || joint.kind == JointKind::free) continue;
+    SCOPED_TRACE(joint.name);
+    ++compared;
+    EXPECT_LE((joint.centre - Map3(data_->xanchor + 3 * id)).norm(), tolerance);
+    if (joint.kind != JointKind::ball) {
+      EXPECT_LE((joint.axis[0] - Map3(data_->xaxis + 3 * id)).norm(), tolerance);
+      EXPECT_NEAR(joint.position, model_->qpos0[model_->jnt_qposadr[id]], tolerance);
+      if (model_->jnt_limited[id] != 0) {
+        EXPECT_NEAR(joint.lower, model_->jnt_range[2 * id], tolerance);
+        EXPECT_NEAR(joint.upper, model_->jnt_range[2 * id + 1], tolerance);
+      }
+    }
+    const int dof = model_->jnt_dofadr[id];
+    EXPECT_EQ(joint.damping, model_->dof_damping[dof]);
+    EXPECT_EQ(joint.friction, model_->dof_frictionloss[dof]);
+    EXPECT_EQ(joint.rotor_inertia, model_->dof_armature[dof]);
+    bool driven = false;
+    for (int a = 0; a < model_->nu; ++a) driven = driven || model_->actuator_trnid[2 * a] == id;
+    EXPECT_EQ(joint.driven, driven);
+  }
+  EXPECT_GT(compared, 0);
+}
+
+constexpr const char* orientations =
+    R"(<mujoco><compiler angle="degree" eulerseq="XzY"/><option gravity="1 2 -3"/><worldbody>
+  <body name="a" pos="1 2 3" euler="10 20 30"><joint name="a1" axis="1 2 3" pos="0.1 0 0" ref="25" limited="true" range="-40 50"/>
+    <joint name="a2" axis="0 1 1"/><inertial pos="0.1 0.2 0.3" mass="2" diaginertia="0.3 0.4 0.5" euler="5 6 7"/>
+    <body name="b" axisangle="1 1 0 40" pos="0 0 1"><joint name="b1" type="slide" axis="0 0 2" ref="0.25" limited="true" range="-1 1"/>
+      <inertial pos="0 0 0.1" mass="1" fullinertia="0.5 0.6 0.7 0.01 0.02 0.03"/>
+      <body name="c" xyaxes="1 1 0 0 1 1"><joint name="c1" type="ball" pos="0 0.2 0"/><geom type="capsule" fromto="0 0 0 0.3 0.4 0.5" size="0.1"/></body>
+      <body name="d" zaxis="0.3 -0.2 -1"><joint name="d1"/><inertial pos="0 0 0" mass="1" diaginertia="1 2 2.5" zaxis="1 2 3"/></body></body></body>
+  </worldbody></mujoco>)";
+
+constexpr const char* shapes =
+    R"(<mujoco><compiler angle="radian" inertiafromgeom="true" inertiagrouprange="0 2"/><worldbody>
+  <body name="a"><joint name="a1"/><inertial pos="1 1 1" mass="99" diaginertia="1 1 1"/>
+    <geom type="box" size="0.1 0.2 0.3" pos="0.1 0 0" euler="0.1 0.2 0.3"/><geom type="sphere" size="0.2" mass="3" pos="0 1 0"/>
+    <geom type="ellipsoid" size="0.1 0.2 0.3" density="500" quat="1 2 3 4"/><geom type="cylinder" size="0.1 0.4" pos="0 0 1"/>
+    <geom type="capsule" size="0.1 0.4" pos="0 0 1" axisangle="1 0 0 0.5"/><geom type="box" size="1 1 1" group="3"/>
+    <geom type="sphere" size="1" mass="0"/>
+    <body name="b" pos="0 0 1"><joint name="b1" axis="1 0 0"/><geom type="box" fromto="0 0 0 1 1 0" size="0.1"/></body>
+    <body name="c" pos="0 0 2"><joint name="c1" axis="1 0 0"/><geom type="cylinder" fromto="0 0 0 0 0 1" size="0.1"/>
+      <geom type="ellipsoid" fromto="0 0 1 0 0 0" size="0.1" density="10"/></body></body></worldbody></mujoco>)";
+
+constexpr const char* classes = R"(<mujoco><compiler angle="radian"/>
+  <default><joint damping="0.1" axis="0 1 0"/><geom type="capsule" size="0.1 0.2" density="100"/>
+    <default class="leg"><joint damping="0.2" armature="0.01" frictionloss="0.5"/>
+      <default class="foot"><joint armature="0.02" type="slide"/><geom density="700"/></default></default>
+    <default class="other"><joint axis="0 0 1"/></default></default>
+  <worldbody><body name="a" childclass="leg"><joint name="a1"/><geom/>
+      <body name="b"><joint name="b1" class="foot"/><joint name="b2" damping="7"/><geom class="foot"/>
+        <body name="c" childclass="other"><joint name="c1"/><joint name="c2" class="main"/><geom/></body></body></body></worldbody>
+  <actuator><motor joint="b1"/><position joint="c1" kp="10"/></actuator></mujoco>)";
+
+constexpr const char* bounds =
+    R"(<mujoco><compiler angle="radian" balanceinertia="true" boundmass="0.5" boundinertia="0.02" settotalmass="12"/><worldbody>
+  <body name="a"><joint name="a1"/><inertial pos="0 0 0" mass="2" diaginertia="0.3 0.4 0.9"/>
+    <body name="b" pos="0 0 1"><joint name="b1"/><inertial pos="0 0 0" mass="0.1" diaginertia="0.001 0.4 0.41"/></body></body>
+  <body name="still" pos="1 0 0"><geom type="box" size="0.1 0.1 0.1"/></body></worldbody></mujoco>)";
+
+INSTANTIATE_TEST_SUITE_P(, ReadMujoco, testing::Values(orientations, shapes, classes, bounds));
+
+}  // namespace
+}  // namespace ursula::exchange
