@@ -81,17 +81,32 @@ GivenTorques answersOf(const Evidence& evidence, const std::string& name) {
   return out;
 }
 
+/// A subject that is asked in the natural units, asked in SI, of positions from their origin.
+Subject inSi(const Subject& subject, const FrameChange& natural) {
+  FrameChange there = natural;
+  there.origin.setZero();
+  Subject out;
+  out.name = subject.name;
+  out.torques = [torques = subject.torques, there](const Motion<double>& motion) {
+    Vector6d efforts = torques(there.of(motion));
+    for (int k = 0; k < motor_count; ++k) efforts(k) *= there.effort(k);
+    return efforts;
+  };
+  return out;
+}
+
 /// A solver's answers are explained as a file's are, and it is asked besides.
 void diagnoseSolver(const Scenario& scenario, const Evidence& evidence, const Subject& subject,
                     ValidationResult& result) {
   const GivenTorques answers = answersOf(evidence, subject.name);
   if (answers.t.empty()) return;
-  std::vector<Motion<double>> motions;
-  for (const PointwiseSample& sample : evidence.samples) motions.push_back(sample.motion);
   const Scenario here = relocated(scenario, evidence.natural.origin);  // in SI: its words are
+  std::vector<Motion<double>> motions;
+  for (const double t : answers.t) motions.push_back(here.trajectory->at(t));
   const TorqueFile file =
       within(torqueFileOf(answers, scenario.manipulator->motors()), scenario.trajectory->duration());
-  addDiagnosis(diagnose(here, runExternal(here, file)), askedApart(subject, *evidence.scenario, motions), result);
+  addDiagnosis(diagnose(here, runExternal(here, file), askedApart(inSi(subject, evidence.natural), here, motions)),
+               result);
 }
 
 ValidationResult run(const Scenario& scenario, const Reference& reference, const Subject& given, bool right,

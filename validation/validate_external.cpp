@@ -118,7 +118,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   addFileFindings(file, result);
   if (result.verdict == Verdict::fail) {
     const Scenario relocated = ursula::relocated(scenario, natural.origin);  // in SI: its words are
-    addDiagnosis(diagnose(relocated, runExternal(relocated, file)), {}, result);
+    addDiagnosis(diagnose(relocated, runExternal(relocated, file)), result);
   }
   addProvenance(scenario, torques.file.filename().string(), result);
   return result;

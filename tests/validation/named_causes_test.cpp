@@ -154,6 +154,7 @@ TEST(NamedCause, tiesAreLeftOpenUnlessTheySayTheSame) {
   const Motion<double> one = helix().trajectory->at(1), other = helix().trajectory->at(2);
   TorqueResidual data;
   data.motions = {one, other};
+  data.commanded = 2;
   const auto hypothesis = [](const NamedCause& cause) {
     Hypothesis out{"", 0, 1};
     out.named = cause;
@@ -185,7 +186,7 @@ std::map<std::string, double> asked(const Subject& subject) {
   std::vector<Motion<double>> motions;
   for (const double t : {0.2, 1.0, 2.0}) motions.push_back(helix().trajectory->at(t));
   std::map<std::string, double> out;
-  for (const TermError& each : askedApart(subject, helix(), motions)) out[each.term] = each.error;
+  for (const TermError& each : askedApart(subject, helix(), motions).terms) out[each.term] = each.error;
   return out;
 }
 

@@ -4,84 +4,138 @@
 #include <array>
 #include <cmath>
 #include <exception>
-#include <functional>
 
+#include "validation/limits/conditioning.h"
 #include "validation/verdict/worst_share.h"
 
 namespace ursula {
 namespace {
 
-constexpr std::size_t most_poses = 5;
-constexpr const char* names[] = {
-    "statics", "acceleration", "angular_acceleration", "velocity", "angular_velocity", "mixed", "odd", repeat_term};
-constexpr std::size_t parts_count = std::size(names), repeat = parts_count - 1;
+constexpr std::size_t most_poses = 6;
 /// A part of less than this share of all efforts is nothing.
 constexpr double nothing = 1e-9;
 
+/// At one pose; the two velocities each way, so that what is even in them can be told from what is odd.
+enum Question { rest, accelerated, turned_faster, moving, moving_back, turning, turning_back, both, both_back, again };
+constexpr std::size_t questions = again + 1;
+using Answers = std::array<Vector6d, questions>;
+
+constexpr const char* part_names[] = {
+    "statics", "acceleration", "angular_acceleration", "velocity", "angular_velocity", "mixed", "odd", repeat_term};
+constexpr std::size_t parts_count = std::size(part_names), repeat = parts_count - 1;
 using Parts = std::array<Vector6d, parts_count>;
-using Efforts = std::function<Vector6d(const Motion<double>&)>;
 
-/// The parts of the efforts at the pose of `at`. The motion's own velocities are not used: they may be zero.
-Parts partsOf(const Efforts& efforts, const Motion<double>& at, const Vector3d& v, const Vector3d& w) {
-  const auto asked = [&](const Vector3d& p_dot, const Vector3d& omega, const Vector3d& p_ddot,
-                         const Vector3d& omega_dot) {
-    Motion<double> motion = at;
-    motion.p_dot = p_dot;
-    motion.omega = omega;
-    motion.p_ddot = p_ddot;
-    motion.omega_dot = omega_dot;
-    return efforts(motion);
-  };
-  const Vector3d o = Vector3d::Zero();
-  const auto even = [&](const Vector3d& p_dot, const Vector3d& omega) {
-    return ((asked(p_dot, omega, o, o) + asked(-p_dot, -omega, o, o)) / 2).eval();
-  };
-  Parts out;
-  out[0] = asked(o, o, o, o);
-  out[1] = asked(o, o, v, o) - out[0];  // the same numbers serve as accelerations
-  out[2] = asked(o, o, o, w) - out[0];
-  out[3] = even(v, o) - out[0];
-  out[4] = even(o, w) - out[0];
-  out[5] = even(v, w) - out[0] - out[3] - out[4];
-  out[6] = (asked(v, w, o, o) - asked(-v, -w, o, o)) / 2;
-  out[repeat] = asked(o, o, o, o) - out[0];
-  return out;
-}
-
-/// Points in another direction at each pose. Its size lets the efforts show beside gravity's.
+/// Points in another direction at each pose.
 Vector3d someVector(double size, std::size_t k) {
   const auto x = static_cast<double>(k);
   return size * Vector3d(std::cos(1 + 2 * x), std::sin(2 + 3 * x), std::cos(3 - x));
 }
 
-}  // namespace
+/// The motion's own velocities are not used: they may be zero. The same numbers serve as accelerations.
+Motion<double> asked(const Motion<double>& at, Question question, const Vector3d& v, const Vector3d& w) {
+  Motion<double> out = at;
+  out.p_dot = out.omega = out.p_ddot = out.omega_dot = Vector3d::Zero();
+  if (question == accelerated) out.p_ddot = v;
+  if (question == turned_faster) out.omega_dot = w;
+  if (question == moving || question == both) out.p_dot = v;
+  if (question == moving_back || question == both_back) out.p_dot = -v;
+  if (question == turning || question == both) out.omega = w;
+  if (question == turning_back || question == both_back) out.omega = -w;
+  return out;
+}
 
-std::vector<TermError> askedApart(const Subject& subject, const Scenario& scenario,
-                                  const std::vector<Motion<double>>& motions) {
-  if (motions.empty()) return {};
-  const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
-  const double length = scenario.manipulator->leg(0).platform_point.norm();
-  const double rate = std::sqrt(std::max(scenario.manipulator->gravity().norm(), 1e-3) / std::max(length, 1e-3));
+Parts partsOf(const Answers& is) {
+  Parts out;
+  out[0] = is[rest];
+  out[1] = is[accelerated] - is[rest];
+  out[2] = is[turned_faster] - is[rest];
+  out[3] = (is[moving] + is[moving_back]) / 2 - is[rest];
+  out[4] = (is[turning] + is[turning_back]) / 2 - is[rest];
+  out[5] = (is[both] + is[both_back]) / 2 - is[rest] - out[3] - out[4];
+  out[6] = (is[both] - is[both_back]) / 2;
+  out[repeat] = is[again] - is[rest];
+  return out;
+}
+
+/// Poses along the motion, and the velocities to ask for there.
+struct Poses {
+  std::vector<Motion<double>> at;
+  std::vector<Vector3d> v, w;
+};
+
+Poses posesOf(const Manipulator& machine, const std::vector<Motion<double>>& motions) {
+  const double length = machine.leg(0).platform_point.norm();
+  const double rate = std::sqrt(std::max(machine.gravity().norm(), 1e-3) / std::max(length, 1e-3));
+  Poses out;
+  const std::size_t count = std::min(most_poses, motions.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    out.at.push_back(motions[k * (motions.size() - 1) / std::max<std::size_t>(1, count - 1)]);
+    out.v.push_back(someVector(rate * length, k));
+    out.w.push_back(someVector(rate, k + 7));
+  }
+  return out;
+}
+
+/// Every question at every pose; the first one again afterwards, from the last pose to the first.
+std::vector<Answers> answersOf(const Subject& subject, const Poses& poses) {
+  std::vector<Answers> out(poses.at.size());
+  const auto ask = [&](std::size_t k, Question question) {
+    out[k][question] = subject.torques(asked(poses.at[k], question, poses.v[k], poses.w[k]));
+  };
+  for (std::size_t k = 0; k < out.size(); ++k)
+    for (int question = rest; question < again; ++question) ask(k, static_cast<Question>(question));
+  for (std::size_t k = out.size(); k-- > 0;) ask(k, again);
+  return out;
+}
+
+std::vector<TermError> termErrors(const std::vector<Answers>& found, const std::vector<Answers>& expected) {
   std::array<double, parts_count> error{}, size{};
   double all = 0;
-  const std::size_t count = std::min(most_poses, motions.size());
-  try {
-    for (std::size_t k = 0; k < count; ++k) {
-      const Motion<double>& at = motions[k * (motions.size() - 1) / std::max<std::size_t>(1, count - 1)];
-      const Vector3d v = someVector(rate * length, k), w = someVector(rate, k + 7);
-      const Parts found = partsOf(subject.torques, at, v, w), expected = partsOf(noc.torques, at, v, w);
-      for (std::size_t part = 0; part < parts_count; ++part) {
-        error[part] = larger(error[part], (found[part] - expected[part]).norm());
-        size[part] = std::max(size[part], expected[part].norm());
-        if (part != repeat) all = std::max(all, expected[part].norm());
-      }
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const Parts of = partsOf(found[k]), right = partsOf(expected[k]);
+    for (std::size_t part = 0; part < parts_count; ++part) {
+      error[part] = larger(error[part], (of[part] - right[part]).norm());
+      size[part] = std::max(size[part], right[part].norm());
+      if (part != repeat) all = std::max(all, right[part].norm());
     }
-  } catch (const std::exception&) {  // no answer to what the motion itself does not ask
-    return {};
   }
   std::vector<TermError> out;
   for (std::size_t part = 0; part < parts_count; ++part)
-    out.push_back({names[part], error[part] / (size[part] > nothing * all ? size[part] : all)});
+    out.push_back({part_names[part], error[part] / (size[part] > nothing * all ? size[part] : all)});
+  return out;
+}
+
+/// A solver that knows the motion by its instants answers the same whatever it is asked.
+bool listens(const std::vector<Answers>& answers) {
+  return std::any_of(answers.begin(), answers.end(), [](const Answers& is) {
+    return std::any_of(is.begin(), is.end(), [&](const Vector6d& one) { return one != is.front(); });
+  });
+}
+
+}  // namespace
+
+AskedApart askedApart(const Subject& subject, const Scenario& scenario, const std::vector<Motion<double>>& motions) {
+  const Poses poses = posesOf(*scenario.manipulator, motions);
+  std::vector<Answers> found, expected;
+  try {
+    found = answersOf(subject, poses);
+    expected = answersOf(nocSubject(*scenario.manipulator, scenario.load), poses);
+  } catch (const std::exception&) {  // no answer to what the motion itself does not ask
+    return {};
+  }
+  AskedApart out;
+  if (poses.at.empty()) return out;
+  out.terms = termErrors(found, expected);
+  if (!listens(found)) return out;
+  ConditioningProbe probe(*scenario.manipulator, scenario.load);
+  for (std::size_t k = 0; k < found.size(); ++k)
+    for (int question = rest; question < again; ++question) {
+      if (!found[k][static_cast<std::size_t>(question)].allFinite()) return {{}, {}, {}, {}, out.terms};
+      out.motions.push_back(asked(poses.at[k], static_cast<Question>(question), poses.v[k], poses.w[k]));
+      out.found.push_back(found[k][static_cast<std::size_t>(question)]);
+      out.expected.push_back(expected[k][static_cast<std::size_t>(question)]);
+      out.rounding.push_back(probe.at(out.motions.back()).torqueRounding());
+    }
   return out;
 }
 

@@ -15,20 +15,27 @@ namespace {
 using Rows = std::vector<Vector6d>;
 
 constexpr std::size_t few_instants = 20, most_instants = 200;  // to choose by, to fit by
-constexpr std::size_t likely_causes = 48, best_causes = 8;
+constexpr std::size_t likely_causes = 64, best_causes = 12;
 constexpr double difference_step = 1e-5;
 
+/// `count` of the rows from `first` to `last`, evenly.
+void pick(const TorqueResidual& data, std::size_t first, std::size_t last, std::size_t most, TorqueResidual& out) {
+  const std::size_t rows = last - first, count = std::min(rows, most);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t k = first + (count == 1 ? 0 : i * (rows - 1) / (count - 1));
+    out.add(data.motions[k], data.exact[k], data.exact[k] + data.residual[k], data.limit[k]);
+    out.residual.back() = data.residual[k];
+  }
+}
+
+/// Half of them along the motion where a solver was asked besides.
 TorqueResidual picked(const TorqueResidual& data, std::size_t most) {
-  const std::size_t rows = data.exact.size(), count = std::min(rows, most);
   TorqueResidual out;
   out.motors = data.motors;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t k = count == 1 ? 0 : i * (rows - 1) / (count - 1);
-    out.motions.push_back(data.motions[k]);
-    out.exact.push_back(data.exact[k]);
-    out.residual.push_back(data.residual[k]);
-    out.limit.push_back(data.limit[k]);
-  }
+  const std::size_t rows = data.exact.size(), apart = rows - data.commanded;
+  pick(data, 0, data.commanded, most - std::min(apart, most / 2), out);
+  out.commanded = out.exact.size();
+  pick(data, data.commanded, rows, most / 2, out);
   return out;
 }
 

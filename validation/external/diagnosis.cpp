@@ -92,19 +92,20 @@ Diagnosis deviationTexts(const MotorNames& motors, const ExternalTorques& torque
           details + (right.empty() ? "; no " + kind + " is right" : "; within their limits: " + right), ""};
 }
 
-/// At most `most` instants, evenly picked: an explanation needs no more.
-TorqueResidual residualOf(const Scenario& scenario, const ExternalTorques& torques) {
+/// At most `most` instants, evenly picked: an explanation needs no more. Then what a solver answered apart.
+TorqueResidual residualOf(const Scenario& scenario, const ExternalTorques& torques, const AskedApart& asked) {
   constexpr std::size_t most = 1000;
   TorqueResidual out;
   out.motors = motorNames(*scenario.manipulator);
   const std::size_t rows = torques.file.rows(), count = std::min(rows, most);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t k = count == 1 ? 0 : i * (rows - 1) / (count - 1);
-    out.motions.push_back(scenario.trajectory->at(torques.file.t[k]));
-    out.exact.push_back(torques.noc[k]);
-    out.residual.push_back(torques.file.torques[k] - torques.noc[k]);
-    out.limit.push_back(torques.precision[k].array() + torques.samples[k].conditioning.torqueRounding());
+    out.add(scenario.trajectory->at(torques.file.t[k]), torques.noc[k], torques.file.torques[k],
+            torques.precision[k].array() + torques.samples[k].conditioning.torqueRounding());
   }
+  out.commanded = count;
+  for (std::size_t k = 0; k < asked.motions.size(); ++k)
+    out.add(asked.motions[k], asked.expected[k], asked.found[k], Vector6d::Constant(asked.rounding[k]));
   return out;
 }
 
@@ -207,10 +208,8 @@ Explanation intervalAlone(const Scenario& scenario, const ExternalTorques& torqu
   there.motors = data.motors;
   for (std::size_t k = 0; k < data.motions.size(); ++k) {
     if (data.motions[k].t < from || data.motions[k].t > to) continue;
-    there.motions.push_back(data.motions[k]);
-    there.exact.push_back(data.exact[k]);
-    there.residual.push_back(data.residual[k]);
-    there.limit.push_back(data.limit[k]);
+    there.add(data.motions[k], data.exact[k], data.exact[k] + data.residual[k], data.limit[k]);
+    if (k < data.commanded) there.commanded = there.motions.size();
   }
   if (there.motions.size() < enough) return out;
   const std::vector<Hypothesis> fitted = fitHypotheses(scenario, there);
@@ -223,8 +222,8 @@ Explanation intervalAlone(const Scenario& scenario, const ExternalTorques& torqu
 /// Of the deviation: a cause that explains less is not worth a word.
 constexpr double worth_naming = 0.01;
 
-Explanation explanationOf(const Scenario& scenario, const ExternalTorques& torques) {
-  const TorqueResidual data = residualOf(scenario, torques);
+Explanation explanationOf(const Scenario& scenario, const ExternalTorques& torques, const AskedApart& asked) {
+  const TorqueResidual data = residualOf(scenario, torques, asked);
   if (isSinglePrecision(torques))
     return {"single precision: every torque is a 24-bit number, off by no more than such numbers are",
             NamedCause{CauseKind::digits, "", "all", "", "", {}, {}, {}, 0, 0, {}, {}, {}, 1}};
@@ -239,8 +238,9 @@ Explanation explanationOf(const Scenario& scenario, const ExternalTorques& torqu
                         first.beyond, othersText(best))};
   if (const std::string alone = loneInstants(torques); !alone.empty()) return {"no simple explanation: " + alone};
   if (const Explanation interval = intervalAlone(scenario, torques, data); !interval.text.empty()) return interval;
-  const std::string noise = isNoise(data) ? "no pattern from one instant to the next, as of noise or too few digits"
-                                          : "no simple explanation";
+  const std::string noise = isNoise(data.alongMotion())
+                                ? "no pattern from one instant to the next, as of noise or too few digits"
+                                : "no simple explanation";
   if (first.explained() < worth_naming) return {noise};
   return {
       fmt::format("{}; the best, {}, explains only {}", noise, first.text, percent(std::max(0.0, first.explained())))};
@@ -248,19 +248,20 @@ Explanation explanationOf(const Scenario& scenario, const ExternalTorques& torqu
 
 }  // namespace
 
-Diagnosis diagnose(const Scenario& scenario, const ExternalTorques& torques) {
+Diagnosis diagnose(const Scenario& scenario, const ExternalTorques& torques, const AskedApart& asked) {
   Diagnosis out = deviationTexts(motorNames(*scenario.manipulator), torques);
   if (out.summary.empty()) return out;
-  Explanation explanation = explanationOf(scenario, torques);
+  Explanation explanation = explanationOf(scenario, torques, asked);
   out.cause = std::move(explanation.text);
   out.named = std::move(explanation.named);
   out.others = std::move(explanation.others);
+  out.terms = asked.terms;
   return out;
 }
 
-void addDiagnosis(const Diagnosis& diagnosis, std::vector<TermError> terms, ValidationResult& result) {
+void addDiagnosis(const Diagnosis& diagnosis, ValidationResult& result) {
   if (diagnosis.summary.empty()) return;
-  LikelyCause likely{diagnosis.deviation, diagnosis.cause, diagnosis.named, diagnosis.others, std::move(terms)};
+  LikelyCause likely{diagnosis.deviation, diagnosis.cause, diagnosis.named, diagnosis.others, diagnosis.terms};
   nameState(likely);
   result.findings.emplace_back("torques that are off", diagnosis.deviation);
   result.findings.emplace_back("likely cause", likely.cause);

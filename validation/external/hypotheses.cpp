@@ -12,6 +12,7 @@
 #include "validation/external/machine_causes.h"
 #include "validation/external/motion_causes.h"
 #include "validation/external/signs_and_order.h"
+#include "validation/external/term_causes.h"
 #include "validation/external/time_shift.h"
 
 namespace ursula {
@@ -148,6 +149,23 @@ MotorNames motorNames(const Manipulator& machine) {
   return out;
 }
 
+void TorqueResidual::add(const Motion<double>& motion, const Vector6d& right, const Vector6d& found,
+                         const Vector6d& within) {
+  motions.push_back(motion);
+  exact.push_back(right);
+  residual.push_back(found - right);
+  limit.push_back(within);
+}
+
+TorqueResidual TorqueResidual::alongMotion() const {
+  TorqueResidual out = *this;
+  out.motions.resize(commanded);
+  out.exact.resize(commanded);
+  out.residual.resize(commanded);
+  out.limit.resize(commanded);
+  return out;
+}
+
 double TorqueResidual::norm() const { return ursula::norm(residual); }
 
 double TorqueResidual::beyond(const std::vector<Vector6d>& left) const {
@@ -193,7 +211,7 @@ std::vector<Hypothesis> fitHypotheses(const Scenario& scenario, const TorqueResi
   for (const TorqueTerm& term : terms)
     if (!term.fixed) add(scaledTerm(data, term));
   add(scaled(data));
-  if (data.exact.size() >= 2) add(timeShift(scenario, data));
+  if (data.commanded >= 2) add(timeShift(scenario, data.alongMotion()));
   if (data.exact.size() >= 3) {
     add(offsets(data));
     add(gains(data));
@@ -202,6 +220,8 @@ std::vector<Hypothesis> fitHypotheses(const Scenario& scenario, const TorqueResi
     if (term.fixed) add(scaledTerm(data, term));
   std::vector<Cause> causes = machineCauses(scenario);
   for (Cause& cause : motionCauses(scenario)) causes.push_back(std::move(cause));
+  for (Cause& cause : termCauses(scenario)) causes.push_back(std::move(cause));
+  for (Cause& cause : loopCauses(scenario)) causes.push_back(std::move(cause));
   for (const Hypothesis& fitted : fitCauses(causes, data)) add(fitted);
   return out;
 }

@@ -28,7 +28,13 @@ struct TorqueResidual {
   std::vector<Vector6d> exact;     ///< of the NOC, N·m
   std::vector<Vector6d> residual;  ///< torques on trial less exact, N·m
   std::vector<Vector6d> limit;     ///< by how much right ones may differ: rounding and the file's digits, N·m
+  /// Rows along the commanded motion; those after them are of a solver that was asked for one thing at a time.
+  std::size_t commanded = 0;
   MotorNames motors;
+
+  void add(const Motion<double>& motion, const Vector6d& right, const Vector6d& found, const Vector6d& within);
+  /// The rows along the commanded motion alone.
+  TorqueResidual alongMotion() const;
 
   double norm() const;
   /// The largest share of its limit that an entry of `left`, one row for each instant, has.

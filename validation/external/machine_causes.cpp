@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -219,31 +220,49 @@ NamedCause moreFriction(const std::string& key, const char* unit, double x, doub
   return out;
 }
 
-/// Friction that the scenario does not have: a fit of its coefficients, of every leg.
-void addFriction(Collector& out) {
-  const std::pair<const char*, double JointFriction::*> joints[] = {
-      {"phi", &JointFriction::phi}, {"psi", &JointFriction::psi}, {"theta", &JointFriction::theta}};
-  for (const auto& [name, member] : joints) {
-    const std::string joint = name;
+bool anyLegHas(const Manipulator& machine, Coordinate coordinate) {
+  const std::vector<Leg>& legs = machine.parameters().legs;
+  return std::any_of(legs.begin(), legs.end(), [coordinate](const Leg& leg) {
+    const auto& has = rowOf(leg.kind).coordinates;
+    return std::find(has.begin(), has.end(), coordinate) != has.end();
+  });
+}
+
+/// Friction that the scenario does not have: a fit of its coefficients, of every leg that has the coordinate.
+void addFriction(const Manipulator& machine, Collector& out) {
+  for (const Coordinate coordinate : {Coordinate::phi, Coordinate::psi, Coordinate::theta, Coordinate::d}) {
+    if (!anyLegHas(machine, coordinate)) continue;
+    const std::string joint = nameOf(coordinate);
+    const char* const viscous = slides(coordinate) ? "N s/m" : "N m s/rad";
+    const char* const coulomb = slides(coordinate) ? "N" : "N m";
     out.addFitted(
-        [member = member](Machine& machine, double x) {
-          for (Leg& leg : machine.legs) leg.friction.*member += x;
+        [coordinate](Machine& changed, double x) {
+          for (Leg& leg : changed.legs) leg.friction.on(coordinate) += x;
         },
-        [joint](double x, double deviation) {
-          return fmt::format("viscous friction on every {} of {} N m s/rad more than the scenario's", joint,
-                             withDeviation(x, deviation));
+        [joint, viscous](double x, double deviation) {
+          return fmt::format("viscous friction on every {} of {} {} more than the scenario's", joint,
+                             withDeviation(x, deviation), viscous);
         },
-        [joint](double x, double deviation) { return moreFriction("friction." + joint, "N m s/rad", x, deviation); });
+        [joint, viscous](double x, double deviation) {
+          return moreFriction("friction." + joint, viscous, x, deviation);
+        });
     out.addFitted(
-        [member = member](Machine& machine, double x) {
-          for (Leg& leg : machine.legs) leg.coulomb.*member += x;
+        [coordinate](Machine& changed, double x) {
+          for (Leg& leg : changed.legs) leg.coulomb.on(coordinate) += x;
         },
-        [joint](double x, double deviation) {
-          return fmt::format("Coulomb friction on every {} of {} N m more than the scenario's", joint,
-                             withDeviation(x, deviation));
+        [joint, coulomb](double x, double deviation) {
+          return fmt::format("Coulomb friction on every {} of {} {} more than the scenario's", joint,
+                             withDeviation(x, deviation), coulomb);
         },
-        [joint](double x, double deviation) { return moreFriction("coulomb." + joint, "N m", x, deviation); });
+        [joint, coulomb](double x, double deviation) {
+          return moreFriction("coulomb." + joint, coulomb, x, deviation);
+        });
   }
+  const NamedCause sharp{CauseKind::parameter, "friction", "legs", "manipulator.leg_defaults.coulomb.smoothing_speed"};
+  out.addFixed({"Coulomb friction without smoothing", sharp}, [](Machine& changed) {
+    constexpr double sharp_speed = 1e-200;  // every speed is far beyond it
+    for (Leg& leg : changed.legs) leg.coulomb.smoothing_speed = leg.coulomb.sliding_speed = sharp_speed;
+  });
 }
 
 void addPlatform(Collector& out) {
@@ -279,7 +298,7 @@ std::vector<Cause> machineCauses(const Scenario& scenario) {
   addInertias(out);
   addExchanged(out);
   addKnees(*scenario.manipulator, out);
-  addFriction(out);
+  addFriction(*scenario.manipulator, out);
   return std::move(out.causes);
 }
 

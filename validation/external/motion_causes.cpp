@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <memory>
 #include <utility>
 
 #include "validation/subject/subject.h"
@@ -94,6 +95,18 @@ void addFrames(const Scenario& scenario, std::vector<Cause>& out) {
         motion.omega = (motion.Q * motion.omega).eval();
         motion.omega_dot = (motion.Q * motion.omega_dot).eval();
       });
+  const std::pair<const char*, bool> ways[] = {{" taken in the platform's frame for such in the base's", true},
+                                               {" in the base's frame taken for such in the platform's", false}};
+  for (const auto& [words, back] : ways) {
+    const auto turn = [back = back](const Matrix3d& Q, const Vector3d& of) -> Vector3d {
+      if (back) return Q.transpose() * of;
+      return Q * of;
+    };
+    add({std::string("omega alone") + words, NamedCause{CauseKind::frame, "angular_velocity", "all"}},
+        [turn](Motion<double>& motion) { motion.omega = turn(motion.Q, motion.omega); });
+    add({std::string("the rate of omega alone") + words, NamedCause{CauseKind::frame, "angular_acceleration", "all"}},
+        [turn](Motion<double>& motion) { motion.omega_dot = turn(motion.Q, motion.omega_dot); });
+  }
   add({"omega and its rate with the wrong sign", NamedCause{CauseKind::sign, "angular_velocity", "all"}},
       [](Motion<double>& motion) {
         motion.omega *= -1;
@@ -167,6 +180,25 @@ void addNotTurned(const Scenario& scenario, std::vector<Cause>& out) {
       });
 }
 
+void addLoads(const Scenario& scenario, std::vector<Cause>& out) {
+  if (!scenario.load) return;
+  const auto add = [&](const CauseName& name, const std::function<void(Load&)>& change) {
+    const auto other = std::make_shared<Load>(*scenario.load);
+    change(*other);
+    out.push_back(fixedCause(name, [&scenario, other](const Motions& motions) {
+      const Subject noc = nocSubject(*scenario.manipulator, other);
+      Rows torques;
+      for (const Motion<double>& motion : motions) torques.push_back(noc.torques(motion));
+      return torques;
+    }));
+  };
+  add({"the load taken in the other one's frame, of base and platform",
+       NamedCause{CauseKind::frame, "load", "platform"}},
+      [](Load& load) { load.frame = load.frame == Load::Frame::base ? Load::Frame::platform : Load::Frame::base; });
+  add({"the load taken to act at P", NamedCause{CauseKind::reference_point, "load", "platform"}},
+      [](Load& load) { load.point.setZero(); });
+}
+
 }  // namespace
 
 std::vector<Cause> motionCauses(const Scenario& scenario) {
@@ -174,6 +206,7 @@ std::vector<Cause> motionCauses(const Scenario& scenario) {
   addFrames(scenario, out);
   addLeftOut(scenario, out);
   addNotTurned(scenario, out);
+  addLoads(scenario, out);
   out.push_back(motorInertia(scenario));
   return out;
 }

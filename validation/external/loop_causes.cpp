@@ -1,0 +1,227 @@
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <string>
+#include <utility>
+
+#include "validation/external/body_terms.h"
+#include "validation/external/term_causes.h"
+
+namespace ursula {
+namespace {
+
+/// What the efforts change by with another Jacobian J' in the place of J = T_P⁻¹, and with `wrong_at_P` for `at_P`.
+Vector6d throughJacobian(const MachineTerms& machine, const Matrix6d& wrong, const Vector6d& wrong_at_P,
+                         const Vector6d& at_P) {
+  return wrong.transpose().lu().solve(wrong_at_P) - machine.T_P.transpose() * at_P;
+}
+
+Matrix6d jacobian(const MachineTerms& machine) { return machine.T_P.inverse(); }
+
+/// Rows [b × n; n] with b from the platform's frame, as if it were the base's.
+Matrix6d unturnedJacobian(const Scenario& scenario, const MachineTerms& machine) {
+  Matrix6d out = jacobian(machine);
+  const Motors& motors = scenario.manipulator->motors();
+  for (int m = 0; m < motor_count; ++m) {
+    const Vector3d b = scenario.manipulator->leg(motors[static_cast<std::size_t>(m)].leg).platform_point;
+    out.row(m).head<3>() = b.cross(Vector3d(out.row(m).tail<3>())).transpose();
+  }
+  return out;
+}
+
+/// Of every coordinate: three a leg, in leg order.
+using Coordinates = Eigen::VectorXd;
+
+Vector6d ofMotors(const Scenario& scenario, const Coordinates& efforts) {
+  Vector6d out;
+  const Motors& motors = scenario.manipulator->motors();
+  for (int m = 0; m < motor_count; ++m) {
+    const Motor& motor = motors[static_cast<std::size_t>(m)];
+    out(m) = efforts(3 * motor.leg + motor.joint);
+  }
+  return out;
+}
+
+Coordinates openEfforts(const MachineTerms& machine) {
+  Coordinates out(3 * static_cast<Eigen::Index>(machine.legs.size()));
+  for (std::size_t i = 0; i < machine.legs.size(); ++i)
+    out.segment<3>(3 * static_cast<Eigen::Index>(i)) = machine.legs[i].efforts;
+  return out;
+}
+
+Vector6d exactEfforts(const MachineTerms& machine) { return machine.T_P.transpose() * machine.forceAtP(); }
+
+/// The platform hangs on leg 1 alone.
+Vector6d openThroughLeg1(const Scenario& scenario, const MachineTerms& machine) {
+  Coordinates all = openEfforts(machine);
+  all.head<3>() += machine.legs[0].J.transpose() * machine.platform_wrench.tail<3>();
+  return ofMotors(scenario, all);
+}
+
+/// Forces of all coordinates, the platform's six among them, less what the closures' multipliers fit best. `r` is from
+/// P to the point that the platform's speeds are of.
+Vector6d leastSquares(const Scenario& scenario, const MachineTerms& machine, const Vector3d& r) {
+  const auto legs = static_cast<Eigen::Index>(machine.legs.size());
+  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(3 * legs, 3 * legs + 6);
+  Coordinates f(3 * legs + 6);
+  f.head(3 * legs) = openEfforts(machine);
+  f.tail<6>() = machine.platform_wrench;
+  f.segment<3>(3 * legs) -= r.cross(Vector3d(machine.platform_wrench.tail<3>()));
+  for (Eigen::Index i = 0; i < legs; ++i) {
+    const OpenLeg& leg = machine.legs[static_cast<std::size_t>(i)];
+    G.block<3, 3>(3 * i, 3 * i) = leg.J;
+    G.block<3, 6>(3 * i, 3 * legs) = -leg.P;
+    for (int k = 0; k < 3; ++k)  // the platform's point is r nearer to B
+      G.block<3, 1>(3 * i, 3 * legs + k) += Vector3d::Unit(k).cross(r);
+  }
+  const Eigen::VectorXd multipliers = G.transpose().colPivHouseholderQr().solve(f);
+  return ofMotors(scenario, f - G.transpose() * multipliers);
+}
+
+/// The least efforts of all joints, driven or not, that move the machine.
+Vector6d leastEfforts(const Scenario& scenario, const MachineTerms& machine) {
+  const auto legs = static_cast<Eigen::Index>(machine.legs.size());
+  Eigen::MatrixXd N(3 * legs, 6);
+  for (Eigen::Index i = 0; i < legs; ++i) {
+    const OpenLeg& leg = machine.legs[static_cast<std::size_t>(i)];
+    N.middleRows<3>(3 * i) = leg.J.lu().solve(leg.P);
+  }
+  return ofMotors(scenario, N * Matrix6d(N.transpose() * N).lu().solve(machine.forceAtP()));
+}
+
+/// Twist rates of links as J ṫ_P, without J̇ t_P.
+Vector6d withoutBias(const MachineTerms& machine) {
+  Vector6d out = Vector6d::Zero();
+  for (const auto* links : {&machine.proximal, &machine.distal})
+    for (const BodyTerms& body : *links) {
+      const Vector6d rate = body.T * machine.T_P.lu().solve(machine.rate_at_P);
+      out += body.T.transpose() * (body.inertiaWrench(rate) - body.inertiaWrench(body.twist_rate));
+    }
+  return out;
+}
+
+/// The efforts that joint accelerations add which are off by J⁻¹ times the leg's `off`, m/s².
+Vector6d ofAccelerations(const MachineTerms& machine, const std::function<Vector3d(const OpenLeg&)>& off) {
+  Vector6d at_P = Vector6d::Zero();
+  for (const OpenLeg& leg : machine.legs) {
+    const Vector3d efforts = leg.mass * leg.J.lu().solve(off(leg));
+    at_P += leg.P.transpose() * leg.J.transpose().lu().solve(efforts);
+  }
+  return machine.T_P.transpose() * at_P;
+}
+
+class Collector {
+ public:
+  explicit Collector(const Scenario& scenario) : scenario_(scenario) {}
+
+  void add(const std::string& text, const NamedCause& named, const EffortChange& change) {
+    causes.push_back(changedEfforts(scenario_, {text, named}, change));
+  }
+
+  std::vector<Cause> causes;
+
+ private:
+  const Scenario& scenario_;
+};
+
+/// [ω; v] as [v; ω]: a transposed Jacobian shows in which order it is kept.
+Matrix6d swapped() {
+  Matrix6d out = Matrix6d::Zero();
+  out.topRightCorner<3, 3>() = out.bottomLeftCorner<3, 3>() = Matrix3d::Identity();
+  return out;
+}
+
+void addTransposed(Collector& out) {
+  const NamedCause named{CauseKind::jacobian, "", "all"};
+  for (const Matrix6d& order : {Matrix6d(Matrix6d::Identity()), swapped()}) {
+    out.add("the Jacobian's inverse not transposed", named, [order](const MachineTerms& machine) {
+      return Vector6d(order * machine.T_P * order * machine.forceAtP() - exactEfforts(machine));
+    });
+    out.add("the transposed Jacobian where its inverse belongs", named, [order](const MachineTerms& machine) {
+      return Vector6d(order * jacobian(machine).transpose() * order * machine.forceAtP() - exactEfforts(machine));
+    });
+  }
+  out.add("the Jacobian where its inverse belongs", named, [](const MachineTerms& machine) {
+    return Vector6d(jacobian(machine) * machine.forceAtP() - exactEfforts(machine));
+  });
+}
+
+/// The generalised force at P where the legs' forces on the platform act at other points, `arm` from P.
+Vector6d forceAtP(const MachineTerms& machine, const std::function<Vector3d(std::size_t leg)>& arm) {
+  Vector6d out = machine.platform_wrench;
+  for (std::size_t i = 0; i < machine.legs.size(); ++i) {
+    const Vector3d f = machine.legs[i].J.transpose().lu().solve(machine.legs[i].efforts);
+    out += momentWrench(arm(i).cross(f)) + forceWrench(f);
+  }
+  return out;
+}
+
+void addJacobians(const Scenario& scenario, Collector& out) {
+  addTransposed(out);
+  const NamedCause named{CauseKind::jacobian, "", "all"};
+  const auto unturned = [&scenario](std::size_t i) -> Vector3d {
+    return scenario.manipulator->parameters().legs[i].platform_point;
+  };
+  const auto add = [&](const char* of, const auto& wrong_at_P, const auto& at_P) {
+    out.add(std::string("the platform's points not turned into the base's frame in the Jacobian") + of, named,
+            [&scenario, wrong_at_P, at_P](const MachineTerms& machine) {
+              return throughJacobian(machine, unturnedJacobian(scenario, machine), wrong_at_P(machine), at_P(machine));
+            });
+  };
+  const auto all = [](const MachineTerms& machine) { return machine.forceAtP(); };
+  const auto platform = [](const MachineTerms& machine) { return machine.platform_wrench; };
+  add("", all, all);
+  add(
+      ", and where the legs' forces act",
+      [unturned](const MachineTerms& machine) { return forceAtP(machine, unturned); }, all);
+  add(" of the platform's forces", platform, platform);
+  out.add("the legs' forces on the platform without their moments about P", {CauseKind::jacobian, "", "legs"},
+          [](const MachineTerms& machine) {
+            const Vector6d wrong = forceAtP(machine, [](std::size_t) { return Vector3d::Zero().eval(); });
+            return Vector6d(machine.T_P.transpose() * (wrong - machine.forceAtP()));
+          });
+  out.add("the platform's forces at its mass centre taken for such at P", {CauseKind::reference_point, "", "platform"},
+          [](const MachineTerms& machine) {
+            const Vector6d moved = momentWrench(machine.rho.cross(Vector3d(machine.platform_wrench.tail<3>())));
+            return Vector6d(-machine.T_P.transpose() * moved);
+          });
+}
+
+void addClosures(const Scenario& scenario, Collector& out) {
+  const auto closed = [&scenario](auto efforts) {
+    return [&scenario, efforts](const MachineTerms& machine) {
+      return Vector6d(efforts(scenario, machine) - exactEfforts(machine));
+    };
+  };
+  const auto named = [](const char* term) { return NamedCause{CauseKind::closure, term, "all"}; };
+  out.add("the loops left open: efforts that move the legs alone", named("open"),
+          closed([](const Scenario& of, const MachineTerms& machine) { return ofMotors(of, openEfforts(machine)); }));
+  out.add("the loops left open: the platform hangs on leg 1", named("open"), closed(openThroughLeg1));
+  out.add("the loops closed by least squares over all coordinates", named("least_squares"),
+          closed([](const Scenario& of, const MachineTerms& machine) {
+            return leastSquares(of, machine, Vector3d::Zero());
+          }));
+  out.add("the loops closed by least squares over all coordinates, the platform's at its mass centre",
+          named("least_squares"), closed([](const Scenario& of, const MachineTerms& machine) {
+            return leastSquares(of, machine, machine.rho);
+          }));
+  out.add("the least efforts over all joints, read at the motors", named("least_squares"), closed(leastEfforts));
+  const std::pair<const char*, std::function<Vector3d(const OpenLeg&)>> left_out[] = {
+      {"of the legs", [](const OpenLeg& leg) { return leg.bias; }},
+      {"of the platform", [](const OpenLeg& leg) { return Vector3d(-leg.platform_bias); }},
+      {"of legs and platform", [](const OpenLeg& leg) { return Vector3d(leg.bias - leg.platform_bias); }}};
+  for (const auto& [whose, off] : left_out)
+    out.add(std::string("joint accelerations without the rate of the Jacobian ") + whose, named("bias"),
+            [off = off](const MachineTerms& machine) { return ofAccelerations(machine, off); });
+  out.add("the links' accelerations without the Jacobian's rate", named("bias"), withoutBias);
+}
+
+}  // namespace
+
+std::vector<Cause> loopCauses(const Scenario& scenario) {
+  Collector out(scenario);
+  addJacobians(scenario, out);
+  addClosures(scenario, out);
+  return std::move(out.causes);
+}
+
+}  // namespace ursula

@@ -1,0 +1,213 @@
+#include "validation/external/term_causes.h"
+
+#include <string>
+#include <utility>
+
+#include "validation/external/body_terms.h"
+
+namespace ursula {
+namespace {
+
+using Wrench = std::function<Vector6d(const MachineTerms&, const BodyTerms&)>;
+
+/// Which bodies, and how texts and the contract call them.
+struct Group {
+  const char* words;
+  const char* body;
+  bool proximal, distal, platform;
+};
+constexpr Group groups[] = {{"the platform", "platform", false, false, true},
+                            {"the links", "legs", true, true, false},
+                            {"the proximal links", "proximal", true, false, false},
+                            {"the distal links", "distal", false, true, false},
+                            {"every body", "all", true, true, true}};
+
+/// Σ Tᵀ w over the group.
+Vector6d effortsOf(const MachineTerms& machine, const Group& group, const Wrench& wrench) {
+  Vector6d out = Vector6d::Zero();
+  const auto add = [&](const BodyTerms& body) { out += body.T.transpose() * wrench(machine, body); };
+  if (group.proximal)
+    for (const BodyTerms& body : machine.proximal) add(body);
+  if (group.distal)
+    for (const BodyTerms& body : machine.distal) add(body);
+  if (group.platform) add(machine.platform);
+  return out;
+}
+
+// The parts of a body's wrench.
+Vector6d gravity(const MachineTerms& machine, const BodyTerms& body) { return -body.gravityWrench(machine.gravity); }
+Vector6d gyroscopic(const MachineTerms& /*machine*/, const BodyTerms& body) {
+  return momentWrench(body.omega().cross(body.inertia * body.omega()));
+}
+Vector6d turningInertia(const MachineTerms& machine, const BodyTerms& body) {
+  return gyroscopic(machine, body) + momentWrench(body.inertia * body.twist_rate.head<3>());
+}
+Vector6d acceleratedInertia(const MachineTerms& /*machine*/, const BodyTerms& body) {
+  return momentWrench(body.inertia * body.twist_rate.head<3>());
+}
+Vector6d inertia(const MachineTerms& /*machine*/, const BodyTerms& body) { return body.inertiaWrench(body.twist_rate); }
+Vector6d everything(const MachineTerms& machine, const BodyTerms& body) {
+  return inertia(machine, body) + gravity(machine, body);
+}
+Vector6d centripetal(const MachineTerms& /*machine*/, const BodyTerms& body) {
+  return forceWrench(body.mass * body.omega().cross(body.omega().cross(body.from)));
+}
+Vector6d coriolis(const MachineTerms& /*machine*/, const BodyTerms& body) {
+  return forceWrench(2 * body.mass * body.omega().cross(body.sliding));
+}
+Vector6d halfCoriolis(const MachineTerms& machine, const BodyTerms& body) { return coriolis(machine, body) / 2; }
+
+/// What velocities alone make of a link's accelerations, its moment apart from its gyroscopic one.
+Vector6d turningBias(const MachineTerms& /*machine*/, const BodyTerms& body) {
+  return momentWrench(body.inertia * body.bias.head<3>());
+}
+Vector6d movingBias(const MachineTerms& /*machine*/, const BodyTerms& body) {
+  return forceWrench(body.mass * body.bias.tail<3>());
+}
+Vector6d bias(const MachineTerms& machine, const BodyTerms& body) {
+  return turningBias(machine, body) + movingBias(machine, body);
+}
+Vector6d velocityTerms(const MachineTerms& machine, const BodyTerms& body) {
+  return bias(machine, body) + gyroscopic(machine, body);
+}
+
+/// A twist or its rate without what turns the link about its own line. Of ω̇: the rate of ω without its spin.
+Vector6d withoutSpin(const BodyTerms& body, const Vector6d& twist) {
+  Vector6d out = twist;
+  out.head<3>() -= body.line.dot(twist.head<3>()) * body.line;
+  return out;
+}
+BodyTerms withoutSpin(const BodyTerms& body) {
+  BodyTerms out = body;
+  out.twist = withoutSpin(body, body.twist);
+  out.twist_rate = withoutSpin(body, body.twist_rate);
+  const Vector3d omega = body.omega();
+  out.twist_rate.head<3>() -= body.line.dot(omega) * omega.cross(body.line);
+  for (int m = 0; m < motor_count; ++m) out.T.col(m) = withoutSpin(body, body.T.col(m));
+  return out;
+}
+
+/// A tensor in B that somebody else would take for the body's.
+using Tensor = std::function<Matrix3d(const BodyTerms&)>;
+
+/// What the moments change by with another tensor.
+Wrench withTensor(const Tensor& tensor) {
+  return [tensor](const MachineTerms& /*machine*/, const BodyTerms& body) {
+    BodyTerms other = body;
+    other.inertia = tensor(body);
+    return Vector6d(other.inertiaWrench(body.twist_rate) - body.inertiaWrench(body.twist_rate));
+  };
+}
+
+/// m (r² 1 − r rᵀ).
+Matrix3d steiner(const BodyTerms& body) {
+  return body.mass * (body.from.squaredNorm() * Matrix3d::Identity() - body.from * body.from.transpose());
+}
+
+class Collector {
+ public:
+  explicit Collector(const Scenario& scenario) : scenario_(scenario) {}
+
+  void add(const std::string& text, const NamedCause& named, const EffortChange& change) {
+    causes.push_back(changedEfforts(scenario_, {text, named}, change));
+  }
+
+  /// A part of the wrenches of each group: left out, and with the wrong sign.
+  void addPart(const std::string& what, const char* term, const Wrench& part, const char* only = "",
+               bool either_sign = true) {
+    for (const Group& group : groups) {
+      if (*only != 0 && group.body != std::string(only)) continue;
+      const auto times = [group, part](double factor) {
+        return [group, part, factor](const MachineTerms& machine) {
+          return Vector6d(factor * effortsOf(machine, group, part));
+        };
+      };
+      add(what + " of " + group.words + " left out", {CauseKind::missing_term, term, group.body}, times(-1));
+      if (either_sign)
+        add(what + " of " + group.words + " with the wrong sign", {CauseKind::sign, term, group.body}, times(-2));
+    }
+  }
+
+  /// What another reading of each group's bodies adds.
+  void addChange(const std::string& before, const std::string& after, CauseKind kind, const char* term,
+                 const Wrench& change) {
+    for (const Group& group : groups)
+      add(before + group.words + after, {kind, term, group.body},
+          [group, change](const MachineTerms& machine) { return effortsOf(machine, group, change); });
+  }
+
+  std::vector<Cause> causes;
+
+ private:
+  const Scenario& scenario_;
+};
+
+void addSpin(Collector& out) {
+  for (const bool of_reaction : {true, false})
+    out.add(of_reaction ? "the links' spin about their own lines left out"
+                        : "the links' spin about their own lines left out of their motion",
+            {CauseKind::missing_term, "spin", "legs"}, [of_reaction](const MachineTerms& machine) {
+              Vector6d change = Vector6d::Zero();
+              for (const auto* links : {&machine.proximal, &machine.distal})
+                for (const BodyTerms& body : *links) {
+                  const BodyTerms still = withoutSpin(body);
+                  change += (of_reaction ? still : body).T.transpose() * still.inertiaWrench(still.twist_rate) -
+                            body.T.transpose() * body.inertiaWrench(body.twist_rate);
+                }
+              return change;
+            });
+}
+
+/// No such body need exist, so that no machine is made of it.
+void addTensors(Collector& out) {
+  out.addChange(
+      "inertia of ", " not turned into the base's frame", CauseKind::frame, "inertia",
+      withTensor([](const BodyTerms& body) -> Matrix3d { return body.R.transpose() * body.inertia * body.R; }));
+  out.addChange("inertia of ", " turned the wrong way", CauseKind::frame, "inertia",
+                withTensor([](const BodyTerms& body) -> Matrix3d {
+                  const Matrix3d twice = body.R * body.R;
+                  return twice.transpose() * body.inertia * twice;
+                }));
+  out.addChange("inertia of ", " about the first joint, or P, used as about the mass centre",
+                CauseKind::reference_point, "inertia",
+                withTensor([](const BodyTerms& body) -> Matrix3d { return body.inertia + steiner(body); }));
+  out.addChange("inertia of ", ", about the mass centre, taken for such about the first joint, or P",
+                CauseKind::reference_point, "inertia",
+                withTensor([](const BodyTerms& body) -> Matrix3d { return body.inertia - steiner(body); }));
+}
+
+}  // namespace
+
+Cause changedEfforts(const Scenario& scenario, const CauseName& name, const EffortChange& change) {
+  return fixedCause(name, [&scenario, change](const std::vector<Motion<double>>& motions) {
+    const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
+    std::vector<Vector6d> out;
+    for (const Motion<double>& motion : motions)
+      out.push_back(noc.torques(motion) + change(machineTerms(*scenario.manipulator, scenario.load, motion)));
+    return out;
+  });
+}
+
+std::vector<Cause> termCauses(const Scenario& scenario) {
+  Collector out(scenario);
+  out.addPart("gravity", "gravity", gravity);
+  out.addPart("the gyroscopic moment", "gyroscopic", gyroscopic);
+  out.addPart("the centripetal acceleration", "centripetal", centripetal);
+  out.addPart("the Coriolis acceleration", "coriolis", coriolis, "distal");
+  out.addPart("half of the Coriolis acceleration", "coriolis", halfCoriolis, "distal", false);
+  out.addPart("the moment of inertia", "inertia", turningInertia);
+  out.addPart("the moment of angular acceleration", "inertia", acceleratedInertia);
+  out.addPart("inertia", "inertia", inertia);
+  out.addPart("inertia and gravity", "inertia", everything);
+  for (const char* body : {"legs", "proximal", "distal"}) {
+    out.addPart("what velocities make of the accelerations", "coriolis", bias, body);
+    out.addPart("what velocities make of the angular accelerations", "coriolis", turningBias, body);
+    out.addPart("what velocities make of the mass centres' accelerations", "coriolis", movingBias, body);
+    out.addPart("every term in velocities but friction", "coriolis", velocityTerms, body);
+  }
+  addSpin(out);
+  addTensors(out);
+  return std::move(out.causes);
+}
+
+}  // namespace ursula

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "validation/external/body_terms.h"
+#include "validation/external/cause.h"
+
+namespace ursula {
+
+/// What a mistake adds to the efforts at one motion.
+using EffortChange = std::function<Vector6d(const MachineTerms&)>;
+
+/// The NOC's efforts with that added. `scenario` outlives it.
+Cause changedEfforts(const Scenario& scenario, const CauseName& name, const EffortChange& change);
+
+/// Mistakes of a solver's own making, for every kind of leg: a term of one group of bodies left out or with the wrong
+/// sign, tensors in other frames or about other points, the spin of links left out. `scenario` outlives them.
+std::vector<Cause> termCauses(const Scenario& scenario);
+
+/// A wrong Jacobian, loops left open or closed by least squares, J̇ left out. `scenario` outlives them.
+std::vector<Cause> loopCauses(const Scenario& scenario);
+
+}  // namespace ursula
