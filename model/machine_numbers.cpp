@@ -46,7 +46,10 @@ constexpr Row rows[] = {
     {"coulomb.smoothing_speed", "friction", "smoothing speed of the Coulomb friction", "rad/s", 1,
      [](Place p) -> Number { return p.leg.coulomb.smoothing_speed; }},
     {"coulomb.sliding_speed", "friction", "smoothing speed of the Coulomb friction on d", "m/s", 1,
-     [](Place p) -> Number { return p.leg.coulomb.sliding_speed; }}};
+     [](Place p) -> Number { return p.leg.coulomb.sliding_speed; }},
+    {"rotor_inertia", "rotor", "rotor inertia on ", "kg m^2", 1,
+     [](Place p) -> Number { return p.leg.rotor_inertia.on(p.coordinate); }},
+    {"center_of_mass", "center", "mass centre", "m", 3, [](Place p) -> Number { return p.link.off_line(p.i); }}};
 
 const Row& rowOf(Quantity quantity) { return rows[static_cast<std::size_t>(quantity)]; }
 
@@ -80,6 +83,27 @@ void add(Numbers& out, const std::vector<Quantity>& quantities, int leg, const s
       number.words += std::string(" ") + "xyz"[i];
       if (number.entries == 6) number.words += "xyz"[j];
     }
+}
+
+/// The mass centre by three numbers where it is off the link's line.
+void addCenter(Numbers& out, int leg, const std::string& body, const Link& link) {
+  if (link.off_line.isZero(0)) return add(out, {Quantity::center}, leg, body);
+  add(out, {Quantity::center_across}, leg, body);
+  out.pop_back();
+  MachineNumber& along = add(out, Quantity::center, leg, body, 0);
+  along.path += ".2";
+  along.words += " z";
+}
+
+void addRotors(Numbers& out, int i, const Leg& leg) {
+  for (int k = 0; k < 3; ++k) {
+    const Coordinate coordinate = rowOf(leg.kind).coordinates[static_cast<std::size_t>(k)];
+    if (leg.rotor_inertia.on(coordinate) == 0) continue;
+    MachineNumber& number = add(out, Quantity::rotor_inertia, i, "", k);
+    number.path += std::string(".") + nameOf(coordinate);
+    number.words += nameOf(coordinate);
+    if (slides(coordinate)) number.unit = "kg";
+  }
 }
 
 void addFriction(Numbers& out, int leg, LegKind kind) {
@@ -122,13 +146,19 @@ Numbers machineNumbers(const ManipulatorParameters& machine) {
   add(out, {Q::gravity}, -1, "");
   add(out, {Q::platform_mass, Q::platform_center, Q::platform_inertia}, -1, "platform");
   for (int i = 0; i < static_cast<int>(machine.legs.size()); ++i) {
-    const LegKind kind = machine.legs[static_cast<std::size_t>(i)].kind;
+    const Leg& leg = machine.legs[static_cast<std::size_t>(i)];
+    const LegKind kind = leg.kind;
     add(out, {Q::base_point, Q::platform_point, Q::base_axis}, i, "");
     const bool telescopic = rowOf(kind).isTelescopic(), carriage = rowOf(kind).hasCarriage();
     if (!telescopic && !carriage) add(out, {Q::length}, i, "proximal");
-    add(out, carriage ? std::vector{Q::mass} : std::vector{Q::mass, Q::center, Q::inertia}, i, "proximal");
-    add(out, {Q::length, Q::mass, Q::center, Q::inertia}, i, "distal");
+    add(out, {Q::mass}, i, "proximal");
+    if (!carriage) addCenter(out, i, "proximal", leg.proximal);
+    if (!carriage) add(out, {Q::inertia}, i, "proximal");
+    add(out, {Q::length, Q::mass}, i, "distal");
+    addCenter(out, i, "distal", leg.distal);
+    add(out, {Q::inertia}, i, "distal");
     addFriction(out, i, kind);
+    addRotors(out, i, leg);
   }
   return out;
 }

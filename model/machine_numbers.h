@@ -22,7 +22,9 @@ enum class Quantity {
   friction,
   coulomb,
   smoothing_speed,
-  sliding_speed
+  sliding_speed,
+  rotor_inertia,
+  center_across
 };
 
 /// A number of the machine. Whatever names one has the name from here.
@@ -33,7 +35,7 @@ struct MachineNumber {
   int entry = 0;      ///< of a vector; of a tensor's xx, yy, zz, xy, xz, yz; of the leg's coordinates for friction
   int entries = 1;    ///< of what it is an entry of: 3 of a vector, 6 of a tensor
   std::string path;   ///< as in a scenario and as the key of a sweep: "manipulator.leg.2.distal.inertia.3"
-  std::string group;  ///< "gravity", "mass", "center", "inertia", "length", "point", "axis" or "friction"
+  std::string group;  ///< "gravity", "mass", "center", "inertia", "length", "point", "axis", "friction" or "rotor"
   std::string words;  ///< "inertia xy"; whose it is they do not say
   std::string unit;   ///< "kg m^2"
 
@@ -46,7 +48,8 @@ struct MachineNumber {
 
 /// All that efforts can depend on: 13 of gravity and platform, then those of each leg. Left out are the length of a
 /// cylinder, which says where its stroke ends, and of a carriage all but its mass. The one `smoothing_speed` of a
-/// scenario is two numbers: `sliding_speed` is that of d.
+/// scenario is two numbers: `sliding_speed` is that of d. Rotors' inertia and mass centres off a link's line are
+/// numbers of a machine that has them; the line is then the third entry of the mass centre.
 std::vector<MachineNumber> machineNumbers(const ManipulatorParameters& machine);
 
 /// Row and column of a tensor's entries, in the order in which a scenario gives them.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "base/errors.h"
@@ -30,32 +31,77 @@ void requireNotNegative(const std::string& place, double value) {
   if (!(value >= 0)) throw InvalidParameter(place, fmt::format("{}", value), ">= 0");
 }
 
+/// Nothing about the axis `line`, so that it is principal, and something about those across it: a thin rod.
+bool isRod(const Matrix3d& I, int line) {
+  const int x = (line + 1) % 3, y = (line + 2) % 3;
+  return I.col(line).isZero(0) && I(x, x) > 0 && I(y, y) > 0;
+}
+
 /// A mass distribution exists for a tensor exactly if its principal moments are positive and no one exceeds the sum of
-/// the other two (Wittenburg, Dynamics of Multibody Systems, 2nd ed., sect. 3.1); equality is a lamina.
-void requireInertia(const std::string& place, const Matrix3d& inertia) {
+/// the other two (Wittenburg, Dynamics of Multibody Systems, 2nd ed., sect. 3.1); equality is a lamina. Of a rod along
+/// the axis `line`, if it is given, one moment may be zero.
+void requireInertia(const std::string& place, const Matrix3d& inertia, int line = -1) {
   if (!inertia.allFinite()) throw InvalidParameter(place, "a non-finite entry", "finite numbers");
   if (!(inertia - inertia.transpose()).isZero(0)) throw InvalidParameter(place, "not symmetric", "a symmetric tensor");
   const Vector3d moments = Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
   const std::string value = "principal moments " + text(moments);
   // The eigenvalues are known to a few eps of the largest.
   const double rounding = 16 * Eigen::NumTraits<double>::epsilon() * moments.cwiseAbs().maxCoeff();
-  if (!(moments(0) > 0)) throw InvalidParameter(place, value, "all principal moments > 0");
+  if (!(moments(0) > 0) && !(line >= 0 && isRod(inertia, line)))
+    throw InvalidParameter(
+        place, value,
+        line < 0 ? "all principal moments > 0" : "all principal moments > 0, or of a thin rod that about its line = 0");
   if (!(moments(2) <= moments(0) + moments(1) + rounding))
     throw InvalidParameter(
         place, value,
         fmt::format("the largest principal moment <= the sum of the others, {}", moments(0) + moments(1)));
 }
 
-void requireLink(const std::string& place, const Link& link) {
+void requireLink(const std::string& place, const Link& link, int line) {
   requirePositive(place + ".mass", link.mass);
   requireFinite(place + ".center_of_mass", link.center_of_mass);
-  requireInertia(place + ".inertia", link.inertia);
+  requireFinite(place + ".center_of_mass", link.off_line);
+  if (link.off_line(line) != 0)
+    throw InvalidParameter(place + ".center_of_mass", text(link.off_line), "an offset across the link's line");
+  requireInertia(place + ".inertia", link.inertia, line);
 }
 
 void requireFriction(const std::string& place, const JointFriction& friction) {
   for (std::size_t k = 0; k < coordinate_count; ++k) {
     const auto coordinate = static_cast<Coordinate>(k);
     requireNotNegative(place + "." + nameOf(coordinate), friction.on(coordinate));
+  }
+}
+
+/// A link that turns about its own line meets nothing there but its own moment, if nothing else depends on the turn.
+void requireRound(const std::string& place, const Link& link) {
+  const Matrix3d& I = link.inertia;
+  const std::string tensor =
+      fmt::format("xx = {}, yy = {}, products {}", I(0, 0), I(1, 1), text({I(0, 1), I(0, 2), I(1, 2)}));
+  if (I(0, 0) != I(1, 1) || I(0, 1) != 0 || I(0, 2) != 0 || I(1, 2) != 0)
+    throw InvalidParameter(place + ".inertia", tensor, "xx = yy and no products, as the leg's spin is \"free\"");
+  if (!link.off_line.isZero(0))
+    throw InvalidParameter(place + ".center_of_mass", text(link.off_line),
+                           "a mass centre on the line, as the leg's spin is \"free\"");
+}
+
+void requireSpin(const std::string& place, const Leg& leg) {
+  if (!leg.spins) return;
+  if (leg.kind == LegKind::URS)
+    throw InvalidParameter(place + ".spin", "\"free\" of a URS leg",
+                           "\"held\": its links cannot turn about their lines");
+  if (leg.kind == LegKind::UPS) requireRound(place + ".proximal", leg.proximal);
+  requireRound(place + ".distal", leg.distal);
+}
+
+void requireRotors(const std::string& place, const Leg& leg) {
+  requireFriction(place + ".rotor_inertia", leg.rotor_inertia);
+  for (std::size_t k = 0; k < coordinate_count; ++k) {
+    const auto coordinate = static_cast<Coordinate>(k);
+    const double rotor = leg.rotor_inertia.on(coordinate);
+    if (rotor != 0 && !leg.drives(coordinate))
+      throw InvalidParameter(place + ".rotor_inertia." + nameOf(coordinate), fmt::format("{}", rotor),
+                             fmt::format("0, as no motor drives {} of this leg", nameOf(coordinate)));
   }
 }
 
@@ -72,8 +118,10 @@ void requireLeg(const std::string& place, const Leg& leg) {
   else
     requirePositive(place + ".proximal.length", leg.proximal.length);
   requirePositive(place + ".distal.length", leg.distal.length);
-  requireLink(place + ".proximal", leg.proximal);
-  requireLink(place + ".distal", leg.distal);
+  requireLink(place + ".proximal", leg.proximal, leg.proximalLine());
+  requireLink(place + ".distal", leg.distal, 2);
+  requireSpin(place, leg);
+  requireRotors(place, leg);
   requireFriction(place + ".friction", leg.friction);
   requireFriction(place + ".coulomb", leg.coulomb);
   requirePositive(place + ".coulomb.smoothing_speed", leg.coulomb.smoothing_speed);
@@ -116,7 +164,7 @@ void requireSpan(const ManipulatorParameters& machine, int i, int j) {
 
 }  // namespace
 
-double& JointFriction::on(Coordinate coordinate) {
+double& PerCoordinate::on(Coordinate coordinate) {
   switch (coordinate) {
     case Coordinate::phi:
       return phi;
@@ -130,7 +178,14 @@ double& JointFriction::on(Coordinate coordinate) {
   return d;
 }
 
-Manipulator::Manipulator(const ManipulatorParameters& parameters) : parameters_(parameters) {
+bool Leg::drives(Coordinate coordinate) const {
+  const auto& has = rowOf(kind).coordinates;
+  for (std::size_t j = 0; j < has.size(); ++j)
+    if (has[j] == coordinate) return actuated[j];
+  return false;
+}
+
+Manipulator::Manipulator(const ManipulatorParameters& parameters) : given_(parameters), parameters_(parameters) {
   requireLegCount(parameters_);
   requireFinite("manipulator.gravity", parameters_.gravity);
   requirePositive("manipulator.platform.mass", parameters_.platform.mass);
@@ -140,6 +195,11 @@ Manipulator::Manipulator(const ManipulatorParameters& parameters) : parameters_(
   for (int i = 0; i < legCount(); ++i)
     for (int j = i + 1; j < legCount(); ++j) requireSpan(parameters_, i, j);
   motors_ = motorsOf(parameters_);
+  for (Leg& leg : parameters_.legs) {
+    if (!leg.spins) continue;
+    leg.distal.inertia(2, 2) = 0;
+    if (leg.kind == LegKind::UPS) leg.proximal.inertia(2, 2) = 0;
+  }
 }
 
 bool Manipulator::isOfThePaper() const {
@@ -147,6 +207,11 @@ bool Manipulator::isOfThePaper() const {
   for (const Leg& leg : parameters_.legs)
     if (leg.kind != LegKind::URS || leg.actuated != std::array<bool, 3>{true, false, false}) return false;
   return true;
+}
+
+bool hasRotors(const Manipulator& manipulator) {
+  const auto& legs = manipulator.parameters().legs;
+  return std::any_of(legs.begin(), legs.end(), [](const Leg& leg) { return leg.rotor_inertia.any(); });
 }
 
 Manipulator frictionless(const Manipulator& manipulator) {

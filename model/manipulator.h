@@ -20,16 +20,19 @@ struct Link {
   double center_of_mass = 0;  ///< ρᵢ or σᵢ: distance along the link from its first end, m
   /// [Iᵢ]_G or [I₆₊ᵢ]_H of (46): about the mass centre, in the link's frame of (40), kg·m².
   Matrix3d inertia = Matrix3d::Zero();
+  /// What takes the mass centre off the link's line: across it, in the link's frame of (40), m.
+  Vector3d off_line = Vector3d::Zero();
 };
 
-/// Coefficients of one friction law on the coordinates of a leg; those that the leg has not are zero.
-struct JointFriction {
+/// A number for each coordinate of a leg; of those that the leg has not it is zero.
+struct PerCoordinate {
   double phi = 0, psi = 0, theta = 0, d = 0;
 
   double& on(Coordinate coordinate);
-  double on(Coordinate coordinate) const { return const_cast<JointFriction&>(*this).on(coordinate); }
+  double on(Coordinate coordinate) const { return const_cast<PerCoordinate&>(*this).on(coordinate); }
   bool any() const { return phi != 0 || psi != 0 || theta != 0 || d != 0; }
 };
+using JointFriction = PerCoordinate;  ///< coefficients of one law of friction
 
 /// Coulomb friction smoothed to −c tanh(q̇ / speed); coefficients in N·m, on d in N.
 struct CoulombFriction : JointFriction {
@@ -49,6 +52,19 @@ struct Leg {
   CoulombFriction coulomb;  ///< N·m, on d N
   LegKind kind = LegKind::URS;
   std::array<bool, 3> actuated = {true, false, false};  ///< which of the kind's coordinates a motor drives
+  PerCoordinate rotor_inertia;  ///< j of the energy ½ j q̇² of what a motor turns, kg·m², on d kg; of driven ones alone
+  /// The rod between two balls, or cylinder and rod, turns freely about its own line and does not to begin with.
+  bool spins = false;
+
+  /// Whether a motor drives it.
+  bool drives(Coordinate coordinate) const;
+  /// Which axis of the proximal link's frame its line is: of a carriage û.
+  int proximalLine() const { return kind == LegKind::PUS ? 1 : 2; }
+  /// Mass centres from the links' first ends, in their frames.
+  Vector3d proximalCenter() const {
+    return proximal.off_line + proximal.center_of_mass * Vector3d::Unit(proximalLine());
+  }
+  Vector3d distalCenter() const { return distal.off_line + distal.center_of_mass * Vector3d::UnitZ(); }
 };
 
 /// A coordinate that is driven. Its effort is conjugate to the coordinate's rate: N·m, or N where it slides.
@@ -79,12 +95,16 @@ struct ManipulatorParameters {
 /// Raw parameters that some machine can have; immutable.
 class Manipulator {
  public:
-  /// Checks finiteness, positive masses and lengths, non-zero axes, inertias (symmetric, positive definite, within the
-  /// triangle inequality), that there are six motors on three to six legs, and that every pair of legs is long enough
-  /// to join base and platform. Throws InvalidParameter with the key, the value and the bound.
+  /// Checks finiteness, positive masses and lengths, non-zero axes, inertias (symmetric, positive definite, of a thin
+  /// rod zero about its line, within the triangle inequality), that there are six motors on three to six legs, that no
+  /// other coordinate has a rotor, that what spins is round, and that every pair of legs is long enough to join base
+  /// and platform. Throws InvalidParameter with the key, the value and the bound.
   explicit Manipulator(const ManipulatorParameters& parameters);
 
+  /// What moves: a link that spins freely has no moment about its line, as what it has there stays at rest.
   const ManipulatorParameters& parameters() const { return parameters_; }
+  /// As it was written.
+  const ManipulatorParameters& given() const { return given_; }
   const Leg& leg(int i) const { return parameters_.legs[static_cast<std::size_t>(i)]; }
   int legCount() const { return static_cast<int>(parameters_.legs.size()); }
   /// In leg order, within a leg in the order of its coordinates: the order of efforts.
@@ -95,9 +115,12 @@ class Manipulator {
   const Vector3d& gravity() const { return parameters_.gravity; }
 
  private:
-  ManipulatorParameters parameters_;
+  ManipulatorParameters given_, parameters_;
   Motors motors_;
 };
+
+/// Whether some motor turns an inertia of its own.
+bool hasRotors(const Manipulator& manipulator);
 
 /// The same machine, but nothing rubs.
 Manipulator frictionless(const Manipulator& manipulator);

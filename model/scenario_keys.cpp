@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "model/key_bounds.h"
+#include "model/leg_kind.h"
 #include "model/trajectories/trajectory_kinds.h"
 
 namespace ursula {
@@ -130,21 +131,41 @@ ScenarioTable leg() {
         "Coulomb friction in the joints, smoothed",
         {},
         {},
-        "manipulator.leg.coulomb"}}};
+        "manipulator.leg.coulomb"},
+       {"rotor_inertia",
+        KeyType::table,
+        "",
+        no_default,
+        "of what the motors turn",
+        {},
+        {},
+        "manipulator.leg.rotor_inertia"},
+       {"spin",
+        KeyType::choice,
+        "",
+        "\"held\"",
+        "whether a universal joint holds the rod (of UPS cylinder and rod) about its own line, or a ball lets it spin, "
+        "which then it does not: S–P–S for UPS, R–S–S for RUS, P–S–S for PUS. `free` needs equal moments across the "
+        "line, no products of inertia and a mass centre on it",
+        {},
+        {"held", "free"}}}};
 }
 
 ScenarioTable link() {
-  return {"manipulator.leg.link",
-          "proximal = { … }, distal = { … }",
-          "A link of a leg: from its first joint along its length to the second.",
-          {{"length", KeyType::number, "m", required_key,
-            "l of the proximal, s of the distal link; of the carriage of PUS for drawing only, and not required",
-            above_zero},
-           {"mass", KeyType::number, "kg", required_key, "", above_zero},
-           {"center_of_mass", KeyType::number, "m", required_key,
-            "distance along the link from its first end; of a rod of UPS from the end within the cylinder"},
-           {"inertia", KeyType::inertia, "kg·m²", required_key,
-            "about the mass centre, in the link's frame, whose third axis is along the link"}}};
+  return {
+      "manipulator.leg.link",
+      "proximal = { … }, distal = { … }",
+      "A link of a leg: from its first joint along its length to the second.",
+      {{"length", KeyType::number, "m", required_key,
+        "l of the proximal, s of the distal link; of the carriage of PUS for drawing only, and not required",
+        above_zero},
+       {"mass", KeyType::number, "kg", required_key, "", above_zero},
+       {"center_of_mass", KeyType::center, "m", required_key,
+        "distance along the link from its first end, of a rod of UPS from the end within the cylinder; or from there "
+        "`[x, y, z]` in the link's frame (of a carriage of PUS [x̂, û, ẑ])"},
+       {"inertia", KeyType::inertia, "kg·m²", required_key,
+        "about the mass centre, in the link's frame, whose third axis is along the link; of a thin rod zero about "
+        "it"}}};
 }
 
 std::vector<ScenarioKey> perCoordinate(const char* turning, const char* sliding) {
@@ -169,6 +190,16 @@ ScenarioTable coulomb() {
   out.keys.push_back(
       {"smoothing_speed", KeyType::number, "rad/s, m/s", "0.01", "at which 76 % of the friction acts", above_zero});
   return out;
+}
+
+ScenarioTable rotorInertia() {
+  std::vector<ScenarioKey> keys = perCoordinate("kg·m²", "kg");
+  keys.resize(coordinate_count);
+  return {
+      "manipulator.leg.rotor_inertia", "rotor_inertia = { … }",
+      "What a motor turns, j, of the energy ½ j q̇² of the coordinate q that it drives: through a gear of ratio n, n² "
+      "times the rotor's own. The motor's effort has j q̈ more.",
+      std::move(keys)};
 }
 
 ScenarioKey force(const char* meaning) { return {"force", KeyType::vector, "N", "[0.0, 0.0, 0.0]", meaning}; }
@@ -264,7 +295,8 @@ const ScenarioKey& ScenarioTable::key(const std::string& wanted) const {
 
 const std::vector<ScenarioTable>& scenarioTables() {
   static const std::vector<ScenarioTable> tables = [] {
-    std::vector<ScenarioTable> all = {document(), manipulator(), platform(), leg(), link(), friction(), coulomb()};
+    std::vector<ScenarioTable> all = {document(), manipulator(), platform(), leg(),
+                                      link(),     friction(),    coulomb(),  rotorInertia()};
     for (ScenarioTable& each : motionTables()) all.push_back(std::move(each));
     for (ScenarioTable each : {load(), loadTable(), simulation(), acceptance(), tolerance()})
       all.push_back(std::move(each));

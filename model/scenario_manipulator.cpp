@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "model/scenario_sections.h"
 
@@ -33,6 +34,14 @@ std::string coordinatesOf(LegKind kind) {
   return fmt::format("'{}', '{}' or '{}'", nameOf(has[0]), nameOf(has[1]), nameOf(has[2]));
 }
 
+/// "'phi'", or several joined by "or".
+std::string drivenBy(const Leg& leg) {
+  std::vector<std::string> names;
+  for (const Coordinate coordinate : rowOf(leg.kind).coordinates)
+    if (leg.drives(coordinate)) names.push_back(fmt::format("'{}'", nameOf(coordinate)));
+  return names.empty() ? "none, as no motor is on it" : fmt::format("{}", fmt::join(names, " or "));
+}
+
 /// One leg, of the tables that say something of it: the defaults, then its own.
 class LegReader {
  public:
@@ -51,6 +60,7 @@ class LegReader {
         coulomb->read("smoothing_speed", leg_.coulomb.smoothing_speed);
         leg_.coulomb.sliding_speed = leg_.coulomb.smoothing_speed;
       }
+      if (const auto rotors = table->section("rotor_inertia")) readRotors(*rotors, table == &own_);
     }
     requireAll();
     return leg_;
@@ -96,6 +106,7 @@ class LegReader {
     note("platform_point", table.read("platform_point", leg_.platform_point));
     if (const auto link = table.section("proximal")) readLink(*link, "proximal", leg_.proximal);
     if (const auto link = table.section("distal")) readLink(*link, "distal", leg_.distal);
+    if (const auto spin = table.readChoice(keys_.key("spin"))) leg_.spins = *spin == 1;
     if (const auto knee = table.readChoice(keys_.key("knee"))) leg_.knee = *knee == 0 ? Knee::positive : Knee::negative;
   }
 
@@ -103,8 +114,37 @@ class LegReader {
     table.allowOnly(scenarioTable("manipulator.leg.link"));
     note(name + ".length", table.read("length", link.length));
     note(name + ".mass", table.read("mass", link.mass));
-    note(name + ".center_of_mass", table.read("center_of_mass", link.center_of_mass));
+    readCenter(table, name, link);
     note(name + ".inertia", table.readInertia("inertia", link.inertia));
+  }
+
+  /// Along the link's line, or by three numbers.
+  void readCenter(const TomlSection& table, const std::string& name, Link& link) {
+    const toml::node* given = table.table().get("center_of_mass");
+    if (given == nullptr) return;
+    note(name + ".center_of_mass", true);
+    link.off_line.setZero();
+    if (!given->is_array()) {
+      table.read("center_of_mass", link.center_of_mass);
+      return;
+    }
+    table.read("center_of_mass", link.off_line);
+    link.center_of_mass = std::exchange(link.off_line(&link == &leg_.proximal ? leg_.proximalLine() : 2), 0);
+  }
+
+  /// The defaults may speak of coordinates that motors drive on other legs.
+  void readRotors(const TomlSection& table, bool own) {
+    table.allowOnly(scenarioTable("manipulator.leg.rotor_inertia"));
+    for (std::size_t k = 0; k < coordinate_count; ++k) {
+      const auto coordinate = static_cast<Coordinate>(k);
+      double value = 0;
+      if (!table.read(nameOf(coordinate), value)) continue;
+      if (leg_.drives(coordinate))
+        leg_.rotor_inertia.on(coordinate) = value;
+      else if (own && value != 0)
+        table.fail(nameOf(coordinate), fmt::format("{}, but no motor drives {} of this leg, expected {}", value,
+                                                   nameOf(coordinate), drivenBy(leg_)));
+    }
   }
 
   /// The defaults may speak of coordinates that other legs have.
@@ -162,6 +202,20 @@ void requireUse(const std::optional<TomlSection>& defaults, const std::vector<Le
   }
 }
 
+/// And of rotors, to some motor.
+void requireRotorUse(const std::optional<TomlSection>& defaults, const std::vector<Leg>& legs) {
+  const auto table = defaults ? defaults->section("rotor_inertia") : std::nullopt;
+  if (!table) return;
+  for (std::size_t k = 0; k < coordinate_count; ++k) {
+    const auto coordinate = static_cast<Coordinate>(k);
+    double value = 0;
+    if (!table->read(nameOf(coordinate), value) || value == 0) continue;
+    if (std::none_of(legs.begin(), legs.end(), [&](const Leg& leg) { return leg.drives(coordinate); }))
+      table->fail(nameOf(coordinate), fmt::format("{}, but no motor drives {}, expected {}", value, nameOf(coordinate),
+                                                  drivenBy(legs.front())));
+  }
+}
+
 Platform readPlatform(const TomlSection& table) {
   table.allowOnly(scenarioTable("manipulator.platform"));
   Platform platform;
@@ -191,6 +245,7 @@ ManipulatorParameters readManipulator(const TomlSection& manipulator) {
   parameters.legs.clear();
   for (const TomlSection& leg : legs) parameters.legs.push_back(LegReader(defaults, leg).read());
   requireUse(defaults, parameters.legs);
+  requireRotorUse(defaults, parameters.legs);
   return parameters;
 }
 

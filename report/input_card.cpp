@@ -29,8 +29,9 @@ std::string fact(const std::string& what, const std::string& value) {
 
 std::string linkText(const Link& link) {
   const std::string length = link.length > 0 ? fmt::format("length {} m, ", digits(link.length)) : "";
-  return length + fmt::format("mass {} kg, mass centre at {} m, inertia {} kg·m²", digits(link.mass),
-                              digits(link.center_of_mass), inertiaText(link.inertia));
+  const std::string off = link.off_line.isZero(0) ? "" : fmt::format(" and {} m across", vectorText(link.off_line));
+  return length + fmt::format("mass {} kg, mass centre at {} m{}, inertia {} kg·m²", digits(link.mass),
+                              digits(link.center_of_mass), off, inertiaText(link.inertia));
 }
 
 constexpr std::array<const char*, coordinate_count> symbols = {"φ", "ψ", "θ", "d"};  // by Coordinate
@@ -136,6 +137,12 @@ std::string inputCard(const Picture& picture) {
                  [](const Leg& leg) { return frictionText(leg.friction, leg.kind, "N·m·s/rad", "N·s/m"); });
   rows += byLegs("Coulomb friction", machine,
                  [](const Leg& leg) { return frictionText(leg.coulomb, leg.kind, "N·m", "N"); });
+  if (hasRotors(machine))
+    rows += byLegs("Rotor inertia", machine,
+                   [](const Leg& leg) { return frictionText(leg.rotor_inertia, leg.kind, "kg·m²", "kg"); });
+  const auto& legs = machine.parameters().legs;
+  if (std::any_of(legs.begin(), legs.end(), [](const Leg& leg) { return leg.spins; }))
+    rows += byLegs("Spin", machine, [](const Leg& leg) { return std::string(leg.spins ? "free" : "held"); });
   rows += fact("Load", loadText(scenario.load.get()));
   rows += fact("Motion", fmt::format("{}, {} s, judged at {} instants", scenario.trajectory->kind(),
                                      digits(scenario.trajectory->duration()), scenario.simulation.samples));

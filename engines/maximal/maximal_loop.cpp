@@ -251,6 +251,25 @@ MaximalLoop::VectorX MaximalLoop::unbalanced(const Motion<double>& motion) const
   return w;
 }
 
+/// q̈ of a motor's coordinate, from its bodies: the rate of (ω_child − ω_parent) · axis, or along the slide, where the
+/// parent's turn and the Coriolis acceleration are square to the axis.
+double MaximalLoop::accelerationOf(const Motor& motor) const {
+  const PlacedLeg& leg = legs_[at(motor.leg)];
+  const auto [which, k] = jointAndAxis(leg, motor.joint);
+  const Joint& joint = leg.joints[at(which)];
+  const BodyMotion<double>&parent = bodyOf(bodies_, joint.parent), &child = bodyOf(bodies_, joint.child);
+  const Vector3d& axis = joint.axes[at(k)];
+  if (joint.type == Joint::Type::prismatic) {
+    const auto acceleration = [&](const BodyMotion<double>& body) {
+      return Vector3d(body.twist_rate.tail<3>() + body.twist_rate.head<3>().cross(joint.point - body.c) +
+                      centripetal(body, joint.point));
+    };
+    return axis.dot(acceleration(child) - acceleration(parent));
+  }
+  const Vector3d carrier = omegaOf(k == 0 ? parent : child), relative = omegaOf(child) - omegaOf(parent);
+  return axis.dot(child.twist_rate.head<3>() - parent.twist_rate.head<3>()) + relative.dot(carrier.cross(axis));
+}
+
 /// A unit of a motor's effort, on all bodies.
 void MaximalLoop::addEffort(const Motor& motor, Eigen::Ref<VectorX> wrenches) const {
   const PlacedLeg& leg = legs_[at(motor.leg)];
@@ -267,7 +286,13 @@ Vector6d MaximalLoop::inverseDynamics(const Motion<double>& motion) {
   for (int m = 0; m < motor_count; ++m)
     addEffort(manipulator_.motors()[at(m)], multipliers_and_efforts.col(constraints() + m));
   const VectorX solution = multipliers_and_efforts.partialPivLu().solve(unbalanced(motion));
-  return solution.tail<6>();
+  Vector6d efforts = solution.tail<6>();
+  for (int m = 0; m < motor_count; ++m) {  // j q̈ of what the motor turns
+    const Motor& motor = manipulator_.motors()[at(m)];
+    const double rotor = manipulator_.leg(motor.leg).rotor_inertia.on(motor.coordinate);
+    if (rotor != 0) efforts(m) += rotor * accelerationOf(motor);
+  }
+  return efforts;
 }
 
 std::unique_ptr<Engine> makeMaximalLoop(const Manipulator& manipulator, std::shared_ptr<const Load> load) {

@@ -36,6 +36,7 @@ class MaximalLoop : public Engine {
   VectorX unbalanced(const Motion<double>& motion) const;
   Vector3d frictionOf(int leg) const;
   void subtractFriction(int leg, VectorX& w) const;
+  double accelerationOf(const Motor& motor) const;
   void addEffort(const Motor& motor, Eigen::Ref<VectorX> wrenches) const;
 
   Manipulator manipulator_;

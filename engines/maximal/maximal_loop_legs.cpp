@@ -138,6 +138,12 @@ std::array<Joint::Type, 2> jointsOf(LegKind kind) {
   return {Type::prismatic, Type::universal};
 }
 
+/// Off the links' lines.
+void moveCenters(const Leg& leg, PlacedLeg& out) {
+  if (!leg.proximal.off_line.isZero(0)) out.c[0] += out.R[0] * leg.proximal.off_line;
+  if (!leg.distal.off_line.isZero(0)) out.c[1] += out.R[1] * leg.distal.off_line;
+}
+
 }  // namespace
 
 PlacedLeg placeLeg(const Leg& leg, int index, int first, int second, const Motion<double>& motion) {
@@ -164,6 +170,7 @@ PlacedLeg placeLeg(const Leg& leg, int index, int first, int second, const Motio
       placePus(leg, index, ends, motion.t, out);
       break;
   }
+  moveCenters(leg, out);
   return out;
 }
 

@@ -211,9 +211,16 @@ VectorOfGaps MujocoLoop::Impl::gapAcceleration() const {
 
 /// The right-hand side of (3).
 VectorOfDofs MujocoLoop::Impl::unbalanced(const Motion<double>& motion) const {
+  return forcesOfTree() - given(*model, *data, motion);
+}
+
+/// mj_rne leaves rotors out, as what is no body's.
+VectorOfDofs MujocoLoop::Impl::forcesOfTree() const {
   VectorOfDofs forces(dofs);
   mj_rne(model.get(), data.get(), 1, forces.data());
-  return forces - given(*model, *data, motion);
+  for (int k = 0; k < leg_dofs; ++k)
+    if (model->dof_armature[k] != 0) forces(k) += model->dof_armature[k] * data->qacc[k];
+  return forces;
 }
 
 VectorOfDofs MujocoLoop::Impl::given(const mjModel& in_model, mjData& in_data, const Motion<double>& motion) const {

@@ -153,15 +153,18 @@ void writeLeg(mjModel& model, int index, const Leg& leg, const Vector3d& origin)
   // Where the distal link's origin lies in the proximal one at coordinates zero, and how far the link reaches back.
   const double joined_at = telescopic || carriage ? 0 : leg.proximal.length;
   const double behind = telescopic ? leg.distal.length : 0;
-  const Vector3d along_proximal = carriage ? Vector3d::UnitY() : Vector3d::UnitZ();
   write(leg.base_point - origin, model.body_pos, proximal);
   write(Eigen::Quaterniond(frameAtZero(leg)).normalized(), model.body_quat, proximal);
   write(Vector3d(0, 0, joined_at), model.body_pos, distal);
   if (carriage)  // once more, as the text's digits were MuJoCo's to round
     write(Eigen::Quaterniond(1, -1, 0, 0).normalized(), model.body_quat, distal);
   write(Vector3d(0, 0, leg.distal.length - behind), model.site_pos, siteOnLeg(index));
-  writeInertia(model, proximal, leg.proximal.mass, leg.proximal.center_of_mass * along_proximal, leg.proximal.inertia);
-  writeInertia(model, distal, leg.distal.mass, Vector3d(0, 0, leg.distal.center_of_mass - behind), leg.distal.inertia);
+  writeInertia(model, proximal, leg.proximal.mass, leg.proximalCenter(), leg.proximal.inertia);
+  writeInertia(model, distal, leg.distal.mass, leg.distal.off_line + Vector3d(0, 0, leg.distal.center_of_mass - behind),
+               leg.distal.inertia);
+  for (int joint = 0; joint < joints_per_leg; ++joint)
+    model.dof_armature[dofOf(index, joint)] =
+        leg.rotor_inertia.on(rowOf(leg.kind).coordinates[static_cast<std::size_t>(joint)]);
   model.body_subtreemass[distal] = leg.distal.mass;
   model.body_subtreemass[proximal] = leg.proximal.mass + leg.distal.mass;
 }

@@ -66,6 +66,7 @@ struct MujocoLoop::Impl {
   void move(const Motion<double>& motion);
   mujoco::GapJacobian gapJacobian() const;
   mujoco::VectorOfGaps gapAcceleration() const;
+  mujoco::VectorOfDofs forcesOfTree() const;  ///< M q̈ + bias
   mujoco::VectorOfDofs unbalanced(const Motion<double>& motion) const;
   /// Friction and load on the coordinates, of a model whose rates and positions are set.
   mujoco::VectorOfDofs given(const mjModel& in_model, mjData& in_data, const Motion<double>& motion) const;

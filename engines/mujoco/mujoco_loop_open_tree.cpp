@@ -86,9 +86,7 @@ void MujocoLoop::openTree(const TreeCoordinates& at, OpenTree& out) {
   Impl& loop = *impl_;
   loop.placeTree(at);
   std::copy(at.u_dot.begin(), at.u_dot.end(), loop.data->qacc);
-  mujoco::VectorOfDofs forces(loop.dofs);
-  mj_rne(loop.model.get(), loop.data.get(), 1, forces.data());
-  loop.readTree(at.motion, forces, out);
+  loop.readTree(at.motion, loop.forcesOfTree(), out);
 }
 
 void MujocoLoop::openTree(const TreeCoordinates& at, OpenTree& out, OpenTreeMasses& masses) {

@@ -26,6 +26,8 @@ void SimbodyLoop::Impl::setLeg(int leg, const std::array<double, 3>& q) {
     const Mechanism::Place place = mechanism.place(joint, leg);
     place.body.setOneQ(state, place.coordinate, q[static_cast<std::size_t>(joint)]);
   }
+  for (const Mechanism::Rotor& rotor : mechanism.rotors)
+    if (rotor.leg == leg) rotor.wheel.setOneQ(state, 0, q[static_cast<std::size_t>(rotor.joint)]);
 }
 
 std::array<double, 3> SimbodyLoop::Impl::legGeometry(int leg, const Motion<double>& motion) const {
@@ -134,6 +136,10 @@ void SimbodyLoop::place(const Motion<double>& motion, const JointMotion& joint_m
       loop.state.updU()[loop.indexOf(joint, i)] = joint_motion.q_dot.of(coordinate)(i);
       loop.u_dot[loop.indexOf(joint, i)] = joint_motion.q_ddot.of(coordinate)(i);
     }
+  for (const Mechanism::Rotor& rotor : loop.mechanism.rotors) {
+    loop.state.updU()[loop.indexOf(rotor)] = loop.state.getU()[loop.indexOf(rotor.joint, rotor.leg)];
+    loop.u_dot[loop.indexOf(rotor)] = loop.u_dot[loop.indexOf(rotor.joint, rotor.leg)];
+  }
   loop.realize(SimTK::Stage::Velocity);
 }
 

@@ -2,6 +2,7 @@
 // about −u, ψ and θ about x; of UPS d goes along e; of RUS φ and ψ turn about −u, θ about −x₂; of PUS d goes along u, ψ
 // turns about −u, θ about x. The links' body frames are G = [x, e × x, e] and H = [x, s × x, s] of the paper's (40)
 // (of a carriage [x̂, u, ẑ]) with origins at the links' first ends, so that the raw inertias go in as they are.
+// Rotors are bodies as well: Simbody's own dynamics, energy and integrators then have them.
 
 #include <fmt/format.h>
 
@@ -27,9 +28,12 @@ SimTK::MassProperties massProperties(double mass, const Vector3d& center, const 
                   mass, center.norm(), about_center.diagonal().maxCoeff(), mass * center.squaredNorm()));
 }
 
-SimTK::Body::Rigid linkBody(const Link& link, const Vector3d& along = Vector3d::UnitZ()) {
-  const Vector3d center = link.center_of_mass * along;
-  return SimTK::Body::Rigid(massProperties(link.mass, center, link.inertia));
+SimTK::Body::Rigid proximalBody(const Leg& leg) {
+  return SimTK::Body::Rigid(massProperties(leg.proximal.mass, leg.proximalCenter(), leg.proximal.inertia));
+}
+
+SimTK::Body::Rigid distalBody(const Leg& leg) {
+  return SimTK::Body::Rigid(massProperties(leg.distal.mass, leg.distalCenter(), leg.distal.inertia));
 }
 
 /// A frame in axes of a body.
@@ -127,6 +131,7 @@ SimbodyLoop::Impl::Impl(const Manipulator& manipulator, Topology topology_, std:
   const SimTK::Force::UniformGravity gravity(forces, matter, toSimTK(manipulator.gravity()));
   for (int i = 0; i < legCount(); ++i) addLeg(i);
   addPlatform();
+  addRotors();
   addForces(std::move(load));
   state = system.realizeTopology();
   system.realizeModel(state);
@@ -158,38 +163,38 @@ void SimbodyLoop::Impl::addUniversalLeg(const Leg& from) {
   // ψ = 0 lays e along u: Universal's axes −u, x, z are then −e, x, −(e × x).
   SimTK::MobilizedBody::Universal first(matter.Ground(),
                                         SimTK::Transform(toSimTK(baseFrame(from.base_axis)), toSimTK(from.base_point)),
-                                        linkBody(from.proximal), frameOf(-e_z, e_x, -e_y));
+                                        proximalBody(from), frameOf(-e_z, e_x, -e_y));
   mechanism.proximal.push_back(first);
   if (from.kind == LegKind::UPS) {
     // d = s puts the rod's inner end at A.
     mechanism.distal.push_back(SimTK::MobilizedBody::Slider(first, frameOf(e_z, e_x, e_y, -from.distal.length * e_z),
-                                                            linkBody(from.distal), frameOf(e_z, e_x, e_y)));
+                                                            distalBody(from), frameOf(e_z, e_x, e_y)));
     return;
   }
   // Pin's z is x of the leg. θ = 0 folds the leg: s = −e.
   mechanism.distal.push_back(SimTK::MobilizedBody::Pin(first, frameOf(e_y, e_z, e_x, from.proximal.length * e_z),
-                                                       linkBody(from.distal), frameOf(-e_y, -e_z, e_x)));
+                                                       distalBody(from), frameOf(-e_y, -e_z, e_x)));
 }
 
 void SimbodyLoop::Impl::addCrank(const Leg& from) {
   const Matrix3d base = baseFrame(from.base_axis);
   SimTK::MobilizedBody::Pin crank(matter.Ground(), frameOf(base.col(1), base.col(2), base.col(0), from.base_point),
-                                  linkBody(from.proximal), frameOf(e_x, e_z, -e_y));
+                                  proximalBody(from), frameOf(e_x, e_z, -e_y));
   mechanism.proximal.push_back(crank);
   // ψ = θ = 0 lays the rod along the crank.
   mechanism.distal.push_back(SimTK::MobilizedBody::Universal(
-      crank, frameOf(-e_y, -e_x, -e_z, from.proximal.length * e_z), linkBody(from.distal), frameOf(-e_y, -e_x, -e_z)));
+      crank, frameOf(-e_y, -e_x, -e_z, from.proximal.length * e_z), distalBody(from), frameOf(-e_y, -e_x, -e_z)));
 }
 
 void SimbodyLoop::Impl::addCarriage(const Leg& from) {
   const Matrix3d base = baseFrame(from.base_axis);
   SimTK::MobilizedBody::Slider carriage(matter.Ground(),
                                         frameOf(-base.col(0), base.col(2), base.col(1), from.base_point),
-                                        linkBody(from.proximal, e_y), frameOf(e_y, e_z, e_x));
+                                        proximalBody(from), frameOf(e_y, e_z, e_x));
   mechanism.proximal.push_back(carriage);
   // θ = 0 lays the rod along the rail.
-  mechanism.distal.push_back(SimTK::MobilizedBody::Universal(carriage, frameOf(-e_y, e_x, e_z), linkBody(from.distal),
-                                                             frameOf(-e_z, e_x, -e_y)));
+  mechanism.distal.push_back(
+      SimTK::MobilizedBody::Universal(carriage, frameOf(-e_y, e_x, e_z), distalBody(from), frameOf(-e_z, e_x, -e_y)));
 }
 
 void SimbodyLoop::Impl::addPlatform() {
@@ -206,6 +211,26 @@ void SimbodyLoop::Impl::addPlatform() {
     mechanism.balls.emplace_back(mechanism.distal[static_cast<std::size_t>(leg)],
                                  SimTK::Vec3(0, 0, parameters.leg(leg).distal.length), mechanism.platform,
                                  toSimTK(parameters.leg(leg).platform_point));
+}
+
+void SimbodyLoop::Impl::addRotors() {
+  for (const Motor& motor : parameters.motors()) {
+    const double inertia = parameters.leg(motor.leg).rotor_inertia.on(motor.coordinate);
+    if (inertia == 0) continue;
+    const SimTK::MassProperties properties(inertia, SimTK::Vec3(0), SimTK::Inertia(inertia));  // any mass will do
+    const SimTK::MobilizedBody::Pin wheel(matter.Ground(), SimTK::Body::Rigid(properties));
+    const Mechanism::Place place = mechanism.place(motor.joint, motor.leg);
+    SimTK::Vector alike(3, 0.0);
+    alike[0] = 1;
+    alike[1] = -1;
+    const std::vector<SimTK::MobilizedBodyIndex> bodies = {place.body.getMobilizedBodyIndex(),
+                                                           wheel.getMobilizedBodyIndex()};
+    const std::vector<SimTK::MobilizerQIndex> coordinates = {SimTK::MobilizerQIndex(place.coordinate),
+                                                             SimTK::MobilizerQIndex(0)};
+    const SimTK::Constraint::CoordinateCoupler coupler(matter, new SimTK::Function::Linear(alike), bodies,
+                                                       coordinates);  // takes ownership
+    mechanism.rotors.push_back({wheel, motor.joint, motor.leg});
+  }
 }
 
 void SimbodyLoop::Impl::addForces(std::shared_ptr<const Load> load) {

@@ -105,6 +105,10 @@ void SimbodyLoop::Impl::eliminate(const Vector6d& torques) {
       c[indexOf(joint, i)] = constant(joint);
     }
   }
+  for (const Mechanism::Rotor& rotor : mechanism.rotors) {
+    N.row(indexOf(rotor)) = N.row(indexOf(rotor.joint, rotor.leg));
+    c[indexOf(rotor)] = c[indexOf(rotor.joint, rotor.leg)];
+  }
   SimTK::Vector residual, column(nu), M_column;
   matter.calcResidualForceIgnoringConstraints(open, system.getMobilityForces(open, SimTK::Stage::Dynamics),
                                               system.getRigidBodyForces(open, SimTK::Stage::Dynamics), c, residual);
@@ -164,6 +168,8 @@ Reactions SimbodyLoop::reactions() const {
     const SimTK::MobilizedBody &first = loop.mechanism.proximal[index], &second = loop.mechanism.distal[index];
     Vector3d of_joints;
     for (int joint = 0; joint < 3; ++joint) of_joints(joint) = residual[loop.indexOf(joint, i)];
+    for (const Mechanism::Rotor& rotor : loop.mechanism.rotors)
+      if (rotor.leg == i) of_joints(rotor.joint) += residual[loop.indexOf(rotor)];
     const Vector3d on_leg = loop.leg_jacobians[index].transpose().partialPivLu().solve(of_joints);
     const Vector3d to_B = loop.parameters.leg(i).distal.length * toEigen(SimTK::Vec3(second.getBodyRotation(open).z()));
     const Vector3d to_R = toEigen(SimTK::Vec3(second.getBodyOriginLocation(open) - first.getBodyOriginLocation(open)));

@@ -59,6 +59,14 @@ struct Mechanism {
   SimTK::MobilizedBody platform;
   std::vector<SimTK::Constraint::Ball> balls;
 
+  /// What a motor turns: a wheel on Ground that a coupler has turn by the leg's coordinate, radians for metres where
+  /// that slides. Behind all else in Simbody's order.
+  struct Rotor {
+    SimTK::MobilizedBody wheel;
+    int joint, leg;
+  };
+  std::vector<Rotor> rotors;
+
   /// The body that a leg's joint moves, and which of its mobilizer's coordinates that is.
   struct Place {
     const SimTK::MobilizedBody& body;
@@ -111,6 +119,7 @@ struct SimbodyLoop::Impl {
   const SimTK::State& differentiated() const { return topology == Topology::six_balls ? open : state; }
   /// Index in u of a leg's joint.
   int indexOf(int joint, int leg) const;
+  int indexOf(const Mechanism::Rotor& rotor) const { return rotor.wheel.getFirstUIndex(state); }
   void setLeg(int leg, const std::array<double, 3>& q);
   /// Geometry of one leg for the platform's pose. Throws std::domain_error where it cannot reach.
   std::array<double, 3> legGeometry(int leg, const Motion<double>& motion) const;
@@ -137,6 +146,7 @@ struct SimbodyLoop::Impl {
   void addCrank(const Leg& from);         ///< RUS
   void addCarriage(const Leg& from);      ///< PUS
   void addPlatform();
+  void addRotors();
   void addForces(std::shared_ptr<const Load> load);
 };
 

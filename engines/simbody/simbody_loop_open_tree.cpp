@@ -23,6 +23,13 @@ void SimbodyLoop::coordinates(const Motion<double>& motion, const JointMotion& j
       out.u[at] = joint_motion.q_dot.of(coordinate)(leg);
       out.u_dot[at] = joint_motion.q_ddot.of(coordinate)(leg);
     }
+  for (const Mechanism::Rotor& rotor : loop.mechanism.rotors) {
+    const auto at = static_cast<std::size_t>(loop.indexOf(rotor)),
+               of = static_cast<std::size_t>(loop.indexOf(rotor.joint, rotor.leg));
+    out.q[static_cast<std::size_t>(rotor.wheel.getFirstQIndex(loop.state))] = out.q[of];
+    out.u[at] = out.u[of];
+    out.u_dot[at] = out.u_dot[of];
+  }
   const int first_q = loop.mechanism.platform.getFirstQIndex(loop.state);
   const int first_u = loop.mechanism.platform.getFirstUIndex(loop.state);
   const Eigen::Quaterniond Q(motion.Q);
@@ -84,6 +91,8 @@ void SimbodyLoop::openTree(const TreeCoordinates& at, OpenTree& out) {
     leg.P = -G.block<3, 6>(3 * i, platform);
     leg.force = force.segment<3>(first);
   }
+  for (const Mechanism::Rotor& rotor : loop.mechanism.rotors)
+    out.legs[static_cast<std::size_t>(rotor.leg)].force(rotor.joint) += force(loop.indexOf(rotor));
   out.force = force.segment<6>(platform);
 }
 

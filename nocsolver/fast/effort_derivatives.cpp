@@ -107,6 +107,10 @@ void vary(WrittenMachine& machine, const MachineNumber& number, int slope) {
       return speeds(false);
     case Quantity::sliding_speed:
       return speeds(true);
+    case Quantity::rotor_inertia:
+      return one(leg.rotor[k]);
+    case Quantity::center_across:
+      return one((proximal ? leg.off_1 : leg.off_2)(number.entry));
   }
 }
 
@@ -120,6 +124,8 @@ WrittenMachine unitBodies(WrittenMachine machine) {
   for (LegModel<ByNumbers>& leg : m.legs) {
     leg.mass_1 = leg.mass_2 = 1;
     leg.rho = leg.sigma = 0;
+    leg.off_1.setZero();
+    leg.off_2.setZero();
     leg.I_1.setZero();
     leg.I_2.setZero();
   }
@@ -137,8 +143,10 @@ ManipulatorParameters withMoments(ManipulatorParameters machine) {
   platform.center_of_mass *= platform.mass;
   for (Leg& leg : machine.legs)
     for (Link* link : {&leg.proximal, &leg.distal}) {
-      link->inertia = about(link->mass, link->center_of_mass * Vector3d::UnitZ(), link->inertia);
+      const Vector3d center = link->off_line + link->center_of_mass * Vector3d::UnitZ();  // a carriage's does not count
+      link->inertia = about(link->mass, center, link->inertia);
       link->center_of_mass *= link->mass;
+      link->off_line *= link->mass;
     }
   return machine;
 }
@@ -146,6 +154,7 @@ ManipulatorParameters withMoments(ManipulatorParameters machine) {
 /// The name of the number that takes its place there: "manipulator.leg.2.distal.first_moment".
 std::string momentName(const MachineNumber& number) {
   std::string out = number.path;
+  if (number.group == "rotor") return out;
   const auto rename = [&out](const std::string& from, const char* to) {
     if (const auto at = out.find(from); at != std::string::npos) out.replace(at, from.size(), to);
   };
@@ -157,7 +166,8 @@ std::string momentName(const MachineNumber& number) {
 bool isLinear(const MachineNumber& number) {
   const bool speed = number.quantity == Quantity::smoothing_speed || number.quantity == Quantity::sliding_speed;
   const auto& group = number.group;
-  return group == "mass" || group == "center" || group == "inertia" || (group == "friction" && !speed);
+  return group == "mass" || group == "center" || group == "inertia" || group == "rotor" ||
+         (group == "friction" && !speed);
 }
 
 }  // namespace

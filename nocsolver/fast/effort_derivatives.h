@@ -57,8 +57,9 @@ class EffortDerivatives {
   Columns byParameters(const Motion<double>& motion, const Vector6d& load = Vector6d::Zero()) const;
 
   /// What efforts are linear in, once the geometry is given: mass, first moment and inertia of the platform about P, in
-  /// M, and of each link about its first end, in its frame of (40), first moment along the link; viscous and Coulomb
-  /// friction. "manipulator.platform.first_moment.0", kg·m, "manipulator.leg.2.distal.inertia_at_end.0", kg·m².
+  /// M, and of each link about its first end, in its frame of (40), first moment along the link (its vector, of a link
+  /// whose mass centre is off its line); viscous and Coulomb friction; rotors' inertia, of a machine that has some.
+  /// "manipulator.platform.first_moment.0", kg·m, "manipulator.leg.2.distal.inertia_at_end.0", kg·m².
   const std::vector<std::string>& regressorNames() const;
 
   /// The machine's own values of them, π.

@@ -31,7 +31,12 @@ LegModel<S> modelOf(const Leg& from) {
     leg.viscous[j] = S(from.friction.on(coordinate));
     leg.coulomb[j] = S(from.coulomb.on(coordinate));
     leg.speed[j] = S(from.coulomb.speedOf(coordinate));
+    leg.rotor[j] = S(from.rotor_inertia.on(coordinate));
   }
+  leg.has_rotor = from.rotor_inertia.any();
+  leg.off_1 = from.proximal.off_line.cast<S>();
+  leg.off_2 = from.distal.off_line.cast<S>();
+  leg.off_line = !from.proximal.off_line.isZero(0) || !from.distal.off_line.isZero(0);
   leg.motor.fill(-1);
   return leg;
 }

@@ -48,7 +48,7 @@ struct LegState {
   // where the links are
   Vector3<S> O_1, O_2;      ///< first ends of the links
   Matrix3<S> R_1, R_2;      ///< Gᵢ, Hᵢ of (40)
-  Vector3<S> arm_1, arm_2;  ///< from O₁, O₂ to the mass centres
+  Vector3<S> arm_1, arm_2;  ///< from O₁, O₂ along the links to where their mass centres are beside
   // rates
   std::array<JacobianRow<S>, 3> row;
   Vector3<S> v_B, rate;

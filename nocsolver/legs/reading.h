@@ -53,6 +53,7 @@ enum class FormulaError {
   drop_tau_d,          ///< (36) without τ^d
   drop_inertia,        ///< (37) without wⁿ
   drop_load,           ///< (35) without the load on the platform
+  drop_rotor,          ///< inertia of the motors' rotors left out
   scaled_first_effort,  ///< (37) of motor 1 times 1 + 1e-7
   scaled_efforts,       ///< (37) times 1.001
   wrong_D,              ///< (33) D with the spherical joints at the distal links' first ends

@@ -95,7 +95,7 @@ class Noc {
   Vector6<S> directDynamics(const Motion<S>& motion, const Vector6<S>& efforts, NocWorkspace<S>& work,
                             const Vector6<S>& load = Vector6<S>::Zero()) const;
 
-  /// I = TᵀMT of (34). Needs what inverseDynamics leaves.
+  /// I = TᵀMT of (34), with the rotors' inertia. Needs what inverseDynamics leaves.
   Matrix6<S> I(const NocWorkspace<S>& work) const;
   /// C = Tᵀ(MṪ + WMT) of (34). Needs what directDynamics leaves.
   Matrix6<S> C(const NocWorkspace<S>& work) const;
@@ -137,6 +137,10 @@ class Noc {
 
   S massOf(int body) const;
   BodyTensors<S> tensors(const NocWorkspace<S>& work) const;
+  bool hasRotors() const;
+  Vector6<S> rotors() const;
+  Vector6<S> rotorEfforts(const NocWorkspace<S>& work) const;
+  void addOffLine(int leg, const LegState<S>& at, LinkMotions<S>& links) const;
   void setBodies(const Motion<S>& motion, NocWorkspace<S>& work) const;
   Vector6<S> M(int body, const NocWorkspace<S>& work, const Vector6<S>& x) const;
   Vector6<S> W(int body, const NocWorkspace<S>& work, const Vector6<S>& x) const;

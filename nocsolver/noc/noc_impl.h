@@ -164,6 +164,41 @@ void Noc<S, R>::setBodies(const Motion<S>& motion, NocWorkspace<S>& work) const 
   work.I_B = tensors(work);                // (paper, eq. 30b)
 }
 
+// --- rotors, which the paper has not
+//
+// What a motor turns with its rate q̇ has the energy ½ j q̇² beside that of (30a), so that by Lagrange's equations
+//   I q̈ + C q̇ becomes (I + diag j) q̈ + C q̇, in (36), and τ^a of (37) has j q̈ more.
+// --------------------------------------------------------------------------------------
+
+template <class S, class R>
+bool Noc<S, R>::hasRotors() const {
+  for (int i = 0; i < machine_.legs_in_all; ++i)
+    if (machine_.legs[legs::at(i)].has_rotor) return true;
+  return false;
+}
+
+template <class S, class R>
+Vector6<S> Noc<S, R>::rotors() const {
+  Vector6<S> j;
+  for (int m = 0; m < motor_count; ++m) {
+    const Motor& motor = machine_.motors[legs::at(m)];
+    j(m) = machine_.legs[legs::at(motor.leg)].rotor[legs::at(motor.joint)];
+  }
+  if (reading_.has(FormulaError::drop_rotor)) j.setZero();
+  return j;
+}
+
+/// j q̈ at the accelerations in `work`.
+template <class S, class R>
+Vector6<S> Noc<S, R>::rotorEfforts(const NocWorkspace<S>& work) const {
+  Vector6<S> out = rotors();
+  for (int m = 0; m < motor_count; ++m) {
+    const Motor& motor = machine_.motors[legs::at(m)];
+    out(m) *= work.legs[legs::at(motor.leg)].acceleration(motor.joint);
+  }
+  return out;
+}
+
 // --- inverse and direct dynamics
 // --------------------------------------------------------------------------------------
 
@@ -177,6 +212,7 @@ Vector6<S> Noc<S, R>::inverseDynamics(const Motion<S>& motion, NocWorkspace<S>& 
   if (reading_.has(FormulaError::drop_inertia)) w_n.setZero();
   const BodyVector<S> w_g = gravityWrench() + loadWrench(motion, load), w_d = dissipativeWrench(work);
   Vector6<S> tau = -work.T.transpose() * (w_n + w_g + w_d);  // (paper, eq. 37)
+  if (hasRotors()) tau += rotorEfforts(work);
   if (reading_.has(FormulaError::scaled_efforts)) tau *= S(1.001);
   if (reading_.has(FormulaError::scaled_first_effort)) tau(0) *= S(1 + 1e-7);
   return tau;
@@ -196,7 +232,9 @@ TwistShaping<S> Noc<S, R>::massTimes(const BodyTensors<S>& tensors, const TwistS
 
 template <class S, class R>
 Matrix6<S> Noc<S, R>::I(const NocWorkspace<S>& work) const {
-  return work.T.transpose().lazyProduct(massTimes(work.I_B, work.T));  // (paper, eq. 34)
+  Matrix6<S> I = work.T.transpose().lazyProduct(massTimes(work.I_B, work.T));  // (paper, eq. 34)
+  if (hasRotors()) I.diagonal() += rotors();
+  return I;
 }
 
 template <class S, class R>
@@ -233,16 +271,21 @@ Vector6<S> Noc<S, R>::directDynamics(const Motion<S>& motion, const Vector6<S>& 
 template <class S, class R>
 Matrix6<S> Noc<S, R>::massMatrixAtP(const Motion<S>& motion, const NocWorkspace<S>& work) const {
   TwistShaping<S> T = TwistShaping<S>::Zero();
+  Matrix6<S> J;  // q̇ of the motors for unit twists
   const Matrix6<S> unit = Matrix6<S>::Identity();
   for (int i = 0; i < machine_.legs_in_all; ++i) {
     const LegState<S>& at = work.legs[legs::at(i)];
     const Rates rates = ratesForTwists(i, at, unit);
+    for (int j = 0; j < 3; ++j)
+      if (const int motor = machine_.legs[legs::at(i)].motor[legs::at(j)]; motor >= 0) J.row(motor) = rates.row(j);
     const UnitTwists of_legs = unitTwists(i, at, false);
     legs::block(T, i) = of_legs.first * rates;
     legs::block(T, leg_count + i) = of_legs.second * rates;
   }
   shapePlatform(platformArm(motion), unit, T);
-  return T.transpose().lazyProduct(massTimes(tensors(work), T));
+  Matrix6<S> M_P = T.transpose().lazyProduct(massTimes(tensors(work), T));
+  if (hasRotors()) M_P += J.transpose().lazyProduct(Matrix6<S>(rotors().asDiagonal() * J));
+  return M_P;
 }
 
 }  // namespace ursula

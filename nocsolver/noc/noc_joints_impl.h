@@ -105,12 +105,14 @@ Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> Noc<S, R>::D(const Motion<S>& m
 template <class S, class R>
 BodyVector<S> Noc<S, R>::constraintWrench(const Motion<S>& motion, const Vector6<S>& efforts,
                                           const NocWorkspace<S>& work, const Vector6<S>& load) const {
-  const BodyVector<S> w_W = actuatorWrench(work, efforts) + gravityWrench() + dissipativeWrench(work);
+  const Vector6<S> on_links = efforts - rotorEfforts(work);
+  const BodyVector<S> w_W = actuatorWrench(work, on_links) + gravityWrench() + dissipativeWrench(work);
   return -inertiaWrench(work) - w_W - loadWrench(motion, load);  // (paper, eq. 31)
 }
 
 template <class S, class R>
 Reactions Noc<S, R>::reactions(const Motion<S>& motion, const Vector6<S>& efforts, const NocWorkspace<S>& work) const {
+  const Vector6<S> on_links = efforts - rotorEfforts(work);
   const BodyVector<S> moving = -inertiaWrench(work) - gravityWrench(), w_d = dissipativeWrench(work);
   Reactions out;
   for (int i = 0; i < machine_.legs_in_all; ++i) {
@@ -125,7 +127,7 @@ Reactions Noc<S, R>::reactions(const Motion<S>& motion, const Vector6<S>& effort
     for (int j = 0; j < 3; ++j) {
       const int motor = leg.motor[legs::at(j)];
       const JacobianRow<S>& row = at.row[legs::at(j)];
-      f_B += (((motor >= 0 ? efforts(motor) : S(0)) - Q(j)) / row.A) * row.n;
+      f_B += (((motor >= 0 ? on_links(motor) : S(0)) - Q(j)) / row.A) * row.n;
     }
     const Vector3<S> A = leg.a + at.O_1, R_ = leg.a + at.O_2, B = motion.p + at.Qb;
     const Vector3<S>&c_1 = work.bodies[legs::at(i)].c, &c_2 = work.bodies[legs::at(leg_count + i)].c;

@@ -32,7 +32,27 @@ template <class S, class R>
 LinkMotions<S> Noc<S, R>::links(int i, const LegState<S>& at, const Vector3<S>& rate,
                                 const Vector3<S>& acceleration) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
-  return legs::withLeg(leg.kind, [&](auto kind) { return kind.links(leg, at, rate, acceleration, reading_); });
+  LinkMotions<S> out =
+      legs::withLeg(leg.kind, [&](auto kind) { return kind.links(leg, at, rate, acceleration, reading_); });
+  if (leg.off_line) addOffLine(i, at, out);
+  return out;
+}
+
+/// From the points on the links' lines to their mass centres. Bilinear as the kinds' own links: ω of `links` may be
+/// that of a column of T, the frame moves as `at` does.
+template <class S, class R>
+void Noc<S, R>::addOffLine(int i, const LegState<S>& at, LinkMotions<S>& links) const {
+  const LegModel<S>& leg = machine_.legs[legs::at(i)];
+  const LinkMotions<S> now = legs::withLeg(leg.kind, [&](auto kind) {
+    return kind.template links<false>(leg, at, at.rate, Vector3<S>(Vector3<S>::Zero()), reading_);
+  });
+  const auto add = [this](const Vector3<S>& off, const Vector3<S>& omega_now, LinkMotion<S>& link) {
+    link.c_dot += link.omega.cross(off);
+    link.c_ddot += link.omega_dot.cross(off);
+    if (!reading_.has(FormulaError::drop_centrifugal)) link.c_ddot += link.omega.cross(omega_now.cross(off));
+  };
+  add(at.R_1 * leg.off_1, now.proximal.omega, links.proximal);
+  add(at.R_2 * leg.off_2, now.distal.omega, links.distal);
 }
 
 template <class S, class R>
@@ -55,6 +75,9 @@ void Noc<S, R>::bodyMotions(const Motion<S>& motion, const NocWorkspace<S>& work
     };
     set(bodies[legs::at(i)], at.O_1 + at.arm_1, at.R_1, now.proximal);
     set(bodies[legs::at(leg_count + i)], at.O_2 + at.arm_2, at.R_2, now.distal);
+    if (!leg.off_line) continue;
+    bodies[legs::at(i)].c += at.R_1 * leg.off_1;
+    bodies[legs::at(leg_count + i)].c += at.R_2 * leg.off_2;
   }
   const Vector3<S> arm = platformArm(motion), across = motion.omega.cross(arm);
   BodyMotion<S>& body = bodies[legs::platform];
@@ -77,8 +100,9 @@ typename Noc<S, R>::UnitTwists Noc<S, R>::unitTwists(int i, const LegState<S>& a
   legs::withLeg(leg.kind, [&](auto kind) {
     for (int j = 0; j < 3; ++j) {
       const Vector3<S> one = Vector3<S>::Unit(j), none = Vector3<S>::Zero();
-      const LinkMotions<S> unit = with_rate ? kind.links(leg, at, one, none, reading_)
-                                            : kind.template links<false>(leg, at, one, none, reading_);
+      LinkMotions<S> unit = with_rate ? kind.links(leg, at, one, none, reading_)
+                                      : kind.template links<false>(leg, at, one, none, reading_);
+      if (leg.off_line) addOffLine(i, at, unit);
       out.first.col(j) << unit.proximal.omega, unit.proximal.c_dot;
       out.second.col(j) << unit.distal.omega, unit.distal.c_dot;
       if (!with_rate) continue;

@@ -171,6 +171,22 @@ std::vector<Defect> ofLegFrameAndUnit() {
           })};
 }
 
+/// Each motor with what the next one turns; of motors that are alike nothing would change.
+void passRotorsOn(Read& machine) {
+  const auto rotorOf = [&machine](const Motor& motor) -> double& {
+    LegModel<double>& leg = machine.legs[static_cast<std::size_t>(motor.leg)];
+    leg.has_rotor = true;
+    return leg.rotor[static_cast<std::size_t>(motor.joint)];
+  };
+  for (std::size_t m = 0; m + 1 < machine.motors.size(); ++m)
+    std::swap(rotorOf(machine.motors[m]), rotorOf(machine.motors[m + 1]));
+}
+
+std::vector<Defect> ofRotors() {
+  return {formula_error("(36), (37): rotor inertia left out", "term", FormulaError::drop_rotor),
+          read("rotor inertia on the wrong motor", "index", passRotorsOn)};
+}
+
 }  // namespace
 
 std::vector<Defect> formulaDefects(const Manipulator& machine) {
@@ -178,6 +194,7 @@ std::vector<Defect> formulaDefects(const Manipulator& machine) {
   if (has(machine, LegKind::URS)) out = ofPapersLeg(machine);
   append(out, ofSectionThree(machine));
   append(out, ofLegFrameAndUnit());
+  if (hasRotors(machine)) append(out, ofRotors());
   append(out, {control(wrongFormula("no fault", "control", WithFormulaErrors()))});
   return out;
 }

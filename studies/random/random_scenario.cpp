@@ -122,6 +122,21 @@ std::string nameFor(std::uint64_t seed, RandomKind kind) {
   return kind == RandomKind::URS ? fmt::format("random-{}", seed) : fmt::format("random-{}-{}", nameOf(kind), seed);
 }
 
+/// A quarter of the machines has rotors, some or all of its motors, of 0.003 to 3 times the rod's m s² or m. From a
+/// stream of their own: the other numbers do not depend on them.
+bool addRotors(std::uint64_t seed, ManipulatorParameters& machine) {
+  Dice dice(seed ^ 0x726f746f72);
+  if (!dice.chance(0.25)) return false;
+  for (Leg& leg : machine.legs)
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (!leg.actuated[j] || !dice.chance(0.8)) continue;
+      const Coordinate coordinate = rowOf(leg.kind).coordinates[j];
+      const double lever = slides(coordinate) ? 1 : leg.distal.length;
+      leg.rotor_inertia.on(coordinate) = dice.spread(0.003, 3) * leg.distal.mass * lever * lever;
+    }
+  return true;
+}
+
 }  // namespace
 
 Scenario randomScenario(std::uint64_t seed, RandomKind kind) {
@@ -136,6 +151,8 @@ Scenario randomScenario(std::uint64_t seed, RandomKind kind) {
     for (int design = 0; design < 100; ++design) {
       if (!tryDesign(dice, recipe, draws, scenario)) continue;
       scenario.text = fmt::format("seed {}, draw {}: {}: {}", seed, draws, scenario.trajectory->kind(), recipe.text());
+      ManipulatorParameters machine = scenario.manipulator->parameters();
+      if (addRotors(seed, machine)) scenario.manipulator = std::make_shared<const Manipulator>(machine);
       return scenario;
     }
   }

@@ -30,6 +30,7 @@ namespace ursula {
 ///   knees                    either way, between 20° and 160° in the middle of the motion
 ///   friction                 none, viscous, Coulomb's, both; each leg's own, up to half (a fifth for Coulomb's) of the
 ///                            weight that it carries; smoothing speed 0.003 to 0.3 rad over T
+///   rotors                   of a quarter of the machines, 0.003 to 3 times the rod's m s² (of what slides m)
 ///   loads                    none, constant, tabulated with 2 to 7 rows, 1 to 3 jumps within 0.001 T to 0.01 T; 0.01
 ///   to
 ///                            2 weights; acting up to 0.7 L or 10 L from the platform's points; in both frames

@@ -40,6 +40,8 @@ std::string typeOf(const ScenarioKey& key) {
       return "3 numbers";
     case KeyType::quaternion:
       return "4 numbers";
+    case KeyType::center:
+      return "number or 3 numbers";
     case KeyType::inertia:
       return "3 or 6 numbers";
     case KeyType::tables:

@@ -41,6 +41,8 @@ Json typeOf(const ScenarioKey& key) {
       return arrayOf(3, 3);
     case KeyType::quaternion:
       return arrayOf(4, 4);
+    case KeyType::center:
+      return {{"oneOf", {Json{{"type", "number"}}, arrayOf(3, 3)}}};
     case KeyType::inertia:
       return {{"oneOf", {arrayOf(3, 3), arrayOf(6, 6)}}};
     case KeyType::tables:

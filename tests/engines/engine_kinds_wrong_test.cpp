@@ -30,6 +30,12 @@ const std::vector<Wrong> wrongs = {
     {"distal.mass", [](Leg& leg, double by) { leg.distal.mass *= 1 + by; }},
     {"distal.center_of_mass", [](Leg& leg, double by) { leg.distal.center_of_mass += by; }},
     {"distal.inertia", [](Leg& leg, double by) { leg.distal.inertia *= 1 + by; }},
+    {"distal.off_line", [](Leg& leg, double by) { leg.distal.off_line.x() += by; }},
+    {"rotor_inertia",
+     [](Leg& leg, double by) {
+       for (std::size_t j = 0; j < 3; ++j)
+         if (leg.actuated[j]) leg.rotor_inertia.on(rowOf(leg.kind).coordinates[j]) += 10 * by;
+     }},
 };
 
 /// What a carriage has to no effect, as it does not turn; and the length of a cylinder is for its stroke alone.

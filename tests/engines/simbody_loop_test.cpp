@@ -170,6 +170,37 @@ TEST_P(Loop, acceleratesAsCommandedUnderItsOwnTorques) {
   }
 }
 
+/// What the motors turn adds j q̈ to their efforts and ½ j q̇² to the energy; both topologies' dynamics, by elimination
+/// and by Simbody's own, undo them.
+TEST_P(Loop, hasTheRotorsOfItsMotors) {
+  ManipulatorParameters machine = scenario_.manipulator->parameters();
+  Vector6d rotors;
+  for (int m = 0; m < motor_count; ++m) {
+    const Motor& motor = scenario_.manipulator->motors()[static_cast<std::size_t>(m)];
+    rotors(m) = machine.legs[static_cast<std::size_t>(motor.leg)].rotor_inertia.on(motor.coordinate) = 2 + m;
+  }
+  const Motors& motors = scenario_.manipulator->motors();
+  for (const Topology topology : topologies) {
+    SimbodyLoop plain = loop(topology), with(Manipulator(machine), topology);
+    const Motion<double> motion = randomState(scenario_, dice_);
+    const JointMotion joints = with.place(motion);
+    plain.place(motion);
+    const Vector6d rate = joints.q_dot.driven(motors), acceleration = joints.q_ddot.driven(motors);
+    const Vector6d torques = with.inverseDynamics(), more = rotors.cwiseProduct(acceleration);
+    EXPECT_LE((torques - plain.inverseDynamics() - more).norm(), room * torques.norm());
+    EXPECT_GT(more.norm(), 1e3 * room * torques.norm());
+    const double energy = rotors.dot(rate.cwiseAbs2()) / 2;
+    EXPECT_LE(std::abs(with.energy().kinetic - plain.energy().kinetic - energy), room * with.energy().kinetic);
+    EXPECT_EQ(with.energy().potential, plain.energy().potential);
+    with.place(motion, joints);
+    EXPECT_LE((with.inverseDynamics() - torques).norm(), room * torques.norm());
+    with.accelerate(torques);
+    const Motion<double> found = with.platform();
+    EXPECT_LE((found.p_ddot - motion.p_ddot).norm() + (found.omega_dot - motion.omega_dot).norm(), 1e3 * room);
+    if (topology == Topology::six_balls) EXPECT_LE(with.ownTwistRateError(torques).norm(), 1e3 * room);
+  }
+}
+
 /// Simbody's own forward dynamics drops multipliers there, and is off by as much as gravity.
 TEST_P(Loop, acceleratesAsCommandedWithNearlyMasslessRods) {
   ManipulatorParameters light = scenario_.manipulator->parameters();

@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 
 #include <Eigen/Geometry>
+#include <functional>
 #include <limits>
+#include <vector>
 
 #include "model/scenario.h"
 #include "tests/model/refusals.h"
@@ -67,34 +69,56 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Legs, RefusedManipulator,
-    testing::Values(Refusal{"base_point", [](Machine& m) { m.legs[0].base_point.x() = nan; },
-                            "manipulator.leg[1].base_point", "nan", "finite numbers"},
-                    Refusal{"axis_zero", [](Machine& m) { m.legs[5].base_axis.setZero(); },
-                            "manipulator.leg[6].base_axis", "[0, 0, 0]", "not zero"},
-                    Refusal{"axis_nan", [](Machine& m) { m.legs[5].base_axis.y() = nan; },
-                            "manipulator.leg[6].base_axis", "nan", "finite numbers"},
-                    Refusal{"platform_point", [](Machine& m) { m.legs[2].platform_point.z() = -inf; },
-                            "manipulator.leg[3].platform_point", "-inf", "finite numbers"},
-                    Refusal{"length", [](Machine& m) { m.legs[1].proximal.length = 0; },
-                            "manipulator.leg[2].proximal.length", "0", "> 0"},
-                    Refusal{"link_mass", [](Machine& m) { m.legs[1].distal.mass = -2; },
-                            "manipulator.leg[2].distal.mass", "-2", "> 0"},
-                    Refusal{"link_centre", [](Machine& m) { m.legs[1].distal.center_of_mass = nan; },
-                            "manipulator.leg[2].distal.center_of_mass", "nan", "finite"},
-                    Refusal{"link_inertia", [](Machine& m) { m.legs[4].proximal.inertia(2, 2) = 0; },
-                            "manipulator.leg[5].proximal.inertia", "[0, 4.2, 4.2]", "> 0"},
-                    Refusal{"friction_actuated", [](Machine& m) { m.legs[3].friction.phi = -1; },
-                            "manipulator.leg[4].friction.phi", "-1", ">= 0"},
-                    Refusal{"friction_universal", [](Machine& m) { m.legs[3].friction.psi = nan; },
-                            "manipulator.leg[4].friction.psi", "nan", "finite"},
-                    Refusal{"friction_knee", [](Machine& m) { m.legs[3].friction.theta = -1e-300; },
-                            "manipulator.leg[4].friction.theta", "-1e-300", ">= 0"},
-                    Refusal{"coulomb", [](Machine& m) { m.legs[3].coulomb.theta = -1; },
-                            "manipulator.leg[4].coulomb.theta", "-1", ">= 0"},
-                    Refusal{"smoothing", [](Machine& m) { m.legs[3].coulomb.smoothing_speed = 0; },
-                            "manipulator.leg[4].coulomb.smoothing_speed", "0", "> 0"},
-                    Refusal{"span", [](Machine& m) { m.legs[4].base_point.x() = 40; }, "manipulator.leg[1]",
-                            "l + s of legs 1 and 5 together 5.", "by which their base and platform distances differ"}),
+    testing::Values(
+        Refusal{"base_point", [](Machine& m) { m.legs[0].base_point.x() = nan; }, "manipulator.leg[1].base_point",
+                "nan", "finite numbers"},
+        Refusal{"axis_zero", [](Machine& m) { m.legs[5].base_axis.setZero(); }, "manipulator.leg[6].base_axis",
+                "[0, 0, 0]", "not zero"},
+        Refusal{"axis_nan", [](Machine& m) { m.legs[5].base_axis.y() = nan; }, "manipulator.leg[6].base_axis", "nan",
+                "finite numbers"},
+        Refusal{"platform_point", [](Machine& m) { m.legs[2].platform_point.z() = -inf; },
+                "manipulator.leg[3].platform_point", "-inf", "finite numbers"},
+        Refusal{"length", [](Machine& m) { m.legs[1].proximal.length = 0; }, "manipulator.leg[2].proximal.length", "0",
+                "> 0"},
+        Refusal{"link_mass", [](Machine& m) { m.legs[1].distal.mass = -2; }, "manipulator.leg[2].distal.mass", "-2",
+                "> 0"},
+        Refusal{"link_centre", [](Machine& m) { m.legs[1].distal.center_of_mass = nan; },
+                "manipulator.leg[2].distal.center_of_mass", "nan", "finite"},
+        Refusal{"link_inertia", [](Machine& m) { m.legs[4].proximal.inertia(0, 0) = 0; },
+                "manipulator.leg[5].proximal.inertia", "principal moments [0, ", "> 0"},
+        Refusal{"rod_not_round", [](Machine& m) { m.legs[4].distal.inertia = Vector3d(4, 4.1, 0).asDiagonal(); },
+                "manipulator.leg[5].distal.inertia", "[0, 4, 4.1]", "<= the sum of the others"},
+        Refusal{"rod_with_product",
+                [](Machine& m) {
+                  m.legs[4].distal.inertia(2, 2) = 0,
+                                              m.legs[4].distal.inertia(0, 2) = m.legs[4].distal.inertia(2, 0) = 0.1;
+                },
+                "manipulator.leg[5].distal.inertia", "principal moments [-", "of a thin rod"},
+        Refusal{"off_line_along", [](Machine& m) { m.legs[1].distal.off_line.z() = 0.1; },
+                "manipulator.leg[2].distal.center_of_mass", "0.1", "across the link's line"},
+        Refusal{"off_line_nan", [](Machine& m) { m.legs[1].distal.off_line.x() = nan; },
+                "manipulator.leg[2].distal.center_of_mass", "nan", "finite"},
+        Refusal{"rotor_negative", [](Machine& m) { m.legs[3].rotor_inertia.phi = -1; },
+                "manipulator.leg[4].rotor_inertia.phi", "-1", ">= 0"},
+        Refusal{"rotor_nan", [](Machine& m) { m.legs[3].rotor_inertia.phi = nan; },
+                "manipulator.leg[4].rotor_inertia.phi", "nan", "finite"},
+        Refusal{"rotor_undriven", [](Machine& m) { m.legs[3].rotor_inertia.theta = 2; },
+                "manipulator.leg[4].rotor_inertia.theta", "2", "no motor drives theta"},
+        Refusal{"rotor_elsewhere", [](Machine& m) { m.legs[3].rotor_inertia.d = 2; },
+                "manipulator.leg[4].rotor_inertia.d", "2", "no motor drives d"},
+        Refusal{"spin", [](Machine& m) { m.legs[3].spins = true; }, "manipulator.leg[4].spin", "URS", "held"},
+        Refusal{"friction_actuated", [](Machine& m) { m.legs[3].friction.phi = -1; }, "manipulator.leg[4].friction.phi",
+                "-1", ">= 0"},
+        Refusal{"friction_universal", [](Machine& m) { m.legs[3].friction.psi = nan; },
+                "manipulator.leg[4].friction.psi", "nan", "finite"},
+        Refusal{"friction_knee", [](Machine& m) { m.legs[3].friction.theta = -1e-300; },
+                "manipulator.leg[4].friction.theta", "-1e-300", ">= 0"},
+        Refusal{"coulomb", [](Machine& m) { m.legs[3].coulomb.theta = -1; }, "manipulator.leg[4].coulomb.theta", "-1",
+                ">= 0"},
+        Refusal{"smoothing", [](Machine& m) { m.legs[3].coulomb.smoothing_speed = 0; },
+                "manipulator.leg[4].coulomb.smoothing_speed", "0", "> 0"},
+        Refusal{"span", [](Machine& m) { m.legs[4].base_point.x() = 40; }, "manipulator.leg[1]",
+                "l + s of legs 1 and 5 together 5.", "by which their base and platform distances differ"}),
     nameOf);
 
 TEST(Manipulator, keepsWhatItWasGiven) {
@@ -105,6 +129,54 @@ TEST(Manipulator, keepsWhatItWasGiven) {
   EXPECT_EQ(manipulator.leg(2).friction.theta, 0.75);
   EXPECT_EQ(manipulator.gravity(), Vector3d(1, 2, 3));
   EXPECT_EQ(manipulator.platform().mass, 500);
+}
+
+TEST(Manipulator, acceptsAThinRod) {
+  Machine machine = good();
+  machine.legs[2].distal.inertia = Vector3d(4, 4, 0).asDiagonal();
+  EXPECT_EQ(Manipulator(machine).leg(2).distal.inertia(2, 2), 0);
+  machine.legs[2].distal.inertia(0, 0) = 4 * (1 + 1e-15);  // the triangle inequality is one of rounded numbers
+  EXPECT_NO_THROW(Manipulator{machine});
+  machine.platform.inertia = Vector3d(4, 4, 0).asDiagonal();
+  EXPECT_THROW(Manipulator{machine}, InvalidParameter);
+}
+
+Machine spinning() {
+  Machine machine = good();
+  for (Leg& leg : machine.legs) {
+    leg.kind = LegKind::UPS;
+    leg.actuated = {false, false, true};
+    leg.proximal.inertia = Vector3d(4, 4, 2).asDiagonal();
+    leg.distal.inertia = Vector3d(3, 3, 1).asDiagonal();
+    leg.spins = true;
+  }
+  return machine;
+}
+
+/// Its momentum about its line stays zero: nothing moves by it.
+TEST(Manipulator, takesNoMomentAboutTheLineOfWhatSpins) {
+  const Manipulator manipulator(spinning());
+  EXPECT_EQ(manipulator.leg(1).proximal.inertia, Matrix3d(Vector3d(4, 4, 0).asDiagonal()));
+  EXPECT_EQ(manipulator.leg(1).distal.inertia, Matrix3d(Vector3d(3, 3, 0).asDiagonal()));
+  EXPECT_EQ(manipulator.given().legs[1].distal.inertia(2, 2), 1);
+  EXPECT_NO_THROW(Manipulator(manipulator.parameters()));
+  Machine crank = spinning();
+  crank.legs[0].kind = LegKind::RUS;
+  crank.legs[0].actuated = {true, false, false};
+  EXPECT_EQ(Manipulator(crank).leg(0).proximal.inertia(2, 2), 2);
+}
+
+TEST(Manipulator, spinsOnlyWhatIsRound) {
+  for (const auto& change : std::vector<std::function<void(Link&)>>{
+           [](Link& link) { link.inertia(0, 0) = 3.5; }, [](Link& link) { link.off_line.x() = 0.01; },
+           [](Link& link) { link.inertia(0, 2) = link.inertia(2, 0) = 0.01; }})
+    for (const bool first : {true, false}) {
+      Machine machine = spinning();
+      change(first ? machine.legs[3].proximal : machine.legs[3].distal);
+      EXPECT_THROW(Manipulator{machine}, InvalidParameter);
+      machine.legs[3].spins = false;
+      EXPECT_NO_THROW(Manipulator{machine});
+    }
 }
 
 TEST(Manipulator, acceptsALaminaInAnyAttitude) {

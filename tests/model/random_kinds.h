@@ -90,6 +90,22 @@ inline void throwMotors(Dice& dice, std::vector<Leg>& legs) {
     if (one_more(legs[static_cast<std::size_t>(dice.between(0, static_cast<double>(legs.size())))])) ++motors;
 }
 
+/// Rotors on the motors, mass centres off the links' lines, thin rods: of every other machine, thrown after all else.
+inline void throwAdded(Dice& dice, std::vector<Leg>& legs) {
+  if (dice.between(0, 1) < 0.5) return;
+  for (Leg& leg : legs) {
+    for (std::size_t j = 0; j < 3; ++j)
+      if (leg.actuated[j]) leg.rotor_inertia.on(rowOf(leg.kind).coordinates[j]) = dice.between(1, 30);
+    for (Link* link : {&leg.proximal, &leg.distal}) {
+      const bool carriage = link == &leg.proximal && leg.kind == LegKind::PUS;
+      link->off_line = dice.vector(0.2);
+      link->off_line(carriage ? 1 : 2) = 0;
+      const double moment = dice.between(1, 3);
+      if (!carriage && dice.between(0, 1) < 0.3) link->inertia = Vector3d(moment, moment, 0).asDiagonal();
+    }
+  }
+}
+
 inline KindCase thrownCase(Dice& dice, const std::vector<LegKind>& kinds) {
   KindCase out;
   Motion<double>& motion = out.motion;
@@ -109,6 +125,7 @@ inline KindCase thrownCase(Dice& dice, const std::vector<LegKind>& kinds) {
   throwMotors(dice, out.machine.legs);
   out.load->force = dice.vector(500), out.load->moment = dice.vector(60), out.load->point = dice.vector(0.3);
   out.load->frame = dice.between(0, 1) < 0.5 ? Load::Frame::base : Load::Frame::platform;
+  throwAdded(dice, out.machine.legs);
   return out;
 }
 

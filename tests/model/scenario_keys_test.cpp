@@ -77,8 +77,12 @@ std::string withLine(const std::string& table, const std::string& key, const std
   };
   if (table == "manipulator.leg") return leg(line);
   const std::string part = table == "manipulator.leg.link" ? "proximal" : table.substr(table.rfind('.') + 1);
-  // Of URS no coordinate slides.
-  return leg((key == "d" ? "kind = \"UPS\"\n" : "") + part + " = { " + line + " }");
+  // Of URS no coordinate slides. A rotor is on a coordinate that a motor drives.
+  const bool other_motor = table == "manipulator.leg.rotor_inertia" && key != "d";
+  return leg((key == "d"    ? "kind = \"UPS\"\n"
+              : other_motor ? "actuated = [\"" + key + "\"]\n"
+                            : "") +
+             part + " = { " + line + " }");
 }
 
 bool isTried(const std::string& table) {
@@ -103,6 +107,8 @@ std::string expectation(const ScenarioKey& key) {
       return "expected an array of 3 numbers";
     case KeyType::quaternion:
       return "expected an array of 4 numbers";
+    case KeyType::center:
+      return "expected a number";
     case KeyType::inertia:
       return "expected an array of 3 or 6 numbers";
     case KeyType::tables:
@@ -137,7 +143,8 @@ std::vector<double> numbersOf(const Scenario& scenario) {
   for (const Leg& leg : machine.legs)
     for (const JointFriction& friction : {leg.friction, static_cast<const JointFriction&>(leg.coulomb)})
       out.insert(out.end(), {friction.phi, friction.psi, friction.theta, friction.d, leg.coulomb.smoothing_speed,
-                             leg.coulomb.sliding_speed, leg.knee == Knee::positive ? 1.0 : -1.0});
+                             leg.coulomb.sliding_speed, leg.knee == Knee::positive ? 1.0 : -1.0, leg.rotor_inertia.phi,
+                             leg.rotor_inertia.d, leg.spins ? 1.0 : 0.0});
   for (double t : {0.0, 0.4, 1.0}) {
     const Motion<double> motion = scenario.trajectory->at(t);
     out.insert(out.end(), motion.p.data(), motion.p.data() + 3);

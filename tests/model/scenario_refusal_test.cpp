@@ -62,7 +62,15 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{
             "leg", "base_axis = [0.9397", "@base_axes = [0.9397",
             "unknown key 'base_axes' in manipulator.leg[2], expected 'kind', 'actuated', 'base_point', 'base_axis', "
-            "'platform_point', 'proximal', 'distal', 'knee', 'friction' or 'coulomb', did you mean 'base_axis'?"},
+            "'platform_point', 'proximal', 'distal', 'knee', 'friction', 'coulomb', 'rotor_inertia' or 'spin', did you "
+            "mean 'base_axis'?"},
+        Refusal{"rotor", "friction = {", "rotor_inertia = { @actuated = 1 }\nfriction = {",
+                "unknown key 'actuated' in manipulator.leg_defaults.rotor_inertia, expected 'phi', 'psi', 'theta' or "
+                "'d'"},
+        Refusal{"rotor_undriven", "friction = {", "rotor_inertia = { psi = @1 }\nfriction = {",
+                "manipulator.leg_defaults.rotor_inertia.psi: 1, but no motor drives psi, expected 'phi'"},
+        Refusal{"rotor_of_one_leg", "[-0.0667, -1.3847, 0.0]", "[-0.0667, -1.3847, 0.0]\nrotor_inertia = { d = @1 }",
+                "manipulator.leg[1].rotor_inertia.d: 1, but no motor drives d of this leg, expected 'phi'"},
         Refusal{"friction", "universal = 0.25", "@univeral = 0.25",
                 "unknown key 'univeral' in manipulator.leg_defaults.friction, expected 'phi', 'psi', 'theta', 'd', "
                 "'actuated', 'universal' or "

@@ -46,6 +46,11 @@ INSTANTIATE_TEST_SUITE_P(
                 "<= the sum of the others, 810"},
         Refusal{"friction", "knee = 0.125", "knee = @-0.125",
                 "manipulator.leg_defaults.friction.knee (of leg 1): -0.125, expected >= 0"},
+        Refusal{"rotor", "friction = {", "rotor_inertia = { phi = @-0.5 }\nfriction = {",
+                "manipulator.leg_defaults.rotor_inertia.phi (of leg 1): -0.5, expected >= 0"},
+        Refusal{"spin", "friction = {", "spin = @\"free\"\nfriction = {",
+                "manipulator.leg_defaults.spin (of leg 1): \"free\" of a URS leg, expected \"held\": its links cannot "
+                "turn about their lines"},
         Refusal{"coulomb", "friction = {", "coulomb = { smoothing_speed = @0.0 }\nfriction = {",
                 "manipulator.leg_defaults.coulomb.smoothing_speed (of leg 1): 0, expected > 0"}),
     nameOf);

@@ -76,12 +76,30 @@ double conditionOfI(const Matrix6d& I) {
   return eigenvalues(0) > 0 ? eigenvalues(5) / eigenvalues(0) : std::numeric_limits<double>::infinity();
 }
 
-/// ‖1/m + [d]ᵀ I⁻¹ [d]‖ of a free link at its far end, [d] the cross product with the vector from its mass centre.
+/// ‖1/m + [d]ᵀ I⁻¹ [d]‖ of a free link at its far end, [d] the cross product with the vector from its mass centre. A
+/// thin rod has no turn about its line to give.
 double complianceAtEnd(const Link& link) {
   const double d = link.length - link.center_of_mass;
+  const Vector3d& off = link.off_line;
   Matrix3d cross;
-  cross << 0, -d, 0, d, 0, 0, 0, 0, 0;  // along z of its frame (40)
-  return (Matrix3d::Identity() / link.mass + cross.transpose() * link.inertia.inverse() * cross).norm();
+  cross << 0, -d, -off.y(), d, 0, off.x(), off.y(), -off.x(), 0;  // along z of its frame (40)
+  Matrix3d inverse = Matrix3d::Zero();
+  if (link.inertia(2, 2) > 0)
+    inverse = link.inertia.inverse();
+  else
+    inverse.topLeftCorner<2, 2>() = link.inertia.topLeftCorner<2, 2>().inverse();
+  return (Matrix3d::Identity() / link.mass + cross.transpose() * inverse * cross).norm();
+}
+
+/// Σ j‖J‖ for the sizes of the platform's accelerations, J the rows of q̇ = J [L ω; ṗ].
+double rotorScale(const Manipulator& manipulator, const Matrix6d& T_P, double rate_scale) {
+  double out = 0;
+  const Matrix6d J = T_P.inverse();
+  for (int m = 0; m < motor_count; ++m) {
+    const Motor& motor = manipulator.motors()[static_cast<std::size_t>(m)];
+    out += manipulator.leg(motor.leg).rotor_inertia.on(motor.coordinate) * J.row(m).norm() * rate_scale;
+  }
+  return out;
 }
 
 /// What the platform and the forces that hold it are without its legs.
@@ -206,13 +224,18 @@ Conditioning ConditioningProbe::at(const Motion<double>& motion) {
   const Matrix6d B = scaledB(work_.B, out.length);
   out.kappa_B = conditionNumber(B);
   const Projection projection = project(manipulator_, work_.T, bodies, solver_.rates(work_), out.length);
-  out.kappa_I = conditionOfI(projection.inertia);
+  Matrix6d I = projection.inertia;
+  for (int m = 0; m < motor_count; ++m) {
+    const Motor& motor = manipulator_.motors()[static_cast<std::size_t>(m)];
+    I(m, m) += manipulator_.leg(motor.leg).rotor_inertia.on(motor.coordinate);
+  }
+  out.kappa_I = conditionOfI(I);
   Matrix6d T_P = solver_.platformShaping(work_);
   T_P.topRows<3>() *= out.length;
   setPlatform(solver_, manipulator_, motion, torques, work_, out);
   out.torque_scale =
       projection.torque_scale + T_P.norm() * (load.head<3>().norm() / out.length + load.tail<3>().norm());
-  out.response = (T_P * projection.inertia.llt().solve(Matrix6d::Identity())).norm();
+  out.response = (T_P * I.llt().solve(Matrix6d::Identity())).norm();
   out.shaping_scale = T_P.norm();
   out.effort_scale = effortScale(solver_, motion, work_, out.length);
   setPositions(manipulator_, motion, bodies, out);
@@ -222,6 +245,7 @@ Conditioning ConditioningProbe::at(const Motion<double>& motion) {
         std::max(out.rate_scale, body.twist_rate.tail<3>().norm() + out.length * body.twist_rate.head<3>().norm());
   }
   out.rate_scale += out.twist_scale * out.twist_scale / out.length;
+  if (hasRotors(manipulator_)) out.torque_scale += rotorScale(manipulator_, T_P, out.rate_scale);
   return out;
 }
 

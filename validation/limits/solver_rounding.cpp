@@ -48,7 +48,8 @@ MachineParameters<double> moved(const Manipulator& manipulator, unsigned seed) {
     for (Vector3d* vector : {&leg.a, &leg.b, &leg.x_hat, &leg.u, &leg.z_hat}) move(*vector);
     for (double* number : {&leg.l, &leg.s, &leg.rho, &leg.sigma, &leg.mass_1, &leg.mass_2}) move(*number);
     for (Matrix3d* tensor : {&leg.I_1, &leg.I_2}) move(*tensor);
-    for (std::array<double, 3>* friction : {&leg.viscous, &leg.coulomb, &leg.speed}) move(*friction);
+    for (std::array<double, 3>* numbers : {&leg.viscous, &leg.coulomb, &leg.speed, &leg.rotor}) move(*numbers);
+    for (Vector3d* off : {&leg.off_1, &leg.off_2}) move(*off);
   }
   move(machine.gravity);
   move(machine.mass);

@@ -69,7 +69,7 @@ Manipulator doubled(const Manipulator& manipulator) {
       link->mass *= 2;
       link->inertia *= 2;
     }
-    for (JointFriction* friction : {&leg.friction, static_cast<JointFriction*>(&leg.coulomb)}) {
+    for (JointFriction* friction : {&leg.friction, static_cast<JointFriction*>(&leg.coulomb), &leg.rotor_inertia}) {
       friction->phi *= 2;
       friction->psi *= 2;
       friction->theta *= 2;

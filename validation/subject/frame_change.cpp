@@ -20,6 +20,7 @@ Matrix3d turnedTensor(const Matrix3d& R, const Matrix3d& I) {
 void rescale(Link& link, const Units& units) {
   link.length /= units.length;
   link.center_of_mass /= units.length;
+  link.off_line /= units.length;
   link.mass /= units.mass;
   link.inertia /= units.mass * units.length * units.length;
 }
@@ -99,6 +100,7 @@ Manipulator FrameChange::of(const Manipulator& machine) const {
     rescale(to.distal, units);
     rescale(to.friction, units.torque() * units.time, units.force() / units.velocity());
     rescale(to.coulomb, units.torque(), units.force());
+    rescale(to.rotor_inertia, inertia, units.mass);
     to.coulomb.smoothing_speed *= units.time;
     to.coulomb.sliding_speed /= units.velocity();
   }

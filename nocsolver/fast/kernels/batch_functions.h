@@ -16,7 +16,7 @@ struct MachineShape {
   int legs = 0;
   std::array<LegKind, leg_count> kinds{};
   std::array<std::array<int, 3>, leg_count> motors{};
-  std::array<bool, leg_count> rubs{}, rubs_dry{}, principal{};
+  std::array<bool, leg_count> rubs{}, rubs_dry{}, principal{}, has_rotor{}, off_line{};
 };
 
 /// Entries one after the other, as Motion<double> and Vector6d have them. `loads` may be null.

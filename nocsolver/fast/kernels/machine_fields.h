@@ -33,7 +33,9 @@ void forEachNumber(Model& machine, const F& f) {
     all(leg.I_2);
     all(leg.J_1);
     all(leg.J_2);
-    for (auto* three : {&leg.viscous, &leg.coulomb, &leg.speed})
+    all(leg.off_1);
+    all(leg.off_2);
+    for (auto* three : {&leg.viscous, &leg.coulomb, &leg.speed, &leg.rotor})
       for (auto& number : *three) f(number);
   }
 }
@@ -48,6 +50,8 @@ MachineShape shapeOf(const MachineModel<S>& machine) {
     out.rubs[i] = machine.legs[i].rubs;
     out.rubs_dry[i] = machine.legs[i].rubs_dry;
     out.principal[i] = machine.legs[i].principal;
+    out.has_rotor[i] = machine.legs[i].has_rotor;
+    out.off_line[i] = machine.legs[i].off_line;
   }
   return out;
 }
@@ -61,6 +65,8 @@ void copyShape(const MachineShape& shape, MachineModel<S>& to) {
     to.legs[i].rubs = shape.rubs[i];
     to.legs[i].rubs_dry = shape.rubs_dry[i];
     to.legs[i].principal = shape.principal[i];
+    to.legs[i].has_rotor = shape.has_rotor[i];
+    to.legs[i].off_line = shape.off_line[i];
   }
 }
 

@@ -16,6 +16,7 @@
 #include "nocsolver/fast/kernels/leg_forces.h"
 #include "nocsolver/fast/kernels/leg_rates.h"
 #include "nocsolver/fast/kernels/machine_model.h"
+#include "nocsolver/fast/kernels/off_line.h"
 #include "nocsolver/fast/kernels/plane_mass.h"
 #include "nocsolver/fast/kernels/solve6.h"
 
@@ -93,6 +94,12 @@ Vector3<S> friction(const PlaneModel<S>& model, const PlaneLeg<S>& leg) {
   return Q;
 }
 
+/// Of the coordinates' motors, kg·m² or kg: each has j q̈ more to give, and j in the mass matrix.
+template <class S>
+Vector3<S> rotorInertia(const PlaneModel<S>& model) {
+  return {model.rotor[0], model.rotor[1], model.rotor[2]};
+}
+
 template <class S>
 void addForceAt(const Vector3<S>& arm, const Vector3<S>& f, Vector6<S>& wrench) {
   wrench.template head<3>() = plusCross<S>(wrench.template head<3>(), arm, f);
@@ -149,6 +156,8 @@ void moveLegs(const MachineModel<S>& machine, const Motion<S>& motion, const Car
     leg.Q = model.principal ? linkForces<true>(kind, model, base, leg.plane)
                             : linkForces<false>(kind, model, base, leg.plane);
     if (model.rubs) leg.Q += friction<S>(model, leg.plane);
+    if (model.has_rotor) leg.Q += rotorInertia<S>(model).cwiseProduct(leg.plane.acceleration);
+    if (model.off_line) leg.Q += offLineForces(kind, model, base, leg.plane);
   });
 }
 
@@ -248,7 +257,12 @@ void addLegMass(Kind kind, const PlaneModel<S>& model, const MovingLeg<S>& leg, 
     K.col(j.value) = leg.axes.template toBase<present>(k);
   });
   addForceAt<S>(leg.Qb, leg.axes.toBase(f), wrench);
-  addMassAt<S>(leg.Qb, K * massMatrix(kind, model, leg.plane) * K.transpose(), M_P);
+  if (!model.has_rotor && !model.off_line)
+    return addMassAt<S>(leg.Qb, K * massMatrix(kind, model, leg.plane) * K.transpose(), M_P);
+  Matrix3<S> mass = massMatrix(kind, model, leg.plane);
+  if (model.has_rotor) mass.diagonal() += rotorInertia<S>(model);
+  if (model.off_line) mass += offLineMass(kind, model, leg.plane);
+  addMassAt<S>(leg.Qb, K * mass * K.transpose(), M_P);
 }
 
 template <class S>

@@ -40,11 +40,21 @@ std::string frictionText(const Leg& leg, const JointFriction& friction, bool by_
   return fmt::format("{}", fmt::join(out, ", "));
 }
 
+/// Zeros as well, which a leg that inherits others has to write.
+std::string rotorText(const Leg& leg) {
+  std::vector<std::string> out;
+  for (const Coordinate coordinate : rowOf(leg.kind).coordinates)
+    if (leg.drives(coordinate))
+      out.push_back(fmt::format("{} = {}", nameOf(coordinate), leg.rotor_inertia.on(coordinate)));
+  return fmt::format("rotor_inertia = {{ {} }}\n", fmt::join(out, ", "));
+}
+
 std::string linksAndFriction(const Leg& leg, bool by_joint) {
   return linkText("proximal", leg.proximal) + linkText("distal", leg.distal) +
          fmt::format("friction = {{ {} }}\ncoulomb = {{ {}, smoothing_speed = {} }}\n",
                      frictionText(leg, leg.friction, by_joint), frictionText(leg, leg.coulomb, !by_joint),
-                     leg.coulomb.smoothing_speed);
+                     leg.coulomb.smoothing_speed) +
+         rotorText(leg);
 }
 
 std::string motorsText(const Leg& leg) {

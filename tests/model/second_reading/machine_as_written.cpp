@@ -26,12 +26,20 @@ class LegKeys {
   View own_, defaults_;
 };
 
-/// `length`: what it is where the file does not say.
-Link linkOf(const LegKeys& keys, const char* name, double length = none) {
+/// A carriage need have no length.
+Link linkOf(const LegKeys& keys, const char* name, bool carriage = false) {
   Link link;
-  link.length = numberOr(keys(name, "length"), length);
+  link.length = numberOr(keys(name, "length"), carriage ? 0 : none);
   link.mass = number(keys(name, "mass"));
-  link.center_of_mass = number(keys(name, "center_of_mass"));
+  const View center = keys(name, "center_of_mass");
+  const int line = carriage ? 1 : 2;
+  if (center.is_array()) {
+    link.off_line = numbers<3>(center);
+    link.center_of_mass = link.off_line(line);
+    link.off_line(line) = 0;
+  } else {
+    link.center_of_mass = number(center);
+  }
   link.inertia = tensor(keys(name, "inertia"));
   return link;
 }
@@ -86,11 +94,16 @@ Leg legOf(const LegKeys& keys) {
   leg.base_point = numbers<3>(keys("base_point"));
   leg.base_axis = numbers<3>(keys("base_axis"));
   leg.platform_point = numbers<3>(keys("platform_point"));
-  leg.proximal = linkOf(keys, "proximal", leg.kind == LegKind::PUS ? 0 : none);  // a carriage need have none
+  leg.proximal = linkOf(keys, "proximal", leg.kind == LegKind::PUS);
   leg.distal = linkOf(keys, "distal");
   leg.knee = keys("knee").value_or(std::string("positive")) == "negative" ? Knee::negative : Knee::positive;
   leg.friction = frictionOf(keys, "friction", leg.kind);
   static_cast<JointFriction&>(leg.coulomb) = frictionOf(keys, "coulomb", leg.kind);
+  leg.spins = keys("spin").value_or(std::string("held")) == "free";
+  const std::array<std::string, 3> has = coordinatesOf(leg.kind);
+  for (std::size_t j = 0; j < 3; ++j)
+    if (leg.actuated[j])
+      leg.rotor_inertia.on(rowOf(leg.kind).coordinates[j]) = numberOr(keys("rotor_inertia", has[j].c_str()), 0);
   leg.coulomb.smoothing_speed = leg.coulomb.sliding_speed = numberOr(keys("coulomb", "smoothing_speed"), 0.01);
   return leg;
 }

@@ -11,6 +11,7 @@ void compareLink(const std::string& place, const Link& read, const Link& written
   mismatches.number(place + ".length", read.length, written.length);
   mismatches.number(place + ".mass", read.mass, written.mass);
   mismatches.number(place + ".center_of_mass", read.center_of_mass, written.center_of_mass);
+  mismatches.numbers(place + ".off_line", read.off_line, written.off_line);
   mismatches.numbers(place + ".inertia", read.inertia.reshaped(), written.inertia.reshaped());
 }
 
@@ -41,6 +42,8 @@ void compareLeg(const std::string& place, const Leg& read, const Leg& written, M
   mismatches.text(place + ".knee", name(read.knee), name(written.knee));
   compareFriction(place + ".friction", read.friction, written.friction, mismatches);
   compareFriction(place + ".coulomb", read.coulomb, written.coulomb, mismatches);
+  compareFriction(place + ".rotor_inertia", read.rotor_inertia, written.rotor_inertia, mismatches);
+  mismatches.text(place + ".spin", read.spins ? "free" : "held", written.spins ? "free" : "held");
   mismatches.number(place + ".coulomb.smoothing_speed", read.coulomb.smoothing_speed, written.coulomb.smoothing_speed);
   mismatches.number(place + ".coulomb.smoothing_speed", read.coulomb.sliding_speed, written.coulomb.sliding_speed);
 }
