@@ -87,7 +87,7 @@ TEST_F(SolverRun, anEarlyEndIsRefused) {
                                        ContainsRegex(question + std::string("nothing\n"))));
   EXPECT_THAT(refused("read line; echo 1,2,3,4,5,6; read line; printf 1,2"),
               AllOf(HasSubstr("ended with exit code 0 before it had answered"), HasSubstr("got:   1,2\n")));
-  EXPECT_THAT(refused("read line; kill -9 $$"), HasSubstr("was ended by signal 9 before it had answered"));
+  EXPECT_THAT(refused("read line; kill -9 $$"), HasSubstr("was ended by signal 9 (Killed) before it had answered"));
   EXPECT_THAT(refused("no-such-program-anywhere"),
               AllOf(HasSubstr("not found"), HasSubstr("ended with exit code 127")));
 }
