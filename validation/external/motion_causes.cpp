@@ -127,6 +127,24 @@ void addFrames(const Scenario& scenario, std::vector<Cause>& out) {
       });
 }
 
+void addUnits(const Scenario& scenario, std::vector<Cause>& out) {
+  constexpr double degrees = 180 / 3.14159265358979323846, millimetres = 1000;
+  const auto add = [&](const char* text, const char* term, double factor, Vector3d Motion<double>::*of) {
+    NamedCause named{CauseKind::units, term, "all"};
+    named.expected = 1;
+    named.found = factor;
+    out.push_back(
+        readOtherwise(scenario, {text, named}, [of, factor](Motion<double>& motion) { motion.*of *= factor; }));
+  };
+  add("omega in degrees per second", "angular_velocity", degrees, &Motion<double>::omega);
+  add("omega in degrees per second, taken for radians", "angular_velocity", 1 / degrees, &Motion<double>::omega);
+  add("the rate of omega in degrees", "angular_acceleration", degrees, &Motion<double>::omega_dot);
+  add("the rate of omega in degrees, taken for radians", "angular_acceleration", 1 / degrees,
+      &Motion<double>::omega_dot);
+  add("the velocity of P in millimetres", "velocity", millimetres, &Motion<double>::p_dot);
+  add("the acceleration of P in millimetres", "acceleration", millimetres, &Motion<double>::p_ddot);
+}
+
 void addLeftOut(const Scenario& scenario, std::vector<Cause>& out) {
   const auto add = [&](const CauseName& name, const MotionChange& change) {
     out.push_back(readOtherwise(scenario, name, change));
@@ -204,6 +222,7 @@ void addLoads(const Scenario& scenario, std::vector<Cause>& out) {
 std::vector<Cause> motionCauses(const Scenario& scenario) {
   std::vector<Cause> out;
   addFrames(scenario, out);
+  addUnits(scenario, out);
   addLeftOut(scenario, out);
   addNotTurned(scenario, out);
   addLoads(scenario, out);

@@ -1,5 +1,7 @@
 #include "validation/external/term_causes.h"
 
+#include <fmt/format.h>
+
 #include <string>
 #include <utility>
 
@@ -45,6 +47,9 @@ Vector6d turningInertia(const MachineTerms& machine, const BodyTerms& body) {
 Vector6d acceleratedInertia(const MachineTerms& /*machine*/, const BodyTerms& body) {
   return momentWrench(body.inertia * body.twist_rate.head<3>());
 }
+Vector6d movingInertia(const MachineTerms& /*machine*/, const BodyTerms& body) {
+  return forceWrench(body.mass * body.twist_rate.tail<3>());
+}
 Vector6d inertia(const MachineTerms& /*machine*/, const BodyTerms& body) { return body.inertiaWrench(body.twist_rate); }
 Vector6d everything(const MachineTerms& machine, const BodyTerms& body) {
   return inertia(machine, body) + gravity(machine, body);
@@ -83,7 +88,6 @@ BodyTerms withoutSpin(const BodyTerms& body) {
   out.twist_rate = withoutSpin(body, body.twist_rate);
   const Vector3d omega = body.omega();
   out.twist_rate.head<3>() -= body.line.dot(omega) * omega.cross(body.line);
-  for (int m = 0; m < motor_count; ++m) out.T.col(m) = withoutSpin(body, body.T.col(m));
   return out;
 }
 
@@ -142,20 +146,46 @@ class Collector {
   const Scenario& scenario_;
 };
 
+Wrench withoutSpinOf(bool of_reaction) {
+  return [of_reaction](const MachineTerms& /*machine*/, const BodyTerms& body) {
+    const BodyTerms still = withoutSpin(body);
+    Vector6d wrench = still.inertiaWrench(still.twist_rate);
+    if (of_reaction) wrench = withoutSpin(body, wrench);  // Tᵀ without spin takes no moment about the line
+    return Vector6d(wrench - body.inertiaWrench(body.twist_rate));
+  };
+}
+
 void addSpin(Collector& out) {
-  for (const bool of_reaction : {true, false})
-    out.add(of_reaction ? "the links' spin about their own lines left out"
-                        : "the links' spin about their own lines left out of their motion",
-            {CauseKind::missing_term, "spin", "legs"}, [of_reaction](const MachineTerms& machine) {
-              Vector6d change = Vector6d::Zero();
-              for (const auto* links : {&machine.proximal, &machine.distal})
-                for (const BodyTerms& body : *links) {
-                  const BodyTerms still = withoutSpin(body);
-                  change += (of_reaction ? still : body).T.transpose() * still.inertiaWrench(still.twist_rate) -
-                            body.T.transpose() * body.inertiaWrench(body.twist_rate);
-                }
-              return change;
-            });
+  for (const Group& group : groups) {
+    if (group.platform) continue;
+    for (const bool of_reaction : {true, false})
+      out.add(fmt::format("the spin of {} about their own lines left out{}", group.words,
+                          of_reaction ? "" : " of their motion"),
+              {CauseKind::missing_term, "spin", group.body}, [group, of_reaction](const MachineTerms& machine) {
+                return effortsOf(machine, group, withoutSpinOf(of_reaction));
+              });
+  }
+}
+
+/// The weights of one leg's links.
+void addWeightsOfLegs(int legs, Collector& out) {
+  for (int i = 0; i < legs; ++i)
+    for (const Group& group : groups) {
+      if (group.platform) continue;
+      NamedCause named{CauseKind::missing_term, "gravity", group.body};
+      named.leg = i + 1;
+      out.add(fmt::format("gravity of {} of leg {} left out", group.words, i + 1), named,
+              [group, i](const MachineTerms& machine) {
+                const auto weight = [&](const BodyTerms& body) {
+                  return Vector6d(body.T.transpose() * body.gravityWrench(machine.gravity));
+                };
+                const auto k = static_cast<std::size_t>(i);
+                Vector6d change = Vector6d::Zero();
+                if (group.proximal) change += weight(machine.proximal[k]);
+                if (group.distal) change += weight(machine.distal[k]);
+                return change;
+              });
+    }
 }
 
 /// No such body need exist, so that no machine is made of it.
@@ -197,6 +227,7 @@ std::vector<Cause> termCauses(const Scenario& scenario) {
   out.addPart("half of the Coriolis acceleration", "coriolis", halfCoriolis, "distal", false);
   out.addPart("the moment of inertia", "inertia", turningInertia);
   out.addPart("the moment of angular acceleration", "inertia", acceleratedInertia);
+  out.addPart("the force of inertia", "inertia", movingInertia);
   out.addPart("inertia", "inertia", inertia);
   out.addPart("inertia and gravity", "inertia", everything);
   for (const char* body : {"legs", "proximal", "distal"}) {
@@ -206,6 +237,7 @@ std::vector<Cause> termCauses(const Scenario& scenario) {
     out.addPart("every term in velocities but friction", "coriolis", velocityTerms, body);
   }
   addSpin(out);
+  addWeightsOfLegs(scenario.manipulator->legCount(), out);
   addTensors(out);
   return std::move(out.causes);
 }
