@@ -63,8 +63,8 @@ class Builder {
     for (std::size_t k = 0; k < at.joints.size(); ++k) {
       const bool to_proximal = k + 1 == before_proximal, to_distal = k + 1 == at.joints.size();
       const Eigen::Isometry3d& frame = k < before_proximal ? at.proximal : at.distal;
-      const std::size_t next = to_proximal ? addLink(name + "_proximal", frame, leg.proximal, leg.kind == LegKind::PUS)
-                               : to_distal ? addLink(name + "_distal", frame, leg.distal, false)
+      const std::size_t next = to_proximal ? addLink(name + "_proximal", frame, leg.proximal, leg.proximalCenter())
+                               : to_distal ? addLink(name + "_distal", frame, leg.distal, leg.distalCenter())
                                            : addBody(name + "_cross", frame, 0, {});
       addCoordinate(index, k, at.joints[k], body, next);
       if (to_proximal) draw(next, frame.translation(), at.far_end, 0.02);
@@ -72,14 +72,16 @@ class Builder {
       body = next;
     }
     tips_.push_back({body, at.tip});
-    if (leg.kind == LegKind::PUS && leg.proximal.length != 0)
+    if (leg.spins)
+      note("The free spin about the line is held, and the moment about it left out: the motion is the same", name,
+           machine_.given().legs[static_cast<std::size_t>(index)].distal.inertia(2, 2), "kg m^2");
+    if (rowOf(leg.kind).hasCarriage() && leg.proximal.length != 0)
       note("The carriage's length is for drawing and is left out", name, leg.proximal.length, "m");
   }
 
-  /// A carriage's mass centre is along the rail, its y; that of other links along z.
-  std::size_t addLink(const std::string& name, const Eigen::Isometry3d& frame, const Link& link, bool carriage) {
-    const Vector3d along = carriage ? Vector3d::UnitY() : Vector3d::UnitZ();
-    return addBody(name, frame, link.mass, {link.center_of_mass * along, link.inertia});
+  std::size_t addLink(const std::string& name, const Eigen::Isometry3d& frame, const Link& link,
+                      const Vector3d& center_of_mass) {
+    return addBody(name, frame, link.mass, {center_of_mass, link.inertia});
   }
 
   void addCoordinate(int index, std::size_t k, const JointAt& at, std::size_t parent, std::size_t child) {
@@ -95,7 +97,8 @@ class Builder {
     joint.damping = leg.friction.on(at.coordinate);
     joint.friction = leg.coulomb.on(at.coordinate);
     joint.driven = leg.actuated[k];
-    if (leg.kind == LegKind::UPS && slides(at.coordinate)) {
+    joint.rotor_inertia = leg.rotor_inertia.on(at.coordinate);
+    if (rowOf(leg.kind).isTelescopic() && slides(at.coordinate)) {
       joint.lower = leg.distal.length;
       joint.upper = leg.distal.length + leg.proximal.length;
     }

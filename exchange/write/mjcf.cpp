@@ -105,6 +105,9 @@ class Writer {
       moments = principal.eigenvalues();
       xml.with("quat", quaternionText(axes));
     }
+    constexpr double least_moment =
+        1e-14;  // MuJoCo takes no moving body below 1e-15; a thin rod has none about its line
+    moments = moments.cwiseMax(least_moment);
     Eigen::Index last = 0;
     const double largest = moments.maxCoeff(&last), others = moments.sum() - largest;
     if (largest > others) moments(last) = std::nextafter(std::min(largest, others), 0);

@@ -100,6 +100,25 @@ Vector3<S> rotorInertia(const PlaneModel<S>& model) {
   return {model.rotor[0], model.rotor[1], model.rotor[2]};
 }
 
+/// Of rotors and of mass centres off their lines. Apart, so that the compiler rounds what surrounds it as ever.
+template <class Kind, class S>
+[[gnu::noinline]] Vector3<S> addedForces(Kind kind, const PlaneModel<S>& model, const Vector3<S>& base,
+                                         const PlaneLeg<S>& leg) {
+  Vector3<S> Q = Vector3<S>::Zero();
+  if (model.has_rotor) Q += rotorInertia<S>(model).cwiseProduct(leg.acceleration);
+  if (model.off_line) Q += offLineForces(kind, model, base, leg);
+  return Q;
+}
+
+/// The same in the mass matrix of the leg's coordinates.
+template <class Kind, class S>
+[[gnu::noinline]] Matrix3<S> addedMass(Kind kind, const PlaneModel<S>& model, const PlaneLeg<S>& leg) {
+  Matrix3<S> out = Matrix3<S>::Zero();
+  if (model.has_rotor) out.diagonal() += rotorInertia<S>(model);
+  if (model.off_line) out += offLineMass(kind, model, leg);
+  return out;
+}
+
 template <class S>
 void addForceAt(const Vector3<S>& arm, const Vector3<S>& f, Vector6<S>& wrench) {
   wrench.template head<3>() = plusCross<S>(wrench.template head<3>(), arm, f);
@@ -156,8 +175,7 @@ void moveLegs(const MachineModel<S>& machine, const Motion<S>& motion, const Car
     leg.Q = model.principal ? linkForces<true>(kind, model, base, leg.plane)
                             : linkForces<false>(kind, model, base, leg.plane);
     if (model.rubs) leg.Q += friction<S>(model, leg.plane);
-    if (model.has_rotor) leg.Q += rotorInertia<S>(model).cwiseProduct(leg.plane.acceleration);
-    if (model.off_line) leg.Q += offLineForces(kind, model, base, leg.plane);
+    if (model.has_rotor || model.off_line) leg.Q += addedForces(kind, model, base, leg.plane);
   });
 }
 
@@ -257,12 +275,9 @@ void addLegMass(Kind kind, const PlaneModel<S>& model, const MovingLeg<S>& leg, 
     K.col(j.value) = leg.axes.template toBase<present>(k);
   });
   addForceAt<S>(leg.Qb, leg.axes.toBase(f), wrench);
-  if (!model.has_rotor && !model.off_line)
-    return addMassAt<S>(leg.Qb, K * massMatrix(kind, model, leg.plane) * K.transpose(), M_P);
-  Matrix3<S> mass = massMatrix(kind, model, leg.plane);
-  if (model.has_rotor) mass.diagonal() += rotorInertia<S>(model);
-  if (model.off_line) mass += offLineMass(kind, model, leg.plane);
-  addMassAt<S>(leg.Qb, K * mass * K.transpose(), M_P);
+  addMassAt<S>(leg.Qb, K * massMatrix(kind, model, leg.plane) * K.transpose(), M_P);
+  if (model.has_rotor || model.off_line)
+    addMassAt<S>(leg.Qb, K * addedMass(kind, model, leg.plane) * K.transpose(), M_P);
 }
 
 template <class S>
