@@ -152,10 +152,27 @@ void addInertias(Collector& out) {
                [](Link& one) { one.inertia = 2 * one.inertia.diagonal().asDiagonal().toDenseMatrix() - one.inertia; });
 }
 
+/// One link alone.
+void addOtherEnds(int legs, Collector& out) {
+  for (int i = 0; i < legs; ++i)
+    for (const auto& [name, link] : {std::pair("proximal", &Leg::proximal), std::pair("distal", &Leg::distal)}) {
+      NamedCause named{CauseKind::reference_point, "", name};
+      named.leg = i + 1;
+      out.addFixed(
+          {fmt::format("mass centre of the {} link of leg {} measured from the other end", name, i + 1), named},
+          [i, link = link](Machine& machine) {
+            Link& one = machine.legs[static_cast<std::size_t>(i)].*link;
+            one.center_of_mass = one.length - one.center_of_mass;
+          });
+    }
+}
+
 void addExchanged(Collector& out) {
   const NamedCause platform_centre{CauseKind::reference_point, "", "platform"};
   out.addLinks("mass centres of ", " measured from the other end", CauseKind::reference_point, "",
                [](Link& one) { one.center_of_mass = one.length - one.center_of_mass; });
+  out.addLinks("mass centres of ", " taken at the middle", CauseKind::reference_point, "",
+               [](Link& one) { one.center_of_mass = one.length / 2; });
   out.addLinks("mass centres of ", " at their first joints", CauseKind::reference_point, "",
                [](Link& one) { one.center_of_mass = 0; });
   out.addFixed({"mass centre of the platform taken at P", platform_centre},
@@ -265,6 +282,27 @@ void addFriction(const Manipulator& machine, Collector& out) {
   });
 }
 
+/// Parts of the friction that the scenario has.
+void addFrictionLeftOut(Collector& out) {
+  const NamedCause named{CauseKind::missing_term, "friction", "all"};
+  const auto clear = [](JointFriction& law, const Leg& leg, bool driven, bool passive) {
+    for (std::size_t j = 0; j < 3; ++j)
+      if (leg.actuated[j] ? driven : passive) law.on(rowOf(leg.kind).coordinates[j]) = 0;
+  };
+  const auto add = [&](const char* text, bool viscous, bool coulomb, bool driven, bool passive) {
+    out.addFixed({text, named}, [=](Machine& machine) {
+      for (Leg& leg : machine.legs) {
+        if (viscous) clear(leg.friction, leg, driven, passive);
+        if (coulomb) clear(leg.coulomb, leg, driven, passive);
+      }
+    });
+  };
+  add("viscous friction left out", true, false, true, true);
+  add("Coulomb friction left out", false, true, true, true);
+  add("friction of the joints without motors left out", true, true, false, true);
+  add("friction of the driven joints left out", true, true, true, false);
+}
+
 void addPlatform(Collector& out) {
   out.addFitted([](Machine& machine, double x) { machine.platform.inertia *= 1 + x; },
                 [](double x, double deviation) {
@@ -297,8 +335,10 @@ std::vector<Cause> machineCauses(const Scenario& scenario) {
   for (const TiedParameters& tied : tiedParameters(*scenario.manipulator)) out.addTied(tied);
   addInertias(out);
   addExchanged(out);
+  addOtherEnds(scenario.manipulator->legCount(), out);
   addKnees(*scenario.manipulator, out);
   addFriction(*scenario.manipulator, out);
+  addFrictionLeftOut(out);
   return std::move(out.causes);
 }
 

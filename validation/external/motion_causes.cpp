@@ -161,11 +161,6 @@ void addLeftOut(const Scenario& scenario, std::vector<Cause>& out) {
       [](Motion<double>& motion) { motion.omega_dot *= -1; });
   add({"the acceleration of P with the wrong sign", NamedCause{CauseKind::sign, "inertia", "all"}},
       [](Motion<double>& motion) { motion.p_ddot *= -1; });
-  add({"velocities with the wrong sign", NamedCause{CauseKind::sign, "angular_velocity", "all"}},
-      [](Motion<double>& motion) {
-        motion.omega *= -1;
-        motion.p_dot *= -1;
-      });
   add({"the motion run backwards in time, velocities as well"}, [&scenario](Motion<double>& motion) {
     motion = scenario.trajectory->at(scenario.trajectory->duration() - motion.t);
   });

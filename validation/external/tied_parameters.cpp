@@ -90,6 +90,9 @@ std::vector<TiedParameters> tiedParameters(const Manipulator& machine) {
       continue;
     }
     const bool is_link = !link.empty();
+    // Of a rod that slides, only how far its mass centre is from its outer end matters: that is named by the centre.
+    if (link == "distal" && one.quantity == Quantity::length && rowOf(machine.leg(one.leg).kind).isTelescopic())
+      continue;
     add(of_legs, fmt::format("{} of {}leg {}", words, is_link ? "the " + link + " link of " : "", leg), one);
     add(all_legs, fmt::format("{} of {}", words, is_link ? "the " + link + " links" : "every leg"), one);
     if (!is_link) continue;
