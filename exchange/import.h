@@ -1,11 +1,21 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
-#include "exchange/recognise/chains.h"
-#include "exchange/recognise/imported_machine.h"
+#include "exchange/model_graph.h"
 
 namespace ursula::exchange {
+
+/// What cannot be found in a file, or is not to be guessed.
+struct ImportChoices {
+  std::string base, platform;         ///< a body's name, or empty
+  std::vector<std::string> actuated;  ///< joints' names
+  std::vector<std::string> closed;    ///< "A:B", links whose frames' origins a ball joins
+  double tolerance = 1e-5;            ///< of the machine's size, and rad
+  double lump = 1e-3;                 ///< share of a leg's moments that may be lost
+};
 
 /// What `ursula import` gives.
 struct Imported {

@@ -75,6 +75,29 @@ std::shared_ptr<ScenarioWithSolver> scenarioOf(const py::object& given,
   return std::make_shared<ScenarioWithSolver>(parseScenario(is_text ? text : tomlOfJson(text, file), file));
 }
 
+std::shared_ptr<ScenarioWithSolver> importModel(const std::filesystem::path& file, const std::string& base,
+                                                const std::string& platform, const std::vector<std::string>& actuated,
+                                                const std::vector<std::string>& close, double tolerance, double lump) {
+  const py::gil_scoped_release unlocked;
+  try {
+    exchange::Imported imported = exchange::importModel(file, {base, platform, actuated, close, tolerance, lump});
+    const std::filesystem::path named = std::filesystem::path(file).replace_extension(".toml");
+    auto out = std::make_shared<ScenarioWithSolver>(parseScenario(imported.scenario, named));
+    out->assumptions = std::move(imported.assumptions);
+    return out;
+  } catch (const exchange::ImportError& error) {
+    throw ScenarioError(error.what());
+  }
+}
+
+py::list assumptionsOf(const ScenarioWithSolver& self) {
+  py::list out;
+  for (const exchange::Assumption& each : self.assumptions)
+    out.append(py::dict(py::arg("what") = each.what, py::arg("where") = each.where, py::arg("size") = each.size,
+                        py::arg("unit") = each.unit));
+  return out;
+}
+
 }  // namespace
 
 void addDocuments(py::module_& module, ScenarioClass& scenario) {
@@ -86,7 +109,12 @@ void addDocuments(py::module_& module, ScenarioClass& scenario) {
           },
           words::to_dict)
       .def(
-          "to_toml", [](const ScenarioWithSolver& self) { return self.scenario.text; }, words::to_toml);
+          "to_toml", [](const ScenarioWithSolver& self) { return self.scenario.text; }, words::to_toml)
+      .def_property_readonly("assumptions", &assumptionsOf, words::assumptions);
+  module.def("import_model", &importModel, py::arg("path"), py::kw_only(), py::arg("base") = "",
+             py::arg("platform") = "", py::arg("actuated") = std::vector<std::string>(),
+             py::arg("close") = std::vector<std::string>(), py::arg("tolerance") = 1e-5, py::arg("lump") = 1e-3,
+             words::import_model);
   module.def("scenario", &scenarioOf, py::arg("dict_or_text"), py::kw_only(), py::arg("folder") = py::none(),
              words::scenario_of);
 }

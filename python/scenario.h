@@ -1,10 +1,12 @@
 #pragma once
 
 #include <pybind11/pybind11.h>
+#include <ursula/exchange.h>
 #include <ursula/scenario.h>
 #include <ursula/solver.h>
 
 #include <utility>
+#include <vector>
 
 #include "python/made.h"
 
@@ -19,6 +21,7 @@ struct ScenarioWithSolver {
         batch(*scenario.manipulator) {}
 
   Scenario scenario;
+  std::vector<exchange::Assumption> assumptions;  ///< of a model that was imported
   DirectKinematics kinematics;
   EffortDerivatives derivatives;
   BatchDynamics batch;

@@ -30,6 +30,17 @@ constexpr const char* scenario_of =
     "line\n"
     "and column of a text, with the key of a dict, whose lines are those of its to_toml().";
 
+constexpr const char* import_model =
+    "A Scenario of a model in SDF, MJCF or URDF. base and platform: bodies, where they are not unique. actuated: "
+    "joints\n"
+    "that motors drive, where the file does not say. close: pairs \"A:B\" of links whose frames a ball joins. "
+    "tolerance\n"
+    "(rad, and share of the machine's size): what is taken as square and meeting. lump: share of a leg's moments that\n"
+    "crosses within joints may have and lose. What was taken for granted is in its assumptions. Raises ScenarioError.";
+
+constexpr const char* assumptions =
+    "What import_model() took for granted: a list of dicts with what, where, size and unit. Empty for other scenarios.";
+
 constexpr const char* to_dict =
     "What the scenario was read from, as a dict: every key that it gives, and files that it names by their whole "
     "paths.\n"

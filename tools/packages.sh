@@ -19,9 +19,11 @@ declare -A needs=(
   [bundle]='node:nodejs npm:npm'
   [fresh]='git:git debootstrap:debootstrap'
 )
-# Done without where they are not to be had: a further formulation, asked for before the first configuration; a peer of the benchmarks.
+# Done without where they are not to be had: a further formulation, asked for before the first configuration; a peer of the benchmarks;
+# the readers that Gazebo and ROS have, which exported models are held against.
 declare -A optional=(
   [program]='libmujoco-dev'
+  [test]='libsdformat-dev liburdfdom-dev'
   [bench]='libmujoco-dev libdart-dev'
 )
 

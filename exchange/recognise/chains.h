@@ -4,18 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "exchange/import.h"
 #include "exchange/recognise/groups.h"
 
 namespace ursula::exchange {
-
-/// What cannot be found in a file, or is not to be guessed.
-struct ImportChoices {
-  std::string base, platform;         ///< a body's name, or empty
-  std::vector<std::string> actuated;  ///< joints' names
-  std::vector<std::string> closed;    ///< "A:B", links whose frames' origins a ball joins
-  double tolerance = 1e-5;            ///< of the machine's size, and rad
-  double lump = 1e-3;                 ///< share of a leg's moments that may be lost
-};
 
 /// One freedom or a ball on the way from the base to the platform, at the initial pose, in the world.
 struct Primitive {

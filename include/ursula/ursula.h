@@ -7,5 +7,6 @@
 #include "include/ursula/report.h"
 #include "include/ursula/scenario.h"
 #include "include/ursula/solver.h"
+#include "include/ursula/exchange.h"
 #include "include/ursula/studies.h"
 #include "include/ursula/validate.h"

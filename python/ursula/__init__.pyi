@@ -1,5 +1,5 @@
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, Literal, overload
 
 import numpy as np
@@ -96,6 +96,9 @@ class Scenario:
     def name(self) -> str: ...
     @property
     def file(self) -> os.PathLike[str]: ...
+    @property
+    def assumptions(self) -> list[dict[str, Any]]:
+        """What import_model() took for granted: what, where, size and unit of each."""
     @property
     def duration(self) -> float:
         """Of the motion, s."""
@@ -371,6 +374,18 @@ def read_scenario(path: str | os.PathLike[str]) -> Scenario:
 
 def scenario(dict_or_text: dict[str, Any] | str, *, folder: str | os.PathLike[str] | None = None) -> Scenario:
     """A scenario of a dict or of text in TOML; relative paths are from `folder`, by default the current one."""
+
+def import_model(
+    path: str | os.PathLike[str],
+    *,
+    base: str = "",
+    platform: str = "",
+    actuated: Sequence[str] = ...,
+    close: Sequence[str] = ...,
+    tolerance: float = 1e-5,
+    lump: float = 1e-3,
+) -> Scenario:
+    """A scenario of a model in SDF, MJCF or URDF; what was taken for granted is in its `assumptions`."""
 
 def validate(
     s: Scenario,

@@ -1,0 +1,8 @@
+#pragma once
+
+/// \file
+/// Models made elsewhere: importModel() of a file in SDF, MJCF or URDF.
+
+#include "exchange/import.h"
+#include "exchange/import_error.h"
+#include "include/ursula/abi.h"

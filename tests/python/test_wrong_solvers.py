@@ -1,0 +1,27 @@
+"""Causes that are named for solvers that somebody wrote from the contract alone; a sample of tests/python/wrong_solvers."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent / "wrong_solvers"))
+from judged import SOLVERS, judged  # noqa: E402
+
+BY_NAME = {each["name"]: each for each in SOLVERS}
+NAMED = ["tensor-P@UPS", "gyro-legs@UPS", "coriolis-legs@RUS", "spin@PUS", "jac-b@UPS", "open@RUS", "bias@UPS",
+         "al-body@PUS", "grav-platform@UPS", "order-swap@UPS"]
+
+
+@pytest.mark.parametrize("name", NAMED)
+def test_names_the_cause(name):
+    grade, cause = judged(BY_NAME[name])
+    assert grade == "right", (name, cause)
+    assert cause is not None and cause["explained"] > 0.99
+
+
+@pytest.mark.parametrize("name", ["two-gyro-platform+platform mass@UPS", "right@ups"])
+def test_names_no_wrong_one(name):
+    """Two mistakes at once have no single cause, and a right solver has none."""
+    grade, cause = judged(BY_NAME[name])
+    assert (grade, cause) == ("right", None)
