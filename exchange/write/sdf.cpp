@@ -30,7 +30,7 @@ class Writer {
     physics.add("real_time_update_rate", 1 / step);
     const Xml model = world.add("model").with("name", graph_.name);
     const std::string motors = motorNames();
-    model.comment(fmt::format(" motors drive the first axis of {}; no motor has effort 0 ", motors));
+    model.comment(fmt::format(" motors drive {}; no motor has effort 0 ", motors));
     notes_.push_back({"SDF has no motors. They are in a comment and in limits: to import, say --actuated " + motors,
                       motors, 6, "motors"});
     for (std::size_t body = 0; body < graph_.bodies.size(); ++body)
@@ -42,13 +42,14 @@ class Writer {
   }
 
  private:
-  /// Of joints as this file names them.
+  /// Of joints as this file names them; of a joint with two axes as the import names these.
   std::string motorNames() {
+    constexpr const char* axes[] = {"/axis", "/axis2"};
     std::string out;
     for (const Limb& limb : limbsOf(graph_))
       for (std::size_t k = 0; k < limb.joints.size(); ++k)
         if (graph_.joints[limb.joints[k]].driven)
-          out += (out.empty() ? "" : ",") + nameOf(limb) + (k > 0 ? ":" + std::to_string(k + 1) : "");
+          out += (out.empty() ? "" : ",") + nameOf(limb) + (limb.joints.size() == 2 ? axes[k] : "");
     return out;
   }
 
