@@ -80,12 +80,22 @@ class Fit {
     const Rows left = remaining(x_);
     const double deviation = cause_.fitted ? deviationAt(left) : 0;
     Hypothesis out{cause_.words(x_, deviation), std::sqrt(dot(left, left)) / data_.norm(), cause_.fitted ? 1 : 0};
-    out.beyond = data_.beyond(left);
+    out.beyond = data_.beyond(left) / growth();
     if (cause_.named) out.named = cause_.named(x_, deviation);
     return out;
   }
 
  private:
+  /// How many times larger the torques on trial are than right ones: their rounding grows with them.
+  double growth() const {
+    double found = 0, exact = 0;
+    for (std::size_t k = 0; k < data_.exact.size(); ++k) {
+      found = std::max(found, (data_.exact[k] + data_.residual[k]).cwiseAbs().maxCoeff());
+      exact = std::max(exact, data_.exact[k].cwiseAbs().maxCoeff());
+    }
+    return exact > 0 ? std::max(1.0, found / exact) : 1;
+  }
+
   /// None where the cause has no torques.
   std::optional<Rows> torquesAt(double at) const {
     try {

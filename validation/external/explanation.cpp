@@ -21,8 +21,8 @@ bool isOnePose(const TorqueResidual& data) {
 /// Gravity's size and its component are one number; and what is left out or has the wrong sign is also a number that
 /// is 0 or turned about.
 bool sayTheSame(const NamedCause& first, const NamedCause& other) {
-  const bool one_term =
-      first.kind == other.kind && first.term == other.term && !first.term.empty() && first.leg == other.leg;
+  const bool one_term = first.kind == other.kind && first.term == other.term && first.leg == other.leg &&
+                        (!first.term.empty() || first.kind == CauseKind::reference_point);
   if (one_term && other.kind != CauseKind::parameter) return true;  // of other bodies that make no difference here
   if (other.kind != CauseKind::parameter || !other.expected || !other.found) return false;
   const double expected = *other.expected, found = *other.found, little = 1e-3 * std::abs(expected);

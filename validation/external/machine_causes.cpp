@@ -2,121 +2,22 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <memory>
 #include <utility>
 
-#include "validation/external/machine_slopes.h"
+#include "validation/external/machine_collector.h"
 #include "validation/external/tied_parameters.h"
-#include "validation/subject/subject.h"
 
 namespace ursula {
 namespace {
 
 using Machine = ManipulatorParameters;
-using Rows = std::vector<Vector6d>;
-using Change = std::function<void(Machine&, double)>;
-using Words = std::function<std::string(double, double)>;
-using Named = std::function<std::optional<NamedCause>(double, double)>;
-
-Rows torquesOf(const Machine& machine, const Scenario& scenario, const std::vector<Motion<double>>& motions) {
-  const Subject noc = nocSubject(Manipulator(machine), scenario.load);
-  Rows out;
-  out.reserve(motions.size());
-  for (const Motion<double>& motion : motions) out.push_back(noc.torques(motion));
-  return out;
-}
-
-/// Torques are linear in inertias: of a machine with round ones besides, so that also such can be tried that no body
-/// can have. `change` alters inertias alone.
-Rows torquesOfInertias(const Scenario& scenario, const Change& change, double x,
-                       const std::vector<Motion<double>>& motions) {
-  Machine round = scenario.manipulator->parameters();
-  const auto add = [](Matrix3d& inertia) { inertia.diagonal().array() += 10 * inertia.cwiseAbs().maxCoeff(); };
-  Rows out = torquesOf(round, scenario, motions);
-  add(round.platform.inertia);
-  for (Leg& leg : round.legs) {
-    add(leg.proximal.inertia);
-    add(leg.distal.inertia);
-  }
-  const Rows without = torquesOf(round, scenario, motions);
-  change(round, x / 11);  // relative errors are of the largest moment, which is eleven times as large
-  const Rows with = torquesOf(round, scenario, motions);
-  for (std::size_t k = 0; k < out.size(); ++k) out[k] += with[k] - without[k];
-  return out;
-}
-
-/// Collects causes; `scenario` outlives them.
-class Collector {
- public:
-  explicit Collector(const Scenario& scenario)
-      : scenario_(scenario), slopes_(std::make_shared<MachineSlopes>(scenario)) {}
-
-  void addFitted(const Change& change, const Words& words, const Named& named) {
-    const Scenario& scenario = scenario_;
-    causes.push_back({true,
-                      [&scenario, change](double x, const std::vector<Motion<double>>& motions) {
-                        Machine machine = scenario.manipulator->parameters();
-                        change(machine, x);
-                        return torquesOf(machine, scenario, motions);
-                      },
-                      words});
-    causes.back().named = named;
-    causes.back().slope = [slopes = slopes_, change](const std::vector<Motion<double>>& motions) {
-      return slopes->along(change, motions);
-    };
-  }
-
-  void addTied(const TiedParameters& tied) {
-    const Machine& machine = scenario_.manipulator->parameters();
-    const Change change = [tied](Machine& changed, double x) { tied.disturb(changed, x); };
-    addFitted(
-        change, [tied, machine](double x, double deviation) { return tied.text(machine, x, deviation); },
-        [tied, machine](double x, double deviation) { return tied.named(machine, x, deviation); });
-    if (tied.members.front().group != "inertia") return;
-    const Scenario& scenario = scenario_;
-    causes.back().torques = [&scenario, change](double x, const std::vector<Motion<double>>& motions) {
-      return torquesOfInertias(scenario, change, x, motions);
-    };
-  }
-
-  void addFixed(const CauseName& name, const std::function<void(Machine&)>& change) {
-    const Scenario& scenario = scenario_;
-    causes.push_back(fixedCause(name, [&scenario, change](const std::vector<Motion<double>>& motions) {
-      Machine machine = scenario.manipulator->parameters();
-      change(machine);
-      return torquesOf(machine, scenario, motions);
-    }));
-  }
-
-  /// A change of one link, for all links, the proximal ones, and the distal ones. `kind` and `term` name it.
-  void addLinks(const std::string& before, const std::string& after, CauseKind kind, const char* term,
-                const std::function<void(Link&)>& change) {
-    const std::pair<const char*, const char*> links[] = {
-        {"the proximal links", "proximal"}, {"the distal links", "distal"}, {"all links", "legs"}};
-    for (const int which : {2, 0, 1})
-      addFixed({before + links[which].first + after, NamedCause{kind, term, links[which].second}},
-               [change, which](Machine& machine) {
-                 for (Leg& leg : machine.legs) {
-                   if (which != 1) change(leg.proximal);
-                   if (which != 0) change(leg.distal);
-                 }
-               });
-  }
-
-  std::vector<Cause> causes;
-
- private:
-  const Scenario& scenario_;
-  std::shared_ptr<MachineSlopes> slopes_;
-};
 
 /// I of the mass centre with m (r² 1 − r rᵀ) added or taken away.
 Matrix3d moved(const Matrix3d& inertia, double mass, const Vector3d& r, double sign) {
   return inertia + sign * mass * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
 }
 
-void addInertias(Collector& out) {
+void addInertias(MachineCauses& out) {
   const NamedCause platform_inertia{CauseKind::reference_point, "inertia", "platform"};
   const auto link = [](double sign, bool from_end) {
     return [sign, from_end](Link& one) {
@@ -153,7 +54,7 @@ void addInertias(Collector& out) {
 }
 
 /// One link alone.
-void addOtherEnds(int legs, Collector& out) {
+void addOtherEnds(int legs, MachineCauses& out) {
   for (int i = 0; i < legs; ++i)
     for (const auto& [name, link] : {std::pair("proximal", &Leg::proximal), std::pair("distal", &Leg::distal)}) {
       NamedCause named{CauseKind::reference_point, "", name};
@@ -167,7 +68,7 @@ void addOtherEnds(int legs, Collector& out) {
     }
 }
 
-void addExchanged(Collector& out) {
+void addExchanged(MachineCauses& out) {
   const NamedCause platform_centre{CauseKind::reference_point, "", "platform"};
   out.addLinks("mass centres of ", " measured from the other end", CauseKind::reference_point, "",
                [](Link& one) { one.center_of_mass = one.length - one.center_of_mass; });
@@ -204,7 +105,7 @@ std::vector<std::size_t> bentLegs(const Manipulator& machine) {
   return out;
 }
 
-void addKnees(const Manipulator& machine, Collector& out) {
+void addKnees(const Manipulator& machine, MachineCauses& out) {
   const std::vector<std::size_t> bent = bentLegs(machine);
   const int all = static_cast<int>(bent.size());
   for (int legs = 1; legs < 1 << all; ++legs) {
@@ -231,79 +132,7 @@ void addKnees(const Manipulator& machine, Collector& out) {
   }
 }
 
-/// `expected` and `found` are what is beyond the scenario's.
-NamedCause moreFriction(const std::string& key, const char* unit, double x, double deviation) {
-  NamedCause out{CauseKind::parameter, "friction", "legs", "manipulator.leg_defaults." + key, unit, 0, x, deviation};
-  return out;
-}
-
-bool anyLegHas(const Manipulator& machine, Coordinate coordinate) {
-  const std::vector<Leg>& legs = machine.parameters().legs;
-  return std::any_of(legs.begin(), legs.end(), [coordinate](const Leg& leg) {
-    const auto& has = rowOf(leg.kind).coordinates;
-    return std::find(has.begin(), has.end(), coordinate) != has.end();
-  });
-}
-
-/// Friction that the scenario does not have: a fit of its coefficients, of every leg that has the coordinate.
-void addFriction(const Manipulator& machine, Collector& out) {
-  for (const Coordinate coordinate : {Coordinate::phi, Coordinate::psi, Coordinate::theta, Coordinate::d}) {
-    if (!anyLegHas(machine, coordinate)) continue;
-    const std::string joint = nameOf(coordinate);
-    const char* const viscous = slides(coordinate) ? "N s/m" : "N m s/rad";
-    const char* const coulomb = slides(coordinate) ? "N" : "N m";
-    out.addFitted(
-        [coordinate](Machine& changed, double x) {
-          for (Leg& leg : changed.legs) leg.friction.on(coordinate) += x;
-        },
-        [joint, viscous](double x, double deviation) {
-          return fmt::format("viscous friction on every {} of {} {} more than the scenario's", joint,
-                             withDeviation(x, deviation), viscous);
-        },
-        [joint, viscous](double x, double deviation) {
-          return moreFriction("friction." + joint, viscous, x, deviation);
-        });
-    out.addFitted(
-        [coordinate](Machine& changed, double x) {
-          for (Leg& leg : changed.legs) leg.coulomb.on(coordinate) += x;
-        },
-        [joint, coulomb](double x, double deviation) {
-          return fmt::format("Coulomb friction on every {} of {} {} more than the scenario's", joint,
-                             withDeviation(x, deviation), coulomb);
-        },
-        [joint, coulomb](double x, double deviation) {
-          return moreFriction("coulomb." + joint, coulomb, x, deviation);
-        });
-  }
-  const NamedCause sharp{CauseKind::parameter, "friction", "legs", "manipulator.leg_defaults.coulomb.smoothing_speed"};
-  out.addFixed({"Coulomb friction without smoothing", sharp}, [](Machine& changed) {
-    constexpr double sharp_speed = 1e-200;  // every speed is far beyond it
-    for (Leg& leg : changed.legs) leg.coulomb.smoothing_speed = leg.coulomb.sliding_speed = sharp_speed;
-  });
-}
-
-/// Parts of the friction that the scenario has.
-void addFrictionLeftOut(Collector& out) {
-  const NamedCause named{CauseKind::missing_term, "friction", "all"};
-  const auto clear = [](JointFriction& law, const Leg& leg, bool driven, bool passive) {
-    for (std::size_t j = 0; j < 3; ++j)
-      if (leg.actuated[j] ? driven : passive) law.on(rowOf(leg.kind).coordinates[j]) = 0;
-  };
-  const auto add = [&](const char* text, bool viscous, bool coulomb, bool driven, bool passive) {
-    out.addFixed({text, named}, [=](Machine& machine) {
-      for (Leg& leg : machine.legs) {
-        if (viscous) clear(leg.friction, leg, driven, passive);
-        if (coulomb) clear(leg.coulomb, leg, driven, passive);
-      }
-    });
-  };
-  add("viscous friction left out", true, false, true, true);
-  add("Coulomb friction left out", false, true, true, true);
-  add("friction of the joints without motors left out", true, true, false, true);
-  add("friction of the driven joints left out", true, true, true, false);
-}
-
-void addPlatform(Collector& out) {
+void addPlatform(MachineCauses& out) {
   out.addFitted([](Machine& machine, double x) { machine.platform.inertia *= 1 + x; },
                 [](double x, double deviation) {
                   return fmt::format("platform inertia tensor scaled by {}", withDeviation(1 + x, deviation));
@@ -330,15 +159,14 @@ void addPlatform(Collector& out) {
 }  // namespace
 
 std::vector<Cause> machineCauses(const Scenario& scenario) {
-  Collector out(scenario);
+  MachineCauses out(scenario);
   addPlatform(out);
   for (const TiedParameters& tied : tiedParameters(*scenario.manipulator)) out.addTied(tied);
   addInertias(out);
   addExchanged(out);
   addOtherEnds(scenario.manipulator->legCount(), out);
   addKnees(*scenario.manipulator, out);
-  addFriction(*scenario.manipulator, out);
-  addFrictionLeftOut(out);
+  addFrictionCauses(*scenario.manipulator, out);
   return std::move(out.causes);
 }
 

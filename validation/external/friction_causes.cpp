@@ -1,0 +1,91 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "validation/external/machine_collector.h"
+
+namespace ursula {
+namespace {
+
+using Machine = ManipulatorParameters;
+
+/// `expected` and `found` are what is beyond the scenario's.
+NamedCause moreFriction(const std::string& key, const char* unit, double x, double deviation) {
+  NamedCause out{CauseKind::parameter, "friction", "legs", "manipulator.leg_defaults." + key, unit, 0, x, deviation};
+  return out;
+}
+
+bool anyLegHas(const Manipulator& machine, Coordinate coordinate) {
+  const std::vector<Leg>& legs = machine.parameters().legs;
+  return std::any_of(legs.begin(), legs.end(), [coordinate](const Leg& leg) {
+    const auto& has = rowOf(leg.kind).coordinates;
+    return std::find(has.begin(), has.end(), coordinate) != has.end();
+  });
+}
+
+/// Friction that the scenario does not have: a fit of its coefficients, of every leg that has the coordinate.
+void addFriction(const Manipulator& machine, MachineCauses& out) {
+  for (const Coordinate coordinate : {Coordinate::phi, Coordinate::psi, Coordinate::theta, Coordinate::d}) {
+    if (!anyLegHas(machine, coordinate)) continue;
+    const std::string joint = nameOf(coordinate);
+    const char* const viscous = slides(coordinate) ? "N s/m" : "N m s/rad";
+    const char* const coulomb = slides(coordinate) ? "N" : "N m";
+    out.addFitted(
+        [coordinate](Machine& changed, double x) {
+          for (Leg& leg : changed.legs) leg.friction.on(coordinate) += x;
+        },
+        [joint, viscous](double x, double deviation) {
+          return fmt::format("viscous friction on every {} of {} {} more than the scenario's", joint,
+                             withDeviation(x, deviation), viscous);
+        },
+        [joint, viscous](double x, double deviation) {
+          return moreFriction("friction." + joint, viscous, x, deviation);
+        });
+    out.addFitted(
+        [coordinate](Machine& changed, double x) {
+          for (Leg& leg : changed.legs) leg.coulomb.on(coordinate) += x;
+        },
+        [joint, coulomb](double x, double deviation) {
+          return fmt::format("Coulomb friction on every {} of {} {} more than the scenario's", joint,
+                             withDeviation(x, deviation), coulomb);
+        },
+        [joint, coulomb](double x, double deviation) {
+          return moreFriction("coulomb." + joint, coulomb, x, deviation);
+        });
+  }
+  const NamedCause sharp{CauseKind::parameter, "friction", "legs", "manipulator.leg_defaults.coulomb.smoothing_speed"};
+  out.addFixed({"Coulomb friction without smoothing", sharp}, [](Machine& changed) {
+    constexpr double sharp_speed = 1e-200;  // every speed is far beyond it
+    for (Leg& leg : changed.legs) leg.coulomb.smoothing_speed = leg.coulomb.sliding_speed = sharp_speed;
+  });
+}
+
+/// Parts of the friction that the scenario has.
+void addFrictionLeftOut(MachineCauses& out) {
+  const NamedCause named{CauseKind::missing_term, "friction", "all"};
+  const auto clear = [](JointFriction& law, const Leg& leg, bool driven, bool passive) {
+    for (std::size_t j = 0; j < 3; ++j)
+      if (leg.actuated[j] ? driven : passive) law.on(rowOf(leg.kind).coordinates[j]) = 0;
+  };
+  const auto add = [&](const char* text, bool viscous, bool coulomb, bool driven, bool passive) {
+    out.addFixed({text, named}, [=](Machine& machine) {
+      for (Leg& leg : machine.legs) {
+        if (viscous) clear(leg.friction, leg, driven, passive);
+        if (coulomb) clear(leg.coulomb, leg, driven, passive);
+      }
+    });
+  };
+  add("viscous friction left out", true, false, true, true);
+  add("Coulomb friction left out", false, true, true, true);
+  add("friction of the joints without motors left out", true, true, false, true);
+  add("friction of the driven joints left out", true, true, true, false);
+}
+
+}  // namespace
+
+void addFrictionCauses(const Manipulator& machine, MachineCauses& out) {
+  addFriction(machine, out);
+  addFrictionLeftOut(out);
+}
+
+}  // namespace ursula
