@@ -6,7 +6,20 @@
 
 namespace ursula {
 
-enum class KeyType { number, integer, string, choice, choices, vector, quaternion, center, inertia, table, tables, limits };
+enum class KeyType {
+  number,
+  integer,
+  string,
+  choice,
+  choices,
+  vector,
+  quaternion,
+  center,
+  inertia,
+  table,
+  tables,
+  limits
+};
 
 /// What numbers a key takes, and how refusals say so.
 struct KeyBound {

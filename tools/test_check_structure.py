@@ -26,6 +26,7 @@ def sound_tree():
         "report/CMakeLists.txt": "target_link_libraries(r ursula::verdict)\n",
         "studies/CMakeLists.txt": "add_subdirectory(suite)\n",
         "engines/CMakeLists.txt": "target_link_libraries(s ${Simbody_LIBRARIES})\n",
+        "exchange/CMakeLists.txt": "add_subdirectory(write)\n",
         "exchange/write/CMakeLists.txt": "target_link_libraries(w ursula::model tinyxml2::tinyxml2)\n",
         "nocsolver/CMakeLists.txt": "target_link_libraries(n ursula::model)  # never Simbody\n",
         "nocsolver/fast/parallel/CMakeLists.txt": "target_link_libraries(p ursula::nocsolver TBB::tbb)\n",

@@ -4,9 +4,9 @@
 /// Everything of the library.
 
 #include "include/ursula/abi.h"
+#include "include/ursula/exchange.h"
 #include "include/ursula/report.h"
 #include "include/ursula/scenario.h"
 #include "include/ursula/solver.h"
-#include "include/ursula/exchange.h"
 #include "include/ursula/studies.h"
 #include "include/ursula/validate.h"

@@ -131,7 +131,8 @@ TEST_F(Slurm, whatSlurmSaysIsPassedOn) {
   program("sbatch", "echo 'sbatch: error: invalid partition specified: x' >&2; exit 1\n");
   const UrsulaRun run = slurm("--shards 2");
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("sbatch: error: invalid partition specified: x\nerror: sbatch ended with exit code 1\n"));
+  EXPECT_THAT(run.err,
+              HasSubstr("sbatch: error: invalid partition specified: x\nerror: sbatch ended with exit code 1\n"));
   program("sbatch", "echo hello\n");
   EXPECT_THAT(slurm("--shards 2").err, HasSubstr("sbatch said 'hello"));
 }
