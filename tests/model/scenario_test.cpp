@@ -32,8 +32,9 @@ TEST(Scenario, readsEveryValue) {
   EXPECT_EQ(leg.base_point, Vector3d(1.6569, 1.0666, 0));
   EXPECT_EQ(leg.base_axis, Vector3d(-0.4698, 0.8138, 0.3420));
   EXPECT_EQ(leg.platform_point, Vector3d(1.1598, 0.7536, 0));
-  EXPECT_THAT(leg.proximal, FieldsAre(1.4, 10, 0.7, Matrix3d(Vector3d(4.2, 4.2, 0.015).asDiagonal())));
-  EXPECT_THAT(leg.distal, FieldsAre(1.3, 9, 0.6, Matrix3d(Vector3d(3.3, 3.3, 0.015).asDiagonal())));
+  EXPECT_THAT(leg.proximal,
+              FieldsAre(1.4, 10, 0.7, Matrix3d(Vector3d(4.2, 4.2, 0.015).asDiagonal()), Vector3d::Zero()));
+  EXPECT_THAT(leg.distal, FieldsAre(1.3, 9, 0.6, Matrix3d(Vector3d(3.3, 3.3, 0.015).asDiagonal()), Vector3d::Zero()));
   EXPECT_THAT(leg.friction, FieldsAre(0.5, 0.25, 0.125, 0));
   EXPECT_EQ(scenario.trajectory->kind(), "helix");
   EXPECT_EQ(scenario.trajectory->duration(), 3);
