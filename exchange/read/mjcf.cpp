@@ -18,6 +18,32 @@ namespace {
 const std::set<std::string> known_in_body = {"body", "joint",  "freejoint", "inertial", "geom",
                                              "site", "camera", "light",     "frame"};
 
+const std::set<std::string> known_of_joint = {"name",
+                                              "class",
+                                              "type",
+                                              "group",
+                                              "pos",
+                                              "axis",
+                                              "springdamper",
+                                              "limited",
+                                              "solreflimit",
+                                              "solimplimit",
+                                              "stiffness",
+                                              "range",
+                                              "margin",
+                                              "ref",
+                                              "springref",
+                                              "armature",
+                                              "damping",
+                                              "frictionloss",
+                                              "solreffriction",
+                                              "solimpfriction",
+                                              "user",
+                                              "align",
+                                              "actuatorfrcrange",
+                                              "actuatorfrclimited",
+                                              "actuatorgravcomp"};
+
 /// What an element's numbers are relative to.
 struct Place {
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();  ///< in the world
@@ -78,7 +104,10 @@ class MjcfReader {
                                     "without it",
                                     name));
     }
-    if (gravity_off_) graph_.gravity.setZero();
+    if (!gravity_off_) return;
+    graph_.assumptions.push_back({"Gravity is switched off by the file's flag; without it it would be this", "<flag>",
+                                  graph_.gravity.norm(), "m/s²"});
+    graph_.gravity.setZero();
   }
 
   Eigen::Isometry3d placeOf(const Element& element, const std::function<std::string(const char*)>& get) const {
@@ -205,6 +234,7 @@ class MjcfReader {
                                       : at.frame * (pos.empty() ? Vector3d::Zero() : vectorOf(element, pos, "pos"));
     joint.axis[0] = at.frame.linear() *
                     directionOf(element, axis.empty() ? Vector3d::UnitZ() : vectorOf(element, axis, "axis"), "axis");
+    listUnknownAttributes(element, known_of_joint, graph_.assumptions);
     takeJointNumbers(element, get, joint);
     if (!attribute(element, "name").empty() && !joints_.emplace(joint.name, graph_.joints.size()).second)
       refuse(element, "a second joint of that name, expected names of their own");
@@ -220,6 +250,10 @@ class MjcfReader {
     };
     if (const double stiffness = number("stiffness"); stiffness != 0)
       refuse(element, fmt::format("a spring of stiffness {}, which a scenario has no words for", stiffness));
+    if (const std::string text = get("springdamper"); !text.empty())
+      for (const double value : numbersOf(element, text, 2, "springdamper"))
+        if (value != 0)
+          refuse(element, fmt::format("springdamper {}: a spring, which a scenario has no words for", text));
     joint.damping = number("damping");
     joint.friction = number("frictionloss");
     joint.rotor_inertia = number("armature");

@@ -15,6 +15,28 @@ namespace {
 
 using Kind = SdfFrames::Kind;
 
+const std::set<std::string> known_in_link = {"pose",       "inertial",     "collision",         "visual",
+                                             "sensor",     "gravity",      "kinematic",         "light",
+                                             "frame",      "self_collide", "must_be_base_link", "projector",
+                                             "audio_sink", "audio_source", "battery",           "particle_emitter",
+                                             "plugin"};
+const std::set<std::string> known_in_joint = {"pose",
+                                              "parent",
+                                              "child",
+                                              "axis",
+                                              "axis2",
+                                              "thread_pitch",
+                                              "screw_thread_pitch",
+                                              "gearbox_ratio",
+                                              "gearbox_reference_body",
+                                              "sensor",
+                                              "frame",
+                                              "plugin"};
+const std::set<std::string> known_in_axis = {"xyz",  "initial_position", "use_parent_model_frame", "dynamics", "limit",
+                                             "mimic"};
+const std::set<std::string> known_in_dynamics = {"damping", "friction", "spring_reference", "spring_stiffness"};
+const std::set<std::string> known_in_inertial = {"mass", "pose", "inertia", "frame", "fluid_added_mass", "density"};
+
 class SdfReader {
  public:
   explicit SdfReader(const Element& root) : root_(root) {
@@ -23,6 +45,9 @@ class SdfReader {
     if (version.substr(0, dot) != "1" || dot == std::string::npos)
       refuse(root, fmt::format("version '{}', expected 1.0 to 1.12", shown(version)));
     minor_ = static_cast<int>(numberOf(root, version.substr(dot + 1), "version"));
+    if (minor_ < 3)
+      refuse(root,
+             fmt::format("version '{}', whose <origin> is not read; write it anew: gz sdf -p FILE", shown(version)));
     graph_.format = "sdf";
     graph_.gravity = Vector3d(0, 0, -9.8);
     graph_.bodies.emplace_back();
@@ -175,11 +200,13 @@ class SdfReader {
     const Element& element = *frames_[link].element;
     GraphBody& body = graph_.bodies[frames_[link].body];
     body.frame = frames_.inWorld(link);
+    listUnknown(element, known_in_link, graph_.assumptions);
     const std::string gravity = childText(element, "gravity"), kinematic = childText(element, "kinematic");
     body.weightless = !gravity.empty() && !truthOf(element, gravity, "<gravity>");
     if (!kinematic.empty() && truthOf(element, kinematic, "<kinematic>"))
       refuse(element, "<kinematic>, moved from outside, which a scenario has no words for");
     const Element* inertial = element.FirstChildElement("inertial");
+    if (inertial != nullptr) listUnknown(*inertial, known_in_inertial, graph_.assumptions);
     if (inertial != nullptr && inertial->FirstChildElement("fluid_added_mass"))
       refuse(element, "<fluid_added_mass>, which a scenario has no words for");
     if (inertial != nullptr && attribute(*inertial, "auto") == "true")
@@ -221,6 +248,7 @@ class SdfReader {
   void readJoint(std::size_t index) {
     const SdfFrames::Frame frame = frames_[index];
     const Element& element = *frame.element;
+    listUnknown(element, known_in_joint, graph_.assumptions);
     const std::string type = requiredAttribute(element, "type");
     const std::string parent = childText(element, "parent");
     if (parent.empty()) refuse(element, "no <parent>, expected a link's name");
@@ -281,6 +309,7 @@ class SdfReader {
                 GraphJoint& joint) {
     const Element* axis = element.FirstChildElement(which);
     if (axis == nullptr) refuse(element, fmt::format("no <{}>, expected one", which));
+    listUnknown(*axis, known_in_axis, graph_.assumptions);
     const Element* xyz = axis->FirstChildElement("xyz");
     const Vector3d given = xyz == nullptr ? Vector3d::UnitZ() : vectorOf(*xyz, textOf(*xyz), "<xyz>");
     Matrix3d frame = at.linear();
@@ -300,7 +329,10 @@ class SdfReader {
     }
     if (axis->FirstChildElement("mimic")) refuse(element, "mimic, which a scenario has no words for");
     takeLimits(*axis, endless, joint);
-    if (const Element* dynamics = axis->FirstChildElement("dynamics")) takeDynamics(element, *dynamics, joint);
+    if (const Element* dynamics = axis->FirstChildElement("dynamics")) {
+      listUnknown(*dynamics, known_in_dynamics, graph_.assumptions);
+      takeDynamics(element, *dynamics, joint);
+    }
   }
 
   /// Numbers of 1e16 and more, and "inf", mean none.

@@ -135,6 +135,9 @@ class UrdfReader {
 
   void readJoint(const Element& element) {
     const std::size_t index = joints_.at(attribute(element, "name"));
+    listUnknown(element,
+                {"parent", "child", "origin", "axis", "limit", "dynamics", "mimic", "safety_controller", "calibration"},
+                graph_.assumptions);
     const std::string type = requiredAttribute(element, "type");
     GraphJoint joint;
     joint.name = attribute(element, "name");

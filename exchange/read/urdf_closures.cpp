@@ -89,9 +89,20 @@ class Closer {
         throw ImportError(fmt::format("robot.yaml: type '{}', expected 3d or 6d", shown(type)));
       pair(ends[k], ends[k + 1], type[0] == '3' ? JointKind::ball : JointKind::fixed, "robot.yaml");
     }
-    if (const std::string motors = text.word("name_mot"); !motors.empty())
-      for (GraphJoint& joint : graph_.joints)
-        if (!joint.closure && joint.name.find(motors) != std::string::npos) joint.driven = true;
+    takeMotors(text.list("name_mot"));
+  }
+
+  /// One word is part of the motors' names; of a list each is a name.
+  void takeMotors(const std::vector<std::string>& motors) {
+    for (const std::string& motor : motors) {
+      bool found = false;
+      for (GraphJoint& joint : graph_.joints) {
+        const bool is_meant = motors.size() > 1 ? joint.name == motor : joint.name.find(motor) != std::string::npos;
+        if (joint.closure || motor.empty() || !is_meant) continue;
+        joint.driven = found = true;
+      }
+      if (!found) throw ImportError(fmt::format("robot.yaml: name_mot '{}': no joint has that name", shown(motor)));
+    }
   }
 
   void named() {
@@ -135,6 +146,30 @@ class Closer {
   ModelGraph& graph_;
 };
 
+/// Closures in the words of a second tool: those that are there already are left out, others are refused.
+template <class Read>
+void passOver(ModelGraph& graph, const UrdfLinks& links, std::size_t first, const Read& read) {
+  ModelGraph other = graph;
+  Closer closer(links, other);
+  read(closer);
+  for (std::size_t k = graph.joints.size(); k < other.joints.size(); ++k) {
+    const GraphJoint& joint = other.joints[k];
+    const auto is_there = [&](const GraphJoint& one) {
+      return std::minmax(one.parent, one.child) == std::minmax(joint.parent, joint.child) && one.kind == joint.kind;
+    };
+    if (std::none_of(graph.joints.begin() + static_cast<std::ptrdiff_t>(first), graph.joints.end(), is_there))
+      throw ImportError(
+          fmt::format(
+              "joint {} closes a loop between {} and {} in the words of a second tool, which others of the file "
+              "do not; expected every loop to be closed in the same words",
+              shown(joint.name), shown(graph.bodies[joint.parent].name), shown(graph.bodies[joint.child].name)),
+          joint.line);
+    graph.assumptions.push_back(
+        {"This joint closes a loop that the file closes in another tool's words as well, and is left out", joint.name,
+         1, "1"});
+  }
+}
+
 }  // namespace
 
 void readUrdfClosures(const Element& robot, const std::filesystem::path& file, const UrdfLinks& links,
@@ -143,10 +178,17 @@ void readUrdfClosures(const Element& robot, const std::filesystem::path& file, c
   const std::size_t before = graph.joints.size();
   const auto found = [&] { return graph.joints.size() > before; };
   readDrakeConstraints(robot, graph, [&](const Element& at, const std::string& name) { return closer.link(at, name); });
-  if (!found()) eachChild(robot, "loop_joint", [&](const Element& e) { closer.isaac(e); });
-  if (!found())
+  const auto isaac = [&](Closer& by) { eachChild(robot, "loop_joint", [&](const Element& e) { by.isaac(e); }); };
+  const auto gazebo = [&](Closer& by) {
     eachChild(robot, "gazebo",
-              [&](const Element& e) { eachChild(e, "joint", [&](const Element& joint) { closer.gazebo(joint); }); });
+              [&](const Element& e) { eachChild(e, "joint", [&](const Element& joint) { by.gazebo(joint); }); });
+  };
+  const std::size_t after_drake = graph.joints.size();
+  if (!found()) isaac(closer);
+  const std::size_t after_isaac = graph.joints.size();
+  if (!found()) gazebo(closer);
+  if (after_drake > before) passOver(graph, links, before, isaac);
+  if (after_isaac > before) passOver(graph, links, before, gazebo);
   const std::filesystem::path yaml = file.parent_path() / "robot.yaml";
   std::error_code none;
   if (!found() && std::filesystem::is_regular_file(yaml, none)) closer.yaml(yaml);

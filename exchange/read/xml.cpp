@@ -166,6 +166,23 @@ double halfLastDigit(std::string_view text) {
   return largest;
 }
 
+void listUnknown(const Element& element, const std::set<std::string>& children, std::vector<Assumption>& assumptions) {
+  eachChild(element, nullptr, [&](const Element& child) {
+    const std::string name = child.Name();
+    if (children.count(name) == 0 && name.find(':') == std::string::npos && assumptions.size() < most_unknown)
+      assumptions.push_back(
+          {fmt::format("Nothing is known of <{}>, which is left out", shown(name)), named(element), 1, "1"});
+  });
+}
+
+void listUnknownAttributes(const Element& element, const std::set<std::string>& attributes,
+                           std::vector<Assumption>& assumptions) {
+  for (const tinyxml2::XMLAttribute* a = element.FirstAttribute(); a != nullptr; a = a->Next())
+    if (attributes.count(a->Name()) == 0 && assumptions.size() < most_unknown)
+      assumptions.push_back({fmt::format("Nothing is known of the attribute {}, which is left out", shown(a->Name())),
+                             named(element), 1, "1"});
+}
+
 Vector3d directionOf(const Element& at, const Vector3d& vector, const std::string& what) {
   const double norm = vector.stableNorm();
   if (!(norm > 1e-12)) refuse(at, fmt::format("{} is zero, expected a direction", what));

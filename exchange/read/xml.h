@@ -4,12 +4,15 @@
 
 #include <Eigen/Geometry>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/scalar.h"
 #include "exchange/import_error.h"
+
+#include "exchange/model_graph.h"
 
 namespace ursula::exchange {
 
@@ -19,6 +22,7 @@ using Element = tinyxml2::XMLElement;
 constexpr std::size_t most_model_bytes = std::size_t{8} << 20;
 /// No list of numbers in a model is longer.
 constexpr std::size_t most_numbers = 100;
+constexpr std::size_t most_unknown = 200;  ///< that are listed
 constexpr std::size_t most_tags = 100'000, most_attributes = 100'000, most_attributes_of_one = 100;
 
 /// Parses what is within these bounds; entities of the text's own are refused, none is expanded. Throws ImportError.
@@ -50,6 +54,12 @@ template <class Visit>
 void eachChild(const Element& element, const char* name, const Visit& visit) {
   for (const Element* e = element.FirstChildElement(name); e != nullptr; e = e->NextSiblingElement(name)) visit(*e);
 }
+
+/// Lists child elements, or attributes, that are none of those known: a misspelt word is not to be lost in silence.
+/// Those of other name spaces ("gz:…") are their owners'.
+void listUnknown(const Element& element, const std::set<std::string>& children, std::vector<Assumption>& assumptions);
+void listUnknownAttributes(const Element& element, const std::set<std::string>& attributes,
+                           std::vector<Assumption>& assumptions);
 
 /// A unit vector. Throws where it is zero.
 Vector3d directionOf(const Element& at, const Vector3d& vector, const std::string& what);

@@ -52,20 +52,24 @@ Groups::Groups(const ModelGraph& graph) : group_of(graph.bodies.size()) {
   for (const GraphJoint& joint : graph.joints)
     if (joint.kind == JointKind::fixed) join(joint.parent, joint.child);
   std::vector<std::size_t> index(parents.size(), parents.size());
-  std::vector<double> heaviest;
+  // A group is called by the body that most joints move, and the heaviest of these.
+  std::vector<std::pair<int, double>> foremost;
+  std::vector<int> joints_of(graph.bodies.size(), 0);
+  for (const GraphJoint& joint : graph.joints)
+    if (joint.kind != JointKind::fixed) ++joints_of[joint.parent], ++joints_of[joint.child];
   for (std::size_t i = 0; i < parents.size(); ++i) {
     const std::size_t root = rootOf(parents, i);
     if (index[root] == parents.size()) {
       index[root] = groups.size();
       groups.emplace_back();
-      heaviest.push_back(-1);
+      foremost.emplace_back(-1, -1);
     }
     group_of[i] = index[root];
     Group& group = groups[index[root]];
     const GraphBody& body = graph.bodies[i];
     group.bodies.push_back(i);
-    if (body.mass > heaviest[index[root]]) {
-      heaviest[index[root]] = body.mass;
+    if (const std::pair<int, double> rank(joints_of[i], body.mass); rank > foremost[index[root]]) {
+      foremost[index[root]] = rank;
       group.name = body.name;
       group.line = body.line;
     }

@@ -89,6 +89,8 @@ class LegMaker {
     if (!(angle <= task_.choices.tolerance))
       refuseLeg(fmt::format("{}, off by {:.6g}° ({:.3g} rad), more than {:g} (--tolerance)", what, angle * degrees,
                             angle, task_.choices.tolerance));
+    if (angle > worth_saying)
+      assumptions_.push_back({fmt::format("{}: taken as exact", what), shape_.place, angle, "rad"});
   }
 
   /// Any direction across the line is as good where a ball stands for the universal joint.
@@ -233,6 +235,9 @@ class LegMaker {
           fmt::format("its ball is {:.6g} m off the plane of its links, expected within {:g} of the machine's size, "
                       "{:.4g} m",
                       std::abs(off), task_.choices.tolerance, task_.size));
+    if (std::abs(off) > worth_saying * task_.size)
+      assumptions_.push_back(
+          {"The ball is taken to lie in the plane of the leg's links", shape_.place, std::abs(off), "m"});
   }
 
   Vector3d lengthAndDirection(const Vector3d& v, double& length) const {
@@ -325,6 +330,7 @@ Matrix3d fixedFrame(const Vector3d& u) {
 }
 
 ImportedLeg legOf(const LegTask& task, Group& platform, std::vector<Assumption>& assumptions) {
+  assumptions.insert(assumptions.end(), task.shape.assumptions.begin(), task.shape.assumptions.end());
   return LegMaker(task, platform, assumptions).make();
 }
 

@@ -66,6 +66,10 @@ class Shaper {
 
   double tolerance() const { return choices_.tolerance * size_; }
 
+  void use(const char* what, const std::string& where, double by, const char* unit, double scale) {
+    if (by > worth_saying * scale) shape_.assumptions.push_back({what, where, by, unit});
+  }
+
   /// Three hinges through one point, not in one plane: from the platform inwards.
   void gatherBalls() {
     for (std::size_t end = tokens_.size(); end >= 3;) {
@@ -160,6 +164,9 @@ class Shaper {
     const double angle = std::asin(std::min(1.0, (ball - from).normalized().cross(hinge.axis).norm()));
     if (!(off <= tolerance() && angle <= choices_.tolerance)) return;
     requirePlain({at}, "idle spin");
+    const std::string& name = graph_.joints[hinge.joint].name;
+    use("This hinge is taken to lie on the leg's line; it is beside it", name, off, "m", size_);
+    use("This hinge is taken to lie on the leg's line; it is turned from it", name, angle, "rad", 1);
     if (tokens_[at].behind) shape_.spinning.push_back(*tokens_[at].behind);
     if (at + 2 < tokens_.size() && tokens_[at + 1].behind) shape_.spinning.push_back(*tokens_[at + 1].behind);
     // What spins before a slide goes with the cylinder, what spins before the ball with the rod.
@@ -219,10 +226,16 @@ class Shaper {
   /// How far two hinges are from a universal joint.
   double badness(std::size_t k) const { return std::abs(std::cos(meeting(k).angle)) + meeting(k).apart / size_; }
 
-  void requireUniversal(std::size_t k) const {
+  void requireUniversal(std::size_t k) {
     const Meeting met = meeting(k);
     const double off_square = std::abs(std::asin(std::min(1.0, std::cos(met.angle))));
-    if (met.apart <= tolerance() && off_square <= choices_.tolerance) return;
+    if (met.apart <= tolerance() && off_square <= choices_.tolerance) {
+      const std::string hinges = fmt::format("{}, {}", graph_.joints[tokens_[k].primitive.joint].name,
+                                             graph_.joints[tokens_[k + 1].primitive.joint].name);
+      use("These hinges' axes are taken to meet; they pass each other", hinges, met.apart, "m", size_);
+      use("These hinges' axes are taken to be square", hinges, off_square, "rad", 1);
+      return;
+    }
     refuseLeg(
         fmt::format("has hinges {} and {} whose axes pass each other at {:.6g} m ({:.3g} of the machine's size) and "
                     "have an angle of {:.6g}° between them, expected a universal joint: axes that meet at 90°, "

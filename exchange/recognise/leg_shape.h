@@ -15,6 +15,9 @@ struct Cross {
   Vector3d centre = Vector3d::Zero();
 };
 
+/// What is less, of the machine's size or rad, is rounding of a file's digits, and no word is lost on it.
+constexpr double worth_saying = 1e-9;
+
 /// A chain that is known: three freedoms and a ball.
 struct LegShape {
   LegKind kind = LegKind::UPS;
@@ -26,6 +29,7 @@ struct LegShape {
   std::vector<std::size_t> proximal, distal;  ///< groups
   std::vector<std::size_t> spinning;  ///< of those, the ones that a hinge along the line lets spin by themselves
   std::vector<Cross> crosses;
+  std::vector<Assumption> assumptions;  ///< what of the tolerance was used
 };
 
 /// Finds the universal and ball joints among the primitives. `size` is the machine's, m. Throws ImportError with what

@@ -98,6 +98,11 @@ void freeSpin(const LegTask& task, const Group& body, const Eigen::Isometry3d& f
                     "and a mass centre on the line",
                     shown(body.name), task.shape.place, share, off),
         body.line);
+  if (share > worth_saying)
+    assumptions.push_back(
+        {"What spins freely is taken to be round; its moments differ by this share", body.name, share, "1"});
+  if (off > worth_saying * task.size)
+    assumptions.push_back({"What spins freely is taken to have its mass centre on the line", body.name, off, "m"});
   if (!keep_moment) {
     link.inertia(2, 2) -= local(2, 2);
     if (std::abs(link.inertia(2, 2)) <= 64 * eps * largest) link.inertia(2, 2) = 0;
