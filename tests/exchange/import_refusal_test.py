@@ -151,6 +151,39 @@ class Refusals(unittest.TestCase):
         text = files.write_mjcf(bodies, joints, machine["gravity"], rng)
         self.refused(text, "m.xml", ["leg1_j2", "3°"])
 
+    def test_a_tolerance_that_is_used_is_said(self):
+        bodies, joints, machine, rng = machine_of()
+        joints[1]["axis"] = machines.rotation(np.cross(joints[0]["axis"], joints[1]["axis"]), 1e-3) @ joints[1]["axis"]
+        text = files.write_mjcf(bodies, joints, machine["gravity"], rng)
+        self.refused(text, "m.xml", ["leg1_j0", "--tolerance"])
+        done, out = self.call(text, "m.xml", "--tolerance", "0.01")
+        self.assertEqual((done.returncode, out.exists()), (0, True), done.stderr)
+        self.assertRegex(done.stderr, r"leg1_j0, leg1_j1: .* square \(0\.00[0-9]+ rad\)")
+
+    def test_loops_in_a_second_tools_words(self):
+        """The same loops are listed as left out; one more is refused."""
+        whole = urdf()
+        loop = '<loop_joint name="more" type="spherical"><link1 link="{}"/><link2 link="{}"/></loop_joint></robot>'
+        ends = re.search(r'ball_constraint_body_A name="(.*?)"/><drake:ball_constraint_body_B name="(.*?)"/>', whole)
+        self.assertIsNotNone(ends, whole[-2000:])
+        done, out = self.call(whole.replace("</robot>", loop.format(*ends.groups())), "m.urdf")
+        self.assertIn("another tool's words", done.stderr)
+        out.unlink()
+        self.refused(whole.replace("</robot>", loop.format("leg1_first", "leg2_first")), "m.urdf", ["more", "leg1_first", "leg2_first"])
+
+    def test_unknown_words_are_listed(self):
+        for text, name, words in ((self.changed(mjcf(), '<joint name="leg1_j2"', '<joint dmaping="3" name="leg1_j2"'), "m.xml", "dmaping"),
+                                  (self.changed(sdf(), "<inertial>", "<inertial><maas>3</maas>"), "m.sdf", "<maas>")):
+            drive = re.findall(r'<joint name="(leg\d_j\d)" type="prismatic"', text) if name == "m.sdf" else []
+            done, _ = self.call(text, name, *(("--actuated", ",".join(drive)) if drive else ()))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(words, done.stderr)
+
+    def test_springs_and_old_files(self):
+        self.refused(self.changed(mjcf(), '<joint name="leg1_j2"', '<joint springdamper="1 1" name="leg1_j2"'), "m.xml",
+                     ["leg1_j2", "springdamper"])
+        self.refused(re.sub(r'<sdf version="[0-9.]+"', '<sdf version="1.2"', sdf()), "m.sdf", ["1.2", "gz sdf"])
+
     def test_a_platform_that_stands_still(self):
         whole = self.changed(mjcf(), "<freejoint/>", "")
         self.refused(whole, "m.xml", ["no platform", "platform", "three joints"])
