@@ -60,32 +60,52 @@ void addFriction(const Manipulator& machine, MachineCauses& out) {
   });
 }
 
-/// Parts of the friction that the scenario has.
-void addFrictionLeftOut(MachineCauses& out) {
+/// Which of a leg's joints.
+enum class Joints { all, driven, passive };
+
+void clear(JointFriction& law, const Leg& leg, Joints which) {
+  for (std::size_t j = 0; j < 3; ++j)
+    if (which == Joints::all || leg.actuated[j] == (which == Joints::driven))
+      law.on(rowOf(leg.kind).coordinates[j]) = 0;
+}
+
+bool rubs(const Machine& machine, bool viscous, bool coulomb, Joints but_for) {
+  return std::any_of(machine.legs.begin(), machine.legs.end(), [&](Leg leg) {
+    clear(leg.friction, leg, but_for);
+    clear(leg.coulomb, leg, but_for);
+    return (viscous && leg.friction.any()) || (coulomb && leg.coulomb.any());
+  });
+}
+
+/// Parts of the friction that the scenario has, where it has others too: all of it is a term by itself.
+void addFrictionLeftOut(const Machine& machine, MachineCauses& out) {
   const NamedCause named{CauseKind::missing_term, "friction", "all"};
-  const auto clear = [](JointFriction& law, const Leg& leg, bool driven, bool passive) {
-    for (std::size_t j = 0; j < 3; ++j)
-      if (leg.actuated[j] ? driven : passive) law.on(rowOf(leg.kind).coordinates[j]) = 0;
-  };
-  const auto add = [&](const char* text, bool viscous, bool coulomb, bool driven, bool passive) {
-    out.addFixed({text, named}, [=](Machine& machine) {
-      for (Leg& leg : machine.legs) {
-        if (viscous) clear(leg.friction, leg, driven, passive);
-        if (coulomb) clear(leg.coulomb, leg, driven, passive);
+  const auto add = [&](const char* text, bool viscous, bool coulomb, Joints which) {
+    out.addFixed({text, named}, [=](Machine& changed) {
+      for (Leg& leg : changed.legs) {
+        if (viscous) clear(leg.friction, leg, which);
+        if (coulomb) clear(leg.coulomb, leg, which);
       }
     });
   };
-  add("viscous friction left out", true, false, true, true);
-  add("Coulomb friction left out", false, true, true, true);
-  add("friction of the joints without motors left out", true, true, false, true);
-  add("friction of the driven joints left out", true, true, true, false);
+  const auto any = [&](bool viscous, bool coulomb) {
+    return rubs(machine, viscous, coulomb, Joints::driven) || rubs(machine, viscous, coulomb, Joints::passive);
+  };
+  if (any(true, false) && any(false, true)) {
+    add("viscous friction left out", true, false, Joints::all);
+    add("Coulomb friction left out", false, true, Joints::all);
+  }
+  if (rubs(machine, true, true, Joints::driven) && rubs(machine, true, true, Joints::passive)) {
+    add("friction of the joints without motors left out", true, true, Joints::passive);
+    add("friction of the driven joints left out", true, true, Joints::driven);
+  }
 }
 
 }  // namespace
 
 void addFrictionCauses(const Manipulator& machine, MachineCauses& out) {
   addFriction(machine, out);
-  addFrictionLeftOut(out);
+  addFrictionLeftOut(machine.parameters(), out);
 }
 
 }  // namespace ursula

@@ -220,7 +220,7 @@ Cause changedEfforts(const Scenario& scenario, const CauseName& name, const Effo
 
 std::vector<Cause> termCauses(const Scenario& scenario) {
   Collector out(scenario);
-  out.addPart("gravity", "gravity", gravity);
+  for (const char* body : {"platform", "legs", "proximal", "distal"}) out.addPart("gravity", "gravity", gravity, body);
   out.addPart("the gyroscopic moment", "gyroscopic", gyroscopic);
   out.addPart("the centripetal acceleration", "centripetal", centripetal);
   out.addPart("the Coriolis acceleration", "coriolis", coriolis, "distal");
