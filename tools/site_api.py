@@ -7,7 +7,7 @@ import re
 
 # The page's sections: what a public header is for, and the headers whose declarations are shown there.
 HEADERS = {
-    "scenario": ["model/scenario.h", "model/scenario_json.h", "model/manipulator.h", "model/trajectory.h", "model/trajectories.h",
+    "scenario": ["model/scenario.h", "model/scenario_json.h", "model/manipulator.h", "model/trajectory.h", "model/trajectories/trajectories.h",
                  "model/motion.h", "model/load.h", "model/instants.h", "model/quaternions.h", "base/errors.h"],
     "solver": ["nocsolver/solver.h", "nocsolver/fast/batch_dynamics.h", "nocsolver/fast/parallel/threaded_batch.h",
                "nocsolver/fast/effort_derivatives.h", "nocsolver/poses/direct_kinematics.h", "nocsolver/poses/ups_poses.h"],

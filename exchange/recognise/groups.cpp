@@ -52,8 +52,9 @@ Groups::Groups(const ModelGraph& graph) : group_of(graph.bodies.size()) {
   for (const GraphJoint& joint : graph.joints)
     if (joint.kind == JointKind::fixed) join(joint.parent, joint.child);
   std::vector<std::size_t> index(parents.size(), parents.size());
-  // A group is called by the body that most joints move, and the heaviest of these.
-  std::vector<std::pair<int, double>> foremost;
+  // A group is called by its heaviest body, but by one that three joints or more move where there is one: a payload may
+  // be heavier than the platform.
+  std::vector<std::pair<bool, double>> foremost;
   std::vector<int> joints_of(graph.bodies.size(), 0);
   for (const GraphJoint& joint : graph.joints)
     if (joint.kind != JointKind::fixed) ++joints_of[joint.parent], ++joints_of[joint.child];
@@ -62,13 +63,13 @@ Groups::Groups(const ModelGraph& graph) : group_of(graph.bodies.size()) {
     if (index[root] == parents.size()) {
       index[root] = groups.size();
       groups.emplace_back();
-      foremost.emplace_back(-1, -1);
+      foremost.emplace_back(false, -1);
     }
     group_of[i] = index[root];
     Group& group = groups[index[root]];
     const GraphBody& body = graph.bodies[i];
     group.bodies.push_back(i);
-    if (const std::pair<int, double> rank(joints_of[i], body.mass); rank > foremost[index[root]]) {
+    if (const std::pair<bool, double> rank(joints_of[i] >= 3, body.mass); rank > foremost[index[root]]) {
       foremost[index[root]] = rank;
       group.name = body.name;
       group.line = body.line;

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
@@ -37,7 +38,8 @@ class Simulate : public testing::TestWithParam<std::string> {
   }
 
   const Program ursula_{};
-  const std::string file_ = testing::TempDir() + "/simulate_" + GetParam() + ".csv";
+  const std::string file_ =
+      testing::TempDir() + "/simulate_" + std::to_string(::getpid()) + ".csv";  // tests run at once
 };
 
 TEST_P(Simulate, theRightTorquesMakeTheMotion) {
