@@ -92,8 +92,8 @@ TEST(ChildProcess, takesItsGroupWithIt) {
 }
 
 TEST(ChildProcess, isACopyThatWorks) {
-  const int here = 41;
-  ChildProcess copy([here](int from, int to) {
+  constexpr int here = 41;
+  ChildProcess copy([](int from, int to) {
     EXPECT_EQ(allFrom(from), "go");
     writeAll(to, std::to_string(here + 1));
   });
