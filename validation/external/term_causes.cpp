@@ -229,7 +229,8 @@ std::vector<Cause> termCauses(const Scenario& scenario) {
   out.addPart("the moment of angular acceleration", "inertia", acceleratedInertia);
   out.addPart("the force of inertia", "inertia", movingInertia);
   out.addPart("inertia", "inertia", inertia);
-  out.addPart("inertia and gravity", "inertia", everything);
+  out.addPart("inertia and gravity", "inertia", everything, "",
+              false);  // with the wrong sign it is every effort's sign
   for (const char* body : {"legs", "proximal", "distal"}) {
     out.addPart("what velocities make of the accelerations", "coriolis", bias, body);
     out.addPart("what velocities make of the angular accelerations", "coriolis", turningBias, body);
