@@ -49,10 +49,11 @@ Explanation named(const std::vector<Hypothesis>& best, const TorqueResidual& dat
   if (!is_alone) return out;
   out.named = out.others.front();
   out.others.erase(out.others.begin());
-  // Where the other links make no difference, they are not blamed.
+  // Where the other links' mass centres make no difference, they are not blamed.
   for (const Hypothesis& one : best)
-    if (out.named->body == "legs" && one.named && one.named->leg == out.named->leg &&
-        sayTheSame(*out.named, *one.named) && (one.named->body == "proximal" || one.named->body == "distal"))
+    if (out.named->kind == CauseKind::reference_point && out.named->body == "legs" && one.named &&
+        one.named->leg == out.named->leg && sayTheSame(*out.named, *one.named) &&
+        (one.named->body == "proximal" || one.named->body == "distal"))
       out.named->body = one.named->body;
   return out;
 }
