@@ -8,8 +8,8 @@
 #include "apps/files_apart.h"
 #include "apps/streams.h"
 #include "apps/verbs.h"
+#include "exchange/leg_pose.h"
 #include "exchange/write/export.h"
-#include "exchange/write/leg_pose.h"
 #include "model/scenario_input.h"
 #include "model/scenario_place.h"
 

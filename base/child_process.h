@@ -41,8 +41,9 @@ class ChildProcess {
   void kill();
   /// Until it has ended by itself.
   void wait();
-  /// Of one that was waited for: what waitpid says, and "ended with exit code 3", "was ended by signal 9 (Killed)".
+  /// What waitpid said of a process that was waited for.
   int status() const { return status_; }
+  /// "ended with exit code 3", "was ended by signal 9 (Killed)".
   std::string howItEnded() const;
 
  private:

@@ -61,7 +61,8 @@ void sweepTemporaries(const fs::path& folder) {
   }
 }
 
-/// Of what is replaced. An owner that cannot be kept loses the bits that speak of him.
+/// The new file gets mode and owner of the one that it replaces. Where the owner cannot be kept, neither are the mode's
+/// bits that are his.
 void keepModeAndOwner(int descriptor, const fs::path& replaced) {
   struct stat old {};
   if (::stat(replaced.c_str(), &old) != 0) return;
@@ -152,7 +153,7 @@ void requireWritable(const fs::path& file) {
   if (::faccessat(AT_FDCWD, end.c_str(), W_OK, AT_EACCESS) != 0) refuseToWrite(file, std::strerror(errno));
 }
 
-/// Of the folders on the way, the last that is there may be written into, and the others could be made in it.
+/// Throws where the folder can neither be written into nor be made in the last of its parents that is there.
 void requireWritableFolder(const fs::path& folder, const fs::path& shown) {
   fs::path there = endOfLinks(folder);
   for (const fs::path& name : there)

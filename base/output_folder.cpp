@@ -59,7 +59,7 @@ std::vector<fs::path> allIn(const fs::path& top, const fs::path& below = "") {
   return all;
 }
 
-/// Of a folder: mode and, where the system lets it, owner.
+/// The folder gets the model's mode and, where the system lets it, its owner.
 void becomeLike(const fs::path& folder, const fs::path& model) {
   struct stat found {};
   if (::stat(model.c_str(), &found) != 0) return;
@@ -142,7 +142,7 @@ void OutputFolder::requireSwappable() const {
   }
 }
 
-/// Of this folder alone, and short whatever its name.
+/// A name that no other folder beside this one gets; its length does not depend on the folder's name.
 std::string OutputFolder::own(const std::string& kind) const {
   return kind + "-" + sha1(folder_.filename().string()).substr(0, 12);
 }

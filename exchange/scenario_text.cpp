@@ -40,7 +40,7 @@ std::string plainName(const std::string& name) {
   return out.find_first_not_of('-') == std::string::npos ? "imported" : out;
 }
 
-/// Of coefficients by the kind's coordinates, those that are not zero: "{ phi = 0.1, d = 2.0 }", or "".
+/// "{ phi = 0.1, d = 2.0 }": the values that are not zero, by coordinate; "" where all are.
 std::string byCoordinate(const ImportedLeg& leg, const std::array<double, 3>& values) {
   std::string out;
   const auto coordinates = rowOf(leg.kind).coordinates;

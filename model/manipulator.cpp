@@ -90,7 +90,7 @@ void requireSpin(const std::string& place, const Leg& leg) {
   if (leg.kind == LegKind::URS)
     throw InvalidParameter(place + ".spin", "\"free\" of a URS leg",
                            "\"held\": its links cannot turn about their lines");
-  if (leg.kind == LegKind::UPS) requireRound(place + ".proximal", leg.proximal);
+  if (rowOf(leg.kind).isTelescopic()) requireRound(place + ".proximal", leg.proximal);
   requireRound(place + ".distal", leg.distal);
 }
 
@@ -198,7 +198,7 @@ Manipulator::Manipulator(const ManipulatorParameters& parameters) : given_(param
   for (Leg& leg : parameters_.legs) {
     if (!leg.spins) continue;
     leg.distal.inertia(2, 2) = 0;
-    if (leg.kind == LegKind::UPS) leg.proximal.inertia(2, 2) = 0;
+    if (rowOf(leg.kind).isTelescopic()) leg.proximal.inertia(2, 2) = 0;
   }
 }
 

@@ -116,9 +116,8 @@ def check_targets(root):
                  "model": re.compile(r"(?i)ursula::(nocsolver|validation|report)|simbody|mujoco"),
                  "nocsolver": re.compile(r"(?i)simbody|mujoco|ursula::validation|tbb"),
                  "nocsolver/fast/parallel": re.compile(r"(?i)simbody|mujoco|ursula::validation"),
-                 "exchange/write": re.compile(r"(?i)ursula::(?!options|eigen|base|model)\w+|simbody|mujoco"),
                  "engines": re.compile(r"ursula[:_]+(nocsolver|validation)"),
-                 "exchange": re.compile(r"(?i)ursula::(?!base|model|import|export)\w+|simbody|mujoco"),
+                 "exchange": re.compile(r"(?i)ursula::(?!base|model|exchange)\w+|simbody|mujoco"),
                  "validation": re.compile(r"(?i)ursula::(apps|report)|\$\{(simbody|ursula_mujoco)_"),
                  "report": re.compile(r"(?i)ursula::apps|\$\{(simbody|ursula_mujoco)_"),
                  "studies": re.compile(r"(?i)ursula::apps|\$\{(simbody|ursula_mujoco)_")}

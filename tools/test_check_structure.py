@@ -26,8 +26,7 @@ def sound_tree():
         "report/CMakeLists.txt": "target_link_libraries(r ursula::verdict)\n",
         "studies/CMakeLists.txt": "add_subdirectory(suite)\n",
         "engines/CMakeLists.txt": "target_link_libraries(s ${Simbody_LIBRARIES})\n",
-        "exchange/CMakeLists.txt": "add_subdirectory(write)\n",
-        "exchange/write/CMakeLists.txt": "target_link_libraries(w ursula::model tinyxml2::tinyxml2)\n",
+        "exchange/CMakeLists.txt": "target_link_libraries(x ursula::model tinyxml2::tinyxml2)\n",
         "nocsolver/CMakeLists.txt": "target_link_libraries(n ursula::model)  # never Simbody\n",
         "nocsolver/fast/parallel/CMakeLists.txt": "target_link_libraries(p ursula::nocsolver TBB::tbb)\n",
         "validation/CMakeLists.txt": "target_link_libraries(v ursula::nocsolver ursula::simbody_loop)\n",
@@ -118,7 +117,7 @@ class CheckStructure(unittest.TestCase):
         self.assertEqual(self.findings(model__machine_DOT_h=("", "/* SimTK */ // SimTK\n")), [])
 
     def test_targets(self):
-        self.assert_caught("exchange/write may not link", exchange__write__CMakeLists_DOT_txt=("", "link(ursula::nocsolver)\n"))
+        self.assert_caught("exchange may not link", exchange__CMakeLists_DOT_txt=("", "link(ursula::nocsolver)\n"))
         self.assert_caught("nocsolver may not link", nocsolver__CMakeLists_DOT_txt=("", "link(${Simbody_LIBRARIES})\n"))
         self.assert_caught("nocsolver may not link", nocsolver__CMakeLists_DOT_txt=("", "link(TBB::tbb)\n"))
         self.assert_caught("nocsolver/fast/parallel may not link",

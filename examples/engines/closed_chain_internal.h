@@ -31,7 +31,7 @@ enum class Recipe {
   global_angular,  ///< ω and α of the base's axes given to a free joint, which wants its own
 };
 
-/// Of the platform's frame, all in the world's axes.
+/// The motion of the platform's frame, in the world's axes.
 struct Motion {
   Eigen::Vector3d p, v, w, a, alpha;
   Eigen::Quaterniond q;

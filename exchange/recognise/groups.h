@@ -35,7 +35,7 @@ struct Groups {
   std::vector<std::size_t> group_of;  ///< of each body
 
   explicit Groups(const ModelGraph& graph);
-  /// Of a body's name. Throws ImportError with what was meant where there is none.
+  /// The group of the body that has the name. Throws ImportError, with the nearest name, where there is none.
   std::size_t named(const ModelGraph& graph, const std::string& name, const std::string& option) const;
 };
 

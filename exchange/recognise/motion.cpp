@@ -2,20 +2,23 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "exchange/import_error.h"
+#include "exchange/leg_pose.h"
 #include "exchange/recognise/leg_numbers.h"
+#include "model/legs/leg_type.h"
 
 namespace ursula::exchange {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr int waypoint_count = 13, tried_per_motion = 97;
-constexpr double least_regular = 1e-5;  // below it differences tell nothing of the way out
+constexpr double least_regular = 1e-5;  // below it rounding tells nothing of the way out
 constexpr double duration = 3.0;        // s, as the paper's helix is taken to have
 
 /// A helix about an upright axis through p + r [−cos γ, −sin γ, 0]: half a turn, rising by a radius.
@@ -44,64 +47,50 @@ double reserveOf(const ImportedMachine& machine, const ImportedPose& pose, std::
   return least;
 }
 
-/// A leg's coordinates in the order of its kind, by the table of docs/legs.md.
-std::array<double, 3> coordinatesOf(const ImportedLeg& leg, const ImportedPose& pose) {
-  const Vector3d AB = pose.position + pose.orientation * leg.platform_point - leg.base_point;
-  const Vector3d k = fixedFrame(leg.base_axis).transpose() * AB;
-  const double l = leg.proximal.length, s = leg.distal.length, side = leg.knee_positive ? 1 : -1;
-  const double r = std::hypot(k.x(), k.z()), plane = std::atan2(-k.x(), k.z()), q = k.norm();
-  switch (leg.kind) {
-    case LegKind::UPS:
-      return {plane, std::atan2(r, k.y()), q};
-    case LegKind::URS: {
-      const double theta = side * std::acos((l * l + s * s - q * q) / (2 * l * s));
-      return {plane, std::atan2(s * std::sin(theta), l - s * std::cos(theta)) + std::atan2(r, k.y()), theta};
-    }
-    case LegKind::RUS: {
-      const double c = std::sqrt((s - k.y()) * (s + k.y()));
-      const double phi = plane - side * std::acos((l * l + r * r - c * c) / (2 * l * r));
-      return {phi, side * std::acos((r * r - l * l - c * c) / (2 * l * c)), std::asin(k.y() / s)};
-    }
-    case LegKind::PUS:
-      break;
-  }
-  const double ahead = side * std::sqrt((s - r) * (s + r));
-  return {k.y() - ahead, plane, std::acos(ahead / s)};
+Leg asLeg(const ImportedLeg& leg) {
+  Leg out;
+  out.kind = leg.kind;
+  out.base_point = leg.base_point;
+  out.base_axis = leg.base_axis;
+  out.platform_point = leg.platform_point;
+  out.proximal.length = leg.proximal.length;
+  out.distal.length = leg.distal.length;
+  out.knee = leg.knee_positive ? Knee::positive : Knee::negative;
+  return out;
 }
 
-/// How the driven coordinates move with the platform, lengths over `size`, by central differences.
+/// Rates of the driven coordinates for velocities of P over `size` and turns of the platform.
 Matrix6d driveMap(const ImportedMachine& machine, const ImportedPose& pose, double size) {
-  constexpr double step = 1e-6;
-  Matrix6d out;
-  for (int column = 0; column < 6; ++column) {
-    std::array<ImportedPose, 2> moved = {pose, pose};
-    for (const int end : {0, 1}) {
-      const double by = end == 0 ? -step : step;
-      if (column < 3)
-        moved[static_cast<std::size_t>(end)].position(column) += by * size;
-      else
-        moved[static_cast<std::size_t>(end)].orientation =
-            Eigen::AngleAxisd(by, Vector3d::Unit(column - 3)) * pose.orientation;
+  Matrix6d out = Matrix6d::Zero();
+  int row = 0;
+  for (std::size_t i = 0; i < machine.legs.size(); ++i) {
+    const ImportedLeg& leg = machine.legs[i];
+    const Vector3d arm = pose.orientation * leg.platform_point;
+    const LegPose at = legPose(asLeg(leg), static_cast<int>(i), pose.position + arm);
+    Matrix3d J;  // velocity of the tip for unit rates of the leg's coordinates
+    for (int k = 0; k < 3; ++k) {
+      const JointAt& joint = at.joints[static_cast<std::size_t>(k)];
+      J.col(k) = slides(joint.coordinate) ? joint.axis : joint.axis.cross(Vector3d(at.tip - joint.centre));
     }
-    int row = 0;
-    for (const ImportedLeg& leg : machine.legs) {
-      const auto before = coordinatesOf(leg, moved[0]), after = coordinatesOf(leg, moved[1]);
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (!leg.actuated[k] || row == 6) continue;
-        const bool is_length = slides(rowOf(leg.kind).coordinates[k]);
-        const double moves = after[k] - before[k];
-        out(row++, column) = (is_length ? moves / size : std::remainder(moves, 2 * pi)) / (2 * step);
-      }
-    }
+    Eigen::Matrix<double, 3, 6> tip;
+    for (int k = 0; k < 3; ++k) tip.col(k) = size * Vector3d::Unit(k), tip.col(3 + k) = Vector3d::Unit(k).cross(arm);
+    const Eigen::Matrix<double, 3, 6> rates = J.inverse() * tip;
+    for (int k = 0; k < 3; ++k)
+      if (leg.actuated[static_cast<std::size_t>(k)] && row < 6)
+        out.row(row++) = rates.row(k) / (slides(at.joints[static_cast<std::size_t>(k)].coordinate) ? size : 1);
   }
   return out;
 }
 
 /// How far from singular: the least singular value over the largest, with the sign of the determinant.
 double regularity(const ImportedMachine& machine, const ImportedPose& pose, double size) {
-  const Matrix6d map = driveMap(machine, pose, size);
-  const Eigen::JacobiSVD<Matrix6d> svd(map);
-  return (map.determinant() < 0 ? -1 : 1) * svd.singularValues()(5) / svd.singularValues()(0);
+  try {
+    const Matrix6d map = driveMap(machine, pose, size);
+    const Eigen::JacobiSVD<Matrix6d> svd(map);
+    return (map.determinant() < 0 ? -1 : 1) * svd.singularValues()(5) / svd.singularValues()(0);
+  } catch (const UnreachablePose&) {  // a leg is singular by itself
+    return 0;
+  }
 }
 
 double reserveOf(const ImportedMachine& machine, const SmallHelix& helix, double size) {
@@ -125,24 +114,13 @@ double within(double least, double value, double most) {
 }  // namespace
 
 double reserveOf(const ImportedLeg& leg, const ImportedPose& pose) {
+  const LegKindRow& row = rowOf(leg.kind);
   const Vector3d u = leg.base_axis, AB = pose.position + pose.orientation * leg.platform_point - leg.base_point;
-  const double l = leg.proximal.length, s = leg.distal.length;
-  const double along = AB.dot(u), distance = (AB - along * u).norm();
-  const double off_axis = distance / (AB.norm() + distance);
-  switch (leg.kind) {
-    case LegKind::UPS:
-      return std::min(within(s, AB.norm(), s + l), off_axis);
-    case LegKind::URS:
-      return std::min(within(std::abs(l - s), AB.norm(), l + s), off_axis);
-    case LegKind::RUS: {
-      if (!(std::abs(along) < s)) return -1;
-      const double c = std::sqrt((s - along) * (s + along));
-      return std::min(within(std::abs(l - c), distance, l + c), 1 - std::abs(along) / s);
-    }
-    case LegKind::PUS:
-      break;
-  }
-  return std::min(1 - distance / s, distance / s);
+  const double along = AB.dot(u), across = (AB - along * u).norm();
+  const Reach reach = typeOf(leg.kind).reach(asLeg(leg), {AB.norm(), std::abs(along), across});
+  const double own = within(reach.least, reach.distance, reach.most);
+  if (row.joints_of_proximal == 2) return std::min(own, across / (AB.norm() + across));  // off the first axis
+  return row.hasCarriage() ? own : std::min(own, 1 - std::abs(along) / leg.distal.length);
 }
 
 void proposeMotion(ImportedMachine& machine, double size) {

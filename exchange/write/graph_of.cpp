@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "exchange/write/leg_pose.h"
+#include "exchange/leg_pose.h"
 
 namespace ursula::exchange {
 namespace {

@@ -42,7 +42,7 @@ class Writer {
   }
 
  private:
-  /// Of joints as this file names them; of a joint with two axes as the import names these.
+  /// The motors' joints by their names in this file. An axis of a joint with two is named as the import names it.
   std::string motorNames() {
     constexpr const char* axes[] = {"/axis", "/axis2"};
     std::string out;

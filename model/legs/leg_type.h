@@ -40,7 +40,7 @@ class LegType {
   /// What the leg has to bridge.
   virtual Reach reach(const Leg& leg, const LegSpan& span) const = 0;
 
-  /// Of a pose at a dead centre, where the leg bridges `reach`.
+  /// Says how near a pose is to the leg's dead centre. The leg bridges `reach` there.
   virtual DeadCentre deadCentre(const Reach& reach) const;
 
   /// How far leg i is from the end of its reach: zero there, and of another sign beyond.

@@ -32,6 +32,14 @@ bool sayTheSame(const NamedCause& first, const NamedCause& other) {
          other.parameter.compare(0, first.parameter.size(), first.parameter) == 0 && !first.parameter.empty();
 }
 
+/// Where mass centres of the other links make no difference, these are not blamed.
+void leaveOutOtherLinks(const std::vector<Hypothesis>& best, NamedCause& named) {
+  if (named.kind != CauseKind::reference_point || named.body != "legs") return;
+  for (const Hypothesis& one : best)
+    if (one.named && sayTheSame(named, *one.named) && (one.named->body == "proximal" || one.named->body == "distal"))
+      named.body = one.named->body;
+}
+
 }  // namespace
 
 Explanation named(const std::vector<Hypothesis>& best, const TorqueResidual& data, std::string text) {
@@ -49,12 +57,7 @@ Explanation named(const std::vector<Hypothesis>& best, const TorqueResidual& dat
   if (!is_alone) return out;
   out.named = out.others.front();
   out.others.erase(out.others.begin());
-  // Where the other links' mass centres make no difference, they are not blamed.
-  for (const Hypothesis& one : best)
-    if (out.named->kind == CauseKind::reference_point && out.named->body == "legs" && one.named &&
-        one.named->leg == out.named->leg && sayTheSame(*out.named, *one.named) &&
-        (one.named->body == "proximal" || one.named->body == "distal"))
-      out.named->body = one.named->body;
+  leaveOutOtherLinks(best, *out.named);
   return out;
 }
 

@@ -23,35 +23,31 @@ bool anyLegHas(const Manipulator& machine, Coordinate coordinate) {
   });
 }
 
-/// Friction that the scenario does not have: a fit of its coefficients, of every leg that has the coordinate.
+/// A fit of the coefficients of one law, `key`, on every leg that has the coordinate.
+void addMore(const char* words, const std::string& key, const char* unit, Coordinate coordinate,
+             JointFriction& (*law)(Leg&), MachineCauses& out) {
+  const std::string joint = nameOf(coordinate);
+  out.addFitted(
+      [coordinate, law](Machine& changed, double x) {
+        for (Leg& leg : changed.legs) law(leg).on(coordinate) += x;
+      },
+      [words, joint, unit](double x, double deviation) {
+        return fmt::format("{} friction on every {} of {} {} more than the scenario's", words, joint,
+                           withDeviation(x, deviation), unit);
+      },
+      [key, joint, unit](double x, double deviation) { return moreFriction(key + "." + joint, unit, x, deviation); });
+}
+
+/// Friction that the scenario does not have.
 void addFriction(const Manipulator& machine, MachineCauses& out) {
   for (const Coordinate coordinate : {Coordinate::phi, Coordinate::psi, Coordinate::theta, Coordinate::d}) {
     if (!anyLegHas(machine, coordinate)) continue;
-    const std::string joint = nameOf(coordinate);
-    const char* const viscous = slides(coordinate) ? "N s/m" : "N m s/rad";
-    const char* const coulomb = slides(coordinate) ? "N" : "N m";
-    out.addFitted(
-        [coordinate](Machine& changed, double x) {
-          for (Leg& leg : changed.legs) leg.friction.on(coordinate) += x;
-        },
-        [joint, viscous](double x, double deviation) {
-          return fmt::format("viscous friction on every {} of {} {} more than the scenario's", joint,
-                             withDeviation(x, deviation), viscous);
-        },
-        [joint, viscous](double x, double deviation) {
-          return moreFriction("friction." + joint, viscous, x, deviation);
-        });
-    out.addFitted(
-        [coordinate](Machine& changed, double x) {
-          for (Leg& leg : changed.legs) leg.coulomb.on(coordinate) += x;
-        },
-        [joint, coulomb](double x, double deviation) {
-          return fmt::format("Coulomb friction on every {} of {} {} more than the scenario's", joint,
-                             withDeviation(x, deviation), coulomb);
-        },
-        [joint, coulomb](double x, double deviation) {
-          return moreFriction("coulomb." + joint, coulomb, x, deviation);
-        });
+    addMore(
+        "viscous", "friction", slides(coordinate) ? "N s/m" : "N m s/rad", coordinate,
+        [](Leg& leg) -> JointFriction& { return leg.friction; }, out);
+    addMore(
+        "Coulomb", "coulomb", slides(coordinate) ? "N" : "N m", coordinate,
+        [](Leg& leg) -> JointFriction& { return leg.coulomb; }, out);
   }
   const NamedCause sharp{CauseKind::parameter, "friction", "legs", "manipulator.leg_defaults.coulomb.smoothing_speed"};
   out.addFixed({"Coulomb friction without smoothing", sharp}, [](Machine& changed) {

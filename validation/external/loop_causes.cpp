@@ -28,7 +28,7 @@ Matrix6d unturnedJacobian(const Scenario& scenario, const MachineTerms& machine)
   return out;
 }
 
-/// Of every coordinate: three a leg, in leg order.
+/// Three a leg, in leg order.
 using Coordinates = Eigen::VectorXd;
 
 Vector6d ofMotors(const Scenario& scenario, const Coordinates& efforts) {
@@ -109,20 +109,6 @@ Vector6d ofAccelerations(const MachineTerms& machine, const std::function<Vector
   return machine.T_P.transpose() * at_P;
 }
 
-class Collector {
- public:
-  explicit Collector(const Scenario& scenario) : scenario_(scenario) {}
-
-  void add(const std::string& text, const NamedCause& named, const EffortChange& change) {
-    causes.push_back(changedEfforts(scenario_, {text, named}, change));
-  }
-
-  std::vector<Cause> causes;
-
- private:
-  const Scenario& scenario_;
-};
-
 /// [ω; v] as [v; ω]: a transposed Jacobian shows in which order it is kept.
 Matrix6d swapped() {
   Matrix6d out = Matrix6d::Zero();
@@ -130,7 +116,7 @@ Matrix6d swapped() {
   return out;
 }
 
-void addTransposed(Collector& out) {
+void addTransposed(EffortCauses& out) {
   const NamedCause named{CauseKind::jacobian, "", "all"};
   for (const Matrix6d& order : {Matrix6d(Matrix6d::Identity()), swapped()}) {
     out.add("the Jacobian's inverse not transposed", named, [order](const MachineTerms& machine) {
@@ -155,7 +141,7 @@ Vector6d forceAtP(const MachineTerms& machine, const std::function<Vector3d(std:
   return out;
 }
 
-void addJacobians(const Scenario& scenario, Collector& out) {
+void addJacobians(const Scenario& scenario, EffortCauses& out) {
   addTransposed(out);
   const NamedCause named{CauseKind::jacobian, "", "all"};
   const auto unturned = [&scenario](std::size_t i) -> Vector3d {
@@ -186,7 +172,7 @@ void addJacobians(const Scenario& scenario, Collector& out) {
           });
 }
 
-void addClosures(const Scenario& scenario, Collector& out) {
+void addClosures(const Scenario& scenario, EffortCauses& out) {
   const auto closed = [&scenario](auto efforts) {
     return [&scenario, efforts](const MachineTerms& machine) {
       return Vector6d(efforts(scenario, machine) - exactEfforts(machine));
@@ -218,7 +204,7 @@ void addClosures(const Scenario& scenario, Collector& out) {
 }  // namespace
 
 std::vector<Cause> loopCauses(const Scenario& scenario) {
-  Collector out(scenario);
+  EffortCauses out(scenario);
   addJacobians(scenario, out);
   addClosures(scenario, out);
   return std::move(out.causes);

@@ -108,13 +108,9 @@ Matrix3d steiner(const BodyTerms& body) {
   return body.mass * (body.from.squaredNorm() * Matrix3d::Identity() - body.from * body.from.transpose());
 }
 
-class Collector {
+class Collector : public EffortCauses {
  public:
-  explicit Collector(const Scenario& scenario) : scenario_(scenario) {}
-
-  void add(const std::string& text, const NamedCause& named, const EffortChange& change) {
-    causes.push_back(changedEfforts(scenario_, {text, named}, change));
-  }
+  using EffortCauses::EffortCauses;
 
   /// A part of the wrenches of each group: left out, and with the wrong sign.
   void addPart(const std::string& what, const char* term, const Wrench& part, const char* only = "",
@@ -139,11 +135,6 @@ class Collector {
       add(before + group.words + after, {kind, term, group.body},
           [group, change](const MachineTerms& machine) { return effortsOf(machine, group, change); });
   }
-
-  std::vector<Cause> causes;
-
- private:
-  const Scenario& scenario_;
 };
 
 Wrench withoutSpinOf(bool of_reaction) {
@@ -208,14 +199,15 @@ void addTensors(Collector& out) {
 
 }  // namespace
 
-Cause changedEfforts(const Scenario& scenario, const CauseName& name, const EffortChange& change) {
-  return fixedCause(name, [&scenario, change](const std::vector<Motion<double>>& motions) {
+void EffortCauses::add(const std::string& text, const NamedCause& named, const EffortChange& change) {
+  const Scenario& scenario = scenario_;
+  causes.push_back(fixedCause({text, named}, [&scenario, change](const std::vector<Motion<double>>& motions) {
     const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
     std::vector<Vector6d> out;
     for (const Motion<double>& motion : motions)
       out.push_back(noc.torques(motion) + change(machineTerms(*scenario.manipulator, scenario.load, motion)));
     return out;
-  });
+  }));
 }
 
 std::vector<Cause> termCauses(const Scenario& scenario) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "validation/external/body_terms.h"
@@ -10,8 +12,18 @@ namespace ursula {
 /// What a mistake adds to the efforts at one motion.
 using EffortChange = std::function<Vector6d(const MachineTerms&)>;
 
-/// The NOC's efforts with that added. `scenario` outlives it.
-Cause changedEfforts(const Scenario& scenario, const CauseName& name, const EffortChange& change);
+/// Collects causes that add something to the NOC's efforts. The scenario outlives them.
+class EffortCauses {
+ public:
+  explicit EffortCauses(const Scenario& scenario) : scenario_(scenario) {}
+
+  void add(const std::string& text, const NamedCause& named, const EffortChange& change);
+
+  std::vector<Cause> causes;
+
+ private:
+  const Scenario& scenario_;
+};
 
 /// Mistakes of a solver's own making, for every kind of leg: a term of one group of bodies left out or with the wrong
 /// sign, tensors in other frames or about other points, the spin of links left out. `scenario` outlives them.

@@ -90,7 +90,7 @@ std::vector<TiedParameters> tiedParameters(const Manipulator& machine) {
       continue;
     }
     const bool is_link = !link.empty();
-    // Of a rod that slides, only how far its mass centre is from its outer end matters: that is named by the centre.
+    // All that matters of a sliding rod is how far its mass centre is from its outer end: the centre names that.
     if (link == "distal" && one.quantity == Quantity::length && rowOf(machine.leg(one.leg).kind).isTelescopic())
       continue;
     add(of_legs, fmt::format("{} of {}leg {}", words, is_link ? "the " + link + " link of " : "", leg), one);

@@ -1,4 +1,4 @@
-#include "exchange/write/leg_pose.h"
+#include "exchange/leg_pose.h"
 
 #include <fmt/format.h>
 
