@@ -132,6 +132,14 @@ void addKnees(const Manipulator& machine, MachineCauses& out) {
   }
 }
 
+void addRotors(const Scenario& scenario, MachineCauses& out) {
+  if (hasRotors(*scenario.manipulator))
+    out.addFixed({"the rotors' inertia left out", NamedCause{CauseKind::missing_term, "rotor_inertia", "all"}},
+                 [](Machine& machine) {
+                   for (Leg& leg : machine.legs) leg.rotor_inertia = {};
+                 });
+}
+
 void addPlatform(MachineCauses& out) {
   out.addFitted([](Machine& machine, double x) { machine.platform.inertia *= 1 + x; },
                 [](double x, double deviation) {
@@ -166,6 +174,7 @@ std::vector<Cause> machineCauses(const Scenario& scenario) {
   addExchanged(out);
   addOtherEnds(scenario.manipulator->legCount(), out);
   addKnees(*scenario.manipulator, out);
+  addRotors(scenario, out);
   addFrictionCauses(*scenario.manipulator, out);
   return std::move(out.causes);
 }

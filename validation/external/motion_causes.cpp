@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -41,8 +42,15 @@ Cause notTurned(const Scenario& scenario, const CauseName& name, const MachineCh
   });
 }
 
-/// τ + J φ̈.
+/// "kg" where all motors slide, else "kg m^2".
+const char* rotorUnit(const Manipulator& machine) {
+  const Motors& motors = machine.motors();
+  return std::all_of(motors.begin(), motors.end(), [](const Motor& motor) { return motor.slides(); }) ? "kg" : "kg m^2";
+}
+
+/// τ + J q̈: an inertia on every motor that the scenario has not.
 Cause motorInertia(const Scenario& scenario) {
+  const std::string unit = rotorUnit(*scenario.manipulator);
   return {true,
           [&scenario](double x, const Motions& motions) {
             const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
@@ -52,15 +60,18 @@ Cause motorInertia(const Scenario& scenario) {
               out.push_back(noc.torques(motion) + x * noc.kinematics(motion).joints.q_ddot.driven(motors));
             return out;
           },
-          [](double x, double deviation) {
-            return fmt::format("an inertia of {} kg m^2 on every motor's axis", withDeviation(x, deviation));
+          [unit](double x, double deviation) {
+            return fmt::format("an inertia of {} {} on every motor beyond the scenario's", withDeviation(x, deviation),
+                               unit);
           },
           {},
-          [](double x, double deviation) {
+          [unit](double x, double deviation) -> std::optional<NamedCause> {
+            if (x < 0) return std::nullopt;  // no motor has one
             NamedCause out{CauseKind::missing_term, "rotor_inertia", "all"};
             out.expected = 0;
             out.found = x;
             out.uncertainty = deviation;
+            out.unit = unit;
             return out;
           }};
 }

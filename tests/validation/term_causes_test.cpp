@@ -1,0 +1,100 @@
+// Terms and loops of machines of every kind: taken together they are the NOC's efforts, and each mistake changes these.
+
+#include "validation/external/term_causes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <set>
+#include <string>
+
+#include "model/instants.h"
+#include "model/scenario.h"
+#include "validation/external/diagnosis.h"
+#include "validation/limits/conditioning.h"
+#include "validation/subject/torque_file.h"
+
+namespace ursula {
+namespace {
+
+class Terms : public testing::TestWithParam<const char*> {
+ protected:
+  const Scenario scenario_ = readScenario(std::string(URSULA_SOURCE) + "/apps/starting/" + GetParam() + ".toml");
+  const Manipulator& machine_ = *scenario_.manipulator;
+
+  /// A motion with every term in it: the scenario's own pose, other velocities.
+  Motion<double> motion() const {
+    Motion<double> out = scenario_.trajectory->at(0.4 * scenario_.trajectory->duration());
+    out.omega = Vector3d(0.7, -0.4, 0.5);
+    out.p_dot = Vector3d(-0.3, 0.6, 0.2);
+    out.omega_dot = Vector3d(1.1, 0.9, -2);
+    out.p_ddot = Vector3d(2, -1, 3);
+    return out;
+  }
+  Vector6d expected(const Manipulator& machine) const { return nocSubject(machine, nullptr).torques(motion()); }
+};
+
+TEST_P(Terms, makeTheEfforts) {
+  const MachineTerms terms = machineTerms(machine_, nullptr, motion());
+  const Vector6d efforts = terms.T_P.transpose() * terms.forceAtP();
+  ASSERT_GT(efforts.cwiseAbs().maxCoeff(), 1);
+  const double rounding = ConditioningProbe(machine_, nullptr).at(motion()).torqueRounding();
+  EXPECT_LE((efforts - expected(machine_)).cwiseAbs().maxCoeff(), rounding);
+  ManipulatorParameters heavier = machine_.parameters();
+  heavier.legs[2].distal.mass *= 1 + 1e-6;
+  EXPECT_GT((efforts - expected(Manipulator(heavier))).cwiseAbs().maxCoeff(), rounding) << "what is wrong is seen";
+}
+
+TEST_P(Terms, areEachSeen) {
+  std::set<std::string> kinds;
+  const Vector6d right = expected(machine_);
+  std::size_t seen = 0;
+  for (const std::vector<Cause>& causes : {termCauses(scenario_), loopCauses(scenario_)}) {
+    ASSERT_FALSE(causes.empty());
+    for (const Cause& cause : causes) {
+      const Vector6d wrong = cause.torques(0, {motion()}).at(0);
+      ASSERT_TRUE(wrong.allFinite()) << cause.words(0, 0);
+      if (!((wrong - right).norm() > 1e-9 * right.norm())) continue;
+      ++seen;
+      const NamedCause named = cause.named(0, 0).value();
+      kinds.insert(std::string(name(named.kind)) + " " + named.term);
+    }
+  }
+  EXPECT_GT(seen, 40u);
+  for (const char* each :
+       {"missing_term gravity", "missing_term gyroscopic", "missing_term centripetal", "missing_term coriolis",
+        "missing_term inertia", "missing_term spin", "frame inertia", "reference_point inertia", "jacobian ",
+        "closure open", "closure least_squares", "closure bias"})
+    EXPECT_THAT(kinds, testing::Contains(each));
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Terms, testing::Values("URS", "UPS", "RUS", "PUS"));
+
+/// Torques of a solver that knows nothing of the scenario's rotors, and the other way round.
+TEST(RotorCause, isNamedEitherWayAndNeverNegative) {
+  const Scenario without = readScenario(std::string(URSULA_SOURCE) + "/apps/starting/UPS.toml");
+  Scenario with = without;
+  ManipulatorParameters machine = without.manipulator->parameters();
+  for (Leg& leg : machine.legs) leg.rotor_inertia.d = 30;
+  with.manipulator = std::make_shared<Manipulator>(machine);
+  const auto diagnosed = [](const Scenario& scenario, const Scenario& solver) {
+    GivenTorques given{"solver", equallySpaced(scenario.trajectory->duration(), 61), {}};
+    const Subject noc = nocSubject(*solver.manipulator, nullptr);
+    for (const double t : given.t) given.torques.push_back(noc.torques(scenario.trajectory->at(t)));
+    return diagnose(scenario, runExternal(scenario, torqueFileOf(given, scenario.manipulator->motors())));
+  };
+  for (const bool solver_has : {false, true}) {
+    const Diagnosis found = solver_has ? diagnosed(without, with) : diagnosed(with, without);
+    ASSERT_TRUE(found.named) << found.cause;
+    EXPECT_EQ(found.named->kind, CauseKind::missing_term) << found.cause;
+    EXPECT_EQ(found.named->term, "rotor_inertia") << found.cause;
+    if (!solver_has) continue;
+    EXPECT_NEAR(found.named->found.value(), 30, 1e-6);
+    EXPECT_EQ(found.named->unit, "kg");
+  }
+  EXPECT_TRUE(diagnosed(with, with).summary.empty()) << "of right efforts nothing is said";
+}
+
+}  // namespace
+}  // namespace ursula
