@@ -6,10 +6,12 @@ function(ursula_component name)
   add_library(ursula::${name} ALIAS ursula_${name})
   target_link_libraries(ursula_${name} PUBLIC ursula::options ${component_LINKS} PRIVATE fmt::fmt ${component_PRIVATE})
   ursula_use_precompiled(ursula_${name})
+  ursula_unity(${name} 6)
   set_property(GLOBAL APPEND PROPERTY URSULA_COMPONENTS ursula_${name})
 endfunction()
 
-# What is compiled together, where sources share much.
+# So many sources are compiled together: what they include is read and instantiated once. A name in an unnamed namespace
+# is then one in its folder; the preset for development compiles each source alone.
 function(ursula_unity name batch)
   set_target_properties(ursula_${name} PROPERTIES UNITY_BUILD ${URSULA_UNITY} UNITY_BUILD_BATCH_SIZE ${batch})
 endfunction()

@@ -1,4 +1,5 @@
 #include "exchange/leg_pose.h"
+#include "base/angles.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +10,6 @@
 namespace ursula::exchange {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 /// √eps: a sine below it has no correct digit left.
 const double smallest_sine = std::sqrt(Eigen::NumTraits<double>::epsilon());
 
@@ -22,7 +22,7 @@ double angleOpposite(double c, double a, double b) {
   return 2 * std::atan2(std::sqrt(std::max(top, 0.0)), std::sqrt(std::max(bottom, 0.0)));
 }
 
-Eigen::Isometry3d placed(const Vector3d& x, const Vector3d& along, const Vector3d& origin) {
+Eigen::Isometry3d frameAlong(const Vector3d& x, const Vector3d& along, const Vector3d& origin) {
   Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
   out.linear() << x, along.cross(x), along;
   out.translation() = origin;
@@ -92,7 +92,7 @@ class Placing {
     join(0, A_, -u_, plane_);
     join(1, A_, x_, psi);
     join(2, R, x_, theta);
-    return withLinks(placed(x_, e, A_), placed(x_, (out_.tip - R).normalized(), R), R);
+    return withLinks(frameAlong(x_, e, A_), frameAlong(x_, (out_.tip - R).normalized(), R), R);
   }
 
   LegPose ups() {
@@ -103,7 +103,7 @@ class Placing {
     join(0, A_, -u_, plane_);
     join(1, A_, x_, std::atan2(r_, k_.y()));
     join(2, inner_end, e, d);
-    return withLinks(placed(x_, e, A_), placed(x_, e, inner_end), A_ + l_ * e);
+    return withLinks(frameAlong(x_, e, A_), frameAlong(x_, e, inner_end), A_ + l_ * e);
   }
 
   /// Seen along u the leg is a triangle of crank l, rod c and r.
@@ -120,7 +120,7 @@ class Placing {
     join(0, A_, -u_, phi);
     join(1, R, -u_, psi);
     join(2, R, -x_2, std::atan2(k_.y(), c));
-    return withLinks(placed(x_1, e, A_), placed(x_2, along, R), R);
+    return withLinks(frameAlong(x_1, e, A_), frameAlong(x_2, along, R), R);
   }
 
   LegPose pus() {
@@ -131,9 +131,9 @@ class Placing {
     join(0, A_, u_, d);
     join(1, C, -u_, plane_);
     join(2, C, x_, std::atan2(r_, ahead));
-    Eigen::Isometry3d carriage = placed(x_hat_, z_hat_, C);
+    Eigen::Isometry3d carriage = frameAlong(x_hat_, z_hat_, C);
     carriage.linear() << x_hat_, u_, z_hat_;
-    return withLinks(carriage, placed(x_, (out_.tip - C).normalized(), C), C + l_ * u_);
+    return withLinks(carriage, frameAlong(x_, (out_.tip - C).normalized(), C), C + l_ * u_);
   }
 
   LegPose withLinks(const Eigen::Isometry3d& proximal, const Eigen::Isometry3d& distal, const Vector3d& far_end) {

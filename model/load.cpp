@@ -11,7 +11,7 @@
 namespace ursula {
 namespace {
 
-using Knot = CurvePoint<Real50, 6>;
+using LoadKnot = CurvePoint<Real50, 6>;
 
 /// The harmonic mean of the slopes on both sides, 0 at an extremum (F. N. Fritsch and J. Butland, SIAM J. Sci. Stat.
 /// Comput. 5 (1984) 300–304): at most twice the lesser. A quintic that rises by 1 over s in [0, 1] with end slopes m₀,
@@ -37,14 +37,14 @@ void validate(const std::vector<TimedWrench>& rows) {
 }
 
 QuinticHermite<Real50, 6> curveThrough(const std::vector<TimedWrench>& rows) {
-  std::vector<Knot> knots(rows.size());
+  std::vector<LoadKnot> knots(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     knots[i].t = rows[i].time;
     knots[i].value << rows[i].wrench.force.cast<Real50>(), rows[i].wrench.moment.cast<Real50>();
   }
   for (std::size_t i = 1; i + 1 < knots.size(); ++i) {
-    const Knot::Vector before = (knots[i].value - knots[i - 1].value) / (knots[i].t - knots[i - 1].t);
-    const Knot::Vector after = (knots[i + 1].value - knots[i].value) / (knots[i + 1].t - knots[i].t);
+    const LoadKnot::Vector before = (knots[i].value - knots[i - 1].value) / (knots[i].t - knots[i - 1].t);
+    const LoadKnot::Vector after = (knots[i + 1].value - knots[i].value) / (knots[i + 1].t - knots[i].t);
     for (int k = 0; k < 6; ++k) knots[i].rate(k) = limitedSlope(before(k), after(k));
   }
   return QuinticHermite<Real50, 6>(knots);

@@ -44,11 +44,11 @@ class PoseSplineKernel {
   QuinticHermite<S, 7> curve_;
 };
 
-using Knot = CurvePoint<Real50, 7>;
+using PoseKnot = CurvePoint<Real50, 7>;
 
 /// The spline runs through R⁴, so of q and −q it takes the nearer to the quaternion before.
-std::vector<Knot> knotsOf(const std::vector<TimedPose>& poses) {
-  std::vector<Knot> knots(poses.size());
+std::vector<PoseKnot> knotsOf(const std::vector<TimedPose>& poses) {
+  std::vector<PoseKnot> knots(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
     Eigen::Matrix<Real50, 4, 1> r = poses[i].orientation.cast<Real50>().normalized();
     if (i > 0 && r.dot(knots[i - 1].value.tail<4>()) < 0) r = -r;
@@ -72,7 +72,7 @@ void validate(const std::vector<TimedPose>& poses, const PoseSplineOptions& opti
   }
 }
 
-void requireClearWay(const std::vector<Knot>& knots, const RefusePose& refuse) {
+void requireClearWay(const std::vector<PoseKnot>& knots, const RefusePose& refuse) {
   const double degrees = 180 / std::acos(-1.0), most = 170;
   for (std::size_t i = 1; i < knots.size(); ++i) {
     const auto cosine = knots[i].value.tail<4>().dot(knots[i - 1].value.tail<4>()).convert_to<double>();
@@ -85,15 +85,15 @@ void requireClearWay(const std::vector<Knot>& knots, const RefusePose& refuse) {
 
 /// |r| stays away from 0 where the six Bézier points of a piece, whose convex hull holds it, all reach at least 1/4
 /// along the mean of the two end quaternions.
-void requireAwayFromZero(const std::vector<Knot>& knots, const RefusePose& refuse) {
+void requireAwayFromZero(const std::vector<PoseKnot>& knots, const RefusePose& refuse) {
   for (std::size_t i = 1; i < knots.size(); ++i) {
-    const Knot &from = knots[i - 1], &to = knots[i];
+    const PoseKnot &from = knots[i - 1], &to = knots[i];
     const Real50 h = to.t - from.t;
-    const Knot::Vector first = from.value + h / 5 * from.rate, last = to.value - h / 5 * to.rate;
-    const Knot::Vector second = from.value + 2 * h / 5 * from.rate + h * h / 20 * from.acceleration;
-    const Knot::Vector last_but_one = to.value - 2 * h / 5 * to.rate + h * h / 20 * to.acceleration;
+    const PoseKnot::Vector first = from.value + h / 5 * from.rate, last = to.value - h / 5 * to.rate;
+    const PoseKnot::Vector second = from.value + 2 * h / 5 * from.rate + h * h / 20 * from.acceleration;
+    const PoseKnot::Vector last_but_one = to.value - 2 * h / 5 * to.rate + h * h / 20 * to.acceleration;
     const Eigen::Matrix<Real50, 4, 1> mean = (from.value + to.value).tail<4>().normalized();
-    for (const Knot::Vector& point : {from.value, first, second, last_but_one, last, to.value})
+    for (const PoseKnot::Vector& point : {from.value, first, second, last_but_one, last, to.value})
       if (!(mean.dot(point.tail<4>()) >= 0.25))
         refuse(i, "orientation", "a spline that swings too far on its way from the one before",
                "orientations nearer to each other or more evenly spread in time");
@@ -105,7 +105,7 @@ void requireAwayFromZero(const std::vector<Knot>& knots, const RefusePose& refus
 std::unique_ptr<Trajectory> splineAlong(const std::string& kind, const QuinticHermite<Real50, 7>& curve,
                                         std::vector<double> times) {
   const auto relocate = [kind, curve, times](const Vector3d& origin) {
-    Knot::Vector offset = Knot::Vector::Zero();
+    PoseKnot::Vector offset = PoseKnot::Vector::Zero();
     offset.head<3>() = origin.cast<Real50>();
     return splineAlong(kind, curve.shifted(offset), times);
   };
@@ -129,7 +129,7 @@ std::unique_ptr<Trajectory> makePoseSpline(const std::vector<TimedPose>& poses, 
   if (poses.size() < options.at_least)
     refuse(0, "", fmt::format("{} poses", poses.size()), fmt::format(">= {}", options.at_least));
   validate(poses, options, refuse);
-  std::vector<Knot> knots = knotsOf(poses);
+  std::vector<PoseKnot> knots = knotsOf(poses);
   requireClearWay(knots, refuse);
   if (options.ends == SplineEnds::free) {
     differentiateBySix(knots, 0, knots.front());

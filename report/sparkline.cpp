@@ -13,7 +13,7 @@ namespace ursula::report {
 namespace {
 
 constexpr std::size_t steps = 40;
-constexpr double width = 100, height = 22;
+constexpr double line_width = 100, line_height = 22;
 
 /// Zero, where an error starts from, has no place among decades.
 bool takes(double value) { return std::isfinite(value) && value > 0; }
@@ -45,16 +45,17 @@ std::string sparkline(const std::vector<double>& trend) {
   bool pen_down = false;
   for (std::size_t k = 0; k < trend.size(); ++k) {
     if (takes(trend[k]))
-      d += fmt::format("{}{:.1f} {:.1f}", pen_down ? "L" : "M",
-                       width * static_cast<double>(k) / static_cast<double>(std::max<std::size_t>(trend.size() - 1, 1)),
-                       height - 2 - (height - 4) * (std::log10(trend[k]) - bottom) / span);
+      d += fmt::format(
+          "{}{:.1f} {:.1f}", pen_down ? "L" : "M",
+          line_width * static_cast<double>(k) / static_cast<double>(std::max<std::size_t>(trend.size() - 1, 1)),
+          line_height - 2 - (line_height - 4) * (std::log10(trend[k]) - bottom) / span);
     pen_down = takes(trend[k]);
   }
   return fmt::format(
       "<svg class=\"spark\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"Replay error along the motion, "
       "from "
       "{} to {}\"><path d=\"{}\"/></svg>",
-      width, height, escaped(quantity(low, "m")), escaped(quantity(high, "m")), d);
+      line_width, line_height, escaped(quantity(low, "m")), escaped(quantity(high, "m")), d);
 }
 
 }  // namespace ursula::report

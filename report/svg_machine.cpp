@@ -13,7 +13,7 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-constexpr double width = 640, height = 420, margin = 24;
+constexpr double frame_width = 640, frame_height = 420, frame_margin = 24;
 
 /// From above and aside, without perspective.
 Point projected(const Vector3d& v) {
@@ -32,8 +32,9 @@ class Sheet {
   }
   Point at(const Vector3d& v) const {
     const Point size = (high_ - low_).cwiseMax(Point::Constant(1e-12));
-    const double scale = std::min((width - 2 * margin) / size.x(), (height - 2 * margin) / size.y());
-    return Point(width / 2, height / 2) + scale * (projected(v) - (low_ + high_) / 2);
+    const double scale =
+        std::min((frame_width - 2 * frame_margin) / size.x(), (frame_height - 2 * frame_margin) / size.y());
+    return Point(frame_width / 2, frame_height / 2) + scale * (projected(v) - (low_ + high_) / 2);
   }
 
  private:
@@ -103,7 +104,7 @@ std::string svgMachine(const Picture& picture) {
   return fmt::format(
       "<svg class=\"machine\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" "
       "role=\"img\" aria-label=\"The machine at the start of its motion, with the path of P\">{}</svg>",
-      width, height, out);
+      frame_width, frame_height, out);
 }
 
 }  // namespace ursula::report

@@ -8,6 +8,7 @@
 // MuJoCo gives G, the accelerations in (2) and M q̈ + bias; its constraints, contacts and integrators have no part.
 
 #include "engines/mujoco/mujoco_loop.h"
+#include "base/angles.h"
 
 #include <fmt/format.h>
 
@@ -25,9 +26,8 @@ namespace {
 
 using mujoco::dofOf, mujoco::joints_per_leg, mujoco::siteOnLeg, mujoco::siteOnPlatform;
 
-constexpr double pi = 3.14159265358979323846;
-constexpr int most_dofs = mujoco::most_dofs, most_gaps = mujoco::most_gaps;
 using mujoco::GapJacobian, mujoco::VectorOfGaps, mujoco::VectorOfDofs;
+using mujoco::most_dofs, mujoco::most_gaps;
 using SquareOfGaps = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_gaps, most_gaps>;
 using SquareOfDofs = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_dofs, most_dofs>;
 
@@ -185,9 +185,9 @@ void MujocoLoop::Impl::move(const Motion<double>& motion) {
 }
 
 GapJacobian MujocoLoop::Impl::gapJacobian() const {
-  using RowMajor = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor, 3, most_dofs>;
+  using PointJacobian = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor, 3, most_dofs>;
   GapJacobian jacobian(leg_dofs, dofs);
-  RowMajor on_leg(3, dofs), on_platform(3, dofs);
+  PointJacobian on_leg(3, dofs), on_platform(3, dofs);
   for (int leg = 0; leg < legs; ++leg) {
     mj_jacSite(model.get(), data.get(), on_leg.data(), nullptr, siteOnLeg(leg));
     mj_jacSite(model.get(), data.get(), on_platform.data(), nullptr, siteOnPlatform(legs, leg));

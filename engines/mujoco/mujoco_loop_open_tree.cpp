@@ -68,8 +68,8 @@ void MujocoLoop::Impl::placeTree(const TreeCoordinates& at) {
 }
 
 void MujocoLoop::Impl::readTree(const Motion<double>& motion, const mujoco::VectorOfDofs& forces, OpenTree& out) {
-  using RowMajor = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor, 3, most_dofs>;
-  RowMajor jacobian(3, dofs);
+  using PointJacobian = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor, 3, most_dofs>;
+  PointJacobian jacobian(3, dofs);
   const mujoco::VectorOfDofs residual = forces - given(*model, *data, motion);
   for (int i = 0; i < legs; ++i) {
     OpenTree::Leg& leg = out.legs[static_cast<std::size_t>(i)];

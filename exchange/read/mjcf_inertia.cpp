@@ -5,13 +5,12 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "base/angles.h"
 #include "base/shown_text.h"
 #include "exchange/recognise/groups.h"
 
 namespace ursula::exchange {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 struct Shape {
   double volume = 0;

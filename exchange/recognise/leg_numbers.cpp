@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angles.h"
 #include "base/shown_text.h"
 #include "exchange/import_error.h"
 #include "exchange/recognise/link_numbers.h"
 
 namespace ursula::exchange {
 namespace {
-
-constexpr double degrees = 180 / 3.14159265358979323846;
 
 Matrix3d frameOf(const Vector3d& x, const Vector3d& along) {
   Matrix3d out;
@@ -87,8 +86,8 @@ class LegMaker {
   void requireSmallSine(double sine, const std::string& what) const {
     const double angle = std::asin(std::min(sine, 1.0));
     if (!(angle <= task_.choices.tolerance))
-      refuseLeg(fmt::format("{}, off by {:.6g}° ({:.3g} rad), more than {:g} (--tolerance)", what, angle * degrees,
-                            angle, task_.choices.tolerance));
+      refuseLeg(fmt::format("{}, off by {:.6g}° ({:.3g} rad), more than {:g} (--tolerance)", what,
+                            angle * degrees_per_radian, angle, task_.choices.tolerance));
     if (angle > worth_saying)
       assumptions_.push_back({fmt::format("{}: taken as exact", what), shape_.place, angle, "rad"});
   }

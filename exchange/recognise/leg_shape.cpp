@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angles.h"
 #include "base/shown_text.h"
 #include "exchange/import_error.h"
 
@@ -14,8 +15,6 @@ namespace {
 
 using Kind = Primitive::Kind;
 using Body = std::optional<std::size_t>;
-
-constexpr double degrees = 180 / 3.14159265358979323846;
 
 /// A freedom, or a ball made of one joint or of three hinges, with what lies between it and the next.
 struct Token {
@@ -242,7 +241,7 @@ class Shaper {
                     "within {:g} (--tolerance)",
                     shown(graph_.joints[tokens_[k].primitive.joint].name),
                     shown(graph_.joints[tokens_[k + 1].primitive.joint].name), met.apart, met.apart / size_,
-                    met.angle * degrees, choices_.tolerance));
+                    met.angle * degrees_per_radian, choices_.tolerance));
   }
 
   const ModelGraph& graph_;

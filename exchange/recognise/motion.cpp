@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/angles.h"
 #include "exchange/import_error.h"
 #include "exchange/leg_pose.h"
 #include "exchange/recognise/leg_numbers.h"
@@ -16,7 +17,6 @@
 namespace ursula::exchange {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr int waypoint_count = 13, tried_per_motion = 97;
 constexpr double least_regular = 1e-5;  // below it rounding tells nothing of the way out
 constexpr double duration = 3.0;        // s, as the paper's helix is taken to have

@@ -17,9 +17,9 @@ constexpr double closing_time = 0.002, step = closing_time / 4;
 /// in proportion to the rest.
 constexpr double impedance = 0.9999;
 
-class Writer {
+class MjcfWriter {
  public:
-  explicit Writer(const MachineModel& machine)
+  explicit MjcfWriter(const MachineModel& machine)
       : machine_(machine), graph_(machine.graph), limbs_(limbsOf(graph_)), document_("mujoco") {}
 
   std::string text() {
@@ -137,6 +137,6 @@ class Writer {
 
 }  // namespace
 
-std::string mjcfText(const MachineModel& machine, std::vector<Assumption>&) { return Writer(machine).text(); }
+std::string mjcfText(const MachineModel& machine, std::vector<Assumption>&) { return MjcfWriter(machine).text(); }
 
 }  // namespace ursula::exchange

@@ -14,9 +14,9 @@ namespace {
 
 constexpr double step = 0.0005;  ///< s
 
-class Writer {
+class SdfWriter {
  public:
-  Writer(const MachineModel& machine, std::vector<Assumption>& notes)
+  SdfWriter(const MachineModel& machine, std::vector<Assumption>& notes)
       : machine_(machine), graph_(machine.graph), notes_(notes), document_("sdf") {}
 
   std::string text() {
@@ -158,7 +158,7 @@ class Writer {
 }  // namespace
 
 std::string sdfText(const MachineModel& machine, std::vector<Assumption>& notes) {
-  return Writer(machine, notes).text();
+  return SdfWriter(machine, notes).text();
 }
 
 }  // namespace ursula::exchange

@@ -17,9 +17,9 @@ namespace {
 /// For what URDF wants a number and the machine has no bound.
 constexpr double no_limit = 1e9;
 
-class Writer {
+class UrdfWriter {
  public:
-  explicit Writer(const MachineModel& machine) : machine_(machine), graph_(machine.graph), document_("robot") {}
+  explicit UrdfWriter(const MachineModel& machine) : machine_(machine), graph_(machine.graph), document_("robot") {}
 
   std::string text() {
     root_.with("name", graph_.name).with("xmlns:drake", "http://drake.mit.edu");
@@ -166,7 +166,7 @@ std::string urdfText(const MachineModel& machine, std::vector<Assumption>& notes
   const auto closures = std::count_if(joints.begin(), joints.end(), [](const GraphJoint& it) { return it.closure; });
   notes.push_back({"URDF is a tree: loops are closed by <drake:ball_constraint>; elsewhere join closing_…_1 and _2",
                    "platform", static_cast<double>(closures), "closures"});
-  return Writer(machine).text();
+  return UrdfWriter(machine).text();
 }
 
 }  // namespace ursula::exchange

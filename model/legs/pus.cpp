@@ -2,13 +2,11 @@
 
 #include <cmath>
 
+#include "base/angles.h"
 #include "model/legs/leg_type.h"
 
 namespace ursula {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
-constexpr double degree = pi / 180;
 
 /// s sin θ is what B is off the rail; the carriage's length is for drawing only.
 LinkLengths rodAt(double theta, double across, double ratio) {

@@ -1,11 +1,10 @@
 #include <algorithm>
 
+#include "base/angles.h"
 #include "model/legs/leg_type.h"
 
 namespace ursula {
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180;
 
 /// The telescopic leg: universal joint, cylinder, rod.
 class Ups : public LegType {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/angles.h"
 #include "model/instants.h"
 #include "model/legs/leg_type.h"
 #include "model/scenario_place.h"
@@ -15,8 +16,6 @@
 
 namespace ursula {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 double turned(const Matrix3d& Q) { return Eigen::AngleAxisd(Q).angle(); }
 

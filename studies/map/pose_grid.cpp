@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angles.h"
 #include "base/leading_number.h"
 #include "model/instants.h"
 #include "nocsolver/legs/leg_model.h"
@@ -14,7 +15,6 @@
 namespace ursula {
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180;
 constexpr std::size_t most_poses = 100'000'000;
 
 std::vector<std::string> parts(const std::string& text) {

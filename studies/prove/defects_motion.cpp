@@ -2,14 +2,11 @@
 
 #include <Eigen/Geometry>
 
+#include "base/angles.h"
 #include "studies/prove/defect_helpers.h"
 
 namespace ursula {
-namespace {
-
-constexpr double degrees = 180 / 3.14159265358979323846;
-
-}  // namespace
+namespace {}  // namespace
 
 std::vector<Defect> motionDefects(const Manipulator&) {
   using M = Motion<double>;
@@ -17,8 +14,8 @@ std::vector<Defect> motionDefects(const Manipulator&) {
       wrongMotion("Q transposed", [](M& m) { m.Q.transposeInPlace(); }),
       wrongMotion("degrees for radians in omega",
                   [](M& m) {
-                    m.omega *= degrees;
-                    m.omega_dot *= degrees;
+                    m.omega *= degrees_per_radian;
+                    m.omega_dot *= degrees_per_radian;
                   }),
       wrongMotion("omega in M for omega in B", [](M& m) { m.omega = (m.Q.transpose() * m.omega).eval(); }),
       wrongMotion("omega_dot in M for omega_dot in B",

@@ -1,12 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angles.h"
 #include "studies/random/random_machine.h"
 
 namespace ursula {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Exactly at one of the ends for one leg at most, so that no two legs share a number.
 double massCentre(Dice& dice, const Recipe& recipe, bool may_be_at_end, double length) {

@@ -1,12 +1,10 @@
 #include "studies/random/random_layout.h"
+#include "base/angles.h"
 
 #include <cmath>
 
 namespace ursula {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
-constexpr double degree = pi / 180;
 
 Vector3d onRing(double radius, double angle) { return {radius * std::cos(angle), radius * std::sin(angle), 0}; }
 

@@ -2,14 +2,12 @@
 
 #include <cmath>
 
+#include "base/angles.h"
 #include "model/legs/leg_type.h"
 #include "studies/random/random_layout.h"
 
 namespace ursula {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
-constexpr double degree = pi / 180;
 
 LegSpan spanOf(const LegPlace& place) {
   const Vector3d AB = place.B - place.A;

@@ -1,11 +1,10 @@
 #include "studies/random/random_machine.h"
+#include "base/angles.h"
 
 #include <cmath>
 
 namespace ursula {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// A helix whose middle is at `position`: what its triad is there, the platform has to be. About an origin far away it
 /// hardly turns while it covers a share of the machine.

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angles.h"
 #include "model/trajectories/trajectories.h"
 
 namespace ursula {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 using Shift = Eigen::Matrix<double, 6, 1>;  ///< of the platform's middle in lengths, and its turn as a vector
 

@@ -24,7 +24,7 @@ this order, Q = R_z(yaw) R_y(pitch) R_x(roll). (About moving axes the same is ya
 with one rounding: 90 is the double nearest to π/2.
 )";
 
-std::string typeOf(const ScenarioKey& key) {
+std::string typeWords(const ScenarioKey& key) {
   switch (key.type) {
     case KeyType::number:
       return "number";
@@ -61,7 +61,7 @@ std::string defaultOf(const ScenarioKey& key) {
 }
 
 std::string row(const ScenarioKey& key) {
-  return fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", key.name, typeOf(key), orDash(key.unit), defaultOf(key),
+  return fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", key.name, typeWords(key), orDash(key.unit), defaultOf(key),
                      orDash(key.bound.words), orDash(key.meaning));
 }
 

@@ -9,7 +9,7 @@
 namespace ursula {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 /// An instant of a largest effort says where to look and is in the table; nothing is to be learnt of its spread.
 bool isInstant(const std::string& name) { return name.size() > 4 && name.compare(name.size() - 4, 4, "_t_s") == 0; }
@@ -32,7 +32,7 @@ SweepOutput outputOf(bool validates, const std::string& name) {
 }
 
 double shareOf(const SweepRow::Value& value) {
-  return std::isnan(value.value) || std::isnan(value.limit) ? none : Worst::share(value.value, value.limit);
+  return std::isnan(value.value) || std::isnan(value.limit) ? no_value : Worst::share(value.value, value.limit);
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ std::size_t OutputPlan::groupOf(OutputKind kind, const std::string& unit) {
 }
 
 void OutputPlan::evaluate(const SweepRow& row, std::vector<double>& values) const {
-  values.assign(outputs_.size(), none);
+  values.assign(outputs_.size(), no_value);
   values.back() = row.verdict == "pass" ? 0 : 1;
   for (const SweepRow::Value& each : row.values) {
     const std::size_t place = place_[each.name], group = group_[each.name];

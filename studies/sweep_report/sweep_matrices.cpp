@@ -18,7 +18,7 @@ using report::escaped;
 constexpr std::size_t most_bars = 10, most_rows = 20, most_columns = 14;
 
 /// What a table of parameters against outputs shows, and how much it leaves out.
-struct Shown {
+struct ShownColumns {
   std::vector<std::size_t> parameters, outputs;
   std::size_t constant = 0, outputs_left_out = 0, parameters_left_out = 0;
 };
@@ -41,8 +41,8 @@ std::vector<std::size_t> outputsByWeight(const SweepSummary& summary) {
 /// Of the rank correlation; 0 where there is none.
 double sizeOf(const Relation& relation) { return std::isnan(relation.spearman) ? 0 : std::abs(relation.spearman); }
 
-Shown shownOf(const SweepSummary& summary) {
-  Shown out;
+ShownColumns shownOf(const SweepSummary& summary) {
+  ShownColumns out;
   out.outputs = outputsByWeight(summary);
   out.constant = summary.outputs.size() - out.outputs.size();
   if (out.outputs.size() > most_columns) out.outputs_left_out = out.outputs.size() - most_columns;
@@ -63,7 +63,7 @@ Shown shownOf(const SweepSummary& summary) {
   return out;
 }
 
-std::string leftOut(const Shown& shown) {
+std::string leftOut(const ShownColumns& shown) {
   std::string out;
   if (shown.parameters_left_out > 0)
     out += fmt::format(" The {} numbers with the weakest relations are left out.", shown.parameters_left_out);
@@ -89,7 +89,7 @@ std::string cellHtml(const Cell& cell) {
 }
 
 template <class CellOf>
-std::string matrix(const SweepSummary& summary, const Shown& shown, const std::string& label,
+std::string matrix(const SweepSummary& summary, const ShownColumns& shown, const std::string& label,
                    const std::string& caption, const CellOf& cell_of) {
   if (shown.outputs.empty() || shown.parameters.empty()) return "";
   std::string heads, rows;
@@ -178,7 +178,7 @@ std::string correlationTable(const SweepSummary& summary) {
 }
 
 std::string indexTable(const SweepSummary& summary) {
-  Shown shown = shownOf(summary);
+  ShownColumns shown = shownOf(summary);
   std::map<NoIndex, std::string> without;
   std::vector<std::size_t> with;
   for (const std::size_t k : shown.outputs) {

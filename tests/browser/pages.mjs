@@ -59,11 +59,17 @@ export async function drawAll(page) {
 /** A picture of the machine as it is seen. */
 export const machineSeen = (page) => page.locator(".screen").screenshot();
 
-/** What axe finds serious or worse. */
-export async function seriousFindings(page) {
-  await page.evaluate(await readFile(require.resolve("axe-core/axe.min.js"), "utf8"));
-  const { violations } = await page.evaluate(() => globalThis.axe.run(document));
+const findings = async (page, options) => {
+  const { violations } = await page.evaluate((asked) => globalThis.axe.run(document, asked), { resultTypes: ["violations"], ...options });
   return violations
     .filter(({ impact }) => impact === "serious" || impact === "critical")
     .map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 120)).join(" | ")}`);
+};
+
+/** What axe finds serious or worse in the page's light form; in its dark one the colours alone differ. */
+export async function seriousFindings(page) {
+  await page.evaluate(await readFile(require.resolve("axe-core/axe.min.js"), "utf8"));
+  const light = await findings(page, {});
+  await page.emulateMedia({ colorScheme: "dark" });
+  return [...light, ...(await findings(page, { runOnly: ["color-contrast"] }))];
 }

@@ -11,7 +11,6 @@ namespace {
 using testing::HasSubstr;
 
 const std::string shipped_results = "'" URSULA_RESULTS "/paper-helix/inverse.csv'";
-const std::string helix = "'" URSULA_SCENARIOS "/paper-helix.toml'";
 
 TEST(CompareVerb, whatShipsComparesWithAFreshRunWhateverItsSampling) {
   const Program ursula;

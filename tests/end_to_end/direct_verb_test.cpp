@@ -13,8 +13,6 @@
 namespace ursula {
 namespace {
 
-const std::string helix = "'" URSULA_SCENARIOS "/paper-helix.toml'";
-
 std::vector<std::string> columnsOfDirect() {
   std::vector<std::string> names = {"pose", "p_x_m", "p_y_m", "p_z_m", "q_w", "q_x", "q_y", "q_z"};
   names.insert(names.end(), {"multiplicity", "assembles", "residual_m"});

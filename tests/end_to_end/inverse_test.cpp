@@ -14,8 +14,6 @@
 namespace ursula {
 namespace {
 
-const std::string helix = "'" URSULA_SCENARIOS "/paper-helix.toml'";
-
 std::vector<std::string> contractColumns() {
   std::vector<std::string> out = {"t_s", "p_x_m", "p_y_m", "p_z_m", "q_w", "q_x", "q_y", "q_z"};
   const auto axes = [&out](const std::string& quantity, const std::string& unit) {

@@ -15,8 +15,6 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::string helix = "'" URSULA_SCENARIOS "/paper-helix.toml'";
-
 CsvTable mapOf(const Program& ursula, const std::string& arguments) {
   const UrsulaRun run = ursula("map " + helix + " " + arguments);
   EXPECT_EQ(run.exit_code, 0) << run.err;

@@ -11,6 +11,9 @@
 
 namespace ursula {
 
+/// As a shell reads it.
+inline const std::string helix = "'" URSULA_SCENARIOS "/paper-helix.toml'";
+
 /// What one call of the built program did.
 struct UrsulaRun {
   int exit_code = -1;  ///< −1 where it did not end by itself

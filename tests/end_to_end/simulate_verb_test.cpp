@@ -16,8 +16,6 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::string helix = "'" URSULA_SCENARIOS "/paper-helix.toml'";
-
 class Simulate : public testing::TestWithParam<std::string> {
  protected:
   /// The right torques times `factor`, up to `end`, s.

@@ -19,7 +19,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::string helix = URSULA_SCENARIOS "/paper-helix.toml";
+const std::string helix_file = URSULA_SCENARIOS "/paper-helix.toml";
 
 /// The most memory that a run took, MB.
 double memoryOf(const std::string& samples) {
@@ -51,18 +51,18 @@ TEST(Stream, takesNoMoreMemoryForMoreSamples) {
 
 TEST(Stream, isTheSameForAnyNumberOfThreads) {
   const Program ursula;
-  const std::string call = "inverse --samples 5003 '" + helix + "' --jobs ";
+  const std::string call = "inverse --samples 5003 '" + helix_file + "' --jobs ";
   const UrsulaRun one = ursula(call + "1");
   ASSERT_EQ(one.exit_code, 0) << one.err;
   for (const char* jobs : {"2", "7"}) EXPECT_EQ(ursula(call + jobs).out, one.out) << jobs;
-  EXPECT_EQ(ursula("inverse --samples 5003 --format csv '" + helix + "'").out, one.out);
-  EXPECT_NE(ursula("inverse --samples 5002 '" + helix + "'").out, one.out);
+  EXPECT_EQ(ursula("inverse --samples 5003 --format csv '" + helix_file + "'").out, one.out);
+  EXPECT_NE(ursula("inverse --samples 5002 '" + helix_file + "'").out, one.out);
 }
 
 TEST(Stream, binaryHasTheNumbersOfTheCsv) {
   const Program ursula;
-  const CsvTable csv = parseCsv(ursula("inverse --samples 1301 '" + helix + "'").out, "stdout");
-  ASSERT_EQ(ursula("inverse --samples 1301 --format binary --out out.bin '" + helix + "'").exit_code, 0);
+  const CsvTable csv = parseCsv(ursula("inverse --samples 1301 '" + helix_file + "'").out, "stdout");
+  ASSERT_EQ(ursula("inverse --samples 1301 --format binary --out out.bin '" + helix_file + "'").exit_code, 0);
   EXPECT_EQ(ursula.files(), 1u);
   const std::string bytes = TemporaryFolder::read(ursula.folder() / "out.bin");
   const std::string line = bytes.substr(0, bytes.find('\n') + 1);
@@ -99,7 +99,7 @@ TEST(Stream, refusesTheFirstPoseThatCannotBeAndWritesNothing) {
   }
   EXPECT_EQ(ursula.files(), 1u) << "the scenario alone";
   for (const char* wrong : {"--format raw", "--jobs 0", "--jobs many"}) {
-    const UrsulaRun run = ursula("inverse '" + helix + "' --out file " + wrong);
+    const UrsulaRun run = ursula("inverse '" + helix_file + "' --out file " + wrong);
     EXPECT_EQ(run.exit_code, 2) << wrong;
     EXPECT_NE(run.err, "") << wrong;
   }

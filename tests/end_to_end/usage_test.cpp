@@ -132,8 +132,8 @@ TEST(Usage, numbersAreReadAsPeopleWriteThem) {
 /// What is read would be lost, or one of two results.
 TEST(Usage, noFileIsNamedTwiceWhereOneIsWritten) {
   const Program ursula;
-  const std::string helix = Program::shipped("paper-helix.toml");
-  ursula.write("helix.toml", helix);
+  const std::string shipped = Program::shipped("paper-helix.toml");
+  ursula.write("helix.toml", shipped);
   const auto refused = [&](const std::string& call, const std::string& says) {
     const UrsulaRun run = ursula(call);
     EXPECT_EQ(run.exit_code, 2) << call;
@@ -143,7 +143,7 @@ TEST(Usage, noFileIsNamedTwiceWhereOneIsWritten) {
   refused("inverse helix.toml --samples 3 --out ./a/../helix.toml", "is also what is read");
   refused("check helix.toml --picture helix.toml", "--picture helix.toml: is also what is read");
   refused("map helix.toml --picture same --out same", "is also --");
-  EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "helix.toml"), helix);
+  EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "helix.toml"), shipped);
   EXPECT_FALSE(std::filesystem::exists(ursula.folder() / "same"));
   EXPECT_EQ(ursula("map helix.toml --picture /dev/null --out /dev/null --x=0,1,2 --y=0,1,2").exit_code, 0);
 }

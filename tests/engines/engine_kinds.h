@@ -14,6 +14,8 @@
 
 namespace ursula {
 
+constexpr LegKind U = LegKind::URS, T = LegKind::UPS, R = LegKind::RUS, P = LegKind::PUS;
+
 inline constexpr double worst_condition = 1e3;  ///< of what takes efforts to the platform; worse machines are not asked
 /// One rounding for each of 24 coordinates and 24 pivots, on either side of a comparison, times the condition number.
 inline constexpr double room = 96 * worst_condition * Eigen::NumTraits<double>::epsilon();
@@ -53,7 +55,7 @@ inline std::vector<Vector6d> byEngines(const Manipulator& machine, const std::sh
 
 /// A state that every formulation can be asked for, with one motor or more on each leg.
 inline KindCase goodCase(const std::vector<LegKind>& kinds, unsigned seed) {
-  Dice dice(seed);
+  SeededDraws dice(seed);
   for (;;) {
     const KindCase thrown = thrownCase(dice, kinds);
     if (bySolver(Manipulator(thrown.machine), thrown.load.get(), thrown.motion)) return thrown;

@@ -73,8 +73,6 @@ std::vector<std::string> namesOfSixLegs() {
 INSTANTIATE_TEST_SUITE_P(Machines, OnKindVectors, testing::ValuesIn(kindNames()), asName);
 INSTANTIATE_TEST_SUITE_P(Machines, OnVectorsOfSixLegs, testing::ValuesIn(namesOfSixLegs()), asName);
 
-constexpr LegKind U = LegKind::URS, T = LegKind::UPS, R = LegKind::RUS, P = LegKind::PUS;
-
 struct Structure {
   const char* name;
   std::vector<LegKind> kinds;
@@ -90,7 +88,7 @@ class OnMachinesAtRandom : public testing::TestWithParam<Structure> {};
 
 /// Any pose, twist and twist rate, with motors on any coordinates, friction on all, and a load.
 TEST_P(OnMachinesAtRandom, theEnginesAgree) {
-  Dice dice(101);
+  SeededDraws dice(101);
   double from_solver = 0, from_each_other = 0;
   int asked = 0;
   for (int k = 0; asked < 40 && k < 4000; ++k) {

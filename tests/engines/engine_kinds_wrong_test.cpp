@@ -14,8 +14,6 @@
 namespace ursula {
 namespace {
 
-constexpr LegKind U = LegKind::URS, T = LegKind::UPS, R = LegKind::RUS, P = LegKind::PUS;
-
 struct Wrong {
   const char* what;
   std::function<void(Leg&, double)> change;  ///< by that part of itself

@@ -81,7 +81,7 @@ TEST_P(MujocoOnVectors, hasTheirTorques) {
 
 /// Any twist and any twist rate, and loads in both frames.
 TEST_P(MujocoOnVectors, agreesWithTheOtherEnginesOnStatesAtRandom) {
-  Dice dice(71);
+  SeededDraws dice(71);
   for (const auto frame : {Load::Frame::base, Load::Frame::platform}) {
     const auto load = std::make_shared<Load>();
     load->force = dice.vector(500), load->moment = dice.vector(60), load->point = dice.vector(0.3);
@@ -107,7 +107,7 @@ TEST_P(MujocoOnVectors, areAsGoodWhereTheOriginIsFar) {
   for (Leg& leg : parameters.legs) leg.base_point += away;
   MujocoLoop loop{Manipulator(parameters)};
   MaximalLoop maximal{Manipulator(parameters)};
-  Dice dice(72);
+  SeededDraws dice(72);
   Motion<double> motion = randomState(scenario_, dice);
   motion.p += away;
   const Vector6d torques = loop.inverseDynamics(motion);
@@ -178,7 +178,7 @@ const std::vector<Wrong> wrongs = {
 TEST(MujocoLoops, seeEveryParameterAsTheMaximalCoordinatesDo) {
   if (!mujocoAvailable()) GTEST_SKIP() << "built without MuJoCo";
   const Scenario scenario = shipped("proving-ground");
-  Dice dice(73);
+  SeededDraws dice(73);
   const Motion<double> motion = randomState(scenario, dice);
   const Vector6d right = MujocoLoop(*scenario.manipulator, scenario.load).inverseDynamics(motion);
   for (const Wrong& wrong : wrongs) {

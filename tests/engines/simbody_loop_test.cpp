@@ -40,7 +40,7 @@ class Loop : public testing::TestWithParam<std::string> {
   }
   Scenario scenario_ = vectorScenario(GetParam());
   std::vector<VectorRow> rows_ = vectorRows(GetParam());
-  Dice dice_{41};
+  SeededDraws dice_{41};
 };
 
 constexpr Topology topologies[] = {Topology::six_balls, Topology::tree_through_leg_1};
@@ -275,7 +275,7 @@ TEST(LoopSizes, sixDegreesOfFreedomEitherWay) {
 TEST(LoopFriction, costsTorqueAndPower) {
   const Scenario scenario = vectorScenario("paper-helix");
   ManipulatorParameters parameters = scenario.manipulator->parameters();
-  Dice dice(43);
+  SeededDraws dice(43);
   const Motion<double> motion = randomState(scenario, dice);
   SimbodyLoop smooth(*scenario.manipulator);
   const JointMotion joints = smooth.place(motion);

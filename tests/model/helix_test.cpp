@@ -11,13 +11,12 @@
 #include "model/trajectory.h"
 #include "tests/model/derivatives.h"
 #include "tests/model/refusals.h"
+#include "tests/support/numbers.h"
 
 namespace ursula {
 namespace {
 
 using testing::FieldsAre;
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 HelixParameters paperHelix() {
   HelixParameters helix;
@@ -158,8 +157,6 @@ TEST_P(RefusedHelix, namesKeyValueAndBound) {
               FieldsAre(std::string("trajectory.") + GetParam().key, GetParam().shown, GetParam().bound));
 }
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double inf = std::numeric_limits<double>::infinity();
 using P = HelixParameters;
 INSTANTIATE_TEST_SUITE_P(
     All, RefusedHelix,

@@ -12,15 +12,13 @@
 #include "model/scenario.h"
 #include "tests/model/refusals.h"
 #include "tests/model/scenario_text.h"
+#include "tests/support/numbers.h"
 
 namespace ursula {
 namespace {
 
 using testing::FieldsAre;
 using testing::HasSubstr;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double inf = std::numeric_limits<double>::infinity();
 
 ManipulatorParameters good() { return parseScenario(good_scenario, "a.toml").manipulator->parameters(); }
 

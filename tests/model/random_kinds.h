@@ -22,7 +22,7 @@ struct KindCase {
 };
 
 /// What a body of positive density has: a full tensor within the triangle inequality.
-inline Matrix3d thrownInertia(Dice& dice, double size) {
+inline Matrix3d thrownInertia(SeededDraws& dice, double size) {
   Matrix3d second = Matrix3d::Zero();
   for (int k = 0; k < 4; ++k) {
     const Vector3d at = dice.vector(1);
@@ -32,11 +32,11 @@ inline Matrix3d thrownInertia(Dice& dice, double size) {
   return (inertia + inertia.transpose()) / 2;
 }
 
-inline Link thrownLink(Dice& dice, double length) {
+inline Link thrownLink(SeededDraws& dice, double length) {
   return {length, dice.between(5, 25), dice.between(-0.2, 0.8) * length, thrownInertia(dice, dice.between(0.5, 2))};
 }
 
-inline void throwFriction(Dice& dice, Leg& leg) {
+inline void throwFriction(SeededDraws& dice, Leg& leg) {
   for (const Coordinate coordinate : rowOf(leg.kind).coordinates) {
     leg.friction.on(coordinate) = dice.between(5, 40);
     leg.coulomb.on(coordinate) = dice.between(5, 40);
@@ -46,7 +46,7 @@ inline void throwFriction(Dice& dice, Leg& leg) {
 }
 
 /// Lengths that reach over AB, well off the ends of what they reach.
-inline void throwLengths(Dice& dice, const Vector3d& AB, Leg& leg) {
+inline void throwLengths(SeededDraws& dice, const Vector3d& AB, Leg& leg) {
   const double q = AB.norm(), along = leg.base_axis.normalized().dot(AB), r = std::sqrt(q * q - along * along);
   double l = dice.between(0.6, 0.9) * q, s = dice.between(0.6, 0.9) * q;
   if (leg.kind == LegKind::UPS) {
@@ -62,7 +62,7 @@ inline void throwLengths(Dice& dice, const Vector3d& AB, Leg& leg) {
   leg.distal = thrownLink(dice, s);
 }
 
-inline Leg thrownLeg(Dice& dice, LegKind kind, double around, const Motion<double>& motion) {
+inline Leg thrownLeg(SeededDraws& dice, LegKind kind, double around, const Motion<double>& motion) {
   Leg leg;
   leg.kind = kind;
   leg.knee = dice.between(0, 1) < 0.5 ? Knee::negative : Knee::positive;
@@ -78,7 +78,7 @@ inline Leg thrownLeg(Dice& dice, LegKind kind, double around, const Motion<doubl
 }
 
 /// A motor on each leg, the rest anywhere.
-inline void throwMotors(Dice& dice, std::vector<Leg>& legs) {
+inline void throwMotors(SeededDraws& dice, std::vector<Leg>& legs) {
   const auto one_more = [&](Leg& leg) {
     bool& driven = leg.actuated[static_cast<std::size_t>(dice.between(0, 3))];
     const bool fresh = !driven;
@@ -91,7 +91,7 @@ inline void throwMotors(Dice& dice, std::vector<Leg>& legs) {
 }
 
 /// Rotors on the motors, mass centres off the links' lines, thin rods: of every other machine, thrown after all else.
-inline void throwAdded(Dice& dice, std::vector<Leg>& legs) {
+inline void throwAdded(SeededDraws& dice, std::vector<Leg>& legs) {
   if (dice.between(0, 1) < 0.5) return;
   for (Leg& leg : legs) {
     for (std::size_t j = 0; j < 3; ++j)
@@ -106,7 +106,7 @@ inline void throwAdded(Dice& dice, std::vector<Leg>& legs) {
   }
 }
 
-inline KindCase thrownCase(Dice& dice, const std::vector<LegKind>& kinds) {
+inline KindCase thrownCase(SeededDraws& dice, const std::vector<LegKind>& kinds) {
   KindCase out;
   Motion<double>& motion = out.motion;
   motion.t = 0.5;

@@ -12,6 +12,7 @@
 #include "model/trajectories/trajectories.h"
 #include "tests/model/derivatives.h"
 #include "tests/model/refusals.h"
+#include "tests/support/numbers.h"
 
 namespace ursula {
 namespace {
@@ -20,9 +21,7 @@ using testing::FieldsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-
-std::unique_ptr<Trajectory> paperHelix() {
+std::unique_ptr<Trajectory> helixTrajectory() {
   HelixParameters helix;
   helix.radius = 0.2;
   helix.pitch = 1.2;
@@ -54,7 +53,7 @@ CsvTable tableOf(const std::vector<TimedPose>& samples) {
 }
 
 TEST(Samples, haveExactDerivativesAtKnotsAndBetween) {
-  const auto motion = makeSamples(sampled(*paperHelix(), 31));
+  const auto motion = makeSamples(sampled(*helixTrajectory(), 31));
   std::vector<double> instants = instantsInside(3.0, 60);
   for (int i = 0; i <= 30; ++i) instants.push_back(0.1 * i);
   EXPECT_LE(derivativeMismatch(*motion, instants).worst(), difference_tolerance);
@@ -63,7 +62,7 @@ TEST(Samples, haveExactDerivativesAtKnotsAndBetween) {
 }
 
 TEST(Samples, passThroughEverySample) {
-  const std::vector<TimedPose> samples = sampled(*paperHelix(), 31);
+  const std::vector<TimedPose> samples = sampled(*helixTrajectory(), 31);
   const auto motion = makeSamples(samples);
   EXPECT_EQ(motion->kind(), "samples");
   EXPECT_EQ(motion->duration(), 3.0);
@@ -76,7 +75,7 @@ TEST(Samples, passThroughEverySample) {
 }
 
 TEST(Samples, haveNoJumpInTheAccelerationsAtTheKnots) {
-  const auto motion = makeSamples(sampled(*paperHelix(), 31));
+  const auto motion = makeSamples(sampled(*helixTrajectory(), 31));
   for (int i = 1; i < 30; ++i) {
     const Real50 t(0.1 * i), h("1e-30");
     const Motion<Real50> before = motion->at(Real50(t - h)), after = motion->at(Real50(t + h));
@@ -104,7 +103,7 @@ TEST(Samples, giveAQuinticBackHoweverUnevenTheTimes) {
 }
 
 TEST(Samples, convergeOnTheHelixWithTheStepToTheFourth) {
-  const auto helix = paperHelix();
+  const auto helix = helixTrajectory();
   const auto error = [&](int count) {
     const auto motion = makeSamples(sampled(*helix, count));
     double worst = 0;
@@ -120,7 +119,7 @@ TEST(Samples, convergeOnTheHelixWithTheStepToTheFourth) {
 }
 
 TEST(Samples, fromATableAreThoseFromMemory) {
-  const std::vector<TimedPose> samples = sampled(*paperHelix(), 11);
+  const std::vector<TimedPose> samples = sampled(*helixTrajectory(), 11);
   const auto direct = makeSamples(samples), read = makeSamples(tableOf(samples));
   for (const double t : instantsInside(3.0, 7)) {
     EXPECT_EQ(direct->at(t).p, read->at(t).p);
@@ -129,14 +128,14 @@ TEST(Samples, fromATableAreThoseFromMemory) {
 }
 
 TEST(Samples, ignoreOtherColumns) {
-  CsvTable table = tableOf(sampled(*paperHelix(), 11));
+  CsvTable table = tableOf(sampled(*helixTrajectory(), 11));
   table.names.push_back("v_x_m_s");
   table.columns.push_back(std::vector<double>(11, 99.0));
-  EXPECT_EQ(makeSamples(table)->at(1.0).p_dot, makeSamples(sampled(*paperHelix(), 11))->at(1.0).p_dot);
+  EXPECT_EQ(makeSamples(table)->at(1.0).p_dot, makeSamples(sampled(*helixTrajectory(), 11))->at(1.0).p_dot);
 }
 
 TEST(Samples, fromMemoryRefuseWithTheSample) {
-  std::vector<TimedPose> samples = sampled(*paperHelix(), 11);
+  std::vector<TimedPose> samples = sampled(*helixTrajectory(), 11);
   samples[4].orientation *= 1 + 2e-6;
   EXPECT_THAT(refusedParameter([&] { makeSamples(samples); }),
               FieldsAre("trajectory.samples[5].orientation", HasSubstr("norm 1.000002"), "1 within 1e-06"));
@@ -145,13 +144,13 @@ TEST(Samples, fromMemoryRefuseWithTheSample) {
 }
 
 TEST(Samples, withinTheirLooserLengthAreNormalised) {
-  std::vector<TimedPose> samples = sampled(*paperHelix(), 11);
+  std::vector<TimedPose> samples = sampled(*helixTrajectory(), 11);
   samples[4].orientation *= 1 + 0.9e-6;
   EXPECT_LE(orthonormalityError(makeSamples(samples)->at(1.2).Q), 16 * eps);
 }
 
 TEST(Samples, fromATableRefuseWithTheLine) {
-  const std::vector<TimedPose> good = sampled(*paperHelix(), 11);
+  const std::vector<TimedPose> good = sampled(*helixTrajectory(), 11);
   const auto refused = [&](auto fault) {
     std::vector<TimedPose> samples = good;
     fault(samples);
@@ -169,7 +168,7 @@ TEST(Samples, fromATableRefuseWithTheLine) {
 }
 
 TEST(Samples, nameAMissingColumn) {
-  CsvTable table = tableOf(sampled(*paperHelix(), 11));
+  CsvTable table = tableOf(sampled(*helixTrajectory(), 11));
   table.names[2] = "p_yy_m";
   EXPECT_EQ(refusal<CsvError>([&] { makeSamples(table); }),
             "pose.csv:1: error: missing column 'p_y_m', expected it in the header, did you mean 'p_yy_m'?");

@@ -9,13 +9,12 @@
 #include "tests/base/temporary_folder.h"
 #include "tests/model/second_reading/as_text.h"
 #include "tests/model/second_reading/second_reading.h"
+#include "tests/support/numbers.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/subject/parameters.h"
 
 namespace ursula {
 namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 TEST(SecondReadings, findNothingInWhatShips) {
   ASSERT_GE(shippedScenarios().size(), 20u);

@@ -11,15 +11,13 @@
 #include "base/real50.h"
 #include "tests/model/derivatives.h"
 #include "tests/model/refusals.h"
+#include "tests/support/numbers.h"
 
 namespace ursula {
 namespace {
 
 using testing::FieldsAre;
 using testing::HasSubstr;
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 Eigen::Vector4d turn(double angle, const Vector3d& axis) {
   const Eigen::Quaterniond q(Eigen::AngleAxisd(angle, axis.normalized()));

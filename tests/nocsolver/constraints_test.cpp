@@ -37,7 +37,7 @@ struct Found {
 class Constraints : public testing::TestWithParam<std::string> {
  protected:
   Scenario scenario_ = vectorScenario(GetParam());
-  Dice dice_{7};
+  SeededDraws dice_{7};
 
   template <class R = Corrected>
   Found<double, R> found(const Motion<double>& motion, R reading = R{}) const {

@@ -68,7 +68,7 @@ inline Motion<double> displaced(Motion<double> motion, const Vector3d& move, con
 }
 
 /// The paper's machine with every parameter of its geometry thrown by up to `spread`: lengths relative, places in m.
-inline ManipulatorParameters thrown(const ManipulatorParameters& paper, Dice& dice, double spread) {
+inline ManipulatorParameters thrown(const ManipulatorParameters& paper, SeededDraws& dice, double spread) {
   ManipulatorParameters parameters = paper;
   for (Leg& leg : parameters.legs) {
     leg.base_point += dice.vector(3 * spread);
@@ -88,7 +88,7 @@ struct Case {
   Motion<double> motion;
 };
 
-inline Case feasibleCase(const Scenario& paper, Dice& dice, double spread) {
+inline Case feasibleCase(const Scenario& paper, SeededDraws& dice, double spread) {
   for (;;) {
     Case made;
     try {

@@ -17,7 +17,7 @@ namespace {
 constexpr double eps = Eigen::NumTraits<double>::epsilon();
 constexpr double rounding = 64 * eps;
 
-Eigen::Vector4d randomPoint(Dice& dice) {
+Eigen::Vector4d randomPoint(SeededDraws& dice) {
   return Eigen::Vector4d(dice.between(-1, 1), dice.between(-1, 1), dice.between(-1, 1), dice.between(-1, 1))
       .normalized();
 }
@@ -56,7 +56,7 @@ struct PlanePairs {
   }
 };
 
-PlanePairs randomPairs(Dice& dice) {
+PlanePairs randomPairs(SeededDraws& dice) {
   PlanePairs pairs;
   for (auto& pair : pairs.n)
     for (Eigen::Vector4d& normal : pair) normal = randomPoint(dice);
@@ -74,7 +74,7 @@ double nearest(const Roots& roots, const Eigen::Vector4d& q) {
 }
 
 TEST(QuadricRoots, AreTheEightPointsWherePlanesMeet) {
-  Dice dice(3);
+  SeededDraws dice(3);
   for (int n = 0; n < 500; ++n) {
     const PlanePairs pairs = randomPairs(dice);
     const ThreeQuadrics quadrics = pairs.quadrics();
@@ -93,7 +93,7 @@ TEST(QuadricRoots, AreTheEightPointsWherePlanesMeet) {
 
 /// Both planes of a pair through one point of the others: there two of the eight fall together.
 TEST(QuadricRoots, CountTwoThatFallTogether) {
-  Dice dice(4);
+  SeededDraws dice(4);
   for (int n = 0; n < 200; ++n) {
     PlanePairs pairs = randomPairs(dice);
     const Eigen::Vector4d q = pairs.meeting(0);
@@ -114,7 +114,7 @@ TEST(QuadricRoots, CountTwoThatFallTogether) {
 }
 
 TEST(QuadricRoots, AreFoundWhereOneLiesAtInfinityOfTheFirstChart) {
-  Dice dice(5);
+  SeededDraws dice(5);
   for (int n = 0; n < 200; ++n) {
     Eigen::Vector4d far = randomPoint(dice);
     far(0) = 0;

@@ -23,7 +23,7 @@ struct Fold {
 };
 
 /// None where the way leads out of reach or meets no singular pose.
-std::optional<Fold> findFold(const Scenario& paper, Dice& dice) {
+std::optional<Fold> findFold(const Scenario& paper, SeededDraws& dice) {
   ManipulatorParameters parameters = thrown(paper.manipulator->parameters(), dice, 0.05);
   for (Leg& leg : parameters.legs) {  // long legs, so that singular poses are in reach
     leg.proximal.length *= 1.5;
@@ -102,7 +102,7 @@ void look(const Fold& fold, double offset, double uncertainty, Found& found) {
 
 TEST(DirectKinematics, FindsSingularPosesAsDoubleAndTheirNeighboursAsPairs) {
   const Scenario paper = vectorScenario("paper-helix");
-  Dice dice(31);
+  SeededDraws dice(31);
   Found singular, near, apart;
   for (int folds = 0; folds < 200;) {
     const std::optional<Fold> fold = findFold(paper, dice);
@@ -132,7 +132,7 @@ TEST(DirectKinematics, FindsSingularPosesAsDoubleAndTheirNeighboursAsPairs) {
 /// one side and to none on the other.
 TEST(DirectKinematics, APairOfPosesVanishesAcrossAFoldAndTrackingSaysSo) {
   const Scenario paper = vectorScenario("paper-helix");
-  Dice dice(37);
+  SeededDraws dice(37);
   int folds = 0, refused = 0, followed = 0;
   while (folds < 50) {
     const std::optional<Fold> fold = findFold(paper, dice);

@@ -80,7 +80,7 @@ std::ostream& operator<<(std::ostream& out, const RoundTrips& trips) {
 
 TEST(DirectKinematics, FindsThePoseAgainForTenThousandMachinesAndPoses) {
   const Scenario paper = vectorScenario("paper-helix");
-  Dice dice(20240611);
+  SeededDraws dice(20240611);
   RoundTrips trips;
   for (int n = 0; n < 10000; ++n) {
     const Case made = feasibleCase(paper, dice, n % 2 == 0 ? 0.03 : 0.1);
@@ -112,7 +112,7 @@ Vector6d anglesAsPrinted(const Manipulator& manipulator, const Motion<double>& m
 
 TEST(DirectKinematics, LosesThePoseForOtherAnglesOrTheClosureAsPrinted) {
   const Scenario paper = vectorScenario("paper-helix");
-  Dice dice(7);
+  SeededDraws dice(7);
   RoundTrips perturbed, printed;
   for (int n = 0; n < 100; ++n) {
     const Case made = feasibleCase(paper, dice, 0.03);
@@ -129,7 +129,7 @@ TEST(DirectKinematics, LosesThePoseForOtherAnglesOrTheClosureAsPrinted) {
 
 TEST(DirectKinematics, ListsPosesInOrderWithWhatTheyNeedOfTheLegs) {
   const Scenario paper = vectorScenario("paper-helix");
-  Dice dice(11);
+  SeededDraws dice(11);
   bool far = false;
   for (int n = 0; n < 200; ++n) {
     const Case made = feasibleCase(paper, dice, 0.05);

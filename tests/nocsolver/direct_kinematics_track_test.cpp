@@ -35,7 +35,7 @@ TEST(DirectKinematics, TracksThePaperHelix) {
 
 TEST(DirectKinematics, TracksTheBranchThatItIsOnAndNoOther) {
   const Scenario paper = vectorScenario("paper-helix");
-  Dice dice(5);
+  SeededDraws dice(5);
   int others = 0;
   for (int n = 0; n < 200; ++n) {
     const Case made = feasibleCase(paper, dice, 0.03);

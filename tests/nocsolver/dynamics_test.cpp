@@ -66,7 +66,7 @@ class Dynamics : public testing::TestWithParam<std::string> {
   }
   Scenario scenario_ = vectorScenario(GetParam());
   std::unique_ptr<const Manipulator> with_coulomb_;
-  Dice dice_{11};
+  SeededDraws dice_{11};
 };
 
 TEST_P(Dynamics, inverseIsTheProductWithTheAssembledT) {

@@ -159,7 +159,7 @@ TEST_P(DerivativesOf, byStateAllocateNothing) {
 TEST_P(DerivativesOf, refuseWhatInverseDynamicsRefuse) {
   const FastDynamics<double> fast(machine(), InstructionSet::portable);
   const EffortDerivatives of(machine());
-  Dice dice(11);
+  SeededDraws dice(11);
   int refused = 0;
   for (int k = 0; k < 200; ++k) {
     Motion<double> at = motion(static_cast<std::size_t>(k) % rows_.size());

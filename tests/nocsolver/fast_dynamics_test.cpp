@@ -128,7 +128,7 @@ TEST_P(FastOf, refusesWhatTheRecursionRefuses) {
   NocWorkspace<double> work;
   for (const InstructionSet set : supportedSets()) {
     const FastDynamics<double> fast(*scenario_.manipulator, set);
-    Dice dice(11);
+    SeededDraws dice(11);
     int refused = 0;
     for (int k = 0; k < 200; ++k) {
       Motion<double> motion = rounded(rows_[static_cast<std::size_t>(k) % rows_.size()].motion);
@@ -246,7 +246,7 @@ TEST_P(BatchOf, numbersDoNotDependOnTheNeighbours) {
 
 TEST_P(BatchOf, flagsWhatSinglePosesRefuse) {
   const BatchDynamics one_by_one(*scenario_.manipulator, InstructionSet::portable);
-  Dice dice(5);
+  SeededDraws dice(5);
   std::vector<Motion<double>> m = motions(400, 400);
   for (Motion<double>& motion : m)
     for (int j = 0; j < 3; ++j)

@@ -79,7 +79,7 @@ class EveryFormulaError : public testing::TestWithParam<int> {};
 
 TEST_P(EveryFormulaError, makesADifference) {
   const Scenario scenario = vectorScenario("random-4");
-  Dice dice(17);
+  SeededDraws dice(17);
   const Motion<double> motion = randomState(scenario, dice);
   const Answer right(Noc<double>(*scenario.manipulator), motion);
   const Answer wrong = altered(*scenario.manipulator, motion, WithFormulaErrors(static_cast<FormulaError>(GetParam())));
@@ -95,7 +95,7 @@ class Corrections : public testing::TestWithParam<std::string> {};
 
 TEST_P(Corrections, areWhatIsReadWithNoFormulaErrorSet) {
   const Scenario scenario = vectorScenario(GetParam());
-  Dice dice(19);
+  SeededDraws dice(19);
   for (int k = 0; k < 5; ++k) {
     const Motion<double> motion = randomState(scenario, dice);
     const Answer right(Noc<double>(*scenario.manipulator), motion);

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <boost/property_tree/xml_parser.hpp>
 #include <map>
 #include <regex>
 #include <set>
@@ -12,18 +11,12 @@
 
 #include "report/text.h"
 #include "tests/report/report_samples.h"
+#include "tests/report/text_parts.h"
 
 namespace ursula {
 namespace {
 
 using boost::property_tree::ptree;
-
-ptree parsedXml(const std::string& xml) {
-  std::istringstream stream(xml);
-  ptree tree;
-  read_xml(stream, tree);
-  return tree;
-}
 
 /// What an element may hold; attributes that it must have begin with "!".
 struct Rule {

@@ -17,15 +17,10 @@
 #include "tests/base/temporary_folder.h"
 #include "tests/report/page_samples.h"
 #include "tests/report/report_samples.h"
+#include "tests/report/text_parts.h"
 
 namespace ursula {
 namespace {
-
-std::size_t countOf(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++count;
-  return count;
-}
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <boost/property_tree/xml_parser.hpp>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -21,31 +20,18 @@
 #include "report/summary.h"
 #include "report/text.h"
 #include "tests/report/report_samples.h"
+#include "tests/report/text_parts.h"
+#include "tests/support/numbers.h"
 
 namespace ursula {
 namespace {
 
 using boost::property_tree::ptree;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 std::string contentOf(const std::filesystem::path& file) {
   std::ostringstream content;
   content << std::ifstream(file, std::ios::binary).rdbuf();
   return content.str();
-}
-
-ptree parsedXml(const std::string& xml) {
-  std::istringstream stream(xml);
-  ptree tree;
-  read_xml(stream, tree);
-  return tree;
-}
-
-std::size_t countOf(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
 }
 
 class ReportFiles : public testing::Test {

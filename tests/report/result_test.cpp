@@ -1,4 +1,5 @@
 #include "validation/verdict/result.h"
+#include "tests/support/numbers.h"
 #include "validation/verdict/worst_share.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +11,6 @@
 namespace ursula {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 Verdict verdictOf(double value, double limit) { return judged("name", value, limit, "m", "basis", "why").verdict; }

@@ -13,6 +13,7 @@
 #include "report/columns.h"
 #include "report/explanation.h"
 #include "tests/report/report_samples.h"
+#include "tests/support/numbers.h"
 
 namespace ursula {
 namespace {
@@ -22,8 +23,6 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 ValidationResult of(std::vector<Check> checks) {
   ValidationResult result;

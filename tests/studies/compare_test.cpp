@@ -11,6 +11,7 @@
 #include "tests/base/temporary_folder.h"
 #include "tests/model/refusals.h"
 #include "tests/studies/histories.h"
+#include "tests/support/numbers.h"
 #include "validation/validate.h"
 
 namespace ursula {
@@ -18,8 +19,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Compare, aHistoryPassesAgainstItself) {
   const Comparison result = compare(history(t_101), history(t_101), {});

@@ -8,6 +8,7 @@
 #include "studies/sweep_report/column_store.h"
 #include "studies/sweep_report/relations.h"
 #include "tests/studies/sweep_databases.h"
+#include "tests/support/numbers.h"
 
 namespace ursula {
 namespace {
@@ -15,7 +16,6 @@ namespace {
 using test::Dice;
 using testing::ElementsAre;
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 const double pi = std::acos(-1.0);
 
 Relation relation(const std::vector<double>& x, const std::vector<double>& y, Classes classes = Classes::quantiles) {
@@ -32,7 +32,7 @@ std::vector<std::vector<double>> uniform(std::size_t columns, std::size_t rows, 
 }
 
 TEST(Spread, IsThatOfASampleWithoutWhatIsNotFinite) {
-  const Spread spread = spreadOf({4, none, 1, 3, 2, std::numeric_limits<double>::infinity(), 5});
+  const Spread spread = spreadOf({4, nan, 1, 3, 2, std::numeric_limits<double>::infinity(), 5});
   EXPECT_EQ(spread.count, 5U);
   EXPECT_EQ(spread.min, 1);
   EXPECT_EQ(spread.max, 5);
@@ -41,7 +41,7 @@ TEST(Spread, IsThatOfASampleWithoutWhatIsNotFinite) {
   EXPECT_NEAR(spread.high, 4.8, 1e-15);
   EXPECT_NEAR(spread.sd, std::sqrt(2.5), 1e-15);
   EXPECT_FALSE(spread.constant);
-  EXPECT_TRUE(std::isnan(spreadOf({none}).mean));
+  EXPECT_TRUE(std::isnan(spreadOf({nan}).mean));
 }
 
 TEST(Spread, KnowsConstantsToRounding) {
@@ -50,13 +50,13 @@ TEST(Spread, KnowsConstantsToRounding) {
 }
 
 TEST(Ranks, GiveTiesTheirMeanAndGapsNone) {
-  const std::vector<double> ranks = ranksOf({3, 1, none, 3, 2});
+  const std::vector<double> ranks = ranksOf({3, 1, nan, 3, 2});
   EXPECT_THAT((std::vector<double>{ranks[0], ranks[1], ranks[3], ranks[4]}), ElementsAre(3.5, 1, 3.5, 2));
   EXPECT_TRUE(std::isnan(ranks[2]));
 }
 
 TEST(Histograms, HoldEveryFiniteValueOnce) {
-  const std::vector<double> values = {1, 2, 3, 4, none};
+  const std::vector<double> values = {1, 2, 3, 4, nan};
   EXPECT_THAT(histogramOf(values, spreadOf(values), 3).counts, ElementsAre(1, 1, 2));
   const std::vector<double> decades = {1, 10, 100, 1e4};
   const Histogram histogram = histogramOf(decades, spreadOf(decades), 4);
@@ -83,7 +83,7 @@ TEST(Correlations, OfRanksSeeWhatIsMonotonicAlone) {
 }
 
 TEST(Correlations, LeaveOutRowsWithoutAValue) {
-  const std::vector<double> x = {1, 2, 3, 4, 5}, y = {2, 4, none, 8, 10};
+  const std::vector<double> x = {1, 2, 3, 4, 5}, y = {2, 4, nan, 8, 10};
   EXPECT_NEAR(relation(x, y).pearson, 1, 1e-15);
   EXPECT_EQ(relation(x, y).count, 4U);
 }
@@ -206,7 +206,7 @@ TEST(ColumnStore, GivesTheSameFromMemoryAndFile) {
     ColumnStore store(2, in_memory);
     for (std::size_t k = 0; k < rows; ++k) store.addRow({static_cast<double>(k), -static_cast<double>(k)});
     std::vector<double> third(rows, 7);
-    third.back() = none;
+    third.back() = nan;
     ASSERT_EQ(store.addColumn(third), 2U);
     ASSERT_EQ(store.column(1).size(), rows);
     const std::vector<double> first = store.column(0), second = store.column(1);

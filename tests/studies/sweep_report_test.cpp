@@ -10,6 +10,7 @@
 #include "studies/sweep_report/sweep_summary.h"
 #include "tests/model/refusals.h"
 #include "tests/studies/sweep_databases.h"
+#include "tests/support/numbers.h"
 
 namespace ursula {
 namespace {
@@ -21,8 +22,6 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 SweepSummary summaryOf(const MadeSweep& sweep, const std::string& name) { return summarise(*sweep.written(name)); }
 
@@ -156,7 +155,7 @@ MadeSweep validateSweep() {
     SweepPoint& point = sweep.add({a, b}, a > 0.9 ? "fail" : "pass");
     MadeSweep::check(point, "replay.position", 1e-6 * (0.2 + a), 1e-6 * 1.1, a > 0.9 ? "fail" : "pass");
     MadeSweep::check(point, "torque.pointwise", 1e-9 * b, 1e-8, "pass");
-    MadeSweep::check(point, "torque.twin", none, none, "not_applicable");
+    MadeSweep::check(point, "torque.twin", nan, nan, "not_applicable");
   }
   return sweep;
 }
@@ -273,7 +272,7 @@ TEST(SweepCsv, HasARowForEachPoint) {
 TEST(SweepCsv, HasLimitsAndVerdictsOfChecks) {
   MadeSweep sweep = madeSweep("validate", "random", {"x"}, 2);
   SweepPoint& point = sweep.add({1}, "fail");
-  MadeSweep::check(point, "replay.position", none, none, "not_applicable");
+  MadeSweep::check(point, "replay.position", nan, nan, "not_applicable");
   MadeSweep::check(point, "torque.twin", 2, 1, "fail");
   MadeSweep::check(sweep.add({3}), "torque.twin", 0.5, 1, "pass");
   EXPECT_EQ(csvOf(sweep, "csv_checks"),

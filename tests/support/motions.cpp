@@ -8,7 +8,7 @@
 namespace ursula {
 namespace {
 
-Motion<double> deviated(Motion<double> motion, Dice& dice) {
+Motion<double> deviated(Motion<double> motion, SeededDraws& dice) {
   motion.p += dice.vector(0.05);
   const Vector3d turn = dice.vector(0.1);
   motion.Q = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * motion.Q;
@@ -18,7 +18,7 @@ Motion<double> deviated(Motion<double> motion, Dice& dice) {
 }  // namespace
 
 std::unique_ptr<Trajectory> tumbling(const Scenario& scenario, unsigned seed) {
-  Dice dice(seed);
+  SeededDraws dice(seed);
   const double duration = scenario.trajectory->duration();
   std::vector<TimedPose> points;
   for (int k = 0; k < 5; ++k) {
@@ -30,7 +30,7 @@ std::unique_ptr<Trajectory> tumbling(const Scenario& scenario, unsigned seed) {
   return makeWaypoints(points);
 }
 
-Motion<double> randomState(const Scenario& scenario, Dice& dice) {
+Motion<double> randomState(const Scenario& scenario, SeededDraws& dice) {
   Motion<double> motion = deviated(scenario.trajectory->at(dice.between(0, scenario.trajectory->duration())), dice);
   motion.omega = dice.vector(1);
   motion.p_dot = dice.vector(1);

@@ -8,9 +8,9 @@
 namespace ursula {
 
 /// Numbers that are the same on every machine, as the standard's distributions are not.
-class Dice {
+class SeededDraws {
  public:
-  explicit Dice(unsigned seed) : engine_(seed) {}
+  explicit SeededDraws(unsigned seed) : engine_(seed) {}
   /// Uniform in [low, high).
   double between(double low, double high) {
     return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
@@ -25,6 +25,6 @@ class Dice {
 std::unique_ptr<Trajectory> tumbling(const Scenario& scenario, unsigned seed);
 
 /// A pose near one of the scenario's own with a twist and a twist rate of about 1 in every coordinate.
-Motion<double> randomState(const Scenario& scenario, Dice& dice);
+Motion<double> randomState(const Scenario& scenario, SeededDraws& dice);
 
 }  // namespace ursula

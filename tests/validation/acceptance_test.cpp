@@ -10,6 +10,7 @@
 
 #include "report/report.h"
 #include "report/summary.h"
+#include "tests/support/numbers.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/checks/acceptance.h"
@@ -19,8 +20,6 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 ValidationResult judgedBy(const std::vector<AcceptanceLimit>& acceptance, const std::vector<Check>& checks) {
   ValidationResult result;

@@ -26,7 +26,7 @@ constexpr double eps = Eigen::NumTraits<double>::epsilon();
 class ConditioningOf : public testing::TestWithParam<std::string> {
  protected:
   Scenario scenario_ = vectorScenario(GetParam());
-  Dice dice_{31};
+  SeededDraws dice_{31};
 };
 
 /// κ(B)² is the ratio of the eigenvalues of BᵀB.

@@ -76,7 +76,7 @@ TEST_F(Between, theNarrowestPulseSeenIsWhatItSays) {
   const double length = std::stod(found[1]), size = std::stod(found[2]);
   EXPECT_LT(length, 1e-3);
   EXPECT_LT(size, 1e-5);
-  Dice dice(3);
+  SeededDraws dice(3);
   int missed = 0;
   for (int k = 0; k < 12; ++k) {
     const double from = dice.between(0, 3 - length);

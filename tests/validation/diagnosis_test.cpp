@@ -20,11 +20,6 @@ using testing::StartsWith;
 
 constexpr int instants = 61;
 
-const Scenario& helix() {
-  static const Scenario scenario = vectorScenario("paper-helix");
-  return scenario;
-}
-
 const TorqueTable& exact() {
   static const TorqueTable torques = exactTorques(helix(), instants);
   return torques;
@@ -117,7 +112,7 @@ TEST(Diagnosis, givesAParameterAsManyDigitsAsTheFileHas) {
 TEST(Diagnosis, namesAPartAsAPart) {
   // Two causes: the larger one is a part, and the rest is far beyond the file's precision.
   TorqueTable torques = ofAnother([](auto& machine) { machine.platform.mass *= 1.05; });
-  Dice dice(3);
+  SeededDraws dice(3);
   for (Vector6d& tau : torques.torques) tau(1) += dice.between(-1, 1);
   EXPECT_THAT(diagnosed(torques).cause,
               AllOf(StartsWith("a likely part: platform mass 52"), HasSubstr("times the file's precision")));
@@ -177,7 +172,7 @@ TEST(Diagnosis, namesSinglePrecision) {
 }
 
 TEST(Diagnosis, claimsNothingThatTheResidualDoesNotSupport) {
-  Dice dice(5);
+  SeededDraws dice(5);
   const TorqueTable noisy = exact().changed([&](std::size_t, Vector6d& tau) {
     for (int i = 0; i < leg_count; ++i) tau(i) += dice.between(-1, 1);
   });
@@ -197,7 +192,7 @@ TEST(Diagnosis, namesAnIntervalAndWhatIsWrongInIt) {
     if (within(k)) tau *= 1.001;
   });
   EXPECT_THAT(diagnosed(scaled).cause, StartsWith("right but from t = 1 to 2 s; there every torque scaled by 1.001"));
-  Dice dice(6);
+  SeededDraws dice(6);
   const TorqueTable noisy = exact().changed([&](std::size_t k, Vector6d& tau) {
     for (int i = 0; i < leg_count && within(k); ++i) tau(i) += dice.between(1, 2);
   });

@@ -2,6 +2,7 @@
 // every other, and the one that is wrong is named.
 
 #include "validation/samples/engines.h"
+#include "tests/support/numbers.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,7 +27,6 @@ using testing::HasSubstr;
 
 constexpr int instants = 11;
 constexpr std::size_t twin = 0, maximal = 1, mujoco = 2;  ///< in the table
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Friction, a load and Coulomb's law are in these four between them.
 const std::vector<std::string> machines = {"paper-helix", "random-2", "random-5", "proving-ground"};

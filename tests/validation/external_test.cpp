@@ -14,11 +14,6 @@ namespace {
 
 using testing::HasSubstr;
 
-const Scenario& helix() {
-  static const Scenario scenario = vectorScenario("paper-helix");
-  return scenario;
-}
-
 /// `format` for every number: "%.6g" as fmt has it.
 TorqueFile printed(const TorqueTable& table, const char* format) {
   std::string text = fmt::format("{}\n", fmt::join(table.names(), ","));

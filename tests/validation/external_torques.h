@@ -16,6 +16,11 @@
 
 namespace ursula {
 
+inline const Scenario& helix() {
+  static const Scenario scenario = vectorScenario("paper-helix");
+  return scenario;
+}
+
 /// Instants with torques, to be falsified and written.
 struct TorqueTable {
   std::vector<double> t;

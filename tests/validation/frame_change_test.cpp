@@ -50,7 +50,7 @@ class Transformed : public testing::TestWithParam<unsigned> {
   }
 
   FrameChange there_, back_, off_;
-  Dice dice_{GetParam() + 7};
+  SeededDraws dice_{GetParam() + 7};
   const Manipulator& machine_ = *everything().manipulator;
 };
 

@@ -15,13 +15,13 @@ namespace ursula {
 namespace {
 
 using Machine = ManipulatorParameters;
-constexpr int instants = 61;
+constexpr int injected_instants = 61;
 
 /// Puts causes into the torques of one scenario.
 class Bench {
  public:
   Bench(const std::string& name, std::vector<InjectedCause>& out)
-      : name_(name), scenario_(scenarioOf(name)), exact_(exactTorques(scenario_, instants)), out_(out) {}
+      : name_(name), scenario_(scenarioOf(name)), exact_(exactTorques(scenario_, injected_instants)), out_(out) {}
 
   void machine(const std::string& put_in, const std::string& expected, const std::function<void(Machine&)>& change) {
     add(put_in, expected, ofMachine(change));
@@ -233,7 +233,7 @@ void addFriction(Bench& out) {
 
 /// What has no single cause: nothing may be claimed.
 void addNothing(Bench& out) {
-  Dice dice(11);
+  SeededDraws dice(11);
   out.torques("noise of 1 N m", "",
               [&](std::size_t, Vector6d& tau) { tau += Vector6d::NullaryExpr([&] { return dice.between(-1, 1); }); });
   out.torques("a hump on leg 3", "", [](std::size_t k, Vector6d& tau) {

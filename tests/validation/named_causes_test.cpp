@@ -18,11 +18,6 @@ namespace {
 
 constexpr int instants = 61;
 
-const Scenario& helix() {
-  static const Scenario scenario = vectorScenario("paper-helix");
-  return scenario;
-}
-
 using MachineFault = std::function<void(ManipulatorParameters&)>;
 using MotionFault = std::function<void(Motion<double>&)>;
 
@@ -135,7 +130,7 @@ TEST(NamedCause, columnsAreNamed) {
 }
 
 TEST(NamedCause, noneIsNamedWithoutEvidence) {
-  Dice dice(5);
+  SeededDraws dice(5);
   const Diagnosis noise = diagnosed(exactTorques(helix(), instants).changed([&](std::size_t, Vector6d& tau) {
     for (int i = 0; i < leg_count; ++i) tau(i) += dice.between(-1, 1);
   }));

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "tests/support/numbers.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/checks/stabilised_check.h"
@@ -20,8 +21,6 @@
 
 namespace ursula {
 namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 Vector6d constant(double value) { return Vector6d::Constant(value); }
 

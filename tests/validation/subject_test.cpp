@@ -44,7 +44,7 @@ Answers ask(const Subject& subject, const Manipulator& machine, const Motion<dou
 class Asked {
  public:
   Asked() {
-    Dice dice(5);
+    SeededDraws dice(5);
     for (const char* name : {"proving-ground", "paper-helix"}) {
       scenarios_.push_back(scenarioOf(name));
       for (int k = 0; k < 40; ++k) motions_.push_back(randomState(scenarios_.back(), dice));

@@ -39,7 +39,7 @@ std::vector<double> densely(const std::vector<double>& t, F&& error) {
 }
 
 std::vector<double> unevenInstants(int count) {
-  Dice dice(20);
+  SeededDraws dice(20);
   std::vector<double> t = equallySpaced(3, count);
   for (std::size_t k = 1; k + 1 < t.size(); ++k) t[k] += dice.between(-0.3, 0.3) * 3 / (count - 1);
   return t;
@@ -81,7 +81,7 @@ TEST(TorqueSpline, interpolationErrorsBoundTheRealOnesWithoutExcess) {
 }
 
 TEST(TorqueSpline, carriedErrorsBoundWhateverSignsTheSamplesErrorsHave) {
-  Dice dice(21);
+  SeededDraws dice(21);
   for (const std::vector<double>& t : {equallySpaced(3, 201), unevenInstants(40)}) {
     std::vector<double> norms;
     for (std::size_t k = 0; k < t.size(); ++k) norms.push_back(dice.between(0, 1));

@@ -2,6 +2,7 @@
 // state.
 
 #include "validation/replay/windows.h"
+#include "tests/support/numbers.h"
 #include "validation/replay/radau.h"
 
 #include <gmock/gmock.h>
@@ -15,8 +16,6 @@
 
 namespace ursula {
 namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 /// The paper's helix in 10 s, whose deviations grow too far for one window.
 class LongMotion : public testing::Test {

@@ -1,5 +1,6 @@
 // What a check shows of many instants: the largest share of a limit and the largest value, and NaN before all.
 
+#include "tests/support/numbers.h"
 #include "validation/verdict/worst_share.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,6 @@
 namespace ursula {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 struct Each {

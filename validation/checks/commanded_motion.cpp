@@ -105,11 +105,11 @@ double terms(const std::array<double, highest + 1>& sizes, std::size_t m, double
 }
 
 /// What the 50-digit pose says: Q̇ Qᵀ = [ω], and Q̈ Qᵀ = [ω̇] + [ω]², of which the second is symmetric.
-struct Reference {
+struct ExactPieces {
   Real p, v, a, omega, alpha;
   RealMatrix Q;
 
-  explicit Reference(const Stencil& stencil)
+  explicit ExactPieces(const Stencil& stencil)
       : p(stencil.p[3]),
         v(stencil.derivative(stencil.p, 1)),
         a(stencil.derivative(stencil.p, 2)),
@@ -134,7 +134,7 @@ struct Limits {
   double p, Q, v, omega, a, alpha;
 };
 
-Limits limitsAt(const Reference& exact, const PieceSizes& sizes, double tau, const HiddenTerms& hidden, double step,
+Limits limitsAt(const ExactPieces& exact, const PieceSizes& sizes, double tau, const HiddenTerms& hidden, double step,
                 double rounding) {
   const double P_1 = terms(sizes.p, 1, tau), P_2 = terms(sizes.p, 2, tau);
   const double A_1 = terms(sizes.Q, 1, tau), A_2 = terms(sizes.Q, 2, tau);
@@ -154,7 +154,7 @@ Limits limitsAt(const Reference& exact, const PieceSizes& sizes, double tau, con
 
 /// Differences of doubles truncate as well: by what halving the step changes, twice. And their instants are rounded,
 /// by t eps, which moves the poses by |v| t eps.
-Limits widenedBy(const Reference& exact, const Reference& halved, Limits limits, double t, double step) {
+Limits widenedBy(const ExactPieces& exact, const ExactPieces& halved, Limits limits, double t, double step) {
   const double moved = 10 * eps * t / step;
   limits.v += 2 * sizeOf(Real(exact.v - halved.v)) + moved * sizeOf(exact.v);
   limits.omega += 2 * sizeOf(Real(exact.omega - halved.omega)) + moved * sizeOf(exact.omega);
@@ -174,7 +174,7 @@ double distance(const Read& read, const Exact& exact) {
   return static_cast<double>((read.template cast<Real50>() - exact).norm());
 }
 
-void compare(const Motion<double>& motion, const Reference& exact, const Limits& limits, double length,
+void compare(const Motion<double>& motion, const ExactPieces& exact, const Limits& limits, double length,
              Deviations& out) {
   const double t = motion.t;
   out.pose.add(distance(motion.p, exact.p), limits.p, t, 0);
@@ -208,10 +208,10 @@ Deviations deviationsOf(const Trajectory& trajectory, double length, const Hidde
       // Multiples of the golden ratio: spread over the piece, and never the same in all of them.
       const double spread = std::fmod(0.381966 + 0.618034 * out.instants, 1.0);
       const double share = margin + (1 - 2 * margin) * spread, t = start + h * share;
-      const Reference exact(Stencil(trajectory, t, step));
+      const ExactPieces exact(Stencil(trajectory, t, step));
       Limits limits = limitsAt(exact, sizes, h * share, hidden, static_cast<double>(step), differences.digits);
       if (!differences.exact) {
-        const Reference halved(Stencil(trajectory, t, Real50(step / 2)));
+        const ExactPieces halved(Stencil(trajectory, t, Real50(step / 2)));
         limits = widenedBy(exact, halved, limits, t, static_cast<double>(step));
       }
       compare(trajectory.at(t), exact, limits, length, out);

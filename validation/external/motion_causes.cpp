@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/angles.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {
@@ -139,7 +140,7 @@ void addFrames(const Scenario& scenario, std::vector<Cause>& out) {
 }
 
 void addUnits(const Scenario& scenario, std::vector<Cause>& out) {
-  constexpr double degrees = 180 / 3.14159265358979323846, millimetres = 1000;
+  constexpr double millimetres = 1000;
   const auto add = [&](const char* text, const char* term, double factor, Vector3d Motion<double>::*of) {
     NamedCause named{CauseKind::units, term, "all"};
     named.expected = 1;
@@ -147,10 +148,11 @@ void addUnits(const Scenario& scenario, std::vector<Cause>& out) {
     out.push_back(
         readOtherwise(scenario, {text, named}, [of, factor](Motion<double>& motion) { motion.*of *= factor; }));
   };
-  add("omega in degrees per second", "angular_velocity", degrees, &Motion<double>::omega);
-  add("omega in degrees per second, taken for radians", "angular_velocity", 1 / degrees, &Motion<double>::omega);
-  add("the rate of omega in degrees", "angular_acceleration", degrees, &Motion<double>::omega_dot);
-  add("the rate of omega in degrees, taken for radians", "angular_acceleration", 1 / degrees,
+  add("omega in degrees per second", "angular_velocity", degrees_per_radian, &Motion<double>::omega);
+  add("omega in degrees per second, taken for radians", "angular_velocity", 1 / degrees_per_radian,
+      &Motion<double>::omega);
+  add("the rate of omega in degrees", "angular_acceleration", degrees_per_radian, &Motion<double>::omega_dot);
+  add("the rate of omega in degrees, taken for radians", "angular_acceleration", 1 / degrees_per_radian,
       &Motion<double>::omega_dot);
   add("the velocity of P in millimetres", "velocity", millimetres, &Motion<double>::p_dot);
   add("the acceleration of P in millimetres", "acceleration", millimetres, &Motion<double>::p_ddot);

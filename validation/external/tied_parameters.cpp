@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angles.h"
 #include "base/scalar.h"
 #include "validation/external/cause.h"
 
@@ -22,8 +23,8 @@ void TiedParameters::disturb(ManipulatorParameters& machine, double relative) co
 std::string TiedParameters::text(const ManipulatorParameters& machine, double relative, double deviation) const {
   const Parameter& first = members.front();
   if (first.turns()) {
-    constexpr double degrees = 57.29577951308232;
-    return fmt::format("{} by {} deg", words, withDeviation(degrees * relative, degrees * deviation));
+    return fmt::format("{} by {} deg", words,
+                       withDeviation(degrees_per_radian * relative, degrees_per_radian * deviation));
   }
   ManipulatorParameters changed = machine, further = machine;
   disturb(changed, relative);

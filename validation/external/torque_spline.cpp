@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/angles.h"
 #include "base/quintic_spline.h"
 
 namespace ursula {
@@ -14,7 +15,6 @@ constexpr double between_points = 2;  // 1/cos(6π/(2·9))
 
 /// The Chebyshev points of (from, to).
 std::array<double, point_count> chebyshevPoints(double from, double to) {
-  constexpr double pi = 3.14159265358979323846;
   std::array<double, point_count> points{};
   for (int m = 0; m < point_count; ++m)
     points[static_cast<std::size_t>(m)] =

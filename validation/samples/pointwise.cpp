@@ -7,13 +7,13 @@
 #include <iterator>
 #include <optional>
 
+#include "base/angles.h"
 #include "engines/simbody/simbody_loop.h"
 
 namespace ursula {
 namespace {
 
 constexpr double eps = Eigen::NumTraits<double>::epsilon();
-constexpr double pi = 3.14159265358979323846;
 
 /// Angles that differ by whole turns are equal.
 double angleDifference(double a, double b) { return std::abs(std::remainder(a - b, 2 * pi)); }
