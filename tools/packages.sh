@@ -20,10 +20,10 @@ declare -A needs=(
   [fresh]='git:git debootstrap:debootstrap'
 )
 # Done without where they are not to be had: a further formulation, asked for before the first configuration; a peer of the benchmarks;
-# the readers that Gazebo and ROS have, which exported models are held against.
+# the readers that Gazebo and ROS have, which exported models are held against, and DART, whose example is judged.
 declare -A optional=(
   [program]='libmujoco-dev'
-  [test]='libsdformat-dev liburdfdom-dev'
+  [test]='libsdformat-dev liburdfdom-dev libdart-dev'
   [bench]='libmujoco-dev libdart-dev'
 )
 

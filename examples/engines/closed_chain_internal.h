@@ -13,29 +13,14 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "examples/engines/solver_lines_internal.h"
+
 namespace closed_chain {
-
-/// What is easily asked instead, and is wrong.
-enum class Recipe {
-  exact,
-  inverse,         ///< mj_inverse, read at the motors
-  tree,            ///< inverse dynamics of the trees, their loops ignored
-  least_squares,   ///< the smallest forces on all coordinates, motor or not, as a pseudoinverse gives
-  no_bias,         ///< Ġq̇ left out of (2)
-  global_angular,  ///< ω and α of the base's axes given to a free joint, which wants its own
-};
-
-/// The motion of the platform's frame, in the world's axes.
-struct Motion {
-  Eigen::Vector3d p, v, w, a, alpha;
-  Eigen::Quaterniond q;
-};
 
 class Machine {
  public:
@@ -115,16 +100,10 @@ class Machine {
     for (int k = 0; k < motors; ++k) driven.push_back(model_->jnt_dofadr[model_->actuator_trnid[2 * k]]);
     Eigen::MatrixXd S = Eigen::MatrixXd::Zero(nv, motors);
     for (int k = 0; k < motors; ++k) S(driven[static_cast<std::size_t>(k)], k) = model_->actuator_gear[6 * k];
-    if (recipe == Recipe::inverse || recipe == Recipe::tree) return S.transpose() * wanted;
-    if (recipe == Recipe::least_squares) {
-      const Eigen::MatrixXd G = jacobian();
-      return S.transpose() * (wanted - G.transpose() * (G * G.transpose()).ldlt().solve(G * wanted));
-    }
-    Eigen::MatrixXd unknown(nv, gaps() + motors);
-    unknown << jacobian().transpose(), S;
-    const Eigen::VectorXd found = unknown.partialPivLu().solve(wanted);  // (3)
-    multipliers_ = found.head(gaps());
-    return found.tail(motors);
+    const Efforts found = effortsOf(recipe, jacobian(), S, wanted);  // (3)
+    if (recipe == Recipe::exact || recipe == Recipe::no_bias || recipe == Recipe::global_angular)
+      multipliers_ = found.multipliers;
+    return found.motors;
   }
   /// Forces λ of the loops that the last exact answer found, N, stacked as the gaps are.
   const Eigen::VectorXd& multipliers() const { return multipliers_; }

@@ -1,0 +1,23 @@
+# Judges a solver process on a machine that `ursula init` writes.
+# cmake -D URSULA=… -D WORK=FOLDER -D KIND=UPS [-D FORMAT=urdf] -D SOLVER=… -D CODE=0 -D PATTERN=… -P judge_recipe.cmake
+# @MODEL@ in SOLVER is the exported file. Output has to match PATTERN, and the exit code is to be CODE.
+cmake_policy(VERSION 3.25)
+
+function(run expected pattern)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  message("$ ${ARGN}\n${output}")
+  if(NOT code STREQUAL expected OR NOT output MATCHES "${pattern}")
+    message(FATAL_ERROR "exit code ${code}, expected ${expected} and output that matches ${pattern}")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+run(0 "" ${URSULA} init my.toml --kind ${KIND})
+file(APPEND ${WORK}/my.toml "\n[simulation]\nsamples = 31\n")
+set(MODEL ${WORK}/my.${FORMAT})
+if(FORMAT)
+  run(0 "" ${URSULA} export my.toml --format ${FORMAT} --out ${MODEL})
+endif()
+string(CONFIGURE "${SOLVER}" command @ONLY)
+run(${CODE} "${PATTERN}" ${URSULA} validate my.toml --solver ${command} --solver-timeout 60 --quiet)
