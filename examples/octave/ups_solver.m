@@ -93,12 +93,15 @@ function tau = forces(machine, in)
   tau = [cross3(arm, e); e] \ ([I * alpha + skew(w) * I * w + skew(rho) * f; f] - sum([cross3(arm, F); F], 2));
 end
 
-wrong = 0;
-if numel(argv()) > 0, wrong = str2double(argv(){end}); end
-machine = read_machine(getenv('URSULA_SCENARIO'));
-% Not fgetl: that waits for the line after before it gives one.
-while numel(motion = fscanf(stdin, '%f,', 20)) == 20
-  tau = (1 + wrong) * forces(machine, motion);
-  printf('%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n', tau);
-  fflush(stdout);
+% Another script may source this one for its functions: ups_in_angles.m does.
+if ~exist('functions_alone', 'var')
+  wrong = 0;
+  if numel(argv()) > 0, wrong = str2double(argv(){end}); end
+  machine = read_machine(getenv('URSULA_SCENARIO'));
+  % Not fgetl: that waits for the line after before it gives one.
+  while numel(motion = fscanf(stdin, '%f,', 20)) == 20
+    tau = (1 + wrong) * forces(machine, motion);
+    printf('%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n', tau);
+    fflush(stdout);
+  end
 end
