@@ -42,6 +42,7 @@ void addEngines(const ValidationResult& result, Found& found) {
   }
   const double expected = std::max(largestOf(result.timeseries, "simbody_tau_"), largestOf(result.timeseries, "tau_"));
   found.agreement = expected > 0 ? worst / expected : none;
+  if (result.deviation && expected > 0) found.allowed = result.deviation->allowed / expected;
 }
 
 std::string ofWhom(const std::string& subject) {
@@ -70,8 +71,9 @@ std::string drives(const Found& found) {
 
 std::string agrees(const Found& found) {
   if (found.engines < 2 || std::isnan(found.agreement)) return "";
-  const std::string share =
+  std::string share =
       found.agreement > 0 ? "to " + plainNumber(found.agreement, 2) + " of the largest effort" : "to the last digit";
+  if (found.allowed > 0) share += ", your tolerance is " + plainNumber(found.allowed, 2);
   return found.engines == 2 ? "; Simbody's own inverse dynamics agree " + share
                             : fmt::format("; {} independent formulations agree {}", inWords(found.engines), share);
 }

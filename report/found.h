@@ -17,6 +17,7 @@ struct Found {
   double replay = 0;            ///< m, the replay's largest error; NaN where there was none
   double replay_limit = 0;      ///< m, where it ends; NaN where that is not known
   double agreement = 0;  ///< largest deviation of an effort between formulations, over the largest effort; NaN without
+  double allowed = 0;    ///< of the largest effort, by a tolerance of the user's; 0 where there is none
   int engines = 1;       ///< formulations that give efforts, that of the subject included
   int windows = 1;       ///< that the replay was made in
   std::string dominant;  ///< source of the replay's error; may be empty

@@ -42,8 +42,9 @@ class TimePlots {
   std::vector<double> t_;
 };
 
-/// The charts of the time series; `motors` are those of its efforts.
-void addSeriesPlots(const TimeSeries& series, const Motors& motors, std::vector<Plot>& plots);
+/// The charts of the time series; `motors` are those of its efforts, which a tolerance of the user's allows to be off
+/// by `allowed`, in their unit; 0 where there is none.
+void addSeriesPlots(const TimeSeries& series, const Motors& motors, double allowed, std::vector<Plot>& plots);
 
 /// "₁" for "1".
 std::string subscript(const std::string& index);

@@ -107,7 +107,7 @@ std::vector<Plot> plots(const ValidationResult& result) {
   for (const auto& [title, curve] : result.curves) {
     if (curve.columns.size() > 1 && curve.rows() > 0) plots.push_back(curvePlot(title, curve));
   }
-  addSeriesPlots(result.timeseries, motorsOf(result), plots);
+  addSeriesPlots(result.timeseries, motorsOf(result), result.deviation ? result.deviation->allowed : 0, plots);
   std::stable_sort(plots.begin(), plots.end(), [](const Plot& a, const Plot& b) { return a.group < b.group; });
   return plots;
 }

@@ -30,9 +30,17 @@ std::string limitColumn(const TimeSeries& series) {
   return series.find("limit_tau_N") == nullptr ? "limit_tau_Nm" : "limit_tau_N";
 }
 
-const Line limit_line = {"limit", "", 0, Stroke::limit, {}};
+/// What decides: the derived limit, or a tolerance of the user's.
+void addEffortLimit(TimePlots& time, Plot& plot, const std::string& unit, double allowed, double side) {
+  const std::string label = std::string(side < 0 ? "− " : "") + (allowed > 0 ? "your tolerance" : "limit");
+  const Line line = {label, unit, 0, Stroke::limit, {}};
+  if (allowed > 0)
+    time.addValues(plot, std::vector<double>(time.series().rows(), side * allowed), line);
+  else
+    time.addColumn(plot, limitColumn(time.series()), line, side);
+}
 
-void addErrors(TimePlots& time) {
+void addErrors(TimePlots& time, double allowed) {
   const TimeSeries& series = time.series();
   const std::vector<Indexed> efforts = indexed(series, "tau"), expected = indexed(series, "simbody_tau");
   if (!expected.empty() && efforts.size() == expected.size()) {
@@ -42,12 +50,13 @@ void addErrors(TimePlots& time) {
       time.addValues(
           deviation, differences(*efforts[k].values, *expected[k].values, true),
           {"τ" + subscript(efforts[k].index), prettyUnit(efforts[k].unit), static_cast<int>(k), Stroke::line, {}});
-    time.addColumn(deviation, limitColumn(series), limit_line);
+    addEffortLimit(time, deviation, "", allowed, 1);
     time.keep(std::move(deviation));
   }
   Plot acceleration = time.plot(PlotGroup::errors, "Simbody's acceleration under the efforts", "error (m/s²)", true);
   time.addColumn(acceleration, "error_acceleration_m_s2", {"platform", "m/s²", 0, Stroke::line, {}});
-  time.addColumn(acceleration, "limit_acceleration_m_s2", limit_line);
+  const char* const limit = allowed > 0 ? "derived limit, not judged" : "limit";
+  time.addColumn(acceleration, "limit_acceleration_m_s2", {limit, "", 0, Stroke::limit, {}});
   time.keep(std::move(acceleration));
   Plot replay = time.plot(PlotGroup::errors, "Replay: simulated against commanded pose", "error (m, rad)", true);
   time.addColumn(replay, "error_p_m", {"position", "m", 0, Stroke::line, {}});
@@ -90,7 +99,7 @@ void addPower(TimePlots& time, const std::vector<Indexed>& efforts, const Motors
   time.keep(std::move(power));
 }
 
-void addEfforts(TimePlots& time, const Motors& motors) {
+void addEfforts(TimePlots& time, const Motors& motors, double allowed) {
   const TimeSeries& series = time.series();
   const std::vector<Indexed> efforts = indexed(series, "tau"), expected = indexed(series, "simbody_tau");
   Plot all = time.plot(PlotGroup::efforts, "Efforts of the motors", effortLabel("effort", efforts));
@@ -105,8 +114,7 @@ void addEfforts(TimePlots& time, const Motors& motors) {
                            fmt::format("deviation ({})", unit));
     time.addValues(motor, differences(*efforts[k].values, *expected[k].values, false),
                    {"τ" + subscript(efforts[k].index) + " − expected", unit, static_cast<int>(k), Stroke::line, {}});
-    time.addColumn(motor, limitColumn(series), {"limit", unit, 0, Stroke::limit, {}});
-    time.addColumn(motor, limitColumn(series), {"− limit", unit, 0, Stroke::limit, {}}, -1);
+    for (const double side : {1.0, -1.0}) addEffortLimit(time, motor, unit, allowed, side);
     time.keep(std::move(motor));
   }
 }
@@ -175,11 +183,11 @@ void addReactions(TimePlots& time) {
 
 }  // namespace
 
-void addSeriesPlots(const TimeSeries& series, const Motors& motors, std::vector<Plot>& plots) {
+void addSeriesPlots(const TimeSeries& series, const Motors& motors, double allowed, std::vector<Plot>& plots) {
   TimePlots time(series, plots);
   if (time.empty()) return;
-  addErrors(time);
-  addEfforts(time, motors);
+  addErrors(time, allowed);
+  addEfforts(time, motors, allowed);
   addMotion(time);
   addReactions(time);
 }

@@ -166,6 +166,30 @@ TEST(Plots, chooseLogarithmicAxesByTheData) {
   EXPECT_FALSE(report::plots(narrow)[0].log_x || report::plots(narrow)[0].log_y);
 }
 
+/// The lines that limit the charts of the motors' deviations.
+std::vector<report::Line> effortLimits(const ValidationResult& result) {
+  std::vector<report::Line> out;
+  for (const report::Plot& plot : report::plots(result))
+    if (plot.title == "Efforts against Simbody's, each motor" ||
+        plot.title.find("effort less expected") != std::string::npos)
+      for (const report::Line& line : plot.lines)
+        if (line.stroke == report::Stroke::limit) out.push_back(line);
+  return out;
+}
+
+TEST(Plots, holdEffortsAgainstTheToleranceThatDecides) {
+  ValidationResult result = test::passedSample();
+  result.deviation = EffortDeviation{};
+  for (const report::Line& line : effortLimits(result)) EXPECT_THAT(line.label, testing::AnyOf("limit", "− limit"));
+  result.deviation->allowed = 251;
+  const std::vector<report::Line> limits = effortLimits(result);
+  ASSERT_GE(limits.size(), 3u);
+  for (const report::Line& line : limits) {
+    EXPECT_THAT(line.label, testing::HasSubstr("your tolerance"));
+    EXPECT_EQ(std::abs(line.values.front()), 251);
+  }
+}
+
 TEST(Plots, ascendInXAndDropWhatHasNone) {
   const std::vector<report::Plot> plots = report::plots(test::hostileSample());
   ASSERT_EQ(plots.size(), 3u);
