@@ -25,7 +25,7 @@ const std::string helix_file = URSULA_SCENARIOS "/paper-helix.toml";
 double memoryOf(const std::string& samples) {
   const pid_t child = ::fork();
   if (child == 0) {
-    ::execl(URSULA_PROGRAM, "ursula", "inverse", helix.c_str(), "--samples", samples.c_str(), "--out", "out.csv",
+    ::execl(URSULA_PROGRAM, "ursula", "inverse", helix_file.c_str(), "--samples", samples.c_str(), "--out", "out.csv",
             static_cast<char*>(nullptr));
     ::_exit(127);
   }
