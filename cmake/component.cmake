@@ -10,8 +10,8 @@ function(ursula_component name)
   set_property(GLOBAL APPEND PROPERTY URSULA_COMPONENTS ursula_${name})
 endfunction()
 
-# So many sources are compiled together: what they include is read and instantiated once. A name in an unnamed namespace
-# is then one in its folder; the preset for development compiles each source alone.
+# Compiles so many sources together, as they include the same headers and templates. Two sources of a folder may therefore
+# not give one name to different things, not even in unnamed namespaces. The presets for development compile each alone.
 function(ursula_unity name batch)
   set_target_properties(ursula_${name} PROPERTIES UNITY_BUILD ${URSULA_UNITY} UNITY_BUILD_BATCH_SIZE ${batch})
 endfunction()

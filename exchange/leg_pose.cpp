@@ -1,11 +1,12 @@
 #include "exchange/leg_pose.h"
-#include "base/angles.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "base/angles.h"
 
 namespace ursula::exchange {
 namespace {

@@ -8,7 +8,6 @@
 // MuJoCo gives G, the accelerations in (2) and M q̈ + bias; its constraints, contacts and integrators have no part.
 
 #include "engines/mujoco/mujoco_loop.h"
-#include "base/angles.h"
 
 #include <fmt/format.h>
 
@@ -19,6 +18,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/angles.h"
 #include "engines/mujoco/mujoco_loop_internal.h"
 
 namespace ursula {

@@ -6,8 +6,6 @@
 #include "studies/prove/defect_helpers.h"
 
 namespace ursula {
-namespace {}  // namespace
-
 std::vector<Defect> motionDefects(const Manipulator&) {
   using M = Motion<double>;
   return {

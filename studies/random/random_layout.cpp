@@ -1,7 +1,8 @@
 #include "studies/random/random_layout.h"
-#include "base/angles.h"
 
 #include <cmath>
+
+#include "base/angles.h"
 
 namespace ursula {
 namespace {

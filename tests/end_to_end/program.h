@@ -11,7 +11,7 @@
 
 namespace ursula {
 
-/// As a shell reads it.
+/// The paper's helix, quoted: it goes into command lines.
 inline const std::string helix = "'" URSULA_SCENARIOS "/paper-helix.toml'";
 
 /// What one call of the built program did.

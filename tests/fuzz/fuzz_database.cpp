@@ -79,14 +79,14 @@ void read() {
 
 }  // namespace
 
-/// Not in LLVMFuzzerInitialize: libFuzzer takes SIGALRM for itself after that, unless a file that is written has it.
+/// The sound database is read here, not in LLVMFuzzerInitialize. Writing a file catches SIGALRM, and libFuzzer, which
+/// catches signals after that function, leaves a signal alone that is caught.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const bool sound_is_read = [] {  // or nothing is tested
+  [[maybe_unused]] static const bool sound_is_read = [] {  // or nothing is tested
     write(soundDatabase());
     read();
     return true;
   }();
-  if (!sound_is_read) return -1;
   const std::string input = ursula::fuzz::textOf(data, size);
   const bool whole = input.rfind("SQLite format", 0) == 0;
   write(whole ? input : soundDatabase());

@@ -2,7 +2,6 @@
 // every other, and the one that is wrong is named.
 
 #include "validation/samples/engines.h"
-#include "tests/support/numbers.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,6 +12,7 @@
 #include "engines/mujoco/mujoco_loop.h"
 #include "model/instants.h"
 #include "nocsolver/errors.h"
+#include "tests/support/numbers.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/checks/engine_checks.h"
