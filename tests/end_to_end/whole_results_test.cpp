@@ -57,16 +57,27 @@ class Watch {
   int descriptor_;
 };
 
-/// Half of them anywhere in a run, half in the moments from its first writing on.
-void killSomewhere(const Program& ursula, const std::vector<std::string>& call, std::chrono::microseconds whole,
+/// A run is killed at most so long after its start, or after its first writing.
+void killSomewhere(const Program& ursula, const std::vector<std::string>& call, std::chrono::microseconds at_most,
                    bool while_writing, std::mt19937& random) {
   const Watch watch(ursula.folder());
   Running run(ursula, call);
-  const auto at_most = while_writing ? std::chrono::microseconds(30ms) : whole;
   while (while_writing && !watch.sawResults() && !run.hasEnded()) std::this_thread::sleep_for(100us);
   std::this_thread::sleep_for(std::chrono::microseconds(random() % static_cast<unsigned>(at_most.count())));
   run.kill();
 }
+
+/// The time from the first writing within which a kill meets the swap about every second time, however loaded the
+/// machine is.
+class AroundTheSwap {
+ public:
+  std::chrono::microseconds atMost() const { return at_most_; }
+  void learn(bool was_after) { at_most_ = was_after ? std::max(at_most_ / 2, shortest) : 2 * at_most_; }
+
+ private:
+  static constexpr std::chrono::microseconds shortest{1ms};
+  std::chrono::microseconds at_most_{30ms};
+};
 
 /// More of them in ./dev faults: URSULA_KILLS=500.
 int killsWanted() {
@@ -97,12 +108,15 @@ void killRuns(const Program& ursula, const std::vector<std::vector<std::string>>
   std::size_t current = 1;
   Outcomes outcomes;
   const auto seenBoth = [&outcomes] { return outcomes.old > 0 && outcomes.fresh > 0; };
+  AroundTheSwap around;
   for (int k = 0; k < killsWanted() || (!seenBoth() && k < 10 * killsWanted()); ++k) {
-    killSomewhere(ursula, calls[1 - current], longest, k % 2 == 0, random);
+    const bool while_writing = k % 2 == 0;
+    killSomewhere(ursula, calls[1 - current], while_writing ? around.atMost() : longest, while_writing, random);
     const auto found = contents(ursula.folder() / "out");
     EXPECT_TRUE(found == whole[0] || found == whole[1]) << "kill " << k << " left a mixture";
     const bool is_new = found == whole[1 - current];
     ++(is_new ? outcomes.fresh : outcomes.old);
+    if (while_writing) around.learn(is_new);
     if (is_new) current = 1 - current;
   }
   Running(ursula, calls[0]).wait();
