@@ -63,7 +63,7 @@ void judgeEveryAnswer(const Evidence& evidence, std::vector<Check>& checks) {
       std::find_if(checks.begin(), checks.end(), [](const Check& check) { return check.name == "torque.between"; });
   if (!evidence.subject->answers || between == checks.end() || between->reason == Reason::not_made) return;
   std::vector<Check> all = {judgeAnswers(*evidence.scenario, evidence.subject->answers(), evidence.samples,
-                                         evidence.reference->profile, evidence.units())};
+                                         evidence.reference->rounding().profile, evidence.units())};
   checksInSi(evidence.units(), all);
   *between = all.front();
 }

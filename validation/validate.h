@@ -10,7 +10,7 @@
 
 namespace ursula {
 
-struct Reference;
+class Reference;
 struct InjectedFault;
 
 /// What may be left out where many scenarios are judged in a row; `ursula validate` leaves out nothing.

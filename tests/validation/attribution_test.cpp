@@ -54,7 +54,7 @@ ErrorBudget budgetOf(const std::string& name, const Change& change = nullptr, co
     settings.fault = fault;
     window.replay = replay(scenario, plan.torques, settings);
   }
-  const auto samples = runPointwise(scenario, subject, reference.instants, reference.profile);
+  const auto samples = runPointwise(scenario, subject, reference.instants, reference.rounding().profile);
   const ErrorBudget budget = attribute(scenario, samples, windows, reference.replays().amplification, plan);
   std::cout << name << ": observed " << budget.observed.norm() << ", model " << budget.model.error.norm()
             << ", integration " << budget.integration.error.norm() << ", rounding " << budget.rounding.error.norm()

@@ -23,7 +23,7 @@ class Direct : public testing::TestWithParam<std::string> {
     scenario.simulation.samples = 31;
     reference_ = makeReference(scenario);
     right_ = solverOf(here());
-    samples_ = runPointwise(here(), right_, reference_->instants, reference_->profile);
+    samples_ = runPointwise(here(), right_, reference_->instants, reference_->rounding().profile);
   }
   const Scenario& here() const { return reference_->scenario; }
   Subject with(const Accelerations& accelerations) const {
@@ -32,10 +32,10 @@ class Direct : public testing::TestWithParam<std::string> {
     return subject;
   }
   Check pointwise(const Subject& subject) const {
-    return judgeDirect(reference_->direct(), subject, samples_, reference_->profile);
+    return judgeDirect(reference_->direct(), subject, samples_, reference_->rounding().profile);
   }
   Check offPath(const Subject& subject) const {
-    return judgeOffPath(reference_->direct(), subject, samples_, reference_->profile);
+    return judgeOffPath(reference_->direct(), subject, samples_, reference_->rounding().profile);
   }
   /// M (1 + share) for M: the acceleration that torques give is smaller by as much.
   Subject heavier(double share) const {
@@ -128,9 +128,9 @@ TEST(DirectChecks, aMachineAtRestWithoutWeightPasses) {
   scenario.manipulator = std::make_shared<const Manipulator>(machine);
   const Reference reference(scenario);
   const Subject right = solverOf(reference.scenario);
-  const auto samples = runPointwise(reference.scenario, right, reference.instants, reference.profile);
+  const auto samples = runPointwise(reference.scenario, right, reference.instants, reference.rounding().profile);
   EXPECT_EQ(samples.front().torques_simbody.norm(), 0);
-  const Check check = judgeOffPath(reference.direct(), right, samples, reference.profile);
+  const Check check = judgeOffPath(reference.direct(), right, samples, reference.rounding().profile);
   EXPECT_EQ(check.verdict, Verdict::pass) << check.value << " of " << check.limit;
   EXPECT_GT(check.value, 0);
 }

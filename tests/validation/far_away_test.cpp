@@ -38,9 +38,9 @@ TEST_P(FarAway, everythingRoundsAsAtTheOrigin) {
   double largest = 0;
   for (std::size_t q = 0; q < rounded_count; ++q) {
     const auto limit = [q](const Reference& reference, std::size_t k) {
-      return reference.conditions[k].conditioning.rounding(static_cast<Rounded>(q));
+      return reference.rounding().conditions[k].conditioning.rounding(static_cast<Rounded>(q));
     };
-    for (std::size_t k = 1; k + 1 < near->conditions.size(); ++k) {  // at rest, rates have no size
+    for (std::size_t k = 1; k + 1 < near->rounding().conditions.size(); ++k) {  // at rest, rates have no size
       const double a = limit(*near, k), b = limit(*far, k);
       if (a == 0 && b == 0) continue;  // a formulation that is not built in
       EXPECT_LE(b, 10 * a) << q << " at " << k;
@@ -51,7 +51,7 @@ TEST_P(FarAway, everythingRoundsAsAtTheOrigin) {
   std::cout << "roundings grow by up to " << largest << '\n';
   const auto lastLimit = [](const Reference& reference) {
     const WindowedReplay& last = reference.replays().windows.back();
-    return replayLimit(last, reference.position_scale, last.window.end());
+    return replayLimit(last, reference.rounding().position_scale, last.window.end());
   };
   EXPECT_LE(lastLimit(*far), 10 * lastLimit(*near));
 }

@@ -156,7 +156,7 @@ TEST_P(Shared, theLadderIsTheOneClimbedAlone) {
 TEST_P(Shared, theStabilisedReplayStandsForTheSameTorquesOnly) {
   const StabilisedReplay& known = reference_->stabilised();
   const auto judge = [&](const Subject& subject, const StabilisedReplay* with) {
-    const auto samples = runPointwise(here(), subject, reference_->instants, reference_->profile);
+    const auto samples = runPointwise(here(), subject, reference_->instants, reference_->rounding().profile);
     return judgeStabilised(stabilisedReplay(here(), subject, reference_->replays().amplification, samples, with),
                            largestTorque(samples));
   };

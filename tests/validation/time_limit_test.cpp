@@ -16,7 +16,7 @@
 #include "tests/support/vectors.h"
 #include "tests/validation/checks.h"
 #include "validation/checks/families.h"
-#include "validation/evidence/ahead.h"
+#include "validation/evidence/background_tasks.h"
 #include "validation/evidence/reference.h"
 #include "validation/evidence/timed.h"
 #include "validation/evidence/work_estimate.h"
@@ -42,21 +42,21 @@ ValidationOptions within(double seconds) {
 constexpr double none_at_all = 1e-9, plenty = 1e8;
 
 /// Or this would wait for ever.
-TEST(Ahead, cutsShortWhatHasBegunWhenNobodyWillAsk) {
+TEST(BackgroundTasks, cutsShortWhatHasBegunWhenNobodyWillAsk) {
   std::atomic<bool> begun{false}, cut_short{false}, ended{false};
   {
-    const Ahead::Task task = [&] {
+    const BackgroundTasks::Task task = [&] {
       begun = true;
       while (!cut_short) std::this_thread::yield();
       ended = true;
     };
-    const Ahead ahead(1, {task}, [&] { cut_short = true; });
+    const BackgroundTasks background(1, {task}, [&] { cut_short = true; });
     while (!begun) std::this_thread::yield();
   }
   EXPECT_TRUE(ended);
 }
 
-TEST(Ahead, ofAReferenceEndsWithIt) {
+TEST(BackgroundTasks, ofAReferenceEndsWithIt) {
   auto reference = makeReference(quick());
   const std::shared_ptr<const Trajectory> motion = reference->scenario.trajectory;
   EXPECT_NO_THROW(motion->at(0));

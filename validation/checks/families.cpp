@@ -43,7 +43,7 @@ bool anyFails(const std::vector<Check>& checks) {
   return std::any_of(checks.begin(), checks.end(), [](const Check& each) { return each.verdict == Verdict::fail; });
 }
 
-const RoundingProfile& profileOf(const Evidence& e) { return e.reference->profile; }
+const RoundingProfile& profileOf(const Evidence& e) { return e.reference->rounding().profile; }
 
 std::vector<Check> judgeMotion(const Evidence& e) { return judgeCommandedMotion(*e.given); }
 

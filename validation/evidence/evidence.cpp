@@ -10,7 +10,7 @@ namespace {
 
 std::vector<EngineSample> engineSamples(const Evidence& evidence) {
   const Scenario& scenario = *evidence.scenario;
-  const RoundingProfile& profile = evidence.reference->profile;
+  const RoundingProfile& profile = evidence.reference->rounding().profile;
   std::vector<EngineSample> out = runEngines(evidence.reference->engines(), evidence.samples, profile);
   for (std::size_t k = 0; k < further_engine_count; ++k) {
     if (!evidence.fault.further[k]) continue;
@@ -85,7 +85,7 @@ void lookAtSamples(const Experiments& experiments, Evidence& out) {
     if (experiments.progress) experiments.progress(share);
   };
   const Reference& reference = *out.reference;
-  out.samples = runPointwise(*out.scenario, *out.subject, reference.instants, reference.profile, reference.simbody());
+  out.samples = runPointwise(*out.scenario, *out.subject, reference.instants, reference.rounding().profile, reference.simbody());
   if (out.fault.sample) std::for_each(out.samples.begin(), out.samples.end(), out.fault.sample);
   if (!out.answered()) return;
   tell(0.45);
@@ -110,7 +110,7 @@ void planReplays(Evidence& out) {
     out.plan.foresee = [subject, trajectory](const std::vector<double>& instants) {
       foresee(subject, *trajectory, instants);
     };
-  out.scales = {out.reference->position_scale, right.amplification.length(), out.reference->forces};
+  out.scales = {out.reference->rounding().position_scale, right.amplification.length(), out.reference->rounding().forces};
 }
 
 }  // namespace

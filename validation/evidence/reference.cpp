@@ -27,28 +27,34 @@ std::vector<Conditions> conditionsAt(const Scenario& scenario, const std::vector
   return out;
 }
 
-Reference::Reference(const Scenario& given, int threads, const Deadline& deadline)
-    : deadline_(deadline),
-      abandoned_(std::make_shared<std::atomic<bool>>(false)),
-      natural(checked(given)),
+PreparedScenario::PreparedScenario(const Scenario& given, const Deadline& deadline, const Deadline& abandoned)
+    : natural(checked(given)),
       relocated(ursula::relocated(given, natural.origin)),
-      scenario(timed(timed(natural.of(given), deadline),
-                     Deadline(0, [abandoned = abandoned_] { return abandoned->load(); }))),
-      instants(equallySpaced(scenario.trajectory->duration(), scenario.simulation.samples)),
-      // The longest first.
-      ahead_(threads - 1, {[this] { orders(); }, [this] { simbody(); }, [this] { engines(); }},
-             [abandoned = abandoned_] { *abandoned = true; }),
-      profile(scenario, profileInstants(scenario.simulation.samples)),
-      conditions(conditionsAt(scenario, instants, profile)),
+      scenario(timed(timed(natural.of(given), deadline), abandoned)),
+      instants(equallySpaced(scenario.trajectory->duration(), scenario.simulation.samples)) {}
+
+RoundingAlong::RoundingAlong(const PreparedScenario& of)
+    : profile(of.scenario, profileInstants(of.scenario.simulation.samples)),
+      conditions(conditionsAt(of.scenario, of.instants, profile)),
       position_scale(positionScale(conditions)),
-      forces(loopForces(conditions)) {
-  if (!deadline.isSet()) replays();
+      forces(loopForces(conditions)) {}
+
+Reference::Reference(const Scenario& given, int threads, const Deadline& deadline)
+    : Reference(given, threads, deadline, std::make_shared<std::atomic<bool>>(false)) {}
+
+Reference::Reference(const Scenario& given, int threads, const Deadline& deadline,
+                     const std::shared_ptr<std::atomic<bool>>& abandoned)
+    : PreparedScenario(given, deadline, Deadline(0, [abandoned] { return abandoned->load(); })),
+      deadline_(deadline),
+      // The longest first.
+      background_(threads - 1, {[this] { orders(); }, [this] { simbody(); }, [this] { engines(); }},
+                  [abandoned] { *abandoned = true; }) {
+  rounding();
+  if (!deadline.isSet()) replays();  // else what needs no replay comes first
 }
 
-Reference::~Reference() { ahead_.abandon(); }  // before what its tasks work with
-
 void Reference::stop() const {
-  ahead_.finish();
+  background_.finish();
   deadline_.lift();
 }
 
@@ -59,11 +65,11 @@ RightReplays Reference::rightReplays() const {
   const auto trajectory = scenario.trajectory;
   ReplayPlan& plan = out.plan;
   plan.torques = [right, trajectory](double t) { return right.torques(trajectory->at(t)); };
-  plan.acceleration = [limit = SampledLimit(conditions), deadline = deadline_](double t) {
+  plan.acceleration = [limit = SampledLimit(rounding().conditions), deadline = deadline_](double t) {
     deadline.require();
     return limit(t);
   };
-  plan.position_scale = position_scale;
+  plan.position_scale = rounding().position_scale;
   plan.step_rate = plannedStepRate(duration);
   plan.max_evaluations = enoughEvaluations(scenario, plan.step_rate);
   const auto replayAs = [&](bool stiff) {
@@ -76,8 +82,12 @@ RightReplays Reference::rightReplays() const {
   const auto took_too_long = [](const WindowedReplay& each) { return each.replay.too_long; };
   if (!plan.stiff && std::any_of(out.windows.begin(), out.windows.end(), took_too_long)) replayAs(true);
   measureIntegration(scenario, plan, out.windows);
-  measureOpening(conditions, out.windows);
+  measureOpening(rounding().conditions, out.windows);
   return out;
+}
+
+const RoundingAlong& Reference::rounding() const {
+  return rounding_.get([this] { return RoundingAlong(*this); });
 }
 
 const RightReplays& Reference::replays() const {
@@ -85,9 +95,9 @@ const RightReplays& Reference::replays() const {
 }
 
 void Reference::prepare(bool direct_dynamics, bool ladder) const {
-  ahead_.add([this] { stabilised(); });
-  if (direct_dynamics) ahead_.add([this] { direct(); });
-  if (ladder) ahead_.add([this] { this->ladder(); });
+  background_.add([this] { stabilised(); });
+  if (direct_dynamics) background_.add([this] { direct(); });
+  if (ladder) background_.add([this] { this->ladder(); });
 }
 
 const std::vector<double>& Reference::orders() const {
@@ -112,11 +122,11 @@ const std::vector<EngineTorques>& Reference::engines() const {
 
 const std::vector<ReactionSample>& Reference::reactions() const {
   return reactions_.get(
-      [this] { return runReactions(scenario, nocSubject(*scenario.manipulator, scenario.load), conditions); });
+      [this] { return runReactions(scenario, nocSubject(*scenario.manipulator, scenario.load), rounding().conditions); });
 }
 
 const std::vector<DirectSample>& Reference::direct() const {
-  return direct_.get([this] { return runDirect(scenario, conditions, simbody()); });
+  return direct_.get([this] { return runDirect(scenario, rounding().conditions, simbody()); });
 }
 
 const Ladder& Reference::ladder() const {
@@ -126,7 +136,7 @@ const Ladder& Reference::ladder() const {
 const StabilisedReplay& Reference::stabilised() const {
   return stabilised_.get([this] {
     const Subject right = nocSubject(*scenario.manipulator, scenario.load);
-    return stabilisedReplay(scenario, right, replays().amplification, conditions);
+    return stabilisedReplay(scenario, right, replays().amplification, rounding().conditions);
   });
 }
 

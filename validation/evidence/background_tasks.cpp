@@ -1,4 +1,4 @@
-#include "validation/evidence/ahead.h"
+#include "validation/evidence/background_tasks.h"
 
 #include <algorithm>
 #include <utility>
@@ -7,19 +7,17 @@
 
 namespace ursula {
 
-Ahead::Ahead(int threads, const std::vector<Task>& first, Task cut_short)
+BackgroundTasks::BackgroundTasks(int threads, const std::vector<Task>& first, Task cut_short)
     : cut_short_(std::move(cut_short)), tasks_(first.begin(), first.end()) {
   threads_ = startThreads(static_cast<std::size_t>(std::max(threads, 0)), [this] { work(); });
 }
 
-Ahead::~Ahead() { abandon(); }
-
-void Ahead::abandon() {
+BackgroundTasks::~BackgroundTasks() {
   if (cut_short_) cut_short_();
   finish();
 }
 
-void Ahead::add(const Task& task) {
+void BackgroundTasks::add(const Task& task) {
   if (threads_.empty()) return;
   {
     const std::lock_guard<std::mutex> lock(guard_);
@@ -28,7 +26,7 @@ void Ahead::add(const Task& task) {
   changed_.notify_one();
 }
 
-void Ahead::finish() {
+void BackgroundTasks::finish() {
   {
     const std::lock_guard<std::mutex> lock(guard_);
     finished_ = true;
@@ -39,7 +37,7 @@ void Ahead::finish() {
   threads_.clear();
 }
 
-void Ahead::work() {
+void BackgroundTasks::work() {
   while (true) {
     Task task;
     {
