@@ -7,4 +7,4 @@ add_executable(sweep_report_tests
   sweep_rows_test.cpp)
 target_link_libraries(sweep_report_tests PRIVATE
   ursula::sweep_report ursula::report ursula::eigen fmt::fmt GTest::gmock GTest::gtest_main)
-gtest_discover_tests(sweep_report_tests)
+ursula_test_suites(sweep_report_tests)

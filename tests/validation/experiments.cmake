@@ -12,7 +12,7 @@ add_executable(witness_tests
 target_link_libraries(witness_tests PRIVATE
   test_support test_components ursula::mujoco fmt::fmt GTest::gmock GTest::gtest_main)
 target_compile_definitions(witness_tests PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
-gtest_discover_tests(witness_tests)
+ursula_test_suites(witness_tests)
 
 # What all formulations share: the commanded motion and the load.
 add_executable(commanded_tests
@@ -22,4 +22,4 @@ add_executable(commanded_tests
 )
 target_link_libraries(commanded_tests PRIVATE test_support test_components fmt::fmt GTest::gmock GTest::gtest_main)
 target_compile_definitions(commanded_tests PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
-gtest_discover_tests(commanded_tests)
+ursula_test_suites(commanded_tests)
