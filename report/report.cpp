@@ -68,10 +68,4 @@ void addSuiteIndex(const std::vector<SuiteEntry>& entries, OutputFolder& out) {
   out.write("index.html", report::indexHtml(entries));
 }
 
-void writeSuiteIndex(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir) {
-  OutputFolder out(dir);  // the scenarios' folders stay
-  addSuiteIndex(entries, out);
-  out.commit();
-}
-
 }  // namespace ursula

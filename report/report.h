@@ -84,10 +84,7 @@ SuiteEntry addResults(ValidationResult& result, OutputFolder& out, const std::fi
 /// Throws std::runtime_error where results could not be written into a folder's folder `below`; writes nothing.
 void requireResults(const OutputFolder& out, const std::filesystem::path& below);
 
-/// Writes `junit.xml` and `suite.json` over all entries and, last, `index.html` into `dir`. Throws as writeResults.
-void writeSuiteIndex(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir);
-
-/// The same into a folder that is committed by the caller.
+/// Adds `junit.xml`, `suite.json` and `index.html` over all entries to a folder that is committed by the caller.
 void addSuiteIndex(const std::vector<SuiteEntry>& entries, OutputFolder& out);
 
 }  // namespace ursula

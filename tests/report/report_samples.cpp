@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "base/output_folder.h"
 #include "model/scenario.h"
 
 namespace ursula::test {
@@ -215,6 +216,12 @@ ValidationResult hostileSample() {
   curve.add(text + " y", {1, 2, infinite});
   result.curves = {{text, curve}};
   return result;
+}
+
+void writeSuiteIndex(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir) {
+  OutputFolder out(dir);
+  addSuiteIndex(entries, out);
+  out.commit();
 }
 
 }  // namespace ursula::test

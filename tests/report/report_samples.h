@@ -1,5 +1,9 @@
 #pragma once
 
+#include <filesystem>
+#include <vector>
+
+#include "report/report.h"
 #include "validation/verdict/result.h"
 
 namespace ursula::test {
@@ -14,5 +18,8 @@ ValidationResult inconclusiveSample();
 ValidationResult externalSample();
 /// Markup, control characters and broken UTF-8 wherever text goes, numbers that are not finite wherever numbers go.
 ValidationResult hostileSample();
+
+/// The index of a suite in `dir`, whose folders of scenarios stay.
+void writeSuiteIndex(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir);
 
 }  // namespace ursula::test

@@ -32,6 +32,6 @@ int main(int argc, char** argv) {
       {"unreadable", Verdict::fail, "", {}, "scenario.toml:3:1: error: expected a value", {}, "", {}, {}});
   writeResults(test::passedSample(), dir / "alone");
   writeResults(test::longSample(), dir / "long");
-  writeSuiteIndex(entries, dir);
+  test::writeSuiteIndex(entries, dir);
   test::writePageSamples(dir);
 }

@@ -65,7 +65,7 @@ TEST_F(ReportFiles, areTheOldOnesWhereWritingFailed) {
 
 TEST_F(ReportFiles, ofASuiteAreIndexAndJunit) {
   const ValidationResult passed = test::passedSample();
-  writeSuiteIndex({suiteEntry(passed, "sub folder/ä&b")}, dir_);
+  test::writeSuiteIndex({suiteEntry(passed, "sub folder/ä&b")}, dir_);
   const std::string index = contentOf(dir_ / "index.html");
   EXPECT_NE(index.find("href=\"sub%20folder/%C3%A4%26b/report.html\""), std::string::npos);
   EXPECT_NE(index.find("1 of 1 scenario passed"), std::string::npos);

@@ -109,7 +109,7 @@ TEST(Run, ofOldListsItsFilesAndNoOthers) {
   EXPECT_TRUE(report::resultsIn(a).empty());
   writeResults(test::passedSample(), a);
   EXPECT_EQ(report::resultsIn(a), Paths(report::result_files.begin(), report::result_files.end()));
-  writeSuiteIndex({suiteEntry(test::passedSample(), "s")}, a);
+  test::writeSuiteIndex({suiteEntry(test::passedSample(), "s")}, a);
   EXPECT_EQ(report::resultsIn(a),
             (Paths{"timeseries.csv", "junit.xml", "report.html", "summary.json", "suite.json", "index.html", "s",
                    "s/timeseries.csv", "s/junit.xml", "s/report.html", "s/summary.json"}));
