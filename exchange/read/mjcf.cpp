@@ -2,13 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <set>
-#include <unordered_map>
 
-#include "base/nearest.h"
 #include "base/shown_text.h"
+#include "exchange/read/mjcf_closures.h"
 #include "exchange/read/mjcf_inertia.h"
 #include "exchange/read/readers.h"
 
@@ -58,7 +55,7 @@ class MjcfReader {
     graph_.bodies.emplace_back();
     graph_.bodies[0].name = "world";
     graph_.bodies[0].fixed = true;
-    bodies_["world"] = 0;
+    named_.bodies["world"] = 0;
   }
 
   ModelGraph read() {
@@ -68,10 +65,8 @@ class MjcfReader {
     defaults_.read(root_);
     eachChild(root_, "worldbody", [this](const Element& e) { readChildren(e, 0, Place(), e); });
     scaleMasses();
-    eachChild(root_, "equality",
-              [this](const Element& e) { eachChild(e, nullptr, [this](const Element& c) { readEquality(c); }); });
-    eachChild(root_, "actuator",
-              [this](const Element& e) { eachChild(e, nullptr, [this](const Element& c) { readActuator(c); }); });
+    readMjcfClosures(root_, defaults_, named_, graph_);
+    readMjcfActuators(root_, defaults_, named_, graph_);
     if (const Element* keys = root_.FirstChildElement("keyframe");
         keys != nullptr && keys->FirstChildElement() != nullptr)
       graph_.assumptions.push_back(
@@ -146,7 +141,7 @@ class MjcfReader {
       const auto get = [&](const char* name) { return defaults_.get(e, at.childclass, name); };
       if (kind == "geom" && body != 0 && from_geoms) addGeom(e, compiler_, at.frame, get, graph_.bodies[body]);
       if (kind == "site" && !attribute(e, "name").empty())
-        sites_[attribute(e, "name")] = {body, at.frame * placeOf(e, get)};
+        named_.sites[attribute(e, "name")] = {body, at.frame * placeOf(e, get)};
     });
     if (body != 0) boundInertia(element, compiler_, graph_.bodies[body]);
     eachContent(element, place, [&](const Element& e, const Place& at) {
@@ -169,7 +164,8 @@ class MjcfReader {
     if (attribute(element, "mocap") == "true")
       refuse(element, "mocap: moved from outside, which a scenario has no words for");
     const std::size_t body = addFrames(element, name, parent, place);
-    if (!bodies_.emplace(name, body).second) refuse(element, "a second body of that name, expected names of their own");
+    if (!named_.bodies.emplace(name, body).second)
+      refuse(element, "a second body of that name, expected names of their own");
     readChildren(element, body, place, element);
   }
 
@@ -236,7 +232,7 @@ class MjcfReader {
                     directionOf(element, axis.empty() ? Vector3d::UnitZ() : vectorOf(element, axis, "axis"), "axis");
     listUnknownAttributes(element, known_of_joint, graph_.assumptions);
     takeJointNumbers(element, get, joint);
-    if (!attribute(element, "name").empty() && !joints_.emplace(joint.name, graph_.joints.size()).second)
+    if (!attribute(element, "name").empty() && !named_.joints.emplace(joint.name, graph_.joints.size()).second)
       refuse(element, "a second joint of that name, expected names of their own");
     graph_.joints.push_back(joint);
   }
@@ -288,117 +284,11 @@ class MjcfReader {
         {"All masses and inertias were scaled, as settotalmass says", "<compiler>", scale, "1"});
   }
 
-  struct Site {
-    std::size_t body = 0;
-    Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
-  };
-
-  template <class Map>
-  const typename Map::mapped_type& find(const Element& at, const Map& map, const std::string& name,
-                                        const char* what) const {
-    if (const auto found = map.find(name); found != map.end()) return found->second;
-    std::vector<std::string> names;
-    for (const auto& [each, index] : map)
-      if (names.size() < 1000) names.push_back(each);
-    std::sort(names.begin(), names.end());
-    refuse(at, fmt::format("{} '{}': nothing has that name{}", what, shown(name), didYouMean(name, names)));
-  }
-
-  void readEquality(const Element& element) {
-    const std::string kind = element.Name();
-    const auto get = [&](const char* name) { return defaults_.get(element, "", name, "equality"); };
-    const std::string name = attribute(element, "name").empty()
-                                 ? fmt::format("{} of line {}", shown(kind), element.GetLineNum())
-                                 : attribute(element, "name");
-    if (get("active") == "false") {
-      graph_.assumptions.push_back({"This constraint is switched off in the file and is left out", name, 0, "1"});
-      return;
-    }
-    if (kind != "connect" && kind != "weld")
-      refuse(element,
-             fmt::format("couples what it names ({}), as a gear does, which a scenario has no words for, expected "
-                         "connect or weld",
-                         shown(kind)));
-    GraphJoint joint;
-    joint.name = name;
-    joint.line = element.GetLineNum();
-    joint.kind = kind == "connect" ? JointKind::ball : JointKind::fixed;
-    joint.closure = true;
-    if (const std::string site = attribute(element, "site1"); !site.empty())
-      joinSites(element, site, joint);
-    else
-      joinBodies(element, joint);
-    graph_.joints.push_back(joint);
-  }
-
-  void joinSites(const Element& element, const std::string& first, GraphJoint& joint) {
-    const Site& a = find(element, sites_, first, "site1");
-    const Site& b = find(element, sites_, requiredAttribute(element, "site2"), "site2");
-    joint.parent = a.body;
-    joint.child = b.body;
-    joint.centre = a.frame.translation();
-    joint.centre_of_child = b.frame.translation();
-    if (joint.kind == JointKind::fixed) sayGap(joint.name, a.frame, b.frame);
-  }
-
-  void joinBodies(const Element& element, GraphJoint& joint) {
-    const std::string second = attribute(element, "body2");
-    joint.parent = find(element, bodies_, requiredAttribute(element, "body1"), "body1");
-    joint.child = second.empty() ? 0 : find(element, bodies_, second, "body2");
-    const Eigen::Isometry3d &a = graph_.bodies[joint.parent].frame, &b = graph_.bodies[joint.child].frame;
-    if (joint.kind == JointKind::ball) {
-      joint.centre = joint.centre_of_child = a * vectorOf(element, requiredAttribute(element, "anchor"), "anchor");
-      return;
-    }
-    joint.centre = joint.centre_of_child = b.translation();
-    const std::string relative = attribute(element, "relpose");
-    if (relative.empty()) return;
-    const std::vector<double> v = numbersOf(element, relative, 7, "relpose");
-    const Eigen::Quaterniond q(v[3], v[4], v[5], v[6]);
-    // A quaternion of zero stands for the pose that the file has.
-    if (q.norm() > 1e-12) sayGap(joint.name, a * placed({v[0], v[1], v[2]}, q.normalized().toRotationMatrix()), b);
-  }
-
-  void sayGap(const std::string& name, const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
-    const double gap = (a.translation() - b.translation()).norm();
-    const double angle = Eigen::AngleAxisd(Matrix3d(a.linear().transpose() * b.linear())).angle();
-    if (gap > 1e-12) graph_.assumptions.push_back({"This weld is open at the file's initial pose", name, gap, "m"});
-    if (angle > 1e-9)
-      graph_.assumptions.push_back({"This weld is turned at the file's initial pose", name, angle, "rad"});
-  }
-
-  void readActuator(const Element& element) {
-    const std::string kind = element.Name();
-    const auto get = [&](const char* name) {
-      const std::string own = defaults_.get(element, "", name);
-      return own.empty() ? defaults_.get(element, "", name, "general") : own;
-    };
-    const std::string target = get("joint").empty() ? get("jointinparent") : get("joint");
-    const bool known = kind == "motor" || kind == "position" || kind == "velocity" || kind == "general" ||
-                       kind == "intvelocity" || kind == "cylinder" || kind == "dcmotor";
-    if (!known || target.empty())
-      refuse(element,
-             fmt::format("a {} that acts on {}, expected a motor, position, velocity or general actuator on a joint",
-                         shown(kind), target.empty() ? "no joint" : "joint " + shown(target)));
-    GraphJoint& joint = graph_.joints[find(element, joints_, target, "joint")];
-    joint.driven = true;
-    const std::string gear = get("gear");
-    const double ratio = gear.empty() ? 1 : numbersOf(element, gear, 0, "gear").at(0);
-    if (ratio == 0) refuse(element, "a gear of zero, expected another");
-    if (ratio != 1)
-      graph_.assumptions.push_back(
-          {"The actuator's gear is left out: efforts are the joint's own", joint.name, ratio, "1"});
-    if (kind != "motor" && kind != "general")
-      graph_.assumptions.push_back(
-          {fmt::format("The {} servo is taken as a motor: its gains are the controller's", kind), joint.name, 1, "1"});
-  }
-
   const Element& root_;
   MjcfCompiler compiler_;
   MjcfDefaults defaults_;
   bool gravity_off_ = false;
-  std::unordered_map<std::string, std::size_t> bodies_, joints_;
-  std::unordered_map<std::string, Site> sites_;
+  MjcfNamed named_;
   ModelGraph graph_;
 };
 
