@@ -2,16 +2,10 @@
 # headers too, and runs them. cmake -D BUILD=… -D CXX=… -D GENERATOR=… -D EIGEN=… [-D PYTHON=…] -D WORK=… -P installed_examples.cmake
 cmake_policy(VERSION 3.25)
 
-# run(EXIT_CODE PATTERN COMMAND…): the command's output has to match.
-function(run expected pattern)
-  execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
-  message("$ ${ARGN}\n${output}")
-  if(NOT code STREQUAL expected OR NOT output MATCHES "${pattern}")
-    message(FATAL_ERROR "exit code ${code}, expected ${expected} and output that matches ${pattern}")
-  endif()
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/../support/run.cmake)
 
 file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
 set(prefix ${WORK}/prefix)
 run(0 "" ${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
 

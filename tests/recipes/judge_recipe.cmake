@@ -4,13 +4,7 @@
 # @MODEL@ in SOLVER is the exported file. Output has to match PATTERN, and the exit code is to be CODE.
 cmake_policy(VERSION 3.25)
 
-function(run expected pattern)
-  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
-  message("$ ${ARGN}\n${output}")
-  if(NOT code STREQUAL expected OR NOT output MATCHES "${pattern}")
-    message(FATAL_ERROR "exit code ${code}, expected ${expected} and output that matches ${pattern}")
-  endif()
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/../support/run.cmake)
 
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
