@@ -12,7 +12,7 @@
 namespace ursula::exchange {
 namespace {
 
-constexpr double step = 0.0005;  ///< s
+constexpr double max_step = 0.0005;  ///< s
 
 class SdfWriter {
  public:
@@ -25,9 +25,9 @@ class SdfWriter {
     const Xml world = root.add("world");
     world.with("name", graph_.name).add("gravity", numberText(graph_.gravity));
     const Xml physics = world.add("physics").with("name", "small_steps").with("type", "ode");
-    physics.add("max_step_size", step);
+    physics.add("max_step_size", max_step);
     physics.add("real_time_factor", 1.0);
-    physics.add("real_time_update_rate", 1 / step);
+    physics.add("real_time_update_rate", 1 / max_step);
     const Xml model = world.add("model").with("name", graph_.name);
     const std::string motors = motorNames();
     model.comment(fmt::format(" motors drive {}; no motor has effort 0 ", motors));
