@@ -125,7 +125,7 @@ TEST(HelixOfManyTurns, losesNoDigits) {
   }
 }
 
-TEST(PaperHelix, startsAndEndsAtRest) {
+TEST(PaperHelixMotion, startsAndEndsAtRest) {
   const auto helix = makeHelix(paperHelix());
   for (const Real50& t : {Real50(0), Real50(3)}) {
     const Motion<Real50> motion = helix->at(t);
