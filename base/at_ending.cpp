@@ -12,7 +12,7 @@ namespace {
 constexpr std::array<int, 10> ends_process = {SIGINT,  SIGTERM, SIGHUP,  SIGQUIT,   SIGALRM,
                                               SIGUSR1, SIGUSR2, SIGXCPU, SIGVTALRM, SIGPROF};
 
-/// Whose `work` is not null, is in use.
+/// A slot is in use when its `work` is not null.
 struct Slot {
   std::atomic<AtEnding::Work> work{nullptr};
   const void* what = nullptr;
@@ -20,13 +20,13 @@ struct Slot {
 };
 std::array<Slot, 64> slots;
 
-std::atomic<int> holders{0};  ///< threads
-std::atomic<int> came{0};     ///< the first signal that is to end the process
-thread_local int depth = 0;   ///< of holds within each other
+std::atomic<int> holders{0};  ///< number of threads that hold
+std::atomic<int> came{0};     ///< the first signal that shall end the process, or 0
+thread_local int depth = 0;   ///< number of nested holds in this thread
 
 void nothing(const void*) {}
 
-/// May be done twice, by two threads.
+/// Two threads may both run this.
 void workAndEnd() {
   for (auto slot = slots.rbegin(); slot != slots.rend(); ++slot)
     if (const AtEnding::Work work = slot->work; work != nullptr && slot->process == ::getpid()) work(slot->what);
@@ -53,7 +53,7 @@ void catchSignals() {
   }
 }
 
-/// Threads that held have not come along.
+/// Only the forking thread exists in the child, so the holds of the others do not count there.
 [[maybe_unused]] const int in_child = pthread_atfork(nullptr, nullptr, [] { holders = depth > 0 ? 1 : 0; });
 
 }  // namespace
@@ -69,7 +69,7 @@ AtEnding::AtEnding(Work work, const void* what) : slot_(0) {
 }
 
 AtEnding::~AtEnding() {
-  const EndingHeld held;  // what is taken away may be at work in another thread's handler
+  const EndingHeld held;  // the work may be running in another thread's handler
   if (slot_ < slots.size()) slots[slot_].work = nullptr;
 }
 

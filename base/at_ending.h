@@ -5,14 +5,14 @@
 
 namespace ursula {
 
-/// While this is there, a signal that ends this process has `work(what)` done first, that of the newest before older
-/// ones. All that somebody sends or a limit of the system does; not those of a crash, after which nothing can be relied
-/// on, nor those that somebody else handles. A process forked from this one has no part in it.
+/// Does `work(what)` first when a signal ends this process while this object lives; newer objects work first. It covers
+/// signals that somebody sends or a system limit raises. Crash signals and signals with another handler are not
+/// covered. A process forked from this one does no such work.
 class AtEnding {
  public:
   using Work = void (*)(const void* what);
 
-  /// `work` may call only what a signal's handler may. Of more than 64 at a time the further ones are not done.
+  /// `work` may call only async-signal-safe functions. At most 64 objects work at a time; further ones do nothing.
   AtEnding(Work work, const void* what);
   ~AtEnding();
   AtEnding(const AtEnding&) = delete;
@@ -22,8 +22,8 @@ class AtEnding {
   std::size_t slot_;
 };
 
-/// Such signals wait while this is there, whatever thread they come to; one that came ends the process when the last of
-/// these goes, and none begins after it.
+/// Defers such signals in every thread while this object lives. A deferred signal ends the process when the last of
+/// these objects goes; no new object begins after it.
 class EndingHeld {
  public:
   EndingHeld();

@@ -14,7 +14,7 @@
 #include <cstring>
 #include <system_error>
 
-extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX asks for it
+extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX requires it
 
 namespace ursula {
 namespace {
@@ -40,7 +40,7 @@ struct Pipe {
   int read = -1, write = -1;
 };
 
-/// `NAME=value` of ours, but for those set anew.
+/// Our environment as `NAME=value`, without the variables in `more`, then those.
 std::vector<std::string> environmentWith(const std::vector<std::pair<std::string, std::string>>& more) {
   std::vector<std::string> out;
   for (char** each = environ; *each != nullptr; ++each) {
@@ -61,7 +61,7 @@ std::vector<char*> pointersTo(std::vector<std::string>& texts) {
   return each;
 }
 
-/// What a command is started with. Signals that this program ignores, or holds back, it takes as usual.
+/// What starts a command. The child handles signals by default, even those that this program ignores or blocks.
 class Start {
  public:
   explicit Start(short further_flags) {
@@ -97,15 +97,15 @@ class Start {
   posix_spawnattr_t attributes;
 };
 
-/// A command need not look at the end of its input.
+/// The group is killed because a command may ignore the end of its input.
 void endGroup(const void* leader) { ::kill(-*static_cast<const pid_t*>(leader), SIGKILL); }
 
-/// In the copy: what is its parent's business.
+/// The copy leaves terminal and pipe signals to its parent, and dies with it.
 void leaveToParent(pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(0);
-  std::signal(SIGINT, SIG_IGN);                                                 // of a terminal goes to all
-  if (std::signal(SIGTERM, SIG_DFL) == SIG_IGN) std::signal(SIGTERM, SIG_IGN);  // as whoever started us wants it
+  std::signal(SIGINT, SIG_IGN);                                                 // a terminal sends it to all
+  if (std::signal(SIGTERM, SIG_DFL) == SIG_IGN) std::signal(SIGTERM, SIG_IGN);  // keeps what our starter chose
   std::signal(SIGPIPE, SIG_IGN);
 }
 
@@ -163,7 +163,7 @@ bool ChildProcess::hasEnded() const {
 
 void ChildProcess::kill() {
   if (pid_ < 0) return;
-  ::kill(leads_group_ ? -pid_ : pid_, SIGKILL);  // not yet waited for, so that the number is still theirs
+  ::kill(leads_group_ ? -pid_ : pid_, SIGKILL);  // it was not waited for yet, so the id is still its own
   wait();
 }
 

@@ -12,22 +12,22 @@
 
 namespace ursula {
 
-/// A process that this one starts, with pipes to it and from it. Where it still runs it is killed, and waited for, when
-/// this goes. Its standard error is ours.
+/// A child process with pipes to it and from it. The destructor kills it if it still runs, and waits for it. Its
+/// standard error is ours.
 class ChildProcess {
  public:
   struct Command {
-    std::vector<std::string> words;  ///< a program, looked for on PATH, and its arguments
-    /// Variables beside ours, or in their place.
+    std::vector<std::string> words;  ///< program, searched on PATH, and its arguments
+    /// Variables added to ours; they replace those of the same name.
     std::vector<std::pair<std::string, std::string>> environment;
-    /// It gets a pipe to its standard input, and leads a group of its own, which ends with it, or with a signal that
-    /// ends this process where that has its default action, but for SIGKILL and those of a crash.
+    /// The child gets a pipe to its standard input and leads its own process group. The group ends with it, or with a
+    /// signal that ends this process. SIGKILL, crash signals and handled signals do not end the group.
     bool is_asked = false;
   };
-  /// Throws std::system_error where it cannot be started, with the code ENOENT where there is no such program.
+  /// Throws std::system_error if it cannot be started; the code is ENOENT if there is no such program.
   explicit ChildProcess(const Command& command);
-  /// A copy of this process, which should have no threads that hold locks: it does `work` with its ends of the pipes,
-  /// and no more. It ends with this one, and leaves to it what comes from a terminal.
+  /// Forks this process, which should have no threads that hold locks. The copy only does `work` with its ends of the
+  /// pipes. It ends with its parent and ignores SIGINT and SIGPIPE.
   explicit ChildProcess(const std::function<void(int from, int to)>& work);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
@@ -39,9 +39,9 @@ class ChildProcess {
   void closePipes();
   bool hasEnded() const;
   void kill();
-  /// Until it has ended by itself.
+  /// Waits until it has ended by itself.
   void wait();
-  /// What waitpid said of a process that was waited for.
+  /// The status from waitpid, once it was waited for.
   int status() const { return status_; }
   /// "ended with exit code 3", "was ended by signal 9 (Killed)".
   std::string howItEnded() const;
@@ -54,7 +54,7 @@ class ChildProcess {
   std::optional<AtEnding> ends_with_us_;
 };
 
-/// Starts a program in a session of its own, without our streams; nobody waits for it. Throws as ChildProcess.
+/// Starts a program in its own session, without our streams; nobody waits for it. Throws like ChildProcess.
 void startDetached(const std::vector<std::string>& words);
 
 }  // namespace ursula

@@ -28,7 +28,7 @@ void requireShort(std::string_view cell, const std::filesystem::path& file, int 
          fmt::format("a cell of {} bytes, '{}', expected at most {}", cell.size(), shown(cell), most_csv_cell));
 }
 
-/// The places of the wanted columns among all.
+/// Returns the indices of the wanted columns among all.
 std::vector<std::size_t> readHeader(const std::vector<std::string>& cells, const CsvOptions& options, CsvTable& table) {
   const int line = std::max(1, options.dialect.header);
   std::vector<std::size_t> wanted;
@@ -48,7 +48,7 @@ std::vector<std::size_t> readHeader(const std::vector<std::string>& cells, const
   return wanted;
 }
 
-/// Of a cell that is a finite number. Exponents that no double has are cut off.
+/// The power of ten of the last digit of a finite number. Exponents beyond a double's range are clipped.
 int lastPlace(std::string_view cell) {
   const auto e = cell.find_first_of("eE");
   const std::string_view mantissa = cell.substr(0, e);
@@ -63,7 +63,8 @@ int lastPlace(std::string_view cell) {
   return std::clamp(exponent, -400, 400) - decimals;
 }
 
-/// std::from_chars, since it knows no locale; a leading plus, which it refuses, is harmless.
+/// Uses std::from_chars because it ignores the locale. It refuses a leading plus, which is harmless and therefore
+/// removed.
 double readNumber(std::string_view cell, const CsvTable& table, bool finite, int line, const std::string& column) {
   if (cell.empty() && !finite) return std::nan("");
   std::string_view digits = cell;
@@ -96,7 +97,7 @@ void readRow(std::string_view text, int line, const std::vector<std::size_t>& wa
   table.lines.push_back(line);
 }
 
-/// Whether two columns differ in their index alone, as p_x_m and p_y_m do: the one is never an error for the other.
+/// Whether two names differ in their index alone, like p_x_m and p_y_m. One is never a misspelling of the other.
 bool areSiblings(const std::string& a, const std::string& b) {
   if (a.size() != b.size()) return false;
   const auto [in_a, in_b] = std::mismatch(a.begin(), a.end(), b.begin());

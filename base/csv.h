@@ -10,7 +10,7 @@
 
 namespace ursula {
 
-/// What a file may hold beside most_csv_columns and most_csv_lines, in bytes: in all, and in a cell.
+/// Limits in bytes of a file and of a cell, beside most_csv_columns and most_csv_lines.
 constexpr std::size_t most_csv_bytes = std::size_t{1} << 30, most_csv_cell = 1024;
 
 /// `file:line: error: what, what was expected`
@@ -28,40 +28,41 @@ struct CsvTable {
   std::vector<int> lines;                     ///< 1-based line of each row in the file
   std::vector<std::string> ignored;           ///< names of the columns that were not wanted
 
-  /// The column of that name, or null where there is none.
+  /// The column of that name, or null if there is none.
   const std::vector<double>* find(const std::string& name) const;
-  /// The same; throws CsvError naming the missing column, and the nearest of those that are there.
+  /// The same, but throws CsvError if there is none; the message names the nearest column.
   const std::vector<double>& at(const std::string& name) const;
   std::size_t rows() const { return lines.size(); }
-  /// The place of a row for an error of the caller's own: `file:line`.
+  /// The place of a row, `file:line`, for the caller's own errors.
   std::string place(std::size_t row) const;
 };
 
 struct CsvOptions {
-  std::function<bool(const std::string&)> wanted;  ///< by name; cells of other columns are not looked at. Empty: all
+  std::function<bool(const std::string&)> wanted;  ///< selects columns by name; others are not parsed. Empty: all
   bool finite = true;                              ///< whether NaN, infinities and empty cells (NaN) are refused
   CsvDialect dialect = {};                         ///< how the file is written
 };
 
-/// All of a file; throws CsvError where it cannot be read.
+/// Returns the whole file; throws CsvError if it cannot be read.
 std::string readCsvText(const std::filesystem::path& file);
 
-/// Reads a comma-separated file; a byte order mark, CRLF and blanks around a cell are tolerated. Throws CsvError for an
-/// unreadable or empty file, unnamed or duplicate columns, missing or surplus cells and anything but (finite) numbers.
+/// Reads a comma-separated file; accepts a byte order mark, CRLF and blanks around a cell. Throws CsvError for an
+/// unreadable or empty file, unnamed or duplicate columns, missing or surplus cells, and non-numbers. With `finite` it
+/// also refuses numbers that are not finite.
 CsvTable readCsv(const std::filesystem::path& file, const CsvOptions& options = {});
 
-/// The same from text; `file` names it in errors.
+/// The same from a text; `file` names it in errors.
 CsvTable parseCsv(const std::string& text, const std::filesystem::path& file, const CsvOptions& options = {});
 
 /// How NaN is written.
 enum class NanAs { word, empty_cell };
 
-/// One header line and the rows, numbers with 17 significant digits, so that reading them back gives the same doubles.
-/// Throws std::invalid_argument unless there is one column for each name and all are equally long.
+/// Returns one header line and the rows. Numbers have 17 significant digits, so reading them back gives the same
+/// doubles. Throws std::invalid_argument unless there is one column for each name and all are equally long.
 std::string csvText(const std::vector<std::string>& names, const std::vector<std::vector<double>>& columns,
                     NanAs nan = NanAs::word);
 
-/// The same, piece by piece to `take`: a long table's text is several times as large as the table.
+/// Passes the same text to `take` in pieces, because the text is several times larger than the table.
 void csvPieces(const std::vector<std::string>& names, const std::vector<std::vector<double>>& columns, NanAs nan,
                const std::function<void(const std::string&)>& take);
 

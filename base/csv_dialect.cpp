@@ -10,7 +10,7 @@
 namespace ursula {
 namespace {
 
-/// Of rows, and of lines with all that stands between them.
+/// Limits of the guess: rows, and lines including comments and blanks.
 constexpr std::size_t rows_looked_at = 20, lines_looked_at = 10'000;
 
 bool isComment(std::string_view line) {
@@ -24,7 +24,7 @@ std::string_view withoutMark(std::string_view line) {
   return trimmedCell(line);
 }
 
-/// Digits, signs, points, commas and exponents alone, "nan" and "inf".
+/// Whether a cell holds only digits, signs, points, commas and exponents, or "nan" or "inf".
 bool looksNumeric(std::string_view cell) {
   if (cell == "nan" || cell == "inf" || cell == "-inf" || cell == "NaN") return true;
   return cell.find_first_of("0123456789") != std::string_view::npos &&
@@ -38,14 +38,15 @@ char separatorOf(std::string_view line) {
   return ' ';
 }
 
-/// Of a row of numbers: a comma that stands between blanks' cells, or beside another separator, is not one.
+/// The separator of a row of numbers. A comma does not separate next to another separator or inside blank-separated
+/// cells.
 char separatorOfNumbers(std::string_view line) {
   for (char separator : {'\t', ';'})
     if (line.find(separator) != std::string_view::npos) return separator;
   if (line.find(',') == std::string_view::npos) return ' ';
   const std::vector<std::string_view> cells = splitCells(line, ',');
   const bool whole = std::none_of(cells.begin(), cells.end(), [](std::string_view cell) {
-    return cell.find_first_of(" \t") != std::string_view::npos;  // "0,5 1,2": the blank separates
+    return cell.find_first_of(" \t") != std::string_view::npos;  // in "0,5 1,2" the blank separates
   });
   return whole ? ',' : ' ';
 }
@@ -84,7 +85,7 @@ Head headOf(const std::vector<std::string_view>& lines) {
   return head;
 }
 
-/// Whether commas inside of numbers are decimal ones; throws where they may as well mark thousands.
+/// Whether commas in numbers are decimal commas; throws if they may also mark thousands.
 bool hasDecimalCommas(const Head& head, char separator, const std::filesystem::path& file) {
   std::string_view either;
   bool certain = false;
@@ -97,7 +98,8 @@ bool hasDecimalCommas(const Head& head, char separator, const std::filesystem::p
       either = cell;
       const auto first = cell.find_first_of("0123456789");
       const auto end = std::min(cell.find_first_of("eE"), cell.size());
-      certain = certain || end - comma != 4 || cell[first] == '0';  // thousands come in threes and never begin with 0
+      certain = certain || end - comma != 4 ||
+                cell[first] == '0';  // thousands come in groups of three and never begin with 0
     }
   if (!either.empty() && !certain)
     throw CsvError(fmt::format("{}:{}: error: '{}' may be {} or {}, expected decimal points", file.string(),
@@ -123,7 +125,7 @@ std::vector<std::string> namesOf(const Head& head, char separator) {
     return names;
   }
   for (std::string_view cell : splitCells(head.names, separator)) names.emplace_back(cell);
-  // A header after # may be separated otherwise than its numbers; R leaves out the name of its row numbers.
+  // A header after # may use another separator than its numbers; R omits the name of its row numbers.
   if (names.size() != width && !head.rows.empty() && separatorOf(head.names) != separator) {
     std::vector<std::string> others;
     for (std::string_view cell : splitCells(head.names, separatorOf(head.names))) others.emplace_back(cell);

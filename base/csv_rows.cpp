@@ -31,7 +31,7 @@ namespace {
 
 void appendRowsBetween(std::size_t from, std::size_t to_row, const std::vector<std::vector<double>>& columns, NanAs nan,
                        std::string& out) {
-  constexpr std::size_t usual = 21;  // 17 digits, a sign, a point, "0." or the like, and a comma
+  constexpr std::size_t usual = 21;  // 17 digits, a sign, a point, "0." or similar, and a comma
   out.reserve(out.size() + (to_row - from) * columns.size() * usual + columns.size() * longest_number);
   for (std::size_t row = from; row < to_row; ++row) {
     const std::size_t before = out.size();

@@ -10,17 +10,17 @@
 
 namespace ursula {
 
-/// Thrown through work whose time is up. No std::exception, for of those an experiment makes a result of its own.
+/// Thrown when the time is up. It is no std::exception, because an experiment turns those into results.
 struct OutOfTime {
   std::string words;  ///< "the time limit of 600 s was reached", "it was asked to end"
 };
 
-/// When work that may take long has to end: after some seconds, or once somebody asks for it; never, where none is set.
-/// Cheap to copy and to ask.
+/// When long work has to end: after some seconds, once somebody asks for it, or never by default. Cheap to copy and to
+/// ask.
 class Deadline {
  public:
   Deadline() = default;
-  /// `seconds` from now, 0: never; or once `asked_to_end`, which is asked again and again, says so from then on.
+  /// The work ends `seconds` from now (0: never), or as soon as `asked_to_end` returns true; it is polled.
   explicit Deadline(double seconds, std::function<bool()> asked_to_end = nullptr) : seconds_(seconds) {
     if (seconds <= 0 && !asked_to_end) return;
     const std::chrono::duration<double> left(seconds > 0 ? std::min(seconds, longest) : longest);
@@ -33,11 +33,11 @@ class Deadline {
   bool isOver() const {
     return shared_ && !shared_->lifted && (Clock::now() >= end_ || (shared_->asked_to_end && shared_->asked_to_end()));
   }
-  /// For all copies: what is left is short, and is to be done.
+  /// Removes the deadline from all copies: the remaining work is short and must be done.
   void lift() const {
     if (shared_) shared_->lifted = true;
   }
-  /// Throws OutOfTime where it is over.
+  /// Throws OutOfTime if the time is over.
   void require() const {
     if (isOver()) throw OutOfTime{words()};
   }

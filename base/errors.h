@@ -6,7 +6,7 @@
 namespace ursula {
 
 /// A parameter that no machine or motion can have. `place` is the dotted key of the scenario
-/// (`manipulator.leg[2].proximal.mass`, legs 1-based), `bound` says what was expected.
+/// (`manipulator.leg[2].proximal.mass`, legs 1-based); `bound` says what was expected.
 class InvalidParameter : public std::invalid_argument {
  public:
   InvalidParameter(std::string place, std::string value, std::string bound)

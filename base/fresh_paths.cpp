@@ -16,7 +16,7 @@ FreshPaths::FreshPaths()
 void FreshPaths::makeFolder(const std::filesystem::path& folder) {
   if (folder.empty() || std::filesystem::is_directory(folder)) return;
   makeFolder(folder.parent_path());
-  const EndingHeld held;  // until it is known what a signal has to take away
+  const EndingHeld held;  // until it is known what a signal has to remove
   if (std::filesystem::create_directory(folder)) made_.push_back(folder);
 }
 
@@ -44,7 +44,7 @@ void FreshPaths::remove() {
   made_.clear();
 }
 
-/// May be called within a signal's handler; needs no descriptor, and no look into a folder that a umask forbids.
+/// A signal handler may call this. It needs no descriptor and no permission to read the folder.
 void FreshPaths::unlinkAll() const {
   for (auto made = made_.rbegin(); made != made_.rend(); ++made)
     if (::unlink(made->c_str()) != 0) ::rmdir(made->c_str());

@@ -9,8 +9,8 @@
 
 namespace ursula {
 
-/// Files and folders that are made for something that may come to nothing: they go again, a folder where it is empty,
-/// with this, or with a signal that ends the process, unless they are kept.
+/// New files and folders of work that may fail. The destructor, or a signal that ends the process, removes them unless
+/// they are kept. Folders are removed only when empty.
 class FreshPaths {
  public:
   FreshPaths();
@@ -19,9 +19,9 @@ class FreshPaths {
   FreshPaths(const FreshPaths&) = delete;
   FreshPaths& operator=(const FreshPaths&) = delete;
 
-  /// Makes `folder` and those above it that are missing. Throws std::filesystem::filesystem_error.
+  /// Makes `folder` and its missing parents. Throws std::filesystem::filesystem_error.
   void makeFolder(const std::filesystem::path& folder);
-  /// A new file, open to be written; −1 where there is one or the system refuses, errno says why.
+  /// Opens a new file for writing. Returns −1 and sets errno if it exists or the system refuses.
   int makeFile(const std::filesystem::path& file);
   void add(const std::filesystem::path& path);
   void keep();
@@ -30,26 +30,26 @@ class FreshPaths {
  private:
   void unlinkAll() const;
 
-  std::vector<std::filesystem::path> made_;  ///< the outermost first
+  std::vector<std::filesystem::path> made_;  ///< outermost first
   AtEnding ending_;
 };
 
-/// `.ursula-KIND-PROCESS-N` in `folder`: a short name, so that none is too long for what it is to become. Unique among
-/// processes by the process id, and among threads of this one by a count.
+/// `.ursula-KIND-PROCESS-N` in `folder`. The name is short, so it never exceeds the system's limit. The process id and
+/// a count of this process make it unique.
 std::filesystem::path temporaryIn(const std::filesystem::path& folder, const std::string& kind);
 
-/// Takes a lock of an open file, which ends with the last descriptor of this opening: that of a process that is dead is
-/// free. `free` where the lock was taken, `taken` where another holds it, `unknown` where the file system has none.
+/// Takes a lock on an open file; it ends with the last descriptor of this opening, so a dead process holds none.
+/// Returns `free` if the lock was taken, `taken` if another holds it, `unknown` if the file system has no locks.
 enum class Lock { free, taken, unknown };
 Lock tryLock(int descriptor);
 
-/// Whether `name` still is what `descriptor` has open.
+/// Whether `name` still is the file that `descriptor` has open.
 bool isStill(int descriptor, const std::filesystem::path& name);
 
-/// All of `content` to an open file; false where the system refuses, errno says why.
+/// Writes all of `content` to an open file. Returns false and sets errno if the system refuses.
 bool writeAll(int descriptor, std::string_view content);
 
-/// What was made, replaced or removed in it is so after a loss of power, too. Best effort: not every file system can.
+/// Makes changes in a folder survive a loss of power. Best effort: not every file system can.
 void syncFolder(const std::filesystem::path& folder);
 
 }  // namespace ursula

@@ -5,14 +5,14 @@
 
 namespace ursula {
 
-/// What a text begins with.
+/// The number at the start of a text.
 struct LeadingNumber {
   double value = 0;
-  std::size_t length = 0;  ///< 0 where it begins with no number, or with one that no double holds
+  std::size_t length = 0;  ///< 0 if the text begins with no number or with one outside a double's range
 };
 
-/// Digits are as in C whatever the process's locale is: somebody's program may have set one with decimal commas. A
-/// leading plus is read, white space is not.
+/// Reads digits as in C whatever the process's locale is, because a host program may set one with decimal commas. A
+/// leading plus is accepted, white space is not.
 LeadingNumber leadingNumber(std::string_view text);
 
 }  // namespace ursula

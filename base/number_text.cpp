@@ -20,7 +20,7 @@ char* byLibrary(double value, char* to) { return fmt::format_to(to, "{:.17g}", v
 
 __extension__ using Wide = unsigned __int128;
 
-/// 5^27 is the last in 64 bits.
+/// 5^27 is the last power of five that 64 bits hold.
 constexpr std::array<std::uint64_t, 28> powersOfFive() {
   std::array<std::uint64_t, 28> out{};
   out[0] = 1;
@@ -28,7 +28,7 @@ constexpr std::array<std::uint64_t, 28> powersOfFive() {
   return out;
 }
 
-/// m 2^e 10^k to the nearest integer, ties to even; k from 0 to 27. Exact, for m 5^k has fewer than 128 bits.
+/// m 2^e 10^k rounded to the nearest integer, ties to even; k from 0 to 27. Exact, since m 5^k has fewer than 128 bits.
 std::uint64_t scaled(std::uint64_t m, int e, int k) {
   static constexpr std::array<std::uint64_t, 28> five = powersOfFive();
   const Wide product = static_cast<Wide>(m) * five[static_cast<std::size_t>(k)];
@@ -39,7 +39,7 @@ std::uint64_t scaled(std::uint64_t m, int e, int k) {
   return floor + (rest > half || (rest == half && (floor & 1) != 0) ? 1 : 0);
 }
 
-/// A number below 10⁸ as eight letters, the first in the lowest byte: halves, quarters and single digits at once.
+/// A number below 10⁸ as eight characters, the first in the lowest byte. It is split into halves, quarters and digits.
 std::uint64_t eightDigits(std::uint64_t number) {
   constexpr std::uint64_t zeros = 0x3030303030303030;
   const std::uint64_t fours = number / 10000 | (number % 10000) << 32;
@@ -49,9 +49,9 @@ std::uint64_t eightDigits(std::uint64_t number) {
   return zeros | tens | (pairs - 10 * tens) << 8;
 }
 
-/// 17 digits as letters; all that is done with them is done in registers.
+/// 17 digits as characters, held in registers.
 struct Digits {
-  std::uint64_t first, next, last;  ///< one letter, eight and eight
+  std::uint64_t first, next, last;  ///< one character, eight and eight
 
   explicit Digits(std::uint64_t number) {
     constexpr std::uint64_t eight = 100'000'000;
@@ -61,7 +61,7 @@ struct Digits {
     last = eightDigits(number % eight);
   }
 
-  /// Without zeros at the end.
+  /// The number of digits without trailing zeros.
   int count() const {
     constexpr std::uint64_t no_letter = 0x0f0f0f0f0f0f0f0f;
     const auto zeros = [](std::uint64_t digits) { return __builtin_clzll(digits) / 8; };
@@ -69,7 +69,7 @@ struct Digits {
     return (next & no_letter) != 0 ? 9 - zeros(next & no_letter) : 1;
   }
 
-  /// All but the first.
+  /// Writes all but the first.
   void putRest(char* to) const {
     put(next, to);
     put(last, to + 8);
@@ -81,7 +81,7 @@ struct Digits {
   static void put(std::uint64_t letters, char* to) { std::memcpy(to, &letters, sizeof(letters)); }
 };
 
-/// With the point behind `whole` digits.
+/// Writes the digits with the point behind the first `whole`.
 char* withPoint(const Digits& digits, int whole, int count, char* to) {
   if (count <= whole) {
     digits.putAll(to);
@@ -101,7 +101,7 @@ char* withPoint(const Digits& digits, int whole, int count, char* to) {
   return to + count + 1;
 }
 
-/// d.ddd × 10^exponent, as "%g" writes it: without zeros at the end; with an exponent below 1e-4.
+/// Writes d.ddd × 10^exponent like "%g": no trailing zeros, and an exponent below 1e-4.
 char* laidOut(const Digits& digits, int exponent, char* to) {
   const int count = digits.count();
   if (exponent >= 0) return withPoint(digits, exponent + 1, count, to);
@@ -122,11 +122,11 @@ char* laidOut(const Digits& digits, int exponent, char* to) {
   return to + 4;
 }
 
-/// `bits` are those of the number's size, `binary` is its exponent, from −36 to 55.
+/// `bits` are those of the absolute value; `binary` is its exponent, from −36 to 55.
 char* bySeventeenDigits(std::uint64_t bits, int binary, char* to) {
   constexpr std::uint64_t hidden = std::uint64_t{1} << 52, too_large = 100'000'000'000'000'000;
   const std::uint64_t m = (bits & (hidden - 1)) | hidden;
-  int exponent = (binary * 78913) >> 18;  // ⌊binary log10 2⌋: that of the number, or one less
+  int exponent = (binary * 78913) >> 18;  // ⌊binary log10 2⌋: the number's exponent, or one less
   std::uint64_t number = scaled(m, binary - 52, digits_in_all - 1 - exponent);
   if (number >= too_large) {
     ++exponent;

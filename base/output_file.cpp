@@ -26,28 +26,28 @@ bool isLink(const fs::path& file) {
   return fs::is_symlink(fs::symlink_status(file, ignored));
 }
 
-/// What a process has open: the link leads to what may have no name, or another's.
+/// Whether the link leads to an open file, which may have no name or another's.
 bool isOpenElsewhere(const fs::path& link) {
   std::error_code error;
   const fs::path folder = fs::canonical(link.parent_path(), error);
   return !error && folder.string().compare(0, 6, "/proc/") == 0;
 }
 
-/// A device, a pipe, what a process has open: a file in its place would take it from all who use it.
+/// Whether it is a device, a pipe or an open file: replacing it would take it from its users.
 bool isWrittenThrough(const fs::path& end) {
   std::error_code ignored;
   const fs::file_status status = fs::status(end, ignored);
   return isLink(end) || (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status));
 }
 
-/// Some systems keep these without permission to write, for root, who needs none.
+/// Some systems write-protect these folders, but root can write there all the same.
 bool isRootsOwn(const fs::path& folder) {
   const char* home = std::getenv("HOME");
   return ::geteuid() == 0 && (folder == "/" || (home != nullptr && folder == home));
 }
 
-/// Removes files whose process, which held a lock on them, is gone. What is locked here nobody else removes, so that
-/// between look and removal the name cannot come to mean another.
+/// Removes files whose process is gone and thus holds no lock. Nobody else removes a file locked here, so its name
+/// cannot change its meaning before the removal.
 void sweepTemporaries(const fs::path& folder) {
   const std::string prefix = std::string(".ursula-") + kind + "-";
   std::error_code error;
@@ -61,8 +61,8 @@ void sweepTemporaries(const fs::path& folder) {
   }
 }
 
-/// The new file gets mode and owner of the one that it replaces. Where the owner cannot be kept, neither are the mode's
-/// bits that are his.
+/// Gives the new file the mode and owner of the one that it replaces. Without the owner, it also drops the mode's
+/// set-id bits.
 void keepModeAndOwner(int descriptor, const fs::path& replaced) {
   struct stat old {};
   if (::stat(replaced.c_str(), &old) != 0) return;
@@ -74,7 +74,7 @@ void keepModeAndOwner(int descriptor, const fs::path& replaced) {
 
 OutputFile::OutputFile(fs::path file) : file_(std::move(file)), end_(endOfLinks(file_)) {
   if (isWrittenThrough(end_)) {
-    // What a process has open may be a file with something in it.
+    // An open file may already have content.
     descriptor_ = ::open(end_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
   } else {
     requireWritable(file_);
@@ -85,7 +85,7 @@ OutputFile::OutputFile(fs::path file) : file_(std::move(file)), end_(endOfLinks(
   if (descriptor_ < 0) refuseToWrite(file_, std::strerror(errno));
 }
 
-/// Until it is locked, another process may take it for one of the dead's.
+/// Retries, because another process may remove the file as abandoned before it is locked.
 void OutputFile::openTemporary() {
   for (;;) {
     temporary_ = temporaryIn(folderOf(end_), kind);
@@ -97,7 +97,7 @@ void OutputFile::openTemporary() {
 }
 
 OutputFile::~OutputFile() {
-  fresh_.remove();  // while it is locked
+  fresh_.remove();  // before the lock is released
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
@@ -114,7 +114,7 @@ void OutputFile::commit() {
     fresh_.keep();
     syncFolder(folderOf(end_));
   }
-  // What has its name is on the disk: nothing that closing says can take that back.
+  // A renamed file is on the disk already, so an error from close cannot matter.
   if (::close(std::exchange(descriptor_, -1)) != 0 && in_place) refuseToWrite(file_, std::strerror(errno));
 }
 
@@ -129,7 +129,7 @@ void refuseToWrite(const fs::path& file, const std::string& why) {
 }
 
 fs::path endOfLinks(fs::path file) {
-  constexpr int most_links = 40;  // as Linux has it
+  constexpr int most_links = 40;  // as in Linux
   for (int links = 0; links < most_links; ++links) {
     if (!isLink(file) || isOpenElsewhere(file)) return file;
     file = file.parent_path() / fs::read_symlink(file);
@@ -153,7 +153,7 @@ void requireWritable(const fs::path& file) {
   if (::faccessat(AT_FDCWD, end.c_str(), W_OK, AT_EACCESS) != 0) refuseToWrite(file, std::strerror(errno));
 }
 
-/// Throws where the folder can neither be written into nor be made in the last of its parents that is there.
+/// Throws unless the folder, or its nearest existing parent, can be written into.
 void requireWritableFolder(const fs::path& folder, const fs::path& shown) {
   fs::path there = endOfLinks(folder);
   for (const fs::path& name : there)

@@ -34,7 +34,7 @@ fs::path withoutLinks(const fs::path& folder) {
   return path.has_filename() ? path : path.parent_path();
 }
 
-/// Such a folder cannot be renamed, or what is mounted goes along; to remove it empties the other file system.
+/// A rename of such a folder would move the mount; its removal would empty the other file system.
 bool isMountPoint(const fs::path& path) {
   struct statx own {};
   struct statx above {};
@@ -44,7 +44,7 @@ bool isMountPoint(const fs::path& path) {
          own.stx_dev_minor != above.stx_dev_minor;
 }
 
-/// Relative to `top`; folders come before what is in them, and links to folders are no folders.
+/// Lists all paths relative to `top`, folders before their content. Links to folders count as files.
 std::vector<fs::path> allIn(const fs::path& top, const fs::path& below = "") {
   std::vector<fs::path> all;
   for (const fs::directory_entry& entry : fs::directory_iterator(top / below)) {
@@ -59,7 +59,7 @@ std::vector<fs::path> allIn(const fs::path& top, const fs::path& below = "") {
   return all;
 }
 
-/// The folder gets the model's mode and, where the system lets it, its owner.
+/// Gives the folder the model's mode and, if the system permits, its owner.
 void becomeLike(const fs::path& folder, const fs::path& model) {
   struct stat found {};
   if (::stat(model.c_str(), &found) != 0) return;
@@ -74,14 +74,14 @@ void makeLike(const fs::path& folder, const fs::path& model) {
   becomeLike(folder, model);
 }
 
-/// False of the same file, linked or copied.
+/// False if both are the same file, linked or copied.
 bool isNewer(const fs::path& a, const fs::path& b) {
   std::error_code ignored;
   return fs::last_write_time(a, ignored) > fs::last_write_time(b, ignored);
 }
 
-/// What is not `ours` of the folder `old` comes into `fresh`: linked, so that it is in both, or copied where the file
-/// system has no links; or moved where it is not in both, or was changed since. Throws what the file system throws.
+/// Carries what is not `ours` from `old` into `fresh`. It links it, or copies it if the file system has no links.
+/// Otherwise it moves what `fresh` lacks or what changed since. Throws what the file system throws.
 void carry(const fs::path& old, const fs::path& fresh, const Paths& ours, Carry how) {
   for (const fs::path& name : allIn(old)) {
     const fs::path from = old / name, to = fresh / name;
@@ -122,12 +122,12 @@ OutputFolder::OutputFolder(fs::path folder, OlderFiles older)
 OutputFolder::~OutputFolder() {
   const EndingHeld held;
   std::error_code ignored;
-  if (!temporary_.empty()) fs::remove_all(temporary_, ignored);  // what was carried over
-  fresh_.remove();                                               // with the lock's file, while it is locked
+  if (!temporary_.empty()) fs::remove_all(temporary_, ignored);  // with what was carried over
+  fresh_.remove();                                               // and the lock file while it is locked
   if (lock_ >= 0) ::close(lock_);
 }
 
-/// Before anything is computed. Whoever works in a folder that is swapped is left in one that is gone.
+/// Runs before anything is computed. A process that works in a swapped folder would be left in a removed one.
 void OutputFolder::requireSwappable() const {
   std::error_code error;
   const fs::path here = fs::current_path(error), below = shown_ / "results";
@@ -142,12 +142,12 @@ void OutputFolder::requireSwappable() const {
   }
 }
 
-/// A name that no other folder beside this one gets; its length does not depend on the folder's name.
+/// A name unique among the folders in `above_`; its length is fixed.
 std::string OutputFolder::own(const std::string& kind) const {
   return kind + "-" + sha1(folder_.filename().string()).substr(0, 12);
 }
 
-/// Waits some seconds for another to end.
+/// Waits some seconds for another writer to end.
 void OutputFolder::lock() {
   constexpr std::chrono::seconds patience{2};
   constexpr std::chrono::milliseconds between_tries{20};
@@ -166,14 +166,14 @@ void OutputFolder::lock() {
   static_cast<void>(::ftruncate(lock_, 0) == 0 && writeAll(lock_, process));  // only for the message above
 }
 
-/// The one before removes the file while it still holds it, and the folders that it had made: what was opened may have
-/// no name any more.
+/// The previous holder removes the file and its new folders while it holds the lock. So the opened file may have lost
+/// its name.
 bool OutputFolder::tryToLock() {
   constexpr mode_t as_the_user_says = 0666;
   fresh_.makeFolder(above_);
-  const EndingHeld held;  // until it is known that the file is to go
+  const EndingHeld held;  // until it is known that the file must be removed
   lock_ = ::open(lock_file_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, as_the_user_says);
-  if (lock_ < 0 && errno == EACCES)  // left by another user's run: to be locked it need not be written
+  if (lock_ < 0 && errno == EACCES)  // another user's run left it: locking needs no write permission
     lock_ = ::open(lock_file_.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
   if (lock_ < 0 && errno == ENOENT) return false;
   if (lock_ < 0) refuseToWrite(shown_, lock_file_.string() + ": " + std::strerror(errno));
@@ -187,8 +187,8 @@ bool OutputFolder::tryToLock() {
   return false;
 }
 
-/// What dead processes left. Of a swap that was cut off either folder is whole: one takes the place where there is
-/// none, and what came into the other last is brought after.
+/// Removes what dead processes left. Both folders of an interrupted swap are complete. One takes the place if it is
+/// empty; the files written last are carried over.
 void OutputFolder::sweep() const {
   std::vector<fs::path> left;
   std::error_code error;
@@ -209,7 +209,7 @@ void OutputFolder::sweep() const {
       } else if (isOf(path, unfinished)) {
         fs::remove_all(path);
       }
-    } catch (const std::runtime_error&) {  // another user's: it stays, and is in nobody's way
+    } catch (const std::runtime_error&) {  // another user's: it stays and harms nobody
     }
 }
 
@@ -242,7 +242,7 @@ void OutputFolder::write(const fs::path& name, const std::function<void(const Ta
 }
 
 void OutputFolder::commit() {
-  const EndingHeld held;  // who ends it meanwhile, ends it with the results there
+  const EndingHeld held;  // a signal meanwhile ends the process after the results are there
   const std::lock_guard<std::mutex> lock(mutex_);
   try {
     if (isFolder(folder_)) {
@@ -261,7 +261,7 @@ void OutputFolder::commit() {
   ::close(std::exchange(lock_, -1));
 }
 
-/// Its name says that it is whole before it is swapped: a swap that is cut off leaves two whole folders.
+/// Marks the folder as complete by its name first, so an interrupted swap leaves two complete folders.
 void OutputFolder::swap() {
   Paths ours = olderIn(folder_);
   ours.insert(written_.begin(), written_.end());
@@ -284,7 +284,7 @@ void OutputFolder::swap() {
   try {
     carry(old, folder_, ours, Carry::moved);
     fs::remove_all(old);
-  } catch (const std::runtime_error&) {  // the results are there; the next run goes on with what is left
+  } catch (const std::runtime_error&) {  // the results are there; the next run removes the rest
   }
 }
 

@@ -15,8 +15,8 @@ struct CurvePoint {
   Vector value = Vector::Zero(), rate = Vector::Zero(), acceleration = Vector::Zero();
 };
 
-/// The curve in R^D, a quintic between every two knots, that has the knots' values and first two derivatives; so it is
-/// twice continuously differentiable. Beyond its ends the outermost quintics go on. Knots: at least two, in order.
+/// The piecewise quintic curve in R^D with the knots' values and first two derivatives; it is twice continuously
+/// differentiable. The outermost quintics extend beyond its ends. It needs at least two knots, in order.
 template <class S, int D>
 class QuinticHermite {
  public:
@@ -33,7 +33,7 @@ class QuinticHermite {
       pieces_.push_back({S(piece.start), S(piece.duration), piece.coefficients.template cast<S>()});
   }
 
-  /// The curve's values under a linear map, its time divided by `time_unit`.
+  /// The curve under a linear map of its values, with time divided by `time_unit`.
   QuinticHermite mapped(const Eigen::Matrix<S, D, D>& map, const S& time_unit) const {
     QuinticHermite out(*this);
     for (Piece& piece : out.pieces_) {
@@ -44,14 +44,14 @@ class QuinticHermite {
     return out;
   }
 
-  /// The same curve with `offset` taken off every value.
+  /// The same curve with `offset` subtracted from every value.
   QuinticHermite shifted(const Vector& offset) const {
     QuinticHermite out(*this);
     for (Piece& piece : out.pieces_) piece.coefficients.col(0) -= offset;
     return out;
   }
 
-  /// By powers of s = (t − start) / duration, not by control points: with those the second derivative would be a small
+  /// Evaluates powers of s = (t − start) / duration. With control points the second derivative would be a small
   /// difference of large numbers. Does not allocate.
   CurvePoint<S, D> at(const S& t) const {
     const auto after = std::upper_bound(pieces_.begin() + 1, pieces_.end(), t,

@@ -7,17 +7,17 @@
 
 namespace ursula {
 
-/// Fills in the first two derivatives at all inner knots such that the curve through `knots` (times, values, and the
-/// derivatives at both ends given) is four times continuously differentiable.
+/// Sets the first two derivatives at all inner knots so that the curve is four times continuously differentiable.
+/// Times, values and the derivatives at both ends are given.
 ///
-/// With h₀, h₁ the durations left and right of a knot, Δ₀, Δ₁ the rises, and the third and fourth derivative of the
-/// quintic Hermite pieces, continuity reads
+/// With h₀, h₁ the durations left and right of a knot and Δ₀, Δ₁ the rises, continuity of the third and fourth
+/// derivatives of the quintic Hermite pieces reads
 ///   S⁗: 168/h₀³ v₋ + 24/h₀² a₋ + 192 (1/h₀³ + 1/h₁³) v + 36 (1/h₁² − 1/h₀²) a + 168/h₁³ v₊ − 24/h₁² a₊
 ///          = 360 (Δ₀/h₀⁴ + Δ₁/h₁⁴)                                                                              (a)
 ///   S‴: −24/h₀² v₋ − 3/h₀ a₋ + 36 (1/h₁² − 1/h₀²) v + 9 (1/h₀ + 1/h₁) a + 24/h₁² v₊ − 3/h₁ a₊
 ///          = 60 (Δ₁/h₁³ − Δ₀/h₀³)                                                                               (b)
-/// This is half the gradient of ∫ ‖S‴‖² dt by (v, a): the system is symmetric positive definite, so elimination block
-/// by block needs no pivoting between blocks.
+/// This is half the gradient of ∫ ‖S‴‖² dt by (v, a). The system is therefore symmetric positive definite, and block
+/// elimination needs no pivoting between blocks.
 template <class S, int D>
 void solveQuinticSpline(std::vector<CurvePoint<S, D>>& knots) {
   using Block = Eigen::Matrix<S, 2, 2>;

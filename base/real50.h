@@ -6,7 +6,7 @@
 
 namespace ursula {
 
-/// The 50-digit scalar of reference values: the same kernels in it separate rounding from modelling.
+/// The 50-digit scalar of reference values. The same kernels in this type separate rounding from modelling errors.
 using Real50 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
 
 }  // namespace ursula

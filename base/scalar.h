@@ -4,11 +4,11 @@
 
 namespace ursula {
 
-/// Legs of the paper's machine; the most that any machine has.
+/// The paper's machine has the most legs of all machines here.
 constexpr int leg_count = 6;
 constexpr int motor_count = 6;
-/// Two links a leg and the platform. Bodies are ordered as in (30a): proximal links, distal links, platform; the places
-/// of legs that a machine has not stay empty.
+/// Two links per leg and the platform, ordered as in (30a): proximal links, distal links, platform. The places of legs
+/// that a machine lacks stay empty.
 constexpr int body_count = 2 * leg_count + 1;
 
 template <class S>

@@ -4,8 +4,7 @@
 
 namespace ursula {
 
-/// One word for a shell, whatever is in it: quoted where it has to be, and never an option, as it is the name of a
-/// file.
+/// Returns a file name as one shell word: quoted if needed, and never an option.
 std::string shellWord(const std::string& file);
 
 }  // namespace ursula

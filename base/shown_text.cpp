@@ -5,7 +5,7 @@ namespace {
 
 bool continues(unsigned char byte) { return (byte & 0xC0) == 0x80; }
 
-/// The bytes of the character of UTF-8 that `text` begins with; 0 where there is none. By the standard's table 3-7.
+/// The length in bytes of the UTF-8 character at the start of `text`, or 0 if there is none; standard's table 3-7.
 std::size_t characterOf(std::string_view text) {
   const auto byte = [text](std::size_t k) { return static_cast<unsigned char>(text[k]); };
   const unsigned char first = byte(0);
@@ -23,8 +23,7 @@ std::size_t characterOf(std::string_view text) {
   return overlong || beyond ? 0 : size;
 }
 
-/// C0, C1 and DEL; U+200E, U+200F, U+2028 to U+202E and U+2066 to U+2069, which break a line or turn what follows
-/// round.
+/// C0, C1, DEL, and the line breaks and direction marks U+200E, U+200F, U+2028 to U+202E and U+2066 to U+2069.
 bool isControl(std::string_view character) {
   const auto byte = [character](std::size_t k) { return static_cast<unsigned char>(character[k]); };
   if (byte(0) < 0x20 || byte(0) == 0x7F || (byte(0) == 0xC2 && byte(1) < 0xA0)) return true;

@@ -6,14 +6,14 @@
 
 namespace ursula {
 
-/// Text of somebody else's for a message: control signs and what is no UTF-8 as \x1b, whole lines kept. What a terminal
-/// would obey it cannot hold.
+/// Makes foreign text safe for a message and a terminal. Control characters and invalid UTF-8 become \x1b and the like;
+/// lines stay.
 std::string withoutControls(std::string_view text);
 
-/// The same for one cell or name: newlines escaped, too, and cut behind `most` bytes, which "…" says.
+/// The same for one cell or name: newlines are escaped, too. Text beyond `most` bytes is cut and marked by "…".
 std::string shown(std::string_view text, std::size_t most = 80);
 
-/// A whole path, as long as any can be: a newline in it makes no line of its own.
+/// Returns a whole path of any length; a newline in it is escaped.
 std::string shownPath(std::string_view path);
 
 }  // namespace ursula

@@ -13,7 +13,7 @@
 
 namespace ursula {
 
-/// Up to `count` threads that do `work`; fewer where the system gives no more.
+/// Starts up to `count` threads that do `work`; fewer if the system gives no more.
 template <class Work>
 std::vector<std::thread> startThreads(std::size_t count, const Work& work) {
   std::vector<std::thread> threads;
@@ -21,15 +21,15 @@ std::vector<std::thread> startThreads(std::size_t count, const Work& work) {
   try {
     while (threads.size() < count) threads.emplace_back(work);
   } catch (const std::system_error&) {
-    // Whoever asked does the rest himself.
+    // The caller does the rest itself.
   } catch (const std::bad_alloc&) {
-    // Likewise; and threads that run must not be forgotten.
+    // Likewise; threads that already run must still be joined.
   }
   return threads;
 }
 
-/// `task(k)` for k = 0 … count − 1 on `jobs` threads; the first exception is thrown again, and nothing begins after it.
-/// Not oneTBB's: these tasks take seconds, wait for each other's answers, and must go on with fewer threads.
+/// Does `task(k)` for k = 0 … count − 1 on `jobs` threads. Nothing begins after the first exception, which is rethrown.
+/// oneTBB does not fit: tasks take seconds, wait for each other, and must go on with fewer threads.
 template <class Task>
 void inParallel(int jobs, int count, const Task& task) {
   std::atomic<int> next{0};
@@ -51,7 +51,7 @@ void inParallel(int jobs, int count, const Task& task) {
   if (failure) std::rethrow_exception(failure);
 }
 
-/// How many of `count` threads the system gives at once: for libraries that end where it gives fewer.
+/// How many of `count` threads the system gives at once. Some libraries abort if it gives fewer.
 inline std::size_t threadsThatStart(std::size_t count) {
   std::promise<void> all;
   const std::shared_future<void> asked = all.get_future().share();

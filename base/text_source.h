@@ -7,7 +7,7 @@
 
 namespace ursula {
 
-/// Of text that cannot be taken as input: what is wrong, what was expected, and where; both from 1.
+/// Refuses a text as input: the message says what is wrong and what was expected. Line and column are 1-based.
 class TextRefusal : public std::runtime_error {
  public:
   explicit TextRefusal(const std::string& what, std::size_t in_line = 1, std::size_t in_column = 1)
@@ -16,20 +16,20 @@ class TextRefusal : public std::runtime_error {
   std::size_t line, column;
 };
 
-/// How much text a source may give, and what it is, for people.
+/// The largest size of a text and its kind, for messages.
 struct TextBounds {
   std::size_t most_bytes = 0;
   const char* kind = "";  ///< "a scenario in TOML"
 };
 
-/// All of a file, a pipe or a device, of which no more is read than is allowed. Throws TextRefusal where it is a folder
-/// or cannot be read, at its first zero byte, and where there is more.
+/// Reads a file, a pipe or a device up to the allowed size. Throws TextRefusal if it is a folder, unreadable or too
+/// long, and at its first zero byte.
 std::string readText(const std::filesystem::path& file, const TextBounds& bounds);
 
-/// The same of standard input.
+/// The same for standard input.
 std::string readStandardInput(const TextBounds& bounds);
 
-/// Throws TextRefusal for a path with a zero byte, which the system would cut off there, and for an empty one.
+/// Throws TextRefusal for an empty path and for one with a zero byte, where the system would cut it off.
 void requirePath(const std::string& path);
 
 }  // namespace ursula

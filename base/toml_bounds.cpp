@@ -9,7 +9,7 @@
 namespace ursula {
 namespace {
 
-/// One pass over a document, from sign to sign; what strings and comments hold is passed over as TOML does it.
+/// Scans a document character by character; it skips strings and comments as TOML does.
 class BoundsScan {
  public:
   explicit BoundsScan(std::string_view text) : text_(text) {}
@@ -77,13 +77,13 @@ class BoundsScan {
     ++at_;
   }
 
-  /// Of keys and values but for their dots and strings.
+  /// Characters of keys and values, except dots and strings.
   static bool isOfWord(char sign) {
     return (sign >= '0' && sign <= '9') || (sign >= 'a' && sign <= 'z') || (sign >= 'A' && sign <= 'Z') ||
            sign == '_' || sign == '-' || sign == '+';
   }
 
-  /// A number is a word with at most one dot behind a digit.
+  /// Skips a word. A number is a word with at most one dot behind a digit.
   void passWord() {
     const std::size_t begin = at_;
     while (at_ < text_.size() && isOfWord(text_[at_])) ++at_;
@@ -131,7 +131,7 @@ class BoundsScan {
   std::string_view text_;
   std::size_t at_ = 0, line_ = 1, line_start_ = 0;
   char last_sign_ =
-      '\0';  ///< in front of what comes, over blanks and comments; none where a word or a string came since
+      '\0';  ///< character before the current one, ignoring blanks and comments; none after a word or a string
   std::size_t brackets_ = 0, dots_ = 0, keys_ = 0, values_ = 0;
 };
 
