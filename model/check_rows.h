@@ -4,7 +4,7 @@
 
 namespace ursula {
 
-/// The catalogue in three files, in this order.
+/// The three parts of the catalogue, in this order.
 std::vector<CheckRow> checksOfInput();
 std::vector<CheckRow> checksOfTorques();
 std::vector<CheckRow> checksOfReplay();

@@ -5,13 +5,13 @@
 
 namespace ursula {
 
-/// Sizes that are added up on the way to a pose and that the pose does not show: a helix's angles, and their heights.
+/// Sizes of intermediate sums that a pose does not show, such as a helix's angles and their heights.
 struct HiddenTerms {
-  double angle = 6.2831853071795864769;  ///< rad; where nothing is known, a turn
+  double angle = 6.2831853071795864769;  ///< rad; one turn by default
   double length = 0;                     ///< m
 };
 
-/// A trajectory that knows its motion in 50 digits as well. Internal: who writes one of their own needs no Boost.
+/// A trajectory that gives its motion in 50 digits as well. Internal, so that users' trajectories need no Boost.
 class ExactTrajectory : public Trajectory {
  public:
   Motion<double> at(double t) const override = 0;

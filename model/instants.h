@@ -16,11 +16,11 @@ std::vector<double> equallySpaced(double duration, int count);
 /// The instants at which a higher derivative of motion or load jumps, in order.
 std::vector<double> allKnots(const Scenario& scenario);
 
-/// Up to so many are all stepped to; of more, those that follow another by less than a 4096th of the motion are passed
-/// over, and the order of the integration is lost there.
+/// A replay steps to each of up to this many knots. Of more, it skips those less than a 4096th of the motion after
+/// another; the integration loses its order there.
 constexpr std::size_t most_knots = 2048;
 
-/// Those within (start, end) that a replay steps to.
+/// Returns the knots within (start, end) that a replay steps to.
 std::vector<double> knotsWithin(const Scenario& scenario, double start, double end);
 
 }  // namespace ursula

@@ -7,7 +7,7 @@
 
 namespace ursula {
 
-/// φ, ψ, θ, d of the legs, or their rates or accelerations; entry i is leg i. Zero where a leg has no such coordinate.
+/// φ, ψ, θ, d of the legs, or their rates or accelerations; entry i is leg i. Coordinates that a leg lacks are zero.
 template <class S>
 struct JointVariables {
   Vector6<S> phi = Vector6<S>::Zero(), psi = phi, theta = phi, d = phi;
@@ -27,7 +27,7 @@ struct JointVariables {
   }
   const Vector6<S>& of(Coordinate coordinate) const { return const_cast<JointVariables&>(*this).of(coordinate); }
 
-  /// Those that the motors drive, in their order.
+  /// Returns the driven ones in the order of the motors.
   Vector6<S> driven(const Motors& motors) const {
     Vector6<S> out;
     for (int k = 0; k < motor_count; ++k) {
@@ -38,12 +38,12 @@ struct JointVariables {
   }
 };
 
-/// Norm of what leg i's coordinates differ by, displacements over `length`.
+/// Returns the norm of the difference between leg i's coordinates; displacements are divided by `length`.
 double jointDistance(const JointVariables<double>& a, const JointVariables<double>& b, int i, double length);
-/// The largest over the legs; NaN stays.
+/// Returns the largest over the legs; NaN is kept.
 double jointDistance(const JointVariables<double>& a, const JointVariables<double>& b, double length);
 
-/// Joint coordinates with rates and accelerations, rad, rad/s, rad/s²; of d m, m/s, m/s².
+/// Joint coordinates with rates and accelerations, in rad, rad/s, rad/s²; for d in m, m/s, m/s².
 struct JointMotion {
   JointVariables<double> q, q_dot, q_ddot;
 };

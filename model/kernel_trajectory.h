@@ -10,11 +10,11 @@
 
 namespace ursula {
 
-/// A trajectory from one kernel written once for any scalar: `Kernel<S>::at(const S& t) const -> Motion<S>`.
+/// A trajectory from one kernel for any scalar: `Kernel<S>::at(const S& t) const -> Motion<S>`.
 template <template <class> class Kernel>
 class KernelTrajectory final : public ExactTrajectory {
  public:
-  /// Makes the same motion with its positions from another origin.
+  /// Creates the same motion with positions relative to another origin.
   using Relocate = std::function<std::unique_ptr<Trajectory>(const Vector3d& origin)>;
 
   KernelTrajectory(std::string kind, double duration, Kernel<double> kernel, Kernel<Real50> kernel50, Relocate relocate,

@@ -4,7 +4,7 @@
 
 #include "model/scenario_keys.h"
 
-// What the lists of keys share.
+// Common parts of the lists of keys.
 
 namespace ursula {
 

@@ -4,34 +4,34 @@
 
 namespace ursula {
 
-/// Three joints from the base to a spherical one on the platform: universal–revolute, universal–prismatic,
+/// The three joints from the base to the platform's spherical joint: universal–revolute, universal–prismatic,
 /// revolute–universal, prismatic–universal.
 enum class LegKind { URS, UPS, RUS, PUS };
 constexpr std::size_t leg_kind_count = 4;
 
-/// What a joint of a leg may turn or slide by. φ, ψ, θ are angles, d is a length.
+/// The coordinates of a leg's joints; φ, ψ, θ are angles, d is a length.
 enum class Coordinate { phi, psi, theta, d };
 constexpr std::size_t coordinate_count = 4;
 
 constexpr bool slides(Coordinate coordinate) { return coordinate == Coordinate::d; }
-/// "phi", as files write it.
+/// The name in files: "phi".
 constexpr const char* nameOf(Coordinate coordinate) {
   constexpr std::array<const char*, coordinate_count> names = {"phi", "psi", "theta", "d"};
   return names[static_cast<std::size_t>(coordinate)];
 }
 
-/// What there is to know of a kind of leg without its geometry; model/legs/ has the rest. CONTRIBUTING.md says what
-/// another kind needs.
+/// The properties of a kind of leg that need no geometry; model/legs/ has the others. CONTRIBUTING.md explains how to
+/// add a kind.
 struct LegKindRow {
   const char* name;
   std::array<Coordinate, 3> coordinates;  ///< from the base to the tip
-  int joints_of_proximal;                 ///< how many of them come before the proximal link
-  std::size_t actuated;                   ///< which of them a motor drives if nothing is said
-  const char* knee;                       ///< what `knee` is the sign of, "sin theta"; null where there is one branch
+  int joints_of_proximal;                 ///< number of coordinates before the proximal link
+  std::size_t actuated;                   ///< index of the coordinate that a motor drives by default
+  const char* knee;  ///< the expression whose sign `knee` selects, "sin theta"; null if there is one branch
 
-  /// The proximal link is a carriage: it slides along the base axis, never turns, and has no length.
+  /// Whether the proximal link is a carriage: it slides along the base axis, never turns, and has no length.
   constexpr bool hasCarriage() const { return slides(coordinates[0]); }
-  /// The distal link is a rod that slides in the proximal one, a cylinder.
+  /// Whether the distal link is a rod that slides in the proximal one, a cylinder.
   constexpr bool isTelescopic() const { return slides(coordinates[2]); }
 };
 

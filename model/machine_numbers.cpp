@@ -8,7 +8,7 @@
 namespace ursula {
 namespace {
 
-/// Where to look: i of a vector, i and j of a tensor.
+/// Where a number is: i in a vector, i and j in a tensor.
 struct Place {
   ManipulatorParameters& machine;
   Leg& leg;
@@ -85,7 +85,7 @@ void add(Numbers& out, const std::vector<Quantity>& quantities, int leg, const s
     }
 }
 
-/// The mass centre by three numbers where it is off the link's line.
+/// Adds the mass centre as three numbers if it is off the link's line.
 void addCenter(Numbers& out, int leg, const std::string& body, const Link& link) {
   if (link.off_line.isZero(0)) return add(out, {Quantity::center}, leg, body);
   add(out, {Quantity::center_across}, leg, body);
@@ -125,7 +125,7 @@ void addFriction(Numbers& out, int leg, LegKind kind) {
 }  // namespace
 
 double MachineNumber::get(const ManipulatorParameters& machine) const {
-  return at(const_cast<ManipulatorParameters&>(machine), *this, entry);  // read alone
+  return at(const_cast<ManipulatorParameters&>(machine), *this, entry);  // it is only read
 }
 
 void MachineNumber::set(ManipulatorParameters& machine, double value) const {

@@ -27,32 +27,32 @@ enum class Quantity {
   center_across
 };
 
-/// A number of the machine. Whatever names one has the name from here.
+/// One number of the machine; everything that names it uses this name.
 struct MachineNumber {
   Quantity quantity;
-  int leg = -1;       ///< 0-based; −1 of gravity and the platform
-  std::string body;   ///< "platform", "proximal" or "distal"; empty where it is no body's
-  int entry = 0;      ///< of a vector; of a tensor's xx, yy, zz, xy, xz, yz; of the leg's coordinates for friction
-  int entries = 1;    ///< of what it is an entry of: 3 of a vector, 6 of a tensor
-  std::string path;   ///< as in a scenario and as the key of a sweep: "manipulator.leg.2.distal.inertia.3"
+  int leg = -1;      ///< 0-based; −1 for gravity and the platform
+  std::string body;  ///< "platform", "proximal" or "distal"; empty if it belongs to no body
+  int entry = 0;     ///< index in a vector; in a tensor's xx, yy, zz, xy, xz, yz; in the leg's coordinates for friction
+  int entries = 1;   ///< number of entries: 3 for a vector, 6 for a tensor
+  std::string path;  ///< as in a scenario and as a sweep's key: "manipulator.leg.2.distal.inertia.3"
   std::string group;  ///< "gravity", "mass", "center", "inertia", "length", "point", "axis", "friction" or "rotor"
-  std::string words;  ///< "inertia xy"; whose it is they do not say
+  std::string words;  ///< "inertia xy", without its owner
   std::string unit;   ///< "kg m^2"
 
   double get(const ManipulatorParameters& machine) const;
-  /// An inertia's xy is yx as well.
+  /// Sets both xy and yx of an inertia.
   void set(ManipulatorParameters& machine, double value) const;
-  /// Norm of the vector that it is an entry of, largest entry of the tensor, or its own.
+  /// The norm of its vector, the largest entry of its tensor, or its own absolute value.
   double size(const ManipulatorParameters& machine) const;
 };
 
-/// All that efforts can depend on: 13 of gravity and platform, then those of each leg. Left out are the length of a
-/// cylinder, which says where its stroke ends, and of a carriage all but its mass. The one `smoothing_speed` of a
-/// scenario is two numbers: `sliding_speed` is that of d. Rotors' inertia and mass centres off a link's line are
-/// numbers of a machine that has them; the line is then the third entry of the mass centre.
+/// Returns all numbers that efforts can depend on: 13 of gravity and platform, then those of each leg. A cylinder's
+/// length, which limits its stroke, is omitted; so is everything of a carriage except its mass. A scenario's
+/// `smoothing_speed` gives two numbers; `sliding_speed` is that of d. Rotor inertias and off-line mass centres appear
+/// only if the machine has them. The position along the line is then the mass centre's third entry.
 std::vector<MachineNumber> machineNumbers(const ManipulatorParameters& machine);
 
-/// Row and column of a tensor's entries, in the order in which a scenario gives them.
+/// Row and column of a tensor's entries, in the order of a scenario.
 inline constexpr int tensor_entries[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
 
 }  // namespace ursula

@@ -31,21 +31,21 @@ void requireNotNegative(const std::string& place, double value) {
   if (!(value >= 0)) throw InvalidParameter(place, fmt::format("{}", value), ">= 0");
 }
 
-/// Nothing about the axis `line`, so that it is principal, and something about those across it: a thin rod.
+/// Whether the tensor is that of a thin rod: zero about the principal axis `line` and positive about those across it.
 bool isRod(const Matrix3d& I, int line) {
   const int x = (line + 1) % 3, y = (line + 2) % 3;
   return I.col(line).isZero(0) && I(x, x) > 0 && I(y, y) > 0;
 }
 
-/// A mass distribution exists for a tensor exactly if its principal moments are positive and no one exceeds the sum of
-/// the other two (Wittenburg, Dynamics of Multibody Systems, 2nd ed., sect. 3.1); equality is a lamina. Of a rod along
-/// the axis `line`, if it is given, one moment may be zero.
+/// A tensor has a mass distribution exactly if its principal moments are positive and none exceeds the sum of the other
+/// two (Wittenburg, Dynamics of Multibody Systems, 2nd ed., sect. 3.1); equality means a lamina. A rod along the axis
+/// `line`, if given, may have one zero moment.
 void requireInertia(const std::string& place, const Matrix3d& inertia, int line = -1) {
   if (!inertia.allFinite()) throw InvalidParameter(place, "a non-finite entry", "finite numbers");
   if (!(inertia - inertia.transpose()).isZero(0)) throw InvalidParameter(place, "not symmetric", "a symmetric tensor");
   const Vector3d moments = Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
   const std::string value = "principal moments " + text(moments);
-  // The eigenvalues are known to a few eps of the largest.
+  // The eigenvalues are accurate to a few eps of the largest.
   const double rounding = 16 * Eigen::NumTraits<double>::epsilon() * moments.cwiseAbs().maxCoeff();
   if (!(moments(0) > 0) && !(line >= 0 && isRod(inertia, line)))
     throw InvalidParameter(
@@ -73,7 +73,7 @@ void requireFriction(const std::string& place, const JointFriction& friction) {
   }
 }
 
-/// A link that turns about its own line meets nothing there but its own moment, if nothing else depends on the turn.
+/// The spin of a link may be ignored only if the link is round and nothing else depends on the spin.
 void requireRound(const std::string& place, const Link& link) {
   const Matrix3d& I = link.inertia;
   const std::string tensor =
@@ -148,7 +148,7 @@ Motors motorsOf(const ManipulatorParameters& machine) {
   return out;
 }
 
-/// Two legs and the platform edge between them must span the base edge, and the other way round; whatever the pose.
+/// Two legs and the platform edge between them must span the base edge in any pose, and vice versa.
 void requireSpan(const ManipulatorParameters& machine, int i, int j) {
   const Leg& first = machine.legs[static_cast<std::size_t>(i)];
   const Leg& second = machine.legs[static_cast<std::size_t>(j)];

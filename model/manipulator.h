@@ -9,22 +9,22 @@
 
 namespace ursula {
 
-/// Which of the two bends of the knee: the sign of sin θ for URS, of sin ψ for RUS, of cos θ for PUS.
+/// Selects the branch of the knee: the sign of sin θ for URS, of sin ψ for RUS, of cos θ for PUS.
 enum class Knee { positive, negative };
 
 /// One link of a leg. The proximal link runs from A to R along e, the distal one from R to B along s (paper, Fig. 3).
-/// Of UPS they are cylinder and rod, both along e; of PUS the first is the carriage, along u.
+/// For UPS they are cylinder and rod, both along e; for PUS the first is the carriage, along u.
 struct Link {
   double length = 0;          ///< l or s, m
   double mass = 0;            ///< kg
   double center_of_mass = 0;  ///< ρᵢ or σᵢ: distance along the link from its first end, m
   /// [Iᵢ]_G or [I₆₊ᵢ]_H of (46): about the mass centre, in the link's frame of (40), kg·m².
   Matrix3d inertia = Matrix3d::Zero();
-  /// What takes the mass centre off the link's line: across it, in the link's frame of (40), m.
+  /// Offset of the mass centre across the link's line, in the link's frame of (40), m.
   Vector3d off_line = Vector3d::Zero();
 };
 
-/// A number for each coordinate of a leg; of those that the leg has not it is zero.
+/// One number for each coordinate of a leg; zero for coordinates that the leg lacks.
 struct PerCoordinate {
   double phi = 0, psi = 0, theta = 0, d = 0;
 
@@ -32,12 +32,12 @@ struct PerCoordinate {
   double on(Coordinate coordinate) const { return const_cast<PerCoordinate&>(*this).on(coordinate); }
   bool any() const { return phi != 0 || psi != 0 || theta != 0 || d != 0; }
 };
-using JointFriction = PerCoordinate;  ///< coefficients of one law of friction
+using JointFriction = PerCoordinate;  ///< coefficients of one friction law
 
-/// Coulomb friction smoothed to −c tanh(q̇ / speed); coefficients in N·m, on d in N.
+/// Coulomb friction smoothed to −c tanh(q̇ / speed); coefficients in N·m, for d in N.
 struct CoulombFriction : JointFriction {
-  double smoothing_speed = 1e-2;  ///< of the angles, rad/s, > 0
-  double sliding_speed = 1e-2;    ///< of d, m/s, > 0; files give both as one number
+  double smoothing_speed = 1e-2;  ///< for the angles, rad/s, > 0
+  double sliding_speed = 1e-2;    ///< for d, m/s, > 0; files give both as one number
 
   double speedOf(Coordinate coordinate) const { return slides(coordinate) ? sliding_speed : smoothing_speed; }
 };
@@ -48,33 +48,33 @@ struct Leg {
   Vector3d platform_point = Vector3d::Zero();  ///< bᵢ, m, in M
   Link proximal, distal;
   Knee knee = Knee::positive;
-  JointFriction friction;   ///< viscous, N·m·s/rad, on d N·s/m
-  CoulombFriction coulomb;  ///< N·m, on d N
+  JointFriction friction;   ///< viscous, N·m·s/rad, for d N·s/m
+  CoulombFriction coulomb;  ///< N·m, for d N
   LegKind kind = LegKind::URS;
   std::array<bool, 3> actuated = {true, false, false};  ///< which of the kind's coordinates a motor drives
-  PerCoordinate rotor_inertia;  ///< j of the energy ½ j q̇² of what a motor turns, kg·m², on d kg; of driven ones alone
-  /// The rod between two balls, or cylinder and rod, turns freely about its own line and does not to begin with.
+  PerCoordinate rotor_inertia;  ///< j in the rotor's energy ½ j q̇², kg·m², for d kg; only of driven coordinates
+  /// Whether the rod between two balls, or cylinder and rod, turns freely about its line; initially it does not spin.
   bool spins = false;
 
-  /// Whether a motor drives it.
+  /// Whether a motor drives the coordinate.
   bool drives(Coordinate coordinate) const;
-  /// Which axis of the proximal link's frame its line is: of a carriage û.
+  /// The axis of the proximal link's frame along its line; for a carriage that is û.
   int proximalLine() const { return kind == LegKind::PUS ? 1 : 2; }
-  /// Mass centres from the links' first ends, in their frames.
+  /// Mass centres relative to the links' first ends, in the links' frames.
   Vector3d proximalCenter() const {
     return proximal.off_line + proximal.center_of_mass * Vector3d::Unit(proximalLine());
   }
   Vector3d distalCenter() const { return distal.off_line + distal.center_of_mass * Vector3d::UnitZ(); }
 };
 
-/// A coordinate that is driven. Its effort is conjugate to the coordinate's rate: N·m, or N where it slides.
+/// A driven coordinate. Its effort is conjugate to the coordinate's rate: N·m, or N if it slides.
 struct Motor {
   int leg = 0;    ///< 0-based
-  int joint = 0;  ///< which of the leg's three coordinates
+  int joint = 0;  ///< index among the leg's three coordinates
   Coordinate coordinate = Coordinate::phi;
 
   bool slides() const { return ursula::slides(coordinate); }
-  /// "Nm" or "N", as columns write it.
+  /// "Nm" or "N", as in column names.
   const char* effortUnit() const { return slides() ? "N" : "Nm"; }
 };
 using Motors = std::array<Motor, motor_count>;
@@ -85,31 +85,32 @@ struct Platform {
   Matrix3d inertia = Matrix3d::Zero();         ///< [I_M]_M about the mass centre, kg·m²
 };
 
-/// The raw parameters of the machine, SI: all that the two formulations share.
+/// The machine's raw parameters, SI. The NOC and the engines share nothing else.
 struct ManipulatorParameters {
   Vector3d gravity = {0.0, 0.0, -9.81};  ///< g, m/s², in B
   Platform platform;
   std::vector<Leg> legs = std::vector<Leg>(leg_count);  ///< three to six
 };
 
-/// Raw parameters that some machine can have; immutable.
+/// Raw parameters of a possible machine; immutable.
 class Manipulator {
  public:
-  /// Checks finiteness, positive masses and lengths, non-zero axes, inertias (symmetric, positive definite, of a thin
-  /// rod zero about its line, within the triangle inequality), that there are six motors on three to six legs, that no
-  /// other coordinate has a rotor, that what spins is round, and that every pair of legs is long enough to join base
-  /// and platform. Throws InvalidParameter with the key, the value and the bound.
+  /// Checks finiteness, positive masses and lengths, non-zero axes, and six motors on three to six legs. Inertias must
+  /// be symmetric, positive definite and satisfy the triangle inequality; a thin rod may have zero about its line. Only
+  /// driven coordinates may have rotors. Links that spin must be round. Each pair of legs must be long enough to join
+  /// base and platform. Throws InvalidParameter with key, value and bound.
   explicit Manipulator(const ManipulatorParameters& parameters);
 
-  /// What moves: a link that spins freely has no moment about its line, as what it has there stays at rest.
+  /// The parameters of the moving machine: a freely spinning link has no moment about its line, as its spin stays at
+  /// rest.
   const ManipulatorParameters& parameters() const { return parameters_; }
-  /// As it was written.
+  /// The parameters as given.
   const ManipulatorParameters& given() const { return given_; }
   const Leg& leg(int i) const { return parameters_.legs[static_cast<std::size_t>(i)]; }
   int legCount() const { return static_cast<int>(parameters_.legs.size()); }
-  /// In leg order, within a leg in the order of its coordinates: the order of efforts.
+  /// In the order of efforts: by leg, then by the leg's coordinates.
   const Motors& motors() const { return motors_; }
-  /// Six URS legs with a motor on each φ: what the paper's equations are for.
+  /// Whether there are six URS legs with a motor on each φ, for which the paper's equations hold.
   bool isOfThePaper() const;
   const Platform& platform() const { return parameters_.platform; }
   const Vector3d& gravity() const { return parameters_.gravity; }
@@ -119,10 +120,10 @@ class Manipulator {
   Motors motors_;
 };
 
-/// Whether some motor turns an inertia of its own.
+/// Whether some motor has a rotor inertia.
 bool hasRotors(const Manipulator& manipulator);
 
-/// The same machine, but nothing rubs.
+/// Returns the same machine without friction.
 Manipulator frictionless(const Manipulator& manipulator);
 
 }  // namespace ursula

@@ -12,8 +12,8 @@
 namespace ursula {
 namespace {
 
-/// Position and an unnormalised quaternion r = [w, x, y, z] as one curve in R⁷; the orientation is that of q = r / |r|.
-/// A spline of r can be differentiated in closed form, which slerp-like splines on the sphere cannot. With r̄ the
+/// Position and an unnormalised quaternion r = [w, x, y, z] form one curve in R⁷; the orientation is that of q = r /
+/// |r|. A spline of r has closed-form derivatives, unlike slerp-like splines on the sphere. With r̄ the
 /// conjugate and vec the vector part, dq/dt = ½ ω q gives
 ///   ω = 2 vec(ṙ r̄) / |r|²                          (a)
 ///   ω̇ = 2 (vec(r̈ r̄) − (r·ṙ) ω) / |r|²              (b)
@@ -46,7 +46,7 @@ class PoseSplineKernel {
 
 using PoseKnot = CurvePoint<Real50, 7>;
 
-/// The spline runs through R⁴, so of q and −q it takes the nearer to the quaternion before.
+/// The spline runs through R⁴, so it uses q or −q, whichever is nearer to the previous quaternion.
 std::vector<PoseKnot> knotsOf(const std::vector<TimedPose>& poses) {
   std::vector<PoseKnot> knots(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -83,8 +83,8 @@ void requireClearWay(const std::vector<PoseKnot>& knots, const RefusePose& refus
   }
 }
 
-/// |r| stays away from 0 where the six Bézier points of a piece, whose convex hull holds it, all reach at least 1/4
-/// along the mean of the two end quaternions.
+/// The six Bézier points of a piece enclose it in their convex hull. So |r| stays away from 0 if each reaches at least
+/// 1/4 along the mean of the two end quaternions.
 void requireAwayFromZero(const std::vector<PoseKnot>& knots, const RefusePose& refuse) {
   for (std::size_t i = 1; i < knots.size(); ++i) {
     const PoseKnot &from = knots[i - 1], &to = knots[i];
@@ -100,8 +100,7 @@ void requireAwayFromZero(const std::vector<PoseKnot>& knots, const RefusePose& r
   }
 }
 
-/// Rounded once from the 50 digits in which it was solved, so that both kernels are the same curve to the last bit of a
-/// double.
+/// Rounds the 50-digit solution once, so both kernels give the same curve to the last bit of a double.
 std::unique_ptr<Trajectory> splineAlong(const std::string& kind, const QuinticHermite<Real50, 7>& curve,
                                         std::vector<double> times) {
   const auto relocate = [kind, curve, times](const Vector3d& origin) {

@@ -7,20 +7,20 @@
 
 #include "model/trajectories/trajectories.h"
 
-// What the trajectories through given poses (waypoints, samples) have in common.
+// Common parts of the trajectories through given poses (waypoints, samples).
 
 namespace ursula {
 
-/// Throws the caller's own error for pose `i` (0-based) and one of the keys time, position, orientation.
+/// Throws the caller's error for pose `i` (0-based) and one of the keys time, position, orientation.
 using RefusePose =
     std::function<void(std::size_t i, const std::string& key, const std::string& value, const std::string& bound)>;
 
 /// How the spline starts and ends: at rest, or with the derivatives of the quintic through the six outermost poses.
 enum class SplineEnds { at_rest, free };
 
-/// A trajectory through all poses. Refuses (and relies on `refuse` to throw) fewer than `at_least` poses, times that do
-/// not start at 0 or do not increase, quaternions off unit length by more than `unit_within`, and orientations between
-/// which the way round is ambiguous.
+/// A trajectory through all poses. It refuses fewer than `at_least` poses and times that do not start at 0 or do not
+/// increase. It refuses quaternions off unit length by more than `unit_within`, and ambiguous rotations between
+/// orientations. `refuse` must throw.
 struct PoseSplineOptions {
   std::string kind;
   SplineEnds ends = SplineEnds::at_rest;

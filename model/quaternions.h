@@ -6,8 +6,8 @@
 
 namespace ursula {
 
-/// Orientations of M in B as unit quaternions [w, x, y, z], w ≥ 0 in the first and each on the same side as the one
-/// before: what the files of this program show of a motion.
+/// Returns orientations of M in B as unit quaternions [w, x, y, z], as the output files give them. The first has w ≥ 0;
+/// each other has the sign nearer to its predecessor.
 std::vector<Eigen::Vector4d> quaternions(const std::vector<Motion<double>>& motions);
 
 }  // namespace ursula

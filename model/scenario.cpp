@@ -13,7 +13,7 @@
 namespace ursula {
 namespace {
 
-/// Results go into a folder of that name.
+/// The name must suit a folder, because results go into a folder of that name.
 std::string readName(const TomlSection& document) {
   std::string name;
   document.require("name", name);
@@ -37,7 +37,7 @@ SimulationSettings readSimulation(const TomlSection& table) {
   return settings;
 }
 
-/// `torque = { relative = X, absolute = Y }`, either alone or both.
+/// Reads `torque = { relative = X, absolute = Y }`; one of them may be missing.
 EffortTolerance readTolerance(const TomlSection& table) {
   EffortTolerance tolerance;
   for (const auto& [key, member] :
@@ -49,7 +49,7 @@ EffortTolerance readTolerance(const TomlSection& table) {
   return tolerance;
 }
 
-/// Names of checks have dots of their own: "a.b" = 1, a.b = 1 and [acceptance.a] b = 1 all name the check a.b.
+/// Check names contain dots: "a.b" = 1, a.b = 1 and [acceptance.a] b = 1 all mean the check a.b.
 void readAcceptance(const TomlSection& table, const std::string& prefix, Scenario& scenario) {
   std::vector<AcceptanceLimit>& limits = scenario.acceptance;
   for (const auto& [key, node] : table.table()) {

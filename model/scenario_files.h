@@ -9,10 +9,11 @@
 
 namespace ursula {
 
-/// Files that a scenario's document names, of samples for one, made absolute there: `scenario` is where it stands.
+/// Makes the paths in a scenario's document absolute, such as that of samples, and returns them. `scenario` is its
+/// file.
 std::vector<std::filesystem::path> makeFilesAbsolute(toml::table& document, const std::filesystem::path& scenario);
 
-/// The same of a scenario that was read; none of one that a program made.
+/// Returns the same paths of a scenario that was read; none if a program made it.
 std::vector<std::filesystem::path> filesNamedBy(const Scenario& scenario);
 
 }  // namespace ursula

@@ -6,8 +6,8 @@
 
 namespace ursula {
 
-/// readScenario(), or, where `file` is "-", from standard input, which errors call <stdin>: relative paths are then
-/// taken from the current folder. Standard input can be read once.
+/// Calls readScenario(), or reads standard input, <stdin> in errors, if `file` is "-". Relative paths then refer to the
+/// current folder. Standard input can be read once.
 Scenario readScenarioOrInput(const std::filesystem::path& file);
 
 }  // namespace ursula

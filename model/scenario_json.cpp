@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Scenarios hold no dates: their reader has refused them.
+/// Scenarios hold no dates: their parser has refused them.
 Json jsonOf(const toml::node& node) {
   if (const toml::table* table = node.as_table()) {
     Json out = Json::object();
@@ -32,7 +32,7 @@ Json jsonOf(const toml::node& node) {
   return node.value_or(std::string());
 }
 
-/// Puts each value of a JSON document into a table or an array of TOML by `put`, under its key.
+/// Converts a JSON document into TOML tables and arrays; `put` stores each value under its key.
 class Translation {
  public:
   explicit Translation(std::string file) : file_(std::move(file)) {}

@@ -7,12 +7,12 @@
 
 namespace ursula {
 
-/// The document of a scenario that was read, as JSON: the same keys and values, with every file that it names made
-/// absolute. Throws ScenarioError for one that a program made, since its text says nothing of it.
+/// Returns a scenario's document as JSON: the same keys and values, with absolute file paths. Throws ScenarioError if a
+/// program made the scenario, because its text does not describe it.
 std::string scenarioJson(const Scenario& scenario);
 
-/// The same document in TOML, for parseScenario(). `file` names it in errors. Throws ScenarioError for what is no JSON
-/// object, and for null, which TOML has not, with its key.
+/// Returns the same document in TOML, for parseScenario(); `file` names it in errors. Throws ScenarioError if the text
+/// is no JSON object, and with the key for null, which TOML lacks.
 std::string tomlOfJson(const std::string& json, const std::filesystem::path& file);
 
 }  // namespace ursula

@@ -21,9 +21,9 @@ enum class KeyType {
   limits
 };
 
-/// What numbers a key takes, and how refusals say so.
+/// The numbers that a key accepts, and the words for refusals.
 struct KeyBound {
-  const char* words = "";  ///< "> 0"; empty: any finite number
+  const char* words = "";  ///< "> 0"; empty for any finite number
   double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
 
   bool zero_too = true;
@@ -31,41 +31,41 @@ struct KeyBound {
   bool holds(double value) const { return value >= least && value <= most && (zero_too || value != 0); }
 };
 
-/// One key of a scenario, as the reader takes it and docs/scenario.md describes it.
+/// One key of a scenario; the reader uses it and docs/scenario.md describes it.
 struct ScenarioKey {
   const char* name;
   KeyType type;
-  const char* unit;      ///< empty where it has none
-  const char* fallback;  ///< as TOML writes it; "!" where the key is required, empty where there is no default
+  const char* unit;      ///< empty if it has none
+  const char* fallback;  ///< in TOML; "!" if the key is required, empty if there is no default
   const char* meaning;
   KeyBound bound = {};
-  std::vector<std::string> choices = {};  ///< of a choice or choices, in the reader's order
-  const char* of = "";                    ///< of table and tables: the ScenarioTable that says what is in it
+  std::vector<std::string> choices = {};  ///< values of a choice or choices, in the reader's order
+  const char* of = "";                    ///< for table and tables: the ScenarioTable of their content
 
   bool isRequired() const { return fallback[0] == '!'; }
 };
 
-/// The keys of one table of a scenario, in the order in which errors and docs list them.
+/// The keys of one table of a scenario, in the order of errors and docs.
 struct ScenarioTable {
-  const char* name;     ///< by which the reader asks: `manipulator.leg`
-  const char* written;  ///< how a scenario writes it: `[[manipulator.leg]]`
+  const char* name;     ///< name for the reader: `manipulator.leg`
+  const char* written;  ///< name in a scenario: `[[manipulator.leg]]`
   const char* meaning;
   std::vector<ScenarioKey> keys;
 
   std::vector<std::string> names() const;
-  /// Throws std::out_of_range for what is none of its keys, which is an error of the reader's.
+  /// Throws std::out_of_range for an unknown key, which is a bug of the reader.
   const ScenarioKey& key(const std::string& name) const;
 };
 
-/// All of them, from the document down. What the reader accepts is this list, and docs/scenario.md and
-/// docs/scenario.schema.json are made of it.
+/// Returns all tables, the document first. The reader accepts exactly these; docs/scenario.md and
+/// docs/scenario.schema.json are generated from them.
 const std::vector<ScenarioTable>& scenarioTables();
 
-/// The other name that the friction of a coordinate may have on a leg of the paper's: `actuated` of `phi`, and back.
-/// Empty where there is none.
+/// Returns the second name of a friction coefficient on the paper's legs: `actuated` for `phi`, and back. Returns an
+/// empty string if there is none.
 std::string otherFrictionName(const std::string& key);
 
-/// Throws std::out_of_range for what is no table.
+/// Throws std::out_of_range for an unknown table.
 const ScenarioTable& scenarioTable(const std::string& name);
 
 }  // namespace ursula

@@ -10,7 +10,7 @@
 namespace ursula {
 namespace {
 
-/// Names of friction coefficients: the coordinates', and those that the paper's legs had first.
+/// Names of friction coefficients: the coordinates, and the older names for the paper's legs.
 struct FrictionKey {
   const char* name;
   Coordinate coordinate;
@@ -42,12 +42,12 @@ std::string drivenBy(const Leg& leg) {
   return names.empty() ? "none, as no motor is on it" : fmt::format("{}", fmt::join(names, " or "));
 }
 
-/// One leg, of the tables that say something of it: the defaults, then its own.
+/// Reads one leg from its tables: the defaults first, then its own.
 class LegReader {
  public:
   LegReader(std::optional<TomlSection> defaults, const TomlSection& own) : defaults_(std::move(defaults)), own_(own) {}
 
-  /// Throws at the leg's table for the first required key that neither it nor the defaults gave.
+  /// Throws at the leg's table for the first required key that neither table gave.
   Leg read() {
     readKind();
     for (const TomlSection* table : tables()) {
@@ -76,7 +76,7 @@ class LegReader {
     if (given) given_.insert(key);
   }
 
-  /// `kind` first: what the other keys mean hangs on it.
+  /// Reads `kind` first, because the meaning of the other keys depends on it.
   void readKind() {
     for (const TomlSection* table : tables())
       if (const auto kind = table->readChoice(keys_.key("kind"))) leg_.kind = static_cast<LegKind>(*kind);
@@ -118,7 +118,7 @@ class LegReader {
     note(name + ".inertia", table.readInertia("inertia", link.inertia));
   }
 
-  /// Along the link's line, or by three numbers.
+  /// Reads one number along the link's line, or three numbers.
   void readCenter(const TomlSection& table, const std::string& name, Link& link) {
     const toml::node* given = table.table().get("center_of_mass");
     if (given == nullptr) return;
@@ -132,7 +132,7 @@ class LegReader {
     link.center_of_mass = std::exchange(link.off_line(&link == &leg_.proximal ? leg_.proximalLine() : 2), 0);
   }
 
-  /// The defaults may speak of coordinates that motors drive on other legs.
+  /// The defaults may name coordinates that motors drive on other legs.
   void readRotors(const TomlSection& table, bool own) {
     table.allowOnly(scenarioTable("manipulator.leg.rotor_inertia"));
     for (std::size_t k = 0; k < coordinate_count; ++k) {
@@ -147,7 +147,7 @@ class LegReader {
     }
   }
 
-  /// The defaults may speak of coordinates that other legs have.
+  /// The defaults may name coordinates that other legs have.
   void readFriction(const TomlSection& table, const char* name, bool own, JointFriction& friction) const {
     table.allowOnly(scenarioTable(name));
     std::set<Coordinate> given;
@@ -186,7 +186,7 @@ class LegReader {
   std::set<std::string> given_;
 };
 
-/// What the defaults say of friction must mean something to some leg.
+/// Each friction coefficient of the defaults must apply to some leg.
 void requireUse(const std::optional<TomlSection>& defaults, const std::vector<Leg>& legs) {
   if (!defaults) return;
   for (const char* name : {"friction", "coulomb"}) {
@@ -202,7 +202,7 @@ void requireUse(const std::optional<TomlSection>& defaults, const std::vector<Le
   }
 }
 
-/// And of rotors, to some motor.
+/// Each rotor inertia of the defaults must apply to some motor.
 void requireRotorUse(const std::optional<TomlSection>& defaults, const std::vector<Leg>& legs) {
   const auto table = defaults ? defaults->section("rotor_inertia") : std::nullopt;
   if (!table) return;

@@ -7,14 +7,14 @@ namespace {
 
 Real50 inRadians(double degrees) { return Real50(degrees) * acos(Real50(-1)) / 180; }
 
-/// What is left of π's 50 digits where an entry is zero is no angle.
+/// Sets an entry to zero if it is only the rounding error of π's 50 digits.
 double entry(const Real50& value) { return abs(value) < Real50(1e-40) ? 0 : static_cast<double>(value); }
 
 }  // namespace
 
 double radians(double degrees) { return static_cast<double>(inRadians(degrees)); }
 
-/// With half the angles: q = q_z(yaw) q_y(pitch) q_x(roll), multiplied out.
+/// Multiplies q = q_z(yaw) q_y(pitch) q_x(roll) out, with half the angles.
 Eigen::Vector4d quaternionOf(const Vector3d& roll_pitch_yaw) {
   Real50 c[3], s[3];
   for (int k = 0; k < 3; ++k) {

@@ -10,7 +10,7 @@
 namespace ursula {
 namespace {
 
-/// `leg[2]` of a dotted place: a key and the 1-based index behind it, 0 where there is none.
+/// `leg[2]` of a dotted place: a key and its 1-based index, 0 if there is none.
 struct Step {
   std::string key;
   std::size_t index = 0;
@@ -44,13 +44,13 @@ const toml::node* child(const toml::node& node, Step& step) {
   return array ? array->get(step.index - 1) : nullptr;
 }
 
-/// How far a way leads into the document: the last node there is, and how many steps reach it.
+/// How far a path leads into the document: the last node found, and the number of steps to it.
 struct Reached {
   const toml::node* node;
   std::size_t steps;
 };
 
-/// Steps become those that the file has names for.
+/// Replaces steps by the names that the file uses.
 Reached walk(const toml::node& document, std::vector<Step>& steps) {
   Reached reached{&document, 0};
   for (Step& step : steps) {
@@ -61,7 +61,7 @@ Reached walk(const toml::node& document, std::vector<Step>& steps) {
   return reached;
 }
 
-/// The node that a dotted key leads to, and the key under which it was found.
+/// The node at a dotted key, and the key under which it was found.
 struct Found {
   const toml::node* node;
   std::string key;
@@ -78,7 +78,7 @@ std::string joined(const std::vector<Step>& steps, std::size_t from) {
   return out;
 }
 
-/// A leg's own key, or that of manipulator.leg_defaults where it inherits it, or the nearest table around it.
+/// Finds a leg's own key, the inherited one in manipulator.leg_defaults, or the nearest enclosing table.
 Found find(const toml::table& document, const std::string& key) {
   std::vector<Step> steps = stepsOf(key);
   const Reached reached = walk(document, steps);

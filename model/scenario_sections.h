@@ -8,8 +8,8 @@
 #include "model/scenario.h"
 #include "model/toml_reader.h"
 
-// The parts of a scenario, each read from its own table; scenario.cpp puts them together. All throw ScenarioError;
-// what only Manipulator or a trajectory can judge comes back as InvalidParameter, for `located` to place.
+// Each function reads one table of a scenario; scenario.cpp combines them. All throw ScenarioError. They throw
+// InvalidParameter for what only Manipulator or a trajectory can check; `located` adds the place.
 
 namespace ursula {
 
@@ -17,11 +17,10 @@ ManipulatorParameters readManipulator(const TomlSection& manipulator);
 std::shared_ptr<const Trajectory> readTrajectory(const TomlSection& trajectory);
 std::shared_ptr<const Load> readLoad(const TomlSection& table);
 
-/// The CSV that `key` names; a relative path is taken from the scenario's own folder. Throws also CsvError.
+/// Reads the CSV that `key` names; a relative path refers to the scenario's folder. Throws also CsvError.
 CsvTable readCsvBeside(const TomlSection& table, const std::string& key);
 
-/// Finds the value that `refusal` names in the document, or in manipulator.leg_defaults where a leg inherits it, or the
-/// nearest table around it.
+/// Finds the value that `refusal` names in the document or in manipulator.leg_defaults, or the nearest enclosing table.
 ScenarioError located(const InvalidParameter& refusal, const TomlSection& document);
 
 }  // namespace ursula

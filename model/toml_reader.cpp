@@ -33,7 +33,7 @@ std::string typeName(const toml::node& node) {
   }
 }
 
-/// No physical quantity in SI units is larger, or smaller than its inverse; products of a few are what doubles hold.
+/// No SI quantity is larger, or smaller than its inverse; a double holds products of a few such numbers.
 constexpr double largest_number = 1e100;
 
 std::string quotedList(const std::vector<std::string>& words) {
@@ -88,7 +88,7 @@ void TomlSection::missing(const std::string& key, const std::string& expected) c
 
 void TomlSection::allowOnly(const ScenarioTable& allowed) const {
   const std::vector<std::string> keys = allowed.names();
-  // toml++ orders keys by name; the first in the file is the one to report.
+  // toml++ orders keys by name, but the error names the first in the file.
   const toml::key* first = nullptr;
   for (const auto& [key, node] : *table_) {
     if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;

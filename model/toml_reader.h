@@ -19,15 +19,16 @@ std::string placeAt(const std::string& file, const toml::source_position& positi
 /// The error `file:line:column: error: message` at a node's place.
 ScenarioError errorAt(const std::string& file, const toml::source_position& position, const std::string& message);
 
-/// The same for text that was not taken.
+/// The same for a text that was refused.
 ScenarioError errorAt(const std::string& file, const TextRefusal& refusal);
 
-/// A document; `file` names it in errors. Throws ScenarioError at what is no TOML, and for what requireBounded refuses.
+/// Parses a document; `file` names it in errors. Throws ScenarioError for invalid TOML and if requireBounded refuses
+/// it.
 toml::table parseToml(const std::string& text, const std::string& file);
 
-/// One table of a scenario, read strictly: whatever is not of the type asked for throws a ScenarioError with its place.
-/// `read` leaves `value` alone and returns false where the key is not given; `require` throws then.
-/// Numbers may be written as integers and must be finite. Refers to the document, which has to outlive it.
+/// Reads one table of a scenario strictly: a value of another type throws a ScenarioError with its place. For a missing
+/// key, `read` returns false and keeps `value`, and `require` throws. Numbers may be integers and must be finite.
+/// Refers to the document, which must outlive it.
 class TomlSection {
  public:
   TomlSection(const toml::table& table, std::string place, std::string file)
@@ -37,7 +38,7 @@ class TomlSection {
   const std::string& file() const { return file_; }
   const toml::table& table() const { return *table_; }
 
-  /// Throws for the first key that is none of the table's, naming the nearest of them.
+  /// Throws for the first unknown key and suggests the nearest known one.
   void allowOnly(const ScenarioTable& keys) const;
   bool has(const std::string& key) const { return table_->contains(key); }
 
@@ -46,16 +47,16 @@ class TomlSection {
   bool read(const std::string& key, std::string& value) const;
   bool read(const std::string& key, Vector3d& value) const;
   bool read(const std::string& key, Eigen::Vector4d& value) const;
-  /// [xx, yy, zz] or [xx, yy, zz, xy, xz, yz], tensor entries, into a symmetric matrix.
+  /// Reads [xx, yy, zz] or [xx, yy, zz, xy, xz, yz] into a symmetric matrix.
   bool readInertia(const std::string& key, Matrix3d& value) const;
-  /// An array of strings; none where the key is not given.
+  /// Reads an array of strings; nullopt if the key is missing.
   std::optional<std::vector<std::string>> readStrings(const std::string& key) const;
-  /// The index among the key's choices of the string given.
+  /// Returns the string's index among the key's choices; nullopt if the key is missing.
   std::optional<std::size_t> readChoice(const ScenarioKey& key) const;
-  /// Throws where the key is given and its number is not within its bound.
+  /// Throws if the key is given and its number is out of bounds.
   void requireBound(const ScenarioKey& key, double value) const;
 
-  /// An angle, rad, from `key`, or in degrees from `key`_deg, correctly rounded; both are refused.
+  /// Reads an angle in rad from `key`, or in degrees from `key`_deg, correctly rounded; both together are an error.
   bool readAngle(const std::string& key, double& value) const;
   void requireAngle(const std::string& key, double& value) const {
     if (!readAngle(key, value)) missing(key, "a number, rad, or '" + key + "_deg' in degrees");
@@ -68,7 +69,7 @@ class TomlSection {
 
   std::optional<TomlSection> section(const std::string& key) const;
   TomlSection requiredSection(const std::string& key) const;
-  /// An array of tables, `key[1]`, `key[2]`, …; empty where the key is not given.
+  /// Reads an array of tables, `key[1]`, `key[2]`, …; empty if the key is missing.
   std::vector<TomlSection> sections(const std::string& key) const;
 
   [[noreturn]] void missing(const std::string& key, const std::string& expected) const;

@@ -11,7 +11,8 @@
 namespace ursula {
 namespace {
 
-/// 0.7 for the 0.69999999999999996 that toml++ writes: the shortest that reads as the same number. Strings stay.
+/// Shortens numbers: 0.7 instead of toml++'s 0.69999999999999996, the shortest that parses to the same number. Strings
+/// stay.
 std::string withShortNumbers(const std::string& toml) {
   std::string out;
   char quote = '\0';

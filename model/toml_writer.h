@@ -6,7 +6,7 @@
 
 namespace ursula {
 
-/// A document as text that reads as the same values. Numbers are the shortest that do so; keys stand in alphabetical
+/// Writes a document as text that parses to the same values. Numbers are as short as possible; keys are in alphabetical
 /// order.
 std::string tomlText(const toml::table& document);
 

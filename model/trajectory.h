@@ -11,8 +11,8 @@ namespace ursula {
 
 class ExactTrajectory;
 
-/// A commanded motion of the platform: pose, twist and twist rate at t in [0, duration], twice continuously
-/// differentiable; ω and ω̇ are exact derivatives of the orientation given. For one of your own, say `kind`, `duration`
+/// A commanded motion of the platform: pose, twist and twist rate at t in [0, duration]. It is twice continuously
+/// differentiable; ω and ω̇ are exact derivatives of the orientation. Your own trajectory defines `kind`, `duration`
 /// and `at(double)`.
 class Trajectory {
  public:
@@ -20,18 +20,17 @@ class Trajectory {
   virtual std::string kind() const = 0;
   virtual double duration() const = 0;  ///< t_f, s
   virtual Motion<double> at(double t) const = 0;
-  /// The motion in the 50 digits of the checks (S is Real50, for nothing else links); throws std::logic_error where
+  /// The motion in the 50 digits of the checks; S must be Real50, else it does not link. Throws std::logic_error if
   /// exact() is null.
   template <class S, class = std::enable_if_t<!std::is_arithmetic_v<S>>>
   Motion<S> at(const S& t) const;
-  /// Null where the motion is known in doubles only: then its derivatives are judged by differences of doubles.
+  /// Returns null if the motion is known in doubles only; differences of doubles then check its derivatives.
   virtual const ExactTrajectory* exact() const { return nullptr; }
-  /// The same motion with P's position from `origin` (m, in B), subtracted before anything is rounded, so that a
-  /// machine far from the base's origin loses no digits. Null where the trajectory cannot: then at(t).p − origin has to
-  /// do.
+  /// The same motion with P's position relative to `origin` (m, in B), subtracted before rounding. So a machine far
+  /// from the base's origin loses no digits. Returns null if the trajectory cannot do this; the caller then uses
+  /// at(t).p − origin.
   virtual std::unique_ptr<Trajectory> relativeTo(const Vector3d& /*origin*/) const { return nullptr; }
-  /// Instants at which a higher derivative jumps, increasing, s: an integrator keeps its order between them, not
-  /// across.
+  /// Instants in s, increasing, at which a higher derivative jumps; an integrator keeps its order only between them.
   virtual const std::vector<double>& knots() const {
     static const std::vector<double> none;
     return none;

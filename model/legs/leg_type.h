@@ -8,19 +8,19 @@
 
 namespace ursula {
 
-/// From a leg's base point to its platform point, m: the distance, and what of it lies along the base axis and across.
+/// From a leg's base point to its platform point, m: the distance, and its parts along and across the base axis.
 struct LegSpan {
   double distance, along, across;
 };
 
-/// A distance that a leg has to bridge, and what its links can, m; with the words around them.
+/// The distance that a leg must span, and the range that its links can span, m; with words for messages.
 struct Reach {
   double distance, least, most;
   const char* before;  ///< "its base and platform points are"
   const char* after;   ///< "m apart, and its two links span"
 };
 
-/// Where a leg's speed is not determined: "is stretched straight", and a clause that says how near it is.
+/// A pose at which a leg's rate is undetermined: "is stretched straight", and a clause with the distance from it.
 struct DeadCentre {
   std::string state, measure;
 };
@@ -29,7 +29,7 @@ struct LinkLengths {
   double l, s;
 };
 
-/// All that a kind of leg can say of itself and that is no mechanics: a file of this folder for each.
+/// Geometry and words of one kind of leg, without mechanics; each kind has a file in this folder.
 class LegType {
  public:
   LegType() = default;
@@ -37,30 +37,30 @@ class LegType {
   LegType(const LegType&) = delete;
   LegType& operator=(const LegType&) = delete;
 
-  /// What the leg has to bridge.
+  /// Returns the distance that the leg must span and what it can span.
   virtual Reach reach(const Leg& leg, const LegSpan& span) const = 0;
 
-  /// Says how near a pose is to the leg's dead centre. The leg bridges `reach` there.
+  /// Describes how near a pose is to the leg's dead centre; there the leg spans `reach`.
   virtual DeadCentre deadCentre(const Reach& reach) const;
 
-  /// How far leg i is from the end of its reach: zero there, and of another sign beyond.
+  /// Returns leg i's distance from the end of its reach: zero there, with the opposite sign beyond.
   virtual double margin(const Leg& leg, const JointVariables<double>& q, int i) const = 0;
-  /// Which end that is: "stretched".
+  /// Returns the name of that end: "stretched".
   virtual const char* endOfReach(const JointVariables<double>& q, int i) const = 0;
 
-  /// What the first angle is counted about, and whose angle that is, where the platform point lies on it.
+  /// The axis about which the first angle is measured, and the angle's owner, for a platform point on that axis.
   virtual const char* firstAxis() const { return "axis of its motor"; }
   virtual const char* firstAngle() const { return "motor's"; }
-  /// What bends at a dead centre, and how it then lies.
+  /// The part that bends, and its state at a dead centre.
   virtual const char* bends() const { return "knee"; }
   virtual const char* atDeadCentre() const { return "straight or folded"; }
 
-  /// Links that bridge the span with `angle` (rad, 20° to 160°) at the knee, or with what the kind has instead; l over
-  /// s, or over what s has across the axis, is `ratio`.
+  /// Returns links that span `span` with `angle` at the knee or its equivalent (rad, 20° to 160°). `ratio` is l over s,
+  /// or over the part of s across the axis.
   virtual LinkLengths lengths(const LegSpan& span, double angle, double ratio) const = 0;
-  /// Whether the leg has two dead centres, folded and stretched, which lengths() reaches at 0 and 180°.
+  /// Whether the leg has two dead centres, folded and stretched; lengths() reaches them at 0 and 180°.
   virtual bool folds() const { return true; }
-  /// Where it does not fold: links within `angle` of its dead centre; none where it has none.
+  /// Returns links within `angle` of the dead centre of a leg that does not fold; nullopt if it has none.
   virtual std::optional<LinkLengths> lengthsAtDeadCentre(const LegSpan& span, double angle) const;
 
  private:
@@ -69,13 +69,13 @@ class LegType {
 
 const LegType& typeOf(LegKind kind);
 
-/// Links of a telescopic leg that uses `share` (0 to 1) of its stroke over the distance; l over s is `ratio`.
+/// Returns links of a telescopic leg that uses `share` (0 to 1) of its stroke at `distance`; l over s is `ratio`.
 LinkLengths lengthsAtStroke(double distance, double share, double ratio);
 
-/// Far side of a triangle with `angle` between sides `ratio` and 1, over which `side` is to be: the length of side 1.
+/// Solves the triangle whose sides s·`ratio` and s enclose `angle` opposite `side`; returns s.
 double sideOfTriangle(double side, double angle, double ratio);
 
-/// What there is of each kind, in urs.cpp and so on.
+/// The kinds, each in its own file such as urs.cpp.
 const LegType& ursLeg();
 const LegType& upsLeg();
 const LegType& rusLeg();

@@ -8,13 +8,13 @@
 namespace ursula {
 namespace {
 
-/// s sin θ is what B is off the rail; the carriage's length is for drawing only.
+/// s sin θ is the distance of B from the rail; the carriage's length is for drawing only.
 LinkLengths rodAt(double theta, double across, double ratio) {
   const double s = across / std::sin(theta);
   return {0.3 * ratio * s, s};
 }
 
-/// Carriage and rod.
+/// The leg of carriage and rod.
 class Pus : public LegType {
  public:
   Reach reach(const Leg& leg, const LegSpan& span) const override {
@@ -38,7 +38,7 @@ class Pus : public LegType {
   const char* bends() const override { return "rod"; }
   const char* atDeadCentre() const override { return "across its rail"; }
 
-  /// The rod at 20° to 70° to its rail.
+  /// Places the rod at 20° to 70° to its rail.
   LinkLengths lengths(const LegSpan& span, double angle, double ratio) const override {
     return rodAt(20 * degree + (angle - 20 * degree) * 50 / 140, span.across, ratio);
   }

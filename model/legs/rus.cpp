@@ -5,10 +5,10 @@
 namespace ursula {
 namespace {
 
-/// Crank and rod.
+/// The leg of crank and rod.
 class Rus : public LegType {
  public:
-  /// Across the crank's plane first, then within it.
+  /// Checks the distance from the crank's plane first, then the one within it.
   Reach reach(const Leg& leg, const LegSpan& span) const override {
     const double l = leg.proximal.length, s = leg.distal.length;
     if (span.along > s)
@@ -25,7 +25,7 @@ class Rus : public LegType {
     return std::cos(q.psi(i)) > 0 ? "stretched" : "folded";
   }
 
-  /// The triangle of URS as seen along the axis; the rod is as long as what it has along the axis leaves.
+  /// Solves the triangle of URS in the view along the axis; the rod also spans the part along the axis.
   LinkLengths lengths(const LegSpan& span, double angle, double ratio) const override {
     const double c = sideOfTriangle(span.across, angle, ratio);
     return {ratio * c, std::hypot(c, span.along)};

@@ -14,7 +14,7 @@ class Ups : public LegType {
     return {span.distance, s, l + s, "its base and platform points are", "m apart, and its cylinder and rod span"};
   }
 
-  /// How far the rod's inner end is from the nearer end of the cylinder, m.
+  /// The distance of the rod's inner end from the nearer end of the cylinder, m.
   double margin(const Leg& leg, const JointVariables<double>& q, int i) const override {
     const double out = q.d(i) - leg.distal.length;
     return std::min(out, leg.proximal.length - out);
@@ -26,7 +26,7 @@ class Ups : public LegType {
   const char* firstAxis() const override { return "base axis of its universal joint"; }
   const char* firstAngle() const override { return "leg's"; }
 
-  /// The middle 70 % of the stroke.
+  /// Uses the middle 70 % of the stroke.
   LinkLengths lengths(const LegSpan& span, double angle, double ratio) const override {
     return lengthsAtStroke(span.distance, 0.15 + 0.7 * (angle / degree - 20) / 140, ratio);
   }
@@ -35,7 +35,7 @@ class Ups : public LegType {
 
 }  // namespace
 
-/// d = s + f l, f the share of the stroke that is used.
+/// d = s + f l, where f is the used share of the stroke.
 LinkLengths lengthsAtStroke(double distance, double share, double ratio) {
   const double s = distance / (1 + share * ratio);
   return {ratio * s, s};

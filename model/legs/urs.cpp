@@ -21,7 +21,7 @@ class Urs : public LegType {
     return std::cos(q.theta(i)) < 0 ? "stretched" : "folded";
   }
 
-  /// |AB|² = l² + s² − 2 l s cos γ, γ the angle at the knee.
+  /// |AB|² = l² + s² − 2 l s cos γ, where γ is the angle at the knee.
   LinkLengths lengths(const LegSpan& span, double angle, double ratio) const override {
     const double s = sideOfTriangle(span.distance, angle, ratio);
     return {ratio * s, s};

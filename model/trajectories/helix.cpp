@@ -21,7 +21,7 @@ struct HelixParameter {
   S beta, rise, rate, acceleration;  ///< rise: β − β₀
 };
 
-/// An angle without whole turns, which would take its last digits; as it is within one turn.
+/// Removes whole turns, which would cost the last digits. An angle within one turn is unchanged.
 template <class S>
 S withoutTurns(double angle) {
   const Real50 turn = 2 * acos(Real50(-1));
@@ -29,8 +29,8 @@ S withoutTurns(double angle) {
   return S(Real50(angle - turn * round(Real50(angle / turn))));
 }
 
-/// Coefficients aₖ t_fᵏ of the quintic in s = t / t_f: scaled so, no power of t_f can overflow or underflow.
-///   a₀ … a₅ from the values, rates and accelerations at both ends (paper, eq. 51)
+/// Coefficients aₖ t_fᵏ of the quintic in s = t / t_f; with this scaling no power of t_f can overflow or underflow.
+/// They follow from the values, rates and accelerations at both ends (paper, eq. 51).
 template <class S>
 std::array<S, 6> quinticCoefficients(const HelixParameters& helix) {
   const S duration(helix.duration);
@@ -50,7 +50,7 @@ std::array<S, 6> quinticCoefficients(const HelixParameters& helix) {
 template <class S>
 class HelixKernel {
  public:
-  /// Positions from `origin`, m, in B.
+  /// Positions are relative to `origin`, m, in B.
   HelixKernel(const HelixParameters& helix, const Vector3d& origin)
       : duration_(helix.duration),
         a_(helix.radius),
@@ -79,7 +79,7 @@ class HelixKernel {
 
     Motion<S> motion;
     motion.t = t;
-    // The chord from the start instead of two radii, which cancel where the axis is far.
+    // The chord from the start avoids the difference of two radii, which cancel if the axis is far away.
     const S half = helix.rise / 2, middle = coefficients_[0] + phase_ + half, chord = 2 * sin(half);
     motion.p = start_ + Vector3<S>(-a_ * chord * sin(middle), a_ * chord * cos(middle), b_ * helix.rise);
     motion.p_dot = m * helix.rate;
@@ -93,7 +93,7 @@ class HelixKernel {
   }
 
  private:
-  /// p at β₀ from the origin, rounded once: on a machine far from the base's origin the two cancel.
+  /// p at β₀ relative to the origin, rounded once: far from the base's origin the two cancel.
   static Vector3<S> startOf(const HelixParameters& helix, const Vector3d& origin) {
     const Real50 angle = Real50(helix.start_angle) + helix.phase;
     const Real50 height = Real50(helix.pitch) * (Real50(helix.start_angle) + Real50(helix.height_phase));
@@ -101,7 +101,7 @@ class HelixKernel {
             S(Real50(height - origin.z()))};
   }
 
-  /// β by Horner's rule (paper, eq. 50), and β̇, β̈ (paper, eq. 53).
+  /// Computes β by Horner's rule (paper, eq. 50), and β̇, β̈ (paper, eq. 53).
   HelixParameter<S> parameter(const S& t) const {
     const S s = t / duration_;
     S rise(0), rate(0), acceleration(0);

@@ -6,8 +6,8 @@
 #include "base/csv.h"
 #include "model/trajectory.h"
 
-// The motions beside the helix. All are twice continuously differentiable in SO(3) × R³ over [0, duration] and extend
-// smoothly beyond; ω and ω̇ are exact derivatives of the orientation returned.
+// Motions beside the helix. All are twice continuously differentiable in SO(3) × R³ over [0, duration] and extend
+// smoothly beyond; ω and ω̇ are exact derivatives of the returned orientation.
 
 namespace ursula {
 
@@ -18,23 +18,23 @@ struct TimedPose {
   Eigen::Vector4d orientation = Eigen::Vector4d::UnitX();  ///< [w, x, y, z] of M in B; either sign
 };
 
-/// Stays where it is. The quaternion may be off unit length by 1e-3 and is normalised; duration > 0.
-/// Throws InvalidParameter (places `trajectory.…`).
+/// A constant pose. The quaternion is normalised and may be off unit length by 1e-3; duration > 0. Throws
+/// InvalidParameter (places `trajectory.…`).
 std::unique_ptr<Trajectory> makeHold(const Vector3d& position, const Eigen::Vector4d& orientation, double duration);
 
-/// Through at least two poses, the first at time 0, at rest (zero twist and twist rate) at both ends; four times
-/// continuously differentiable. Quaternions as for makeHold; neighbours less than 170° apart, so that the way round is
-/// clear. Throws InvalidParameter (places `trajectory.points[n].…`, 1-based).
+/// A motion through at least two poses, the first at time 0, at rest (zero twist and twist rate) at both ends. It is
+/// four times continuously differentiable. Quaternions are as for makeHold; neighbours are less than 170° apart, so the
+/// rotation is unique. Throws InvalidParameter (places `trajectory.points[n].…`, 1-based).
 std::unique_ptr<Trajectory> makeWaypoints(const std::vector<TimedPose>& points);
 
-/// Through at least six poses of a motion sampled densely, the first at time 0; four times continuously differentiable.
-/// It starts and ends as the quintic through the six outermost poses does, so any motion that is a quintic comes back
-/// exactly, and a smooth one with an error of O(h⁴) in the accelerations. Quaternions are unit within 1e-6.
-/// Throws InvalidParameter (places `trajectory.samples[n].…`, 1-based).
+/// A motion through at least six dense samples, the first at time 0; four times continuously differentiable. Its end
+/// derivatives are those of the quintic through the six outermost poses. So it reproduces any quintic exactly, and a
+/// smooth motion with an error of O(h⁴) in the accelerations. Quaternions are unit within 1e-6. Throws InvalidParameter
+/// (places `trajectory.samples[n].…`, 1-based).
 std::unique_ptr<Trajectory> makeSamples(const std::vector<TimedPose>& samples);
 
-/// The same from columns t_s, p_{x,y,z}_m, q_{w,x,y,z} of a table; other columns are ignored, since velocities and
-/// accelerations have to be derivatives of the poses. Throws CsvError with the file and line.
+/// The same from columns t_s, p_{x,y,z}_m, q_{w,x,y,z} of a table. Other columns are ignored, because velocities and
+/// accelerations must be derivatives of the poses. Throws CsvError with the file and line.
 std::unique_ptr<Trajectory> makeSamples(const CsvTable& table);
 
 }  // namespace ursula

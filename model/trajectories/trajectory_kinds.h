@@ -10,21 +10,21 @@
 
 namespace ursula {
 
-/// A kind of motion that a scenario may ask for. Its file here has its kernel, its keys and what reads them.
+/// A kind of motion in a scenario. Its file in this folder has its kernel, its keys and their reader.
 struct TrajectoryKind {
-  const char* name;         ///< of `kind`
+  const char* name;         ///< value of `kind`
   const char* words;        ///< "the helix"
-  const char* orientation;  ///< the key that has its first quaternion; null where none has
+  const char* orientation;  ///< the key of its first quaternion; null if there is none
   std::vector<ScenarioTable> (*keys)();
   std::shared_ptr<const Trajectory> (*read)(const TomlSection& table);
 };
 
-// Each kind's file defines its own. What reads throws ScenarioError, InvalidParameter and CsvError.
+// Each kind's file defines its own functions. The readers throw ScenarioError, InvalidParameter and CsvError.
 std::vector<ScenarioTable> helixKeys(), waypointsKeys(), samplesKeys(), holdKeys();
 std::shared_ptr<const Trajectory> readHelix(const TomlSection&table), readWaypoints(const TomlSection&table),
     readSamples(const TomlSection&table), readHold(const TomlSection&table);
 
-/// The table of them all. Another kind is a file here and its row.
+/// All kinds. A new kind needs a file here and a row.
 inline constexpr std::array trajectory_kinds = {
     TrajectoryKind{"helix", "the helix", nullptr, helixKeys, readHelix},
     TrajectoryKind{"waypoints", "the motion through waypoints", "trajectory.points[1].orientation", waypointsKeys,
@@ -33,18 +33,18 @@ inline constexpr std::array trajectory_kinds = {
     TrajectoryKind{"hold", "its hold", "trajectory.orientation", holdKeys, readHold},
 };
 
-/// Null for a trajectory that a program made for itself.
+/// Returns null for a trajectory that a program defined.
 const TrajectoryKind* trajectoryKind(const std::string& name);
 
-/// [trajectory] and its kinds, for scenarioTables().
+/// Returns [trajectory] and the tables of its kinds, for scenarioTables().
 std::vector<ScenarioTable> motionTables();
 
-// --- what the kinds' files share ---
+// --- common parts of the kinds' files ---
 
-/// `kind`, one of the names above.
+/// The key `kind`, with the names above as choices.
 ScenarioKey kindKey();
 ScenarioKey positionKey();
-/// `orientation`, a quaternion, and `rpy_deg` instead of it; readOrientation() takes either.
+/// The keys `orientation`, a quaternion, and `rpy_deg` as its alternative; readOrientation() reads either.
 std::array<ScenarioKey, 2> orientationKeys();
 Eigen::Vector4d readOrientation(const TomlSection& table);
 
