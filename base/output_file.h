@@ -11,10 +11,12 @@ namespace ursula {
 /// A file written in pieces that readers see only once it is complete and on the disk. Until then it has a temporary
 /// name in the same folder. An uncommitted file is removed; that of a killed process, when the next file is written
 /// there.
-/// | A replaced file keeps its mode and, if the system permits, its owner. A symbolic link stays; its target is
+///
+/// A replaced file keeps its mode and, if the system permits, its owner. A symbolic link stays; its target is
 /// replaced. Of several hard links one name gets the new file. Devices, named pipes and open files (/dev/stdout) are
 /// written in place. Read-only files are refused.
-/// | Makes missing parent folders, and removes them if nothing is committed. Throws std::filesystem::filesystem_error
+///
+/// Makes missing parent folders, and removes them if nothing is committed. Throws std::filesystem::filesystem_error
 /// or std::runtime_error with the path.
 class OutputFile {
  public:

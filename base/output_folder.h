@@ -15,7 +15,8 @@ using Paths = std::set<std::filesystem::path>;
 /// A folder whose files belong together. They are written beside it and replace it as a whole when committed, on the
 /// disk. Until then, or on failure, the old folder stays as it was. Files that no older run wrote, such as a user's
 /// notes, are carried over. No other process can write the folder meanwhile.
-/// | A folder is refused if a swap is impossible or harms its users. These are mount points or folders that hold one,
+///
+/// A folder is refused if a swap is impossible or harms its users. These are mount points or folders that hold one,
 /// the working folder of this process, and folders with unreadable content.
 class OutputFolder {
  public:

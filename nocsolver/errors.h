@@ -5,11 +5,11 @@
 
 namespace ursula {
 
-/// A pose at which the formulas do not hold: names the leg, the instant and the number that tells how near it is.
+/// A pose at which the formulas do not hold, with the leg, the instant and the number that shows how near it is.
 class PoseError : public std::runtime_error {
  public:
-  /// `leg` is 0-based, −1 where no single leg is to blame; `instant` in s; the pose is refused since `measure` is
-  /// outside of `bound`, both in `unit`.
+  /// `leg` is 0-based, or −1 if no single leg causes it; `instant` is in s. The pose is refused because `measure` is
+  /// outside `bound`, both in `unit`.
   PoseError(const std::string& what, int leg, double instant, double measure, double bound, const std::string& unit);
 
   int leg() const { return leg_; }
@@ -22,7 +22,7 @@ class PoseError : public std::runtime_error {
   double instant_, measure_, bound_;
 };
 
-/// ‖AᵢBᵢ‖ is above l + s or below |l − s|, or what is like it for other kinds of legs; measure is the distance, m.
+/// ‖AᵢBᵢ‖ is above l + s or below |l − s|, or the like for other kinds of legs; measure is the distance, m.
 class OutOfReach : public PoseError {
  public:
   using PoseError::PoseError;
@@ -34,13 +34,13 @@ class OutOfStroke : public OutOfReach {
   using OutOfReach::OutOfReach;
 };
 
-/// sin θ vanishes (of RUS sin ψ or cos θ, of PUS cos θ): the leg is stretched or folded and its rates are not
-/// determined; measure is its size.
+/// sin θ vanishes (for RUS sin ψ or cos θ, for PUS cos θ). The leg is stretched or folded and its rates are
+/// undetermined; measure is its absolute value.
 class StretchedLeg : public PoseError {
   using PoseError::PoseError;
 };
 
-/// B lies on the leg's actuated axis: φ is not determined; measure is the distance from the axis, m.
+/// B lies on the leg's first axis, so φ is undetermined; measure is the distance from the axis, m.
 class PointOnAxis : public PoseError {
   using PoseError::PoseError;
 };

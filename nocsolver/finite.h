@@ -6,14 +6,14 @@
 
 namespace ursula {
 
-/// Throws std::domain_error that names quantity and instant where one of `values` is infinite or NaN. Of several values
-/// it says which, from 1.
+/// Throws std::domain_error with quantity and instant if one of `values` is infinite or NaN. Of several values it names
+/// the 1-based index.
 void requireFinite(const double* values, std::size_t count, const char* what, double instant);
 
-/// The same for all of the platform's motion.
+/// The same for the platform's whole motion.
 void requireFinite(const Motion<double>& motion);
 
-/// `values`, as it is.
+/// Returns `values` unchanged if they are finite.
 template <class S>
 const Vector6<S>& finite(const Vector6<S>& values, const char* what, const S& instant) {
   const Vector6<double> in_doubles = values.template cast<double>();

@@ -6,17 +6,17 @@
 
 namespace ursula {
 
-/// Where Solver keeps what it finds; one for each thread. Fixed size: nothing is allocated.
+/// Solver's intermediate results; each thread needs its own. Its size is fixed, so nothing is allocated.
 template <class S>
 using Workspace = NocWorkspace<S>;
 
-/// Kinematics and dynamics of any machine, for users: kinematics and Jacobians of Noc, dynamics by FastDynamics, which
-/// every validation holds against Noc. Immutable: threads share it, each with a Workspace of its own. Nothing here
-/// allocates.
+/// Kinematics and dynamics of any machine, for users. Kinematics and Jacobians are those of Noc; dynamics are those of
+/// FastDynamics, which every validation compares with Noc. Immutable; threads share it, each with its own Workspace.
+/// Does not allocate.
 ///
-/// Every function throws OutOfReach, OutOfStroke or PointOnAxis for poses that the legs cannot take, and from the rates
-/// on StretchedLeg; those that need B⁻¹ throw SingularJacobian. Efforts and twist rates that are not finite are thrown
-/// as std::domain_error, which names the instant.
+/// Every function throws OutOfReach, OutOfStroke or PointOnAxis for poses beyond the legs. Rates and all later
+/// quantities throw StretchedLeg. Functions that need B⁻¹ throw SingularJacobian. Non-finite efforts and twist rates
+/// throw std::domain_error with the instant.
 template <class S>
 class Solver {
  public:
@@ -27,17 +27,17 @@ class Solver {
   /// A length of the machine's size, m: the largest ‖bᵢ‖ or link.
   const S& length() const { return machine().length; }
 
-  /// Displacements only: (3)–(5), (13), (14) and what is like them.
+  /// Displacements only: (3)–(5), (13), (14) and their counterparts for other kinds.
   void displacements(const Motion<S>& motion, Workspace<S>& work) const { noc_.displacements(motion, work); }
   /// Displacements, rates and accelerations of all joints, (1)–(19).
   void inverseKinematics(const Motion<S>& motion, Workspace<S>& work) const { noc_.inverseKinematics(motion, work); }
 
-  /// What `work` holds: angles in (−π, π] but for ψ of (14b), and d in m.
+  /// The joint coordinates in `work`: angles in (−π, π] except ψ of (14b), and d in m.
   JointVariables<S> angles(const Workspace<S>& work) const { return noc_.angles(work); }
   JointVariables<S> rates(const Workspace<S>& work) const { return noc_.rates(work); }
   JointVariables<S> accelerations(const Workspace<S>& work) const { return noc_.accelerations(work); }
 
-  /// How near leg i is to where its rates are not determined. Needs displacements.
+  /// How near leg i is to poses where its rates are undetermined. Needs displacements.
   LegMargins<S> margins(const Workspace<S>& work, int i) const {
     return work.legs[static_cast<std::size_t>(i)].margins;
   }
@@ -46,7 +46,7 @@ class Solver {
   void jacobians(const Motion<S>& motion, Workspace<S>& work) const { noc_.jacobians(motion, work); }
   /// Its rows are [Qb × n; n], n of length 1.
   const Matrix6<S>& B(const Workspace<S>& work) const { return work.B; }
-  /// Of Bᵀ, its moment rows over the length. Needs jacobians.
+  /// The determinant of Bᵀ, with its moment rows divided by the length. Needs jacobians.
   S determinant(const Workspace<S>& work) const { return work.B_transposed.determinant(); }
   /// T = B⁻¹A of (24), 6 × 6: t_P = T q̇ of the driven coordinates. Needs jacobians.
   Matrix6<S> T(const Workspace<S>& work) const { return noc_.platformShaping(work); }
@@ -60,16 +60,15 @@ class Solver {
     noc_.bodyMotions(motion, work, bodies);
   }
 
-  /// Efforts of the motors, N·m, or N where they push, conjugate to the rates of their coordinates, by (37); `load` is
-  /// an external wrench on the platform, [moment about P; force], in B. The workspace is left as it is.
+  /// Efforts of the motors by (37), N·m, or N for sliding coordinates, conjugate to their rates. `load` is an external
+  /// wrench on the platform, [moment about P; force], in B. The workspace is unused.
   Vector6<S> inverseDynamics(const Motion<S>& motion, Workspace<S>&,
                              const Vector6<S>& load = Vector6<S>::Zero()) const {
     return finite(dynamics_.inverseDynamics(motion, load), "effort", motion.t);
   }
 
-  /// The platform's twist rate [ω̇; p̈] under efforts, by (36) projected on t_P; accelerations in `motion` are not read.
-  /// Does not throw SingularJacobian: the motors act whether or not they determine the motion. The workspace is left as
-  /// it is.
+  /// The platform's twist rate [ω̇; p̈] under efforts, by (36) projected on t_P; ignores accelerations in `motion`. Does
+  /// not throw SingularJacobian: the motors act whether or not they determine the motion. The workspace is unused.
   Vector6<S> directDynamics(const Motion<S>& motion, const Vector6<S>& efforts, Workspace<S>&,
                             const Vector6<S>& load = Vector6<S>::Zero()) const {
     return finite(dynamics_.directDynamics(motion, efforts, load), "twist rate", motion.t);

@@ -16,7 +16,7 @@ namespace {
 static_assert(sizeof(Motion<double>) == 25 * sizeof(double), "a batch reads motions as rows of numbers");
 static_assert(sizeof(Vector6d) == 6 * sizeof(double));
 
-/// A fault for each answer that no double holds: NaN in its place.
+/// Flags answers that are not finite and sets them to NaN.
 void flagNotFinite(std::size_t count, Vector6d* out, PoseFault* faults) {
   for (std::size_t k = 0; k < count; ++k)
     if (faults[k] == PoseFault::none && !out[k].allFinite()) {
@@ -25,7 +25,7 @@ void flagNotFinite(std::size_t count, Vector6d* out, PoseFault* faults) {
     }
 }
 
-/// One answer after the other.
+/// Computes one answer after the other.
 template <class F>
 void oneByOne(std::size_t count, Vector6d* out, PoseFault* faults, const F& answer) {
   for (std::size_t k = 0; k < count; ++k) {

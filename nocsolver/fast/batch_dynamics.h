@@ -11,25 +11,25 @@
 
 namespace ursula {
 
-/// FastDynamics over many poses: the same formulas, as many poses at a time as a register has lanes. A pose without an
-/// answer is flagged, its numbers are NaN, and no other is touched by it.
+/// FastDynamics over many poses: the same formulas, with one pose in each lane of a register. A pose without an answer
+/// is flagged and its numbers are NaN; it affects no other pose.
 ///
-/// Numbers do not depend on where in a batch a pose is, or on how long the batch is. They differ in the last bits
+/// Numbers do not depend on a pose's place in the batch or on the batch's length. They differ in the last bits
 /// between instruction sets (fused products, tanh) and from FastDynamics.
 ///
-/// Immutable: threads share it, and so do copies. Nothing is allocated after the construction. Throws nothing.
+/// Immutable; threads and copies share it. After construction it neither allocates nor throws.
 class BatchDynamics {
  public:
-  /// `set` is to be supported, or std::invalid_argument is thrown.
+  /// Throws std::invalid_argument unless the processor supports `set`.
   explicit BatchDynamics(const Manipulator& manipulator, InstructionSet set = bestInstructionSet());
-  /// Of what the kernels are given: with changed numbers, for controls that must fail.
+  /// Takes the kernels' own input; negative controls change its numbers.
   BatchDynamics(const kernel::MachineModel<double>& machine, InstructionSet set);
-  BatchDynamics(const BatchDynamics&) = default;  // and no move, which would leave a husk
+  BatchDynamics(const BatchDynamics&) = default;  // no move, which would leave an empty object
   BatchDynamics& operator=(const BatchDynamics&) = default;
 
   InstructionSet instructionSet() const;
 
-  /// Efforts as FastDynamics::inverseDynamics; all pointers to `count` entries. `loads` may be null: no load.
+  /// Efforts as FastDynamics::inverseDynamics; all pointers have `count` entries. `loads` may be null: no load.
   void inverseDynamics(const Motion<double>* motions, std::size_t count, Vector6d* efforts, PoseFault* faults,
                        const Vector6d* loads = nullptr) const;
 

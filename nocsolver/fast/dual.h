@@ -5,13 +5,13 @@
 
 namespace ursula {
 
-/// A number with its derivatives by N others: the kernels' scalar for derivatives. Comparisons see the number alone.
+/// A number with its derivatives with respect to N variables, for the kernels. Comparisons use the number alone.
 template <int N>
 struct Dual {
   using Slopes = Eigen::Array<double, N, 1>;
 
   Dual() : Dual(0.0) {}
-  Dual(double value) : v(value), d(Slopes::Zero()) {}  // a number is a constant
+  Dual(double value) : v(value), d(Slopes::Zero()) {}  // a plain number is a constant
   Dual(double value, const Slopes& slopes) : v(value), d(slopes) {}
 
   explicit operator double() const { return v; }

@@ -13,9 +13,9 @@
 namespace ursula {
 namespace {
 
-/// By the state: δ, p, ω, ṗ, ω̇, p̈.
+/// Derivatives by the state: δ, p, ω, ṗ, ω̇, p̈.
 using ByState = Dual<18>;
-/// By as many of the machine's numbers at a time.
+/// Number of the machine's parameters that one pass differentiates by.
 constexpr int at_a_time = 16;
 using ByNumbers = Dual<at_a_time>;
 
@@ -49,7 +49,7 @@ void seed(int first, Vector3<ByState>& v) {
   for (int k = 0; k < 3; ++k) v(k).d(first + k) = 1;
 }
 
-/// A machine with its axes as they are written, not of length 1.
+/// A machine with its axes as given, without normalisation.
 struct WrittenMachine {
   MachineParameters<ByNumbers> parameters;
   std::array<Vector3<ByNumbers>, leg_count> axis;
@@ -60,7 +60,7 @@ struct WrittenMachine {
   }
 };
 
-/// Has the number vary along a slope.
+/// Makes `slope` the derivative by this number.
 void vary(WrittenMachine& machine, const MachineNumber& number, int slope) {
   MachineParameters<ByNumbers>& m = machine.parameters;
   const auto i = static_cast<std::size_t>(std::max(number.leg, 0)), k = static_cast<std::size_t>(number.entry);
@@ -114,8 +114,8 @@ void vary(WrittenMachine& machine, const MachineNumber& number, int slope) {
   }
 }
 
-/// Bodies of mass 1 at P and at the links' first ends, without inertia: derivatives there, by mass, distance and
-/// inertia, are the columns of the regressor.
+/// Bodies of mass 1 at P and at the links' first ends, without inertia. Their derivatives by mass, distance and inertia
+/// are the columns of the regressor.
 WrittenMachine unitBodies(WrittenMachine machine) {
   MachineParameters<ByNumbers>& m = machine.parameters;
   m.mass = 1;
@@ -136,14 +136,16 @@ Matrix3d about(double mass, const Vector3d& r, const Matrix3d& I) {
   return I + mass * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
 }
 
-/// With first moments for mass centres, and inertias about P and the links' first ends: what efforts are linear in.
+/// Replaces mass centres by first moments, and inertias by those about P and the links' first ends, in which efforts
+/// are linear.
 ManipulatorParameters withMoments(ManipulatorParameters machine) {
   Platform& platform = machine.platform;
   platform.inertia = about(platform.mass, platform.center_of_mass, platform.inertia);
   platform.center_of_mass *= platform.mass;
   for (Leg& leg : machine.legs)
     for (Link* link : {&leg.proximal, &leg.distal}) {
-      const Vector3d center = link->off_line + link->center_of_mass * Vector3d::UnitZ();  // a carriage's does not count
+      const Vector3d center =
+          link->off_line + link->center_of_mass * Vector3d::UnitZ();  // a carriage's mass centre does not count
       link->inertia = about(link->mass, center, link->inertia);
       link->center_of_mass *= link->mass;
       link->off_line *= link->mass;
@@ -151,7 +153,7 @@ ManipulatorParameters withMoments(ManipulatorParameters machine) {
   return machine;
 }
 
-/// The name of the number that takes its place there: "manipulator.leg.2.distal.first_moment".
+/// The name of the replacing parameter: "manipulator.leg.2.distal.first_moment".
 std::string momentName(const MachineNumber& number) {
   std::string out = number.path;
   if (number.group == "rotor") return out;
@@ -188,7 +190,7 @@ struct EffortDerivatives::Impl {
     }
   }
 
-  /// A column for each number of `at`, as many at a time as a dual number has slopes.
+  /// Computes a column for each number of `at`; one pass handles as many as a dual number has slopes.
   static Columns columns(const WrittenMachine& at, const std::vector<MachineNumber>& numbers,
                          const Motion<double>& motion, const Vector6d& load) {
     const int count = static_cast<int>(numbers.size());
@@ -207,7 +209,7 @@ struct EffortDerivatives::Impl {
     return out;
   }
 
-  /// With friction wherever there could be some, and the frames of the axes as they are varied.
+  /// Enables all friction that could exist, and derives the frames from the varied axes.
   static kernel::MachineModel<ByNumbers> modelOf(WrittenMachine& seeded) {
     MachineParameters<ByNumbers>& m = seeded.parameters;
     for (std::size_t i = 0; i < static_cast<std::size_t>(m.legs_in_all); ++i)

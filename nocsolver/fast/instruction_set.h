@@ -2,11 +2,11 @@
 
 namespace ursula {
 
-/// What the kernels of packs are computed with. Which of them the processor has is found when the program runs.
+/// Instruction sets of the kernels for packs. The program detects at run time which ones the processor has.
 enum class InstructionSet { portable, sse2, avx2, avx512 };
 
 bool isSupported(InstructionSet set);
-/// The widest that is supported.
+/// Returns the widest supported set.
 InstructionSet bestInstructionSet();
 /// "AVX-512".
 const char* nameOf(InstructionSet set);

@@ -22,7 +22,7 @@ bool areAlike(const MachineModel<double>& machine) {
   return true;
 }
 
-/// The shape of the first leg serves for all: what one of them has, it has.
+/// The first leg's shape serves for all; it gets each property that any leg has.
 MachineShape commonShape(const MachineModel<double>& machine) {
   MachineShape out = shapeOf(machine);
   for (std::size_t i = 1; i < leg_count; ++i) {

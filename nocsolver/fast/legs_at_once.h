@@ -10,16 +10,16 @@
 
 namespace ursula::kernel {
 
-/// One pose at a time with a leg in each lane of a pack, for machines whose six legs are of one kind and have one motor
-/// each, on the same coordinate. Internal to FastDynamics. Immutable: threads share it; nothing is allocated after the
-/// construction.
+/// One pose at a time with a leg in each lane of a pack. It serves machines with six legs of one kind and one motor
+/// each on the same coordinate. Internal to FastDynamics. Immutable; threads share it; after construction it does not
+/// allocate.
 class LegsAtOnce {
  public:
-  /// `set` is to be supported, or std::invalid_argument is thrown.
+  /// Throws std::invalid_argument unless the processor supports `set`.
   LegsAtOnce(const MachineModel<double>& machine, InstructionSet set);
 
-  /// Efforts as kernel::inverseDynamics, which sets `pivots`, too. None for other machines and where a leg cannot take
-  /// the pose.
+  /// Efforts as kernel::inverseDynamics, which also sets `pivots`. Returns nullopt for other machines and if a leg
+  /// refuses the pose.
   std::optional<Vector6d> inverseDynamics(const Motion<double>& motion, const Vector6d& load, double& pivots) const;
 
   /// The platform's twist rate as kernel::directDynamics.

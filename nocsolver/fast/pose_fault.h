@@ -4,7 +4,7 @@
 
 namespace ursula {
 
-/// Why a pose of a batch has no answer; of several, the first on the way from leg 1 on.
+/// Why a pose of a batch has no answer; the first fault, in the order of the legs.
 enum class PoseFault : std::uint8_t {
   none,
   out_of_reach,
@@ -12,7 +12,7 @@ enum class PoseFault : std::uint8_t {
   point_on_axis,
   stretched_leg,
   singular_jacobian,
-  not_finite  ///< the answer is: numbers of pose, efforts or load are too large, too small or NaN
+  not_finite  ///< pose, efforts or load are too large, too small or NaN for a finite answer
 };
 
 }  // namespace ursula

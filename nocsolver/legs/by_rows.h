@@ -1,6 +1,6 @@
 #pragma once
 
-// Rates and accelerations of a leg's coordinates by its rows of A q̇ = B t_P (22) and their rates. Internal.
+// Rates and accelerations of a leg's coordinates from its rows of A q̇ = B t_P (22) and their rates. Internal.
 
 #include "nocsolver/legs/plane.h"
 

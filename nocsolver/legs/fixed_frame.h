@@ -6,14 +6,14 @@
 
 namespace ursula {
 
-/// (paper, eq. 2a) as it holds for any tilt: x̂ = (u × e_z)/‖·‖, ŷ = u, ẑ = x̂ × u; for an axis along e_z the seed is
-/// e_y.
+/// (paper, eq. 2a) in a form valid for any tilt: x̂ = (u × e_z)/‖·‖, ŷ = u, ẑ = x̂ × u; for an axis along e_z, e_y
+/// replaces e_z.
 template <class S, class Written>
 void setFixedFrame(const Vector3<Written>& axis, Vector3<S>& x_hat, Vector3<S>& y_hat, Vector3<S>& z_hat) {
   using std::sqrt;
   const Vector3<S> u = axis.template cast<S>() / sqrt(axis.template cast<S>().squaredNorm());
   const Vector3<S> e_z = Vector3<S>::UnitZ();
-  // Below this the cross product would be made of rounding errors of uᵢ as it was written.
+  // Below this, the cross product would consist of rounding errors of the given uᵢ.
   const bool along_e_z = u.cross(e_z).squaredNorm() < S(1e-20);
   const Vector3<S> seed = along_e_z ? Vector3<S>::UnitY() : e_z;
   const Vector3<S> x = u.cross(seed);

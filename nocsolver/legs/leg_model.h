@@ -18,13 +18,13 @@ struct LegModel {
   S mass_1, mass_2;            ///< mᵢ, m₆₊ᵢ: proximal, distal link
   Matrix3<S> I_1, I_2;         ///< [Iᵢ]_G, [I₆₊ᵢ]_H
   std::array<S, 3> viscous, coulomb, speed;  ///< friction of the three coordinates
-  std::array<S, 3> rotor;                    ///< inertia of what the coordinate's motor turns
-  bool has_rotor, off_line;                  ///< some motor has some; some mass centre is off its link's line
-  Vector3<S> off_1, off_2;                   ///< of the mass centres from the links' lines, in their frames
-  std::array<int, 3> motor;                  ///< that drives the coordinate, −1 where none does
+  std::array<S, 3> rotor;                    ///< rotor inertia of the coordinate's motor
+  bool has_rotor, off_line;  ///< whether a rotor has inertia; whether a mass centre is off its link's line
+  Vector3<S> off_1, off_2;   ///< offsets of the mass centres from the links' lines, in the links' frames
+  std::array<int, 3> motor;  ///< index of the motor on the coordinate, −1 if there is none
 };
 
-/// The machine as the formulas see it: raw parameters in the scalar S.
+/// The machine in the form that the formulas use: raw parameters in the scalar S.
 template <class S>
 struct MachineParameters {
   explicit MachineParameters(const Manipulator& manipulator);

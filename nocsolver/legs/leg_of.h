@@ -1,6 +1,6 @@
 #pragma once
 
-// From a leg's kind to the file that says all of it. Internal.
+// Selects the class of a leg's kind. Internal.
 
 #include "nocsolver/legs/pus.h"
 #include "nocsolver/legs/rus.h"

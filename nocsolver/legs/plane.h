@@ -1,6 +1,6 @@
 #pragma once
 
-// What all kinds of legs share: the plane of a leg and the motion of a link in it. Internal.
+// Common parts of all kinds of legs: the plane of a leg and the motion of a link in it. Internal.
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -26,7 +26,7 @@ InAxes<S> inAxes(const LegModel<S>& leg, const Vector3<S>& AB) {
   return out;
 }
 
-/// Axes x and z of F̂R(α), α by its sine and cosine.
+/// Axes x and z of F̂R(α), from the sine and cosine of α.
 template <class S>
 struct Plane {
   S sine, cosine;
@@ -39,13 +39,13 @@ Plane<S> planeAt(const LegModel<S>& leg, const S& sine, const S& cosine) {
           cosine * leg.z_hat - sine * leg.x_hat};  // (paper, eq. 1)
 }
 
-/// Of α = atan2(−k_x, k_z), which holds B at z = r > 0.
+/// The plane of α = atan2(−k_x, k_z), which contains B at z = r > 0.
 template <class S>
 Plane<S> planeOf(const LegModel<S>& leg, const InAxes<S>& B) {
   return planeAt<S>(leg, -B.k_x / B.r, B.k_z / B.r);  // (paper, eq. 14a)
 }
 
-/// The links' frames by their first and last axes.
+/// Sets the links' frames from their first and last axes.
 template <class S>
 void setLinks(const Vector3<S>& x_1, const Vector3<S>& e, const Vector3<S>& x_2, const Vector3<S>& along,
               LegState<S>& out) {
@@ -55,9 +55,9 @@ void setLinks(const Vector3<S>& x_1, const Vector3<S>& e, const Vector3<S>& x_2,
   out.along = along;
 }
 
-/// A link that turns about its point O. `arm` is from O to the mass centre, `carried` the velocity that the actual
-/// motion gives the arm. A twist is bilinear in the rates that move the frame and the rates whose twist is wanted, so
-/// that the columns of T (48) and their rates come out of the same lines.
+/// A link that turns about its point O. `arm` leads from O to the mass centre; `carried` is the arm's velocity in the
+/// actual motion. A twist is bilinear in the rates of the frame and the requested rates. So the same lines give the
+/// columns of T (48) and their rates.
 template <bool with_rates, class S, class R>
 LinkMotion<S> turning(const Vector3<S>& omega, const Vector3<S>& omega_dot, const Vector3<S>& arm,
                       const Vector3<S>& carried, const R& reading) {

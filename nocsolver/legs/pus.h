@@ -43,7 +43,7 @@ struct Pus : ByRows {
     requireRegular(state.margins.sine, "has its rod across its rail, |cos theta|", index, t);
   }
 
-  /// (a) along s⃗, x, z.
+  /// Rows of (a) along s⃗, x, z.
   template <class S, class R>
   static void rows(const LegModel<S>& leg, const R&, LegState<S>& out) {
     const S &sin_theta = out.sine[2], &cos_theta = out.cosine[2];

@@ -8,8 +8,8 @@
 
 namespace ursula {
 
-/// Ways in which a formula of noc/ or of a leg kind can be wrong: as printed in our source of the paper, or with a term
-/// left out. They exist so that it can be shown what each does and which check catches it.
+/// Possible errors in a formula of noc/ or of a leg kind: a misprint of our source of the paper, or a missing term.
+/// They show the effect of each error and which check catches it.
 enum class FormulaError {
   eq2,                   ///< (2a,b) frame built as if uᵢ lay in the base plane
   eq4c,                  ///< (4c) qᵢ² for q̇ᵢ²
@@ -22,7 +22,7 @@ enum class FormulaError {
   eq17,                  ///< (17a,b) −ω̇ᵢ
   eq19a,                 ///< (19a) ηφ, and without the terms in l
   eq19b,                 ///< (19b) without the factor ψ̇
-  eq23,                  ///< (23) aᵢᵢ = s sin(ψ+θ); of other kinds half of A
+  eq23,                  ///< (23) aᵢᵢ = s sin(ψ+θ); for other kinds half of A
   eq26_a_dot,            ///< (26) ȧᵢᵢ = η
   eq26_b_dot,            ///< (26) first row of Ḃ without Ω's Q
   eq43b_omega_dot,       ///< (43b) Ω̇ᵢ² for Ωᵢ²
@@ -36,24 +36,24 @@ enum class FormulaError {
   drop_platform_centripetal,  ///< Ω² of (43c) left out
   drop_gravity_legs,          ///< w^g of (45) without the links
   drop_gravity_platform,
-  drop_friction,       ///< w^d of (35) left out
-  drop_link_coupling,  ///< what the proximal link's motion gives the distal one, l[ė], l[ë] of (41b), (43b), left out
-  half_coriolis,       ///< ω × ė once where a link slides
-  drop_bias,           ///< Ȧ q̇ and ṅ · v_B left out of the accelerations of the joints
-  drop_row_rates,      ///< Ȧ and Ḃ of (26) left out of (25)
-  drop_own_column,     ///< (48) without the driven joint's own unit rate
-  drop_passive_rates,  ///< (48) without the rates of the joints that no motor drives
-  untwisted_tensors,   ///< (46a,b) left out: tensors of links as if in B
-  untwisted_platform,  ///< (46c) left out: the platform's tensor as if in B
-  mass_for_inertia,    ///< (29) M of the platform without its inertia
-  drop_mass_distal,    ///< (29) M of the distal links without m₆₊ᵢ
-  drop_T_rate,         ///< (34) C without M Ṫ
-  drop_W,              ///< (34) C without W M T
-  drop_tau_g,          ///< (36) without τ^g
-  drop_tau_d,          ///< (36) without τ^d
-  drop_inertia,        ///< (37) without wⁿ
-  drop_load,           ///< (35) without the load on the platform
-  drop_rotor,          ///< inertia of the motors' rotors left out
+  drop_friction,        ///< w^d of (35) left out
+  drop_link_coupling,   ///< l[ė], l[ë] of (41b), (43b) left out, the proximal link's part in the distal one's motion
+  half_coriolis,        ///< ω × ė once instead of twice for a sliding link
+  drop_bias,            ///< Ȧ q̇ and ṅ · v_B left out of the joints' accelerations
+  drop_row_rates,       ///< Ȧ and Ḃ of (26) left out of (25)
+  drop_own_column,      ///< (48) without the driven joint's own unit rate
+  drop_passive_rates,   ///< (48) without the rates of the passive joints
+  untwisted_tensors,    ///< (46a,b) left out: tensors of links as if in B
+  untwisted_platform,   ///< (46c) left out: the platform's tensor as if in B
+  mass_for_inertia,     ///< (29) M of the platform without its inertia
+  drop_mass_distal,     ///< (29) M of the distal links without m₆₊ᵢ
+  drop_T_rate,          ///< (34) C without M Ṫ
+  drop_W,               ///< (34) C without W M T
+  drop_tau_g,           ///< (36) without τ^g
+  drop_tau_d,           ///< (36) without τ^d
+  drop_inertia,         ///< (37) without wⁿ
+  drop_load,            ///< (35) without the load on the platform
+  drop_rotor,           ///< inertia of the motors' rotors left out
   scaled_first_effort,  ///< (37) of motor 1 times 1 + 1e-7
   scaled_efforts,       ///< (37) times 1.001
   wrong_D,              ///< (33) D with the spherical joints at the distal links' first ends
@@ -61,7 +61,7 @@ enum class FormulaError {
   count
 };
 
-/// The formulas that hold; costs nothing.
+/// The correct formulas, at no cost.
 struct Corrected {
   static constexpr bool has(FormulaError) { return false; }
   template <class Model>
@@ -72,8 +72,8 @@ struct Corrected {
   static constexpr void mapped(const Model&, State&) {}
 };
 
-/// The formulas that hold but for the errors set, and what a change makes of the numbers that the solver reads or of
-/// a leg's displacement. For controls that must fail.
+/// The correct formulas except for the set errors. It can also change the numbers that the solver reads, or a leg's
+/// displacement. For negative controls.
 class WithFormulaErrors {
  public:
   using ReadChange = std::function<void(MachineParameters<double>&)>;
@@ -97,7 +97,7 @@ class WithFormulaErrors {
     if (change_rows) change_rows(model, leg);
   }
 
-  // The hooks are for doubles.
+  // The hooks work on doubles only.
   template <class Model>
   static void read(Model&) {}
   template <class Model, class State>
@@ -105,9 +105,9 @@ class WithFormulaErrors {
   template <class Model, class State>
   static void mapped(const Model&, State&) {}
 
-  ReadChange change_read;  ///< of what the constructor has read
-  LegChange change_leg;    ///< after the displacement
-  LegChange change_rows;   ///< after the rows of (23)
+  ReadChange change_read;  ///< changes what the constructor has read
+  LegChange change_leg;    ///< runs after the displacement
+  LegChange change_rows;   ///< runs after the rows of (23)
 
  private:
   std::bitset<static_cast<std::size_t>(FormulaError::count)> formula_errors_;

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a pose must meet, and the errors that refuse it. Internal.
+// The requirements on a pose, and the errors that refuse it. Internal.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -23,7 +23,7 @@ void requireStroke(bool within, int index, const S& t, const S& d, const S& boun
                       static_cast<double>(bound), " m");
 }
 
-/// Below √eps the direction of r is made of rounding errors.
+/// Below √eps the direction of r consists of rounding errors.
 template <class S>
 void requireOffAxis(const S& r, const S& size, int index, const S& t) {
   using std::sqrt;
@@ -42,7 +42,7 @@ void requireRegular(const S& sine, const char* what, int index, const S& t) {
     throw StretchedLeg(what, index, static_cast<double>(t), static_cast<double>(sine), static_cast<double>(bound), "");
 }
 
-/// Of the pivots of Bᵀ, its moment rows over a length of the machine, the smallest over the largest. Throws
+/// `ratio` is the smallest over the largest pivot of Bᵀ, with moment rows divided by a length of the machine. Throws
 /// SingularJacobian.
 template <class S>
 void requireRegularB(const S& ratio, const S& t) {

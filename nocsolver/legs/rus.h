@@ -6,7 +6,7 @@
 //   sin θ = k_y / s;  across u a plane linkage of l and c = s cos θ:
 //   cos ψ = (r² − l² − c²)/(2 l c),  φ = atan2(−k_x, k_z) − atan2(c sin ψ, l + c cos ψ)
 //   v_B = −φ̇ l x − (φ̇ + ψ̇) c x₂ + θ̇ (c u − k_y z₂)                                        (a)
-// (a) times s⃗ leaves φ̇ alone, times u leaves θ̇, times z and θ̇ put in leaves φ̇ + ψ̇.
+// (a) times s⃗ isolates φ̇, times u isolates θ̇; times z, with θ̇ inserted, isolates φ̇ + ψ̇.
 // The crank turns with ω = −φ̇ u, the rod with ω = −(φ̇ + ψ̇) u − θ̇ x₂.                       (b)
 
 #include "nocsolver/legs/by_rows.h"
@@ -54,7 +54,7 @@ struct Rus : ByRows {
     requireRegular(state.cosine[2], "has its rod along the axis of its crank, cos theta", index, t);
   }
 
-  /// (a) times s⃗; times l (c z + k_y cos ψ u) + c s⃗, which leaves ψ̇; times u.
+  /// Rows: (a) times s⃗; times l (c z + k_y cos ψ u) + c s⃗, which isolates ψ̇; times u.
   template <class S, class R>
   static void rows(const LegModel<S>& leg, const R&, LegState<S>& out) {
     const S c = leg.s * out.cosine[2], k_y = leg.s * out.sine[2], &sin_psi = out.sine[1], &cos_psi = out.cosine[1];
@@ -89,7 +89,7 @@ struct Rus : ByRows {
     const Vector3<S> omega_1 = -rate(0) * leg.u, omega_2 = omega_1 - rate(1) * leg.u - rate(2) * at.x_2;  // (b)
     const Vector3<S> omega_1_dot = -acceleration(0) * leg.u;
     Vector3<S> omega_2_dot = omega_1_dot - acceleration(1) * leg.u - acceleration(2) * at.x_2;
-    // −θ̇ (−(φ̇ + ψ̇) u) × x₂, and x₂ × u is z₂.
+    // −θ̇ (−(φ̇ + ψ̇) u) × x₂, where x₂ × u is z₂.
     if (!reading.has(FormulaError::drop_coriolis))
       omega_2_dot -= (rate(2) * (at.rate(0) + at.rate(1))) * at.x_2.cross(leg.u);
     LinkMotions<S> out{turning<with_rates>(omega_1, omega_1_dot, at.arm_1, Vector3<S>(now_1.cross(at.arm_1)), reading),

@@ -4,7 +4,7 @@
 //
 //   AB = d e,  e = [0, cos ψ, sin ψ] in F = F̂R(φ):  d = ‖k‖,  φ = atan2(−k_x, k_z),  ψ = atan2(r, k_y)
 //   v_B = −φ̇ r x + ψ̇ d (x × e) + ḋ e                                                       (a)
-// Cylinder and rod turn alike, with ω = −φ̇ u + ψ̇ x.                                        (b)
+// Cylinder and rod turn together, with ω = −φ̇ u + ψ̇ x.                                    (b)
 // The rod's inner end is d − s from A and stays within the cylinder: s < d < s + l.
 
 #include "nocsolver/legs/by_rows.h"
@@ -42,7 +42,7 @@ struct Ups : ByRows {
   template <class S>
   static void requireRates(int, const S&, const LegState<S>&) {}
 
-  /// (a) along x, x × e, e.
+  /// Rows of (a) along x, x × e, e.
   template <class S, class R>
   static void rows(const LegModel<S>&, const R&, LegState<S>& out) {
     const S &d = out.cosine[2], &sin_psi = out.sine[1];

@@ -10,8 +10,8 @@
 //   θ̇ = q q̇ / (l s sin θ)                                            (4b)
 //   φ̇ = h_x / (s sin(ψ+θ) − l sin ψ)                                  (15a)
 //   ψ̇ = (h_y − s θ̇ sin(ψ+θ)) / (s sin(ψ+θ) − l sin ψ)                 (15b)
-// and their derivatives (4c), (8), (18), (19). Where a formula fails as printed the one that holds stands here; the
-// printed one is read where its error is set.
+// and their derivatives (4c), (8), (18), (19). If a printed formula fails, the correct one stands here; the printed one
+// is used if its error is set.
 
 #include "nocsolver/legs/plane.h"
 
@@ -25,7 +25,7 @@ struct Urs {
     using std::sqrt;
     const InAxes<S> k = inAxes(leg, out.AB);
     const S q2 = k.r * k.r + k.k_y * k.k_y, q = sqrt(q2);  // (paper, eq. 5)
-    // 1 ∓ cos θ without the cancellation of (4a) near a stretched or folded leg.
+    // Computes 1 ∓ cos θ without the cancellation of (4a) near a stretched or folded leg.
     const S two_ls = S(2) * leg.l * leg.s, difference = leg.l - leg.s, sum = leg.l + leg.s;
     const S one_minus = (q2 - difference * difference) / two_ls, one_plus = (sum * sum - q2) / two_ls;
     requireReach(one_minus >= S(0), index, t, q, S(abs(difference)));
@@ -50,7 +50,7 @@ struct Urs {
     out.margins = {abs(sin_theta), q / k.r};
   }
 
-  /// First ends of the links from A: (39a,b) without the way to the mass centres.
+  /// First ends of the links relative to A: (39a,b) without the distances of the mass centres.
   template <class S>
   static void ends(const LegModel<S>& leg, LegState<S>& out) {
     out.O_1.setZero();
@@ -76,7 +76,7 @@ struct Urs {
     return leg.s * (at.rate(1) + at.rate(2)) * at.cos_sum;
   }
 
-  /// A and n of φ, ψ, θ: (23), and (15b), (4b) where a motor drives another joint than the paper's.
+  /// A and n of φ, ψ, θ: (23), and (15b), (4b) for motors on other joints than the paper's.
   template <class S, class R>
   static void rows(const LegModel<S>& leg, const R& reading, LegState<S>& out) {
     const S a_ii = leg.s * out.sin_sum - leg.l * out.sine[1], ls_sine = leg.l * leg.s * out.sine[2];
@@ -103,7 +103,7 @@ struct Urs {
     out.row[2].n_dot = out.v_B;
   }
 
-  /// φ̇, ψ̇, θ̇ for a velocity of Bᵢ; linear in it, as (48) needs it.
+  /// φ̇, ψ̇, θ̇ for a velocity of Bᵢ; linear in it, as (48) requires.
   template <class S, class R>
   static Vector3<S> rates(const LegModel<S>& leg, const LegState<S>& at, const Vector3<S>& v_B, const R& reading) {
     const Vector3<S> h(at.x.dot(v_B), leg.u.dot(v_B), at.z.dot(v_B));  // (paper, eq. 11b)
@@ -119,7 +119,7 @@ struct Urs {
   }
 
   /// φ̈, ψ̈, θ̈ for an acceleration of Bᵢ. The frame moves as `at` does; `rate`, `v_B` and `a_B` may be those of a
-  /// column of T, so that the same formulas give its rate.
+  /// column of T. So the same formulas give its rate.
   template <class S, class R>
   static Vector3<S> accelerations(const LegModel<S>& leg, const LegState<S>& at, const Vector3<S>& rate,
                                   const Vector3<S>& v_B, const Vector3<S>& a_B, const R& reading) {
@@ -169,8 +169,8 @@ struct Urs {
   }
 
  private:
-  /// [e]ᵢ or [s]ᵢ, or what is made of them, in Fᵢ, with its rate as the leg moves, its rate for the rates that are
-  /// wanted, and the rate of that.
+  /// [e]ᵢ or [s]ᵢ, or a multiple or sum of them, in Fᵢ. `now` is its rate in the actual motion, `dot` its rate for the
+  /// requested rates, `ddot` the rate of `dot`.
   template <class S>
   struct Direction {
     Vector3<S> at, now, dot, ddot;
@@ -186,7 +186,7 @@ struct Urs {
     return {by * of.at, by * of.now, by * of.dot, by * of.ddot};
   }
 
-  /// φ̇ as the leg moves; φ̇ and φ̈ that are wanted.
+  /// φ̇ of the actual motion; the requested φ̇ and φ̈.
   template <class S>
   struct Turn {
     S now, rate, acceleration;
@@ -198,7 +198,7 @@ struct Urs {
     return {-phi_dot * v.z(), S(0), phi_dot * v.x()};  // (paper, eq. 12)
   }
 
-  /// A link that turns about x by χ, its mass centre at `c`; in Fᵢ.
+  /// A link in Fᵢ that turns about x by χ, with its mass centre at `c`.
   template <bool with_rates, class S, class R>
   static LinkMotion<S> inPlane(const Turn<S>& F, const S& chi_dot, const S& chi_ddot, const Direction<S>& c,
                                const R& reading) {
@@ -215,11 +215,11 @@ struct Urs {
     return out;
   }
 
-  /// (43b) with the errors that only it has. `printed` is l [e] + [s].
+  /// (43b) with its own printed errors. `printed` is l [e] + [s].
   template <class S, class R>
   static void readFormulaErrorsOf43b(const Turn<S>& F, const Direction<S>& d, const Vector3<S>& printed, const S& sigma,
                                      const R& reading, Vector3<S>& d_ddot) {
-    // What (Ω̇ᵢ + Ωᵢ²) acts on; as printed σ is added to each component of [s].
+    // (Ω̇ᵢ + Ωᵢ²) acts on w; as printed, σ is added to each component of [s].
     const bool sigma_error = reading.has(FormulaError::eq43b_sigma),
                rate_error = reading.has(FormulaError::eq43b_omega_dot);
     if (sigma_error || rate_error) {

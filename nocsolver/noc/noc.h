@@ -13,42 +13,42 @@
 
 namespace ursula {
 
-/// Generalised twist and wrenches of (30a): six rows a body, in the order of BodyMotions.
+/// Generalised twist and wrenches of (30a): six rows per body, in the order of BodyMotions.
 template <class S>
 using BodyVector = Eigen::Matrix<S, 6 * body_count, 1>;
 
-/// The twist-shaping matrix of (32a), 78 × 6, rows in the order of (30a); zero rows for legs that are not there.
+/// The twist-shaping matrix of (32a), 78 × 6, rows in the order of (30a); missing legs have zero rows.
 template <class S>
 using TwistShaping = Eigen::Matrix<S, 6 * body_count, motor_count>;
 
-/// Of all bodies about their mass centres, in B.
+/// Inertia tensors of all bodies about their mass centres, in B.
 template <class S>
 using BodyTensors = std::array<Matrix3<S>, body_count>;
 
-/// Where the solver keeps what it finds; one for each thread. Fixed size: nothing is allocated.
+/// The solver's intermediate results; each thread needs its own. Its size is fixed, so nothing is allocated.
 template <class S>
 struct NocWorkspace {
   Matrix3<S> Q;  ///< of the platform
   std::array<LegState<S>, leg_count> legs;
-  Vector6<S> A;                                  ///< diagonal of A (23), a row a motor
+  Vector6<S> A;                                  ///< diagonal of A (23), one row per motor
   Matrix6<S> B;                                  ///< (23), rows [Qb × n; n] with n of length 1
-  Eigen::PartialPivLU<Matrix6<S>> B_transposed;  ///< factors of Bᵀ, its moment rows over the length
+  Eigen::PartialPivLU<Matrix6<S>> B_transposed;  ///< factors of Bᵀ, its moment rows divided by the length
   BodyMotions<S> bodies;
   BodyTensors<S> I_B;        ///< (46)
   Matrix6<S> T_P, T_P_rate;  ///< (24), (25)
   TwistShaping<S> T, T_rate;
 };
 
-/// The paper's method, for a platform on legs of any kinds, with the motors where they are: kinematics and Jacobians of
-/// section 2, dynamics by the natural orthogonal complement of section 3 as it is printed. This is the formulation that
-/// a validation judges. Written to be read beside the paper; fast/ has the same numbers without forming T.
+/// The paper's method for a platform on legs of any kinds with any motors: kinematics and Jacobians of section 2,
+/// dynamics by the natural orthogonal complement of section 3 as printed. A validation judges this formulation. It is
+/// written to be read beside the paper; fast/ gives the same numbers without forming T.
 ///
-/// The generalised speeds are the rates q̇ of the driven coordinates, φ̇ in the paper. Immutable: threads share it, each
-/// with a workspace of its own. `Reading` is Corrected, or WithFormulaErrors for formulas that are wrong. Nothing here
-/// allocates but where it is said.
+/// The generalised speeds are the rates q̇ of the driven coordinates, φ̇ in the paper. Immutable; threads share it, each
+/// with its own workspace. `Reading` is Corrected, or WithFormulaErrors for wrong formulas. Only functions that say so
+/// allocate.
 ///
-/// Every function throws OutOfReach, OutOfStroke or PointOnAxis for poses that the legs cannot take, and from the rates
-/// on StretchedLeg; those that need B⁻¹ throw SingularJacobian.
+/// Every function throws OutOfReach, OutOfStroke or PointOnAxis for poses beyond the legs. Rates and all later
+/// quantities throw StretchedLeg. Functions that need B⁻¹ throw SingularJacobian.
 template <class S, class Reading = Corrected>
 class Noc {
  public:
@@ -60,12 +60,12 @@ class Noc {
 
   // --- section 2: kinematics -----------------------------------------------------------------------------------------
 
-  /// Displacements only: (3)–(5), (13), (14) and what is like them.
+  /// Displacements only: (3)–(5), (13), (14) and their counterparts for other kinds.
   void displacements(const Motion<S>& motion, NocWorkspace<S>& work) const;
   /// Displacements, rates and accelerations of all joints, (1)–(19).
   void inverseKinematics(const Motion<S>& motion, NocWorkspace<S>& work) const;
 
-  /// What `work` holds: angles in (−π, π] but for ψ of (14b), and d in m.
+  /// The joint coordinates in `work`: angles in (−π, π] except ψ of (14b), and d in m.
   JointVariables<S> angles(const NocWorkspace<S>& work) const;
   JointVariables<S> rates(const NocWorkspace<S>& work) const;
   JointVariables<S> accelerations(const NocWorkspace<S>& work) const;
@@ -86,39 +86,39 @@ class Noc {
   /// T and its rate, of (32b): ṫ = T q̈ + Ṫ q̇. Needs inverseKinematics and jacobians.
   void twistShapingRate(const Motion<S>& motion, NocWorkspace<S>& work) const;
 
-  /// Efforts τ^a of the motors, N·m, or N where they push, conjugate to q̇, by (37); `load` is an external wrench on the
-  /// platform, [moment about P; force], in B. Does all of inverseKinematics, jacobians and twistShaping on the way.
+  /// Efforts τ^a of the motors by (37), N·m, or N for sliding coordinates, conjugate to q̇. `load` is an external wrench
+  /// on the platform, [moment about P; force], in B. Includes inverseKinematics, jacobians and twistShaping.
   Vector6<S> inverseDynamics(const Motion<S>& motion, NocWorkspace<S>& work,
                              const Vector6<S>& load = Vector6<S>::Zero()) const;
 
-  /// The platform's twist rate [ω̇; p̈] under efforts, by (36) and (25); accelerations in `motion` are not read.
+  /// The platform's twist rate [ω̇; p̈] under efforts, by (36) and (25); ignores accelerations in `motion`.
   Vector6<S> directDynamics(const Motion<S>& motion, const Vector6<S>& efforts, NocWorkspace<S>& work,
                             const Vector6<S>& load = Vector6<S>::Zero()) const;
 
-  /// I = TᵀMT of (34), with the rotors' inertia. Needs what inverseDynamics leaves.
+  /// I = TᵀMT of (34), with the rotor inertias. Needs the results of inverseDynamics.
   Matrix6<S> I(const NocWorkspace<S>& work) const;
-  /// C = Tᵀ(MṪ + WMT) of (34). Needs what directDynamics leaves.
+  /// C = Tᵀ(MṪ + WMT) of (34). Needs the results of directDynamics.
   Matrix6<S> C(const NocWorkspace<S>& work) const;
 
-  /// w^N of (31), 78: what is left of Newton and Euler when everything that works is taken off. Needs what
-  /// inverseDynamics leaves.
+  /// w^N of (31), 78: the remainder of the Newton–Euler equations without all wrenches that do work. Needs the results
+  /// of inverseDynamics.
   BodyVector<S> constraintWrench(const Motion<S>& motion, const Vector6<S>& efforts, const NocWorkspace<S>& work,
                                  const Vector6<S>& load = Vector6<S>::Zero()) const;
 
-  /// D of the velocity constraints D t = 0 of (33), 12 rows a leg and 78 columns: at each joint what it does not let
-  /// move, of its axes and points alone. Needs bodyMotions in `work`. Allocates.
+  /// D of the velocity constraints D t = 0 of (33), 12 rows per leg and 78 columns. It holds each joint's blocked
+  /// directions, from axes and points only. Needs bodyMotions in `work`. Allocates.
   Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> D(const Motion<S>& motion, const NocWorkspace<S>& work) const;
 
-  /// The reactions at the joints of all legs under `efforts`: the force of a leg on the platform by the leg's own share
-  /// of (37), the others by (28) body by body. Needs what inverseDynamics leaves.
+  /// Reactions at the joints of all legs under `efforts`. A leg's force on the platform follows from its part of (37),
+  /// the others body by body from (28). Needs the results of inverseDynamics.
   Reactions reactions(const Motion<S>& motion, const Vector6<S>& efforts, const NocWorkspace<S>& work) const;
 
-  /// M_P: the machine's mass matrix in the platform's twist at P, TᵀMT for t = T t_P. Needs displacements.
+  /// M_P = TᵀMT for t = T t_P: the machine's mass matrix in the platform's twist at P. Needs displacements.
   Matrix6<S> massMatrixAtP(const Motion<S>& motion, const NocWorkspace<S>& work) const;
 
  private:
-  using Rates = Eigen::Matrix<S, 3, 6>;    ///< of a leg's joints, a column of T each
-  using Columns = Eigen::Matrix<S, 6, 3>;  ///< twists of a link, a unit rate of a joint each
+  using Rates = Eigen::Matrix<S, 3, 6>;    ///< of a leg's joints, one column per column of T
+  using Columns = Eigen::Matrix<S, 6, 3>;  ///< twists of a link, one column per unit joint rate
   struct UnitTwists {
     Columns first, second, first_rate, second_rate;  ///< of the proximal and the distal link
   };

@@ -8,7 +8,7 @@
 //   w^W = w^a + w^g + w^d                                              (35)
 //   I q̈ + C q̇ − τ^g − τ^d = τ^a                                        (36)
 //   τ^a = −Tᵀ(wⁿ + w^g + w^d),  wⁿ = −Mṫ − WMt                         (37), (38)
-// with q̇ the rates of the driven coordinates, and the load w^e beside w^g where there is one.
+// where q̇ are the rates of the driven coordinates, and a load w^e adds to w^g.
 
 #include <Eigen/Cholesky>
 
@@ -18,7 +18,7 @@ namespace ursula {
 
 namespace legs {
 
-/// Viscous and smoothed Coulomb friction of one joint, as the force that drives against it.
+/// The driving force that overcomes viscous and smoothed Coulomb friction of one joint.
 template <class S>
 S frictionForce(const S& viscous, const S& coulomb, const S& speed, const S& rate) {
   using std::tanh;
@@ -28,8 +28,7 @@ S frictionForce(const S& viscous, const S& coulomb, const S& speed, const S& rat
 
 }  // namespace legs
 
-// --- M, W and the wrenches
-// --------------------------------------------------------------------------------------------
+// --- M, W and the wrenches ------------------------------------------------------------------------------------------
 
 template <class S, class R>
 S Noc<S, R>::massOf(int body) const {
@@ -100,7 +99,7 @@ BodyVector<S> Noc<S, R>::gravityWrench() const {
   return w_g;
 }
 
-/// The wrench of an effort on joint j of leg i: on the outboard link, and back on the inboard one.
+/// Adds the wrench of an effort on joint j of leg i to the outboard link, and its reaction to the inboard one.
 template <class S, class R>
 void Noc<S, R>::addJointWrench(const NocWorkspace<S>& work, int i, int j, const S& effort, BodyVector<S>& w) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
@@ -121,7 +120,7 @@ void Noc<S, R>::addJointWrench(const NocWorkspace<S>& work, int i, int j, const 
   if (!before) add(i, -along);
 }
 
-/// w^d of (35): friction of the joints.
+/// w^d of (35): joint friction.
 template <class S, class R>
 BodyVector<S> Noc<S, R>::dissipativeWrench(const NocWorkspace<S>& work) const {
   BodyVector<S> w_d = BodyVector<S>::Zero();
@@ -137,7 +136,7 @@ BodyVector<S> Noc<S, R>::dissipativeWrench(const NocWorkspace<S>& work) const {
   return w_d;
 }
 
-/// The load, at the platform's mass centre.
+/// Moves the load to the platform's mass centre.
 template <class S, class R>
 BodyVector<S> Noc<S, R>::loadWrench(const Motion<S>& motion, const Vector6<S>& load) const {
   BodyVector<S> w_e = BodyVector<S>::Zero();
@@ -157,18 +156,17 @@ BodyVector<S> Noc<S, R>::actuatorWrench(const NocWorkspace<S>& work, const Vecto
   return w_a;
 }
 
-/// t and ṫ of (30a), and what M of (30b) is made of.
+/// Sets t and ṫ of (30a), and the tensors for M of (30b).
 template <class S, class R>
 void Noc<S, R>::setBodies(const Motion<S>& motion, NocWorkspace<S>& work) const {
   bodyMotions(motion, work, work.bodies);  // (paper, eq. 30a)
   work.I_B = tensors(work);                // (paper, eq. 30b)
 }
 
-// --- rotors, which the paper has not
+// --- rotors, which the paper lacks ---
 //
-// What a motor turns with its rate q̇ has the energy ½ j q̇² beside that of (30a), so that by Lagrange's equations
-//   I q̈ + C q̇ becomes (I + diag j) q̈ + C q̇, in (36), and τ^a of (37) has j q̈ more.
-// --------------------------------------------------------------------------------------
+// A rotor that turns with its motor's rate q̇ adds the energy ½ j q̇² to that of (30a). By Lagrange's equations
+//   I q̈ + C q̇ becomes (I + diag j) q̈ + C q̇, in (36), and τ^a of (37) gains j q̈.
 
 template <class S, class R>
 bool Noc<S, R>::hasRotors() const {
@@ -188,7 +186,7 @@ Vector6<S> Noc<S, R>::rotors() const {
   return j;
 }
 
-/// j q̈ at the accelerations in `work`.
+/// j q̈ for the accelerations in `work`.
 template <class S, class R>
 Vector6<S> Noc<S, R>::rotorEfforts(const NocWorkspace<S>& work) const {
   Vector6<S> out = rotors();
@@ -199,8 +197,7 @@ Vector6<S> Noc<S, R>::rotorEfforts(const NocWorkspace<S>& work) const {
   return out;
 }
 
-// --- inverse and direct dynamics
-// --------------------------------------------------------------------------------------
+// --- inverse and direct dynamics ------------------------------------------------------------------------------------
 
 template <class S, class R>
 Vector6<S> Noc<S, R>::inverseDynamics(const Motion<S>& motion, NocWorkspace<S>& work, const Vector6<S>& load) const {

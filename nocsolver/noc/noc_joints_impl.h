@@ -1,7 +1,7 @@
 #pragma once
 
-// What the complement eliminates: the velocity constraints of (33) and the reactions at the joints; included by the
-// sources that instantiate Noc.
+// The quantities that the complement eliminates: the velocity constraints of (33) and the joint reactions. Sources that
+// instantiate Noc include it.
 
 #include <Eigen/Geometry>
 
@@ -10,14 +10,14 @@
 namespace ursula {
 namespace legs {
 
-/// Rows of D, joint by joint.
+/// Builds the rows of D, joint by joint.
 template <class S>
 class ConstraintRows {
  public:
   using MatrixX = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
   using Directions = Eigen::Matrix<S, 3, Eigen::Dynamic>;
 
-  /// A body of the chain: its first column in D, −1 for the base, and its mass centre.
+  /// A body of the chain: its first column in D (−1 for the base), and its mass centre.
   struct Body {
     int column;
     Vector3<S> c;
@@ -25,8 +25,8 @@ class ConstraintRows {
 
   explicit ConstraintRows(int count) : D_(MatrixX::Zero(count, 6 * body_count)) {}
 
-  /// Joints first … last − 1 of a leg lie between the bodies, at O: what turns no axis of theirs and slides along none
-  /// is alike of both.
+  /// Joints first … last − 1 of a leg connect the bodies at O. Both bodies share all rotations and translations except
+  /// those about and along the joints' axes.
   void join(const Body& from, const Body& to, const Vector3<S>& O, const LegModel<S>& leg, const LegState<S>& at,
             int first, int last) {
     Directions turning(3, 0), sliding(3, 0);
@@ -44,7 +44,7 @@ class ConstraintRows {
     }
     moveAlike(from, to, O, across(sliding));
   }
-  /// The bodies' points that are at `O` have equal velocities along `directions`.
+  /// The bodies' points at `O` have equal velocities along `directions`.
   void moveAlike(const Body& from, const Body& to, const Vector3<S>& O, const Directions& directions) {
     for (const auto& column : directions.colwise()) {
       const Vector3<S> n = column;
@@ -56,7 +56,7 @@ class ConstraintRows {
   const MatrixX& D() const { return D_; }
 
  private:
-  /// Unit vectors across all of up to two axes.
+  /// Unit vectors perpendicular to up to two axes.
   static Directions across(const Directions& axes) {
     if (axes.cols() == 0) return Matrix3<S>::Identity();
     const Vector3<S> a = axes.col(0);
@@ -123,7 +123,7 @@ Reactions Noc<S, R>::reactions(const Motion<S>& motion, const Vector6<S>& effort
     const UnitTwists unit = unitTwists(i, at, false);
     const Vector3<S> Q =
         unit.first.transpose() * (w_1 - block(w_d, i)) + unit.second.transpose() * (w_2 - block(w_d, leg_count + i));
-    Vector3<S> f_B = Vector3<S>::Zero();  // what the joints have over, on the platform by the rows of (22)
+    Vector3<S> f_B = Vector3<S>::Zero();  // force of the undriven loads on the platform, by the rows of (22)
     for (int j = 0; j < 3; ++j) {
       const int motor = leg.motor[legs::at(j)];
       const JacobianRow<S>& row = at.row[legs::at(j)];

@@ -28,7 +28,7 @@ template <class S, class R>
 void Noc<S, R>::place(const Motion<S>& motion, int i, LegState<S>& out) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
   out.Qb.noalias() = motion.Q * leg.b;
-  out.AB = (motion.p - leg.a) + out.Qb;  // (paper, eq. 3), with nothing lost far from the base's origin
+  out.AB = (motion.p - leg.a) + out.Qb;  // (paper, eq. 3), in an order that keeps digits far from the base's origin
   if (reading_.has(FormulaError::eq5)) out.AB = motion.p + out.Qb + leg.a;
   legs::withLeg(leg.kind, [&](auto kind) {
     kind.displacement(leg, i, motion.t, reading_, out);
@@ -69,7 +69,7 @@ void Noc<S, R>::inverseKinematics(const Motion<S>& motion, NocWorkspace<S>& work
 }
 
 namespace legs {
-/// Calls f with each coordinate of the machine, its leg and its number in it.
+/// Calls f with each coordinate of the machine, its leg and its index there.
 template <class S, class F>
 JointVariables<S> collect(const MachineParameters<S>& machine, const F& f) {
   JointVariables<S> q;
@@ -122,7 +122,7 @@ void Noc<S, R>::jacobians(const Motion<S>& motion, NocWorkspace<S>& work) const 
     work.A(m) = row.A / size;
     work.B.row(m) << leg.Qb.cross(n).transpose(), n.transpose();  // (paper, eq. 23)
   }
-  // Moments over a length of the machine, so that the pivots do not depend on the unit of length.
+  // Moments are divided by a length of the machine, so the pivots do not depend on the unit of length.
   Matrix6<S> scaled = work.B.transpose();
   scaled.template topRows<3>() /= machine_.length;
   work.B_transposed.compute(scaled);
@@ -147,7 +147,7 @@ Matrix6<S> Noc<S, R>::platformShapingRate(const Motion<S>& motion, const NocWork
     const LegState<S>& leg = work.legs[legs::at(motor.leg)];
     const JacobianRow<S>& row = leg.row[legs::at(motor.joint)];
     const S size = row.n.norm();
-    const Vector3<S> n = row.n / size, n_dot = row.n_dot / size;  // a row may be scaled: (25) is the same
+    const Vector3<S> n = row.n / size, n_dot = row.n_dot / size;  // scaling a row leaves (25) unchanged
     const Vector3<S> Qb = reading_.has(FormulaError::eq26_b_dot) ? machine_.legs[legs::at(motor.leg)].b : leg.Qb;
     const Vector3<S> Qb_dot = motion.omega.cross(Qb);
     A_dot(m) = row.A_dot / size;

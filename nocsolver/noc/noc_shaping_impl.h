@@ -17,7 +17,7 @@ auto block(Of& of, int body) {
   return of.template middleRows<6>(6 * body);
 }
 
-/// Of a point at `arm` from P, for a twist [ω; v] at P.
+/// The velocity of a point at `arm` from P for a twist [ω; v] at P.
 template <class S>
 Vector3<S> velocityOf(const Vector6<S>& twist, const Vector3<S>& arm) {
   return twist.template tail<3>() + Vector3<S>(twist.template head<3>()).cross(arm);
@@ -38,8 +38,8 @@ LinkMotions<S> Noc<S, R>::links(int i, const LegState<S>& at, const Vector3<S>& 
   return out;
 }
 
-/// From the points on the links' lines to their mass centres. Bilinear as the kinds' own links: ω of `links` may be
-/// that of a column of T, the frame moves as `at` does.
+/// Moves twists from the points on the links' lines to the mass centres. It is bilinear like the links of each kind: ω
+/// of `links` may be that of a column of T, while the frame moves as `at` does.
 template <class S, class R>
 void Noc<S, R>::addOffLine(int i, const LegState<S>& at, LinkMotions<S>& links) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
@@ -92,7 +92,7 @@ void Noc<S, R>::bodyMotions(const Motion<S>& motion, const NocWorkspace<S>& work
 // --- T and its rate
 // ---------------------------------------------------------------------------------------------------
 
-/// Twists of both links for a unit rate of each joint of the leg, and the rates of these twists where they are wanted.
+/// Twists of both links for a unit rate of each of the leg's joints; `with_rate` adds the rates of these twists.
 template <class S, class R>
 typename Noc<S, R>::UnitTwists Noc<S, R>::unitTwists(int i, const LegState<S>& at, bool with_rate) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
@@ -113,7 +113,7 @@ typename Noc<S, R>::UnitTwists Noc<S, R>::unitTwists(int i, const LegState<S>& a
   return out;
 }
 
-/// Rates of leg i's joints for the twists of the platform that are the columns of `T_P`: linear in the velocity of Bᵢ.
+/// Rates of leg i's joints for the platform twists in the columns of `T_P`; linear in the velocity of Bᵢ.
 template <class S, class R>
 typename Noc<S, R>::Rates Noc<S, R>::ratesForTwists(int i, const LegState<S>& at, const Matrix6<S>& T_P) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
@@ -126,7 +126,7 @@ typename Noc<S, R>::Rates Noc<S, R>::ratesForTwists(int i, const LegState<S>& at
   return by_v_B * v_B;
 }
 
-/// Rates of leg i's joints for q̇ = e_m, m the column: δ_m of (48) at the leg.
+/// Rates of leg i's joints for q̇ = e_m in column m: δ_m of (48) for the leg.
 template <class S, class R>
 typename Noc<S, R>::Rates Noc<S, R>::columnRates(int i, const LegState<S>& at, const Matrix6<S>& T_P) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
@@ -140,7 +140,7 @@ typename Noc<S, R>::Rates Noc<S, R>::columnRates(int i, const LegState<S>& at, c
   return out;
 }
 
-/// Their rates; that of a column's own rate, which is constant, is zero.
+/// The rates of columnRates; a column's own unit rate is constant, so its rate is zero.
 template <class S, class R>
 typename Noc<S, R>::Rates Noc<S, R>::columnAccelerations(const Motion<S>& motion, int i, const NocWorkspace<S>& work,
                                                          const Rates& rates) const {
@@ -157,7 +157,7 @@ typename Noc<S, R>::Rates Noc<S, R>::columnAccelerations(const Motion<S>& motion
   return out;
 }
 
-/// The rate of the velocity that column m gives the platform's point at `arm` from P.
+/// The rate of the velocity that column m gives to the platform's point at `arm` from P.
 template <class S, class R>
 Vector3<S> Noc<S, R>::columnAcceleration(const Motion<S>& motion, const NocWorkspace<S>& work, int m,
                                          const Vector3<S>& arm) const {
@@ -165,7 +165,7 @@ Vector3<S> Noc<S, R>::columnAcceleration(const Motion<S>& motion, const NocWorks
   return legs::velocityOf<S>(work.T_P_rate.col(m), arm) + omega.cross(motion.omega.cross(arm));
 }
 
-/// The platform's twists at its mass centre, `arm` from P, for those at P.
+/// Moves the platform's twists from P to its mass centre at `arm` from P.
 template <class S, class R>
 void Noc<S, R>::shapePlatform(const Vector3<S>& arm, const Matrix6<S>& T_P, TwistShaping<S>& T) const {
   auto T_C = legs::block(T, legs::platform);
@@ -184,8 +184,8 @@ void Noc<S, R>::twistShapingRate(const Motion<S>& motion, NocWorkspace<S>& work)
   shape(motion, work, true);
 }
 
-/// T column by column as (48) says; its rate by the accelerations of (17), (43) at the actual motion for the rates of
-/// one column and their rates.
+/// T column by column as in (48). Its rate comes from the accelerations of (17), (43) in the actual motion, for one
+/// column's rates and their rates.
 template <class S, class R>
 void Noc<S, R>::shape(const Motion<S>& motion, NocWorkspace<S>& work, bool with_rate) const {
   work.T_P = platformShaping(work);

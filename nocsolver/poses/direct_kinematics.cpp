@@ -18,12 +18,12 @@ using direct::Planes;
 
 constexpr double eps = Eigen::NumTraits<double>::epsilon();
 
-/// What the quadrics may be off by: some 16 roundings on the way from φ, grown by both eliminations.
+/// The quadrics' error bound: some 16 roundings from φ on, amplified by both eliminations.
 double quadricRounding(const direct::Elimination& elimination) {
   return 16 * eps / (elimination.normals * elimination.independence);
 }
 
-/// At this ratio a double root is spread over what is taken for one root, (16 eps/ratio)^½ = eps^⅛.
+/// At this ratio a double root spreads over the radius of one cluster, (16 eps/ratio)^½ = eps^⅛.
 const double smallest_ratio = 16 * std::pow(eps, 0.75);
 
 std::string describe(const std::string& what, double measure, double bound) {
@@ -86,7 +86,7 @@ PlatformPose makePose(const MachineParameters<double>& model, const Planes& plan
   return pose;
 }
 
-/// Newton while it helps.
+/// Newton's method while it reduces the mismatch.
 void polish(const Planes& planes, PlacedPlatform& pose) {
   Vector6d mismatch = planes.mismatch(pose);
   for (int i = 0; i < 3 && !(mismatch.cwiseAbs().maxCoeff() <= planes.rounding(pose)); ++i) {
@@ -144,8 +144,8 @@ PlatformPoses DirectKinematics::poses(const Vector6d& phi) const {
   return out;
 }
 
-/// Where Newton converges as Kantorovich's theorem has it, each step is at most half of the one before. The sign of
-/// det B (23) changes where poses merge: one that has the other sign is another branch.
+/// Under Kantorovich's conditions each Newton step is at most half of the previous one. The sign of det B (23) changes
+/// where poses merge, so a pose with the other sign is on another branch.
 std::optional<PlatformPose> DirectKinematics::track(const Vector6d& phi, const PlatformPose& from) const {
   if (!phi.allFinite()) return std::nullopt;
   if (!of_the_paper_) return poses::track(solver_.noc(), phi, from);
@@ -153,7 +153,7 @@ std::optional<PlatformPose> DirectKinematics::track(const Vector6d& phi, const P
   PlacedPlatform pose{from.p, from.q};
   double previous = std::numeric_limits<double>::infinity();
   int first_sign = 0, sign = 0;
-  // Halving from a machine's length to its rounding takes no more steps than a double has bits.
+  // Halving from a machine's length to its rounding takes at most as many steps as a double has bits.
   for (int i = 0; i < std::numeric_limits<double>::digits; ++i) {
     const Vector6d mismatch = planes.mismatch(pose);
     if (mismatch.cwiseAbs().maxCoeff() <= planes.rounding(pose)) return makePose(paper(), planes, pose);

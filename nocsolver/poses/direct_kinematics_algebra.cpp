@@ -5,11 +5,11 @@
 #include <cmath>
 #include <utility>
 
-// Three generic quadrics in affine x, y, z make a ring of dimension 8 = 1 + 3 + 3 + 1: the monomials 1, x, y, z, three
-// of the six of degree two and one of the ten of degree three. Which ones, the pivots decide:
+// Three generic quadrics in affine x, y, z define a ring of dimension 8 = 1 + 3 + 3 + 1. Its basis has 1, x, y, z,
+// three of the six monomials of degree two and one of the ten of degree three; the pivots select them:
 //   the quadrics themselves give three monomials of degree two by the others;                              (a)
 //   x, y, z times the quadrics give nine monomials of degree three by the tenth, c, and lower ones;        (b)
-//   x c, y c, z c follow from all the ways in which a monomial of degree four is made of two of degree
+//   x c, y c, z c follow, because each monomial of degree four arises from different products of degree
 //   three: xⱼ (xₖ n) = xₖ (xⱼ n) for each n of degree two.                                                (c)
 
 namespace ursula::direct {
@@ -26,11 +26,11 @@ constexpr int cubic[3][quadratic_count] = {{0, 1, 2, 3, 4, 5}, {1, 3, 4, 6, 7, 8
 struct Ring {
   Eigen::Matrix<double, quadratic_count, root_count> second;  // monomials of degree two
   Eigen::Matrix<double, cubic_count, root_count> third;       // of degree three
-  std::array<int, 3> basis;                                   // which of degree two are in the basis
+  std::array<int, 3> basis;                                   // the monomials of degree two in the basis
   double pivot = 1;
 };
 
-/// Gauss–Jordan with complete pivoting among the first `columns` columns. Row r then has 1 in column pivots[r] and 0 in
+/// Gauss–Jordan with complete pivoting in the first `columns` columns. Row r then has 1 in column pivots[r] and 0 in
 /// the other pivots'. Returns the ratio of smallest to largest pivot.
 template <int rows, int columns, class Matrix>
 double reduce(Matrix& A, std::array<int, rows>& pivots) {
@@ -111,7 +111,7 @@ void reduceThird(const QuadraticRows& rows, Ring& ring) {
     ring.third.row(pivots[static_cast<std::size_t>(i)]) << -A.row(i).tail<lower_count>(), -A(i, c);
 }
 
-/// xⱼ times all monomials of degree three, but for xⱼ c.
+/// xⱼ times all monomials of degree three, without xⱼ c.
 Eigen::Matrix<double, cubic_count, root_count> timesThird(const Ring& ring, int j) {
   Eigen::Matrix<double, lower_count, root_count> products;
   products.row(0) = Element::Unit(1 + j);
@@ -122,7 +122,7 @@ Eigen::Matrix<double, cubic_count, root_count> timesThird(const Ring& ring, int 
   return ring.third.leftCols<lower_count>() * products;
 }
 
-/// (c), in the least squares of all 18 ways; returns x c. Singular where a root lies in the plane at infinity.
+/// Solves (c) by least squares over all 18 products; returns x c. Singular if a root lies in the plane at infinity.
 Element timesC(Ring& ring) {
   const std::array<Eigen::Matrix<double, cubic_count, root_count>, 3> lower = {timesThird(ring, 0), timesThird(ring, 1),
                                                                                timesThird(ring, 2)};
@@ -144,11 +144,11 @@ Element timesC(Ring& ring) {
   normal.triangularView<Eigen::StrictlyLower>() = normal.transpose();
   const Eigen::Matrix3d inverse = normal.inverse();
   const double ratio = 3 / (normal.norm() * inverse.norm());            // at most 1
-  ring.pivot = ratio <= ring.pivot ? ratio : ring.pivot * (ratio > 0);  // 0 where that is no number
+  ring.pivot = ratio <= ring.pivot ? ratio : ring.pivot * (ratio > 0);  // 0 if that is NaN
   return inverse.row(0) * right;
 }
 
-/// [w, x, y, z] of a unit quaternion as the matrix of multiplication from the left (sign = 1) or right (−1).
+/// The matrix of multiplication by the unit quaternion [w, x, y, z] from the left (sign = 1) or right (−1).
 Eigen::Matrix4d isoclinic(Eigen::Vector4d q, double sign) {
   q.normalize();
   Eigen::Matrix4d L;

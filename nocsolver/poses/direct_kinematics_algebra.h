@@ -15,19 +15,19 @@ struct ThreeQuadrics {
   std::array<Eigen::Matrix4d, 3> S;
 };
 
-/// A rotation of the quaternion's four-space, q = H [1, x, y, z] up to a factor. Of `chart_count` fixed generic ones:
-/// no pose of a sensible machine lies in the plane at infinity of one of them, and none in that of all.
+/// A rotation of the quaternion's four-space, q = H [1, x, y, z] up to a factor; one of `chart_count` fixed generic
+/// ones. No pose of a sensible machine lies in one chart's plane at infinity, and none in that of all.
 constexpr int chart_count = 8;
 const Eigen::Matrix4d& chart(int index);
 
-/// Multiplication by x in the ring of polynomials in x, y, z modulo the three quadrics, in a basis that begins with
-/// 1, x, y, z: M v = x v where v holds the basis at a common root.
+/// Multiplication by x in the ring of polynomials in x, y, z modulo the three quadrics. The basis begins with 1, x, y,
+/// z: M v = x v where v holds the basis at a common root.
 struct MultiplicationMatrix {
   Matrix8d M;
-  double pivot = 0;  ///< smallest pivot ratio of the elimination; 0 where a root lies in the plane at infinity
+  double pivot = 0;  ///< smallest pivot ratio of the elimination; 0 if a root lies in the plane at infinity
 };
 
-/// 0 ≤ index < chart_count. Does not allocate; M is unusable where pivot is 0 or not a number.
+/// 0 ≤ index < chart_count. Does not allocate; M is unusable if pivot is 0 or NaN.
 MultiplicationMatrix multiplicationMatrix(const ThreeQuadrics& quadrics, int index);
 
 }  // namespace ursula::direct

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-// With Q made of a quaternion q, homogeneous of degree two, and |q|² for 1:
+// With Q written in a quaternion q, homogeneous of degree two, and |q|² instead of 1:
 //   xᵢᵀ(|q|² p + Q(q) bᵢ − |q|² aᵢ) = 0,  i = 1…6                                    first component of (13)
 //   xᵢᵀQ(q)bᵢ = qᵀMᵢq,  Mᵢ = [ xᵢᵀbᵢ      (bᵢ × xᵢ)ᵀ                  ]
 //                            [ bᵢ × xᵢ    xᵢbᵢᵀ + bᵢxᵢᵀ − (xᵢᵀbᵢ) 1   ]              (a)
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double eps = Eigen::NumTraits<double>::epsilon();
 
-/// The ten entries of a symmetric 4 × 4 matrix, such that dot products are Frobenius products.
+/// The ten entries of a symmetric 4 × 4 matrix, scaled so that dot products are Frobenius products.
 using Symmetric = Eigen::Matrix<double, 10, 1>;
 
 Symmetric packed(const Eigen::Matrix4d& S) {
@@ -37,7 +37,7 @@ Eigen::Matrix4d unpacked(const Symmetric& s) {
   return S;
 }
 
-/// (a) less xᵀa |q|².
+/// (a) minus xᵀa |q|².
 Eigen::Matrix4d planeQuadric(const Vector3d& x, const Vector3d& a, const Vector3d& b) {
   const double xb = x.dot(b);
   Eigen::Matrix4d M;
@@ -81,7 +81,7 @@ Vector6d Planes::mismatch(const PlacedPlatform& pose) const {
   return out;
 }
 
-/// Three products of three terms each, none larger than the sum of all lengths.
+/// The bound of three products of three terms each; none exceeds the sum of all lengths.
 double Planes::rounding(const PlacedPlatform& pose) const { return 9 * eps * (pose.p.norm() + model_.length + size_); }
 
 double Planes::newtonStep(const Vector6d& mismatch, PlacedPlatform& pose, int& orientation) const {

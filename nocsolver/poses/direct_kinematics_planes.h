@@ -7,7 +7,7 @@
 
 namespace ursula::direct {
 
-/// A pose as Newton moves it.
+/// A pose in Newton's method.
 struct PlacedPlatform {
   Vector3d p;
   Eigen::Vector4d q;  ///< unit, [w, x, y, z]
@@ -16,11 +16,11 @@ struct PlacedPlatform {
 /// Rotation matrix of a unit quaternion [w, x, y, z].
 Matrix3d rotation(const Eigen::Vector4d& q);
 
-/// The three quadrics that are left of the planes without p, and how well that went.
+/// The three quadrics that remain of the planes without p, and the quality of the elimination.
 struct Elimination {
   ThreeQuadrics quadrics;
-  double normals = 0;       ///< pivot ratio of X: 0 where the xᵢ do not span space, so that p is free
-  double independence = 0;  ///< pivot ratio of the quadrics: 0 where they are dependent
+  double normals = 0;       ///< pivot ratio of X: 0 if the xᵢ do not span space, so that p is free
+  double independence = 0;  ///< pivot ratio of the quadrics: 0 if they are dependent
 };
 
 class Planes {
@@ -34,15 +34,15 @@ class Planes {
   /// xᵢᵀ(p + Qbᵢ − aᵢ), m.
   Vector6d mismatch(const PlacedPlatform& pose) const;
 
-  /// What `mismatch` may be at an exact pose, from rounding; m.
+  /// Bound of the rounding error in `mismatch` at an exact pose, m.
   double rounding(const PlacedPlatform& pose) const;
 
-  /// One step of Newton on the mismatch; returns its size, m. `orientation` becomes the sign of det B.
+  /// Takes one Newton step on the mismatch; returns its size, m. `orientation` becomes the sign of det B.
   double newtonStep(const Vector6d& mismatch, PlacedPlatform& pose, int& orientation) const;
 
   Elimination eliminateP() const;
 
-  /// p that fits all planes best for the quaternion q.
+  /// The p that fits all planes best for the quaternion q.
   Vector3d p(const Eigen::Vector4d& q) const;
 
  private:

@@ -8,9 +8,9 @@
 #include <complex>
 #include <optional>
 
-// Eigenvectors give each root to some digits; Newton gives the rest. Two roots that the arithmetic cannot tell apart
-// are one with a multiplicity, and that is decided by the quadrics alone: at the middle between them the quadrics are
-// 0 within rounding (f(m) = −¼ dᵀS d for roots d apart). A nearly real complex pair is the same thing turned by 90°.
+// Eigenvectors give each root to some digits; Newton's method gives the rest. Roots that rounding cannot separate count
+// as one multiple root. The quadrics alone decide: at the midpoint of two such roots they are 0 within rounding (f(m) =
+// −¼ dᵀS d for roots d apart). A nearly real complex pair is the same case turned by 90°.
 
 namespace ursula::direct {
 namespace {
@@ -20,7 +20,7 @@ using ComplexQ = Eigen::Vector4cd;
 
 constexpr double eps = Eigen::NumTraits<double>::epsilon();
 constexpr int newton_steps = 12;
-/// Roots farther apart than ε^(1/8), what eight that fall together could be off by, are never taken for one.
+/// Roots farther apart than ε^(1/8), the error bound of an eightfold root, are never merged.
 const double cluster_radius = std::pow(eps, 1.0 / 8);
 
 template <class Scalar>
@@ -35,12 +35,12 @@ Q4<Scalar> newtonStep(const ThreeQuadrics& quadrics, const Q4<Scalar>& q) {
     J.row(k) = 2 * Sq.transpose();
     f(k) = Sq.cwiseProduct(q).sum();
   }
-  J.row(3) = q.adjoint();  // the step is across q
+  J.row(3) = q.adjoint();  // the step is perpendicular to q
   f(3) = 0;
   return -J.partialPivLu().solve(f);
 }
 
-/// Newton at unit length from q until the residual no longer falls; leaves the best q. True where that is a root.
+/// Newton's method at unit length until the residual no longer falls; keeps the best q. Returns whether it is a root.
 template <class Scalar>
 bool polish(const ThreeQuadrics& quadrics, double rounding, Q4<Scalar>& q) {
   double best = residual<Scalar>(quadrics, q);
@@ -60,7 +60,7 @@ bool polish(const ThreeQuadrics& quadrics, double rounding, Q4<Scalar>& q) {
   return best <= rounding;
 }
 
-/// The phase at which the imaginary part is smallest; it is then across the real part.
+/// Chooses the phase with the smallest imaginary part, which is then perpendicular to the real part.
 ComplexQ turnedReal(const ComplexQ& q) {
   const Complex square = (q.transpose() * q).value();
   return q * std::polar(1.0, -std::arg(square) / 2);
@@ -69,7 +69,7 @@ ComplexQ turnedReal(const ComplexQ& q) {
 /// 1 − |pᴴq|² without cancellation, as a distance.
 double distance(const ComplexQ& p, const ComplexQ& q) { return (q - p * p.dot(q)).norm(); }
 
-/// What the quadrics look like along the direction n in which they change least: uᵀf(q + t n) = f + σ t + κ t².
+/// The quadrics along the direction n in which they change least: uᵀf(q + t n) = f + σ t + κ t².
 struct Flattest {
   ComplexQ n, correction;  // correction: Newton's step in the other two directions
   Complex f, kappa;
@@ -99,13 +99,13 @@ Flattest flattest(const ThreeQuadrics& quadrics, const ComplexQ& q) {
   return out;
 }
 
-/// Two roots σ/κ apart stay below `rounding` between them if σ²/4κ does; |κ| ≤ √3 as the Sₖ have unit norm.
+/// Between two roots σ/κ apart the quadrics stay below `rounding` if σ²/4κ does; |κ| ≤ √3 as the Sₖ have unit norm.
 bool isMultiple(const ThreeQuadrics& quadrics, double rounding, const ComplexQ& q) {
   const double sigma = flattest(quadrics, q).sigma;
   return sigma * sigma <= 4 * std::sqrt(3.0) * rounding;
 }
 
-/// m, moved onto the roots as far as they are determined there, if that makes it a root.
+/// Returns m, or m moved in the well-determined directions, if that is a root.
 std::optional<ComplexQ> rootAt(const ThreeQuadrics& quadrics, double rounding, const ComplexQ& m) {
   if (residual<Complex>(quadrics, m) <= rounding) return m;
   const ComplexQ moved = (m + flattest(quadrics, m).correction).normalized();
@@ -113,12 +113,12 @@ std::optional<ComplexQ> rootAt(const ThreeQuadrics& quadrics, double rounding, c
   return std::nullopt;
 }
 
-/// Gathers the roots that one chart gives.
+/// Collects the roots of one chart.
 class Gathering {
  public:
   Gathering(const ThreeQuadrics& quadrics, double rounding) : quadrics_(quadrics), rounding_(rounding) {}
 
-  /// A real eigenvector. Where Newton finds nothing real, there is a complex pair close by.
+  /// Adds a real eigenvector. If Newton's method finds nothing real, a complex pair is close by.
   void addReal(Q4<double> q) {
     if (polish<double>(quadrics_, rounding_, q)) {
       insert(q.cast<Complex>(), true, 1);
@@ -132,7 +132,7 @@ class Gathering {
     if (polish<Complex>(quadrics_, rounding_, root)) addPolished(root, 1, at);
   }
 
-  /// One eigenvector of a complex pair.
+  /// Adds one eigenvector of a complex pair.
   void addPair(ComplexQ q) {
     const ComplexQ from = turnedReal(q);
     if (polish<Complex>(quadrics_, rounding_, q)) addPolished(q, 2, from);
@@ -144,14 +144,14 @@ class Gathering {
       Root& root = roots_.list[static_cast<std::size_t>(i)];
       const int conjugates = root.real ? 1 : 2;
       const bool multiple = root.multiplicity > conjugates && isMultiple(quadrics_, rounding_, root.q);
-      root.multiplicity = multiple ? root.multiplicity / conjugates : 1;  // else found twice
+      root.multiplicity = multiple ? root.multiplicity / conjugates : 1;  // else it was found twice
       roots_.counted += root.multiplicity * conjugates;
     }
     return roots_;
   }
 
  private:
-  /// `weight`: how many eigenvalues led there.
+  /// `weight` is the number of eigenvalues that led there.
   void addPolished(const ComplexQ& polished, int weight, const ComplexQ& from) {
     const ComplexQ q = turnedReal(polished);
     if (q.imag().norm() <= cluster_radius) {
@@ -160,7 +160,7 @@ class Gathering {
         insert(*real, true, weight);
         return;
       }
-      if (real) {  // both of the pair are real, on either side of where they came from
+      if (real) {  // both of the pair are real, on either side of their start
         insert(*real, true, 1);
         const double side = from.real().dot(real->real()) < 0 ? -1 : 1;
         Q4<double> other = (2 * side * from.real() - real->real()).normalized();
@@ -220,7 +220,7 @@ Roots rootsInChart(const ThreeQuadrics& quadrics, double rounding, int index) {
 
 }  // namespace
 
-/// A chart that leaves half of the digits is good enough; else the next one may be better.
+/// A chart that keeps half of the digits is good enough; otherwise the next may be better.
 Roots findRoots(const ThreeQuadrics& quadrics, double rounding) {
   const double good_pivot = std::sqrt(eps);
   Roots best;

@@ -9,17 +9,17 @@
 
 namespace ursula::direct {
 
-/// A common root, unit length; of a conjugate pair the first of both.
+/// A common root, unit length; it stands for both of a conjugate pair.
 struct Root {
   Eigen::Vector4cd q = Eigen::Vector4cd::Zero();
-  bool real = false;     ///< then q is real, up to sign
-  int multiplicity = 1;  ///< how many roots cannot be told from this one in the arithmetic
+  bool real = false;     ///< whether q is real, up to sign
+  int multiplicity = 1;  ///< number of roots that rounding merges into this one
 };
 
 struct Roots {
   std::array<Root, root_count> list;
   int size = 0;      ///< of `list`
-  int counted = 0;   ///< roots in the complex numbers, with multiplicities and conjugates: 8 if none was missed
+  int counted = 0;   ///< complex roots with multiplicities and conjugates: 8 if none was missed
   double pivot = 0;  ///< largest pivot ratio of the charts tried
 };
 
@@ -34,8 +34,8 @@ double residual(const ThreeQuadrics& quadrics, const Eigen::Matrix<Scalar, 4, 1>
   return worst;
 }
 
-/// `rounding`: what the quadrics themselves may be off by, and thus what counts as 0 in them. Tries charts until all
-/// eight roots are counted. Does not allocate.
+/// `rounding` is the error bound of the quadrics, so smaller values count as 0. Tries charts until all eight roots are
+/// counted. Does not allocate.
 Roots findRoots(const ThreeQuadrics& quadrics, double rounding);
 
 }  // namespace ursula::direct

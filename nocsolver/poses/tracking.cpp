@@ -9,7 +9,7 @@ namespace {
 
 constexpr double eps = Eigen::NumTraits<double>::epsilon();
 
-/// What is missing in the driven coordinates; angles by the nearest turn.
+/// The error in the driven coordinates; angles are reduced to the nearest turn.
 Vector6d missing(const Noc<double>& solver, const NocWorkspace<double>& work, const Vector6d& driven) {
   const Vector6d found = solver.angles(work).driven(solver.machine().motors);
   Vector6d out;
@@ -22,7 +22,7 @@ Vector6d missing(const Noc<double>& solver, const NocWorkspace<double>& work, co
   return out;
 }
 
-/// In metres.
+/// The largest driven coordinate in metres.
 double sizeOf(const Noc<double>& solver, const Vector6d& driven) {
   double largest = 0;
   for (int m = 0; m < motor_count; ++m)
@@ -59,7 +59,7 @@ PlatformPose poseAt(const Noc<double>& solver, const Motion<double>& motion, con
 
 }  // namespace
 
-/// Where Newton converges as Kantorovich's theorem has it, each step is at most half of the one before.
+/// Under Kantorovich's conditions each Newton step is at most half of the previous one.
 std::optional<PlatformPose> track(const Noc<double>& solver, const Vector6d& driven, const PlatformPose& from) {
   Motion<double> motion;
   motion.p = from.p;

@@ -7,8 +7,8 @@
 
 namespace ursula::poses {
 
-/// The pose at which the driven coordinates are `driven` that continues `from`, by Newton with T of (24). None where
-/// steps do not shrink as they must near a solution, or where a leg cannot follow.
+/// Finds the pose with the driven coordinates `driven` that continues `from`, by Newton's method with T of (24).
+/// Returns nullopt if steps do not shrink as near a solution, or if a leg cannot follow.
 std::optional<PlatformPose> track(const Noc<double>& solver, const Vector6d& driven, const PlatformPose& from);
 
 }  // namespace ursula::poses

@@ -13,30 +13,30 @@ struct UpsPose {
   Matrix3d Q = Matrix3d::Identity();             ///< orientation of M in B
   Eigen::Vector4d q = Eigen::Vector4d::UnitX();  ///< the same as a unit quaternion [w, x, y, z], w ≥ 0
   double residual = 0;                           ///< largest | |p + Q bᵢ − aᵢ| − dᵢ |, m
-  int multiplicity = 1;                          ///< how many poses cannot be told from this one in the arithmetic
+  int multiplicity = 1;                          ///< number of poses that rounding merges into this one
 };
 
-/// All real poses, by falling w, x, y, z of the quaternion, at most 40.
+/// All real poses, at most 40, by decreasing w, x, y, z of the quaternion.
 struct UpsPoses {
   std::vector<UpsPose> list;
-  int counted = 0;      ///< poses in the complex numbers that were found, with their multiplicities
-  int at_infinity = 0;  ///< solutions that are no poses, as where joints coincide; 0 for most machines
-  /// Both together are always 40: that proves that no pose is missing.
+  int counted = 0;      ///< complex poses found, with their multiplicities
+  int at_infinity = 0;  ///< solutions that are no poses, for instance if joints coincide; 0 for most machines
+  /// A sum of 40 proves that no pose is missing.
   bool complete() const { return counted + at_infinity == 40; }
 };
 
 /// Direct kinematics of a general Stewart–Gough platform: every pose with |p + Q bᵢ − aᵢ| = dᵢ. Base points aᵢ in B,
-/// platform points bᵢ in M, lengths dᵢ, all in m. See docs/direct_kinematics.md for the method. Allocates.
-/// Throws UndeterminedPose where there are infinitely many, or nearly so; std::invalid_argument unless all is finite
-/// and no length is negative.
+/// platform points bᵢ in M, lengths dᵢ, all in m. docs/direct_kinematics.md explains the method. Allocates. Throws
+/// UndeterminedPose if there are infinitely many, or nearly so; std::invalid_argument unless all numbers are finite and
+/// no length is negative.
 UpsPoses upsPoses(const std::array<Vector3d, 6>& base_points, const std::array<Vector3d, 6>& platform_points,
                   const Vector6d& lengths);
 
-/// Six telescopic legs that push: of these machines upsPoses() finds the poses.
+/// Whether the machine has six telescopic legs driven along their length; upsPoses() applies to these.
 bool isStewartGough(const Manipulator& machine);
 /// The same with the points of such a machine.
 UpsPoses upsPoses(const Manipulator& machine, const Vector6d& lengths);
-/// The first leg, 0-based, of such a machine whose stroke does not hold its length; −1 where all hold them.
+/// The first leg, 0-based, of such a machine whose length exceeds its stroke; −1 if there is none.
 int beyondStroke(const Manipulator& machine, const Vector6d& lengths);
 
 }  // namespace ursula

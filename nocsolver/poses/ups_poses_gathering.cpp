@@ -7,9 +7,9 @@
 
 #include "nocsolver/poses/ups_poses_newton.h"
 
-// Eigenvectors give each solution to some digits; Newton gives the rest. Two that the arithmetic cannot tell apart are
-// one with a multiplicity: at the middle between them the six equations are solved within rounding. A nearly real
-// complex pair is the same thing turned by 90°.
+// Eigenvectors give each solution to some digits; Newton's method gives the rest. Solutions that rounding cannot
+// separate count as one multiple solution: their midpoint solves the six equations within rounding. A nearly real
+// complex pair is the same case turned by 90°.
 
 namespace ursula::ups {
 namespace {
@@ -18,20 +18,20 @@ using Complex = std::complex<double>;
 using RealPose = Placed<double>;
 
 constexpr double eps = Eigen::NumTraits<double>::epsilon();
-/// Solutions farther apart, as coordinates of unit length, are never taken for one, nor one for another's eigenvector.
+/// Solutions farther apart, as unit coordinates, are never merged; neither is a solution with another's eigenvector.
 const double cluster_radius = std::pow(eps, 1.0 / 8);
-/// |h| of unit coordinates at infinity is 0, up to the spread of a solution of multiplicity four. A real pose has
-/// 1/(2 + ‖p‖²) or more, and is never taken for one at infinity.
+/// |h| of unit coordinates at infinity is 0, up to the spread of a fourfold solution. A real pose has at least 1/(2 +
+/// ‖p‖²), so it never counts as one at infinity.
 const double little_h = std::pow(eps, 1.0 / 4);
-/// Singular values below this, of the largest, are those of a double solution.
+/// Singular values below this fraction of the largest belong to a double solution.
 const double flat = std::sqrt(eps);
 
-/// Of unit vectors, up to a factor.
+/// The distance of unit vectors, up to a factor.
 double distance(const ComplexCoordinates& x, const ComplexCoordinates& y) { return (y - x * x.dot(y)).norm(); }
 
 ComplexPose complexOf(const RealPose& pose) { return {pose.q.cast<Complex>(), pose.p.cast<Complex>()}; }
 
-/// None where the pose is not nearly real.
+/// Returns nullopt unless the pose is nearly real.
 std::optional<RealPose> realPart(const ComplexPose& pose) {
   if (!(pose.q.imag().norm() + pose.p.imag().norm() <= cluster_radius * (1 + pose.p.norm()))) return std::nullopt;
   return RealPose{pose.q.real().normalized(), pose.p.real()};
@@ -62,7 +62,7 @@ Vec6<Scalar> leastStep(const Equations<Scalar>& at, const Svd<Scalar>& svd, int 
   return step;
 }
 
-/// The pose itself, or moved onto the solutions as far as they are determined there, if that makes it one.
+/// Returns the pose, or the pose moved in the well-determined directions, if that is a solution.
 template <class Scalar>
 std::optional<Placed<Scalar>> rootAt(const Legs& legs, const Placed<Scalar>& pose) {
   const Equations<Scalar> at = equations<Scalar>(legs, pose);
@@ -73,7 +73,7 @@ std::optional<Placed<Scalar>> rootAt(const Legs& legs, const Placed<Scalar>& pos
   return std::nullopt;
 }
 
-/// In the flattest direction the equations are σ t + κ t². Two solutions, σ/κ apart, stay below `rounding` between them
+/// In the flattest direction the equations are σ t + κ t². Between two solutions, σ/κ apart, they stay below `rounding`
 /// if σ²/4κ does.
 template <class Scalar>
 bool isMultiple(const Legs& legs, const Placed<Scalar>& pose) {
@@ -82,8 +82,8 @@ bool isMultiple(const Legs& legs, const Placed<Scalar>& pose) {
   return sigma * sigma <= 4 * std::sqrt(6.0) * at.curvature * at.rounding;
 }
 
-/// What the equations may be off by moves the pose by less than 1/64 of its coordinates. Near infinity all that is very
-/// far solves them.
+/// Whether the equations' rounding moves the pose by less than 1/64 of its coordinates. Near infinity everything far
+/// away solves them.
 bool isDetermined(const Legs& legs, const ComplexPose& pose) {
   Equations<Complex> at = equations<Complex>(legs, pose);
   at.J.rightCols<3>() *= 1 + pose.p.norm();
@@ -118,7 +118,7 @@ ComplexPose poseAt(const ComplexCoordinates& x) {
   return pose;
 }
 
-/// Directions in which the equations change by less than ε^½ of the most are left alone. Towards a double solution each
+/// Skips directions in which the equations change by less than ε^½ of the largest change. Near a double solution each
 /// step halves the distance.
 bool settle(const Legs& legs, ComplexPose& pose) {
   for (int i = 0; i < 30; ++i) {
@@ -133,7 +133,7 @@ bool settle(const Legs& legs, ComplexPose& pose) {
   return equations<Complex>(legs, pose).solved();
 }
 
-/// A step of ε^⅛, the widest that a multiple solution could be taken to be.
+/// Takes a step of ε^⅛, the largest spread of a multiple solution.
 bool isFree(const Legs& legs, const ComplexPose& pose) {
   const Svd<Complex> svd = decomposed<Complex>(equations<Complex>(legs, pose));
   if (!(svd.singularValues()(5) <= 16 * flat * svd.singularValues()(0))) return false;
@@ -158,7 +158,7 @@ void Gathering::addEnd(const ComplexPose& pose) {
   if (!addReal(pose, pose, 1)) insert(pose, false, 1);
 }
 
-/// False where no real pose is that near.
+/// Returns false if no real pose is near enough.
 bool Gathering::addReal(const ComplexPose& pose, const ComplexPose& from, int weight) {
   const std::optional<RealPose> part = realPart(pose);
   if (!part) return false;
@@ -168,7 +168,7 @@ bool Gathering::addReal(const ComplexPose& pose, const ComplexPose& from, int we
     insert(complexOf(*real), true, weight);
     return true;
   }
-  insert(complexOf(*real), true, 1);  // both of the pair are real, on either side of where they came from
+  insert(complexOf(*real), true, 1);  // both of the pair are real, on either side of their start
   if (const std::optional<RealPose> between = realPart(from)) {
     const double sign = between->q.dot(real->q) < 0 ? -1 : 1;
     RealPose other{(2 * sign * between->q - real->q).normalized(), 2 * between->p - real->p};
@@ -197,7 +197,7 @@ Roots Gathering::count() {
   for (Root& root : roots_.list) {
     const int conjugates = root.real ? 1 : 2;
     const bool multiple = root.multiplicity > conjugates && isMultiple<Complex>(legs_, root.at);
-    root.multiplicity = multiple ? root.multiplicity / conjugates : 1;  // else found twice
+    root.multiplicity = multiple ? root.multiplicity / conjugates : 1;  // else it was found twice
     roots_.counted += root.multiplicity * conjugates;
   }
   return roots_;

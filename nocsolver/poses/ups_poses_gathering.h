@@ -4,34 +4,34 @@
 
 #include "nocsolver/poses/ups_poses_roots.h"
 
-// Solutions told apart, and counted. Internal to nocsolver/ups_poses*.
+// Separates and counts solutions. Internal to nocsolver/ups_poses*.
 
 namespace ursula::ups {
 
 using ComplexPose = Placed<std::complex<double>>;
 using ComplexCoordinates = Eigen::Matrix<std::complex<double>, coordinate_count, 1>;
 
-/// Of unit length.
+/// The pose's coordinates, of unit length.
 ComplexCoordinates coordinates(const ComplexPose& pose);
 
-/// The pose with these coordinates, or nearly so.
+/// The pose with these coordinates, approximately.
 ComplexPose poseAt(const ComplexCoordinates& x);
 
-/// Newton with the least step, for a pose that may be singular: true where it ends in a solution.
+/// Newton's method with the least step, for a pose that may be singular; true if it ends in a solution.
 bool settle(const Legs& legs, ComplexPose& pose);
 
-/// The pose, a solution, is on a curve of them: a step along it, however long, leads to another.
+/// Whether the solution `pose` lies on a curve of solutions: a long step along it leads to another.
 bool isFree(const Legs& legs, const ComplexPose& pose);
 
-/// Gathers solutions as they are found.
+/// Collects solutions as they are found.
 class Gathering {
  public:
   explicit Gathering(const Legs& legs) : legs_(legs) {}
 
-  /// An eigenvector of unit length; `weight`: 1 for a real one, 2 for one of a pair.
+  /// Adds an eigenvector of unit length; `weight` is 1 for a real one, 2 for one of a pair.
   void addEigenvector(const ComplexCoordinates& x, int weight);
 
-  /// The end of a path, a solution.
+  /// Adds the end of a path, which is a solution.
   void addEnd(const ComplexPose& pose);
 
   void addInfinite(int weight) { roots_.at_infinity += weight; }

@@ -6,7 +6,7 @@
 
 #include "nocsolver/poses/ups_poses_roots.h"
 
-// Newton on |p + Qb − a|² = d², over the real or the complex numbers. Internal to nocsolver/ups_poses*.
+// Newton's method on |p + Qb − a|² = d², over the real or the complex numbers. Internal to nocsolver/ups_poses*.
 
 namespace ursula::ups {
 
@@ -17,7 +17,7 @@ using Vec6 = Eigen::Matrix<Scalar, 6, 1>;
 template <class Scalar>
 using Mat3 = Eigen::Matrix<Scalar, 3, 3>;
 
-/// xᵀy and x × y; Eigen's own conjugate.
+/// xᵀy and x × y without conjugation; Eigen's own functions conjugate.
 template <class X, class Y>
 typename X::Scalar product(const X& x, const Y& y) {
   return (x.transpose() * y).value();
@@ -42,8 +42,8 @@ Mat3<Scalar> rotation(const Eigen::Matrix<Scalar, 4, 1>& q) {
 template <class Scalar>
 struct Equations {
   Vec6<Scalar> f;                 ///< vᵀv − d², v = p + Qb − a
-  Eigen::Matrix<Scalar, 6, 6> J;  ///< by a turn about the axes of B, then p
-  double rounding = 0;            ///< what f may be off by: some 16 roundings of its largest terms
+  Eigen::Matrix<Scalar, 6, 6> J;  ///< derivatives by a rotation about the axes of B, then by p
+  double rounding = 0;            ///< error bound of f: some 16 roundings of its largest terms
   double curvature = 0;           ///< bound of |½ f''| for a unit step
   bool solved() const { return f.cwiseAbs().maxCoeff() <= rounding; }
 };
@@ -67,7 +67,7 @@ Equations<Scalar> equations(const LegsOver<LegScalar>& legs, const Placed<Scalar
   return out;
 }
 
-/// Turn, then move.
+/// Rotates, then translates.
 template <class Scalar>
 Placed<Scalar> displaced(const Placed<Scalar>& from, const Vec6<Scalar>& step) {
   const Vec3<Scalar> half = step.template head<3>() / 2.0, v = from.q.template tail<3>();
@@ -79,7 +79,7 @@ Placed<Scalar> displaced(const Placed<Scalar>& from, const Vec6<Scalar>& step) {
   return to;
 }
 
-/// Newton until f no longer falls; leaves the best pose. True where that is a solution.
+/// Newton's method until f no longer falls; keeps the best pose. Returns whether it is a solution.
 template <class Scalar>
 bool polish(const Legs& legs, Placed<Scalar>& pose) {
   constexpr int steps = 12, patience = 3;

@@ -6,16 +6,16 @@
 #include <cstdint>
 #include <vector>
 
-// A leg of length d between a in B and b in M is linear in h, Q, u = Qᵀp, p and r = pᵀp:
+// For a leg of length d between a in B and b in M, an equation linear in h, Q, u = Qᵀp, p and r = pᵀp holds:
 //   r + 2 bᵀu − 2 aᵀp − 2 aᵀQb + (|a|² + |b|² − d²) h = 0.                                                  (a)
-// The motions of space make a variety of dimension 6 and degree 40 in these 17 homogeneous coordinates (Gallet,
-// Nawratil and Schicho, "Bond theory for pentapods and hexapods", J. Geom. 106, 2015). 37 quadrics vanish on it:
+// The rigid motions form a variety of dimension 6 and degree 40 in these 17 homogeneous coordinates (Gallet, Nawratil
+// and Schicho, "Bond theory for pentapods and hexapods", J. Geom. 106, 2015). 37 quadrics vanish on it:
 //   QQᵀ = QᵀQ = h²1, adj Q = hQᵀ, Qu = hp, Qᵀp = hu, uᵀu = pᵀp = rh, qᵢ × p = Σⱼₖ εᵢⱼₖ uⱼ qₖ,  qᵢ: column i of Q.  (b)
-// Six legs and a chart's plane at infinity cut it to a ring of dimension 40 = 1 + 10 + 18 + 10 + 1, found degree by
-// degree: the quadrics leave 18 of the 55 monomials of degree two; of their 180 products with yⱼ, those that the ways
-// of making one monomial of degree three by two formulations leave free are 10; and so on. (c) Each step is a QR of
-// relations E w + K l = 0 between the products w and what is known, l: w = V l + (null space) c, and c are the basis of
-// the new degree.                                                                       (d)
+// Six legs and a chart's plane at infinity reduce it to a ring of dimension 40 = 1 + 10 + 18 + 10 + 1, found degree by
+// degree. The quadrics leave 18 of the 55 monomials of degree two. Of their 180 products with yⱼ, 10 stay free, since
+// each monomial of degree three arises from two products; and so on. (c) Each step is a QR of relations E w + K l = 0
+// between the products w and the known part l. Then w = V l + (null space) c, where c are the basis of the new degree.
+// (d)
 
 namespace ursula::ups {
 namespace {
@@ -33,7 +33,7 @@ using Quadric = std::vector<Term>;
 
 int q(int i, int j) { return at_Q + 3 * i + j; }
 
-/// The rows' products with each other (transposed: the columns'), and r h where both lie.
+/// Products of the rows with each other (transposed: of the columns), minus h² on the diagonal.
 void addOrthogonality(std::vector<Quadric>& all, bool transposed) {
   const auto at = [&](int i, int j) { return transposed ? q(j, i) : q(i, j); };
   for (int i = 0; i < 3; ++i)
@@ -41,7 +41,7 @@ void addOrthogonality(std::vector<Quadric>& all, bool transposed) {
       Quadric quadric;
       for (int k = 0; k < 3; ++k) quadric.push_back({at(i, k), at(j, k), 1});
       if (i == j) quadric.push_back({at_h, at_h, -1});
-      // Both traces are the sum of all squares.
+      // Both traces are the sum of all squares, so one is redundant.
       if (!(transposed && i == 2 && j == 2)) all.push_back(quadric);
     }
 }
@@ -80,7 +80,7 @@ std::vector<Quadric> motionQuadrics() {
   return all;
 }
 
-/// Which monomial of degree two, a ≤ b or not.
+/// Index of the monomial of degree two; a and b in any order.
 int pair(int a, int b) {
   if (a > b) std::swap(a, b);
   return a * variable_count - a * (a - 1) / 2 + b - a;
@@ -92,7 +92,7 @@ Eigen::Matrix<double, section_count, section_count> chart(int index) {
   Eigen::Matrix<double, section_count, section_count> A;
   for (int i = 0; i < section_count; ++i)
     for (int j = 0; j < section_count; ++j) {
-      double sum = -6;  // of twelve even ones: nearly normal
+      double sum = -6;  // a sum of twelve uniform numbers is nearly normal
       for (int k = 0; k < 12; ++k) {
         state = state * 6364136223846793005u + 1442695040888963407u;
         sum += static_cast<double>(state >> 33) / 2147483648.0;
@@ -108,7 +108,7 @@ double pivotRatio(const Qr& qr, int rank) {
   return R(0) > 0 ? R(rank - 1) / R(0) : 0;
 }
 
-/// The ring, degree by degree: row k of by[j] is yⱼ times element k of the basis, as far as it is known.
+/// The ring, degree by degree: row k of by[j] is yⱼ times element k of the basis, as far as known.
 class Ring {
  public:
   explicit Ring(const Section& map) {
@@ -132,7 +132,7 @@ class Ring {
   double pivot_ = 1;
 };
 
-/// (b) in monomials of degree two, √2 yₐy_b and yₐ² so that a rotation of y rotates them, then y and 1.
+/// (b) in monomials of degree two, then y and 1. The monomials √2 yₐy_b and yₐ² rotate with y.
 Eigen::MatrixXd quadricRows(const Section& map) {
   static const std::vector<Quadric> quadrics = motionQuadrics();
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(quadric_count, monomial_count + up_to_1);
@@ -151,12 +151,12 @@ Eigen::MatrixXd quadricRows(const Section& map) {
   return rows;
 }
 
-/// (d) for E w + K l = 0 with `free` dimensions left: w = [V, null space] [l; c].
+/// Solves (d) for E w + K l = 0 with `free` dimensions left: w = [V, null space] [l; c].
 Eigen::MatrixXd solveRelations(const Eigen::MatrixXd& E, const Eigen::MatrixXd& K, int free, double& pivot) {
   const Eigen::Index size = E.cols(), rank = size - free;
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(E.transpose());
   const double ratio = pivotRatio(qr, static_cast<int>(rank));
-  pivot = ratio <= pivot ? ratio : pivot * (ratio > 0);  // 0 where that is no number
+  pivot = ratio <= pivot ? ratio : pivot * (ratio > 0);  // 0 if that is NaN
   const Eigen::MatrixXd chosen = (qr.colsPermutation().transpose() * K).topRows(rank);
   Eigen::MatrixXd w = Eigen::MatrixXd::Zero(size, K.cols() + free);
   w.topLeftCorner(rank, K.cols()) =
@@ -176,8 +176,8 @@ void Ring::addSecond(const Section& map) {
           second.row(pair(a, b)) / (a == b ? 1 : std::sqrt(2.0));
 }
 
-/// yᵢ(yⱼ f) − yⱼ(yᵢ f) for all i < j and basis elements f in [below, from): coefficients of the products of basis
-/// elements in [from, to) with y₁…y₁₀, then of the basis.
+/// yᵢ(yⱼ f) − yⱼ(yᵢ f) for all i < j and basis elements f in [below, from). The columns are coefficients of the
+/// products of basis elements in [from, to) with y₁…y₁₀, then of the basis.
 Eigen::MatrixXd Ring::relations(int below, int from, int to) const {
   const int degree = to - from, lower = from - below, products = variable_count * degree;
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(variable_count * (variable_count - 1) / 2 * lower, products + to);
@@ -193,7 +193,7 @@ Eigen::MatrixXd Ring::relations(int below, int from, int to) const {
   return rows;
 }
 
-/// (c): yⱼ times the basis elements in [from, to), which gives those in [to, next).
+/// (c): yⱼ times the basis elements in [from, to), which gives the elements in [to, next).
 void Ring::addProducts(int from, int to, int next) {
   const int below = from == up_to_1 ? up_to_0 : from == up_to_2 ? up_to_1 : up_to_2;
   const int degree = to - from, products = variable_count * degree;

@@ -5,23 +5,23 @@
 
 #include "base/scalar.h"
 
-// The poses of six legs of given lengths as a linear section of the motion group's compactification, and the ring of
-// that section. Internal to nocsolver/ups_poses*.
+// The poses of six legs of given lengths form a linear section of the motion group's compactification. This header has
+// the section and its ring. Internal to nocsolver/ups_poses*.
 
 namespace ursula::ups {
 
-constexpr int solution_count = 40;    ///< degree of the compactification: solutions of every section that is finite
+constexpr int solution_count = 40;    ///< degree of the compactification: number of solutions of every finite section
 constexpr int coordinate_count = 17;  ///< h, Q row by row, Qᵀp, p, pᵀp: homogeneous, h = 1 for a pose
-constexpr int section_count = 11;     ///< what six legs leave of them
+constexpr int section_count = 11;     ///< dimension of the coordinates that satisfy six legs
 constexpr int chart_count = 8;
 
-/// Where each kind of coordinate starts.
+/// The first index of each kind of coordinate.
 constexpr int at_h = 0, at_Q = 1, at_u = 10, at_p = 13, at_r = 16;
 
 using Coordinates = Eigen::Matrix<double, coordinate_count, 1>;
 using Section = Eigen::Matrix<double, coordinate_count, section_count>;  // orthonormal columns
 
-/// Six legs, in a unit of length that makes their numbers about 1.
+/// Six legs, in a unit of length in which their numbers are about 1.
 template <class Scalar>
 struct LegsOver {
   std::array<Eigen::Matrix<Scalar, 3, 1>, 6> a, b;
@@ -30,21 +30,20 @@ struct LegsOver {
 using Legs = LegsOver<double>;
 
 struct LegSection {
-  Section N;         ///< all coordinates that satisfy the six legs: N z
+  Section N;         ///< N z are all coordinates that satisfy the six legs
   double pivot = 0;  ///< ratio of smallest to largest pivot of the six equations
 };
 
 LegSection legSection(const Legs& legs);
 
-/// Multiplication by a generic linear form in the ring of the section, dimension 40.
+/// Multiplication by a generic linear form in the section's ring, dimension 40.
 struct Multiplication {
-  Eigen::MatrixXd M;  ///< 40 × 40; right eigenvectors begin with 1, y₁…y₁₀ of a solution; empty where a pivot is 0
+  Eigen::MatrixXd M;  ///< 40 × 40; right eigenvectors begin with 1, y₁…y₁₀ of a solution; empty if a pivot is 0
   Section map;        ///< coordinates = map [1; y]
-  double pivot = 0;  ///< smallest ratio of pivots on the way: 0 where the section is not finite or meets the chart's
-                     ///< plane at infinity
+  double pivot = 0;   ///< smallest ratio of pivots; 0 if the section is infinite or meets the chart's infinity
 };
 
-/// In chart `index` of `chart_count`. Allocates.
+/// Computes it in chart `index` of `chart_count`. Allocates.
 Multiplication multiplication(const Section& section, int index);
 
 }  // namespace ursula::ups

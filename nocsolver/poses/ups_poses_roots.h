@@ -6,7 +6,7 @@
 
 #include "nocsolver/poses/ups_poses_ring.h"
 
-// All solutions of six legs in the complex numbers, polished and counted. Internal to nocsolver/ups_poses*.
+// All complex solutions of six legs, polished and counted. Internal to nocsolver/ups_poses*.
 
 namespace ursula::ups {
 
@@ -17,33 +17,33 @@ struct Placed {
   Eigen::Matrix<Scalar, 3, 1> p;
 };
 
-/// A solution; of a conjugate pair the first of both.
+/// A solution; it stands for both of a conjugate pair.
 struct Root {
   Placed<std::complex<double>> at;
-  bool real = false;     ///< then its pose is real
-  int multiplicity = 1;  ///< how many solutions cannot be told from this one in the arithmetic
+  bool real = false;     ///< whether its pose is real
+  int multiplicity = 1;  ///< number of solutions that rounding merges into this one
 };
 
 struct Roots {
   std::vector<Root> list;
   int counted = 0;      ///< with multiplicities and conjugates
   int at_infinity = 0;  ///< solutions that are no poses, not even complex ones
-  double pivot = 0;     ///< the smallest pivot ratio of the best chart: 0 where solutions are not finitely many
-  bool free = false;    ///< there is a curve of poses
+  double pivot = 0;     ///< smallest pivot ratio of the best chart: 0 if solutions are infinitely many
+  bool free = false;    ///< whether there is a curve of poses
 
   int all() const { return counted + at_infinity; }
   bool complete() const { return all() == solution_count; }
 };
 
-/// At this ratio of pivots rounding in the ring leaves a quarter of the digits, and double roots are as wide as what is
-/// taken for one root: as for the quadrics of DirectKinematics.
+/// At this ratio of pivots, rounding in the ring leaves a quarter of the digits. Double roots then spread over the
+/// radius of one cluster, as for the quadrics of DirectKinematics.
 double smallestPivot();
 
-/// By the ring. Tries charts until 40 solutions are counted, or until it is clear that they are not finitely many.
+/// Uses the ring. Tries charts until 40 solutions are counted, or until they are clearly infinitely many.
 Roots findRoots(const Legs& legs);
 
-/// By paths from the solutions of a machine near by, for one that has infinitely many at infinity, and to see whether
-/// they are there alone.
+/// Follows paths from the solutions of a nearby machine. It serves machines with infinitely many solutions at infinity,
+/// and shows whether only infinity has them.
 Roots trackRoots(const Legs& legs);
 
 }  // namespace ursula::ups

@@ -7,10 +7,10 @@
 #include "nocsolver/poses/ups_poses_gathering.h"
 #include "nocsolver/poses/ups_poses_newton.h"
 
-// A machine near by, thrown by s times a fixed generic amount, has 40 solutions for all but a few s. They are followed
-// from s = 1 to 0 on a curved way through the complex plane, which meets none of those few. Each isolated pose of the
-// machine is the end of as many paths as its multiplicity; the others end at infinity, or on a curve of poses, and
-// every such curve has at least one.
+// A nearby machine, perturbed by s times a fixed generic amount, has 40 solutions for all but a few s. They are
+// followed from s = 1 to 0 on a curved path through the complex plane that avoids those few. Each isolated pose of the
+// machine ends as many paths as its multiplicity. The others end at infinity or on a curve of poses; every such curve
+// ends at least one.
 
 namespace ursula::ups {
 namespace {
@@ -20,10 +20,10 @@ using Complex = std::complex<double>;
 constexpr double eps = Eigen::NumTraits<double>::epsilon();
 constexpr int throw_count = 3, step_limit = 4000;
 const double last_t = std::pow(2.0, -36), late_t = std::pow(2.0, -10), bend = 0.7;
-/// |h| of unit coordinates below which a path that ends is taken to end at infinity; that of a real pose is larger.
+/// A path whose |h| of unit coordinates ends below this ends at infinity; a real pose has a larger |h|.
 const double little_h = std::pow(eps, 1.0 / 4), hidden_h = std::pow(eps, 3.0 / 16);
 
-/// a, b, d of both ends.
+/// The values of a, b, d at both ends.
 struct Way {
   Legs end, change;
 
@@ -60,7 +60,7 @@ struct Way {
   }
 };
 
-/// A throw of up to 0.3 units.
+/// Perturbs the legs by up to 0.3 units.
 Way thrown(const Legs& legs, int index) {
   std::uint64_t state = 0xd1b54a32d192ed03u * static_cast<std::uint64_t>(index + 1);
   const auto next = [&state] {
@@ -78,12 +78,12 @@ Way thrown(const Legs& legs, int index) {
 
 Complex bent(double t) { return {t, bend * t * (1 - t)}; }
 
-/// Of a step from a pose: turns are relative already.
+/// The size of a step from a pose; rotations are relative already.
 double size(const Vec6<Complex>& step, const ComplexPose& pose) {
   return step.head<3>().norm() + step.tail<3>().norm() / (1 + pose.p.norm());
 }
 
-/// Newton at s; none where it does not begin close to where it ends.
+/// Newton's method at s; nullopt unless it starts close to its end.
 std::optional<ComplexPose> corrected(const LegsOver<Complex>& legs, ComplexPose pose, double closeness) {
   double previous = closeness;
   for (int i = 0; i < 4; ++i) {
@@ -98,8 +98,8 @@ std::optional<ComplexPose> corrected(const LegsOver<Complex>& legs, ComplexPose 
   return std::nullopt;
 }
 
-/// The pose at t = 2⁻³⁶, or where rounding hides the path before, as it does near a singular end or infinity. None
-/// where it is lost on the way.
+/// The pose at t = 2⁻³⁶, or where rounding hides the path before, as near a singular end or infinity. Returns nullopt
+/// if the path is lost.
 std::optional<ComplexPose> follow(const Way& way, ComplexPose pose, double closeness) {
   double t = 1, fraction = 0.05;
   for (int i = 0; i < step_limit && t > last_t; ++i) {

@@ -1,8 +1,8 @@
 #pragma once
 
-// A batch, block by block, for one instruction set. Internal; included by sources that are compiled for that set. What
-// they share with others are plain numbers: no function of doubles may be made here, or the linker might take it for
-// all.
+// Computes a batch block by block for one instruction set. Internal; sources compiled for that set include it. They
+// share only plain numbers with other sources. A function of doubles is forbidden here, because the linker might use it
+// for all.
 
 #include <array>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace ursula::kernel {
 
-/// In every lane in which |a[row][k]| is the largest, that row comes to row k.
+/// Moves the row with the largest |a[row][k]| to row k, in every lane.
 template <class Isa>
 void pivot(System6<Pack<Isa>>& system, int k) {
 #pragma GCC unroll 6
@@ -26,7 +26,7 @@ void pivot(System6<Pack<Isa>>& system, int k) {
   }
 }
 
-/// Rows become columns: in each of log₂ n rounds, lane by lane, the first half is laced with the second.
+/// Transposes rows to columns in log₂ n rounds; each interleaves the first half with the second, lane by lane.
 template <class Isa>
 void transpose(Pack<Isa>* rows) {
   constexpr int n = Pack<Isa>::lanes;
@@ -51,7 +51,7 @@ void transpose(Pack<Isa>* rows) {
   }
 }
 
-/// `columns` numbers of each pose, a multiple of the lanes; from pose to pose they are `stride` doubles apart.
+/// Loads `columns` numbers of each pose, a multiple of the lanes; poses are `stride` doubles apart.
 template <class Isa, int columns>
 std::array<Pack<Isa>, columns> columnsAt(const double* from, std::size_t stride) {
   constexpr int n = Pack<Isa>::lanes;
@@ -65,13 +65,13 @@ std::array<Pack<Isa>, columns> columnsAt(const double* from, std::size_t stride)
   return out;
 }
 
-/// The numbers of Motion<double> from t on, and of a six-vector.
+/// Lengths of Motion<double> and of a six-vector in doubles.
 constexpr std::size_t motion_stride = 25, vector_stride = 6;
 
 template <class Isa>
 Motion<Pack<Isa>> motionsAt(const double* from) {
   Motion<Pack<Isa>> out;
-  const auto columns = columnsAt<Isa, 24>(from + 1, motion_stride);  // the instant is of no interest
+  const auto columns = columnsAt<Isa, 24>(from + 1, motion_stride);  // skips the instant, which is not needed
   const Pack<Isa>* next = columns.data();
   const auto read = [&next](auto& matrix) {
     for (Eigen::Index k = 0; k < matrix.size(); ++k) matrix.data()[k] = *next++;
@@ -137,7 +137,7 @@ __attribute__((flatten)) void directBlock(const MachineModel<Pack<Isa>>& machine
   put<Isa>(rates, guard.faults(), out, flags);
 }
 
-/// The machine in every lane.
+/// The same machine in every lane.
 template <class Isa>
 struct BatchMachine {
   MachineModel<Pack<Isa>> model;
@@ -167,7 +167,7 @@ struct BatchMachine {
   static const MachineModel<Pack<Isa>>& of(const void* machine) {
     return static_cast<const BatchMachine*>(machine)->model;
   }
-  /// Block by block; a last one that is not full is filled with its first pose.
+  /// Calls `block` for each block; the first pose of an incomplete last block fills it up.
   template <class F>
   static void each(BatchSpans spans, const F& block) {
     for (; spans.count >= lanes; spans = spansFrom(spans, lanes)) block(spans);

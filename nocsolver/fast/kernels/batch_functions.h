@@ -1,6 +1,6 @@
 #pragma once
 
-// What a batch asks of the source that is compiled for an instruction set. Internal: plain numbers and functions.
+// The interface between a batch and the source for one instruction set. Internal: plain numbers and functions.
 
 #include <array>
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace ursula::kernel {
 
-/// What of a machine is no number.
+/// The properties of a machine that are no real numbers.
 struct MachineShape {
   int legs = 0;
   std::array<LegKind, leg_count> kinds{};
@@ -19,7 +19,7 @@ struct MachineShape {
   std::array<bool, leg_count> rubs{}, rubs_dry{}, principal{}, has_rotor{}, off_line{};
 };
 
-/// Entries one after the other, as Motion<double> and Vector6d have them. `loads` may be null.
+/// Contiguous entries with the layout of Motion<double> and Vector6d. `loads` may be null.
 struct BatchSpans {
   std::size_t count;
   const double *motions, *efforts, *loads;
@@ -27,8 +27,8 @@ struct BatchSpans {
   std::uint8_t* faults;
 };
 
-/// What six legs, one to a lane, make of one pose. Rows of Bᵀ, moments over the length, a motor in each column; of the
-/// direct dynamics the lower half of M_P. Columns from the seventh on mean nothing.
+/// The contributions of six legs, one per lane, at one pose. `rows` are those of Bᵀ, moments divided by the length, one
+/// motor per column; for the direct dynamics, the lower half of M_P. Columns from the seventh on are unused.
 struct LegSums {
   double rows[6][8], wrench[6], Q[8], A[8];
 };
@@ -38,14 +38,14 @@ struct BatchFunctions {
   void (*destroy)(void* machine);
   void (*inverse)(const void* machine, const BatchSpans& spans);
   void (*direct)(const void* machine, const BatchSpans& spans);
-  // One pose, a leg in each lane (leg_lanes.h); false where a leg cannot take it.
+  // For one pose, with one leg per lane (leg_lanes.h); false if a leg refuses the pose.
   void* (*make_legs)(const double* numbers, const MachineShape& shape);
   void (*destroy_legs)(void* legs);
   bool (*inverse_legs)(const void* legs, const double* motion, LegSums& out);
   bool (*direct_legs)(const void* legs, const double* motion, const double* efforts, LegSums& out);
 };
 
-// Each in a source of its own.
+// Each is defined in its own source.
 BatchFunctions batchBySse2();
 BatchFunctions batchByAvx2();
 BatchFunctions batchByAvx512();

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a leg's displacement requires, in every lane of a pack. Internal; leg_guard.h refuses one pose at a time.
+// The requirements on a leg's displacement, in every lane of a pack. Internal; leg_guard.h handles one pose at a time.
 
 #include "nocsolver/fast/kernels/guard_bounds.h"
 #include "nocsolver/fast/kernels/pack.h"
@@ -8,7 +8,7 @@
 
 namespace ursula::kernel {
 
-/// The first fault of each lane.
+/// Keeps the first fault of each lane.
 template <class Isa>
 class BatchGuard {
  public:
@@ -22,14 +22,14 @@ class BatchGuard {
   void offAxis(const P& r, const P& size) { require(r > root_eps * size, PoseFault::point_on_axis); }
   void regular(const P& sine, const char*) { require(abs(sine) > P(root_eps), PoseFault::stretched_leg); }
   void regularB(const P& pivots) { require(pivots > P(least_pivots), PoseFault::singular_jacobian); }
-  /// A PoseFault as a number, 0 where there is none.
+  /// A PoseFault as a number, 0 if there is none.
   const P& faults() const { return faults_; }
   bool anyFault() const { return xsimd::any(faults_ > P(0.0)); }
 
  private:
   void require(const Mask& holds, PoseFault fault) {
     if (!xsimd::all(holds))
-      faults_ = select(holds | (faults_ > P(0.0)), faults_, P(static_cast<double>(fault)));  // seldom
+      faults_ = select(holds | (faults_ > P(0.0)), faults_, P(static_cast<double>(fault)));  // rare
   }
   P faults_ = P(0.0);
 };

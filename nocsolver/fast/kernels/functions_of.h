@@ -1,6 +1,6 @@
 #pragma once
 
-// From an instruction set to what is compiled for it. Internal.
+// Selects the code compiled for an instruction set. Internal.
 
 #include <optional>
 
@@ -9,7 +9,7 @@
 
 namespace ursula::kernel {
 
-/// None where the set is portable.
+/// Returns nullopt for the portable set.
 inline std::optional<BatchFunctions> functionsOf(InstructionSet set) {
 #ifdef URSULA_X86
   switch (set) {

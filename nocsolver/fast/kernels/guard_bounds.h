@@ -1,11 +1,11 @@
 #pragma once
 
-// What guards of doubles hold against, where no function of doubles may be made (chain_frame.h and platform_at_p.h have
-// the same by the scalar's eps). Internal.
+// Bounds of the guards in doubles, for sources that may define no function of doubles. chain_frame.h and
+// platform_at_p.h compute the same from the scalar's eps. Internal.
 
 namespace ursula::kernel {
 
-constexpr double root_eps = 0x1p-26;      ///< √eps: below it a sine or a lever has no correct digit left
-constexpr double least_pivots = 0x1p-48;  ///< 16 eps: of the pivots of Bᵀ, the smallest over the largest
+constexpr double root_eps = 0x1p-26;      ///< √eps: a smaller sine or lever has no correct digit left
+constexpr double least_pivots = 0x1p-48;  ///< 16 eps: least ratio of the smallest to the largest pivot of Bᵀ
 
 }  // namespace ursula::kernel

@@ -1,7 +1,7 @@
 #pragma once
 
 // The links' loads projected on a leg's coordinates, in the axes of the leg's plane. Internal. They need the rates of
-// leg_rates.h; `base` is −g along x, u, z of the plane. The recursion of chain_motion.h is the witness.
+// leg_rates.h; `base` is −g along x, u, z of the plane. The recursion of chain_motion.h is the independent reference.
 
 #include "nocsolver/fast/kernels/plane_leg.h"
 #include "nocsolver/fast/kernels/plane_link.h"
@@ -13,7 +13,7 @@ Rates<S> ratesOf(const PlaneLeg<S>& leg, int j) {
   return {leg.rate(j), leg.acceleration(j)};
 }
 
-/// The rod slides along its link: its tensor about A changes, and a mass at r has 2 ṙ χ̇ and −2 ṙ α̇ S beside (c).
+/// The rod slides along its link, so its tensor about A changes. A mass at r adds 2 ṙ χ̇ and −2 ṙ α̇ S to (c).
 template <bool principal, class S>
 Vector3<S> linkForces(Ups, const PlaneModel<S>& model, const Vector3<S>& base, const PlaneLeg<S>& leg) {
   const S &C = leg.C_1, &S_ = leg.S_1, inner = leg.d - model.s + model.sigma;

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a leg's displacement requires. Internal. One pose at a time it is refused by an error; in a batch its lane is
+// The requirements on a leg's displacement. Internal. Here a pose is refused by an error; in a batch its lane is
 // flagged (batch_guard.h).
 
 #include "nocsolver/legs/requirements.h"
@@ -12,7 +12,7 @@ struct LegGuard {
   int leg;
   S t;
 
-  /// `inside` is not negative; `square` is that of the distance that is held against `bound`.
+  /// `inside` must not be negative; `square` is that of the distance to compare with `bound`.
   void reach(const S& inside, const S& square, const S& bound) const {
     using std::abs;
     using std::sqrt;

@@ -1,10 +1,10 @@
 #pragma once
 
-// One pose, a leg in each lane. Internal; included by sources that are compiled for one instruction set, as
-// batch_block.h.
+// One pose with one leg per lane. Internal; sources compiled for one instruction set include it, like batch_block.h.
 //
-// Six legs of one kind whose motors drive the same coordinate are, to the kernels of plane_dynamics.h, one leg of packs
-// (two or three where a register holds fewer than six numbers). The platform moves alike in every lane.
+// The six legs are of one kind and their motors drive the same coordinate. To the kernels of plane_dynamics.h they
+// are one leg of packs, or two or three if a register holds fewer than six numbers. Every lane has the same platform
+// motion.
 
 #include "nocsolver/fast/kernels/batch_functions.h"
 #include "nocsolver/fast/kernels/batch_guard.h"
@@ -18,7 +18,7 @@ class LegLanes {
  public:
   using P = Pack<Isa>;
 
-  /// `numbers` and `shape` of six legs of one kind, with one motor each on the same coordinate.
+  /// Takes `numbers` and `shape` of six legs of one kind, each with one motor on the same coordinate.
   static void* make(const double* numbers, const MachineShape& shape) {
     auto* out = new LegLanes;
     MachineShape packed = shape;
@@ -59,7 +59,7 @@ class LegLanes {
   static Motion<P> motionOf(const double* number) {
     Motion<P> out;
     const auto read = [&number](auto& matrix) {
-      for (Eigen::Index k = 0; k < matrix.size(); ++k) matrix.data()[k] = P(*++number);  // the instant is passed over
+      for (Eigen::Index k = 0; k < matrix.size(); ++k) matrix.data()[k] = P(*++number);  // skips the instant
     };
     read(out.p);
     read(out.Q);
@@ -69,7 +69,7 @@ class LegLanes {
     read(out.p_ddot);
     return out;
   }
-  /// 0 in lanes from the n-th on.
+  /// Sets the lanes from the n-th on to 0.
   static P upTo(int n, const P& value) {
     alignas(64) double keep[lanes];
     for (int lane = 0; lane < lanes; ++lane) keep[lane] = lane < n ? 1.0 : 0.0;

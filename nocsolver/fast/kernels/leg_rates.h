@@ -1,10 +1,10 @@
 #pragma once
 
-// Rates and accelerations of a leg's coordinates for the motion of B, in closed form in the axes of the leg's plane.
-// Internal. The recursion of chain_motion.h, which knows joints' axes alone, is the witness: tests hold the two
-// together to rounding.
+// Rates and accelerations of a leg's coordinates from B's motion, in closed form in the axes of the leg's plane.
+// Internal. The recursion of chain_motion.h, which uses only the joints' axes, is the independent reference; tests
+// compare both to rounding.
 //
-// Along x, u, z of the plane v_B = h, a_B = a; the legs' rows of plane_leg.h give the rates.
+// Along x, u, z of the plane v_B = h and a_B = a; the rows of the legs' maps in plane_leg.h give the rates.
 
 #include "nocsolver/fast/kernels/plane_leg.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// A machine's model as a row of numbers and what is none. Internal.
+// Splits a machine's model into real numbers and other properties. Internal.
 
 #include "nocsolver/fast/kernels/batch_functions.h"
 #include "nocsolver/fast/kernels/machine_model.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// A machine as the kernels of plane_dynamics.h take it. Internal.
+// The machine in the form that the kernels of plane_dynamics.h use. Internal.
 
 #include <array>
 
@@ -9,12 +9,12 @@
 
 namespace ursula::kernel {
 
-/// What does not change with the motion.
+/// The constants of the motion.
 template <class S>
 struct MachineModel {
   std::array<PlaneModel<S>, leg_count> legs;
   int legs_in_all = 0;
-  S mass, per_length;  ///< the platform's; 1 over a length of the machine's size
+  S mass, per_length;  ///< the platform's mass; 1 over a length of the machine's size
   Vector3<S> rho, gravity;
   Matrix3<S> I_M;
 };
@@ -24,7 +24,7 @@ Vector3<S> alongAxes(const LegModel<S>& leg, const Vector3<S>& v) {
   return {leg.x_hat.dot(v), leg.u.dot(v), leg.z_hat.dot(v)};
 }
 
-/// The tensor about a point at `distance` from the mass centre along the link; `first` is the mass times that.
+/// The tensor about a point at `distance` from the mass centre along the link; `first` is the mass times `distance`.
 template <class S>
 Matrix3<S> aboutEnd(const Matrix3<S>& I, const S& first, const S& distance) {
   Matrix3<S> J = I;

@@ -1,12 +1,13 @@
 #pragma once
 
-// What mass centres beside their links' lines add to plane_link.h and plane_mass.h. Internal.
+// Terms of mass centres off their links' lines, added to plane_link.h and plane_mass.h. Internal.
 //
-// Those have each mass m at the point of the line that is at ρ from the first end. With o from there to the mass
-// centre, b the point's acceleration less g, and V and W the point's velocity and the link's ω by the coordinates:
+// Those files place each mass m at ρ from the first end on the line. Let o lead from there to the mass centre. b is
+// the point's acceleration minus g; V and W are the partial velocities of the point and of the link's ω:
 //   Q = Vᵀ m a_o + Wᵀ (o × m (b + a_o)),  a_o = ω̇ × o + ω × (ω × o)                                             (a)
 //   M = m (VᵀU + UᵀV + UᵀU),  the columns of U those of W each × o                                             (b)
-// All along x, u, z of the leg's plane (of RUS the rod's), in which ω̇ is W q̈ and what the turn of x gives.
+// All vectors are along x, u, z of the leg's plane (for RUS the rod's). There ω̇ is W q̈ plus the term from the
+// rotation of x.
 
 #include <Eigen/Geometry>
 #include <array>
@@ -22,7 +23,7 @@ struct OffLink {
   Matrix3<S> W, V;
 };
 
-/// ω and its rate, and W.
+/// W, and ω with its rate.
 template <class S>
 struct OffTurn {
   Matrix3<S> W;
@@ -47,7 +48,7 @@ struct OffEnd {
   }
 };
 
-/// Columns of W by numbers of −u and x; the turn of x adds `turned` to ω̇ along z.
+/// The columns of W are multiples of −u and x; the rotation of x adds a term to ω̇ along z.
 template <class S>
 OffTurn<S> offTurn(const PlaneLeg<S>& leg, const Vector3<S>& about_minus_u, const Vector3<S>& about_x) {
   OffTurn<S> out;
@@ -82,7 +83,7 @@ OffLinks<S> offLinks(Urs, const PlaneModel<S>& model, const Vector3<S>& base, co
           A.along(first, model.l * e).link(model.mass_2, model.off_2, x, s, model.sigma, second)};
 }
 
-/// A carriage does not turn: it does not matter where on it its mass is.
+/// A carriage does not turn, so the place of its mass does not matter.
 template <class S>
 OffLinks<S> offLinks(Pus, const PlaneModel<S>& model, const Vector3<S>& base, const PlaneLeg<S>& leg) {
   const Vector3<S> x = Vector3<S>::UnitX(), u = Vector3<S>::UnitY(), s(S(0), leg.C_2, leg.S_2);

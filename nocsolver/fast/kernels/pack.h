@@ -1,7 +1,7 @@
 #pragma once
 
-// As many doubles as a register has lanes, as a scalar of the kernels. Internal, for sources that are compiled for one
-// instruction set each: every name here depends on it, so that no linker mixes them.
+// A scalar of the kernels with as many doubles as a register has lanes. Internal, for sources compiled for one
+// instruction set. Every name here depends on the set, so no linker mixes them.
 
 #include <Eigen/Core>
 #include <xsimd/xsimd.hpp>
@@ -15,7 +15,7 @@ struct Pack {
   static constexpr int lanes = static_cast<int>(Batch::size);
 
   Pack() = default;
-  Pack(double value) : v(value) {}  // NOLINT(google-explicit-constructor): as Eigen makes its scalars
+  Pack(double value) : v(value) {}  // NOLINT(google-explicit-constructor): Eigen converts scalars this way
   explicit Pack(const Batch& batch) : v(batch) {}
 
   Pack& operator+=(const Pack& b) { return *this = *this + b; }
@@ -32,8 +32,8 @@ struct Pack {
   friend Mask operator>=(const Pack& a, const Pack& b) { return a.v >= b.v; }
   friend Pack abs(const Pack& a) { return Pack(xsimd::abs(a.v)); }
   friend Pack sqrt(const Pack& a) { return Pack(xsimd::sqrt(a.v)); }
-  /// Between ±40, where it is ±1 to the last bit: xsimd makes an integer of its exponent, which nan and infinity have
-  /// none for.
+  /// Clamps to ±40, where tanh is ±1 to the last bit. xsimd converts the exponent to an integer, which fails for NaN
+  /// and infinity.
   friend Pack tanh(const Pack& a) {
     const Batch bounded = xsimd::min(xsimd::max(a.v, Batch(-40.0)), Batch(40.0));
     return Pack(xsimd::select(xsimd::isnan(a.v), a.v, xsimd::tanh(bounded)));

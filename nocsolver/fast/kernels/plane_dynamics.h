@@ -3,10 +3,10 @@
 // Inverse and direct dynamics of a platform on legs of any kinds, each leg in its own plane. Internal.
 //
 //   τ = −Tᵀ(wⁿ + w^g + w^d)                                                       (37)
-// T is never formed. The links' loads are brought onto a leg's three coordinates, Q; what no motor drives is a force at
-// B by the rows of the leg's map, Σ Qⱼ kⱼ; with the platform's own that makes a wrench w at P:
+// T is never formed. The links' loads are projected on a leg's three coordinates as Q. For undriven coordinates, the
+// rows of the leg's map turn them into a force Σ Qⱼ kⱼ at B. With the platform's own load that gives a wrench w at P:
 //   Bᵀλ = w,  τ = Q + A λ,  rows of B [Qb × n; n], n = A k                         (23), (24)
-// No angle is formed either. One pose, or as many as a pack has lanes.
+// No angle is formed either. It computes one pose, or as many as a pack has lanes.
 
 #include <cmath>
 
@@ -22,14 +22,14 @@
 
 namespace ursula::kernel {
 
-/// a + b × c, so that products are fused with sums.
+/// a + b × c, written so that products fuse with sums.
 template <class S>
 Vector3<S> plusCross(const Vector3<S>& a, const Vector3<S>& b, const Vector3<S>& c) {
   return {a.x() + b.y() * c.z() - b.z() * c.y(), a.y() + b.z() * c.x() - b.x() * c.z(),
           a.z() + b.x() * c.y() - b.y() * c.x()};
 }
 
-/// Motion of points that the platform carries: v + ω × r, a + (ω̇× + ω×ω×) r.
+/// Motion of points fixed to the platform: v + ω × r, a + (ω̇× + ω×ω×) r.
 template <class S>
 struct Carried {
   explicit Carried(const Motion<S>& m) : motion(m) {
@@ -54,7 +54,7 @@ struct PlaneAxes {
 
   Vector3<S> along(const Vector3<S>& v) const { return {x.dot(v), u.dot(v), z.dot(v)}; }
 
-  /// Back to B; components that `present` (rowOfMap) has not are 0.
+  /// Transforms back to B; components missing from `present` (rowOfMap) are 0.
   template <int present = 7>
   Vector3<S> toBase(const Vector3<S>& v) const {
     if constexpr (present == 1) return v.x() * x;
@@ -71,7 +71,7 @@ PlaneAxes<S> planeAxes(const PlaneModel<S>& model, const PlaneLeg<S>& leg) {
           leg.cosine * model.z_hat - leg.sine * model.x_hat};
 }
 
-/// Calls f with each coordinate as a constant.
+/// Calls f with each coordinate's index as a constant.
 template <class F>
 void eachCoordinate(const F& f) {
   f(std::integral_constant<std::size_t, 0>{});
@@ -79,8 +79,8 @@ void eachCoordinate(const F& f) {
   f(std::integral_constant<std::size_t, 2>{});
 }
 
-/// What drives against viscous and smoothed Coulomb friction of a leg's joints. Unlike frictionForce of dynamics.h it
-/// has no branch on the rate, which a pack could not take.
+/// Forces against viscous and smoothed Coulomb friction of a leg's joints. Unlike frictionForce of dynamics.h, this has
+/// no branch on the rate, because a pack cannot branch.
 template <class S>
 Vector3<S> friction(const PlaneModel<S>& model, const PlaneLeg<S>& leg) {
   using std::tanh;
@@ -94,13 +94,13 @@ Vector3<S> friction(const PlaneModel<S>& model, const PlaneLeg<S>& leg) {
   return Q;
 }
 
-/// Of the coordinates' motors, kg·m² or kg: each has j q̈ more to give, and j in the mass matrix.
+/// Rotor inertias, kg·m² or kg: each adds j q̈ to the effort and j to the mass matrix.
 template <class S>
 Vector3<S> rotorInertia(const PlaneModel<S>& model) {
   return {model.rotor[0], model.rotor[1], model.rotor[2]};
 }
 
-/// Of rotors and of mass centres off their lines. Apart, so that the compiler rounds what surrounds it as ever.
+/// Forces of rotors and of off-line mass centres. A separate function keeps the rounding of the surrounding code.
 template <class Kind, class S>
 [[gnu::noinline]] Vector3<S> addedForces(Kind kind, const PlaneModel<S>& model, const Vector3<S>& base,
                                          const PlaneLeg<S>& leg) {
@@ -110,7 +110,7 @@ template <class Kind, class S>
   return Q;
 }
 
-/// The same in the mass matrix of the leg's coordinates.
+/// The same terms in the mass matrix of the leg's coordinates.
 template <class Kind, class S>
 [[gnu::noinline]] Matrix3<S> addedMass(Kind kind, const PlaneModel<S>& model, const PlaneLeg<S>& leg) {
   Matrix3<S> out = Matrix3<S>::Zero();
@@ -125,7 +125,7 @@ void addForceAt(const Vector3<S>& arm, const Vector3<S>& f, Vector6<S>& wrench) 
   wrench.template tail<3>() += f;
 }
 
-/// [moment about P; force], in B, that moves the platform as it moves against gravity. (38), (43c), (46c)
+/// [moment about P; force], in B, that the platform's motion needs against gravity. (38), (43c), (46c)
 template <class S>
 Vector6<S> platformLoad(const MachineModel<S>& machine, const Motion<S>& motion, const Carried<S>& carried) {
   const Vector3<S> arm = motion.Q * machine.rho;
@@ -139,7 +139,7 @@ Vector6<S> platformLoad(const MachineModel<S>& machine, const Motion<S>& motion,
   return wrench;
 }
 
-/// A leg placed and moving, and what falls on its coordinates.
+/// A leg's position and motion, and the loads on its coordinates.
 template <class S>
 struct MovingLeg {
   Vector3<S> Qb;
@@ -150,8 +150,8 @@ struct MovingLeg {
 template <class S>
 using MovingLegs = std::array<MovingLeg<S>, leg_count>;
 
-/// All legs pass a stage before any enters the next: a processor works on several at a time, since none waits for
-/// another's roots and quotients. Guards are made for each leg by guardOf(i).
+/// All legs pass a stage before the next begins. A processor then overlaps them, because no leg waits for another's
+/// roots and quotients. guardOf(i) creates each leg's guard.
 template <class S, class GuardOf>
 void moveLegs(const MachineModel<S>& machine, const Motion<S>& motion, const Carried<S>& carried,
               const GuardOf& guardOf, MovingLegs<S>& legs) {
@@ -179,7 +179,7 @@ void moveLegs(const MachineModel<S>& machine, const Motion<S>& motion, const Car
   });
 }
 
-/// One leg's share: what falls on its motors, their rows, and what falls on the platform.
+/// Adds one leg: the loads on its motors, their rows, and its load on the platform.
 template <class S, class Kind>
 void addLeg(Kind, const PlaneModel<S>& model, const S& per_length, const MovingLeg<S>& leg, Vector6<S>& wrench,
             Vector6<S>& Q_driven, Vector6<S>& A, System6<S>& system) {
@@ -196,7 +196,7 @@ void addLeg(Kind, const PlaneModel<S>& model, const S& per_length, const MovingL
       return;
     }
     Q_driven(motor) = share;
-    A(motor) = leg.plane.lever[j];  // rows of B of like size; any near k's will do
+    A(motor) = leg.plane.lever[j];  // gives rows of B similar sizes; any value near k's will do
     const Vector3<S> n = leg.axes.template toBase<present>(A(motor) * k), moment = per_length * leg.Qb.cross(n);
     for (int row = 0; row < 3; ++row) {
       system.a[row][motor] = moment(row);
@@ -213,7 +213,7 @@ void addLeg(const MachineModel<S>& machine, std::size_t i, const MovingLeg<S>& l
   withKind(model.kind, [&](auto kind) { addLeg(kind, model, machine.per_length, leg, wrench, Q_driven, A, system); });
 }
 
-/// Efforts for a motion, less `load` at P. `pivots` is told the smallest pivot over the largest.
+/// Efforts for a motion, minus `load` at P. Sets `pivots` to the smallest pivot over the largest.
 template <class S, class GuardOf>
 Vector6<S> inverseDynamics(const MachineModel<S>& machine, const Motion<S>& motion, const Vector6<S>& load,
                            const GuardOf& guardOf, S& pivots) {
@@ -233,7 +233,7 @@ Vector6<S> inverseDynamics(const MachineModel<S>& machine, const Motion<S>& moti
   return efforts;
 }
 
-/// Adds Gᵀ M G, G = [−[Qb]×, 1]: a mass matrix at B, in B's frame, brought to P.
+/// Adds Gᵀ M G, G = [−[Qb]×, 1]: moves a mass matrix at B, in B's frame, to P.
 template <class S>
 void addMassAt(const Vector3<S>& Qb, const Matrix3<S>& M_B, Matrix6<S>& M_P) {
   Matrix3<S> arm_M;
@@ -248,7 +248,7 @@ void addMassAt(const Vector3<S>& Qb, const Matrix3<S>& M_B, Matrix6<S>& M_P) {
   }
 }
 
-/// The platform's share of what moves it and of M_P.
+/// Adds the platform's part of the wrench and of M_P.
 template <class S>
 void addPlatform(const MachineModel<S>& machine, const Motion<S>& motion, const Carried<S>& carried, Vector6<S>& wrench,
                  Matrix6<S>& M_P) {
@@ -257,7 +257,7 @@ void addPlatform(const MachineModel<S>& machine, const Motion<S>& motion, const 
   addMassAt<S>(motion.Q * machine.rho, machine.mass * Matrix3<S>::Identity(), M_P);
 }
 
-/// One leg's share of what moves the platform and of M_P.
+/// Adds one leg's part of the wrench and of M_P.
 template <class S, class Kind>
 void addLegMass(Kind kind, const PlaneModel<S>& model, const MovingLeg<S>& leg, const Vector6<S>& efforts,
                 Vector6<S>& wrench, Matrix6<S>& M_P) {
@@ -287,7 +287,7 @@ void addLegMass(const MachineModel<S>& machine, std::size_t i, const MovingLeg<S
   withKind(model.kind, [&](auto kind) { addLegMass(kind, model, leg, efforts, wrench, M_P); });
 }
 
-/// The platform's twist rate [ω̇; p̈] under `efforts`; accelerations in `motion` are to be 0.
+/// The platform's twist rate [ω̇; p̈] under `efforts`; accelerations in `motion` must be 0.
 template <class S, class GuardOf>
 Vector6<S> directDynamics(const MachineModel<S>& machine, const Motion<S>& motion, const Vector6<S>& efforts,
                           const Vector6<S>& load, const GuardOf& guardOf) {

@@ -1,10 +1,10 @@
 #pragma once
 
-// A leg in the plane that turns about −u by α and holds B (of RUS the rod's, which turns by φ + ψ): displacement and
-// map, angles by their sines and cosines alone. Internal. What the plane is good for is in plane_link.h; the kernels of
-// chain_frame.h find the same in B, angle by angle, and are the witness.
+// A leg in the plane that contains B and turns about −u by α (for RUS the rod's plane, turning by φ + ψ). It computes
+// displacement and map, with angles only as sines and cosines. Internal. plane_link.h shows the plane's use. The
+// kernels of chain_frame.h compute the same in B from angles; they are the independent reference.
 //
-// Components are along x, u, z of the plane: of B from A (0, k_y, r), of v_B = h. Rows of the map, q̇ⱼ = kⱼ · h:
+// Components are along x, u, z of the plane: from A to B (0, k_y, r), v_B = h. Rows of the map, q̇ⱼ = kⱼ · h:
 //   UPS  φ: (−1/r, 0, 0)   ψ: (0, −S, C)/d                  d: (0, C, S)
 //   PUS  d: (0, 1, r/p)    ψ: (−1/r, 0, 0)                  θ: (0, 0, 1/p),  p = s cos θ
 //   URS  φ: (−1/r, 0, 0)   ψ: −(0, C₂, S₂)/(l sin θ)        θ: (0, k_y, r)/(l s sin θ),  second link along (0, C₂, S₂)
@@ -21,21 +21,21 @@ namespace ursula::kernel {
 template <class S>
 struct PlaneLeg {
   S cosine, sine;        ///< of α
-  S C_1, S_1, C_2, S_2;  ///< directions of the links in the plane; of a carriage (1, 0), of a crank cos ψ, sin ψ
-  S y, z;                ///< of B from A in the plane; of RUS the rod's part, from R
+  S C_1, S_1, C_2, S_2;  ///< directions of the links in the plane; (1, 0) for a carriage, cos ψ, sin ψ for a crank
+  S y, z;                ///< from A to B in the plane; for RUS from R
   std::array<Vector3<S>, 3> k;    ///< rows of the map
-  std::array<S, 3> lever;         ///< 1/|kⱼ|, or near it in size
+  std::array<S, 3> lever;         ///< 1/|kⱼ|, or of similar size
   Vector3<S> rate, acceleration;  ///< of the coordinates
-  S d;                            ///< of UPS and PUS, m
+  S d;                            ///< for UPS and PUS, m
 };
 
-/// From components along F̂ to those in the plane.
+/// Converts components along F̂ to components in the plane.
 template <class S>
 Vector3<S> toPlane(const PlaneLeg<S>& leg, const Vector3<S>& v) {
   return {leg.cosine * v.x() + leg.sine * v.z(), v.y(), leg.cosine * v.z() - leg.sine * v.x()};
 }
 
-/// Which components of a row of the map are not 0: 1 for x, 2 for u, 4 for z.
+/// The non-zero components of a row of the map: 1 for x, 2 for u, 4 for z.
 constexpr std::array<int, 3> rowOfMap(Urs) { return {1, 6, 6}; }
 constexpr std::array<int, 3> rowOfMap(Ups) { return {1, 6, 6}; }
 constexpr std::array<int, 3> rowOfMap(Rus) { return {6, 7, 2}; }
@@ -47,14 +47,14 @@ void turnToB(const S& k_x, const S& k_z, const S& per_r, PlaneLeg<S>& out) {
   out.cosine = k_z * per_r;
 }
 
-/// `k` is AB along F̂; `guard` is told what must hold (leg_guard.h).
+/// `k` is AB along F̂; `guard` checks the requirements (leg_guard.h).
 template <class S, class Guard>
 void place(Ups, const PlaneModel<S>& leg, const Vector3<S>& k, Guard& guard, PlaneLeg<S>& out) {
   using std::sqrt;
   const S r2 = k.x() * k.x() + k.z() * k.z(), r = sqrt(r2), d = sqrt(r2 + k.y() * k.y());
   guard.stroke(d, leg.s, leg.s + leg.l);
   guard.offAxis(r, leg.l + leg.s);
-  const S per_both = S(1) / (r * d), per_r = d * per_both, per_d = r * per_both;  // dividing is dear
+  const S per_both = S(1) / (r * d), per_r = d * per_both, per_d = r * per_both;  // division is expensive
   turnToB(k.x(), k.z(), per_r, out);
   out.C_1 = out.C_2 = k.y() * per_d;
   out.S_1 = out.S_2 = r * per_d;
@@ -92,7 +92,7 @@ void place(Urs, const PlaneModel<S>& leg, const Vector3<S>& k, Guard& guard, Pla
   using std::abs;
   using std::sqrt;
   const S r2 = k.x() * k.x() + k.z() * k.z(), r = sqrt(r2), q2 = r2 + k.y() * k.y();
-  // 1 ∓ cos θ without the cancellation of (4a) near a stretched or folded leg.
+  // Computes 1 ∓ cos θ without the cancellation of (4a) near a stretched or folded leg.
   const S difference = leg.l - leg.s, sum = leg.l + leg.s, per_ls = leg.per_l * leg.per_s, half = S(0.5) * per_ls;
   const S one_minus = (q2 - difference * difference) * half, one_plus = (sum * sum - q2) * half;
   guard.reach(one_minus, q2, difference);
@@ -103,7 +103,7 @@ void place(Urs, const PlaneModel<S>& leg, const Vector3<S>& k, Guard& guard, Pla
   const S r_sine = r * sin_theta, per_all = S(1) / (r_sine * q2);
   const S per_q2 = r_sine * per_all, per_r = sin_theta * q2 * per_all, per_sine = r * q2 * per_all;
   turnToB(k.x(), k.z(), per_r, out);
-  // The first link from AB, by the turn that has sine s sin θ and cosine l − s cos θ, both over q.
+  // Turns AB to the first link by the angle with sine s sin θ and cosine l − s cos θ, both over q.
   const S across = leg.s * sin_theta * per_q2, along = (leg.l - leg.s * cos_theta) * per_q2;
   out.C_1 = along * k.y() - across * r;
   out.S_1 = across * k.y() + along * r;
@@ -135,7 +135,7 @@ void place(Rus, const PlaneModel<S>& leg, const Vector3<S>& k, Guard& guard, Pla
   const S cos_psi = S(0.5) * (one_plus - one_minus), sin_psi = leg.knee * sqrt(one_minus * one_plus);
   guard.regular(sin_psi, "is stretched or folded, |sin psi|");
   guard.regular(c * leg.per_s, "has its rod along the axis of its crank, cos theta");
-  // The rod's plane from B's, turned on by what the crank leaves: sine l sin ψ, cosine c + l cos ψ, both over r.
+  // Turns B's plane to the rod's by the angle with sine l sin ψ and cosine c + l cos ψ, both over r.
   const S per_both = S(1) / (r2 * sin_psi), per_r2 = sin_psi * per_both, per_sine = r2 * per_both;
   const S on_sine = leg.l * sin_psi * per_r2, on_cosine = (c + leg.l * cos_psi) * per_r2;
   out.sine = on_sine * k.z() - on_cosine * k.x();

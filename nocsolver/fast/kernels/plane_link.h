@@ -1,39 +1,39 @@
 #pragma once
 
-// A link whose axis lies in a plane that turns about −u: of URS and UPS both links, of PUS and RUS the rod. Internal.
+// A link whose axis lies in a plane that turns about −u: both links of URS and UPS, the rod of PUS and RUS. Internal.
 //
-// Axes x, y = u, z of the plane F; along the link r = [0, C, S]; the plane turns by α, the link by χ about x and about
-// its first end O. With J its tensor about O, m its mass, ρ the distance of its mass centre and b = ä_O − g:
+// Axes are x, y = u, z of the plane F, with r = [0, C, S] along the link. The plane turns by α, the link by χ about x
+// and its first end O. J is its tensor about O, m its mass, ρ the distance of its mass centre, b = ä_O − g:
 //   ω = [χ̇, −α̇ S, −α̇ C],  ω̇ = [χ̈, −α̈ S − α̇ χ̇ C, −α̈ C + α̇ χ̇ S] in the link's frame [x, r × x, r]             (a)
 //   n_O = J ω̇ + ω × J ω + m ρ r × b                                                                            (b)
 //   f = m b + m ρ [−α̈ S − 2 α̇ χ̇ C,  −χ̈ S − χ̇² C,  χ̈ C − (χ̇² + α̇²) S]                                          (c)
-// Of principal axes, with D = (J_z − J_y) S C, K = J_y S² + J_z C²:
+// For principal axes, with D = (J_z − J_y) S C, K = J_y S² + J_z C²:
 //   n_x = J_x χ̈ + D α̇² + …,  n_y = −K α̈ + 2 D α̇ χ̇ + …                                                        (d)
 
 #include "base/scalar.h"
 
 namespace ursula::kernel {
 
-/// An angle or a distance with its derivatives.
+/// The derivatives of an angle or a distance.
 template <class S>
 struct Rates {
   S dot, ddot;
 };
 
-/// Where a link is and how it turns: cosine and sine of χ; the plane's α.
+/// Position and rotation of a link: cosine and sine of χ, rates of χ and of the plane's α.
 template <class S>
 struct LinkTurn {
   S C, S_;
   Rates<S> chi, alpha;
 };
 
-/// What turns a link about its first end against gravity: moments about x and y of the plane.
+/// The moments that move a link about its first end against gravity, about x and y of the plane.
 template <class S>
 struct LinkMoment {
   S n_x, n_y;
 };
 
-/// `first` is m ρ; J is diagonal where `principal`. `base` is ä_O − g along x, y, z of the plane.
+/// `first` is m ρ; J is diagonal if `principal`. `base` is ä_O − g along x, y, z of the plane.
 template <bool principal, class S>
 LinkMoment<S> linkMoment(const S& first, const Matrix3<S>& J, const LinkTurn<S>& link, const Vector3<S>& base) {
   const S &C = link.C, &S_ = link.S_, &chi = link.chi.dot, &alpha = link.alpha.dot;
@@ -50,7 +50,7 @@ LinkMoment<S> linkMoment(const S& first, const Matrix3<S>& J, const LinkTurn<S>&
   }
 }
 
-/// (c) without m b, along x, y, z of the plane; a point at l has that for m ρ = l as its acceleration from O's.
+/// (c) without m b, along x, y, z of the plane. For m ρ = l this is the acceleration of a point at l relative to O.
 template <class S>
 Vector3<S> turning(const S& first, const LinkTurn<S>& link) {
   const S &C = link.C, &S_ = link.S_, &chi = link.chi.dot, &alpha = link.alpha.dot;

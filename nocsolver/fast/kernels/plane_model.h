@@ -1,6 +1,6 @@
 #pragma once
 
-// A leg as the kernels of its plane take it. Internal.
+// A leg in the form that the kernels of its plane use. Internal.
 
 #include "nocsolver/legs/leg_model.h"
 
@@ -12,7 +12,7 @@ struct PlaneModel : LegModel<S> {
   Matrix3<S> J_1, J_2;      ///< about the links' first ends
   S first_1, first_2;       ///< masses times the distances of their centres
   S per_l, per_s, per_sum;  ///< 1/l, 1/s, 1/(l + s)
-  bool rubs, rubs_dry;      ///< has friction, has some that is not viscous
+  bool rubs, rubs_dry;      ///< has friction; has Coulomb friction
   bool principal;           ///< the links' frames are principal axes
 };
 

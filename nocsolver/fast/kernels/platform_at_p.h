@@ -1,6 +1,6 @@
 #pragma once
 
-// Mass matrices brought to P. Internal.
+// Mass matrices moved to P. Internal.
 
 #include "base/scalar.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// One system of six equations. Internal. Gaussian elimination with partial pivoting (Golub, Van Loan, Matrix
-// Computations, 4th ed., 2013, sect. 3.4), unrolled; Eigen's blocked factors take twice as long at this size.
+// Solves one system of six equations. Internal. It is unrolled Gaussian elimination with partial pivoting (Golub, Van
+// Loan, Matrix Computations, 4th ed., 2013, sect. 3.4). Eigen's blocked factors take twice as long here.
 
 #include <algorithm>
 #include <cmath>
@@ -11,13 +11,13 @@
 
 namespace ursula::kernel {
 
-/// Six equations in six unknowns, the right side in the last column.
+/// Six equations in six unknowns; the last column is the right-hand side.
 template <class S>
 struct System6 {
   S a[6][7];
 };
 
-/// The row of the largest entry in column k comes to row k.
+/// Moves the row with the largest entry in column k to row k.
 template <class S>
 void pivot(System6<S>& system, int k) {
   using std::abs;
@@ -35,7 +35,7 @@ void pivot(System6<S>& system, int k) {
   for (int column = k; column < 7; ++column) std::swap(system.a[k][column], system.a[largest][column]);
 }
 
-/// The smallest pivot over the largest; the last column becomes the solution.
+/// Solves the system into its last column; returns the smallest pivot over the largest.
 template <class S>
 S solve(System6<S>& system) {
   using std::abs;
@@ -67,7 +67,7 @@ S solve(System6<S>& system) {
   return least / most;
 }
 
-/// The solution of M x = right, M symmetric and positive definite, by L D Lᵀ without pivots (ibid., sect. 4.2).
+/// Solves M x = right for a symmetric positive definite M, by L D Lᵀ without pivoting (ibid., sect. 4.2).
 template <class S>
 Vector6<S> solvePositive(const Matrix6<S>& M, const Vector6<S>& right) {
   S l[6][6], per_d[6], x[6];  // l holds L D below the diagonal

@@ -1,6 +1,6 @@
 #pragma once
 
-// From a leg's kind to code that is made for it. Internal.
+// Selects code by the kind of a leg. Internal.
 
 #include <type_traits>
 

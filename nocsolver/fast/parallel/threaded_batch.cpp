@@ -11,7 +11,7 @@
 namespace ursula {
 namespace {
 
-/// Some 50 µs of work: more than handing it to another thread costs.
+/// Some 50 µs of work, which exceeds the cost of another thread.
 constexpr std::size_t least_share = 512;
 
 /// Calls part(from, count) until all `count` poses are done.
@@ -28,7 +28,7 @@ void byThreads(std::size_t count, int jobs, const Part& part) {
     tbb::task_arena arena(static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(jobs), allowed)));
     arena.execute(all);
   } catch (const std::runtime_error&) {
-    part(0, count);  // TBB has no other error: the system gives it no threads
+    part(0, count);  // the only TBB error: the system gives it no threads
   }
 }
 

@@ -4,10 +4,10 @@
 
 namespace ursula {
 
-// BatchDynamics by several threads (oneTBB). Every number is that of one thread, to the last bit. Arguments are those
-// of BatchDynamics; `jobs` is how many threads work at once at most, the calling one among them: no more than the
-// processor has, and 0 for as many as the caller's own TBB arena allows, by default all. Nothing is allocated but by
-// TBB itself, and for fewer than 512 poses or one job TBB is not asked. Threads share everything here.
+// BatchDynamics on several threads (oneTBB). Results equal those of one thread to the last bit. Arguments are those of
+// BatchDynamics. At most `jobs` threads work, including the caller, and no more than the processor has. 0 means as many
+// as the caller's TBB arena allows, by default all. Only TBB allocates; fewer than 512 poses or one job do not use it.
+// Threads share everything here.
 
 /// Efforts as BatchDynamics::inverseDynamics.
 void inverseDynamics(const BatchDynamics& batch, const Motion<double>* motions, std::size_t count, Vector6d* efforts,
