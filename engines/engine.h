@@ -7,8 +7,8 @@
 
 namespace ursula {
 
-/// A further formulation to the torques, beside the solver's and Simbody's six-ball loop: another engine or
-/// formulation, made of raw parameters and geometry of its own. Not thread-safe: one for each thread.
+/// A further formulation of the torques, beside the solver's and Simbody's six-ball loop: another engine or method with
+/// its own geometry from raw parameters. Not thread-safe; each thread needs its own.
 class Engine {
  public:
   Engine() = default;
@@ -17,7 +17,7 @@ class Engine {
   Engine& operator=(const Engine&) = delete;
 
   /// Efforts of the motors for the motion, N·m or N, conjugate to the rates of their coordinates. Throws
-  /// std::domain_error where a leg cannot reach.
+  /// std::domain_error if a leg cannot reach.
   virtual Vector6d inverseDynamics(const Motion<double>& motion) = 0;
 };
 

@@ -8,24 +8,24 @@
 
 namespace ursula {
 
-/// A row of the table: all that the validation knows of a further formulation.
+/// Everything that the validation knows of a further formulation.
 struct EngineKind {
-  const char* check;    ///< that holds a subject against it
+  const char* check;    ///< name of the check that compares the subject with it
   const char* name;     ///< in a list of formulations: "MuJoCo"
-  const char* made_of;  ///< after "torques against": "MuJoCo's trees, closed by Lagrange multipliers"
-  const char* engine;   ///< formulations of one engine count as one
-  bool (*available)();  ///< in this build
+  const char* made_of;  ///< follows "torques against": "MuJoCo's trees, closed by Lagrange multipliers"
+  const char* engine;   ///< formulations of the same engine count as one
+  bool (*available)();  ///< whether this build has it
   std::unique_ptr<Engine> (*make)(const Manipulator& manipulator, std::shared_ptr<const Load> load);
 };
 
 using MakeEngine = std::unique_ptr<Engine>(const Manipulator& manipulator, std::shared_ptr<const Load> load);
 
-// Each engine's folder defines its own.
+// Each engine's folder defines its own function.
 MakeEngine makeSimbodyTree, makeMaximalLoop, makeMujocoLoop;
-bool mujocoAvailable();  ///< false where this was built without MuJoCo
+bool mujocoAvailable();  ///< false if this build lacks MuJoCo
 inline bool alwaysAvailable() { return true; }
 
-/// The table of them all. Another engine is a folder here and its row.
+/// All further formulations. A new one needs a folder here and a row.
 inline constexpr std::array further_engines = {
     EngineKind{"torque.twin", "Simbody, tree through leg 1", "Simbody's loop grown through leg 1, balls at the others",
                "Simbody", alwaysAvailable, makeSimbodyTree},
@@ -37,14 +37,14 @@ inline constexpr std::array further_engines = {
 };
 constexpr std::size_t further_engine_count = further_engines.size();
 
-/// An object for each further formulation.
+/// One object per further formulation.
 template <typename T>
 using OfFurtherEngines = std::array<T, further_engine_count>;
 
-/// Null where `check` holds nothing against a further formulation.
+/// Returns null if `check` compares with no further formulation.
 const EngineKind* furtherEngineOf(const std::string& check);
 
-/// In the table's order; null where this build has none.
+/// In the order of the table; null for engines that this build lacks.
 OfFurtherEngines<std::unique_ptr<Engine>> makeFurtherEngines(const Manipulator& manipulator,
                                                              const std::shared_ptr<const Load>& load);
 

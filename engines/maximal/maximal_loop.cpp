@@ -25,7 +25,7 @@ const BodyMotion<double>& bodyOf(const Bodies& bodies, int body) {
 
 Vector3d omegaOf(const BodyMotion<double>& body) { return body.twist.head<3>(); }
 
-/// Of the point that is there now and moves with the body.
+/// The velocity of the body-fixed point that is now at `point`.
 Vector3d velocity(const BodyMotion<double>& body, const Vector3d& point) {
   return body.twist.tail<3>() + omegaOf(body).cross(point - body.c);
 }
@@ -34,7 +34,7 @@ Vector3d centripetal(const BodyMotion<double>& body, const Vector3d& point) {
   return omegaOf(body).cross(omegaOf(body).cross(point - body.c));
 }
 
-/// Columns of the velocity of a point of one body, v = ċ + ω × arm.
+/// Columns of the velocity of a body's point, v = ċ + ω × arm.
 Eigen::Matrix<double, 3, 6> pointRows(const BodyMotion<double>& body, const Vector3d& point) {
   const Vector3d arm = point - body.c;
   Eigen::Matrix<double, 3, 6> rows;
@@ -48,13 +48,13 @@ void addPoint(const Bodies& bodies, int parent, int child, const Vector3d& point
   G.block<3, 6>(row, 6 * child) = -pointRows(bodies[at(child)], point);
 }
 
-/// No relative turn about `normal`: (ω_child − ω_parent) · n = 0.
+/// No relative rotation about `normal`: (ω_child − ω_parent) · n = 0.
 void addNormal(const Joint& joint, const Vector3d& normal, int row, Eigen::MatrixXd& G) {
   if (joint.parent != base_body) G.block<1, 3>(row, 6 * joint.parent) = -normal.transpose();
   G.block<1, 3>(row, 6 * joint.child) = normal.transpose();
 }
 
-/// The point of the child keeps to the line that the parent carries.
+/// The child's point stays on the line fixed in the parent.
 void addSlide(const Bodies& bodies, const Joint& joint, int row, Eigen::MatrixXd& G) {
   for (int k = 0; k < 3; ++k) addNormal(joint, Vector3d::Unit(k), row + k, G);
   const Eigen::Matrix<double, 2, 3> across = joint.across.transpose();
@@ -91,7 +91,7 @@ Eigen::VectorXd gammaOf(const Bodies& bodies, const Joint& joint) {
   return gamma;
 }
 
-/// A moment about the k-th axis of the joint, or a force along it, on the child and its reaction on the parent.
+/// Adds a moment about, or a force along, the joint's k-th axis to the child, and its reaction to the parent.
 void addForce(const Bodies& bodies, const Joint& joint, int k, double size, Eigen::Ref<Eigen::VectorXd> wrenches) {
   const Vector3d given = size * joint.axes[at(k)];
   const auto on = [&](int body) {
@@ -106,7 +106,7 @@ void addForce(const Bodies& bodies, const Joint& joint, int k, double size, Eige
   if (joint.parent != base_body) wrenches.segment<6>(6 * joint.parent) -= on(joint.parent);
 }
 
-/// Which joint has the leg's j-th coordinate, and which of its axes that is.
+/// Returns the joint of the leg's j-th coordinate, and the index of its axis.
 std::pair<int, int> jointAndAxis(const PlacedLeg& leg, int j) {
   const int first = leg.joints[0].coordinates();
   return j < first ? std::pair{0, j} : std::pair{1, j - first};
@@ -154,7 +154,7 @@ void MaximalLoop::place(const Motion<double>& motion) {
   }
 }
 
-/// Twists and their rates from the constraints and the platform's own.
+/// Computes twists and their rates from the constraints and the platform's own.
 void MaximalLoop::solveMotion(const Motion<double>& motion) {
   const int legs = manipulator_.legCount(), platform = 2 * legs;
   G_.setZero(constraints(), coordinates());
@@ -190,7 +190,7 @@ void MaximalLoop::solveMotion(const Motion<double>& motion) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b].twist_rate = t_rate.segment<6>(6 * static_cast<int>(b));
 }
 
-/// Of the leg's three coordinates.
+/// Friction on the leg's three coordinates.
 Vector3d MaximalLoop::frictionOf(int index) const {
   const Leg& leg = manipulator_.leg(index);
   Vector3d out;
@@ -212,7 +212,8 @@ void MaximalLoop::subtractFriction(int index, VectorX& w) const {
   const PlacedLeg& leg = legs_[at(index)];
   const Vector3d on = frictionOf(index);
   VectorX given = VectorX::Zero(coordinates());
-  if (manipulator_.leg(index).kind == LegKind::URS) {  // ψ and θ turn about one axis: the proximal link has the rest
+  if (manipulator_.leg(index).kind ==
+      LegKind::URS) {  // ψ and θ turn about one axis: the proximal link carries the remainder
     addForce(bodies_, leg.joints[0], 0, on(0), given);
     addForce(bodies_, leg.joints[0], 1, on(1) - on(2), given);
     given.segment<3>(6 * leg.joints[1].child) = on(2) * leg.joints[1].axes[0];
@@ -225,7 +226,7 @@ void MaximalLoop::subtractFriction(int index, VectorX& w) const {
   w -= given;
 }
 
-/// Inertia less gravity, friction and load: what constraints and motors must give.
+/// Inertia minus gravity, friction and load, which constraints and motors must balance.
 MaximalLoop::VectorX MaximalLoop::unbalanced(const Motion<double>& motion) const {
   VectorX w(coordinates());
   const ManipulatorParameters& machine = manipulator_.parameters();
@@ -251,8 +252,8 @@ MaximalLoop::VectorX MaximalLoop::unbalanced(const Motion<double>& motion) const
   return w;
 }
 
-/// q̈ of a motor's coordinate, from its bodies: the rate of (ω_child − ω_parent) · axis, or along the slide, where the
-/// parent's turn and the Coriolis acceleration are square to the axis.
+/// q̈ of a motor's coordinate from its bodies: the rate of (ω_child − ω_parent) · axis, or of the velocity along the
+/// slide. There the Coriolis acceleration and the parent's rotation have no part along the axis.
 double MaximalLoop::accelerationOf(const Motor& motor) const {
   const PlacedLeg& leg = legs_[at(motor.leg)];
   const auto [which, k] = jointAndAxis(leg, motor.joint);
@@ -270,7 +271,7 @@ double MaximalLoop::accelerationOf(const Motor& motor) const {
   return axis.dot(child.twist_rate.head<3>() - parent.twist_rate.head<3>()) + relative.dot(carrier.cross(axis));
 }
 
-/// A unit of a motor's effort, on all bodies.
+/// Adds the wrenches of a unit effort of one motor.
 void MaximalLoop::addEffort(const Motor& motor, Eigen::Ref<VectorX> wrenches) const {
   const PlacedLeg& leg = legs_[at(motor.leg)];
   const auto [which, k] = jointAndAxis(leg, motor.joint);
@@ -280,14 +281,14 @@ void MaximalLoop::addEffort(const Motor& motor, Eigen::Ref<VectorX> wrenches) co
 Vector6d MaximalLoop::inverseDynamics(const Motion<double>& motion) {
   place(motion);
   solveMotion(motion);
-  // Gᵀλ + Sτ balances the rest; S puts each effort on the two bodies of its joint.
+  // Gᵀλ + Sτ balances that; S applies each effort to the two bodies of its joint.
   MatrixX multipliers_and_efforts = MatrixX::Zero(coordinates(), coordinates());
   multipliers_and_efforts.leftCols(constraints()) = G_.transpose();
   for (int m = 0; m < motor_count; ++m)
     addEffort(manipulator_.motors()[at(m)], multipliers_and_efforts.col(constraints() + m));
   const VectorX solution = multipliers_and_efforts.partialPivLu().solve(unbalanced(motion));
   Vector6d efforts = solution.tail<6>();
-  for (int m = 0; m < motor_count; ++m) {  // j q̈ of what the motor turns
+  for (int m = 0; m < motor_count; ++m) {  // j q̈ of the rotor
     const Motor& motor = manipulator_.motors()[at(m)];
     const double rotor = manipulator_.leg(motor.leg).rotor_inertia.on(motor.coordinate);
     if (rotor != 0) efforts(m) += rotor * accelerationOf(motor);

@@ -12,9 +12,9 @@ struct Joint;
 struct PlacedLeg;
 }  // namespace maximal
 
-/// The third formulation: the bodies, two a leg and the platform, in maximal coordinates; Newton–Euler equations with
-/// Lagrange multipliers for the joints' constraints, twelve a leg (Shabana, Computational Dynamics, 3rd ed., sect. 3.4
-/// and 6.3). Made of raw parameters and vector geometry alone; it knows neither the solver nor Simbody.
+/// The third formulation: two bodies per leg and the platform, in maximal coordinates. It solves Newton–Euler equations
+/// with twelve Lagrange multipliers per leg for the joints' constraints (Shabana, Computational Dynamics, 3rd ed.,
+/// sect. 3.4 and 6.3). It uses raw parameters and vector geometry only, neither the solver nor Simbody.
 class MaximalLoop : public Engine {
  public:
   explicit MaximalLoop(const Manipulator& manipulator, std::shared_ptr<const Load> load = nullptr);
@@ -22,7 +22,7 @@ class MaximalLoop : public Engine {
 
   Vector6d inverseDynamics(const Motion<double>& motion) override;
 
-  /// Pose, twist and twist rate of the bodies at the motion last asked for.
+  /// Pose, twist and twist rate of the bodies in the last motion.
   BodyMotions<double> bodies() const;
 
  private:

@@ -1,4 +1,4 @@
-// Where the links of a leg are at a pose of the platform, for each kind.
+// Places the links of a leg, of each kind, at a pose of the platform.
 
 #include <fmt/format.h>
 
@@ -40,7 +40,7 @@ Matrix3d frameOf(const Vector3d& x, const Vector3d& axis) {
   return frame;
 }
 
-/// [x̂, û, ẑ] with x̂ level.
+/// [x̂, û, ẑ] with a horizontal x̂.
 Matrix3d fixedFrame(const Vector3d& u) {
   Vector3d x = u.cross(Vector3d::UnitZ());
   if (x.squaredNorm() < 1e-20) x = u.cross(Vector3d::UnitY());
@@ -50,7 +50,7 @@ Matrix3d fixedFrame(const Vector3d& u) {
   return frame;
 }
 
-/// The knee from the law of cosines at A, to the side that the sign of the knee says.
+/// Finds the knee from the law of cosines at A, on the side that the knee's sign selects.
 void placeUrs(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& out) {
   const double l = leg.proximal.length, s = leg.distal.length;
   const double q = ends.AB.norm();
@@ -69,7 +69,7 @@ void placeUrs(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& 
   out.joints[1].point = R;
 }
 
-/// The line AB itself; the rod's inner end is within the cylinder.
+/// Both links lie on the line AB; the rod's inner end is within the cylinder.
 void placeUps(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& out) {
   const double l = leg.proximal.length, s = leg.distal.length;
   const double d = ends.AB.norm();
@@ -83,16 +83,16 @@ void placeUps(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& 
   out.joints[1].point = ends.B;
 }
 
-/// R is where the crank's circle meets the ball of radius s about B, which cuts the circle's plane in a circle.
+/// R is where the crank's circle meets the sphere of radius s about B, which intersects the circle's plane in a circle.
 void placeRus(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& out) {
   const double l = leg.proximal.length, s = leg.distal.length;
   const Split B(ends);
   requireReach(std::abs(B.along) < s, index, std::abs(B.along), t);
-  const double c = std::sqrt((s - B.along) * (s + B.along));  // the rod, seen along u
+  const double c = std::sqrt((s - B.along) * (s + B.along));  // projection of the rod along u
   requireReach(B.distance <= l + c && B.distance >= std::abs(l - c), index, B.distance, t);
   const double foot = (B.distance + (l - c) * (l + c) / B.distance) / 2;  // where the circles' chord crosses AB
   const double half_chord = std::sqrt(std::max((l - foot) * (l + foot), 0.0));
-  // The rod turns on about −u: the crank is behind.
+  // A positive rod angle turns about −u, so the crank is behind.
   const Vector3d e = (foot * B.outwards + side(leg) * half_chord * ends.u.cross(B.outwards)) / l;
   const Vector3d rod = (ends.AB - l * e).normalized();
   const Vector3d x = ends.u.cross(e).normalized(), x_2 = ends.u.cross(rod).normalized();
@@ -105,7 +105,7 @@ void placeRus(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& 
   out.joints[1].point = R;
 }
 
-/// The carriage is where the rail meets the ball of radius s about B; a positive knee has it behind B.
+/// The carriage is where the rail meets the sphere of radius s about B; with a positive knee it is behind B.
 void placePus(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& out) {
   const double s = leg.distal.length;
   const Split B(ends);
@@ -138,7 +138,7 @@ std::array<Joint::Type, 2> jointsOf(LegKind kind) {
   return {Type::prismatic, Type::universal};
 }
 
-/// Off the links' lines.
+/// Moves mass centres off the links' lines.
 void moveCenters(const Leg& leg, PlacedLeg& out) {
   if (!leg.proximal.off_line.isZero(0)) out.c[0] += out.R[0] * leg.proximal.off_line;
   if (!leg.distal.off_line.isZero(0)) out.c[1] += out.R[1] * leg.distal.off_line;

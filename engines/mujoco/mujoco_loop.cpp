@@ -1,11 +1,11 @@
-// Open trees with joints q_L and a free platform q_P. The loops are closed where the distal link's and the platform's
-// point Bᵢ coincide; G = [G_L G_P] is the Jacobian of the gaps.
+// Open trees have joints q_L and a free platform q_P. The loops close where the points Bᵢ of distal link and platform
+// coincide; G = [G_L G_P] is the Jacobian of the gaps.
 //
 //   G_L q̇_L = −G_P q̇_P                                                                                         (1)
-//   G_L q̈_L = −(the gaps' acceleration with q̈_L = 0)                                                            (2)
-//   Gᵀλ + Sτ = M q̈ + bias − friction − load, S picking the driven coordinates                                   (3)
+//   G_L q̈_L = −(the gaps' acceleration for q̈_L = 0)                                                            (2)
+//   Gᵀλ + Sτ = M q̈ + bias − friction − load, where S selects the driven coordinates                             (3)
 //
-// MuJoCo gives G, the accelerations in (2) and M q̈ + bias; its constraints, contacts and integrators have no part.
+// MuJoCo gives G, the accelerations in (2) and M q̈ + bias; its constraints, contacts and integrators are unused.
 
 #include "engines/mujoco/mujoco_loop.h"
 
@@ -31,7 +31,7 @@ using mujoco::most_dofs, mujoco::most_gaps;
 using SquareOfGaps = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_gaps, most_gaps>;
 using SquareOfDofs = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_dofs, most_dofs>;
 
-/// The angle between sides a and b of a triangle, opposite to c; exact to rounding for needles, too (Kahan,
+/// The angle between sides a and b of a triangle, opposite to c. It is exact to rounding even for needles (Kahan,
 /// Miscalculating Area and Angles of a Needle-like Triangle, 2014, sect. 2).
 double angleOpposite(double c, double a, double b) {
   if (a < b) std::swap(a, b);
@@ -40,7 +40,7 @@ double angleOpposite(double c, double a, double b) {
   return 2 * std::atan2(std::sqrt(std::max(top, 0.0)), std::sqrt(std::max(bottom, 0.0)));
 }
 
-/// A leg's joints, where it is at a pose: AB in the frame in which its model's coordinates are zero.
+/// A leg's joints at a pose: AB in the frame where its model's coordinates are zero.
 class JointsAt {
  public:
   JointsAt(const Leg& leg, int index, const Motion<double>& motion)
@@ -73,7 +73,7 @@ class JointsAt {
       throw std::domain_error(fmt::format("leg {} cannot reach over {} m at t = {} s", index_ + 1, distance, t_));
   }
 
-  /// Turn about −u from the frame's zero, and between u and AB.
+  /// The angle about −u from the frame's zero, and the angle between u and AB.
   Vector3d universal() const {
     const Vector3d u = zero_.col(2), across = u.cross(AB_);
     return {std::atan2(-across.dot(zero_.col(1)), across.dot(zero_.col(0))), std::atan2(across.norm(), u.dot(AB_)), 0};
@@ -93,7 +93,7 @@ class JointsAt {
     return {towards_B(0), towards_B(1), d};
   }
 
-  /// Seen along u the leg is a triangle of crank l, rod c and r.
+  /// Along u the leg appears as a triangle of crank l, rod c and r.
   Vector3d rus() const {
     const Vector3d k = zero_.transpose() * AB_;
     requireReach(std::abs(k.y()) < s_, std::abs(k.y()));
@@ -167,7 +167,7 @@ void MujocoLoop::Impl::place(const Motion<double>& motion) {
   G = gapJacobian();
 }
 
-/// MuJoCo's free joint has its linear part in the world and its angular part in the body.
+/// MuJoCo's free joint has linear speeds in the world frame and angular speeds in the body frame.
 void MujocoLoop::Impl::move(const Motion<double>& motion) {
   const Vector3d arm = motion.Q * manipulator.platform().center_of_mass;
   Eigen::Map<VectorOfDofs> rates(data->qvel, dofs), accelerations(data->qacc, dofs);
@@ -196,7 +196,7 @@ GapJacobian MujocoLoop::Impl::gapJacobian() const {
   return jacobian;
 }
 
-/// Gravity is in MuJoCo's accelerations; it cancels.
+/// MuJoCo's accelerations include gravity, which cancels here.
 VectorOfGaps MujocoLoop::Impl::gapAcceleration() const {
   const auto linear = [&](int site) {
     Vector6d angular_and_linear;
@@ -214,7 +214,7 @@ VectorOfDofs MujocoLoop::Impl::unbalanced(const Motion<double>& motion) const {
   return forcesOfTree() - given(*model, *data, motion);
 }
 
-/// mj_rne leaves rotors out, as what is no body's.
+/// Adds the rotors, which mj_rne omits because they belong to no body.
 VectorOfDofs MujocoLoop::Impl::forcesOfTree() const {
   VectorOfDofs forces(dofs);
   mj_rne(model.get(), data.get(), 1, forces.data());

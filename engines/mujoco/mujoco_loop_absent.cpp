@@ -1,4 +1,4 @@
-// Stands in for the formulation where this is built without MuJoCo.
+// Replaces the formulation if MuJoCo is missing at build time.
 
 #include <stdexcept>
 

@@ -1,7 +1,7 @@
-// How the machine is put into MuJoCo. A text says what joins what; every number is then written over in binary, as
-// decimal digits and MuJoCo's compiler would round it. The links' body frames are [x, axis × x, axis], a carriage's is
-// [x̂, û, ẑ]. Their origins are at the links' first ends; that of a rod in a cylinder is at its far end, which slides
-// from A.
+// Builds the machine in MuJoCo. A text describes its structure. All numbers are then overwritten in binary, because
+// decimal digits and MuJoCo's compiler would round them. The links' body frames are [x, axis × x, axis], a carriage's
+// is [x̂, û, ẑ]. Origins are at the links' first ends; that of a rod in a cylinder is at its far end, which slides from
+// A.
 
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@ namespace {
 
 [[noreturn]] void throwMessage(const char* message) { throw std::runtime_error(fmt::format("MuJoCo: {}", message)); }
 
-/// All that the text depends on.
+/// Everything that the text depends on.
 struct Structure {
   std::vector<LegKind> kinds;
   Closure closure;
@@ -35,10 +35,10 @@ struct Structure {
   }
 };
 
-/// How a kind of leg is written: its joints, and how the distal link lies in the proximal one at coordinates zero.
+/// The text for a kind of leg: its joints, and the distal link's rotation in the proximal one at coordinates zero.
 struct KindText {
   const char* on_proximal;
-  const char* quaternion;  ///< of the distal link
+  const char* quaternion;  ///< rotation of the distal link
   const char* on_distal;
 };
 
@@ -51,7 +51,7 @@ constexpr std::array<KindText, leg_kind_count> kind_texts = {{
     {R"(<joint type="slide" axis="0 1 0"/>)", "1 -1 0 0", R"(<joint axis="0 0 -1"/><joint axis="1 0 0"/>)"},
 }};
 
-/// The numbers of bodies are written over.
+/// The inertial numbers are placeholders that get overwritten.
 std::string describe(const Structure& structure) {
   const std::vector<LegKind>& kinds = structure.kinds;
   const std::string inertial = R"(<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>)";
@@ -84,7 +84,7 @@ bool hasJoints(const mjModel& model, int leg, LegKind kind) {
   return good;
 }
 
-/// Whether things stand where the header says.
+/// Whether the indices are as the header says.
 bool isAsExpected(const mjModel& model, const Structure& structure) {
   const std::vector<LegKind>& kinds = structure.kinds;
   const int legs = static_cast<int>(kinds.size());
@@ -103,7 +103,7 @@ bool isAsExpected(const mjModel& model, const Structure& structure) {
   return good;
 }
 
-/// MuJoCo reads files, or here what looks like one in memory.
+/// MuJoCo reads files only, so the text is a virtual file in memory.
 Model parse(const Structure& structure) {
   mju_user_error = mju_user_warning = throwMessage;  // by default it exits, prints and writes a log
   const std::string text = describe(structure);
@@ -121,7 +121,7 @@ Model parse(const Structure& structure) {
   return model;
 }
 
-/// MuJoCo's parser keeps global state: one thread at a time, and each structure once.
+/// MuJoCo's parser keeps global state, so a mutex guards it and each structure is parsed once.
 const mjModel* parsed(const Structure& structure) {
   static std::mutex mutex;
   static std::map<Structure, Model> models;
@@ -136,7 +136,7 @@ void write(const Eigen::Quaterniond& from, mjtNum* to, int index) {
   Eigen::Map<Eigen::Vector4d>(to + 4 * index) << from.w(), from.x(), from.y(), from.z();
 }
 
-/// MuJoCo keeps principal moments and the rotation to their axes.
+/// MuJoCo stores principal moments and the rotation to their axes.
 void writeInertia(mjModel& model, int body, double mass, const Vector3d& center, const Matrix3d& inertia) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(inertia);
   Matrix3d axes = principal.eigenvectors();
@@ -150,13 +150,13 @@ void writeInertia(mjModel& model, int body, double mass, const Vector3d& center,
 void writeLeg(mjModel& model, int index, const Leg& leg, const Vector3d& origin) {
   const int proximal = proximalBody(index), distal = distalBody(index);
   const bool telescopic = leg.kind == LegKind::UPS, carriage = leg.kind == LegKind::PUS;
-  // Where the distal link's origin lies in the proximal one at coordinates zero, and how far the link reaches back.
+  // The distal link's origin in the proximal one at coordinates zero, and the link's extent behind its origin.
   const double joined_at = telescopic || carriage ? 0 : leg.proximal.length;
   const double behind = telescopic ? leg.distal.length : 0;
   write(leg.base_point - origin, model.body_pos, proximal);
   write(Eigen::Quaterniond(frameAtZero(leg)).normalized(), model.body_quat, proximal);
   write(Vector3d(0, 0, joined_at), model.body_pos, distal);
-  if (carriage)  // once more, as the text's digits were MuJoCo's to round
+  if (carriage)  // again, because MuJoCo rounded the digits in the text
     write(Eigen::Quaterniond(1, -1, 0, 0).normalized(), model.body_quat, distal);
   write(Vector3d(0, 0, leg.distal.length - behind), model.site_pos, siteOnLeg(index));
   writeInertia(model, proximal, leg.proximal.mass, leg.proximalCenter(), leg.proximal.inertia);
@@ -169,8 +169,8 @@ void writeLeg(mjModel& model, int index, const Leg& leg, const Vector3d& origin)
   model.body_subtreemass[proximal] = leg.proximal.mass + leg.distal.mass;
 }
 
-/// The constants that MuJoCo makes of inertias when it reads a text; then, as that moves them, its constraints' points
-/// from the sites, as hard as it allows.
+/// Sets the constants that MuJoCo derives from inertias when it parses a text. Then it restores the constraints' points
+/// from the sites, because that call moves them. They are as hard as MuJoCo allows.
 void connect(mjModel& model, int legs) {
   const Data data(mj_makeData(&model));
   if (!data) throwMessage("no memory for its data");
@@ -204,7 +204,7 @@ Model buildModel(const Manipulator& manipulator, const Vector3d& origin, Closure
   for (const Leg& leg : manipulator.parameters().legs) structure.kinds.push_back(leg.kind);
   Model model(mj_copyModel(nullptr, parsed(structure)));
   if (!model) throwMessage("no memory for its model");
-  // Shortcuts for frames that coincided in the text, and for inertias that were diagonal in it.
+  // Disables shortcuts for frames that coincide and inertias that are diagonal in the text.
   std::fill_n(model->body_sameframe, model->nbody, mjtByte{0});
   std::fill_n(model->site_sameframe, model->nsite, mjtByte{0});
   std::fill_n(model->body_simple, model->nbody, mjtByte{0});

@@ -19,7 +19,7 @@ struct Delete {
 using Model = std::unique_ptr<mjModel, Delete>;
 using Data = std::unique_ptr<mjData, Delete>;
 
-// Where things stand in the model: leg after leg, then the platform.
+// Indices in the model: leg after leg, then the platform.
 constexpr int joints_per_leg = 3;
 constexpr int legDofs(int legs) { return joints_per_leg * legs; }
 constexpr int dofsOf(int legs) { return legDofs(legs) + 6; }
@@ -30,26 +30,26 @@ constexpr int siteOnLeg(int leg) { return leg; }
 constexpr int siteOnPlatform(int legs, int leg) { return legs + leg; }
 constexpr int dofOf(int leg, int joint) { return joints_per_leg * leg + joint; }
 
-/// The frame of the proximal link at coordinates zero. With a universal joint at the base: columns x, e × x, e with
-/// e = u, any x across it; else the kinds' fixed frame [x̂, û, ẑ].
+/// The frame of the proximal link at coordinates zero. With a universal joint at the base its columns are x, e × x, e,
+/// where e = u and x is any perpendicular. Otherwise it is the kind's fixed frame [x̂, û, ẑ].
 Matrix3d frameAtZero(const Leg& leg);
 
-/// The joints of each leg in the order of its coordinates and the platform free, with its body's origin in its mass
-/// centre; positions in B less `origin`. A site at Bᵢ on either side of each open loop.
-/// What MuJoCo's first coordinate of a leg is more than φ.
+/// MuJoCo's first coordinate of a leg minus φ.
 double offsetOfPhi(const Leg& leg);
 
-/// `closure` says whether MuJoCo's own constraints join each pair of sites; its constants for them are then set.
+/// Whether MuJoCo's own constraints join each pair of sites.
 enum class Closure { open, connected };
+/// Each leg has its joints in the order of its coordinates. The platform is free, with its body's origin in its mass
+/// centre. Positions are in B relative to `origin`. Each open loop has a site at Bᵢ on both sides.
 Model buildModel(const Manipulator& manipulator, const Vector3d& origin, Closure closure = Closure::open);
 
 constexpr int most_dofs = dofsOf(leg_count), most_gaps = legDofs(leg_count);
-/// Three gaps a leg: as many as a leg has joints.
+/// Three gaps per leg, as many as its joints.
 using GapJacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_gaps, most_dofs>;
 using VectorOfGaps = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_gaps, 1>;
 using VectorOfDofs = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_dofs, 1>;
 
-/// The machine whose loops MuJoCo closes.
+/// The machine with loops that MuJoCo closes.
 struct Connected {
   Model model;
   Data data;
@@ -68,23 +68,24 @@ struct MujocoLoop::Impl {
   mujoco::VectorOfGaps gapAcceleration() const;
   mujoco::VectorOfDofs forcesOfTree() const;  ///< M q̈ + bias
   mujoco::VectorOfDofs unbalanced(const Motion<double>& motion) const;
-  /// Friction and load on the coordinates, of a model whose rates and positions are set.
+  /// Friction and load on the coordinates, for a model with rates and positions set.
   mujoco::VectorOfDofs given(const mjModel& in_model, mjData& in_data, const Motion<double>& motion) const;
   void placeTree(const TreeCoordinates& at);
-  /// Jacobians of what was placed; `forces` are what MuJoCo makes of it.
+  /// Reads the Jacobians of the placed state; `forces` are MuJoCo's result for it.
   void readTree(const Motion<double>& motion, const mujoco::VectorOfDofs& forces, OpenTree& out);
-  /// [ω̇; p̈] of what MuJoCo's free joint has: of the mass centre in the world, and angular in the body.
+  /// Converts rates of MuJoCo's free joint to [ω̇; p̈]; they are linear at the mass centre in the world, angular in the
+  /// body.
   Vector6d twistRate(const Motion<double>& motion, const Vector6d& rates_of_speeds) const;
 
   Manipulator manipulator;
   std::shared_ptr<const Load> load;
   int legs, leg_dofs, dofs;
-  Vector3d origin;  ///< B's origin may be far from the machine, MuJoCo's world is not
+  Vector3d origin;  ///< B's origin may be far from the machine; MuJoCo's world is near
   mujoco::Model model;
   mujoco::Data data;
   mujoco::GapJacobian G;
-  std::array<double, leg_count> offset_of_phi{};  ///< what MuJoCo's first coordinate of a leg is more than φ
-  mujoco::Connected connected;                    ///< made when it is first asked for
+  std::array<double, leg_count> offset_of_phi{};  ///< MuJoCo's first coordinate of a leg minus φ
+  mujoco::Connected connected;                    ///< created on first use
 };
 
 }  // namespace ursula

@@ -1,4 +1,4 @@
-// The least that MuJoCo has to be asked for, with no constraint, contact or integrator of its own.
+// The fewest calls of MuJoCo that suffice, without its constraints, contacts and integrator.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace ursula {
 
 using mujoco::dofOf, mujoco::most_dofs, mujoco::siteOnLeg, mujoco::siteOnPlatform;
 
-/// Its zero lies elsewhere about −u where the base has a universal joint.
+/// With a universal joint at the base, MuJoCo's zero is another angle about −u.
 double mujoco::offsetOfPhi(const Leg& leg) {
   if (rowOf(leg.kind).joints_of_proximal != 2) return 0;
   const Vector3d u = leg.base_axis.normalized(), level = u.cross(Vector3d::UnitZ());

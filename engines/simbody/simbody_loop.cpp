@@ -42,12 +42,12 @@ std::array<double, 3> SimbodyLoop::Impl::legGeometry(int leg, const Motion<doubl
 void SimbodyLoop::Impl::setPlatformPose(const Motion<double>& motion) {
   const SimTK::Transform X_GB(toSimTK(motion.Q), toSimTK(motion.p));
   placed_jacobian.reset();
-  if (topology == Topology::six_balls) {  // on the ground
+  if (topology == Topology::six_balls) {  // the platform is on the ground
     mechanism.platform.setQToFitTransform(
         state, ~mechanism.platform.getDefaultInboardFrame() * X_GB * mechanism.platform.getDefaultOutboardFrame());
     return;
   }
-  mechanism.platform.setQToFitTransform(state, SimTK::Transform());  // what was there may be no number
+  mechanism.platform.setQToFitTransform(state, SimTK::Transform());  // the previous state may be NaN
   realize(SimTK::Stage::Position);
   const SimTK::MobilizedBody& parent = mechanism.platform.getParentMobilizedBody();
   const SimTK::Transform X_GF = parent.getBodyTransform(state) * mechanism.platform.getInboardFrame(state);
@@ -128,7 +128,7 @@ void SimbodyLoop::place(const Motion<double>& motion, const JointMotion& joint_m
     loop.setLeg(i, q);
   }
   loop.setPlatformPose(motion);
-  // Six balls through wrong legs may determine no rates, and the free platform needs none of theirs.
+  // Six balls in wrong legs may determine no rates; the free platform needs none of theirs.
   loop.topology == Topology::tree_through_leg_1 ? loop.setRates(motion) : loop.setFreePlatform(motion);
   for (int i = 0; i < loop.legCount(); ++i)
     for (int joint = 0; joint < 3; ++joint) {

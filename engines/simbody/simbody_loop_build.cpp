@@ -1,8 +1,8 @@
-// How the closed loop is built. Universal turns about its x, then y; Pin about z; Slider goes along x. Of URS φ turns
-// about −u, ψ and θ about x; of UPS d goes along e; of RUS φ and ψ turn about −u, θ about −x₂; of PUS d goes along u, ψ
+// Builds the closed loop. Universal turns about its x, then y; Pin about z; Slider moves along x. For URS φ turns about
+// −u, ψ and θ about x. For UPS d moves along e. For RUS φ and ψ turn about −u, θ about −x₂. For PUS d moves along u, ψ
 // turns about −u, θ about x. The links' body frames are G = [x, e × x, e] and H = [x, s × x, s] of the paper's (40)
-// (of a carriage [x̂, u, ẑ]) with origins at the links' first ends, so that the raw inertias go in as they are.
-// Rotors are bodies as well: Simbody's own dynamics, energy and integrators then have them.
+// (for a carriage [x̂, u, ẑ]). Their origins are at the links' first ends, so the raw inertias apply unchanged. Rotors
+// are bodies as well, so Simbody's own dynamics, energy and integrators include them.
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 namespace ursula {
 namespace {
 
-/// Simbody takes the shift off again, and refuses what rounding has then left.
+/// Simbody undoes the shift again, and refuses the result if rounding spoils it.
 SimTK::MassProperties massProperties(double mass, const Vector3d& center, const Matrix3d& about_center) try {
   const SimTK::Inertia central(about_center(0, 0), about_center(1, 1), about_center(2, 2), about_center(0, 1),
                                about_center(0, 2), about_center(1, 2));
@@ -46,7 +46,7 @@ SimTK::Transform frameOf(const Vector3d& x, const Vector3d& y, const Vector3d& z
 
 const Vector3d e_x = Vector3d::UnitX(), e_y = Vector3d::UnitY(), e_z = Vector3d::UnitZ();
 
-/// Torques, Coulomb friction and load, as Simbody asks for them.
+/// Supplies torques, Coulomb friction and load to Simbody.
 class DriverForce : public SimTK::Force::Custom::Implementation {
  public:
   DriverForce(Mechanism mechanism, std::shared_ptr<const AppliedForces> applied)
@@ -217,7 +217,7 @@ void SimbodyLoop::Impl::addRotors() {
   for (const Motor& motor : parameters.motors()) {
     const double inertia = parameters.leg(motor.leg).rotor_inertia.on(motor.coordinate);
     if (inertia == 0) continue;
-    const SimTK::MassProperties properties(inertia, SimTK::Vec3(0), SimTK::Inertia(inertia));  // any mass will do
+    const SimTK::MassProperties properties(inertia, SimTK::Vec3(0), SimTK::Inertia(inertia));  // any mass is valid
     const SimTK::MobilizedBody::Pin wheel(matter.Ground(), SimTK::Body::Rigid(properties));
     const Mechanism::Place place = mechanism.place(motor.joint, motor.leg);
     SimTK::Vector alike(3, 0.0);

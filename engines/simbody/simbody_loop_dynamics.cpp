@@ -17,14 +17,14 @@ BodyMotion<double> bodyMotion(const SimTK::State& state, const SimTK::MobilizedB
   BodyMotion<double> out;
   out.R = toEigen(R);
   out.c = toEigen(SimTK::Vec3(body.getBodyOriginLocation(state) + arm));
-  // Simbody's point is the body origin, the paper's the mass centre.
+  // Simbody refers to the body origin, the paper to the mass centre.
   out.twist << toEigen(omega), toEigen(SimTK::Vec3(velocity[1] + omega % arm));
   out.twist_rate << toEigen(acceleration[0]),
       toEigen(SimTK::Vec3(acceleration[1] + acceleration[0] % arm + omega % (omega % arm)));
   return out;
 }
 
-/// Simbody takes whatever is thrown for a step that was too long.
+/// Simbody treats every exception as a step that was too long.
 SimbodyLoop::TorqueHistory noting(bool& memory_ran_out, const SimbodyLoop::TorqueHistory& torques) {
   return [&memory_ran_out, &torques](double t) {
     try {
@@ -88,7 +88,7 @@ BodyMotions<double> SimbodyLoop::bodies() const {
   return out;
 }
 
-/// With G N = 0 and the actuated rows of N the identity, Nᵀ frees the residual forces of the multipliers: τ = Nᵀ f.
+/// With G N = 0 and identity as the actuated rows of N, Nᵀ removes the multipliers from the residual forces: τ = Nᵀ f.
 Vector6d SimbodyLoop::inverseDynamics() const {
   const Impl& loop = *impl_;
   loop.applied->torques.setZero();
@@ -220,12 +220,12 @@ SimbodyLoop::Counters SimbodyLoop::integrateRungeKuttaMerson(double accuracy, co
   } catch (const std::bad_alloc&) {
     memory_ran_out = true;
   } catch (const std::exception&) {
-    counters.gave_up = true;  // the caller still reports what came before
+    counters.gave_up = true;  // the caller still reports the earlier part
   }
   counters.derivative_evaluations = loop.system.getNumRealizationsOfThisStage(SimTK::Stage::Acceleration) - before;
   counters.steps = integrator.getNumStepsTaken();
   loop.applied->history = nullptr;
-  if (memory_ran_out) throw std::bad_alloc();  // which says nothing of the motion
+  if (memory_ran_out) throw std::bad_alloc();  // it says nothing about the motion
   return counters;
 }
 

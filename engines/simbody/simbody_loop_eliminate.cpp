@@ -1,13 +1,13 @@
-// Accelerations of the loop without multipliers. Simbody's own realize(Acceleration) solves for 18 of them with
-// G M⁻¹Gᵀ. That takes most of a replay's time, loses digits where the platform is light, and drops multipliers where a
-// link is nearly massless: the accelerations then miss the constraints. Here Simbody's tree gives mass matrix, forces
-// and velocities, and the legs' coordinates are eliminated by the balls' constraints, which are of one leg each
-// (García de Jalón and Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994, sect. 5.3):
+// Computes the loop's accelerations without multipliers. Simbody's own realize(Acceleration) solves for 18 multipliers
+// with G M⁻¹Gᵀ. That takes most of a replay's time and loses digits if the platform is light. It drops multipliers if a
+// link is nearly massless, so accelerations violate the constraints. Here Simbody's tree gives mass matrix, forces and
+// velocities. The balls' constraints, which involve one leg each, eliminate the legs' coordinates (García de Jalón and
+// Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994, sect. 5.3):
 //   Jᵢ u̇ᵢ + aᵢ = Pᵢ u̇_P + a_Pᵢ,  Pᵢ = [−[Qbᵢ]×, 1]          (a) both sides are the acceleration of Bᵢ
 //   u̇ = N u̇_P + c,  N = [Jᵢ⁻¹Pᵢ; 1],  c = [Jᵢ⁻¹(a_Pᵢ − aᵢ); 0]  (b)
 //   NᵀMN u̇_P = −Nᵀ(M c + bias − applied)                       (c)
-//   Jᵢᵀ fᵢ = (M u̇ + bias − applied)ᵢ                            (d) fᵢ the platform's force on leg i
-// Tests hold it against realize(Acceleration).
+//   Jᵢᵀ fᵢ = (M u̇ + bias − applied)ᵢ                            (d) fᵢ is the platform's force on leg i
+// Tests compare it with realize(Acceleration).
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -27,7 +27,7 @@ struct LegClosure {
   Vector3d bias;  ///< a_P − a
 };
 
-/// Velocity of B for unit rates of the leg's joints, whose axes Simbody has.
+/// The velocity of B per unit rates of the leg's joints, with axes from Simbody.
 Matrix3d jacobianOf(const Leg& leg, const SimTK::State& state, const SimTK::MobilizedBody& first,
                     const SimTK::MobilizedBody& second, const Vector3d& from_A, const Vector3d& to_B) {
   const auto base = [&](int k) {
@@ -145,8 +145,8 @@ double SimbodyLoop::gapAcceleration() const {
   return largest;
 }
 
-/// The force that closes a loop by (d), then Newton and Euler outboard body by body, with Simbody's inertias,
-/// accelerations and applied forces.
+/// The loop's closing force by (d), then Newton–Euler outboard body by body. It uses Simbody's inertias, accelerations
+/// and applied forces.
 Reactions SimbodyLoop::reactions() const {
   const Impl& loop = *impl_;
   const SimTK::State& open = loop.open;
@@ -156,7 +156,7 @@ Reactions SimbodyLoop::reactions() const {
   loop.matter.calcResidualForceIgnoringConstraints(open, loop.system.getMobilityForces(open, SimTK::Stage::Dynamics),
                                                    applied, loop.u_dot, residual);
   loop.matter.calcBodyAccelerationFromUDot(open, loop.u_dot, accelerations);
-  // The wrench of the joints alone on a body, about its origin.
+  // The wrench that the joints alone exert on a body, about its origin.
   const auto wrenchOn = [&](const SimTK::MobilizedBody& body) {
     const SimTK::MobilizedBodyIndex index = body.getMobilizedBodyIndex();
     return Vector6d(toEigen(SimTK::SpatialVec(body.getBodySpatialInertiaInGround(open) * accelerations[index] +

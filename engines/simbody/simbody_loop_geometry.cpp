@@ -1,4 +1,4 @@
-// Joint coordinates of a leg for a place of B, by vector geometry of its own: nothing here is the solver's.
+// Joint coordinates of a leg for a position of B, by independent vector geometry, without the solver.
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace {
 
 using Geometry = std::optional<std::array<double, 3>>;
 
-/// B from A: along u, and off it; z is where off it points, x = u × z.
+/// B relative to A: the parts along u and off the axis; z points off the axis, x = u × z.
 struct Place {
   Vector3d u, d, off_axis, z, x;
 
@@ -23,13 +23,13 @@ double sideOf(const Leg& leg) { return leg.knee == Knee::positive ? 1 : -1; }
 /// φ of a leg whose plane has the normal x.
 double turnOf(const Vector3d& x, const Matrix3d& base) { return std::atan2(x.dot(base.col(2)), x.dot(base.col(1))); }
 
-/// The plane of the leg holds u and B; in it the knee R is where the circles about A and B meet, on the side that
-/// `knee` says: turning from RA to RB about x is positive for a positive knee.
+/// The plane of the leg contains u and B. The knee R is where the circles about A and B meet in it, on the side that
+/// `knee` selects. With a positive knee, RA turns to RB positively about x.
 Geometry ofURS(const Leg& leg, const Matrix3d& base, const Place& at) {
   const Vector3d& d = at.d;
   const double l = leg.proximal.length, s = leg.distal.length;
   const double q2 = d.squaredNorm(), q = std::sqrt(q2);
-  // Along d from A, and off it, in the plane of the leg.
+  // Along d from A, and perpendicular to it in the leg's plane.
   const double along = (l * l - s * s + q2) / (2 * q);
   const double off2 = (l - along) * (l + along);
   if (!(off2 >= 0) || !(at.off_axis.norm() > 0)) return std::nullopt;
@@ -47,8 +47,8 @@ Geometry ofUPS(const Leg& leg, const Matrix3d& base, const Place& at) {
   return {{turnOf(at.x, base), std::atan2(off, at.d.dot(at.u)), length}};
 }
 
-/// Seen along u, the crank's tip R is where the circles about A and about B, of the rod's shadow, meet; turning from
-/// AR to RB about −u is positive for a positive knee.
+/// In the view along u, the crank's tip R is where the crank's circle about A meets the projected rod's about B. With a
+/// positive knee, AR turns to RB positively about −u.
 Geometry ofRUS(const Leg& leg, const Matrix3d& base, const Place& at) {
   const double l = leg.proximal.length, s = leg.distal.length;
   const double height = at.d.dot(at.u), r = at.off_axis.norm();
@@ -63,7 +63,7 @@ Geometry ofRUS(const Leg& leg, const Matrix3d& base, const Place& at) {
   return {{phi, std::atan2(-R.cross(rod).dot(at.u), R.dot(rod)), std::atan2(height, shadow)}};
 }
 
-/// The carriage is where the rail meets the sphere about B, behind or before B's foot on the rail.
+/// The carriage is where the rail meets the sphere about B, before or behind B's foot on the rail.
 Geometry ofPUS(const Leg& leg, const Matrix3d& base, const Place& at) {
   const double s = leg.distal.length, r = at.off_axis.norm();
   const double along2 = (s - r) * (s + r);

@@ -1,6 +1,6 @@
 #pragma once
 
-// The inside of SimbodyLoop; included by simbody_loop*.cpp only. Never `using namespace SimTK` here: beside Eigen it
+// Internals of SimbodyLoop; only simbody_loop*.cpp include it. Never write `using namespace SimTK` here, because it
 // breaks Eigen's comparisons.
 
 #include <Simbody.h>
@@ -19,7 +19,7 @@ inline SimTK::Vec3 toSimTK(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 inline Vector3d toEigen(const SimTK::Vec3& v) { return {v[0], v[1], v[2]}; }
 
 inline SimTK::Rotation toSimTK(const Matrix3d& R) {
-  // trustMe: re-orthogonalising would move the pose that was asked for.
+  // trustMe: re-orthogonalising would change the given pose.
   return SimTK::Rotation(SimTK::Mat33(R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1), R(2, 2)),
                          true);
 }
@@ -42,12 +42,12 @@ inline Eigen::Map<const Eigen::VectorXd> mapped(const SimTK::Vector& v) {
   return {v.size() > 0 ? &v[0] : nullptr, v.size()};
 }
 
-/// What Simbody asks for forces that are not its own: torques, Coulomb friction, the load on the platform.
+/// Forces that Simbody does not compute itself: torques, Coulomb friction, the load on the platform.
 struct AppliedForces {
-  Vector6d torques = Vector6d::Zero();  ///< of the motors
-  SimbodyLoop::TorqueHistory history;   ///< instead of `torques`, where set
+  Vector6d torques = Vector6d::Zero();  ///< torques of the motors
+  SimbodyLoop::TorqueHistory history;   ///< replaces `torques` if set
   std::shared_ptr<const Load> load;
-  std::vector<Leg> legs;  ///< whose Coulomb friction it is
+  std::vector<Leg> legs;  ///< for their Coulomb friction
   Motors motors;
   bool any_coulomb = false;
 };
@@ -59,15 +59,15 @@ struct Mechanism {
   SimTK::MobilizedBody platform;
   std::vector<SimTK::Constraint::Ball> balls;
 
-  /// What a motor turns: a wheel on Ground that a coupler has turn by the leg's coordinate, radians for metres where
-  /// that slides. Behind all else in Simbody's order.
+  /// A rotor: a wheel on Ground. A coupler turns it by the leg's coordinate, with radians for metres if that slides.
+  /// Rotors come last in Simbody's order.
   struct Rotor {
     SimTK::MobilizedBody wheel;
     int joint, leg;
   };
   std::vector<Rotor> rotors;
 
-  /// The body that a leg's joint moves, and which of its mobilizer's coordinates that is.
+  /// The body that a leg's joint moves, and the index of the coordinate in its mobilizer.
   struct Place {
     const SimTK::MobilizedBody& body;
     int coordinate;
@@ -77,21 +77,20 @@ struct Mechanism {
   double rate(const SimTK::State& state, int joint, int leg) const;
 };
 
-/// −c tanh(q̇ / speed), the force that smoothed Coulomb friction puts on one of a leg's three joints.
+/// −c tanh(q̇ / speed), the smoothed Coulomb friction force on one of a leg's three joints.
 double coulombForce(const Leg& leg, int joint, double rate);
 
-/// Columns −u, x̂, ẑ, where φ = 0 puts the plane of the leg upright; for an axis along e_z, where upright says nothing,
-/// by convention x̂ = u × e_y.
+/// Columns −u, x̂, ẑ; φ = 0 makes the plane of the leg vertical. For an axis along e_z, x̂ = u × e_y by convention.
 Matrix3d baseFrame(const Vector3d& axis);
 
-/// The joints' coordinates of a leg for B, `d` from A, by vector geometry; empty where it cannot reach. `base` is
+/// The joint coordinates of a leg for B at `d` from A, by vector geometry; nullopt if it cannot reach. `base` is
 /// baseFrame of its axis.
 std::optional<std::array<double, 3>> legGeometry(const Leg& leg, const Matrix3d& base, const Vector3d& d);
 
 /// [moment about P; force] of the load in B for the platform's pose in `state`, realized to Position.
 SimTK::SpatialVec loadOnPlatform(const Load& load, const Mechanism& mechanism, const SimTK::State& state);
 
-/// Kept from call to call, so that none of them allocates.
+/// Kept between calls to avoid allocation.
 struct OpenTreeScratch {
   SimTK::Vector mobility_forces, residual;
   SimTK::Vector_<SimTK::SpatialVec> body_forces;
@@ -107,37 +106,37 @@ struct SimbodyLoop::Impl {
   Mechanism mechanism;
   std::shared_ptr<AppliedForces> applied = std::make_shared<AppliedForces>();
   SimTK::State state;
-  SimTK::State open;    ///< without the balls: what derivative() asks for needs none of their errors; six balls only
-  SimTK::Vector u_dot;  ///< accelerations last placed or found
-  std::vector<Matrix3d> leg_jacobians;  ///< velocities of Bᵢ by the leg's rates, as last eliminated
+  SimTK::State open;    ///< state without the balls, as derivative() needs none of their errors; six balls only
+  SimTK::Vector u_dot;  ///< accelerations last placed or computed
+  std::vector<Matrix3d> leg_jacobians;  ///< velocities of Bᵢ by the leg's rates, at the last elimination
   OpenTreeScratch scratch;
   Manipulator parameters;
   Topology topology;
 
   int legCount() const { return parameters.legCount(); }
-  /// The one that derivative() realizes.
+  /// The state that derivative() realizes.
   const SimTK::State& differentiated() const { return topology == Topology::six_balls ? open : state; }
   /// Index in u of a leg's joint.
   int indexOf(int joint, int leg) const;
   int indexOf(const Mechanism::Rotor& rotor) const { return rotor.wheel.getFirstUIndex(state); }
   void setLeg(int leg, const std::array<double, 3>& q);
-  /// Geometry of one leg for the platform's pose. Throws std::domain_error where it cannot reach.
+  /// Geometry of one leg for the platform's pose. Throws std::domain_error if the leg cannot reach.
   std::array<double, 3> legGeometry(int leg, const Motion<double>& motion) const;
   void setPlatformPose(const Motion<double>& motion);
   void realize(SimTK::Stage stage) const { system.realize(state, stage); }
   /// [G; J]: constraint Jacobian over the platform's frame Jacobian, nu × nu.
   Eigen::MatrixXd constraintsAndPlatform() const;
   Eigen::MatrixXd constraintJacobian() const;
-  /// Forces that act besides the motors', into the scratch; from the state's velocities.
+  /// Adds the forces other than the motors' to the scratch, from the state's velocities.
   void applyForces();
-  /// Of the state last placed.
+  /// The Jacobian of the last placed state.
   std::optional<Eigen::MatrixXd> placed_jacobian;
-  /// Sets u_dot under `torques` in the coordinates of `state`, the legs' eliminated, and realizes `open`; six balls
-  /// only.
+  /// Sets u_dot under `torques` in the coordinates of `state`, with the legs' eliminated, and realizes `open`. Six
+  /// balls only.
   void eliminate(const Vector6d& torques);
-  /// Velocities and accelerations of all coordinates that go with the platform's.
+  /// Sets the velocities and accelerations of all coordinates from the platform's.
   void setRates(const Motion<double>& motion);
-  /// Those of a platform that hangs on no leg alone.
+  /// The same for a platform that hangs on no single leg.
   void setFreePlatform(const Motion<double>& motion);
 
  private:

@@ -1,5 +1,5 @@
-// The least that Simbody has to be asked for. Forces are put together here, as its own force subsystem would have all
-// stages up to Dynamics realized for them.
+// The fewest calls of Simbody that suffice. Forces are summed here, because its own force subsystem would realize all
+// stages up to Dynamics.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -18,7 +18,7 @@ void SimbodyLoop::coordinates(const Motion<double>& motion, const JointMotion& j
   for (int leg = 0; leg < loop.legCount(); ++leg)
     for (int joint = 0; joint < 3; ++joint) {
       const Coordinate coordinate = rowOf(loop.parameters.leg(leg).kind).coordinates[static_cast<std::size_t>(joint)];
-      const auto at = static_cast<std::size_t>(loop.indexOf(joint, leg));  // q is numbered like u before the platform's
+      const auto at = static_cast<std::size_t>(loop.indexOf(joint, leg));  // q has the order of u before the platform's
       out.q[at] = joint_motion.q.of(coordinate)(leg);
       out.u[at] = joint_motion.q_dot.of(coordinate)(leg);
       out.u_dot[at] = joint_motion.q_ddot.of(coordinate)(leg);
@@ -76,7 +76,7 @@ void SimbodyLoop::openTree(const TreeCoordinates& at, OpenTree& out) {
   loop.applyForces();
   loop.matter.calcResidualForceIgnoringConstraints(loop.state, scratch.mobility_forces, scratch.body_forces, loop.u_dot,
                                                    scratch.residual);
-  // One sweep for each constraint and not, as calcG, for each coordinate.
+  // One sweep per constraint instead of calcG's one per coordinate.
   loop.matter.calcGTranspose(loop.state, scratch.G_transposed);
 
   const auto force = mapped(scratch.residual);

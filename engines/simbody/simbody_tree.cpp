@@ -6,7 +6,7 @@
 namespace ursula {
 namespace {
 
-/// The same builder as the six balls', cut elsewhere.
+/// The same builder as for six balls, with another cut.
 class SimbodyTree : public Engine {
  public:
   SimbodyTree(const Manipulator& manipulator, std::shared_ptr<const Load> load)

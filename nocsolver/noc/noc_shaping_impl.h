@@ -25,8 +25,7 @@ Vector3<S> velocityOf(const Vector6<S>& twist, const Vector3<S>& arm) {
 
 }  // namespace legs
 
-// --- bodies and their twists
-// ------------------------------------------------------------------------------------------
+// --- bodies and their twists ----------------------------------------------------------------------------------------
 
 template <class S, class R>
 LinkMotions<S> Noc<S, R>::links(int i, const LegState<S>& at, const Vector3<S>& rate,
@@ -89,8 +88,7 @@ void Noc<S, R>::bodyMotions(const Motion<S>& motion, const NocWorkspace<S>& work
   body.twist_rate << motion.omega_dot, c_ddot;  // (paper, eq. 43c)
 }
 
-// --- T and its rate
-// ---------------------------------------------------------------------------------------------------
+// --- T and its rate -------------------------------------------------------------------------------------------------
 
 /// Twists of both links for a unit rate of each of the leg's joints; `with_rate` adds the rates of these twists.
 template <class S, class R>
