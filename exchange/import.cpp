@@ -12,7 +12,7 @@
 namespace ursula::exchange {
 namespace {
 
-/// What is not the model but makes it.
+/// Refuses templates, which only generate a model.
 void refuseTemplates(const std::string& text, const std::string& file) {
   if (const std::size_t at = text.find("<%"); at != std::string::npos)
     throw ImportError(
@@ -42,7 +42,7 @@ ModelGraph readText(const std::string& text, const std::filesystem::path& file) 
   return graph;
 }
 
-/// Whatever is wrong gets its place.
+/// Adds the file and the line to every error.
 template <class Run>
 auto inFile(const std::filesystem::path& file, const Run& run) {
   const std::string name = shownPath(file.string());

@@ -8,26 +8,26 @@
 
 namespace ursula::exchange {
 
-/// What cannot be found in a file, or is not to be guessed.
+/// The user's choices for what a file does not say and the import does not guess.
 struct ImportChoices {
   std::string base, platform;         ///< a body's name, or empty
-  std::vector<std::string> actuated;  ///< joints' names
-  std::vector<std::string> closed;    ///< "A:B", links whose frames' origins a ball joins
-  double tolerance = 1e-5;            ///< of the machine's size, and rad
-  double lump = 1e-3;                 ///< share of a leg's moments that may be lost
+  std::vector<std::string> actuated;  ///< names of joints
+  std::vector<std::string> closed;    ///< "A:B", two links whose frame origins a ball joins
+  double tolerance = 1e-5;            ///< relative to the machine's size, and in rad
+  double lump = 1e-3;                 ///< share of a leg's moments of inertia that may be lost
 };
 
-/// What `ursula import` gives.
+/// The result of `ursula import`.
 struct Imported {
   std::string scenario;  ///< TOML
   std::vector<Assumption> assumptions;
 };
 
-/// Reads a model in SDF, MJCF or URDF and makes a scenario of it. Reads this file alone (of URDF a robot.yaml beside it
-/// as well), and nothing from a network. Throws ImportError, its text `file:line: error: …`.
+/// Reads a model in SDF, MJCF or URDF and turns it into a scenario. It reads only this file (for URDF also a robot.yaml
+/// next to it) and nothing from a network. Throws ImportError with the text `file:line: error: …`.
 Imported importModel(const std::filesystem::path& file, const ImportChoices& choices);
 
-/// The graph alone, likewise.
+/// Reads only the graph, in the same way.
 ModelGraph readModel(const std::filesystem::path& file);
 
 }  // namespace ursula::exchange

@@ -5,8 +5,8 @@
 
 namespace ursula::exchange {
 
-/// A model that cannot be taken over: what is wrong, what was expected, what would help. Line of the file, 1-based; 0
-/// where it is of no one line.
+/// A model that cannot be imported: what is wrong, what was expected, what would help. The line of the file is 1-based,
+/// or 0 if no single line causes it.
 class ImportError : public std::runtime_error {
  public:
   explicit ImportError(const std::string& what, int at_line = 0) : std::runtime_error(what), line(at_line) {}

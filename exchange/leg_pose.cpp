@@ -11,10 +11,10 @@
 namespace ursula::exchange {
 namespace {
 
-/// √eps: a sine below it has no correct digit left.
+/// √eps: a smaller sine has no correct digit left.
 const double smallest_sine = std::sqrt(Eigen::NumTraits<double>::epsilon());
 
-/// The angle between sides a and b of a triangle, opposite to c. It is exact to rounding for needles, too (Kahan,
+/// The angle between sides a and b of a triangle, opposite to c. It is exact to rounding even for needles (Kahan,
 /// Miscalculating Area and Angles of a Needle-like Triangle, 2014, sect. 2).
 double angleOpposite(double c, double a, double b) {
   if (a < b) std::swap(a, b);
@@ -107,7 +107,7 @@ class Placing {
     return withLinks(frameAlong(x_, e, A_), frameAlong(x_, e, inner_end), A_ + l_ * e);
   }
 
-  /// Seen along u the leg is a triangle of crank l, rod c and r.
+  /// Along u the leg appears as a triangle of crank l, rod c and r.
   LegPose rus() {
     if (!(std::abs(k_.y()) < s_))
       refuse("would have to reach along its crank's axis over", std::abs(k_.y()), " m", fmt::format("below {} m", s_));
@@ -147,7 +147,7 @@ class Placing {
   const Leg& leg_;
   int number_;
   double l_, s_, side_;
-  Vector3d A_, AB_, u_, x_hat_, z_hat_, k_, x_, z_;  ///< x and z of F̂R(α), which holds B at z = r
+  Vector3d A_, AB_, u_, x_hat_, z_hat_, k_, x_, z_;  ///< x and z of F̂R(α), whose plane contains B at z = r
   double r_ = 0, plane_ = 0;                         ///< r = √(k_x² + k_z²); α
   LegPose out_;
 };

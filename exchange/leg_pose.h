@@ -9,13 +9,13 @@
 
 namespace ursula::exchange {
 
-/// A pose that a leg cannot take. Names the leg, counted from 1, the number and its bound.
+/// A pose that a leg cannot take. Gives the leg, counted from 1, the number and its bound.
 class UnreachablePose : public std::domain_error {
  public:
   using std::domain_error::domain_error;
 };
 
-/// A coordinate of a leg at a pose, with the joint that has it; vectors in B.
+/// A coordinate of a leg at a pose, with its joint; vectors in B.
 struct JointAt {
   Coordinate coordinate = Coordinate::phi;
   Vector3d centre = Vector3d::Zero();  ///< m
@@ -28,11 +28,11 @@ struct LegPose {
   std::array<JointAt, 3> joints;        ///< in the order of the kind's coordinates
   Eigen::Isometry3d proximal, distal;   ///< frames of the links, at their first ends
   Vector3d tip = Vector3d::Zero();      ///< the platform's point Bᵢ, m
-  Vector3d far_end = Vector3d::Zero();  ///< of the proximal link, m
+  Vector3d far_end = Vector3d::Zero();  ///< far end of the proximal link, m
 };
 
-/// Puts leg `index`, 0-based, so that it ends at `tip`, m, in B. The forms are closed. Throws UnreachablePose where the
-/// tip is out of reach, the stroke ends, or the leg is singular.
+/// Places leg `index`, 0-based, so that it ends at `tip`, m, in B, by closed forms. Throws UnreachablePose if the tip
+/// is out of reach, the stroke ends, or the leg is singular.
 LegPose legPose(const Leg& leg, int index, const Vector3d& tip);
 
 }  // namespace ursula::exchange

@@ -13,31 +13,31 @@ namespace ursula::exchange {
 
 /// A body of a model file, at the file's initial pose; vectors in world axes, SI.
 struct GraphBody {
-  std::string name;                                         ///< as the file calls it
-  int line = 0;                                             ///< of the file, 1-based; 0 where unknown
+  std::string name;                                         ///< its name in the file
+  int line = 0;                                             ///< in the file, 1-based; 0 if unknown
   bool fixed = false;                                       ///< the world itself, or a static body
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();  ///< the body's own frame in the world
   double mass = 0;                                          ///< kg
   Vector3d center_of_mass = Vector3d::Zero();               ///< position in the world, m
   Matrix3d inertia = Matrix3d::Zero();                      ///< about the mass centre, world axes, kg·m²
-  double inertia_rounding = 0;                              ///< half a unit of the last digit that the file writes
-  bool weightless = false;                                  ///< the file switches gravity off for it
+  double inertia_rounding = 0;                              ///< half a unit of the last digit in the file
+  bool weightless = false;                                  ///< the file disables gravity for it
 };
 
 enum class JointKind { fixed, revolute, prismatic, universal, ball, cylindrical, free };
 
-/// A joint between two bodies. Where `closure`, it closes a loop that the tree of the other joints leaves open.
+/// A joint between two bodies. If `closure` is set, it closes a loop of the other joints' tree.
 struct GraphJoint {
   std::string name;
   int line = 0;
   JointKind kind = JointKind::fixed;
   std::size_t parent = 0, child = 0;            ///< indices into ModelGraph::bodies
   Vector3d centre = Vector3d::Zero();           ///< on the parent's side, in the world, m
-  Vector3d centre_of_child = Vector3d::Zero();  ///< on the child's side; differs where a closure is open
-  /// Unit, in the world; revolute, prismatic, cylindrical and universal use the first, universal both (parent's first).
-  /// A coordinate grows as the child turns or slides about or along it.
+  Vector3d centre_of_child = Vector3d::Zero();  ///< on the child's side; differs if a closure is open
+  /// Unit vectors in the world. Revolute, prismatic and cylindrical use the first, universal both (parent's first). A
+  /// coordinate grows as the child turns about or slides along its axis.
   std::array<Vector3d, 2> axis = {Vector3d::Zero(), Vector3d::Zero()};
-  double position = 0;  ///< of the coordinate at the initial pose, rad or m
+  double position = 0;  ///< coordinate at the initial pose, rad or m
   double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
   double damping = 0, friction = 0;  ///< viscous; Coulomb
   double rotor_inertia = 0;          ///< kg·m² or kg, added to the coordinate's own inertia
@@ -45,7 +45,7 @@ struct GraphJoint {
   bool closure = false;
 };
 
-/// One thing that was taken for granted on the way, with its size in the machine's own units.
+/// One assumption of the import, with its size in the machine's own units.
 struct Assumption {
   std::string what;   ///< a full sentence
   std::string where;  ///< bodies, joints or place in the file
@@ -53,7 +53,7 @@ struct Assumption {
   std::string unit;  ///< "m", "rad", "1", "kg", …
 };
 
-/// What a model file says, whatever its format: bodies, primitive joints, closures, motors and gravity.
+/// The content of a model file in any format: bodies, primitive joints, closures, motors and gravity.
 struct ModelGraph {
   std::string format;  ///< "sdf", "mjcf" or "urdf"
   std::string name;

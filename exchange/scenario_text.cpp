@@ -29,7 +29,7 @@ std::string tensor(const Matrix3d& m) {
   return list(entries);
 }
 
-/// A name that a folder can have, and a comment's line.
+/// Makes a name safe for a folder and for a comment's line.
 std::string plainName(const std::string& name) {
   std::string out;
   for (const char c : name.substr(0, 80)) {
@@ -40,7 +40,7 @@ std::string plainName(const std::string& name) {
   return out.find_first_not_of('-') == std::string::npos ? "imported" : out;
 }
 
-/// "{ phi = 0.1, d = 2.0 }": the values that are not zero, by coordinate; "" where all are.
+/// "{ phi = 0.1, d = 2.0 }": the non-zero values by coordinate; "" if all are zero.
 std::string byCoordinate(const ImportedLeg& leg, const std::array<double, 3>& values) {
   std::string out;
   const auto coordinates = rowOf(leg.kind).coordinates;

@@ -6,8 +6,8 @@
 
 namespace ursula::exchange {
 
-/// The machine as a scenario in TOML, each number the shortest that reads back as the same double, with comments that
-/// say where the numbers are from. `file` is the model's name, for the comments.
+/// Returns the machine as a scenario in TOML, with comments on the origin of the numbers. Each number is the shortest
+/// that parses to the same double. `file` is the model's name in the comments.
 std::string scenarioText(const ImportedMachine& machine, const std::string& file);
 
 }  // namespace ursula::exchange

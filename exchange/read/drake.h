@@ -13,11 +13,11 @@ namespace ursula::exchange {
 /// A body's index by its name.
 using BodyByName = std::function<std::size_t(const Element&, const std::string&)>;
 
-/// `<drake:ball_constraint>` of a model, as closures. Throws ImportError for others that act: bushings, distances.
+/// Reads a model's `<drake:ball_constraint>` as closures. Throws ImportError for other active elements: bushings,
+/// distances.
 void readDrakeConstraints(const Element& model, ModelGraph& graph, const BodyByName& body);
 
-/// `<drake:rotor_inertia>` times the square of `<drake:gear_ratio>`, which is 1 where it is not there; 0 without a
-/// rotor.
+/// Returns `<drake:rotor_inertia>` times the square of `<drake:gear_ratio>` (1 if missing); 0 without a rotor.
 double drakeRotorInertia(const Element& element);
 
 }  // namespace ursula::exchange

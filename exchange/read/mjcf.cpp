@@ -1,4 +1,4 @@
-// MJCF by MuJoCo's XML reference, without MuJoCo: files newer than the one that is installed are read as well.
+// Reads MJCF by MuJoCo's XML reference, without MuJoCo, so it also reads files newer than the installed version.
 
 #include <fmt/format.h>
 
@@ -41,7 +41,7 @@ const std::set<std::string> known_of_joint = {"name",
                                               "actuatorfrclimited",
                                               "actuatorgravcomp"};
 
-/// What an element's numbers are relative to.
+/// The reference of an element's numbers.
 struct Place {
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();  ///< in the world
   std::string childclass;
@@ -115,7 +115,7 @@ class MjcfReader {
     return placeOf(element, [&](const char* name) { return attribute(element, name); });
   }
 
-  /// Elements of a body, those within its <frame>s too.
+  /// Visits the elements of a body, including those inside its <frame>s.
   template <class Visit>
   void eachContent(const Element& element, const Place& place, const Visit& visit) const {
     eachChild(element, nullptr, [&](const Element& e) {
@@ -129,7 +129,7 @@ class MjcfReader {
     });
   }
 
-  /// Geoms, sites and bodies of a body, whose index is given.
+  /// Reads geoms, sites and child bodies of the body with index `body`.
   void readChildren(const Element& element, std::size_t body, const Place& place, const Element&) {
     const Element* inertial = element.FirstChildElement("inertial");
     const bool from_geoms = compiler_.from_geom == MjcfCompiler::FromGeom::yes ||
@@ -177,7 +177,7 @@ class MjcfReader {
     return out;
   }
 
-  /// The body, and frames of no mass between its joints, which act in their order.
+  /// Adds the body, and massless frames between its joints, which act in their order.
   std::size_t addFrames(const Element& element, const std::string& name, std::size_t parent, const Place& place) {
     std::vector<std::pair<const Element*, Place>> joints;
     eachContent(element, place, [&](const Element& e, const Place& at) {

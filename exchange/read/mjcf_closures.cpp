@@ -53,7 +53,7 @@ void joinBodies(const Element& element, const MjcfNamed& named, GraphJoint& join
   if (relative.empty()) return;
   const std::vector<double> v = numbersOf(element, relative, 7, "relpose");
   const Eigen::Quaterniond q(v[3], v[4], v[5], v[6]);
-  // A quaternion of zero stands for the pose that the file has.
+  // A zero quaternion stands for the file's own pose.
   if (q.norm() > 1e-12) sayGap(joint.name, a * placed({v[0], v[1], v[2]}, q.normalized().toRotationMatrix()), b, graph);
 }
 

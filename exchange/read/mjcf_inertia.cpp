@@ -14,10 +14,10 @@ namespace {
 
 struct Shape {
   double volume = 0;
-  Vector3d moments = Vector3d::Zero();  ///< of a mass of one, about the shape's axes
+  Vector3d moments = Vector3d::Zero();  ///< for unit mass, about the shape's axes
 };
 
-/// Mass and moments as MuJoCo's reference gives them: sizes are half lengths and radii.
+/// Mass and moments according to MuJoCo's reference: sizes are half lengths and radii.
 Shape shapeOf(const Element& geom, const std::string& type, const std::vector<double>& size) {
   const auto needed = type == "sphere" ? 1U : type == "box" || type == "ellipsoid" ? 3U : 2U;
   if (size.size() < needed)
@@ -64,7 +64,7 @@ void addGeom(const Element& geom, const MjcfCompiler& compiler, const Eigen::Iso
     const std::vector<double> v = numbersOf(geom, from_to, 6, "fromto");
     const Vector3d from(v[0], v[1], v[2]), to(v[3], v[4], v[5]);
     center = (from + to) / 2;
-    // MuJoCo lays the shape's z axis from the second point to the first.
+    // MuJoCo points the shape's z axis from the second point to the first.
     turn = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), directionOf(geom, from - to, "fromto"))
                .toRotationMatrix();
     if (size.empty()) refuse(geom, "no size, expected a radius");

@@ -7,15 +7,15 @@
 
 namespace ursula::exchange {
 
-/// Adds a geom's mass to a body; `at` is the geom's parent frame in the world, `get` gives its attributes. Throws
-/// ImportError for shapes whose inertia stands in another file.
+/// Adds a geom's mass to a body. `at` is the geom's parent frame in the world; `get` returns its attributes. Throws
+/// ImportError for shapes whose inertia is in another file.
 void addGeom(const Element& geom, const MjcfCompiler& compiler, const Eigen::Isometry3d& at,
              const std::function<std::string(const char*)>& get, GraphBody& body);
 
-/// What an <inertial> says; `at` is the body's frame in the world.
+/// Reads an <inertial>; `at` is the body's frame in the world.
 void takeInertial(const Element& inertial, const MjcfCompiler& compiler, const Eigen::Isometry3d& at, GraphBody& body);
 
-/// balanceinertia, boundmass and boundinertia. Throws ImportError where a tensor is none.
+/// Applies balanceinertia, boundmass and boundinertia. Throws ImportError for an invalid tensor.
 void boundInertia(const Element& element, const MjcfCompiler& compiler, GraphBody& body);
 
 }  // namespace ursula::exchange

@@ -143,7 +143,7 @@ Matrix3d mjcfOrientation(const Element& element, const MjcfCompiler& compiler,
   }
   if (what == "zaxis") {
     const Vector3d z = directionOf(element, vectorOf(element, text, what), what);
-    // The smallest turn that takes z there; half a turn about x where it is opposite.
+    // Uses the smallest rotation that takes z there; half a turn about x if it is opposite.
     return Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), z).toRotationMatrix();
   }
   const std::vector<double> v = numbersOf(element, text, 6, what);

@@ -8,10 +8,10 @@
 
 namespace ursula::exchange {
 
-/// What <compiler> says of how numbers are read.
+/// The settings of <compiler> for reading numbers.
 struct MjcfCompiler {
   bool degrees = true;
-  std::string euler = "xyz";  ///< lower case: about the axes as they have turned; upper case: about fixed ones
+  std::string euler = "xyz";  ///< lower case: about the rotated axes; upper case: about fixed axes
   bool auto_limits = true;
   enum class FromGeom { no, yes, automatic } from_geom = FromGeom::automatic;
   int least_group = 0, most_group = 5;
@@ -22,12 +22,12 @@ struct MjcfCompiler {
   double angle(double value) const { return degrees ? value * 3.14159265358979323846 / 180 : value; }
 };
 
-/// Classes of <default>, each with all that it inherits: class, element, attribute.
+/// Classes of <default>, each with everything that it inherits: class, element, attribute.
 class MjcfDefaults {
  public:
   void read(const Element& root);
-  /// An attribute as it holds: the element's own, else that of its class, of the nearest childclass, or of the main
-  /// class; "" where none says it. `kind`: the element's name in <default>, its own where empty.
+  /// Returns the effective attribute: the element's own, else that of its class, of the nearest childclass, or of the
+  /// main class; "" if none gives it. `kind` is the element's name in <default>, its own name if empty.
   std::string get(const Element& element, const std::string& childclass, const char* name,
                   const std::string& kind = "") const;
   void requireClass(const Element& at, const std::string& name) const;
@@ -39,10 +39,10 @@ class MjcfDefaults {
 
   std::map<std::string, Class> classes_;
   std::string main_ = "main";
-  std::size_t inherited_ = 0;  ///< how many entries all classes have: they are copied down
+  std::size_t inherited_ = 0;  ///< number of entries in all classes, because entries are copied down
 };
 
-/// Orientation by quat, axisangle, euler, xyaxes or zaxis, of which at most one is given. Throws ImportError otherwise.
+/// Orientation by quat, axisangle, euler, xyaxes or zaxis. Throws ImportError if more than one is given.
 Matrix3d mjcfOrientation(const Element& element, const MjcfCompiler& compiler,
                          const std::function<std::string(const char*)>& get);
 

@@ -7,11 +7,11 @@
 
 namespace ursula::exchange {
 
-/// The graph of a parsed file, a reader a format. They throw ImportError at what they do not understand and what a
-/// scenario has no words for.
+/// One reader per format returns the graph of a parsed file. Readers throw ImportError for unknown elements and for
+/// elements that a scenario cannot express.
 ModelGraph readSdf(const Element& root);
 ModelGraph readMjcf(const Element& root);
-/// `file`: robot.yaml is looked for beside it.
+/// Looks for robot.yaml next to `file`.
 ModelGraph readUrdf(const Element& root, const std::filesystem::path& file);
 
 }  // namespace ursula::exchange

@@ -1,4 +1,4 @@
-// SDF of any version, by the rules of http://sdformat.org/spec and of its proposal for pose frame semantics.
+// Reads SDF of any version, by the rules of http://sdformat.org/spec and of its proposal for pose frame semantics.
 
 #include <fmt/format.h>
 
@@ -94,7 +94,7 @@ class SdfReader {
                                    shown(childText(*include, "uri"))));
   }
 
-  /// Position and turn of a <pose>.
+  /// Position and rotation of a <pose>.
   Eigen::Isometry3d poseOf(const Element& element) const {
     const Element* pose = element.FirstChildElement("pose");
     if (pose == nullptr || textOf(*pose).empty()) return Eigen::Isometry3d::Identity();
@@ -112,7 +112,7 @@ class SdfReader {
     return placed(position, rollPitchYaw(angles));
   }
 
-  /// Before 1.7 what `frame` said was never done.
+  /// Versions before 1.7 ignored `frame`.
   std::string relativeTo(const Element& element) const {
     const Element* pose = element.FirstChildElement("pose");
     return pose == nullptr || minor_ < 7 ? "" : attribute(*pose, "relative_to");
@@ -162,13 +162,13 @@ class SdfReader {
     if (!placement.empty()) place(element, model, placement);
   }
 
-  /// A nested model's first link stands for a model that has none of its own.
+  /// The first link of a nested model represents a model without own links.
   void takeFirstLink(const Element& element, std::size_t model) {
     if (const Element* inner = element.FirstChildElement("model"))
       frames_[model].body = frames_[frames_.find(*inner, model, attribute(*inner, "name"), "model")].body;
   }
 
-  /// The pose that is given is another frame's of the model.
+  /// The given pose is that of another frame of the model.
   void place(const Element& element, std::size_t model, const std::string& placement) {
     Eigen::Isometry3d inside = Eigen::Isometry3d::Identity();
     std::size_t at = frames_.find(element, model, placement, "placement_frame");
@@ -279,7 +279,7 @@ class SdfReader {
     }
   }
 
-  /// Two hinges with a frame of no mass between them.
+  /// Two hinges with a massless frame between them.
   void addTwoAxes(const Element& element, const std::string& type, std::size_t scope, const Eigen::Isometry3d& at,
                   GraphJoint joint) {
     if (!element.FirstChildElement("axis") || !element.FirstChildElement("axis2"))
@@ -335,7 +335,7 @@ class SdfReader {
     }
   }
 
-  /// Numbers of 1e16 and more, and "inf", mean none.
+  /// Numbers of 1e16 and more, and "inf", mean no limit.
   static void takeLimits(const Element& axis, bool endless, GraphJoint& joint) {
     const Element* limit = axis.FirstChildElement("limit");
     if (limit == nullptr || endless) return;

@@ -65,7 +65,7 @@ std::size_t SdfFrames::bodyOf(const Element& at, std::size_t frame) const {
   for (std::size_t step = 0; step <= frames_.size(); ++step) {
     const Frame& here = frames_[frame];
     if (here.kind == Kind::world) return none;
-    if (here.body != none) return here.body;  // a link, or a model's first
+    if (here.body != none) return here.body;  // a link, or a model's first link
     if (here.kind == Kind::model) refuse(at, "a model without links, expected a link");
     frame = find(*here.element, here.scope, here.attached_to.empty() ? "__model__" : here.attached_to, "attached_to");
   }

@@ -8,7 +8,7 @@
 
 namespace ursula::exchange {
 
-/// Frames of an SDF file: what stands where relative to what, by the names of each model.
+/// Frames of an SDF file: their relative poses, with names per model.
 class SdfFrames {
  public:
   static constexpr std::size_t world = 0;
@@ -18,24 +18,24 @@ class SdfFrames {
   struct Frame {
     Kind kind = Kind::world;
     const Element* element = nullptr;
-    std::size_t scope = 0;  ///< the model frame whose names it sees
+    std::size_t scope = 0;  ///< the model frame with the visible names
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-    std::string relative_to;    ///< resolved in `scope`; empty: `parent`
-    std::size_t parent = none;  ///< where nothing is said
-    std::size_t body = none;    ///< of a link
-    std::string attached_to;    ///< of a frame: whose body it is of
+    std::string relative_to;    ///< resolved in `scope`; if empty, `parent` applies
+    std::size_t parent = none;  ///< default of `relative_to`
+    std::size_t body = none;    ///< body of a link
+    std::string attached_to;    ///< for a frame: the frame that has its body
   };
 
   SdfFrames();
-  /// Adds a frame under its name to a scope. Throws ImportError where the name is there already.
+  /// Adds a frame under its name to a scope. Throws ImportError if the name exists already.
   std::size_t add(const std::string& name, Frame frame);
-  /// "a::b", "__model__", "world". Throws ImportError where there is no such frame.
+  /// Finds "a::b", "__model__", "world". Throws ImportError if there is no such frame.
   std::size_t find(const Element& at, std::size_t scope, const std::string& name, const char* what) const;
   bool has(std::size_t scope, const std::string& name) const { return names_[scope].count(name) != 0; }
 
-  /// In the world. Throws ImportError for a circle.
+  /// Returns the pose in the world. Throws ImportError for a circle.
   Eigen::Isometry3d inWorld(std::size_t frame);
-  /// The body that a link, a frame, a joint's child or a model's first link is; `none` for the world.
+  /// Returns the body of a link, a frame, a joint's child or a model's first link; `none` for the world.
   std::size_t bodyOf(const Element& at, std::size_t frame) const;
 
   Frame& operator[](std::size_t i) { return frames_[i]; }
@@ -44,7 +44,7 @@ class SdfFrames {
   std::size_t parentOf(std::size_t i) const;
 
   std::vector<Frame> frames_;
-  std::vector<std::unordered_map<std::string, std::size_t>> names_;  ///< of each frame that is a scope
+  std::vector<std::unordered_map<std::string, std::size_t>> names_;  ///< one map per frame that is a scope
   std::vector<char> done_;
   std::vector<Eigen::Isometry3d> in_world_;
 };

@@ -10,7 +10,7 @@
 namespace ursula::exchange {
 namespace {
 
-/// Words apart by brackets, commas, dashes of lists and white space; quotes go.
+/// Splits at brackets, commas, list dashes and white space; drops quotes.
 void appendWords(const std::string& text, std::vector<std::string>& out) {
   std::string word;
   char quote = 0;

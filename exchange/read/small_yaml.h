@@ -6,15 +6,15 @@
 
 namespace ursula::exchange {
 
-/// The few shapes of YAML that a robot.yaml has: `key: word`, `key: [a, [b, c]]`, and lists of `- a` below a key.
+/// The few forms of YAML in a robot.yaml: `key: word`, `key: [a, [b, c]]`, and lists of `- a` below a key.
 struct SmallYaml {
-  std::map<std::string, std::vector<std::string>> values;  ///< nested lists as one
+  std::map<std::string, std::vector<std::string>> values;  ///< nested lists are flattened
 
   std::vector<std::string> list(const std::string& key) const;
   std::string word(const std::string& key) const;
 };
 
-/// Throws ImportError at what is of another shape.
+/// Throws ImportError for any other form.
 SmallYaml readSmallYaml(const std::string& text, const std::string& name);
 
 }  // namespace ursula::exchange

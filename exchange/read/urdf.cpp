@@ -1,4 +1,4 @@
-// URDF: a tree of links, with motors by transmissions or ros2_control and closures by extensions.
+// Reads URDF: a tree of links, motors by transmissions or ros2_control, and closures by extensions.
 
 #include <fmt/format.h>
 
@@ -76,7 +76,7 @@ class UrdfReader {
     ends_.emplace_back(linkOf(element, "parent"), linkOf(element, "child"));
   }
 
-  /// Every link but the root is the child of one joint.
+  /// Every link except the root is the child of one joint.
   void placeTree() {
     std::vector<std::size_t> joint_of(graph_.bodies.size(), elements_.size());
     std::vector<std::vector<std::size_t>> children(graph_.bodies.size());
@@ -184,7 +184,7 @@ class UrdfReader {
       };
       take("lower", joint.lower);
       take("upper", joint.upper);
-      // URDF's own default of both is zero: a joint that cannot move is one whose limits were not given.
+      // URDF's default for both is zero, so a joint that cannot move is one without given limits.
       if (!(joint.lower < joint.upper)) joint.lower = -(joint.upper = std::numeric_limits<double>::infinity());
     }
     const Element* dynamics = element.FirstChildElement("dynamics");
@@ -199,7 +199,7 @@ class UrdfReader {
     joint.friction = read("friction");
   }
 
-  /// Transmissions, and joints of ros2_control that take commands.
+  /// Reads transmissions, and ros2_control joints that take commands.
   void readMotors() {
     eachChild(root_, "transmission", [this](const Element& e) {
       const Element* actuator = e.FirstChildElement("actuator");
@@ -223,7 +223,7 @@ class UrdfReader {
     });
   }
 
-  /// What <gazebo reference="…"> changes of a link or a joint.
+  /// Reads the changes of <gazebo reference="…"> to a link or a joint.
   void readGazebo() {
     eachChild(root_, "gazebo", [this](const Element& e) {
       const std::string of = attribute(e, "reference"), on = childText(e, "gravity"),

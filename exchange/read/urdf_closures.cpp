@@ -42,7 +42,7 @@ class Closer {
     graph_.joints.push_back(ball);
   }
 
-  /// As SDF 1.7, which URDF is turned into today: pose in the child, axis in the joint's frame.
+  /// As in SDF 1.7, to which URDF is converted today: pose in the child, axis in the joint's frame.
   void gazebo(const Element& element) {
     const std::string type = requiredAttribute(element, "type");
     const bool hinge = type == "revolute" || type == "continuous", slide = type == "prismatic";
@@ -77,7 +77,7 @@ class Closer {
     graph_.joints.push_back(joint);
   }
 
-  /// `closed_loop: [[A, B], …]`, `type: [3d, …]`, `name_mot: TEXT`.
+  /// Reads `closed_loop: [[A, B], …]`, `type: [3d, …]`, `name_mot: TEXT`.
   void yaml(const std::filesystem::path& file) {
     const SmallYaml text = readSmallYaml(readText(file, {1 << 20, "robot.yaml"}), file.filename().string());
     std::vector<std::string> types = text.list("type");
@@ -92,7 +92,7 @@ class Closer {
     takeMotors(text.list("name_mot"));
   }
 
-  /// One word is part of the motors' names; of a list each is a name.
+  /// A single word is part of the motors' names; in a list each word is a full name.
   void takeMotors(const std::vector<std::string>& motors) {
     for (const std::string& motor : motors) {
       bool found = false;
@@ -146,7 +146,7 @@ class Closer {
   ModelGraph& graph_;
 };
 
-/// Closures in the words of a second tool: those that are there already are left out, others are refused.
+/// Reads closures that a second tool repeats: known ones are skipped, others are refused.
 template <class Read>
 void passOver(ModelGraph& graph, const UrdfLinks& links, std::size_t first, const Read& read) {
   ModelGraph other = graph;

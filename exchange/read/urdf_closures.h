@@ -8,12 +8,12 @@
 
 namespace ursula::exchange {
 
-/// Links of a URDF by name: indices of the graph's bodies.
+/// Links of a URDF by name, as indices of the graph's bodies.
 using UrdfLinks = std::unordered_map<std::string, std::size_t>;
 
-/// What closes the tree's loops, of the first of these that is there: Drake's ball constraints, Isaac Sim's loop
-/// joints, SDF joints in <gazebo>, robot.yaml beside the file, links named closing_NAME_1 and closing_NAME_2. Where
-/// there is none, ends that coincide are told as an assumption's words are: never taken.
+/// Reads the closures of the tree's loops from the first available source. These are Drake's ball constraints, Isaac
+/// Sim's loop joints, SDF joints in <gazebo>, robot.yaml next to the file, and links named closing_NAME_1 and
+/// closing_NAME_2. Without any, it reports coinciding ends as an assumption but does not join them.
 void readUrdfClosures(const Element& robot, const std::filesystem::path& file, const UrdfLinks& links,
                       ModelGraph& graph);
 

@@ -23,7 +23,7 @@ int lineAt(const std::string& text, std::size_t place) {
   return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(place), '\n'));
 }
 
-/// Counts tags and attributes before the parser does, which is slow and large for what no model has.
+/// Counts tags and attributes before parsing, because the parser is slow and large for huge counts.
 class Size {
  public:
   explicit Size(const std::string& text) : text_(text) {}
@@ -158,7 +158,7 @@ double halfLastDigit(std::string_view text) {
     const std::size_t dot = word.substr(0, e).find('.');
     const double decimals = dot == std::string_view::npos ? 0 : static_cast<double>(e - dot - 1);
     const double exponent = e < word.size() ? leadingNumber(word.substr(e + 1)).value : 0;
-    // A whole number, a zero above all, says nothing of its digits.
+    // A whole number, above all zero, says nothing about its precision.
     if (dot != std::string_view::npos || exponent != 0)
       largest = std::max(largest, 0.5 * std::pow(10.0, exponent - decimals));
     i = end;

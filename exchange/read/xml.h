@@ -18,50 +18,50 @@ namespace ursula::exchange {
 
 using Element = tinyxml2::XMLElement;
 
-/// How much of a file is read: a model without its meshes is a thousand times smaller.
+/// The largest file; a model without its meshes is a thousand times smaller.
 constexpr std::size_t most_model_bytes = std::size_t{8} << 20;
 /// No list of numbers in a model is longer.
 constexpr std::size_t most_numbers = 100;
-constexpr std::size_t most_unknown = 200;  ///< that are listed
+constexpr std::size_t most_unknown = 200;  ///< the longest list of unknown names
 constexpr std::size_t most_tags = 100'000, most_attributes = 100'000, most_attributes_of_one = 100;
 
-/// Parses what is within these bounds; entities of the text's own are refused, none is expanded. Throws ImportError.
+/// Parses a text within these bounds; it refuses own entities and expands none. Throws ImportError.
 void parseXml(const std::string& text, tinyxml2::XMLDocument& document);
 
 /// "<joint name='a'>", for messages.
 std::string named(const Element& element);
 [[noreturn]] void refuse(const Element& element, const std::string& what);
 
-/// An attribute without white space around it; "" where it is not there.
+/// Returns an attribute without surrounding white space; "" if it is missing.
 std::string attribute(const Element& element, const char* name);
 std::string requiredAttribute(const Element& element, const char* name);
-/// The text of a child or of the element itself, likewise.
+/// Returns the text of a child or of the element itself in the same way.
 std::string textOf(const Element& element);
 std::string childText(const Element& element, const char* name);
 
-/// Finite decimal numbers apart by white space; `what` names them in the refusal. Throws where there are not `count`,
-/// or for 0 whatever number of them.
+/// Reads finite decimal numbers separated by white space; `what` names them in the error. Throws unless there are
+/// `count` of them; 0 allows any number.
 std::vector<double> numbersOf(const Element& at, std::string_view text, std::size_t count, const std::string& what);
 double numberOf(const Element& at, std::string_view text, const std::string& what);
 Vector3d vectorOf(const Element& at, std::string_view text, const std::string& what);
-/// "true", "1", "false" or "0". Throws for other words.
+/// Reads "true", "1", "false" or "0". Throws for other words.
 bool truthOf(const Element& at, const std::string& text, const std::string& what);
-/// Half a unit of the last digit that is written, for each of the numbers the largest: "0.25 1" has 0.5.
+/// Half a unit of the last written digit, the largest over the numbers: "0.25 1" gives 0.5.
 double halfLastDigit(std::string_view text);
 
-/// Child elements of a name, or all: for (const Element* e = first; e; e = next).
+/// Visits child elements of a name, or all: for (const Element* e = first; e; e = next).
 template <class Visit>
 void eachChild(const Element& element, const char* name, const Visit& visit) {
   for (const Element* e = element.FirstChildElement(name); e != nullptr; e = e->NextSiblingElement(name)) visit(*e);
 }
 
-/// Lists child elements, or attributes, that are none of those known: a misspelt word is not to be lost in silence.
-/// Those of other name spaces ("gz:…") are their owners'.
+/// Lists unknown child elements or attributes, so that misspelt words are noticed. Names of other name spaces ("gz:…")
+/// are ignored.
 void listUnknown(const Element& element, const std::set<std::string>& children, std::vector<Assumption>& assumptions);
 void listUnknownAttributes(const Element& element, const std::set<std::string>& attributes,
                            std::vector<Assumption>& assumptions);
 
-/// A unit vector. Throws where it is zero.
+/// Returns a unit vector. Throws if it is zero.
 Vector3d directionOf(const Element& at, const Vector3d& vector, const std::string& what);
 /// Rz(yaw) Ry(pitch) Rx(roll), rad.
 Matrix3d rollPitchYaw(const Vector3d& angles);

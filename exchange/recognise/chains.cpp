@@ -16,7 +16,7 @@ struct Edge {
   std::size_t joint, to;
 };
 
-/// Groups and the joints that move between them.
+/// Groups and the moving joints between them.
 class Net {
  public:
   Net(const ModelGraph& graph, const Groups& groups) : graph_(graph), groups_(groups), edges_(groups.groups.size()) {
@@ -36,7 +36,7 @@ class Net {
   const std::vector<Edge>& at(std::size_t group) const { return edges_[group]; }
   std::string name(std::size_t group) const { return shown(groups_.groups[group].name); }
 
-  /// Branches that end in the air: frames go, a mass is refused.
+  /// Removes branches that end free: frames are dropped, a mass is refused.
   void trimFrames() {
     std::vector<std::size_t> ends;
     for (std::size_t i = 0; i < edges_.size(); ++i)
@@ -145,7 +145,7 @@ void append(const ModelGraph& graph, std::size_t index, bool outwards, Chain& ch
   }
 }
 
-/// From the base along one joint to the platform.
+/// Follows the chain from the base through one joint to the platform.
 Chain walk(const ModelGraph& graph, const Groups& groups, const Net& net, const Chains& ends, const Edge& first) {
   Chain chain;
   Edge edge = first;
@@ -174,8 +174,8 @@ Chain walk(const ModelGraph& graph, const Groups& groups, const Net& net, const 
   }
 }
 
-/// Six joints of nothing but frames, that nothing drives or rubs, hold nothing: a file's way of leaving the platform
-/// free.
+/// A chain of massless frames with six undriven, frictionless joints constrains nothing; some files attach a free
+/// platform this way.
 bool holdsNothing(const ModelGraph& graph, const Groups& groups, const Chain& chain) {
   std::size_t freedoms = 0, slides = 0;
   for (const auto& body : chain.bodies)
@@ -195,7 +195,7 @@ std::size_t firstJoint(const Chain& chain) {
   return first;
 }
 
-/// What is in the file and not in the machine is said with its mass.
+/// Reports bodies of the file that are not in the machine, with their mass.
 void sayWhatIsApart(const Groups& groups, const Chains& chains, std::vector<Assumption>& assumptions) {
   std::set<std::size_t> used = {chains.base, chains.platform};
   for (const Chain& chain : chains.legs)

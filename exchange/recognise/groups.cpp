@@ -52,8 +52,8 @@ Groups::Groups(const ModelGraph& graph) : group_of(graph.bodies.size()) {
   for (const GraphJoint& joint : graph.joints)
     if (joint.kind == JointKind::fixed) join(joint.parent, joint.child);
   std::vector<std::size_t> index(parents.size(), parents.size());
-  // A group is called by its heaviest body, but by one that three joints or more move where there is one: a payload may
-  // be heavier than the platform.
+  // A group takes the name of its heaviest body, preferring bodies with three or more moving joints. A payload may be
+  // heavier than the platform.
   std::vector<std::pair<bool, double>> foremost;
   std::vector<int> joints_of(graph.bodies.size(), 0);
   for (const GraphJoint& joint : graph.joints)

@@ -9,13 +9,13 @@
 
 namespace ursula::exchange {
 
-/// As model/manipulator.h has it, with what only files of others have.
+/// A link as in model/manipulator.h, with properties that only foreign files have.
 struct ImportedLink {
   double length = 0;                           ///< m; 0 for a carriage
   double mass = 0;                             ///< kg
   Vector3d center_of_mass = Vector3d::Zero();  ///< in the link's frame, from its first end, m
   Matrix3d inertia = Matrix3d::Zero();         ///< about the mass centre, in the link's frame, kg·m²
-  std::string bodies;                          ///< of the file
+  std::string bodies;                          ///< names in the file
 };
 
 struct ImportedLeg {
@@ -25,9 +25,9 @@ struct ImportedLeg {
   ImportedLink proximal, distal;
   bool knee_positive = true;
   bool free_spin = false;
-  std::array<double, 3> damping = {}, friction = {}, rotor_inertia = {};  ///< by the kind's coordinates
-  std::string joints;                                                     ///< of the file
-  bool stroke_from_file = false;                                          ///< lengths of UPS are of the file's limits
+  std::array<double, 3> damping = {}, friction = {}, rotor_inertia = {};  ///< in the order of the kind's coordinates
+  std::string joints;                                                     ///< names in the file
+  bool stroke_from_file = false;  ///< whether the lengths of UPS come from the file's limits
 };
 
 struct ImportedPose {
@@ -36,7 +36,7 @@ struct ImportedPose {
   Matrix3d orientation = Matrix3d::Identity();
 };
 
-/// A machine that the program can judge, in B and M, and what was taken for granted.
+/// A machine that the program can validate, in B and M, with the assumptions made.
 struct ImportedMachine {
   std::string name, base, platform, format;
   Vector3d gravity = Vector3d::Zero();
@@ -45,7 +45,7 @@ struct ImportedMachine {
   Matrix3d platform_inertia = Matrix3d::Zero();
   std::vector<ImportedLeg> legs;
   ImportedPose initial;              ///< of M in B
-  std::vector<ImportedPose> motion;  ///< the proposed one: waypoints; helix.h says how they were found
+  std::vector<ImportedPose> motion;  ///< proposed motion as waypoints; motion.h explains the search
   double motion_radius = 0;          ///< m
   std::vector<Assumption> assumptions;
 };

@@ -32,7 +32,7 @@ Group sumOf(const LegTask& task, const std::vector<std::size_t>& groups) {
   return out;
 }
 
-/// Points and axes in the world; F̂ alone looks at B's axes.
+/// Points and axes are in the world; only F̂ uses B's axes.
 class LegMaker {
  public:
   LegMaker(const LegTask& task, Group& platform, std::vector<Assumption>& assumptions)
@@ -76,7 +76,7 @@ class LegMaker {
 
   const GraphJoint& joint(std::size_t k) const { return task_.graph.joints[joints_[k].joint]; }
 
-  /// A direction that has to be another's, but for the sign.
+  /// Requires two directions to be parallel, up to the sign.
   void requireParallel(const Vector3d& a, const Vector3d& b, const std::string& what) const {
     requireSmallSine(a.cross(b).norm(), what + ", expected them parallel");
   }
@@ -92,7 +92,7 @@ class LegMaker {
       assumptions_.push_back({fmt::format("{}: taken as exact", what), shape_.place, angle, "rad"});
   }
 
-  /// Any direction across the line is as good where a ball stands for the universal joint.
+  /// If a ball replaces the universal joint, any direction across the line will do.
   Vector3d someAcross(const Vector3d& line) const {
     const Vector3d up = task_.base.linear().col(2), side = task_.base.linear().col(0);
     const Vector3d across = line.cross(up);
@@ -101,7 +101,7 @@ class LegMaker {
 
   void makeUps() {
     const bool ball = shape_.has_inner_ball;
-    // With a ball at the base joints_ are S, P, S: the slide stands second.
+    // With a ball at the base, joints_ are S, P, S: the slide is second.
     const Primitive& slide = joints_[ball ? 1 : 2];
     if (ball) {
       A_ = joints_[0].outer;
@@ -126,7 +126,7 @@ class LegMaker {
     distal_frame_ = placedAt(A_ + (d - s_) * e, frameOf(x, e));
   }
 
-  /// The rod's inner end stays in the cylinder: s < d < s + l is all that their lengths mean.
+  /// The rod's inner end stays in the cylinder: the lengths mean only s < d < s + l.
   void makeStroke(const Primitive& slide, const Vector3d& e, double d) {
     const GraphJoint& joint = task_.graph.joints[slide.joint];
     const double sign = slide.axis.dot(e) > 0 ? 1 : -1;
@@ -207,7 +207,7 @@ class LegMaker {
     distal_frame_ = placedAt(C_outer, frameOf(u_.cross(across).normalized(), along));
   }
 
-  /// Where crank or carriage and rod meet, as either has it.
+  /// The joint between crank or carriage and rod, from the side of either.
   void middleJoint(bool ball, std::size_t before, Vector3d& inner, Vector3d& outer) const {
     const Primitive& first = joints_[before + 1];
     if (ball) {
@@ -221,7 +221,7 @@ class LegMaker {
     outer = met + second.outer - second.inner;
   }
 
-  /// The universal joint's first axis is the crank's or the rail's, its second across the rod.
+  /// The universal joint's first axis is the crank's or the rail's; its second is perpendicular to the rod.
   void requireUniversalAlong(const Vector3d& rod) const {
     requireParallel(joints_[1].axis, u_,
                     fmt::format("the axes of {} and {}", shown(joint(0).name), shown(joint(1).name)));
@@ -268,7 +268,8 @@ class LegMaker {
     }
   }
 
-  /// Friction, motors and rotors by the kind's coordinates. What a ball stands for was found plain before.
+  /// Copies friction, motors and rotors to the kind's coordinates. Joints that a ball replaces have none, as checked
+  /// before.
   void takeDynamics() {
     const auto coordinates = rowOf(leg_.kind).coordinates;
     for (std::size_t k = 0; k < coordinates.size(); ++k) {

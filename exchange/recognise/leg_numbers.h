@@ -5,19 +5,19 @@
 
 namespace ursula::exchange {
 
-/// What a leg's numbers are made of.
+/// Input for the numbers of a leg.
 struct LegTask {
   const ModelGraph& graph;
   const Groups& groups;
   const LegShape& shape;
   const ImportChoices& choices;
-  double size;                 ///< of the machine, m
+  double size;                 ///< size of the machine, m
   Eigen::Isometry3d base;      ///< B in the world
   Eigen::Isometry3d platform;  ///< M in the world
 };
 
-/// The leg in the scenario's own words, measured on its own bodies at the initial pose. Throws ImportError where it
-/// does not have the geometry of its kind. Masses of its crosses that ride on the platform are added to `platform`.
+/// Returns the leg in the scenario's terms, measured on its own bodies at the initial pose. Throws ImportError if it
+/// lacks the geometry of its kind. Adds masses of crosses on the platform to `platform`.
 ImportedLeg legOf(const LegTask& task, Group& platform, std::vector<Assumption>& assumptions);
 
 /// F̂ = [x̂, û, ẑ] of docs/legs.md.

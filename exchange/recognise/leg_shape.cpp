@@ -16,7 +16,7 @@ namespace {
 using Kind = Primitive::Kind;
 using Body = std::optional<std::size_t>;
 
-/// A freedom, or a ball made of one joint or of three hinges, with what lies between it and the next.
+/// A single-axis joint, or a ball from one joint or three hinges, with the body behind it.
 struct Token {
   Primitive primitive;
   Body behind;
@@ -69,7 +69,7 @@ class Shaper {
     if (by > worth_saying * scale) shape_.assumptions.push_back({what, where, by, unit});
   }
 
-  /// Three hinges through one point, not in one plane: from the platform inwards.
+  /// Merges three hinges that meet in one point and are not coplanar, from the platform inwards.
   void gatherBalls() {
     for (std::size_t end = tokens_.size(); end >= 3;) {
       const std::optional<Vector3d> centre = commonPoint(end - 3);
@@ -126,7 +126,7 @@ class Shaper {
                               centre});
   }
 
-  /// Nothing drives it or rubs in it: the scenario has no words for that.
+  /// Requires that no motor drives the joints and no friction acts, because a scenario cannot express that.
   void requirePlain(const std::vector<std::size_t>& tokens, const char* what) const {
     for (const std::size_t k : tokens) {
       const GraphJoint& joint = graph_.joints[tokens_[k].primitive.joint];
@@ -145,7 +145,7 @@ class Shaper {
     }
   }
 
-  /// A hinge along the leg's own line beside a ball lets the rod spin and moves nothing else.
+  /// Drops a hinge along the leg's own line beside a ball; it only lets the rod spin.
   void dropIdleSpin() {
     const std::string found = word();
     std::size_t at = 0;
@@ -154,7 +154,7 @@ class Shaper {
     if (at == 0) return;
     const std::size_t last = tokens_.size() - 1;
     const Primitive& hinge = tokens_[at].primitive;
-    // The line ends at the ball; it begins at the joint before, or at the base.
+    // The line ends at the ball; it begins at the previous joint, or at the base.
     const Vector3d ball = tokens_[last].primitive.inner;
     const bool telescopic = found.find('P') != std::string::npos && found[0] != 'P';
     const Vector3d from =
@@ -168,7 +168,7 @@ class Shaper {
     use("This hinge is taken to lie on the leg's line; it is turned from it", name, angle, "rad", 1);
     if (tokens_[at].behind) shape_.spinning.push_back(*tokens_[at].behind);
     if (at + 2 < tokens_.size() && tokens_[at + 1].behind) shape_.spinning.push_back(*tokens_[at + 1].behind);
-    // What spins before a slide goes with the cylinder, what spins before the ball with the rod.
+    // A spinning body before a slide belongs to the cylinder, one before the ball to the rod.
     Token& before = tokens_[at - 1];
     (found[at + 1] == 'P' ? extra_proximal_ : extra_distal_) = tokens_[at].behind;
     if (!before.behind) {
@@ -222,7 +222,7 @@ class Shaper {
     return meetingOf(a.outer, a.axis, b.inner, b.axis);
   }
 
-  /// How far two hinges are from a universal joint.
+  /// How much two hinges differ from a universal joint.
   double badness(std::size_t k) const { return std::abs(std::cos(meeting(k).angle)) + meeting(k).apart / size_; }
 
   void requireUniversal(std::size_t k) {

@@ -16,7 +16,7 @@ constexpr double eps = 2.3e-16;
 
 std::string moments(const Vector3d& m) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", m.x(), m.y(), m.z()); }
 
-/// Off-diagonal entries and offsets that are nothing but the rounding of turning them are zero.
+/// Zeroes off-diagonal entries and offsets that are only the rounding of the rotation.
 void cleanRounding(ImportedLink& link, double mass, double size) {
   const double largest = link.inertia.cwiseAbs().maxCoeff() + mass * link.center_of_mass.squaredNorm();
   for (int i = 0; i < 3; ++i)

@@ -18,10 +18,10 @@ namespace ursula::exchange {
 namespace {
 
 constexpr int waypoint_count = 13, tried_per_motion = 97;
-constexpr double least_regular = 1e-5;  // below it rounding tells nothing of the way out
-constexpr double duration = 3.0;        // s, as the paper's helix is taken to have
+constexpr double least_regular = 1e-5;  // below it rounding hides the sign
+constexpr double duration = 3.0;        // s, as for the paper's helix
 
-/// A helix about an upright axis through p + r [−cos γ, −sin γ, 0]: half a turn, rising by a radius.
+/// A helix about a vertical axis through p + r [−cos γ, −sin γ, 0]: half a turn that rises by one radius.
 struct SmallHelix {
   double radius = 0, start = 0, rise = 1;
 
@@ -59,7 +59,7 @@ Leg asLeg(const ImportedLeg& leg) {
   return out;
 }
 
-/// Rates of the driven coordinates for velocities of P over `size` and turns of the platform.
+/// Rates of the driven coordinates for velocities of P, scaled by `size`, and rotations of the platform.
 Matrix6d driveMap(const ImportedMachine& machine, const ImportedPose& pose, double size) {
   Matrix6d out = Matrix6d::Zero();
   int row = 0;
@@ -67,7 +67,7 @@ Matrix6d driveMap(const ImportedMachine& machine, const ImportedPose& pose, doub
     const ImportedLeg& leg = machine.legs[i];
     const Vector3d arm = pose.orientation * leg.platform_point;
     const LegPose at = legPose(asLeg(leg), static_cast<int>(i), pose.position + arm);
-    Matrix3d J;  // velocity of the tip for unit rates of the leg's coordinates
+    Matrix3d J;  // velocity of the tip per unit rates of the leg's coordinates
     for (int k = 0; k < 3; ++k) {
       const JointAt& joint = at.joints[static_cast<std::size_t>(k)];
       J.col(k) = slides(joint.coordinate) ? joint.axis : joint.axis.cross(Vector3d(at.tip - joint.centre));
@@ -82,13 +82,13 @@ Matrix6d driveMap(const ImportedMachine& machine, const ImportedPose& pose, doub
   return out;
 }
 
-/// How far from singular: the least singular value over the largest, with the sign of the determinant.
+/// The distance from singularity: the smallest singular value over the largest, with the determinant's sign.
 double regularity(const ImportedMachine& machine, const ImportedPose& pose, double size) {
   try {
     const Matrix6d map = driveMap(machine, pose, size);
     const Eigen::JacobiSVD<Matrix6d> svd(map);
     return (map.determinant() < 0 ? -1 : 1) * svd.singularValues()(5) / svd.singularValues()(0);
-  } catch (const UnreachablePose&) {  // a leg is singular by itself
+  } catch (const UnreachablePose&) {  // one leg alone is singular
     return 0;
   }
 }
@@ -106,7 +106,7 @@ double reserveOf(const ImportedMachine& machine, const SmallHelix& helix, double
   return least;
 }
 
-/// Between two lengths a triangle's third side is at either end stretched or folded.
+/// The margin of a triangle's third side; at either end the triangle is stretched or folded.
 double within(double least, double value, double most) {
   return std::min(value - least, most - value) / (most - least);
 }
@@ -119,7 +119,7 @@ double reserveOf(const ImportedLeg& leg, const ImportedPose& pose) {
   const double along = AB.dot(u), across = (AB - along * u).norm();
   const Reach reach = typeOf(leg.kind).reach(asLeg(leg), {AB.norm(), std::abs(along), across});
   const double own = within(reach.least, reach.distance, reach.most);
-  if (row.joints_of_proximal == 2) return std::min(own, across / (AB.norm() + across));  // off the first axis
+  if (row.joints_of_proximal == 2) return std::min(own, across / (AB.norm() + across));  // distance from the first axis
   return row.hasCarriage() ? own : std::min(own, 1 - std::abs(along) / leg.distal.length);
 }
 

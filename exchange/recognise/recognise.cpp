@@ -30,7 +30,7 @@ std::size_t bodyNamed(const ModelGraph& graph, const std::string& name, const st
 void close(ModelGraph& graph, const std::vector<std::string>& pairs) {
   for (const std::string& pair : pairs) {
     std::size_t colon = pair.find(':');
-    // Names of nested models have two colons.
+    // Names of nested models contain two colons.
     while (colon != std::string::npos && pair.compare(colon, 2, "::") == 0) colon = pair.find(':', colon + 2);
     if (colon == std::string::npos || colon == 0 || colon + 1 == pair.size())
       throw ImportError(fmt::format("--close {}: expected two links, A:B", shown(pair)));
@@ -46,7 +46,7 @@ void close(ModelGraph& graph, const std::vector<std::string>& pairs) {
   }
 }
 
-/// `--actuated J,…` instead of what the file says.
+/// Applies `--actuated J,…` instead of the file's motors.
 void drive(ModelGraph& graph, const std::vector<std::string>& names) {
   if (names.empty()) return;
   std::vector<std::string> known;
@@ -65,7 +65,7 @@ void drive(ModelGraph& graph, const std::vector<std::string>& names) {
   }
 }
 
-/// Two balls between the same bodies are a hinge through both: so MJCF closes a loop at a hinge.
+/// Two balls between the same bodies form a hinge through both; MJCF closes a loop at a hinge this way.
 void takeHinges(ModelGraph& graph) {
   const Groups groups(graph);
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> balls;
@@ -86,7 +86,7 @@ void takeHinges(ModelGraph& graph) {
   }
 }
 
-/// The diagonal of the box around all joints of the legs.
+/// The diagonal of the bounding box of all the legs' joints.
 double sizeOf(const Chains& chains) {
   Vector3d least = Vector3d::Constant(1e300), most = Vector3d::Constant(-1e300);
   for (const Chain& leg : chains.legs)
@@ -144,7 +144,7 @@ class Recogniser {
     return graph_.bodies[platform.bodies.at(0)].frame;
   }
 
-  /// Six, in all; where the file names too few or none, those that could be are listed.
+  /// Requires six motors in all; if the file names too few or none, it lists candidates.
   void requireMotors(const Chains& chains, const std::vector<LegShape>& shapes) const {
     std::size_t driven = 0;
     std::set<std::size_t> used;
@@ -194,7 +194,7 @@ class Recogniser {
     machine_.initial = {0, pose.translation(), pose.linear()};
   }
 
-  /// Strokes of telescopic legs are kept; a scenario has no place for other limits.
+  /// Strokes of telescopic legs are kept; a scenario cannot express other limits.
   void sayLimits(const Chains& chains) {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < chains.legs.size(); ++i)

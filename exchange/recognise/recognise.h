@@ -5,8 +5,8 @@
 
 namespace ursula::exchange {
 
-/// Finds base, platform and legs in a model and says what was taken for granted. Throws ImportError with the names of
-/// the bodies and joints that no machine of the program's has.
+/// Finds base, platform and legs in a model and reports the assumptions. Throws ImportError with the names of bodies
+/// and joints that no supported machine has.
 ImportedMachine recognise(ModelGraph graph, const ImportChoices& choices);
 
 }  // namespace ursula::exchange

@@ -9,7 +9,7 @@ namespace ursula::exchange {
 
 enum class ModelFormat { sdf, mjcf, urdf };
 
-/// A model file, and what of the scenario it does not hold.
+/// A model file, and notes on the parts of the scenario that it lacks.
 struct WrittenModel {
   std::string text;
   std::vector<Assumption> notes;
@@ -18,7 +18,7 @@ struct WrittenModel {
 /// Writes the scenario's machine at the first instant of its motion. Throws UnreachablePose.
 WrittenModel exportScenario(const Scenario& scenario, ModelFormat format);
 
-// The formats, one by one; `notes` gets what only this format cannot hold.
+// The individual formats; each adds to `notes` what it cannot hold.
 
 std::string sdfText(const MachineModel& machine, std::vector<Assumption>& notes);
 std::string mjcfText(const MachineModel& machine, std::vector<Assumption>& notes);

@@ -10,7 +10,7 @@
 namespace ursula::exchange {
 namespace {
 
-/// Letters and digits of any language, '-', '_' and '.': what every format takes for a name.
+/// Keeps letters and digits of any language, '-', '_' and '.', which every format accepts in a name.
 std::string safeName(const std::string& name) {
   std::string out = name;
   for (char& c : out) {
@@ -153,7 +153,7 @@ class Builder {
   const Manipulator& machine_;
   Motion<double> pose_;
   MachineModel out_;
-  std::vector<std::pair<std::size_t, Vector3d>> tips_;  ///< the last body of each leg, and where it ends
+  std::vector<std::pair<std::size_t, Vector3d>> tips_;  ///< the last body of each leg, and the position of its end
 };
 
 }  // namespace

@@ -4,9 +4,9 @@
 
 namespace ursula::exchange {
 
-/// The scenario's machine at the first instant of its motion: a base, for each leg its links and, where two turning
-/// coordinates follow each other, a cross of no mass between them, and the platform. The first leg carries the
-/// platform by a ball; the others close their loops by one. Throws UnreachablePose.
+/// Returns the scenario's machine at the first instant of its motion: a base, the legs' links and the platform. A
+/// massless cross joins two consecutive turning coordinates. The first leg carries the platform by a ball; balls close
+/// the loops of the others. Throws UnreachablePose.
 MachineModel modelOf(const Scenario& scenario);
 
 }  // namespace ursula::exchange

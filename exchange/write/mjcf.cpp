@@ -1,5 +1,5 @@
-// MJCF, as MuJoCo 2.2 and later read it. The platform floats; each leg is a tree of its own and is connected to it.
-// Coordinates have the scenario's values: `ref` says where they are at the file's pose.
+// Writes MJCF for MuJoCo 2.2 and later. The platform floats; each leg is its own tree and is connected to it.
+// Coordinates have the scenario's values: `ref` gives them at the file's pose.
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -11,10 +11,10 @@
 namespace ursula::exchange {
 namespace {
 
-/// A gap pulls itself shut within this time, s, and the step is a quarter of it; MuJoCo asks for half or less.
+/// Time constant, s, with which a gap closes. The step is a quarter of it; MuJoCo asks for half or less.
 constexpr double closing_time = 0.002, step = closing_time / 4;
-/// The share of the closing acceleration that MuJoCo reaches, the most that it takes. What a closure gives way by is
-/// in proportion to the rest.
+/// The share of the closing acceleration that MuJoCo applies, at its maximum. A closure yields in proportion to the
+/// remainder.
 constexpr double impedance = 0.9999;
 
 class MjcfWriter {
@@ -92,8 +92,8 @@ class MjcfWriter {
     if (joint.rotor_inertia != 0) element.with("armature", joint.rotor_inertia);
   }
 
-  /// MuJoCo keeps principal moments. It stops at a largest that is above the sum of the others by one rounding, as that
-  /// of a plate may be.
+  /// MuJoCo stores principal moments. It refuses a largest moment above the sum of the others, which rounding may cause
+  /// for a plate.
   void addInertial(const Xml& xml, std::size_t body) const {
     const OwnNumbers& own = machine_.own[body];
     xml.with("pos", own.center_of_mass).with("mass", graph_.bodies[body].mass);
@@ -106,7 +106,7 @@ class MjcfWriter {
       xml.with("quat", quaternionText(axes));
     }
     constexpr double least_moment =
-        1e-14;  // MuJoCo takes no moving body below 1e-15; a thin rod has none about its line
+        1e-14;  // MuJoCo refuses moving bodies below 1e-15; a thin rod has none about its line
     moments = moments.cwiseMax(least_moment);
     Eigen::Index last = 0;
     const double largest = moments.maxCoeff(&last), others = moments.sum() - largest;
@@ -114,7 +114,7 @@ class MjcfWriter {
     xml.with("diaginertia", moments);
   }
 
-  /// The anchor is in the platform; MuJoCo takes the leg's point where that is at the file's pose.
+  /// The anchor is in the platform; MuJoCo takes the leg's point from the file's pose.
   void addClosures(const Xml& xml) const {
     for (const GraphJoint& joint : graph_.joints) {
       if (joint.kind != JointKind::ball) continue;

@@ -1,5 +1,5 @@
-// SDF 1.7, which Gazebo 11 reads as well as its successors. The platform is the child of a ball at each leg: a joint
-// whose child has a parent already is how Gazebo closes loops. All coordinates are zero at the file's pose.
+// Writes SDF 1.7, which Gazebo 11 and its successors read. The platform is the child of a ball at each leg. Gazebo
+// closes loops by such joints whose child already has a parent. All coordinates are zero at the file's pose.
 
 #include <fmt/format.h>
 
@@ -42,7 +42,7 @@ class SdfWriter {
   }
 
  private:
-  /// The motors' joints by their names in this file. An axis of a joint with two is named as the import names it.
+  /// Names of the motors' joints in this file. An axis of a two-axis joint has the name that the import gives it.
   std::string motorNames() {
     constexpr const char* axes[] = {"/axis", "/axis2"};
     std::string out;
@@ -53,7 +53,7 @@ class SdfWriter {
     return out;
   }
 
-  /// "leg_1_phi_psi" of leg_1_phi and leg_1_psi.
+  /// "leg_1_phi_psi" for leg_1_phi and leg_1_psi.
   std::string nameOf(const Limb& limb) const {
     std::string out = graph_.joints[limb.joints.front()].name;
     for (std::size_t k = 1; k < limb.joints.size(); ++k) {
@@ -103,7 +103,7 @@ class SdfWriter {
       addAxis(element.add(k == 0 ? "axis" : "axis2"), graph_.joints[limb.joints[k]]);
   }
 
-  /// Three hinges through a point are a ball, which has no axes to say more of.
+  /// Three hinges through one point become a ball, which has no axes for friction or rotors.
   void noteBall(const GraphJoint& joint) {
     if (joint.damping != 0 || joint.friction != 0)
       notes_.push_back({"Friction on one axis of a ball is left out", joint.name,
@@ -121,7 +121,7 @@ class SdfWriter {
     addJoint(model, name, "ball", parent, joint);
   }
 
-  /// Its frame has the model's axes: what is said in either is the same.
+  /// The joint's frame has the model's axes, so both give the same numbers.
   Xml addJoint(const Xml& model, const std::string& name, const char* type, std::size_t parent,
                const GraphJoint& joint) const {
     const Xml element = model.add("joint").with("name", name).with("type", type);

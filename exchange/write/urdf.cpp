@@ -1,6 +1,6 @@
-// URDF. The first leg carries the platform by three hinges through one point; each further leg is closed by a
-// <drake:ball_constraint>, and frames of no mass say where for readers that do not know it. A link's frame is that of
-// the joint that carries it, which is zero at the file's pose: a body whose own frame lies elsewhere is fixed to one.
+// Writes URDF. The first leg carries the platform by three hinges through one point. A <drake:ball_constraint> closes
+// each further leg; massless frames mark the place for readers without it. A link's frame is that of its joint, which
+// is zero at the file's pose. A body with another frame is fixed to such a link.
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 namespace ursula::exchange {
 namespace {
 
-/// For what URDF wants a number and the machine has no bound.
+/// A value for numbers that URDF requires and the machine does not bound.
 constexpr double no_limit = 1e9;
 
 class UrdfWriter {

@@ -7,7 +7,7 @@
 namespace ursula::exchange {
 namespace {
 
-/// What the digits of `size` are too few to know is zero.
+/// Sets values below the precision of `size` to zero.
 Vector3d withoutRounding(const Vector3d& values, double size) {
   const double known = 4 * Eigen::NumTraits<double>::epsilon() * size;
   return (values.array().abs() > known).select(values, 0.0);
@@ -28,7 +28,7 @@ std::string quaternionText(const Matrix3d& rotation) {
   return numberText(q.w()) + " " + numberText(withoutRounding(q.vec(), 1));
 }
 
-/// The yaw is taken off before the roll is read: where it is made of rounding, the roll makes up for it.
+/// Removes the yaw before it reads the roll. If rounding determines the yaw, the roll compensates for it.
 Vector3d rollPitchYaw(const Matrix3d& rotation) {
   const double yaw = std::atan2(rotation(1, 0), rotation(0, 0)), c = std::cos(yaw), s = std::sin(yaw);
   const double pitch = std::atan2(-rotation(2, 0), c * rotation(0, 0) + s * rotation(1, 0));

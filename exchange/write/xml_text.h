@@ -9,26 +9,27 @@
 
 namespace ursula::exchange {
 
-/// The shortest digits that read back as the same number; a zero has no sign.
+/// The shortest digits that parse to the same number; a zero has no sign.
 std::string numberText(double value);
-/// With spaces between. An entry that is within rounding of zero beside the others is zero.
+/// Numbers separated by spaces. An entry within rounding of zero, relative to the others, becomes zero.
 std::string numberText(const Vector3d& values);
-/// [w, x, y, z], w not negative.
+/// [w, x, y, z], with w not negative.
 std::string quaternionText(const Matrix3d& rotation);
-/// Roll, pitch, yaw, rad: turns about the fixed x, y and z, in this order. Exact to rounding at a pitch of ±π/2, too.
+/// Roll, pitch, yaw, rad: rotations about the fixed x, y and z, in this order. It is exact to rounding even at a pitch
+/// of ±π/2.
 Vector3d rollPitchYaw(const Matrix3d& rotation);
 /// Position, then roll, pitch and yaw.
 std::string poseText(const Eigen::Isometry3d& pose);
-/// A frame in the middle between two points, its z from the first to the second.
+/// A frame midway between two points, with z from the first to the second.
 Eigen::Isometry3d between(const Vector3d& from, const Vector3d& to);
 
-/// An element that is being filled. tinyxml2 escapes what is text.
+/// A handle for filling an element. tinyxml2 escapes text.
 class Xml {
  public:
   explicit Xml(tinyxml2::XMLElement* element) : element_(element) {}
 
   Xml add(const char* name) const { return Xml(element_->InsertNewChildElement(name)); }
-  /// A child with nothing but text.
+  /// Adds a child that contains only text.
   Xml add(const char* name, const std::string& text) const {
     const Xml child = add(name);
     child.element_->SetText(text.c_str());
