@@ -38,7 +38,7 @@ std::string oddOne(const Evidence& evidence, const ValidationResult& result) {
                  : oddOneOut(evidence.engines);
 }
 
-/// Lets go of what is judged: the time series needs the room.
+/// Releases the judged data, because the time series needs the memory.
 void addFacts(const std::optional<ErrorBudget>& budget, Evidence& evidence, ValidationResult& result) {
   if (evidence.answered()) result.findings.emplace_back("odd one out of the formulations", oddOne(evidence, result));
   evidence.engines = std::vector<EngineSample>();
@@ -52,12 +52,12 @@ void addFacts(const std::optional<ErrorBudget>& budget, Evidence& evidence, Vali
   if (!evidence.ladder.rungs.empty()) result.curves.emplace_back("Work and precision", workPrecision(evidence.ladder));
 }
 
-/// `done` of all work.
+/// `done` is the completed part of all work.
 void tell(const ValidationOptions& options, const WorkParts& work, double done, const char* now) {
   if (options.progress) options.progress(done / work.total(), now);
 }
 
-/// Judges all answers that somebody else's solver gave by now, in the place of those that torque.between asked for.
+/// Judges all answers that an external solver ever gave, instead of those that torque.between requested.
 void judgeEveryAnswer(const Evidence& evidence, std::vector<Check>& checks) {
   const auto between =
       std::find_if(checks.begin(), checks.end(), [](const Check& check) { return check.name == "torque.between"; });
@@ -68,7 +68,7 @@ void judgeEveryAnswer(const Evidence& evidence, std::vector<Check>& checks) {
   *between = all.front();
 }
 
-/// What a solver answered at the samples, as a file that gives every digit; empty where an answer is no number.
+/// A solver's answers at the samples, as a file with all digits; empty if an answer is not finite.
 GivenTorques answersOf(const Evidence& evidence, const std::string& name) {
   GivenTorques out;
   out.name = name;
@@ -81,7 +81,7 @@ GivenTorques answersOf(const Evidence& evidence, const std::string& name) {
   return out;
 }
 
-/// A subject that is asked in the natural units, asked in SI, of positions from their origin.
+/// Wraps a subject that works in natural units for questions in SI, with positions relative to their origin.
 Subject inSi(const Subject& subject, const FrameChange& natural) {
   FrameChange there = natural;
   there.origin.setZero();
@@ -95,12 +95,12 @@ Subject inSi(const Subject& subject, const FrameChange& natural) {
   return out;
 }
 
-/// A solver's answers are explained as a file's are, and it is asked besides.
+/// Explains a solver's answers like a file's, and asks separate questions in addition.
 void diagnoseSolver(const Scenario& scenario, const Evidence& evidence, const Subject& subject,
                     ValidationResult& result) {
   const GivenTorques answers = answersOf(evidence, subject.name);
   if (answers.t.empty()) return;
-  const Scenario here = relocated(scenario, evidence.natural.origin);  // in SI: its words are
+  const Scenario here = relocated(scenario, evidence.natural.origin);  // in SI, because the texts are
   std::vector<Motion<double>> motions;
   for (const double t : answers.t) motions.push_back(here.trajectory->at(t));
   const TorqueFile file =
@@ -134,7 +134,7 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   if (options.budget && evidence.amplification != nullptr)
     budget =
         attributeInTime(*evidence.scenario, evidence.samples, evidence.windows, evidence.amplification, evidence.plan);
-  reference.stop();  // what follows is short, and makes a result of what was reached
+  reference.stop();  // the rest is short and turns the finished part into a result
   judgeEveryAnswer(evidence, result.checks);
   addFacts(budget, evidence, result);
   seriesInSi(evidence.natural, result);
@@ -156,7 +156,7 @@ std::shared_ptr<const Reference> referenceOf(const Scenario& scenario, const Val
   return options.reference ? options.reference : makeReference(scenario, options.threads, deadline);
 }
 
-/// Where time was up before any experiment: there is a report all the same.
+/// Returns a report even if time ran out before any experiment.
 ValidationResult nothingReached(const Scenario& scenario, const Subject& subject, const OutOfTime& over) {
   ValidationResult result;
   result.scenario = scenario.name;

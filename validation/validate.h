@@ -13,41 +13,41 @@ namespace ursula {
 class Reference;
 struct InjectedFault;
 
-/// What may be left out where many scenarios are judged in a row; `ursula validate` leaves out nothing.
+/// Parts to leave out for series of scenarios; `ursula validate` leaves out nothing.
 struct ValidationOptions {
   bool ladder = true;     ///< integration.*
   bool reactions = true;  ///< reactions.pointwise
-  bool budget = true;     ///< the error's sources, which decide nothing
-  /// What depends on the scenario alone, made before, for many subjects on one scenario; null: made afresh.
+  bool budget = true;     ///< the sources of the error; they decide nothing
+  /// The part that depends on the scenario alone, for many subjects on one scenario; null computes it here.
   std::shared_ptr<const Reference> reference = nullptr;
-  std::shared_ptr<const InjectedFault> fault = nullptr;  ///< for controls that must fail; null: nothing is falsified
-  /// Told what begins, and about which share of the time is over by then; may be empty.
+  std::shared_ptr<const InjectedFault> fault = nullptr;  ///< for negative controls; null falsifies nothing
+  /// Receives the next step and the approximate share of time passed; may be empty.
   std::function<void(double share, const char* now)> progress = nullptr;
-  int threads = 1;  ///< no number depends on it
-  /// From the call on, s; what is not reached by then is inconclusive (Reason::unfinished), and no number depends on it
-  /// otherwise. 0: none. A `reference` made before has its own.
+  int threads = 1;  ///< results do not depend on it
+  /// Time limit from the call on, s; 0 means none. Unfinished parts are inconclusive (Reason::unfinished); no number
+  /// depends on it otherwise. A given `reference` has its own limit.
   double time_limit = 0;
-  /// Asked again and again, by any of the threads: once it says so, and from then on, it is as if the limit was
-  /// reached.
+  /// Polled by any of the threads. Once it returns true, the limit counts as reached.
   std::function<bool()> asked_to_end = nullptr;
 };
 
-/// The whole validation of one scenario: pointwise, replay, closure, energy, and the verdict. Deterministic: the same
-/// build on the same machine gives the same numbers to the last bit. Throws PoseError or std::domain_error where the
-/// commanded motion itself is out of reach or singular: then there is nothing to judge.
+/// Validates one scenario: pointwise, replay, closure, energy, and the verdict. Deterministic: the same build on the
+/// same machine gives the same bits. Throws PoseError or std::domain_error if the commanded motion is out of reach or
+/// singular, so that nothing can be judged.
 ValidationResult validate(const Scenario& scenario, const Subject& subject, const ValidationOptions& options = {});
 
-/// With the NOC of this program as the subject.
+/// The same with this program's NOC as the subject.
 ValidationResult validate(const Scenario& scenario, const ValidationOptions& options = {});
 
-/// With a subject that is made for the scenario where its numbers are good: positions from an origin near the machine.
+/// The same with a subject created for the well-scaled scenario, whose positions are relative to an origin near the
+/// machine.
 ValidationResult validateMade(const Scenario& scenario, const SubjectOf& make, const ValidationOptions& options = {});
 
-/// Once the deadline is over, it throws OutOfTime, and so does asking for what is not yet made.
+/// Throws OutOfTime after the deadline, as does any later request for a missing part.
 std::shared_ptr<const Reference> makeReference(const Scenario& scenario, int threads = 1,
                                                const Deadline& deadline = {});
 
-/// About how long validate() takes on this machine, s: from what a few evaluations take, and how many there will be.
+/// Estimates the time of validate() on this machine, s, from a few evaluations and their expected number.
 double estimatedSeconds(const Scenario& scenario);
 
 }  // namespace ursula

@@ -37,7 +37,7 @@ void addFileFindings(const TorqueFile& file, ValidationResult& result) {
   }
 }
 
-/// In other units; all are powers of two, so that no digit is lost.
+/// Converts units by powers of two, so no digit is lost.
 TorqueFile inUnits(TorqueFile file, const FrameChange& there) {
   const Units& units = there.units;
   Vector6d effort;
@@ -107,7 +107,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   result.checks = judgeAll(evidence);
   const ErrorBudget budget =
       attributeInTime(*evidence.scenario, evidence.samples, evidence.windows, evidence.amplification, evidence.plan);
-  deadline.lift();  // what follows is short, and makes a result of what was reached
+  deadline.lift();  // the rest is short and turns the finished part into a result
   addFacts(evidence, budget, result);
   seriesInSi(natural, result);
   result.asked = std::make_shared<const Scenario>(scenario);
@@ -117,7 +117,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   judgeByUser(scenario.acceptance, result);
   addFileFindings(file, result);
   if (result.verdict == Verdict::fail) {
-    const Scenario relocated = ursula::relocated(scenario, natural.origin);  // in SI: its words are
+    const Scenario relocated = ursula::relocated(scenario, natural.origin);  // in SI, because the texts are
     addDiagnosis(diagnose(relocated, runExternal(relocated, file)), result);
   }
   addProvenance(scenario, torques.file.filename().string(), result);

@@ -9,14 +9,13 @@
 
 namespace ursula {
 
-/// Judges somebody else's torques: pointwise at their own instants, and by replay on a spline through them. What is
-/// wrong with them goes into the `why` of the checks that fail and into the findings. Throws CsvError for instants
-/// outside of the motion, and as validate() does.
-/// `time_limit`, `asked_to_end`: as ValidationOptions has them.
+/// Validates external torques: pointwise at their own instants, and by replay on a spline through them. The failed
+/// checks' `why` and the findings describe their errors. Throws CsvError for instants outside the motion, and like
+/// validate(). `time_limit` and `asked_to_end` are those of ValidationOptions.
 ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& torques, double time_limit = 0,
                                   std::function<bool()> asked_to_end = nullptr);
 
-/// The same from a file; throws CsvError as readTorqueFile does.
+/// The same from a file; throws CsvError like readTorqueFile.
 ValidationResult validateExternal(const Scenario& scenario, const std::filesystem::path& torques_csv);
 
 }  // namespace ursula

@@ -19,7 +19,7 @@ bool anyBeyond(const std::vector<Check>& checks) {
   return std::any_of(checks.begin(), checks.end(), [](const Check& check) { return check.verdict != Verdict::pass; });
 }
 
-/// All that is compared at an instant, against measured limits, where a derived one does not hold.
+/// Compares everything at an instant with measured limits, if a derived limit is exceeded.
 std::vector<Check> judgeSamples(Evidence& evidence) {
   const int count = evidence.given->simulation.samples;
   const std::vector<double> instants = equallySpaced(evidence.scenario->trajectory->duration(), count);

@@ -8,12 +8,12 @@
 
 namespace ursula {
 
-/// Judges by the scenario's own limits where it has any, each held against the largest value of its check, and sets the
-/// verdict. Of what could not be judged a limit of the user's lifts only what had no useful limit; naming a check that
-/// was not made is a failure.
+/// Applies the scenario's own limits, each to the largest value of its check, and sets the verdict. A user's limit
+/// decides an unjudged check only if that check lacked a useful limit. A limit for a check that was not made is a
+/// failure.
 void judgeByUser(const std::vector<AcceptanceLimit>& acceptance, ValidationResult& result);
 
-/// One check by a limit of the user's; `whose` is its basis, in words. Of an unfinished one only the words change.
+/// Applies a user's limit to one check; `whose` names its basis. For an unfinished check only the words change.
 void judgeByUser(double limit, const std::string& whose, Check& check);
 
 }  // namespace ursula

@@ -17,17 +17,17 @@ namespace ursula {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr int highest = 5;  ///< derivative: motions are quintics, or functions of one
+constexpr int highest = 5;  ///< highest derivative: motions are quintics, or functions of one
 
 using Real = Vector3<Real50>;
 using RealMatrix = Matrix3<Real50>;
 
-/// How a trajectory's poses are differentiated. In 50 digits where it has them; else in doubles, with a step at which
-/// (1/512)⁶ of a seventh derivative is still below eps, and what remains of it measured.
+/// How a trajectory's poses are differentiated: in 50 digits if it has them, else in doubles. The step in doubles makes
+/// (1/512)⁶ of a seventh derivative smaller than eps; the remaining error is measured.
 struct Differences {
   bool exact;
-  Real50 share;   ///< of a piece: the step, a power of two where instants are doubles
-  double digits;  ///< rounding of a pose
+  Real50 share;   ///< step as a share of a piece; a power of two for instants in doubles
+  double digits;  ///< rounding error of a pose
   explicit Differences(const Trajectory& trajectory)
       : exact(trajectory.exact() != nullptr),
         share(exact ? Real50("1e-7") : Real50(1) / 512),
@@ -43,7 +43,7 @@ Motion<Real50> widest(const Trajectory& trajectory, const Real50& t) {
   return out;
 }
 
-/// A trajectory's pose around one instant: seven of them, `step` apart.
+/// Seven poses of a trajectory around one instant, `step` apart.
 struct Stencil {
   Real50 step;
   std::array<Real, 7> p;
@@ -57,7 +57,7 @@ struct Stencil {
     }
   }
 
-  /// By central differences, of order h⁶ for the first two derivatives and h⁴ or h² for the others.
+  /// Central differences, of order h⁶ for the first two derivatives and h⁴ or h² for the others.
   template <class V>
   V derivative(const std::array<V, 7>& values, int order) const {
     constexpr int weights[highest][7] = {{-1, 9, -45, 0, 45, -9, 1},
@@ -76,12 +76,12 @@ struct Stencil {
 };
 
 double sizeOf(const Real& v) { return static_cast<double>(v.norm()); }
-/// That of the turn: [ω]Q has the norm √2 |ω|.
+/// The size of the rotation: [ω]Q has the norm √2 |ω|.
 double sizeOf(const RealMatrix& m) { return static_cast<double>(m.norm()) / std::sqrt(2.0); }
 
 Real axis(const RealMatrix& m) { return Real(m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)) / Real50(2); }
 
-/// Sizes of the derivatives where a piece of the motion starts: what a double evaluation adds up.
+/// Sizes of the derivatives at the start of a piece: the terms that a double evaluation adds.
 struct PieceSizes {
   std::array<double, highest + 1> p{}, Q{};
 
@@ -104,7 +104,7 @@ double terms(const std::array<double, highest + 1>& sizes, std::size_t m, double
   return sum;
 }
 
-/// What the 50-digit pose says: Q̇ Qᵀ = [ω], and Q̈ Qᵀ = [ω̇] + [ω]², of which the second is symmetric.
+/// Derivatives of the 50-digit pose: Q̇ Qᵀ = [ω], and Q̈ Qᵀ = [ω̇] + [ω]², where the second term is symmetric.
 struct ExactPieces {
   Real p, v, a, omega, alpha;
   RealMatrix Q;
@@ -118,18 +118,18 @@ struct ExactPieces {
         Q(stencil.Q[3]) {}
 };
 
-/// Rounding of a double evaluation. A motion is a quintic of s = (t − start)/h by Horner's rule, or what a few more
-/// operations make of one (sine and cosine of a helix's angle, a quaternion over its norm). Roundings of eps/2 that one
-/// term of the quintic meets: 1 of its coefficient, 2 of factors k(k − 1), 10 of Horner's rule, 15 of s, which is off
-/// by 3 and enters five times, 3 of the division by h²; those after it number at most 19 in either kernel (ω of a
-/// quaternion: 7 for the product, 8 for |r|², 2 more). 50 in all: 25 eps. With Pₘ, Aₘ the sums `terms` for p and Q
-/// and A = 1 + A₀ + the hidden angle, to which a helix's angle is rounded,
+/// The rounding of a double evaluation. A motion is a quintic of s = (t − start)/h by Horner's rule, or a few more
+/// operations on one (sine and cosine of a helix's angle, a quaternion over its norm). One term of the quintic suffers
+/// these roundings of eps/2: 1 of its coefficient, 2 of factors k(k − 1), 10 of Horner's rule, 15 of s, which is off by
+/// 3 and enters five times, 3 of the division by h². At most 19 follow in either kernel (ω of a quaternion: 7 for the
+/// product, 8 for |r|², 2 more). In all 50, thus 25 eps. Let Pₘ, Aₘ be the sums `terms` for p and Q, and A = 1 + A₀ +
+/// the hidden angle, to which a helix's angle is rounded:
 ///   p: |p| + P₀ + hidden length    Q: A
 ///   v: P₁ + |v| A                  ω: A₁ + |ω| A
 ///   a: P₂ + 2 |v| A₁ + 2 |a| A     α: A₂ + 2 |ω| A₁ + |α| A
-/// since an angle off by δ turns v by it, and n β̇², m β̈ and (r·ṙ) ω are products of two rounded factors. Differences in
-/// 50 digits add the rounding of seven poses over step^m, with weights that sum up to less than 10; their truncation,
-/// (1e-7)⁶ of a seventh derivative, is far below eps. For differences of doubles see widenedBy.
+/// The reason: an angle off by δ turns v by δ, and n β̇², m β̈ and (r·ṙ) ω are products of two rounded factors.
+/// Differences in 50 digits add the rounding of seven poses over step^m, with weights that sum to less than 10. Their
+/// truncation, (1e-7)⁶ of a seventh derivative, is far below eps. For differences of doubles see widenedBy.
 struct Limits {
   double p, Q, v, omega, a, alpha;
 };
@@ -152,8 +152,8 @@ Limits limitsAt(const ExactPieces& exact, const PieceSizes& sizes, double tau, c
           unit * (A_2 + 2 * omega * A_1 + alpha * A) + second * A};
 }
 
-/// Differences of doubles truncate as well: by what halving the step changes, twice. And their instants are rounded,
-/// by t eps, which moves the poses by |v| t eps.
+/// Differences of doubles also have a truncation error: twice the change from halving the step. Their instants are
+/// rounded by t eps, which moves the poses by |v| t eps.
 Limits widenedBy(const ExactPieces& exact, const ExactPieces& halved, Limits limits, double t, double step) {
   const double moved = 10 * eps * t / step;
   limits.v += 2 * sizeOf(Real(exact.v - halved.v)) + moved * sizeOf(exact.v);
@@ -163,7 +163,7 @@ Limits widenedBy(const ExactPieces& exact, const ExactPieces& halved, Limits lim
   return limits;
 }
 
-/// Those nearest to their limits; `where` is 0 for the point, 1 for the orientation, 2 for orthonormality.
+/// The deviations nearest to their limits; `where` is 0 for the point, 1 for the orientation, 2 for orthonormality.
 struct Deviations {
   NearestToLimit pose, twist, twist_rate;
   int instants = 0;
@@ -189,8 +189,8 @@ void compare(const Motion<double>& motion, const ExactPieces& exact, const Limit
   ++out.instants;
 }
 
-/// Some 60 stencils, whatever the number of pieces: 50 digits are dear. Within pieces, for across a knot a higher
-/// derivative jumps.
+/// Uses some 60 stencils for any number of pieces, because 50 digits are expensive. Each lies within a piece, because a
+/// higher derivative jumps at knots.
 Deviations deviationsOf(const Trajectory& trajectory, double length, const HiddenTerms& hidden) {
   std::vector<double> ends = trajectory.knots();
   if (ends.size() < 2) ends = {0, trajectory.duration()};
@@ -205,7 +205,7 @@ Deviations deviationsOf(const Trajectory& trajectory, double length, const Hidde
     const Real50 step = Real50(h) * differences.share;
     const PieceSizes sizes(Stencil(trajectory, start + 3 * step, step));
     for (std::size_t k = 0; k + 1 < stencils / looked_at; ++k) {
-      // Multiples of the golden ratio: spread over the piece, and never the same in all of them.
+      // Multiples of the golden ratio spread over the pieces and differ in each.
       const double spread = std::fmod(0.381966 + 0.618034 * out.instants, 1.0);
       const double share = margin + (1 - 2 * margin) * spread, t = start + h * share;
       const ExactPieces exact(Stencil(trajectory, t, step));

@@ -8,11 +8,11 @@
 
 namespace ursula {
 
-/// What all formulations share, and so cannot hold against each other: the commanded motion and the load.
-/// `motion.pose`, `.twist`, `.twist_rate`; `motion.load` where there is a load. Takes nothing from any solver's answer.
+/// Checks the commanded motion and the load, which all formulations share and so cannot check: `motion.pose`, `.twist`,
+/// `.twist_rate`, and `motion.load` if there is a load. It uses no solver's results.
 std::vector<Check> judgeCommandedMotion(const Scenario& scenario);
 
-/// `motion.pose`, `.twist`, `.twist_rate`. `length`, of the machine, makes metres of angles.
+/// `motion.pose`, `.twist`, `.twist_rate`. The machine's `length` converts angles to metres.
 std::vector<Check> judgeTrajectory(const Trajectory& trajectory, double length, const HiddenTerms& hidden);
 
 }  // namespace ursula

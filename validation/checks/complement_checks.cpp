@@ -18,7 +18,7 @@ std::vector<Check> judgeComplement(const std::vector<ComplementSample>& samples,
   double at = samples.front().t;
   const ComplementSample* shown = &samples.front();
   for (const ComplementSample& sample : samples) {
-    const bool empty = !(sample.size_D > 0) || !(sample.size_T > 0);  // zeros are orthogonal to all
+    const bool empty = !(sample.size_D > 0) || !(sample.size_T > 0);  // zeros are orthogonal to everything
     const double product = empty ? std::nan("") : sample.product / (sample.size_D * sample.size_T);
     worst.add(product, sample.limit / (sample.size_D * sample.size_T), sample.t, -1);
     const int here = std::abs(sample.rank_D - sample.wanted_D) + std::abs(sample.rank_T - sample.wanted_T);

@@ -16,10 +16,10 @@ double spin(const Vector6d& v, double length) { return v.tail<3>().norm() + leng
 
 std::string motorChanged(int where) { return where < 0 ? "as commanded" : fmt::format("motor {} changed", where + 1); }
 
-/// One of Simbody's answers, the conditioning there, and the motor that is changed, 0-based, -1 for none.
+/// Takes one of Simbody's answers, the conditioning there, and the 0-based motor that is changed (−1 for none).
 using Compare = std::function<void(const DirectAnswer&, const Conditioning&, int motor)>;
 
-/// `what` goes before the instant; `each` hands over what is compared.
+/// `what` precedes the instant in the words; `each` passes on the answers to compare.
 Check judgeAnswers(const char* check, const char* what, const std::function<void(const Compare&)>& each,
                    const Subject& subject, const std::vector<PointwiseSample>& samples, const RoundingProfile& profile,
                    const Units& units) {

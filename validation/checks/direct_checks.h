@@ -10,12 +10,12 @@
 
 namespace ursula {
 
-/// `direct.pointwise`: the subject's direct dynamics (36) against Simbody's, `direct` at some of `samples`. Only for
-/// subjects that have it.
+/// `direct.pointwise` compares the subject's direct dynamics (36) with Simbody's; `direct` is at some of `samples`.
+/// Only for subjects that have direct dynamics.
 Check judgeDirect(const std::vector<DirectSample>& direct, const Subject& subject,
                   const std::vector<PointwiseSample>& samples, const RoundingProfile& profile, const Units& units = {});
 
-/// `direct.off_path`: the same in states that differ from the commanded ones, where nothing of the trajectory helps.
+/// `direct.off_path`: the same in states off the commanded motion, where the trajectory cannot help.
 Check judgeOffPath(const std::vector<DirectSample>& direct, const Subject& subject,
                    const std::vector<PointwiseSample>& samples, const RoundingProfile& profile,
                    const Units& units = {});

@@ -34,7 +34,7 @@ Worst compareEngines(const std::vector<EngineSample>& samples, const PairOf& pai
   return worst;
 }
 
-/// The k-th further formulation.
+/// Judges the k-th further formulation.
 Check judgeEngine(const std::vector<EngineSample>& samples, std::size_t k, const Units& units,
                   const std::vector<PointwiseSample>& conditions) {
   const EngineKind& kind = further_engines[k];
@@ -58,7 +58,7 @@ Check judgeEngine(const std::vector<EngineSample>& samples, std::size_t k, const
   return check;
 }
 
-/// A formulation by name, as those of oddOneOut.
+/// A formulation and its name for oddOneOut.
 struct Named {
   const char* name;
   std::function<const Vector6d*(const EngineSample&)> torques;

@@ -9,12 +9,12 @@
 
 namespace ursula {
 
-/// The subject against each further formulation that this build has: `torque.twin`, `torque.maximal`, `torque.mujoco`.
-/// `conditions`, at the same instants, say why a limit is wide; without them nothing does.
+/// Compares the subject with each further formulation of this build: `torque.twin`, `torque.maximal`, `torque.mujoco`.
+/// `conditions`, at the same instants, explain wide limits; without them nothing does.
 std::vector<Check> judgeEngines(const std::vector<EngineSample>& samples, const Units& units = {},
                                 const std::vector<PointwiseSample>& conditions = {});
 
-/// Which formulation stands alone when the others agree, in words; "none" where all agree.
+/// Returns in words which formulation disagrees with all others; "none" if all agree.
 std::string oddOneOut(const std::vector<EngineSample>& samples);
 
 }  // namespace ursula

@@ -12,7 +12,7 @@
 namespace ursula {
 namespace {
 
-/// Why a check that was not made does not apply; empty where it would.
+/// Returns why a check does not apply; empty if it does.
 std::string whyNot(const CheckRow& check, const Scenario& scenario, const SubjectHas& has) {
   const auto unless = [](bool there, const std::string& why) { return there ? "" : why; };
   const bool of_files = check.needs == CheckNeeds::nothing || check.needs == CheckNeeds::torque_file;

@@ -5,7 +5,7 @@
 
 namespace ursula {
 
-/// Puts the checks into the order of checkCatalogue() and adds those that do not apply, each with its reason.
+/// Sorts the checks in the order of checkCatalogue() and adds those that do not apply, each with its reason.
 void listEveryCheck(const Scenario& scenario, const SubjectHas& has, ValidationResult& result);
 
 }  // namespace ursula

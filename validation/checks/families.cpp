@@ -28,7 +28,7 @@ namespace {
 
 bool always(const Evidence&) { return true; }
 
-/// False where time was up before: then they are none.
+/// False if time ran out before the samples, so that there are none.
 bool sampled(const Evidence& e) { return e.has.out_of_time.empty() || !e.samples.empty(); }
 
 bool answers(const Evidence& e) { return e.subject != nullptr && sampled(e) && e.answered(); }
@@ -55,7 +55,7 @@ std::vector<Check> judgeSamples(const Evidence& e) {
   return checks;
 }
 
-/// Where NOC and fast kernels differ at the samples, nothing is learnt between them.
+/// If NOC and fast kernels differ at the samples, a comparison between samples is meaningless.
 std::vector<Check> judgeBetweenSamples(const Evidence& e) {
   const bool by_fast = e.subject->formulation == Formulation::noc;
   const auto inverseFails = [&e] {
@@ -71,7 +71,7 @@ std::vector<Check> judgeBetweenSamples(const Evidence& e) {
   return {judgeBetween(*e.scenario, *e.subject, e.samples, profileOf(e), e.units())};
 }
 
-/// Under the torques that are right.
+/// Compares direct dynamics under the right torques.
 std::vector<Check> judgeDirectDynamics(const Evidence& e) {
   const std::vector<DirectSample>& direct = e.reference->direct();
   return {judgeDirect(direct, *e.subject, e.samples, profileOf(e), e.units()),
@@ -110,7 +110,7 @@ std::vector<Check> judgeReplays(const Evidence& e) {
   return checks;
 }
 
-/// False where time was up before.
+/// False if time ran out before the replays.
 bool replayed(const Evidence& e) { return e.has.out_of_time.empty() || !e.windows.empty(); }
 
 void lookAtReplays(Evidence& e) {
@@ -118,7 +118,7 @@ void lookAtReplays(Evidence& e) {
     if (anyFails(judgeWindows(e, {e.windows[k]}))) lookCloser(e, k);
 }
 
-/// False where time was up before.
+/// False if time ran out before the kernels were called.
 bool kernelsAsked(const Evidence& e) {
   const bool any = !e.fast.samples.empty() || !e.fast.refused.empty();
   return sampled(e) && !e.samples.empty() && (any || e.has.out_of_time.empty());
@@ -132,7 +132,7 @@ std::vector<Check> judgeClimbed(const Evidence& e) {
 
 void lookAtLadder(Evidence& e) {
   lookCloser(e, 0);
-  // Of wrong torques it is known what is wrong.
+  // If the torques are wrong, the cause is already known.
   const bool torques_hold = std::all_of(e.samples.begin(), e.samples.end(), [](const PointwiseSample& sample) {
     return sample.torque.error <= sample.torque.limit;
   });
@@ -218,7 +218,7 @@ void checksInSi(const Units& units, std::vector<Check>& checks) {
 std::vector<Check> judgeAll(Evidence& evidence) {
   std::vector<Check> out;
   std::vector<const CheckFamily*> left;
-  // Where time is up, a family is not judged at all: without the second look it might fail what is right.
+  // A family is skipped if time runs out, because without its second look it might fail a right result.
   const auto inTime = [&evidence](const auto& work) {
     try {
       work();

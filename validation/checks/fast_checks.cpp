@@ -31,7 +31,7 @@ const Kernel kernels[] = {
      &FastSamples::accelerations, Rounded::solver_direct},
 };
 
-/// Largest difference and size of two answers: of efforts by motor, of a twist rate with turns over the length.
+/// The size of a difference or an answer: the largest effort, or a twist rate with rotations times the length.
 double sizeOf(const Kernel& kernel, const Vector6d& v, double length) {
   if (kernel.unit == of_efforts) return v.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
   return v.tail<3>().norm() + length * v.head<3>().norm();

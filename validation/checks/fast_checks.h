@@ -7,8 +7,8 @@
 
 namespace ursula {
 
-/// `fast.inverse`, `fast.direct`, `fast.inverse_batch`, `fast.direct_batch`: the kernels that users call, with every
-/// instruction set of the processor, against the NOC. `fast` is at `samples`.
+/// Compares the kernels that users call, with every instruction set of the processor, with the NOC: `fast.inverse`,
+/// `fast.direct`, `fast.inverse_batch`, `fast.direct_batch`. `fast` is at `samples`.
 std::vector<Check> judgeFast(const FastSamples& fast, const std::vector<PointwiseSample>& samples, const Units& units);
 
 }  // namespace ursula

@@ -8,8 +8,8 @@
 
 namespace ursula {
 
-/// Invariances that hold exactly and need no reference: the whole world turned (gravity included), legs relabelled,
-/// masses doubled, time reversed. `invariance.*`; none where the subject is no solver. Load is left out of them.
+/// Exact invariances without a reference, `invariance.*`: the world rotated (with gravity), legs relabelled, masses
+/// doubled, time reversed. Returns none if the subject is no solver. They use no load.
 std::vector<Check> judgeInvariances(const std::vector<InvarianceSamples>& invariances,
                                     const std::vector<PointwiseSample>& samples, const RoundingProfile& profile,
                                     const Units& units = {});

@@ -14,25 +14,25 @@ namespace {
 
 constexpr const char* second_check = "integration.second";
 
-/// Its accuracy is of a step, and goes into an error with a power between 4/5 and 1: ten times the accuracy changes at
-/// least five times what is left.
+/// Its accuracy applies per step and enters the error with a power between 4/5 and 1. So ten times the accuracy reduces
+/// the error at least five times.
 constexpr double second_safety = 10;
-/// A hundred times the tolerance makes an error a hundred times as large, whatever the order; where it does not make it
-/// this many times as large, the integration does not converge. Where knots, not the tolerance, decide the steps, the
-/// error may only be asked to fall with them, by half the order.
+/// A hundred times the tolerance gives a hundred times the error at any order; less than this factor means no
+/// convergence. If knots instead of the tolerance set the steps, the error need only fall with the steps, by half the
+/// order.
 constexpr double least_gain = 4;
 
-/// An error below this share of the largest useful limit decides nothing, whether or not it converges.
+/// An error below this share of the largest useful limit decides nothing, even without convergence.
 constexpr double harmless = 0.01;
 
-/// Inconclusive where that proves nothing, else a failure.
+/// Inconclusive if this proves nothing, otherwise a failure.
 Check notClimbed(bool proves_nothing, const std::string& why) {
   static constexpr const char* check = "integration.ladder";
   return proves_nothing ? notJudgeable(Reason::unfinished, check, std::nan(""), std::nan(""), "m", "", why)
                         : notMade(check, "m", why);
 }
 
-/// What rounding alone may make of the window's end, m.
+/// The error at the window's end that rounding alone may cause, m.
 double roundingBound(const WindowedReplay& finest, double position_scale, double t) {
   const double measured = finest.closer.measured() ? integration_safety * finest.closer.at(t).position : 0;
   return driftLimit(finest.window, 0, static_cast<double>(finest.replay.steps.size()), position_scale, t) + measured;
@@ -49,7 +49,7 @@ Check judgeConvergence(const Ladder& ladder, const WindowedReplay& finest, doubl
   std::string orders;
   for (double p : ladder.observed_orders) orders += fmt::format("{}{:.3g}", orders.empty() ? "" : ", ", p);
   const double steps = static_cast<double>(fine.steps) / static_cast<double>(std::max(coarse.steps, 1L));
-  // Rungs alike, and unlike the judged replay: it is not the knots that decide their steps.
+  // The rungs take equal steps, unlike the judged replay, so knots do not set their steps.
   const bool heedless =
       steps <= 1 && static_cast<double>(finest.replay.accepted) > 1.5 * static_cast<double>(fine.steps);
   const double share = heedless ? 1 / least_gain : std::max(1 / least_gain, 2 * std::pow(steps, -nominal_order / 2));
@@ -74,7 +74,7 @@ Check judgeConvergence(const Ladder& ladder, const WindowedReplay& finest, doubl
   return check;
 }
 
-/// Ten times the accuracy takes an integrator of fourth order 1.8 times the steps. What takes many times more follows
+/// Ten times the accuracy costs a fourth-order integrator 1.8 times the steps. Many more steps mean that it follows
 /// noise.
 bool followsTheMotion(const std::vector<Rung>& second) {
   constexpr long most_times = 4;

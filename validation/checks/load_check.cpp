@@ -20,10 +20,10 @@ Vector6d stacked(const Wrench<double>& wrench) { return (Vector6d() << wrench.fo
 
 /// One component of the table between two rows.
 ///
-/// Rounding: the double evaluation adds powers of s = (t − t₀)/h whose coefficients are y₀, v₀, 10 r − 6 v₀ − 4 v₁,
-/// −15 r + 8 v₀ + 7 v₁ and 6 r − 3 (v₀ + v₁), with the rise r and v = h times a slope. Each is rounded once, meets at
-/// most 10 roundings on its way through Horner's rule, and s, off by three roundings, enters five times: 26 roundings
-/// of eps/2, within 25 eps.
+/// Rounding: the double evaluation adds powers of s = (t − t₀)/h whose coefficients are y₀, v₀, 10 r − 6 v₀ − 4 v₁, −15
+/// r + 8 v₀ + 7 v₁ and 6 r − 3 (v₀ + v₁), with the rise r and v = h times a slope. Each coefficient is rounded once and
+/// suffers at most 10 roundings in Horner's rule. s, off by three roundings, enters five times. Together 26 roundings
+/// of eps/2 stay within 25 eps.
 struct Segment {
   Real50 h;
   double rise = 0;
@@ -56,7 +56,7 @@ class Table {
  private:
   Real50 width(std::size_t i) const { return Real50(rows_[i + 1].time) - rows_[i].time; }
   Real50 chord(std::size_t i, int k) const { return (Real50(value(i + 1, k)) - value(i, k)) / width(i); }
-  /// The harmonic mean of both sides' chords where they rise or fall alike; zero at extrema and at both ends.
+  /// The harmonic mean of both sides' chords if they have the same sign; zero at extrema and at both ends.
   Real50 slope(std::size_t i, int k) const {
     if (i == 0 || i + 1 == rows_.size()) return 0;
     const Real50 left = chord(i - 1, k), right = chord(i, k);
@@ -84,13 +84,13 @@ void compareRows(const std::vector<TimedWrench>& rows, const std::function<Wrenc
   compare(rows.back().time + beyond, rows.back());
 }
 
-/// At one instant within segment i: against the other evaluation, and against the range of both rows.
+/// At one instant within segment i, compares with the other evaluation and with the range of both rows.
 void compareWithin(const Table& table, std::size_t i, double s, double t, const Vector6d& found,
                    NearestToLimit& shown) {
   for (int k = 0; k < 6; ++k) {
     const Segment segment = table.segment(i, k);
     const double a = table.value(i, k), b = table.value(i + 1, k), limit = segment.limit(s);
-    // t is rounded: s is that of the double.
+    // t is rounded, so s belongs to the rounded t.
     shown.add(std::abs(static_cast<double>(Real50(found(k)) - segment.at(s))), limit, t, k);
     shown.add(std::max({0.0, std::min(a, b) - found(k), found(k) - std::max(a, b)}), limit, t, k);
   }
@@ -103,12 +103,12 @@ Check judgeLoadTable(const std::vector<TimedWrench>& rows, const std::function<W
   NearestToLimit shown;
   compareRows(rows, at, shown);
   const Table table(rows);
-  constexpr std::size_t most_segments = 40;  // of thousands, for 50 digits are dear
+  constexpr std::size_t most_segments = 40;  // of thousands, because 50 digits are expensive
   const std::size_t every = (rows.size() + most_segments - 1) / most_segments;
   for (std::size_t i = 0; i + 1 < rows.size(); i += every)
     for (const double share : {0.07, 0.31, 0.5, 0.88}) {
       const double from = rows[i].time, to = rows[i + 1].time, t = from + share * (to - from);
-      if (!(t > from && t < to)) continue;  // rows that are neighbours among the doubles
+      if (!(t > from && t < to)) continue;  // the rows are adjacent doubles
       const double s = static_cast<double>((Real50(t) - from) / (Real50(to) - from));
       compareWithin(table, i, s, t, stacked(at(t)), shown);
     }

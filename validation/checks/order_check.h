@@ -6,7 +6,7 @@
 
 namespace ursula {
 
-/// `integration.order`: the orders that observedOrders() finds, against the nominal one of the replay's integrator.
+/// `integration.order` compares the orders from observedOrders() with the nominal one of the replay's integrator.
 Check judgeOrder(const std::vector<double>& orders);
 
 }  // namespace ursula

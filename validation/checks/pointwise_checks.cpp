@@ -19,14 +19,14 @@ enum class Level { measured, derived };
 
 struct Quantity {
   std::string name, unit, what;
-  const char* shape;  ///< of the limit, in words; times eps and a level
+  const char* shape;  ///< of the limit, in words; multiplied by eps and a level
   Deviation PointwiseSample::*deviation;
   bool of_body;
-  std::function<double(const PointwiseSample&)> size;  ///< the quantity's own
-  const char* further = "";                            ///< what the limit has beside, in words
+  std::function<double(const PointwiseSample&)> size;  ///< size of the quantity itself
+  const char* further = "";                            ///< further terms of the limit, in words
 };
 
-/// Every limit is a derived shape and a level: measured (RoundingProfile), or derived (rounding_depth).
+/// Every limit is a derived shape times a level. The level is measured (RoundingProfile) or derived (rounding_depth).
 std::string basisOf(const Quantity& quantity, Level level) {
   return level == Level::measured
              ? fmt::format("eps {} x {:g} x the spread measured in turned and rescaled frames{}", quantity.shape,
@@ -45,7 +45,7 @@ double largestSize(const std::vector<PointwiseSample>& samples, const Quantity& 
   return largest;
 }
 
-/// One of the motors, whose unit is the machine's; `where` is a motor then.
+/// The unit of one motor, which is the machine's; `where` is then a motor.
 constexpr const char* of_efforts = "";
 
 Check judgeQuantity(const std::vector<PointwiseSample>& samples, Quantity quantity, const Units& units,
@@ -56,7 +56,7 @@ Check judgeQuantity(const std::vector<PointwiseSample>& samples, Quantity quanti
     return is_effort ? motorName(units, where) : placeName(where, quantity.of_body);
   };
   Worst worst;
-  double given = 0;  // digits that were not printed are no fault of a limit
+  double given = 0;  // missing digits of a file do not make a limit too wide
   for (const PointwiseSample& sample : samples) {
     if (!sample.refused.empty()) return notMade(quantity.name, quantity.unit, "no answer: " + sample.refused);
     const Deviation& deviation = sample.*quantity.deviation;

@@ -8,12 +8,12 @@
 
 namespace ursula {
 
-/// The checks of these samples: `kinematics.*`, `torque.pointwise`, `acceleration.pointwise`. `units` are those of the
-/// samples, in SI, for the words.
+/// The checks of these samples: `kinematics.*`, `torque.pointwise`, `acceleration.pointwise`. `units` convert the
+/// samples to SI for the words.
 std::vector<Check> judgePointwise(const std::vector<PointwiseSample>& samples, bool has_kinematics,
                                   const Units& units = {});
 
-/// Of samples by runJointsAndTorques: `kinematics.joint_*` and `torque.pointwise`, by their derived limits.
+/// For samples of runJointsAndTorques: `kinematics.joint_*` and `torque.pointwise`, by their derived limits.
 std::vector<Check> judgeJointsAndTorques(const std::vector<PointwiseSample>& samples, const Units& units = {});
 
 }  // namespace ursula

@@ -7,8 +7,8 @@
 
 namespace ursula {
 
-/// A quintic over s in [0, 1] by de Casteljau's rule from its control points; the model sums powers of s, so that the
-/// two share no formula.
+/// Evaluates a quintic over s in [0, 1] by de Casteljau's rule from its control points. The model sums powers of s, so
+/// the two share no formula.
 inline Real50 atControlPoints(std::array<Real50, 6> points, const Real50& s) {
   for (std::size_t level = 5; level > 0; --level)
     for (std::size_t i = 0; i < level; ++i) points[i] += s * (points[i + 1] - points[i]);
@@ -20,7 +20,7 @@ struct QuinticEnd {
   Real50 value, rate, acceleration;
 };
 
-/// The control points of the quintic with these ends, `h` apart: each end's derivatives fix the three nearest to it.
+/// The control points of the quintic with these ends, `h` apart: each end's derivatives determine the three nearest.
 inline std::array<Real50, 6> controlPoints(const QuinticEnd& from, const QuinticEnd& to, const Real50& h) {
   return {from.value,
           from.value + h * from.rate / 5,

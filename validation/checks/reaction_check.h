@@ -9,8 +9,8 @@
 
 namespace ursula {
 
-/// `reactions.pointwise`: the joint reactions recovered from the solver's formulation against Simbody's mobilizer and
-/// constraint reactions, at the instants of `samples`; only for the formulas that hold.
+/// `reactions.pointwise` compares the joint reactions from the solver's formulation with Simbody's mobilizer and
+/// constraint reactions, at the instants of `samples`. Only for the correct formulas.
 Check judgeReactions(const std::vector<ReactionSample>& reactions, const std::vector<PointwiseSample>& samples,
                      const RoundingProfile& profile, const Units& units = {});
 

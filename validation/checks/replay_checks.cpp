@@ -11,13 +11,13 @@
 namespace ursula {
 namespace {
 
-/// A value of one step with its limit.
+/// A value at one step with its limit.
 struct Measure {
   std::string name, unit, what;
   std::function<double(const ReplayStep&)> value;
   std::function<double(const WindowedReplay&, const ReplayStep&)> limit;
   std::string basis;
-  double size = 0;  ///< of what is measured
+  double size = 0;  ///< size of the measured quantity
 };
 
 Worst worstOf(const std::vector<WindowedReplay>& windows, const Measure& measure) {
@@ -34,10 +34,10 @@ std::size_t stepsOf(const std::vector<WindowedReplay>& windows) {
   return steps;
 }
 
-/// Deviations that grow less within a window are not what makes its limit large.
+/// Smaller growth of deviations within a window does not explain a large limit.
 constexpr double notable_growth = 100;
 
-/// Which of a limit's parts makes it large at t.
+/// Returns which part makes a limit large at t.
 std::string causeOf(const std::vector<WindowedReplay>& windows, double t, const std::string& of_rounding) {
   for (const WindowedReplay& each : windows) {
     if (t > each.window.end()) continue;
@@ -77,7 +77,7 @@ Check judgeMeasure(const std::vector<WindowedReplay>& windows, const Measure& me
   return check;
 }
 
-/// The largest of all steps.
+/// The largest energy of all steps.
 double energyOf(const std::vector<WindowedReplay>& windows) {
   double largest = 0;
   for (const WindowedReplay& window : windows) largest = std::max(largest, window.replay.energy_scale);

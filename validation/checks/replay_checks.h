@@ -10,7 +10,7 @@
 namespace ursula {
 
 /// `replay.position`, `replay.orientation`, `closure.position`, `closure.velocity`, `energy.balance`, over all windows.
-/// `cause`: what makes the accelerations' rounding large, for limits that say nothing because of it.
+/// `cause` says why the accelerations' rounding is large, for limits that it makes useless.
 std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, double position_scale, double length,
                                const LoopForces& forces, const Units& units = {}, const std::string& cause = "");
 

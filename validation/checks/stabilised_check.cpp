@@ -8,8 +8,8 @@
 namespace ursula {
 namespace {
 
-/// Above this share of the largest torque a limit proves nothing where the replay gave up: rounding alone may then
-/// throw the machine about.
+/// Above this share of the largest torque, a limit proves nothing if the replay gave up. Rounding alone may then
+/// destabilise the machine.
 constexpr double telling_limit = 1e-4;
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 namespace ursula {
 
-/// `feedback.torque`, N·m: what the stabilising term had to add. `largest`: of the right torques.
+/// `feedback.torque`, N·m: the torque that the stabilising term added. `largest` is that of the right torques.
 Check judgeStabilised(const StabilisedReplay& found, double largest, const Units& units = {});
 
 }  // namespace ursula

@@ -18,7 +18,7 @@ bool isOfTorques(const Check& check) {
   return startsWith(check.name, "torque.") && check.verdict != Verdict::not_applicable;
 }
 
-/// What errors of the torques do to the motion, and what only shows how torques are computed.
+/// Whether the check shows effects of torque errors on the motion, or only how torques are computed.
 bool isReported(const Check& check) {
   for (const char* group : {"acceleration.", "replay.", "closure.", "energy.", "feedback.", "invariance."})
     if (startsWith(check.name, group)) return true;
@@ -30,7 +30,7 @@ bool isNamed(const std::vector<AcceptanceLimit>& acceptance, const std::string& 
                      [&check](const AcceptanceLimit& limit) { return limit.check == check; });
 }
 
-/// Errors of `size` on the motors, carried along the motion and aligned for the worst, in natural units.
+/// The drift from errors of `size` on the motors in the worst direction along the motion, in natural units.
 double driftOf(const Evidence& evidence, double size) {
   if (evidence.amplification == nullptr || evidence.samples.empty()) return std::numeric_limits<double>::quiet_NaN();
   const std::vector<PointwiseSample>& samples = evidence.samples;
@@ -43,7 +43,7 @@ double driftOf(const Evidence& evidence, double size) {
                                               [&](double t) { return response(t) * size; });
 }
 
-/// Of the whole motion, in natural units: whoever is judged, and at whatever instants, it is the same.
+/// The largest effort of the whole motion, in natural units; it is the same for all subjects and instants.
 double largestEffort(const Scenario& scenario) {
   constexpr int instants = 2001;
   const Subject right = nocSubject(*scenario.manipulator, scenario.load);

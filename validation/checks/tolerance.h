@@ -8,18 +8,17 @@
 
 namespace ursula {
 
-/// The largest deviation of the efforts over all checks of torques, judged or not, and what errors of that size would
-/// do to the motion. `checks` are in SI. None where nothing was compared.
+/// Returns the largest deviation of the efforts over all checks of torques, judged or not, and its effect on the
+/// motion. `checks` are in SI. Returns nullopt if nothing was compared.
 std::optional<EffortDeviation> effortDeviation(const Evidence& evidence, const std::vector<Check>& checks);
 
-/// Where the scenario has a tolerance of the user's: the checks of torques are held against it, each by its largest
-/// value, and what errors of that size do to accelerations and replays is reported, not judged, unless [acceptance]
-/// names it. `between`: what the torques may be off by between the
-/// instants at which they are given, in SI, infinite where they are not known over the whole motion. Where that is more
-/// than the tolerance, what was not covered stays inconclusive.
+/// Applies the user's tolerance, if the scenario has one, to the largest value of each check of torques. The effect of
+/// such errors on accelerations and replays is reported but not judged, unless [acceptance] names it. `between` is the
+/// possible error between the given instants, in SI, or infinite if the torques do not cover the motion. If it exceeds
+/// the tolerance, the uncovered part stays inconclusive.
 void judgeByTolerance(const Scenario& scenario, double between, ValidationResult& result);
 
-/// Throws ScenarioError where torques of zero would pass at the scenario's tolerance, unless it is `any`.
+/// Throws ScenarioError if zero torques would pass at the scenario's tolerance, unless it is `any`.
 void requireTellingTolerance(const Scenario& scenario);
 
 }  // namespace ursula

@@ -14,16 +14,16 @@ namespace {
 
 constexpr const char* check_name = "torque.between";
 
-/// Of the first round, and a quarter of it again where the torques curve. At the spacing that this gives the paper's
-/// motion of 3 s, a pulse of 1 ms is met more than once.
+/// Instants of the first round; a quarter more follow where the torques curve. On the paper's motion of 3 s this
+/// spacing meets a pulse of 1 ms more than once.
 constexpr int least_instants = 8192;
-/// A second, in the scenario's own units of time: a long motion has no wider gaps than a short one …
+/// Per second, in the scenario's own units of time: a long motion has no wider gaps than a short one …
 constexpr double instants_per_time = 600;
-/// … but for what would take seconds.
+/// … up to a limit that avoids seconds of work.
 constexpr int most_instants = 65536;
 
-/// k φ⁻¹ mod 1: gaps of at most three lengths, none of them in step with anything (Knuth, The Art of Computer
-/// Programming 3, sect. 6.4, theorem S).
+/// k φ⁻¹ mod 1: gaps have at most three lengths and match no period (Knuth, The Art of Computer Programming 3, sect.
+/// 6.4, theorem S).
 std::vector<double> goldenInstants(double duration, int count) {
   const double ratio = (std::sqrt(5.0) - 1) / 2;
   std::vector<double> out;
@@ -32,7 +32,7 @@ std::vector<double> goldenInstants(double duration, int count) {
   return out;
 }
 
-/// The middles of the quarter of intervals about whose ends the torques curve most.
+/// The midpoints of the quarter of intervals near which the torques curve most.
 std::vector<double> curvedInstants(const std::vector<Answered>& instants) {
   std::vector<std::pair<double, double>> curved;  // second difference, middle
   for (std::size_t k = 1; k + 1 < instants.size(); ++k) {
@@ -49,7 +49,7 @@ std::vector<double> curvedInstants(const std::vector<Answered>& instants) {
   return out;
 }
 
-/// The larger of the two samples beside t: a first look, that spares most instants a limit of their own.
+/// The larger limit of the two samples beside t; this first look saves most instants a limit of their own.
 class SampledTorqueLimit {
  public:
   explicit SampledTorqueLimit(const std::vector<PointwiseSample>& samples) : samples_(samples) {}
@@ -83,7 +83,7 @@ class Comparison {
     Eigen::Index leg = 0;
     const double error = (answer.torques - expected).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(&leg);
     double limit = limit_.at(t);
-    // A limit of its own is dear: for what would decide, and not for each instant of torques that are wrong all along.
+    // An own limit is expensive, so only instants that could decide get one.
     const bool decided = worst_.beyond() && Worst::share(error, limit) <= Worst::share(worst_.value, worst_.limit);
     if (!(error <= limit) && !decided) {
       const Conditioning here = profile_.at(motion);
@@ -98,7 +98,7 @@ class Comparison {
 
  private:
   const Trajectory& trajectory_;
-  Subject other_;  ///< of another formulation than the subject
+  Subject other_;  ///< uses another formulation than the subject
   SampledTorqueLimit limit_;
   const RoundingProfile& profile_;
   SecondLook look_;
@@ -119,7 +119,7 @@ void sortByTime(std::vector<Answered>& answers) {
   std::stable_sort(answers.begin(), answers.end(), [](const Answered& a, const Answered& b) { return a.t < b.t; });
 }
 
-/// `what` was compared.
+/// `what` says what was compared.
 Check checkOf(const Comparison& comparison, const std::string& what, double gap,
               const std::vector<PointwiseSample>& samples, const Units& units) {
   const Worst& worst = comparison.worst();
@@ -154,7 +154,7 @@ Check judgeBetween(const Scenario& scenario, const Subject& subject, const std::
     }
   };
   try {
-    ask(goldenInstants(duration, count));  // in that order, not in time: what is largest is then met early
+    ask(goldenInstants(duration, count));  // not in time order, so that large deviations appear early
     sortByTime(instants);
     ask(curvedInstants(instants));
   } catch (const PoseError& error) {

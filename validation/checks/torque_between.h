@@ -10,15 +10,15 @@
 
 namespace ursula {
 
-/// `torque.between`: the subject's torques at thousands of instants between those of the other checks, against
-/// another formulation: the NOC against the fast kernels, somebody else's solver against the NOC. Instants at multiples
-/// of the golden ratio, which meet no period of anything, and more where the subject's torques curve. The result says
-/// how narrow a pulse may be to be missed.
+/// `torque.between` compares the subject's torques with another formulation at thousands of instants between the other
+/// checks'. The NOC is compared with the fast kernels, another solver with the NOC. Instants are multiples of the
+/// golden ratio, which match no period, and more where the torques curve. The result gives the width of the narrowest
+/// pulse that is surely found.
 Check judgeBetween(const Scenario& scenario, const Subject& subject, const std::vector<PointwiseSample>& samples,
                    const RoundingProfile& profile, const Units& units = {});
 
-/// Every answer that a subject gave, whatever it was asked for, against the NOC's: in the place of judgeBetween's
-/// check, whose instants are among them. Beyond the first thousands a solver may be wrong, too.
+/// Compares every answer that a subject ever gave with the NOC's. It replaces judgeBetween's check, whose instants it
+/// includes. A solver may also be wrong beyond the first thousands.
 Check judgeAnswers(const Scenario& scenario, std::vector<Answered> answers, const std::vector<PointwiseSample>& samples,
                    const RoundingProfile& profile, const Units& units);
 

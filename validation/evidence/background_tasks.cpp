@@ -49,8 +49,8 @@ void BackgroundTasks::work() {
     }
     try {
       task();
-    } catch (...) {  // of a deadline, too, which is no std::exception
-      // Whoever asks for it finds out why.
+    } catch (...) {  // also OutOfTime, which is no std::exception
+      // A later request reports the error.
     }
   }
 }

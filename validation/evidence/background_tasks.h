@@ -9,21 +9,21 @@
 
 namespace ursula {
 
-/// Does tasks in order on threads of its own. Each task fills something Lazily, so that answers do not depend on who
-/// makes them. What a task throws is dropped: whoever asks for its answer meets the error again.
+/// Runs tasks in order on its own threads. Tasks must fill something Lazily, so results do not depend on who computes
+/// them. It drops exceptions, because a later request meets them again.
 class BackgroundTasks {
  public:
   using Task = std::function<void()>;
 
-  /// With `first` to do; without threads nothing is done. `cut_short` makes tasks that have begun end soon.
+  /// Starts with the tasks `first`. Without threads nothing is done. `cut_short` makes running tasks end soon.
   explicit BackgroundTasks(int threads, const std::vector<Task>& first = {}, Task cut_short = nullptr);
-  /// Cuts short what has begun, as nobody will ask for it, and waits for that.
+  /// Cuts running tasks short, because nobody needs their results, and waits for them.
   ~BackgroundTasks();
   BackgroundTasks(const BackgroundTasks&) = delete;
   BackgroundTasks& operator=(const BackgroundTasks&) = delete;
 
   void add(const Task& task);
-  /// Waits for tasks that have begun, and forgets the others.
+  /// Waits for running tasks and drops the others.
   void finish();
 
  private:

@@ -20,7 +20,7 @@ std::vector<EngineSample> engineSamples(const Evidence& evidence) {
   return out;
 }
 
-/// The subject's, where it has them or they are falsified; the right solver's are known.
+/// Computes the subject's reactions if it has them or they are falsified; the right solver's are known.
 void lookAtReactions(Evidence& evidence) {
   const Scenario& scenario = *evidence.scenario;
   const bool own = evidence.subject->reactions && !evidence.right;
@@ -39,14 +39,14 @@ void lookAtReactions(Evidence& evidence) {
   evidence.has_reactions = true;
 }
 
-/// The torques on trial are the right ones to the last bit, wherever somebody asked. Of a subject that wants to
-/// foresee, to whom each question is dear, that is not asked.
+/// Whether the subject's torques are bitwise the right ones wherever they were asked for. A subject that foresees
+/// torques is not asked, because its answers are expensive.
 bool answersAs(const AskedTorques& asked, const Evidence& evidence) {
   return evidence.right || (!evidence.plan.foresee && asked.sameFrom(evidence.plan.torques));
 }
 
-/// In the windows of the right torques, with what those say of the integration. True where the first window's is the
-/// right torques' own.
+/// Replays in the windows of the right torques, with their integration errors. Returns whether the first window's
+/// replay is the one of the right torques.
 bool replayWindows(Evidence& evidence) {
   bool first_is_right = true;
   std::vector<WindowedReplay> windows = evidence.reference->replays().windows;
@@ -56,7 +56,7 @@ bool replayWindows(Evidence& evidence) {
     ReplaySettings settings = settingsOf(*evidence.scenario, evidence.plan, window.window, 1);
     if (evidence.fault.replay) evidence.fault.replay(settings);
     window.replay = replay(*evidence.scenario, evidence.plan.torques, settings);
-    window.replay.tolerance = evidence.plan.tolerance;  // that it is taken to have
+    window.replay.tolerance = evidence.plan.tolerance;  // the assumed tolerance
   }
   evidence.windows = std::move(windows);  // all or none
   return first_is_right;
@@ -79,7 +79,7 @@ void runReplays(bool ladder, Evidence& evidence) {
                                          first_is_right && !fault.feedback ? &reference.stabilised() : nullptr);
 }
 
-/// The shares are those measured with many samples.
+/// The shares of progress were measured with many samples.
 void lookAtSamples(const Experiments& experiments, Evidence& out) {
   const auto tell = [&experiments](double share) {
     if (experiments.progress) experiments.progress(share);

@@ -24,70 +24,69 @@
 
 namespace ursula {
 
-/// What a subject and its validation have beside torques.
+/// What a subject and its validation offer beside torques.
 struct SubjectHas {
-  bool any_instant = true;  ///< torques at any instant, not those of a file alone
+  bool any_instant = true;  ///< torques at any instant, not only those of a file
   bool kinematics = true, direct_dynamics = true, other_machines = true;
   bool left_out_ladder = false, left_out_reactions = false;  ///< by the caller's options
-  std::string out_of_time;  ///< why not all experiments were made, of which those missing left nothing; else empty
+  std::string out_of_time;  ///< why experiments are missing, if time ran out; else empty
 };
 
-/// What was computed for one subject on one scenario, in the scenario's natural units. Filled once, by experiments that
-/// judge nothing; what an experiment did not make is empty.
+/// The computed results for one subject on one scenario, in the scenario's natural units. Experiments, which judge
+/// nothing, fill it once; parts without an experiment stay empty.
 struct Evidence {
-  const Scenario* given = nullptr;               ///< in SI, as the caller has it
+  const Scenario* given = nullptr;               ///< in SI, as the caller gave it
   FrameChange natural;                           ///< of `given`
-  const Scenario* scenario = nullptr;            ///< in natural's units: what all experiments see
+  const Scenario* scenario = nullptr;            ///< in natural's units, for all experiments
   const Subject* subject = nullptr;              ///< null for torques of a file
   const Reference* reference = nullptr;          ///< null for torques of a file
   const ExternalTorques* external = nullptr;     ///< null for a subject
-  const Amplification* amplification = nullptr;  ///< null where nothing was to be replayed
+  const Amplification* amplification = nullptr;  ///< null without replays
   SubjectHas has;
-  bool right = false;  ///< the subject is the right solver
-  int threads = 1;     ///< on which it may be judged; the subject is then asked from several
+  bool right = false;  ///< whether the subject is the right solver
+  int threads = 1;     ///< number of threads for the subject, which must then allow concurrent calls
   InjectedFault fault;
 
   std::vector<PointwiseSample> samples;
   std::vector<EngineSample> engines;
   std::vector<InvarianceSamples> invariances;
-  std::vector<ReactionSample> own_reactions;  ///< where they are not the right solver's
+  std::vector<ReactionSample> own_reactions;  ///< empty if they are the right solver's
   bool has_reactions = false;
   std::vector<ComplementSample> complement;
   FastSamples fast;
-  ReplayPlan plan;  ///< under the torques on trial
+  ReplayPlan plan;  ///< with the subject's torques
   ReplayScales scales;
   std::vector<WindowedReplay> windows;
   Ladder ladder;
   std::optional<std::vector<double>> orders;
   std::optional<StabilisedReplay> stabilised;
 
-  std::string spline;        ///< what the torques replayed may be off by between those of a file, in words
-  std::string not_replayed;  ///< why there can be no replay, else empty
-  double replay_bound = std::numeric_limits<double>::quiet_NaN();  ///< where a limit is why, that limit, m
+  std::string spline;        ///< error of the replayed torques between those of a file, in words
+  std::string not_replayed;  ///< why no replay is possible, else empty
+  double replay_bound = std::numeric_limits<double>::quiet_NaN();  ///< the limit, m, if it prevents the replay
 
   const Units& units() const { return natural.units; }
-  /// The reference's, of the right solver; none where the experiment was not made.
+  /// The reference's reactions, of the right solver; none without the experiment.
   const std::vector<ReactionSample>& reactions() const;
-  /// The subject had an answer at each of the samples.
+  /// Whether the subject answered at every sample.
   bool answered() const;
 };
 
-/// Which of the experiments are left out.
+/// Which experiments are run.
 struct Experiments {
   bool ladder = true, reactions = true;
-  std::function<void(double share)> progress = nullptr;  ///< told how much of what is done at the samples is done
+  std::function<void(double share)> progress = nullptr;  ///< receives the completed share of the work at the samples
 };
 
-/// All experiments on `subject`, which is asked in natural's units. `right`: it is the one whose replays the reference
-/// holds; others have them where they answer the same to the last bit. Keeps pointers to its arguments.
+/// Runs all experiments on `subject`, which works in natural's units. `right` says that the reference's replays are its
+/// own; another subject reuses them if its answers are bitwise equal. Keeps pointers to its arguments.
 Evidence gather(const Scenario& given, const Reference& reference, const Subject& subject, bool right,
                 const InjectedFault& fault, const Experiments& experiments);
 
-/// What is changed in the settings of the ladder's rungs: foreseen where the subject wants that, falsified for
-/// controls.
+/// Changes the settings of the ladder's rungs: for subjects that foresee torques, and for negative controls.
 std::function<void(ReplaySettings&)> rungSettings(const Evidence& evidence);
 
-/// What a second look at the judged replay of `window` finds: what steps and rounding really do there.
+/// Takes a second look at the judged replay of `window`: it measures the actual errors of steps and rounding.
 void lookCloser(Evidence& evidence, std::size_t window);
 
 }  // namespace ursula

@@ -11,21 +11,21 @@
 
 namespace ursula {
 
-/// For controls that must fail: falsifies an experiment, and neither the subject nor the scenario. What is empty stays
-/// right. All see the scenario in its natural units.
+/// Falsifies an experiment for negative controls, but neither the subject nor the scenario. Empty members change
+/// nothing. All of them see the scenario in its natural units.
 struct InjectedFault {
-  /// The scenario as something takes it to be.
+  /// A changed scenario for one part of the validation.
   using Seen = std::function<Scenario(const Scenario&)>;
   using Settings = std::function<void(ReplaySettings&)>;
 
   FastFault fast;                                ///< in the kernels that users call
-  OfFurtherEngines<Seen> further;                ///< what each further formulation is built of
-  Seen feedback;                                 ///< what the loop of the stabilised replay is built of
-  std::function<void(PointwiseSample&)> sample;  ///< what was measured at one instant
-  std::function<void(Reactions&)> reactions;     ///< those recovered from the solver's formulation
+  OfFurtherEngines<Seen> further;                ///< the machine that each further formulation uses
+  Seen feedback;                                 ///< the machine in the loop of the stabilised replay
+  std::function<void(PointwiseSample&)> sample;  ///< changes the measurement at one instant
+  std::function<void(Reactions&)> reactions;     ///< changes the reactions from the solver's formulation
   Settings replay;                               ///< the judged replays
-  bool lower_order = false;                      ///< another integrator, of order 5, as the one of integration.order
-  Settings ladder;                               ///< the replays that they are compared with, of both integrators
+  bool lower_order = false;                      ///< another integrator, of order 5, for integration.order
+  Settings ladder;                               ///< the replays of the ladder, with both integrators
 };
 
 }  // namespace ursula

@@ -46,11 +46,11 @@ Reference::Reference(const Scenario& given, int threads, const Deadline& deadlin
                      const std::shared_ptr<std::atomic<bool>>& abandoned)
     : PreparedScenario(given, deadline, Deadline(0, [abandoned] { return abandoned->load(); })),
       deadline_(deadline),
-      // The longest first.
+      // The longest task comes first.
       background_(threads - 1, {[this] { orders(); }, [this] { simbody(); }, [this] { engines(); }},
                   [abandoned] { *abandoned = true; }) {
   rounding();
-  if (!deadline.isSet()) replays();  // else what needs no replay comes first
+  if (!deadline.isSet()) replays();  // with a deadline, work without replays comes first
 }
 
 void Reference::stop() const {
@@ -78,7 +78,7 @@ RightReplays Reference::rightReplays() const {
     out.windows = replayInWindows(scenario, out.amplification, plan);
   };
   replayAs(isStiff(out.amplification, duration));
-  // The variational equations do not show all that shortens an explicit step.
+  // The variational equations do not show everything that shortens an explicit step.
   const auto took_too_long = [](const WindowedReplay& each) { return each.replay.too_long; };
   if (!plan.stiff && std::any_of(out.windows.begin(), out.windows.end(), took_too_long)) replayAs(true);
   measureIntegration(scenario, plan, out.windows);

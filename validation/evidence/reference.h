@@ -23,25 +23,25 @@
 
 namespace ursula {
 
-/// What replays of the right torques do, and how deviations grow.
+/// Results of replays of the right torques, and the growth of deviations.
 struct RightReplays {
   Amplification amplification;
   ReplayPlan plan;                      ///< with the right torques
-  std::vector<WindowedReplay> windows;  ///< with what their integration is off by
+  std::vector<WindowedReplay> windows;  ///< with their integration errors
 };
 
-/// The first step: the scenario where its numbers are good.
+/// The first step: the well-scaled scenario.
 struct PreparedScenario {
-  FrameChange natural;           ///< of the scenario as given
+  FrameChange natural;           ///< of the given scenario
   Scenario relocated;            ///< SI, positions from natural.origin
-  Scenario scenario;             ///< in natural's units: what all experiments see
-  std::vector<double> instants;  ///< that are judged and written
+  Scenario scenario;             ///< in natural's units, for all experiments
+  std::vector<double> instants;  ///< instants that are judged and written
 
-  /// Throws as validate() does. The scenario's motion throws OutOfTime once one of the deadlines is over.
+  /// Throws like validate(). The scenario's motion throws OutOfTime once one of the deadlines is over.
   PreparedScenario(const Scenario& given, const Deadline& deadline, const Deadline& abandoned);
 };
 
-/// How the scenario's formulations round, at its instants.
+/// The rounding of the scenario's formulations at its instants.
 struct RoundingAlong {
   RoundingProfile profile;
   std::vector<Conditions> conditions;  ///< at the instants
@@ -51,20 +51,21 @@ struct RoundingAlong {
   explicit RoundingAlong(const PreparedScenario& of);
 };
 
-/// What a validation needs of the scenario alone, whoever is on trial. The scenario is prepared first; all else is made
-/// from that, each when first asked for, by whichever thread asks. Threads of its own make what takes long meanwhile.
+/// The parts of a validation that depend on the scenario alone and not on the subject. The scenario is prepared first.
+/// Each other part is made from it on first request, by the thread that requests it; background threads make long parts
+/// in advance.
 class Reference : public PreparedScenario {
  public:
-  /// On so many threads, which changes no number. Throws as validate() does. Once the deadline is over, what is not
-  /// yet made throws OutOfTime when asked for, and so may this.
+  /// Uses that many threads, which changes no number. Throws like validate(). After the deadline, this or a request for
+  /// a missing part throws OutOfTime.
   explicit Reference(const Scenario& given, int threads = 1, const Deadline& deadline = {});
   Reference(const Reference&) = delete;
   Reference& operator=(const Reference&) = delete;
 
-  /// Lets the threads make also what a subject with these will be compared with.
+  /// Lets the background threads make also the parts that a subject with these is compared with.
   void prepare(bool direct_dynamics, bool ladder) const;
 
-  /// Ends the threads and lifts the deadline.
+  /// Stops the background threads and removes the deadline.
   void stop() const;
 
   const RoundingAlong& rounding() const;
@@ -95,7 +96,7 @@ class Reference : public PreparedScenario {
   Lazily<StabilisedReplay> stabilised_;
   mutable std::mutex measuring_;
   mutable std::map<std::size_t, IntegrationError> closer_;
-  mutable BackgroundTasks background_;  ///< the last, as its tasks fill the others: they end before those do
+  mutable BackgroundTasks background_;  ///< the last member: its tasks fill the others and end before them
 };
 
 std::vector<Conditions> conditionsAt(const Scenario& scenario, const std::vector<double>& instants,

@@ -5,8 +5,8 @@
 
 namespace ursula {
 
-/// The same scenario, whose motion throws OutOfTime once the deadline is over: every experiment asks for it again and
-/// again, so that each ends where it stands. Without a deadline it is the scenario itself.
+/// Returns the scenario with a motion that throws OutOfTime after the deadline. Every experiment calls the motion
+/// often, so it ends soon. Without a deadline it is the scenario itself.
 Scenario timed(const Scenario& scenario, const Deadline& deadline);
 
 }  // namespace ursula

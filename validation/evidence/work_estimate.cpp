@@ -9,7 +9,7 @@
 namespace ursula {
 namespace {
 
-/// Of one evaluation of the closed loop's derivatives, s.
+/// Time of one evaluation of the closed loop's derivatives, s.
 double evaluationSeconds(const Scenario& scenario) {
   using Clock = std::chrono::steady_clock;
   constexpr int evaluations = 50;
@@ -27,7 +27,7 @@ double evaluationSeconds(const Scenario& scenario) {
 }  // namespace
 
 WorkParts workParts(const Scenario& scenario) {
-  constexpr double of_step = 150, of_interval = 10;  // all replays of a step; an interval's growth
+  constexpr double of_step = 150, of_interval = 10;  // all replays per step; growth per interval
   const double duration = scenario.trajectory->duration(), samples = scenario.simulation.samples;
   const double over_time = of_step * plannedStepRate(duration) * duration + of_interval * linearisedIntervals(duration);
   WorkParts out;
@@ -35,7 +35,7 @@ WorkParts workParts(const Scenario& scenario) {
   out.samples = 28 * samples;
   out.replays = 0.45 * over_time;
   out.checks = 0.1 * over_time;
-  out.sources = 0.1 * over_time + samples;  // and the time series
+  out.sources = 0.1 * over_time + samples;  // including the time series
   return out;
 }
 

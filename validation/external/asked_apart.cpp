@@ -12,10 +12,10 @@ namespace ursula {
 namespace {
 
 constexpr std::size_t most_poses = 6;
-/// A part of less than this share of all efforts is nothing.
+/// A part below this share of all efforts counts as zero.
 constexpr double nothing = 1e-9;
 
-/// At one pose; the two velocities each way, so that what is even in them can be told from what is odd.
+/// The questions at one pose. Both signs of each velocity separate even terms from odd ones.
 enum Question { rest, accelerated, turned_faster, moving, moving_back, turning, turning_back, both, both_back, again };
 constexpr std::size_t questions = again + 1;
 using Answers = std::array<Vector6d, questions>;
@@ -25,13 +25,13 @@ constexpr const char* part_names[] = {
 constexpr std::size_t parts_count = std::size(part_names), repeat = parts_count - 1;
 using Parts = std::array<Vector6d, parts_count>;
 
-/// Points in another direction at each pose.
+/// A vector with another direction at each pose.
 Vector3d someVector(double size, std::size_t k) {
   const auto x = static_cast<double>(k);
   return size * Vector3d(std::cos(1 + 2 * x), std::sin(2 + 3 * x), std::cos(3 - x));
 }
 
-/// The motion's own velocities are not used: they may be zero. The same numbers serve as accelerations.
+/// The motion's own velocities may be zero, so they are not used. The same numbers serve as accelerations.
 Motion<double> asked(const Motion<double>& at, Question question, const Vector3d& v, const Vector3d& w) {
   Motion<double> out = at;
   out.p_dot = out.omega = out.p_ddot = out.omega_dot = Vector3d::Zero();
@@ -57,7 +57,7 @@ Parts partsOf(const Answers& is) {
   return out;
 }
 
-/// Poses along the motion, and the velocities to ask for there.
+/// Poses along the motion, with velocities for the questions.
 struct Poses {
   std::vector<Motion<double>> at;
   std::vector<Vector3d> v, w;
@@ -76,7 +76,7 @@ Poses posesOf(const Manipulator& machine, const std::vector<Motion<double>>& mot
   return out;
 }
 
-/// Every question at every pose; the first one again afterwards, from the last pose to the first.
+/// Asks every question at every pose; then repeats the first one, from the last pose to the first.
 std::vector<Answers> answersOf(const Subject& subject, const Poses& poses) {
   std::vector<Answers> out(poses.at.size());
   const auto ask = [&](std::size_t k, Question question) {
@@ -105,7 +105,7 @@ std::vector<TermError> termErrors(const std::vector<Answers>& found, const std::
   return out;
 }
 
-/// A solver that knows the motion by its instants answers the same whatever it is asked.
+/// Whether answers depend on the question; a solver that looks up instants always answers the same.
 bool listens(const std::vector<Answers>& answers) {
   return std::any_of(answers.begin(), answers.end(), [](const Answers& is) {
     return std::any_of(is.begin(), is.end(), [&](const Vector6d& one) { return one != is.front(); });
@@ -120,7 +120,7 @@ AskedApart askedApart(const Subject& subject, const Scenario& scenario, const st
   try {
     found = answersOf(subject, poses);
     expected = answersOf(nocSubject(*scenario.manipulator, scenario.load), poses);
-  } catch (const std::exception&) {  // no answer to what the motion itself does not ask
+  } catch (const std::exception&) {  // no answer to questions outside the motion
     return {};
   }
   AskedApart out;

@@ -8,19 +8,19 @@
 
 namespace ursula {
 
-/// What a solver answers where it is asked for one thing at a time, at poses of its motion.
+/// A solver's answers to separate questions, at poses of its motion.
 struct AskedApart {
   std::vector<Motion<double>> motions;
   std::vector<Vector6d> found, expected;  ///< of the solver, of the NOC: N·m or N
-  std::vector<double> rounding;           ///< by how much right efforts may differ, N·m or N
+  std::vector<double> rounding;           ///< possible difference of right efforts, N·m or N
   std::vector<TermError> terms;           ///< relative errors of the parts of its efforts
 };
 
-/// Asks at poses of `motions` for one thing at a time, and holds each part of the efforts against the NOC's: at rest,
-/// the effect of each acceleration, what is even in v, in ω and in both, what is odd in them, and the first questions
-/// again, in another order. Errors are relative to the part, or, where the part is nothing, to all efforts that were
-/// asked. The velocities are such that their efforts show beside gravity's. Empty where the solver gives no answer to
-/// one of the questions; without motions where its answers do not depend on what it is asked.
+/// Asks separate questions at poses of `motions` and compares each part of the efforts with the NOC's. The parts are
+/// the efforts at rest, the effect of each acceleration, the terms even in v, in ω and in both, and the odd ones. The
+/// first questions are repeated in another order. Errors are relative to the part, or to all efforts if the part
+/// vanishes. The velocities are large enough to matter beside gravity. Returns nothing if the solver leaves a question
+/// unanswered, and no motions if its answers ignore the question.
 AskedApart askedApart(const Subject& subject, const Scenario& scenario, const std::vector<Motion<double>>& motions);
 
 }  // namespace ursula

@@ -14,7 +14,7 @@ Matrix3d crossed(const Vector3d& r) {
 
 using UnitTwists = Eigen::Matrix<double, 6, 3>;
 
-/// The leg's three unit twists of a link at c: columns of joints that come before it.
+/// The leg's three unit twists for a link at c; only the `joints` before the link have non-zero columns.
 UnitTwists unitTwists(const LegKindRow& row, const LegPoints& points, const Vector3d& c, int joints) {
   UnitTwists out = UnitTwists::Zero();
   for (int j = 0; j < joints; ++j) {

@@ -9,7 +9,7 @@
 
 namespace ursula {
 
-/// One body of the machine at one motion, in B: what its share of the efforts is made of.
+/// One body of the machine in one motion, in B: the quantities for its part of the efforts.
 struct BodyTerms {
   double mass = 0;                                        ///< kg
   Matrix3d inertia = Matrix3d::Zero();                    ///< about the mass centre, kg·m²
@@ -17,10 +17,10 @@ struct BodyTerms {
   Vector3d c = Vector3d::Zero();                          ///< mass centre, m
   Vector3d from = Vector3d::Zero();                       ///< from the centre of its inner joint to the mass centre, m
   Vector3d line = Vector3d::Zero();                       ///< along a link, unit; zero for platform and carriage
-  Vector3d sliding = Vector3d::Zero();                    ///< velocity along the link before, m/s
+  Vector3d sliding = Vector3d::Zero();                    ///< velocity along the previous link, m/s
   Vector6d twist = Vector6d::Zero(), twist_rate = twist;  ///< [ω; ċ], [ω̇; c̈]
-  Vector6d bias = twist;          ///< of its twist rate, what the accelerations of the leg's joints do not make
-  Matrix6d T = Matrix6d::Zero();  ///< its rows of (32a): twist for unit rates of the motors
+  Vector6d bias = twist;          ///< the part of its twist rate that the leg's joint accelerations do not cause
+  Matrix6d T = Matrix6d::Zero();  ///< its rows of (32a): twist per unit rates of the motors
 
   Vector3d omega() const { return twist.head<3>(); }
   /// [I ω̇ + ω × I ω; m c̈] for a twist rate, (38).
@@ -30,29 +30,30 @@ struct BodyTerms {
   Vector6d gravityWrench(const Vector3d& g) const;  ///< [0; m g], (45)
 };
 
-/// One leg cut off the platform: what an open chain is.
+/// One leg detached from the platform, as an open chain.
 struct OpenLeg {
-  Matrix3d J = Matrix3d::Zero();  ///< velocity of B for unit rates of its coordinates
-  Eigen::Matrix<double, 3, 6> P = Eigen::Matrix<double, 3, 6>::Zero();  ///< the same for the platform's twist at P
+  Matrix3d J = Matrix3d::Zero();  ///< velocity of B per unit rates of its coordinates
+  Eigen::Matrix<double, 3, 6> P =
+      Eigen::Matrix<double, 3, 6>::Zero();    ///< the same per unit of the platform's twist at P
   Vector3d efforts = Vector3d::Zero();        ///< of its coordinates, for its own links and friction
   Matrix3d mass = Matrix3d::Zero();           ///< of its links, in its coordinates
   Vector3d bias = Vector3d::Zero();           ///< J̇ q̇ of its point B, m/s²
   Vector3d platform_bias = Vector3d::Zero();  ///< ω × (ω × Qb) of the platform's, m/s²
 };
 
-/// The machine at one motion, body by body. By the NOC's kinematics, with dynamics of its own: the terms can be left
-/// out one by one, and the loops be closed otherwise.
+/// The machine in one motion, body by body. It uses the NOC's kinematics and its own dynamics. Terms can be omitted
+/// individually, and the loops can be closed in other ways.
 struct MachineTerms {
   std::vector<BodyTerms> proximal, distal;
   BodyTerms platform;
   std::vector<OpenLeg> legs;
-  Vector6d platform_wrench = Vector6d::Zero();  ///< moment about P and force that move the platform, load taken off
+  Vector6d platform_wrench = Vector6d::Zero();  ///< moment about P and force that move the platform, minus the load
   Matrix6d T_P = Matrix6d::Zero();              ///< of (24)
   Vector6d rate_at_P = Vector6d::Zero();        ///< [ω̇; p̈]
   Vector3d rho = Vector3d::Zero();              ///< from P to the platform's mass centre, in B
   Vector3d gravity = Vector3d::Zero();
 
-  /// The generalised force at P of platform, links and friction: the efforts are T_Pᵀ times this.
+  /// The generalised force at P of platform, links and friction; the efforts are T_Pᵀ times it.
   Vector6d forceAtP() const;
 };
 
@@ -60,7 +61,7 @@ struct MachineTerms {
 Vector6d momentWrench(const Vector3d& n);
 Vector6d forceWrench(const Vector3d& f);
 
-/// Throws PoseError as the NOC does.
+/// Throws PoseError like the NOC.
 MachineTerms machineTerms(const Manipulator& machine, const std::shared_ptr<const Load>& load,
                           const Motion<double>& motion);
 

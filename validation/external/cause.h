@@ -10,33 +10,33 @@
 
 namespace ursula {
 
-/// What may have been different where torques were computed: another machine, another reading of the motion, a term
-/// more. With one number x that is fitted, zero where nothing differs, or with none.
+/// A possible difference in how torques were computed: another machine, another interpretation of the motion, an extra
+/// term. It has one fitted number x, which is zero without a difference, or none.
 struct Cause {
   bool fitted = true;
-  /// The torques, N·m. Throws std::invalid_argument or PoseError where there are none for this x.
+  /// The torques, N·m. Throws std::invalid_argument or PoseError if they do not exist for this x.
   std::function<std::vector<Vector6d>(double x, const std::vector<Motion<double>>&)> torques;
   /// "platform mass 499.31 +- 0.02 kg instead of 500"; `deviation` is two standard deviations of x.
   std::function<std::string(double x, double deviation)> words;
-  /// The torques' derivative by x at 0; empty where none is known but differences.
+  /// The torques' derivative by x at 0; empty if only differences give it.
   std::function<std::vector<Vector6d>(const std::vector<Motion<double>>&)> slope = {};
-  /// The same as `words`, typed; empty for what has no name in the contract.
+  /// The same as `words`, typed; empty if the contract has no name for it.
   std::function<std::optional<NamedCause>(double x, double deviation)> named = {};
 };
 
-/// What a cause that is not fitted is called, in words and by the contract.
+/// The name of a cause without a fitted number, in words and in the contract.
 struct CauseName {
   std::string text;
   std::optional<NamedCause> named = {};
 };
 
-/// A cause without a number that is fitted; `torques` as above, x is 0.
+/// A cause without a fitted number; `torques` is as above with x = 0.
 Cause fixedCause(const CauseName& name,
                  std::function<std::vector<Vector6d>(const std::vector<Motion<double>>&)> torques);
 
-/// Fits each cause to the residual: all of them to first order on a few instants, the likely ones there by
-/// Gauss–Newton, and those that do best on all instants. Left out are those without effect, those that the motion does
-/// not allow and those that have no fit. In the order of `causes`.
+/// Fits each cause to the residual: all to first order on a few instants, the likely ones there by Gauss–Newton, the
+/// best on all instants. It drops causes without effect, without a fit, or incompatible with the motion. The order is
+/// that of `causes`.
 std::vector<Hypothesis> fitCauses(const std::vector<Cause>& causes, const TorqueResidual& data);
 
 /// "499.31 +- 0.02", to the deviation's digits but at most ten.

@@ -14,11 +14,11 @@ namespace {
 
 using Rows = std::vector<Vector6d>;
 
-constexpr std::size_t few_instants = 20, most_instants = 200;  // to choose by, to fit by
+constexpr std::size_t few_instants = 20, most_instants = 200;  // for the choice, for the fit
 constexpr std::size_t likely_causes = 64, best_causes = 12;
 constexpr double difference_step = 1e-5;
 
-/// `count` of the rows from `first` to `last`, evenly.
+/// Picks up to `most` rows from `first` to `last`, evenly.
 void pick(const TorqueResidual& data, std::size_t first, std::size_t last, std::size_t most, TorqueResidual& out) {
   const std::size_t rows = last - first, count = std::min(rows, most);
   for (std::size_t i = 0; i < count; ++i) {
@@ -28,7 +28,7 @@ void pick(const TorqueResidual& data, std::size_t first, std::size_t last, std::
   }
 }
 
-/// Half of them along the motion where a solver was asked besides.
+/// Picks rows; half of them lie along the motion if a solver also answered separate questions.
 TorqueResidual picked(const TorqueResidual& data, std::size_t most) {
   TorqueResidual out;
   out.motors = data.motors;
@@ -52,7 +52,7 @@ class Fit {
     if (!cause.fitted) start(0);
   }
 
-  /// Cosine between the residual and what a small x does; 0 where it does nothing.
+  /// The cosine between the residual and the effect of a small x; 0 if there is no effect.
   double likeness() {
     if (!cause_.fitted) return std::sqrt(1 - std::min(1.0, unexplained_ * unexplained_));
     const Rows slope = slopeAt(0);
@@ -61,7 +61,7 @@ class Fit {
     return std::abs(dot(slope, data_.residual)) / (size * data_.norm());
   }
 
-  /// Gauss–Newton with halved steps; as many steps at most.
+  /// Takes at most `steps` Gauss–Newton steps, which may be halved.
   void improve(int steps) {
     if (!cause_.fitted) return;
     for (int k = 0; k < steps && step(); ++k) {
@@ -86,7 +86,7 @@ class Fit {
   }
 
  private:
-  /// How many times larger the torques on trial are than right ones: their rounding grows with them.
+  /// How many times larger the subject's torques are than the right ones; their rounding grows in proportion.
   double growth() const {
     double found = 0, exact = 0;
     for (std::size_t k = 0; k < data_.exact.size(); ++k) {
@@ -96,7 +96,7 @@ class Fit {
     return exact > 0 ? std::max(1.0, found / exact) : 1;
   }
 
-  /// None where the cause has no torques.
+  /// Returns nullopt if the cause has no torques.
   std::optional<Rows> torquesAt(double at) const {
     try {
       return cause_.torques(at, data_.motions);
@@ -118,8 +118,8 @@ class Fit {
     return std::sqrt(dot(left, left)) / data_.norm();
   }
 
-  /// Exact at 0 where the cause knows it; else by central differences, by one-sided ones where a parameter cannot be
-  /// less.
+  /// The exact slope at 0 if the cause knows it, otherwise central differences. They are one-sided if a parameter
+  /// cannot decrease.
   Rows slopeAt(double at) const {
     if (at == 0 && cause_.slope) return cause_.slope(data_.motions);
     std::optional<Rows> above = torquesAt(at + difference_step), below = torquesAt(at - difference_step);
@@ -131,7 +131,7 @@ class Fit {
     return out;
   }
 
-  /// False where nothing improves any more.
+  /// Takes one step; returns false if nothing improves any more.
   bool step() {
     const Rows slope = slopeAt(x_);
     const double size = dot(slope, slope);
@@ -147,8 +147,8 @@ class Fit {
     return false;
   }
 
-  /// Two standard deviations of x: of what remains, or of the file's precision (even within its limits) if that is
-  /// more.
+  /// Two standard deviations of x from the remainder, or from the file's precision (uniform within its limits) if that
+  /// is larger.
   double deviationAt(const Rows& left) const {
     const Rows slope = slopeAt(x_);
     double precision = 0;
@@ -164,11 +164,11 @@ class Fit {
 };
 
 struct Candidate {
-  std::size_t place;  ///< among the causes
+  std::size_t place;  ///< index among the causes
   double merit, x;
 };
 
-/// The best by `merit`, in the order of the causes.
+/// Keeps the best by `merit`, in the order of the causes.
 void keepBest(std::vector<Candidate>& candidates, std::size_t most) {
   if (candidates.size() > most) {
     std::stable_sort(candidates.begin(), candidates.end(),
@@ -201,7 +201,7 @@ std::vector<Hypothesis> fitCauses(const std::vector<Cause>& causes, const Torque
     Fit fit(causes[candidate.place], all);
     fit.start(candidate.x);
     fit.improve(3);
-    Fit whole(causes[candidate.place], data);  // what is claimed must hold at every instant
+    Fit whole(causes[candidate.place], data);  // a claim must hold at every instant
     whole.start(fit.x());
     if (std::isfinite(whole.unexplained())) out.push_back(whole.hypothesis());
   }

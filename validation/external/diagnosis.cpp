@@ -12,14 +12,14 @@
 namespace ursula {
 namespace {
 
-/// A likely part leaves less than this part of the residual.
+/// A likely explanation of one part leaves less than this share of the residual.
 constexpr double may_remain = 0.01;
-/// An explanation leaves no more than these limits anywhere (one of the torques found, one of those that the cause
-/// makes), and so little that this is no matter of chance.
+/// An explanation leaves at most these multiples of the limits everywhere (one for the given torques, one for the
+/// cause's). The remainder must also be too small for chance.
 constexpr double may_be_beyond = 2, may_be_chance = 0.1;
 constexpr std::size_t most_named = 4;
 
-/// Where one leg's torque is beyond its limit.
+/// Where one leg's torque exceeds its limit.
 struct LegDeviation {
   std::size_t count = 0, first = 0, last = 0, worst = 0;
   double largest = 0;
@@ -64,7 +64,7 @@ std::string amountText(const LegDeviation& leg, const char* unit, double largest
   return fmt::format("by up to {:.4g} {}{}", leg.largest, unit, share);
 }
 
-/// Summary and details, empty where every leg is within its limits.
+/// Summary and details; empty if every leg is within its limits.
 Diagnosis deviationTexts(const MotorNames& motors, const ExternalTorques& torques) {
   const double largest_torque = largestTorque(torques);
   std::string legs, details, right;
@@ -92,7 +92,7 @@ Diagnosis deviationTexts(const MotorNames& motors, const ExternalTorques& torque
           details + (right.empty() ? "; no " + kind + " is right" : "; within their limits: " + right), ""};
 }
 
-/// At most `most` instants, evenly picked: an explanation needs no more. Then what a solver answered apart.
+/// At most `most` instants, evenly picked, which suffice; then the answers to separate questions.
 TorqueResidual residualOf(const Scenario& scenario, const ExternalTorques& torques, const AskedApart& asked) {
   constexpr std::size_t most = 1000;
   TorqueResidual out;
@@ -109,7 +109,7 @@ TorqueResidual residualOf(const Scenario& scenario, const ExternalTorques& torqu
   return out;
 }
 
-/// Numbers of single precision with the errors that such have.
+/// Whether the numbers are single precision with errors of that size.
 bool isSinglePrecision(const ExternalTorques& torques) {
   if (!torques.file.all_single) return false;
   for (std::size_t k = 0; k < torques.file.rows(); ++k)
@@ -120,7 +120,7 @@ bool isSinglePrecision(const ExternalTorques& torques) {
   return true;
 }
 
-/// Whether one instant's residual says nothing of the next one's: their correlation is within three of its deviations.
+/// Whether successive residuals are uncorrelated: their correlation is within three of its deviations.
 bool isNoise(const TorqueResidual& data) {
   double along = 0, all = 0;
   for (std::size_t k = 0; k + 1 < data.residual.size(); ++k) along += data.residual[k].dot(data.residual[k + 1]);
@@ -136,8 +136,8 @@ std::string percent(double explained) {
 
 bool explains(const Hypothesis& one) { return one.beyond <= may_be_beyond && one.unexplained <= may_be_chance; }
 
-/// Those that do as well as the best: all that explain everything, else all near the least that remains. First the ones
-/// with the fewest numbers that were fitted, then in the order in which a person would believe them.
+/// Returns the best hypotheses: all that explain everything, otherwise all near the smallest remainder. Those with
+/// fewest fitted numbers come first, then the most plausible ones.
 std::vector<Hypothesis> bestOf(const std::vector<Hypothesis>& fitted) {
   const auto least = std::min_element(fitted.begin(), fitted.end(), [](const Hypothesis& a, const Hypothesis& b) {
     return a.unexplained < b.unexplained;
@@ -166,7 +166,7 @@ bool isRight(const ExternalTorques& torques, std::size_t k) {
   return true;
 }
 
-/// The instants from the first to the last that is off.
+/// The instants from the first to the last deviating one.
 struct Window {
   std::size_t off = 0, first = 0, last = 0;
   std::size_t rows() const { return last + 1 - first; }
@@ -182,7 +182,7 @@ Window windowOf(const ExternalTorques& torques) {
   return out;
 }
 
-/// Where one instant in twenty at most is off, as of a falsified row; else empty.
+/// Describes at most one deviating instant in twenty, as from a falsified row; else empty.
 std::string loneInstants(const ExternalTorques& torques) {
   const std::size_t rows = torques.file.rows();
   const Window window = windowOf(torques);
@@ -191,8 +191,8 @@ std::string loneInstants(const ExternalTorques& torques) {
                      window.off == 1 ? "is" : "are", torques.file.t[window.first]);
 }
 
-/// Where the torques are wrong all through an interval and right in at least a tenth of the motion; else empty. What is
-/// wrong there, if its instants alone tell.
+/// Describes torques that are wrong in one interval and right in at least a tenth of the motion; else empty. Adds the
+/// cause if those instants reveal it.
 Explanation intervalAlone(const Scenario& scenario, const ExternalTorques& torques, const TorqueResidual& data) {
   constexpr std::size_t enough = 16;
   const Window window = windowOf(torques);
@@ -219,7 +219,7 @@ Explanation intervalAlone(const Scenario& scenario, const ExternalTorques& torqu
   return out;
 }
 
-/// Of the deviation: a cause that explains less is not worth a word.
+/// Share of the deviation: a cause that explains less is not mentioned.
 constexpr double worth_naming = 0.01;
 
 Explanation explanationOf(const Scenario& scenario, const ExternalTorques& torques, const AskedApart& asked) {

@@ -11,21 +11,22 @@
 
 namespace ursula {
 
-/// What a person would say of torques that are wrong.
+/// What an expert would say about wrong torques.
 struct Diagnosis {
-  std::string summary;                   ///< which legs, when, by how much, in a line
+  std::string summary;                   ///< which legs, when, by how much, in one line
   std::string deviation;                 ///< the same for each leg
-  std::string cause;                     ///< a guess that the residual supports, or that there is none
-  std::optional<NamedCause> named = {};  ///< the cause; none where there is no one that explains all
-  std::vector<NamedCause> others = {};   ///< that explain the deviation as well; all of them where `named` is none
-  std::vector<TermError> terms = {};     ///< of a solver that was asked apart
+  std::string cause;                     ///< a guess that the residual supports, or a statement that there is none
+  std::optional<NamedCause> named = {};  ///< the cause; nullopt unless exactly one explains everything
+  std::vector<NamedCause> others =
+      {};  ///< causes that explain the deviation equally well; all of them if `named` is empty
+  std::vector<TermError> terms = {};  ///< of a solver that answered separate questions
 };
 
-/// Only for torques that are beyond their limits somewhere: of exact ones there is nothing to say, and all are empty.
-/// A cause has to explain what a solver answered apart as well.
+/// Only for torques that exceed their limits somewhere; for exact ones everything is empty. A cause must also explain
+/// the solver's answers to separate questions.
 Diagnosis diagnose(const Scenario& scenario, const ExternalTorques& torques, const AskedApart& asked = {});
 
-/// Into the result: its likely cause, findings, and what its failed checks say. Nothing where there is nothing to say.
+/// Adds the likely cause, findings and texts of failed checks to the result, if there are any.
 void addDiagnosis(const Diagnosis& diagnosis, ValidationResult& result);
 
 }  // namespace ursula

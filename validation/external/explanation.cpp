@@ -9,7 +9,7 @@
 namespace ursula {
 namespace {
 
-/// One pose, held or repeated: six numbers, which too many causes can make.
+/// Whether the motion is one pose, held or repeated: too many causes can produce its six numbers.
 bool isOnePose(const TorqueResidual& data) {
   const Motion<double>& first = data.motions.front();
   return std::all_of(data.motions.begin(), data.motions.end(), [&](const Motion<double>& each) {
@@ -18,12 +18,12 @@ bool isOnePose(const TorqueResidual& data) {
   });
 }
 
-/// Gravity's size and its component are one number; and what is left out or has the wrong sign is also a number that
-/// is 0 or turned about.
+/// Gravity's size and its component are one number. A missing term or a wrong sign is also a number that is 0 or
+/// negated.
 bool sayTheSame(const NamedCause& first, const NamedCause& other) {
   const bool one_term = first.kind == other.kind && first.term == other.term && first.leg == other.leg &&
                         (!first.term.empty() || first.kind == CauseKind::reference_point);
-  if (one_term && other.kind != CauseKind::parameter) return true;  // of other bodies that make no difference here
+  if (one_term && other.kind != CauseKind::parameter) return true;  // for other bodies that make no difference here
   if (other.kind != CauseKind::parameter || !other.expected || !other.found) return false;
   const double expected = *other.expected, found = *other.found, little = 1e-3 * std::abs(expected);
   if (first.kind == CauseKind::missing_term) return std::abs(found) <= little;
@@ -32,7 +32,7 @@ bool sayTheSame(const NamedCause& first, const NamedCause& other) {
          other.parameter.compare(0, first.parameter.size(), first.parameter) == 0 && !first.parameter.empty();
 }
 
-/// Where mass centres of the other links make no difference, these are not blamed.
+/// Does not blame the other links if their mass centres make no difference.
 void leaveOutOtherLinks(const std::vector<Hypothesis>& best, NamedCause& named) {
   if (named.kind != CauseKind::reference_point || named.body != "legs") return;
   for (const Hypothesis& one : best)

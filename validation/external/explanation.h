@@ -9,18 +9,18 @@
 
 namespace ursula {
 
-/// What is said of a cause, and by what name.
+/// The words about a cause, and its name.
 struct Explanation {
   std::string text;
   std::optional<NamedCause> named = {};
   std::vector<NamedCause> others = {};
 };
 
-/// `best` explain everything. The first is named where no other does so with as few numbers, and not of one pose, held
-/// or repeated: silence is better than a wrong cause.
+/// All of `best` explain everything. The first is named unless another needs as few numbers, or the motion is a single
+/// pose. No cause is better than a wrong one.
 Explanation named(const std::vector<Hypothesis>& best, const TorqueResidual& data, std::string text);
 
-/// A solver that answers the same question otherwise: whatever else its answers look like, that comes first.
+/// Names the state of a solver that answers the same question differently; it precedes every other cause.
 void nameState(LikelyCause& likely);
 
 }  // namespace ursula

@@ -14,10 +14,10 @@
 namespace ursula {
 namespace {
 
-/// Errors of the spline through the file's torques, and what they are to the platform.
+/// Errors of the spline through the file's torques, and their effect on the platform.
 class SplineLimit {
  public:
-  /// `grid`: equally spaced instants of the motion.
+  /// `grid` holds equally spaced instants of the motion.
   SplineLimit(const Scenario& scenario, const ExternalTorques& torques, std::vector<double> grid)
       : t_(torques.file.t), grid_(std::move(grid)) {
     const RoundingProfile profile(scenario, profileInstants(static_cast<int>(grid_.size())));
@@ -33,7 +33,7 @@ class SplineLimit {
     digits_ = carriedErrors(t_, norms);
   }
 
-  /// Of the platform's acceleration: the largest within one step of the grid around t, m/s².
+  /// The error of the platform's acceleration: the largest within one grid step of t, m/s².
   double operator()(double t) const {
     const double h = grid_[1] - grid_[0];
     const auto k = std::min(static_cast<std::size_t>(std::lround(t / h)), grid_.size() - 1);
@@ -66,12 +66,12 @@ class SplineLimit {
 
   std::vector<double> t_, grid_;
   std::vector<Conditioning> conditioning_;
-  std::vector<double> interpolation_, digits_;  ///< N·m, one for each interval of t_
+  std::vector<double> interpolation_, digits_;  ///< N·m, one per interval of t_
   double position_scale_ = 0;
   LoopForces forces_;
 };
 
-/// Why no spline can stand for the torques over the whole motion; empty where one can.
+/// Returns why no spline covers the whole motion; empty if one does.
 std::string missing(const ExternalTorques& torques, double duration, const Units& units) {
   const TorqueFile& file = torques.file;
   if (file.rows() < TorqueSpline::least_samples)
@@ -81,7 +81,7 @@ std::string missing(const ExternalTorques& torques, double duration, const Units
                      file.t.back() * units.time, duration * units.time);
 }
 
-/// Where even the shortest window's bound exceeds the useful limit, the worst of them.
+/// Returns the worst window if even the shortest windows' bounds exceed the useful limit.
 const GrowthWindow* hopeless(const ReplayPlan& plan, const std::vector<GrowthWindow>& windows, double useful) {
   const GrowthWindow* worst = nullptr;
   double largest = useful;

@@ -8,7 +8,7 @@
 namespace ursula {
 namespace {
 
-/// Deviation of the leg that is furthest beyond, or nearest to, its own limit.
+/// The deviation of the leg that exceeds its own limit most, or is nearest to it.
 Deviation deviationOf(const Vector6d& torques, const Vector6d& exact, const Vector6d& precision, double rounding) {
   Deviation out;
   double worst = -1;
@@ -23,7 +23,7 @@ Deviation deviationOf(const Vector6d& torques, const Vector6d& exact, const Vect
   return out;
 }
 
-/// What the torques may change by where the instant is off by its last digit.
+/// The change of the torques if the instant is off by its last digit.
 Vector6d changeWithin(const std::function<Vector6d(double)>& noc, double t, double precision, double duration) {
   if (precision == 0) return Vector6d::Zero();
   const Vector6d here = noc(t);
@@ -42,7 +42,7 @@ ExternalTorques runExternal(const Scenario& scenario, const TorqueFile& file) {
   const auto noc = [&](double t) { return noc_subject.torques(scenario.trajectory->at(t)); };
   Subject subject;
   subject.name = file.file.filename().string();
-  subject.torques = [&](const Motion<double>& motion) {  // asked for at the file's own instants alone
+  subject.torques = [&](const Motion<double>& motion) {  // called only at the file's own instants
     const auto row = std::lower_bound(out.file.t.begin(), out.file.t.end(), motion.t) - out.file.t.begin();
     return out.file.torques.at(static_cast<std::size_t>(row));
   };

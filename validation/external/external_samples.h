@@ -5,7 +5,7 @@
 
 namespace ursula {
 
-/// Pointwise at the file's own instants: there is nothing to interpolate.
+/// Compares at the file's own instants, so that nothing is interpolated.
 ExternalTorques runExternal(const Scenario& scenario, const TorqueFile& file);
 
 }  // namespace ursula

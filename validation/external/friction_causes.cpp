@@ -9,7 +9,7 @@ namespace {
 
 using Machine = ManipulatorParameters;
 
-/// `expected` and `found` are what is beyond the scenario's.
+/// `expected` and `found` are the excess over the scenario's.
 NamedCause moreFriction(const std::string& key, const char* unit, double x, double deviation) {
   NamedCause out{CauseKind::parameter, "friction", "legs", "manipulator.leg_defaults." + key, unit, 0, x, deviation};
   return out;
@@ -23,7 +23,7 @@ bool anyLegHas(const Manipulator& machine, Coordinate coordinate) {
   });
 }
 
-/// A fit of the coefficients of one law, `key`, on every leg that has the coordinate.
+/// Fits the coefficients of one law, `key`, on every leg that has the coordinate.
 void addMore(const char* words, const std::string& key, const char* unit, Coordinate coordinate,
              JointFriction& (*law)(Leg&), MachineCauses& out) {
   const std::string joint = nameOf(coordinate);
@@ -38,7 +38,7 @@ void addMore(const char* words, const std::string& key, const char* unit, Coordi
       [key, joint, unit](double x, double deviation) { return moreFriction(key + "." + joint, unit, x, deviation); });
 }
 
-/// Friction that the scenario does not have.
+/// Friction that the scenario lacks.
 void addFriction(const Manipulator& machine, MachineCauses& out) {
   for (const Coordinate coordinate : {Coordinate::phi, Coordinate::psi, Coordinate::theta, Coordinate::d}) {
     if (!anyLegHas(machine, coordinate)) continue;
@@ -51,12 +51,12 @@ void addFriction(const Manipulator& machine, MachineCauses& out) {
   }
   const NamedCause sharp{CauseKind::parameter, "friction", "legs", "manipulator.leg_defaults.coulomb.smoothing_speed"};
   out.addFixed({"Coulomb friction without smoothing", sharp}, [](Machine& changed) {
-    constexpr double sharp_speed = 1e-200;  // every speed is far beyond it
+    constexpr double sharp_speed = 1e-200;  // every speed is far above it
     for (Leg& leg : changed.legs) leg.coulomb.smoothing_speed = leg.coulomb.sliding_speed = sharp_speed;
   });
 }
 
-/// Which of a leg's joints.
+/// A choice of a leg's joints.
 enum class Joints { all, driven, passive };
 
 void clear(JointFriction& law, const Leg& leg, Joints which) {
@@ -73,7 +73,7 @@ bool rubs(const Machine& machine, bool viscous, bool coulomb, Joints but_for) {
   });
 }
 
-/// Parts of the friction that the scenario has, where it has others too: all of it is a term by itself.
+/// Omits parts of the scenario's friction if it has others too; omitting all of it is a term of its own.
 void addFrictionLeftOut(const Machine& machine, MachineCauses& out) {
   const NamedCause named{CauseKind::missing_term, "friction", "all"};
   const auto add = [&](const char* text, bool viscous, bool coulomb, Joints which) {

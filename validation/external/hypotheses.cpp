@@ -26,7 +26,7 @@ double dot(const Rows& a, const Rows& b) {
   return sum;
 }
 
-/// 1 + c, with digits to spare where c is small.
+/// 1 + c, with extra digits if c is small.
 std::string factorText(double c) {
   if (std::abs(c) < 5e-4) return fmt::format("1 {} {:.4g}", c < 0 ? '-' : '+', std::abs(c));
   return fmt::format("{:.6g}", 1 + c);
@@ -46,7 +46,7 @@ Hypothesis hypothesis(const TorqueResidual& data, const std::string& text, const
   return out;
 }
 
-/// " (9.80665 m/s^2, standard gravity)" for values that people use.
+/// " (9.80665 m/s^2, standard gravity)" for common values.
 std::string knownGravity(double value) {
   const std::pair<double, const char*> known[] = {
       {9.80665, "9.80665 m/s^2, standard gravity"}, {9.81, "9.81 m/s^2"}, {9.8, "9.8 m/s^2"}, {10, "10 m/s^2"}};
@@ -55,7 +55,7 @@ std::string knownGravity(double value) {
   return "";
 }
 
-/// What (1 + c) times a term is: left out, with the wrong sign, or scaled; gravity has a size of its own.
+/// Names (1 + c) times a term: omitted, wrong sign, or scaled; gravity also has a value.
 std::optional<NamedCause> namedScale(const TorqueTerm& term, double factor) {
   if (term.term.empty()) return std::nullopt;
   if (std::abs(factor) < 1e-3) return NamedCause{CauseKind::missing_term, term.term, term.body};
@@ -66,7 +66,7 @@ std::optional<NamedCause> namedScale(const TorqueTerm& term, double factor) {
   return NamedCause{CauseKind::scale, term.term, term.body, "", "", 1, factor};
 }
 
-/// residual = c · term: the torques hold (1 + c) times the term.
+/// residual = c · term: the torques contain (1 + c) times the term.
 std::optional<Hypothesis> scaledTerm(const TorqueResidual& data, const TorqueTerm& term) {
   const double size = norm(term.torques);
   if (!(size > 1e-9 * norm(data.exact))) return std::nullopt;  // no effect on this motion
@@ -85,7 +85,7 @@ std::optional<Hypothesis> scaledTerm(const TorqueResidual& data, const TorqueTer
 
 std::optional<Hypothesis> scaled(const TorqueResidual& data) {
   const double c = dot(data.residual, data.exact) / std::max(dot(data.exact, data.exact), 1e-300);
-  if (std::abs(c + 2) < 1e-9) return std::nullopt;  // the sign of every leg, which is tried by itself
+  if (std::abs(c + 2) < 1e-9) return std::nullopt;  // the sign of every leg has its own hypothesis
   const std::string unit = unitOf(1 + c);
   Hypothesis out =
       hypothesis(data, fmt::format("every torque scaled by {}{}", factorText(c), unit.empty() ? "" : " (" + unit + ")"),
@@ -95,7 +95,7 @@ std::optional<Hypothesis> scaled(const TorqueResidual& data) {
   return out;
 }
 
-/// What a fit of one number for each motor found, with those in which it matters.
+/// The result of a fit with one number per motor, naming the motors where it matters.
 Hypothesis perLeg(const TorqueResidual& data, const Vector6d& fitted, const Rows& predicted,
                   const std::function<std::string(double, int)>& show, const std::string& what, NamedCause named) {
   std::string text;
@@ -173,7 +173,7 @@ double TorqueResidual::beyond(const std::vector<Vector6d>& left) const {
   for (std::size_t k = 0; k < left.size(); ++k)
     for (int i = 0; i < motor_count; ++i) {
       const double share = std::abs(left[k](i)) / limit[k](i);
-      if (!(share <= largest)) largest = share;  // not a number counts as the largest
+      if (!(share <= largest)) largest = share;  // NaN counts as the largest
     }
   return largest;
 }

@@ -28,11 +28,11 @@ Rows difference(const Rows& a, const Rows& b) {
 struct WrongFormula {
   FormulaError formula_error;
   const char* name;
-  const char* term = "";  ///< by the contract
+  const char* term = "";  ///< name in the contract
   const char* body = "";
 };
 
-/// Parts that the solver itself can leave out: they may be scaled as well.
+/// Parts that the solver can omit; they may also be scaled.
 const WrongFormula parts[] = {
     {FormulaError::drop_gravity_platform, "the platform's gravity", "gravity", "platform"},
     {FormulaError::drop_gravity_legs, "the links' gravity", "gravity", "legs"},
@@ -62,7 +62,7 @@ const WrongFormula printed[] = {
     {FormulaError::eq47, "the text by (47) as printed"},
 };
 
-/// Collects terms; one that the changed machine cannot have, or that throws on the way, is left out.
+/// Collects terms; it skips those that throw or that the changed machine cannot have.
 class Collector {
  public:
   Collector(const Scenario& scenario, const std::vector<Motion<double>>& motions, const Rows& exact)
@@ -70,7 +70,7 @@ class Collector {
 
   std::vector<TorqueTerm> terms() { return std::move(terms_); }
 
-  /// What a change of the machine takes from the torques (`sign` 1), or adds to them (−1).
+  /// Adds the effect of a change of the machine: what it removes from the torques (`sign` 1) or adds (−1).
   void addChange(const std::string& name, const Change& change, double sign) {
     ManipulatorParameters parameters = scenario_.manipulator->parameters();
     change(parameters);
@@ -84,7 +84,7 @@ class Collector {
     });
   }
 
-  /// Of the term `of`, if it was the last added.
+  /// Describes the term `of` if it was the last added.
   void describe(const char* of, const char* term, const char* body, double size = 0) {
     if (terms_.empty() || terms_.back().name != of) return;
     terms_.back().term = term;
@@ -97,7 +97,7 @@ class Collector {
       add("the load", {}, 1, [&] { return torquesOf(nocSubject(*scenario_.manipulator, nullptr), motions_); });
   }
 
-  /// τ(from) − τ(to), of motions changed.
+  /// Adds τ(from) − τ(to) for changed motions.
   void addMotionChange(const std::string& name, const MotionChange& from, const MotionChange& to) {
     add(name, {}, 1, [&] { return difference(exact_, difference(changed(from), changed(to))); });
   }

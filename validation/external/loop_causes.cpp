@@ -9,7 +9,7 @@
 namespace ursula {
 namespace {
 
-/// What the efforts change by with another Jacobian J' in the place of J = T_P⁻¹, and with `wrong_at_P` for `at_P`.
+/// The change of the efforts if J' replaces J = T_P⁻¹ and `wrong_at_P` replaces `at_P`.
 Vector6d throughJacobian(const MachineTerms& machine, const Matrix6d& wrong, const Vector6d& wrong_at_P,
                          const Vector6d& at_P) {
   return wrong.transpose().lu().solve(wrong_at_P) - machine.T_P.transpose() * at_P;
@@ -17,7 +17,7 @@ Vector6d throughJacobian(const MachineTerms& machine, const Matrix6d& wrong, con
 
 Matrix6d jacobian(const MachineTerms& machine) { return machine.T_P.inverse(); }
 
-/// Rows [b × n; n] with b from the platform's frame, as if it were the base's.
+/// Rows [b × n; n] with b in the platform's frame, as if it were the base's.
 Matrix6d unturnedJacobian(const Scenario& scenario, const MachineTerms& machine) {
   Matrix6d out = jacobian(machine);
   const Motors& motors = scenario.manipulator->motors();
@@ -28,7 +28,7 @@ Matrix6d unturnedJacobian(const Scenario& scenario, const MachineTerms& machine)
   return out;
 }
 
-/// Three a leg, in leg order.
+/// Three per leg, in leg order.
 using Coordinates = Eigen::VectorXd;
 
 Vector6d ofMotors(const Scenario& scenario, const Coordinates& efforts) {
@@ -57,8 +57,8 @@ Vector6d openThroughLeg1(const Scenario& scenario, const MachineTerms& machine) 
   return ofMotors(scenario, all);
 }
 
-/// Forces of all coordinates, the platform's six among them, less what the closures' multipliers fit best. `r` is from
-/// P to the point that the platform's speeds are of.
+/// Forces of all coordinates, including the platform's six, minus the best fit of the closures' multipliers. `r` leads
+/// from P to the point of the platform's speeds.
 Vector6d leastSquares(const Scenario& scenario, const MachineTerms& machine, const Vector3d& r) {
   const auto legs = static_cast<Eigen::Index>(machine.legs.size());
   Eigen::MatrixXd G = Eigen::MatrixXd::Zero(3 * legs, 3 * legs + 6);
@@ -99,7 +99,7 @@ Vector6d withoutBias(const MachineTerms& machine) {
   return out;
 }
 
-/// The efforts that joint accelerations add which are off by J⁻¹ times the leg's `off`, m/s².
+/// The efforts of errors in joint accelerations of J⁻¹ times the leg's `off`, m/s².
 Vector6d ofAccelerations(const MachineTerms& machine, const std::function<Vector3d(const OpenLeg&)>& off) {
   Vector6d at_P = Vector6d::Zero();
   for (const OpenLeg& leg : machine.legs) {
@@ -109,7 +109,7 @@ Vector6d ofAccelerations(const MachineTerms& machine, const std::function<Vector
   return machine.T_P.transpose() * at_P;
 }
 
-/// [ω; v] as [v; ω]: a transposed Jacobian shows in which order it is kept.
+/// Swaps [ω; v] to [v; ω]: a transposed Jacobian reveals its order.
 Matrix6d swapped() {
   Matrix6d out = Matrix6d::Zero();
   out.topRightCorner<3, 3>() = out.bottomLeftCorner<3, 3>() = Matrix3d::Identity();
@@ -131,7 +131,7 @@ void addTransposed(EffortCauses& out) {
   });
 }
 
-/// The generalised force at P where the legs' forces on the platform act at other points, `arm` from P.
+/// The generalised force at P if the legs' forces on the platform act at other points, `arm` from P.
 Vector6d forceAtP(const MachineTerms& machine, const std::function<Vector3d(std::size_t leg)>& arm) {
   Vector6d out = machine.platform_wrench;
   for (std::size_t i = 0; i < machine.legs.size(); ++i) {

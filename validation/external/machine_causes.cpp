@@ -12,7 +12,7 @@ namespace {
 
 using Machine = ManipulatorParameters;
 
-/// I of the mass centre with m (r² 1 − r rᵀ) added or taken away.
+/// The tensor about the mass centre with m (r² 1 − r rᵀ) added or subtracted.
 Matrix3d moved(const Matrix3d& inertia, double mass, const Vector3d& r, double sign) {
   return inertia + sign * mass * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
 }
@@ -97,7 +97,7 @@ void addExchanged(MachineCauses& out) {
   });
 }
 
-/// Legs of which `knee` says something.
+/// Legs with a knee.
 std::vector<std::size_t> bentLegs(const Manipulator& machine) {
   std::vector<std::size_t> out;
   for (int i = 0; i < machine.legCount(); ++i)

@@ -21,8 +21,8 @@ Rows torquesOf(const Machine& machine, const Scenario& scenario, const std::vect
   return out;
 }
 
-/// Torques are linear in inertias: of a machine with round ones besides, so that also such can be tried that no body
-/// can have. `change` alters inertias alone.
+/// Torques are linear in inertias. Adding a machine with round inertias allows tests of tensors that no body can have.
+/// `change` alters inertias only.
 Rows torquesOfInertias(const Scenario& scenario, const Change& change, double x,
                        const std::vector<Motion<double>>& motions) {
   Machine round = scenario.manipulator->parameters();
@@ -34,7 +34,7 @@ Rows torquesOfInertias(const Scenario& scenario, const Change& change, double x,
     add(leg.distal.inertia);
   }
   const Rows without = torquesOf(round, scenario, motions);
-  change(round, x / 11);  // relative errors are of the largest moment, which is eleven times as large
+  change(round, x / 11);  // relative errors refer to the largest moment, which is eleven times as large
   const Rows with = torquesOf(round, scenario, motions);
   for (std::size_t k = 0; k < out.size(); ++k) out[k] += with[k] - without[k];
   return out;

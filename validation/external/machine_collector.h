@@ -12,7 +12,7 @@ namespace ursula {
 class MachineSlopes;
 struct TiedParameters;
 
-/// Collects causes that are another machine. The scenario outlives them.
+/// Collects causes that are another machine. The scenario must outlive them.
 class MachineCauses {
  public:
   using Change = std::function<void(ManipulatorParameters&, double)>;
@@ -24,7 +24,7 @@ class MachineCauses {
   void addFitted(const Change& change, const Words& words, const Named& named);
   void addTied(const TiedParameters& tied);
   void addFixed(const CauseName& name, const std::function<void(ManipulatorParameters&)>& change);
-  /// A change of one link, for all links, the proximal ones, and the distal ones. `kind` and `term` name it.
+  /// Adds a change of all links, of the proximal ones and of the distal ones. `kind` and `term` name it.
   void addLinks(const std::string& before, const std::string& after, CauseKind kind, const char* term,
                 const std::function<void(Link&)>& change);
 
@@ -35,7 +35,7 @@ class MachineCauses {
   std::shared_ptr<MachineSlopes> slopes_;
 };
 
-/// Friction that the scenario does not have, and parts of what it has left out.
+/// Friction that the scenario lacks, and omitted parts of its own.
 void addFrictionCauses(const Manipulator& machine, MachineCauses& out);
 
 }  // namespace ursula

@@ -8,7 +8,7 @@ namespace ursula {
 MachineSlopes::MachineSlopes(const Scenario& scenario) : scenario_(scenario), derivatives_(*scenario.manipulator) {}
 
 std::vector<Vector6d> MachineSlopes::along(const Change& change, const std::vector<Motion<double>>& motions) {
-  constexpr double step = 1e-5;  // changes are linear or near it: their difference is as good as their derivative
+  constexpr double step = 1e-5;  // changes are nearly linear, so differences are as good as derivatives
   ManipulatorParameters above = scenario_.manipulator->parameters(), below = above;
   change(above, step);
   change(below, -step);

@@ -9,19 +9,19 @@
 
 namespace ursula {
 
-/// What changes of a machine do to its torques to first order, exact to rounding. For one thread.
+/// First-order effects of changes of a machine on its torques, exact to rounding. For one thread.
 class MachineSlopes {
  public:
-  /// `scenario` outlives it.
+  /// `scenario` must outlive it.
   explicit MachineSlopes(const Scenario& scenario);
 
   using Change = std::function<void(ManipulatorParameters&, double x)>;
 
-  /// The torques' derivatives by x at 0 for these motions, N·m or N. Throws as Solver does.
+  /// The torques' derivatives by x at 0 for these motions, N·m or N. Throws like Solver.
   std::vector<Vector6d> along(const Change& change, const std::vector<Motion<double>>& motions);
 
  private:
-  /// By each number of the machine, for each motion; kept until other motions are asked for.
+  /// Derivatives by each number of the machine, for each motion; cached until the motions change.
   const std::vector<EffortDerivatives::Columns>& byNumbers(const std::vector<Motion<double>>& motions);
 
   const Scenario& scenario_;

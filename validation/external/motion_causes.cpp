@@ -30,7 +30,7 @@ Cause readOtherwise(const Scenario& scenario, const CauseName& name, const Motio
   });
 }
 
-/// Another machine at each instant.
+/// Uses another machine at each instant.
 Cause notTurned(const Scenario& scenario, const CauseName& name, const MachineChange& change) {
   return fixedCause(name, [&scenario, change](const Motions& motions) {
     Rows out;
@@ -43,13 +43,13 @@ Cause notTurned(const Scenario& scenario, const CauseName& name, const MachineCh
   });
 }
 
-/// "kg" where all motors slide, else "kg m^2".
+/// "kg" if all motors slide, else "kg m^2".
 const char* rotorUnit(const Manipulator& machine) {
   const Motors& motors = machine.motors();
   return std::all_of(motors.begin(), motors.end(), [](const Motor& motor) { return motor.slides(); }) ? "kg" : "kg m^2";
 }
 
-/// τ + J q̈: an inertia on every motor that the scenario has not.
+/// τ + J q̈: an additional inertia on every motor.
 Cause motorInertia(const Scenario& scenario) {
   const std::string unit = rotorUnit(*scenario.manipulator);
   return {true,
@@ -67,7 +67,7 @@ Cause motorInertia(const Scenario& scenario) {
           },
           {},
           [unit](double x, double deviation) -> std::optional<NamedCause> {
-            if (x < 0) return std::nullopt;  // no motor has one
+            if (x < 0) return std::nullopt;  // a negative inertia is impossible
             NamedCause out{CauseKind::missing_term, "rotor_inertia", "all"};
             out.expected = 0;
             out.found = x;
@@ -77,7 +77,7 @@ Cause motorInertia(const Scenario& scenario) {
           }};
 }
 
-/// Twist and its rate of the mass centre C where those of P belong.
+/// Replaces twist and twist rate of P by those of the mass centre C.
 void ofMassCentre(Motion<double>& motion, const Vector3d& rho, double sign) {
   const Vector3d r = sign * (motion.Q * rho);
   motion.p_dot += motion.omega.cross(r);

@@ -6,8 +6,8 @@
 
 namespace ursula {
 
-/// The motion read otherwise: turned the other way, in the platform's frame, of another point, without a part; what
-/// belongs to the platform used without being turned; inertias of the motors.
+/// Other interpretations of the motion: inverse rotation, the platform's frame, another point, a missing part. Also
+/// platform quantities used without rotation, and inertias of the motors.
 std::vector<Cause> motionCauses(const Scenario& scenario);
 
 }  // namespace ursula

@@ -11,7 +11,7 @@ namespace {
 
 using Table = double[motor_count][motor_count];
 
-/// Legs i of `torques` and j of `exact`: ‖τᵢ ∓ τⱼ‖².
+/// ‖τᵢ ∓ τⱼ‖² for leg i of `torques` and leg j of `exact`.
 double mismatch(const TorqueResidual& data, int i, int j, double factor) {
   double sum = 0;
   for (std::size_t k = 0; k < data.exact.size(); ++k) {
@@ -28,7 +28,7 @@ std::string legNames(const std::vector<int>& legs) {
   return out;
 }
 
-/// What a column is of.
+/// The word for what a column belongs to.
 const char* each(const TorqueResidual& data) { return data.motors.kind(); }
 
 std::string plural(const TorqueResidual& data, const std::vector<int>& of) {
@@ -47,7 +47,7 @@ std::string permutationText(const TorqueResidual& data, const std::vector<int>& 
     }
   if (moved.empty()) return "";
   if (moved.size() == 2) return plural(data, moved) + legNames(moved) + " swapped";
-  int turned = 0, mirrored = 0;  // legs that a rotation, or the other sense of numbering, would give
+  int turned = 0, mirrored = 0;  // legs after a rotation or a reversal of the numbering
   for (int i = 0; i < motor_count; ++i) {
     turned += (i + from[0]) % motor_count == from[static_cast<std::size_t>(i)] ? 1 : 0;
     mirrored += (from[0] + motor_count - i) % motor_count == from[static_cast<std::size_t>(i)] ? 1 : 0;
@@ -58,7 +58,7 @@ std::string permutationText(const TorqueResidual& data, const std::vector<int>& 
   return fmt::format("{}s {} permuted ({})", each(data), legNames(moved), detail);
 }
 
-/// The unit that sizes tell, whatever the legs' order: 1 where they tell none.
+/// The unit that the sizes suggest for any order of the legs; 1 if they suggest none.
 double unitFactor(const TorqueResidual& data) {
   double found = 0, exact = 0;
   for (std::size_t k = 0; k < data.exact.size(); ++k) {
@@ -69,7 +69,7 @@ double unitFactor(const TorqueResidual& data) {
   return unitOf(factor).empty() ? 1 : factor;
 }
 
-/// The order of the least cost: entry i is the leg whose torques column i holds.
+/// The order with the least cost: entry i is the leg whose torques column i contains.
 std::vector<int> bestOrder(const Table& cost, double& least) {
   std::vector<int> from(motor_count), best;
   std::iota(from.begin(), from.end(), 0);
@@ -82,7 +82,7 @@ std::vector<int> bestOrder(const Table& cost, double& least) {
   return best;
 }
 
-/// What remains, in limits.
+/// The remainder in multiples of the limits.
 double beyondOf(const TorqueResidual& data, const std::vector<int>& from, const Table& sign, double unit) {
   std::vector<Vector6d> left(data.exact.size());
   for (std::size_t k = 0; k < left.size(); ++k)
@@ -121,7 +121,7 @@ std::optional<Hypothesis> signsAndOrder(const TorqueResidual& data) {
   for (int i = 0; i < motor_count; ++i)
     if (sign[i][best[static_cast<std::size_t>(i)]] < 0) flipped.push_back(i);
   std::string text = permutationText(data, best);
-  if (text.empty() && flipped.empty()) return std::nullopt;  // a unit alone is a scale's
+  if (text.empty() && flipped.empty()) return std::nullopt;  // a unit alone belongs to the scale hypothesis
   if (!flipped.empty()) text += text.empty() ? "" : ", and ";
   if (flipped.size() == motor_count)
     text += data.motors.one_a_leg ? "the sign of every leg flipped (torques about +u, not conjugate to phi)"

@@ -6,7 +6,7 @@
 
 namespace ursula {
 
-/// Every order of the legs, with the sign of each that fits best, in the unit that the torques' size tells. None where
+/// Tries every order of the legs with the best signs, in the unit that the torques' size suggests. Returns nullopt if
 /// neither order nor signs differ.
 std::optional<Hypothesis> signsAndOrder(const TorqueResidual& data);
 

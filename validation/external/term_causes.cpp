@@ -12,7 +12,7 @@ namespace {
 
 using Wrench = std::function<Vector6d(const MachineTerms&, const BodyTerms&)>;
 
-/// Which bodies, and how texts and the contract call them.
+/// A group of bodies with its names in texts and in the contract.
 struct Group {
   const char* words;
   const char* body;
@@ -62,7 +62,7 @@ Vector6d coriolis(const MachineTerms& /*machine*/, const BodyTerms& body) {
 }
 Vector6d halfCoriolis(const MachineTerms& machine, const BodyTerms& body) { return coriolis(machine, body) / 2; }
 
-/// What velocities alone make of a link's accelerations, its moment apart from its gyroscopic one.
+/// The velocity-dependent part of a link's accelerations; its moment excludes the gyroscopic one.
 Vector6d turningBias(const MachineTerms& /*machine*/, const BodyTerms& body) {
   return momentWrench(body.inertia * body.bias.head<3>());
 }
@@ -76,7 +76,7 @@ Vector6d velocityTerms(const MachineTerms& machine, const BodyTerms& body) {
   return bias(machine, body) + gyroscopic(machine, body);
 }
 
-/// A twist or its rate without what turns the link about its own line. Of ω̇: the rate of ω without its spin.
+/// A twist or its rate without the link's rotation about its own line. For ω̇ it is the rate of ω without spin.
 Vector6d withoutSpin(const BodyTerms& body, const Vector6d& twist) {
   Vector6d out = twist;
   out.head<3>() -= body.line.dot(twist.head<3>()) * body.line;
@@ -91,10 +91,10 @@ BodyTerms withoutSpin(const BodyTerms& body) {
   return out;
 }
 
-/// A tensor in B that somebody else would take for the body's.
+/// A tensor in B that a solver may mistake for the body's.
 using Tensor = std::function<Matrix3d(const BodyTerms&)>;
 
-/// What the moments change by with another tensor.
+/// The change of the moments with another tensor.
 Wrench withTensor(const Tensor& tensor) {
   return [tensor](const MachineTerms& /*machine*/, const BodyTerms& body) {
     BodyTerms other = body;
@@ -112,7 +112,7 @@ class Collector : public EffortCauses {
  public:
   using EffortCauses::EffortCauses;
 
-  /// A part of the wrenches of each group: left out, and with the wrong sign.
+  /// Adds a part of the wrenches of each group, omitted or with the wrong sign.
   void addPart(const std::string& what, const char* term, const Wrench& part, const char* only = "",
                bool either_sign = true) {
     for (const Group& group : groups) {
@@ -128,7 +128,7 @@ class Collector : public EffortCauses {
     }
   }
 
-  /// What another reading of each group's bodies adds.
+  /// Adds the effect of another interpretation of each group's bodies.
   void addChange(const std::string& before, const std::string& after, CauseKind kind, const char* term,
                  const Wrench& change) {
     for (const Group& group : groups)
@@ -179,7 +179,7 @@ void addWeightsOfLegs(int legs, Collector& out) {
     }
 }
 
-/// No such body need exist, so that no machine is made of it.
+/// Such a body may be impossible, so no machine is built from it.
 void addTensors(Collector& out) {
   out.addChange(
       "inertia of ", " not turned into the base's frame", CauseKind::frame, "inertia",
@@ -222,7 +222,7 @@ std::vector<Cause> termCauses(const Scenario& scenario) {
   out.addPart("the force of inertia", "inertia", movingInertia);
   out.addPart("inertia", "inertia", inertia);
   out.addPart("inertia and gravity", "inertia", everything, "",
-              false);  // with the wrong sign it is every effort's sign
+              false);  // the wrong sign would be that of every effort
   for (const char* body : {"legs", "proximal", "distal"}) {
     out.addPart("what velocities make of the accelerations", "coriolis", bias, body);
     out.addPart("what velocities make of the angular accelerations", "coriolis", turningBias, body);

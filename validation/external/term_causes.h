@@ -9,10 +9,10 @@
 
 namespace ursula {
 
-/// What a mistake adds to the efforts at one motion.
+/// The efforts that a mistake adds for one motion.
 using EffortChange = std::function<Vector6d(const MachineTerms&)>;
 
-/// Collects causes that add something to the NOC's efforts. The scenario outlives them.
+/// Collects causes that add something to the NOC's efforts. The scenario must outlive them.
 class EffortCauses {
  public:
   explicit EffortCauses(const Scenario& scenario) : scenario_(scenario) {}
@@ -25,11 +25,11 @@ class EffortCauses {
   const Scenario& scenario_;
 };
 
-/// Mistakes of a solver's own making, for every kind of leg: a term of one group of bodies left out or with the wrong
-/// sign, tensors in other frames or about other points, the spin of links left out. `scenario` outlives them.
+/// Mistakes in a solver's own formulas, for every kind of leg. A term of a group of bodies is missing or has the wrong
+/// sign; tensors use other frames or points; the links' spin is missing. `scenario` must outlive them.
 std::vector<Cause> termCauses(const Scenario& scenario);
 
-/// A wrong Jacobian, loops left open or closed by least squares, J̇ left out. `scenario` outlives them.
+/// A wrong Jacobian, open loops or loops closed by least squares, missing J̇. `scenario` must outlive them.
 std::vector<Cause> loopCauses(const Scenario& scenario);
 
 }  // namespace ursula

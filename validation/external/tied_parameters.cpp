@@ -63,12 +63,12 @@ std::optional<NamedCause> TiedParameters::named(const ManipulatorParameters& mac
     out.leg = first.leg + 1;
   if (!one && !is_legs) {
     if (first.leg >= 0) out.body = members.front().body == members.back().body ? first.body : "legs";
-    return out;  // several numbers, each with a value of its own
+    return out;  // several numbers with different values
   }
   out.parameter = first.path;
   if (!one) out.parameter.replace(0, first.path.find('.', sizeof("manipulator.leg.") - 1), "manipulator.leg_defaults");
   if (first.turns()) {
-    out.parameter.erase(out.parameter.rfind('.'));  // a turn is none of its numbers
+    out.parameter.erase(out.parameter.rfind('.'));  // a rotation is none of its numbers
     return out;
   }
   out.unit = first.unit;
@@ -91,7 +91,8 @@ std::vector<TiedParameters> tiedParameters(const Manipulator& machine) {
       continue;
     }
     const bool is_link = !link.empty();
-    // All that matters of a sliding rod is how far its mass centre is from its outer end: the centre names that.
+    // For a sliding rod only the distance of its mass centre from the outer end matters; the mass centre's cause covers
+    // it.
     if (link == "distal" && one.quantity == Quantity::length && rowOf(machine.leg(one.leg).kind).isTelescopic())
       continue;
     add(of_legs, fmt::format("{} of {}leg {}", words, is_link ? "the " + link + " link of " : "", leg), one);

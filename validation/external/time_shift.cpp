@@ -10,7 +10,7 @@
 namespace ursula {
 namespace {
 
-/// Torques of another time, τ(t + dt), where that is within the motion.
+/// Torques of another time, τ(t + dt), within the motion.
 class Shift {
  public:
   Shift(const Scenario& scenario, const TorqueResidual& data)
@@ -18,10 +18,10 @@ class Shift {
 
   struct Fit {
     double unexplained = 1, slope = 0, beyond = 0;
-    bool covers = false;  ///< most of the samples
+    bool covers = false;  ///< covers most of the samples
   };
 
-  /// Slope: Gauss–Newton step of dt, s.
+  /// `slope` is the Gauss–Newton step of dt, s.
   Fit at(double dt) const {
     const double duration = trajectory_.duration(), step = 1e-6 * duration;
     double left = 0, all = 0, along = 0, rate = 0, beyond = 0;
@@ -52,7 +52,7 @@ class Shift {
   const TorqueResidual& data_;
 };
 
-/// ", 2 samples" where it is a whole number of them.
+/// ", 2 samples" if the shift is a whole number of them.
 std::string inSamples(const TorqueResidual& data, double shift) {
   const std::size_t rows = data.motions.size();
   const double step = (data.motions.back().t - data.motions.front().t) / static_cast<double>(rows - 1);
@@ -67,7 +67,7 @@ std::optional<Hypothesis> timeShift(const Scenario& scenario, const TorqueResidu
   const double duration = scenario.trajectory->duration();
   const Shift shift(scenario, data);
   double best = 0, least = 1e300;
-  for (int k = -20; k <= 20; ++k) {  // so that the steps below begin near the right one
+  for (int k = -20; k <= 20; ++k) {  // the steps below then start near the right shift
     const double dt = k * 0.01 * duration;
     const Shift::Fit fit = shift.at(dt);
     if (fit.covers && fit.unexplained < least) best = dt, least = fit.unexplained;

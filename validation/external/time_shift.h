@@ -6,8 +6,8 @@
 
 namespace ursula {
 
-/// Torques of another time, τ(t + dt), with dt in ms and in samples. Judged by the samples whose other time is within
-/// the motion; none where those are too few.
+/// Finds torques of another time, τ(t + dt), with dt in ms and in samples. Uses the samples whose shifted time is
+/// within the motion; returns nullopt if they are too few.
 std::optional<Hypothesis> timeShift(const Scenario& scenario, const TorqueResidual& data);
 
 }  // namespace ursula

@@ -35,7 +35,7 @@ std::vector<CurvePoint<double, motor_count>> knotsThrough(const std::vector<doub
   return knots;
 }
 
-/// For every interval the largest of `size` over its points, doubled.
+/// For every interval, twice the largest `size` at its points.
 template <class F>
 std::vector<double> largestBetween(const std::vector<double>& t, F&& size) {
   std::vector<double> out;
@@ -64,8 +64,8 @@ std::vector<double> interpolationErrors(const std::vector<double>& t, const std:
   return largestBetween(t, [&](double at) { return (spline(at) - exact(at)).norm(); });
 }
 
-/// A cardinal spline falls by half or more with every sample: those 66 apart share no double, so that one spline holds
-/// all of them, and its magnitude is the sum of theirs.
+/// A cardinal spline falls by at least half per sample, so splines 66 samples apart do not overlap in doubles. One
+/// spline holds them all, and its magnitude is the sum of theirs.
 std::vector<double> carriedErrors(const std::vector<double>& t, const std::vector<double>& norms) {
   constexpr std::size_t apart = 66;
   std::vector<TorqueSpline> splines;

@@ -14,10 +14,10 @@
 namespace ursula {
 namespace {
 
-/// Beside the judged one; each is a whole replay.
+/// Additional changes of frame; each costs a whole replay.
 constexpr unsigned frame_changes = 3;
 
-/// The window whose replay ends furthest off, and reached its end.
+/// The window whose replay reached its end with the largest error.
 const WindowedReplay* worstWindow(const std::vector<WindowedReplay>& windows) {
   const WindowedReplay* worst = nullptr;
   double largest = -1;
@@ -33,7 +33,7 @@ Vector3d endOf(const Replay& replay) {
   return replay.steps.empty() ? Vector3d::Constant(std::nan("")) : replay.steps.back().position_error;
 }
 
-/// Instants in a window at which its errors are taken apart, to be drawn.
+/// Number of plotted instants in a window.
 constexpr int drawn = 60;
 
 std::vector<double> drawnInstants(const WindowedReplay& window) {
@@ -43,7 +43,7 @@ std::vector<double> drawnInstants(const WindowedReplay& window) {
   return out;
 }
 
-/// Errors of P at the end of a replay and at the instants that are drawn; in m and B.
+/// Errors of P at the end of a replay and at the plotted instants; in m and B.
 struct Track {
   Vector3d end;
   std::vector<Vector3d> along;
@@ -62,7 +62,7 @@ struct Track {
   }
 };
 
-/// The window's replay with the gaps projected away, seen from `change of frame`.
+/// The window's replay in `frame_change`, with the gaps projected away.
 Track projected(const Scenario& scenario, const ReplayPlan& plan, const WindowedReplay& window,
                 const FrameChange& frame_change, std::mutex& asking) {
   const Scenario there = frame_change.of(scenario);
@@ -72,7 +72,7 @@ Track projected(const Scenario& scenario, const ReplayPlan& plan, const Windowed
   settings.end = window.replay.steps.back().t / units.time;
   settings.project = true;
   const SimbodyLoop::TorqueHistory torques = [&](double t) {
-    const std::lock_guard<std::mutex> one_at_a_time(asking);  // the subject may be anybody's
+    const std::lock_guard<std::mutex> one_at_a_time(asking);  // the subject may not allow concurrent calls
     return frame_change.of(plan.torques(t * units.time));
   };
   if (plan.foresee)
@@ -84,7 +84,7 @@ Track projected(const Scenario& scenario, const ReplayPlan& plan, const Windowed
   return Track(replay(there, torques, settings), drawnInstants(window), frame_change);
 }
 
-/// The torques' errors at the samples as accelerations of the platform, [p̈; L ω̇]: linear between the samples.
+/// The torques' errors at the samples as accelerations of the platform, [p̈; L ω̇], linear between the samples.
 class Residual {
  public:
   explicit Residual(const std::vector<PointwiseSample>& samples) : samples_(samples) {}
@@ -114,15 +114,15 @@ void addModel(const std::vector<PointwiseSample>& samples, const WindowedReplay&
   const double end = window.replay.steps.back().t;
   const double length = amplification.length();
   budget.model.error = amplification.carried(window.window.start(), end, residual).head<3>();
-  // Rounding of each residual, as if all were the same way; and what is not linear in the error.
+  // The rounding of each residual in the worst direction, and the effects that are nonlinear in the error.
   budget.model_rounding = amplification.carriedBound(
       window.window.start(), end, [&samples](double t) { return SampledLimit(samples)(t) / rounding_safety; });
   const double size = budget.model.error.norm();
   budget.model.uncertainty = budget.model_rounding + size * std::min(1.0, 100 * size / length);
 }
 
-/// err(100 tolerance) − err(tolerance), over 99 where the error is proportional to the tolerance, as control of it
-/// makes it; over 9 where it goes with the square root.
+/// err(100 tolerance) − err(tolerance), divided by 99 if the error is proportional to the tolerance, as step control
+/// achieves. If it follows the square root, the divisor is 9.
 ErrorShare integrationShare(const Vector3d& fine, const Vector3d& coarse) {
   const Vector3d change = coarse - fine;
   return {change / (coarser - 1), change.norm() / (std::sqrt(coarser) - 1)};
@@ -135,8 +135,8 @@ Track coarse(const Scenario& scenario, const ReplayPlan& plan, const WindowedRep
   return Track(replay(scenario, plan.torques, settings), drawnInstants(window));
 }
 
-/// What the shares come from: the judged replay, the projected ones (as judged, then in other changes of frame), and
-/// that with a coarser tolerance.
+/// The replays behind the contributions: the judged one, the projected ones (as judged, then in other changes of
+/// frame), and one with a coarser tolerance.
 struct Tracks {
   Track judged, plain;
   std::vector<Track> turned;
@@ -162,7 +162,7 @@ std::vector<ErrorsAt> sharesAlong(const Tracks& tracks, const std::vector<Pointw
 }
 
 ErrorSource dominantOf(const ErrorBudget& budget) {
-  // Torques that are right to rounding leave residuals of rounding: no error of theirs.
+  // The residuals of torques that are right to rounding are rounding too, and no model error.
   const double model = budget.model.error.norm();
   const std::pair<ErrorSource, double> shares[] = {{ErrorSource::model, model > budget.model_rounding ? model : 0},
                                                    {ErrorSource::integration, budget.integration.error.norm()},
@@ -212,7 +212,7 @@ ErrorBudget attribute(const Scenario& scenario, const std::vector<PointwiseSampl
   double spread = 0;
   for (const auto& each : seen) spread = std::max(spread, (each->end - mean).norm());
   budget.closure.error = budget.observed - tracks.plain.end;
-  budget.rounding = {tracks.plain.end - mean, spread};  // of the mean of three, and of the judged replay against it
+  budget.rounding = {tracks.plain.end - mean, spread};  // of the mean of three, and of the judged replay relative to it
   budget.closure.uncertainty = spread;
   budget.integration = integrationShare(tracks.plain.end, tracks.coarse.end);
   budget.along = sharesAlong(tracks, samples, *window, amplification);

@@ -16,54 +16,53 @@ enum class ErrorSource { model, integration, rounding, closure, amplification, u
 /// "model", "integration", …
 const char* name(ErrorSource source);
 
-/// What one source contributes to the replay's error in position, measured.
+/// The measured contribution of one source to the replay's position error.
 struct ErrorShare {
   Vector3d error = Vector3d::Zero();  ///< m, in B
   double uncertainty = 0;             ///< m
 };
 
-/// The sizes of the shares at one instant, all in m; NaN where a replay did not get there.
+/// The sizes of the contributions at one instant, all in m; NaN if a replay ended earlier.
 struct ErrorsAt {
   double t = 0;  ///< s
   double observed = 0, rounding = 0, integration = 0, closure = 0, model = 0, unexplained = 0;
-  double limit = 0;  ///< of the judged replay
+  double limit = 0;  ///< limit of the judged replay
 };
 
-/// What moved the replay off the path, at the instant where it was furthest off among the windows' ends. The shares are
-/// differences of one replay and the next in the row
-///   the judged replay → the loops' gaps projected away after each step → the same in other changes of frame, their
-///   mean → an exact integration → the torques' pointwise errors taken off → the commanded path,
-/// so that they add up to the observed error but for what is unexplained.
+/// The sources of the replay's error, at the window end with the largest error. The contributions are differences
+/// between successive replays:
+///   the judged replay → the same with the loops' gaps projected away → the mean over other changes of frame →
+///   an exact integration → the torques without their pointwise errors → the commanded path.
+/// They add up to the observed error except for the unexplained part.
 struct ErrorBudget {
   double t = 0;                          ///< s
   Vector3d observed = Vector3d::Zero();  ///< m, in B
-  ErrorShare model;                      ///< pointwise errors of the acceleration, carried by the variational equations
-  double model_rounding = 0;             ///< m; of the residuals alone, carried alike
-  ErrorShare integration;                ///< from what a hundredfold tolerance changes
-  ErrorShare rounding;                   ///< from what turned, relabelled and rescaled frames change
-  ErrorShare closure;                    ///< from what projecting the gaps away changes
-  double amplification = 0;              ///< by which a deviation at the window's start grows: no error of its own
+  ErrorShare model;           ///< pointwise errors of the acceleration, propagated by the variational equations
+  double model_rounding = 0;  ///< m; rounding of the residuals, propagated likewise
+  ErrorShare integration;     ///< from the change with a hundredfold tolerance
+  ErrorShare rounding;        ///< from the change in turned, relabelled and rescaled frames
+  ErrorShare closure;         ///< from the change when the gaps are projected away
+  double amplification = 0;   ///< growth of a deviation at the window's start; no error itself
   ErrorSource dominant = ErrorSource::unexplained;
-  bool measured = false;        ///< false where there was no replay to take apart
-  std::vector<ErrorsAt> along;  ///< the same from the window's start to t, to be drawn
+  bool measured = false;        ///< false without a replay to analyse
+  std::vector<ErrorsAt> along;  ///< the same from the window's start to t, for a plot
 
   Vector3d unexplained() const;
-  /// Of the sum of the shares, m.
+  /// Uncertainty of the sum of the contributions, m.
   double uncertainty() const;
 };
 
-/// Replays the window once more in several ways. `windows` are the judged replays under `torques`; `plan` what they
-/// were made by.
+/// Repeats the window's replay in several ways. `windows` are the judged replays under `torques`; `plan` produced them.
 ErrorBudget attribute(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
                       const std::vector<WindowedReplay>& windows, const Amplification& amplification,
                       const ReplayPlan& plan);
-/// The same; empty where there is nothing to take apart, or the scenario's time is up: it decides nothing.
+/// The same; empty without a replay, or if the scenario's time is up, because it decides nothing.
 ErrorBudget attributeInTime(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
                             const std::vector<WindowedReplay>& windows, const Amplification* amplification,
                             const ReplayPlan& plan);
 
-/// The findings, and `along` as a curve. Where a replay's limit, not an error, is what prevents a judgement,
-/// amplification dominates.
+/// Adds the findings, and `along` as a curve. Amplification dominates if a replay's limit, not its error, prevents a
+/// verdict.
 void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units& units = {});
 
 }  // namespace ursula

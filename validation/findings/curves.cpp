@@ -28,7 +28,7 @@ TimeSeries replayAndLimit(const std::vector<WindowedReplay>& windows, double pos
       error.push_back(step.position_error.norm());
       limit.push_back(replayLimit(window, position_scale, step.t));
       if (&step != &window.replay.steps.back() || reachesEnd(window)) continue;
-      t.push_back(window.window.end());  // nothing was computed from here to there
+      t.push_back(window.window.end());  // nothing was computed from here on
       error.push_back(std::nan(""));
       limit.push_back(std::nan(""));
     }
@@ -52,7 +52,7 @@ TimeSeries distances(const std::vector<PointwiseSample>& samples) {
     singular.push_back(1 / sample.conditioning.kappa_B);
     edge.push_back(sample.conditioning.smallest_sine);
   }
-  // Telescopic legs have no bend: a sine of 1 throughout.
+  // Telescopic legs have no bend, so their sine is always 1.
   const bool bends = std::any_of(edge.begin(), edge.end(), [](double sine) { return sine < 1; });
   if (!bends) return curve({{"t_s", t}, {"1/κ(B): 0 in a singular pose", singular}});
   return curve({{"t_s", t},

@@ -9,12 +9,12 @@
 
 namespace ursula {
 
-/// Curves for the report: the replay's error with its derived limit, how a deviation grows in each window, and the
-/// distance to singular poses and to the workspace's edge along the path; and the events of the replay.
+/// Curves for the report: the replay's error with its derived limit, the growth of a deviation in each window, the
+/// distances to singular poses and to the workspace's edge. Adds the replay's events.
 void addCurves(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
                ValidationResult& result);
 
-/// Error against derivative evaluations, for the report.
+/// Error over derivative evaluations, for the report.
 TimeSeries workPrecision(const Ladder& ladder);
 
 }  // namespace ursula

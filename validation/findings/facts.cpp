@@ -9,7 +9,7 @@
 namespace ursula {
 namespace {
 
-/// κ(B): infinite where the pose is singular.
+/// The largest κ(B), which is infinite at a singular pose.
 std::string nearestToSingular(const std::vector<PointwiseSample>& samples, const Units& units) {
   const PointwiseSample& at = *std::max_element(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
     return a.conditioning.kappa_B < b.conditioning.kappa_B;
@@ -17,7 +17,7 @@ std::string nearestToSingular(const std::vector<PointwiseSample>& samples, const
   return fmt::format("{:.4g}, at t = {:.6g} s", at.conditioning.kappa_B, at.motion.t * units.time);
 }
 
-/// |sin θ|: 0 where a leg is stretched or folded.
+/// The smallest |sin θ|, which is 0 if a leg is stretched or folded.
 std::string nearestToEdge(const std::vector<PointwiseSample>& samples, const Units& units) {
   const PointwiseSample& at = *std::min_element(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
     return a.conditioning.smallest_sine < b.conditioning.smallest_sine;
@@ -41,7 +41,7 @@ void addStopped(const std::vector<WindowedReplay>& windows, const Units& units, 
 void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
                  ValidationResult& result, const Units& units) {
   result.replay_windows = windows.size();
-  if (samples.empty()) return;  // time was up before there were any
+  if (samples.empty()) return;  // time ran out before the samples
   double torque = 0, torque_error = 0, acceleration = 0, acceleration_error = 0;
   for (const PointwiseSample& sample : samples) {
     torque = std::max(torque, sample.torques_simbody.cwiseAbs().maxCoeff());

@@ -9,7 +9,7 @@
 
 namespace ursula {
 
-/// Largest torque and acceleration with their errors, condition numbers, and what the replay took.
+/// Adds the largest torque and acceleration with their errors, condition numbers, and the cost of the replay.
 void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
                  ValidationResult& result, const Units& units = {});
 

@@ -5,7 +5,7 @@
 
 namespace ursula {
 
-/// Series and curves from a change of frame's units and origin to SI and B, by their columns' names.
+/// Converts series and curves from a change of frame's units and origin to SI and B, by the names of their columns.
 void seriesInSi(const FrameChange& from, ValidationResult& result);
 
 }  // namespace ursula

@@ -1,4 +1,4 @@
-// An error's sources as findings: numbers in SI, a curve, lines of the report.
+// Reports an error's sources as findings: numbers in SI, a curve, lines of the report.
 
 #include <fmt/format.h>
 
@@ -33,7 +33,7 @@ std::string shareText(const SourceOfError& source) {
   return fmt::format("{:.3g} m +- {:.2g} m", source.error, source.uncertainty);
 }
 
-/// In SI.
+/// Converts to SI.
 ReplayError replayErrorOf(const ErrorBudget& budget, const Units& units) {
   const auto source = [&units](const ErrorShare& share) {
     return SourceOfError{share.error.norm() * units.length, share.uncertainty * units.length};
@@ -88,7 +88,7 @@ void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units&
   const bool limit_too_large = std::any_of(result.checks.begin(), result.checks.end(), [](const Check& check) {
     return check.reason == Reason::limit_useless && check.name.rfind("replay.", 0) == 0;
   });
-  // Torques that are off between the samples leave no residual at them, and the error seems to come from elsewhere.
+  // Torque errors between the samples leave no residual at them, so the error seems to have another source.
   const bool torques_fail = std::any_of(result.checks.begin(), result.checks.end(), [](const Check& check) {
     return check.verdict == Verdict::fail && check.reason == Reason::none && check.name.rfind("torque.", 0) == 0;
   });

@@ -7,7 +7,7 @@
 
 namespace ursula {
 
-/// Scenario, subject, build and settings.
+/// Adds scenario, subject, build and settings.
 void addProvenance(const Scenario& scenario, const std::string& subject, ValidationResult& result);
 
 }  // namespace ursula

@@ -23,7 +23,7 @@ void addColumn(TimeSeries& series, const std::string& column, const Rows& rows, 
   series.add(column, std::move(values));
 }
 
-/// `pattern` holds one {} for x, y, z.
+/// `pattern` contains one {} for x, y, z.
 template <class Rows, class F>
 void addVector(TimeSeries& series, const std::string& pattern, const Rows& rows, F&& vector) {
   const char* axes[] = {"x", "y", "z"};
@@ -32,14 +32,14 @@ void addVector(TimeSeries& series, const std::string& pattern, const Rows& rows,
               [&](const auto& row) { return vector(row)(k); });
 }
 
-/// A column for each motor's effort.
+/// Adds one column per motor's effort.
 template <class Rows, class F>
 void addEfforts(TimeSeries& series, const std::string& prefix, const Motors& motors, const Rows& rows, F&& efforts) {
   for (int k = 0; k < motor_count; ++k)
     addColumn(series, prefix + effortColumn(motors, k), rows, [&](const auto& row) { return efforts(row)(k); });
 }
 
-/// φ, ψ, θ, d of the legs that have them, by kind of coordinate.
+/// Adds φ, ψ, θ, d of the legs that have them, grouped by coordinate.
 template <class Rows, class F>
 void addCoordinates(TimeSeries& series, const std::string& rate, const Manipulator& machine, const Rows& rows, F&& of) {
   const std::string per = rate.empty() ? "" : rate == "dot" ? "_s" : "_s2";
@@ -65,7 +65,7 @@ void addMotion(TimeSeries& series, const std::vector<Motion<double>>& motions) {
   addVector(series, "alpha_{}_rad_s2", motions, [](const Motion<double>& m) { return m.omega_dot; });
 }
 
-/// `joints` are those of a row.
+/// `joints` returns the joints of a row.
 template <class Rows, class F>
 void addJoints(TimeSeries& series, const Manipulator& machine, const Rows& rows, F&& joints) {
   using Variables = JointVariables<double>;
@@ -81,12 +81,12 @@ const WindowedReplay* windowAt(const std::vector<WindowedReplay>& windows, doubl
   return windows.empty() ? nullptr : &windows.back();
 }
 
-/// Ends that two integrators reach differ by rounding.
+/// The ends of two integrators differ by rounding.
 bool reached(const Replay& replay, double t) {
   return !replay.steps.empty() && t <= replay.steps.back().t * (1 + 1e-12);
 }
 
-/// After a replay stopped there is nothing, and nothing is drawn.
+/// After a replay stopped there is nothing to plot.
 ReplayStep notComputed(double t) {
   const Vector3d none = Vector3d::Constant(std::nan(""));
   return {t, none, none, none, none, {std::nan(""), std::nan("")}, std::nan("")};

@@ -9,19 +9,19 @@
 
 namespace ursula {
 
-/// Commanded and simulated motion, joint motion, efforts and errors at the instants of `samples`, as interface.md names
-/// the columns: joints that the legs have, an effort for each motor.
+/// Commanded and simulated motion, joint motion, efforts and errors at the instants of `samples`, with the columns of
+/// interface.md. It has only joints that the legs have, and one effort per motor.
 TimeSeries validationSeries(const Manipulator& machine, const std::vector<PointwiseSample>& samples,
                             const std::vector<WindowedReplay>& windows);
 
-/// Adds the recovered joint reactions, a row for each sample.
+/// Adds the computed joint reactions, one row per sample.
 void addReactionColumns(const Manipulator& machine, const std::vector<ReactionSample>& reactions, TimeSeries& series);
 
-/// Motion, joint motion and efforts alone: what `ursula inverse` prints.
+/// Motion, joint motion and efforts only, for `ursula inverse`.
 TimeSeries inverseSeries(const Manipulator& machine, const std::vector<Motion<double>>& motions,
                          const std::vector<JointMotion>& joints, const std::vector<Vector6d>& efforts);
 
-/// Motion and efforts: what `ursula simulate` prints.
+/// Motion and efforts, for `ursula simulate`.
 TimeSeries simulatedSeries(const Manipulator& machine, const std::vector<Motion<double>>& motions,
                            const std::vector<Vector6d>& efforts);
 

@@ -12,14 +12,14 @@ namespace {
 
 using Matrix12 = Amplification::Matrix12;
 
-/// Every fifth instant will do: the Jacobian varies with the pose, and slowly.
+/// Every fifth instant suffices, because the Jacobian varies slowly with the pose.
 constexpr int growth_stride = 5;
 
 struct Rates {
   double growth = 0, decay = 0;
 };
 
-/// Growth of the motion as it is, and at rest without friction, which slows a fall but holds nothing.
+/// The growth of the motion, and that at rest without friction, because friction slows a fall without stopping it.
 Rates fastestRates(const Matrix12& J) {
   const Eigen::EigenSolver<Matrix12>::EigenvalueType moving = Eigen::EigenSolver<Matrix12>(J, false).eigenvalues();
   const Matrix6d stiffness = J.bottomLeftCorner<6, 6>();
@@ -27,14 +27,14 @@ Rates fastestRates(const Matrix12& J) {
   return {std::max({0.0, moving.real().maxCoeff(), falling}), std::max(0.0, -moving.real().minCoeff())};
 }
 
-/// Over one interval, from the Jacobians at its ends and its middle: Magnus' expansion to fourth order (Blanes, Casas,
-/// Oteo, Ros, Phys. Rep. 470 (2009) 151), which strong friction does not make unstable.
+/// The propagator over one interval from the Jacobians at its ends and its middle: Magnus' expansion to fourth order
+/// (Blanes, Casas, Oteo, Ros, Phys. Rep. 470 (2009) 151). Strong friction does not make it unstable.
 Matrix12 between(const Matrix12& J0, const Matrix12& J1, const Matrix12& J2, double h) {
   const Matrix12 Omega = h / 6 * (J0 + 4 * J1 + J2) + h * h / 12 * (J2 * J0 - J0 * J2);
   return Omega.exp();
 }
 
-/// The same bits as Eigen's product, which makes more of its matrices' size than there is to it.
+/// The same bits as Eigen's product, which is slow at this size.
 Matrix12 product(const Matrix12& a, const Matrix12& b) {
   Matrix12 out;
   for (int j = 0; j < 12; ++j) {
@@ -90,7 +90,7 @@ std::size_t Amplification::nearest(double t) const {
   return std::min(static_cast<std::size_t>(std::lround(t / interval)), instants_.size() - 1);
 }
 
-/// Carried forward by the trapezoidal rule: what the error does in one interval is added at its end.
+/// Propagates by the trapezoidal rule: the error's effect over one interval is added at its end.
 Amplification::Vector12 Amplification::carried(double start, double end,
                                                const std::function<Vector6d(double)>& error) const {
   Vector12 deviation = Vector12::Zero();
@@ -129,13 +129,13 @@ double Amplification::decayRate() const {
   return *middle;
 }
 
-/// ‖Φ(t_j, t_k)‖ for every k of a window, as j moves on. Φ is carried forward for each, so no propagator is ever
-/// inverted; where all propagators are the same it depends on j − k alone. Frobenius norms bound the spectral ones.
+/// ‖Φ(t_j, t_k)‖ for every k of a window as j advances. Each Φ is propagated forward, so no propagator is inverted. If
+/// all propagators are equal, it depends on j − k alone. Frobenius norms bound the spectral ones.
 class Amplification::Carried {
  public:
   explicit Carried(const Amplification& of) : of_(of) {}
 
-  /// From the end of interval j − 1 to that of j.
+  /// Advances from the end of interval j − 1 to that of j.
   void moveOn(std::size_t j) {
     if (Phi_.empty() || !of_.uniform_) {
       Phi_.push_back(Matrix12::Identity());
@@ -152,9 +152,9 @@ class Amplification::Carried {
   }
 
   struct Norms {
-    double state = 0, velocity = 0;  ///< of what position is made of
+    double state = 0, velocity = 0;  ///< effects on the position
   };
-  /// Of the k-th interval of `moved()`, at the end of the last and before it.
+  /// For the k-th interval of `moved()`, at the end of the last interval and before it.
   const Norms& now(std::size_t k) const { return of_.uniform_ ? norms_[moved_ - k] : norms_[k]; }
   const Norms& before(std::size_t k) const { return of_.uniform_ ? norms_[moved_ - k - 1] : before_[k]; }
   std::size_t moved() const { return moved_; }
@@ -165,15 +165,15 @@ class Amplification::Carried {
 
   const Amplification& of_;
   std::size_t moved_ = 0;
-  std::vector<Matrix12> Phi_;          ///< Φ(t_j, t_k), k = first …; of the first alone where all are the same
-  std::vector<Norms> norms_, before_;  ///< of them; by j − k where all are the same
+  std::vector<Matrix12> Phi_;          ///< Φ(t_j, t_k), k = first …; only the first if all are equal
+  std::vector<Norms> norms_, before_;  ///< norms of Φ; indexed by j − k if all are equal
 };
 
 GrowthWindow Amplification::window(std::size_t first, const std::function<double(double)>& acceleration, double rate,
                                    double useful) const {
   GrowthWindow out;
   Carried carried(*this);
-  std::vector<double> errors;  // of acceleration in interval k, m/s
+  std::vector<double> errors;  // acceleration errors in interval k, m/s
   const auto add = [&out](double t, double from_acceleration, double from_rate, const Matrix12& from_start) {
     out.t.push_back(t);
     out.from_acceleration.push_back(from_acceleration);

@@ -8,53 +8,53 @@
 
 namespace ursula {
 
-/// How far deviations may grow within one window of the motion that starts on the commanded state.
+/// Bounds on the growth of deviations in one window of the motion that starts on the commanded state.
 struct GrowthWindow {
   std::vector<double> t;                  ///< instants, s
-  std::vector<double> from_acceleration;  ///< position bound for the acceleration errors given, m
-  std::vector<double> from_unit_rate;     ///< for errors of 1 (m and m/s) a second in every coordinate, m
+  std::vector<double> from_acceleration;  ///< position bound for the given acceleration errors, m
+  std::vector<double> from_unit_rate;     ///< for errors of 1 (m and m/s) per second in every coordinate, m
   std::vector<double> from_start;         ///< ‖∂position/∂state‖ from the window's start
   std::vector<double> growth;             ///< ‖∂position/∂velocity‖ from the window's start, s
-  std::size_t last = 0;                   ///< index of its last instant along the whole motion
-  double length = 0;                      ///< of the machine, m
+  std::size_t last = 0;                   ///< index of its last instant in the whole motion
+  double length = 0;                      ///< length of the machine, m
 
   double start() const { return t.front(); }
   double end() const { return t.back(); }
-  /// Bound at `at` for errors of `rate` a second and of `initial` at the start, in every coordinate: the larger of the
-  /// two instants beside it. m
+  /// The bound at `at`, m, for errors of `rate` per second and of `initial` at the start, in every coordinate. It is
+  /// the larger of the values at the two neighbouring instants.
   double bound(double at, double rate, double initial) const;
 };
 
-/// How deviations grow along the commanded motion, by the variational equations of (36) with the torques held as
-/// functions of time. State: [δp; L δϑ; δṗ; L δω] of the platform in m and m/s, L a length of the machine, so that one
-/// number bounds position and orientation. Always from the formulas that hold.
+/// Growth of deviations along the commanded motion, by the variational equations of (36) with torques as given
+/// functions of time. The state is [δp; L δϑ; δṗ; L δω] of the platform in m and m/s. L is a length of the machine, so
+/// one number bounds position and orientation. It always uses the correct formulas.
 class Amplification {
  public:
   using Matrix12 = Eigen::Matrix<double, 12, 12>;
   using Vector12 = Eigen::Matrix<double, 12, 1>;
 
-  /// Linearises the direct dynamics at 2 `intervals` + 1 instants of the motion. Throws PoseError where it is singular.
+  /// Linearises the direct dynamics at 2 `intervals` + 1 instants of the motion. Throws PoseError at a singular pose.
   Amplification(const Scenario& scenario, int intervals);
 
-  /// The longest window from instant `first` on in which the bound stays below `useful` for acceleration errors of
-  /// `acceleration(t)` m/s² and `rate` a second; at least one interval. All errors are taken as aligned for the worst.
+  /// The longest window from instant `first` in which the bound stays below `useful`; at least one interval. Errors are
+  /// `acceleration(t)` m/s² and `rate` per second, all in the worst direction.
   GrowthWindow window(std::size_t first, const std::function<double(double)>& acceleration, double rate,
                       double useful) const;
 
-  /// The deviation at `end` of a motion that starts on the path at `start` and whose acceleration [p̈; L ω̇] is off by
-  /// `error(t)`: ∫ Φ(end, s) [0; error(s)] ds. Both are taken to the nearest instants.
+  /// The deviation at `end` of a motion that starts on the path at `start` with an acceleration error [p̈; L ω̇] of
+  /// `error(t)`: ∫ Φ(end, s) [0; error(s)] ds. Both times are rounded to the nearest instants.
   Vector12 carried(double start, double end, const std::function<Vector6d(double)>& error) const;
-  /// A bound of its position where only the error's size is known: ∫ ‖Φ‖ size(s) ds.
+  /// A bound of its position if only the error's size is known: ∫ ‖Φ‖ size(s) ds.
   double carriedBound(double start, double end, const std::function<double(double)>& size) const;
 
   const std::vector<double>& instants() const { return instants_; }
   double length() const { return length_; }
-  /// How fast deviations grow about t, or would without friction: the largest real part of an eigenvalue λ of the
-  /// linearised motion, or of its part λ² = ∂p̈/∂p, the larger of the two instants beside t that were looked at, at
-  /// least 0. 1/s.
+  /// The growth rate of deviations about t, or that without friction, 1/s, at least 0. It is the largest real part of
+  /// an eigenvalue λ of the linearised motion, or of its part λ² = ∂p̈/∂p. It is the larger value at the two evaluated
+  /// instants beside t.
   double growthRate(double t) const;
-  /// How fast deviations decay at most, the median over the motion: where that is large, friction makes the equations
-  /// stiff. 1/s.
+  /// The fastest decay rate of deviations, the median over the motion, 1/s. A large value means that friction makes the
+  /// equations stiff.
   double decayRate() const;
 
  private:
@@ -66,7 +66,7 @@ class Amplification {
   const Matrix12& propagator(std::size_t k) const { return propagators_[uniform_ ? 0 : k]; }
   std::size_t intervals() const { return instants_.size() - 1; }
 
-  bool uniform_ = true;  ///< a pose is held: all propagators are the same, and there is but one
+  bool uniform_ = true;  ///< a held pose has equal propagators, so one is stored
   std::vector<Matrix12> propagators_;
   double length_ = 1;
   std::vector<double> growth_rates_, decay_rates_;  ///< at every growth_stride-th instant, and the last

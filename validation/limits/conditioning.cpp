@@ -15,8 +15,8 @@ namespace {
 
 constexpr double eps = Eigen::NumTraits<double>::epsilon();
 
-/// Sizes of what inertia and gravity put on a body, [moment; force], with magnitudes added: nothing cancels. Norms, so
-/// that the frame does not matter.
+/// Sizes of inertia and gravity wrenches on a body, [moment; force], as sums of magnitudes without cancellation. Norms
+/// make them independent of the frame.
 struct WrenchSize {
   double moment, force;
 };
@@ -27,7 +27,7 @@ WrenchSize wrenchSize(const BodyMotion<double>& body, double mass, const Matrix3
           mass * (body.twist_rate.tail<3>().norm() + gravity.norm())};
 }
 
-/// A force on d with its moment at the machine's length.
+/// Friction magnitude; a force on d counts as a moment at the machine's length.
 double frictionMagnitude(const Leg& leg, const JointVariables<double>& rates, int i, double length) {
   return leg.friction.phi * std::abs(rates.phi(i)) + leg.friction.psi * std::abs(rates.psi(i)) +
          leg.friction.theta * std::abs(rates.theta(i)) + leg.coulomb.phi + leg.coulomb.psi + leg.coulomb.theta +
@@ -62,13 +62,13 @@ Projection project(const Manipulator& manipulator, const TwistShaping<double>& T
     if (!is_platform) largest_spin = std::max(largest_spin, T_b.topRows<3>().colwise().norm().maxCoeff());
     if (b < leg_count) friction += frictionMagnitude(leg, rates, b, length);
   }
-  // The same shaping carries friction on ψ, θ to the actuators; its rows are of the order of the links' spins.
+  // The same T projects friction on ψ, θ to the actuators; its rows are about as large as the links' spins.
   out.torque_scale = torque.norm() + friction * std::max(1.0, largest_spin);
   return out;
 }
 
-/// Of I over the roots of its diagonal: no unit of a motor's coordinate changes it. Infinite where rounding makes I
-/// indefinite.
+/// The condition number of I divided by the roots of its diagonal, so a coordinate's unit does not matter. Infinite if
+/// rounding makes I indefinite.
 double conditionOfI(const Matrix6d& I) {
   const Vector6d root = I.diagonal().cwiseSqrt();
   const Matrix6d scaled = root.cwiseInverse().asDiagonal() * I * root.cwiseInverse().asDiagonal();
@@ -76,8 +76,8 @@ double conditionOfI(const Matrix6d& I) {
   return eigenvalues(0) > 0 ? eigenvalues(5) / eigenvalues(0) : std::numeric_limits<double>::infinity();
 }
 
-/// ‖1/m + [d]ᵀ I⁻¹ [d]‖ of a free link at its far end, [d] the cross product with the vector from its mass centre. A
-/// thin rod has no turn about its line to give.
+/// ‖1/m + [d]ᵀ I⁻¹ [d]‖ of a free link at its far end, where [d] is the cross product with the vector from its mass
+/// centre. A thin rod does not contribute a rotation about its line.
 double complianceAtEnd(const Link& link) {
   const double d = link.length - link.center_of_mass;
   const Vector3d& off = link.off_line;
@@ -91,7 +91,7 @@ double complianceAtEnd(const Link& link) {
   return (Matrix3d::Identity() / link.mass + cross.transpose() * inverse * cross).norm();
 }
 
-/// Σ j‖J‖ for the sizes of the platform's accelerations, J the rows of q̇ = J [L ω; ṗ].
+/// Σ j‖J‖ for the sizes of the platform's accelerations; J has the rows of q̇ = J [L ω; ṗ].
 double rotorScale(const Manipulator& manipulator, const Matrix6d& T_P, double rate_scale) {
   double out = 0;
   const Matrix6d J = T_P.inverse();
@@ -102,7 +102,7 @@ double rotorScale(const Manipulator& manipulator, const Matrix6d& T_P, double ra
   return out;
 }
 
-/// What the platform and the forces that hold it are without its legs.
+/// Sets the properties of the platform and its holding forces without the legs.
 void setPlatform(const Noc<double>& solver, const Manipulator& manipulator, const Motion<double>& motion,
                  const Vector6d& torques, const NocWorkspace<double>& work, Conditioning& out) {
   const Platform& platform = manipulator.platform();
@@ -144,7 +144,7 @@ double effortScale(const Noc<double>& solver, const Motion<double>& motion, cons
   return effort.norm();
 }
 
-/// The largest coordinate from the middle of the base, wherever the base's origin is.
+/// The largest coordinate relative to the centre of the base, for any origin of the base.
 void setPositions(const Manipulator& manipulator, const Motion<double>& motion, const BodyMotions<double>& bodies,
                   Conditioning& out) {
   Vector3d middle = Vector3d::Zero();
@@ -189,7 +189,7 @@ double Conditioning::shape(Rounded quantity) const {
     case Rounded::acceleration:
       return eps * platform;
     case Rounded::direct:
-    case Rounded::solver_direct:  // I of (36) has the condition of B twice
+    case Rounded::solver_direct:  // I of (36) contains the condition of B twice
       return eps * kappa_B * platform;
     case Rounded::effort:
       return eps * (torque + effort_scale * compliance * force_scale);
@@ -197,7 +197,7 @@ double Conditioning::shape(Rounded quantity) const {
       return eps * (compliance + leg_compliance) * force_scale;
     case Rounded::reactions:
       return eps * (torque / length * kappa_B + largest_mass * platform);
-    case Rounded::further_engine:  // and all after it
+    case Rounded::further_engine:  // and all following quantities
       break;
   }
   return eps * torque;

@@ -15,7 +15,7 @@ struct EngineFrameChange::Engines {
 
 namespace {
 
-/// [ω̇; p̈] from there to here.
+/// Converts [ω̇; p̈] back to the scenario's frame.
 Vector6d twistRateBack(const FrameChange& p, const Motion<double>& motion) {
   const double unit = p.units.time * p.units.time;
   Vector6d out;

@@ -11,27 +11,27 @@
 
 namespace ursula {
 
-/// What the engines answer for one motion, in B and SI wherever they were asked.
+/// The engines' results for one motion, converted to B and SI from the engine's frame.
 struct EngineView {
   JointMotion joints;
   BodyMotions<double> bodies;
   Vector6d torques;                                   ///< Simbody's, N·m
-  OfFurtherEngines<std::optional<Vector6d>> further;  ///< the others', those that are built in
-  Vector6d acceleration;        ///< Simbody's of the platform under the motion's torques, [ω̇; p̈]
-  Vector6d direct;              ///< the same under torques given from outside
+  OfFurtherEngines<std::optional<Vector6d>> further;  ///< of the other engines in this build
+  Vector6d acceleration;        ///< Simbody's for the platform under the motion's torques, [ω̇; p̈]
+  Vector6d direct;              ///< the same under given torques
   double gap_acceleration = 0;  ///< of the loops, m/s²
   Reactions reactions;          ///< under the motion's torques
 };
 
-/// All engines on one scenario in one change of frame. The solver has no part in it.
+/// All engines on one scenario in one change of frame, without the solver.
 class EngineFrameChange {
  public:
   EngineFrameChange(const Scenario& scenario, const FrameChange& frame_change);
   ~EngineFrameChange();
   EngineFrameChange(EngineFrameChange&&) noexcept;
 
-  /// `motion` as the scenario has it, with its `torques`; `others` for direct. Throws std::domain_error where an engine
-  /// has no answer.
+  /// Takes `motion` in the scenario's frame, with its `torques`, and `others` for direct. Throws std::domain_error if
+  /// an engine fails.
   EngineView at(const Motion<double>& motion, const Vector6d& torques, const Vector6d& others);
 
  private:

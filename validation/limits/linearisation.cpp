@@ -12,14 +12,14 @@ using Vector12 = Eigen::Matrix<double, 12, 1>;
 
 namespace {
 
-/// But for the time.
+/// Whether both are bitwise equal except for the time.
 bool sameBits(const Motion<double>& a, const Motion<double>& b) {
   return a.p == b.p && a.Q == b.Q && a.p_dot == b.p_dot && a.omega == b.omega && a.p_ddot == b.p_ddot &&
          a.omega_dot == b.omega_dot;
 }
 
-/// Coulomb friction changes within its smoothing speed, everything else within the machine's own speed. The step lies
-/// between those that suit either.
+/// Coulomb friction varies over its smoothing speed, everything else over the machine's own speed. The step is a
+/// compromise between both.
 double stepFor(const Manipulator& machine) {
   double speed = 1;
   for (const Leg& leg : machine.parameters().legs)
@@ -36,7 +36,7 @@ Linearisation::Linearisation(const Scenario& scenario)
       right_(nocSubject(*scenario.manipulator, scenario.load)),
       fast_(fastSubject(*scenario.manipulator, scenario.load)),
       length_(MachineParameters<double>(*scenario.manipulator).length),
-      // Central differences: the cube root of eps balances truncation and rounding.
+      // For central differences the cube root of eps balances truncation and rounding.
       step_(stepFor(*scenario.manipulator) * std::cbrt(Eigen::NumTraits<double>::epsilon()) * length_) {}
 
 Linearisation::Matrix12 Linearisation::at(double t) const {

@@ -8,27 +8,27 @@
 
 namespace ursula {
 
-/// The variational equations of direct dynamics along the commanded motion, the torques held as functions of time:
-/// ẋ = J(t) x with x = [δp; L δϑ; δṗ; L δω] of the platform in m and m/s, L a length of the machine. A deviation of the
-/// orientation turns it: Q → exp(δϑ) Q, so δϑ̇ = δω + ω × δϑ.
+/// The variational equations of direct dynamics along the commanded motion, with torques as given functions of time: ẋ
+/// = J(t) x with x = [δp; L δϑ; δṗ; L δω] of the platform in m and m/s, where L is a length of the machine. A deviation
+/// rotates the orientation: Q → exp(δϑ) Q, so δϑ̇ = δω + ω × δϑ.
 class Linearisation {
  public:
   using Matrix12 = Eigen::Matrix<double, 12, 12>;
 
-  /// The fast kernels' direct dynamics are differenced centrally.
+  /// Uses central differences of the fast kernels' direct dynamics.
   explicit Linearisation(const Scenario& scenario);
 
   /// L, m.
   double length() const { return length_; }
-  /// J(t), found once while a pose is held. Throws PoseError where the motion is singular. Not for several threads.
+  /// J(t), computed once while a pose is held. Throws PoseError if the motion is singular. Not thread-safe.
   Matrix12 at(double t) const;
 
  private:
-  /// [p̈; L ω̇] under the torques with the state deviated.
+  /// [p̈; L ω̇] under the torques in the deviated state.
   Vector6d acceleration(Motion<double> motion, const Eigen::Matrix<double, 12, 1>& deviation,
                         const Vector6d& torques) const;
 
-  /// The state, what it is to do there and the load: all that J depends on.
+  /// State, acceleration and load: everything that J depends on.
   struct Place {
     Motion<double> motion;
     Vector6d load;

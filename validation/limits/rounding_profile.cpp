@@ -14,21 +14,21 @@
 namespace ursula {
 namespace {
 
-/// Beside the scenario as it stands.
+/// Changes of frame beside the given one.
 constexpr unsigned frame_changes = 3;
-/// On either side of an instant, those whose spread counts.
+/// Number of instants on either side whose spread counts.
 constexpr std::size_t neighbours = 2;
 
 double spin(const Vector6d& v, double length) { return v.tail<3>().norm() + length * v.head<3>().norm(); }
 
-/// ψ and θ, which count from the machine itself, and φ by the axis x that turns with it.
+/// Compares ψ and θ, which are relative to the machine, and φ by the axis x that turns with it.
 double angleDistance(const Manipulator& machine, const JointVariables<double>& a, const JointVariables<double>& b,
                      const BodyMotions<double>& of_a, const BodyMotions<double>& of_b, double length) {
   double largest = 0;
   for (int i = 0; i < machine.legCount(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     const bool carriage = rowOf(machine.leg(i).kind).hasCarriage();
-    // The plane of a leg with a carriage is its rod's; ψ of it counts from an axis that is not turned along, too.
+    // The plane of a leg with a carriage is its rod's; its ψ starts at an axis that does not turn with the frame.
     const std::size_t in_plane = carriage ? leg_count + k : k;
     const double plane = (of_a[in_plane].R.col(0) - of_b[in_plane].R.col(0)).norm();
     const auto turn = [](double x, double y) { return std::abs(std::remainder(x - y, 2 * std::acos(-1.0))); };
@@ -56,11 +56,11 @@ void set(RoundingLevels& levels, Rounded quantity, double value) {
   level = larger(level, value);
 }
 
-/// What the solver and the engines have in common: joints and bodies.
+/// Compares joints and bodies, which the solver and the engines both have.
 template <class View>
 void spreadOfMotions(const Manipulator& machine, const View& a, const View& b, double length, RoundingLevels& out) {
   for (std::size_t i = 0; i < body_count; ++i) {
-    // A carriage's frame hangs on what is upright, not on the machine.
+    // A carriage's frame depends on the vertical, not on the machine.
     const bool is_carriage =
         i < static_cast<std::size_t>(machine.legCount()) && rowOf(machine.leg(static_cast<int>(i)).kind).hasCarriage();
     const double turn = is_carriage ? 0 : length;
@@ -81,7 +81,7 @@ struct DrivenMotion {
   Vector6d q_dot, q_ddot;
 };
 
-/// In one and the same frame. `driven` is Simbody's, `effort` T_PᵀM_P: what torques move the platform by.
+/// Spread in a single frame. `driven` is Simbody's; `effort` is T_PᵀM_P, which maps torques to platform accelerations.
 RoundingLevels spreadOfSolver(const Manipulator& machine, const std::vector<SolverView>& views,
                               const DrivenMotion& driven, const Matrix6d& effort, double length) {
   const Eigen::PartialPivLU<Matrix6d> moved(effort);
@@ -107,7 +107,7 @@ RoundingLevels spreadOfSolver(const Manipulator& machine, const std::vector<Solv
   return out;
 }
 
-/// Over the changes of frame. `solver` is the NOC as it is, `effort` T_PᵀM_P.
+/// Spread over the changes of frame. `solver` is the unchanged NOC, `effort` is T_PᵀM_P.
 RoundingLevels spreadOfEngines(const Manipulator& machine, const std::vector<EngineView>& views,
                                const SolverView& solver, const Matrix6d& effort, double length) {
   RoundingLevels out = uniformLevels(0);
@@ -131,7 +131,7 @@ RoundingLevels spreadOfEngines(const Manipulator& machine, const std::vector<Eng
   return out;
 }
 
-/// In units of the shape; infinite where there is a spread and no shape.
+/// Divides by the shape; infinite if there is a spread without a shape.
 void divideByShape(const Conditioning& at, RoundingLevels& spread) {
   for (std::size_t q = 0; q < rounded_count; ++q) {
     const double shape = at.shape(static_cast<Rounded>(q));
@@ -139,7 +139,7 @@ void divideByShape(const Conditioning& at, RoundingLevels& spread) {
   }
 }
 
-/// In units of the shape; `even` is the same machine without condition numbers.
+/// The floor in units of the shape; `even` is the same machine without condition numbers.
 double floorOf(const Conditioning& at, const Conditioning& even, Rounded quantity) {
   const double share = floor_share / std::numeric_limits<double>::epsilon();
   const double shape = at.shape(quantity);
@@ -151,7 +151,7 @@ bool areSame(const Motion<double>& a, const Motion<double>& b) {
          a.p_ddot == b.p_ddot;
 }
 
-/// By a billionth of `length`, another way for each k: the same machine and pose, rounded otherwise.
+/// Moves P by a billionth of `length`, differently for each k: nearly the same pose with other roundings.
 void nudge(Motion<double>& motion, int k, double length) {
   for (int axis = 0; axis < 3; ++axis) motion.p(axis) += 0x1p-30 * length * std::sin(1.0 + k + 2.3 * axis);
 }
@@ -191,7 +191,7 @@ RoundingProfile::RoundingProfile(const Scenario& scenario, int instants)
     const double t = instants > 1 ? scenario.trajectory->duration() * k / (instants - 1) : 0;
     Motion<double> motion = scenario.trajectory->at(t);
     if (k > 0 && areSame(motion, first_of_held))
-      nudge(motion, k, workspace_->noc.machine().length);  // or a held pose would be measured once, however often
+      nudge(motion, k, workspace_->noc.machine().length);  // else a held pose would repeat one measurement
     else
       first_of_held = motion;
     measured_.push_back(measure(motion, nullptr));

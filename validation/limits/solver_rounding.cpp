@@ -11,11 +11,11 @@
 namespace ursula {
 namespace {
 
-/// How often the inputs are moved, each time otherwise.
+/// Number of different changes of the inputs.
 constexpr unsigned moves = 8;
 
-/// Moves numbers by one rounding, up or down; the same way for one seed. What is zero stays so, and numbers that are
-/// equal but for their signs stay equal: a branch that is taken there would be taken in some evaluations alone.
+/// Changes numbers by one rounding, up or down, fixed by the seed. Zeros stay zero, and numbers of equal size stay
+/// equal. Otherwise only some evaluations would take the branches for equal numbers.
 class Mover {
  public:
   explicit Mover(unsigned seed) : seed_(seed) {}

@@ -11,27 +11,27 @@
 
 namespace ursula {
 
-/// What the NOC answers for one motion, in B.
+/// The NOC's results for one motion, in B.
 struct SolverView {
   JointMotion joints;
   BodyMotions<double> bodies;
   Matrix6d T, T_rate;
-  Vector6d torques, direct;  ///< N·m; [ω̇; p̈] under torques given from outside
+  Vector6d torques, direct;  ///< N·m; [ω̇; p̈] under given torques
   Reactions reactions;
 };
 
-/// How the NOC rounds, measured in one and the same frame: its formulas as they are, and with every number of the
-/// machine and of the motion moved by one rounding. A wrong formula is wrong in all of them alike and adds nothing,
-/// whatever leg, frame, unit or precision it depends on.
+/// The rounding of the NOC, measured in one frame: its formulas with the given numbers, and with every number of
+/// machine and motion changed by one rounding. A wrong formula is equally wrong in all evaluations and adds nothing,
+/// whatever it depends on.
 class SolverRounding {
  public:
   SolverRounding(const Manipulator& machine, std::shared_ptr<const Load> load);
   ~SolverRounding();
   SolverRounding(SolverRounding&&) noexcept;
 
-  /// The NOC's torques as they are, N·m.
+  /// The NOC's torques for the given numbers, N·m.
   Vector6d torques(const Motion<double>& motion);
-  /// The first answer is to the numbers as they are, the others to moved ones. `others` are torques for `direct`.
+  /// Returns the results for the given numbers first, then those for changed ones. `others` are torques for `direct`.
   /// Throws PoseError.
   std::vector<SolverView> at(const Motion<double>& motion, const Vector6d& others);
 

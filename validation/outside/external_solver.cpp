@@ -13,10 +13,10 @@
 namespace ursula {
 namespace {
 
-/// For a process to end by itself once its input is closed, s.
+/// Time for a process to end by itself after its input is closed, s.
 constexpr double grace = 1;
 
-/// A process that answers by the protocol.
+/// A process that speaks the protocol.
 class Process {
  public:
   Process(const Scenario& scenario, const ExternalSolverOptions& options)

@@ -10,12 +10,12 @@ namespace ursula {
 
 struct ExternalSolverOptions {
   std::string command;  ///< for `sh -c`
-  double timeout = 10;  ///< for an answer, s
+  double timeout = 10;  ///< for one answer, s
 };
 
-/// The whole validation of a scenario with a process of its own on trial, which is started once and has
-/// URSULA_SCENARIO, the scenario's path, in its environment. Throws as validateOutside() does, SolverProcessError, and
-/// std::system_error where it cannot be started.
+/// Validates a scenario with a separate process as the solver under test. The process starts once, with the scenario's
+/// path as URSULA_SCENARIO in its environment. Throws like validateOutside(), SolverProcessError, and std::system_error
+/// if it cannot be started.
 ValidationResult validateExternalSolver(const Scenario& scenario, const ExternalSolverOptions& options,
                                         const ValidationOptions& validation = {});
 

@@ -26,7 +26,7 @@ constexpr std::size_t longest_line = 1 << 16;
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-/// A write to a process that has ended is an error of the call's, not a signal that ends this one.
+/// Turns SIGPIPE, from a write to an ended process, into an error of the call.
 class WithoutPipeSignal {
  public:
   WithoutPipeSignal() {
@@ -103,7 +103,7 @@ bool LineProcess::receive(double deadline, bool& ended) {
 
 LineProcess::Answer LineProcess::ask(const std::string& line, double timeout) {
   const double deadline = now() + timeout;
-  write(line + '\n', deadline);  // where that fails, what came instead of an answer says more
+  write(line + '\n', deadline);  // after a failure, the received output says more than the error
   bool ended = false;
   std::size_t end = received_.find('\n');
   while (end == std::string::npos) {
@@ -124,7 +124,7 @@ std::string LineProcess::unasked() {
 }
 
 std::string LineProcess::ending() {
-  const double deadline = now() + 1;  // its output is closed: it is about to end
+  const double deadline = now() + 1;  // its output is closed, so it is about to end
   while (!process_.hasEnded() && now() < deadline) ::poll(nullptr, 0, 1);
   const bool by_itself = process_.hasEnded();
   process_.kill();

@@ -12,8 +12,7 @@
 namespace ursula {
 namespace {
 
-/// Thrown through the experiments once the solver has thrown. No std::exception, for of those an experiment makes a
-/// result of its own.
+/// Thrown after the solver has thrown. It is no std::exception, because an experiment turns those into results.
 struct SolverStopped {};
 
 bool same(const Motion<double>& a, const Motion<double>& b) {
@@ -21,7 +20,7 @@ bool same(const Motion<double>& a, const Motion<double>& b) {
          a.omega_dot == b.omega_dot && a.p_ddot == b.p_ddot;
 }
 
-/// Asks the solver, remembers what it was asked last, and keeps what it threw.
+/// Asks the solver, remembers its last answers, and stores its exception.
 class Asking {
  public:
   explicit Asking(const OutsideSolver& solver) : solver_(solver) {}
@@ -48,7 +47,7 @@ class Asking {
     return all_;
   }
 
-  /// Throws what the solver threw, if it did.
+  /// Rethrows the solver's exception, if any.
   void rethrow() const {
     if (thrown_) std::rethrow_exception(thrown_);
   }
@@ -58,8 +57,8 @@ class Asking {
     Motion<double> motion;
     Vector6d torques;
   };
-  /// Of answers kept when others are foreseen: more than any step of an integrator asks again; and at all: more than
-  /// are ever foreseen at once.
+  /// Number of answers kept when others are foreseen: more than any integrator step asks again. The second limit
+  /// exceeds the number foreseen at once.
   static constexpr std::size_t most_kept = 1024, most_foreseen = 1 << 18;
 
   const Vector6d* find(const Motion<double>& motion) const {
@@ -90,7 +89,7 @@ class Asking {
 
   OutsideSolver solver_;
   std::mutex mutex_;
-  std::unordered_map<double, Answer> known_;  ///< by instant: a solver is asked along one motion
+  std::unordered_map<double, Answer> known_;  ///< by instant, since a solver is asked along one motion
   std::vector<Answered> all_;
   std::exception_ptr thrown_;
 };
@@ -107,10 +106,10 @@ ValidationResult validateOutside(const Scenario& scenario, const OutsideSolver& 
   subject.answers = [asking] { return asking->answers(); };
   try {
     ValidationResult result = validate(scenario, subject, options);
-    asking->rethrow();  // an engine may have kept it to itself
+    asking->rethrow();  // an engine may have hidden it
     return result;
   } catch (...) {
-    asking->rethrow();  // that came first
+    asking->rethrow();  // it came first
     throw;
   }
 }

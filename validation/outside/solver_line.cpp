@@ -23,7 +23,7 @@ std::string_view trimmed(std::string_view text) {
   return first == text.npos ? std::string_view{} : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-/// std::from_chars says "out of range" for numbers that are too large and too small: a stream tells them apart.
+/// std::from_chars reports "out of range" for both too large and too small numbers; a stream distinguishes them.
 bool isBelowRange(std::string_view digits) {
   std::istringstream stream{std::string(digits)};
   stream.imbue(std::locale::classic());
@@ -31,7 +31,7 @@ bool isBelowRange(std::string_view digits) {
   return stream >> value && std::abs(value) < 1;
 }
 
-/// One that is smaller than any double is 0 to a double.
+/// A number smaller than any double becomes 0.
 double numberOf(std::string_view cell, int index) {
   std::string_view digits = trimmed(cell);
   if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);

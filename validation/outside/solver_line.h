@@ -8,21 +8,21 @@
 
 namespace ursula {
 
-/// The solver's process did not answer as it has to: with what it was asked and what came.
+/// A wrong answer of the solver's process, with question and answer.
 class SolverProcessError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What a solver's process is asked for a motion, without the line's end: t, p, q, v, w, a, alpha as in the program's
-/// files, in B, SI, q with w ≥ 0, 17 significant digits, commas between.
+/// The question for one motion without line end: t, p, q, v, w, a, alpha as in the program's files. They are in B, SI,
+/// with w ≥ 0 in q, 17 significant digits, separated by commas.
 std::string solverQuestion(const Motion<double>& motion);
 
-/// Six numbers with commas between, efforts in the order of the motors, N·m or N. Throws SolverProcessError that says
-/// what is wrong with `line`.
+/// Parses six comma-separated efforts in the order of the motors, N·m or N. Throws SolverProcessError with the defect
+/// of `line`.
 Vector6d solverAnswer(const std::string& line);
 
-/// Of an answer, in messages: bytes.
+/// The largest part of an answer in messages, in bytes.
 constexpr std::size_t most_shown = 600;
 
 }  // namespace ursula

@@ -26,7 +26,7 @@ bool AskedTorques::sameFrom(const SimbodyLoop::TorqueHistory& torques) const {
       return answer.given && sameBits(answer.torques, torques(answer.t));
     });
   } catch (const std::exception&) {
-    return false;  // whoever asks finds out why
+    return false;  // the caller meets the same error
   }
 }
 

@@ -6,22 +6,22 @@
 
 namespace ursula {
 
-/// What was asked of a history of torques, in order, and what it answered. Who asks nothing else of it and meets the
-/// same answers to the last bit asks the same again and comes to the same end: then nothing need be done twice.
+/// Records the questions to a history of torques, in order, and its answers. A run that depends on nothing else and
+/// gets bitwise equal answers ends equally, so it need not be repeated.
 class AskedTorques {
  public:
-  /// `torques`, with each question and its answer written down here. Keeps a reference to both.
+  /// Wraps `torques` so that every question and answer is recorded here. Keeps a reference to both.
   SimbodyLoop::TorqueHistory of(const SimbodyLoop::TorqueHistory& torques);
-  /// What `more` was asked after this.
+  /// Appends the record of `more`.
   void add(const AskedTorques& more);
-  /// True where `torques` answers all of it the same. False, too, where nothing was asked, and where it throws.
+  /// Whether `torques` gives all these answers. False if nothing was asked or if it throws.
   bool sameFrom(const SimbodyLoop::TorqueHistory& torques) const;
 
  private:
   struct Answer {
     double t = 0;
     Vector6d torques;
-    bool given = false;  ///< false where it threw
+    bool given = false;  ///< false if it threw
   };
   std::vector<Answer> answers_;
 };

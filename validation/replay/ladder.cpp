@@ -15,7 +15,7 @@
 namespace ursula {
 namespace {
 
-/// Of the tolerance, at a further rung, where one may have met a kink of the friction by bad luck.
+/// Factor on the tolerance of an additional rung, for the case that a rung meets a kink of the friction.
 constexpr double last_rung = 10;
 
 using ChangeSettings = std::function<void(ReplaySettings&)>;
@@ -67,11 +67,12 @@ void makeRung(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torque
   addRung(settings, replayBeside(scenario, torques, settings, change), finest.replay, ladder.rungs, ladder.asked);
 }
 
-/// Of Simbody's own integrator, in one run: twice what it takes for the paper's whole motion at its best. Beside links
-/// of no mass it would go on for minutes.
+/// Limit for one run of Simbody's own integrator: twice the need of the paper's whole motion at its best. With massless
+/// links it would run for minutes.
 constexpr long most_second_evaluations = 20000;
 
-/// The largest at some instants of the commanded motion, in natural units, in which turns and moves are alike.
+/// The largest contradiction at some instants of the commanded motion, in natural units, where rotations and
+/// translations are comparable.
 double contradictionBetween(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, double from,
                             double to) {
   constexpr int instants = 9;
@@ -91,7 +92,7 @@ double contradictionBetween(const Scenario& scenario, const SimbodyLoop::TorqueH
   return largest;
 }
 
-/// Until `ladder.second_end`, at two accuracies and more.
+/// Runs until `ladder.second_end`, at two accuracies or more.
 void replaySecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
                   const ChangeSettings& change, Ladder& ladder) {
   ladder.second.clear();
@@ -111,7 +112,7 @@ void replaySecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& to
   Replay coarse = run(10 * second_accuracy);
   if (!coarse.gave_up.empty()) return;
   Replay fine = run(second_accuracy);
-  // Where the accuracy does not decide the steps, both are the same and nothing is learnt of the error.
+  // Equal runs, whose steps do not depend on the accuracy, say nothing about the error.
   for (double accuracy = second_accuracy / 10; accuracy > 1e-14 && fine.evaluations <= coarse.evaluations;
        accuracy /= 10) {
     coarse = std::move(fine);
@@ -122,13 +123,13 @@ void replaySecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& to
       both ? (coarse.steps.back().position_error - fine.steps.back().position_error).norm() : std::nan("");
 }
 
-/// Over the first steps only, a tenth of them at least: it is another integrator that is wanted, not another replay.
-/// Over fewer where it takes too many steps to get there.
+/// Covers only the first steps, at least a tenth, because it only needs another integrator, not another replay. It
+/// covers fewer if they take too many evaluations.
 void climbSecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
                  const ChangeSettings& change, Ladder& ladder) {
   const std::vector<ReplayStep>& steps = finest.replay.steps;
   if (steps.size() < 2) return;
-  // Simbody's integrator is explicit: friction that is stiff leaves it a single step of the judged replay.
+  // Simbody's integrator is explicit, so stiff friction limits it to a single step of the judged replay.
   const std::size_t wanted = finest.replay.stiff ? 1 : std::max<std::size_t>(20, steps.size() / 10);
   for (std::size_t last = std::min(steps.size() - 1, wanted); last > 0; last /= 4) {
     ladder.second_end = steps[last].t;
@@ -163,7 +164,7 @@ Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques
     ladder.observed_orders.push_back(order(ladder.rungs[k], ladder.rungs[k + 1]));
   ladder.asymptotic = std::all_of(ladder.observed_orders.begin(), ladder.observed_orders.end(),
                                   [](double p) { return std::abs(p - nominal_order) <= 2; });
-  // Richardson with the last observed order, or without an asymptotic range the last difference itself.
+  // Richardson extrapolation with the last observed order; without an asymptotic range, the last difference itself.
   const Rung& last = ladder.rungs.back();
   const double ratio = static_cast<double>(finest.replay.accepted) / static_cast<double>(std::max(last.steps, 1L));
   const double p = ladder.asymptotic ? ladder.observed_orders.back() : 0;

@@ -14,40 +14,41 @@ struct Rung {
   Integrator integrator = Integrator::rkf78;
   double tolerance = 0;
   long evaluations = 0, steps = 0;
-  double distance = 0;  ///< of its end from the end of the finest replay, m
+  double distance = 0;  ///< distance of its end from that of the finest replay, m
   std::string gave_up;
-  bool too_long = false;   ///< as Replay has it
-  bool left_path = false;  ///< the replay ended early, so that its end says nothing
+  bool too_long = false;   ///< as in Replay
+  bool left_path = false;  ///< the replay ended early, so its end is meaningless
 };
 
-/// Of Simbody's own integrator: error control of fourth order takes too many steps beyond. Where its accelerations are
-/// off by more, in natural units, its steps follow that and not the motion, and it is no evidence.
+/// Accuracy of Simbody's own integrator; at a finer one its fourth-order error control takes too many steps. If its
+/// accelerations have larger errors, in natural units, its steps follow those and not the motion. It is then no
+/// evidence.
 constexpr double second_accuracy = 1e-9;
 
 /// The same window replayed at several tolerances, and its beginning with Simbody's own integrator.
 struct Ladder {
   std::vector<Rung> rungs;  ///< rkf78 from coarse to fine
-  /// rk_merson at two accuracies and more, the finest last, over the beginning of the window: distances at
-  /// `second_end` from the finest replay.
+  /// rk_merson at two accuracies or more over the beginning of the window, the finest last. Distances are those from
+  /// the finest replay at `second_end`.
   std::vector<Rung> second;
   double second_end = 0;         ///< s
   double second_difference = 0;  ///< between the last two, m
-  /// The largest error of the accelerations that Simbody's own integrator uses, until `second_end`, m/s².
+  /// The largest error of the accelerations in Simbody's own integrator until `second_end`, m/s².
   double second_contradiction = 0;
-  bool passes_knots = false;            ///< over some it steps, so that it need not converge
-  std::vector<double> observed_orders;  ///< between neighbouring rkf78 rungs, of the error against the steps
+  bool passes_knots = false;            ///< it steps over some knots, so it need not converge
+  std::vector<double> observed_orders;  ///< order of the error in the steps between neighbouring rkf78 rungs
   bool asymptotic = false;              ///< both orders within 2 of 8
   double extrapolated = 0;              ///< estimated integration error of the finest replay at its end, m
-  double uncertainty = 0;               ///< of that estimate, m
-  AskedTorques asked;                   ///< by all of its replays
+  double uncertainty = 0;               ///< uncertainty of that estimate, m
+  AskedTorques asked;                   ///< by all its replays
 };
 
-/// `finest` is the judged replay of the window; where its coarser replay would be the same under `torques` it is a rung
-/// already. `change`, of the settings of all others.
+/// `finest` is the judged replay of the window. Its coarser replay serves as a rung if it would be the same under
+/// `torques`. `change` alters the settings of all others.
 Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
              const std::function<void(ReplaySettings&)>& change = nullptr);
 
-/// One rung more, at ten times the judged tolerance.
+/// Adds a rung at ten times the judged tolerance.
 void climbOn(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
              const std::function<void(ReplaySettings&)>& change, Ladder& ladder);
 

@@ -5,13 +5,13 @@
 
 namespace ursula {
 
-/// Made when first asked for, by whichever thread asks first; the others wait. Where making throws, the next one tries.
+/// A value that the first requesting thread computes while others wait. If the computation throws, the next one tries.
 template <class T>
 class Lazily {
  public:
   template <class Make>
   const T& get(const Make& make) const {
-    std::call_once(once_, [&] { value_.reset(new T(make())); });  // in place: T need not move
+    std::call_once(once_, [&] { value_.reset(new T(make())); });  // in place, so T need not be movable
     return *value_;
   }
 

@@ -20,17 +20,17 @@ namespace {
 namespace odeint = boost::numeric::odeint;
 using OdeState = std::vector<double>;
 
-/// Of differences, in natural units: beyond, steps are too long to show an order …
+/// The largest difference, in natural units; above it, steps are too long for an order …
 constexpr double most_difference = 1e-3;
-/// … and below so many times what rounding of the start makes of the end, they may be rounding.
+/// … and below this multiple of the start's propagated rounding, differences may be rounding.
 constexpr double above_noise = 3;
-/// Stretches that are tried, in natural units of time: from the longest on, each so much shorter.
+/// Stretches to try, in natural units of time: the longest, and the ratio of successive ones.
 constexpr double longest = 8, shorter = 0.9;
 constexpr int attempts = 90;
-/// Stretches over which an order is observed, and twice as many where these leave it open.
+/// Number of stretches for an order, doubled if they leave it open.
 constexpr std::size_t most_stretches = 12;
 
-/// The loop let go from the commanded state at the start of the motion.
+/// The loop released from the commanded state at the start of the motion.
 template <class Stepper>
 class LetGo {
  public:
@@ -39,14 +39,14 @@ class LetGo {
         machine_(frictionless(*scenario.manipulator)),
         loop_(machine_),
         start_(trajectory_.at(0)) {
-    // As if to accelerate by a natural unit or so every way: else a motion from rest would stay there.
+    // Torques for about a natural unit of acceleration in every direction; else a motion from rest would stay there.
     Motion<double> pushed = start_;
     pushed.p_ddot += Vector3d(0.3, -0.4, 0.5);
     pushed.omega_dot += Vector3d(0.4, 0.3, -0.5);
     torques_ = nocSubject(machine_, nullptr).torques(pushed);
   }
 
-  /// What rounding of the start's coordinates changes of the end.
+  /// The change of the end due to rounding of the start's coordinates.
   double noise(double duration) {
     double out = 0;
     const std::optional<OdeState>& end = reached(duration, 16);
@@ -56,20 +56,20 @@ class LetGo {
     return out;
   }
 
-  /// With so many steps; none where the machine flies apart.
+  /// The end after `steps` steps; nullopt if the machine flies apart.
   const std::optional<OdeState>& reached(double duration, int steps) {
     const auto [known, is_new] = reached_.try_emplace({duration, steps});
     if (is_new) try {
         known->second = endOf(duration, steps);
       } catch (const std::bad_alloc&) {
         reached_.erase(known);
-        throw;  // the machine flies apart for no want of memory
+        throw;  // lack of memory says nothing about the machine
       } catch (const std::exception&) {
       }
     return known->second;
   }
 
-  /// Between two ends; infinite where there is none.
+  /// The distance of two ends; infinite if one is missing.
   static double difference(const std::optional<OdeState>& a, const std::optional<OdeState>& b) {
     return a && b ? distance(*a, *b) : std::numeric_limits<double>::infinity();
   }
@@ -81,7 +81,7 @@ class LetGo {
     return std::sqrt(sum);
   }
 
-  /// With a `pattern`, from a state that is rounded otherwise.
+  /// The end; a `pattern` selects another rounding of the start.
   OdeState endOf(double duration, int steps, unsigned pattern = 0) {
     loop_.place(start_);
     OdeState x = loop_.state();
@@ -90,7 +90,7 @@ class LetGo {
     Stepper stepper;
     const double h = duration / steps;
     for (int k = 0; k < steps; ++k) {
-      static_cast<void>(trajectory_.at(0));  // which throws where time is up
+      static_cast<void>(trajectory_.at(0));  // throws if time is up
       stepper.do_step([this](const OdeState& at, OdeState& rate,
                              double t) { loop_.derivative(t, at.data(), torques_, rate.data()); },
                       x, k * h, h);
@@ -103,10 +103,10 @@ class LetGo {
   SimbodyLoop loop_;
   Motion<double> start_;
   Vector6d torques_;
-  std::map<std::pair<double, int>, std::optional<OdeState>> reached_;  ///< what is asked for twice
+  std::map<std::pair<double, int>, std::optional<OdeState>> reached_;  ///< ends that are needed twice
 };
 
-/// The first stretch that is short enough: differences fall with the ninth power of it.
+/// The first stretch that is short enough; differences fall with its ninth power.
 template <class Stepper>
 int firstStretch(LetGo<Stepper>& loop) {
   int too_long = -1, short_enough = attempts;
@@ -123,19 +123,19 @@ bool leaveItOpen(const std::vector<double>& orders) {
   return nominal_order - bestOrder(orders) > largest_shortfall && !haveSettled(orders);
 }
 
-/// The observed order of each stretch, from the longest on.
+/// The observed order of each stretch, the longest first.
 template <class Stepper>
 std::vector<double> ordersOf(const Scenario& scenario) {
   LetGo<Stepper> loop(scenario);
   std::vector<double> orders;
   double duration = longest * std::pow(shorter, firstStretch(loop));
-  const double noise = above_noise * loop.noise(duration);  // the larger, the longer
+  const double noise = above_noise * loop.noise(duration);  // longer stretches have more noise
   for (; orders.size() < most_stretches || (orders.size() < 2 * most_stretches && leaveItOpen(orders));
        duration *= shorter) {
     const auto &four = loop.reached(duration, 4), &eight = loop.reached(duration, 8),
                &more = loop.reached(duration, 16);
     const double first = loop.difference(four, eight), second = loop.difference(eight, more);
-    if (!(second >= noise)) break;  // and the less so over less
+    if (!(second >= noise)) break;  // shorter stretches have even less
     if (first <= most_difference) orders.push_back(std::log2(first / second));
   }
   return orders;

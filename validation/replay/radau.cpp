@@ -12,8 +12,8 @@ namespace {
 
 constexpr int stages = 9;
 constexpr int most_iterations = 15;
-/// Of the tolerance: what the last iteration may change. Iterations that do not fall below so much of the last are
-/// given up.
+/// The last iteration may change this share of the tolerance. Iterations that shrink less than the second factor are
+/// stopped.
 constexpr double solved = 0.1, slowest = 0.7;
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
@@ -29,12 +29,12 @@ double integralOfLegendre(int k, double x) {
   return k == 0 ? x : (legendre(k + 1, x) - legendre(k - 1, x)) / (2 * (2 * k + 1));
 }
 
-/// The method's numbers.
+/// The constants of the method.
 struct Method {
   Nodes node;
-  Square A;                                       ///< ∫ to each node of what has the values f at the nodes: A f
-  Square coefficient;                             ///< of Legendre's polynomials, from values at the nodes
-  Eigen::Matrix<Complex, stages, 1> eigenvalues;  ///< of A
+  Square A;            ///< A f is the integral to each node of the polynomial with values f at the nodes
+  Square coefficient;  ///< coefficients of Legendre's polynomials from values at the nodes
+  Eigen::Matrix<Complex, stages, 1> eigenvalues;  ///< eigenvalues of A
   Eigen::Matrix<Complex, stages, stages> vectors, inverse;
 
   Method() {
@@ -54,7 +54,7 @@ struct Method {
   }
 
  private:
-  /// The zeros of P_s − P_{s−1}, of which 1 is the last.
+  /// The zeros of P_s − P_{s−1}; the last is 1.
   void placeNodes() {
     const auto f = [](double x) { return legendre(stages, x) - legendre(stages - 1, x); };
     constexpr int pieces = 1000;
@@ -82,7 +82,7 @@ Eigen::Map<const Eigen::VectorXd> mapped(const std::vector<double>& x) {
   return {x.data(), static_cast<Eigen::Index>(x.size())};
 }
 
-/// Solves Δ − h J Δ Aᵀ = R, in A's eigenvectors, of each conjugate pair one.
+/// Solves Δ − h J Δ Aᵀ = R in A's eigenvectors, one of each conjugate pair.
 class Newton {
  public:
   Newton(const Eigen::MatrixXd& jacobian, double h) {
@@ -124,7 +124,7 @@ Eigen::MatrixXd jacobianOf(const RadauStep::Rate& rate, const std::vector<double
   Eigen::MatrixXd out(n, n);
   std::vector<double> near = x, changed(x.size());
   for (std::size_t k = 0; k < x.size(); ++k) {
-    const double step = std::sqrt(eps) * (1 + std::abs(x[k]));  // coordinates are of the order of one
+    const double step = std::sqrt(eps) * (1 + std::abs(x[k]));  // coordinates are of order one
     near[k] = x[k] + step;
     rate(near, changed, t);
     out.col(static_cast<Eigen::Index>(k)) = (mapped(changed) - mapped(at_start)) / (near[k] - x[k]);
@@ -156,7 +156,7 @@ std::optional<double> RadauStep::tryStep(const Rate& rate, std::vector<double>& 
     const Stages change = newton.solve(h * F * m.A.transpose() - Z);
     Z += change;
     const double size = largest(change, scale);
-    // Changes fall by the same factor until they are rounding, which stays.
+    // Changes fall by a constant factor until only rounding remains.
     const bool rounding = size >= before / 4 && largest(change, tolerance.absolute + size_of_x) <= 100 * eps;
     if (size <= solved || rounding) {
       const double error = largest(h * F * m.coefficient.bottomRows<2>().transpose(), scale);

@@ -31,7 +31,7 @@ struct TooLong : GaveUp {
 
 struct LeftPath {};
 
-/// The rotation vector of R, exact to rounding also where it is small.
+/// The rotation vector of R, exact to rounding even if it is small.
 Vector3d rotationVector(const Matrix3d& R) {
   Eigen::Quaterniond q(R);
   if (q.w() < 0) q.coeffs() = -q.coeffs();
@@ -40,7 +40,7 @@ Vector3d rotationVector(const Matrix3d& R) {
   return (2 * std::atan2(sine, q.w()) / sine) * q.vec();
 }
 
-/// The instants at which Fehlberg's pair asks for derivatives in a step of h, to the bit.
+/// The instants at which Fehlberg's pair evaluates derivatives in a step of h, to the bit.
 std::vector<double> stagesOf(double t, double h) {
   static const odeint::rk78_coefficients_c<double> nodes;
   std::vector<double> out;
@@ -60,7 +60,7 @@ Motion<double> startOf(const Scenario& scenario, const ReplaySettings& settings)
   return motion;
 }
 
-/// RadauStep as one of Boost.Odeint's controlled steppers.
+/// RadauStep in the form of Boost.Odeint's controlled steppers.
 class ControlledRadau {
  public:
   explicit ControlledRadau(double tolerance) : tolerance_{tolerance, tolerance} {}
@@ -73,7 +73,7 @@ class ControlledRadau {
     } catch (const TooLong&) {
       throw;
     } catch (const GaveUp&) {
-      // A stage was thrown far away: a step too long.
+      // A stage went far away: the step is too long.
     }
     const bool accepted = error && *error <= 1;
     if (accepted) t += h;
@@ -86,7 +86,7 @@ class ControlledRadau {
   RadauStep::Tolerance tolerance_;
 };
 
-/// One run: the loop, the work done on it and what is recorded.
+/// One run: the loop, the work done on it and the records.
 class Run {
  public:
   Run(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const ReplaySettings& settings)
@@ -109,13 +109,13 @@ class Run {
       mass += leg.proximal.mass + leg.distal.mass;
       size_ = std::max(size_, leg.platform_point.norm());
     }
-    weight_ = mass * std::max(machine.gravity.norm(), 1.0);  // 1 m/s² where there is no gravity
+    weight_ = mass * std::max(machine.gravity.norm(), 1.0);  // 1 m/s² without gravity
     loop_.place(startOf(scenario, settings));
     const SimbodyLoop::Energy energy = loop_.energy();
     start_energy_ = energy.kinetic + energy.potential;
   }
 
-  Run(const Run&) = delete;  // result_ listens
+  Run(const Run&) = delete;  // result_ records the torques
   Run& operator=(const Run&) = delete;
 
   Replay result() {
@@ -124,14 +124,14 @@ class Run {
     return std::move(result_);
   }
 
-  /// x = [q, u, work / weight]: the work in metres, so that one absolute tolerance suits every coordinate.
+  /// x = [q, u, work / weight]: the work in metres, so one absolute tolerance suits every coordinate.
   void integrateRkf78() {
     if (settings_.stiff) return integrate(ControlledRadau(settings_.tolerance));
     integrate(
         odeint::make_controlled(settings_.tolerance, settings_.tolerance, odeint::runge_kutta_fehlberg78<OdeState>()));
   }
 
-  /// Simbody integrates no work: the energy is left unjudged here.
+  /// Simbody integrates no work, so the energy is not judged here.
   void integrateRungeKuttaMerson() {
     std::vector<double> instants;
     for (int k = 1; k < settings_.instants; ++k)
@@ -154,7 +154,8 @@ class Run {
   void integrate(Stepper stepper) {
     OdeState x = loop_.state();
     x.push_back(0.0);
-    // A first step of the whole motion's size: many short windows would else grow theirs from nothing, each again.
+    // The first step has the scale of the whole motion; otherwise each of many short windows would grow its own from
+    // nothing.
     double step = trajectory_.duration() / 128;
     double t = settings_.start;
     observe(x, t);
@@ -165,7 +166,7 @@ class Run {
     }
   }
 
-  /// One accepted step from t, which it moves on, by at most to `stop`; the length of it.
+  /// Takes one accepted step from t, at most to `stop`; advances t and returns the step's length.
   template <class Stepper>
   double takeStep(Stepper& stepper, OdeState& x, double& t, double stop, double try_first) {
     const auto rate = [this](const OdeState& at, OdeState& out, double when) { derivative(at, out, when); };
@@ -176,7 +177,7 @@ class Run {
       if (last) h = stop - t;
       if (settings_.foresee) settings_.foresee(settings_.stiff ? RadauStep::instants(t, h) : stagesOf(t, h));
       if (stepper.try_step(rate, x, t, h) == odeint::success) {
-        if (last) t = stop;  // not stop's neighbour
+        if (last) t = stop;  // exactly stop, not its neighbour
         break;
       }
       if (rejected > 500 || t + h == t) throw TooLong("the integrator's step has vanished");
@@ -200,7 +201,7 @@ class Run {
     if (++result_.evaluations > settings_.max_evaluations)
       throw TooLong(fmt::format("more than {} derivative evaluations", settings_.max_evaluations));
     result_.stopped_at = t;
-    if (!settings_.stiff || !(t == torques_at_)) torques_now_ = torques_(t);  // a Jacobian asks at one instant
+    if (!settings_.stiff || !(t == torques_at_)) torques_now_ = torques_(t);  // a Jacobian evaluates at one instant
     torques_at_ = t;
     loop_.derivative(t, x.data(), torques_now_, rate.data());
     const SimbodyLoop::Power power = loop_.power();
@@ -236,14 +237,14 @@ class Run {
 
   const Trajectory& trajectory_;
   Replay result_;
-  SimbodyLoop::TorqueHistory torques_;  ///< as asked of result_
+  SimbodyLoop::TorqueHistory torques_;  ///< recorded in result_
   ReplaySettings settings_;
-  std::vector<double> stops_;  ///< the integrator's order holds from one to the next
+  std::vector<double> stops_;  ///< the integrator keeps its order between them
   SimbodyLoop loop_;
   Vector6d torques_now_;  ///< at torques_at_
   double torques_at_ = std::numeric_limits<double>::quiet_NaN();
   double start_energy_ = 0;
-  double next_step_ = 0;  ///< that the step control proposes
+  double next_step_ = 0;  ///< proposed by the step control
   double weight_ = 0;     ///< N
   double size_ = 0;       ///< m
 };
@@ -262,9 +263,9 @@ Replay replay(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torque
   } catch (const TooLong& error) {
     run.giveUp(error.what(), true);
   } catch (const std::bad_alloc&) {
-    throw;  // says nothing of the motion
+    throw;  // it says nothing about the motion
   } catch (const std::exception& error) {
-    run.giveUp(error.what(), false);  // what was reached is still reported
+    run.giveUp(error.what(), false);  // the completed part is still reported
   }
   return run.result();
 }

@@ -1,4 +1,4 @@
-// What is read off a replay's steps.
+// Evaluates a replay's steps.
 
 #include <algorithm>
 #include <cmath>

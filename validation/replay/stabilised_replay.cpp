@@ -19,24 +19,24 @@ namespace {
 
 namespace odeint = boost::numeric::odeint;
 
-/// ω_f over the rate at which deviations grow: poles at −ω_f ± λ, and 4/3 of a lasting torque error is answered.
+/// ω_f over the growth rate of deviations: the poles are −ω_f ± λ, and the term is 4/3 of a constant torque error.
 constexpr double stiffness = 2;
 constexpr double answer = stiffness * stiffness / (stiffness * stiffness - 1);
-/// Largest step times ω_f: the fastest pole, −ω_f − λ, then stays well within the stability of Dormand and Prince's
-/// pair.
+/// Largest step times ω_f. The fastest pole, −ω_f − λ, then stays well within the stability region of Dormand and
+/// Prince's pair.
 constexpr double largest_step = 1.5;
-/// Smallest step that is tried once more with a quarter of it, over the motion's duration.
+/// The smallest step that is retried with a quarter of it, over the motion's duration.
 constexpr double shortest_step = 1e-12;
-/// A deviation, m or rad, that is no use to follow: the torques are wrong, and by how much is known.
+/// A deviation, m or rad, that is too large to follow: the torques are wrong, and their error is known.
 constexpr double lost = 0.1;
 constexpr long max_evaluations = 200000;
-/// Where the torques are known to be wrong already, how wrong need not be found out at any price.
+/// Torques known to be wrong get fewer evaluations for the size of their error.
 constexpr long max_evaluations_of_wrong = 2000;
-/// To which a deviation of wrong torques is found.
+/// The relative accuracy of a deviation under wrong torques.
 constexpr double three_digits = 1e-3;
 
-/// [δϑ ω; δp ω; δω; δṗ] of the platform, in B: Q = exp(δϑ) Q_c, and differences from the commanded motion; times a
-/// frequency, so that one tolerance suits both halves.
+/// [δϑ ω; δp ω; δω; δṗ] of the platform, in B: Q = exp(δϑ) Q_c, the others are differences from the commanded motion.
+/// The frequency factor makes one tolerance suit both halves.
 using Deviation = std::array<double, 12>;
 
 Vector3d part(const Deviation& x, int k) { return Eigen::Map<const Vector3d>(x.data() + 3 * k); }
@@ -50,8 +50,8 @@ Vector3d turned(const Vector3d& theta, const Vector3d& v) {
   return full * across + half * half / 2 * theta.cross(across);
 }
 
-/// ϑ̇ for the spin of exp(ϑ) in axes fixed in B (Bortz, IEEE Trans. Aerosp. Electron. Syst. 7 (1971) 61, who has axes
-/// that turn along: there the middle term is positive).
+/// ϑ̇ for the angular velocity of exp(ϑ) in axes fixed in B (Bortz, IEEE Trans. Aerosp. Electron. Syst. 7 (1971) 61,
+/// with body-fixed axes, where the middle term is positive).
 Vector3d rotationVectorRate(const Vector3d& theta, const Vector3d& spin) {
   const double angle = theta.norm();
   const Vector3d across = theta.cross(spin);
@@ -59,8 +59,8 @@ Vector3d rotationVectorRate(const Vector3d& theta, const Vector3d& spin) {
   return spin - 0.5 * across + third * theta.cross(across);
 }
 
-/// The platform's deviation under somebody's torques and the stabilising term. The legs follow the platform, so the
-/// loops stay closed and no gap can pile up.
+/// The platform's deviation under given torques and the stabilising term. The legs follow the platform, so the loops
+/// stay closed and gaps cannot accumulate.
 class Stabilised {
  public:
   template <class Sample>
@@ -72,12 +72,12 @@ class Stabilised {
     for (const Sample& sample : samples) scale_ = std::max(scale_, frequency(sample.motion.t));
   }
 
-  /// Torque for a deviation of one, at the most, N·m/(m/s).
+  /// The largest torque per unit deviation, N·m/(m/s).
   double gain(const Motion<double>& motion) { return 3 * scale_ * inertia(motion).norm(); }
 
   bool isLost(const Deviation& x) const { return !(offset(x, 0).norm() < lost && offset(x, 1).norm() < lost); }
 
-  /// Of the term at t, 1/s.
+  /// The term's frequency ω_f at t, 1/s.
   double frequency(double t) const {
     return stiffness * std::max(amplification_.growthRate(t), 1 / trajectory_.duration());
   }
@@ -85,7 +85,7 @@ class Stabilised {
   long evaluations() const { return evaluations_; }
   bool stiff() const { return isStiff(amplification_, trajectory_.duration()); }
 
-  /// A step of Dormand and Prince's pair from t comes.
+  /// Announces a step of Dormand and Prince's pair from t.
   void foreseeStep(const Subject& subject, double t, double h) const {
     if (subject.foresee && stiff())
       foresee(subject, trajectory_, RadauStep::instants(t, h));
@@ -111,7 +111,7 @@ class Stabilised {
         scale_ * part(x, 3), moved.omega_dot - commanded.omega_dot, moved.p_ddot - commanded.p_ddot;
   }
 
-  /// Torques that the term adds, N·m.
+  /// The torques that the term adds, N·m.
   Vector6d term(const Deviation& x, const Motion<double>& commanded) {
     const double omega = frequency(commanded.t);
     Vector6d pull;
@@ -120,7 +120,7 @@ class Stabilised {
     return -inertia(commanded) * pull;
   }
 
-  /// T_PᵀM_P: torques for an acceleration of the platform.
+  /// T_PᵀM_P: torques per acceleration of the platform.
   Matrix6d inertia(const Motion<double>& motion) {
     solver_.inverseKinematics(motion, work_);
     solver_.jacobians(motion, work_);
@@ -140,7 +140,7 @@ class Stabilised {
   long evaluations_ = 0;
 };
 
-/// As try_step of Boost.Odeint's controlled steppers has it.
+/// Has the interface of try_step in Boost.Odeint's controlled steppers.
 template <class RateAt>
 bool stiffStep(RadauStep& radau, const RateAt& rate, Deviation& deviation, double& t, double& h,
                const RadauStep::Tolerance& tolerance) {
@@ -165,8 +165,8 @@ bool stiffStep(RadauStep& radau, const RateAt& rate, Deviation& deviation, doubl
   return accepted;
 }
 
-/// From the commanded state to the end of the motion, at the tolerance and the limit of `found`. `torques` are the
-/// subject's.
+/// Follows the deviation from the commanded state to the end of the motion, with the tolerance and the limit of
+/// `found`. `torques` are the subject's.
 void follow(Stabilised& loop, const Subject& subject, const SimbodyLoop::TorqueHistory& torques,
             const Trajectory& trajectory, StabilisedReplay& found) {
   const bool stiff = loop.stiff();
@@ -180,8 +180,8 @@ void follow(Stabilised& loop, const Subject& subject, const SimbodyLoop::TorqueH
   const auto rate = [&](const Deviation& x, Deviation& out, double at) { loop.rate(torques, x, out, at); };
   Deviation deviation{};
   const double end = trajectory.duration();
-  // A stiff right-hand side can throw a stage of too long a step out of the machine's reach: a rejected step like any
-  // other, unless no shorter one helps.
+  // With a stiff right-hand side, a stage of too long a step may leave the machine's reach. That counts as a rejected
+  // step unless no shorter one helps.
   const auto accepted = [&](double& at, double& h) {
     const double tried = h;
     loop.foreseeStep(subject, at, h);
@@ -189,7 +189,7 @@ void follow(Stabilised& loop, const Subject& subject, const SimbodyLoop::TorqueH
       if (stiff) return stiffStep(radau, rate, deviation, at, h, {tolerance, three_digits});
       return stepper.try_step(rate, deviation, at, h) == odeint::success;
     } catch (const std::bad_alloc&) {
-      throw;  // no shorter step needs less
+      throw;  // no shorter step needs less memory
     } catch (const std::exception&) {
       if (!(tried > shortest_step * end)) throw;
       h = tried / 4;
@@ -206,7 +206,7 @@ void follow(Stabilised& loop, const Subject& subject, const SimbodyLoop::TorqueH
       ++found.steps;
       const double torque = loop.term(deviation, trajectory.at(t)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
       if (!(torque <= found.torque)) found.torque = torque, found.t = t;
-      // Of wrong torques, no coordinate need be found better than the largest.
+      // Under wrong torques, no coordinate need be more accurate than the largest.
       const double size = three_digits * Eigen::Map<const Eigen::Matrix<double, 12, 1>>(deviation.data()).norm();
       if (found.torque > limit && size > 2 * tolerance) stepper = stepperOf(tolerance = size);
       if (loop.isLost(deviation)) found.stopped = "the machine was lost";
@@ -220,7 +220,7 @@ void follow(Stabilised& loop, const Subject& subject, const SimbodyLoop::TorqueH
   }
 }
 
-/// What the samples say of the limit and the tolerance.
+/// Derives the limit and the tolerance from the samples.
 template <class Sample>
 StabilisedReplay planned(Stabilised& loop, const std::vector<Sample>& samples) {
   StabilisedReplay out;
@@ -254,8 +254,8 @@ StabilisedReplay stabilisedReplay(const Scenario& scenario, const Subject& subje
   try {
     follow(loop, subject, found.asked.of(torques), *scenario.trajectory, found);
   } catch (const std::bad_alloc&) {
-    throw;                                 // says nothing of the motion
-  } catch (const std::exception& error) {  // what was found before is kept
+    throw;                                 // it says nothing about the motion
+  } catch (const std::exception& error) {  // earlier results are kept
     found.stopped = error.what();
     found.gave_up = true;
   }

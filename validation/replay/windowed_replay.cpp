@@ -10,7 +10,7 @@ namespace ursula {
 namespace {
 
 constexpr double eps = Eigen::NumTraits<double>::epsilon();
-/// Ends of a window that two integrators reach differ by rounding.
+/// The ends of a window from two integrators differ by rounding.
 constexpr double same_instant = 1e-12;
 
 }  // namespace

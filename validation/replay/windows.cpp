@@ -25,7 +25,7 @@ template class SampledLimit<PointwiseSample>;
 
 namespace {
 
-/// The largest change of a derivative where the state changes by its rounding, at one instant, 1/s of the state.
+/// The largest relative change of a derivative when the state changes by its rounding, at one instant, 1/s.
 double derivativeNoise(SimbodyLoop& loop, const Motion<double>& motion, const Vector6d& torques) {
   loop.place(motion);
   const std::vector<double> x = loop.state();
@@ -46,7 +46,7 @@ double derivativeNoise(SimbodyLoop& loop, const Motion<double>& motion, const Ve
 
 double reachableTolerance(const Scenario& scenario, double step_rate, bool stiff) {
   SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
-  const Subject right = nocSubject(*scenario.manipulator, scenario.load);  // not those on trial
+  const Subject right = nocSubject(*scenario.manipulator, scenario.load);  // not those of the subject
   constexpr int instants = 5;
   double noise = 0;
   for (int k = 0; k < instants; ++k) {
@@ -60,7 +60,7 @@ double reachableTolerance(const Scenario& scenario, double step_rate, bool stiff
 
 double plannedStepRate(double duration) { return 128 / std::min(duration, 8.0); }
 
-/// Fehlberg's pair is stable to about five decays a step, and 13 evaluations are less than the some 100 of an implicit
+/// Fehlberg's pair is stable up to about five decays per step. Its 13 evaluations compare with some 100 of an implicit
 /// step of the motion's own length.
 bool isStiff(const Amplification& amplification, double duration) {
   return amplification.decayRate() > 8 * plannedStepRate(duration);
@@ -68,7 +68,7 @@ bool isStiff(const Amplification& amplification, double duration) {
 
 long enoughEvaluations(const Scenario& scenario, double step_rate) {
   const auto knots = static_cast<long>(allKnots(scenario).size());
-  constexpr double most = 1e12;  // what takes that long is left to a time limit
+  constexpr double most = 1e12;  // a time limit handles longer work
   return 20000 + static_cast<long>(std::min(most, 4 * 13 * step_rate * scenario.trajectory->duration())) +
          4 * 13 * knots;
 }
@@ -80,7 +80,7 @@ double positionScale(const std::vector<Sample>& samples) {
   return scale;
 }
 
-/// ∫ n(s) ds and ∫ (end − s) n(s) ds, the larger n of the two samples beside s.
+/// ∫ n(s) ds and ∫ (end − s) n(s) ds, with the larger n of the two samples beside s.
 template <class Sample>
 void measureOpening(const std::vector<Sample>& samples, std::vector<WindowedReplay>& windows) {
   for (WindowedReplay& window : windows) {
@@ -112,7 +112,7 @@ template LoopForces loopForces(const std::vector<Conditions>&);
 template LoopForces loopForces(const std::vector<PointwiseSample>&);
 
 int linearisedIntervals(double duration) {
-  constexpr double least = 300, most = 300'000;  // a kilobyte each
+  constexpr double least = 300, most = 300'000;  // each takes a kilobyte
   return static_cast<int>(std::clamp(std::ceil(40 * duration), least, most));
 }
 
@@ -122,7 +122,7 @@ Amplification linearised(const Scenario& scenario) {
 
 std::vector<GrowthWindow> planWindows(const Amplification& amplification, const ReplayPlan& plan) {
   const double rate = plan.step_rate * errorPerStep(plan.tolerance, plan.position_scale);
-  // A quarter of what is useful: the steps taken, known only afterwards, may be more than planned.
+  // Plans for a quarter of the useful limit, because the actual number of steps may exceed the planned one.
   const double planned = useful_replay_limit / 4 * amplification.length();
   std::vector<GrowthWindow> windows;
   for (std::size_t first = 0; first + 1 < amplification.instants().size(); first = windows.back().last)
@@ -168,7 +168,7 @@ namespace {
 
 constexpr unsigned frames_of_replay = 3;
 
-/// Errors of the path turned back to here. Without units, so that one tolerance means one thing.
+/// The path's errors, rotated back to this frame. Units stay, so the tolerance keeps its meaning.
 Replay replayedElsewhere(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window, unsigned seed) {
   FrameChange there = randomFrameChange(seed, window.length, *scenario.manipulator);
   there.units = {};
@@ -183,7 +183,7 @@ Replay replayedElsewhere(const Scenario& scenario, const ReplayPlan& plan, const
   return out;
 }
 
-/// Where no step was rejected, this is what the steps were off by.
+/// If no step was rejected, the difference is the error of the steps.
 Replay replayedByHalves(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window,
                         const Replay& here) {
   ReplaySettings settings = settingsOf(scenario, plan, window, 1);
@@ -214,8 +214,8 @@ IntegrationError closerLook(const Scenario& scenario, const ReplayPlan& plan, co
 
 namespace {
 
-/// The largest number of steps a second in windows that came out too long to be judged and may be shorter; 0 where
-/// there is none.
+/// The largest number of steps per second in windows that were too long for a verdict and can be shortened; 0 if there
+/// is none.
 double stepRateOfTooLong(const std::vector<WindowedReplay>& replays, const ReplayPlan& plan, double length) {
   double rate = 0;
   for (const WindowedReplay& each : replays) {

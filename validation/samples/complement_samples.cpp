@@ -10,12 +10,12 @@ namespace {
 
 constexpr std::size_t instants = 7;
 
-/// Rows and columns of zeros, of legs that are not there, do not count.
+/// Zero rows and columns of missing legs do not count.
 int rankOf(const Eigen::MatrixXd& matrix) {
   return static_cast<int>(Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(matrix).rank());
 }
 
-/// Turns over the length: of T its rows, of D its columns and the rows that hold turns alike.
+/// Multiplies rotations by the length in T's rows and divides them in D's columns; rows of D are normalised.
 void scale(double length, Complement& of) {
   for (Eigen::Index body = 0; body < of.T.rows() / 6; ++body) {
     of.T.middleRows(6 * body, 3) *= length;

@@ -10,10 +10,10 @@
 namespace ursula {
 namespace {
 
-/// Of the samples, about as many: the mass matrix changes slowly.
+/// Approximate number of samples to use, because the mass matrix varies slowly.
 constexpr std::size_t instants_of_direct = 31;
-/// The pose is moved by this share of the machine's length, less near singular poses, and the velocity by as much a
-/// second. An error of the accelerations' derivatives then stands out of rounding.
+/// The pose moves by this share of the machine's length, less near singular poses, and the velocity by as much per
+/// second. Errors in the accelerations' derivatives then exceed rounding.
 constexpr double off_path = 1e-3;
 
 DirectAnswer answerOf(SimbodyLoop& loop, const Motion<double>& state, const Vector6d& torques) {
@@ -24,7 +24,7 @@ DirectAnswer answerOf(SimbodyLoop& loop, const Motion<double>& state, const Vect
   return out;
 }
 
-/// Differs in every coordinate, and from instant to instant.
+/// A deviation that differs in every coordinate and from instant to instant.
 Motion<double> deviated(const Conditions& sample, double sign) {
   const Conditioning& at = sample.conditioning;
   Eigen::Matrix<double, 12, 1> direction;
@@ -61,7 +61,7 @@ std::vector<DirectSample> runDirect(const Scenario& scenario, const std::vector<
         const Motion<double> state = deviated(conditions[k], sign);
         loop.place(state);
         here.off_path.push_back(answerOf(loop, state, commanded));
-      } catch (const std::domain_error&) {  // a leg does not reach
+      } catch (const std::domain_error&) {  // a leg cannot reach
       }
     out.push_back(here);
   }

@@ -9,7 +9,7 @@
 
 namespace ursula {
 
-/// The torques of the further formulations at one instant, N·m; none where a formulation is not in this build.
+/// The torques of the further formulations at one instant, N·m; nullopt for those missing in this build.
 using EngineTorques = OfFurtherEngines<std::optional<Vector6d>>;
 
 /// The torques of all formulations at one instant, for one subject.
@@ -17,17 +17,17 @@ struct EngineSample {
   double t = 0;
   Vector6d subject, simbody;  ///< N·m
   EngineTorques further;
-  OfFurtherEngines<double> limits{};  ///< of rounding between the subject and each further formulation, N·m
-  double limit = 0;                   ///< of rounding between any two, N·m
+  OfFurtherEngines<double> limits{};  ///< rounding limits between the subject and each further formulation, N·m
+  double limit = 0;                   ///< rounding limit between any two, N·m
 };
 
-/// At the instants.
+/// Computes them at the instants.
 std::vector<EngineTorques> engineTorques(const Scenario& scenario, const std::vector<double>& instants);
 
-/// `formulations` are those at the instants of `samples`.
+/// `engines` are those at the instants of `samples`.
 std::vector<EngineSample> runEngines(const std::vector<EngineTorques>& engines,
                                      const std::vector<PointwiseSample>& samples, const RoundingProfile& profile);
-/// The further formulations at the instants of `samples`.
+/// Computes the further formulations at the instants of `samples`.
 std::vector<EngineSample> runEngines(const Scenario& scenario, const std::vector<PointwiseSample>& samples,
                                      const RoundingProfile& profile);
 

@@ -8,10 +8,10 @@ namespace ursula {
 namespace {
 
 constexpr std::size_t most_instants = 500;
-/// Of a batch, over and over the same instants: more than a block of any kernel holds, and no multiple of its lanes.
+/// Size of a batch that repeats the same instants: larger than any kernel's block, and no multiple of its lanes.
 constexpr std::size_t in_batch = 4099;
 
-/// What is asked of everybody, in SI, as users do; loads only where there is one.
+/// The questions to all, in SI, as users ask; loads only if there is one.
 struct Questions {
   std::vector<Motion<double>> motions;
   std::vector<Vector6d> loads, efforts;
@@ -38,14 +38,14 @@ FastAnswers answersOf(const kernel::MachineModel<double>& model, InstructionSet 
   const Vector6d* loads = many.loads.empty() ? nullptr : many.loads.data();
   out.torques_in_batch.resize(many.motions.size());
   out.accelerations_in_batch.resize(many.motions.size());
-  std::vector<PoseFault> faults(many.motions.size());  // a pose without an answer is NaN, which no check accepts
+  std::vector<PoseFault> faults(many.motions.size());  // a pose without an answer gives NaN, which fails every check
   batch.inverseDynamics(many.motions.data(), many.motions.size(), out.torques_in_batch.data(), faults.data(), loads);
   batch.directDynamics(many.motions.data(), many.efforts.data(), many.motions.size(), out.accelerations_in_batch.data(),
                        faults.data(), loads);
   return out;
 }
 
-/// From the units of `natural` to SI.
+/// Converts from the units of `natural` to SI.
 FrameChange inSi(const Manipulator& machine, const Units& natural) {
   FrameChange out(machine);
   out.units.length = 1 / natural.length;

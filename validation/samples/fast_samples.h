@@ -11,30 +11,30 @@
 
 namespace ursula {
 
-/// What the kernels that users call answer at the samples, by one instruction set: one pose at a time and in a batch.
+/// Results of the users' kernels at the samples with one instruction set, for single poses and in a batch.
 struct FastAnswers {
   InstructionSet set = InstructionSet::portable;
-  std::vector<Vector6d> torques, torques_in_batch;              ///< N·m; batches go over the instants again and again
+  std::vector<Vector6d> torques, torques_in_batch;              ///< N·m; batches repeat the instants
   std::vector<Vector6d> accelerations, accelerations_in_batch;  ///< [ω̇; p̈] under FastSamples::efforts
 };
 
-/// The same kernels and the NOC.
+/// Results of the same kernels and of the NOC.
 struct FastSamples {
-  std::vector<std::size_t> samples;              ///< at which of them
+  std::vector<std::size_t> samples;              ///< indices of the samples
   std::vector<Vector6d> torques, accelerations;  ///< the NOC's; accelerations under `efforts`
-  std::vector<Vector6d> efforts;     ///< the NOC's torques, changed by as much as the largest: off the commanded motion
-  std::vector<FastAnswers> answers;  ///< for each instruction set that the processor has
-  std::string refused;               ///< why somebody had no answer; empty where all had
+  std::vector<Vector6d> efforts;     ///< the NOC's torques, changed by as much as the largest, off the commanded motion
+  std::vector<FastAnswers> answers;  ///< one per instruction set of the processor
+  std::string refused;               ///< why a kernel or the NOC had no answer; else empty
 };
 
-/// A fault in the kernels, for controls that must fail; what is empty stays right.
+/// A fault in the kernels for negative controls; empty members change nothing.
 struct FastFault {
-  std::function<void(kernel::MachineModel<double>&)> model;  ///< in the numbers that the kernels are given
-  std::function<void(FastAnswers&)> answers;                 ///< in what they say
+  std::function<void(kernel::MachineModel<double>&)> model;  ///< changes the kernels' input
+  std::function<void(FastAnswers&)> answers;                 ///< changes the kernels' results
   explicit operator bool() const { return model || answers; }
 };
 
-/// At 500 of the samples, or all. The kernels are asked in SI, as users ask them; `scenario` is in the units `natural`.
+/// At up to 500 samples. The kernels run in SI, as for users; `scenario` is in the units `natural`.
 FastSamples runFast(const Scenario& scenario, const Units& natural, const std::vector<PointwiseSample>& samples,
                     const FastFault& fault = {});
 

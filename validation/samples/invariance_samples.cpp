@@ -12,10 +12,10 @@
 namespace ursula {
 namespace {
 
-/// So many frames: an error that depends on where an axis points shows in some.
+/// Number of frames; an error that depends on the direction of an axis appears in some.
 constexpr int frames = 8;
 
-/// No angle of it is special to any leg, and no two frames are alike; in some gravity points up.
+/// A rotation that is generic for every leg and differs between frames; in some, gravity points up.
 Matrix3d turnOf(int frame) {
   const Vector3d axis(std::cos(1.3 * frame + 0.4), std::sin(2.1 * frame + 0.2), std::cos(0.7 * frame + 0.9));
   return Eigen::AngleAxisd(0.7 + 2.4 * frame, axis.normalized()).toRotationMatrix();
@@ -38,7 +38,7 @@ std::vector<FrameChange> otherAxes(const Manipulator& machine) {
   return out;
 }
 
-/// Lengths from a ten-thousandth to ten thousand of the machine's own unit; masses and times grow with them.
+/// Lengths from a ten-thousandth to ten thousand times the machine's own unit; masses and times grow with them.
 std::vector<FrameChange> otherUnits(const Manipulator& machine) {
   std::vector<FrameChange> out;
   for (const double length : {1.23e-4, 3.71e-3, 0.0917, 7.13, 219.0, 8130.0}) {
@@ -59,7 +59,7 @@ FrameChange relabelled(const Manipulator& machine) {
   return out;
 }
 
-/// Masses, inertias and friction doubled: a power of two, so that no rounding differs.
+/// Masses, inertias and friction doubled: a power of two, so rounding stays the same.
 Manipulator doubled(const Manipulator& manipulator) {
   ManipulatorParameters machine = manipulator.parameters();
   machine.platform.mass *= 2;
@@ -105,13 +105,13 @@ InvarianceSamples sampled(Symmetry symmetry, const TorquesOf& expected, const To
   return out;
 }
 
-/// Each sample is seen from one of the changes of frame in turn, or from several where there are fewer samples.
+/// Evaluates each sample in one change of frame in turn, or in several if there are fewer samples.
 InvarianceSamples sampledIn(Symmetry symmetry, const Subject& subject, const Manipulator& machine,
                             const std::vector<FrameChange>& all, const std::vector<PointwiseSample>& samples) {
   const Subject own = subject.rebuilt(machine);
   std::vector<Subject> seen;
   for (const FrameChange& there : all) seen.push_back(subject.rebuilt(there.of(machine)));
-  std::size_t k = 0;  // of the sample
+  std::size_t k = 0;  // index of the sample
   return sampled(
       symmetry, own.torques,
       [&](const Motion<double>& motion) {

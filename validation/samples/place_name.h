@@ -6,7 +6,7 @@ namespace ursula {
 
 struct Units;
 
-/// "leg 3", of a leg with several motors "leg 3, motor 5"; "platform" for −1. `motor` is 0-based.
+/// "leg 3", or "leg 3, motor 5" for a leg with several motors; "platform" for −1. `motor` is 0-based.
 std::string motorName(const Units& units, int motor);
 
 /// "leg 3", "proximal link of leg 3" or "platform".

@@ -18,7 +18,7 @@ constexpr double eps = Eigen::NumTraits<double>::epsilon();
 /// Angles that differ by whole turns are equal.
 double angleDifference(double a, double b) { return std::abs(std::remainder(a - b, 2 * pi)); }
 
-/// The largest of errors over legs or bodies; NaN stays and wins, so that it is seen.
+/// Keeps the largest error over legs or bodies; NaN wins and stays.
 void raise(Deviation& deviation, double error, int where) {
   if (std::isnan(deviation.error)) return;
   if (std::isnan(error) || error >= deviation.error) {
@@ -27,7 +27,7 @@ void raise(Deviation& deviation, double error, int where) {
   }
 }
 
-/// Displacements count over the machine's length.
+/// Displacements are divided by the machine's length.
 void compareJoints(const JointMotion& answer, PointwiseSample& sample) {
   const JointMotion& simbody = sample.joints;
   const double length = sample.conditioning.length;
@@ -87,14 +87,14 @@ void compareJacobians(const KinematicAnswer& answer, const Motors& motors, Point
 
 using ShapingAt = std::function<Matrix6d(double t)>;
 
-/// Five points: the truncation is of fourth order.
+/// Uses five points, with a truncation error of fourth order.
 Matrix6d differenceOf(const ShapingAt& T, double t, double step) {
   return (8 * (T(t + step) - T(t - step)) - (T(t + 2 * step) - T(t - 2 * step))) / (12 * step);
 }
 
-/// Ṫ against a difference of T along the motion; no other formulation is needed. The limit is the rounding of T over
-/// the step, and the truncation: what doubling the step changes for the formulas that hold, some 15 times the
-/// truncation itself.
+/// Compares Ṫ with a difference of T along the motion, without another formulation. The limit is the rounding of T over
+/// the step plus the truncation. Doubling the step with the correct formulas changes the result by some 15 times the
+/// truncation.
 void compareJacobianDifferences(const Scenario& scenario, const Subject& subject, const Subject& right,
                                 const KinematicAnswer& answer, PointwiseSample& sample) {
   const Conditioning& c = sample.conditioning;
@@ -112,7 +112,7 @@ void compareJacobianDifferences(const Scenario& scenario, const Subject& subject
       1.5 * c.rounding(Rounded::shaping) / step + c.rounding(Rounded::shaping_rate) + truncation;
 }
 
-/// The first leg with an angle that is not finite.
+/// Returns the first leg with an angle that is not finite.
 std::optional<int> unplaceable(const JointVariables<double>& q) {
   for (int i = 0; i < leg_count; ++i)
     if (!std::isfinite(q.phi(i) + q.psi(i) + q.theta(i) + q.d(i))) return i;
@@ -125,7 +125,7 @@ void runKinematics(const Scenario& scenario, const Subject& subject, const Subje
   compareJoints(answer.joints, sample);
   compareJacobians(answer, scenario.manipulator->motors(), sample);
   compareJacobianDifferences(scenario, subject, right, answer, sample);
-  if (const std::optional<int> leg = unplaceable(answer.joints.q)) {  // Simbody throws at a state that is no number
+  if (const std::optional<int> leg = unplaceable(answer.joints.q)) {  // Simbody throws at NaN states
     for (Deviation* deviation : {&sample.position, &sample.twist, &sample.twist_rate})
       raise(*deviation, std::nan(""), *leg);
     return;
@@ -173,7 +173,7 @@ constexpr Deviation PointwiseSample::*deviations[] = {
     &PointwiseSample::jacobian,     &PointwiseSample::jacobian_rate, &PointwiseSample::jacobian_difference,
     &PointwiseSample::torque,       &PointwiseSample::acceleration};
 
-/// Which of the deviations are beyond their limits.
+/// The deviations beyond their limits.
 std::bitset<std::size(deviations)> beyond(const PointwiseSample& sample) {
   std::bitset<std::size(deviations)> out;
   for (std::size_t k = 0; k < out.size(); ++k) {
@@ -193,7 +193,7 @@ std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subjec
   std::vector<PointwiseSample> samples;
   samples.reserve(instants.size());
   foresee(subject, *scenario.trajectory, instants);
-  std::bitset<std::size(deviations)> confirmed;  // by a second look: no further one is needed
+  std::bitset<std::size(deviations)> confirmed;  // a second look confirmed these
   for (std::size_t k = 0; k < instants.size(); ++k) {
     const Motion<double> motion = scenario.trajectory->at(instants[k]);
     const auto run = [&](const Conditioning& conditioning) {

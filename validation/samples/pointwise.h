@@ -10,21 +10,21 @@
 
 namespace ursula {
 
-/// What one quantity differed by at one instant, and what it may differ by there.
+/// The difference of one quantity at one instant, and its limit there.
 struct Deviation {
   double error = 0;
   double limit = 0;
   int where = -1;    ///< leg or body, 0-based; −1 for none
-  double given = 0;  ///< part of the limit that comes with what is judged, as printed digits do
+  double given = 0;  ///< part of the limit from the input, such as printed digits
 };
 
-/// The motion at one instant, and how answers round there.
+/// The motion at one instant, and its conditioning.
 struct Conditions {
   Motion<double> motion;
   Conditioning conditioning;
 };
 
-/// Everything that the pointwise experiments see at one instant.
+/// All results of the pointwise experiments at one instant.
 struct PointwiseSample {
   Motion<double> motion;
   Conditioning conditioning;
@@ -36,30 +36,30 @@ struct PointwiseSample {
   Deviation jacobian_difference;      ///< Ṫ against differences of T along the motion, m/s
   Deviation torque;                   ///< N·m
   Deviation acceleration;             ///< platform, m/s²
-  Vector6d acceleration_error = Vector6d::Zero();  ///< Simbody's less the commanded, [ω̇; p̈]
-  std::string refused;                             ///< why the subject has no answer here; empty where it has
+  Vector6d acceleration_error = Vector6d::Zero();  ///< Simbody's minus commanded, [ω̇; p̈]
+  std::string refused;                             ///< why the subject has no answer here; else empty
 };
 
 /// Solver and Simbody at the same instants: joint state, 13 bodies, torques, accelerations. `profile` is the
-/// scenario's, `simbody` what Simbody says at the instants.
+/// scenario's; `simbody` are Simbody's answers at the instants.
 std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
                                           const std::vector<double>& instants, const RoundingProfile& profile,
                                           const std::vector<SimbodyAnswer>& simbody);
-/// Where Simbody was not asked before.
+/// The same, but it asks Simbody itself.
 std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
                                           const std::vector<double>& instants, const RoundingProfile& profile);
-/// With a profile of its own.
+/// The same with its own profile.
 std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
                                           const std::vector<double>& instants);
 
-/// Of the samples only joints and torques, with the least that must be asked of Simbody: its loop placed, its inverse
-/// dynamics. Limits are derived (rounding_depth), not measured.
+/// Only joints and torques, with the fewest calls of Simbody: its placed loop and inverse dynamics. Limits are derived
+/// (rounding_depth), not measured.
 std::vector<PointwiseSample> runJointsAndTorques(const Scenario& scenario, const Subject& subject,
                                                  const std::vector<double>& instants);
 
 std::vector<double> instantsOf(const std::vector<PointwiseSample>& samples);
 
-/// causeOfRounding at the sample at t, or at the first after it; "" where there is none.
+/// causeOfRounding at the sample at t, or at the first after it; "" if there is none.
 std::string causeOfRounding(const std::vector<PointwiseSample>& samples, double t, Rounded quantity = Rounded::torque);
 
 }  // namespace ursula

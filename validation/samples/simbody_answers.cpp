@@ -32,7 +32,7 @@ SimbodyAnswer simbodyAnswer(SimbodyLoop& loop, const Subject& right, const Motio
     loop.accelerate(torques);
     out.right = SimbodyAnswer::OfRight{torques, twistRate(loop)};
   } catch (const PoseError&) {
-    // Whoever is on trial is asked himself.
+    // The subject itself is asked later.
   }
   return out;
 }

@@ -9,17 +9,17 @@
 
 namespace ursula {
 
-/// What Simbody's loop says at one instant of the commanded motion, and what it makes of the right solver's answers:
-/// whoever answers the same to the last bit need not ask again. Kept for every instant, and so no more than is dear.
+/// Results of Simbody's loop at one instant of the commanded motion, also under the right solver's torques. Subjects
+/// with bitwise equal answers reuse them. They are stored for every instant, so only expensive results are included.
 struct SimbodyAnswer {
   Vector6d torques;  ///< its own inverse dynamics, N·m
 
   struct OfRight {
-    Vector6d torques, twist_rate;  ///< the right solver's, N·m; the platform's under them, [ω̇; p̈]
+    Vector6d torques, twist_rate;  ///< the right solver's, N·m; the platform's under these, [ω̇; p̈]
   };
-  std::optional<OfRight> right;  ///< none where the solver has no answer
+  std::optional<OfRight> right;  ///< nullopt if the solver has no answer
 
-  /// [ω̇; p̈] of the platform under somebody's torques in the commanded state. `loop` is of the same scenario.
+  /// [ω̇; p̈] of the platform under the torques `subjects` in the commanded state. `loop` is of the same scenario.
   Vector6d twistRateUnder(const Vector6d& subjects, SimbodyLoop& loop, const Motion<double>& motion) const;
 };
 

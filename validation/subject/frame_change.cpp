@@ -14,7 +14,7 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Matrix3d turnedTensor(const Matrix3d& R, const Matrix3d& I) {
   const Matrix3d out = R * I * R.transpose();
-  return (out + out.transpose()) / 2;  // symmetric to the last bit, as a machine's tensors are
+  return (out + out.transpose()) / 2;  // symmetric to the last bit, like a machine's tensors
 }
 
 void rescale(Link& link, const Units& units) {

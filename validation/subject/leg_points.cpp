@@ -26,7 +26,7 @@ std::vector<LegPoints> legPoints(const Manipulator& machine, const NocWorkspace<
 
 namespace {
 
-/// Least and largest d of a carriage so far.
+/// The range of a carriage's d so far.
 struct Range {
   double least = std::numeric_limits<double>::infinity(), most = -least;
 
@@ -43,7 +43,7 @@ std::vector<Range> travels(const Scenario& scenario) {
       for (std::size_t i = 0; i < out.size(); ++i) out[i].include(solver.angles(work).d(static_cast<int>(i)));
     }
   } catch (const PoseError&) {
-    // What comes before it is drawn.
+    // The part before it is drawn.
   }
   return out;
 }

@@ -9,25 +9,25 @@
 
 namespace ursula {
 
-/// What there is to draw of a leg, m, in B. Links run from A to R and from S to B; of a carriage A is where its d is 0.
+/// Points of a leg for a drawing, m, in B. Links run from A to R and from S to B; for a carriage, A is where d = 0.
 struct LegPoints {
   Vector3d A;                    ///< base joint
-  Vector3d R;                    ///< where the first link ends: the knee, the cylinder's open end, the carriage
-  Vector3d S;                    ///< where the second link begins: R, but within the cylinder of UPS
+  Vector3d R;                    ///< end of the first link: the knee, the cylinder's open end, the carriage
+  Vector3d S;                    ///< start of the second link: R, or a point inside the cylinder for UPS
   Vector3d B;                    ///< platform joint
-  std::array<Vector3d, 3> axes;  ///< unit, of the three coordinates: positive turns about it, or slides along it
+  std::array<Vector3d, 3> axes;  ///< unit, of the three coordinates; positive motion is about or along the axis
 };
 
-/// Of every leg, from the displacements in `work`.
+/// Returns the points of every leg, from the displacements in `work`.
 std::vector<LegPoints> legPoints(const Manipulator& machine, const NocWorkspace<double>& work);
 
-/// What a carriage passes along its rail.
+/// The section of its rail that a carriage passes.
 struct Stretch {
   Vector3d from = Vector3d::Zero(), to = Vector3d::Zero();  ///< m, in B
 };
 
-/// The rails of carriages, of PUS legs alone, with a tenth of the rod's length beyond what the motion needs; as far as
-/// the motion can be made. Empty entries for legs without.
+/// Returns the rails of carriages (PUS legs), a tenth of the rod's length longer than the motion needs, up to its last
+/// possible pose. Entries of other legs are empty.
 std::vector<std::optional<Stretch>> rails(const Scenario& scenario);
 
 }  // namespace ursula

@@ -17,7 +17,7 @@
 namespace ursula {
 namespace {
 
-/// The samples and as many between each two as make `least_intervals`.
+/// The samples, with enough instants between them for `least_intervals`.
 std::vector<double> instantsToCheck(const Scenario& scenario) {
   constexpr int least_intervals = 2000;
   const int intervals = scenario.simulation.samples - 1;
@@ -33,7 +33,7 @@ Reach reachOf(const Leg& leg, const Motion<double>& motion) {
   return typeOf(leg.kind).reach(leg, {AB.norm(), std::abs(AB.dot(u)), AB.cross(u).norm()});
 }
 
-/// ", and by up to 0.3 m, leg 2 at t = 3 s": where the motion misses most, if that is more than `already`.
+/// ", and by up to 0.3 m, leg 2 at t = 3 s": the largest violation, if it exceeds `already`.
 std::string worstMiss(const Scenario& scenario, double already) {
   double most = already, at = 0;
   int worst = -1;
@@ -59,7 +59,7 @@ std::string outOfReach(const Scenario& scenario, const PoseError& refusal) {
                      too_far ? "at most" : "at least", too_far ? reach.most : reach.least, by, worstMiss(scenario, by));
 }
 
-/// A knee within √eps of straight: as a length, what its links can span less the distance.
+/// For a knee within √eps of straight: the span of its links minus the distance, as a length.
 std::string stretched(const Scenario& scenario, const PoseError& refusal) {
   const Leg& leg = scenario.manipulator->leg(refusal.leg());
   const DeadCentre at = typeOf(leg.kind).deadCentre(reachOf(leg, scenario.trajectory->at(refusal.instant())));
@@ -92,7 +92,7 @@ void requireWhole(const Scenario& scenario) {
     if (!is_there) throw InvalidParameter(place, "none", "a scenario that has one");
 }
 
-/// det B is continuous wherever the legs reach, so that it vanishes between unlike signs.
+/// det B is continuous wherever the legs reach, so it vanishes between opposite signs.
 void checkMotion(const Scenario& scenario) {
   requireWhole(scenario);
   const Solver<double> solver(*scenario.manipulator);

@@ -5,19 +5,19 @@
 
 namespace ursula {
 
-/// Throws InvalidParameter unless there are a machine and a motion: a scenario that was moved from has none.
+/// Throws InvalidParameter unless there are a machine and a motion; a moved-from scenario has none.
 void requireWhole(const Scenario& scenario);
 
-/// Throws as requireWhole does, and PoseError where the commanded motion cannot be made: a leg out of reach, stretched,
-/// folded or off its base's side, or a singular pose, which is passed wherever the sign of det B changes. Looked at are
-/// the scenario's samples and instants between them, 2,000 or more, for replays pass there, too.
+/// Throws like requireWhole, and PoseError if the commanded motion is impossible. A leg may be out of reach, stretched,
+/// folded or off its base's side; a pose may be singular, which a sign change of det B reveals. It checks the
+/// scenario's samples and instants between them, 2,000 or more, because replays pass there, too.
 void checkMotion(const Scenario& scenario);
 
-/// The same refusal for people, at the scenario's [trajectory]: `file:line:column: error: the motion cannot be made:
-/// leg 3 …`, with the instant and how far it misses, there and where the motion misses most.
+/// Returns the same error for people, at the scenario's [trajectory]: `file:line:column: error: the motion cannot be
+/// made: leg 3 …`. It gives the instant and the violation there, and where the violation is largest.
 ScenarioError unmade(const Scenario& scenario, const PoseError& refusal);
 
-/// checkMotion, whose refusal is that of `unmade`.
+/// Calls checkMotion and throws its error in the form of `unmade`.
 void tryMotion(const Scenario& scenario);
 
 }  // namespace ursula

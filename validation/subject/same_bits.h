@@ -6,7 +6,7 @@
 
 namespace ursula {
 
-/// Not one bit differs: 0 is not −0, and NaN is itself.
+/// Whether all bits are equal: 0 is not −0, and NaN equals itself.
 inline bool sameBits(const Vector6d& a, const Vector6d& b) {
   return std::memcmp(a.data(), b.data(), sizeof(double) * 6) == 0;
 }

@@ -6,13 +6,13 @@
 
 namespace ursula {
 
-/// B of (23) with moments over the machine's length, m.
+/// B of (23) with moments divided by the machine's length, m.
 inline Matrix6d scaledB(Matrix6d B, double length) {
   B.leftCols<3>() /= length;
   return B;
 }
 
-/// By the 2-norm.
+/// The condition number in the 2-norm.
 inline double conditionNumber(const Matrix6d& matrix) {
   const Vector6d singular = Eigen::JacobiSVD<Matrix6d>(matrix).singularValues();
   return singular(0) / singular(5);

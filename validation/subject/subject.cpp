@@ -10,7 +10,7 @@
 namespace ursula {
 namespace {
 
-/// Subjects are asked from many threads.
+/// Many threads may call a subject.
 template <class Workspace>
 Workspace& workspace() {
   thread_local Workspace work;

@@ -16,7 +16,7 @@
 
 namespace ursula {
 
-/// What a solver says of one motion beside its torques.
+/// A solver's results for one motion beside its torques.
 struct KinematicAnswer {
   JointMotion joints;
   BodyMotions<double> bodies;
@@ -24,13 +24,12 @@ struct KinematicAnswer {
   Matrix6d T_rate = Matrix6d::Zero();  ///< of (25)
 };
 
-/// D of (33), 12 rows a leg, and T of (32a), 78 × 6.
+/// D of (33), 12 rows per leg, and T of (32a), 78 × 6.
 struct Complement {
   Eigen::MatrixXd D, T;
 };
 
-/// Whose formulas a subject evaluates: the paper's as they are printed, the kernels that users call, or somebody
-/// else's.
+/// The origin of a subject's formulas: the paper as printed, the users' kernels, or another program.
 enum class Formulation { noc, fast, external };
 /// "noc", "fast" or "external".
 const char* name(Formulation formulation);
@@ -41,51 +40,51 @@ struct Answered {
   Vector6d torques = Vector6d::Zero();
 };
 
-/// What is on trial: a source of torques, and of kinematics where it has one. Called with the commanded motion.
+/// The solver under test: a source of torques, and possibly of kinematics. It is called with the commanded motion.
 struct Subject {
   std::string name;
   Formulation formulation = Formulation::external;
   std::function<Vector6d(const Motion<double>&)> torques;            ///< N·m, conjugate to φ̇
-  std::function<KinematicAnswer(const Motion<double>&)> kinematics;  ///< empty where only torques are judged
-  /// [ω̇; p̈] of the platform under torques, state as commanded; empty where the subject solves no direct dynamics.
+  std::function<KinematicAnswer(const Motion<double>&)> kinematics;  ///< empty if only torques are judged
+  /// [ω̇; p̈] of the platform under torques in the commanded state; empty if the subject lacks direct dynamics.
   std::function<Vector6d(const Motion<double>&, const Vector6d& torques)> accelerations;
-  std::function<Complement(const Motion<double>&)> complement;  ///< empty where the subject forms none
-  std::function<Reactions(const Motion<double>&)> reactions;    ///< under its own torques; empty where it finds none
-  /// Told beforehand which motions torques will be asked for, for a subject that answers many at once sooner than one
-  /// by one; empty where that is of no use. Changes no answer.
+  std::function<Complement(const Motion<double>&)> complement;  ///< empty if the subject computes none
+  std::function<Reactions(const Motion<double>&)> reactions;    ///< under its own torques; empty if it computes none
+  /// Receives in advance the motions whose torques will be needed, for a subject that answers many at once faster.
+  /// Empty if that is useless. Changes no answer.
   std::function<void(const std::vector<Motion<double>>&)> foresee;
-  /// All that it has answered so far; empty where it keeps nothing.
+  /// Returns all answers so far; empty if it stores nothing.
   std::function<std::vector<Answered>()> answers;
-  /// The same solver for another machine, for invariances; empty where the subject is not a solver.
+  /// Creates the same solver for another machine, for invariances; empty if the subject is not a solver.
   std::function<Subject(const Manipulator&)> rebuilt;
 };
 
-/// The same subject, which keeps its answers. For one thread.
+/// Returns the same subject with stored answers. For one thread.
 Subject recorded(Subject subject);
 
-/// Makes a subject for a scenario.
+/// Creates a subject for a scenario.
 using SubjectOf = std::function<Subject(const Scenario&)>;
 
-/// The NOC of this program, as the paper has it: what validations judge.
+/// This program's NOC, as in the paper; validations judge it.
 Subject nocSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load);
 
-/// The same of numbers already read.
+/// The same for numbers already read.
 Subject nocSubject(const MachineParameters<double>& machine, const std::shared_ptr<const Load>& load);
 
-/// The same with an injected fault: a control that must fail.
+/// The same with an injected fault, for negative controls.
 Subject wrongNocSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load,
                         const WithFormulaErrors& fault);
 
-/// The kernels that users call: torques and accelerations alone. Another formulation beside the NOC, and a fast one.
+/// The users' kernels, with torques and accelerations only: a fast formulation independent of the NOC.
 Subject fastSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load);
 
-/// The formulas of the NOC evaluated in long double: what rounding in doubles is measured by.
+/// The NOC's formulas in long double, to measure rounding in doubles.
 Subject longNocSubject(const Manipulator& manipulator, const std::shared_ptr<const Load>& load);
 
-/// Tells the subject, where it wants to know, that it will be asked at these instants of the trajectory, s.
+/// Announces to the subject, if it wants to know, the instants of the trajectory that will be asked for, s.
 void foresee(const Subject& subject, const Trajectory& trajectory, const std::vector<double>& instants);
 
-/// [moment about P; force], in B, of a load on the platform at `motion`; zero where `load` is null.
+/// [moment about P; force], in B, of a load on the platform at `motion`; zero if `load` is null.
 Vector6d loadAtP(const Load* load, const Motion<double>& motion);
 
 }  // namespace ursula

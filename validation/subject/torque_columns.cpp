@@ -26,7 +26,7 @@ std::string separatorWords(const CsvDialect& dialect) {
   return dialect.separator == ' ' ? "blanks" : fmt::format("'{}'", dialect.separator);
 }
 
-/// Collects which column holds what.
+/// Assigns a meaning to each column.
 class Finder {
  public:
   Finder(const CsvDialect& dialect, const std::filesystem::path& file, const Motors& motors)
@@ -34,7 +34,7 @@ class Finder {
 
   std::vector<TorqueColumn> find(const ColumnMap& map) {
     for (const auto& [name, column] : map) take(name, column);
-    // Then tau_1_Nm is motor 2's.
+    // Then tau_1_Nm belongs to motor 2.
     const bool from_zero = (has("tau_0_Nm") || has("tau_0_N")) && !has("tau_6_Nm") && !has("tau_6_N");
     for (const std::string& name : targets_)
       if (has(name) && (!from_zero || name == "t_s")) found_.emplace(name, TorqueColumn{name, name, 0});
@@ -85,7 +85,7 @@ class Finder {
       zero = zero || meaning->motor == 0;
       six = six || meaning->motor == 6;
     }
-    if (zero && six) return;  // seven efforts: of which the first is none can not be told
+    if (zero && six) return;  // of seven efforts the superfluous one is unknown
     const auto by_map_or_name = found_;
     for (auto& [column, meaning] : certain) {
       const int motor = meaning.motor < 0 || zero ? meaning.motor : meaning.motor - 1;
@@ -99,7 +99,7 @@ class Finder {
     }
   }
 
-  /// With the options that would read the file, where columns that nobody took end in the leg's number.
+  /// Adds options that would read the file if unassigned columns end in the leg's number.
   std::string missingText(const std::string& name) const {
     if (const auto wrong = wrong_unit_.find(name); wrong != wrong_unit_.end()) return wrong->second;
     std::string text = fmt::format("missing column '{}', expected it in the header", name);
@@ -114,7 +114,7 @@ class Finder {
     return text + options(free);
   }
 
-  /// Never a column that is another motor's.
+  /// Never suggests a column of another motor.
   static std::vector<std::string> likeliest(const std::string& name, const std::vector<std::string>& columns) {
     std::vector<std::string> out;
     std::copy_if(columns.begin(), columns.end(), std::back_inserter(out), [&](const std::string& column) {
@@ -146,10 +146,10 @@ class Finder {
   const Motors& motors_;
   std::vector<std::string> targets_;
   std::map<std::string, TorqueColumn> found_;
-  std::map<std::string, std::string> wrong_unit_;  ///< by the column wanted: what there is instead, in words
+  std::map<std::string, std::string> wrong_unit_;  ///< by the missing column: the column found instead, in words
 };
 
-/// Seven columns without a header: whether the first, and no other, can be the time.
+/// Whether only the first of seven columns without a header can be the time.
 bool isTimeThenTorques(const CsvTable& table) {
   const auto looksLikeTime = [](const std::vector<double>& column) {
     const double step =
@@ -218,7 +218,7 @@ TorqueColumns readTorqueColumns(const std::string& text, const std::filesystem::
   if (options.dialect.header == 0 && map.empty() && isTimeThenTorques(parseCsv(text, file, options))) {
     for (int k = -1; k < motor_count; ++k) columns.push_back({targetName(motors, k), std::to_string(k + 2), 0});
   } else if (options.dialect.header_cells.empty()) {
-    parseCsv(text, file);  // says what is wrong with an empty file
+    parseCsv(text, file);  // reports the defect of an empty file
   } else {
     columns = Finder(options.dialect, file, motors).find(map);
   }

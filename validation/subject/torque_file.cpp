@@ -21,9 +21,9 @@ constexpr int no_digit = std::numeric_limits<int>::max();
 /// The power of ten of the first significant digit.
 int firstPlace(double value) { return static_cast<int>(std::floor(std::log10(std::abs(value)))); }
 
-/// How finely a file was printed: its most decimals and its most significant digits.
+/// The precision of a printed file: its most decimals and its most significant digits.
 struct Fineness {
-  int last_place = no_digit;  ///< of its most decimals
+  int last_place = no_digit;  ///< last place with the most decimals
   int digits = 0;
 
   void add(double value, int place) {
@@ -31,7 +31,7 @@ struct Fineness {
     if (value != 0) digits = std::max(digits, firstPlace(value) - place + 1);
   }
 
-  /// Half a unit of the last digit, as TorqueFile has it.
+  /// Half a unit of the last digit, as defined in TorqueFile.
   double precision(double value, int place) const {
     const int by_digits = value == 0 ? last_place : firstPlace(value) - digits + 1;
     const double half = 0.5 * std::pow(10.0, std::min(place, std::max(last_place, by_digits)));
@@ -39,7 +39,7 @@ struct Fineness {
   }
 };
 
-/// The columns of the contract in a table that was read.
+/// The columns of the contract in a parsed table.
 struct Columns {
   std::size_t time = 0;
   std::array<std::size_t, motor_count> torques{};
@@ -54,7 +54,7 @@ struct Columns {
   }
 };
 
-/// Of times closer than this, s, rates of torques overflow.
+/// Closer times, s, would make the rates of torques overflow.
 constexpr double shortest = 1e-70;
 
 void requireIncreasing(const CsvTable& table, const std::vector<double>& t) {
@@ -72,17 +72,16 @@ void requireIncreasing(const CsvTable& table, const std::vector<double>& t) {
 
 enum class Grid { none, rounded, exact };
 
-/// Whether the instants are k·step (exact), or were before they were rounded to the last digit printed.
+/// Whether the instants are k·step (exact), or were before rounding to their last printed digit.
 Grid gridOf(const std::vector<double>& t, double half) {
   if (t.size() < 3) return Grid::none;
   const double step = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
   const double rounding = 4 * eps * std::max(std::abs(t.front()), std::abs(t.back()));
-  double largest = std::abs(std::remainder(t.front(), step));  // rounding a grid that begins elsewhere may not show
+  double largest = std::abs(std::remainder(t.front(), step));  // a grid that starts elsewhere may hide rounding
   for (std::size_t k = 1; k + 1 < t.size(); ++k)
     largest = std::max(largest, std::abs(t[k] - (t.front() + static_cast<double>(k) * step)));
   if (largest <= rounding) return Grid::exact;
-  return largest <= 2 * half + rounding ? Grid::rounded
-                                        : Grid::none;  // the grid's ends are rounded as well: two halves
+  return largest <= 2 * half + rounding ? Grid::rounded : Grid::none;  // the grid's ends are also rounded: two halves
 }
 
 void setTimePrecision(const std::vector<int>& places, const Fineness& whole, TorqueFile& out) {
@@ -168,7 +167,7 @@ double timeRounding(const TorqueFile& file, double duration) {
 
 namespace {
 
-/// What instants look like that are not those of the motion, in words; empty where nothing does.
+/// Returns the probable meaning of instants outside the motion, in words; empty if unknown.
 std::string likelyInstants(const TorqueFile& file, double duration) {
   const double first = file.t.front(), last = file.t.back(), rows = static_cast<double>(file.rows());
   const auto near = [](double value, double expected) { return std::abs(value / expected - 1) < 0.01; };

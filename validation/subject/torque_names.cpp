@@ -18,7 +18,7 @@ std::optional<int> timePower(const std::string& unit) {
   return 0;
 }
 
-/// Of "Nm", "kN·m", "N mm", "mN.m", "kN"; none for mega, which nobody can tell from milli in lower case.
+/// Interprets "Nm", "kN·m", "N mm", "mN.m", "kN"; nullopt for mega, which in lower case looks like milli.
 std::optional<ColumnMeaning> effortOf(int motor, std::string unit) {
   for (const char* between : {" ", ".", "*", "·", "_", "-"})
     for (auto at = unit.find(between); at != std::string::npos; at = unit.find(between))
@@ -36,7 +36,7 @@ std::optional<ColumnMeaning> effortOf(int motor, std::string unit) {
   return std::nullopt;
 }
 
-/// "force 2" without a unit is a force nevertheless; of "torque 2" people are not so strict.
+/// "force 2" is a force even without a unit; people use "torque 2" less strictly.
 EffortKind kindOfWord(std::string name) {
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
   return name.find("force") != std::string::npos ? EffortKind::force : EffortKind::untold;

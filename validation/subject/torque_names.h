@@ -8,30 +8,30 @@
 
 namespace ursula {
 
-/// What a motor's effort is measured in, as far as a column's name tells. Internal.
+/// The kind of a motor's effort, as far as a column's name tells. Internal.
 enum class EffortKind { untold, moment, force };
 
-/// The time, or the effort of a motor, by a column's name that can mean nothing else.
+/// The time, or the effort of a motor, from an unambiguous column name.
 struct ColumnMeaning {
-  int motor = 0;  ///< −1: the time; else as counted by the file
-  int power = 0;  ///< of ten, from the name's unit to SI
+  int motor = 0;  ///< −1 for the time; otherwise as numbered in the file
+  int power = 0;  ///< power of ten from the name's unit to SI
   EffortKind kind = EffortKind::untold;
 
-  /// No other unit than the motor's, 0-based.
+  /// Whether the unit is that of motor k, 0-based, or unknown.
   bool fits(const Motors& motors, int k) const {
     return kind == EffortKind::untold || (kind == EffortKind::force) == motors[static_cast<std::size_t>(k)].slides();
   }
 };
 
-/// Of `tau1`, `Tau 1 [Nm]`, `torque_1 (kN m)`, `force 2 [N]`, `t`, `Time [ms]`; none where a name is not certain.
+/// Interprets `tau1`, `Tau 1 [Nm]`, `torque_1 (kN m)`, `force 2 [N]`, `t`, `Time [ms]`; nullopt for an ambiguous name.
 std::optional<ColumnMeaning> meaningOf(const std::string& name);
 
-/// Of a name of the contract, which may have another unit: `tau_1_kNm`; counted from 0.
+/// Interprets a name of the contract, possibly with another unit: `tau_1_kNm`; numbered from 0.
 std::optional<ColumnMeaning> meaningOfTarget(const std::string& name);
 
-/// "t_s" for −1, else the column of that motor's effort.
+/// "t_s" for −1, otherwise the column of that motor's effort.
 std::string targetName(const Motors& motors, int k);
-/// All seven.
+/// All seven names.
 std::vector<std::string> targetNames(const Motors& motors);
 
 /// "motor 3 slides, its efforts are 'tau_3_N' (N)".

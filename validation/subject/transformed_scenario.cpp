@@ -1,4 +1,4 @@
-// Whole scenarios in a change of frame, and the changes of frame that are used. See change of frame.h.
+// Transforms whole scenarios into a change of frame, and creates the changes of frame in use. See frame_change.h.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace ursula {
 namespace {
 
-/// A trajectory as it looks in a change of frame; positions from its origin already.
+/// A trajectory in a change of frame; its positions are already relative to the origin.
 class TransformedTrajectory final : public ExactTrajectory {
  public:
   TransformedTrajectory(std::shared_ptr<const Trajectory> from, const FrameChange& frame_change)
@@ -24,7 +24,7 @@ class TransformedTrajectory final : public ExactTrajectory {
   double duration() const override { return from_->duration() / frame_change_.units.time; }
   Motion<double> at(double t) const override {
     Motion<double> motion = frame_change_.of(from_->at(t * frame_change_.units.time));
-    motion.t = t;  // the instant that was asked for, to the last bit
+    motion.t = t;  // the requested instant, to the last bit
     return motion;
   }
   Motion<Real50> at(const Real50& t) const override {
@@ -51,7 +51,7 @@ class TransformedTrajectory final : public ExactTrajectory {
   std::vector<double> knots_;
 };
 
-/// For trajectories that cannot move their origin themselves.
+/// For trajectories that cannot change their origin themselves.
 class ShiftedTrajectory final : public ExactTrajectory {
  public:
   ShiftedTrajectory(std::shared_ptr<const Trajectory> from, const Vector3d& origin)
@@ -84,8 +84,8 @@ std::shared_ptr<const Trajectory> shifted(const std::shared_ptr<const Trajectory
 
 double powerOfTwo(double x) { return std::exp2(std::floor(std::log2(x))); }
 
-/// Multiples of a power of two above the machine's size are taken off without rounding (Sterbenz), but for the first:
-/// about it coordinates are still too small.
+/// Subtracts multiples of a power of two above the machine's size, which causes no rounding (Sterbenz). The first
+/// multiple is excluded, because coordinates near it are too small.
 Vector3d roundOrigin(const Manipulator& machine, double length) {
   Vector3d middle = Vector3d::Zero();
   for (const Leg& leg : machine.parameters().legs) middle += leg.base_point / machine.legCount();
@@ -96,7 +96,7 @@ Vector3d roundOrigin(const Manipulator& machine, double length) {
   return (steps.array().abs() < 2).select(Vector3d::Zero(), steps * grid);
 }
 
-/// The largest acceleration that the platform or gravity has, m/s².
+/// The largest acceleration of the platform or of gravity, m/s².
 double accelerationOf(const Scenario& scenario, double length) {
   double largest = scenario.manipulator->gravity().norm();
   constexpr int instants = 16;
@@ -115,7 +115,8 @@ double massOf(const ManipulatorParameters& machine) {
 }
 
 Matrix3d randomTurn(std::mt19937_64& engine) {
-  // Four normal deviates by the sum of twelve uniform ones make a quaternion; which exactly does not matter here.
+  // Four sums of twelve uniform numbers are nearly normal and form a quaternion; the exact distribution does not
+  // matter.
   const auto normal = [&engine] {
     double sum = -6;
     for (int k = 0; k < 12; ++k) sum += static_cast<double>(engine() >> 11) * 0x1p-53;
@@ -125,7 +126,7 @@ Matrix3d randomTurn(std::mt19937_64& engine) {
   return q.normalized().toRotationMatrix();
 }
 
-/// `back` is the way from `to`.
+/// `back` is the inverse of `to`.
 KinematicAnswer answerIn(const FrameChange& to, const FrameChange& back, KinematicAnswer answer) {
   answer.joints = back.back(answer.joints);
   answer.bodies = back.back(answer.bodies);
@@ -134,8 +135,8 @@ KinematicAnswer answerIn(const FrameChange& to, const FrameChange& back, Kinemat
   return answer;
 }
 
-/// Motors of both sorts are compared by their numbers: on a machine of any usual size its own unit of length is then
-/// 1 m, so that a newton counts as a newton metre and a tolerance means what it says.
+/// Compares efforts of rotating and sliding motors by their numbers. So a machine of usual size gets 1 m as its unit of
+/// length, and a newton counts as a newton metre.
 double lengthUnit(const Manipulator& machine, double length) {
   constexpr double usual = 64;
   const Motors& motors = machine.motors();
@@ -235,7 +236,7 @@ Subject transformed(const Subject& subject, const FrameChange& to) {
     out.reactions = [=](const Motion<double>& motion) { return from.back(subject.reactions(from.of(motion))); };
   if (subject.rebuilt)
     out.rebuilt = [=](const Manipulator& machine) {
-      FrameChange there(machine);  // its motors may stand in another order
+      FrameChange there(machine);  // its motors may have another order
       there.origin = to.origin;
       there.units = to.units;
       return transformed(subject.rebuilt(from.of(machine)), there);

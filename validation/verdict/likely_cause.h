@@ -24,38 +24,38 @@ enum class CauseKind {
   closure,
   window
 };
-/// As `summary.json` writes it: "missing_term".
+/// The name in `summary.json`: "missing_term".
 const char* name(CauseKind kind);
 
-/// One cause of wrong efforts, in the terms of `summary.json`. What does not apply is empty.
+/// One cause of wrong efforts, in the terms of `summary.json`. Members that do not apply are empty.
 struct NamedCause {
   CauseKind kind = CauseKind::scale;
   std::string term = {};       ///< "gravity", "gyroscopic", "angular_velocity", …
   std::string body = {};       ///< "platform", "proximal", "distal", "legs" or "all"
   std::string parameter = {};  ///< "manipulator.leg.4.distal.mass"
-  std::string unit = {};       ///< of the three numbers
+  std::string unit = {};       ///< unit of the three numbers
   std::optional<double> expected = {}, found = {}, uncertainty = {};
   int leg = 0, motor = 0;                                       ///< 1-based; 0 for none
-  std::vector<int> legs = {};                                   ///< which leg's efforts each column holds, 1-based
+  std::vector<int> legs = {};                                   ///< the leg whose efforts each column contains, 1-based
   std::optional<double> from_s = {}, to_s = {};                 ///< the interval in which the efforts are wrong
   double explained = std::numeric_limits<double>::quiet_NaN();  ///< share of the deviation's square; NaN: unknown
 };
 
-/// What is said of a question that is asked again.
+/// The name of the error for a repeated question.
 constexpr const char* repeat_term = "repeat";
 
-/// Relative error of what a solver answers where one thing at a time is asked: "statics", "angular_velocity", …
+/// The relative error of a solver's answers to one separate question: "statics", "angular_velocity", …
 struct TermError {
   std::string term;
   double error = 0;
 };
 
-/// Of efforts that are wrong: which, and what may have made them so.
+/// The wrong efforts, and their possible cause.
 struct LikelyCause {
-  std::string off, cause;                ///< in words; `cause` says what is known where none is named
-  std::optional<NamedCause> named = {};  ///< none where several machines or mistakes would do, or none does
-  std::vector<NamedCause> others = {};   ///< that explain the deviation as well
-  std::vector<TermError> terms = {};     ///< empty where the efforts are a file's
+  std::string off, cause;                ///< in words; without a named cause, `cause` gives what is known
+  std::optional<NamedCause> named = {};  ///< nullopt unless exactly one machine or mistake explains it
+  std::vector<NamedCause> others = {};   ///< causes that explain the deviation equally well
+  std::vector<TermError> terms = {};     ///< empty for efforts from a file
 };
 
 }  // namespace ursula

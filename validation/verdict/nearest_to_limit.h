@@ -5,10 +5,10 @@
 
 namespace ursula {
 
-/// Of values with limits of their own, the one that takes the largest share of its limit. NaN takes more than any.
+/// Keeps the value with the largest share of its own limit. NaN has the largest share of all.
 struct NearestToLimit {
   double value = 0, limit = 0, t = 0;
-  int where = -1;  ///< -1 where nothing was compared
+  int where = -1;  ///< −1 if nothing was compared
 
   void add(double new_value, double new_limit, double new_t, int new_where) {
     const double share = shareOf(new_value, new_limit);
@@ -18,7 +18,7 @@ struct NearestToLimit {
 
  private:
   static double shareOf(double value, double limit) {
-    if (value == 0 && limit >= 0) return 0;  // a limit of 0 is kept by 0
+    if (value == 0 && limit >= 0) return 0;  // the value 0 satisfies the limit 0
     const double share = value / limit;
     return std::isnan(share) ? std::numeric_limits<double>::infinity() : share;
   }

@@ -55,7 +55,7 @@ const char* name(Reason reason) {
 const char* name(LimitBy limit_by) { return limit_by == LimitBy::user ? "user" : "derived"; }
 
 Check judged(std::string name, double value, double limit, std::string unit, std::string basis, std::string why) {
-  // An infinite limit would accept anything: it is a limit that was not found.
+  // An infinite limit would accept anything, so it counts as missing.
   const bool accepted = value <= limit && std::isfinite(value) && std::isfinite(limit);
   return {std::move(name),  value,          limit,        std::move(unit), accepted ? Verdict::pass : Verdict::fail,
           std::move(basis), std::move(why), Reason::none, {value, 0, ""}};
@@ -105,7 +105,7 @@ Check judgedIfUseful(const CheckedQuantity& quantity, const Worst& worst, std::s
 Verdict overall(const std::vector<Check>& checks) {
   if (anyIs(checks, Verdict::fail)) return Verdict::fail;
   if (anyIs(checks, Verdict::inconclusive)) return Verdict::inconclusive;
-  return anyIs(checks, Verdict::pass) ? Verdict::pass : Verdict::fail;  // of nothing judged
+  return anyIs(checks, Verdict::pass) ? Verdict::pass : Verdict::fail;  // fail if nothing was judged
 }
 
 double EffortDeviation::smallestRelative() const {

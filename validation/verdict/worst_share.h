@@ -6,19 +6,19 @@
 
 namespace ursula {
 
-/// The larger of two; NaN wins, so that it is seen.
+/// The larger of two; NaN wins.
 inline double larger(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 
-/// The one value of many that a check shows.
+/// The value that a check shows out of many.
 struct Shown {
   double value = 0, limit = 0, t = 0;
   int where = -1;
-  bool beyond = false;     ///< its derived limit: a failure
-  bool undecided = false;  ///< more than is useful and within its derived limit: it cannot be judged
+  bool beyond = false;     ///< beyond its derived limit: a failure
+  bool undecided = false;  ///< above the useful threshold and within its derived limit: undecidable
 };
 
-/// What a check shows of many instants: the value with the largest share of its limit, and the largest value. NaN is
-/// beyond any limit and stays.
+/// A check's summary of many instants: the value with the largest share of its limit, and the largest value. NaN
+/// exceeds any limit and stays.
 struct Worst {
   double value = 0, limit = 0, t = 0;
   int where = -1;    ///< leg or body, 0-based
@@ -27,7 +27,7 @@ struct Worst {
   int largest_where = -1;
   double widest_limit = 0, widest_t = 0;  ///< the largest limit
 
-  /// Of the limit; 0 of 0 is 0, and NaN is infinite.
+  /// The share of the limit; 0 of 0 is 0, and NaN is infinite.
   static double share(double of_value, double of_limit) {
     if (of_value == 0 && of_limit >= 0) return 0;
     const double out = of_value / of_limit;
@@ -55,9 +55,8 @@ struct Worst {
     any = true;
   }
 
-  /// Each value is held against its derived limit L, and against `useful` U, above which a value matters. Beyond L it
-  /// fails; between U and L, or where L was not found, it cannot be judged; within both it passes, and the limit shown
-  /// is the lesser.
+  /// Compares each value with its derived limit L and with `useful` U, above which a value matters. Beyond L it fails.
+  /// Between U and L, or without L, it is undecidable. Within both it passes, and the smaller limit is shown.
   Shown shown(double useful) const {
     if (beyond()) return {value, limit, t, where, true, false};
     if (!std::isfinite(widest_limit)) return {largest, widest_limit, widest_t, largest_where, false, true};
