@@ -15,7 +15,7 @@
 namespace ursula::report {
 namespace {
 
-// Decades that the bars span, common to all so that they compare; the limit stands at 0.
+// The decades of the bars, equal for all so that they are comparable; the limit is at 0.
 struct Decades {
   double low = -3, high = 1;
 
@@ -46,7 +46,7 @@ std::string entry(const char* term, const std::string& text) {
   return text.empty() ? "" : fmt::format("<dt>{}</dt><dd>{}</dd>", term, escaped(text));
 }
 
-// Shortest digits that give the same doubles again.
+// Uses the shortest digits that give the same doubles.
 std::string inFull(const Check& check) {
   if (std::isnan(check.value) && std::isnan(check.limit)) return check.name;
   return fmt::format("{}: value {}, limit {}, unit {}", check.name, check.value, check.limit,
@@ -123,7 +123,7 @@ std::string group(const std::string& title, std::vector<Check> checks, const Dec
 }
 
 std::string notApplicable(const std::vector<Check>& checks) {
-  std::map<std::string, std::string> names;  // by reason
+  std::map<std::string, std::string> names;  // keyed by reason
   std::size_t count = 0;
   for (const Check& check : checks) {
     if (check.verdict != Verdict::not_applicable) continue;

@@ -7,12 +7,12 @@
 
 namespace ursula::report {
 
-/// A verdict as a sign and its word, so that nothing hangs on colour.
+/// Returns a verdict as a sign and its word, so that colour is not essential.
 std::string verdictBadge(Verdict verdict);
 
-/// The checks in groups, those with something to see to first and open; each check with a bar of value against limit
-/// on a logarithmic scale and, folded, what it means, what was found and where the limit comes from. Needs no script.
-/// `cause`, the likely one, is said elsewhere and left out of what was found.
+/// Returns the checks in groups; groups with open issues come first and are unfolded. Each check has a bar of value
+/// over limit on a logarithmic scale. Folded below are its meaning, its result and the origin of its limit. Needs no
+/// script. `cause`, the likely cause, appears elsewhere and is removed from the results.
 std::string checksList(const std::vector<Check>& checks, const std::string& cause = "");
 
 }  // namespace ursula::report

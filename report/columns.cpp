@@ -36,7 +36,7 @@ std::string wrapped(const std::string& head, std::size_t margin, const std::stri
   std::istringstream words(text);
   std::string out = padded(head, margin);
   std::size_t column = columnsOf(out);
-  bool first = true;  // of the text or of a line
+  bool first = true;  // first word of the text or of a line
   for (std::string word; words >> word; first = false) {
     if (!first && column + 1 + columnsOf(word) > width) {
       out += "\n" + std::string(margin, ' ');

@@ -19,7 +19,7 @@ std::string lengthText(double metres) {
   return fmt::format("{:.2g} pm", metres / 1e-12);
 }
 
-/// "0.03 %"; below a millionth as a number, for nobody reads 0.0000003 %.
+/// "0.03 %"; a plain number below a millionth, because nobody reads 0.0000003 %.
 std::string shareText(double share) {
   return share >= 1e-6 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.1e} of the largest", share);
 }
@@ -33,7 +33,7 @@ std::string driftText(const EffortDeviation& deviation) {
                      lengthText(deviation.drift), deviation.duration);
 }
 
-/// Rounded up, so that it passes, too.
+/// Rounds up, so that the rounded value passes, too.
 std::string roundedUp(double value) {
   if (!(value > 0 && std::isfinite(value))) return fmt::format("{:g}", value);
   const double digit = std::pow(10.0, std::floor(std::log10(value)) - 4);
@@ -49,7 +49,7 @@ std::string sentence(const EffortDeviation& deviation) {
   if (deviation.largest_effort == 0)
     return fmt::format("No torque is needed here; the largest that was found is {:.3g} {}.", deviation.largest,
                        deviation.unit);
-  constexpr double right = 1e-6;  // above it nobody calls torques right
+  constexpr double right = 1e-6;  // torques with larger errors are not called right
   const std::string seen =
       std::isfinite(deviation.seen)
           ? fmt::format(" An error of {:.1g} of the largest torque would have been seen.", deviation.seen)

@@ -12,7 +12,7 @@
 namespace ursula::report {
 namespace {
 
-/// Under a heading at the left.
+/// A paragraph with its heading on the left.
 std::string paragraph(const std::string& heading, const std::string& text) { return wrapped(heading, 18, text); }
 
 const char* needsInWords(CheckNeeds needs) {

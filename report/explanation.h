@@ -4,14 +4,14 @@
 
 namespace ursula::report {
 
-/// The page of one check, in lines of at most 100 columns. Throws std::invalid_argument for one that is not known, with
-/// the nearest that is.
+/// Returns the page of one check, in lines of at most 100 columns. Throws std::invalid_argument for an unknown check,
+/// with the nearest known one.
 std::string explanation(const std::string& check);
 
-/// Every check with what it shows, in groups.
+/// Returns every check with its meaning, in groups.
 std::string explanations();
 
-/// docs/checks.md: what every check proves and cannot see, where its limit comes from, and what to do when it fails.
+/// docs/checks.md: what every check proves and cannot see, the origin of its limit, and what to do after a failure.
 std::string checksMarkdown();
 
 }  // namespace ursula::report

@@ -7,12 +7,12 @@
 
 namespace ursula::report {
 
-/// A chart with its caption and its static drawing, or a place for what the script draws: chart `index` of the page's
-/// data.
+/// Returns a chart with its caption and its static drawing, or with a place for the script's drawing. `index` is that
+/// of the chart in the page's data.
 enum class Drawing { with, without };
 std::string figureHtml(const Plot& plot, std::size_t index, const char* heading, Drawing drawing = Drawing::with);
 
-/// Those of one group, side by side; "" where there is none.
+/// Returns the figures of one group side by side; "" if there is none.
 std::string figuresHtml(const std::vector<Plot>& plots, PlotGroup group);
 
 }  // namespace ursula::report

@@ -31,7 +31,7 @@ double largestOf(const TimeSeries& series, const std::string& beginning) {
   return largest;
 }
 
-/// Simbody's two topologies are one formulation.
+/// Simbody's two topologies count as one formulation.
 void addEngines(const ValidationResult& result, Found& found) {
   double worst = none;
   for (const char* engine : {"torque.pointwise", "torque.twin", "torque.maximal", "torque.mujoco"}) {
@@ -56,7 +56,7 @@ std::string capital(std::string text) {
   return text;
 }
 
-/// Within a sentence.
+/// Lower case for use within a sentence.
 std::string lower(std::string text) {
   if (text.rfind("The ", 0) == 0) text[0] = 't';
   return text;
@@ -92,7 +92,7 @@ std::string failed(const ValidationResult& result, const Found& found) {
   return fmt::format("{} do not hold. {}: {}.", found.subject, checkTitle(worst->name), numbers);
 }
 
-/// The limit where the replay ends; NaN where that is not known.
+/// The limit at the replay's end; NaN if unknown.
 double limitAtEnd(const ValidationResult& result, const Check& replay) {
   for (const auto& [title, curve] : result.curves)
     if (title == sources_curve)

@@ -15,11 +15,11 @@ namespace ursula::report {
 namespace {
 
 constexpr double panel = 230, left = 70, top = 62;  // px
-constexpr double overlap = 0.3;                     // px: or hairlines show between cells
+constexpr double overlap = 0.3;                     // px: prevents hairlines between cells
 constexpr int colours = 24;
-constexpr std::size_t most_labelled = 6;  // cells that have a label each
+constexpr std::size_t most_labelled = 6;  // most cells with a label each
 
-/// Of the map named viridis, which keeps its order in grey and for the colour-blind.
+/// A colour of viridis, which keeps its order in grey and for colour-blind readers.
 std::string colour(int k) {
   constexpr std::array<std::array<int, 3>, 5> anchors = {
       {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}}};
@@ -32,13 +32,13 @@ std::string colour(int k) {
   return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
 }
 
-/// Where a label stands, as a share of the axis.
+/// A label and its position as a share of the axis.
 struct Label {
   double share;
   std::string text;
 };
 
-/// Cells stand around their values: between those of two cells, in proportion.
+/// Cells surround their values; a value between two cells is placed in proportion.
 double shareOf(const std::vector<double>& values, double value) {
   const bool falls = values.back() < values.front();
   const auto after = std::find_if(values.begin() + 1, values.end() - 1,
@@ -69,7 +69,7 @@ class Panel {
   }
 
  private:
-  /// Runs of one colour in a row of cells, all of one colour in one path.
+  /// Draws runs of equal colour per row of cells, one path per colour.
   std::string cells() const {
     std::array<std::string, colours + 1> paths;
     const std::size_t across = map_.x.values.size(), up = map_.y.values.size();

@@ -5,17 +5,17 @@
 
 namespace ursula::report {
 
-/// From numbers to the colours of heat maps. What grows without bound takes no colours from the rest: the highest
-/// hundredth has one colour.
+/// Maps numbers to the colours of heat maps. The highest hundredth shares one colour, so unbounded values leave enough
+/// colours for the others.
 class HeatScale {
  public:
-  /// Of the finite ones among `values`; logarithmic where `log`, of the positive ones alone.
+  /// Covers the finite ones of `values`; if `log`, logarithmically and only the positive ones.
   HeatScale(std::vector<float> values, bool log);
 
   bool empty() const { return !(high_ > low_); }
-  /// From 0; the last of what is infinite.
+  /// Index from 0; the last one for infinite values.
   int colourOf(double value) const;
-  /// The number at a share of the scale from 0 to 1.
+  /// Returns the number at a share of the scale from 0 to 1.
   double at(double share) const;
 
  private:
@@ -25,7 +25,7 @@ class HeatScale {
   double low_, high_;
 };
 
-/// One coordinate of a heat map's cells: their values, rising or falling.
+/// One coordinate of a heat map's cells: their values, ascending or descending.
 struct HeatAxis {
   std::string label;  ///< plain text
   std::vector<double> values;
@@ -35,16 +35,16 @@ struct HeatAxis {
 struct HeatMap {
   std::string title;  ///< plain text
   HeatAxis x, y;
-  std::vector<float> values;  ///< x the fastest; NaN where there is none: grey
+  std::vector<float> values;  ///< x varies fastest; NaN cells are grey
 };
 
-/// Room that a heat map takes, px.
+/// Size of a heat map, px.
 constexpr double heat_map_width = 424, heat_map_height = 348;
 
 constexpr const char* heat_map_nothing = "#bbb";  ///< the colour of cells without a value
 
-/// SVG within a drawing, its corner at (x, y). Texts have the class "title", its frame "frame", which the drawing or
-/// the page gives their looks.
+/// Returns SVG for a drawing, with its corner at (x, y). Texts have the class "title" and the frame "frame"; the
+/// drawing or the page defines their style.
 std::string heatMapPanel(const HeatMap& map, const HeatScale& scale, double x, double y);
 
 }  // namespace ursula::report

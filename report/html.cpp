@@ -33,7 +33,7 @@ std::string factsTable(const char* caption, const std::vector<std::pair<std::str
 
 constexpr const char* suite_link = "<a class=\"up\" href=\"../index.html\">← The suite</a>\n";
 
-/// As typed in the scenario's own folder.
+/// The command as typed in the scenario's folder.
 std::string command(const ValidationResult& result) {
   const std::string file = fact(result.provenance, "scenario file"), subject = fact(result.provenance, "subject");
   if (file.empty()) return "";
@@ -50,7 +50,7 @@ std::string keyFiguresHtml(const ValidationResult& result) {
   return out;
 }
 
-/// The first screen's picture of the error's sources.
+/// The figure of the error's sources for the first screen.
 std::string sources(const std::vector<Plot>& plots) {
   for (std::size_t i = 0; i < plots.size(); ++i)
     if (plots[i].group == PlotGroup::sources) return figureHtml(plots[i], i, "h2");

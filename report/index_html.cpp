@@ -16,7 +16,7 @@
 namespace ursula::report {
 namespace {
 
-/// The checks that any scenario has, in groups.
+/// All checks of any scenario, in groups.
 std::vector<std::string> columns(const std::vector<SuiteEntry>& entries) {
   std::vector<std::string> names;
   for (const SuiteEntry& entry : entries)
@@ -27,7 +27,7 @@ std::vector<std::string> columns(const std::vector<SuiteEntry>& entries) {
   return names;
 }
 
-/// How near the limit, in five shades: 0 below a thousandth, 4 above a third.
+/// Nearness to the limit in five shades: 0 below a thousandth, 4 above a third.
 int shade(double share) {
   return std::isfinite(share) && share > 0 ? std::clamp(static_cast<int>(std::floor(2 * std::log10(share))) + 5, 0, 4)
                                            : 0;
@@ -72,7 +72,7 @@ std::string row(const SuiteEntry& entry, const std::vector<std::string>& names) 
 
 int rank(Verdict verdict) { return verdict == Verdict::fail ? 0 : verdict == Verdict::inconclusive ? 1 : 2; }
 
-/// Failures first, otherwise as they were given.
+/// Sorts failures first and otherwise keeps the order.
 std::string rows(std::vector<SuiteEntry> entries, const std::vector<std::string>& names) {
   std::stable_sort(entries.begin(), entries.end(),
                    [](const SuiteEntry& a, const SuiteEntry& b) { return rank(a.verdict) < rank(b.verdict); });

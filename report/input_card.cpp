@@ -34,11 +34,11 @@ std::string linkText(const Link& link) {
                               digits(link.center_of_mass), off, inertiaText(link.inertia));
 }
 
-constexpr std::array<const char*, coordinate_count> symbols = {"φ", "ψ", "θ", "d"};  // by Coordinate
+constexpr std::array<const char*, coordinate_count> symbols = {"φ", "ψ", "θ", "d"};  // in the order of Coordinate
 
 const char* symbol(Coordinate coordinate) { return symbols[static_cast<std::size_t>(coordinate)]; }
 
-/// The coefficients of the coordinates that the leg has: turning ones in the one unit, sliding ones in the other.
+/// The coefficients of the leg's coordinates; rotating and sliding ones have their own unit.
 std::string frictionText(const JointFriction& friction, LegKind kind, const char* turning, const char* sliding) {
   if (!friction.any()) return "none";
   const auto list = [&](bool slide, const char* unit) {
@@ -52,7 +52,7 @@ std::string frictionText(const JointFriction& friction, LegKind kind, const char
   return turned + (turned.empty() || slid.empty() ? "" : ", ") + slid;
 }
 
-/// What carries the platform, in words: by kind, then what motors drive.
+/// The legs in words: the kind, then the driven coordinates.
 std::string kindText(const Leg& leg) {
   static constexpr std::array<const char*, leg_kind_count> words = {
       "URS: universal joint, pin at the knee, ball", "UPS: telescopic, universal joint, cylinder and rod, ball",
@@ -72,7 +72,7 @@ std::string loadText(const Load* load) {
                      vectorText(load->point));
 }
 
-/// Legs that share a text share a row.
+/// Legs with the same text share a row.
 template <class Text>
 std::string byLegs(const char* what, const Manipulator& machine, const Text& text) {
   std::string rows;

@@ -6,10 +6,10 @@
 
 namespace ursula::report {
 
-/// What was asked: machine, load and motion as tables.
+/// Returns machine, load and motion as tables.
 std::string inputCard(const Picture& picture);
 
-/// The machine and its motion in one line: "six U–R–S legs under a platform of 500 kg · helix of 3 s".
+/// Returns the machine and its motion in one line: "six U–R–S legs under a platform of 500 kg · helix of 3 s".
 std::string machineLine(const Picture& picture);
 
 }  // namespace ursula::report

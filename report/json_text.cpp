@@ -17,7 +17,7 @@ void addNumber(double value, std::string& out) {
 
 std::string jsonNumbers(const std::vector<double>& values) { return jsonList(values, addNumber); }
 
-/// Without what ends a script or is no character of HTML.
+/// Escapes what could end a script and what is no HTML character.
 std::string jsonText(const std::string& words) {
   std::string out = nlohmann::json(words).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   for (const auto& [odd, escape] :

@@ -5,10 +5,10 @@
 
 namespace ursula::report {
 
-/// Appends `value` with six digits, which are more than a screen shows; null where it is not finite.
+/// Appends `value` with six digits, more than a screen shows; null if it is not finite.
 void addNumber(double value, std::string& out);
 
-/// "[…]" of what `add(item, out)` appends for each item.
+/// Returns "[…]" with the text that `add(item, out)` appends for each item.
 template <class Items, class Add>
 std::string jsonList(const Items& items, const Add& add) {
   std::string out = "[";
@@ -21,7 +21,7 @@ std::string jsonList(const Items& items, const Add& add) {
 
 std::string jsonNumbers(const std::vector<double>& values);
 
-/// A quoted string without any "<", so that neither "</script" nor "<!--" can end or derail the block that holds it.
+/// Returns a quoted string without "<", so neither "</script" nor "<!--" can end or break the surrounding block.
 std::string jsonText(const std::string& words);
 
 }  // namespace ursula::report

@@ -75,7 +75,7 @@ std::string suiteCases(const SuiteEntry& entry, Counts& counts) {
   return cases;
 }
 
-/// The time is the suite's: its checks are judged from experiments that they share.
+/// The time is the suite's, because its checks share their experiments.
 std::string when(const RunTime& time) {
   if (time.started.empty()) return "";
   return fmt::format(R"( time="{:.3f}" timestamp="{}")", time.seconds, escaped(time.started));

@@ -14,7 +14,7 @@
 namespace ursula::report {
 namespace {
 
-/// x, y, z of one instant after the other; of a point that never moves, once.
+/// x, y, z of all instants in order; a constant point is written once.
 template <class Vectors>
 std::string track(const Vectors& points) {
   const bool still = std::all_of(points.begin(), points.end(), [&](const auto& point) { return point == points[0]; });
@@ -29,7 +29,7 @@ std::string track(const Vectors& points) {
   return out += ']';
 }
 
-/// Points that links and joints share stand once.
+/// Stores points that links and joints share only once.
 class TrackTable {
  public:
   std::size_t add(const Picture::Track& points) {
@@ -71,7 +71,7 @@ class AtInstants {
       rows_.push_back(static_cast<std::size_t>(std::lower_bound(t.begin(), t.end() - 1, at) - t.begin()));
   }
 
-  /// Empty where a column is not there.
+  /// Returns nothing if a column is missing.
   std::vector<Eigen::VectorXd> vectors(const std::vector<std::string>& columns) const {
     std::vector<Eigen::VectorXd> out(rows_.size(), Eigen::VectorXd(columns.size()));
     for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -87,7 +87,7 @@ class AtInstants {
   std::vector<std::size_t> rows_;
 };
 
-/// What the simulated pose is off by: [δp; rotation vector] at each instant.
+/// The error of the simulated pose at each instant: [δp; rotation vector].
 std::vector<Eigen::VectorXd> poseErrors(const AtInstants& at) {
   const auto p = at.vectors({"p_x_m", "p_y_m", "p_z_m"}), sim_p = at.vectors({"sim_p_x_m", "sim_p_y_m", "sim_p_z_m"});
   const auto q = at.vectors({"q_w", "q_x", "q_y", "q_z"}),
@@ -106,7 +106,7 @@ std::vector<Eigen::VectorXd> poseErrors(const AtInstants& at) {
   return out;
 }
 
-/// Forces on the platform and at the base, of all legs one after the other.
+/// Forces on the platform and at the base, leg after leg.
 std::string forces(const AtInstants& at, const char* name, std::size_t legs) {
   std::vector<std::string> columns;
   for (std::size_t leg = 1; leg <= legs; ++leg)
@@ -114,7 +114,7 @@ std::string forces(const AtInstants& at, const char* name, std::size_t legs) {
   return track(at.vectors(columns));
 }
 
-/// The platform's motion that is resisted least, the leg that moves B least, and along what; null where not known.
+/// The platform motion with the least resistance, the leg that moves B least, and the lost direction; null if unknown.
 std::string weakJson(const Picture& picture) {
   const std::optional<std::vector<WeakDirections>> weak = weakDirections(picture);
   if (!weak) return "null";

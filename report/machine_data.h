@@ -6,8 +6,8 @@
 
 namespace ursula::report {
 
-/// The machine's points and directions at the picture's instants as JSON, with errors, efforts and reactions that
-/// `series` has there.
+/// Returns the machine's points and directions at the picture's instants as JSON, with the errors, efforts and
+/// reactions of `series` there.
 std::string machineJson(const Picture& picture, const TimeSeries& series);
 
 }  // namespace ursula::report

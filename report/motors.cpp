@@ -8,7 +8,7 @@
 namespace ursula::report {
 namespace {
 
-constexpr double may_remain = 0.01;  // as in the diagnosis: then the deviation counts as explained
+constexpr double may_remain = 0.01;  // as in the diagnosis: below it the deviation counts as explained
 
 bool areWrong(const ValidationResult& result) {
   return std::any_of(result.checks.begin(), result.checks.end(), [](const Check& check) {
@@ -16,7 +16,7 @@ bool areWrong(const ValidationResult& result) {
   });
 }
 
-/// By least squares; both sums run over the instants that have both efforts.
+/// Least squares; both sums use the instants that have both efforts.
 MotorDeviation deviationOf(int motor, const std::vector<double>& t, const std::vector<double>& given,
                            const std::vector<double>& expected) {
   MotorDeviation out;
@@ -31,7 +31,7 @@ MotorDeviation deviationOf(int motor, const std::vector<double>& t, const std::v
     sum += off;
     squared += off * off;
   }
-  // What a fit of one number leaves of the deviation's square.
+  // The remainder of the squared deviation after a fit of one number.
   const double may_be_left = may_remain * may_remain * squared;
   if (squared > 0 && squared - off_expected * off_expected / expected_squared <= may_be_left)
     out.factor = 1 + off_expected / expected_squared;

@@ -8,17 +8,17 @@
 
 namespace ursula::report {
 
-/// What one motor's efforts are off by.
+/// The deviation of one motor's efforts.
 struct MotorDeviation {
   int motor = 0;                 ///< 0-based
-  std::string unit = "Nm";       ///< of its efforts, as columns write it
-  double largest = 0, t = 0;     ///< in that unit, and when, s
-  std::optional<double> factor;  ///< that alone explains the deviation but for a hundredth of its norm
-  std::optional<double> offset;  ///< likewise, in that unit
+  std::string unit = "Nm";       ///< unit of its efforts, as in columns
+  double largest = 0, t = 0;     ///< in that unit, and its instant, s
+  std::optional<double> factor;  ///< a factor that alone explains the deviation except a hundredth of its norm
+  std::optional<double> offset;  ///< an offset that does so, in that unit
 };
 
-/// Of every motor, from the columns of efforts on trial and Simbody's; empty where none is wrong as far as checks say,
-/// or there are no such columns.
+/// Returns the deviation of every motor from the columns of the subject's and Simbody's efforts. Empty if no check says
+/// that efforts are wrong, or if the columns are missing.
 std::vector<MotorDeviation> motorsOff(const ValidationResult& result);
 
 }  // namespace ursula::report

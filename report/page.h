@@ -9,33 +9,33 @@
 
 namespace ursula::report {
 
-/// One number on top of a page: what it is, the number, a remark. Plain text.
+/// One number at the top of a page: name, number, remark. Plain text.
 struct PageFigure {
   std::string what, value, remark;
 };
 
 struct PageSection {
   std::string id, title;  ///< plain text
-  std::string html;       ///< left out where it is empty
+  std::string html;       ///< an empty section is omitted
 };
 
-/// A page with the looks of the report, for what is not one: its own sections below a verdict in a sentence.
+/// A page in the report's style with its own sections below a verdict sentence.
 struct Page {
-  std::string kind;  ///< "Comparison": what the page is, above its title
+  std::string kind;  ///< "Comparison": the kind of page, above its title
   std::string title;
   std::string subtitle;
-  Verdict verdict = Verdict::not_applicable;  ///< not_applicable: the page judges nothing, and has no badge
+  Verdict verdict = Verdict::not_applicable;  ///< not_applicable: the page has no verdict and no badge
   std::string sentence;
-  std::vector<std::string> remarks;  ///< below the sentence, each a line
+  std::vector<std::string> remarks;  ///< below the sentence, one line each
   std::vector<PageFigure> figures;
   std::vector<PageSection> sections;
   std::string footer;        ///< HTML
-  std::vector<Plot> charts;  ///< drawn by the script where sections hold their figures
+  std::vector<Plot> charts;  ///< drawn by the script in the sections' figures
   std::string_view script;   ///< may be empty
-  std::string_view style;    ///< of its own sections, beside the report's; may be empty
+  std::string_view style;    ///< style of its own sections, added to the report's; may be empty
 };
 
-/// One file that needs no network; texts are escaped, sections are taken as they are.
+/// Returns one file that needs no network; texts are escaped, sections are inserted unchanged.
 std::string pageHtml(const Page& page);
 
 }  // namespace ursula::report

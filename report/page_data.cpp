@@ -31,7 +31,7 @@ std::string plotJson(const Plot& full) {
       jsonList(plot.lines, [](const Line& line, std::string& out) { out += lineJson(line); }));
 }
 
-/// Those of the result, and where the checks that matter most were worst.
+/// Events of the result, and the worst instants of the most important checks.
 std::string eventsJson(const ValidationResult& result) {
   std::vector<Event> events = result.events;
   const auto add = [&events](double t, const char* what, double value, const std::string& unit) {

@@ -9,12 +9,11 @@
 
 namespace ursula::report {
 
-/// What the page's script draws, as JSON that can stand in a <script> block: charts, the machine along its motion,
-/// events. Thinned for the eye; numbers with six digits.
-/// `picture` may be null.
+/// Returns the data of the page's script as JSON for a <script> block: charts, the machine along its motion, events. It
+/// is thinned to visible detail; numbers have six digits. `picture` may be null.
 std::string pageData(const ValidationResult& result, const Picture* picture, const std::vector<Plot>& plots);
 
-/// The same for a page of charts alone.
+/// The same for a page with charts only.
 std::string chartData(const std::string& title, const std::vector<Plot>& plots);
 
 }  // namespace ursula::report

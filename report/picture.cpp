@@ -10,7 +10,7 @@
 namespace ursula {
 namespace {
 
-/// Tracks of a leg's points and axes, and what its joints are.
+/// Tracks of a leg's points and axes, and the names of its joints.
 class LegTracks {
  public:
   LegTracks(const Leg& leg, const std::optional<Stretch>& rail, const Vector3d& origin)
@@ -35,7 +35,7 @@ class LegTracks {
   }
 
  private:
-  /// Coordinates whose joints share a point: those before the first link, and those after it.
+  /// Joints of coordinates that share a point: those before the first link, and those after it.
   std::vector<Picture::Joint> joints() const {
     const LegKindRow& row = rowOf(leg_.kind);
     std::vector<Picture::Joint> out;
@@ -46,7 +46,7 @@ class LegTracks {
     return out;
   }
 
-  /// One joint of the coordinates from `begin` to `end`, or one for each where it takes two motors.
+  /// Adds one joint for the coordinates from `begin` to `end`, or one per coordinate if two motors drive it.
   void addJoint(std::size_t begin, std::size_t end, const Picture::Track& at, std::vector<Picture::Joint>& out) const {
     const auto driven = std::count(leg_.actuated.begin() + static_cast<std::ptrdiff_t>(begin),
                                    leg_.actuated.begin() + static_cast<std::ptrdiff_t>(end), true);
@@ -65,7 +65,7 @@ class LegTracks {
   Vector3d origin_;
   std::optional<Stretch> rail_;
   Picture::Track A_, R_, S_, B_;
-  std::array<Picture::Track, 3> axes_;  ///< the other way round, so that the paper's u is u
+  std::array<Picture::Track, 3> axes_;  ///< reversed, so that the paper's u is u
 };
 
 Eigen::Vector4d quaternion(const Matrix3d& Q, const std::vector<Eigen::Vector4d>& before) {
@@ -74,7 +74,7 @@ Eigen::Vector4d quaternion(const Matrix3d& Q, const std::vector<Eigen::Vector4d>
   return before.empty() || next.dot(before.back()) >= 0 ? next : Eigen::Vector4d(-next);
 }
 
-/// Evenly picked, the last among them.
+/// Picks instants evenly, including the last.
 std::vector<double> atMost(std::size_t most, const std::vector<double>& t) {
   if (t.size() <= most) return t;
   std::vector<double> out;

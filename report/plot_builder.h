@@ -11,7 +11,7 @@
 
 namespace ursula::report {
 
-/// The rows to draw by: without a point of x there is no place to draw at, and charts need x ascending.
+/// Returns the rows with finite x in ascending order, as charts require.
 std::vector<std::size_t> ascending(const std::vector<double>& x);
 
 std::vector<double> picked(const std::vector<double>& values, const std::vector<std::size_t>& rows);
@@ -25,14 +25,14 @@ class TimePlots {
   bool empty() const { return rows_.empty(); }
   std::size_t rows() const { return rows_.size(); }
 
-  /// A chart without lines yet.
+  /// Returns a chart without lines.
   Plot plot(PlotGroup group, const std::string& title, const std::string& y_label, bool log_y = false) const;
-  /// Adds a column, if it is there, times `factor`.
+  /// Adds a column times `factor`, if it exists.
   void addColumn(Plot& plot, const std::string& column, Line line, double factor = 1) const;
   void addValues(Plot& plot, const std::vector<double>& values, Line line) const;
-  /// Every leg's column of this quantity.
+  /// Adds every leg's column of this quantity.
   void addIndexed(Plot& plot, const std::string& quantity, const std::string& symbol, bool ghost = false) const;
-  /// Keeps the chart if it has lines.
+  /// Adds the chart to the list if it has lines.
   void keep(Plot plot);
 
  private:
@@ -42,8 +42,8 @@ class TimePlots {
   std::vector<double> t_;
 };
 
-/// The charts of the time series; `motors` are those of its efforts, which a tolerance of the user's allows to be off
-/// by `allowed`, in their unit; 0 where there is none.
+/// Adds the charts of the time series. `motors` are those of its efforts; `allowed` is a user's tolerance in their
+/// unit, 0 if there is none.
 void addSeriesPlots(const TimeSeries& series, const Motors& motors, double allowed, std::vector<Plot>& plots);
 
 /// "₁" for "1".

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double decades_for_log = 3;
 
-/// Zero, where an error starts from, has no place on a logarithmic axis and is left out.
+/// Zero, where an error starts, has no place on a logarithmic axis and is ignored.
 struct Span {
   bool positive = true;
   double least = std::numeric_limits<double>::infinity(), most = -std::numeric_limits<double>::infinity();
@@ -32,7 +32,7 @@ struct Span {
   bool isWide() const { return positive && most > least && std::log10(most / least) > decades_for_log; }
 };
 
-/// Those of the machine that was validated; else the paper's.
+/// The validated machine's motors; otherwise the paper's.
 Motors motorsOf(const ValidationResult& result) {
   if (result.asked && result.asked->manipulator) return result.asked->manipulator->motors();
   Motors out;
@@ -53,7 +53,7 @@ Line lineOf(const std::string& column, int color) {
   return line;
 }
 
-/// The unit that all lines share, or "" where they do not.
+/// The unit that all lines share, or "" if they differ.
 std::string commonUnit(const Plot& plot) {
   for (const Line& line : plot.lines)
     if (line.unit != plot.lines.front().unit) return "";
@@ -79,7 +79,7 @@ Plot curvePlot(const std::string& title, const TimeSeries& curve) {
   }
   const std::string unit = commonUnit(plot);
   plot.y_label = plot.lines.size() == 1 ? curve.names[1] : unit.empty() ? "" : (unit == "m" ? "error (m)" : unit);
-  // Time is read evenly; any other x goes with a logarithmic y, so that a power law is a straight line.
+  // Time has a linear axis; any other x goes with a logarithmic y, so a power law is a straight line.
   plot.over_time = plot.x_label == "t_s";
   if (plot.over_time) plot.x_label = "t (s)";
   plot.log_y = y.isWide() || (!plot.over_time && x.isWide() && y.positive);
@@ -87,7 +87,7 @@ Plot curvePlot(const std::string& title, const TimeSeries& curve) {
   return plot;
 }
 
-/// The least and the largest of values[from, to), in the order in which they come; NaN where there is none.
+/// The least and the largest of values[from, to), in their order; NaN if there is none.
 std::pair<double, double> extremes(const std::vector<double>& values, std::size_t from, std::size_t to) {
   std::size_t low = to, high = to;
   for (std::size_t k = from; k < to; ++k) {

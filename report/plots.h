@@ -7,8 +7,8 @@
 
 namespace ursula::report {
 
-/// How a line is drawn: a ghost broad and pale under a line of the same colour, a limit dashed and in a colour of its
-/// own; points without a line, all of them in the static drawing.
+/// Styles of a line. A ghost is broad and pale under a line of the same colour; a limit is dashed and has its own
+/// colour. Points have no line, and the static drawing shows all of them.
 enum class Stroke { line, ghost, limit, points };
 
 /// One line of a chart. `color` counts from 0.
@@ -20,7 +20,7 @@ struct Line {
   std::vector<double> values;
 };
 
-/// Charts that answer one question stand together.
+/// Groups of charts that answer one question.
 enum class PlotGroup { sources, errors, efforts, motion, reactions, numerics };
 
 struct Plot {
@@ -29,26 +29,26 @@ struct Plot {
   std::string x_label, y_label;
   bool log_x = false, log_y = false;
   bool over_time = false;  ///< plots over time share their cursor
-  bool tube = false;       ///< the first two lines bound one, from above and from below
-  std::size_t rows = 0;    ///< of the data; more than `x` holds where it was thinned for the eye
+  bool tube = false;       ///< the first two lines are its upper and lower bound
+  std::size_t rows = 0;    ///< rows of the data; more than `x` has after thinning
   std::vector<double> x;   ///< ascending and finite
   std::vector<Line> lines;
 };
 
-/// The charts of the report, for which there are columns and rows: from the time series, then from the curves.
+/// Returns the report's charts with data: from the time series, then from the curves.
 std::vector<Plot> plots(const ValidationResult& result);
 
-/// The largest and least values of each of `buckets` equal parts of the rows, where there are more rows than twice
-/// that.
+/// Keeps the largest and least values in each of `buckets` equal parts of the rows, if there are more than twice as
+/// many rows.
 Plot thinned(const Plot& plot, std::size_t buckets);
 
-/// Whether `line` has a point to draw: finite, and positive on a logarithmic axis.
+/// Whether `line` has a drawable point: finite, and positive on a logarithmic axis.
 bool isDrawable(const Plot& plot, const Line& line);
 
-/// What a chart shows, in a sentence for its caption: the largest magnitude, and where.
+/// Describes a chart in a sentence for its caption: the largest magnitude, and where.
 std::string inWords(const Plot& plot);
 
-/// "1", "2", … of a column `quantity_1_unit`, in the order of the columns, with the unit as columns write it.
+/// One of the columns `quantity_1_unit`, in their order: its index "1", "2", … and its unit as in columns.
 struct Indexed {
   std::string index, unit;
   const std::vector<double>* values = nullptr;

@@ -13,7 +13,7 @@
 namespace ursula::report {
 namespace {
 
-const std::string joined = "\u00A0";  // a number is not parted from its unit
+const std::string joined = "\u00A0";  // keeps a number and its unit on one line
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
   for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
@@ -33,7 +33,7 @@ bool takesPrefix(const std::string& unit) {
   return first == "m" || first == "N" || first == "J" || first == "rad" || first == "s" || first == "W";
 }
 
-/// Digits without an exponent where it is short, rounded to so many of them.
+/// Rounds to `digits`, without an exponent if the text is short.
 std::string rounded(double value, int digits) {
   const std::string text = fmt::format("{:.{}g}", value, digits);
   return text.find('e') == std::string::npos ? text : fmt::format("{:.0f}", leadingNumber(text).value);
@@ -56,10 +56,10 @@ std::string quantity(double value, const std::string& unit, int digits) {
   if (pretty.empty() || !takesPrefix(pretty))
     return plainNumber(value, digits) + (pretty.empty() ? "" : joined + pretty);
   const std::array<const char*, 9> prefixes = {"f", "p", "n", "µ", "m", "", "k", "M", "G"};
-  // As it will be written: 999.96 is 1.00 k.
+  // Uses the rounded value: 999.96 is 1.00 k.
   const double shown = leadingNumber(fmt::format("{:.{}e}", value, digits - 1)).value;
   const int thousands = static_cast<int>(std::floor(std::log10(std::abs(shown)) / 3 + 1e-9));
-  const bool small = pretty == "rad" || pretty == "s" || pretty.find("rad/") == 0;  // never kilo-
+  const bool small = pretty == "rad" || pretty == "s" || pretty.find("rad/") == 0;  // no kilo and larger prefixes
   const int highest = small ? 0 : 3;
   if (thousands < -5 || thousands > 3) return plainNumber(value, digits) + joined + pretty;
   const int used = std::min(thousands, highest);

@@ -12,13 +12,13 @@ namespace ursula {
 
 class OutputFolder;
 
-/// When something was run, for the JUnit files alone: nothing else that is written differs from run to run.
+/// The time of a run, only for JUnit files: everything else is equal in equal runs.
 struct RunTime {
   double seconds = 0;   ///< wall time
-  std::string started;  ///< UTC, as in 2026-11-22T05:13:18; empty where nobody measured, then no time is written
+  std::string started;  ///< UTC, as in 2026-11-22T05:13:18; if empty, no time is written
 };
 
-/// Runs from its making on.
+/// Measures time from its construction.
 class Stopwatch {
  public:
   Stopwatch();
@@ -29,62 +29,64 @@ class Stopwatch {
   std::string started_;
 };
 
-/// One line of a suite: what the index needs to know of a scenario, without its time series.
+/// A scenario's line in a suite: data for the index, without the time series.
 struct SuiteEntry {
   std::string scenario;
   Verdict verdict = Verdict::fail;
-  std::filesystem::path folder;  ///< of its results, relative to the index
+  std::filesystem::path folder;  ///< folder of its results, relative to the index
   std::vector<Check> checks;
-  std::string error;          ///< why there is no result: input that was refused, an exception; else empty
-  RunTime time;               ///< of computing: the one thing of a suite that two runs write differently
-  std::string dominant;       ///< which error dominates: the finding "dominant error"; may be empty
-  std::vector<double> trend;  ///< the replay's error along the motion, m, in few steps; empty where none was made
+  std::string error;          ///< why there is no result: refused input, an exception; else empty
+  RunTime time;               ///< computing time, the only value that differs between equal runs
+  std::string dominant;       ///< the finding "dominant error"; may be empty
+  std::vector<double> trend;  ///< the replay's error along the motion, m, in few steps; empty without a replay
   std::vector<std::pair<std::string, std::string>> properties = {};  ///< for the JUnit file: limits, provenance
 };
 
-/// The line of `result` in a suite.
+/// Returns the line of `result` in a suite.
 SuiteEntry suiteEntry(const ValidationResult& result, std::filesystem::path folder, const RunTime& time = {});
 
-/// The verdict's reason in one sentence: how many checks failed and the worst, or how close the closest came.
+/// Returns the verdict's reason in one sentence: the number of failed checks and the worst, or the nearest to its
+/// limit.
 std::string reason(Verdict verdict, const std::vector<Check>& checks);
 
-/// All that failed is of the fast kernels: the NOC itself holds.
+/// Whether only checks of the fast kernels failed, so that the NOC itself is right.
 bool onlyFastFails(const std::vector<Check>& checks);
 
-/// "Right to 0.03 %: the largest deviation is 7.4 N m of 25066 N m, leg 3 at t = 2.97 s; …": what errors of that size
-/// do, and the smallest --rtol that would pass.
+/// "Right to 0.03 %: the largest deviation is 7.4 N m of 25066 N m, leg 3 at t = 2.97 s; …": the effect of such errors,
+/// and the smallest --rtol that would pass.
 std::string sentence(const EffortDeviation& deviation);
 
-/// value / limit, 0 for values below zero; NaN without a value or without a finite limit that is not negative.
+/// value / limit, 0 for values below zero; NaN without a value or without a finite non-negative limit.
 double limitShare(const Check& check);
 
 /// The same in words: "is at 0.8 of its limit", "has no value", …
 std::string standing(const Check& check);
 
-/// How many of them apply.
+/// Returns how many of them apply.
 std::ptrdiff_t judgedCount(const std::vector<Check>& checks);
 
-/// The check that decides: first by verdict (fail, inconclusive, pass, not applicable), then by limitShare, where NaN
-/// counts as 1; the first of equals. nullptr where there is no check.
+/// Returns the decisive check, the first of equals: first by verdict (fail, inconclusive, pass, not applicable), then
+/// by limitShare, where NaN counts as 1. Returns nullptr if there is no check.
 const Check* worstCheck(const std::vector<Check>& checks);
 
-/// Whether a result stands alone or is one of a suite, whose index is in the folder above.
+/// Whether a result stands alone or belongs to a suite with its index in the parent folder.
 enum class Place { alone, in_suite };
 
-/// Writes `timeseries.csv`, `junit.xml`, `report.html` and, last, `summary.json` into `dir`, which has the older run's
-/// until it has all of these: see OutputFolder, whose errors it throws. All but the first name the run: see stamped.
+/// Writes `timeseries.csv`, `junit.xml`, `report.html` and finally `summary.json` into `dir`, which keeps an older
+/// run's files until all are complete. OutputFolder does this and throws its errors. All but the first identify the
+/// run: see stamped.
 void writeResults(const ValidationResult& result, const std::filesystem::path& dir, const RunTime& time = {},
                   Place place = Place::alone);
 
-/// The same into a folder that is committed by the caller, in its folder `below`; `result` is stamped. The line of what
-/// was written.
+/// Writes the same into the folder `below` of `out`, which the caller commits; `result` is stamped. Returns the line of
+/// the written results.
 SuiteEntry addResults(ValidationResult& result, OutputFolder& out, const std::filesystem::path& below,
                       const RunTime& time, Place place);
 
-/// Throws std::runtime_error where results could not be written into a folder's folder `below`; writes nothing.
+/// Throws std::runtime_error if results could not be written into the folder `below` of `out`; writes nothing.
 void requireResults(const OutputFolder& out, const std::filesystem::path& below);
 
-/// Adds `junit.xml`, `suite.json` and `index.html` over all entries to a folder that is committed by the caller.
+/// Adds `junit.xml`, `suite.json` and `index.html` over all entries to a folder that the caller commits.
 void addSuiteIndex(const std::vector<SuiteEntry>& entries, OutputFolder& out);
 
 }  // namespace ursula

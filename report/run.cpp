@@ -22,7 +22,7 @@ using Json = nlohmann::json;
 constexpr std::size_t digits = 16;
 constexpr const char *run_key = "run", *series_key = "timeseries.csv sha1";
 
-/// Nothing where nothing is. What need not end is no result.
+/// Returns nullopt if there is no file. A device or a pipe, which may never end, is no result.
 std::optional<std::string> contentOf(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::file_status there = std::filesystem::status(file, error);
@@ -34,7 +34,7 @@ std::optional<std::string> contentOf(const std::filesystem::path& file) {
   return std::string(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
 }
 
-/// An empty object where there is no such file.
+/// Returns an empty object if there is no such file.
 Json jsonIn(const std::filesystem::path& file) {
   const std::optional<std::string> text = contentOf(file);
   if (!text) return Json::object();
@@ -85,7 +85,7 @@ void refuseMixtureOfSuite(const std::filesystem::path& folder) {
   }
 }
 
-/// A scenario's folder is one below, whatever a file that was changed says.
+/// A scenario's folder is one level below, even if a changed file says otherwise.
 bool isBelow(const std::filesystem::path& folder) {
   return !folder.empty() && !folder.has_parent_path() && folder != "." && folder != "..";
 }
@@ -138,7 +138,7 @@ Paths resultsIn(const std::filesystem::path& folder) {
   return paths;
 }
 
-/// By its name: whichever of the results it would be, and however deep.
+/// Compares by name, for any of the result files at any depth.
 std::filesystem::path replacedInput(const std::vector<std::filesystem::path>& inputs,
                                     const std::filesystem::path& folder) {
   const auto isResult = [](const std::filesystem::path& name) {
@@ -163,7 +163,7 @@ void refuseMixture(const std::filesystem::path& folder) {
   };
   try {
     look();
-  } catch (const MixedResults&) {  // as a folder also seems that another run put there between two files
+  } catch (const MixedResults&) {  // another run may be replacing the folder between two files
     constexpr std::chrono::milliseconds until_it_is_whole{20};
     std::this_thread::sleep_for(until_it_is_whole);
     look();

@@ -13,38 +13,38 @@
 
 namespace ursula::report {
 
-/// What a run writes for one scenario, the last of them last.
+/// A run's files for one scenario, in the order of writing.
 constexpr std::array<const char*, 4> result_files = {"timeseries.csv", "junit.xml", "report.html", "summary.json"};
 
-/// And over all scenarios of a suite.
+/// The files over all scenarios of a suite.
 constexpr std::array<const char*, 3> suite_files = {"junit.xml", "suite.json", "index.html"};
 
-/// The text of `timeseries.csv`, piece by piece, and its sha1.
+/// Passes the text of `timeseries.csv` to `take` in pieces and returns its sha1.
 std::string timeseriesCsv(const ValidationResult& result, const std::function<void(const std::string&)>& take);
 
-/// Puts the run into its provenance: `timeseries.csv sha1`, and `run`, a hash of everything that the run found, so that
-/// two runs that write the same have the same. One that has it already is left as it is.
+/// Adds the run to its provenance: `timeseries.csv sha1`, and `run`, a hash of all results. Runs with equal files have
+/// equal hashes. An existing hash stays.
 void stamp(const std::string& timeseries_sha1, ValidationResult& result);
 
-/// Of a suite: a hash of its scenarios' runs and errors.
+/// Returns a hash of a suite's runs and errors.
 std::string runOf(const std::vector<SuiteEntry>& entries);
 
-/// The files in `folder`, relative to it, that a run wrote there, of one scenario or of a suite, and the folders of the
-/// suite's scenarios. What is not read as a suite's summary lists none of these.
+/// Returns the files in `folder`, relative to it, that a run wrote, of one scenario or of a suite, and the suite's
+/// scenario folders. A file that is no valid suite summary lists none.
 Paths resultsIn(const std::filesystem::path& folder);
 
-/// The first of `inputs` that results written into `folder` would replace; empty where none would.
+/// Returns the first of `inputs` that results in `folder` would replace; empty if there is none.
 std::filesystem::path replacedInput(const std::vector<std::filesystem::path>& inputs,
                                     const std::filesystem::path& folder);
 
-/// Files of a folder of results that are not of one run.
+/// The files of a results folder belong to different runs.
 struct MixedResults : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Throws MixedResults where what is there of a folder of results, of one scenario or of a suite, is of several runs or
-/// was changed, still at a second look: a run beside may have put its own there while they were read. Results of older
-/// versions, which do not say, are taken as they are.
+/// Throws MixedResults if a results folder, of a scenario or a suite, mixes several runs or was changed. It looks
+/// twice, because another run may replace the files meanwhile. Older versions' results, which lack the hash, are
+/// accepted.
 void refuseMixture(const std::filesystem::path& folder);
 
 }  // namespace ursula::report

@@ -25,12 +25,12 @@ std::string effortLabel(const char* what, const std::vector<Indexed>& efforts) {
   return fmt::format("{} ({})", what, text);
 }
 
-/// What an effort may be off by, in the unit that the machine's efforts share: "limit_tau_Nm" or "limit_tau_N".
+/// The column of the efforts' limit, in the unit that they share: "limit_tau_Nm" or "limit_tau_N".
 std::string limitColumn(const TimeSeries& series) {
   return series.find("limit_tau_N") == nullptr ? "limit_tau_Nm" : "limit_tau_N";
 }
 
-/// What decides: the derived limit, or a tolerance of the user's.
+/// Adds the decisive limit: the derived one, or a user's tolerance.
 void addEffortLimit(TimePlots& time, Plot& plot, const std::string& unit, double allowed, double side) {
   const std::string label = std::string(side < 0 ? "− " : "") + (allowed > 0 ? "your tolerance" : "limit");
   const Line line = {label, unit, 0, Stroke::limit, {}};
@@ -71,7 +71,7 @@ void addErrors(TimePlots& time, double allowed) {
   time.keep(std::move(energy));
 }
 
-/// The rates of what motors drive; empty where one is not there.
+/// The rates of driven coordinates; empty if one is missing.
 std::vector<const std::vector<double>*> drivenRates(const TimeSeries& series, const Motors& motors) {
   std::vector<const std::vector<double>*> out;
   for (const Motor& motor : motors)
@@ -81,7 +81,7 @@ std::vector<const std::vector<double>*> drivenRates(const TimeSeries& series, co
   return out;
 }
 
-/// What the motor does: effort times rate of the coordinate that it drives.
+/// The motors' power: effort times the rate of the driven coordinate.
 void addPower(TimePlots& time, const std::vector<Indexed>& efforts, const Motors& motors) {
   const std::vector<const std::vector<double>*> rates = drivenRates(time.series(), motors);
   if (rates.empty() || rates.size() != efforts.size()) return;

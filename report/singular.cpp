@@ -7,14 +7,14 @@
 namespace ursula::report {
 namespace {
 
-/// What one leg does to its point B at one instant.
+/// A leg's effect on its point B at one instant.
 struct LegAtInstant {
-  Vector3d B, normal;  ///< the force along `normal` at B is the one that the motor, held, can bear
-  double advance = 0;  ///< of B along `normal` for a unit of the motor's rate, m
+  Vector3d B, normal;  ///< `normal` is the direction of the force at B that the locked motor can resist
+  double advance = 0;  ///< advance of B along `normal` per unit rate of the motor, m
 };
 
-/// Velocities of B by unit rates of the joints before it: the motor's, then the passive ones. Empty where their number
-/// is another.
+/// Velocities of B per unit rates of the joints before it: the motor's, then the passive ones. Empty if their number
+/// differs.
 std::vector<Vector3d> velocitiesOfB(const Picture::Leg& leg, std::size_t k) {
   const Vector3d B = leg.links.back().to[k];
   std::vector<Vector3d> motor, passive;
@@ -55,7 +55,7 @@ std::optional<WeakDirections> weakAt(const Picture& picture, std::size_t k, doub
   return out;
 }
 
-/// The largest distance of a leg's hold from P.
+/// The largest distance of a leg's platform point from P.
 double sizeOf(const Picture& picture) {
   double size = 0;
   for (const Vector3d& point : picture.platform_points) size = std::max(size, point.norm());

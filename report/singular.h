@@ -8,17 +8,17 @@
 
 namespace ursula::report {
 
-/// Where a machine is weakest at one instant, from the picture's points and axes alone.
+/// The weakest directions of a machine at one instant, from the picture's points and axes only.
 struct WeakDirections {
-  /// [ω; v of P] of the platform that the motors, held, resist least: rotations times the machine's size, m. Norm 1; of
-  /// the sign that is nearer to the instant before. At a singular pose of the second kind nothing resists it.
+  /// The platform's [ω; v of P] that the locked motors resist least, with rotations times the machine's size, m. It has
+  /// norm 1 and the sign nearer to the previous instant. Nothing resists it at a singular pose of the second kind.
   Eigen::Matrix<double, 6, 1> yielding;
-  std::size_t leg = 0;  ///< that is nearest to where its motor no longer moves B
-  Vector3d lost;        ///< unit vector: along it that leg's motor hardly moves B
+  std::size_t leg = 0;  ///< index of the leg nearest to losing its motor's effect on B
+  Vector3d lost;        ///< unit vector along which that leg's motor hardly moves B
 };
 
-/// At each instant of `picture`. None where a leg is not held by two turning joints beside its turning motor, or where
-/// a leg is stretched so that no direction can be told.
+/// Evaluates each instant of `picture`. Returns nullopt unless each leg has two passive rotating joints beside its
+/// rotating motor, or if a stretched leg leaves a direction undetermined.
 std::optional<std::vector<WeakDirections>> weakDirections(const Picture& picture);
 
 }  // namespace ursula::report

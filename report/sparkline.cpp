@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t steps = 40;
 constexpr double line_width = 100, line_height = 22;
 
-/// Zero, where an error starts from, has no place among decades.
+/// Zero, where an error starts, has no place among decades.
 bool takes(double value) { return std::isfinite(value) && value > 0; }
 
 }  // namespace
@@ -39,7 +39,7 @@ std::string sparkline(const std::vector<double>& trend) {
   for (const double value : trend)
     if (takes(value)) low = std::min(low, value), high = std::max(high, value);
   if (high == 0) return "";
-  // At least a decade high: what hardly changes shall not look as if it did.
+  // The height is at least a decade, so small changes do not look large.
   const double bottom = std::min(std::log10(low), std::log10(high) - 1), span = std::log10(high) - bottom;
   std::string d;
   bool pen_down = false;

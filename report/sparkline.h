@@ -7,11 +7,11 @@
 
 namespace ursula::report {
 
-/// The replay's error in position, m: the largest in each of few equal parts of the rows, NaN where there is none.
-/// Empty where there was no replay.
+/// The replay's position error, m: the largest in each of a few equal parts of the rows, NaN for parts without one.
+/// Empty without a replay.
 std::vector<double> trendOf(const TimeSeries& series);
 
-/// A trend as a line over decades, the size of a word; "" where nothing is to be drawn.
+/// Returns a trend as a line over decades, as large as a word; "" if there is nothing to draw.
 std::string sparkline(const std::vector<double>& trend);
 
 }  // namespace ursula::report

@@ -33,7 +33,7 @@ Statistics statisticsOf(const std::vector<double>& t, const std::vector<double>&
   return out;
 }
 
-/// Twelve half decades up to the largest; smaller ones and zeros count into the first.
+/// Twelve half decades up to the largest; the first bin also counts smaller values and zeros.
 std::string histogram(const std::vector<double>& values, double largest) {
   constexpr int bins = 12;
   std::array<int, bins> counts{};

@@ -6,8 +6,8 @@
 
 namespace ursula::report {
 
-/// A table of the errors over time: maximum with its instant, root of the mean square, last, and a histogram of their
-/// decades. Empty where there are no errors.
+/// Returns a table of the errors over time: maximum with its instant, root mean square, last value, and a histogram of
+/// their decades. Empty if there are no errors.
 std::string statisticsTable(const ValidationResult& result);
 
 }  // namespace ursula::report

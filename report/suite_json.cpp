@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// To the millisecond: more would be noise.
+// Rounds to the millisecond, because more digits would be noise.
 double rounded(double seconds) { return std::round(seconds * 1000) / 1000; }
 
 Json checkCounts(const std::vector<Check>& checks) {

@@ -7,12 +7,12 @@
 
 namespace ursula::report {
 
-/// As for checks: nothing validated is not a success.
+/// The verdict over all entries; as for checks, an empty suite is no success.
 Verdict suiteVerdict(const std::vector<SuiteEntry>& entries);
 
 std::size_t countOf(const std::vector<SuiteEntry>& entries, Verdict verdict);
 
-/// Wall time of all, one after the other, s.
+/// The sum of all wall times, s.
 double secondsOf(const std::vector<SuiteEntry>& entries);
 
 /// `suite.json`: verdict, counts and wall times of all and of each scenario.

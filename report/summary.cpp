@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// nlohmann::json itself writes null for what is not finite.
+// nlohmann::json writes null for numbers that are not finite.
 Json checkJson(const Check& check) {
   return {{"name", check.name},
           {"value", check.value},
@@ -37,7 +37,7 @@ Json deviationJson(const EffortDeviation& deviation) {
           {"allowed", deviation.allowed}};
 }
 
-// A key that comes twice keeps both texts.
+// A repeated key keeps both texts.
 Json object(const std::vector<std::pair<std::string, std::string>>& facts) {
   Json json = Json::object();
   for (const auto& [key, text] : facts) {
@@ -46,7 +46,7 @@ Json object(const std::vector<std::pair<std::string, std::string>>& facts) {
   return json;
 }
 
-// Fields that do not apply are absent.
+// Fields that do not apply are omitted.
 Json causeJson(const NamedCause& cause) {
   Json json = {{"kind", name(cause.kind)}};
   const auto addText = [&](const char* key, const std::string& text) {

@@ -6,13 +6,13 @@
 
 namespace ursula::report {
 
-/// With the run in its provenance, as files have it: see run.h.
+/// Returns the result with the run in its provenance, as files contain it: see run.h.
 ValidationResult stamped(const ValidationResult& result);
 
-/// `summary.json`. A number that is not finite becomes null; findings and provenance are objects in their own order.
+/// `summary.json`. A number that is not finite becomes null; findings and provenance are ordered objects.
 std::string summaryJson(const ValidationResult& result);
 
-/// What stands in a summary's place for a scenario that is in error: scenario, verdict "error" and error.
+/// The summary of a scenario with an error: scenario, verdict "error" and error.
 std::string errorJson(const std::string& scenario, const std::string& error);
 
 }  // namespace ursula::report

@@ -15,7 +15,7 @@ using Point = Eigen::Vector2d;
 
 constexpr double frame_width = 640, frame_height = 420, frame_margin = 24;
 
-/// From above and aside, without perspective.
+/// A parallel projection from above and to the side.
 Point projected(const Vector3d& v) {
   const double azimuth = -0.6, elevation = 0.38;
   const double x = std::cos(azimuth) * v.x() - std::sin(azimuth) * v.y();
@@ -23,7 +23,7 @@ Point projected(const Vector3d& v) {
   return {x, -(std::cos(elevation) * v.z() + std::sin(elevation) * y)};
 }
 
-/// Maps what is drawn onto the sheet.
+/// Maps the drawing to the sheet.
 class Sheet {
  public:
   void include(const Vector3d& v) {
@@ -50,7 +50,7 @@ std::string polygon(const char* style, const std::vector<Vector3d>& points, cons
   return fmt::format("<path class=\"{}\" d=\"{}{}\"/>", style, d, closed ? "Z" : "");
 }
 
-/// The convex outline as it is seen.
+/// The convex outline in the projection.
 std::vector<Vector3d> outline(std::vector<Vector3d> points) {
   const auto turn = [](const Vector3d& a, const Vector3d& b, const Vector3d& c) {
     const Point u = projected(b) - projected(a), v = projected(c) - projected(b);

@@ -6,7 +6,7 @@
 
 namespace ursula::report {
 
-/// The machine at the start of its motion, with its path: a drawing for readers without WebGL, and for paper.
+/// Returns the machine at the start of its motion, with its path, for readers without WebGL and for paper.
 std::string svgMachine(const Picture& picture);
 
 }  // namespace ursula::report

@@ -50,7 +50,7 @@ Frame frameOf(const Plot& plot) {
   for (const double value : plot.x) frame.x.include(value);
   for (const Line& line : plot.lines)
     for (const double value : line.values) frame.y.include(value);
-  if (!plot.log_x && frame.x.high > frame.x.low) {  // time starts and ends at the frame
+  if (!plot.log_x && frame.x.high > frame.x.low) {  // the time axis spans the frame exactly
     frame.y.widen();
     return frame;
   }
@@ -116,7 +116,7 @@ std::string path(const Plot& plot, const Line& line, const Frame& frame) {
   return d.empty() ? "" : fmt::format("<path class=\"{}\" d=\"{}\"/>", classOf(line), d);
 }
 
-/// The tube between the first two lines, where both are drawn.
+/// The tube between the first two lines, where both have values.
 std::string tube(const Plot& plot, const Frame& frame) {
   if (!plot.tube || plot.lines.size() < 2) return "";
   const std::vector<double>&high = plot.lines[0].values, &low = plot.lines[1].values;
@@ -129,7 +129,7 @@ std::string tube(const Plot& plot, const Frame& frame) {
   return above.empty() ? "" : fmt::format("<path class=\"tube\" d=\"{}{}Z\"/>", above, below);
 }
 
-/// One entry for each line that is drawn; those that do not fit are left out.
+/// One entry per drawn line; entries that do not fit are omitted.
 std::string legend(const Plot& plot) {
   std::string out;
   double x = left;
@@ -137,7 +137,8 @@ std::string legend(const Plot& plot) {
   for (const Line& line : plot.lines) {
     if (!isDrawable(plot, line) || line.stroke == Stroke::points) continue;
     std::size_t letters = 0;
-    for (const char c : line.label) letters += (static_cast<unsigned char>(c) & 0xC0) != 0x80;  // of UTF-8
+    for (const char c : line.label)
+      letters += (static_cast<unsigned char>(c) & 0xC0) != 0x80;  // counts UTF-8 characters
     const double wide = 34 + 6.2 * static_cast<double>(letters);
     if (x + wide > width && x > left) x = left, y += 15;
     if (y > 30) break;

@@ -6,8 +6,8 @@
 
 namespace ursula::report {
 
-/// A chart as a static drawing: for readers without scripts, for paper, and to be saved. Colours are classes of the
-/// page's style. Empty where nothing can be drawn.
+/// Returns a chart as a static drawing, for readers without scripts, for paper and for download. The page's style
+/// defines its colour classes. Empty if nothing can be drawn.
 std::string svgPlot(const Plot& plot);
 
 /// Round numbers within [low, high], about `count` of them.

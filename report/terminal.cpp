@@ -36,7 +36,7 @@ bool isShown(const Check& check) {
   return check.verdict != Verdict::not_applicable || check.reason == Reason::reported;
 }
 
-/// Something that is to be seen to: its why stands beside it.
+/// Whether the check needs attention, so that its explanation is shown.
 bool isOpen(const Check& check) { return check.verdict == Verdict::fail || check.verdict == Verdict::inconclusive; }
 
 std::string numberText(double value) {
@@ -44,7 +44,7 @@ std::string numberText(double value) {
   return std::isinf(value) ? "infinite" : fmt::format("{:.3g}", value);
 }
 
-/// Only where value and limit decided: of a limit that says nothing, a share says nothing.
+/// Only if value and limit decided: the share of a useless limit means nothing.
 std::string shareText(const Check& check) {
   const double share = limitShare(check);
   if (check.verdict == Verdict::inconclusive || check.verdict == Verdict::not_applicable || std::isnan(share))
@@ -54,7 +54,7 @@ std::string shareText(const Check& check) {
   return share == 0 ? "0 %" : share < 1e-4 ? "< 0.01 %" : fmt::format("{:.2g} %", 100 * share);
 }
 
-/// A number of forces and moments together has no unit that it could be read in: the share says it.
+/// A value that mixes forces and moments has no readable unit, so only the share is shown.
 std::vector<std::string> row(const Check& check) {
   const bool mixed = check.unit.find(',') != std::string::npos;
   const bool none = std::isnan(check.value) && std::isnan(check.limit);
@@ -69,7 +69,7 @@ std::string word(const Check& check) {
 
 std::string causeOf(const ValidationResult& result) { return result.likely_cause ? result.likely_cause->cause : ""; }
 
-/// In one line, without what is said of all checks at once.
+/// The explanation in one line, without the cause that applies to all checks.
 std::string whyLine(const Check& check, const std::string& cause) {
   std::string why = withoutCause(cause, check.why);
   std::replace(why.begin(), why.end(), '\n', ' ');
@@ -79,7 +79,7 @@ std::string whyLine(const Check& check, const std::string& cause) {
 
 std::string indented(std::size_t columns, const std::string& text) { return std::string(columns, ' ') + text + "\n"; }
 
-/// Neighbours for the same reason share its line.
+/// Adjacent checks with the same reason share its line.
 std::string groupText(const std::vector<const Check*>& checks, const std::vector<std::string>& lines,
                       const std::string& cause, bool coloured) {
   std::string out;
@@ -117,7 +117,7 @@ std::string checksTable(const ValidationResult& result, bool coloured) {
 }
 
 std::string notApplicableText(const std::vector<Check>& checks) {
-  std::map<std::string, std::string> names;  // by reason
+  std::map<std::string, std::string> names;  // keyed by reason
   for (const Check& check : checks) {
     if (isShown(check)) continue;
     std::string& of = names[check.why];
@@ -132,7 +132,7 @@ std::string optionalText(const std::optional<double>& value, const std::string& 
   return value ? fmt::format("{:.6g}{}", *value, unit) : "";
 }
 
-/// How far each motor is off: a table, for six of them in a line nobody reads.
+/// The deviation of each motor as a table, because six of them in one line are unreadable.
 std::string motorsText(const std::vector<MotorDeviation>& motors) {
   std::vector<std::vector<std::string>> rows = {{"motor", "off by", "at t", "factor", "offset"}};
   for (const MotorDeviation& motor : motors)
@@ -144,7 +144,7 @@ std::string motorsText(const std::vector<MotorDeviation>& motors) {
   return out;
 }
 
-/// What moved the replay off the path, a line for each source.
+/// The sources of the replay's error, one per line.
 std::string replayText(const ReplayError& found) {
   std::string out = "dominant error: " + found.dominant + "\n";
   if (!found.measured) return out;
@@ -166,7 +166,7 @@ bool replayIsOpen(const std::vector<Check>& checks) {
                      [](const Check& check) { return isOpen(check) && check.name.rfind("replay.", 0) == 0; });
 }
 
-/// What is known of a replay and of torques that are wrong; what holds needs nothing.
+/// Details of a replay and of wrong torques; right ones need none.
 std::string reasonsText(const ValidationResult& result) {
   std::string out;
   if (result.replay_error && replayIsOpen(result.checks)) out += replayText(*result.replay_error);

@@ -8,18 +8,20 @@
 
 namespace ursula::report {
 
-/// A result as one would paste it into a mail: the checks in groups, each with value, limit, unit and share, a line of
-/// why under what did not pass, what does not apply with its reason, which motors are off, and the verdict.
+/// Returns a result as text for a mail: the checks in groups, each with value, limit, unit and share. A line of
+/// explanation follows each check that did not pass. Then come checks that do not apply with the reason, motors with
+/// deviations, and the verdict.
 std::string validationText(const ValidationResult& result, bool coloured);
 
-/// The verdict in a line; under it a line for each check that failed or cannot be judged, and the likely cause.
+/// Returns the verdict in a line, then a line per failed or undecided check, and the likely cause.
 std::string quietText(const ValidationResult& result, bool coloured);
 std::string quietText(const SuiteEntry& entry, bool coloured);
 
-/// A line for each scenario in the order given, then the totals. `dir` holds their folders.
+/// Returns a line per scenario in the given order, then the totals. `dir` contains their folders.
 std::string suiteText(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir, bool coloured);
 
-/// Whether to colour: on a terminal only, not with NO_COLOR set and not empty, not on a dumb one. Null: not set.
+/// Whether to use colour: only on a terminal that is not dumb, and unless NO_COLOR is set and non-empty. Null means not
+/// set.
 bool wantsColour(bool is_terminal, const char* no_color, const char* term);
 
 }  // namespace ursula::report

@@ -8,7 +8,7 @@
 namespace ursula::report {
 namespace {
 
-/// Named by one word: its verdict, or that there is none.
+/// The verdict in one word, or "error".
 std::string word(const SuiteEntry& entry) { return entry.error.empty() ? name(entry.verdict) : "error"; }
 
 Paint paintOf(const SuiteEntry& entry) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* replacement = "\xEF\xBF\xBD";  // U+FFFD
 
-/// Without U+FFFE and U+FFFF, which are no characters of XML 1.0.
+/// Removes U+FFFE and U+FFFF, which XML 1.0 forbids.
 std::string validUtf8(const std::string& text) {
   using Json = nlohmann::json;
   std::string out = Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();

@@ -24,7 +24,7 @@ int severity(Verdict verdict) {
   return 0;
 }
 
-// A number beyond its limit tells more than one that is missing, often only its consequence.
+// A number beyond its limit says more than a missing one, which is often only its consequence.
 std::pair<int, double> badness(const Check& check) {
   const double share = limitShare(check);
   return {severity(check.verdict), std::isnan(share) ? 1.0 : share};
@@ -72,7 +72,7 @@ std::string reason(Verdict verdict, const std::vector<Check>& checks) {
   const auto total = judgedCount(checks);
   const auto count =
       std::count_if(checks.begin(), checks.end(), [verdict](const Check& check) { return check.verdict == verdict; });
-  // A caller may judge harder than its checks do; then they are not the reason.
+  // A caller may set a worse verdict than its checks; then they are not the reason.
   if (worst.verdict != verdict) return fmt::format("{} as a whole, for a reason beyond its checks.", name(verdict));
   switch (verdict) {
     case Verdict::fail:
