@@ -1,4 +1,4 @@
-// (49)–(55) and ω of the Appendix, for a helix that starts and ends in motion, which the example does not.
+// (49)–(55) and ω of the Appendix, for a helix that starts and ends in motion, unlike the example.
 
 #include <Eigen/Geometry>
 #include <limits>
@@ -28,7 +28,7 @@ struct Helix {
         (12 * beta_f - 12 * beta_0 - (6 * rate_f + 6 * rate_0) * T - (acceleration_0 - acceleration_f) * T2) /
             (2 * T2 * T2 * T)};
   }
-  /// (50), and (53) from its first term that is not zero.
+  /// (50), and (53) from its first non-zero term.
   S beta(const S& t) const {
     return sum(
         t, [](int) { return 1; }, 0);

@@ -34,7 +34,7 @@ std::vector<Formula> allFormulas(const Manipulator& manipulator) {
   add(complementFormulas(manipulator));
   add(bodyFormulas());
   add(appendixFormulas());
-  // Stable: what carries the same number keeps its order.
+  // The sort is stable: equal numbers keep their order.
   const auto number = [](const Formula& formula) {
     const std::size_t digit = formula.equation.find_first_of("0123456789");
     return digit == std::string::npos ? 1000 : std::stoi(formula.equation.substr(digit));
@@ -43,7 +43,7 @@ std::vector<Formula> allFormulas(const Manipulator& manipulator) {
   return all;
 }
 
-/// Largest component of a − b; NaN where one is, or where the sides do not match.
+/// Largest component of a − b; NaN if one is NaN, or if the sizes differ.
 double mismatch(const Values& a, const Values& b) {
   if (a.size() != b.size() || a.empty()) return nan;
   S worst(0);
@@ -88,7 +88,7 @@ AuditRow rowOf(const Formula& formula, const Scenario& scenario, const std::vect
   return row;
 }
 
-/// Every error that enters (37) at once, with and without the one that puts the legs out of reach; and none, as a
+/// Every error that enters (37) at once, with and without the one that makes the legs too short; and none, as a
 /// control.
 std::vector<AuditRow> allTogether(const Scenario& scenario, const std::vector<Formula>& formulas) {
   std::vector<AuditRow> rows;
@@ -131,7 +131,7 @@ Audit runAudit(const Scenario& scenario) {
   result.largest_torque = audit::largestTorque(scenario, audit::torque_samples);
   const audit::WitnessStand stand(*scenario.manipulator, *scenario.trajectory);
   std::vector<audit::Witness> witnesses;
-  for (int k = 1; k < 8; ++k) {  // mid-motion, so that no rate vanishes for all of them
+  for (int k = 1; k < 8; ++k) {  // mid-motion instants, so that no rate vanishes at all of them
     result.instants.push_back(result.duration * k / 8);
     witnesses.push_back(stand.at(Real50(result.instants.back())));
   }

@@ -26,7 +26,7 @@ const AuditRow* rowOf(const Audit& result, const std::string& equation) {
   return row == result.rows.end() ? nullptr : &*row;
 }
 
-/// Typeset, or as text where it is no formula.
+/// The typeset formula, or the text if it is none.
 std::string formula(const std::string& text) {
   static const nlohmann::json mathml = nlohmann::json::parse(report::formulas_mathml);
   return mathml.contains(text) ? mathml[text].get<std::string>() : escaped(text);
@@ -48,13 +48,13 @@ std::string line(const std::string& head, const std::vector<std::string>& cells)
   return out + "</tr>\n";
 }
 
-// A sign and a word beside the colour.
+// A sign and a word accompany the colour.
 const char* const fails_badge = "<span class=\"badge fail\"><span aria-hidden=\"true\">✗</span> ";
 const char* const holds_badge = "<span class=\"badge pass\"><span aria-hidden=\"true\">✓</span> ";
 
 std::string signedResidual(const char* badge, const std::string& text) { return badge + escaped(text) + "</span>"; }
 
-/// Both readings, one below the other, each beside its residual.
+/// Both versions, one below the other, each with its residual.
 std::string pairOf(const AuditRow& row) {
   return fmt::format(
       "<tr><th scope=\"rowgroup\" rowspan=\"2\">{}</th><td>printed</td><td>{}</td><td>{}</td><td "

@@ -1,4 +1,4 @@
-// (39)–(44): how the bodies move.
+// (39)–(44): the motion of the bodies.
 
 #include <Eigen/Geometry>
 
@@ -7,7 +7,7 @@
 namespace ursula::audit {
 namespace {
 
-/// [e] and [s] of (39) by the angles of (9), with their derivatives of (42).
+/// [e] and [s] of (39) from the angles of (9), with their derivatives (42).
 struct Direction {
   V value, rate, acceleration;
 };

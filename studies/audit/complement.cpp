@@ -1,5 +1,5 @@
-// (32), (33), (36), (37), (45), (47), (48): what the natural orthogonal complement makes of the equations of motion,
-// against torques and T by virtual work.
+// (32), (33), (36), (37), (45), (47), (48): the equations of motion by the natural orthogonal complement, compared with
+// torques and T by virtual work.
 
 #include <Eigen/Geometry>
 #include <memory>
@@ -10,7 +10,7 @@
 namespace ursula::audit {
 namespace {
 
-/// The solver's T and Ṫ at a witness.
+/// The solver's T and Ṫ at a reference state.
 class Shaping {
  public:
   explicit Shaping(const Manipulator& manipulator) : solver_(manipulator) {}
@@ -38,7 +38,7 @@ class Shaping {
     solver_.inverseDynamics(at.motion, work);
     return solver_.D(at.motion, work);
   }
-  /// Left by (31) under the torques of virtual work.
+  /// The remainder of (31) under the torques of virtual work.
   BodyVector<S> constraintWrench(const Witness& at) const {
     NocWorkspace<S> work;
     solver_.inverseDynamics(at.motion, work);

@@ -1,4 +1,4 @@
-// (28)–(31), (34), (35), (38), (45): Newton and Euler for every body, against momentum by differences.
+// (28)–(31), (34), (35), (38), (45): Newton–Euler for every body, compared with differences of momentum.
 
 #include <Eigen/Geometry>
 
@@ -33,7 +33,7 @@ Formula newtonEuler() {
   return f;
 }
 
-/// The remark below (29), with W's lower block zero, against axes of B.
+/// The remark below (29), with W's lower block zero, compared with axes of B.
 Formula bodyAxes() {
   Formula f;
   f.equation = "text by (29)";
@@ -42,7 +42,7 @@ Formula bodyAxes() {
   f.unit = "N";
   const auto reading = [](bool whole) {
     return overLegs([whole](const Witness&, const LegWitness& leg) {
-      // m d(Gᵀċ)/dt, and with Ω in the lower block + ω × m Gᵀċ.
+      // m d(Gᵀċ)/dt, plus ω × m Gᵀċ with Ω in the lower block.
       const M G = leg.at.G(), G_dot = leg.dot.G();
       const V momentum = leg.m_proximal * V(G.transpose() * leg.dot.c());
       const V rate = leg.m_proximal * V(G_dot.transpose() * leg.dot.c() + G.transpose() * leg.ddot.c());

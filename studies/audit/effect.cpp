@@ -56,7 +56,7 @@ class DynamicsBy36 {
   BodyMotions<double> bodies_;
 };
 
-/// When P is `far` off for the first time, between the steps by their interpolation; negative for never.
+/// The first time at which P is off by `far`, interpolated between steps; negative for never.
 double firstBeyond(const Replay& replay, double far) {
   constexpr int grid = 4096;
   if (replay.steps.empty()) return -1;
@@ -78,7 +78,7 @@ Vector6d torquesThatHold(const Scenario& scenario, const Motion<double>& motion)
 
 Torques torquesWith(const Scenario& scenario, const WithFormulaErrors& formula_errors, bool through_36) {
   if (!through_36) return wrongNocSubject(*scenario.manipulator, scenario.load, formula_errors).torques;
-  // What (36) adds to its own right answer is the error's; friction and load are in (37).
+  // The error's effect is the change of (36) from its right result; (37) contains friction and load.
   const auto altered = std::make_shared<DynamicsBy36>(*scenario.manipulator, formula_errors);
   const auto right = std::make_shared<DynamicsBy36>(*scenario.manipulator, WithFormulaErrors());
   const Torques by_37 = nocSubject(*scenario.manipulator, scenario.load).torques;
@@ -106,7 +106,7 @@ AuditEffect effectOf(const Scenario& scenario, const Torques& torques, int sampl
       if (!(error <= effect.torque_error)) effect.torque_error = error;  // keeps a NaN
     }
   } catch (const std::bad_alloc&) {
-    throw;  // says nothing of the formula
+    throw;  // it says nothing about the formula
   } catch (const std::exception& error) {
     effect.refused = error.what();
     return effect;

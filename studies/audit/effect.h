@@ -9,10 +9,10 @@ namespace ursula::audit {
 
 using Torques = std::function<Vector6d(const Motion<double>&)>;
 
-/// Torques with `errors`, by (37) or, for formulas that only Ṫ needs, by (36).
+/// Torques with `formula_errors`, by (37) or, for formulas that only Ṫ needs, by (36).
 Torques torquesWith(const Scenario& scenario, const WithFormulaErrors& formula_errors, bool through_36);
 
-/// Torques and replay against those of the formulas that hold, at `samples` instants.
+/// Compares torques and replay with those of the correct formulas, at `samples` instants.
 AuditEffect effectOf(const Scenario& scenario, const Torques& torques, int samples, double replay_tolerance);
 
 /// The largest torque of the motion, N·m.

@@ -1,6 +1,6 @@
 #pragma once
 
-// One formula of the audit: its two readings and what both should give.
+// One formula of the audit: its two versions and the expected values.
 
 #include <functional>
 #include <string>
@@ -30,7 +30,7 @@ Values values(const Parts&... parts) {
 using Side = std::function<Values(const Witness&)>;
 using LegSide = std::function<Values(const Witness&, const LegWitness&)>;
 
-/// A side that every leg has.
+/// One side of an equation, collected over all legs.
 inline Side overLegs(LegSide side) {
   return [side = std::move(side)](const Witness& witness) {
     Values all;
@@ -44,19 +44,19 @@ inline Side overLegs(LegSide side) {
 
 struct Formula {
   std::string equation;
-  std::string printed;  ///< as printed in our source, in plain text; the leg's index is left out
-  std::string holds;    ///< empty where the printed one holds
+  std::string printed;  ///< as printed in our source, in plain text without the leg's index
+  std::string holds;    ///< empty if the printed one is correct
   std::string unit;
-  Side as_printed;  ///< every input exact, so that the formula alone is on trial
-  Side that_holds;  ///< empty where the printed one holds
-  Side truth;       ///< from the witness
+  Side as_printed;  ///< every input is exact, so only the formula is under audit
+  Side that_holds;  ///< empty if the printed one is correct
+  Side truth;       ///< the expected values
   std::string note;
-  std::vector<FormulaError> formula_errors;  ///< the same misreading in the solver, for what it does to the torques
-  bool through_36 = false;                   ///< does not enter (37): its torques are those of (36)
-  bool misprint = false;                     ///< dimensions or types do not match, or a symbol is plainly another's
+  std::vector<FormulaError> formula_errors;  ///< the same error in the solver, to find its effect on the torques
+  bool through_36 = false;                   ///< (37) does not use it: its torques are those of (36)
+  bool misprint = false;  ///< dimensions or types do not match, or a symbol plainly belongs elsewhere
 };
 
-/// Velocity and acceleration of B as (6), (8) write them.
+/// Velocity and acceleration of B as in (6), (8).
 inline V velocityOfB(const Witness& at, const LegWitness& leg) {
   return at.platform.p_dot + crossMatrix(at.platform.omega) * at.platform.Q * leg.b;
 }
@@ -80,7 +80,7 @@ inline Vector6<S> stack(const V& angular, const V& linear) {
   return six;
 }
 
-/// Of B from the axis of φ, signed, m.
+/// The signed distance of B from the axis of φ, m.
 inline S distanceFromAxis(const LegWitness& leg) {
   return leg.s * sin(leg.at.psi() + leg.at.theta()) - leg.l * sin(leg.at.psi());
 }

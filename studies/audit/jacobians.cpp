@@ -16,7 +16,7 @@ Matrix6<S> stacked(const Witness& at, Vector6<S> (*row)(const LegWitness&)) {
 
 Vector6<S> rowOf(const LegPose& pose) { return pose.rowOfB(); }
 
-/// The first row's six entries; leg 1 is the one whose row is printed without Q.
+/// The first row's six entries; the source prints the row of leg 1 without Q.
 Formula forwardJacobianRate() {
   Formula f;
   f.equation = "(26) Ḃ";

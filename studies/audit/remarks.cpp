@@ -27,7 +27,7 @@ AuditRemark ranges(const std::vector<Witness>& witnesses) {
               k_z > 0 ? ": without the range, (14a) as a principal value would do here" : "")};
 }
 
-/// Where the printed denominator of (15a), (19a) changes its sign, the printed formulas divide by zero.
+/// The printed formulas divide by zero where the printed denominator of (15a), (19a) changes its sign.
 AuditRemark vanishingDenominator(const Scenario& scenario, const WitnessStand& stand) {
   constexpr int grid = 300;
   std::string legs;
@@ -48,7 +48,7 @@ AuditRemark vanishingDenominator(const Scenario& scenario, const WitnessStand& s
                     "instants sampled. The distance of B from the axis does not vanish."};
 }
 
-/// (27) and the first two rows of (13) of every leg with (ψ, θ) turned into (−ψ, −θ).
+/// (27) and the first two rows of (13) of every leg with (−ψ, −θ) instead of (ψ, θ).
 AuditRemark mirroredLegs(const std::vector<Witness>& witnesses) {
   S worst(0), third(0);
   for (const Witness& witness : witnesses)
@@ -67,7 +67,7 @@ AuditRemark mirroredLegs(const std::vector<Witness>& witnesses) {
                   worst.convert_to<double>(), third.convert_to<double>())};
 }
 
-/// About the joint, the inertia of a link is at least m ρ² across it.
+/// About the joint, a link's transverse moment of inertia is at least m ρ².
 AuditRemark inertiaPoints(const Scenario& scenario) {
   const auto left = [](const Link& link) {
     return link.inertia(0, 0) - link.mass * link.center_of_mass * link.center_of_mass;

@@ -7,7 +7,7 @@
 
 namespace ursula::audit {
 
-/// What the text says beside its formulas, measured where there is something to measure.
+/// Statements of the text beside its formulas, measured if possible.
 std::vector<AuditRemark> remarks(const Scenario& scenario, const WitnessStand& stand,
                                  const std::vector<Witness>& witnesses);
 

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t equation_width = 15, label_width = 9, residual_width = 32, page_width = 120;
 constexpr std::size_t text_width = page_width - equation_width - label_width - residual_width;
 
-/// Code points but for combining marks, which take no column.
+/// Counts code points without combining marks, which take no column.
 std::size_t columns(const std::string& text) {
   std::size_t count = 0;
   for (std::size_t k = 0; k < text.size(); ++k) {
@@ -44,7 +44,7 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
   return lines;
 }
 
-/// One labelled line, the text wrapped, the residual at the right of the first.
+/// One labelled line with wrapped text; the residual is at the right of the first line.
 std::string line(const std::string& equation, const std::string& label, const std::string& text,
                  const std::string& residual) {
   if (columns(equation) >= equation_width) return equation + "\n" + line("", label, text, residual);
@@ -148,7 +148,7 @@ std::string auditJson(const Audit& result) {
                                   {"printed", row.printed},
                                   {"holds", row.kind == AuditRow::Kind::holds ? row.printed : row.holds},
                                   {"unit", row.unit},
-                                  {"residual_printed", row.residual_printed},  // null where none can be said
+                                  {"residual_printed", row.residual_printed},  // null if undefined
                                   {"residual_holds", row.residual_holds},
                                   {"size", row.size},
                                   {"note", row.note}};

@@ -7,7 +7,7 @@
 namespace ursula::audit {
 namespace {
 
-/// The frame of (2) where an axis may be tilted: x̂ = (u × e_z)/‖·‖, ŷ = u, ẑ = x̂ × u.
+/// The frame of (2) for a tilted axis: x̂ = (u × e_z)/‖·‖, ŷ = u, ẑ = x̂ × u.
 M fixedFrame(const V& u) {
   const V e_z = V::UnitZ();
   const bool along_e_z = u.cross(e_z).squaredNorm() < S(1e-20);
@@ -42,7 +42,7 @@ M rotationAbout(int axis, const S& angle) {
   return M::Identity() + sin(angle) * K + (1 - cos(angle)) * K * K;
 }
 
-/// Angles that differ from `center` by less than half a turn.
+/// Makes angles differ from `center` by less than half a turn.
 void unwrap(LegPose& pose, const LegPose& center) {
   const S turn = 2 * acos(S(-1));
   for (int k = 0; k < 3; ++k) pose.v(k) -= turn * round((pose.v(k) - center.v(k)) / turn);
@@ -61,7 +61,7 @@ BodyWitness linkBody(const S& mass, const M& I, const M& R, const M& R_dot, cons
   return body;
 }
 
-/// Friction as it acts on φ, ψ, θ of a leg.
+/// Friction forces on φ, ψ, θ of a leg.
 V frictionForces(const Leg& leg, const LegPose& rate) {
   const double viscous[3] = {leg.friction.phi, leg.friction.psi, leg.friction.theta};
   const double coulomb[3] = {leg.coulomb.phi, leg.coulomb.psi, leg.coulomb.theta};
@@ -109,8 +109,8 @@ Vector6<S> Witness::phi_ddot() const {
 WitnessStand::WitnessStand(const Manipulator& manipulator, const Trajectory& trajectory)
     : manipulator_(manipulator), trajectory_(trajectory) {}
 
-/// B lies in the plane through A that u is in; R where two circles about A and B in that plane meet, on the knee's
-/// side.
+/// B lies in the plane through A that contains u. R is where two circles about A and B in that plane meet, on the
+/// knee's side.
 LegPose WitnessStand::legPose(int i, const V& p, const M& Q) const {
   const Leg& leg = manipulator_.leg(i);
   const V u = unitAxis(leg), Qb = Q * leg.platform_point.cast<S>();
@@ -131,7 +131,7 @@ LegPose WitnessStand::legPose(int i, const V& p, const M& Q) const {
   const V x_0 = fixedFrame(u).col(0), z_0 = fixedFrame(u).col(2);
 
   LegPose pose;
-  pose.v(0) = atan2(S(x.dot(z_0)), S(x.dot(x_0)));             // turns Fᵢ out of the fixed frame
+  pose.v(0) = atan2(S(x.dot(z_0)), S(x.dot(x_0)));             // rotates the fixed frame to Fᵢ
   pose.v(1) = atan2(AR_i.z(), AR_i.y());                       // from ŷ to AR, about x
   pose.v(2) = atan2(S(-AR.cross(RB).dot(x)), S(-AR.dot(RB)));  // from RA to RB, about x
   pose.v(3) = q;
@@ -208,8 +208,8 @@ LegWitness WitnessStand::legAt(int i, const S& t, const PlatformWitness& platfor
   return out;
 }
 
-/// With poses ξ of the platform, D'Alembert: Σ (momentum rate − gravity) · ∂twist/∂ξ̇ = (∂φ/∂ξ)ᵀ τ + friction, and
-/// T = (∂twist/∂ξ̇) (∂φ/∂ξ)⁻¹.
+/// For poses ξ of the platform, D'Alembert's principle gives Σ (momentum rate − gravity) · ∂twist/∂ξ̇ = (∂φ/∂ξ)ᵀ τ +
+/// friction, and T = (∂twist/∂ξ̇) (∂φ/∂ξ)⁻¹.
 void WitnessStand::addVirtualWork(Witness& witness) const {
   const PlatformWitness& platform = witness.platform;
   Eigen::Matrix<S, 6 * body_count, 6> twists = Eigen::Matrix<S, 6 * body_count, 6>::Zero();

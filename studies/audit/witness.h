@@ -1,8 +1,7 @@
 #pragma once
 
-// What the audit's formulas are held against: the mechanism in 50 digits, from vector geometry alone, and its
-// derivatives by differences. Nothing here uses a formula of the paper beyond the definitions of its frames and angles
-// (its Fig. 3).
+// The audit's reference: the mechanism in 50 digits from vector geometry alone, with derivatives by differences. It
+// uses no formula of the paper beyond the definitions of frames and angles (its Fig. 3).
 
 #include <array>
 #include <vector>
@@ -22,7 +21,7 @@ using M = Matrix3<S>;
 M crossMatrix(const V& v);
 V vect(const M& matrix);
 
-/// Position-level quantities of one leg, kept as one vector so that they can be differenced at once.
+/// Position-level quantities of one leg in one vector, which can be differenced at once.
 class LegPose {
  public:
   using Vector = Eigen::Matrix<S, 62, 1>;
@@ -31,7 +30,7 @@ class LegPose {
   const S& psi() const { return v[1]; }
   const S& theta() const { return v[2]; }
   const S& q() const { return v[3]; }                       ///< ‖AB‖
-  const S& a_ii() const { return v[4]; }                    ///< the distance of B from the actuated axis, negated
+  const S& a_ii() const { return v[4]; }                    ///< the negative distance of B from the actuated axis
   V AB() const { return v.segment<3>(5); }                  ///< in B
   V AB_i() const { return v.segment<3>(8); }                ///< in F
   V c() const { return v.segment<3>(11); }                  ///< mass centre of the proximal link
@@ -51,7 +50,7 @@ class LegPose {
   M matrix(int start) const { return Eigen::Map<const M>(v.data() + start); }
 };
 
-/// One leg at one instant: what it is, its pose, and the pose's first and second derivative by differences.
+/// One leg at one instant: its parameters, its pose, and the pose's first and second derivatives by differences.
 struct LegWitness {
   V a, b;
   S l, s, rho, sigma, m_proximal, m_distal;
@@ -60,7 +59,7 @@ struct LegWitness {
   V u;
   LegPose at, dot, ddot;
 
-  /// (1) for the witness' angle, and ωᵢ, ω̇ᵢ of (12), (44) as matrices.
+  /// (1) for the reference angle, and ωᵢ, ω̇ᵢ of (12), (44) as matrices.
   M Q_i() const;
   M Omega_i() const { return crossMatrix(V(S(0), -dot.phi(), S(0))); }
   M Omega_i_dot() const { return crossMatrix(V(S(0), -ddot.phi(), S(0))); }
@@ -81,7 +80,7 @@ struct PlatformWitness {
   Vector6<S> twistRate() const { return (Vector6<S>() << omega_dot, p_ddot).finished(); }
 };
 
-/// One body: what it weighs and how it moves, by differences.
+/// One body: its mass, inertia and motion, by differences.
 struct BodyWitness {
   S mass;
   M I, I_dot;  ///< about the mass centre, in B
@@ -98,16 +97,16 @@ struct Witness {
   PlatformWitness platform;
   std::array<LegWitness, leg_count> legs;
   std::array<BodyWitness, body_count> bodies;
-  /// By virtual work over differences of positions: T of (32a), and the generalised forces conjugate to φ̇.
+  /// By virtual work with differences of positions: T of (32a), and the generalised forces conjugate to φ̇.
   Eigen::Matrix<S, 6 * body_count, leg_count> T;
   Matrix6<S> T_P;      ///< of (24)
-  Vector6<S> torques;  ///< actuators, without external load
+  Vector6<S> torques;  ///< of the actuators, without external load
   Vector6<S> gravity_forces, friction_forces;
   Vector6<S> phi_dot() const;
   Vector6<S> phi_ddot() const;
 };
 
-/// The machine along a trajectory. Throws std::domain_error where a leg cannot reach.
+/// The machine along a trajectory. Throws std::domain_error if a leg cannot reach.
 class WitnessStand {
  public:
   WitnessStand(const Manipulator& manipulator, const Trajectory& trajectory);
@@ -126,7 +125,7 @@ class WitnessStand {
 };
 
 /// First and second derivative at 0 of a vector function by central differences at ±h, ±h/2, ±h/4, ±h/8, extrapolated
-/// to eighth order: off by about h⁸/1e9 and, for rounding, by 1e-50/h and 1e-48/h².
+/// to eighth order. The error is about h⁸/1e9, plus rounding of 1e-50/h and 1e-48/h².
 template <class Vector>
 struct Derivatives {
   Vector value, first, second;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Numbers and sentences that the audit's three forms share.
+// Numbers and sentences that the audit's three formats share.
 
 #include <string>
 
@@ -8,16 +8,16 @@
 
 namespace ursula::audit {
 
-/// Three digits; one for what is rounding; "—" for what cannot be said.
+/// Three digits; one digit for rounding errors; "—" for undefined values.
 std::string number(double value);
 
-/// "0.61 rad/s of 1.1": a residual beside the size of what it is a residual of.
+/// "0.61 rad/s of 1.1": a residual and the size of its quantity.
 std::string residualOf(double residual, const AuditRow& row);
 
-/// When the replay was that far off.
+/// The time at which the replay was that far off.
 std::string instant(double t);
 
-/// Where the replay ended.
+/// The end of the replay.
 std::string ending(const AuditEffect& effect, double duration);
 
 }  // namespace ursula::audit

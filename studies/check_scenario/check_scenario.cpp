@@ -14,7 +14,7 @@ std::vector<std::string> warnings(const Scenario& scenario) {
   std::vector<Oddity> all = oddMachine(scenario);
   for (Oddity& oddity : oddMotion(scenario)) all.push_back(std::move(oddity));
   std::vector<std::string> lines;
-  std::set<std::string> said;  // by place: what six legs inherit is odd once
+  std::set<std::string> said;  // by place, so that six inherited values give one warning
   for (const Oddity& oddity : all) {
     const KeyPlace place = placeInFile(scenario, oddity.key);
     if (place.given && !said.insert(place.place).second) continue;

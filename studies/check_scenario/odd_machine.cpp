@@ -15,7 +15,7 @@ double largestMoment(const Matrix3d& inertia) {
   return Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues()(2);
 }
 
-/// Half the extent of the base and of the platform: the largest distance of a point from the mean of all.
+/// The size of the base or the platform: the largest distance of a point from the mean of all.
 template <class Point>
 double extent(const ManipulatorParameters& machine, Point&& point) {
   Vector3d mean = Vector3d::Zero();
@@ -38,8 +38,8 @@ void gravity(const Vector3d& g, std::vector<Oddity>& out) {
                                             size > 9000 && size < 10000 ? ": was it given in mm/s2?" : "")});
 }
 
-/// A slender link whose mass lies within [0, l] with its centre at c has at most m c (l − c) about that centre: all of
-/// it at both ends. Width adds to it: a twentieth of the length is let pass.
+/// A slender link with mass within [0, l] and centre c has at most m c (l − c) about that centre, if all mass is at
+/// both ends. Its width adds to it; a twentieth of the length is tolerated.
 void linkInertia(const Link& link, const std::string& key, std::vector<Oddity>& out) {
   const double l = link.length, c = std::clamp(link.center_of_mass, 0.0, l), moment = largestMoment(link.inertia);
   const double most = link.mass * (c * (l - c) + l * l / 20), gyration = std::sqrt(moment / link.mass);
@@ -110,7 +110,7 @@ void platform(const ManipulatorParameters& machine, std::vector<Oddity>& out) {
                                       far, size));
 }
 
-/// Millimetres among metres: by a factor of a thousand nothing in a machine differs; a hundred tells.
+/// Detects millimetres among metres: they differ by a thousand, real machines by less than a hundred.
 void units(const ManipulatorParameters& machine, std::vector<Oddity>& out) {
   const double base = extent(machine, [](const Leg& leg) { return leg.base_point; });
   for (int i = 0; i < static_cast<int>(machine.legs.size()); ++i) {

@@ -21,13 +21,13 @@ double turned(const Matrix3d& Q) { return Eigen::AngleAxisd(Q).angle(); }
 
 double degrees(double angle) { return angle * 180 / pi; }
 
-/// What [w, x, y, z] would be had it been meant as [x, y, z, w].
+/// The rotation if [w, x, y, z] was meant as [x, y, z, w].
 Matrix3d asScalarLast(const Matrix3d& Q) {
   const Eigen::Quaterniond q(Q);
   return Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y()).toRotationMatrix();
 }
 
-/// The scalar last is a habit of many libraries; machines of this kind hardly turn by more than a right angle.
+/// Many libraries put the scalar last; machines of this kind hardly rotate by more than a right angle.
 void scalarLast(const Scenario& scenario, const std::string& key, std::vector<Oddity>& out) {
   if (!placeInFile(scenario, key).given) return;
   const Matrix3d Q = scenario.trajectory->at(0).Q;
@@ -48,7 +48,7 @@ void radians(const Scenario& scenario, std::vector<Oddity>& out) {
   }
 }
 
-/// The largest acceleration against the machine's gravity, or Earth's.
+/// Compares the largest acceleration with the machine's gravity, or Earth's.
 void haste(const Scenario& scenario, std::vector<Oddity>& out) {
   constexpr double g = 9.81, hasty = 20;
   double most = 0, at = 0;
@@ -69,7 +69,7 @@ void haste(const Scenario& scenario, std::vector<Oddity>& out) {
         {key, fmt::format("{:.6g} s: milliseconds, where seconds are expected?", scenario.trajectory->duration())});
 }
 
-/// A number of a leg where it is smallest over the motion.
+/// A leg's smallest value of a number over the motion.
 struct Least {
   double value = std::numeric_limits<double>::infinity(), at = 0;
 
@@ -78,10 +78,10 @@ struct Least {
   }
 };
 
-/// What a leg comes nearest to.
+/// A leg's smallest margins.
 struct NearestOfLeg {
-  Least sine;    ///< |sin θ|, or what is like it: 0 where the leg's rates are not determined
-  Least stroke;  ///< of UPS: to either end of the cylinder, m
+  Least sine;    ///< |sin θ|, or similar: 0 if the leg's rates are undetermined
+  Least stroke;  ///< for UPS: to either end of the cylinder, m
 };
 
 std::vector<NearestOfLeg> nearestOfLegs(const Scenario& scenario) {
@@ -102,7 +102,7 @@ std::vector<NearestOfLeg> nearestOfLegs(const Scenario& scenario) {
   return all;
 }
 
-/// Within 3° of where a leg's rates are not determined, or a fiftieth of a cylinder from its end.
+/// Warns within 3° of a pose with undetermined rates, or a fiftieth of a cylinder from its end.
 void legsAtTheirLimits(const Scenario& scenario, std::vector<Oddity>& out) {
   constexpr double near = 3 * pi / 180;
   const std::vector<NearestOfLeg> all = nearestOfLegs(scenario);
@@ -133,7 +133,7 @@ std::vector<Oddity> oddMotion(const Scenario& scenario) {
   try {
     legsAtTheirLimits(scenario, out);
   } catch (const PoseError&) {
-    // Out of reach is no oddity: tryMotion refuses it.
+    // A pose out of reach gives no warning, because tryMotion refuses it.
   }
   return out;
 }

@@ -7,10 +7,10 @@
 
 namespace ursula {
 
-/// A value that a machine or motion can have, but seldom has.
+/// A value that a machine or motion may have, but rarely has.
 struct Oddity {
   std::string key;   ///< dotted, of the scenario: `manipulator.leg[2].proximal.mass`
-  std::string what;  ///< the number, what is usual, and what may have been meant
+  std::string what;  ///< the number, the usual value, and the probable intention
 };
 
 std::vector<Oddity> oddMachine(const Scenario& scenario);

@@ -22,7 +22,7 @@ struct Pose {
   std::vector<LegPoints> legs;
   std::vector<std::optional<Stretch>> rails;
   std::vector<LegKind> kinds;
-  bool reached;  ///< else the legs cannot take the pose, and R, S are nothing
+  bool reached;  ///< otherwise the legs cannot take the pose, and R, S are meaningless
 };
 
 Pose poseAtStart(const Scenario& scenario) {
@@ -107,7 +107,7 @@ line, polygon { fill: none; stroke-width: 2 } .base { stroke: #666; fill: #6661 
 </style>
 )";
 
-/// U+FFFE and U+FFFF are no characters of XML.
+/// Also replaces U+FFFE and U+FFFF, which XML forbids.
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : std::string(1, c);
@@ -117,7 +117,7 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-/// A round length, 1, 2 or 5 times a power of ten, of a quarter to a half of the panel.
+/// A bar of round length, 1, 2 or 5 times a power of ten, a quarter to a half of the panel.
 std::string scaleBar(double scale) {
   const double most = panel / 2.5 / scale, power = std::pow(10, std::floor(std::log10(most)));
   const double length = most >= 5 * power ? 5 * power : most >= 2 * power ? 2 * power : power;

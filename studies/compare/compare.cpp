@@ -26,19 +26,19 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 const char* const work_group = "efforts x what they drive";
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// `tau_3_Nm` → `tau_*_Nm`: what shares a unit and a meaning shares a scale.
+/// `tau_3_Nm` → `tau_*_Nm`: channels with equal unit and meaning share a scale.
 std::string groupOf(const std::string& channel) {
   std::stringstream in(channel);
   std::string out, part;
   while (std::getline(in, part, '_')) {
     const bool is_index = part.size() == 1 && std::string("123456wxyz").find(part) != std::string::npos;
-    // The first part is the quantity: the "w" of an angular velocity is none of its indices.
+    // The first part is the quantity, so the "w" of an angular velocity is no index.
     out += (out.empty() ? "" : "_") + (is_index && !out.empty() ? "*" : part);
   }
   return out;
 }
 
-/// What an error is an error of: its own size is rounding, and no scale.
+/// The group whose scale applies to an error; the error's own size is only rounding.
 std::string scaleGroupOf(const std::string& channel) {
   static const std::map<std::string, std::string> of = {
       {"error_p_m", "p_*_m"},
@@ -57,7 +57,7 @@ std::string scaleGroupOf(const std::string& channel) {
   return found == of.end() ? groupOf(channel) : found->second;
 }
 
-/// Largest finite magnitude of every group; of energy errors, that of the work: torques times angles, forces times
+/// Largest finite magnitude of every group. Energy errors get that of the work: torques times angles, forces times
 /// displacements.
 std::map<std::string, double> scalesOf(const TimeSeries& series) {
   std::map<std::string, double> scales;
@@ -74,7 +74,7 @@ std::map<std::string, double> scalesOf(const TimeSeries& series) {
 
 double larger(double a, double b) { return std::isnan(a) || std::isnan(b) ? nan : std::max(a, b); }
 
-/// Errors at the test's instants `rows`, and how far they leave the tube.
+/// Computes errors at the test's instants `rows`, and the distance from the tube.
 void judgeRows(const HistoryLine& reference, const std::vector<double>& t, const std::vector<double>& values,
                const std::vector<std::size_t>& rows, double time_tolerance, ChannelComparison& out) {
   double squares = 0;
@@ -124,10 +124,10 @@ void setTimes(const std::vector<double>& reference, const std::vector<double>& t
   out.covers_reference = test.front() <= reference.front() + rounding && test.back() >= reference.back() - rounding;
 }
 
-/// Between two instants of the test.
+/// The gap between two instants of the test.
 struct Gap {
-  std::size_t passed = 0;  ///< instants of the reference in it
-  bool is_wide = false;    ///< wider than the reference's own step there: a finer test passes over none
+  std::size_t passed = 0;  ///< number of the reference's instants in it
+  bool is_wide = false;    ///< wider than the reference's own step there
 };
 
 std::vector<Gap> gapsOf(const std::vector<double>& reference, const std::vector<double>& test, double rounding) {
@@ -146,8 +146,8 @@ std::vector<Gap> gapsOf(const std::vector<double>& reference, const std::vector<
   return out;
 }
 
-/// Instants of the reference that the test passes over: where it is less than a third as dense, and where it is less
-/// dense than nearly everywhere else, as where a row is missing.
+/// Number of the reference's instants that the test skips: where it has less than a third of the density, or less than
+/// nearly everywhere else, as for a missing row.
 std::size_t skippedOf(const std::vector<double>& reference, const std::vector<double>& test, double rounding) {
   constexpr std::size_t few = 3;
   const std::vector<Gap> gaps = gapsOf(reference, test, rounding);
@@ -162,7 +162,7 @@ std::size_t skippedOf(const std::vector<double>& reference, const std::vector<do
   return skipped;
 }
 
-/// What two instants of the reference may be off by and still be told apart; how a number so large is rounded.
+/// The largest rounding of the reference's times at which neighbouring instants remain distinct.
 double roundingOf(const std::vector<double>& reference) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k + 1 < reference.size(); ++k) least = std::min(least, reference[k + 1] - reference[k]);
@@ -176,7 +176,7 @@ std::unordered_map<std::string_view, const std::vector<double>*> byName(const Ti
   return out;
 }
 
-/// The test's instants within the reference's; those between two of the reference only where it is interpolated.
+/// The test's instants within the reference's; those between two of the reference only if it is interpolated.
 std::vector<std::size_t> rowsToCompare(const std::vector<double>& reference, const std::vector<double>& test,
                                        double rounding, const CompareOptions& options, Comparison& out) {
   const HistoryLine times(reference, reference);
@@ -185,7 +185,7 @@ std::vector<std::size_t> rowsToCompare(const std::vector<double>& reference, con
     if (test[k] >= reference.front() - rounding && test[k] <= reference.back() + rounding) within.push_back(k);
   const auto first = std::lower_bound(reference.begin(), reference.end(), out.from - rounding);
   const auto last = std::upper_bound(reference.begin(), reference.end(), out.to + rounding);
-  // No less dense than the test: what lies between its instants is then well known.
+  // If the reference is at least as dense as the test, its interpolation is reliable.
   const bool is_finer = !within.empty() && last - first >= static_cast<std::ptrdiff_t>(within.size());
   std::vector<std::size_t> rows;
   for (const std::size_t k : within) {
@@ -212,7 +212,7 @@ Verdict verdictOf(const Comparison& comparison) {
   return is_whole ? Verdict::pass : Verdict::inconclusive;
 }
 
-/// A column of which neither side has any is an error.
+/// A pattern that matches no column of either side is an error.
 void refuseUnknown(const std::vector<std::string>& patterns, const TimeSeries& reference, const TimeSeries& test) {
   std::vector<std::string> names = reference.names;
   names.insert(names.end(), test.names.begin(), test.names.end());

@@ -25,8 +25,8 @@ using report::Plot;
 using report::quantity;
 using report::Stroke;
 
-// A page of a hundred channels stays below 3 MB: so many points in all, and drawings for readers without scripts of the
-// worst alone.
+// These limits keep a page of a hundred channels below 3 MB: points in all, and static drawings only for the worst
+// channels.
 constexpr std::size_t buckets_in_all = 9000, fewest_buckets = 60, most_buckets = 400;
 constexpr std::size_t drawn_without_script = 24;
 constexpr std::size_t open_at_first = 3;
@@ -41,7 +41,7 @@ std::string unitOf(const std::string& channel) {
   return "";
 }
 
-/// How much of its tolerance a channel uses; where the tolerance is 0, whatever is off is infinitely much.
+/// The used share of a channel's tolerance; infinite for any deviation if the tolerance is 0.
 double shareOf(const ChannelComparison& channel) {
   if (channel.outside == 0) return 0;
   return channel.tolerance > 0 ? channel.outside / channel.tolerance : std::numeric_limits<double>::infinity();
@@ -49,7 +49,7 @@ double shareOf(const ChannelComparison& channel) {
 
 int rank(Verdict verdict) { return verdict == Verdict::fail ? 0 : verdict == Verdict::inconclusive ? 1 : 2; }
 
-/// NaN, which is no share, counts as the worst.
+/// NaN counts as the worst share.
 bool isWorse(const ChannelComparison& a, const ChannelComparison& b) {
   if (rank(a.verdict) != rank(b.verdict)) return rank(a.verdict) < rank(b.verdict);
   const double of_a = shareOf(a), of_b = shareOf(b);

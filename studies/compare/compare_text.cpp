@@ -8,7 +8,7 @@
 namespace ursula {
 namespace {
 
-/// "3 channels only in the test: a, b, c\n"; of hundreds the first few and the count.
+/// "3 channels only in the test: a, b, c\n"; a long list shows the first few and the count.
 std::string onlyIn(const char* side, const std::vector<std::string>& names) {
   constexpr std::size_t shown = 6;
   if (names.empty()) return "";

@@ -9,8 +9,8 @@
 
 namespace ursula {
 
-/// A history between its instants: polynomials of fifth degree through the six instants around, straight lines where
-/// there are fewer, and the last value beyond an end. Refers to what it is made of.
+/// Interpolates a history by polynomials of fifth degree through the six nearest instants, or by straight lines if
+/// there are fewer. Beyond an end it keeps the last value. Refers to its arguments.
 class HistoryLine {
  public:
   HistoryLine(const std::vector<double>& t, const std::vector<double>& values) : t_(t), values_(values) {}
@@ -21,7 +21,7 @@ class HistoryLine {
     return t_.size() < 6 ? through(t, 2) : through(t, 6);
   }
 
-  /// The least and the largest value of the line over [from, to]; NaN where one of them is.
+  /// The least and the largest value of the line over [from, to]; NaN if one of them is NaN.
   std::pair<double, double> range(double from, double to) const {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     double low = at(from), high = low;
@@ -34,7 +34,7 @@ class HistoryLine {
     return {low, high};
   }
 
-  /// Distance of `value` from that range; NaN where the line or the value is.
+  /// The distance of `value` from that range; NaN if the line or the value is NaN.
   double distance(double value, double from, double to) const {
     const auto [low, high] = range(from, to);
     if (std::isnan(low) || std::isnan(value)) return std::numeric_limits<double>::quiet_NaN();
@@ -42,8 +42,8 @@ class HistoryLine {
     return value < low ? low - value : value - high;
   }
 
-  /// What is missed between two instants, estimated: the difference from a polynomial of two degrees less, which misses
-  /// more; of straight lines, twice h²/8 times the second difference.
+  /// The estimated interpolation error between two instants: the difference from a polynomial of two degrees less. For
+  /// straight lines it is twice h²/8 times the second difference.
   double interpolationError(double t) const {
     if (isKnot(t) || t_.size() < 3) return 0;
     if (t_.size() >= 6) return std::abs(through(t, 6) - through(t, 4));
@@ -58,7 +58,7 @@ class HistoryLine {
   }
 
  private:
-  /// Neville's scheme through the `count` instants around t; an instant's own value comes back as it is.
+  /// Neville's scheme through the `count` instants around t; at an instant it returns the exact value.
   double through(double t, std::size_t count) const {
     const std::size_t i = before(t);
     if (t == t_[i]) return values_[i];

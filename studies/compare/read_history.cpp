@@ -5,7 +5,7 @@
 namespace ursula {
 namespace {
 
-/// What `validate` leaves, or what ships of it.
+/// The history that `validate` writes, or the shorter one in shipped results.
 std::filesystem::path historyIn(const std::filesystem::path& folder) {
   std::error_code ignored;
   const bool is_short = !std::filesystem::exists(folder / "timeseries.csv", ignored) &&

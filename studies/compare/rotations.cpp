@@ -22,7 +22,7 @@ std::vector<std::string> prefixes(const TimeSeries& series) {
   return out;
 }
 
-/// Not all four there: no rotation, and compared as it is.
+/// Returns false unless all four columns exist; the others are then compared unchanged.
 bool find(const TimeSeries& series, const std::string& prefix, Quaternion& out) {
   const char* parts = "wxyz";
   for (std::size_t k = 0; k < 4; ++k) {

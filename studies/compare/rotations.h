@@ -7,14 +7,14 @@
 
 namespace ursula::compare_parts {
 
-/// `series` with every quaternion (columns …q_w, …q_x, …q_y, …q_z) of the sign that is nearer to the one before, since
-/// q and −q are the same rotation: then what lies between two of them can be interpolated.
+/// Gives every quaternion of `series` (columns …q_w, …q_x, …q_y, …q_z) the sign nearer to its predecessor. q and −q are
+/// the same rotation, and interpolation needs continuous signs.
 TimeSeries alignQuaternions(const TimeSeries& series);
 
-/// `test` with every quaternion of `rows` of the sign that is nearer to the reference's at that time.
+/// Gives every quaternion of `rows` in `test` the sign nearer to the reference's at that time.
 TimeSeries alignQuaternions(const TimeSeries& reference, const TimeSeries& test, const std::vector<std::size_t>& rows);
 
-/// Whether one of `patterns` names the column; `*` stands for anything. No pattern: every column.
+/// Whether one of `patterns` matches the column; `*` matches anything. An empty list matches all.
 bool isChosen(const std::string& column, const std::vector<std::string>& patterns);
 
 }  // namespace ursula::compare_parts

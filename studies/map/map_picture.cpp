@@ -18,11 +18,11 @@ constexpr int most_slices = 6;
 
 struct ShownValues {
   std::string title;
-  std::vector<float> values;  ///< NaN: out of reach
+  std::vector<float> values;  ///< NaN means out of reach
   report::HeatScale scale;
 };
 
-/// A pose without a number, being singular, is beyond any.
+/// A singular pose, which has no number, exceeds every colour.
 ShownValues shown(const std::string& title, const DrawnMap& drawn, const std::vector<float>& values, bool log) {
   ShownValues out{title, values, {values, log}};
   for (std::size_t k = 0; k < values.size(); ++k)
@@ -46,7 +46,7 @@ report::HeatMap sliceOf(const PoseGrid& grid, const ShownValues& shown, int slic
   return out;
 }
 
-/// Evenly chosen among those of the third axis.
+/// Evenly chosen values of the third axis.
 std::vector<int> slices(const PoseGrid& grid) {
   if (grid.varying().size() < 3) return {0};
   const int count = grid.axis(grid.varying()[2]).count, shown = std::min(count, most_slices);
@@ -55,7 +55,7 @@ std::vector<int> slices(const PoseGrid& grid) {
   return out;
 }
 
-/// "z = 2.2 m, roll = 0°": what does not vary within a row.
+/// "z = 2.2 m, roll = 0°": the constant coordinates of a row.
 std::string standing(const PoseGrid& grid, int slice) {
   std::string out;
   for (std::size_t i = 0; i < grid_axes; ++i) {

@@ -28,7 +28,7 @@ std::vector<std::string> parts(const std::string& text) {
   return out;
 }
 
-/// As of a scenario's numbers.
+/// The same limit as for a scenario's numbers.
 constexpr double largest_coordinate = 1e100;
 
 double finiteNumber(const std::string& name, const std::string& text, const std::string& part) {
@@ -46,7 +46,7 @@ Vector3d anglesOf(const Matrix3d& Q) {
          degree;
 }
 
-/// Around the path of P by a quarter of the machine's length.
+/// Extends the path of P by a quarter of the machine's length.
 void setAround(const Scenario& scenario, std::array<GridAxis, grid_axes>& axes) {
   constexpr std::array<int, 3> counts = {41, 41, 3};
   Eigen::AlignedBox3d box;

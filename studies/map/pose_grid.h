@@ -10,13 +10,13 @@
 
 namespace ursula {
 
-/// A grid that cannot be made; says what was given and what was expected.
+/// An impossible grid; says what was given and what was expected.
 struct GridError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// One coordinate of the platform's pose: position of P in B, m, or an angle, degrees: Q = R_z(yaw) R_y(pitch)
-/// R_x(roll). One value, or `count` equally spaced ones.
+/// One coordinate of the platform's pose, as one value or `count` equally spaced ones. It is a position of P in B, m,
+/// or an angle, degrees: Q = R_z(yaw) R_y(pitch) R_x(roll).
 struct GridAxis {
   double from = 0, to = 0;
   int count = 1;
@@ -29,23 +29,23 @@ struct GridAxis {
 constexpr std::size_t grid_axes = 6;
 constexpr std::array<const char*, grid_axes> grid_axis_names = {"x", "y", "z", "roll", "pitch", "yaw"};
 
-/// "FROM,TO,COUNT", or one value. Throws GridError that names the axis.
+/// Parses "FROM,TO,COUNT", or one value. Throws GridError with the axis.
 GridAxis gridAxis(const std::string& name, const std::string& text);
 
-/// Poses at rest, the first axis that varies fastest. What is not given is of the trajectory's pose at `instant`. Where
-/// no axis varies, those of the position that are not given do: around the path of P.
+/// Poses at rest; the first varying axis varies fastest. Missing coordinates are those of the trajectory's pose at
+/// `instant`. If no axis varies, the missing positions vary around the path of P.
 class PoseGrid {
  public:
-  /// Throws GridError unless two or three axes vary, for more than 100 million poses, and for an instant that the
-  /// motion has not.
+  /// Throws GridError unless two or three axes vary, for more than 100 million poses, and for an instant outside the
+  /// motion.
   PoseGrid(const Scenario& scenario, const std::array<GridAxis, grid_axes>& axes, double instant);
 
   std::size_t size() const { return size_; }
-  /// Coordinates of pose k: m and degrees.
+  /// Returns the coordinates of pose k in m and degrees.
   std::array<double, grid_axes> at(std::size_t k) const;
   Motion<double> pose(std::size_t k) const;
   const GridAxis& axis(std::size_t which) const { return axes_[which]; }
-  /// Which axes vary, the fastest first.
+  /// Returns the indices of the varying axes, the fastest first.
   const std::vector<std::size_t>& varying() const { return varying_; }
 
  private:

@@ -20,7 +20,7 @@ constexpr std::size_t rows_of_block = 512;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double radian = 3.14159265358979323846 / 180;
 
-/// What the kinematics says of one pose.
+/// Kinematic results for one pose.
 struct Reached {
   double reach = 0, kappa = none, sine_min = none;
   std::vector<double> sines;
@@ -87,7 +87,7 @@ class PoseMap {
       solver_.jacobians(pose, work);
       out.kappa = conditionNumber(scaledB(work.B, solver_.length()));
     } catch (const StretchedLeg&) {
-      out.reach = 1;  // to the very end
+      out.reach = 1;  // exactly at the end of its reach
     } catch (const SingularJacobian&) {
       out.kappa = std::numeric_limits<double>::infinity();
     } catch (const PoseError&) {

@@ -9,41 +9,40 @@
 #include "nocsolver/solver.h"
 #include "studies/prove/defects.h"
 
-// What the groups of defects are made with. Internal.
+// Helpers for the groups of defects. Internal.
 
 namespace ursula {
 
 using ChangeMachine = std::function<void(ManipulatorParameters&)>;
 using ChangeMotion = std::function<void(Motion<double>&)>;
-/// `right` is what the right solver says at `motion`.
+/// `right` are the right solver's torques at `motion`.
 using ChangeTorques = std::function<Vector6d(const Vector6d& right, const Motion<double>& motion)>;
 
 Manipulator changedMachine(const Manipulator& machine, const ChangeMachine& change);
 
-/// The NOC with a fault in its formulas, in what it reads or in a leg.
+/// The NOC with a fault in its formulas, in its input or in a leg.
 Defect wrongFormula(const std::string& name, const char* group, const WithFormulaErrors& fault);
 
-/// The same mechanism without a defect: it must pass, or what its defects are caught by says nothing.
+/// The same mechanism without a defect. It must pass; otherwise the mechanism itself triggers the checks.
 Defect control(Defect without_defect);
 
 /// The solver of another machine.
 Defect wrongMachine(const std::string& name, const std::string& group, const ChangeMachine& change);
 
-/// The solver is told another motion than the one commanded.
+/// Gives the solver another motion than the commanded one.
 Defect wrongMotion(const std::string& name, const ChangeMotion& change);
 
-/// The torques alone are falsified on their way out; `change` is made for the scenario.
+/// Changes only the solver's torques; `change` creates the change for the scenario.
 Defect wrongTorques(const std::string& name, const std::string& group,
                     const std::function<ChangeTorques(const Scenario&)>& change);
 
-/// Torques for a force against each joint, by the power that they take: the joints' rates for a unit rate of each
-/// motor.
+/// Torques for a force against each joint, by power balance with the joints' rates for a unit rate of each motor.
 Vector6d onActuators(const Solver<double>& solver, const Motion<double>& motion, const JointVariables<double>& forces);
 
 /// Torques for a wrench on the platform, [moment about P; force].
 Vector6d onActuators(const Solver<double>& solver, const Motion<double>& motion, const Vector6d& wrench);
 
-/// Two instants, a pulse's ends: `share` of the motion and a 3000th of it later.
+/// The two ends of a pulse: at `share` of the motion and a 3000th of it later.
 struct Pulse {
   double from = 0, to = 0;  ///< s
   Pulse(const Trajectory& trajectory, double share);
@@ -52,11 +51,11 @@ struct Pulse {
 
 void append(std::vector<Defect>& to, std::vector<Defect> more);
 
-/// Of the leg that is spoken of as leg `number`, 1-based: where there are fewer, counted on from the first.
+/// The index of leg `number`, 1-based; with fewer legs it counts on from the first.
 inline std::size_t legOf(const Manipulator& machine, int number) {
   return static_cast<std::size_t>((number - 1) % machine.legCount());
 }
-/// Another one than legOf(machine, number).
+/// Returns another leg than legOf(machine, number).
 std::size_t otherLeg(const Manipulator& machine, int number, std::size_t than);
 
 /// The coordinates of a leg, from its base.
@@ -66,9 +65,9 @@ inline const std::array<Coordinate, 3>& coordinatesOf(const Manipulator& machine
 /// The kinds of the machine's legs, each once.
 std::vector<LegKind> kindsOf(const Manipulator& machine);
 
-// The groups. Each speaks of the paper's machine as of any other, unless it says so.
-std::vector<Defect> formulaDefects(const Manipulator& machine);  ///< of noc/ and the paper's leg
-std::vector<Defect> legDefects(const Manipulator& machine);      ///< of legs of other kinds
+// The groups of defects. Each is for any machine unless its comment says otherwise.
+std::vector<Defect> formulaDefects(const Manipulator& machine);  ///< in noc/ and the paper's leg
+std::vector<Defect> legDefects(const Manipulator& machine);      ///< in legs of other kinds
 std::vector<Defect> fastDefects(const Manipulator& machine);
 std::vector<Defect> parameterDefects(const Manipulator& machine);
 std::vector<Defect> indexDefects(const Manipulator& machine);

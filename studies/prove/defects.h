@@ -11,25 +11,25 @@
 
 namespace ursula {
 
-/// One way to be wrong, put into an otherwise right validation at one of three places. What is empty stays right.
+/// One defect in an otherwise right validation, at one of three places. Empty members change nothing.
 struct Defect {
   std::string name;
   std::string group;                       ///< "formula", "term", "parameter", …
-  SubjectOf subject = nullptr;             ///< the solver on trial
-  InjectedFault::Seen scenario = nullptr;  ///< what all formulations are given: commanded motion, load
-  InjectedFault fault = {};                ///< an experiment
-  /// On how many formulations it must be caught. 1 where by its nature only one can see it: direct dynamics and
-  /// reactions, which Simbody alone has beside the solver; what all formulations share; an engine; what the motion does
-  /// not reach.
+  SubjectOf subject = nullptr;             ///< the solver under test
+  InjectedFault::Seen scenario = nullptr;  ///< the changed scenario for all formulations: commanded motion, load
+  InjectedFault fault = {};                ///< a changed experiment
+  /// Number of formulations that must catch it. It is 1 if only one can see it by its nature. Examples are direct
+  /// dynamics and reactions, which only Simbody has beside the solver, parts that all formulations share, an engine, or
+  /// effects absent from the motion.
   int engines = 2;
-  bool control = false;  ///< no defect, by the mechanism of others: it must pass
+  bool control = false;  ///< no defect, but the same mechanism: it must pass
 };
 
-/// Every defect that `ursula prove` injects into this machine, at least 150, one at a time. What a machine has not (a
-/// knee, a coordinate that slides) has no defect; what is zero in it has some that change nothing.
+/// Returns every defect that `ursula prove` injects into this machine, one at a time, at least 150. Parts that a
+/// machine lacks (a knee, a sliding coordinate) have no defect; some defects of zero values change nothing.
 std::vector<Defect> allDefects(const Manipulator& machine);
 
-/// The solver with one parameter wrong.
+/// The solver with one wrong parameter.
 Subject disturbedSubject(const Scenario& scenario, const Parameter& parameter, double relative);
 
 }  // namespace ursula

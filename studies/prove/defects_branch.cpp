@@ -1,4 +1,4 @@
-// Wrong in a narrow place only: a millisecond or so of a motion of three seconds, and never at one of its samples.
+// Defects in a narrow range: about a millisecond of a motion of three seconds, and never at one of its samples.
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 namespace ursula {
 namespace {
 
-/// Of the torque, where the branch is taken.
+/// Relative error of the torque where the branch is taken.
 constexpr double branch_error = 1e-8;
 
 struct Joints {
@@ -24,14 +24,14 @@ Joints jointsOf(const Solver<double>& solver, const Motion<double>& motion) {
   return {solver.angles(work), solver.rates(work)};
 }
 
-/// What the solver branches on.
+/// The quantity that the solver branches on.
 using Quantity = std::function<double(const Motion<double>&, const Joints&)>;
 
 struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -low;
 };
 
-/// What `quantity` passes through during the pulse.
+/// The range of `quantity` during the pulse.
 Range rangeIn(const Pulse& pulse, const Trajectory& trajectory, const Solver<double>& solver,
               const Quantity& quantity) {
   Range out;
@@ -45,7 +45,7 @@ Range rangeIn(const Pulse& pulse, const Trajectory& trajectory, const Solver<dou
   return out;
 }
 
-/// All torques wrong where `quantity` is what it is for a 3000th of the motion, after `share` of it.
+/// Makes all torques wrong where `quantity` has its values of a 3000th of the motion, after `share` of it.
 Defect branch(const std::string& name, double share, const Quantity& quantity) {
   Defect out = wrongTorques(name, "branch", [share, quantity](const Scenario& s) -> ChangeTorques {
     const auto solver = std::make_shared<const Solver<double>>(*s.manipulator);
@@ -61,7 +61,7 @@ Defect branch(const std::string& name, double share, const Quantity& quantity) {
 
 using ChangeLeg = std::function<void(Vector6d& torques)>;
 
-/// At the instants of a pulse only.
+/// Only at the instants of a pulse.
 Defect pulse(const char* name, double share, const ChangeLeg& change) {
   Defect out = wrongTorques(name, "branch", [share, change](const Scenario& s) -> ChangeTorques {
     return [pulse = Pulse(*s.trajectory, share), change](const Vector6d& torques, const Motion<double>& m) {

@@ -1,4 +1,4 @@
-// Wrong in the direct dynamics.
+// Defects in the direct dynamics.
 
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@ Defect wrongDirect(const std::string& name, const std::function<Direct(const Sce
   return out;
 }
 
-/// Another mass matrix under the same forces.
+/// Another mass matrix with the same forces.
 Defect wrongMassMatrix(const char* name, const std::function<void(Matrix6d& M)>& change) {
   return wrongDirect(name, [change](const Scenario& s, const Subject& right) -> Direct {
     const auto solver = std::make_shared<const Solver<double>>(*s.manipulator);
@@ -59,7 +59,7 @@ Defect directOf(const std::string& name, const std::function<Subject(const Scena
   return wrongDirect(name, [other](const Scenario& s, const Subject&) -> Direct { return other(s).accelerations; });
 }
 
-/// The state is not the one asked for; `commanded` is the motion's at that instant.
+/// Uses another state than the requested one; `commanded` is the motion's at that instant.
 Defect wrongState(const char* name, const std::function<void(Motion<double>& m, const Motion<double>& commanded)>& of) {
   return wrongDirect(name, [of](const Scenario& s, const Subject& right) -> Direct {
     return [right, trajectory = s.trajectory, of](const Motion<double>& m, const Vector6d& torques) {
@@ -73,7 +73,7 @@ Defect wrongState(const char* name, const std::function<void(Motion<double>& m, 
 std::vector<Defect> wrongMassMatrices(const Manipulator& machine) {
   using P = ManipulatorParameters;
   const std::size_t third = legOf(machine, 3), fifth = legOf(machine, 5);
-  // The tensor of a carriage, which does not turn, does nothing.
+  // A carriage does not turn, so its tensor has no effect.
   const bool turns = !rowOf(machine.parameters().legs[fifth].kind).hasCarriage();
   return {wrongMassMatrix("mass matrix off by 1e-8 in one entry", [](Matrix6d& M) { M(1, 1) *= 1 + 1e-8; }),
           wrongMassMatrix("mass matrix off by 1e-9 of itself", [](Matrix6d& M) { M *= 1 + 1e-9; }),
@@ -91,7 +91,7 @@ std::vector<Defect> wrongMassMatrices(const Manipulator& machine) {
                        [](P& m) { m.platform.center_of_mass *= 1 - 1e-8; })};
 }
 
-/// 1e-8 of what `part` leaves out of the state is left out.
+/// Omits 1e-8 of the effect of what `part` removes from the state.
 Defect withoutPart(const char* name, double share, const std::function<void(Motion<double>&)>& part) {
   return wrongDirect(name, [share, part](const Scenario&, const Subject& right) -> Direct {
     return [right, share, part](const Motion<double>& m, const Vector6d& torques) {

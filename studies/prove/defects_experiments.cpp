@@ -1,5 +1,5 @@
-// The experiments themselves falsified: a formulation's engine, reactions, an integrator, the energy's account. The
-// numbers are those of natural units, in which lengths are of the machine's size and masses of the machine's.
+// Defects in the experiments themselves: an engine, reactions, an integrator, the energy balance. Numbers are in
+// natural units, with lengths of the machine's size and masses of the machine's.
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 namespace ursula {
 namespace {
 
-/// Of SimbodyLoop's state x = [q, u], to which the replay adds the work: three coordinates of each leg, the platform's
-/// quaternion, its position; their rates, its spin, its velocity.
+/// Indices in SimbodyLoop's state x = [q, u], to which the replay adds the work. It has three coordinates per leg, the
+/// platform's quaternion and position; their rates, its angular velocity and velocity.
 class Places {
  public:
   explicit Places(const Manipulator& machine) : legs_(3 * machine.parameters().legs.size()) {}
@@ -44,7 +44,7 @@ InjectedFault::Seen another(const ChangeMachine& change) {
   };
 }
 
-/// The engine of the further formulation of `check`, built of another machine.
+/// Builds the engine of the further formulation of `check` from another machine.
 Defect engine(const std::string& name, const char* check, const ChangeMachine& change) {
   InjectedFault fault;
   for (std::size_t k = 0; k < further_engine_count; ++k)
@@ -76,13 +76,13 @@ Defect wrongReplay(const std::string& name, const InjectedFault::Settings& setti
   return faulty(name, fault);
 }
 
-/// After each step of the judged replay.
+/// Changes the state after each step of the judged replay.
 Defect eachStep(const std::string& name, FaultState change) {
   return wrongReplay(
       name, [change](ReplaySettings& settings) { settings.fault = [change](double, State& x) { change(x); }; });
 }
 
-/// After each step, with the legs brought back to the platform: a drift along the machine's freedom.
+/// After each step, with the legs moved back to the platform: a drift along the machine's freedom.
 Defect drift(const char* name, FaultState change) {
   return wrongReplay(name, [change](ReplaySettings& settings) {
     settings.fault = [change](double, State& x) { change(x); };
@@ -90,7 +90,7 @@ Defect drift(const char* name, FaultState change) {
   });
 }
 
-/// After the last step only, so that nothing comes of it.
+/// Only after the last step, so that nothing follows from it.
 Defect lastStep(const std::string& name, FaultState change) {
   return wrongReplay(name, [change](ReplaySettings& settings) {
     settings.fault = [change, end = settings.end](double t, State& x) {
@@ -136,7 +136,7 @@ std::vector<Defect> wrongEngines(const Manipulator& machine) {
           engine("MuJoCo: a link longer by 1e-9", "torque.mujoco",
                  [=](P& m) {
                    Leg& leg = m.legs[fourth];
-                   // The length of a cylinder is its stroke, that of a carriage for drawing only.
+                   // A cylinder's length is its stroke; a carriage's is only for drawing.
                    const bool matters = leg.kind == LegKind::URS || leg.kind == LegKind::RUS;
                    (matters ? leg.proximal : leg.distal).length *= 1 + 1e-9;
                  }),
@@ -164,7 +164,7 @@ std::vector<Defect> wrongReactionForces(const Manipulator& machine) {
                          [=](Reactions& reactions) { std::swap(reactions[fifth], reactions[sixth]); })};
 }
 
-/// The energy's account, and the replays that the judged one is compared with; v is where the platform's velocity is.
+/// Defects in the energy balance, and in the replays to compare with; v is the index of the platform's velocity.
 std::vector<Defect> wrongAccounts(std::size_t v) {
   return {wrongPower("no power of friction in the energy's account",
                      [](const SimbodyLoop::Power& power) { return -power.friction; }),
@@ -182,7 +182,7 @@ std::vector<Defect> wrongAccounts(std::size_t v) {
                       [](ReplaySettings& settings) { settings.deviation(0) = 1e-7; })};
 }
 
-/// What a step leaves is moved: with the legs brought back, with gaps, or after the last step.
+/// Changes the result of a step: with the legs moved back, with gaps, or after the last step.
 std::vector<Defect> movedSteps(const Manipulator& machine) {
   const Places places(machine);
   const std::size_t p = places.position(), q = places.quaternion(), v = places.velocity(), rates = places.rates();

@@ -1,4 +1,4 @@
-// The kernels that users call: numbers that a kernel is given, and answers of one kernel or one instruction set.
+// Defects in the users' kernels: in a kernel's input, and in the answers of one kernel or one instruction set.
 
 #include "studies/prove/defect_helpers.h"
 
@@ -29,7 +29,7 @@ Defect ofLegs(const char* name, const std::function<void(FastLeg&)>& change) {
 
 using Answers = std::vector<Vector6d> FastAnswers::*;
 
-/// One kind of answer of one instruction set; of a set that the processor has not, of none.
+/// Changes one kind of answer of one instruction set; has no effect if the processor lacks the set.
 Defect answers(const std::string& name, InstructionSet set, Answers of, const std::function<void(Vector6d&)>& change) {
   FastFault fault;
   fault.answers = [set, of, change](FastAnswers& found) {

@@ -1,4 +1,4 @@
-// Other laws of friction than viscous and c tanh(rate / speed): torques and direct dynamics alike.
+// Other friction laws than viscous and c tanh(rate / speed), in torques and direct dynamics alike.
 
 #include <fmt/format.h>
 
@@ -11,14 +11,14 @@
 namespace ursula {
 namespace {
 
-/// Of one joint, what drives against its friction, N·m.
+/// The driving force against the friction of one joint, N·m.
 using Law = double (*)(double viscous, double coulomb, double speed, double rate);
 
 double rightLaw(double viscous, double coulomb, double speed, double rate) {
   return viscous * rate + coulomb * std::tanh(rate / speed);
 }
 
-/// What is wrong about the forces, at these rates.
+/// The error of the forces at these rates.
 using Excess = std::function<JointVariables<double>(const Manipulator&, const JointVariables<double>& rates)>;
 
 Excess excessOf(Law law) {
@@ -63,7 +63,8 @@ double kneeForce(const Leg& leg, double rate) {
   return rightLaw(leg.friction.theta, leg.coulomb.theta, leg.coulomb.smoothing_speed, rate);
 }
 
-/// The knee turned against the base instead of the proximal link, by psi + theta. Where it also acts so, psi feels it.
+/// The knee rubs against the base instead of the proximal link, with psi + theta. If `acts_so`, the force also acts on
+/// psi.
 Excess absoluteKnee(bool acts_so) {
   return [acts_so](const Manipulator& machine, const JointVariables<double>& rates) {
     JointVariables<double> out;
@@ -113,7 +114,7 @@ std::vector<Defect> wrongShapes() {
       })};
 }
 
-/// Of each coordinate that a leg of the machine has.
+/// Defects for each coordinate that a leg of the machine has.
 std::vector<Defect> wrongOnCoordinates(const Manipulator& machine) {
   std::vector<Defect> out;
   for (const Coordinate q : {Coordinate::phi, Coordinate::psi, Coordinate::theta, Coordinate::d}) {

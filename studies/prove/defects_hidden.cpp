@@ -7,7 +7,7 @@
 namespace ursula {
 namespace {
 
-/// What a machine or a motion must be like for the solver to be wrong.
+/// Whether the solver is wrong for this machine and motion.
 using Wrong = std::function<bool(const Manipulator&, const Motion<double>&)>;
 
 Subject wrongWhere(const Manipulator& machine, const std::shared_ptr<const Load>& load, const Wrong& wrong) {
@@ -32,7 +32,7 @@ Defect hiddenMachine(const char* name, bool (*wrong)(const Manipulator&)) {
   });
 }
 
-/// P moves up or down at a speed that the commanded motion does not have, but backwards would.
+/// P moves up or down at a speed that the commanded motion lacks, but its reversal has.
 Wrong beyondSpeeds(const Scenario& s) {
   double low = 0, high = 0;
   constexpr int instants = 6000;
@@ -47,7 +47,7 @@ Wrong beyondSpeeds(const Scenario& s) {
   };
 }
 
-/// Wrong for machines that are not quite this one, as the invariances and the motion backwards ask for.
+/// Wrong for machines slightly different from this one, which the invariances and the reversed motion use.
 std::vector<Defect> hiddenInAny(const Manipulator& machine) {
   const auto beyond = [](const char* name, double (*of)(const Manipulator&), double factor) {
     return hidden(name, [of, factor](const Scenario& s) -> Wrong {

@@ -1,4 +1,4 @@
-// Wrong in the kinematics that the solver says beside its torques.
+// Defects in the kinematics that the solver returns beside its torques.
 
 #include <fmt/format.h>
 
@@ -26,7 +26,7 @@ Defect wrongKinematics(const std::string& name, const std::function<void(Kinemat
   return out;
 }
 
-/// Ṫ wrong only for joint rates across those of the motion: no product with them shows it.
+/// Makes Ṫ wrong only for joint rates perpendicular to those of the motion, so that no product with them reveals it.
 void faultAcrossMotion(const Motors& motors, KinematicAnswer& answer) {
   const Vector6d rate = answer.joints.q_dot.driven(motors);
   const double size = rate.squaredNorm();
@@ -35,7 +35,7 @@ void faultAcrossMotion(const Motors& motors, KinematicAnswer& answer) {
   answer.T_rate *= Matrix6d::Identity() + 1e-6 * across;
 }
 
-/// A leg whose proximal link turns; the first where none does.
+/// The index of a leg whose proximal link turns; 0 if there is none.
 std::size_t turningLink(const Manipulator& machine) {
   for (std::size_t i = 1; i < machine.parameters().legs.size(); ++i)
     if (!rowOf(machine.parameters().legs[i].kind).hasCarriage()) return i;
@@ -44,7 +44,7 @@ std::size_t turningLink(const Manipulator& machine) {
 
 using ChangeCoordinate = void (*)(double& q, double& rate, double& acceleration, const Leg& leg);
 
-/// One coordinate of all legs counted otherwise, which no effort shows.
+/// Measures one coordinate of all legs differently, which no effort reveals.
 Defect countedOtherwise(Coordinate q, const char* how, ChangeCoordinate change) {
   Defect out{fmt::format("{} counted {}", nameOf(q), how), "kinematics", [q, change](const Scenario& s) {
                const Subject right = nocSubject(*s.manipulator, s.load);
@@ -65,7 +65,7 @@ Defect countedOtherwise(Coordinate q, const char* how, ChangeCoordinate change) 
   return out;
 }
 
-/// The other sign, the other axis, the other end.
+/// The opposite sign, another axis, the other end.
 std::vector<Defect> otherCoordinates(const Manipulator& machine) {
   constexpr double half_pi = 1.57079632679489661923;
   std::vector<Defect> out;

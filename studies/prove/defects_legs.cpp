@@ -1,4 +1,4 @@
-// The ways to get a leg of each kind wrong: its angles, its links, its rows of A and B.
+// Defects in a leg of each kind: its angles, its links, its rows of A and B.
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ using Model = LegModel<double>;
 using Stance = LegState<double>;
 using ChangeState = void (*)(const Model&, Stance&);
 
-/// Axes and points of a leg that has these sines, cosines and stroke, as its kernel makes them.
+/// Sets axes and points of a leg from these sines, cosines and stroke, like its kernel.
 void stand(const Model& model, Stance& leg) {
   const auto planeAt = [&model](double sine, double cosine) -> std::pair<Vector3d, Vector3d> {
     return {cosine * model.x_hat + sine * model.z_hat, cosine * model.z_hat - sine * model.x_hat};
@@ -63,7 +63,7 @@ void setMap(Stance& leg, std::size_t j, const Vector3d& k) {
   leg.row[j].n = k;
 }
 
-/// One way to be wrong about a leg, before its map is made or after.
+/// One error in a leg, before or after its map is computed.
 struct WrongLeg {
   const char* what;
   ChangeState change;
@@ -175,7 +175,7 @@ WithFormulaErrors faultOf(LegKind kind, const WrongLeg& wrong) {
 std::vector<Defect> legDefects(const Manipulator& machine) {
   std::vector<Defect> out;
   for (const LegKind kind : kindsOf(machine)) {
-    if (kind == LegKind::URS && machine.isOfThePaper()) continue;  // its printed formulas say more
+    if (kind == LegKind::URS && machine.isOfThePaper()) continue;  // its printed formulas cover more
     for (const WrongLeg& wrong : wrongLegs(kind))
       out.push_back(wrongFormula(fmt::format("{}: {}", rowOf(kind).name, wrong.what), "formula", faultOf(kind, wrong)));
   }

@@ -1,4 +1,4 @@
-// Wrong numbers of the machine: each kind of parameter, legs that take each other's, tensors in other frames.
+// Wrong numbers of the machine: each kind of parameter, exchanged legs, tensors in other frames.
 
 #include <fmt/format.h>
 
@@ -12,10 +12,10 @@ namespace {
 
 using P = ManipulatorParameters;
 
-/// Large against rounding, small against anything that a person would see in a plot.
+/// Large relative to rounding, but invisible to people in a plot.
 constexpr double parameter_error = 1e-6;
 
-/// Tensor of a point mass about a point `arm` from it.
+/// Tensor of a point mass about a point `arm` away.
 Matrix3d pointInertia(double mass, const Vector3d& arm) {
   return mass * (arm.squaredNorm() * Matrix3d::Identity() - arm * arm.transpose());
 }
@@ -31,7 +31,7 @@ Matrix3d quarterTurned(const Matrix3d& inertia) {
   return turn * inertia * turn.transpose();
 }
 
-/// A platform's tensor that is wrong by an amount that depends on its orientation: the moment that it takes more.
+/// A platform tensor with an error that depends on the orientation; adds the moment of the error.
 Defect wrongPlatformTensor(const char* name, const std::function<Matrix3d(const Matrix3d& I, const Matrix3d& Q)>& of) {
   return wrongTorques(name, "frame", [of](const Scenario& s) -> ChangeTorques {
     const auto solver = std::make_shared<const Solver<double>>(*s.manipulator);
@@ -75,7 +75,7 @@ const std::array<LegPart, 11> parts{
       }},
      {"knee", [](Leg& to, const Leg& from) { to.knee = from.knee; }}}};
 
-/// The legs that have two bends, 0-based.
+/// The legs with two knee branches, 0-based.
 std::vector<std::size_t> kneesOf(const Manipulator& machine) {
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < machine.parameters().legs.size(); ++i)
@@ -83,7 +83,7 @@ std::vector<std::size_t> kneesOf(const Manipulator& machine) {
   return out;
 }
 
-/// One leg of each kind, the second of it where there are two.
+/// One leg of each kind, the second one if there are two.
 std::vector<int> legsMet(const Manipulator& machine) {
   std::vector<int> out;
   for (const LegKind kind : kindsOf(machine)) {
@@ -95,7 +95,7 @@ std::vector<int> legsMet(const Manipulator& machine) {
   return out;
 }
 
-/// Leg i takes the part of leg from(i).
+/// Leg i gets the part of leg from(i).
 Defect mixUp(const std::string& name, const LegPart& part, const std::function<std::size_t(std::size_t)>& from) {
   return wrongMachine(name, "index", [part, from](P& m) {
     const auto right = m.legs;
@@ -109,7 +109,7 @@ Defect wrongKnee(std::size_t leg) {
   });
 }
 
-/// What has a cylinder and a rod.
+/// Defects of legs with cylinder and rod.
 std::vector<Defect> wrongTelescopes(const Manipulator& machine) {
   const std::vector<LegKind> kinds = kindsOf(machine);
   if (std::find(kinds.begin(), kinds.end(), LegKind::UPS) == kinds.end()) return {};

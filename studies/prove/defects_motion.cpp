@@ -1,4 +1,4 @@
-// The solver is told another motion than the one commanded.
+// The solver gets another motion than the commanded one.
 
 #include <Eigen/Geometry>
 

@@ -1,5 +1,5 @@
-// Terms of noc/ and of the paper's leg that are wrong: as printed, left out, or off by little for one leg, in one frame
-// or in one system of units.
+// Wrong terms of noc/ and of the paper's leg: as printed, omitted, or slightly off for one leg, in one frame or in one
+// system of units.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -32,7 +32,7 @@ Defect read(const char* name, const char* group, const std::function<void(Read&)
   return wrongFormula(name, group, fault);
 }
 
-/// What is wrong in one frame or in one system of units alone, only a change of them shows.
+/// An error in only one frame or system of units; only a change of them reveals it.
 Defect readElsewhere(const char* name, const std::function<void(Read&)>& change) {
   Defect out = read(name, "one frame", change);
   out.engines = 1;
@@ -45,7 +45,7 @@ Defect formulaErrorInConstraints(const char* name, FormulaError which) {
   return out;
 }
 
-/// Large against rounding, small against anything that a person would see in a plot.
+/// Large relative to rounding, but invisible to people in a plot.
 constexpr double off = 1e-6;
 
 bool has(const Manipulator& machine, LegKind kind) {
@@ -77,7 +77,7 @@ std::vector<Defect> ofPapersLeg(const Manipulator& machine) {
   return out;
 }
 
-/// Every equation of section 3, and what of section 2 is the same for all legs.
+/// Every equation of section 3, and the parts of section 2 that all legs share.
 std::vector<Defect> ofSectionThree(const Manipulator& machine) {
   std::vector<Defect> out = {
       formula_error("(26) as printed: B_dot", "formula", FormulaError::eq26_b_dot),
@@ -171,7 +171,7 @@ std::vector<Defect> ofLegFrameAndUnit() {
           })};
 }
 
-/// Each motor with what the next one turns; of motors that are alike nothing would change.
+/// Gives each motor the next one's rotor; equal motors would hide the change.
 void passRotorsOn(Read& machine) {
   const auto rotorOf = [&machine](const Motor& motor) -> double& {
     LegModel<double>& leg = machine.legs[static_cast<std::size_t>(motor.leg)];

@@ -1,4 +1,4 @@
-// What all formulations share, so that none of them can see it: the commanded motion and the load.
+// Defects that all formulations share, so none can see them: in the commanded motion and the load.
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 namespace ursula {
 namespace {
 
-/// `wrong`, which counts as read from a file where `right` was.
+/// Marks `wrong` as read from a file if `right` is.
 Scenario asRead(const Scenario& right, Scenario wrong) {
   if (right.isAsRead()) wrong.markAsRead();
   return wrong;
@@ -19,7 +19,7 @@ Scenario asRead(const Scenario& right, Scenario wrong) {
 
 using ChangeAt = std::function<void(Motion<double>& motion, const Trajectory& right)>;
 
-/// Wrong in doubles; the 50-digit pose stays right.
+/// A motion that is wrong in doubles; its 50-digit pose stays right.
 class FaultyTrajectory final : public ExactTrajectory {
  public:
   FaultyTrajectory(std::shared_ptr<const Trajectory> right, ChangeAt change)
@@ -59,8 +59,8 @@ Defect sharedMotion(const char* name, const ChangeAt& change) {
   });
 }
 
-/// Through the right rows, but slopes are limited for other components, of which `map` makes the right ones; where the
-/// load is constant it stays.
+/// A load through the right rows whose slopes are limited for other components; `map` converts those to the right ones.
+/// A constant load is unchanged.
 Defect slopesOf(const char* components, const Matrix6d& map) {
   const std::string name = fmt::format("load's slopes limited for {}", components);
   return shared(name, "shared load", [map](const Scenario& s) {
@@ -79,7 +79,7 @@ Defect slopesOf(const char* components, const Matrix6d& map) {
   });
 }
 
-/// Makes component i of the sum of itself and `share` of component j; of [f; m].
+/// Recovers component i of [f; m] from its sum with `share` of component j.
 Matrix6d outOfSum(int i, int j, double share) {
   Matrix6d map = Matrix6d::Identity();
   map(i, j) = -share;

@@ -1,4 +1,4 @@
-// Torques falsified on their way out, at all instants or at other ones than asked for.
+// Torques changed after the solver, at all instants or taken from other instants.
 
 #include <fmt/format.h>
 
@@ -38,7 +38,7 @@ Vector toSingle(const Vector& v) {
   return v.template cast<float>().template cast<double>();
 }
 
-/// The motion and the efforts pass through numbers of single precision.
+/// Motion and efforts are rounded to single precision.
 Defect singlePrecision() {
   return wrongTorques("single precision", "torque", [](const Scenario& s) -> ChangeTorques {
     const Subject right = nocSubject(*s.manipulator, s.load);
@@ -77,7 +77,7 @@ Defect lateLoad() {
   });
 }
 
-/// Efforts numbered by coordinate, and by leg within it.
+/// Efforts numbered by coordinate, then by leg.
 Vector6d numberedByCoordinate(const Vector6d& efforts, const Motors& motors) {
   std::array<int, motor_count> order = {0, 1, 2, 3, 4, 5};
   std::stable_sort(order.begin(), order.end(), [&motors](int a, int b) {
@@ -88,7 +88,7 @@ Vector6d numberedByCoordinate(const Vector6d& efforts, const Motors& motors) {
   return out;
 }
 
-/// Efforts of the motors that drive a coordinate changed.
+/// Changes the efforts of motors on one coordinate.
 Defect wrongEfforts(const std::string& name, Coordinate coordinate, double factor) {
   return wrongTorques(name, "torque", [coordinate, factor](const Scenario& s) -> ChangeTorques {
     return [motors = s.manipulator->motors(), coordinate, factor](Vector6d torques, const Motion<double>&) {
@@ -99,7 +99,7 @@ Defect wrongEfforts(const std::string& name, Coordinate coordinate, double facto
   });
 }
 
-/// Of coordinates that slide, of legs with two motors.
+/// Defects of sliding coordinates, and of legs with two motors.
 std::vector<Defect> wrongMotors(const Manipulator& machine) {
   std::vector<Defect> out;
   for (const Coordinate q : {Coordinate::phi, Coordinate::psi, Coordinate::theta, Coordinate::d}) {

@@ -16,7 +16,7 @@ constexpr int instants = 31;
 
 double instantOf(const Scenario& scenario, int k) { return scenario.trajectory->duration() * (k + 0.37) / instants; }
 
-constexpr std::size_t of_dynamics = 2;  ///< of the answers, the first
+constexpr std::size_t of_dynamics = 2;  ///< number of answers for dynamics; they come first
 
 /// One vector for each kind of quantity.
 std::vector<Eigen::VectorXd> answersOf(const Subject& subject, const Motion<double>& motion) {
@@ -33,7 +33,7 @@ std::vector<Eigen::VectorXd> answersOf(const Subject& subject, const Motion<doub
   return out;
 }
 
-/// How far two right formulations are apart, with some room, and not under a few units of the last place.
+/// The difference of two right formulations, with some margin and at least a few units of the last place.
 Eigen::VectorXd roomBetween(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   const double room = 16 * (a - b).cwiseAbs().maxCoeff() + 64 * eps * a.cwiseAbs().maxCoeff();
   return Eigen::VectorXd::Constant(a.size(), room);
@@ -50,12 +50,12 @@ RightAnswers::RightAnswers(const Scenario& scenario) {
       for (std::size_t i = 0; i < a.size(); ++i) instant.answers.push_back({a[i], roomBetween(a[i], b[i])});
       instants_.push_back(std::move(instant));
     } catch (const PoseError&) {
-      continue;  // nobody is asked there
+      continue;  // this instant is skipped
     }
 }
 
 RightAnswers::Off RightAnswers::offIn(const Subject& subject) const {
-  if (instants_.empty()) return Off::dynamics;  // nothing is known of it
+  if (instants_.empty()) return Off::dynamics;  // nothing is known about it
   Off out = Off::nothing;
   for (const Instant& instant : instants_) try {
       const auto answers = answersOf(subject, instant.motion);
@@ -94,7 +94,7 @@ bool sayOtherwise(const std::vector<Check>& a, const std::vector<Check>& b, doub
     if (one.verdict == Verdict::not_applicable || other.verdict == Verdict::not_applicable) return true;
     const bool both_nan = std::isnan(one.value) && std::isnan(other.value);
     const bool same = both_nan || one.value == other.value;
-    // Each of its own limit: what rounds may be shown at another instant.
+    // Each has its own limit, because rounding may select another instant.
     const double apart = Worst::share(one.value, one.limit) - Worst::share(other.value, other.limit);
     return one.verdict == other.verdict && (same || std::abs(apart) <= share);
   };

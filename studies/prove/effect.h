@@ -8,17 +8,16 @@
 
 namespace ursula {
 
-/// What rounding makes of the right solver's answers to a scenario, so that a defect is known from it: a solver that
-/// is wrong where this machine gives it nothing to be wrong about (friction of 0, two tensors of one link exchanged
-/// that turn together) differs by rounding alone.
+/// The rounding of the right solver's answers to a scenario, to recognise a defect. A solver whose error has no effect
+/// on this machine differs by rounding only. Examples are friction of 0, or exchanged tensors of one link that turn
+/// together.
 class RightAnswers {
  public:
   explicit RightAnswers(const Scenario& scenario);
 
-  /// What is off by more than rounding, at instants that are no samples of anything; dynamics where no instant has an
-  /// answer. Kinematics that are wrong and
-  /// leave the dynamics right (an axis reversed whose joint neither rubs nor drives) can be seen beside Simbody's
-  /// alone.
+  /// Quantities off by more than rounding, at instants that are no samples; dynamics if no instant has an answer. Wrong
+  /// kinematics with right dynamics (a reversed axis without friction and motor) are visible only in comparison with
+  /// Simbody's.
   enum class Off { nothing, kinematics, dynamics };
   Off offIn(const Subject& subject) const;
 
@@ -33,11 +32,10 @@ class RightAnswers {
   std::vector<Instant> instants_;
 };
 
-/// True where another trajectory has the same motion but for rounding; false for one and the same.
+/// Whether another trajectory has the same motion up to rounding; false for the same object.
 bool movesAlike(const Scenario& a, const Scenario& b);
 
-/// True where a check that applies to both says something else: another verdict, or another value by more than
-/// `share` of its limit.
+/// Whether a check that applies to both has another verdict, or a value that differs by more than `share` of its limit.
 bool sayOtherwise(const std::vector<Check>& a, const std::vector<Check>& b, double share);
 
 }  // namespace ursula

@@ -22,11 +22,11 @@
 namespace ursula {
 namespace {
 
-/// Instants for one of many validations: enough for three a step of the replay.
+/// Instants for one of many validations: enough for three per step of the replay.
 constexpr int samples_in_a_row = 101;
 constexpr int samples_of_sensitivity = 31;
 
-/// The torques of the right machine by Simbody, and whether other torques would be caught.
+/// Simbody's torques of the right machine, for a test whether other torques are caught.
 class TorqueReference {
  public:
   explicit TorqueReference(const Scenario& scenario)
@@ -36,7 +36,7 @@ class TorqueReference {
       largest_ = std::max(largest_, sample.torques_simbody.cwiseAbs().maxCoeff());
   }
 
-  /// The change of torque relative to the largest, negative where it is not caught.
+  /// The change of torque relative to the largest; negative if it is not caught.
   double caught(const Subject& subject) const {
     double change = 0;
     bool beyond = false;
@@ -48,7 +48,7 @@ class TorqueReference {
         beyond |= !(error <= sample.torque.limit);
       }
     } catch (const PoseError&) {
-      return 1;  // no answer is caught as well
+      return 1;  // a missing answer also counts as caught
     }
     return beyond ? change / largest_ : -1;
   }
@@ -58,7 +58,7 @@ class TorqueReference {
   double largest_ = 0;
 };
 
-/// Sixteen decades from 0.1 down, then the last of them halved until what is left is a hundredth of the error.
+/// Tries sixteen decades from 0.1 down, then halves the last one until a hundredth of the error remains.
 Sensitivity findSensitivity(const Scenario& scenario, const TorqueReference& reference, const Parameter& parameter) {
   Sensitivity out{parameter.path, parameter.group, std::numeric_limits<double>::infinity(), 0};
   const auto tryError = [&](double exponent) {
@@ -67,7 +67,7 @@ Sensitivity findSensitivity(const Scenario& scenario, const TorqueReference& ref
     try {
       change = reference.caught(disturbedSubject(scenario, parameter, relative));
     } catch (const InvalidParameter&) {
-      // No machine can be so: refused before any check.
+      // An impossible machine is refused before any check.
     }
     if (change < 0) return false;
     out.smallest_caught = relative;

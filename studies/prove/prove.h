@@ -12,19 +12,19 @@
 
 namespace ursula {
 
-/// What the validation said of one defect.
+/// The result of the validation with one defect.
 struct DefectOutcome {
   std::string name, group;
-  std::vector<std::string> caught_by;  ///< names of the checks that failed, in the order of the result
-  int formulations_wanted = 2;         ///< as Defect::formulations
-  bool shows = true;                   ///< false where the scenario gives the defect nothing to change
-  std::string refused;                 ///< why there was nothing to validate: no machine or no motion can be so
+  std::vector<std::string> caught_by;  ///< names of the failed checks, in the order of the result
+  int formulations_wanted = 2;         ///< as Defect::engines
+  bool shows = true;                   ///< false if the defect changes nothing in this scenario
+  std::string refused;                 ///< why nothing could be validated: an impossible machine or motion
 
-  int engines() const;  ///< on which it was caught
+  int engines() const;  ///< number of formulations that caught it
   bool caught() const { return !refused.empty() || engines() >= formulations_wanted; }
 };
 
-/// Of one check: what it alone catches, and what it catches first of all in the order of the result.
+/// The defects that one check alone catches, and those that it catches first in the order of the result.
 struct CheckProof {
   std::string check;
   std::vector<std::string> alone, first;
@@ -32,39 +32,39 @@ struct CheckProof {
 
 struct DefectProof {
   std::vector<DefectOutcome> outcomes;
-  std::vector<CheckProof> checks;  ///< every check that the scenario's result has
-  /// Checks that fail the right solver, or a mechanism that injects nothing: then nothing is proved.
+  std::vector<CheckProof> checks;  ///< every check of the scenario's result
+  /// Checks that fail the right solver, or a mechanism without a defect; then nothing is proved.
   std::vector<std::string> without_defect;
-  int controls = 0;  ///< mechanisms that were tried without a defect
+  int controls = 0;  ///< number of mechanisms tried without a defect
 };
 
-/// What a check compares with: "Simbody" in either topology, "maximal coordinates", "MuJoCo", or itself where it needs
-/// none of them.
+/// What a check compares with: "Simbody" in either topology, "maximal coordinates", "MuJoCo", or the check itself if it
+/// needs none.
 std::string engineOf(const std::string& check);
 
-/// The smallest relative error of one parameter that `torque.pointwise` still fails.
+/// The smallest relative error of one parameter at which `torque.pointwise` fails.
 struct Sensitivity {
   std::string parameter, group;
-  double smallest_caught = 0;  ///< relative; infinite where not even 0.1 shows
-  double torque_change = 0;    ///< the change of torque at that error, relative to the largest torque
+  double smallest_caught = 0;  ///< relative; infinite if even 0.1 passes
+  double torque_change = 0;    ///< torque change at that error, relative to the largest torque
 };
 
 struct RandomOutcomes {
   int runs = 0, passed = 0;
-  std::vector<std::string> failed, inconclusive;  ///< seed, worst check and why
-  std::map<std::string, double> largest_share;    ///< of its limit that a check's value reached, by its name
+  std::vector<std::string> failed, inconclusive;  ///< seed, worst check and reason
+  std::map<std::string, double> largest_share;    ///< by check: the largest share of its limit
 };
 
-/// Every defect of allDefects() in turn, judged by the whole validation. Order and content do not depend on `jobs`.
+/// Validates every defect of allDefects() in turn. Order and content do not depend on `jobs`.
 DefectProof proveDefects(const Scenario& scenario, int jobs, const std::function<void(int)>& done);
 
-/// With few samples, for one of many validations: enough for three a step of the replay.
+/// Returns the scenario with few samples, for one of many validations: enough for three per step of the replay.
 Scenario sampledForMany(Scenario scenario);
 
-/// By bisection of the exponent, to one in a hundred.
+/// Bisects the exponent to one in a hundred.
 std::vector<Sensitivity> proveSensitivities(const Scenario& scenario);
 
-/// The other direction: `count` random valid scenarios from `seed` on; none may fail.
+/// The reverse test: `count` random valid scenarios from `seed` on; none may fail.
 RandomOutcomes proveRandom(std::uint64_t seed, int count, int jobs, const std::function<void(int)>& done,
                            RandomKind kind = RandomKind::URS);
 

@@ -28,7 +28,7 @@ std::vector<std::string> failed(const std::vector<Check>& checks) {
 
 Subject right(const Scenario& scenario) { return nocSubject(*scenario.manipulator, scenario.load); }
 
-/// One scenario, and what the right solver makes of it.
+/// One scenario, and the right solver's results for it.
 class Proof {
  public:
   explicit Proof(const Scenario& scenario)
@@ -43,7 +43,7 @@ class Proof {
     try {
       const std::vector<Check> checks = defect.scenario ? inItsScenario(defect, outcome) : withIts(defect);
       outcome.caught_by = failed(checks);
-      // A wrong solver differs by rounding too; what all are given, and an experiment, only by what is wrong.
+      // A wrong solver also differs by rounding; a changed input or experiment differs only by its error.
       const bool rounds = defect.subject || (defect.scenario && movesAlike(defect.scenario(scenario_), scenario_));
       outcome.shows = !outcome.caught_by.empty() || sayOtherwise(checks, checks_, rounds ? 0.125 : 0.0);
       if (defect.subject) seeSubject(defect.subject(scenario_), outcome);
@@ -66,8 +66,8 @@ class Proof {
   void seeSubject(const Subject& subject, DefectOutcome& outcome) const {
     const RightAnswers::Off off = right_answers_.offIn(subject);
     outcome.shows = outcome.shows || off != RightAnswers::Off::nothing;
-    // What leaves the dynamics right, or shows on other machines alone (two legs alike exchanged), one formulation can
-    // see.
+    // One formulation is enough for defects that keep the dynamics right, or that only other machines reveal (two
+    // exchanged equal legs).
     if (off != RightAnswers::Off::dynamics && !outcome.caught()) outcome.formulations_wanted = 1;
   }
 
@@ -77,7 +77,7 @@ class Proof {
     return validateMade(scenario_, defect.subject ? defect.subject : right, faulty).checks;
   }
 
-  /// A motion that cannot be made is refused, but judged all the same for what it is.
+  /// An impossible motion is refused but still judged.
   static std::vector<Check> judged(const Scenario& scenario, DefectOutcome& outcome) {
     ValidationOptions afresh;
     afresh.budget = false;

@@ -36,7 +36,7 @@ const char* wordOf(const DefectOutcome& outcome) {
 
 const char* signOf(const DefectOutcome& outcome) { return !outcome.shows ? "–" : outcome.caught() ? "✓" : "✗"; }
 
-/// A diamond for the first check of the result to catch it, a tick for the others: the sign says it without colour.
+/// A diamond for the first check that caught it, a tick for the others, so that colour is not essential.
 std::string cell(const DefectOutcome& outcome, const std::string& check) {
   const auto hit = std::find(outcome.caught_by.begin(), outcome.caught_by.end(), check);
   if (hit == outcome.caught_by.end()) return "<td class=\"cell\"></td>";
@@ -62,7 +62,7 @@ std::string matrix(const std::vector<DefectOutcome>& outcomes) {
   for (const std::string& check : checks)
     heads += fmt::format("<th scope=\"col\" class=\"upright\" title=\"{}\"><span>{}</span></th>", escaped(check),
                          escaped(checkTitle(check)));
-  for (const int wanted : {0, 1, 2})  // what was missed first, what shows nothing last
+  for (const int wanted : {0, 1, 2})  // missed defects first, those without effect last
     for (const DefectOutcome& outcome : outcomes)
       if ((!outcome.shows ? 2 : outcome.caught() ? 1 : 0) == wanted) rows += matrixRow(outcome, checks);
   return region(
@@ -200,7 +200,7 @@ bool isProved(const ProveFound& found) {
   if (!found.random.failed.empty()) return false;
   if (!found.proof) return true;
   const std::vector<DefectOutcome>& outcomes = found.proof->outcomes;
-  // Where a machine has nothing for some defects to change, their checks have nothing to catch.
+  // If some defects have no effect on a machine, their checks have nothing to catch.
   const bool all_show = std::all_of(outcomes.begin(), outcomes.end(), [](const DefectOutcome& o) { return o.shows; });
   const bool idle = all_show && idleChecks(found.proof->checks) > 0;
   return weakDefects(outcomes) == 0 && !idle && found.proof->without_defect.empty();

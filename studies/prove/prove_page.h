@@ -9,19 +9,19 @@
 
 namespace ursula {
 
-/// All that `ursula prove` found.
+/// All results of `ursula prove`.
 struct ProveFound {
   std::string scenario;
-  std::optional<DefectProof> proof;  ///< none where only random scenarios were tried
+  std::optional<DefectProof> proof;  ///< nullopt if only random scenarios were tried
   std::vector<Sensitivity> sensitivities;
   RandomOutcomes random;
-  std::uint64_t seed = 0;  ///< of the first random scenario
+  std::uint64_t seed = 0;  ///< seed of the first random scenario
 };
 
 /// Whether the right solver passes, every defect is caught, every check is needed and no random scenario fails.
 bool isProved(const ProveFound& found);
 
-/// A page of the report's looks: defects against checks, what each check is needed for, thresholds, random scenarios.
+/// Returns a page in the report's style: defects by checks, the need for each check, thresholds, random scenarios.
 std::string proveHtml(const ProveFound& found);
 
 }  // namespace ursula

@@ -7,13 +7,13 @@
 
 namespace ursula {
 
-/// Defects that show and were caught on fewer formulations than they must.
+/// Number of effective defects that too few formulations caught.
 int weakDefects(const std::vector<DefectOutcome>& outcomes);
 
-/// Whether it alone or first catches a defect.
+/// Whether it catches a defect alone or first.
 inline bool isNeeded(const CheckProof& proof) { return !proof.alone.empty() || !proof.first.empty(); }
 
-/// Checks that are not needed: they catch nothing that those before them do not.
+/// Number of checks that are not needed, because earlier ones catch everything that they do.
 int idleChecks(const std::vector<CheckProof>& checks);
 
 /// Every check that caught anything, in the order of its first catch.
@@ -23,9 +23,9 @@ std::vector<std::string> catchingChecks(const std::vector<DefectOutcome>& outcom
 struct SensitivityGroup {
   std::string name;
   int count = 0, unseen = 0;
-  Sensitivity worst;          ///< that shows
+  Sensitivity worst;          ///< the worst of those caught
   double smallest = 1;        ///< relative error that is caught
-  double largest_change = 0;  ///< of torque, relative to the largest, that is caught at the smallest error
+  double largest_change = 0;  ///< largest torque change, relative to the largest torque, at the smallest caught error
 };
 std::vector<SensitivityGroup> groupsOf(const std::vector<Sensitivity>& sensitivities);
 

@@ -9,8 +9,8 @@
 
 namespace ursula {
 
-/// Random numbers that do not depend on the standard library's distributions: the same everywhere for the same seed, as
-/// long as no expression throws twice where the language leaves the order to the compiler.
+/// Random numbers independent of the standard library's distributions: equal everywhere for equal seeds. No expression
+/// may draw twice if the language leaves its order to the compiler.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : engine_(seed) {}
@@ -22,14 +22,14 @@ class Dice {
   double spread(double low, double high) { return low * std::pow(high / low, uniform(0, 1)); }
   bool chance(double probability) { return uniform(0, 1) < probability; }
   double sign() { return chance(0.5) ? 1 : -1; }
-  /// From low to high, both among them.
+  /// From low to high, both included.
   int whole(int low, int high) { return low + static_cast<int>(uniform(0, 1) * (high - low + 1)); }
-  /// Of either sign, its size uniform in the logarithm.
+  /// Either sign, with a size uniform in the logarithm.
   double spreadOfEitherSign(double low, double high) {
     const double side = sign();
     return side * spread(low, high);
   }
-  /// One of an enumeration's first `count` values.
+  /// One of the first `count` values of an enumeration.
   template <class Choice>
   Choice pick(int count) {
     return static_cast<Choice>(whole(0, count - 1));

@@ -7,7 +7,7 @@
 namespace ursula {
 namespace {
 
-/// Exactly at one of the ends for one leg at most, so that no two legs share a number.
+/// At most one leg has it exactly at an end, so that no two legs share a number.
 double massCentre(Dice& dice, const Recipe& recipe, bool may_be_at_end, double length) {
   if (!recipe.centres_anywhere) return dice.uniform(0.2, 0.8) * length;
   if (may_be_at_end) return dice.chance(0.5) ? 0 : length;
@@ -18,7 +18,7 @@ double massCentre(Dice& dice, const Recipe& recipe, bool may_be_at_end, double l
   return dice.uniform(-1.5, 2.5) * length;
 }
 
-/// Squares of the mass's extents: all alike, all but nothing beside m l², along a line, or in a plane.
+/// Squares of the mass's extents: similar, tiny relative to m l², along a line, or in a plane.
 Vector3d extents(Dice& dice, Inertias kind) {
   if (kind == Inertias::mixed) kind = dice.pick<Inertias>(4);
   const double scale = kind == Inertias::points ? dice.spread(1e-6, 1e-3) : dice.spread(0.01, 0.15);
@@ -28,7 +28,7 @@ Vector3d extents(Dice& dice, Inertias kind) {
   return scale * squares;
 }
 
-/// Principal moments within the triangle inequality, turned any way.
+/// Principal moments within the triangle inequality, with random axes.
 Matrix3d randomInertia(Dice& dice, Inertias kind, double mass, double size) {
   const Vector3d squares = mass * size * size * extents(dice, kind);
   const Vector3d moments(squares.y() + squares.z(), squares.z() + squares.x(), squares.x() + squares.y());
@@ -37,7 +37,7 @@ Matrix3d randomInertia(Dice& dice, Inertias kind, double mass, double size) {
   return (I + I.transpose()) / 2;
 }
 
-/// `largest` of what turns, and over `length` of what slides.
+/// Up to `largest` for rotating coordinates, and up to `largest` over `length` for sliding ones.
 JointFriction randomFriction(Dice& dice, LegKind kind, double largest, double length) {
   JointFriction out;
   for (const Coordinate q : rowOf(kind).coordinates)
@@ -50,7 +50,7 @@ void drawFriction(Dice& dice, const Recipe& recipe, double torque, Leg& leg) {
   const double time = recipe.time(), length = recipe.length;
   if (recipe.viscous) {
     const double largest = dice.spread(0.01, 0.5) * torque * time;
-    // A rate of one length a time: of what slides twice over the length.
+    // A sliding rate is one length per time, so its coefficient is divided by the length twice.
     leg.friction = randomFriction(dice, leg.kind, largest, length * length);
   }
   leg.coulomb.smoothing_speed = dice.spread(0.003, 0.3) / time;
@@ -60,7 +60,7 @@ void drawFriction(Dice& dice, const Recipe& recipe, double torque, Leg& leg) {
     static_cast<JointFriction&>(leg.coulomb) = randomFriction(dice, leg.kind, dice.spread(0.01, 0.2) * torque, length);
 }
 
-/// Means of the platform's and the links' masses, one share of what `even` bodies weigh or unlike each other.
+/// Means of the platform's and the links' masses: one share of the mass of `even` bodies, or different.
 struct MassScales {
   double platform, links, within;
 };

@@ -10,7 +10,7 @@
 namespace ursula {
 namespace {
 
-/// How many motors each leg has: as many as legs allow, the rest on any of them.
+/// The number of motors per leg: one each, and the rest on random legs.
 std::vector<int> randomMotorCounts(Dice& dice, RandomKind kind) {
   if (kind != RandomKind::mixture && kind != RandomKind::two_motors) return std::vector<int>(leg_count, 1);
   const bool few = kind == RandomKind::two_motors;
@@ -27,7 +27,7 @@ std::vector<int> randomMotorCounts(Dice& dice, RandomKind kind) {
   return counts;
 }
 
-/// The coordinate that drives a leg of its kind if nothing is said, and any others.
+/// The default driven coordinate of the leg's kind, then random others.
 std::array<bool, 3> randomMotors(Dice& dice, LegKind kind, int count, bool other_motors) {
   std::array<bool, 3> driven = {false, false, false};
   if (!other_motors) {
@@ -44,7 +44,7 @@ std::array<bool, 3> randomMotors(Dice& dice, LegKind kind, int count, bool other
 }
 
 LegKind randomLegKind(Dice& dice, RandomKind kind) {
-  const bool of_one_kind = kind < RandomKind::mixture;  // these stand first, in the order of LegKind
+  const bool of_one_kind = kind < RandomKind::mixture;  // these come first, in the order of LegKind
   return of_one_kind ? static_cast<LegKind>(kind) : dice.pick<LegKind>(static_cast<int>(leg_kind_count));
 }
 

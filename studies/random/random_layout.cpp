@@ -9,11 +9,11 @@ namespace {
 
 Vector3d onRing(double radius, double angle) { return {radius * std::cos(angle), radius * std::sin(angle), 0}; }
 
-/// What the legs of a layout have in common.
+/// The common numbers of a layout's legs.
 struct Rings {
-  double base = 1, platform = 1, height = 1;  ///< radii, and the platform's height over the base
-  double turn = 0;                            ///< of all about z
-  double scatter = 0;                         ///< of every point, so that no two legs share a number
+  double base = 1, platform = 1, height = 1;  ///< radii, and the platform's height above the base
+  double turn = 0;                            ///< rotation of everything about z
+  double scatter = 0;                         ///< random offset of every point, so that no two legs share a number
   double base_half = 0, platform_half = 0;    ///< half the angle between the legs of a pair
 };
 
@@ -29,7 +29,7 @@ Rings randomRings(Dice& dice, Arrangement arrangement) {
     case Arrangement::paper:
       rings.base_half = rings.platform_half = dice.uniform(1, 6) * degree;
       break;
-    case Arrangement::three_three:  // what pairs share is drawn nearly so, not exactly
+    case Arrangement::three_three:  // shared points are nearly equal, not exactly
       rings.scatter = dice.spread(1e-3, 0.03);
       rings.platform_half = 60 * degree;
       break;
@@ -87,7 +87,7 @@ LegPlace placeLeg(Dice& dice, const Recipe& recipe, const Rings& rings, int i) {
   return place;
 }
 
-/// Along z, exactly or up to a hundredth beside it.
+/// Along z, exactly or up to a hundredth off.
 Vector3d axisAlongZ(Dice& dice) {
   Vector3d axis(0, 0, dice.spreadOfEitherSign(0.5, 2));
   if (dice.chance(0.5)) return axis;

@@ -20,7 +20,7 @@ void give(const LinkLengths& links, LegPlace& place) {
   place.s = links.s;
 }
 
-/// A leg nearly stretched, folded or across its rail; of UPS nothing is.
+/// Makes a leg nearly stretched, folded or perpendicular to its rail; UPS has no such pose.
 void closeNearly(Dice& dice, LegKind kind, LegPlace& place) {
   const double bent = dice.uniform(3, 12) * degree;
   const LegType& type = typeOf(kind);
@@ -28,13 +28,13 @@ void closeNearly(Dice& dice, LegKind kind, LegPlace& place) {
     if (const auto links = type.lengthsAtDeadCentre(spanOf(place), bent)) give(*links, place);
     return;
   }
-  // A folded leg has links of different lengths, else B would be at A.
+  // A folded leg needs links of different lengths, otherwise B would be at A.
   const bool folded = dice.chance(0.3);
   const double gamma = folded ? bent : pi - bent, ratio = folded ? dice.uniform(2, 3) : dice.spread(0.6, 1.6);
   give(type.lengths(spanOf(place), gamma, ratio), place);
 }
 
-/// One leg or two of those kinds, from any on.
+/// Changes one or two legs of those kinds, from a random one on.
 template <class F>
 void someOf(Dice& dice, const Recipe& recipe, bool (LegKindRow::*is)() const, Layout& layout, const F& change) {
   const int count = static_cast<int>(layout.size());

@@ -30,8 +30,7 @@ std::vector<TimedWrench> smoothRows(Dice& dice, const Recipe& recipe, double for
   return rows;
 }
 
-/// Steps, each between two rows that are some thousandths of the machine's time apart: a millisecond where it measures
-/// a metre.
+/// Steps, each between two rows some thousandths of the machine's time apart: a millisecond for a machine of a metre.
 std::vector<TimedWrench> jumpingRows(Dice& dice, const Recipe& recipe, double force) {
   const int count = dice.whole(1, 3);
   std::vector<TimedWrench> rows;

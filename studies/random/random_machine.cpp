@@ -7,8 +7,8 @@
 namespace ursula {
 namespace {
 
-/// A helix whose middle is at `position`: what its triad is there, the platform has to be. About an origin far away it
-/// hardly turns while it covers a share of the machine.
+/// A helix with its middle at `position`; the platform takes the triad there. About a distant origin it hardly turns
+/// while it covers a share of the machine.
 void drawHelix(Dice& dice, const Recipe& recipe, Design& design) {
   HelixParameters& helix = design.helix;
   const Vector3d& p = design.position;
@@ -23,7 +23,7 @@ void drawHelix(Dice& dice, const Recipe& recipe, Design& design) {
   helix.phase = std::atan2(p.y(), p.x()) - middle;
   helix.height_phase = p.z() / helix.pitch - middle;
   helix.duration = recipe.duration;
-  if (dice.chance(0.3)) {  // else at rest at both ends
+  if (dice.chance(0.3)) {  // otherwise at rest at both ends
     const double rate = sweep / helix.duration;
     helix.start_rate = dice.uniform(-1, 1) * rate;
     helix.end_rate = dice.uniform(-1, 1) * rate;
@@ -32,7 +32,7 @@ void drawHelix(Dice& dice, const Recipe& recipe, Design& design) {
   }
 }
 
-/// The helix's triad at its middle, as model/trajectories/helix.cpp has it.
+/// The helix's triad at its middle, as in model/trajectories/helix.cpp.
 Eigen::Quaterniond helixTriad(const HelixParameters& helix) {
   const double angle = (helix.start_angle + helix.end_angle) / 2 + helix.phase;
   const double c = std::cos(angle), s = std::sin(angle);
@@ -43,7 +43,7 @@ Eigen::Quaterniond helixTriad(const HelixParameters& helix) {
   return Eigen::Quaterniond(Q);
 }
 
-/// Puts the layout anywhere in B, and M anywhere on the platform.
+/// Places the layout randomly in B, and M randomly on the platform.
 void placeLegs(Dice& dice, const Recipe& recipe, const Layout& layout, Design& design) {
   const Eigen::Quaterniond turn = dice.turn(recipe.turned ? pi : 0.1);
   const Vector3d origin = recipe.offset * dice.direction();

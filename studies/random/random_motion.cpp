@@ -9,9 +9,10 @@
 namespace ursula {
 namespace {
 
-using Shift = Eigen::Matrix<double, 6, 1>;  ///< of the platform's middle in lengths, and its turn as a vector
+using Shift = Eigen::Matrix<double, 6, 1>;  ///< of the platform's middle in lengths, and its rotation as a vector
 
-/// The design's pose moved: the platform's middle, not P, so that a P far off does not carry it away by turning.
+/// Moves the design's pose by the platform's middle instead of P, so that rotations about a distant P do not move the
+/// platform away.
 TimedPose poseAt(const Recipe& recipe, const Design& design, double time, const Shift& shift) {
   const Vector3d middle = design.position + design.orientation * design.middle + recipe.length * shift.head<3>();
   const double angle = shift.tail<3>().norm();
@@ -24,7 +25,7 @@ TimedPose poseAt(const Recipe& recipe, const Design& design, double time, const 
   return pose;
 }
 
-/// How far a motion goes: in lengths and in radians.
+/// The size of a motion, in lengths and in radians.
 struct Reach {
   double shift, turn;
   Shift draw(Dice& dice) const {
@@ -54,7 +55,7 @@ std::shared_ptr<const Trajectory> holdMotion(Dice& dice, const Recipe& recipe, c
   return makeHold(pose.position, pose.orientation, recipe.duration);
 }
 
-/// Times from 0 to `duration` of which one interval is up to `uneven` times another.
+/// Times from 0 to `duration` whose intervals differ by a factor of up to `uneven`.
 std::vector<double> randomTimes(Dice& dice, double duration, int count, double uneven) {
   std::vector<double> times{0};
   for (int k = 1; k < count; ++k) times.push_back(times.back() + dice.spread(1, uneven));
@@ -63,8 +64,7 @@ std::vector<double> randomTimes(Dice& dice, double duration, int count, double u
   return times;
 }
 
-/// A few poses at about even times; many, each near the one before; or some of the ways in a twentieth of the others'
-/// time.
+/// A few poses at nearly even times; many, each near its predecessor; or some intervals of a twentieth of the others.
 std::shared_ptr<const Trajectory> waypointMotion(Dice& dice, const Recipe& recipe, const Design& design, double share) {
   const bool tight = recipe.pace == Pace::tight, abrupt = recipe.pace == Pace::abrupt;
   const int count = tight ? dice.whole(8, 24) : dice.whole(2, 5) + (abrupt ? 1 : 0);
@@ -102,7 +102,7 @@ class Waves {
   Shift amplitudes_[2], turns_[2], phases_[2];
 };
 
-/// Noise of ε lengths at intervals h shakes with ε / h²: at most some times the acceleration in the machine's units.
+/// Noise of ε lengths at intervals h causes accelerations of ε / h²; limits them to a few times the machine's unit.
 double noiseOf(Dice& dice, const Recipe& recipe, double share, int count) {
   if (!recipe.noisy) return 0;
   const double h = recipe.duration / recipe.time() / (count - 1);
@@ -111,7 +111,7 @@ double noiseOf(Dice& dice, const Recipe& recipe, double share, int count) {
 
 std::shared_ptr<const Trajectory> sampleMotion(Dice& dice, const Recipe& recipe, const Design& design, double share) {
   const int count = recipe.pace == Pace::tight ? dice.whole(40, 120) : dice.whole(7, 40);
-  // At least six samples in a turn, and no more turns than natural times.
+  // At least six samples per turn, and no more turns than natural times.
   const double most = std::min(1 + recipe.duration / recipe.time(), count / 6.0);
   const Waves waves(dice, randomReach(dice, share), std::max(most, 0.3));
   const double noise = noiseOf(dice, recipe, share, count);

@@ -8,11 +8,11 @@
 
 namespace ursula {
 
-/// A motion of the recipe's kind about the design's pose. `share` makes it smaller where the legs cannot follow.
-/// Throws InvalidParameter where the spline between the poses swings too far.
+/// A motion of the recipe's kind about the design's pose. `share` makes it smaller if the legs cannot follow. Throws
+/// InvalidParameter if the spline between the poses overshoots too far.
 std::shared_ptr<const Trajectory> randomMotion(Dice& dice, const Recipe& recipe, const Design& design, double share);
 
-/// Null where the recipe has none.
+/// Null if the recipe has no load.
 std::shared_ptr<const Load> randomLoad(Dice& dice, const Recipe& recipe, const Design& design);
 
 }  // namespace ursula

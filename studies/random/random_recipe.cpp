@@ -8,7 +8,7 @@
 namespace ursula {
 namespace {
 
-/// Draws whether something is out of the ordinary, and notes it.
+/// Draws whether an unusual property occurs, and notes it.
 class Oddities {
  public:
   Oddities(Dice& dice, Recipe& recipe) : dice_(dice), recipe_(recipe) {}
@@ -23,7 +23,7 @@ class Oddities {
   Recipe& recipe_;
 };
 
-/// Masses grow with the volume of a machine of the paper's kind, 10 kg at 1.4 m, or have nothing to do with it.
+/// Masses grow with the volume as for the paper's machine, 10 kg at 1.4 m, or are independent of it.
 void drawUnits(Dice& dice, Oddities& odd, Recipe& recipe) {
   recipe.length = dice.spread(0.4, 4);
   if (odd.happens(0.2, "size")) recipe.length = dice.spread(2e-3, 300);
@@ -42,14 +42,14 @@ void drawGeometry(Dice& dice, Oddities& odd, Recipe& recipe) {
   recipe.axis_along_z = odd.happens(0.05, "an axis along z");
   recipe.turned = !recipe.axis_along_z && odd.happens(0.15, "turned");
   recipe.offset = dice.uniform(0, 1) * recipe.length;
-  // Beyond a million lengths a double does not tell where the joints are.
+  // Beyond a million lengths, doubles cannot resolve the joints' positions.
   if (odd.happens(0.12, "far from the origin"))
     recipe.offset = dice.spread(10 * recipe.length, std::min(1e6 * recipe.length, 1e5));
   recipe.platform_offset = dice.uniform(0, 0.4) * recipe.length;
   if (odd.happens(0.12, "P off the platform")) recipe.platform_offset = dice.spread(1, 30) * recipe.length;
 }
 
-/// What only legs of other kinds than URS can be.
+/// Properties that only other kinds of legs than URS can have.
 void drawLegs(Dice& dice, Oddities& odd, Recipe& recipe) {
   const RandomKind kind = recipe.kind;
   const bool of_any = kind == RandomKind::mixture || kind == RandomKind::two_motors;
@@ -112,7 +112,7 @@ std::string Recipe::text() const {
 }
 
 double Recipe::largestKappa() const {
-  // P far off the platform's points makes B worse by as many lengths.
+  // P far from the platform's points increases the condition of B by as many lengths.
   return near_singular || platform_offset > length ? 1e6 : 1e4;
 }
 

@@ -16,8 +16,8 @@
 namespace ursula {
 namespace {
 
-constexpr double smallest_sine = 0.03;   // of a knee
-constexpr double smallest_lever = 0.05;  // of B from its leg's axis, as a share of |AB|
+constexpr double smallest_sine = 0.03;   // for a knee
+constexpr double smallest_lever = 0.05;  // distance of B from its leg's axis, as a share of |AB|
 
 /// Equally spaced instants, and four in every interval between knots.
 std::vector<double> instantsOf(const Trajectory& trajectory) {
@@ -32,7 +32,7 @@ std::vector<double> instantsOf(const Trajectory& trajectory) {
   return out;
 }
 
-/// Follows the pose only: whether all legs do, well enough, on one side of the singular poses.
+/// Checks poses only: whether all legs follow with a sufficient margin, on one side of the singular poses.
 class Follower {
  public:
   explicit Follower(const Manipulator& manipulator) : solver_(manipulator) {}
@@ -58,19 +58,19 @@ class Follower {
 
 double kappaOf(const Conditioning& c) { return c.kappa_B * c.kappa_legs; }
 
-/// True where the machine can stand in the middle of the motion, with something left to move.
+/// Whether the machine can take the middle pose with some margin for motion.
 bool canStand(const Recipe& recipe, const Design& design, const Manipulator& manipulator) {
   Motion<double> motion;
   motion.p = design.position;
   motion.Q = design.orientation.toRotationMatrix();
   if (!Follower(manipulator).follows(motion)) return false;
   const double kappa = kappaOf(ConditioningProbe(manipulator, nullptr).at(motion));
-  // Near a singularity the machine stands not far from it already: else few of its motions come near.
+  // For motions near a singularity the middle pose must be near it already; otherwise few motions come near.
   if (recipe.near_singular) return kappa > 3e3 && kappa < recipe.largestKappa();
   return 3 * kappa < recipe.largestKappa();
 }
 
-/// True where every leg follows the whole motion, as far from singularities as the recipe says.
+/// Whether every leg follows the whole motion, as far from singularities as the recipe requires.
 bool canBeJudged(const Recipe& recipe, const Scenario& scenario) {
   const std::vector<double> instants = instantsOf(*scenario.trajectory);
   Follower follower(*scenario.manipulator);
@@ -87,8 +87,8 @@ bool canBeJudged(const Recipe& recipe, const Scenario& scenario) {
   return !recipe.near_singular || worst >= near;
 }
 
-/// Motions smaller and smaller until the legs can follow; near a singularity from larger ones on and in smaller steps,
-/// so that the first that they can follow comes close to it.
+/// Tries smaller and smaller motions until the legs follow. Near a singularity it starts with larger ones and takes
+/// smaller steps, so the first success comes close to it.
 bool findMotion(Dice& dice, const Recipe& recipe, const Design& design, int& draws, Scenario& scenario) {
   const double factor = recipe.near_singular ? 0.75 : 0.6;
   double share = recipe.near_singular ? 1.5 : 1;
@@ -122,8 +122,8 @@ std::string nameFor(std::uint64_t seed, RandomKind kind) {
   return kind == RandomKind::URS ? fmt::format("random-{}", seed) : fmt::format("random-{}-{}", nameOf(kind), seed);
 }
 
-/// A quarter of the machines has rotors, some or all of its motors, of 0.003 to 3 times the rod's m s² or m. From a
-/// stream of their own: the other numbers do not depend on them.
+/// A quarter of the machines has rotors, on some or all motors, of 0.003 to 3 times the rod's m s² or m. They have
+/// their own random stream, so the other numbers do not depend on them.
 bool addRotors(std::uint64_t seed, ManipulatorParameters& machine) {
   Dice dice(seed ^ 0x726f746f72);
   if (!dice.chance(0.25)) return false;
@@ -147,7 +147,7 @@ Scenario randomScenario(std::uint64_t seed, RandomKind kind) {
     Scenario scenario;
     scenario.name = nameFor(seed, kind);
     scenario.file = scenario.name;
-    // A recipe that no design meets is given up for another.
+    // A recipe that no design satisfies is replaced.
     for (int design = 0; design < 100; ++design) {
       if (!tryDesign(dice, recipe, draws, scenario)) continue;
       scenario.text = fmt::format("seed {}, draw {}: {}: {}", seed, draws, scenario.trajectory->kind(), recipe.text());

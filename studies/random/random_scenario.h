@@ -7,10 +7,9 @@
 
 namespace ursula {
 
-/// A valid scenario made from a seed; the same on every machine. Most numbers are moderate; each kind of extreme comes
-/// with a probability of its own, so that a scenario has some two and `text` names them. No two legs share a
-/// number other than zero. L is the machine's length, m its mass, a its acceleration (|g|, also where gravity is left
-/// out), T = √(L/a) its time. What is covered:
+/// Returns a valid scenario from a seed, the same on every machine. Most numbers are moderate. Each kind of extreme has
+/// its own probability, so a scenario has some two, which `text` names. No two legs share a non-zero number. L is the
+/// machine's length, m its mass, a its acceleration (|g|, even without gravity), T = √(L/a) its time. The ranges are:
 ///
 ///   L                        0.4 m to 4 m; 2 mm to 300 m
 ///   m                        1 to 15 times L³ kg/m³; 1 g to 1 t whatever the size
@@ -41,7 +40,7 @@ namespace ursula {
 ///   singularities            κ(B) κ(legs) up to 10⁴; 10⁴ to 10⁶; legs down to |sin θ| = 0.03, B down to |AB| / 20 from
 ///                            its leg's axis
 ///
-/// and of other kinds than URS:
+/// and for other kinds than URS:
 ///
 ///   legs                     six of one kind; four to six of any kinds; three to five, some with two motors or three
 ///   motors                   on the coordinate that a kind drives by default; on any

@@ -15,7 +15,7 @@ Json arrayOf(int least, int most) {
   return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", least}, {"maxItems", most}};
 }
 
-/// Of a bound as the table has it: > 0 is all above the smallest positive number.
+/// Converts a bound of the table: > 0 means at least the smallest positive number.
 void addBound(const KeyBound& bound, Json& out) {
   if (std::fpclassify(bound.least) == FP_SUBNORMAL)
     out["exclusiveMinimum"] = 0;
@@ -67,14 +67,15 @@ Json schemaOf(const ScenarioKey& key) {
   return out;
 }
 
-/// Where a key may be given in degrees or by another one, one of the two is required and both are refused.
+/// Returns the alternative of a key, in degrees or another form. One of the two is required; both together are an
+/// error.
 const char* standInFor(const ScenarioTable& table, const std::string& name) {
   for (const ScenarioKey& key : table.keys)
     if (key.name == name + "_deg" || (name == "orientation" && key.name == std::string("rpy_deg"))) return key.name;
   return nullptr;
 }
 
-/// Required keys of a leg may stand in the defaults instead: an editor sees one table at a time.
+/// A leg's required keys may be in the defaults instead, and an editor sees one table at a time.
 bool mayBeElsewhere(const ScenarioTable& table) {
   return table.name == std::string("manipulator.leg") || table.name == std::string("manipulator.leg.link");
 }
@@ -113,7 +114,7 @@ Json kindsOf(const ScenarioTable& trajectory) {
 Json schemaOf(const ScenarioTable& table) {
   if (table.name == std::string("trajectory")) return kindsOf(table);
   Json out = plainSchemaOf(table);
-  if (table.name == std::string("acceptance"))  // names of checks, which may be dotted keys and so tables
+  if (table.name == std::string("acceptance"))  // names of checks may be dotted keys and thus tables
     out["additionalProperties"] = {{"type", {"number", "object"}}};
   if (table.name == std::string("acceptance.torque")) out["additionalProperties"] = {{"type", {"number", "object"}}};
   return out;

@@ -5,8 +5,8 @@
 
 namespace ursula {
 
-/// What it takes to draw the machine at `count` equally spaced instants: `t_s`, `p_{x,y,z}_m` and, of each leg, the
-/// points `A_{1..6}_{x,y,z}_m` at the base, `R_…` at the knee and `B_…` at the platform, in B. Throws PoseError.
+/// Returns the points for a drawing of the machine at `count` equally spaced instants: `t_s`, `p_{x,y,z}_m` and, for
+/// each leg, `A_{1..6}_{x,y,z}_m` at the base, `R_…` at the knee and `B_…` at the platform, in B. Throws PoseError.
 TimeSeries poseSeries(const Scenario& scenario, int count);
 
 }  // namespace ursula

@@ -51,12 +51,12 @@ class NocSystem {
     return motion;
   }
 
-  /// Of the state last differentiated.
+  /// The joints of the last differentiated state.
   JointVariables<double> joints() {
     solver_.displacements(last_, work_);
     return solver_.angles(work_);
   }
-  /// Of an accepted step: where a leg does not reach, the solver has refused before.
+  /// Checks an accepted step; the solver already refuses poses that a leg cannot reach.
   void check(double, const OdeState&) const {}
 
   void derivative(double t, const OdeState& x, const Vector6d& torques, OdeState& rate) {
@@ -72,10 +72,10 @@ class NocSystem {
   std::shared_ptr<const Load> load_;
   Solver<double> solver_;
   Workspace<double> work_;
-  Motion<double> last_;  ///< that the solver did not refuse
+  Motion<double> last_;  ///< the last motion that the solver accepted
 };
 
-/// What ends the reach of the legs, told of their joints' variables.
+/// Detects the end of the legs' reach from their joint variables.
 struct ReachEnds {
   explicit ReachEnds(const Manipulator& machine) : legs(machine.parameters().legs) {}
 
@@ -92,15 +92,15 @@ struct ReachEnds {
   std::vector<Leg> legs;
 };
 
-/// A leg whose knee bends the other way has come through where it was stretched or folded, the end of what it reaches;
-/// so has a rod out of its cylinder.
+/// A leg whose knee bends the other way has passed its stretched or folded pose, the end of its reach. The same holds
+/// for a rod outside its cylinder.
 void checkKnees(const ReachEnds& ends, const JointVariables<double>& before, const JointVariables<double>& now,
                 double t) {
   for (std::size_t k = 0; k < ends.legs.size(); ++k)
     if (const int i = static_cast<int>(k); ends.of(before, i) * ends.of(now, i) <= 0) throw ends.outOfReach(now, i, t);
 }
 
-/// Within this of 0, it is what shrinks the steps.
+/// Within this distance of 0, the end of reach causes the shrinking steps.
 constexpr double at_edge = 1e-3;
 
 void stopped(const ReachEnds& ends, const JointVariables<double>& q, double t) {
@@ -129,9 +129,9 @@ class SimbodySystem {
     loop_.derivative(t, x.data(), torques, rate.data());
   }
 
-  /// Of the state last differentiated.
+  /// The joints of the last differentiated state.
   JointVariables<double> joints() const { return loop_.joints().q; }
-  /// Of an accepted step.
+  /// Checks an accepted step.
   void check(double t, const OdeState& x) {
     loop_.setState(t, x.data());
     checkKnees(ends_, start_, joints(), t);
@@ -140,16 +140,16 @@ class SimbodySystem {
  private:
   SimbodyLoop loop_;
   ReachEnds ends_;
-  JointVariables<double> start_;  ///< in the commanded state
+  JointVariables<double> start_;  ///< of the commanded state
 };
 
-/// Steps that shrink to nothing end the run.
+/// Ends the run if steps shrink to nothing.
 class Progress {
  public:
   explicit Progress(const std::vector<double>& instants)
       : since_(instants.front()), least_(1e-3 * (instants.back() - instants.front())) {}
 
-  /// Called for each evaluation: false where `patience` of them gained less than a thousandth of the time.
+  /// Called at each evaluation; returns false if `patience` of them advanced less than a thousandth of the time.
   bool goesOn(double t) {
     if (++evaluations_ % patience != 0) return true;
     const double gained = t - since_;
@@ -195,9 +195,9 @@ Simulation integrate(System system, const Scenario& scenario, const EffortHistor
       out.motions.push_back(motion);
     }
   } catch (const std::bad_alloc&) {
-    throw;  // says nothing of the motion
+    throw;  // it says nothing about the motion
   } catch (const std::exception& error) {
-    out.gave_up = error.what();  // what was reached is still reported
+    out.gave_up = error.what();  // the completed part is still reported
   }
   return out;
 }

@@ -15,25 +15,25 @@ using EffortHistory = std::function<Vector6d(double t)>;
 
 enum class SimulationEngine { noc, simbody };
 
-/// What a torque history makes of the machine.
+/// The motion of the machine under a torque history.
 struct Simulation {
-  std::vector<Motion<double>> motions;  ///< platform, with its accelerations, at the instants reached
+  std::vector<Motion<double>> motions;  ///< of the platform, with accelerations, at the reached instants
   std::vector<Vector6d> torques;        ///< at the same instants
-  long evaluations = 0;                 ///< of the derivatives
-  std::string gave_up;                  ///< why, where it did not reach the last instant; else empty
+  long evaluations = 0;                 ///< evaluations of the derivatives
+  std::string gave_up;                  ///< why it did not reach the last instant; else empty
 };
 
 /// Integrates from the commanded state at the first of `instants` (increasing, two or more) with rkf78 at `tolerance`,
 /// stopping at each instant.
 ///
-/// The NOC engine integrates (36) with the platform's pose and twist as the state, so that no direct kinematics is
-/// solved in the loop and the assembly is never in doubt; the Simbody engine integrates the closed loop's own
-/// coordinates. Stops where the deadline is over.
+/// The NOC engine integrates (36) with the platform's pose and twist as the state. So it needs no direct kinematics,
+/// and the assembly is unique. The Simbody engine integrates the closed loop's own coordinates. Stops when the deadline
+/// is over.
 Simulation simulate(const Scenario& scenario, SimulationEngine engine, const EffortHistory& torques,
                     const std::vector<double>& instants, double tolerance, const Deadline& deadline = {});
 
-/// The same under torques at their own instants, which are within the motion: on the quintic spline through them, from
-/// the first to the last, at the scenario's tolerance. Throws CsvError for too few of them to interpolate between.
+/// The same under torques at their own instants within the motion: on the quintic spline through them, from the first
+/// to the last, at the scenario's tolerance. Throws CsvError if there are too few to interpolate.
 Simulation simulate(const Scenario& scenario, SimulationEngine engine, const TorqueFile& torques,
                     const Deadline& deadline = {});
 

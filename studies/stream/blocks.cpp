@@ -19,9 +19,9 @@ struct Block {
   std::exception_ptr refusal = {};
   std::string text = {};
 };
-using Handed = Block*;  // of the stream: TBB lets go of what is on its way when something is thrown
+using Handed = Block*;  // owned by the stream, because TBB drops items in flight after an exception
 
-/// Handed out in order, made by any thread, settled in order, formatted by any thread, written in order.
+/// Blocks are created, settled and written in order; any thread computes and formats them.
 class Stream {
  public:
   Stream(const BlockTable& table, const StreamOptions& options, const Sink& sink)
@@ -36,10 +36,10 @@ class Stream {
         tbb::make_filter<Handed, Handed>(filter_mode::serial_in_order, [this](Handed block) { return settle(block); }) &
         tbb::make_filter<Handed, Handed>(filter_mode::parallel, [this](Handed block) { return format(block); }) &
         tbb::make_filter<Handed, void>(filter_mode::serial_in_order, [this](Handed block) { write(block); });
-    // TBB ends where the system gives fewer threads than it wants.
+    // TBB aborts if the system gives fewer threads than it wants.
     const int jobs = 1 + static_cast<int>(threadsThatStart(static_cast<std::size_t>(options_.jobs - 1)));
-    blocks_.resize(static_cast<std::size_t>(jobs) + 2);  // those that wait for their turn
-    // As many threads as were asked for, even if the processor has fewer: TBB would warn of it.
+    blocks_.resize(static_cast<std::size_t>(jobs) + 2);  // additional blocks wait for their turn
+    // Allows the requested number of threads even on fewer processors, because TBB would otherwise warn.
     const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(jobs));
     tbb::task_arena arena(jobs);
     arena.execute([&] { tbb::parallel_pipeline(blocks_.size(), chain); });
@@ -51,13 +51,13 @@ class Stream {
       control.stop();
       return nullptr;
     }
-    Block& block = blocks_[next_ % blocks_.size()];  // the last one there has been written, as that is done in order
+    Block& block = blocks_[next_ % blocks_.size()];  // its previous block has been written, because writing is in order
     block = {};
     block.k = next_++;
     return &block;
   }
 
-  /// A refusal waits until those before it are through: which one is told does not depend on who was first.
+  /// An exception waits for the earlier blocks, so the reported one does not depend on timing.
   Handed make(Handed block) const {
     try {
       block->series = table_.make(block->k);

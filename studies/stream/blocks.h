@@ -8,28 +8,28 @@
 
 namespace ursula {
 
-/// A table that is made and written block by block, so that no more than a few blocks are ever in memory.
+/// A table that is computed and written in blocks, so that only a few blocks are in memory.
 struct BlockTable {
   std::size_t blocks = 0;  ///< at least one
-  std::size_t rows = 0;    ///< in all of them
+  std::size_t rows = 0;    ///< in all blocks together
 
-  /// Block k; called by any thread, in any order. The same columns in each.
+  /// Computes block k; any thread may call it, in any order. All blocks have the same columns.
   std::function<TimeSeries(std::size_t k)> make;
-  /// Called for one block after the other, in order, before it is written; may change it. Empty: nothing.
+  /// Called for the blocks in order before they are written; may change them. May be empty.
   std::function<void(TimeSeries& block)> settle = {};
 };
 
-/// Where bytes go, in order.
+/// Receives the bytes in order.
 using Sink = std::function<void(std::string_view)>;
 
 struct StreamOptions {
   RowFormat format = RowFormat::csv;
-  int jobs = 1;                                    ///< threads, the calling one among them
-  std::function<void(double share)> written = {};  ///< after each block; from any thread, one at a time
+  int jobs = 1;                                    ///< number of threads, including the caller
+  std::function<void(double share)> written = {};  ///< called after each block from any thread, without overlap
 };
 
-/// The bytes are the same for any number of jobs. Throws what `make` throws for the first block that it throws for,
-/// after the blocks before it were written, and what the sink throws.
+/// The bytes do not depend on the number of jobs. Rethrows the exception of `make` for the first failed block, after
+/// the blocks before it were written, and the sink's exceptions.
 void streamBlocks(const BlockTable& table, const StreamOptions& options, const Sink& sink);
 
 }  // namespace ursula

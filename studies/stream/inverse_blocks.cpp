@@ -16,10 +16,10 @@
 namespace ursula {
 namespace {
 
-/// Enough that handing a block on costs nothing, few enough that it stays in a cache of the second level.
+/// Large enough that the transfer of a block costs nothing, small enough for the second-level cache.
 constexpr int rows_of_block = 512;
 
-/// No file has infinities or NaN.
+/// Files contain no infinities or NaN.
 void requireFiniteSeries(const TimeSeries& series, const std::vector<Motion<double>>& motions) {
   for (std::size_t row = 0; row < motions.size(); ++row)
     for (std::size_t i = 0; i < series.names.size(); ++i)
@@ -45,7 +45,7 @@ class InverseBlocks {
   }
 
  private:
-  /// Row by row after the batch, so that of several poses the first is refused.
+  /// Completes rows in order after the batch, so that the first refused pose is reported.
   TimeSeries completed(const std::vector<Motion<double>>& motions, const std::vector<Vector6d>& loads) const {
     std::vector<Vector6d> efforts(motions.size());
     std::vector<PoseFault> faults(motions.size());
@@ -69,7 +69,7 @@ class InverseBlocks {
   BatchDynamics batch_;
 };
 
-/// Keeps q and −q apart over the blocks' borders, where each block begins with w >= 0: on the side of the row before.
+/// Keeps quaternion signs continuous across blocks, each of which begins with w >= 0, by the previous row.
 class Turning {
  public:
   void operator()(TimeSeries& block) {

@@ -10,7 +10,7 @@
 namespace ursula {
 namespace {
 
-/// So that rows that are mapped into memory lie where vector loads want them.
+/// Aligns rows for vector loads if the file is mapped into memory.
 constexpr std::size_t alignment = 64;
 
 std::string jsonLine(const std::vector<std::string>& names, std::size_t rows) {
@@ -28,7 +28,8 @@ std::string jsonLine(const std::vector<std::string>& names, std::size_t rows) {
 void putLittleEndian(double value, char* to) {
   std::uint64_t bits = 0;
   std::memcpy(&bits, &value, sizeof(bits));
-  for (unsigned k = 0; k < sizeof(bits); ++k) to[k] = static_cast<char>(bits >> (8 * k));  // one store, where it can be
+  for (unsigned k = 0; k < sizeof(bits); ++k)
+    to[k] = static_cast<char>(bits >> (8 * k));  // compiles to one store if possible
 }
 
 void appendBinary(const std::vector<std::vector<double>>& columns, std::string& out) {

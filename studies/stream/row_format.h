@@ -8,12 +8,12 @@
 
 namespace ursula {
 
-/// How rows are written. `csv`: a header line, then numbers with 17 significant digits. `binary`: one line of JSON with
-/// `columns`, `rows`, `dtype` ("<f8") and `offset` (how many bytes the line has, a multiple of 64), then the rows as
-/// little-endian doubles, one after the other.
+/// Formats of rows. `csv` is a header line, then numbers with 17 significant digits. `binary` is one line of JSON with
+/// `columns`, `rows`, `dtype` ("<f8") and `offset` (the length of the line in bytes, a multiple of 64), then the rows
+/// as consecutive little-endian doubles.
 enum class RowFormat { csv, binary };
 
-/// What stands before the rows.
+/// Returns the text before the rows.
 std::string rowHeader(RowFormat format, const std::vector<std::string>& names, std::size_t rows);
 
 /// Appends the rows of `series` to `out`.

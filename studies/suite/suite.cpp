@@ -36,7 +36,7 @@ SuiteMember readMember(const std::filesystem::path& file) {
     member.name = member.scenario->name;
     tryMotion(*member.scenario);
   } catch (const ScenarioError& error) {
-    member.error = error.what();  // begins with file:line:column
+    member.error = error.what();  // starts with file:line:column
   }
   return member;
 }
@@ -48,7 +48,7 @@ void readFolder(const std::filesystem::path& folder, std::vector<SuiteMember>& m
     members.push_back({folder.string(), {}, folder.string() + ": error: no scenario in this folder, expected *.toml"});
 }
 
-/// Names of folders beside files of the suite's own.
+/// The names become folders next to the suite's own files.
 void checkNames(const std::vector<SuiteMember>& members) {
   std::map<std::string, std::string> taken;
   std::vector<std::string> errors;
@@ -67,7 +67,7 @@ void checkNames(const std::vector<SuiteMember>& members) {
   if (!errors.empty()) throw ScenarioError(fmt::format("{}", fmt::join(errors, "\n")));
 }
 
-/// Scenarios are handed out one by one to whichever thread is free; each writes where no other does.
+/// Each free thread takes the next scenario; each writes to its own place.
 class SuiteRun {
  public:
   SuiteRun(const std::vector<SuiteMember>& members, OutputFolder& out, const SuiteOptions& options)

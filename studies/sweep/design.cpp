@@ -14,7 +14,7 @@
 namespace ursula {
 namespace {
 
-/// Of the last point's indices only: the shift of sobol is no point's.
+/// An index that no point has, for the shift of sobol.
 constexpr std::uint64_t index_of_shift = ~std::uint64_t{0};
 
 std::mt19937_64 generatorOf(std::uint64_t seed, std::uint64_t index) {
@@ -76,7 +76,7 @@ std::vector<double> SweepPoints::uniforms(std::int64_t i) const {
     for (double& u : out) u = deviateOf(generator());
     return out;
   }
-  boost::random::sobol engine(numbers_.size());  // which leaves out the first of all points, zero
+  boost::random::sobol engine(numbers_.size());  // it omits the first point, zero
   if (i > 0) engine.seed(static_cast<std::uint64_t>(i - 1));
   for (std::size_t k = 0; k < out.size(); ++k) out[k] = deviateOf((i > 0 ? engine() : 0) ^ shifts_[k]);
   return out;

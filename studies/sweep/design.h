@@ -8,32 +8,31 @@
 
 namespace ursula {
 
-/// Points [first, end).
+/// The points [first, end).
 struct PointRange {
   std::int64_t first = 0, end = 0;
 };
 
-/// One number that varies, with what the scenario gives it.
+/// One varied number with the scenario's own value.
 struct VariedNumber {
   std::string key;  ///< without `*`
   Variation by;
   double nominal = 0;
 };
 
-/// The points of a sweep: what each number is at point i, from the sweep and i alone.
+/// The points of a sweep: the numbers at point i depend only on the sweep and i.
 ///
-/// grid: the last number varies fastest. random: std::mt19937_64, seeded for each point by seed and index, both of
-/// which the standard lays down to the last bit; uniform deviates of 53 bits, normal ones by the inverse of the
-/// distribution. sobol: Joe and Kuo's points (SIAM J. Sci. Comput. 30, 2008, p. 2635) as Boost has them, shifted
-/// digitally by the seed.
+/// grid: the last number varies fastest. random: std::mt19937_64 seeded for each point by seed and index, both exactly
+/// defined by the standard; uniform deviates of 53 bits, normal ones by the inverse distribution. sobol: Joe and Kuo's
+/// points (SIAM J. Sci. Comput. 30, 2008, p. 2635) as in Boost, with a digital shift by the seed.
 class SweepPoints {
  public:
-  /// Throws ScenarioError where a grid has more than most_points, or sobol more numbers than it has dimensions.
+  /// Throws ScenarioError if a grid exceeds most_points, or if sobol has too few dimensions for the numbers.
   SweepPoints(const SweepFile& sweep, std::vector<VariedNumber> numbers);
 
   std::int64_t count() const { return count_; }
   const std::vector<VariedNumber>& numbers() const { return numbers_; }
-  /// In the numbers' order.
+  /// Returns the values in the order of the numbers.
   std::vector<double> at(std::int64_t i) const;
 
  private:
@@ -43,7 +42,7 @@ class SweepPoints {
   std::uint64_t seed_;
   std::vector<VariedNumber> numbers_;
   std::int64_t count_ = 1;
-  std::vector<std::uint64_t> shifts_;  ///< of sobol
+  std::vector<std::uint64_t> shifts_;  ///< for sobol
 };
 
 }  // namespace ursula

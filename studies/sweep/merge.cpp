@@ -13,15 +13,15 @@ using Stop = std::function<bool()>;
 struct Part {
   std::filesystem::path file;
   SweepIdentity identity;
-  std::int64_t first = 0, last = 0;  ///< its least point and its greatest
+  std::int64_t first = 0, last = 0;  ///< its smallest and its largest point
 };
 
-/// Points of a database that is being written are those of a moment, and SQLite would name the one that all go into.
+/// A database being written has changing points, and SQLite's error would name the target instead.
 void requireUnlocked(const std::filesystem::path& file) {
   Sqlite(file, Sqlite::Access::write).run("BEGIN IMMEDIATE; ROLLBACK");
 }
 
-/// Those of one sweep, in the order of their points.
+/// Opens the databases of one sweep, in the order of their points.
 std::vector<Part> opened(const std::vector<std::filesystem::path>& files, const Stop& stop) {
   std::vector<Part> out;
   for (const std::filesystem::path& file : files) {
@@ -47,7 +47,7 @@ std::vector<Part> opened(const std::vector<std::filesystem::path>& files, const 
   return out;
 }
 
-/// But for errors, which the machine made and not the scenario: memory that was short.
+/// Finds different points. Errors are ignored, because the computer caused them, for instance by lack of memory.
 constexpr const char* differing = R"(
 SELECT p.id FROM part.point p JOIN main.point m ON m.id = p.id WHERE m.parameters IS NOT p.parameters
   OR ('error' NOT IN (m.verdict, p.verdict) AND (m.verdict IS NOT p.verdict OR m.error IS NOT p.error))
@@ -56,13 +56,13 @@ UNION ALL SELECT r.point FROM part.result r JOIN main.point m ON m.id = r.point 
   OR o.verdict IS NOT r.verdict)
 LIMIT 1)";
 
-/// Those that somebody made again.
+/// Removes error points that a part has computed again.
 constexpr const char* drop_retried = R"(
 DELETE FROM main.result WHERE point IN (SELECT m.id FROM main.point m JOIN part.point p ON p.id = m.id
   WHERE m.verdict = 'error' AND p.verdict <> 'error');
 DELETE FROM main.point WHERE verdict = 'error' AND id IN (SELECT id FROM part.point WHERE verdict <> 'error'))";
 
-/// Some of its points are there already: they must be the same.
+/// Points that exist already must be the same.
 void requireSame(Sqlite& database, const Part& part) {
   Statement other(database, differing);
   if (!other.step()) return;
@@ -74,19 +74,19 @@ constexpr const char* meets =
     "SELECT count(*) FROM (SELECT 1 FROM main.point WHERE id >= (SELECT min(id) FROM part.point) AND id <= (SELECT "
     "max(id) FROM part.point) LIMIT 1)";
 
-/// From the root, as Sqlite opens files.
+/// Uses an absolute path, as Sqlite does.
 void attach(Sqlite& database, const std::filesystem::path& file) {
   Statement(database, "ATTACH ? AS part").bind(0, std::filesystem::absolute(file).string()).run();
 }
 
-/// Throws where a point of `part` is not that of `database`, in which nothing is changed.
+/// Throws if a point of `part` differs from that of `database`; changes nothing.
 void compare(Sqlite& database, const Part& part) {
   attach(database, part.file);
   if (database.number(meets) != 0) requireSame(database, part);
   database.run("DETACH part");
 }
 
-/// Any two of them, before anything is written: what is refused at the second part has left no points of the first.
+/// Compares all pairs before anything is written, so a refused second part leaves no points of the first.
 void requireAgreement(const std::vector<Part>& parts, const Stop& stop) {
   for (auto one = parts.begin(); one != parts.end(); ++one) {
     Sqlite database(one->file, Sqlite::Access::read);
@@ -95,10 +95,10 @@ void requireAgreement(const std::vector<Part>& parts, const Stop& stop) {
   }
 }
 
-/// Within one transaction.
+/// Runs within one transaction.
 std::int64_t takeIn(SweepDatabase& into, const Part& part) {
   Sqlite& database = into.sqlite();
-  if (database.number(meets) == 0) {  // the whole of it, as it stands
+  if (database.number(meets) == 0) {  // copies all of it
     database.run("INSERT INTO main.result SELECT * FROM part.result; INSERT INTO main.point SELECT * FROM part.point");
     return database.changed();
   }
@@ -164,7 +164,7 @@ MergeResult mergeSweeps(const std::vector<std::filesystem::path>& files, const s
   for (const Part& part : parts) compare(database.sqlite(), part);
   std::size_t done = 0;
   for (const Part& part : parts) {
-    database.sqlite().run("BEGIN IMMEDIATE");  // before the part is there, or it would be locked with it
+    database.sqlite().run("BEGIN IMMEDIATE");  // before the attachment, which it would lock, too
     attach(database.sqlite(), part.file);
     out.added += takeIn(database, part);
     database.sqlite().run("COMMIT; DETACH part");

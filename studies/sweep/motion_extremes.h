@@ -10,23 +10,23 @@ namespace ursula {
 
 /// The largest effort of one motor along a motion.
 struct LargestEffort {
-  double value = 0;  ///< |τ|, N·m, or N where the motor pushes
-  double t = 0;      ///< the first instant at which it is so large, s
+  double value = 0;  ///< |τ|, N·m, or N for a sliding motor
+  double t = 0;      ///< the first instant of this value, s
 };
 
 struct Extremes {
   std::array<LargestEffort, motor_count> efforts;
-  /// Condition number of B of (23), moments over the machine's length, where ‖B‖ ‖B⁻¹‖ in Frobenius' norm is largest.
+  /// Condition number of B of (23) with moments over the machine's length, where ‖B‖ ‖B⁻¹‖ in Frobenius norms is
+  /// largest.
   double kappa = 0;
-  double sine = 1;  ///< the smallest LegMargins::sine of all legs and instants
+  double sine = 1;  ///< the smallest LegMargins::sine over all legs and instants
 };
 
-/// Extremes over the instants that a scenario is judged at. Keeps its memory, and the motion where that is the same
-/// for all.
+/// Extremes over a scenario's judged instants. It reuses its memory, and the motion if that is constant.
 class MotionExtremes {
  public:
-  /// Throws PoseError as the solver does, for the first instant that has no answer. `varies`: the motion is another
-  /// than at the last call.
+  /// Throws PoseError like the solver, for the first instant without an answer. `varies` says that the motion differs
+  /// from the last call's.
   Extremes of(const Scenario& scenario, bool varies);
 
  private:

@@ -10,7 +10,7 @@
 namespace ursula {
 namespace {
 
-/// Points that are not there yet, in order, a handful at a time.
+/// Returns missing points in order, a handful at a time.
 class Missing {
  public:
   Missing(SweepDatabase& database, std::int64_t first, std::int64_t end, std::int64_t handful)
@@ -26,10 +26,10 @@ class Missing {
  private:
   SweepDatabase& database_;
   std::int64_t at_, end_, handful_;
-  std::int64_t known_;  ///< the first from at_ on that is there
+  std::int64_t known_;  ///< the first existing point from at_ on
 };
 
-/// Commits now and then: seldom enough to cost little, often enough to lose little.
+/// Commits at intervals: rarely enough to cost little, often enough to lose little.
 class Writer {
  public:
   explicit Writer(SweepDatabase& database) : database_(database) {}
@@ -55,7 +55,7 @@ std::map<std::string, std::int64_t> verdictsOf(Sqlite& database) {
   return out;
 }
 
-/// So many at a time that handing them out costs nothing, and all workers end together.
+/// The number of points to hand out at once: few hand-outs, and all workers end together.
 std::int64_t handfulOf(const SweepPlan& plan, std::int64_t points, int jobs) {
   const std::int64_t most = plan.file().work == SweepWork::inverse ? 64 : 1;
   return std::clamp<std::int64_t>(points / (8 * jobs), 1, most);

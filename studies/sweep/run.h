@@ -11,7 +11,7 @@
 
 namespace ursula {
 
-/// A part of a sweep: neighbouring points, so that parts come together in order.
+/// A part of a sweep with consecutive points, so that merged parts stay in order.
 struct Shard {
   int index = 1, of = 1;  ///< from 1
 
@@ -25,21 +25,21 @@ struct Shard {
 };
 
 struct SweepRunOptions {
-  int jobs = 1;  ///< processes
+  int jobs = 1;  ///< number of processes
   Shard shard;
-  bool retry_errors = false;   ///< points with verdict "error" are made again
-  std::function<bool()> stop;  ///< asked often; true ends the run
-  std::function<void(std::int64_t done, std::int64_t of)> progress = {};  ///< points of this shard; may be empty
+  bool retry_errors = false;                                              ///< recomputes points with verdict "error"
+  std::function<bool()> stop;                                             ///< polled often; true ends the run
+  std::function<void(std::int64_t done, std::int64_t of)> progress = {};  ///< counts points of this shard; may be empty
 };
 
 struct SweepRunResult {
   std::int64_t points = 0, done = 0, new_ones = 0;  ///< of the shard
-  std::map<std::string, std::int64_t> verdicts;     ///< counts of those that are there
+  std::map<std::string, std::int64_t> verdicts;     ///< counts of the existing points
   bool stopped = false;
 };
 
-/// Works on the points that `database` does not hold yet, until all are there. Rows do not depend on jobs or shards,
-/// but for their seconds. Throws DatabaseError, and what the plan throws; what was committed before is kept.
+/// Computes the points that `database` lacks. Rows do not depend on jobs or shards, except for their seconds. Throws
+/// DatabaseError and the plan's errors; committed points stay.
 SweepRunResult runSweep(SweepPlan& plan, const std::filesystem::path& database, const SweepRunOptions& options);
 
 }  // namespace ursula

@@ -13,7 +13,7 @@
 namespace ursula {
 namespace {
 
-/// Between dots; a part with dots of its own, as the name of a check, is written "as.this".
+/// Splits at dots; a part that contains dots, such as a check's name, is written "as.this".
 std::vector<std::string> partsOf(const std::string& key) {
   std::vector<std::string> parts(1);
   bool is_quoted = false;
@@ -40,11 +40,11 @@ std::string withManipulator(const std::string& key) {
   return !isTop(first) && of_machine ? "manipulator." + key : key;
 }
 
-/// On the way from the document to a number: where it is, what else it may take its numbers from, and what it may hold.
+/// A position on the path from the document to a number, with its fallback and its allowed content.
 struct Spot {
   toml::node* node;
-  const toml::node* inherited;  ///< the same in leg_defaults; null where there is none
-  std::string table;            ///< of scenarioTables(), where `node` is a table or an array of them
+  const toml::node* inherited;  ///< the same node in leg_defaults; null if there is none
+  std::string table;            ///< name in scenarioTables(), if `node` is a table or an array of tables
   bool integer = false;
 };
 
@@ -63,7 +63,7 @@ std::string childTable(const std::string& key, const ScenarioKey& about) {
   return key == "trajectory" ? "trajectory" : "";
 }
 
-/// Written out of the leg's defaults, or of the program's; a table is begun.
+/// Copies the value of the leg's defaults or the program's; creates a missing table.
 void writeOut(toml::table& table, const ScenarioKey& about, const toml::node* inherited, const std::string& whole) {
   if (about.type == KeyType::table) {
     table.insert(about.name, toml::table{});
@@ -79,7 +79,7 @@ void writeOut(toml::table& table, const ScenarioKey& about, const toml::node* in
   parsed.get("value")->visit([&](auto& value) { table.insert(about.name, std::move(value)); });
 }
 
-/// Friction has two names on a leg of the paper's: the one that the leg or its defaults use, `part` where neither does.
+/// Friction has two names on the paper's legs. Returns the one that the leg or its defaults use, otherwise `part`.
 std::string asWritten(const Spot& spot, const std::string& part) {
   const bool of_friction = spot.table == "manipulator.leg.friction" || spot.table == "manipulator.leg.coulomb";
   const std::string other = of_friction ? otherFrictionName(part) : "";
@@ -94,7 +94,7 @@ std::string asWritten(const Spot& spot, const std::string& part) {
 
 Spot intoTable(const Spot& spot, const std::string& asked, const std::string& whole) {
   const std::string part = asWritten(spot, asked);
-  // Limits are named after checks, with dots or in tables: what the scenario gives can vary.
+  // Limits have the names of checks, dotted or in tables; those in the scenario can vary.
   if (spot.table.compare(0, 10, "acceptance") == 0)
     if (toml::node* given = spot.node->as_table()->get(part)) return {given, nullptr, "acceptance"};
   const ScenarioTable& keys = keysOf(spot);
@@ -134,21 +134,21 @@ Spot into(const Spot& spot, const std::string& part, const std::string& whole, c
   fail(whole, fmt::format("there is nothing '{}' within what comes before it", part));
 }
 
-/// What the first `count` parts lead to.
+/// Follows the first `count` parts.
 Spot follow(toml::table& document, const std::vector<std::string>& parts, std::size_t count, const std::string& whole) {
   Spot spot{&document, nullptr, ""};
   for (std::size_t k = 0; k < count; ++k) spot = into(spot, parts[k], whole, document);
   return spot;
 }
 
-/// A number written as 5 becomes 5.0; whoever holds others of the table keeps them.
+/// Replaces the integer 5 by 5.0; other nodes of the table stay valid.
 toml::node* asFloat(toml::node& parent, const std::string& part, const toml::node& number) {
   const double value = *number.value<double>();
   if (toml::array* array = parent.as_array()) return &*array->replace(array->cbegin() + std::stol(part), value);
   return &parent.as_table()->insert_or_assign(part, value).first->second;
 }
 
-/// A default that every leg overrides moves nothing.
+/// Refuses a default that every leg overrides, because it would change nothing.
 void requireUse(const toml::table& document, const std::string& whole) {
   const std::vector<std::string> parts = partsOf(whole);
   const toml::array* legs = document["manipulator"]["leg"].as_array();
@@ -178,7 +178,7 @@ std::vector<std::string> ScenarioNumbers::expanded(const std::string& key) const
     out[before] = std::to_string(index);
     return fmt::format("{}", fmt::join(out, "."));
   };
-  toml::table scratch = document_;  // numbers that are inherited are written out there
+  toml::table scratch = document_;  // receives the inherited numbers
   const toml::array* array = follow(scratch, parts, before, whole).node->as_array();
   if (array == nullptr || array->empty()) fail(key, "'*' stands for no array, expected legs or entries");
   const std::size_t first = array->front().is_table() ? 1 : 0;

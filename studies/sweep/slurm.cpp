@@ -11,8 +11,8 @@
 namespace ursula {
 namespace {
 
-/// For a line `#SBATCH`, which sbatch takes apart by rules of its own: only within double quotes is a blank no end and
-/// # no comment, and a backslash holds for any byte.
+/// Escapes for a line `#SBATCH`, which sbatch parses by its own rules. Only double quotes protect blanks and #, and a
+/// backslash escapes any byte.
 std::string escaped(const std::string& word) {
   const auto plain = [](unsigned char c) {
     return std::isalnum(c) != 0 || std::string("-_=.,:/%+@").find(static_cast<char>(c)) != std::string::npos;
@@ -23,7 +23,7 @@ std::string escaped(const std::string& word) {
   return out + "\"";
 }
 
-/// A file's name as Slurm takes it: % begins what it fills in.
+/// Escapes a file name for Slurm, in which % starts a placeholder.
 std::string logIn(const std::filesystem::path& folder, const std::string& name) {
   std::string out;
   for (const char c : folder.string()) out += c == '%' ? std::string("%%") : std::string(1, c);
@@ -34,7 +34,7 @@ std::string logIn(const std::filesystem::path& folder, const std::string& name) 
   return out + "/" + name;
 }
 
-/// sbatch takes long names cut short.
+/// sbatch accepts abbreviated long names.
 void requireUsersOwn(const std::string& option) {
   const std::string name = option.substr(0, option.find_first_of("= "));
   for (const std::string ours : {"--array", "-a", "--dependency", "-d", "--wrap", "--parsable", "--test-only"})
@@ -52,7 +52,7 @@ std::string words(const std::string& option) {
 
 std::string setting(const std::string& line) { return fmt::format("#SBATCH {}\n", line); }
 
-/// The user's come last, and win.
+/// The user's options come last and take precedence.
 std::string head(const SlurmJob& job, const std::string& name, int cpus, const std::string& log) {
   std::string out = "#!/bin/bash\n";
   out += setting("--job-name=" + escaped(fmt::format("{}-{}", name, job.database.stem().string())));
@@ -70,7 +70,7 @@ std::string head(const SlurmJob& job, const std::string& name, int cpus, const s
   return out;
 }
 
-/// What stands before a shard's number in its database's name.
+/// The start of a shard database's name, before the number.
 std::string stemOf(const std::filesystem::path& database) { return database.stem().string() + ".shard-"; }
 
 }  // namespace

@@ -8,33 +8,33 @@
 
 namespace ursula {
 
-/// One job array, a task for each shard that is to be made, and the merge after it. Paths are absolute.
+/// One job array with a task per missing shard, and the merge after it. Paths are absolute.
 struct SlurmJob {
   std::filesystem::path program, sweep;
-  std::filesystem::path database;  ///< that all goes into
+  std::filesystem::path database;  ///< the final database
   bool pointwise = false;
   int shards = 1;
-  std::vector<int> todo;  ///< shards to be made, ascending, from 1; not looked at by the merge
-  int cpus = 1;           ///< of each task
+  std::vector<int> todo;  ///< missing shards, ascending, from 1; the merge ignores them
+  int cpus = 1;           ///< per task
   SlurmSettings settings;
 };
 
-/// As many shards as their numbers, in the worst case every other one, fit into one option of sbatch.
+/// The numbers of as many shards, even if every other one is missing, fit into one option of sbatch.
 constexpr int most_slurm_shards = 2000;
 
-/// Beside the database that all goes into: "tolerances.shard-2-of-4.db".
+/// A file next to the final database: "tolerances.shard-2-of-4.db".
 std::filesystem::path shardDatabase(const std::filesystem::path& database, const Shard& shard);
 
-/// Scripts, logs and the numbers of the jobs, beside the database: "tolerances.slurm".
+/// The folder of scripts, logs and job numbers next to the database: "tolerances.slurm".
 std::filesystem::path slurmFolder(const std::filesystem::path& database);
 
-/// As `--array` takes them: "1-3,7".
+/// The format of `--array`: "1-3,7".
 std::string arrayNumbers(const std::vector<int>& ascending);
 
-/// What sbatch is given. Both throw std::invalid_argument: for an option in `settings` that is not the user's to set,
-/// and for a path that Slurm cannot write logs to.
+/// The scripts for sbatch. Both throw std::invalid_argument for an option in `settings` that the user may not set, and
+/// for a path that Slurm cannot write logs to.
 std::string arrayScript(const SlurmJob& job);
-/// Takes together whichever shards there are.
+/// Merges all existing shards.
 std::string mergeScript(const SlurmJob& job);
 
 }  // namespace ursula

@@ -21,7 +21,7 @@ bool has(const std::vector<std::int64_t>& jobs, std::int64_t job) {
   return std::find(jobs.begin(), jobs.end(), job) != jobs.end();
 }
 
-/// Of its own sweep; nothing where there is none yet.
+/// Opens a database of this sweep; null if there is none yet.
 std::unique_ptr<Sqlite> opened(const std::filesystem::path& file, const SweepIdentity& ours) {
   if (!std::filesystem::exists(file)) return {};
   auto out = std::make_unique<Sqlite>(file, Sqlite::Access::read);

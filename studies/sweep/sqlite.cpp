@@ -11,9 +11,9 @@
 namespace ursula {
 namespace {
 
-/// Others may hold the database for as long as one batch takes to write.
+/// Others may lock the database while they write one batch.
 constexpr int patience = 5000;  // ms
-/// Of SQLite's machine, until it asks whether to stop: some microseconds.
+/// Steps of SQLite's virtual machine between two polls: some microseconds.
 constexpr int steps_between = 100;
 
 int flagsOf(Sqlite::Access access) {
@@ -28,8 +28,8 @@ int flagsOf(Sqlite::Access access) {
   throw std::logic_error("no such access");
 }
 
-/// What the system answered last with: SQLite tells of a connection, but not where a transaction ends; then its files
-/// know.
+/// The last error of the system. SQLite reports it for a connection, but not at the end of a transaction; then its
+/// files have it.
 int systemError(sqlite3* handle) {
   int error = sqlite3_system_errno(handle);
   sqlite3_file* journal = nullptr;
@@ -40,19 +40,19 @@ int systemError(sqlite3* handle) {
   return error;
 }
 
-/// What the system said; `message` is SQLite's, which names no cause.
+/// The system's message; `message` is SQLite's, which gives no cause.
 std::string cause(int system_error, const char* message) {
   if (system_error == EFBIG) return "a file may not grow further (ulimit -f)";
   return system_error != 0 ? std::strerror(system_error) : message;
 }
 
-/// What it means to a user, for what he can do something about.
+/// A message for the user about errors that the user can fix.
 std::string inWords(int code, const char* message, int system_error) {
   switch (code) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       return "it is locked by another program: try again when that has ended";
-    case SQLITE_CONSTRAINT:  // the points of a sweep are its own
+    case SQLITE_CONSTRAINT:  // each sweep has its own points
       return "another sweep has written the same points meanwhile; what is there is kept, and a new run goes on from "
              "it";
     case SQLITE_FULL:
@@ -79,7 +79,7 @@ Sqlite::Sqlite(const std::filesystem::path& file, Access access) : file_(file) {
   const std::filesystem::file_status there = std::filesystem::status(file, ignored);
   if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
     throw DatabaseError(fmt::format("{}: error: is no regular file, expected a database", file.string()));
-  // From the root: SQLite gives names such as ":memory:" and "file:…" a meaning of their own.
+  // An absolute path, because SQLite gives names such as ":memory:" and "file:…" a special meaning.
   const std::string path = std::filesystem::absolute(file).string();
   const int status = sqlite3_open_v2(path.c_str(), &handle_, flagsOf(access) | SQLITE_OPEN_NOMUTEX, nullptr);
   if (status == SQLITE_OK) {
@@ -94,7 +94,7 @@ Sqlite::Sqlite(const std::filesystem::path& file, Access access) : file_(file) {
 }
 
 Sqlite::~Sqlite() {
-  sqlite3_progress_handler(handle_, 0, nullptr, nullptr);  // or what is asked to stop leaves its log behind
+  sqlite3_progress_handler(handle_, 0, nullptr, nullptr);  // otherwise a poll that stops it leaves its log behind
   sqlite3_close(handle_);
 }
 

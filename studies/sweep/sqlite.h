@@ -12,22 +12,22 @@ struct sqlite3_stmt;
 
 namespace ursula {
 
-/// What SQLite, or a file that is no database of ours, has to say, with the file.
+/// An error of SQLite, or a file that is no database of ours; the text names the file.
 struct DatabaseError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Somebody else is at it.
+/// Another process uses the database.
 struct DatabaseLocked : DatabaseError {
   using DatabaseError::DatabaseError;
 };
 
-/// What was asked ended it: Sqlite::stopWhen.
+/// Sqlite::stopWhen ended the statement.
 struct DatabaseStopped : DatabaseError {
   using DatabaseError::DatabaseError;
 };
 
-/// One connection, for one thread. Everything throws DatabaseError.
+/// One connection, for one thread. Every function throws DatabaseError.
 class Sqlite {
  public:
   enum class Access { read, write, create };
@@ -37,15 +37,15 @@ class Sqlite {
   Sqlite(const Sqlite&) = delete;
   Sqlite& operator=(const Sqlite&) = delete;
 
-  /// Asks now and then, also within a statement, and throws DatabaseStopped where the answer is yes; may be empty.
+  /// Polls `stop`, even within a statement, and throws DatabaseStopped if it returns true; may be empty.
   void stopWhen(std::function<bool()> stop);
   void run(const std::string& sql);
-  /// The first column of the first row.
+  /// Returns the first column of the first row.
   std::int64_t number(const std::string& sql);
   std::string text(const std::string& sql);
-  /// Whether the file that is open has another name by now, or none.
+  /// Whether the open file was renamed or removed.
   bool hasMoved() const;
-  /// Rows that the last statement changed.
+  /// Returns the number of rows that the last statement changed.
   std::int64_t changed() const;
   const std::filesystem::path& file() const { return file_; }
   [[noreturn]] void fail(const std::string& doing) const;
@@ -57,7 +57,7 @@ class Sqlite {
   std::function<bool()> stop_;
 };
 
-/// A statement made once and run often. Parameters and columns count from 0.
+/// A prepared statement. Parameters and columns count from 0.
 class Statement {
  public:
   Statement(Sqlite& database, const std::string& sql);
@@ -70,15 +70,15 @@ class Statement {
   Statement& bind(int k, std::string_view value);
   Statement& bindNull(int k);
 
-  /// True where there is a row. After the last one, and by reset(), it can be run anew.
+  /// Returns whether there is a row. After the last one, or after reset(), the statement can run again.
   bool step();
   void reset();
-  /// To its end; no rows wanted.
+  /// Runs to the end and ignores rows.
   void run();
 
   bool isNull(int k) const;
   std::int64_t integer(int k) const;
-  double real(int k) const;  ///< NULL is NaN
+  double real(int k) const;  ///< NULL becomes NaN
   std::string text(int k) const;
 
  private:

@@ -12,7 +12,7 @@
 namespace ursula {
 namespace {
 
-constexpr std::int64_t application = 0x75727375;  ///< "ursu": whose database it is
+constexpr std::int64_t application = 0x75727375;  ///< "ursu": marks our databases
 constexpr std::int64_t layout = 1;                ///< PRAGMA user_version
 
 constexpr const char* tables = R"(
@@ -43,13 +43,13 @@ void create(Sqlite& database, const SweepIdentity& identity) {
   insert.bind(k, nlohmann::json(identity.keys).dump()).run();
 }
 
-/// Somebody else may be writing.
+/// Another process may be writing.
 void prepareToWrite(Sqlite& database) {
   database.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 4000");
 }
 
-/// Ours are as create() made them, and nothing runs by itself: a view in the place of a table, or a trigger, need not
-/// end. Indexes, views and tables that somebody added for queries of his own are left alone.
+/// Our tables must be as create() made them, without triggers: a view instead of a table, or a trigger, may never end.
+/// Indexes, views and tables that users added for queries may stay.
 void requireOurTables(Sqlite& database) {
   Statement each(database,
                  "SELECT sql FROM sqlite_master WHERE type = 'trigger' OR name IN ('sweep', 'point', 'result') "
@@ -59,7 +59,7 @@ void requireOurTables(Sqlite& database) {
   if (found != tables) refuse(database.file(), "is damaged: its tables are not those of a sweep");
 }
 
-/// Foreign and newer ones before anything of theirs is believed.
+/// Refuses foreign and newer databases before it uses their content.
 void requireOurs(Sqlite& database) {
   const std::filesystem::path& file = database.file();
   const std::int64_t whose = database.number("PRAGMA application_id"), version = database.number("PRAGMA user_version");
@@ -72,18 +72,18 @@ void requireOurs(Sqlite& database) {
     refuse(file, "it is damaged: " + found);
 }
 
-// SQLite keeps what is given to it, whatever the column's type.
+// SQLite stores values of any type in any column.
 constexpr const char* odd_points =
     "SELECT id FROM point WHERE typeof(parameters) <> 'text' OR NOT json_valid(parameters) OR json_type(parameters) <> "
     "'object' OR typeof(seconds) <> 'real' OR typeof(error) NOT IN ('text', 'null') LIMIT 1";
-// Text sorts behind all numbers, and BLOBs behind all text: a third of the time that typeof() takes.
+// Text sorts after all numbers, and BLOBs after all text; this takes a third of the time of typeof().
 constexpr const char* odd_results =
     "SELECT point FROM result WHERE value >= '' OR \"limit\" >= '' OR verdict >= x'' OR name >= x'' LIMIT 1";
 constexpr const char* without_results =
     "SELECT id FROM point WHERE verdict IN ('pass', 'fail', 'inconclusive') AND NOT EXISTS (SELECT 1 FROM result WHERE "
     "point = id) LIMIT 1";
 
-/// Rows that no sweep writes.
+/// Refuses rows that no sweep writes.
 void requireSound(Sqlite& database, const SweepIdentity& sweep) {
   if (sweep.points < 1 || sweep.points > most_points || sweep.shards < 1 || sweep.shards > most_shards ||
       sweep.shard < 1 || sweep.shard > sweep.shards)
@@ -105,7 +105,7 @@ void requireSound(Sqlite& database, const SweepIdentity& sweep) {
       refuse(database.file(), "is damaged: " + fmt::format(fmt::runtime(what), row.integer(0)));
 }
 
-/// None below what is a file: SQLite refuses that by name.
+/// Returns no folder below a file: SQLite's error then names it.
 std::filesystem::path folderFor(const std::filesystem::path& file) {
   std::filesystem::path there = file.parent_path();
   while (!there.empty() && !std::filesystem::exists(there)) there = there.parent_path();
@@ -143,7 +143,7 @@ SweepIdentity readIdentity(Sqlite& database) {
     *text = row.text(k++);
   out.pointwise = row.integer(k++) != 0;
   out.points = row.integer(k++);
-  for (int* count : {&out.shard, &out.shards})  // one that no int holds is refused with those that are too large
+  for (int* count : {&out.shard, &out.shards})  // a count beyond int is refused like one that is too large
     *count = static_cast<int>(std::clamp<std::int64_t>(row.integer(k++), 0, most_shards + 1));
   try {
     out.keys = nlohmann::json::parse(row.text(k)).get<std::vector<std::string>>();
@@ -165,12 +165,12 @@ struct SweepDatabase::Statements {
 
 SweepDatabase::SweepDatabase(const std::filesystem::path& file, const SweepIdentity& identity)
     : folders_(folderFor(file)), sqlite_(file, Sqlite::Access::create), identity_(identity) {
-  // Before anything is changed, as it may be somebody else's.
+  // Checks before any change, because it may be a foreign database.
   const bool was_empty = isEmpty(sqlite_);
   if (!was_empty) requireSame(file, readIdentity(sqlite_), identity);
   prepareToWrite(sqlite_);
   sqlite_.run("BEGIN IMMEDIATE");
-  // Who is new is decided here, where nobody else writes: another sweep may have come first in between.
+  // Checks again under the lock, because another sweep may have come first.
   if (isEmpty(sqlite_))
     create(sqlite_, identity);
   else if (was_empty)
@@ -206,7 +206,7 @@ void SweepDatabase::add(const SweepPoint& point) {
   into.bind(0, point.id).bind(1, point.parameters).bind(2, point.verdict).bind(3, point.seconds);
   point.error.empty() ? into.bindNull(4) : into.bind(4, point.error);
   into.run();
-  statements_->stale.bind(0, point.id).run();  // of a point that somebody took out by hand
+  statements_->stale.bind(0, point.id).run();  // results of a point that somebody removed manually
   Statement& result = statements_->result;
   for (const SweepValue& value : point.values) {
     result.bind(0, point.id).bind(1, value.name).bind(2, value.value).bind(3, value.limit);
@@ -215,7 +215,7 @@ void SweepDatabase::add(const SweepPoint& point) {
   }
 }
 
-/// A transaction is open all the time: so nobody else begins to write between two of ours.
+/// A transaction is always open, so nobody else can write between two of ours.
 void SweepDatabase::commit() {
   sqlite_.run("COMMIT");
   requireInPlace();
@@ -224,7 +224,7 @@ void SweepDatabase::commit() {
 
 void SweepDatabase::requireInPlace() {
   if (!sqlite_.hasMoved()) return;
-  sqlite_.run("PRAGMA wal_checkpoint(TRUNCATE)");  // its log keeps the old name, where another database may come
+  sqlite_.run("PRAGMA wal_checkpoint(TRUNCATE)");  // its log keeps the old name, where another database may appear
   std::error_code ignored;
   refuse(sqlite_.file(),
          fmt::format("{} while the sweep wrote to it: what was found until then is in the file that was "
@@ -238,12 +238,12 @@ void SweepDatabase::finish() {
   requireInPlace();
   try {
     sqlite_.run("PRAGMA journal_mode = DELETE");
-  } catch (const DatabaseLocked&) {  // somebody reads it: then it stays as it is, which is as good
+  } catch (const DatabaseLocked&) {  // a reader keeps it in this mode, which is as good
   }
   requireSoundFile();
 }
 
-/// What this connection holds in memory need not be in the file: another program may have cut its log short.
+/// The file may differ from this connection's memory, because another program may have truncated its log.
 void SweepDatabase::requireSoundFile() {
   try {
     SweepDatabase(sqlite_.file());

@@ -11,17 +11,18 @@
 
 namespace ursula {
 
-/// Parts that a sweep is cut into.
+/// The largest number of shards of a sweep.
 constexpr int most_shards = 1'000'000;
 
-/// What a database is of: its table `sweep`, one row.
+/// The sweep of a database: its table `sweep`, one row.
 struct SweepIdentity {
   std::string text;      ///< the sweep's file
-  std::string hash;      ///< of all that decides rows: the sweep's meaning, the scenario's text, files that it names
-  std::string version;   ///< of the program
+  std::string hash;      ///< of everything that determines rows: the sweep's content, the scenario's text and the files
+                         ///< that it names
+  std::string version;   ///< version of the program
   std::string file;      ///< the sweep's path, as given
-  std::string scenario;  ///< the text of the scenario that is varied
-  std::string name;      ///< that scenario's
+  std::string scenario;  ///< text of the varied scenario
+  std::string name;      ///< name of that scenario
   std::string what;      ///< "validate" or "inverse"
   std::string design;    ///< "grid", "random" or "sobol"
   bool pointwise = false;
@@ -30,48 +31,46 @@ struct SweepIdentity {
   std::vector<std::string> keys;  ///< the varied numbers, in the sweep's order
 };
 
-/// One name's value of a point; NaN where there is none.
+/// One named value of a point; NaN if missing.
 struct SweepValue {
   std::string name;
   double value = 0, limit = 0;
-  std::string verdict;  ///< of a check; empty: none
+  std::string verdict;  ///< for a check; else empty
 };
 
-/// One point, as it goes into the database.
+/// One point, as stored in the database.
 struct SweepPoint {
   std::int64_t id = 0;
   std::string parameters;  ///< JSON object, in the sweep's order
   std::string verdict;     ///< pass, fail, inconclusive, out_of_reach, singular or error
   double seconds = 0;
-  std::string error;  ///< empty: none
+  std::string error;  ///< empty if there is none
   std::vector<SweepValue> values;
 };
 
-/// Points and results of a sweep. Written in batches: what one holds is there as a whole or not at all, however the
-/// program ends. Throws DatabaseError: of a file that is no such database, is damaged, was written by a newer program,
-/// or is written to by somebody else.
+/// Points and results of a sweep. Writes are atomic in batches, however the program ends. Throws DatabaseError if the
+/// file is no such database, is damaged, comes from a newer program, or is being written by another process.
 class SweepDatabase {
  public:
-  /// Opens, or makes, the one of `identity`, with folders that are missing; refuses one of another sweep, another shard
-  /// or another program version.
+  /// Opens or creates the database of `identity`, with missing folders. Refuses one of another sweep, shard or program
+  /// version.
   SweepDatabase(const std::filesystem::path& file, const SweepIdentity& identity);
-  /// To be read.
+  /// Opens for reading.
   explicit SweepDatabase(const std::filesystem::path& file);
   ~SweepDatabase();
 
   const SweepIdentity& identity() const { return identity_; }
   std::int64_t pointsDone();
-  /// The least id of [from, end) that is there; `end` where none is.
+  /// Returns the smallest existing id in [from, end); `end` if there is none.
   std::int64_t firstDone(std::int64_t from, std::int64_t end);
 
-  /// Takes those with verdict "error" out, so that they are made again.
+  /// Removes points with verdict "error", so that they are computed again.
   void dropErrors();
   void add(const SweepPoint& point);
-  /// What was added since the last time is there for good. Refuses a file that was removed, renamed or replaced
-  /// meanwhile, after all that was added is in it, wherever it is.
+  /// Makes added points durable. Refuses a file that was removed, renamed or replaced meanwhile, after all added points
+  /// are in it.
   void commit();
-  /// The same for the last time: leaves one file that can be read wherever it is carried. Refuses one that is damaged,
-  /// read anew.
+  /// The last commit: leaves one file that can be moved anywhere. Reads it again and refuses a damaged one.
   void finish();
 
   Sqlite& sqlite() { return sqlite_; }
@@ -87,11 +86,12 @@ class SweepDatabase {
   std::unique_ptr<Statements> statements_;
 };
 
-/// Reads a sweep's identity of an open database and checks that it is one; throws DatabaseError.
+/// Reads a sweep's identity from an open database and checks that it is one; throws DatabaseError.
 SweepIdentity readIdentity(Sqlite& database);
-/// Throws DatabaseError where `file`, of `there`, is not of the same sweep, shard and program version as `ours`.
+/// Throws DatabaseError unless `file`, with the identity `there`, has the same sweep, shard and program version as
+/// `ours`.
 void requireSame(const std::filesystem::path& file, const SweepIdentity& there, const SweepIdentity& ours);
-/// Whether it was only just made: whoever made it ended before anything was in it.
+/// Whether the database has no content, because its creator ended early.
 bool isEmpty(Sqlite& database);
 
 }  // namespace ursula

@@ -52,7 +52,7 @@ Variation stepsOf(const TomlSection& table) {
   return out;
 }
 
-/// A width: above 0.
+/// A width, which must be positive.
 Variation widthOf(const TomlSection& table, const char* key, Variation::Kind kind) {
   Variation out;
   out.kind = kind;
@@ -99,7 +99,7 @@ Vary varyOf(const TomlSection& table, SweepDesign design) {
   return out;
 }
 
-/// toml++ has integers of 64 bits, the sections' reader of 32.
+/// toml++ has 64-bit integers, TomlSection 32-bit ones.
 std::int64_t integerOf(const TomlSection& table, const char* key) {
   const ScenarioKey& about = keysOf("").key(key);
   const toml::node* node = table.table().get(key);
@@ -131,7 +131,7 @@ bool readFlag(const TomlSection& table, const char* key) {
   return node->as_boolean()->get();
 }
 
-/// Goes into a line of a script.
+/// The value becomes part of a script line.
 void readWord(const TomlSection& table, const char* key, std::string& value) {
   table.read(key, value);
   const bool plain = std::none_of(value.begin(), value.end(), [](unsigned char c) { return c <= ' ' || c == 0x7f; });

@@ -10,13 +10,13 @@
 
 namespace ursula {
 
-/// How one number of a scenario varies.
+/// The variation of one number of a scenario.
 struct Variation {
   enum class Kind {
-    values,      ///< each of `values` in a grid; else one of them, each as likely
+    values,      ///< each of `values` in a grid; otherwise a random one of them
     uniform,     ///< between a and b
     normal,      ///< mean a, standard deviation b
-    relative,    ///< the scenario's own value times 1 + a standard normal deviate times a
+    relative,    ///< the scenario's own value times 1 + a × a standard normal deviate
     plus_minus,  ///< uniform, at most a from the scenario's own value
   };
   Kind kind = Kind::values;
@@ -24,17 +24,17 @@ struct Variation {
   std::vector<double> values;
 };
 
-/// `[[vary]]`: a key, which may hold `*` for every leg or entry, each of which then varies by itself.
+/// `[[vary]]`: a key, possibly with `*` for every leg or entry, each of which varies independently.
 struct Vary {
   std::string key;
   std::string place;  ///< `file:line:column` of the key
   Variation by;
 };
 
-/// `[slurm]`: what a cluster is told beside the sweep. Empty: its own default.
+/// `[slurm]`: options for the cluster. Empty members keep its defaults.
 struct SlurmSettings {
   std::string partition, time, memory;
-  std::vector<std::string> options;  ///< further ones of sbatch: "--account=x"
+  std::vector<std::string> options;  ///< further options of sbatch: "--account=x"
 };
 
 enum class SweepWork { validate, inverse };
@@ -44,29 +44,29 @@ enum class SweepDesign { grid, random, sobol };
 const char* name(SweepWork work);
 const char* name(SweepDesign design);
 
-/// A sweep's file as written; what it names is not looked at yet.
+/// A parsed sweep file; the files that it names have not been read.
 struct SweepFile {
   std::filesystem::path file, scenario;
   std::string text;
   SweepWork work = SweepWork::validate;
-  bool pointwise = false;  ///< of validate: without replays
+  bool pointwise = false;  ///< for validate: without replays
   SweepDesign design = SweepDesign::random;
-  std::int64_t count = 0;      ///< of random and sobol
-  std::uint64_t seed = 1;      ///< of random and sobol
-  std::optional<int> samples;  ///< instants of each motion, in place of the scenario's
+  std::int64_t count = 0;      ///< for random and sobol
+  std::uint64_t seed = 1;      ///< for random and sobol
+  std::optional<int> samples;  ///< number of instants of each motion, instead of the scenario's
   std::vector<Vary> vary;
   SlurmSettings slurm;
 };
 
-/// Throws ScenarioError with its place; nothing is accepted that is not understood.
+/// Throws ScenarioError with its place; unknown content is an error.
 SweepFile readSweepFile(const std::filesystem::path& file);
-/// The same from text.
+/// The same from a text.
 SweepFile parseSweepFile(const std::string& text, const std::filesystem::path& file);
 
-/// Its keys, as the reader takes them and docs/sweep.md describes them.
+/// Its keys; the reader uses them and docs/sweep.md describes them.
 const std::vector<ScenarioTable>& sweepTables();
 
-/// As many points as a sweep may have.
+/// The largest number of points of a sweep.
 constexpr std::int64_t most_points = 1'000'000'000'000;
 
 }  // namespace ursula

@@ -22,7 +22,7 @@ std::string bytesOf(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-/// What decides a sweep's rows, to the last bit.
+/// Everything that determines a sweep's rows, to the last bit.
 class Meaning {
  public:
   void add(std::string_view text) {
@@ -118,7 +118,7 @@ std::string SweepPlan::text(std::int64_t i) {
   return fmt::format("# Point {} of the sweep {}\n\n{}", i, file_.file.filename().string(), text);
 }
 
-/// Lines are those that `sweep show` prints, and not the base scenario's.
+/// Line numbers refer to the output of `sweep show`, not to the base scenario.
 Scenario SweepPlan::read(std::int64_t i) {
   return parseScenario(text(i), fmt::format("point {} of {}", i, file_.file.filename().string()));
 }
@@ -136,7 +136,7 @@ Scenario SweepPlan::make(std::int64_t i) {
     if (varies_trajectory_) out.trajectory = readTrajectory(document.requiredSection("trajectory"));
     if (varies_load_) out.load = readLoad(document.requiredSection("load"));
   } catch (const std::exception&) {
-    return read(i);  // which refuses it, with its place
+    return read(i);  // it throws the error with its place
   }
   return out;
 }

@@ -12,29 +12,29 @@
 
 namespace ursula {
 
-/// A sweep with the scenario that it varies: makes each of its points a scenario. For one thread at a time.
+/// A sweep and the scenario that it varies; creates the scenario of each point. For one thread at a time.
 class SweepPlan {
  public:
-  /// Reads the scenario and finds the numbers that vary; no point is made yet. Throws ScenarioError with the place: in
-  /// the sweep for a key that leads to no number, in the scenario for what is wrong with that.
+  /// Reads the scenario and finds the varied numbers, but creates no point. Throws ScenarioError with the place: in the
+  /// sweep for a key without a number, in the scenario for its own errors.
   explicit SweepPlan(SweepFile file);
   ~SweepPlan();
 
   const SweepFile& file() const { return file_; }
   const SweepPoints& points() const { return points_; }
-  /// What is varied, with the sweep's samples: of what does not vary, every point's.
+  /// The varied scenario with the sweep's samples; its constant parts are those of every point.
   const Scenario& base() const { return base_; }
   SweepIdentity identity() const;
 
-  /// What varies at point i, as a JSON object in the sweep's order.
+  /// Returns the varied numbers at point i as a JSON object, in the sweep's order.
   std::string parameters(std::int64_t i) const;
-  /// The point as a scenario in TOML, with absolute paths: what `ursula validate` takes.
+  /// Returns the point as a scenario in TOML with absolute paths, for `ursula validate`.
   std::string text(std::int64_t i);
-  /// The point's scenario, as read from text(i). Throws ScenarioError for numbers that no scenario can have.
+  /// Returns the point's scenario, parsed from text(i). Throws ScenarioError for invalid numbers.
   Scenario read(std::int64_t i);
-  /// The same scenario without its text, and sooner.
+  /// Returns the same scenario without its text, but faster.
   Scenario make(std::int64_t i);
-  /// What points share: where nothing of it varies it is the same object in every scenario of make().
+  /// Whether the motion varies; if not, all scenarios of make() share the same object.
   bool variesMotion() const { return varies_trajectory_; }
 
  private:

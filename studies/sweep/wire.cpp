@@ -39,7 +39,7 @@ class Reader {
   const char* at_;
 };
 
-/// The two directions are one list.
+/// One list of fields for both directions.
 template <class Stream, class Point>
 void fields(Stream& stream, Point& point) {
   stream.plain(point.id);

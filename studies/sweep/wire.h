@@ -7,14 +7,14 @@
 
 namespace ursula {
 
-/// A point as bytes between two processes of one program on one machine, its length first.
+/// A point as bytes between two processes of one program on one machine; the length comes first.
 std::string packed(const SweepPoint& point);
 
-/// Takes whole points from the front of what arrived, in order.
+/// Extracts complete points from the received bytes, in order.
 class Unpacker {
  public:
   void add(std::string_view bytes) { bytes_ += bytes; }
-  /// False where no whole point is there yet.
+  /// Returns false if no complete point has arrived.
   bool next(SweepPoint& point);
 
  private:

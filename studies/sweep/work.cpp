@@ -28,7 +28,7 @@ const char* verdictOf(const PoseError& refusal) {
              : "out_of_reach";
 }
 
-/// Of what margins() tells; "" where legs have none, as they cannot be stretched.
+/// The name of the margin from margins(); "" for legs without one, which cannot be stretched.
 std::string marginName(const Manipulator& manipulator) {
   const LegKind first = manipulator.leg(0).kind;
   for (int i = 1; i < manipulator.legCount(); ++i)
@@ -100,7 +100,7 @@ void SweepWorker::validate(std::int64_t i, SweepPoint& point) {
   point.verdict = name(result.verdict);
 }
 
-/// A motion that is the same for all points is judged once.
+/// Judges a motion that all points share only once.
 ValidationResult SweepWorker::pointwise(std::int64_t i) {
   if (plan_.variesMotion()) return validatePointwise(plan_.read(i));
   if (!of_motion_) of_motion_ = judgeCommandedMotion(plan_.base());

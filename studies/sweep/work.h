@@ -10,13 +10,12 @@
 
 namespace ursula {
 
-/// What is found of one point of a plan: its row and results. For one thread at a time; holds nothing that another
-/// point's answer hangs on.
+/// Computes the row and the results of points of a plan. For one thread at a time; no answer depends on other points.
 class SweepWorker {
  public:
   explicit SweepWorker(SweepPlan& plan) : plan_(plan) {}
 
-  /// Whatever is wrong with the point is in its verdict and error; throws nothing of its own.
+  /// Verdict and error of the point contain every problem; throws nothing itself.
   SweepPoint at(std::int64_t i);
 
  private:

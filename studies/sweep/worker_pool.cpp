@@ -16,10 +16,10 @@
 namespace ursula {
 namespace {
 
-constexpr int look_up = 200;      // ms, between two questions whether to stop
-constexpr std::size_t ahead = 2;  // ranges that a worker has been given, so that it never waits for the next
+constexpr int look_up = 200;      // ms between two polls of stop
+constexpr std::size_t ahead = 2;  // number of ranges given to a worker, so that it never waits
 
-/// False at the end.
+/// Returns false at the end of the input.
 bool readAll(int from, char* bytes, std::size_t size) {
   while (size > 0) {
     const ssize_t got = ::read(from, bytes, size);
@@ -31,14 +31,14 @@ bool readAll(int from, char* bytes, std::size_t size) {
   return true;
 }
 
-/// What a worker does until its caller wants no more.
+/// A worker's loop until its caller closes the pipe.
 void serve(int from, int to, const std::function<std::function<SweepPoint(std::int64_t)>()>& make) {
   const std::function<SweepPoint(std::int64_t)> work = make();
   PointRange range;
   while (readAll(from, reinterpret_cast<char*>(&range), sizeof range))
     for (std::int64_t i = range.first; i < range.end; ++i) {
       const std::string bytes = packed(work(i));
-      if (!writeAll(to, bytes)) return;  // whoever asked is gone
+      if (!writeAll(to, bytes)) return;  // the caller is gone
     }
 }
 
@@ -46,7 +46,7 @@ void serve(int from, int to, const std::function<std::function<SweepPoint(std::i
 
 struct WorkerPool::Worker {
   std::unique_ptr<ChildProcess> process;
-  std::deque<PointRange> given;  ///< not done yet; of the first its done points are taken off
+  std::deque<PointRange> given;  ///< unfinished ranges; the first one shrinks with its finished points
   Unpacker arrived;
 
   bool runs() const { return process != nullptr; }
@@ -60,20 +60,20 @@ WorkerPool::~WorkerPool() = default;
 
 void WorkerPool::start(Worker& worker) {
   worker.process = std::make_unique<ChildProcess>([this](int from, int to) {
-    for (const auto& other : workers_)  // or they would never see the end of their questions
+    for (const auto& other : workers_)  // otherwise they would never see the end of their input
       if (other->runs()) other->process->closePipes();
     serve(from, to, tasks_.makeWork);
   });
 }
 
-/// By itself, as there are no more questions.
+/// Waits for its normal end, because there are no more points.
 void WorkerPool::end(Worker& worker) {
   worker.process->closePipes();
   worker.process->wait();
   worker = Worker{};
 }
 
-/// False where there is nothing left to give.
+/// Returns false if there is nothing left to give.
 bool WorkerPool::feed(Worker& worker) {
   while (worker.given.size() < ahead) {
     PointRange range;
@@ -86,7 +86,7 @@ bool WorkerPool::feed(Worker& worker) {
     if (range.first == range.end) break;
     if (!worker.runs()) start(worker);
     worker.given.push_back(range);
-    // A worker that has just ended is seen when it is read from.
+    // A worker that just ended is noticed when it is read from.
     [[maybe_unused]] const ssize_t sent = ::write(worker.process->to(), &range, sizeof range);
   }
   return !worker.given.empty();
@@ -109,7 +109,7 @@ void WorkerPool::receive(Worker& worker) {
   }
 }
 
-/// What it had been given is given out again; the point that it was at, once.
+/// Returns its ranges to the queue; retries its current point once.
 void WorkerPool::crashed(Worker& worker) {
   worker.process->closePipes();
   worker.process->wait();

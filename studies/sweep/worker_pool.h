@@ -12,22 +12,22 @@
 
 namespace ursula {
 
-/// Processes that work on points, where threads do elsewhere: one that crashes takes nothing with it. The point that it
-/// was at is tried once more, then it is a point with verdict "error" that says how its worker ended.
+/// Worker processes instead of threads, so that a crash harms only one of them. Its point is tried once more, then
+/// becomes a point with verdict "error" and the way its worker ended.
 ///
-/// Made of copies of the calling process (fork): it should have no threads that hold locks.
+/// They are copies of the calling process (fork), which should have no threads that hold locks.
 class WorkerPool {
  public:
   struct Tasks {
-    /// The next points to work on, none where first == end; asked by the caller's process.
+    /// The next points to work on, none if first == end; the caller's process calls it.
     std::function<PointRange()> next;
-    /// In a worker's process; made once for each worker.
+    /// Called in a worker's process, once per worker.
     std::function<std::function<SweepPoint(std::int64_t)>()> makeWork;
-    /// A point that has no result, for its row: its parameters.
+    /// Returns the parameters for the row of a point without a result.
     std::function<std::string(std::int64_t)> parameters;
-    /// With each point that is done, in no order.
+    /// Called for each finished point, in any order.
     std::function<void(const SweepPoint&)> done;
-    /// Asked now and then, at least a few times a second; true ends it all. Workers are then stopped at once.
+    /// Polled several times a second; true ends everything, and workers are stopped at once.
     std::function<bool()> stop;
   };
 
@@ -36,8 +36,8 @@ class WorkerPool {
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  /// Until all points are done, or stop() says so: false then. Throws std::runtime_error where no process can be made,
-  /// and what `done` throws.
+  /// Runs until all points are done, or returns false if stop() ended it. Throws std::runtime_error if no process can
+  /// be created, and exceptions of `done`.
   bool run();
 
  private:
@@ -51,8 +51,8 @@ class WorkerPool {
 
   Tasks tasks_;
   std::vector<std::unique_ptr<Worker>> workers_;
-  std::deque<PointRange> again_;     ///< of workers that crashed
-  std::vector<std::int64_t> tried_;  ///< points at which one has crashed
+  std::deque<PointRange> again_;     ///< of crashed workers
+  std::vector<std::int64_t> tried_;  ///< points at which a worker has crashed
 };
 
 }  // namespace ursula

@@ -12,10 +12,10 @@ struct Pair {
   double strength;
 };
 
-/// Two values make no scatter, and of checks each is drawn by itself.
+/// Two values make no scatter plot, and each check has its own.
 bool saysMore(OutputKind kind) { return kind != OutputKind::not_passed && kind != OutputKind::largest_share; }
 
-/// The primary output's first, the strongest first.
+/// The primary output's pairs first, the strongest first.
 std::vector<Pair> sortedPairs(const SweepSummary& summary) {
   std::vector<Pair> pairs;
   for (std::size_t k = 0; k < summary.outputs.size(); ++k)

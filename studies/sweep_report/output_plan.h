@@ -8,18 +8,18 @@
 
 namespace ursula {
 
-/// Which outputs the results' names make, and their values of a point.
+/// Determines the outputs from the results' names, and their values for a point.
 class OutputPlan {
  public:
   OutputPlan(bool validates, const std::vector<std::string>& names);
 
-  /// Without what is found of them.
+  /// The outputs without statistics.
   const std::vector<SweepOutput>& outputs() const { return outputs_; }
-  /// One number for each output, NaN where the point has none.
+  /// Computes one number per output, NaN if the point has none.
   void evaluate(const SweepRow& row, std::vector<double>& values) const;
-  /// The output, of those that the first one is the largest of, that is largest.
+  /// Returns the largest output of the group whose largest value is the first output.
   std::size_t largestOf(const std::vector<double>& values) const;
-  /// 1 to 6; 0 where no leg refused.
+  /// 1 to 6; 0 if no leg refused the point.
   int refusedLeg(const SweepRow& row) const;
 
  private:
@@ -28,8 +28,9 @@ class OutputPlan {
   std::size_t groupOf(OutputKind kind, const std::string& unit);
 
   std::vector<SweepOutput> outputs_;
-  std::vector<std::size_t> place_, group_;  ///< of each name: its output, and the output that is its group's largest
-  std::size_t refused_leg_ = nowhere;       ///< among the names
+  std::vector<std::size_t> place_,
+      group_;  ///< for each name: the index of its output, and of the output with its group's largest value
+  std::size_t refused_leg_ = nowhere;  ///< index among the names
 };
 
 }  // namespace ursula

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// Least and largest differ by no more than rounding makes.
+/// Whether least and largest differ only by rounding.
 bool isConstant(double min, double max) {
   return !(max - min > 16 * std::numeric_limits<double>::epsilon() * std::max(std::abs(min), std::abs(max)));
 }
@@ -41,7 +41,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   return std::clamp(products / std::sqrt(squaresAbout(a, mean_a) * squaresAbout(b, mean_b)), -1.0, 1.0);
 }
 
-/// Ranks of what is sorted already: each the mean of those of its equals.
+/// Ranks of sorted values, with mean ranks for ties.
 std::vector<double> sortedRanks(const std::vector<double>& sorted) {
   std::vector<double> out(sorted.size());
   for (std::size_t from = 0, to = 0; from < sorted.size(); from = to) {
@@ -51,7 +51,7 @@ std::vector<double> sortedRanks(const std::vector<double>& sorted) {
   return out;
 }
 
-/// Where each class ends, x being sorted.
+/// The end of each class of sorted x.
 std::vector<std::size_t> endsOf(const std::vector<double>& x, Classes classes) {
   const auto rows = static_cast<double>(x.size());
   const double count = std::round(classes == Classes::strata ? std::cbrt(rows) : std::sqrt(rows));

@@ -10,7 +10,7 @@
 namespace ursula {
 namespace {
 
-constexpr std::size_t piece = 1 << 16;  // what the sink is given at a time, about
+constexpr std::size_t piece = 1 << 16;  // approximate size of the sink's pieces
 
 void addNumber(double value, std::string& out) {
   if (std::isnan(value)) return;

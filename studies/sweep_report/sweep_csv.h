@@ -7,10 +7,10 @@
 
 namespace ursula {
 
-/// Every point a row, by ascending id: `id`, `verdict`, a column for each varied number by its key, one for each result
-/// by its name, for checks followed by NAME.limit and NAME.verdict, and `error`. 17 significant digits; what is not
-/// there is an empty cell. Texts are quoted as RFC 4180 has it, where they need it. Times of computing stay out: the
-/// same points give the same bytes. Throws DatabaseError.
+/// Writes a row per point by ascending id: `id`, `verdict`, a column per varied number by its key, and one per result
+/// by its name. For checks NAME.limit and NAME.verdict follow; the last column is `error`. Numbers have 17 significant
+/// digits; missing values are empty cells. Texts are quoted as in RFC 4180 if needed. Computing times are omitted, so
+/// equal points give equal bytes. Throws DatabaseError.
 void writeSweepCsv(Sqlite& database, const std::function<void(std::string_view)>& sink);
 
 }  // namespace ursula

@@ -17,13 +17,13 @@ using report::escaped;
 
 constexpr std::size_t most_bars = 10, most_rows = 20, most_columns = 14;
 
-/// What a table of parameters against outputs shows, and how much it leaves out.
+/// The content of a table of parameters by outputs, and the number of omitted ones.
 struct ShownColumns {
   std::vector<std::size_t> parameters, outputs;
   std::size_t constant = 0, outputs_left_out = 0, parameters_left_out = 0;
 };
 
-/// The primary one first; of checks those nearest to their limits.
+/// The primary one first; then the checks nearest to their limits.
 std::vector<std::size_t> outputsByWeight(const SweepSummary& summary) {
   std::vector<std::size_t> out;
   for (std::size_t k = 0; k < summary.outputs.size(); ++k)
@@ -38,7 +38,7 @@ std::vector<std::size_t> outputsByWeight(const SweepSummary& summary) {
   return out;
 }
 
-/// Of the rank correlation; 0 where there is none.
+/// The absolute rank correlation; 0 if there is none.
 double sizeOf(const Relation& relation) { return std::isnan(relation.spearman) ? 0 : std::abs(relation.spearman); }
 
 ShownColumns shownOf(const SweepSummary& summary) {
@@ -77,7 +77,7 @@ std::string leftOut(const ShownColumns& shown) {
 
 struct Cell {
   double value = 0;
-  bool told = false;  ///< from chance
+  bool told = false;  ///< significant
   std::string text;
 };
 
@@ -111,7 +111,7 @@ std::string bar(double share) {
                      100 * std::clamp(share, 0.0, 1.0));
 }
 
-/// How much is left for numbers acting together, where the indices are of independent numbers.
+/// The share of numbers acting together, if the indices are those of independent numbers.
 std::string togetherWords(const SweepSummary& summary, const SweepOutput& output) {
   if (output.no_index != NoIndex::none)
     return fmt::format(" There are no first-order indices: {}.", reasonOf(output.no_index));

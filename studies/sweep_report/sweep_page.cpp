@@ -43,7 +43,7 @@ bool isWhole(const SweepSummary& summary) {
   return summary.identity.shards == 1 && summary.points_done >= summary.identity.points;
 }
 
-/// Efforts are shown, not judged.
+/// Efforts are shown but not judged.
 Verdict verdictOf(const SweepSummary& summary) {
   const auto has = [&summary](const char* verdict) { return summary.verdicts.count(verdict) > 0; };
   if (has("fail") || has("error")) return Verdict::fail;

@@ -6,7 +6,7 @@
 
 namespace ursula {
 
-// Parts of the page, HTML; empty where there is nothing to draw.
+// Parts of the page in HTML; empty if there is nothing to draw.
 
 std::string histograms(const SweepSummary& summary);
 std::string scatterPlots(const SweepSummary& summary);

@@ -9,31 +9,31 @@
 
 namespace ursula {
 
-/// One point with its results, as the database has them.
+/// One point with its results, as in the database.
 struct SweepRow {
   struct Value {
     std::size_t name = 0;         ///< index into SweepRows::names()
-    double value = 0, limit = 0;  ///< NaN where there is none
-    std::string verdict;          ///< empty where there is none
+    double value = 0, limit = 0;  ///< NaN if there is none
+    std::string verdict;          ///< empty if there is none
   };
   std::int64_t id = 0;
   std::string verdict, error;
-  std::vector<double> parameters;  ///< one for each key, finite
+  std::vector<double> parameters;  ///< one per key, finite
   std::vector<Value> values;
 };
 
-/// Points by ascending id, one at a time, as they were when this was made, whoever writes meanwhile. One at a time for
-/// a connection. Throws DatabaseError.
+/// Reads points by ascending id, one at a time, as of its construction, even if others write meanwhile. A connection
+/// can have only one. Throws DatabaseError.
 class SweepRows {
  public:
   SweepRows(Sqlite& database, const std::vector<std::string>& keys);
 
-  /// Names of results, by their bytes.
+  /// Names of results, sorted by their bytes.
   const std::vector<std::string>& names() const { return names_; }
   bool next(SweepRow& row);
 
  private:
-  /// A transaction that reads.
+  /// A read transaction.
   class Snapshot {
    public:
     explicit Snapshot(Sqlite& database) : database_(database) { database_.run("BEGIN"); }

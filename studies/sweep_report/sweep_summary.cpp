@@ -13,9 +13,9 @@
 namespace ursula {
 namespace {
 
-constexpr std::size_t fewest_for_index = 200;  // 14 classes of 14: of unrelated numbers it scatters by 0.025
+constexpr std::size_t fewest_for_index = 200;  // 14 classes of 14: for unrelated numbers it scatters by 0.025
 constexpr std::size_t bins = 30, most_drawn = 6, most_maps = 4, most_cells = 250'000;
-constexpr double below_rounding = 1e-9;  // of an exact index
+constexpr double below_rounding = 1e-9;  // for an exact index
 
 /// Different values, ascending.
 std::vector<double> levelsOf(std::vector<double> values) {
@@ -43,7 +43,7 @@ class Summary {
   }
 
  private:
-  /// What follows needs the keys.
+  /// Comes first, because later steps need the keys.
   const std::vector<std::string>& identify(Sqlite& database) {
     out_.identity = readIdentity(database);
     out_.identity.scenario.clear();
@@ -82,7 +82,7 @@ class Summary {
     return kind == OutputKind::not_passed ? std::numeric_limits<double>::quiet_NaN() : values.front();
   }
 
-  /// Those that say something, with the ranks of their values.
+  /// Keeps the outputs with values, and the ranks of the values.
   void takeOutputs() {
     std::vector<std::size_t> taken(plan_.outputs().size());
     for (std::size_t k = 0; k < plan_.outputs().size(); ++k) {
@@ -109,7 +109,7 @@ class Summary {
     }
   }
 
-  /// Every combination of the levels is there, once.
+  /// Whether every combination of the levels exists once.
   bool isCompleteGrid() const {
     if (out_.identity.design != "grid" || out_.points_done != out_.identity.points) return false;
     double combinations = 1;
@@ -189,7 +189,7 @@ class Summary {
   }
 
   struct Columns {
-    std::size_t values, ranks;  ///< ranks: only of what is not constant
+    std::size_t values, ranks;  ///< ranks exist only for outputs that vary
   };
 
   SweepSummary out_;
@@ -197,10 +197,10 @@ class Summary {
   SweepRows rows_;
   OutputPlan plan_;
   ColumnStore store_;
-  std::vector<std::int64_t> worst_ids_;      ///< of the plan's outputs
-  std::vector<Columns> columns_;             ///< of the summary's outputs
-  std::vector<std::vector<double>> levels_;  ///< of each parameter; empty where there are too many
-  /// Of correlation and index, by counts of rows and classes.
+  std::vector<std::int64_t> worst_ids_;      ///< per output of the plan
+  std::vector<Columns> columns_;             ///< per output of the summary
+  std::vector<std::vector<double>> levels_;  ///< per parameter; empty if there are too many
+  /// Bounds of correlation and index, by numbers of rows and classes.
   std::map<std::pair<std::size_t, std::size_t>, std::pair<double, double>> bounds_;
 };
 

@@ -32,14 +32,14 @@ std::string table(const std::string& label, const std::string& caption, const st
       label, caption, heads, rows);
 }
 
-/// Leads to the point's row, where it has one.
+/// Links to the point's row, if it has one.
 std::string pointLink(const SweepSummary& summary, std::int64_t id) {
   const bool listed =
       std::any_of(summary.worst.begin(), summary.worst.end(), [id](const WorstPoint& point) { return point.id == id; });
   return listed ? fmt::format("<a href=\"#point-{0}\">{0}</a>", id) : std::to_string(id);
 }
 
-/// Those that drive the primary output most; all where they are few.
+/// The parameters that drive the primary output most; all if they are few.
 std::vector<std::size_t> parametersToShow(const SweepSummary& summary) {
   std::vector<std::size_t> order(summary.parameters.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -55,7 +55,7 @@ std::vector<std::size_t> parametersToShow(const SweepSummary& summary) {
 
 std::string parameterText(const SweepParameter& parameter, double value) {
   const Spread& all = parameter.spread;
-  const bool is_zero = std::abs(value) < 1e-9 * (all.max - all.min);  // of values about it
+  const bool is_zero = std::abs(value) < 1e-9 * (all.max - all.min);  // relative to the other values
   return report::plainNumber(is_zero ? 0 : value, 1 + report::digitsToTell(all.min, all.max));
 }
 
@@ -69,7 +69,7 @@ std::string badge(const std::string& verdict) {
                      escaped(verdictWords(verdict)));
 }
 
-/// What makes it one of the worst.
+/// The reason why it is one of the worst.
 std::string whyOf(const SweepSummary& summary, const WorstPoint& point) {
   if (!point.error.empty()) return point.error;
   if (std::isnan(point.score) || point.because >= summary.outputs.size()) return "";

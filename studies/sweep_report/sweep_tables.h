@@ -6,11 +6,11 @@
 
 namespace ursula {
 
-// Parts of the page, HTML; empty where there is nothing to show.
+// Parts of the page in HTML; empty if there is nothing to show.
 
 /// The numbers that drive the primary output, with bars.
 std::string driversTable(const SweepSummary& summary);
-/// Parameters against outputs: rank correlations, and first-order indices.
+/// Parameters by outputs: rank correlations, and first-order indices.
 std::string correlationTable(const SweepSummary& summary);
 std::string indexTable(const SweepSummary& summary);
 std::string outputsTable(const SweepSummary& summary);

@@ -26,7 +26,7 @@ std::string percent(double share) {
   return hundredths > 99.5 && hundredths < 100 ? "> 99 %" : fmt::format("{:.0f} %", hundredths);
 }
 
-/// Where the largest of a group was, or the point alone.
+/// The motor and point of a group's largest value, or only the point.
 std::string whereOf(const SweepSummary& summary, const SweepOutput& output) {
   const std::string point = fmt::format("at point {}", output.worst_point);
   for (const SweepOutput& each : summary.outputs)

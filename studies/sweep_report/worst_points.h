@@ -6,8 +6,8 @@
 
 namespace ursula {
 
-/// The points to look at first: errors, of which no more than three and each with a text of its own, then what failed,
-/// then the largest score; equals by their ids.
+/// Selects the points to look at first: at most three errors with different texts, then failures, then the largest
+/// scores; ties by id.
 class WorstPoints {
  public:
   /// Whether add() would keep it.
