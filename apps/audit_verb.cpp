@@ -27,7 +27,7 @@ int audit(const AuditOptions& options) {
     throw UsageError("--json and --markdown both go to standard output");
   refuseFile(options.out);
   for (const std::string& file : {options.json, options.markdown})
-    if (namesFile(file)) requireWritable(file);  // what follows takes a while
+    if (namesFile(file)) requireWritable(file);  // the rest takes a while
   const Scenario scenario = options.scenario.empty() ? paperHelix() : readScenarioOrInput(options.scenario);
   requireApart(scenario, {options.json, options.markdown});
   const Audit result = alongMotion(scenario, [&] {

@@ -21,7 +21,7 @@ VerbWords verbOf(const CLI::App& app) {
     OptionWords words;
     for (const std::string& name : option->get_snames()) words.names.push_back("-" + name);
     for (const std::string& name : option->get_lnames()) words.names.push_back("--" + name);
-    const std::string type = option->get_type_name();  // with its bounds after a colon
+    const std::string type = option->get_type_name();  // its bounds follow a colon
     if (option->get_items_expected_max() > 0) words.value = type.substr(0, type.find(':'));
     words.description = inOneLine(option->get_description());
     verb.options.push_back(words);

@@ -6,10 +6,10 @@
 
 namespace ursula {
 
-/// The command line as typed facts, from the definitions that --help shows.
+/// The command line as typed facts, from the definitions behind --help.
 struct OptionWords {
   std::vector<std::string> names;  ///< "--out", "-h"
-  std::string value;               ///< what it takes: "TEXT", "FLOAT"; empty for a flag
+  std::string value;               ///< type of its value: "TEXT", "FLOAT"; empty for a flag
   std::string description;         ///< in one line
 };
 
@@ -25,18 +25,18 @@ struct VerbWords {
 
 struct ProgramWords {
   std::string name, version;
-  VerbWords program;             ///< options of its own
+  VerbWords program;             ///< its own options
   std::vector<VerbWords> verbs;  ///< those that --help lists
 };
 
 ProgramWords wordsOf(const CLI::App& app);
 
-/// What each shell loads: the verbs, their options, the names of checks after `explain`, and files.
+/// Scripts for each shell that complete verbs, their options, names of checks after `explain`, and files.
 std::string bashCompletion(const ProgramWords& words);
 std::string zshCompletion(const ProgramWords& words);
 std::string fishCompletion(const ProgramWords& words);
 
-/// ursula(1), in roff.
+/// The man page ursula(1), in roff.
 std::string manPage(const ProgramWords& words);
 
 }  // namespace ursula

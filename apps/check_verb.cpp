@@ -20,7 +20,7 @@ struct CheckOptions {
   std::string picture;
 };
 
-/// Warnings go to standard output, what is wrong to standard error; false where anything is.
+/// Prints warnings to standard output and errors to standard error; returns false if there is an error.
 bool checkOne(const std::string& file, const CheckOptions& options) {
   try {
     const Scenario scenario = readScenarioOrInput(file);

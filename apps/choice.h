@@ -7,7 +7,7 @@
 
 namespace ursula {
 
-/// The option takes one of these names; help shows them, and so does the refusal of any other.
+/// Restricts the option to these names; help and error messages list them.
 template <class Choice>
 CLI::Option* takeOneOf(CLI::Option* option, const std::map<std::string, Choice>& choices) {
   std::string names;

@@ -12,7 +12,7 @@
 namespace ursula {
 namespace {
 
-/// What comes until the last who holds the other end is gone.
+/// Reads until all writers have closed the other end.
 std::string allOf(int from) {
   std::string out;
   std::array<char, 4096> buffer{};

@@ -5,8 +5,8 @@
 
 namespace ursula {
 
-/// Runs a command, no shell between, and returns what it prints; what it says on standard error, the user sees. Throws
-/// std::runtime_error where there is no such command, or it fails.
+/// Runs a command without a shell and returns its standard output; the user sees its standard error. Throws
+/// std::runtime_error if there is no such command, or if it fails.
 std::string outputOf(const std::vector<std::string>& words);
 
 }  // namespace ursula

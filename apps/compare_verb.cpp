@@ -20,7 +20,7 @@ struct Options {
   CompareOptions tolerances;
 };
 
-/// `--out` names the table alone, as CSV, or a folder for page, table and JUnit.
+/// `--out` names a CSV file for the table, or a folder for page, table and JUnit file.
 bool isTable(const std::string& out) { return out == "-" || std::filesystem::path(out).extension() == ".csv"; }
 
 Comparison compareAndWrite(const Options& options) {
@@ -40,7 +40,7 @@ int compareFiles(const Options& options) {
     writeOutput(options.junit,
                 report::junitXml({comparisonSuite(comparison, options.reference + " : " + options.test)}));
   if (isTable(options.out)) writeOutput(options.out, comparisonCsv(comparison));
-  // Data alone goes to standard output: where that is the CSV, the table is for the terminal.
+  // Standard output gets either data or text: with the CSV there, the table goes to standard error.
   std::string text = withoutControls(comparisonText(comparison));
   if (!options.out.empty() && !isTable(options.out))
     text += fmt::format("page: {}\n", (std::filesystem::path(options.out) / "compare.html").string());

@@ -13,7 +13,7 @@ std::string optionsOf(const VerbWords& verb) {
   return fmt::format("{}", fmt::join(names, " "));
 }
 
-/// The inside of a shell's '…', with each of `special` after a backslash.
+/// Quotes text inside a shell's '…', with a backslash before each of `special`.
 std::string quoted(const std::string& text, const std::string& special = "") {
   std::string out;
   for (const char c : text) {
@@ -25,7 +25,7 @@ std::string quoted(const std::string& text, const std::string& special = "") {
 
 std::string checks() { return fmt::format("{}", fmt::join(namesOfChecks(), " ")); }
 
-/// For _arguments: '(-h --help)'{-h,--help}'[what it does]:value:_files'.
+/// The format of _arguments: '(-h --help)'{-h,--help}'[what it does]:value:_files'.
 std::string zshOption(const OptionWords& option) {
   const std::string names = fmt::format("{}", fmt::join(option.names, ","));
   const std::string value = option.value.empty() ? "" : ":" + quoted(option.value, ":[]") + ":_files";

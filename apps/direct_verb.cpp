@@ -29,7 +29,7 @@ std::string_view trimmed(std::string_view text) {
   return first == text.npos ? std::string_view{} : text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// What one of the options takes: six numbers, one for each leg.
+/// An option with six numbers, one per leg.
 struct NumbersOption {
   const char* option;  ///< "--phi"
   const char* symbol;  ///< "phi"
@@ -64,7 +64,7 @@ Vector6d readNumbers(const NumbersOption& option, std::string_view text) {
   return values;
 }
 
-/// Column by column, one row a pose.
+/// A table of columns with one row per pose.
 struct PoseTable {
   std::vector<std::string> names;
   std::vector<std::vector<double>> columns;
@@ -100,7 +100,7 @@ PoseTable tabulate(const PlatformPoses& poses) {
   return table;
 }
 
-/// The legs of which something holds, as "legs 2, 5".
+/// The legs that satisfy the condition, as "legs 2, 5".
 template <class Condition>
 std::string legsThat(const PlatformPose& pose, Condition&& condition) {
   std::vector<std::size_t> legs;
@@ -136,7 +136,7 @@ int directOfPaper(const Scenario& scenario, const DirectOptions& options) {
   writeOutput(options.out, csvText(table.names, table.columns));
   summarise(poses);
   if (poses.counted != 8) return exit_inconclusive;  // one may be missing
-  return exit_passed;                                // no real pose is an answer, too
+  return exit_passed;                                // no real pose is also an answer
 }
 
 std::string csvOf(const UpsPoses& poses) {
@@ -195,7 +195,7 @@ std::string inWords(const Manipulator& machine) {
   return fmt::format("{} legs: {}", machine.legCount(), fmt::join(kinds, "; "));
 }
 
-/// What is given must be what the machine takes.
+/// The given option must suit the machine.
 int direct(const DirectOptions& options) {
   const Scenario scenario = readScenarioOrInput(options.scenario);
   const Manipulator& machine = *scenario.manipulator;

@@ -36,7 +36,7 @@ int docs(const DocsOptions& options, const CLI::App& app) {
 void addDocs(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<DocsOptions>();
   CLI::App* verb = app.add_subcommand("docs", "Writes what is made of the program's own definitions");
-  verb->group("");  // for those who work on the program: not listed
+  verb->group("");  // for developers: not listed
   verb->add_option("folder", options->folder,
                    "Where checks.md, scenario.md and scenario.schema.json go, for ./dev docs");
   CLI::Option* shell =

@@ -6,10 +6,10 @@
 
 namespace ursula {
 
-/// The paper's helix, scenarios/paper-helix.toml as it was when this program was built.
+/// The paper's helix: scenarios/paper-helix.toml at the time of the build.
 Scenario paperHelix();
 
-/// scenarios/proving-ground.toml as built in: what `ursula prove` injects defects into.
+/// The built-in scenarios/proving-ground.toml, into which `ursula prove` injects defects.
 Scenario provingGround();
 
 /// apps/starting/KIND.toml, the text that `ursula init` writes.

@@ -24,7 +24,7 @@ bool isWritten(const std::string& option) {
   return std::find(writing.begin(), writing.end(), option) != writing.end();
 }
 
-/// Flags name no file. Options that name no file are looked at as well where they are positional; that does no harm.
+/// Flags name no file. Positional options that are no files are also checked, which is harmless.
 void gather(const CLI::App& app, std::vector<Named>& out) {
   for (const CLI::Option* option : app.get_options()) {
     const std::string name = option->get_name();
@@ -38,7 +38,7 @@ void gather(const CLI::App& app, std::vector<Named>& out) {
 
 bool areSame(const std::string& a, const std::string& b) {
   std::error_code none, ignored;
-  if (std::filesystem::is_character_file(a, none)) return false;  // both may go to /dev/null
+  if (std::filesystem::is_character_file(a, none)) return false;  // both may be /dev/null
   return std::filesystem::equivalent(a, b, ignored) ||
          std::filesystem::absolute(a, none).lexically_normal() == std::filesystem::absolute(b, none).lexically_normal();
 }

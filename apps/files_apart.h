@@ -8,15 +8,15 @@
 
 namespace ursula {
 
-/// What is wrong where a call names one file twice, once to be written: a line for people; "" where nothing is. Looks
-/// at the verb that was called, and those within it.
+/// Returns an error line if a call names one file twice, once for writing; "" otherwise. Checks the called verb and the
+/// verbs within it.
 std::string namedTwice(const CLI::App& app);
 
-/// Throws UsageError where one of `written`, options' values, is a file that the scenario names, of samples for one.
+/// Throws UsageError if one of the options' values `written` is a file that the scenario names, such as its samples.
 void requireApart(const Scenario& scenario, std::initializer_list<std::string> written);
 
-/// Throws UsageError where one of `written` is in one of `compared` that is a folder, or a link to a file there:
-/// results that something is written into are no longer of one run.
+/// Throws UsageError if one of `written` is in a folder of `compared`, or a link to a file there. A file written into
+/// results would mix several runs.
 void requireOutside(std::initializer_list<std::string> compared, std::initializer_list<std::string> written);
 
 }  // namespace ursula

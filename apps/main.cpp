@@ -28,11 +28,11 @@ int runVerb(const CLI::App& app, const std::function<int()>& run) {
   try {
     return run();
   } catch (const ursula::ScenarioError& error) {
-    return complain(error.what());  // begins with file:line:column
+    return complain(error.what());  // starts with file:line:column
   } catch (const ursula::CsvError& error) {
     return complain(error.what());  // likewise
   } catch (const ursula::DatabaseError& error) {
-    return complain(error.what());  // begins with the file
+    return complain(error.what());  // starts with the file
   } catch (const ursula::PoseError& error) {
     return complain(fmt::format("error: the motion cannot be made: {}", error.what()));
   } catch (const std::bad_alloc&) {
@@ -72,7 +72,7 @@ int runProgram(int argc, char** argv) {
   return runVerb(app, run);
 }
 
-/// What was printed is data: a pass that nobody can read is none.
+/// A pass counts only if its data reached the reader.
 int finished(int code) {
   const std::string lost = code == ursula::exit_bad_input ? "" : ursula::lostOutput();
   return lost.empty() ? code : complain("error: " + lost);
@@ -87,7 +87,7 @@ int main(int argc, char** argv) {
     ursula::shareArenaInBoundedMemory();
     return finished(runProgram(argc, argv));
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "error: %s\n", error.what());  // the last resort is not to throw itself
+    std::fprintf(stderr, "error: %s\n", error.what());  // the last resort must not throw
     return ursula::exit_bad_input;
   }
 }

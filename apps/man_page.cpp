@@ -6,7 +6,7 @@
 namespace ursula {
 namespace {
 
-/// Text as it stands: no line is a request, no hyphen a dash.
+/// Escapes text so that no line is a request and no hyphen a dash.
 std::string roff(const std::string& text) {
   std::string out = "\\&";
   for (const char c : text) {

@@ -32,7 +32,7 @@ bool isInPath(const std::string& program) {
   return false;
 }
 
-/// For `sh -c`, with the page as $1 in the place of each %s, quoted or not: one word whatever is in its path.
+/// A command for `sh -c` with the page as $1 instead of each %s, quoted or not. It is one word for any path.
 std::string withPage(const std::string& browser) {
   std::string out;
   char quote = '\0';
@@ -54,7 +54,7 @@ std::string withPage(const std::string& browser) {
   return out;
 }
 
-/// For `sh -c`, with the page as $1: the first of $BROWSER, which may have %s for it, else xdg-open; "" where there is
+/// A command for `sh -c` with the page as $1: the first of $BROWSER, possibly with %s, else xdg-open; "" if there is
 /// neither.
 std::string browserCommand() {
   const char* browser = std::getenv("BROWSER");

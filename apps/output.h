@@ -10,11 +10,10 @@
 
 namespace ursula {
 
-/// An option may also be absent, or "-", which is a standard stream.
+/// Whether the option names a file. It may also be absent, or "-" for a standard stream.
 inline bool namesFile(const std::string& option) { return !option.empty() && option != "-"; }
 
-/// What a verb writes piece by piece: to a file that nobody sees before it is whole, or to standard output where `file`
-/// is "-" or empty.
+/// Writes in pieces to a file that appears only when complete, or to standard output if `file` is "-" or empty.
 class Output {
  public:
   explicit Output(const std::string& file);
@@ -26,7 +25,7 @@ class Output {
   std::optional<OutputFile> file_;
 };
 
-/// `--format` and `--jobs` of verbs that write rows.
+/// Adds `--format` and `--jobs` to verbs that write rows.
 void addRowOptions(CLI::App& verb, RowFormat& format, int& jobs);
 
 }  // namespace ursula

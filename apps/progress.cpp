@@ -19,7 +19,7 @@ namespace {
 constexpr double silent_seconds = 2;
 constexpr std::chrono::milliseconds redraw{250};
 
-/// A dumb terminal cannot go back on its line.
+/// A dumb terminal cannot return to the start of a line.
 bool canDraw() {
   const char* term = std::getenv("TERM");
   return ::isatty(::fileno(stderr)) == 1 && (term == nullptr || std::string(term) != "dumb");
@@ -42,7 +42,7 @@ Progress::~Progress() {
   }
   ending_.notify_all();
   if (drawing_.joinable()) drawing_.join();
-  if (drawn_) sayText("\r\033[K");  // what is on stdout says it all
+  if (drawn_) sayText("\r\033[K");  // stdout has the results
 }
 
 void Progress::at(double share, const std::string& note) {
@@ -55,7 +55,7 @@ void Progress::at(double share, const std::string& note) {
     say("{}: {}{}\n", what_, note_, timeText());
 }
 
-/// By a thread of its own: what is slow says nothing for long.
+/// Runs in its own thread, because slow work reports rarely.
 void Progress::keepDrawing() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (!ending_.wait_for(lock, redraw, [this] { return ended_; }))
@@ -70,7 +70,7 @@ void Progress::draw() {
   drawn_ = true;
 }
 
-/// As the last share foretold, counted down since; of what has no share or takes longer, how long it has taken.
+/// The time left by the last share, counted down; without a share, or beyond the estimate, the elapsed time.
 std::string Progress::timeText() const {
   if (share_ <= 0) return fmt::format("{}{:.0f} s", note_.empty() ? "" : ", ", seconds());
   const double left = at_seconds_ / share_ * (1 - share_) - (seconds() - at_seconds_);

@@ -8,19 +8,19 @@
 
 namespace ursula {
 
-/// Says on stderr how far something is that takes more than two seconds: on a terminal a bar with the time left, which
-/// goes when this does; elsewhere a line each tenth.
+/// Shows the progress of work that takes more than two seconds, on stderr. A terminal shows a bar with the time left,
+/// which the destructor removes; other outputs get a line per tenth.
 class Progress {
  public:
   enum class Lines { tenths, none };
 
-  /// `what` begins each line; without lines the caller writes his own.
+  /// `what` starts each line; with Lines::none the caller writes the lines.
   explicit Progress(const std::string& what, Lines lines = Lines::tenths);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// So much of 1 is done; `note` says it in other words, or what is at work. From any thread.
+  /// Sets the completed share, from 0 to 1; `note` describes it or the current work. Any thread may call this.
   void at(double share, const std::string& note);
 
   bool onTerminal() const { return on_terminal_; }
@@ -40,7 +40,7 @@ class Progress {
   std::mutex mutex_;  // guards what follows
   std::condition_variable ending_;
   bool ended_ = false, drawn_ = false;
-  double share_ = 0, at_seconds_ = 0;  ///< the last share, and when it was reached
+  double share_ = 0, at_seconds_ = 0;  ///< the last share, and its time
   std::string note_;
   std::thread drawing_;
 };

@@ -30,7 +30,7 @@ struct ProveOptions {
   bool only_random = false;
 };
 
-/// How many are done, told from any thread with the number of all.
+/// Counts finished items from any thread; the argument is their total.
 std::function<void(int)> progress(const char* what) {
   const auto bar = std::make_shared<Progress>(what);
   const auto count = std::make_shared<std::atomic<int>>(0);
@@ -130,7 +130,7 @@ void proveChecks(const ProveOptions& options, const Scenario& scenario, ProveFou
 int prove(const ProveOptions& options) {
   refuseFile(options.out);
   const std::filesystem::path page = std::filesystem::path(options.out) / "prove.html";
-  if (!options.out.empty()) requireWritable(page);  // what follows takes minutes
+  if (!options.out.empty()) requireWritable(page);  // the rest takes minutes
   const Scenario scenario = options.scenario.empty() ? provingGround() : readScenarioOrInput(options.scenario);
   ProveFound found;
   found.scenario = scenario.name;

@@ -21,10 +21,10 @@ struct SimulateOptions {
   std::string scenario, torques, out = "-";
   std::vector<std::string> map;
   SimulationEngine engine = SimulationEngine::simbody;
-  double time_limit = 0;  ///< s; 0: not given
+  double time_limit = 0;  ///< s; 0 if not given
 };
 
-/// Why the motion is not whole; empty where it is.
+/// Returns why the motion is incomplete; empty if it is complete.
 std::string whatIsMissing(const Simulation& run, const TorqueFile& file, double duration) {
   if (!run.gave_up.empty())
     return fmt::format("stopped at t = {} s of {} s: {}", run.motions.empty() ? 0 : run.motions.back().t, file.t.back(),

@@ -20,11 +20,11 @@ void sayText(const std::string& text) {
 }
 
 void secureStreams() {
-  // As before, standard input cannot be read and standard output not be written.
+  // As before, standard input cannot be read and standard output cannot be written.
   constexpr std::array<std::pair<int, int>, 3> streams = {
       {{STDIN_FILENO, O_WRONLY}, {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_WRONLY}}};
   for (const auto& [stream, access] : streams)
-    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF) ::open("/dev/null", access);  // the lowest number that is free
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF) ::open("/dev/null", access);  // gets the lowest free number
   for (const int error : {SIGPIPE, SIGXFSZ}) std::signal(error, SIG_IGN);
 }
 

@@ -9,29 +9,29 @@
 
 namespace ursula {
 
-/// For people, on standard error. That nobody can read it is no reason to stop: only lost data is. What a terminal
-/// would obey is sent as it stands.
+/// Writes to standard error for people, and ignores failures, because only lost data is an error. Control characters
+/// are not escaped.
 void sayText(const std::string& text);
 
-/// A sentence. Names of files and what is in them come from anybody: a terminal is told nothing to obey.
+/// Writes a sentence. Control characters in file names and contents are escaped, to protect the terminal.
 template <class... Arguments>
 void say(fmt::format_string<Arguments...> form, Arguments&&... arguments) {
   sayText(withoutControls(fmt::format(form, std::forward<Arguments>(arguments)...)));
 }
 
-/// Before anything is opened: what was closed by the caller gets a place, so that no file takes it and gets the words
-/// that are meant for a terminal. Writing to standard output then fails as it would have. A reader that goes away, or a
-/// file that may not be so large, is an error of the write, not the end of the program.
+/// Prepares the streams before anything is opened. Streams that the caller closed get a placeholder, so that no file
+/// receives text for a terminal; writing to standard output still fails. A closed reader or a file size limit becomes
+/// an error of the write instead of a signal.
 void secureStreams();
 
-/// The C library loads what unwinds threads when it first needs it, and ends the program where memory is short then.
+/// Loads the library that unwinds threads early. The C library loads it on demand and aborts if memory is short then.
 void loadUnwinder();
 
-/// Where the address space is bounded (`ulimit -v`), threads allocate from one arena: glibc reserves 64 MB for each of
-/// others, and where it cannot, tries again at every call.
+/// If the address space is bounded (`ulimit -v`), makes threads share one arena. glibc reserves 64 MB for each further
+/// arena, and repeats failed attempts at every call.
 void shareArenaInBoundedMemory();
 
-/// Why what was printed to standard output is not there; "" where all of it is.
+/// Returns why standard output is incomplete; "" if it is complete.
 std::string lostOutput();
 
 }  // namespace ursula

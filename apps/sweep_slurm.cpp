@@ -37,7 +37,7 @@ std::vector<QueuedTask> queueOf(const SlurmJobs& jobs) {
                              fmt::format("--format={}", queue_format)}));
 }
 
-/// With --parsable: "12", or "12;cluster".
+/// Parses the answer with --parsable: "12", or "12;cluster".
 std::int64_t submitted(const std::vector<std::string>& words) {
   const std::string answer = outputOf(words);
   try {
@@ -47,7 +47,7 @@ std::int64_t submitted(const std::vector<std::string>& words) {
   }
 }
 
-/// What is not missing and not there either.
+/// Reports shards that are neither missing nor complete.
 void sayOthers(const SlurmStanding& standing, const std::filesystem::path& database, int shards) {
   if (const std::vector<int> queued = standing.in(ShardState::queued); !queued.empty())
     fmt::print("{} of {} shards are in the queue already, job {}: not submitted again\n", queued.size(), shards,
@@ -57,15 +57,15 @@ void sayOthers(const SlurmStanding& standing, const std::filesystem::path& datab
                shardDatabase(database, {index, shards}).string());
 }
 
-/// One call's submissions, and what is kept of them.
+/// The submissions of one call, and their record.
 class Submission {
  public:
   Submission(SlurmJob job, const SlurmStanding& standing)
       : job_(std::move(job)),
         folder_(slurmFolder(job_.database)),
         jobs_{job_.shards, standing.arrays, standing.merges} {
-    std::filesystem::create_directories(folder_ / "logs");  // Slurm makes none
-    writeSlurmJobs(folder_, jobs_);                         // what cannot be kept is found before anything is submitted
+    std::filesystem::create_directories(folder_ / "logs");  // Slurm does not create it
+    writeSlurmJobs(folder_, jobs_);                         // fails before anything is submitted
   }
 
   void array() {
@@ -77,7 +77,7 @@ class Submission {
     writeSlurmJobs(folder_, jobs_);
   }
 
-  /// After all that is in the queue: two merges at a time would be in each other's way.
+  /// Runs after all queued jobs, because two merges would block each other.
   void merge() {
     const std::filesystem::path script = folder_ / "merge.sh";
     writeFileAtomically(script, mergeScript(job_));

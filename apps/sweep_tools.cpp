@@ -18,7 +18,7 @@ struct MergeOptions {
   std::string database;
 };
 
-/// What is not there, and how to make it.
+/// Reports the missing points, and the commands that compute them.
 void sayMissing(const MergeResult& result, const std::string& database) {
   const SweepIdentity& sweep = result.identity;
   say("{} of {} points are missing", sweep.points - result.done, sweep.points);

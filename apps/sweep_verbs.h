@@ -13,24 +13,24 @@ void addSweepMerge(CLI::App& sweep, std::function<int()>& run);
 void addSweepReport(CLI::App& sweep, std::function<int()>& run);
 void addSweepShow(CLI::App& sweep, std::function<int()>& run);
 
-/// From now on Ctrl-C and SIGTERM ask to stop. What whoever started this program wants ignored stays ignored: `nohup`,
-/// a shell's background, `trap '' INT`.
+/// Makes Ctrl-C and SIGTERM request a stop. Signals that the caller ignores stay ignored: `nohup`, background jobs of a
+/// shell, `trap '' INT`.
 void catchStops();
-/// The one that asked; 0: none.
+/// Returns the signal that requested it; 0 if none.
 int stopSignal();
 
 /// "tolerances.db", "tolerances.shard-2-of-4.db".
 std::string defaultDatabase(const std::string& stem, const Shard& shard);
 
-/// A sweep for a cluster.
+/// A sweep on a cluster.
 struct SlurmCall {
   std::filesystem::path sweep, database;  ///< as given
-  int shards = 0;                         ///< 0: not given
-  int cpus = 1;                           ///< of each task
+  int shards = 0;                         ///< 0 if not given
+  int cpus = 1;                           ///< per task
   bool dry_run = false;
 };
-/// Submits what is missing and a merge after it; the value is the exit code. Throws UsageError, and what databases and
-/// Slurm's commands have to say.
+/// Submits the missing shards and a merge after them; returns the exit code. Throws UsageError, and errors of databases
+/// and of Slurm's commands.
 int submitSweep(const SweepPlan& plan, SlurmCall call);
 
 }  // namespace ursula

@@ -8,11 +8,11 @@
 
 namespace ursula {
 
-/// `--map NAME=COLUMN`, any number of them.
+/// Adds the repeatable option `--map NAME=COLUMN`.
 void addMapOption(CLI::App& verb, std::vector<std::string>& map);
 
-/// Reads a torque file and says on stderr, once, how it was read and which columns were passed over. Throws CsvError as
-/// readTorqueFile and parseColumnMap do.
+/// Reads a torque file and reports once on stderr how it was interpreted and which columns were ignored. Throws
+/// CsvError like readTorqueFile and parseColumnMap.
 TorqueFile readTorquesAloud(const std::string& file, const std::vector<std::string>& map, const Motors& motors);
 
 }  // namespace ursula

@@ -34,14 +34,14 @@ std::vector<std::string> optionNames(const CLI::App& app) {
   return names;
 }
 
-/// The verb that is called of these; null where there is none.
+/// Returns the called verb; null if there is none.
 const CLI::App* calledOf(const CLI::App& app) {
   for (const CLI::App* verb : app.get_subcommands({}))
     if (verb->parsed()) return verb;
   return nullptr;
 }
 
-/// What `wrong` says of the values that were given, of the first of which it says anything, as a line; else "".
+/// Returns the first non-empty line that `wrong` returns for the given values; else "".
 template <class Wrong>
 std::string firstOf(const CLI::App& app, const Wrong& wrong) {
   for (const CLI::App* verb : app.get_subcommands())
@@ -101,7 +101,7 @@ std::string emptyValue(const CLI::App& app) {
 
 std::string oddNumber(const CLI::App& app) {
   return firstOf(app, [](const CLI::Option& option, const std::string& value) -> std::string {
-    const std::string type = option.get_type_name();  // with its bounds after a colon
+    const std::string type = option.get_type_name();  // its bounds follow a colon
     const bool is_whole = type.rfind("INT", 0) == 0 || type.rfind("UINT", 0) == 0;
     if (!is_whole && type.rfind("FLOAT", 0) != 0) return "";
     const std::string digits = value.substr(value.find_first_not_of("+-"));

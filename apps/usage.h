@@ -5,25 +5,23 @@
 
 namespace ursula {
 
-/// The first argument where it should be a verb and is none, as a line for people; "" where it is one, or no verb can
-/// be expected there.
+/// Returns an error line if the first argument should be a verb but is none; "" otherwise.
 std::string unknownVerb(const CLI::App& app, int argc, char** argv);
 
-/// A flag takes no value: --quiet=7 is refused.
+/// Refuses values for flags, such as --quiet=7.
 void refuseFlagValues(CLI::App& app);
 
-/// What was wrong with a call, in one line: the nearest option where one is misspelt, and whom to ask.
+/// Describes a wrong call in one line, with the nearest option for a misspelt one, and where to find help.
 std::string misuse(const CLI::App& app, const CLI::ParseError& error);
 
-/// A number that was given as CLI11 reads it and people do not write it, as a line for people; "" where there is none:
-/// 010 is 8 to it, and 1e-400 is 0.
+/// Returns an error line for a number that CLI11 reads in an unexpected way: 010 as 8, and 1e-400 as 0. Returns "" if
+/// there is none.
 std::string oddNumber(const CLI::App& app);
 
-/// An option or argument that was given and is empty, as a line for people; "" where there is none. It is a variable of
-/// a script that was never set, and stands for nothing.
+/// Returns an error line for an empty option or argument, usually an unset variable of a script; "" if there is none.
 std::string emptyValue(const CLI::App& app);
 
-/// That memory ran out, and which of the verb's numbers may be less.
+/// Says that memory ran out, and which numbers of the verb may be reduced.
 std::string outOfMemory(const CLI::App& app);
 
 }  // namespace ursula

@@ -7,19 +7,19 @@
 
 namespace ursula {
 
-/// What `validate` says on standard output.
+/// The output of `validate` on standard output.
 enum class Said { table, verdict, json };
 
-/// Of one scenario, whose results are in `dir`.
+/// Prints one scenario's result; `dir` contains its files.
 void printResult(const ValidationResult& result, const std::filesystem::path& dir, Said said);
 
-/// Of several, in the order given. As JSON: an array of the summaries that are in their folders, in its place for one
-/// in error an object of scenario, verdict "error" and error.
+/// Prints several results in the given order. JSON is an array of the summaries in their folders. A scenario with an
+/// error has an object of scenario, verdict "error" and error instead.
 void printSuite(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir, Said said);
 
 int exitCode(Verdict verdict);
 
-/// One in error is a failure: something was written, so this is no bad input.
+/// An entry with an error counts as a failure: results were written, so it is no bad input.
 int exitCode(const std::vector<SuiteEntry>& entries);
 
 }  // namespace ursula

@@ -26,16 +26,16 @@
 namespace ursula {
 namespace {
 
-/// For each scenario of a suite, where none is given, s: nobody sits before it.
+/// Default time limit per scenario of a suite, s, because nobody watches it.
 constexpr double suite_time_limit = 600;
 
 struct ValidateOptions {
   std::vector<std::string> scenarios, map;
   std::string torques, out;
-  ExternalSolverOptions solver;  ///< with a command, it is judged
-  double rtol = 0, atol = 0;     ///< 0: not given
+  ExternalSolverOptions solver;  ///< the solver under test, if it has a command
+  double rtol = 0, atol = 0;     ///< 0 if not given
   bool any_tolerance = false;
-  double time_limit = 0;  ///< for a scenario, s; 0: not given
+  double time_limit = 0;  ///< per scenario, s; 0 if not given
   bool json = false, quiet = false, strict = false;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 
@@ -49,9 +49,9 @@ std::string inWords(double seconds) {
   return seconds < 2 * day ? fmt::format("{:.0f} h", seconds / hour) : fmt::format("{:.3g} days", seconds / day);
 }
 
-/// What takes long is said before it begins, and what ends it.
+/// Announces long work before it starts, and what ends it.
 void sayWork(const Scenario& scenario, double limit) {
-  constexpr double worth_a_word = 60;  // s
+  constexpr double worth_a_word = 60;  // s: shorter work is not announced
   const double estimate = estimatedSeconds(scenario);
   if (!(estimate > worth_a_word)) return;
   const std::string ends = limit > 0 ? fmt::format("ends after {:g} s", limit) : "--time-limit SECONDS ends it sooner";
@@ -59,7 +59,7 @@ void sayWork(const Scenario& scenario, double limit) {
       scenario.simulation.samples, scenario.trajectory->duration(), ends);
 }
 
-/// Judges this program's solver, somebody else's, or the torques of a file.
+/// Judges this program's solver, an external one, or the torques of a file.
 ValidationResult judge(const Scenario& scenario, const ValidateOptions& options) {
   const bool from_file = !options.torques.empty();
   const TorqueFile torques =
@@ -89,7 +89,7 @@ int validateOne(const Scenario& scenario, const ValidateOptions& options, const 
   return exitCode(result.verdict);
 }
 
-/// A bar over all, or a line for each.
+/// A bar over all scenarios, or a line per scenario.
 class SuiteProgress {
  public:
   explicit SuiteProgress(std::size_t total) : total_(total), bar_("validate", Progress::Lines::none) {}
@@ -132,7 +132,7 @@ int validateSuite(const std::vector<SuiteMember>& members, const ValidateOptions
   return exitCode(entries);
 }
 
-/// What goes together, and what needs one motion alone.
+/// Checks that options fit together, and that options for one motion get one scenario.
 void requireSense(const ValidateOptions& options, const std::vector<SuiteMember>& members) {
   for (const auto& [option, value] : {std::pair("--torques", options.torques), {"--solver", options.solver.command}})
     if (members.size() > 1 && !value.empty())
@@ -152,7 +152,7 @@ std::filesystem::path folderOf(const ValidateOptions& options, const std::vector
   return dir;
 }
 
-/// Files that are read.
+/// The input files.
 std::vector<std::filesystem::path> inputsOf(const ValidateOptions& options, const std::vector<SuiteMember>& members) {
   std::vector<std::filesystem::path> out(options.scenarios.begin(), options.scenarios.end());
   if (!options.torques.empty()) out.emplace_back(options.torques);
@@ -163,7 +163,7 @@ std::vector<std::filesystem::path> inputsOf(const ValidateOptions& options, cons
   return out;
 }
 
-/// Usage is refused here, before anything is computed or written, and so is a suite of which nothing is left.
+/// Refuses wrong usage, and a suite without a valid member, before anything is computed or written.
 int validateAll(const ValidateOptions& options) {
   if (std::count(options.scenarios.begin(), options.scenarios.end(), "-") > 1)
     throw UsageError("standard input can be read once, expected one -");
@@ -240,7 +240,7 @@ void addValidate(CLI::App& app, std::function<int()>& run) {
                    "Torques pass that are off by no more, relative to the largest effort of the motion, also as 1%;\n"
                    "wins over [acceptance] torque")
       ->check(finitePositive())
-      ->transform(withoutPercent);  // the last that is given comes first
+      ->transform(withoutPercent);  // transforms run in reverse order
   verb->add_option("--atol", options->atol, "The same in N m, or N; both are added")->check(finitePositive());
   verb->add_flag("--any-tolerance", options->any_tolerance,
                  "Take a tolerance at which torques of zero would pass, too");

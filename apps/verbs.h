@@ -9,23 +9,23 @@
 
 namespace ursula {
 
-/// The program's answers, as interface.md gives them.
+/// The program's exit codes, as in interface.md.
 constexpr int exit_passed = 0, exit_failed = 1, exit_bad_input = 2, exit_inconclusive = 3;
 
-/// What the caller got wrong; the program says it and exits with 2.
+/// An error of the caller; the program prints it and exits with 2.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// For options: a finite number above 0, or not below it. CLI11's own let nan through.
+/// For options: a finite number above 0, or not below it. CLI11's own validators accept nan.
 CLI::Validator finitePositive();
 CLI::Validator finiteNotNegative();
-/// For transform(): "1%" becomes "0.01"; all else stays.
+/// For transform(): "1%" becomes "0.01"; other text stays.
 std::string withoutPercent(std::string text);
-/// An integer of 64 bits without a sign, whole and in range: CLI11's own wraps around.
+/// A 64-bit unsigned integer in range: CLI11's own parser wraps around.
 CLI::Validator wholeNumber();
 
-/// Each registers its verb and leaves in `run` what to do when it was called; the value is the exit code.
+/// Each registers its verb and stores in `run` its action, which returns the exit code.
 void addAudit(CLI::App& app, std::function<int()>& run);
 void addValidate(CLI::App& app, std::function<int()>& run);
 void addDirect(CLI::App& app, std::function<int()>& run);
@@ -44,7 +44,7 @@ void addProve(CLI::App& app, std::function<int()>& run);
 void addSimulate(CLI::App& app, std::function<int()>& run);
 void addSweep(CLI::App& app, std::function<int()>& run);
 
-/// What `run` returns. A pose on the way that the machine cannot take is refused at the scenario's trajectory.
+/// Returns the result of `run`. A pose that the machine cannot take becomes an error at the scenario's trajectory.
 template <class Run>
 auto alongMotion(const Scenario& scenario, Run&& run) {
   try {
@@ -54,11 +54,11 @@ auto alongMotion(const Scenario& scenario, Run&& run) {
   }
 }
 
-/// Writes to `file` atomically, or to standard output where it is "-" or empty.
+/// Writes to `file` atomically, or to standard output if it is "-" or empty.
 void writeOutput(const std::string& file, const std::string& content);
-/// Throws UsageError where `--out` names a file; it may be empty, or no folder yet.
+/// Throws UsageError if `--out` names a file; it may be empty, or a folder that does not exist.
 void refuseFile(const std::string& out);
-/// Throws UsageError where it is a folder of a validation's results: what belongs together there would be mixed.
+/// Throws UsageError if it is a folder of a validation's results, whose files would be mixed with others.
 void refuseResults(const std::filesystem::path& out);
 
 }  // namespace ursula
