@@ -15,10 +15,11 @@
 
 namespace ursula::python {
 
-/// Values as bytes for this version of the program on this kind of machine, and back: one walk for both ways.
+/// Converts values to bytes for this version of the program on this kind of machine, and back; one traversal serves
+/// both.
 class Archive {
  public:
-  Archive() = default;  ///< writes
+  Archive() = default;  ///< for writing
   explicit Archive(std::string from) : bytes_(std::move(from)), reads_(true) {}
 
   const std::string& bytes() const { return bytes_; }
@@ -81,7 +82,7 @@ class Archive {
   bool reads_ = false;
 };
 
-/// pickle's two ways for a T that an Archive walks.
+/// pickle's two functions for a T that an Archive can traverse.
 template <class T>
 auto pickled() {
   namespace py = pybind11;
@@ -103,7 +104,7 @@ auto pickled() {
       });
 }
 
-/// Copies of what nobody can change are itself.
+/// Copies of an immutable object are the object itself.
 template <class Class>
 void addCopies(Class& of) {
   namespace py = pybind11;

@@ -24,7 +24,7 @@ namespace ursula::python {
 namespace py = pybind11;
 namespace {
 
-/// Columns of a dict, each (N,); they may hold NaN, as those of a file.
+/// Reads the columns of a dict, each (N,); like those of a file, they may contain NaN.
 TimeSeries seriesIn(const py::dict& columns, const std::string& what) {
   CsvTable out;
   out.file = what;
@@ -63,7 +63,7 @@ Comparison compared(const py::object& reference, const py::object& test, double 
     return compare(before, after, {tolerance, time_tolerance, interpolate, columns});
   } catch (const py::builtin_exception&) {
     throw;
-  } catch (const std::runtime_error& error) {  // of a file, or of a column's name
+  } catch (const std::runtime_error& error) {  // from a file, or from a column's name
     throw py::value_error(error.what());
   }
 }

@@ -18,7 +18,7 @@ namespace {
 using Block = EffortsByState::Block;
 using Rows = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// How the load at P changes with a turn of the platform: with the frame that it is given in, and with its point.
+/// The change of the load at P with a rotation of the platform: through the load's frame and its point.
 Block loadByTurn(const Load* load, const Motion<double>& motion, const Vector6d& at_P) {
   Block out = Block::Zero();
   if (load == nullptr) return out;
@@ -33,7 +33,7 @@ Block loadByTurn(const Load* load, const Motion<double>& motion, const Vector6d&
   return out;
 }
 
-/// N × 6 × width, from `of(k)`, 6 × width.
+/// Returns N × 6 × width from `of(k)`, 6 × width.
 template <class F>
 py::array_t<double> blocks(const Motions& motion, py::ssize_t width, F&& of) {
   py::array_t<double> out({static_cast<py::ssize_t>(motion.rows.size()), py::ssize_t{6}, width});

@@ -25,7 +25,7 @@ std::string typeOf(const py::handle& value) { return py::str(py::type::of(value)
   throw ScenarioError(std::string(from_dict) + ": error: " + (place.empty() ? "" : place + ": ") + what);
 }
 
-/// Python's own limit of depth, for a dict that holds itself.
+/// Applies Python's recursion limit, for a dict that contains itself.
 struct Depth {
   Depth() {
     if (Py_EnterRecursiveCall(" in a scenario's dict") != 0) throw py::error_already_set();
@@ -35,8 +35,8 @@ struct Depth {
   Depth& operator=(const Depth&) = delete;
 };
 
-/// What json writes for a value of a dict: arrays and numbers of NumPy as Python's, paths as text. Throws ScenarioError
-/// with the key of anything else.
+/// Converts a dict's value for json: NumPy arrays and numbers to Python's, paths to text. Throws ScenarioError with the
+/// key for other types.
 py::object plain(const py::handle& value, const std::string& place) {
   const Depth depth;
   if (py::isinstance<py::str>(value) || py::isinstance<py::bool_>(value) || py::isinstance<py::int_>(value))

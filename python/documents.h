@@ -4,7 +4,7 @@
 
 namespace ursula::python {
 
-/// Scenarios of dicts and of text, and back.
+/// Adds scenarios from dicts and text, and the reverse.
 void addDocuments(pybind11::module_& module, ScenarioClass& scenario);
 
 }  // namespace ursula::python

@@ -18,7 +18,7 @@ namespace {
 
 std::string atInstant(const Motion<double>& motion) { return " at t = " + std::to_string(motion.t) + " s"; }
 
-/// The solver's answer to `motions`: N × 6 finite numbers, and nothing else.
+/// Checks that the solver's answer to `motions` has N × 6 finite numbers.
 std::vector<Vector6d> torquesOf(const py::object& answer, const std::vector<Motion<double>>& motions) {
   const py::array any =
       numbersIn(answer, "the solver's answer" + atInstant(motions.front()) + " is of type " +
@@ -27,7 +27,7 @@ std::vector<Vector6d> torquesOf(const py::object& answer, const std::vector<Moti
     throw py::value_error("the solver's answer to " + std::to_string(motions.size()) + " instants has shape " +
                           std::string(py::str(any.attr("shape"))) + ", expected (" + std::to_string(motions.size()) +
                           ", 6)");
-  const py::array_t<double, py::array::c_style | py::array::forcecast> given(any);  // the last, for it may be a copy
+  const py::array_t<double, py::array::c_style | py::array::forcecast> given(any);  // comes last, because it may copy
   std::vector<Vector6d> out;
   out.reserve(motions.size());
   for (std::size_t k = 0; k < motions.size(); ++k) {
@@ -44,7 +44,7 @@ std::string nameOf(const py::object& solver) {
   return py::str(py::getattr(solver, "__qualname__", py::type::of(solver).attr("__name__")));
 }
 
-/// The scenario with the tolerance given, if any.
+/// Returns the scenario with the given tolerance, if any.
 Scenario tolerant(Scenario scenario, std::optional<double> rtol, std::optional<double> atol, bool any) {
   requirePositive("rtol", rtol);
   requirePositive("atol", atol);
@@ -53,12 +53,12 @@ Scenario tolerant(Scenario scenario, std::optional<double> rtol, std::optional<d
   return scenario;
 }
 
-/// Somebody's own function on trial.
+/// Validates a user's function.
 ValidationResult ofSolver(const Scenario& scenario, const py::object& solver, std::string name, double limit) {
   if (PyCallable_Check(solver.ptr()) == 0) throw py::type_error("solver: expected a function of a Motion");
   OutsideSolver outside;
   outside.name = std::move(name);
-  // By reference: what copies this holds no lock.
+  // By reference, because copies are made without the lock.
   outside.torques = [&solver](const std::vector<Motion<double>>& motions) {
     const py::gil_scoped_acquire locked;
     return torquesOf(solver(Motions{motions}), motions);
@@ -67,7 +67,7 @@ ValidationResult ofSolver(const Scenario& scenario, const py::object& solver, st
                        [&](const ValidationOptions& options) { return validateOutside(scenario, outside, options); });
 }
 
-/// Somebody's own numbers on trial.
+/// Validates a user's numbers.
 ValidationResult ofTorques(const Scenario& scenario, const TorqueFile& torques, double limit) {
   return interruptible(limit, [&](const ValidationOptions& options) {
     return validateExternal(scenario, torques, options.time_limit, options.asked_to_end);

@@ -11,15 +11,16 @@
 
 namespace ursula::python {
 
-/// Torques (N, 6) at instants t (N,), as their own machine's motion has them. Throws TypeError unless both are given,
-/// ValueError for other shapes and for instants that do not increase or lie outside of the motion.
+/// Reads torques (N, 6) at instants t (N,) of the machine's own motion. Throws TypeError unless both are given,
+/// ValueError for other shapes, and for instants that do not increase or are outside the motion.
 TorqueFile torquesAt(const ScenarioWithSolver& given, const pybind11::object& torques, const pybind11::object& t,
                      const std::string& name);
 
-/// Throws ValueError that names `name`.
+/// Throws ValueError with `name` unless the value is positive.
 void requirePositive(const char* name, std::optional<double> value);
 
-/// What `run` returns, which is given when to end and knows no Python. Throws what a handler of signals raises.
+/// Returns the result of `run`, which gets the end conditions and does not use Python. Throws the exception of a signal
+/// handler.
 template <class Run>
 auto interruptible(double time_limit, Run&& run) {
   Interruption interruption;

@@ -6,8 +6,7 @@
 
 namespace ursula::python {
 
-/// Refuses an object that was never initialised, as cls.__new__(cls) gives it: pybind11 would hand out memory that
-/// nothing was written to.
+/// Refuses an uninitialised object from cls.__new__(cls), for which pybind11 would return uninitialised memory.
 template <class T>
 class MadeCaster : public pybind11::detail::type_caster_base<T> {
   using Base = pybind11::detail::type_caster_base<T>;

@@ -15,7 +15,7 @@ namespace {
 
 namespace py = pybind11;
 
-/// Python's PoseError, with the numbers of ours.
+/// Raises Python's PoseError with the numbers of ours.
 void raisePoseError(const ursula::PoseError& error) {
   const py::object type = py::module_::import("ursula._ursula").attr("PoseError");
   py::object out = type(error.what());

@@ -22,7 +22,7 @@ namespace {
 
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// Throws ValueError that names the entry, as "tau[2, 1]", unless all are finite.
+/// Throws ValueError with the entry, such as "tau[2, 1]", unless all are finite.
 void refuseNotFinite(const Array& values, const char* what) {
   const double *first = values.data(), *last = first + values.size();
   const double* found = std::find_if_not(first, last, [](double value) { return std::isfinite(value); });
@@ -35,13 +35,13 @@ void refuseNotFinite(const Array& values, const char* what) {
 
 bool isMasked(const py::handle& values) {
   const py::object type = py::module_::import("numpy.ma").attr("MaskedArray");
-  if (py::isinstance<py::list>(values) || py::isinstance<py::tuple>(values))  // of them NumPy makes one without masks
+  if (py::isinstance<py::list>(values) || py::isinstance<py::tuple>(values))  // NumPy drops their masks
     for (const py::handle each : values)
       if (py::isinstance(each, type)) return true;
   return py::isinstance(values, type);
 }
 
-/// The array_t of pybind11's constructor, which keeps NumPy's error, as ensure() does not.
+/// Uses the constructor of array_t, which keeps NumPy's error, unlike ensure().
 Array numbers(const py::object& values, const char* what) {
   const Array out(numbersIn(values, std::string(what) + ": expected numbers"));
   refuseNotFinite(out, what);
@@ -50,7 +50,7 @@ Array numbers(const py::object& values, const char* what) {
 
 std::string shapeOf(const py::array& array) { return py::str(array.attr("shape")); }
 
-/// Entries of every row, without a copy: `first` points to those of row 0. Keeps `self` alive, cannot be written to.
+/// A view of the entries in all rows; `first` points to those of row 0. It keeps `self` alive and is read-only.
 py::array view(const py::object& self, const double* first, std::vector<py::ssize_t> shape,
                std::vector<py::ssize_t> strides) {
   const auto& rows = self.cast<const Motions&>().rows;
@@ -84,7 +84,7 @@ Matrix3d orientationOf(const double* q, std::size_t row) {
   return given.normalized().toRotationMatrix();
 }
 
-/// As many rows as `count`; nothing given is zero.
+/// Requires as many rows as `rows` has; missing values stay zero.
 void fill(std::vector<Motion<double>>& rows, const py::object& values, Vector3d Motion<double>::*which,
           const char* what) {
   if (values.is_none()) return;

@@ -12,7 +12,7 @@
 
 namespace ursula::python {
 
-/// Commanded states at N instants; what Python sees are views of these rows.
+/// Commanded states at N instants; Python sees views of these rows.
 struct Motions {
   std::vector<Motion<double>> rows;
 };
@@ -25,12 +25,12 @@ class pybind11::detail::type_caster<ursula::python::Motions>
 
 namespace ursula::python {
 
-/// What `values` are, as an array of integers or floats, without a copy where they are one. Throws ValueError that
-/// begins with `what` for what are no numbers: text, dates, complex numbers, objects, and masked arrays, whose masks
-/// nobody would heed. An error of NumPy's passes as it is.
+/// Converts `values` to an array of integers or floats, without a copy if they are one. Throws ValueError that begins
+/// with `what` for text, dates, complex numbers, objects, and masked arrays, because masks would be ignored. NumPy's
+/// own errors pass unchanged.
 pybind11::array numbersIn(const pybind11::object& values, const std::string& what);
 
-/// N × width, row by row, from `at(row, out)`.
+/// Fills N × width values row by row with `at(row, out)`.
 template <class Rows, class F>
 pybind11::array_t<double> table(const Rows& rows, pybind11::ssize_t width, F&& at) {
   pybind11::array_t<double> out({static_cast<pybind11::ssize_t>(rows.size()), width});
@@ -39,11 +39,11 @@ pybind11::array_t<double> table(const Rows& rows, pybind11::ssize_t width, F&& a
   return out;
 }
 
-/// `values` as N × width doubles. Throws ValueError that names `what` for another shape, no numbers, or what is not
-/// finite.
+/// Converts `values` to N × width doubles. Throws ValueError with `what` for another shape, for non-numbers, and for
+/// values that are not finite.
 pybind11::array_t<double> rowsOf(const pybind11::object& values, pybind11::ssize_t width, const char* what);
 
-/// The same for numbers one a row; a single number is one row.
+/// The same with one number per row; a single number is one row.
 pybind11::array_t<double> columnOf(const pybind11::object& values, const char* what);
 
 void addMotion(pybind11::module_& module);

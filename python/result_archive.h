@@ -10,7 +10,7 @@
 
 namespace ursula::python {
 
-// Every member is named, so that a new one is a compiler's error here.
+// Every member is named, so that a new one causes a compiler error here.
 
 inline void members(Archive& archive, Largest& largest) {
   auto& [value, t, where] = largest;
@@ -58,7 +58,7 @@ inline void members(Archive& archive, LikelyCause& likely) {
   archive(off, cause, named, others, terms);
 }
 
-/// Read anew from its text.
+/// It is parsed again from its text.
 inline void members(Archive& archive, std::shared_ptr<const Scenario>& asked) {
   bool has = asked != nullptr;
   archive(has);

@@ -26,8 +26,8 @@ namespace ursula::python {
 namespace py = pybind11;
 namespace {
 
-/// Throws ValueError for an instant that the motion has not. One beyond its end by a few roundings is on it, as the
-/// last of numpy.arange(0, duration + step, step) is.
+/// Throws ValueError for an instant outside the motion. A few roundings beyond its end are accepted, as in the last
+/// value of numpy.arange(0, duration + step, step).
 void refuseOutside(const py::array_t<double>& instants, double duration) {
   constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
   const double *first = instants.data(), *last = first + instants.size(), slack = rounding * duration;
@@ -55,8 +55,7 @@ Motions motionAt(const ScenarioWithSolver& self, const py::object& t) {
   return out;
 }
 
-/// Answers of a batch, `all` of a block; poses that it has flagged are one(k)'s, which refuses them as the program
-/// does.
+/// Answers of a batch, with `all` for a block. one(k) handles flagged poses and throws the program's error.
 template <class All, class One, class Put>
 void answers(const ScenarioWithSolver& self, const Motions& motion, All&& all, One&& one, Put&& put) {
   const py::gil_scoped_release unlocked;
@@ -74,7 +73,7 @@ void answers(const ScenarioWithSolver& self, const Motions& motion, All&& all, O
   });
 }
 
-/// N × width, to be filled.
+/// Creates an N × width array to be filled.
 py::array_t<double> rowsFor(const Motions& motion, py::ssize_t width) {
   return py::array_t<double>({static_cast<py::ssize_t>(motion.rows.size()), width});
 }
@@ -135,7 +134,7 @@ bool has(const Leg& leg, Coordinate coordinate) {
   return std::find(all.begin(), all.end(), coordinate) != all.end();
 }
 
-/// φ, ψ, θ, d as far as any leg has them; NaN for those that have not.
+/// φ, ψ, θ, d that any leg has; NaN for legs without them.
 void addJoints(const std::string& suffix, const Manipulator& machine, const std::vector<JointMotion>& joints,
                JointVariables<double> JointMotion::*which, py::dict& out) {
   const std::vector<Leg>& legs = machine.parameters().legs;
@@ -192,7 +191,7 @@ std::vector<PlatformPose> posesOfStewartGough(const Manipulator& machine, const 
     row.multiplicity = pose.multiplicity;
     row.residual = pose.residual;
     row.assembles = beyondStroke(machine, lengths) < 0;
-    row.front = true;  // a length has one inverse
+    row.front = true;  // a length has one inverse solution
   }
   return out;
 }
@@ -208,7 +207,7 @@ std::vector<PlatformPose> directKinematics(const ScenarioWithSolver& self, const
 
 py::array_t<double> vectorOf(const double* from, py::ssize_t count) { return py::array_t<double>(count, from); }
 
-/// What a scenario is made of, wherever it is read.
+/// The content of a scenario, independent of its folder.
 py::tuple textOf(const ScenarioWithSolver& self) {
   return py::make_tuple(self.scenario.text, std::filesystem::absolute(self.scenario.file).string());
 }

@@ -21,7 +21,7 @@ struct ScenarioWithSolver {
         batch(*scenario.manipulator) {}
 
   Scenario scenario;
-  std::vector<exchange::Assumption> assumptions;  ///< of a model that was imported
+  std::vector<exchange::Assumption> assumptions;  ///< of an imported model
   DirectKinematics kinematics;
   EffortDerivatives derivatives;
   BatchDynamics batch;

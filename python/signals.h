@@ -9,10 +9,10 @@
 
 namespace ursula::python {
 
-/// What Python's handlers of signals raise, as that of Ctrl-C does, while no bytecode runs.
+/// Catches exceptions of Python's signal handlers, such as that of Ctrl-C, while no bytecode runs.
 class Interruption {
  public:
-  /// With or without Python's lock, which it takes twenty times a second at most.
+  /// Works with or without Python's lock, which it takes at most twenty times per second.
   bool cameInBetween() {
     constexpr std::chrono::milliseconds between{50};
     const auto now = std::chrono::steady_clock::now();
@@ -31,11 +31,11 @@ class Interruption {
   std::optional<pybind11::error_already_set> raised_;
 };
 
-/// Rows between two looks for signals: some milliseconds, and enough for the threads of a batch.
+/// Rows between two checks for signals: some milliseconds, and enough for the threads of a batch.
 constexpr std::size_t rows_at_once = 256, batch_at_once = 16384;
 
-/// `each(first, last)` for one block of `count` rows after the other, with or without Python's lock. Throws what a
-/// handler of signals raises between them.
+/// Calls `each(first, last)` for consecutive blocks of `count` rows, with or without Python's lock. Throws exceptions
+/// of signal handlers between blocks.
 template <class F>
 void inBlocks(std::size_t count, std::size_t at_once, F&& each) {
   Interruption interruption;
@@ -45,7 +45,7 @@ void inBlocks(std::size_t count, std::size_t at_once, F&& each) {
   }
 }
 
-/// `each(row)`, likewise.
+/// Calls `each(row)` in the same way.
 template <class F>
 void forRows(std::size_t count, F&& each) {
   inBlocks(count, rows_at_once, [&each](std::size_t first, std::size_t last) {

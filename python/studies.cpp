@@ -21,7 +21,7 @@
 
 namespace ursula::python {
 
-/// What Python sees of a Simulation: the same, in NumPy's terms.
+/// A Simulation in NumPy's terms, for Python.
 struct Simulated {
   Motions motion;
   pybind11::array_t<double> tau;
@@ -68,7 +68,7 @@ std::vector<std::string> checked(const ScenarioWithSolver& self) {
   return warnings(self.scenario);
 }
 
-/// None, a number, or (from, to, count), as the program's option has it.
+/// Reads None, a number, or (from, to, count), as for the program's option.
 GridAxis axisOf(const char* name, const py::object& given) {
   if (given.is_none()) return {};
   std::string text;
@@ -78,7 +78,7 @@ GridAxis axisOf(const char* name, const py::object& given) {
   return gridAxis(name, text);
 }
 
-/// The rows that the program writes, as columns by name.
+/// Returns the rows that the program writes, as columns by name.
 py::dict columnsOf(const BlockTable& blocks, int jobs) {
   std::string bytes;
   Interruption interruption;

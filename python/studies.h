@@ -4,7 +4,7 @@
 
 namespace ursula::python {
 
-/// What is asked beside a verdict: simulate, check, map, compare.
+/// Adds the functions beside validation: simulate, check, map, compare.
 void addStudies(pybind11::module_& module);
 
 }  // namespace ursula::python

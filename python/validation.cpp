@@ -40,7 +40,7 @@ py::dict seriesOf(const ValidationResult& result) {
   throw py::error_already_set();
 }
 
-/// Throws Python's OSError in the program's words.
+/// Throws Python's OSError with the program's message.
 void written(const ValidationResult& result, const std::filesystem::path& dir) {
   if (dir.empty()) refuseFile("cannot write '': an empty path, expected a folder");
   try {
@@ -125,7 +125,7 @@ void addReplayError(py::module_& module) {
       });
 }
 
-/// Text that says nothing, and a number that counts from 1, are None where they do not apply.
+/// Empty text, and numbers that count from 1, become None if they do not apply.
 template <class Value>
 std::optional<Value> unlessEmpty(const Value& value) {
   return value == Value{} ? std::nullopt : std::optional(value);

@@ -1,6 +1,6 @@
 #pragma once
 
-// What `help(ursula)` says.
+// The text of `help(ursula)`.
 
 namespace ursula::python::words {
 
