@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-// Vectors, matrices and the standard library's containers cross the border of the shared library by their layout, which
-// the compiler's options decide. What is not as in the library is refused here, not found out in a crash.
+// Vectors, matrices and standard containers pass the border of the shared library with a layout that compiler options
+// determine. A different layout is refused here instead of causing a crash.
 
 static_assert(sizeof(std::vector<double>) == URSULA_VECTOR_SIZE,
               "ursula was built with other containers of the standard library than this file (-D_GLIBCXX_DEBUG changes "

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Models made elsewhere: importModel() of a file in SDF, MJCF or URDF.
+/// Import of foreign models: importModel() reads a file in SDF, MJCF or URDF.
 
 #include "exchange/import.h"
 #include "exchange/import_error.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// What the machine is and what it is asked to do: Manipulator, Trajectory, Load, and the Scenario that holds them.
+/// The machine and its task: Manipulator, Trajectory, Load, and the Scenario that holds them.
 
 #include "base/errors.h"
 #include "include/ursula/abi.h"

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// The paper's closed forms: Solver for kinematics and dynamics, BatchDynamics for many poses at a time, by
-/// one thread or several, EffortDerivatives, DirectKinematics for all poses.
+/// The paper's closed forms: Solver for kinematics and dynamics, BatchDynamics for many poses on one or more threads,
+/// EffortDerivatives, DirectKinematics for all poses.
 
 #include "include/ursula/abi.h"
 #include "nocsolver/fast/batch_dynamics.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// What is asked beside a verdict: simulate(), warnings() and picture() of a scenario, mapBlocks(), compare().
+/// Functions beside validation: simulate(), warnings() and picture() of a scenario, mapBlocks(), compare().
 
 #include "include/ursula/abi.h"
 #include "studies/check_scenario/check_scenario.h"

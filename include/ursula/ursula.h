@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Everything of the library.
+/// Includes the whole library.
 
 #include "include/ursula/abi.h"
 #include "include/ursula/exchange.h"
