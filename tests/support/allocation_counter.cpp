@@ -1,5 +1,5 @@
-// The C library's allocation functions replaced by ones that count and pass on: Eigen calls malloc, not operator new.
-// Under a sanitizer of addresses or threads, which has put its own in their place, its hook counts.
+// Replaces the C library's allocation functions by ones that count and forward, because Eigen calls malloc instead of
+// operator new. Address and thread sanitizers have replaced them already, so their hook counts.
 
 #include "tests/support/allocation_counter.h"
 
@@ -13,7 +13,7 @@ thread_local long count = 0;
 long ursula::allocations() { return count; }
 
 #if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)  // clang's way to say it
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)  // clang's test for sanitizers
 #define URSULA_SANITIZER
 #endif
 #elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -22,7 +22,7 @@ long ursula::allocations() { return count; }
 
 #if defined(URSULA_SANITIZER)
 
-// <sanitizer/allocator_interface.h>, which GCC does not always bring
+// <sanitizer/allocator_interface.h>, which GCC does not always have
 extern "C" int __sanitizer_install_malloc_and_free_hooks(  // NOLINT
     void (*malloc_hook)(const volatile void*, std::size_t), void (*free_hook)(const volatile void*));
 

@@ -2,11 +2,11 @@
 
 namespace ursula {
 
-/// Calls of malloc and its kin, operator new among them, on this thread since it began. A program that links
-/// allocation_counter.cpp counts all of its own and its libraries' calls.
+/// Number of calls of malloc and related functions, including operator new, on this thread since its start. A program
+/// linked with allocation_counter.cpp counts its own calls and those of its libraries.
 long allocations();
 
-/// The same of what `call` does.
+/// The number of such calls during `call`.
 template <class F>
 long allocationsIn(F&& call) {
   const long before = allocations();

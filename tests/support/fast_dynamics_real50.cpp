@@ -1,4 +1,4 @@
-// The fast kernels in 50 digits, for tests alone.
+// The fast kernels in 50 digits, only for tests.
 
 #include "base/real50.h"
 #include "nocsolver/fast/fast_dynamics_impl.h"

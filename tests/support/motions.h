@@ -7,7 +7,7 @@
 
 namespace ursula {
 
-/// Numbers that are the same on every machine, as the standard's distributions are not.
+/// Random numbers that are equal on every machine, unlike those of the standard's distributions.
 class SeededDraws {
  public:
   explicit SeededDraws(unsigned seed) : engine_(seed) {}
@@ -21,7 +21,7 @@ class SeededDraws {
   std::mt19937_64 engine_;
 };
 
-/// A motion through poses near those of the scenario's own, turning about all three axes (the helix turns about one).
+/// A motion through poses near the scenario's own that rotates about all three axes (the helix rotates about one).
 std::unique_ptr<Trajectory> tumbling(const Scenario& scenario, unsigned seed);
 
 /// A pose near one of the scenario's own with a twist and a twist rate of about 1 in every coordinate.

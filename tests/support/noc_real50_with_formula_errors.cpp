@@ -1,4 +1,4 @@
-// The formulas as printed in 50 digits, for tests alone.
+// The formulas as printed in 50 digits, only for tests.
 
 #include "base/real50.h"
 #include "nocsolver/noc/noc_joints_impl.h"

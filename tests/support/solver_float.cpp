@@ -1,4 +1,4 @@
-// The solver in single precision, for tests alone.
+// The solver in single precision, only for tests.
 
 #include "nocsolver/fast/fast_dynamics_impl.h"
 #include "nocsolver/legs/leg_model_impl.h"

@@ -17,7 +17,7 @@ std::vector<std::string> cells(const std::string& line) {
   return out;
 }
 
-/// One row of the file by the names of its columns.
+/// One row of the file, accessed by column names.
 class Row {
  public:
   Row(const std::vector<std::string>& names, const std::vector<std::string>& values) {
@@ -33,7 +33,7 @@ class Row {
   Vector3<Real50> axes(const std::string& before, const std::string& after) const {
     return {(*this)(before + "x" + after), (*this)(before + "y" + after), (*this)(before + "z" + after)};
   }
-  /// Zero where a leg has no such column; that there is one at all is the caller's to ask.
+  /// Zero for a leg without such a column; the caller must check that any exists.
   Vector6<Real50> legs(const std::string& before, const std::string& after) const {
     Vector6<Real50> out = Vector6<Real50>::Zero();
     for (int i = 0; i < leg_count; ++i)
@@ -45,7 +45,7 @@ class Row {
     return {legs("phi" + rate, turning), legs("psi" + rate, turning), legs("theta" + rate, turning),
             legs("d" + rate, sliding)};
   }
-  /// Of six motors, in N·m or N.
+  /// The efforts of the six motors, in N·m or N.
   Vector6<Real50> efforts() const {
     Vector6<Real50> out;
     for (int k = 0; k < motor_count; ++k) {
@@ -56,7 +56,7 @@ class Row {
   }
   Matrix3<Real50> rotation() const {
     const Real50 w = (*this)("q_w"), x = (*this)("q_x"), y = (*this)("q_y"), z = (*this)("q_z");
-    const Real50 n = w * w + x * x + y * y + z * z;  // off 1 by its 25th digit
+    const Real50 n = w * w + x * x + y * y + z * z;  // differs from 1 in its 25th digit
     Matrix3<Real50> Q;
     Q << w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y),  //
         2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x),   //

@@ -10,7 +10,7 @@
 
 namespace ursula {
 
-/// What tests/vectors/NAME.csv says of one instant, all its 25 digits.
+/// One instant of tests/vectors/NAME.csv with all 25 digits.
 struct VectorRow {
   Motion<Real50> motion;
   JointVariables<Real50> q, q_dot, q_ddot;
@@ -20,14 +20,14 @@ struct VectorRow {
 /// The seven machines of tests/vectors: "paper-helix", "random-1" … "random-6".
 const std::vector<std::string>& vectorNames();
 
-/// Machines with legs of other kinds, mixtures, and several motors on a leg: "kind-ups-1" …
+/// Machines with legs of other kinds, mixtures, and several motors per leg: "kind-ups-1" …
 const std::vector<std::string>& kindNames();
 
-/// The five instants of one of them, seven for other kinds. Throws std::runtime_error where the file is not what its
-/// README says.
+/// The five instants of one of them, seven for other kinds. Throws std::runtime_error if the file contradicts its
+/// README.
 std::vector<VectorRow> vectorRows(const std::string& name);
 
-/// The scenario that they belong to.
+/// Their scenario.
 Scenario vectorScenario(const std::string& name);
 
 /// The same motion rounded to doubles.
