@@ -85,7 +85,8 @@ void lookAtSamples(const Experiments& experiments, Evidence& out) {
     if (experiments.progress) experiments.progress(share);
   };
   const Reference& reference = *out.reference;
-  out.samples = runPointwise(*out.scenario, *out.subject, reference.instants, reference.rounding().profile, reference.simbody());
+  out.samples =
+      runPointwise(*out.scenario, *out.subject, reference.instants, reference.rounding().profile, reference.simbody());
   if (out.fault.sample) std::for_each(out.samples.begin(), out.samples.end(), out.fault.sample);
   if (!out.answered()) return;
   tell(0.45);
@@ -110,7 +111,8 @@ void planReplays(Evidence& out) {
     out.plan.foresee = [subject, trajectory](const std::vector<double>& instants) {
       foresee(subject, *trajectory, instants);
     };
-  out.scales = {out.reference->rounding().position_scale, right.amplification.length(), out.reference->rounding().forces};
+  out.scales = {out.reference->rounding().position_scale, right.amplification.length(),
+                out.reference->rounding().forces};
 }
 
 }  // namespace

@@ -121,8 +121,9 @@ const std::vector<EngineTorques>& Reference::engines() const {
 }
 
 const std::vector<ReactionSample>& Reference::reactions() const {
-  return reactions_.get(
-      [this] { return runReactions(scenario, nocSubject(*scenario.manipulator, scenario.load), rounding().conditions); });
+  return reactions_.get([this] {
+    return runReactions(scenario, nocSubject(*scenario.manipulator, scenario.load), rounding().conditions);
+  });
 }
 
 const std::vector<DirectSample>& Reference::direct() const {
