@@ -4,11 +4,10 @@
 #include <optional>
 
 #include "validation/checks/acceptance.h"
-#include "validation/checks/engine_checks.h"
 #include "validation/checks/every_check.h"
 #include "validation/checks/families.h"
+#include "validation/checks/judges.h"
 #include "validation/checks/tolerance.h"
-#include "validation/checks/torque_between.h"
 #include "validation/evidence/evidence.h"
 #include "validation/evidence/reference.h"
 #include "validation/evidence/work_estimate.h"

@@ -4,10 +4,9 @@
 
 #include "model/instants.h"
 #include "validation/checks/acceptance.h"
-#include "validation/checks/commanded_motion.h"
 #include "validation/checks/every_check.h"
 #include "validation/checks/families.h"
-#include "validation/checks/pointwise_checks.h"
+#include "validation/checks/judges.h"
 #include "validation/checks/tolerance.h"
 #include "validation/findings/run_provenance.h"
 #include "validation/subject/motion_check.h"

@@ -13,7 +13,7 @@
 #include "studies/prove/defects.h"
 #include "studies/prove/effect.h"
 #include "studies/prove/prove.h"
-#include "validation/checks/commanded_motion.h"
+#include "validation/checks/judges.h"
 #include "validation/validate.h"
 
 namespace ursula {

@@ -12,7 +12,7 @@
 #include "base/out_of_memory.h"
 #include "nocsolver/errors.h"
 #include "studies/sweep/motion_extremes.h"
-#include "validation/checks/commanded_motion.h"
+#include "validation/checks/judges.h"
 #include "validation/validate.h"
 #include "validation/validate_pointwise.h"
 

@@ -17,7 +17,7 @@
 #include "studies/random/random_scenario.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/checks/pointwise_checks.h"
+#include "validation/checks/judges.h"
 #include "validation/evidence/reference.h"
 
 namespace ursula {

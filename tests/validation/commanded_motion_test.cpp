@@ -1,6 +1,6 @@
 // What all formulations share: right as it ships, and each way to be wrong is seen by the check that is for it.
 
-#include "validation/checks/commanded_motion.h"
+#include "validation/checks/judges.h"
 
 #include <gtest/gtest.h>
 

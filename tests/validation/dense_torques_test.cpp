@@ -1,7 +1,7 @@
 // Torques between the samples: a pulse that no sample meets is met there, and how narrow one may be is said.
 
 #include "model/instants.h"
-#include "validation/checks/torque_between.h"
+#include "validation/checks/judges.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -15,8 +15,6 @@
 #include "tests/support/motions.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/checks/engine_checks.h"
-#include "validation/checks/pointwise_checks.h"
 #include "validation/samples/engines.h"
 #include "validation/validate.h"
 

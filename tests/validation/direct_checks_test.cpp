@@ -1,6 +1,6 @@
 // Direct dynamics on trial: the mass matrix column by column, and in states beside the path.
 
-#include "validation/checks/direct_checks.h"
+#include "validation/checks/judges.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -15,8 +15,7 @@
 #include "tests/support/numbers.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/checks/engine_checks.h"
-#include "validation/checks/reaction_check.h"
+#include "validation/checks/judges.h"
 #include "validation/findings/timeseries.h"
 #include "validation/samples/reaction_samples.h"
 

@@ -12,7 +12,7 @@
 #include "model/instants.h"
 #include "tests/support/vectors.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/checks/stabilised_check.h"
+#include "validation/checks/judges.h"
 #include "validation/replay/windows.h"
 #include "validation/validate.h"
 

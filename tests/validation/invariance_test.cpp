@@ -1,7 +1,7 @@
 // Symmetries that need no reference: the solver has all four, and a solver that lacks one fails by the name of that
 // one.
 
-#include "validation/checks/invariance.h"
+#include "validation/checks/judges.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -9,7 +9,7 @@
 #include <functional>
 
 #include "tests/validation/checks.h"
-#include "validation/checks/ladder_checks.h"
+#include "validation/checks/judges.h"
 #include "validation/findings/curves.h"
 #include "validation/replay/windowed_replay.h"
 

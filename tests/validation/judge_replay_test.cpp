@@ -1,7 +1,7 @@
 // The judgement of replays, on replays made up: each check fails by itself, and only a limit that means something
 // judges.
 
-#include "validation/checks/replay_checks.h"
+#include "validation/checks/judges.h"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/checks/ladder_checks.h"
+#include "validation/checks/judges.h"
 #include "validation/findings/curves.h"
 #include "validation/replay/windows.h"
 

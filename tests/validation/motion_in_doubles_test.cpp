@@ -9,7 +9,7 @@
 #include "model/exact_trajectory.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/checks/commanded_motion.h"
+#include "validation/checks/judges.h"
 
 namespace ursula {
 namespace {

@@ -11,7 +11,7 @@
 #include "nocsolver/errors.h"
 #include "tests/support/vectors.h"
 #include "tests/validation/checks.h"
-#include "validation/checks/pointwise_checks.h"
+#include "validation/checks/judges.h"
 #include "validation/validate.h"
 
 namespace ursula {

@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "tests/support/vectors.h"
-#include "validation/checks/replay_checks.h"
+#include "validation/checks/judges.h"
 #include "validation/limits/amplification.h"
 #include "validation/subject/subject.h"
 

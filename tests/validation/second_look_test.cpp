@@ -7,7 +7,7 @@
 
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/checks/order_check.h"
+#include "validation/checks/judges.h"
 #include "validation/evidence/reference.h"
 #include "validation/limits/rounding_profile.h"
 #include "validation/replay/observed_order.h"

@@ -13,7 +13,7 @@
 #include "tests/support/numbers.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/checks/stabilised_check.h"
+#include "validation/checks/judges.h"
 #include "validation/evidence/evidence.h"
 #include "validation/evidence/reference.h"
 #include "validation/replay/asked_torques.h"

@@ -12,7 +12,7 @@
 
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/checks/replay_checks.h"
+#include "validation/checks/judges.h"
 
 namespace ursula {
 namespace {

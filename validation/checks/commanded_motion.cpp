@@ -1,4 +1,4 @@
-#include "validation/checks/commanded_motion.h"
+#include "validation/checks/judges.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "validation/checks/complement_checks.h"
+#include "validation/checks/judges.h"
 
 #include <fmt/format.h>
 

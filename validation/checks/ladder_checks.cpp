@@ -1,4 +1,4 @@
-#include "validation/checks/ladder_checks.h"
+#include "validation/checks/judges.h"
 #include "validation/replay/windowed_replay.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "validation/checks/order_check.h"
+#include "validation/checks/judges.h"
 
 #include <fmt/format.h>
 

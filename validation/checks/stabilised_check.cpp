@@ -1,4 +1,4 @@
-#include "validation/checks/stabilised_check.h"
+#include "validation/checks/judges.h"
 #include "validation/limits/conditioning.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "validation/checks/torque_between.h"
+#include "validation/checks/judges.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/exact_trajectory.h"
+#include "model/scenario.h"
+#include "validation/evidence/external_torques.h"
+#include "validation/limits/rounding_profile.h"
+#include "validation/replay/ladder.h"
+#include "validation/replay/stabilised_replay.h"
+#include "validation/replay/windowed_replay.h"
+#include "validation/samples/complement_samples.h"
+#include "validation/samples/direct_samples.h"
+#include "validation/samples/engines.h"
+#include "validation/samples/fast_samples.h"
+#include "validation/samples/invariance_samples.h"
+#include "validation/samples/pointwise.h"
+#include "validation/samples/reaction_samples.h"
+#include "validation/subject/frame_change.h"
+#include "validation/subject/subject.h"
+#include "validation/verdict/result.h"
+
+// The functions that judge: from what experiments found to checks with a value, a limit and a verdict. families.cpp
+// says which of them a subject is judged by. `units` convert to SI for the words.
+
+namespace ursula {
+
+/// Checks the commanded motion and the load, which all formulations share and so cannot check: `motion.pose`, `.twist`,
+/// `.twist_rate`, and `motion.load` if there is a load. It uses no solver's results.
+std::vector<Check> judgeCommandedMotion(const Scenario& scenario);
+
+/// `motion.pose`, `.twist`, `.twist_rate`. The machine's `length` converts angles to metres.
+std::vector<Check> judgeTrajectory(const Trajectory& trajectory, double length, const HiddenTerms& hidden);
+
+/// The checks of these samples: `kinematics.*`, `torque.pointwise`, `acceleration.pointwise`. `units` convert the
+/// samples to SI for the words.
+std::vector<Check> judgePointwise(const std::vector<PointwiseSample>& samples, bool has_kinematics,
+                                  const Units& units = {});
+
+/// For samples of runJointsAndTorques: `kinematics.joint_*` and `torque.pointwise`, by their derived limits.
+std::vector<Check> judgeJointsAndTorques(const std::vector<PointwiseSample>& samples, const Units& units = {});
+
+/// Compares the subject with each further formulation of this build: `torque.twin`, `torque.maximal`, `torque.mujoco`.
+/// `conditions`, at the same instants, explain wide limits; without them nothing does.
+std::vector<Check> judgeEngines(const std::vector<EngineSample>& samples, const Units& units = {},
+                                const std::vector<PointwiseSample>& conditions = {});
+
+/// Returns in words which formulation disagrees with all others; "none" if all agree.
+std::string oddOneOut(const std::vector<EngineSample>& samples);
+
+/// `torque.between` compares the subject's torques with another formulation at thousands of instants between the other
+/// checks'. The NOC is compared with the fast kernels, another solver with the NOC. Instants are multiples of the
+/// golden ratio, which match no period, and more where the torques curve. The result gives the width of the narrowest
+/// pulse that is surely found.
+Check judgeBetween(const Scenario& scenario, const Subject& subject, const std::vector<PointwiseSample>& samples,
+                   const RoundingProfile& profile, const Units& units = {});
+
+/// Compares every answer that a subject ever gave with the NOC's. It replaces judgeBetween's check, whose instants it
+/// includes. A solver may also be wrong beyond the first thousands.
+Check judgeAnswers(const Scenario& scenario, std::vector<Answered> answers, const std::vector<PointwiseSample>& samples,
+                   const RoundingProfile& profile, const Units& units);
+
+/// `direct.pointwise` compares the subject's direct dynamics (36) with Simbody's; `direct` is at some of `samples`.
+/// Only for subjects that have direct dynamics.
+Check judgeDirect(const std::vector<DirectSample>& direct, const Subject& subject,
+                  const std::vector<PointwiseSample>& samples, const RoundingProfile& profile, const Units& units = {});
+
+/// `direct.off_path`: the same in states off the commanded motion, where the trajectory cannot help.
+Check judgeOffPath(const std::vector<DirectSample>& direct, const Subject& subject,
+                   const std::vector<PointwiseSample>& samples, const RoundingProfile& profile,
+                   const Units& units = {});
+
+/// `complement.orthogonality` and `complement.rank`: T is the orthogonal complement of D, (33).
+std::vector<Check> judgeComplement(const std::vector<ComplementSample>& samples, const Units& units);
+
+/// Compares the kernels that users call, with every instruction set of the processor, with the NOC: `fast.inverse`,
+/// `fast.direct`, `fast.inverse_batch`, `fast.direct_batch`. `fast` is at `samples`.
+std::vector<Check> judgeFast(const FastSamples& fast, const std::vector<PointwiseSample>& samples, const Units& units);
+
+/// Exact invariances without a reference, `invariance.*`: the world rotated (with gravity), legs relabelled, masses
+/// doubled, time reversed. Returns none if the subject is no solver. They use no load.
+std::vector<Check> judgeInvariances(const std::vector<InvarianceSamples>& invariances,
+                                    const std::vector<PointwiseSample>& samples, const RoundingProfile& profile,
+                                    const Units& units = {});
+
+/// `reactions.pointwise` compares the joint reactions from the solver's formulation with Simbody's mobilizer and
+/// constraint reactions, at the instants of `samples`. Only for the correct formulas.
+Check judgeReactions(const std::vector<ReactionSample>& reactions, const std::vector<PointwiseSample>& samples,
+                     const RoundingProfile& profile, const Units& units = {});
+
+/// `replay.position`, `replay.orientation`, `closure.position`, `closure.velocity`, `energy.balance`, over all windows.
+/// `cause` says why the accelerations' rounding is large, for limits that it makes useless.
+std::vector<Check> judgeReplay(const std::vector<WindowedReplay>& windows, double position_scale, double length,
+                               const LoopForces& forces, const Units& units = {}, const std::string& cause = "");
+
+/// `integration.ladder` and `integration.second`.
+std::vector<Check> judgeLadder(const Ladder& ladder, const WindowedReplay& finest, double position_scale,
+                               const Units& units = {});
+
+/// `integration.order` compares the orders from observedOrders() with the nominal one of the replay's integrator.
+Check judgeOrder(const std::vector<double>& orders);
+
+/// `feedback.torque`, N·m: the torque that the stabilising term added. `largest` is that of the right torques.
+Check judgeStabilised(const StabilisedReplay& found, double largest, const Units& units = {});
+
+/// `torque.against_noc`: external torques against this program's own.
+Check judgeAgainstNoc(const ExternalTorques& torques, const Units& units = {});
+
+}  // namespace ursula
