@@ -2,11 +2,15 @@
 
 // The requirements on a leg's displacement, in every lane of a pack. Internal; leg_guard.h handles one pose at a time.
 
-#include "nocsolver/fast/kernels/guard_bounds.h"
 #include "nocsolver/fast/kernels/pack.h"
 #include "nocsolver/fast/pose_fault.h"
 
 namespace ursula::kernel {
+
+// Bounds in doubles, because sources of an instruction set may define no function of doubles. chain_frame.h and
+// platform_at_p.h compute the same from the scalar's eps.
+constexpr double root_eps = 0x1p-26;      ///< √eps: a smaller sine or lever has no correct digit left
+constexpr double least_pivots = 0x1p-48;  ///< 16 eps: least ratio of the smallest to the largest pivot of Bᵀ
 
 /// Keeps the first fault of each lane.
 template <class Isa>
