@@ -11,7 +11,7 @@ function(ursula_component name)
 endfunction()
 
 # Compiles so many sources together, as they include the same headers and templates. Two sources of a folder may therefore
-# not give one name to different things, not even in unnamed namespaces. The presets for development compile each alone.
+# not give one name to different things, not even in unnamed namespaces. The preset `dev` compiles each alone.
 function(ursula_unity name batch)
   set_target_properties(ursula_${name} PROPERTIES UNITY_BUILD ${URSULA_UNITY} UNITY_BUILD_BATCH_SIZE ${batch})
 endfunction()
