@@ -38,8 +38,7 @@ struct Plot {
 /// Returns the report's charts with data: from the time series, then from the curves.
 std::vector<Plot> plots(const ValidationResult& result);
 
-/// Keeps the largest and least values in each of `buckets` equal parts of the rows, if there are more than twice as
-/// many rows.
+/// Keeps the largest and least values in each of `buckets` equal parts, if there are more than twice as many rows.
 Plot thinned(const Plot& plot, std::size_t buckets);
 
 /// Whether `line` has a drawable point: finite, and positive on a logarithmic axis.

@@ -11,9 +11,9 @@ namespace ursula::exchange {
 /// Links of a URDF by name, as indices of the graph's bodies.
 using UrdfLinks = std::unordered_map<std::string, std::size_t>;
 
-/// Reads the closures of the tree's loops from the first available source. These are Drake's ball constraints, Isaac
-/// Sim's loop joints, SDF joints in <gazebo>, robot.yaml next to the file, and links named closing_NAME_1 and
-/// closing_NAME_2. Without any, it reports coinciding ends as an assumption but does not join them.
+/// Reads the closures of the tree's loops from the first available source: Drake's ball constraints, Isaac Sim's loop
+/// joints, SDF joints in <gazebo>, robot.yaml next to the file, links named closing_NAME_1 and closing_NAME_2. Without
+/// any, it reports coinciding ends as an assumption but does not join them.
 void readUrdfClosures(const Element& robot, const std::filesystem::path& file, const UrdfLinks& links,
                       ModelGraph& graph);
 

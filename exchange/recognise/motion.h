@@ -4,7 +4,7 @@
 
 namespace ursula::exchange {
 
-/// The share of a leg's range, up to 1, that is left at a pose of M in B; it is not positive if the leg cannot take the
+/// The share of a leg's range, up to 1, that is left at a pose of M in B. It is not positive if the leg cannot take the
 /// pose.
 double reserveOf(const ImportedLeg& leg, const ImportedPose& pose);
 

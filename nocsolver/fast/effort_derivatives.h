@@ -56,10 +56,10 @@ class EffortDerivatives {
   /// given, without normalisation. `load` stays fixed. Allocates its result.
   Columns byParameters(const Motion<double>& motion, const Vector6d& load = Vector6d::Zero()) const;
 
-  /// Names of the parameters in which efforts are linear for a given geometry. They are mass, first moment and inertia
-  /// of the platform about P, in M, and of each link about its first end, in its frame of (40). A link's first moment
-  /// is along it, or a vector if its mass centre is off its line. Viscous and Coulomb friction and existing rotor
-  /// inertias follow. "manipulator.platform.first_moment.0", kg·m, "manipulator.leg.2.distal.inertia_at_end.0", kg·m².
+  /// Names of the parameters in which efforts are linear for a given geometry. The platform's mass, first moment and
+  /// inertia are about P, in M; a link's are about its first end, in its frame of (40). A link's first moment is along
+  /// it, or a vector if its mass centre is off its line. Viscous and Coulomb friction and existing rotor inertias
+  /// follow. "manipulator.platform.first_moment.0", kg·m, "manipulator.leg.2.distal.inertia_at_end.0", kg·m².
   const std::vector<std::string>& regressorNames() const;
 
   /// The machine's own values of them, π.

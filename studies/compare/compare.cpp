@@ -146,8 +146,8 @@ std::vector<Gap> gapsOf(const std::vector<double>& reference, const std::vector<
   return out;
 }
 
-/// Number of the reference's instants that the test skips: where it has less than a third of the density, or less than
-/// nearly everywhere else, as for a missing row.
+/// Counts the reference's instants that the test skips. They are where it has less than a third of the density, or less
+/// than nearly everywhere else, as for a missing row.
 std::size_t skippedOf(const std::vector<double>& reference, const std::vector<double>& test, double rounding) {
   constexpr std::size_t few = 3;
   const std::vector<Gap> gaps = gapsOf(reference, test, rounding);

@@ -14,8 +14,8 @@
 namespace ursula {
 
 struct CompareOptions {
-  /// Tolerance of values, relative to the scale of the channel's group. The default lies between the difference of two
-  /// right computations (rounding: 25 eps times condition numbers, some 1e-12) and the smallest relative parameter
+  /// Tolerance of values, relative to the scale of the channel's group. The default exceeds the difference of two right
+  /// computations (rounding: 25 eps times condition numbers, some 1e-12). It is below the smallest relative parameter
   /// error that must be found (1e-8).
   double tolerance = 1e-9;
   double time_tolerance = 0;  ///< s

@@ -24,8 +24,8 @@ BlockTable mapBlocks(const Scenario& scenario, const PoseGrid& grid, DrawnMap* d
 /// The largest number of poses for mapPicture.
 constexpr std::size_t most_drawn = 1'000'000;
 
-/// Returns κ, sine and effort as SVG heat maps over the first two axes, one row for each of at most six values of the
-/// third. Poses out of reach are grey.
+/// Returns SVG heat maps of κ, sine and effort over the first two axes. Each of at most six values of the third axis
+/// has a row. Poses out of reach are grey.
 std::string mapPicture(const Scenario& scenario, const PoseGrid& grid, const DrawnMap& drawn);
 
 }  // namespace ursula

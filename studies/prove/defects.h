@@ -18,9 +18,9 @@ struct Defect {
   SubjectOf subject = nullptr;             ///< the solver under test
   InjectedFault::Seen scenario = nullptr;  ///< the changed scenario for all formulations: commanded motion, load
   InjectedFault fault = {};                ///< a changed experiment
-  /// Number of formulations that must catch it. It is 1 if only one can see it by its nature. Examples are direct
-  /// dynamics and reactions, which only Simbody has beside the solver, parts that all formulations share, an engine, or
-  /// effects absent from the motion.
+  /// Number of formulations that must catch it. It is 1 if only one can see it by its nature. Such defects are in
+  /// direct dynamics and reactions (only Simbody has them), in shared parts, in an engine, or without effect on the
+  /// motion.
   int engines = 2;
   bool control = false;  ///< no defect, but the same mechanism: it must pass
 };

@@ -60,7 +60,7 @@ void drawFriction(Dice& dice, const Recipe& recipe, double torque, Leg& leg) {
     static_cast<JointFriction&>(leg.coulomb) = randomFriction(dice, leg.kind, dice.spread(0.01, 0.2) * torque, length);
 }
 
-/// Means of the platform's and the links' masses: one share of the mass of `even` bodies, or different.
+/// Masses of the platform and of a mean link, kg, and the largest factor between a link and that mean.
 struct MassScales {
   double platform, links, within;
 };

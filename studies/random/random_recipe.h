@@ -10,8 +10,8 @@
 
 namespace ursula {
 
-/// The arrangement of the legs: pairs as in the paper's Table I, six around a ring, three points shared by pairs on
-/// both sides or only on the platform, or no order.
+/// The arrangement of the legs: pairs as in the paper's Table I, six around a ring, or no order. In 3-3 pairs share
+/// points on both sides, in 6-3 only on the platform.
 enum class Arrangement { paper, ring, three_three, six_three, anywhere };
 enum class Axes { tilted, radial, tangential, random };
 /// Bodies of about equal mass, the platform's and the links' masses apart, or every mass independent.

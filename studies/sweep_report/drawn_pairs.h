@@ -7,8 +7,8 @@
 
 namespace ursula {
 
-/// Returns the pairs to draw, without rows: the two strongest of the primary output, then the strongest of other
-/// outputs, each output once and no parameter more than twice. Insignificant relations are omitted.
+/// Returns the pairs to draw, without rows. The two strongest of the primary output come first, then the strongest of
+/// other outputs. Each of these appears once, a parameter at most twice. Insignificant relations are omitted.
 std::vector<Scatter> pairsToDraw(const SweepSummary& summary, std::size_t most);
 
 /// Returns the rows to draw: all, or most_scattered spread evenly and without a period.

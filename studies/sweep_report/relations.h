@@ -54,9 +54,9 @@ struct Parameter {
   std::vector<std::uint32_t> order;  ///< orderOf(x)
 };
 
-/// First-order indices from given data of any design (Plischke, Borgonovo, Smith: Global sensitivity measures from
-/// given data, European Journal of Operational Research 226 (2013) 536–550, section 3): the variance of y's means over
-/// classes of x. In quantiles of independent points, each mean carries 1/n_m of the variance within its class. This is
+/// The variance of y's means over classes of x: first-order indices from given data of any design (Plischke, Borgonovo,
+/// Smith: Global sensitivity measures from given data, European Journal of Operational Research 226 (2013) 536–550,
+/// section 3). In quantiles of independent points, each mean carries 1/n_m of the variance within its class. This is
 /// subtracted (the ε² of Kelley, Proc. Natl. Acad. Sci. 21 (1935) 554–559): (S_between − (M − 1) s²_within) / S_total,
 /// which may be negative. Levels of a complete grid and strata of Sobol's points need no correction, because they lack
 /// the scatter of independent points.
@@ -68,7 +68,7 @@ Relation relationOf(const Parameter& parameter, const std::vector<double>& y, co
 double correlationBound(std::size_t count, double alpha);
 
 /// The value that the first-order index of unrelated numbers in quantiles, corrected or not, exceeds with probability
-/// `alpha` (Fisher's F); the probability is smaller for Sobol's points.
+/// `alpha` (Fisher's F). The probability is smaller for Sobol's points.
 double indexBound(std::size_t count, std::size_t classes, double alpha, bool corrected = true);
 
 }  // namespace ursula

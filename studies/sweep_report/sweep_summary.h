@@ -77,7 +77,8 @@ struct SweepSummary {
   std::vector<SweepParameter> parameters;
   std::vector<SweepOutput> outputs;  ///< outputs without any number are omitted
   std::size_t primary = 0;           ///< the main output of the page; outputs.size() if there is none
-  std::size_t pairs = 0;  ///< number of tested pairs, so that one in a hundred random sweeps has a significant pair
+  std::size_t pairs =
+      0;  ///< number of tested pairs; of a hundred sweeps with unrelated numbers, one has a significant pair
   std::vector<Scatter> scatters;
   std::vector<GridMap> maps;
   std::vector<WorstPoint> worst;

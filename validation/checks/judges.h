@@ -26,8 +26,8 @@
 
 namespace ursula {
 
-/// Checks the commanded motion and the load, which all formulations share and so cannot check: `motion.pose`, `.twist`,
-/// `.twist_rate`, and `motion.load` if there is a load. It uses no solver's results.
+/// Checks the commanded motion and the load: `motion.pose`, `.twist`, `.twist_rate`, and `motion.load` if there is a
+/// load. All formulations share these and so cannot check them. It uses no solver's results.
 std::vector<Check> judgeCommandedMotion(const Scenario& scenario);
 
 /// `motion.pose`, `.twist`, `.twist_rate`. The machine's `length` converts angles to metres.

@@ -34,9 +34,9 @@ struct CauseName {
 Cause fixedCause(const CauseName& name,
                  std::function<std::vector<Vector6d>(const std::vector<Motion<double>>&)> torques);
 
-/// Fits each cause to the residual: all to first order on a few instants, the likely ones there by Gauss–Newton, the
-/// best on all instants. It drops causes without effect, without a fit, or incompatible with the motion. The order is
-/// that of `causes`.
+/// Fits all causes to the residual to first order on a few instants. It fits the likely ones there by Gauss–Newton, and
+/// the best on all instants. It drops causes without effect, without a fit, or incompatible with the motion. The order
+/// is that of `causes`.
 std::vector<Hypothesis> fitCauses(const std::vector<Cause>& causes, const TorqueResidual& data);
 
 /// "499.31 +- 0.02", to the deviation's digits but at most ten.

@@ -51,11 +51,11 @@ struct Hypothesis {
   double explained() const { return 1 - unexplained; }
 };
 
-/// Tries what an expert would, likely and simple causes first, each fitted to the residual by least squares. They are
-/// terms omitted or scaled (gravity, inertia, velocity terms, friction, load), signs, leg order, units, a time shift,
-/// scale factors, offsets, the formulas as printed, every machine parameter, and other interpretations of the motion.
-/// It drops causes without effect on this motion, and those with as many free numbers as data. The regressors are the
-/// NOC's own torques with changed parameters.
+/// Tries what an expert would, likely and simple causes first, each fitted to the residual by least squares. Terms may
+/// be omitted or scaled (gravity, inertia, velocity terms, friction, load). Signs, leg order, units, time, scale
+/// factors and offsets may differ. Then come the formulas as printed, every machine parameter, and other
+/// interpretations of the motion. It drops causes without effect on this motion, and those with as many free numbers as
+/// data. The regressors are the NOC's own torques with changed parameters.
 std::vector<Hypothesis> fitHypotheses(const Scenario& scenario, const TorqueResidual& data);
 
 /// The usual name of a scale factor ("kN m for N m"); empty if it has none.

@@ -9,8 +9,8 @@
 
 namespace ursula {
 
-/// Curves for the report: the replay's error with its derived limit, the growth of a deviation in each window, the
-/// distances to singular poses and to the workspace's edge. Adds the replay's events.
+/// Adds curves for the report: the replay's error with its derived limit, and the growth of a deviation in each window.
+/// Further ones are the distances to singular poses and to the workspace's edge. Adds the replay's events.
 void addCurves(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
                ValidationResult& result);
 

@@ -12,8 +12,8 @@
 
 namespace ursula {
 
-/// The rounding, in units of eps, of the longest chain of dependent operations from the base to a torque: n = 38, one
-/// per 13 bodies and 6 pivots in each of two formulations. Independent roundings grow as λ√n with λ = 4, rounded up:
+/// The rounding, in units of eps, of the longest chain of dependent operations from the base to a torque. It has n = 38
+/// links: 13 bodies and 6 pivots in each of two formulations. Independent roundings grow as λ√n with λ = 4, rounded up:
 /// Higham and Mary, SIAM J. Sci. Comput. 41 (2019) A2815, theorem 2.4. It applies if nothing was measured.
 constexpr double rounding_depth = 25;
 

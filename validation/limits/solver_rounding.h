@@ -20,9 +20,8 @@ struct SolverView {
   Reactions reactions;
 };
 
-/// The rounding of the NOC, measured in one frame: its formulas with the given numbers, and with every number of
-/// machine and motion changed by one rounding. A wrong formula is equally wrong in all evaluations and adds nothing,
-/// whatever it depends on.
+/// The rounding of the NOC, measured in one frame. Its formulas get the given numbers, then numbers of machine and
+/// motion that are all changed by one rounding. A wrong formula is equally wrong in all evaluations and adds nothing.
 class SolverRounding {
  public:
   SolverRounding(const Manipulator& machine, std::shared_ptr<const Load> load);

@@ -13,8 +13,9 @@ namespace ursula {
 /// A solver outside this program, in another language or process. It knows one machine and returns only torques.
 struct OutsideSolver {
   std::string name;
-  /// Computes six efforts for each of any number of motions, in B, SI, in the order of the motors, N·m or N, conjugate
-  /// to the rates of their coordinates. Calls never overlap but may come from different threads.
+  /// Computes six efforts for each of any number of motions, which are in B, SI. Efforts are in the order of the
+  /// motors, N·m or N, conjugate to the rates of their coordinates. Calls never overlap but may come from different
+  /// threads.
   std::function<std::vector<Vector6d>(const std::vector<Motion<double>>&)> torques;
 };
 

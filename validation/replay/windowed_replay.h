@@ -9,9 +9,9 @@
 
 namespace ursula {
 
-/// The measured integration error in one window: the right torques replayed at the tolerance and at a hundred times the
-/// tolerance, with the coarser replay's gaps and energy. The closer look does the same with halved steps and other
-/// frames. Values are the largest up to each instant.
+/// The measured integration error in one window. The right torques are replayed at the tolerance and at a hundred times
+/// it, with the coarser replay's gaps and energy. The closer look does the same with halved steps and other frames.
+/// Values are the largest up to each instant.
 struct IntegrationError {
   struct At {
     double t = 0;

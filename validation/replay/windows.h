@@ -59,7 +59,7 @@ std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Ampl
 std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const ReplayPlan& plan);
 
 /// The scenario's tolerance, or a larger one if the loop's derivatives are too noisy. The error estimate of Fehlberg's
-/// pair adds their rounding with 41/840 at four stages, so no step of the planned length is accepted below a tenth of
+/// pair adds their rounding with 41/840 at four stages. So no step of the planned length is accepted below a tenth of
 /// it. RadauStep's estimate, for a `stiff` replay, is more sensitive (noiseInError). If bodies of very different mass
 /// are connected, this is far above eps.
 double reachableTolerance(const Scenario& scenario, double step_rate, bool stiff = false);

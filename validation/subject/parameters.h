@@ -10,8 +10,8 @@ namespace ursula {
 /// "manipulator.leg.2.base_axis.across", rad.
 struct Parameter : MachineNumber {
   bool turns() const { return quantity == Quantity::base_axis; }
-  /// Applies a relative error: of the largest moment for an inertia entry, of the vector's norm for points (or of one
-  /// metre if that is zero), as an angle for axes.
+  /// Applies a relative error. For an inertia entry it is one of the largest moment, for points of the vector's norm
+  /// (or of one metre if that is zero), for axes an angle.
   void disturb(ManipulatorParameters& machine, double relative) const;
 };
 

@@ -31,10 +31,11 @@ struct TorqueColumns {
   std::string read_as;  ///< how columns were interpreted, in words; empty for a file that follows the contract
 };
 
-/// Finds the columns by the map, else by the contract's names, else by names with a certain meaning (`tau1`, `Tau 1
-/// [Nm]`, `torque_1 (kN m)`, `t`, `time_s`, `Time [ms]`; numbered from 1, or all six from 0). Seven columns without a
-/// header are certain if only the first has equal steps and begins at 0. A unit that does not fit the motor is refused.
-/// Throws CsvError with the header, the separator and, if the rest can be named, the options that would read it.
+/// Finds the columns by the map, else by the contract's names, else by names with a certain meaning. Such names are
+/// `tau1`, `Tau 1 [Nm]`, `torque_1 (kN m)`, `t`, `time_s`, `Time [ms]`, numbered from 1, or all six from 0. Seven
+/// columns without a header are certain if only the first has equal steps and begins at 0. A unit that does not fit the
+/// motor is refused. Throws CsvError with the header, the separator and, if the rest can be named, the options that
+/// would read it.
 TorqueColumns readTorqueColumns(const std::string& text, const std::filesystem::path& file, const ColumnMap& map,
                                 const Motors& motors = {});
 
