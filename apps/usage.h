@@ -5,7 +5,7 @@
 
 namespace ursula {
 
-/// Returns an error line if the first argument should be a verb but is none; "" otherwise.
+/// Returns an error line if the first argument should be a verb but is unknown; "" otherwise.
 std::string unknownVerb(const CLI::App& app, int argc, char** argv);
 
 /// Refuses values for flags, such as --quiet=7.

@@ -14,7 +14,7 @@
 namespace ursula {
 namespace {
 
-/// Simbody undoes the shift again, and refuses the result if rounding spoils it.
+/// Simbody undoes the shift again, and refuses the result if rounding invalidates it.
 SimTK::MassProperties massProperties(double mass, const Vector3d& center, const Matrix3d& about_center) try {
   const SimTK::Inertia central(about_center(0, 0), about_center(1, 1), about_center(2, 2), about_center(0, 1),
                                about_center(0, 2), about_center(1, 2));

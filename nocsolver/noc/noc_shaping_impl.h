@@ -37,8 +37,8 @@ LinkMotions<S> Noc<S, R>::links(int i, const LegState<S>& at, const Vector3<S>& 
   return out;
 }
 
-/// Moves twists from the points on the links' lines to the mass centres. It is bilinear like the links of each kind: ω
-/// of `links` may be that of a column of T, while the frame moves as `at` does.
+/// Moves twists from the points on the links' lines to the mass centres. It is bilinear like the links of each kind:
+/// `links` may hold ω of a column of T. The frame moves as `at` does.
 template <class S, class R>
 void Noc<S, R>::addOffLine(int i, const LegState<S>& at, LinkMotions<S>& links) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];

@@ -26,7 +26,7 @@ const AuditRow* rowOf(const Audit& result, const std::string& equation) {
   return row == result.rows.end() ? nullptr : &*row;
 }
 
-/// The typeset formula, or the text if it is none.
+/// The typeset formula, or the text if it is not a formula.
 std::string formula(const std::string& text) {
   static const nlohmann::json mathml = nlohmann::json::parse(report::formulas_mathml);
   return mathml.contains(text) ? mathml[text].get<std::string>() : escaped(text);

@@ -68,7 +68,7 @@ std::optional<NamedCause> TiedParameters::named(const ManipulatorParameters& mac
   out.parameter = first.path;
   if (!one) out.parameter.replace(0, first.path.find('.', sizeof("manipulator.leg.") - 1), "manipulator.leg_defaults");
   if (first.turns()) {
-    out.parameter.erase(out.parameter.rfind('.'));  // a rotation is none of its numbers
+    out.parameter.erase(out.parameter.rfind('.'));  // a rotation concerns the whole axis
     return out;
   }
   out.unit = first.unit;
