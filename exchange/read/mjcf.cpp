@@ -143,7 +143,7 @@ class MjcfReader {
       if (kind == "site" && !attribute(e, "name").empty())
         named_.sites[attribute(e, "name")] = {body, at.frame * placeOf(e, get)};
     });
-    if (body != 0) boundInertia(element, compiler_, graph_.bodies[body]);
+    if (body != 0) boundInertia(element, compiler_, graph_.bodies[body], graph_.assumptions);
     eachContent(element, place, [&](const Element& e, const Place& at) {
       if (std::string(e.Name()) == "body") readBody(e, body, at);
     });

@@ -104,14 +104,29 @@ void takeInertial(const Element& inertial, const MjcfCompiler& compiler, const E
   body.inertia = turn * local * turn.transpose();
 }
 
-void boundInertia(const Element& element, const MjcfCompiler& compiler, GraphBody& body) {
+void boundInertia(const Element& element, const MjcfCompiler& compiler, GraphBody& body,
+                  std::vector<Assumption>& assumptions) {
   if (compiler.least_mass <= 0 && compiler.least_inertia <= 0 && !compiler.balance_inertia) return;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> principal((body.inertia + body.inertia.transpose()) / 2);
   Vector3d moments = principal.eigenvalues();
-  body.mass = std::max(body.mass, compiler.least_mass);
-  if (compiler.least_inertia > 0) moments = moments.cwiseMax(compiler.least_inertia);
+  if (body.mass < compiler.least_mass) {
+    assumptions.push_back(
+        {"The mass was raised to boundmass, by this", body.name, compiler.least_mass - body.mass, "kg"});
+    body.mass = compiler.least_mass;
+  }
+  if (moments(0) < compiler.least_inertia) {
+    assumptions.push_back({"Principal moments were raised to boundinertia, by up to this", body.name,
+                           compiler.least_inertia - moments(0), "kg·m²"});
+    moments = moments.cwiseMax(compiler.least_inertia);
+  }
   if (!(moments(0) >= -1e-12 * moments(2))) refuse(element, "a principal moment below zero, expected none");
-  if (compiler.balance_inertia && moments(2) > moments(0) + moments(1)) moments.setConstant(moments.mean());
+  if (compiler.balance_inertia && moments(2) > moments(0) + moments(1)) {
+    assumptions.push_back(
+        {"Moments that break the triangle inequality were set to their mean (balanceinertia), changed by "
+         "up to this",
+         body.name, (moments.array() - moments.mean()).abs().maxCoeff(), "kg·m²"});
+    moments.setConstant(moments.mean());
+  }
   body.inertia = principal.eigenvectors() * moments.asDiagonal() * principal.eigenvectors().transpose();
 }
 

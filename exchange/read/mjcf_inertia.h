@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "exchange/model_graph.h"
 #include "exchange/read/mjcf_settings.h"
@@ -15,7 +16,9 @@ void addGeom(const Element& geom, const MjcfCompiler& compiler, const Eigen::Iso
 /// Reads an <inertial>; `at` is the body's frame in the world.
 void takeInertial(const Element& inertial, const MjcfCompiler& compiler, const Eigen::Isometry3d& at, GraphBody& body);
 
-/// Applies balanceinertia, boundmass and boundinertia. Throws ImportError for an invalid tensor.
-void boundInertia(const Element& element, const MjcfCompiler& compiler, GraphBody& body);
+/// Applies balanceinertia, boundmass and boundinertia, and lists what they change. Throws ImportError for an invalid
+/// tensor.
+void boundInertia(const Element& element, const MjcfCompiler& compiler, GraphBody& body,
+                  std::vector<Assumption>& assumptions);
 
 }  // namespace ursula::exchange

@@ -41,6 +41,8 @@ class UrdfReader {
     readUrdfClosures(root_, file_, links_, graph_);
     readMotors();
     readGazebo();
+    if (root_.FirstChildElement("mujoco") != nullptr)
+      graph_.assumptions.push_back({"MuJoCo's settings in the file are left out", "<mujoco>", 0, "1"});
     return graph_;
   }
 

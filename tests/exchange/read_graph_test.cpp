@@ -69,6 +69,35 @@ TEST(ReadSdf, nestedModelsAndPlacement) {
   EXPECT_LE((graph.joints.at(0).centre - Vector3d(1, 0, 3)).norm(), 1e-15);
 }
 
+/// How many assumptions name `what`, and the size of the last one.
+std::pair<int, double> assumed(const ModelGraph& graph, const std::string& what) {
+  std::pair<int, double> out = {0, 0.0};
+  for (const Assumption& each : graph.assumptions)
+    if (each.what.find(what) != std::string::npos) out = {out.first + 1, each.size};
+  return out;
+}
+
+TEST(ReadMjcf, whatTheCompilerChangesIsListed) {
+  const auto graph = [](const std::string& compiler) {
+    return read("<mujoco><compiler " + compiler + R"(/><worldbody><body name="a"><joint name="j"/>
+      <inertial pos="0 0 0" mass="0.1" diaginertia="0.001 0.4 0.5"/></body></worldbody></mujoco>)",
+                "bounds.xml");
+  };
+  const ModelGraph bounded = graph(R"(boundmass="0.5" boundinertia="0.02")");
+  EXPECT_EQ(assumed(bounded, "boundmass").first, 1);
+  EXPECT_NEAR(assumed(bounded, "boundmass").second, 0.4, 1e-15);
+  EXPECT_NEAR(assumed(bounded, "boundinertia").second, 0.019, 1e-15);
+  EXPECT_NEAR(assumed(graph(R"(balanceinertia="true")"), "balanceinertia").second, 0.901 / 3 - 0.001, 1e-12);
+  const ModelGraph plain = graph(R"(boundmass="0.05" boundinertia="0.0005")");
+  for (const char* what : {"boundmass", "boundinertia", "balanceinertia"}) EXPECT_EQ(assumed(plain, what).first, 0);
+}
+
+TEST(ReadUrdf, settingsOfMujocoAreListed) {
+  const std::string link = R"(<robot name="r">)", end = R"(<link name="a"/></robot>)";
+  EXPECT_EQ(assumed(read(link + "<mujoco><compiler/></mujoco>" + end, "a.urdf"), "MuJoCo").first, 1);
+  EXPECT_EQ(assumed(read(link + end, "b.urdf"), "MuJoCo").first, 0);
+}
+
 TEST(ReadMjcf, sitesAndFramesOfNewerFiles) {
   const ModelGraph graph = read(R"(<mujoco><option integrator="implicitfast"/><worldbody>
     <frame pos="0 0 1"><body name="a" pos="1 0 0"><joint name="j" axis="1 0 0"/><geom size="0.1"/><site name="s" pos="0 0 1"/></body></frame>
