@@ -4,7 +4,7 @@
 # What a verb needs: a command and the package that brings it where the command is not there already, or a library's package.
 declare -A needs=(
   [program]='g++:g++ cmake:cmake ninja:ninja-build libeigen3-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libxsimd-dev libtbb-dev libsqlite3-dev libtinyxml2-dev'
-  [test]='libgtest-dev libgmock-dev python3 python3-dev python3-numpy python3-pytest pybind11-dev pkg-config:pkgconf octave-cli:octave node:nodejs npm:npm chromium:chromium sbatch:slurm-wlm munged:munge furo python3-myst-parser python3-sphinx'
+  [test]='libgtest-dev libgmock-dev python3 python3-dev python3-numpy python3-pytest pybind11-dev python3-pip python3-venv patchelf:patchelf pkg-config:pkgconf octave-cli:octave node:nodejs npm:npm chromium:chromium sbatch:slurm-wlm munged:munge furo python3-myst-parser python3-sphinx'
   [prove]='libgtest-dev libgmock-dev'
   [bench]='libbenchmark-dev'
   [format]='git:git clang-format:clang-format'
@@ -16,6 +16,7 @@ declare -A needs=(
   [docs]='doxygen:doxygen python3:python3'
   [site]='furo python3-myst-parser python3-sphinx python3 python3-dev python3-numpy pybind11-dev chromium:chromium'
   [package]='dpkg-shlibdeps:dpkg-dev file:file python3 python3-dev python3-numpy pybind11-dev'
+  [wheel]='python3 python3-dev python3-numpy python3-pytest python3-pip python3-venv pybind11-dev patchelf:patchelf'
   [bundle]='node:nodejs npm:npm'
   [fresh]='git:git debootstrap:debootstrap'
 )

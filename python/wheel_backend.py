@@ -1,0 +1,122 @@
+"""Makes a wheel of the Python module for pip (PEP 517): CMake builds it, and the libraries that it needs go along.
+
+Debian 12 has no backend for CMake; this one asks pip for nothing, so that `pip install .` works without a network. It
+uses build/, the folder of ./dev build, or a folder below it for another Python than the system's.
+"""
+
+import base64
+import hashlib
+import os
+import re
+import shutil
+import subprocess
+import sys
+import sysconfig
+import tarfile
+import zipfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+SUFFIX = sysconfig.get_config_var("EXT_SUFFIX")
+# What every system has that runs the wheel: the C library and the compiler's own.
+OF_THE_SYSTEM = re.compile(r"(ld-linux.*|lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+))\.so")
+
+
+def run(*command, **options):
+    """The command's output; an error with what it said where it fails."""
+    if not shutil.which(command[0]):
+        raise RuntimeError(f"the wheel needs {command[0]}; on Debian: ./dev setup wheel")
+    return subprocess.run([*map(str, command)], check=True, text=True, stdout=subprocess.PIPE, **options).stdout
+
+
+def version():
+    return re.search(r"project\(ursula VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
+
+
+def metadata():
+    return (f"Metadata-Version: 2.1\nName: ursula\nVersion: {version()}\n"
+            "Summary: whether the dynamics of a six-dof parallel manipulator is right, and why\n"
+            "License: Apache-2.0\nRequires-Python: >=3.9\nRequires-Dist: numpy\n"
+            "Description-Content-Type: text/markdown\n\n" + (ROOT / "README.md").read_text())
+
+
+def tag():
+    """Of this Python, and of this C library or a newer one."""
+    python = "cp{}{}".format(*sys.version_info)
+    libc = os.confstr("CS_GNU_LIBC_VERSION").split()[1].replace(".", "_")
+    return f"{python}-{python}-manylinux_{libc}_{os.uname().machine}"
+
+
+def built():
+    """The folder of the module, after CMake has made it for this Python."""
+    systems = Path("/usr/bin/python3")
+    same = systems.exists() and SUFFIX == run(systems, "-c", "import sysconfig as s; print(s.get_config_var('EXT_SUFFIX'))").strip()
+    folder = ROOT / "build" if same else ROOT / "build" / SUFFIX.strip(".")
+    if not (folder / "build.ninja").exists():
+        of_python = [] if same else [f"-DPython_EXECUTABLE={sys.executable}"]
+        run("cmake", "--preset", "release", "-B", folder, "-DURSULA_TESTS=OFF", "-DURSULA_BENCH=OFF", *of_python, cwd=ROOT)
+    run("cmake", "--build", folder, "--target", "ursula_python")
+    return folder / "python" / "ursula"
+
+
+def needed(library):
+    """Paths of the shared libraries that this one loads, but for the system's own."""
+    lines = run("ldd", library).splitlines()
+    missing = [line.strip() for line in lines if "not found" in line]
+    if missing:
+        raise RuntimeError(f"{library}: {', '.join(missing)}")
+    found = re.findall(r"^\s*(\S+) => (/\S+)", "\n".join(lines), re.MULTILINE)
+    return {name: path for name, path in found if not OF_THE_SYSTEM.match(name)}
+
+
+def laid_out(work):
+    """The package in `work` as it will be installed: all libraries in ursula/lib, found from where they are."""
+    package = work / "ursula"
+    shutil.copytree(built(), package, ignore=shutil.ignore_patterns("__pycache__"))
+    module = package / f"_ursula{SUFFIX}"
+    (package / "lib").mkdir()
+    for name, path in needed(module).items():
+        shutil.copy(path, package / "lib" / name)
+    for file in (module, *(package / "lib").iterdir()):
+        os.chmod(file, 0o755)
+        run("strip", "--strip-unneeded", file)
+        run("patchelf", "--set-rpath", "$ORIGIN/lib" if file == module else "$ORIGIN", file)
+    info = work / f"ursula-{version()}.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text(metadata())
+    (info / "WHEEL").write_text(f"Wheel-Version: 1.0\nGenerator: ursula\nRoot-Is-Purelib: false\nTag: {tag()}\n")
+    shutil.copy(ROOT / "LICENSE", info)
+    return info
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    name = f"ursula-{version()}-{tag()}.whl"
+    work = Path(wheel_directory) / (name + ".parts")
+    shutil.rmtree(work, ignore_errors=True)
+    work.mkdir()
+    try:
+        info = laid_out(work)
+        record = [f"{info.name}/RECORD,,"]
+        with zipfile.ZipFile(work / name, "w", zipfile.ZIP_DEFLATED) as wheel:
+            for file in sorted(each for part in (work / "ursula", info) for each in part.rglob("*") if each.is_file()):
+                digest = base64.urlsafe_b64encode(hashlib.sha256(file.read_bytes()).digest()).decode().rstrip("=")
+                record.append(f"{file.relative_to(work)},sha256={digest},{file.stat().st_size}")
+                wheel.write(file, file.relative_to(work))
+            wheel.writestr(f"{info.name}/RECORD", "\n".join(record) + "\n")
+        os.replace(work / name, Path(wheel_directory) / name)
+    finally:
+        shutil.rmtree(work)
+    return name
+
+
+def build_sdist(sdist_directory, config_settings=None):
+    """What is tracked, for `python3 -m build`."""
+    base = f"ursula-{version()}"
+    with tarfile.open(Path(sdist_directory) / f"{base}.tar.gz", "w:gz") as out:
+        for file in run("git", "ls-files", cwd=ROOT).splitlines():
+            out.add(ROOT / file, f"{base}/{file}")
+        info = Path(sdist_directory) / "PKG-INFO"
+        info.write_text(metadata())
+        out.add(info, f"{base}/PKG-INFO")
+        info.unlink()
+    return f"{base}.tar.gz"
