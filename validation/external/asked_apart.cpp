@@ -76,6 +76,25 @@ Poses posesOf(const Manipulator& machine, const std::vector<Motion<double>>& mot
   return out;
 }
 
+/// Second differences of the answers at positions a few units of single precision apart; in double precision they are
+/// rounding.
+double grainOf(const Subject& subject, const Poses& poses) {
+  constexpr int steps = 8;
+  constexpr double step = 2e-8;  // relative; a float's unit is 6e-8
+  double grain = 0;
+  for (std::size_t k = 0; k < poses.at.size(); ++k) {
+    std::array<Vector6d, steps> answers;
+    for (int j = 0; j < steps; ++j) {
+      Motion<double> near = asked(poses.at[k], both, poses.v[k], poses.w[k]);
+      near.p += j * step * someVector(near.p.norm(), k);
+      answers[static_cast<std::size_t>(j)] = subject.torques(near);
+    }
+    for (std::size_t j = 2; j < steps; ++j)
+      grain = larger(grain, (answers[j] - 2 * answers[j - 1] + answers[j - 2]).cwiseAbs().maxCoeff());
+  }
+  return grain;
+}
+
 /// Asks every question at every pose; then repeats the first one, from the last pose to the first.
 std::vector<Answers> answersOf(const Subject& subject, const Poses& poses) {
   std::vector<Answers> out(poses.at.size());
@@ -117,20 +136,21 @@ bool listens(const std::vector<Answers>& answers) {
 AskedApart askedApart(const Subject& subject, const Scenario& scenario, const std::vector<Motion<double>>& motions) {
   const Poses poses = posesOf(*scenario.manipulator, motions);
   std::vector<Answers> found, expected;
+  AskedApart out;
   try {
     found = answersOf(subject, poses);
+    out.grain = grainOf(subject, poses);
     expected = answersOf(nocSubject(*scenario.manipulator, scenario.load), poses);
   } catch (const std::exception&) {  // no answer to questions outside the motion
     return {};
   }
-  AskedApart out;
   if (poses.at.empty()) return out;
   out.terms = termErrors(found, expected);
   if (!listens(found)) return out;
   ConditioningProbe probe(*scenario.manipulator, scenario.load);
   for (std::size_t k = 0; k < found.size(); ++k)
     for (int question = rest; question < again; ++question) {
-      if (!found[k][static_cast<std::size_t>(question)].allFinite()) return {{}, {}, {}, {}, out.terms};
+      if (!found[k][static_cast<std::size_t>(question)].allFinite()) return {{}, {}, {}, {}, out.terms, 0};
       out.motions.push_back(asked(poses.at[k], static_cast<Question>(question), poses.v[k], poses.w[k]));
       out.found.push_back(found[k][static_cast<std::size_t>(question)]);
       out.expected.push_back(expected[k][static_cast<std::size_t>(question)]);

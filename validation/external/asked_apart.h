@@ -14,6 +14,8 @@ struct AskedApart {
   std::vector<Vector6d> found, expected;  ///< of the solver, of the NOC: N·m or N
   std::vector<double> rounding;           ///< possible difference of right efforts, N·m or N
   std::vector<TermError> terms;           ///< relative errors of the parts of its efforts
+  /// By how much its answers to nearly the same question jump, N·m or N: more than rounding where digits are lost.
+  double grain = 0;
 };
 
 /// Asks separate questions at poses of `motions` and compares each part of the efforts with the NOC's. The parts are

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "validation/external/explanation.h"
+#include "validation/external/few_digits.h"
 #include "validation/external/hypotheses.h"
 
 namespace ursula {
@@ -25,18 +26,10 @@ struct LegDeviation {
   double largest = 0;
 };
 
-double limitAt(const ExternalTorques& torques, std::size_t k, int leg) {
-  return torques.samples[k].conditioning.torqueRounding() + torques.precision[k](leg);
-}
-
-double residualAt(const ExternalTorques& torques, std::size_t k, int leg) {
-  return torques.file.torques[k](leg) - torques.noc[k](leg);
-}
-
 LegDeviation deviationOf(const ExternalTorques& torques, int leg) {
   LegDeviation out;
   for (std::size_t k = 0; k < torques.file.rows(); ++k) {
-    const double error = std::abs(residualAt(torques, k, leg));
+    const double error = std::abs(offAt(torques, k, leg));
     if (error <= limitAt(torques, k, leg)) continue;
     if (out.count++ == 0) out.first = k;
     out.last = k;
@@ -109,17 +102,6 @@ TorqueResidual residualOf(const Scenario& scenario, const ExternalTorques& torqu
   return out;
 }
 
-/// Whether the numbers are single precision with errors of that size.
-bool isSinglePrecision(const ExternalTorques& torques) {
-  if (!torques.file.all_single) return false;
-  for (std::size_t k = 0; k < torques.file.rows(); ++k)
-    for (int i = 0; i < motor_count; ++i) {
-      const double half = std::ldexp(std::abs(torques.noc[k](i)), -24);
-      if (!(std::abs(residualAt(torques, k, i)) <= 2 * half + limitAt(torques, k, i))) return false;
-    }
-  return true;
-}
-
 /// Whether successive residuals are uncorrelated: their correlation is within three of its deviations.
 bool isNoise(const TorqueResidual& data) {
   double along = 0, all = 0;
@@ -162,7 +144,7 @@ std::string othersText(const std::vector<Hypothesis>& best) {
 
 bool isRight(const ExternalTorques& torques, std::size_t k) {
   for (int i = 0; i < motor_count; ++i)
-    if (!(std::abs(residualAt(torques, k, i)) <= limitAt(torques, k, i))) return false;
+    if (!(std::abs(offAt(torques, k, i)) <= limitAt(torques, k, i))) return false;
   return true;
 }
 
@@ -191,14 +173,24 @@ std::string loneInstants(const ExternalTorques& torques) {
                      window.off == 1 ? "is" : "are", torques.file.t[window.first]);
 }
 
+/// Whether a solver that was asked term by term is right outside the interval, whatever it is asked.
+bool answersRightOutside(const TorqueResidual& data, double from, double to) {
+  for (std::size_t k = data.commanded; k < data.motions.size(); ++k) {
+    if (data.motions[k].t >= from && data.motions[k].t <= to) continue;
+    if (((data.residual[k].cwiseAbs() - may_be_beyond * data.limit[k]).array() > 0).any()) return false;
+  }
+  return true;
+}
+
 /// Describes torques that are wrong in one interval and right in at least a tenth of the motion; else empty. Adds the
 /// cause if those instants reveal it.
 Explanation intervalAlone(const Scenario& scenario, const ExternalTorques& torques, const TorqueResidual& data) {
-  constexpr std::size_t enough = 16;
+  constexpr std::size_t enough = 3, enough_to_explain = 16;
   const Window window = windowOf(torques);
   if (window.rows() < enough || 20 * window.off < 19 * window.rows() || 10 * window.rows() > 9 * torques.file.rows())
     return {};
   const double from = torques.file.t[window.first], to = torques.file.t[window.last];
+  if (!answersRightOutside(data, from, to)) return {};
   Explanation out{fmt::format("right but from t = {:.6g} to {:.6g} s", from, to)};
   out.named = NamedCause{CauseKind::window};
   out.named->from_s = from;
@@ -211,7 +203,7 @@ Explanation intervalAlone(const Scenario& scenario, const ExternalTorques& torqu
     there.add(data.motions[k], data.exact[k], data.exact[k] + data.residual[k], data.limit[k]);
     if (k < data.commanded) there.commanded = there.motions.size();
   }
-  if (there.motions.size() < enough) return out;
+  if (there.motions.size() < enough_to_explain) return out;
   const std::vector<Hypothesis> fitted = fitHypotheses(scenario, there);
   if (fitted.empty()) return out;
   const Hypothesis best = bestOf(fitted).front();
@@ -224,9 +216,6 @@ constexpr double worth_naming = 0.01;
 
 Explanation explanationOf(const Scenario& scenario, const ExternalTorques& torques, const AskedApart& asked) {
   const TorqueResidual data = residualOf(scenario, torques, asked);
-  if (isSinglePrecision(torques))
-    return {"single precision: every torque is a 24-bit number, off by no more than such numbers are",
-            NamedCause{CauseKind::digits, "", "all", "", "", {}, {}, {}, 0, 0, {}, {}, {}, 1}};
   const std::vector<Hypothesis> fitted = fitHypotheses(scenario, data);
   if (fitted.empty()) return {"no simple explanation"};
   const std::vector<Hypothesis> best = bestOf(fitted);
@@ -236,8 +225,8 @@ Explanation explanationOf(const Scenario& scenario, const ExternalTorques& torqu
   if (first.unexplained < may_remain)
     return {fmt::format("a likely part: {}; what remains is up to {:.3g} times the file's precision{}", how_much,
                         first.beyond, othersText(best))};
-  if (const std::string alone = loneInstants(torques); !alone.empty()) return {"no simple explanation: " + alone};
   if (const Explanation interval = intervalAlone(scenario, torques, data); !interval.text.empty()) return interval;
+  if (const std::string alone = loneInstants(torques); !alone.empty()) return {"no simple explanation: " + alone};
   const std::string noise = isNoise(data.alongMotion())
                                 ? "no pattern from one instant to the next, as of noise or too few digits"
                                 : "no simple explanation";
@@ -249,9 +238,12 @@ Explanation explanationOf(const Scenario& scenario, const ExternalTorques& torqu
 }  // namespace
 
 Diagnosis diagnose(const Scenario& scenario, const ExternalTorques& torques, const AskedApart& asked) {
-  Diagnosis out = deviationTexts(motorNames(*scenario.manipulator), torques);
+  const MotorNames motors = motorNames(*scenario.manipulator);
+  Diagnosis out = deviationTexts(motors, torques);
+  const std::optional<Explanation> digits = fewDigits(motors, torques, asked);
+  if (out.summary.empty() && digits) out = deviationTexts(motors, inEveryDigit(torques));
   if (out.summary.empty()) return out;
-  Explanation explanation = explanationOf(scenario, torques, asked);
+  Explanation explanation = digits ? *digits : explanationOf(scenario, torques, asked);
   out.cause = std::move(explanation.text);
   out.named = std::move(explanation.named);
   out.others = std::move(explanation.others);

@@ -86,7 +86,7 @@ std::optional<Hypothesis> scaledTerm(const TorqueResidual& data, const TorqueTer
 std::optional<Hypothesis> scaled(const TorqueResidual& data) {
   const double c = dot(data.residual, data.exact) / std::max(dot(data.exact, data.exact), 1e-300);
   if (std::abs(c + 2) < 1e-9) return std::nullopt;  // the sign of every leg has its own hypothesis
-  const std::string unit = unitOf(1 + c);
+  const std::string unit = unitOf(1 + c, data.motors);
   Hypothesis out =
       hypothesis(data, fmt::format("every torque scaled by {}{}", factorText(c), unit.empty() ? "" : " (" + unit + ")"),
                  minus(data.residual, data.exact, c), 1);
@@ -178,27 +178,37 @@ double TorqueResidual::beyond(const std::vector<Vector6d>& left) const {
   return largest;
 }
 
-std::string unitOf(double factor) {
-  static const std::pair<double, const char*> known[] = {{1e-3, "kN m for N m"},
-                                                         {1e3, "N mm or mN m for N m"},
-                                                         {1e-6, "MN m for N m"},
-                                                         {1e6, "uN m for N m"},
-                                                         {1e2, "N cm for N m"},
-                                                         {1e5, "dyn m for N m"},
-                                                         {1e7, "dyn cm for N m"},
-                                                         {1e-1, "a power of ten"},
-                                                         {1e1, "a power of ten"},
-                                                         {1e-2, "a power of ten"},
-                                                         {0.017453292519943295, "degrees for radians"},
-                                                         {57.29577951308232, "degrees for radians"},
-                                                         {1 / 9.80665, "kgf m for N m"},
-                                                         {9.80665, "N m taken for kgf m"},
-                                                         {0.7375621492772653, "lbf ft for N m"},
-                                                         {1.3558179483314004, "N m taken for lbf ft"},
-                                                         {8.850745791327184, "lbf in for N m"}};
-  for (const auto& [value, text] : known)
-    if (std::abs(factor / value - 1) < 1e-4) return text;
-  return factor < 0 && !unitOf(-factor).empty() ? unitOf(-factor) + ", with the wrong sign" : "";
+std::string unitOf(double factor, const MotorNames& motors) {
+  using Known = std::vector<std::pair<double, const char*>>;
+  static const Known tens = {
+      {1e-1, "a power of ten"}, {1e1, "a power of ten"}, {1e-2, "a power of ten"}, {1e2, "a power of ten"}};
+  static const Known of_moments = {{1e-3, "kN m for N m"},
+                                   {1e3, "N mm or mN m for N m"},
+                                   {1e-6, "MN m for N m"},
+                                   {1e6, "uN m for N m"},
+                                   {1e2, "N cm for N m"},
+                                   {1e5, "dyn m for N m"},
+                                   {1e7, "dyn cm for N m"},
+                                   {0.017453292519943295, "degrees for radians"},
+                                   {57.29577951308232, "degrees for radians"},
+                                   {1 / 9.80665, "kgf m for N m"},
+                                   {9.80665, "N m taken for kgf m"},
+                                   {0.7375621492772653, "lbf ft for N m"},
+                                   {1.3558179483314004, "N m taken for lbf ft"},
+                                   {8.850745791327184, "lbf in for N m"}};
+  static const Known of_forces = {{1e-3, "kN for N"},
+                                  {1e3, "mN for N"},
+                                  {1e-6, "MN for N"},
+                                  {1e6, "uN for N"},
+                                  {1e5, "dyn for N"},
+                                  {1 / 9.80665, "kgf for N"},
+                                  {9.80665, "N taken for kgf"},
+                                  {0.22480894309971047, "lbf for N"},
+                                  {4.4482216152605, "N taken for lbf"}};
+  for (const Known* known : {motors.allSlide() ? &of_forces : &of_moments, &tens})
+    for (const auto& [value, text] : *known)
+      if (std::abs(factor / value - 1) < 1e-4) return text;
+  return factor < 0 && !unitOf(-factor, motors).empty() ? unitOf(-factor, motors) + ", with the wrong sign" : "";
 }
 
 std::vector<Hypothesis> fitHypotheses(const Scenario& scenario, const TorqueResidual& data) {

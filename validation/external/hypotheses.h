@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <optional>
@@ -18,6 +19,9 @@ struct MotorNames {
 
   const char* kind() const { return one_a_leg ? "leg" : "motor"; }
   std::string operator()(int k) const { return std::string(kind()) + ' ' + std::to_string(k + 1); }
+  bool allSlide() const {
+    return std::all_of(slides.begin(), slides.end(), [](bool one) { return one; });
+  }
   const char* unit(int k) const { return slides[static_cast<std::size_t>(k)] ? "N" : "N m"; }
 };
 MotorNames motorNames(const Manipulator& machine);
@@ -58,7 +62,7 @@ struct Hypothesis {
 /// data. The regressors are the NOC's own torques with changed parameters.
 std::vector<Hypothesis> fitHypotheses(const Scenario& scenario, const TorqueResidual& data);
 
-/// The usual name of a scale factor ("kN m for N m"); empty if it has none.
-std::string unitOf(double factor);
+/// The usual name of a scale factor of these motors' efforts ("kN m for N m", "kN for N"); empty if it has none.
+std::string unitOf(double factor, const MotorNames& motors);
 
 }  // namespace ursula

@@ -172,6 +172,73 @@ void addJacobians(const Scenario& scenario, EffortCauses& out) {
           });
 }
 
+/// Efforts of a leg's coordinates where its tip moves otherwise at the same place.
+Vector3d openEffortsAt(const Scenario& scenario, std::size_t leg, Motion<double> motion, const Vector3d& velocity,
+                       const Vector3d& acceleration) {
+  motion.omega.setZero();
+  motion.omega_dot.setZero();
+  motion.p_dot = velocity;
+  motion.p_ddot = acceleration;
+  return machineTerms(*scenario.manipulator, scenario.load, motion).legs[leg].efforts;
+}
+
+/// The platform's points b not turned in the velocities of the legs' tips, in their accelerations, in the Jacobian.
+struct NotTurned {
+  bool accelerations = false, jacobian = false;
+};
+
+Vector6d withPointsNotTurned(const Scenario& scenario, const NotTurned& where, const Motion<double>& motion) {
+  MachineTerms machine = machineTerms(*scenario.manipulator, scenario.load, motion);
+  const Vector3d &w = motion.omega, &alpha = motion.omega_dot;
+  const auto fixed = [&scenario](std::size_t i) -> Vector3d {
+    return scenario.manipulator->parameters().legs[i].platform_point;
+  };
+  for (std::size_t i = 0; i < machine.legs.size(); ++i) {
+    const Vector3d b = where.accelerations ? fixed(i) : Vector3d(motion.Q * fixed(i));
+    machine.legs[i].efforts = openEffortsAt(scenario, i, motion, motion.p_dot + w.cross(fixed(i)),
+                                            motion.p_ddot + alpha.cross(b) + w.cross(w.cross(b)));
+  }
+  if (where.jacobian) return unturnedJacobian(scenario, machine).transpose().lu().solve(forceAtP(machine, fixed));
+  return exactEfforts(machine);
+}
+
+void addPointsNotTurned(const Scenario& scenario, EffortCauses& out) {
+  for (const bool accelerations : {false, true})
+    for (const bool jacobian : {true, false}) {
+      const NamedCause named =
+          jacobian ? NamedCause{CauseKind::jacobian, "", "all"} : NamedCause{CauseKind::frame, "orientation", "all"};
+      const NotTurned where{accelerations, jacobian};
+      out.causes.push_back(fixedCause(
+          {std::string("the platform's points not turned into the base's frame in the velocities of the legs' tips") +
+               (accelerations ? ", in their accelerations" : "") + (jacobian ? ", and in the Jacobian" : ""),
+           named},
+          [&scenario, where](const std::vector<Motion<double>>& motions) {
+            std::vector<Vector6d> efforts;
+            for (const Motion<double>& motion : motions)
+              efforts.push_back(withPointsNotTurned(scenario, where, motion));
+            return efforts;
+          }));
+    }
+}
+
+/// Of rods on carriages: forces along the rods, where those along the rails belong.
+void addUndivided(const Scenario& scenario, EffortCauses& out) {
+  out.add("the carriages' forces along the rods, not along the rails", {CauseKind::jacobian, "", "all"},
+          [&scenario](const MachineTerms& machine) {
+            Vector6d change = Vector6d::Zero();
+            const Vector6d right = exactEfforts(machine);
+            for (int m = 0; m < motor_count; ++m) {
+              const Motor& motor = scenario.manipulator->motors()[static_cast<std::size_t>(m)];
+              const Leg& leg = scenario.manipulator->leg(motor.leg);
+              if (!rowOf(leg.kind).hasCarriage() || !motor.slides()) continue;
+              const double along =
+                  machine.distal[static_cast<std::size_t>(motor.leg)].line.dot(leg.base_axis.normalized());
+              change(m) = right(m) / along - right(m);
+            }
+            return change;
+          });
+}
+
 void addClosures(const Scenario& scenario, EffortCauses& out) {
   const auto closed = [&scenario](auto efforts) {
     return [&scenario, efforts](const MachineTerms& machine) {
@@ -206,6 +273,8 @@ void addClosures(const Scenario& scenario, EffortCauses& out) {
 std::vector<Cause> loopCauses(const Scenario& scenario) {
   EffortCauses out(scenario);
   addJacobians(scenario, out);
+  addPointsNotTurned(scenario, out);
+  addUndivided(scenario, out);
   addClosures(scenario, out);
   return std::move(out.causes);
 }

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -139,6 +141,43 @@ void addFrames(const Scenario& scenario, std::vector<Cause>& out) {
       });
 }
 
+/// Q = R₁ R₂ R₃, turns about axes of the frame that turns along: the directions of their rates in B, e₁, e₂, e₃.
+struct EulerAxes {
+  Vector3d e1, e2, e3;
+};
+EulerAxes rollPitchYaw(const Matrix3d& Q) {
+  const double pitch = std::asin(-Q(2, 0)), yaw = std::atan2(Q(1, 0), Q(0, 0));
+  return {Vector3d::UnitZ(),
+          {-std::sin(yaw), std::cos(yaw), 0},
+          {std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), -std::sin(pitch)}};
+}
+EulerAxes cardan(const Matrix3d& Q) {
+  const double first = std::atan2(-Q(1, 2), Q(2, 2)), second = std::asin(Q(0, 2));
+  return {Vector3d::UnitX(),
+          {0, std::cos(first), std::sin(first)},
+          {std::sin(second), -std::sin(first) * std::cos(second), std::cos(first) * std::cos(second)}};
+}
+
+/// The angles' rates, and theirs, where ω and ω̇ belong; `of_x` is the angle that stands for x, 0 or 2.
+void anglesForOmega(const EulerAxes& at, int of_x, Motion<double>& motion) {
+  Matrix3d E;
+  E << at.e1, at.e2, at.e3;
+  const Vector3d rate = E.lu().solve(motion.omega);
+  const Vector3d bias =
+      rate(0) * rate(1) * at.e1.cross(at.e2) + rate(2) * (rate(0) * at.e1 + rate(1) * at.e2).cross(at.e3);
+  const Vector3d second = E.lu().solve(motion.omega_dot - bias);
+  motion.omega = of_x == 0 ? rate : Vector3d(rate.reverse());
+  motion.omega_dot = of_x == 0 ? second : Vector3d(second.reverse());
+}
+
+void addAngles(const Scenario& scenario, std::vector<Cause>& out) {
+  const NamedCause named{CauseKind::frame, "angular_velocity", "all"};
+  out.push_back(readOtherwise(scenario, {"rates of roll, pitch and yaw taken for the angular velocity", named},
+                              [](Motion<double>& motion) { anglesForOmega(rollPitchYaw(motion.Q), 2, motion); }));
+  out.push_back(readOtherwise(scenario, {"rates of Cardan's angles x, y, z taken for the angular velocity", named},
+                              [](Motion<double>& motion) { anglesForOmega(cardan(motion.Q), 0, motion); }));
+}
+
 void addUnits(const Scenario& scenario, std::vector<Cause>& out) {
   constexpr double millimetres = 1000;
   const auto add = [&](const char* text, const char* term, double factor, Vector3d Motion<double>::*of) {
@@ -197,6 +236,12 @@ void addNotTurned(const Scenario& scenario, std::vector<Cause>& out) {
       [](ManipulatorParameters& machine, const Matrix3d& Q) {
         machine.platform.center_of_mass = (Q.transpose() * machine.platform.center_of_mass).eval();
       });
+  add({"the platform's products of inertia with the other sign (as CAD writes them)",
+       NamedCause{CauseKind::sign, "inertia", "platform"}},
+      [](ManipulatorParameters& machine, const Matrix3d& /*Q*/) {
+        Matrix3d& inertia = machine.platform.inertia;
+        inertia = (2 * Matrix3d(inertia.diagonal().asDiagonal()) - inertia).eval();
+      });
   add({"gravity taken in the platform's frame", NamedCause{CauseKind::frame, "gravity", "all"}},
       [](ManipulatorParameters& machine, const Matrix3d& Q) { machine.gravity = (Q * machine.gravity).eval(); });
   add({"gravity turned into the platform's frame, where the base's belongs",
@@ -230,6 +275,7 @@ void addLoads(const Scenario& scenario, std::vector<Cause>& out) {
 std::vector<Cause> motionCauses(const Scenario& scenario) {
   std::vector<Cause> out;
   addFrames(scenario, out);
+  addAngles(scenario, out);
   addUnits(scenario, out);
   addLeftOut(scenario, out);
   addNotTurned(scenario, out);

@@ -66,7 +66,7 @@ double unitFactor(const TorqueResidual& data) {
     exact += data.exact[k].squaredNorm();
   }
   const double factor = exact > 0 ? std::sqrt(found / exact) : 1;
-  return unitOf(factor).empty() ? 1 : factor;
+  return unitOf(factor, data.motors).empty() ? 1 : factor;
 }
 
 /// The order with the least cost: entry i is the leg whose torques column i contains.
@@ -124,11 +124,12 @@ std::optional<Hypothesis> signsAndOrder(const TorqueResidual& data) {
   if (text.empty() && flipped.empty()) return std::nullopt;  // a unit alone belongs to the scale hypothesis
   if (!flipped.empty()) text += text.empty() ? "" : ", and ";
   if (flipped.size() == motor_count)
-    text += data.motors.one_a_leg ? "the sign of every leg flipped (torques about +u, not conjugate to phi)"
-                                  : "the sign of every motor flipped";
+    text += data.motors.allSlide()  ? "the sign of every force flipped (positive against d)"
+            : data.motors.one_a_leg ? "the sign of every leg flipped (torques about +u, not conjugate to phi)"
+                                    : "the sign of every motor flipped";
   else if (!flipped.empty())
     text += "the sign of " + plural(data, flipped) + legNames(flipped) + " flipped";
-  if (unit != 1) text += fmt::format(", and {}", unitOf(unit));
+  if (unit != 1) text += fmt::format(", and {}", unitOf(unit, data.motors));
   Hypothesis out{text, std::sqrt(least) / data.norm(), 0};
   out.beyond = beyondOf(data, best, sign, unit) / std::max(1.0, unit);  // rounding grows with the torques
   out.named = namedOrder(best, flipped);

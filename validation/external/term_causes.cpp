@@ -195,6 +195,12 @@ void addTensors(Collector& out) {
   out.addChange("inertia of ", ", about the mass centre, taken for such about the first joint, or P",
                 CauseKind::reference_point, "inertia",
                 withTensor([](const BodyTerms& body) -> Matrix3d { return body.inertia - steiner(body); }));
+  out.addChange("the gyroscopic moment of ", " with the tensor of its own frame", CauseKind::frame, "gyroscopic",
+                [](const MachineTerms& machine, const BodyTerms& body) {
+                  BodyTerms own = body;
+                  own.inertia = body.R.transpose() * body.inertia * body.R;
+                  return Vector6d(gyroscopic(machine, own) - gyroscopic(machine, body));
+                });
 }
 
 }  // namespace

@@ -197,6 +197,8 @@ class Hexapod:
         if f.get('q_order') == 'xyzw':         # takes w,x,y,z for x,y,z,w
             q = q[:, [3, 0, 1, 2]]
         R = rot(q)
+        if f.get('single'):
+            R = R.astype(np.float32).astype(float)
         if f.get('R_transposed'):
             R = np.swapaxes(R, 1, 2)
         Rt = np.swapaxes(rot(q), 1, 2)
@@ -225,6 +227,8 @@ class Hexapod:
         gp = self.g * (0.0 if f.get('no_gravity') in ('platform', 'all') else 1.0)
         F = self.mp * ((0 if f.get('no_inertia') == 'platform_mass' else aG) - gp)
         gyro = cross(w, mv(I, w)) * (0.0 if f.get('no_gyro') in ('platform', 'all') else 1.0)
+        if f.get('gyro_mixed'):
+            gyro = cross(w, mv(np.broadcast_to(self.Ip, (N, 3, 3)), w))
         if f.get('gyro_sign') == 'platform':
             gyro = -gyro
         Ial = mv(I, al) * (0.0 if f.get('no_inertia') == 'platform_tensor' else 1.0)
@@ -244,6 +248,8 @@ class Hexapod:
             F = F - sg * fo
             M = M - sg * (mo + cross(pt, np.broadcast_to(fo, (N, 3))))
         rhs = np.concatenate([F, M], 1)         # N x 6
+        if f.get('single'):
+            rhs = rhs.astype(np.float32).astype(float)
         found = {}
         N0, R0, rhs0 = N, R, rhs
         for idx, L in self.groups(N0):
@@ -256,7 +262,7 @@ class Hexapod:
             B = p1 + b
             bj = L['b'] if f.get('b_unrotated') == 'velocity' else b
             vB = v1 + cross(w1, bj)
-            aB = a1 + cross(al1, b) + cross(w1, cross(w1, b)) * (0.0 if f.get('no_bias') in ('platform', 'both') else 1.0)
+            aB = a1 + cross(al1, b) + cross(w1, cross(w1, b)) * (0.0 if f.get('no_bias') in ('platform', 'both') else -1.0 if f.get('bias_sign') else 1.0)
             joints, bodies = self.displacement(L, B)
             _, J = self.twist(joints, 3, B)
             Ji = np.linalg.inv(J)
@@ -276,6 +282,8 @@ class Hexapod:
                     c = (L['l'] if j == 0 else L['s']) / 2
                 if hit('com_at_end'):
                     c = 0.0 * c
+                if f.get('rod_fixed') and j == 1:
+                    nj, o, c = 2, joints[0][2], f['rod_fixed'] - L['s'] + c
                 G = o + c * e
                 W, V = self.twist(joints, nj, G)
                 om, alpha, acc = self.recursion(joints, nj, G, qd, qdd)
@@ -285,6 +293,9 @@ class Hexapod:
                     dd = [qd[:, k:k + 1] * joints[k][1] for k in range(nj) if joints[k][0] == 'P']
                     for t in dd:
                         acc = acc - 2 * cross(om, t)
+                if f.get('leg_alpha'):          # without 2 d-dot w / d of the leg's angular acceleration
+                    turn = 2 * qd[:, 2:] / np.linalg.norm(B - joints[0][2], axis=1, keepdims=True) * om
+                    alpha, acc = alpha + turn, acc + cross(turn, G - joints[0][2])
                 if hit('no_alpha_bias'):
                     _, alpha, _ = self.recursion(joints, nj, G, 0 * qd, qdd)
                 T = np.stack([x, cross(e, x), e], -1)   # body frame
@@ -296,6 +307,9 @@ class Hexapod:
                 if hit('link_tensor_about_end'):
                     r = G - o
                     Iw = Iw - mass[:, :, None] * (np.einsum('ni,ni->n', r, r)[:, None, None] * np.eye(3) - np.einsum('ni,nj->nij', r, r))
+                if hit('link_tensor_steiner'):
+                    r = G - o
+                    Iw = Iw + mass[:, :, None] * (np.einsum('ni,ni->n', r, r)[:, None, None] * np.eye(3) - np.einsum('ni,nj->nij', r, r))
                 if hit('no_spin'):
                     edot = cross(om, e)
                     alpha = alpha - dot(alpha, e) * e - dot(om, e) * edot
