@@ -13,6 +13,7 @@
 #include "model/scenario_input.h"
 #include "studies/simulate/simulate.h"
 #include "validation/findings/timeseries.h"
+#include "validation/verdict/effort_words.h"
 
 namespace ursula {
 namespace {
@@ -46,7 +47,7 @@ int simulateVerb(const SimulateOptions& options) {
   writeOutput(options.out, csvText(series.names, series.columns));
   const std::string missing = whatIsMissing(run, file, scenario.trajectory->duration());
   if (missing.empty()) return exit_passed;
-  say("{}\n", missing);
+  say("{}\n", inEffortWords(effortNoun(scenario.manipulator->motors()), missing));
   return exit_failed;
 }
 

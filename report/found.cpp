@@ -10,6 +10,7 @@
 #include "model/trajectories/trajectory_kinds.h"
 #include "report/quantity.h"
 #include "report/report.h"
+#include "validation/verdict/effort_words.h"
 
 namespace ursula::report {
 namespace {
@@ -78,8 +79,18 @@ std::string agrees(const Found& found) {
                             : fmt::format("; {} independent formulations agree {}", inWords(found.engines), share);
 }
 
+/// "303 ± 1 kg"; what explains all but rounding needs no number for that.
+std::string inPrint(std::string cause) {
+  for (const auto& [from, to] :
+       {std::pair<std::string, std::string>{" +- ", " ± "},
+        {", which explains more than 99.9999 % of the deviation", ", which explains all of it"}})
+    for (std::size_t at = cause.find(from); at != std::string::npos; at = cause.find(from, at + to.size()))
+      cause.replace(at, from.size(), to);
+  return cause;
+}
+
 std::string failed(const ValidationResult& result, const Found& found) {
-  if (!found.cause.empty()) return fmt::format("{} are wrong. Likely cause: {}.", found.subject, found.cause);
+  if (!found.cause.empty()) return fmt::format("{} are wrong. Likely cause: {}.", found.subject, inPrint(found.cause));
   const Check* worst = worstCheck(result.checks);
   if (worst == nullptr) return "No check was made.";
   const std::string numbers = std::isfinite(worst->value) && std::isfinite(worst->limit)
@@ -140,7 +151,9 @@ Found found(const ValidationResult& result) {
   return out;
 }
 
-std::string sentence(const ValidationResult& result) {
+namespace {
+
+std::string written(const ValidationResult& result) {
   const Found facts = found(result);
   switch (result.verdict) {
     case Verdict::fail:
@@ -153,6 +166,10 @@ std::string sentence(const ValidationResult& result) {
   }
   return drives(facts) + agrees(facts) + ".";
 }
+
+}  // namespace
+
+std::string sentence(const ValidationResult& result) { return inEffortWords(effortNoun(result), written(result)); }
 
 std::string detail(const ValidationResult& result) {
   const Found facts = found(result);
@@ -175,7 +192,10 @@ std::vector<KeyFigure> keyFigures(const ValidationResult& result) {
     out.push_back({"off the path", quantity(facts.replay, "m", 2),
                    std::isnan(facts.replay_limit) ? "" : "limit " + quantity(facts.replay_limit, "m", 2)});
   if (!std::isnan(facts.agreement))
-    out.push_back({"largest effort deviation", plainNumber(facts.agreement, 2), "of the largest effort"});
+    out.push_back(
+        {"largest effort deviation",
+         facts.agreement >= 1e-6 ? fmt::format("{:.2g} %", 100 * facts.agreement) : plainNumber(facts.agreement, 2),
+         "of the largest effort"});
   if (!facts.dominant.empty() && facts.cause.empty())
     out.push_back(
         {"what limits it", facts.dominant,

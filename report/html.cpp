@@ -7,12 +7,14 @@
 #include "report/figures.h"
 #include "report/found.h"
 #include "report/input_card.h"
+#include "report/motors.h"
 #include "report/page_data.h"
 #include "report/picture.h"
 #include "report/plots.h"
 #include "report/statistics.h"
 #include "report/svg_machine.h"
 #include "report/text.h"
+#include "validation/verdict/effort_words.h"
 
 namespace ursula::report {
 namespace {
@@ -61,6 +63,12 @@ std::string stage(const Picture* picture) {
   return picture == nullptr ? "" : "<div class=\"stage\" id=\"stage\">" + svgMachine(*picture) + "</div>";
 }
 
+/// Which motors are off; else the reason in detail.
+std::string detailHtml(const ValidationResult& result) {
+  const std::string motors = motorsTable(result), why = motors.empty() ? detail(result) : "";
+  return why.empty() ? motors : "<p class=\"why\">" + escaped(why) + "</p>";
+}
+
 struct Part {
   const char *id, *title;
   std::string content;
@@ -90,21 +98,21 @@ std::string reportHtml(const ValidationResult& result, Place place) {
     sections += section(part.id, part.title, part.content);
     if (!part.content.empty()) links += fmt::format("<a href=\"#{}\">{}</a>\n", part.id, part.title);
   }
-  const std::string why = detail(result);
+  const auto inWords = [&result](const std::string& text) { return inEffortWords(effortNoun(result), text); };
   return filled(report_template, {{"scenario", escaped(result.scenario)},
                                   {"style", std::string(report_style)},
                                   {"verdict", name(result.verdict)},
                                   {"badge", verdictBadge(result.verdict)},
                                   {"sentence", escaped(sentence(result))},
-                                  {"detail", why.empty() ? "" : "<p class=\"why\">" + escaped(why) + "</p>"},
+                                  {"detail", inWords(detailHtml(result))},
                                   {"machine", picture == nullptr ? "" : escaped(machineLine(*picture))},
-                                  {"figures", keyFiguresHtml(result)},
+                                  {"figures", inWords(keyFiguresHtml(result))},
                                   {"reason", escaped(reason(result.verdict, result.checks))},
-                                  {"sources", sources(charts)},
+                                  {"sources", inWords(sources(charts))},
                                   {"stage", stage(picture.get())},
                                   {"suite", place == Place::in_suite ? suite_link : ""},
-                                  {"links", links},
-                                  {"sections", sections},
+                                  {"links", inWords(links)},
+                                  {"sections", inWords(sections)},
                                   {"data", pageData(result, picture.get(), charts)},
                                   {"script", std::string(report_script)}});
 }

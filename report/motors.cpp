@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/quantity.h"
+#include "report/text.h"
+
 namespace ursula::report {
 namespace {
 
@@ -39,7 +42,67 @@ MotorDeviation deviationOf(int motor, const std::vector<double>& t, const std::v
   return out;
 }
 
+/// Every instant's deviation within its limit, which is there where all motors have one unit.
+bool isRightThroughout(const ValidationResult& result, const std::string& unit, const std::vector<double>& given,
+                       const std::vector<double>& expected) {
+  const std::vector<double>* limit = result.timeseries.find("limit_tau_" + unit);
+  if (limit == nullptr) return false;
+  for (std::size_t k = 0; k < limit->size(); ++k)
+    if (!(std::abs(given[k] - expected[k]) <= (*limit)[k])) return false;
+  return true;
+}
+
+/// Of the largest effort that is expected of any motor of the same unit.
+void addShares(const ValidationResult& result, std::vector<MotorDeviation>& motors) {
+  for (MotorDeviation& motor : motors) {
+    double largest = 0;
+    for (const MotorDeviation& other : motors) {
+      if (other.unit != motor.unit) continue;
+      for (const double each : *result.timeseries.find(fmt::format("simbody_tau_{}_{}", other.motor + 1, other.unit)))
+        if (std::isfinite(each)) largest = std::max(largest, std::abs(each));
+    }
+    if (largest > 0) motor.share = motor.largest / largest;
+  }
+}
+
+std::string shareOfLargest(double share) {
+  return share >= 1e-6 ? fmt::format("{:.2g} %", 100 * share) : plainNumber(share, 2);
+}
+
+/// "1.003 × expected", "expected + 3 N"; empty where no one number explains it.
+std::string patternText(const MotorDeviation& motor) {
+  if (motor.right) return "";
+  if (motor.factor) return fmt::format("{:.6g} × expected", *motor.factor);
+  if (!motor.offset) return "";
+  return fmt::format("expected {} {:.6g} {}", *motor.offset < 0 ? "−" : "+", std::abs(*motor.offset),
+                     prettyUnit(motor.unit));
+}
+
+std::string motorCell(const std::string& text) { return "<td class=\"number\">" + escaped(text) + "</td>"; }
+
+std::string motorRow(const MotorDeviation& motor, bool patterns) {
+  const std::string begin = fmt::format("<tr><th scope=\"row\">{}</th>", motor.motor + 1);
+  if (motor.right) return fmt::format("{}<td colspan=\"{}\">within its limit</td></tr>\n", begin, patterns ? 4 : 3);
+  return begin + motorCell(quantity(motor.largest, motor.unit)) + motorCell(shareOfLargest(motor.share)) +
+         motorCell(fmt::format("{:.4g} s", motor.t)) +
+         (patterns ? "<td>" + escaped(patternText(motor)) + "</td>" : "") + "</tr>\n";
+}
+
 }  // namespace
+
+std::string motorsTable(const ValidationResult& result) {
+  const std::vector<MotorDeviation> motors = motorsOff(result);
+  if (motors.empty()) return "";
+  const bool patterns = std::any_of(motors.begin(), motors.end(),
+                                    [](const MotorDeviation& motor) { return !patternText(motor).empty(); });
+  std::string rows, heads;
+  for (const MotorDeviation& motor : motors) rows += motorRow(motor, patterns);
+  for (const char* head : {"off by", "of the largest", "at"})
+    heads += fmt::format("<th scope=\"col\" class=\"number\">{}</th>", head);
+  return fmt::format(
+      "<table class=\"motors\"><thead><tr><th scope=\"col\">Motor</th>{}{}</tr></thead><tbody>\n{}</tbody></table>",
+      heads, patterns ? "<th scope=\"col\">given is</th>" : "", rows);
+}
 
 std::vector<MotorDeviation> motorsOff(const ValidationResult& result) {
   std::vector<MotorDeviation> out;
@@ -47,12 +110,16 @@ std::vector<MotorDeviation> motorsOff(const ValidationResult& result) {
   if (t == nullptr || !areWrong(result)) return out;
   for (int motor = 0;; ++motor)
     for (const char* unit : {"Nm", "N", ""}) {
-      if (*unit == '\0') return out;
+      if (*unit == '\0') {
+        addShares(result, out);
+        return out;
+      }
       const std::vector<double>* given = result.timeseries.find(fmt::format("tau_{}_{}", motor + 1, unit));
       const std::vector<double>* expected = result.timeseries.find(fmt::format("simbody_tau_{}_{}", motor + 1, unit));
       if (given == nullptr || expected == nullptr) continue;
       out.push_back(deviationOf(motor, *t, *given, *expected));
       out.back().unit = unit;
+      out.back().right = isRightThroughout(result, unit, *given, *expected);
       break;
     }
 }

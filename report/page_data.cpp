@@ -7,6 +7,7 @@
 #include "report/json_text.h"
 #include "report/machine_data.h"
 #include "report/quantity.h"
+#include "validation/verdict/effort_words.h"
 
 namespace ursula::report {
 namespace {
@@ -34,11 +35,12 @@ std::string plotJson(const Plot& full) {
 /// Events of the result, and the worst instants of the most important checks.
 std::string eventsJson(const ValidationResult& result) {
   std::vector<Event> events = result.events;
-  const auto add = [&events](double t, const char* what, double value, const std::string& unit) {
+  const auto add = [&events](double t, const std::string& what, double value, const std::string& unit) {
     if (std::isfinite(value) && value > 0) events.push_back({t, what + quantity(value, unit)});
   };
   if (const auto& deviation = result.deviation)
-    add(deviation->t, "largest effort deviation, ", deviation->largest, deviation->unit);
+    add(deviation->t, inEffortWords(effortNoun(result), "largest effort deviation, "), deviation->largest,
+        deviation->unit);
   for (const Check& check : result.checks)
     if (check.name == "replay.position")
       add(check.largest.t, "largest replay error, ", check.largest.value, check.unit);

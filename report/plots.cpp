@@ -10,6 +10,7 @@
 #include "report/found.h"
 #include "report/plot_builder.h"
 #include "report/text.h"
+#include "validation/verdict/effort_words.h"
 
 namespace ursula::report {
 namespace {
@@ -100,6 +101,12 @@ std::pair<double, double> extremes(const std::vector<double>& values, std::size_
   return low < high ? std::pair(values[low], values[high]) : std::pair(values[high], values[low]);
 }
 
+/// What the chart says of efforts, in the machine's words.
+void sayEfforts(const std::string& noun, Plot& plot) {
+  for (std::string* text : {&plot.title, &plot.x_label, &plot.y_label}) *text = inEffortWords(noun, *text);
+  for (Line& line : plot.lines) line.label = inEffortWords(noun, line.label);
+}
+
 }  // namespace
 
 std::vector<Plot> plots(const ValidationResult& result) {
@@ -109,6 +116,7 @@ std::vector<Plot> plots(const ValidationResult& result) {
   }
   addSeriesPlots(result.timeseries, motorsOf(result), result.deviation ? result.deviation->allowed : 0, plots);
   std::stable_sort(plots.begin(), plots.end(), [](const Plot& a, const Plot& b) { return a.group < b.group; });
+  for (Plot& plot : plots) sayEfforts(effortNoun(result), plot);
   return plots;
 }
 

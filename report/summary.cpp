@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/report.h"
+#include "validation/verdict/effort_words.h"
 
 namespace ursula::report {
 namespace {
@@ -84,7 +85,8 @@ void addCauses(const LikelyCause& likely, Json& summary) {
 std::string summaryJson(const ValidationResult& result) {
   Json checks = Json::array();
   for (const Check& check : result.checks) checks.push_back(checkJson(check));
-  const std::string deviation = result.deviation ? " " + sentence(*result.deviation) : "";
+  const std::string deviation =
+      result.deviation ? " " + inEffortWords(effortNoun(result), sentence(*result.deviation)) : "";
   Json summary = {{"scenario", result.scenario},
                   {"verdict", name(result.verdict)},
                   {"formulation", result.formulation},

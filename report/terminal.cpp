@@ -12,6 +12,7 @@
 #include "report/found.h"
 #include "report/motors.h"
 #include "report/quantity.h"
+#include "validation/verdict/effort_words.h"
 
 namespace ursula::report {
 namespace {
@@ -139,7 +140,7 @@ std::string motorsText(const std::vector<MotorDeviation>& motors) {
     rows.push_back({std::to_string(motor.motor + 1), fmt::format("{:.3g} {}", motor.largest, prettyUnit(motor.unit)),
                     fmt::format("{:.4g} s", motor.t), optionalText(motor.factor, ""),
                     optionalText(motor.offset, " " + prettyUnit(motor.unit))});
-  std::string out = "torques against the expected ones:\n";
+  std::string out;
   for (const std::string& line : alignedRows(rows, std::vector<Align>(5, Align::right))) out += "  " + line + "\n";
   return out;
 }
@@ -169,8 +170,10 @@ bool replayIsOpen(const std::vector<Check>& checks) {
 /// Details of a replay and of wrong torques; right ones need none.
 std::string reasonsText(const ValidationResult& result) {
   std::string out;
-  if (result.replay_error && replayIsOpen(result.checks)) out += replayText(*result.replay_error);
-  if (const std::vector<MotorDeviation> motors = motorsOff(result); !motors.empty()) out += motorsText(motors);
+  if (result.replay_error && replayIsOpen(result.checks))
+    out += inEffortWords(effortNoun(result), replayText(*result.replay_error));
+  if (const std::vector<MotorDeviation> motors = motorsOff(result); !motors.empty())
+    out += effortNoun(result) + "s against the expected ones:\n" + motorsText(motors);
   if (result.likely_cause) out += "likely cause: " + result.likely_cause->cause + "\n";
   return out.empty() ? "" : "\n" + out;
 }
@@ -179,7 +182,8 @@ std::string reasonsText(const ValidationResult& result) {
 
 std::string validationText(const ValidationResult& result, bool coloured) {
   const std::string verdict = painted(name(result.verdict), paintOf(result.verdict), coloured);
-  const std::string deviation = result.deviation ? ursula::sentence(*result.deviation) + "\n" : "";
+  const std::string deviation =
+      result.deviation ? inEffortWords(effortNoun(result), ursula::sentence(*result.deviation)) + "\n" : "";
   return fmt::format("{}: {}\n\n{}{}{}\nverdict: {} — {}\n{}", withoutControls(result.scenario), verdict,
                      checksTable(result, coloured), notApplicableText(result.checks), reasonsText(result), verdict,
                      reason(result.verdict, result.checks), deviation);

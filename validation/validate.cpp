@@ -22,6 +22,7 @@
 #include "validation/findings/timeseries.h"
 #include "validation/subject/frame_change.h"
 #include "validation/subject/motion_check.h"
+#include "validation/verdict/effort_words.h"
 
 namespace ursula {
 namespace {
@@ -145,6 +146,7 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   if (result.verdict == Verdict::fail && subject.formulation == Formulation::external &&
       evidence.has.out_of_time.empty())
     diagnoseSolver(scenario, evidence, subject, result);
+  sayEfforts(result);
   addProvenance(scenario, subject.name, result);
   return result;
 }
@@ -167,6 +169,7 @@ ValidationResult nothingReached(const Scenario& scenario, const Subject& subject
   judgeByTolerance(scenario, 0, result);
   judgeByUser(scenario.acceptance, result);
   result.asked = std::make_shared<const Scenario>(scenario);
+  sayEfforts(result);
   addProvenance(scenario, subject.name, result);
   return result;
 }

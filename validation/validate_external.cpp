@@ -22,6 +22,7 @@
 #include "validation/findings/timeseries.h"
 #include "validation/subject/frame_change.h"
 #include "validation/subject/motion_check.h"
+#include "validation/verdict/effort_words.h"
 
 namespace ursula {
 namespace {
@@ -120,6 +121,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
     const Scenario relocated = ursula::relocated(scenario, natural.origin);  // in SI, because the texts are
     addDiagnosis(diagnose(relocated, runExternal(relocated, file)), result);
   }
+  sayEfforts(result);
   addProvenance(scenario, torques.file.filename().string(), result);
   return result;
 }

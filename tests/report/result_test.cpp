@@ -1,5 +1,6 @@
 #include "validation/verdict/result.h"
 #include "tests/support/numbers.h"
+#include "validation/verdict/effort_words.h"
 #include "validation/verdict/worst_share.h"
 
 #include <gtest/gtest.h>
@@ -138,6 +139,25 @@ TEST(TimeSeries, refusesShortAndRepeatedColumns) {
   EXPECT_THROW(series.add("tau_1_Nm", {5}), std::invalid_argument);
   EXPECT_THROW(series.add("t_s", {0, 1}), std::invalid_argument);
   EXPECT_EQ(series.names.size(), 1u);
+}
+
+TEST(EffortWords, areOfTheMotors) {
+  Motors motors;
+  EXPECT_EQ(effortNoun(motors), "torque");
+  for (Motor& motor : motors) motor.coordinate = Coordinate::d;
+  EXPECT_EQ(effortNoun(motors), "force");
+  motors[2].coordinate = Coordinate::phi;
+  EXPECT_EQ(effortNoun(motors), "effort");
+}
+
+TEST(EffortWords, leaveNamesAlone) {
+  EXPECT_EQ(inEffortWords("force", "Torques: 1 % of the largest torque, an effort's and every torque."),
+            "Forces: 1 % of the largest force, a force's and every force.");
+  EXPECT_EQ(inEffortWords("effort", "a torque, torques"), "an effort, efforts");
+  for (const char* name : {"torque.pointwise", "--torques", "wins over [acceptance] torque", "torques.csv",
+                           "own_torques", "id=\"efforts\"", "href=\"#efforts\"", "torques=tau"})
+    EXPECT_EQ(inEffortWords("force", name), name);
+  EXPECT_EQ(inEffortWords("torque", "a torque, an effort"), "a torque, an effort");
 }
 
 }  // namespace

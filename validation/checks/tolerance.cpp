@@ -8,6 +8,7 @@
 
 #include "model/instants.h"
 #include "validation/checks/acceptance.h"
+#include "validation/verdict/effort_words.h"
 
 namespace ursula {
 namespace {
@@ -84,10 +85,12 @@ void requireTellingTolerance(const Scenario& scenario) {
   const double allowed = scenario.tolerance->relative * largest + scenario.tolerance->absolute;
   if (!(largest > 0) || allowed < largest) return;
   const char* unit = effortsOf(*scenario.manipulator).unit;
-  throw ScenarioError(fmt::format(
-      "{}: the tolerance allows {:.6g} {}, and the largest effort of the motion is {:.6g} {}: torques of zero "
-      "would pass. Expected a smaller one; --any-tolerance takes it all the same",
-      scenario.name, allowed, unit, largest, unit));
+  throw ScenarioError(inEffortWords(
+      effortNoun(scenario.manipulator->motors()),
+      fmt::format(
+          "{}: the tolerance allows {:.6g} {}, and the largest effort of the motion is {:.6g} {}: torques of zero "
+          "would pass. Expected a smaller one; --any-tolerance takes it all the same",
+          scenario.name, allowed, unit, largest, unit)));
 }
 
 void judgeByTolerance(const Scenario& scenario, double between, ValidationResult& result) {
