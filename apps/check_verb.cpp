@@ -8,6 +8,7 @@
 #include "apps/verbs.h"
 #include "base/csv.h"
 #include "base/shown_text.h"
+#include "model/scenario_excerpt.h"
 #include "model/scenario_input.h"
 #include "studies/check_scenario/check_scenario.h"
 #include "validation/subject/motion_check.h"
@@ -36,7 +37,7 @@ bool checkOne(const std::string& file, const CheckOptions& options) {
                      odd.size() == 1 ? "" : "s"));
     return true;
   } catch (const ScenarioError& error) {
-    say("{}\n", error.what());
+    say("{}\n", atLength(error));
     return false;
   }
 }

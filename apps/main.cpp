@@ -12,7 +12,7 @@
 #include "apps/verbs.h"
 #include "base/csv.h"
 #include "base/errors.h"
-#include "model/scenario.h"
+#include "model/scenario_excerpt.h"
 #include "nocsolver/errors.h"
 #include "studies/sweep/sqlite.h"
 #include "validation/findings/provenance.h"
@@ -28,7 +28,7 @@ int runVerb(const CLI::App& app, const std::function<int()>& run) {
   try {
     return run();
   } catch (const ursula::ScenarioError& error) {
-    return complain(error.what());  // starts with file:line:column
+    return complain(ursula::atLength(error));  // starts with file:line:column
   } catch (const ursula::CsvError& error) {
     return complain(error.what());  // likewise
   } catch (const ursula::DatabaseError& error) {

@@ -18,6 +18,7 @@
 #include "model/scenario_files.h"
 #include "report/report.h"
 #include "report/run.h"
+#include "studies/check_scenario/check_scenario.h"
 #include "studies/suite/suite.h"
 #include "validation/outside/external_solver.h"
 #include "validation/validate.h"
@@ -112,7 +113,7 @@ class SuiteProgress {
 int validateSuite(const std::vector<SuiteMember>& members, const ValidateOptions& options,
                   const std::filesystem::path& dir) {
   for (const SuiteMember& member : members)
-    if (!member.error.empty()) say("{}\n", member.error);
+    if (!member.error.empty()) say("{}\n", member.at_length.empty() ? member.error : member.at_length);
   SuiteOptions suite;
   suite.jobs = options.jobs;
   ValidationOptions validation;
@@ -168,6 +169,9 @@ int validateAll(const ValidateOptions& options) {
   if (std::count(options.scenarios.begin(), options.scenarios.end(), "-") > 1)
     throw UsageError("standard input can be read once, expected one -");
   std::vector<SuiteMember> members = readSuite({options.scenarios.begin(), options.scenarios.end()});
+  for (const SuiteMember& member : members)
+    if (member.scenario)
+      for (const std::string& hint : hints(*member.scenario)) say("{}\n", hint);
   const bool none_good =
       std::none_of(members.begin(), members.end(), [](const auto& each) { return each.error.empty(); });
   if (options.strict || none_good) members = allOrNothing(std::move(members));
@@ -199,12 +203,14 @@ void addOutputOptions(CLI::App& verb, ValidateOptions& options) {
 }
 
 void addOtherSolvers(CLI::App& verb, ValidateOptions& options) {
-  CLI::Option* torques = verb.add_option(
-      "--torques", options.torques, "CSV of somebody else's torques to judge instead: t_s and tau_1_Nm … tau_6_Nm");
+  CLI::Option* torques =
+      verb.add_option("--torques", options.torques,
+                      "CSV of somebody else's torques or forces to judge instead: t_s and tau_1_Nm … tau_6_Nm,\n"
+                      "tau_1_N … of motors that slide");
   CLI::Option* solver =
       verb.add_option("--solver", options.solver.command,
                       "Command to judge instead: started once by sh, it answers each line of a motion on its standard\n"
-                      "input (t,p,q,v,w,a,alpha: 20 values with commas) with a line of six torques");
+                      "input (t,p,q,v,w,a,alpha: 20 values with commas) with a line of six torques or forces");
   solver->excludes(torques)->check(
       [](const std::string& command) { return command.empty() ? std::string("expected a command") : std::string(); });
   verb.add_option("--solver-timeout", options.solver.timeout, "For an answer of that command, s")
@@ -219,7 +225,8 @@ void addOtherSolvers(CLI::App& verb, ValidateOptions& options) {
 
 void addValidate(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<ValidateOptions>();
-  CLI::App* verb = app.add_subcommand("validate", "Judge the torques of a scenario against Simbody, with reasons");
+  CLI::App* verb =
+      app.add_subcommand("validate", "Judge the torques or forces of a scenario against Simbody, with reasons");
   verb->add_option("scenario", options->scenarios,
                    "Scenario files (TOML), or folders: each *.toml in it, sorted; - for standard input")
       ->required();
@@ -236,14 +243,14 @@ void addValidate(CLI::App& app, std::function<int()>& run) {
   verb->add_flag("--strict", options->strict,
                  "Of several scenarios nothing is computed or written unless all can be read and their motions made");
   addOtherSolvers(*verb, *options);
-  verb->add_option("--rtol", options->rtol,
-                   "Torques pass that are off by no more, relative to the largest effort of the motion, also as 1%;\n"
-                   "wins over [acceptance] torque")
+  verb->add_option(
+          "--rtol", options->rtol,
+          "Torques or forces pass that are off by no more, relative to the largest of the motion, also as 1%;\n"
+          "wins over [acceptance] torque")
       ->check(finitePositive())
       ->transform(withoutPercent);  // transforms run in reverse order
   verb->add_option("--atol", options->atol, "The same in N m, or N; both are added")->check(finitePositive());
-  verb->add_flag("--any-tolerance", options->any_tolerance,
-                 "Take a tolerance at which torques of zero would pass, too");
+  verb->add_flag("--any-tolerance", options->any_tolerance, "Take a tolerance at which zeros would pass, too");
   verb->footer(
       "Several scenarios: one folder each under DIR, with index.html and one junit.xml over all. One that cannot be\n"
       "read, is out of reach or singular is in error there, and the others are judged; with --strict, where all are\n"

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 
+#include "base/excerpt.h"
 #include "base/nearest.h"
 #include "base/shown_text.h"
 #include "base/toml_bounds.h"
 #include "model/check_catalogue.h"
+#include "model/scenario_excerpt.h"
 #include "model/scenario_sections.h"
 
 namespace ursula {
@@ -91,6 +93,17 @@ Scenario assemble(const TomlSection& document) {
 
 }  // namespace
 
+PlacedError PlacedError::in(const std::string& text) const {
+  PlacedError out = *this;
+  if (out.excerpt_.empty() && line_ > 0) out.excerpt_ = excerptOf(text, line_, column_);
+  return out;
+}
+
+std::string atLength(const ScenarioError& error) {
+  const auto* placed = dynamic_cast<const PlacedError*>(&error);
+  return placed == nullptr || placed->excerpt().empty() ? error.what() : error.what() + ("\n" + placed->excerpt());
+}
+
 Scenario parseScenario(const std::string& text, const std::filesystem::path& file) {
   const toml::table table = parseToml(text, file.string());
   const TomlSection document(table, "", file.string());
@@ -100,8 +113,10 @@ Scenario parseScenario(const std::string& text, const std::filesystem::path& fil
     scenario.text = text;
     scenario.markAsRead();
     return scenario;
+  } catch (const PlacedError& error) {
+    throw error.in(text);
   } catch (const InvalidParameter& refusal) {
-    throw located(refusal, document);
+    throw located(refusal, document).in(text);
   } catch (const CsvError& error) {
     throw ScenarioError(error.what());
   }

@@ -95,7 +95,7 @@ Found find(const toml::table& document, const std::string& key) {
 
 }  // namespace
 
-ScenarioError located(const InvalidParameter& refusal, const TomlSection& document) {
+PlacedError located(const InvalidParameter& refusal, const TomlSection& document) {
   const Found found = find(document.table(), refusal.place());
   return errorAt(document.file(), found.node->source().begin,
                  fmt::format("{}: {}, expected {}", found.key, refusal.value(), refusal.bound()));

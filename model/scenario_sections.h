@@ -21,6 +21,6 @@ std::shared_ptr<const Load> readLoad(const TomlSection& table);
 CsvTable readCsvBeside(const TomlSection& table, const std::string& key);
 
 /// Finds the value that `refusal` names in the document or in manipulator.leg_defaults, or the nearest enclosing table.
-ScenarioError located(const InvalidParameter& refusal, const TomlSection& document);
+PlacedError located(const InvalidParameter& refusal, const TomlSection& document);
 
 }  // namespace ursula

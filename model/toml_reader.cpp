@@ -52,13 +52,13 @@ std::string placeAt(const std::string& file, const toml::source_position& positi
   return fmt::format("{}:{}:{}", shownPath(file), std::max(position.line, 1U), std::max(position.column, 1U));
 }
 
-ScenarioError errorAt(const std::string& file, const toml::source_position& position, const std::string& message) {
-  return ScenarioError(placeAt(file, position) + ": error: " + message);
+PlacedError errorAt(const std::string& file, const toml::source_position& position, const std::string& message) {
+  return {placeAt(file, position) + ": error: " + message, position.line, position.column};
 }
 
-ScenarioError errorAt(const std::string& file, const TextRefusal& refusal) {
-  return ScenarioError(
-      fmt::format("{}:{}:{}: error: {}", shownPath(file), refusal.line, refusal.column, refusal.what()));
+PlacedError errorAt(const std::string& file, const TextRefusal& refusal) {
+  return {fmt::format("{}:{}:{}: error: {}", shownPath(file), refusal.line, refusal.column, refusal.what()),
+          refusal.line, refusal.column};
 }
 
 toml::table parseToml(const std::string& text, const std::string& file) {
@@ -66,9 +66,9 @@ toml::table parseToml(const std::string& text, const std::string& file) {
     requireBounded(text);
     return toml::parse(std::string_view(text), std::string_view(file));
   } catch (const TextRefusal& refusal) {
-    throw errorAt(file, refusal);
+    throw errorAt(file, refusal).in(text);
   } catch (const toml::parse_error& error) {
-    throw errorAt(file, error.source().begin, shown(error.description(), 400) + ", expected valid TOML");
+    throw errorAt(file, error.source().begin, shown(error.description(), 400) + ", expected valid TOML").in(text);
   }
 }
 

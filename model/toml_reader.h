@@ -8,7 +8,7 @@
 
 #include "base/scalar.h"
 #include "base/text_source.h"
-#include "model/scenario.h"
+#include "model/scenario_excerpt.h"
 #include "model/scenario_keys.h"
 
 namespace ursula {
@@ -17,10 +17,10 @@ namespace ursula {
 std::string placeAt(const std::string& file, const toml::source_position& position);
 
 /// The error `file:line:column: error: message` at a node's place.
-ScenarioError errorAt(const std::string& file, const toml::source_position& position, const std::string& message);
+PlacedError errorAt(const std::string& file, const toml::source_position& position, const std::string& message);
 
 /// The same for a text that was refused.
-ScenarioError errorAt(const std::string& file, const TextRefusal& refusal);
+PlacedError errorAt(const std::string& file, const TextRefusal& refusal);
 
 /// Parses a document; `file` names it in errors. Throws ScenarioError for invalid TOML and if requireBounded refuses
 /// it.

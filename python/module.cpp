@@ -4,6 +4,7 @@
 #include <ursula/solver.h>
 
 #include <exception>
+#include <string>
 
 #include "python/motion.h"
 #include "python/scenario.h"
@@ -26,6 +27,10 @@ void raisePoseError(const ursula::PoseError& error) {
   PyErr_SetObject(type.ptr(), out.ptr());
 }
 
+void raiseScenarioError(const std::string& what) {
+  PyErr_SetString(py::module_::import("ursula._ursula").attr("ScenarioError").ptr(), what.c_str());
+}
+
 void addErrors(py::module_& module) {
   py::register_exception<ursula::ScenarioError>(module, "ScenarioError", PyExc_ValueError).doc() =
       "A scenario that cannot be read: file, line, column, what, and what was expected.";
@@ -41,8 +46,10 @@ void addErrors(py::module_& module) {
       std::rethrow_exception(thrown);
     } catch (const ursula::PoseError& error) {
       raisePoseError(error);
+    } catch (const ursula::ScenarioError& error) {
+      raiseScenarioError(ursula::atLength(error));
     } catch (const ursula::CsvError& error) {  // of a table that a scenario names
-      PyErr_SetString(py::module_::import("ursula._ursula").attr("ScenarioError").ptr(), error.what());
+      raiseScenarioError(error.what());
     }
   });
 }

@@ -8,5 +8,6 @@
 #include "model/instants.h"
 #include "model/quaternions.h"
 #include "model/scenario.h"
+#include "model/scenario_excerpt.h"
 #include "model/scenario_json.h"
 #include "model/trajectories/trajectories.h"

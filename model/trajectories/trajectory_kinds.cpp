@@ -35,6 +35,9 @@ Eigen::Vector4d readOrientation(const TomlSection& table) {
   if (by_angles && table.has("orientation"))
     table.fail("rpy_deg", "given beside 'orientation', expected one of the two");
   if (by_angles) return quaternionOf(angles);
+  if (const toml::node* given = table.table().get("orientation"); given != nullptr && given->is_array())
+    if (given->as_array()->size() == 3)
+      table.fail("orientation", "an array of 3, expected an array of 4 numbers, did you mean 'rpy_deg'?");
   if (!table.read("orientation", orientation))
     table.missing("orientation", "an array of 4 numbers, or 'rpy_deg', an array of 3");
   return orientation;

@@ -9,7 +9,7 @@ NumPy in and out; rows are instants; SI units; frames: B is the base's, M the pl
     print(r.verdict, r.reason)
 """
 
-from . import _notebook
+from . import _errors, _notebook
 from ._ursula import (
     Cause,
     Channel,
@@ -67,6 +67,11 @@ __all__ = [
 Result.plot = _notebook.plot
 Result._repr_html_ = _notebook.html
 
-for _each in (Cause, Channel, Check, Comparison, Deviation, Finding, Motion, Pose, PoseError, ReplayError, Result, Scenario, ScenarioError, Simulation, UndeterminedPose):
+_classes = (Cause, Channel, Check, Comparison, Deviation, Finding, Motion, Pose, PoseError, ReplayError, Result, Scenario,
+            ScenarioError, Simulation, UndeterminedPose)
+for _each in _classes:
     _each.__module__ = __name__
-del _each
+_errors.put_in_words(_classes)
+for _each in (check, compare, import_model, map, read_scenario, scenario, simulate, validate):
+    globals()[_each.__name__] = _errors.in_words(_each, _each.__name__)
+del _each, _classes

@@ -10,17 +10,28 @@
 
 namespace ursula {
 
-std::vector<std::string> warnings(const Scenario& scenario) {
+namespace {
+
+/// A line for each; what six legs inherit is odd once.
+std::vector<std::string> linesOf(const Scenario& scenario, bool hints_alone) {
   std::vector<Oddity> all = oddMachine(scenario);
   for (Oddity& oddity : oddMotion(scenario)) all.push_back(std::move(oddity));
   std::vector<std::string> lines;
   std::set<std::string> said;  // by place, so that six inherited values give one warning
   for (const Oddity& oddity : all) {
+    if (hints_alone && oddity.hint.empty()) continue;
     const KeyPlace place = placeInFile(scenario, oddity.key);
     if (place.given && !said.insert(place.place).second) continue;
-    lines.push_back(fmt::format("{}: warning: {}: {}", place.place, place.key, oddity.what));
+    lines.push_back(fmt::format("{}: warning: {}: {}{}{}", place.place, place.key, oddity.what,
+                                oddity.hint.empty() ? "" : ": ", oddity.hint));
   }
   return lines;
 }
+
+}  // namespace
+
+std::vector<std::string> warnings(const Scenario& scenario) { return linesOf(scenario, false); }
+
+std::vector<std::string> hints(const Scenario& scenario) { return linesOf(scenario, true); }
 
 }  // namespace ursula

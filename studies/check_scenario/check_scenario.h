@@ -11,6 +11,9 @@ namespace ursula {
 /// value that all legs inherit gives one warning. For an impossible motion (tryMotion) it uses the numbers alone.
 std::vector<std::string> warnings(const Scenario& scenario);
 
+/// Returns only the warnings for which another unit makes the number usual: "did you mean mm? …".
+std::vector<std::string> hints(const Scenario& scenario);
+
 /// Returns the machine at the start of the motion, from the front and from above, as SVG. Legs that cannot reach that
 /// pose are drawn without their knees.
 std::string picture(const Scenario& scenario);

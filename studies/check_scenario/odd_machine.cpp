@@ -88,7 +88,8 @@ void legs(const ManipulatorParameters& machine, std::vector<Oddity>& out) {
           {legKey(i, "platform_point"),
            fmt::format("is {:.6g} m from the platform's origin, while the base's points lie within {:.6g} m of "
                        "their mean",
-                       far, base)});
+                       far, base),
+           far > 100 * base ? inMillimetres(far) : ""});
   }
 }
 
@@ -120,21 +121,24 @@ void units(const ManipulatorParameters& machine, std::vector<Oddity>& out) {
     const double shorter = std::min(first, leg.distal.length), longer = reach - shorter;
     const std::string which = first > leg.distal.length ? "proximal.length" : "distal.length";
     if (!on_rail && longer > 100 * shorter)
-      out.push_back(
-          {legKey(i, which),
-           fmt::format("{:.6g} m, while the leg's other link is {:.6g} m long: millimetres?", longer, shorter)});
+      out.push_back({legKey(i, which),
+                     fmt::format("{:.6g} m, while the leg's other link is {:.6g} m long", longer, shorter),
+                     inMillimetres(longer)});
     else if (reach > 100)
-      out.push_back(
-          {legKey(i, which), fmt::format("the leg is {:.6g} m long: millimetres, where metres are expected?", reach)});
+      out.push_back({legKey(i, which), fmt::format("the leg is {:.6g} m long", reach), inMillimetres(reach)});
     if (base > 100 * reach)
       out.push_back({legKey(i, "base_point"),
-                     fmt::format("the base's points lie within {:.6g} m of their mean, while the leg is {:.6g} m long: "
-                                 "millimetres?",
-                                 base, reach)});
+                     fmt::format("the base's points lie within {:.6g} m of their mean, while the leg is {:.6g} m long",
+                                 base, reach),
+                     inMillimetres(base)});
   }
 }
 
 }  // namespace
+
+std::string inMillimetres(double value) {
+  return fmt::format("did you mean mm? {:.6g} mm are {:.6g} m", value, value / 1000);
+}
 
 std::vector<Oddity> oddMachine(const Scenario& scenario) {
   const ManipulatorParameters& machine = scenario.manipulator->parameters();

@@ -43,8 +43,8 @@ void radians(const Scenario& scenario, std::vector<Oddity>& out) {
     const std::string key = std::string("trajectory.") + name;
     const double value = placeInFile(scenario, key).number.value_or(0);
     if (std::abs(value) > 2 * pi)
-      out.push_back({key, fmt::format("{:.6g} rad are {:.3g} turns: were degrees meant? Then it is {}_deg = {:.6g}",
-                                      value, std::abs(value) / (2 * pi), name, value)});
+      out.push_back({key, fmt::format("{:.6g} rad are {:.3g} turns", value, std::abs(value) / (2 * pi)),
+                     fmt::format("did you mean {}_deg = {:.6g}?", name, value)});
   }
 }
 
@@ -65,8 +65,28 @@ void haste(const Scenario& scenario, std::vector<Oddity>& out) {
                           "9.81 m/s2",
                           scenario.trajectory->duration(), most, at, most / g)});
   if (scenario.trajectory->duration() >= 1000)
+    out.push_back({key, fmt::format("{:.6g} s", scenario.trajectory->duration()),
+                   fmt::format("did you mean ms? {0:.6g} ms are {1:.6g} s", scenario.trajectory->duration(),
+                               scenario.trajectory->duration() / 1000)});
+}
+
+/// Where the platform begins, against what its legs can span.
+void distance(const Scenario& scenario, std::vector<Oddity>& out) {
+  const std::vector<Leg>& legs = scenario.manipulator->parameters().legs;
+  double span = 0, near = std::numeric_limits<double>::infinity();
+  const Vector3d p = scenario.trajectory->at(0).p;
+  for (const Leg& leg : legs) {
+    span = std::max(span, leg.proximal.length + leg.distal.length + leg.platform_point.norm());
+    near = std::min(near, (p - leg.base_point).norm());
+  }
+  const bool on_rails =
+      std::any_of(legs.begin(), legs.end(), [](const Leg& leg) { return rowOf(leg.kind).hasCarriage(); });
+  if (near > 100 * span && !on_rails)
     out.push_back(
-        {key, fmt::format("{:.6g} s: milliseconds, where seconds are expected?", scenario.trajectory->duration())});
+        {"trajectory",
+         fmt::format("begins {:.6g} m from the nearest base point, while a leg and the platform span {:.6g} m", near,
+                     span),
+         inMillimetres(near)});
 }
 
 /// A leg's smallest value of a number over the motion.
@@ -130,6 +150,7 @@ std::vector<Oddity> oddMotion(const Scenario& scenario) {
   const TrajectoryKind* kind = trajectoryKind(scenario.trajectory->kind());
   if (kind != nullptr && kind->orientation != nullptr) scalarLast(scenario, kind->orientation, out);
   haste(scenario, out);
+  distance(scenario, out);
   try {
     legsAtTheirLimits(scenario, out);
   } catch (const PoseError&) {

@@ -14,6 +14,7 @@
 #include "base/out_of_memory.h"
 #include "base/output_folder.h"
 #include "base/start_threads.h"
+#include "model/scenario_excerpt.h"
 #include "model/scenario_input.h"
 #include "report/run.h"
 #include "validation/subject/motion_check.h"
@@ -30,13 +31,14 @@ std::vector<std::filesystem::path> scenariosIn(const std::filesystem::path& fold
 }
 
 SuiteMember readMember(const std::filesystem::path& file) {
-  SuiteMember member{file.string(), {}, ""};
+  SuiteMember member{file.string(), {}, "", ""};
   try {
     member.scenario = readScenarioOrInput(file);
     member.name = member.scenario->name;
     tryMotion(*member.scenario);
   } catch (const ScenarioError& error) {
     member.error = error.what();  // starts with file:line:column
+    member.at_length = atLength(error);
   }
   return member;
 }
@@ -45,7 +47,8 @@ void readFolder(const std::filesystem::path& folder, std::vector<SuiteMember>& m
   const std::vector<std::filesystem::path> files = scenariosIn(folder);
   for (const std::filesystem::path& file : files) members.push_back(readMember(file));
   if (files.empty())
-    members.push_back({folder.string(), {}, folder.string() + ": error: no scenario in this folder, expected *.toml"});
+    members.push_back(
+        {folder.string(), {}, folder.string() + ": error: no scenario in this folder, expected *.toml", ""});
 }
 
 /// The names become folders next to the suite's own files.
@@ -130,7 +133,7 @@ std::vector<SuiteMember> readSuite(const std::vector<std::filesystem::path>& arg
 std::vector<SuiteMember> allOrNothing(std::vector<SuiteMember> members) {
   std::vector<std::string> errors;
   for (const SuiteMember& member : members)
-    if (!member.error.empty()) errors.push_back(member.error);
+    if (!member.error.empty()) errors.push_back(member.at_length.empty() ? member.error : member.at_length);
   if (!errors.empty()) throw ScenarioError(fmt::format("{}", fmt::join(errors, "\n")));
   return members;
 }

@@ -17,7 +17,8 @@ namespace ursula {
 struct SuiteMember {
   std::string name;  ///< the scenario's name, or the file's if it could not be read
   std::optional<Scenario> scenario;
-  std::string error;  ///< why it cannot be judged, starting with file:line:column; else empty
+  std::string error;           ///< why it cannot be judged, starting with file:line:column; else empty
+  std::string at_length = {};  ///< the same with the line in the file, if it is known
 };
 
 /// Reads the scenarios named by `arguments`, in their order. An argument is a file, - for standard input, or a folder,

@@ -185,9 +185,13 @@ const char* name(SweepDesign design) {
 
 SweepFile parseSweepFile(const std::string& text, const std::filesystem::path& file) {
   const toml::table table = parseToml(text, file.string());
-  SweepFile sweep = assemble(TomlSection(table, "", file.string()), file);
-  sweep.text = text;
-  return sweep;
+  try {
+    SweepFile sweep = assemble(TomlSection(table, "", file.string()), file);
+    sweep.text = text;
+    return sweep;
+  } catch (const PlacedError& error) {
+    throw error.in(text);
+  }
 }
 
 SweepFile readSweepFile(const std::filesystem::path& file) {

@@ -55,9 +55,9 @@ INSTANTIATE_TEST_SUITE_P(
         Odd{"inertia_order", "[4.2, 4.2, 0.015]", "@[0.015, 4.2, 4.2]", "its third entry, 4.2 kg m2"},
         Odd{"platform_inertia", "[800.0, 810.0, 820.0]", "@[8e8, 8.1e8, 8.2e8]", "8.2e+08 kg m2 is that of 500 kg at"},
         Odd{"axis", "[0.9397, 0.0, 0.3420]", "@[9.397, 0.0, 3.420]", "is 10 long and gets normalised"},
-        Odd{"degrees", "-1.5707963267948966", "@-90", "-90 rad are 14.3 turns"},
+        Odd{"degrees", "-1.5707963267948966", "@-90", "-90 rad are 14.3 turns: did you mean start_angle_deg = -90?"},
         Odd{"haste", "duration = 3.0", "duration = @0.01", "0.01 s make the platform accelerate by"},
-        Odd{"milliseconds", "duration = 3.0", "duration = @3000.0", "3000 s: milliseconds"}),
+        Odd{"milliseconds", "duration = 3.0", "duration = @3000.0", "3000 s: did you mean ms? 3000 ms are 3 s"}),
     [](const testing::TestParamInfo<Odd>& row) { return row.param.name; });
 
 TEST(OddScenario, isNoGoodOne) {
@@ -83,7 +83,8 @@ TEST(OddScenario, aPlatformPointFarOutAndMillimetresAreToldThoughTheMotionCannot
                                   "platform_point = [-0.0667, -6.3847, 0.0]")),
               testing::Contains(HasSubstr("is 6.38505 m from the platform's origin")));
   EXPECT_THAT(warningsOf(replaced(good_scenario, "distal = { length = 1.3", "distal = { length = 1300")),
-              testing::Contains(HasSubstr("1300 m, while the leg's other link is 1.4 m long: millimetres?")));
+              testing::Contains(
+                  HasSubstr("1300 m, while the leg's other link is 1.4 m long: did you mean mm? 1300 mm are 1.3 m")));
 }
 
 Scenario starting(const std::string& kind) {

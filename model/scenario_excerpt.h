@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "model/scenario.h"
+
+namespace ursula {
+
+/// A ScenarioError that knows its line and column, from 1, and can show them.
+class PlacedError : public ScenarioError {
+ public:
+  PlacedError(const std::string& what, std::size_t line, std::size_t column)
+      : ScenarioError(what), line_(line), column_(column) {}
+
+  /// The same, with the line at its place; `text` is the whole file.
+  PlacedError in(const std::string& text) const;
+  /// The line with a caret below, for people; empty where it is not known.
+  const std::string& excerpt() const { return excerpt_; }
+
+ private:
+  std::size_t line_, column_;
+  std::string excerpt_;
+};
+
+/// The error's text, and below it the place where that is known.
+std::string atLength(const ScenarioError& error);
+
+}  // namespace ursula

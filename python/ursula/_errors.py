@@ -1,0 +1,91 @@
+"""Wrong arguments are told in Python's words, not in those of the binding."""
+
+import functools
+import inspect
+import os
+import re
+
+_KINDS = {"float": "a number", "int": "an integer", "str": "a string", "bool": "True or False", "dict": "a dict"}
+_FITS = {"float": lambda x: hasattr(x, "__float__") or hasattr(x, "__index__"), "int": lambda x: hasattr(x, "__index__"),
+         "str": lambda x: isinstance(x, str), "bool": lambda x: isinstance(x, bool), "dict": lambda x: isinstance(x, dict)}
+_PATH = re.compile(r"PathLike|\bPath\b")
+
+
+def _signature(text):
+    """Of a docstring's first line, as the binding writes it: `name(s: T, *, jobs: int = 0) -> R`."""
+    inside = text[text.index("(") + 1:text.rindex(")", 0, (text + " ->").index(" ->"))]
+    parameters, kind = [], inspect.Parameter.POSITIONAL_OR_KEYWORD
+    for part in re.split(r",\s*(?![^\[\(]*[\]\)])", inside):
+        if part == "*":
+            kind = inspect.Parameter.KEYWORD_ONLY
+        elif part:
+            name, _, rest = part.partition(":")
+            kind_of, has_default, default = rest.strip().partition(" = ")
+            parameters.append(inspect.Parameter(name.strip(), kind, annotation=kind_of,
+                                                default=default if has_default else inspect.Parameter.empty))
+    return inspect.Signature(parameters)
+
+
+def _expected(annotation):
+    """What a person calls it, and whether a value is one; None where anything may be given."""
+    optional = re.fullmatch(r"(?:typing\.)?Optional\[(.*)\]", annotation)
+    if optional:
+        inner = _expected(optional[1])
+        return inner and (inner[0] + " or None", lambda x: x is None or inner[1](x))
+    if _PATH.search(annotation):
+        return "a path", lambda x: isinstance(x, (str, os.PathLike))
+    if annotation in _KINDS:
+        return _KINDS[annotation], _FITS[annotation]
+    listed = re.fullmatch(r"(?:typing\.)?(?:List|list)\[(.*)\]", annotation)
+    if listed:
+        inner = _expected(listed[1]) or ("value", lambda x: True)
+        return "a list, each " + inner[0], lambda x: isinstance(x, (list, tuple)) and all(map(inner[1], x))
+    if "ursula" in annotation:
+        name = annotation.rsplit(".", 1)[-1]
+        return "ursula." + name, lambda x: type(x).__name__ == name
+    return None
+
+
+def _shown(value):
+    text = repr(value)
+    return "None" if value is None else f"{text if len(text) < 60 else '…'} of type {type(value).__name__}"
+
+
+def _words(called, doc, arguments, named):
+    """What is wrong with a call that the binding refused."""
+    if "Overloaded function." in doc:
+        return f"{called}: {_shown(arguments[-1])} is none of what it takes"
+    try:
+        signature = _signature(doc.splitlines()[0])
+        bound = signature.bind(*arguments, **named)
+    except TypeError as error:
+        return f"{called}: {error}"
+    for name, value in bound.arguments.items():
+        expected = _expected(signature.parameters[name].annotation)
+        if expected and not expected[1](value):
+            return f"{called}: {name} is {_shown(value)}, expected {expected[0]}"
+    return f"{called}: arguments of other types than expected, see help"
+
+
+def in_words(function, called):
+    """The function, with refusals of its arguments in words."""
+
+    @functools.wraps(function)
+    def wrapped(*arguments, **named):
+        try:
+            return function(*arguments, **named)
+        except TypeError as error:
+            if "(): incompatible " not in str(error).split("\n", 1)[0]:
+                raise
+        raise TypeError(_words(called, function.__doc__, arguments, named))
+
+    return wrapped
+
+
+def put_in_words(classes):
+    """The same for every method of these classes that takes arguments."""
+    for each in classes:
+        for name, method in vars(each).copy().items():
+            takes = callable(method) and (method.__doc__ or "").startswith(name + "(")
+            if takes and name not in ("__setstate__", "__getstate__", "__reduce__"):
+                setattr(each, name, in_words(method, f"{each.__name__}.{name}" if name != "__init__" else each.__name__))
