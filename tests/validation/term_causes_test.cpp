@@ -1,6 +1,6 @@
 // Terms and loops of machines of every kind: taken together they are the NOC's efforts, and each mistake changes these.
 
-#include "validation/external/term_causes.h"
+#include "validation/external/tried_causes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

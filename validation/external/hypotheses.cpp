@@ -9,11 +9,7 @@
 
 #include "validation/external/cause.h"
 #include "validation/external/hypothesis_terms.h"
-#include "validation/external/machine_causes.h"
-#include "validation/external/motion_causes.h"
-#include "validation/external/signs_and_order.h"
-#include "validation/external/term_causes.h"
-#include "validation/external/time_shift.h"
+#include "validation/external/tried_causes.h"
 
 namespace ursula {
 namespace {

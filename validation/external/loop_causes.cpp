@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "validation/external/body_terms.h"
-#include "validation/external/term_causes.h"
+#include "validation/external/tried_causes.h"
 
 namespace ursula {
 namespace {

@@ -1,4 +1,4 @@
-#include "validation/external/machine_causes.h"
+#include "validation/external/tried_causes.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "validation/external/signs_and_order.h"
+#include "validation/external/tried_causes.h"
 
 #include <fmt/format.h>
 

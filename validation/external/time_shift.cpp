@@ -1,4 +1,4 @@
-#include "validation/external/time_shift.h"
+#include "validation/external/tried_causes.h"
 
 #include <fmt/format.h>
 
