@@ -52,7 +52,8 @@ int audit(const AuditOptions& options) {
 
 void addAudit(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<AuditOptions>();
-  CLI::App* verb = app.add_subcommand("audit", "Every printed formula of the paper against what holds, with residuals");
+  CLI::App* verb =
+      app.add_subcommand("audit", "Compares every printed formula of the paper with the correct one, with residuals");
   verb->add_option("scenario", options->scenario,
                    "Scenario file (TOML), - for standard input; default: the paper's helix, built in");
   verb->add_option("--out", options->out, "Folder for the page and the numbers");

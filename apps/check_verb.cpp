@@ -33,7 +33,7 @@ bool checkOne(const std::string& file, const CheckOptions& options) {
     for (const std::string& line : odd) tell(line + "\n");
     if (!options.picture.empty()) writeOutput(options.picture, picture(scenario));
     tryMotion(scenario);
-    tell(fmt::format("{}: can be read and its motion be made; {} warning{}\n", scenario.file.string(), odd.size(),
+    tell(fmt::format("{}: the scenario and its motion are valid; {} warning{}\n", scenario.file.string(), odd.size(),
                      odd.size() == 1 ? "" : "s"));
     return true;
   } catch (const ScenarioError& error) {
@@ -54,11 +54,12 @@ int check(const CheckOptions& options) {
 
 void addCheck(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<CheckOptions>();
-  CLI::App* verb = app.add_subcommand("check", "Reads and tries the motion only: errors, and warnings of what is odd");
+  CLI::App* verb =
+      app.add_subcommand("check", "Reads a scenario and tries its motion: reports errors, and warns of odd values");
   verb->add_option("scenarios", options->scenarios, "Scenario files (TOML), - for standard input")->required();
   verb->add_option("--picture", options->picture,
-                   "Draws the machine at the start of the motion, also where that is out of reach: SVG file; - for "
-                   "standard output");
+                   "Draws the machine at the start of the motion, even if it is out of reach: SVG file; - for standard "
+                   "output");
   verb->callback([options, &run] { run = [options] { return check(*options); }; });
 }
 

@@ -67,8 +67,8 @@ void addCompare(CLI::App& app, std::function<int()>& run) {
       ->capture_default_str();
   verb->add_flag_function(
       "--interpolate,!--no-interpolate", [options](std::int64_t given) { options->tolerances.interpolate = given > 0; },
-      "Interpolate the reference between its instants, or leave such instants out. Default: interpolate where it is at "
-      "least as fine as the test");
+      "Interpolate the reference between its instants, or leave such instants out. Default: interpolate if the "
+      "reference is at least as fine as the test");
   verb->add_option("--columns", options->tolerances.columns, "Columns to compare, such as tau_*,p_x_m. Default: all")
       ->delimiter(',');
   verb->add_option("--out", options->out,

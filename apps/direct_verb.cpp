@@ -59,7 +59,7 @@ Vector6d readNumbers(const NumbersOption& option, std::string_view text) {
     start = end + 1;
   }
   if (count != leg_count)
-    throw UsageError(fmt::format("{}: {} number{}, expected six with commas between, {}", option.option, count,
+    throw UsageError(fmt::format("{}: {} number{}, expected six in {}, separated by commas", option.option, count,
                                  count == 1 ? "" : "s", option.unit));
   return values;
 }
@@ -111,15 +111,14 @@ std::string legsThat(const PlatformPose& pose, Condition&& condition) {
 
 void summarise(const PlatformPoses& poses) {
   int index = 0;
-  say("{} real pose{}; {} of 8 solutions in the complex numbers accounted for\n", poses.size,
-      poses.size == 1 ? "" : "s", poses.counted);
+  say("{} real pose{}; {} of 8 complex solutions found\n", poses.size, poses.size == 1 ? "" : "s", poses.counted);
   for (const PlatformPose& pose : poses) {
     const std::string far = legsThat(pose, [](const LegAtPose& leg) { return !leg.in_reach; });
     const std::string behind = legsThat(pose, [](const LegAtPose& leg) { return !leg.front; });
     say("pose {}: P at ({:.6f}, {:.6f}, {:.6f}) m, {}{}{}\n", ++index, pose.p.x(), pose.p.y(), pose.p.z(),
         far.empty() ? "assembles" : far + " out of reach",
-        behind.empty() ? "" : "; " + behind + " behind the axis, where inverse kinematics says phi ± pi",
-        pose.multiplicity > 1 ? fmt::format("; {} poses in one, singular", pose.multiplicity) : "");
+        behind.empty() ? "" : "; " + behind + " behind the axis: inverse kinematics returns phi ± pi",
+        pose.multiplicity > 1 ? fmt::format("; {} poses coincide: singular", pose.multiplicity) : "");
   }
 }
 
@@ -171,7 +170,7 @@ int directOfStewartGough(const Scenario& scenario, const DirectOptions& options)
     return exit_inconclusive;
   }
   writeOutput(options.out, csvOf(poses));
-  say("{} real pose{}; {} poses in the complex numbers and {} solutions at infinity, of 40\n", poses.list.size(),
+  say("{} real pose{}; {} complex poses and {} solutions at infinity found, of 40\n", poses.list.size(),
       poses.list.size() == 1 ? "" : "s", poses.counted, poses.at_infinity);
   if (const int leg = beyondStroke(*scenario.manipulator, lengths); leg >= 0)
     say("leg {} cannot be {:g} m long: its stroke is from {:g} m to {:g} m\n", leg + 1, lengths(leg),
@@ -201,10 +200,9 @@ int direct(const DirectOptions& options) {
   const Manipulator& machine = *scenario.manipulator;
   const bool of_paper = machine.isOfThePaper(), telescopic = isStewartGough(machine);
   if (!of_paper && !telescopic)
-    throw UsageError(fmt::format(
-        "direct: {}: has {}; every pose can be found of six URS legs driven by phi (--phi) and of six UPS legs driven "
-        "by d (--d) alone",
-        scenario.file.string(), inWords(machine)));
+    throw UsageError(
+        fmt::format("direct: {}: has {}, expected six URS legs driven by phi (--phi) or six UPS legs driven by d (--d)",
+                    scenario.file.string(), inWords(machine)));
   const char* takes = of_paper ? "--phi phi_1,...,phi_6" : "--d d_1,...,d_6";
   const bool given = of_paper ? !options.phi.empty() : !options.d.empty();
   const bool surplus = of_paper ? !options.d.empty() : !options.phi.empty();
@@ -218,20 +216,18 @@ int direct(const DirectOptions& options) {
 void addDirect(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<DirectOptions>();
   CLI::App* verb =
-      app.add_subcommand("direct", "Every real pose of the platform for given angles or lengths of its legs, as CSV");
+      app.add_subcommand("direct", "Computes every real pose of the platform for given leg angles or lengths, as CSV");
   verb->add_option("scenario", options->scenario, "Scenario file (TOML), - for standard input")->required();
-  verb->add_option("--phi", options->phi, "Of six URS legs, angles with commas between, rad: phi_1,...,phi_6");
-  verb->add_option("--d", options->d, "Of six UPS legs, lengths with commas between, m: d_1,...,d_6");
+  verb->add_option("--phi", options->phi, "Angles of six URS legs, rad, separated by commas: phi_1,...,phi_6");
+  verb->add_option("--d", options->d, "Lengths of six UPS legs, m, separated by commas: d_1,...,d_6");
   verb->add_option("--out", options->out, "CSV file; - for standard output")->capture_default_str();
   verb->footer(
-      "One row a pose. Of UPS legs at most 40. Of URS legs at most eight; those that assemble come first. A pose that "
-      "legs cannot reach is listed with\n"
-      "assembles = 0, reach_i = 0, and psi_i, theta_i = nan. side_i = 1: B_i lies where inverse kinematics answers "
-      "with\n"
-      "phi_i; 0: it says phi_i ± pi. psi, theta are for the manipulator's own bend of each knee; the other reaches "
-      "too.\n"
-      "Exit code: 0 every real pose was found (without any, the header alone), 2 bad input, 3 the angles leave the\n"
-      "platform free to move, or a pose may be missing.");
+      "Each row is one pose. UPS legs have at most 40 poses, URS legs at most eight; poses that assemble come first.\n"
+      "A pose that leg i cannot reach has assembles = 0, reach_i = 0 and psi_i, theta_i = nan. If side_i = 1, inverse\n"
+      "kinematics returns phi_i for B_i; if it is 0, inverse kinematics returns phi_i ± pi. psi and theta are for the\n"
+      "manipulator's own bend of each knee; the other bend also reaches.\n"
+      "Exit code: 0 every real pose was found (if there is none, only the header is written), 2 bad input, 3 the\n"
+      "angles leave the platform free to move, or a pose may be missing.");
   verb->callback([options, &run] { run = [options] { return direct(*options); }; });
 }
 

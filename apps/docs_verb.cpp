@@ -35,10 +35,10 @@ int docs(const DocsOptions& options, const CLI::App& app) {
 
 void addDocs(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<DocsOptions>();
-  CLI::App* verb = app.add_subcommand("docs", "Writes what is made of the program's own definitions");
+  CLI::App* verb = app.add_subcommand("docs", "Writes the documents that are made from the program's own definitions");
   verb->group("");  // for developers: not listed
   verb->add_option("folder", options->folder,
-                   "Where checks.md, scenario.md and scenario.schema.json go, for ./dev docs");
+                   "Folder for checks.md, scenario.md and scenario.schema.json (./dev docs)");
   CLI::Option* shell =
       verb->add_option("--completion", options->shell, "The completion for bash, zsh or fish, on standard output")
           ->check(CLI::IsMember({"bash", "zsh", "fish"}));

@@ -47,12 +47,14 @@ int exportModel(const ExportOptions& options) {
 void addExport(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<ExportOptions>();
   CLI::App* verb =
-      app.add_subcommand("export", "The machine at the motion's first instant, as a model for other tools");
+      app.add_subcommand("export", "Writes the machine at the motion's first instant as a model for other tools");
   verb->add_option("scenario", options->scenario, "Scenario file (TOML), - for standard input")->required();
   const std::map<std::string, ModelFormat> formats = {
       {"sdf", ModelFormat::sdf}, {"mjcf", ModelFormat::mjcf}, {"urdf", ModelFormat::urdf}};
-  takeOneOf(verb->add_option("--format", options->format, "Of Gazebo, of MuJoCo, or what most tools read")->required(),
-            formats);
+  takeOneOf(
+      verb->add_option("--format", options->format, "sdf: for Gazebo; mjcf: for MuJoCo; urdf: for most other tools")
+          ->required(),
+      formats);
   verb->add_option("--out", options->out, "Model file; - for standard output")->capture_default_str();
   verb->callback([options, &run] { run = [options] { return exportModel(*options); }; });
 }

@@ -59,8 +59,8 @@ std::string namedTwice(const CLI::App& app) {
   for (const Named& written : files)
     for (const Named& other : files)
       if (written.written && &written != &other && areSame(written.file, other.file))
-        return fmt::format("{} {}: is also {}, expected another file", written.option, written.file,
-                           other.written ? other.option : "what is read");
+        return fmt::format("{} {}: {} this file, expected another file", written.option, written.file,
+                           other.written ? other.option + " also writes" : "the program reads");
   return "";
 }
 
@@ -69,7 +69,7 @@ void requireApart(const Scenario& scenario, std::initializer_list<std::string> w
   for (const std::filesystem::path& read : filesNamedBy(scenario))
     for (const std::string& file : written)
       if (namesFile(file) && areSame(file, read.string()))
-        throw UsageError(fmt::format("{}: is also what {} reads, expected another file", file, scenario.file.string()));
+        throw UsageError(fmt::format("{}: {} reads this file, expected another file", file, scenario.file.string()));
 }
 
 void requireOutside(std::initializer_list<std::string> compared, std::initializer_list<std::string> written) {
@@ -77,7 +77,7 @@ void requireOutside(std::initializer_list<std::string> compared, std::initialize
   for (const std::string& folder : compared)
     for (const std::string& file : written)
       if (std::filesystem::is_directory(folder, none) && namesFile(file) && isIn(folder, file))
-        throw UsageError(fmt::format("{}: is in {}, which is compared, expected another folder", file, folder));
+        throw UsageError(fmt::format("{}: is inside {}, which is compared, expected another folder", file, folder));
 }
 
 }  // namespace ursula

@@ -44,29 +44,31 @@ int import(const ImportOptions& options) {
 
 void addImport(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<ImportOptions>();
-  CLI::App* verb = app.add_subcommand(
-      "import", "Makes a scenario of a model in SDF, MJCF or URDF, and says what it took for granted");
+  CLI::App* verb =
+      app.add_subcommand("import", "Makes a scenario from a model in SDF, MJCF or URDF, and prints its assumptions");
   exchange::ImportChoices& choices = options->choices;
   verb->add_option("model", options->model, "Model file: SDF, MJCF or URDF")->required();
   verb->add_option("--base", choices.base,
-                   "Body that stands still, whose frame is B; by default what is fixed to the world, in its axes");
-  verb->add_option("--platform", choices.platform, "Body that the legs carry, whose frame is M");
+                   "Fixed body, whose frame is B; default: the bodies fixed to the world, in the world's axes");
+  verb->add_option("--platform", choices.platform, "Body that the legs carry; its frame is M");
   verb->add_option("--actuated", choices.actuated,
-                   "Joints that motors drive, six in all, instead of those that the file names")
+                   "The six joints that motors drive, instead of those that the file names")
       ->delimiter(',');
-  verb->add_option("--close", choices.closed, "Two links, A:B, whose frames' origins a ball joins; once for each loop");
-  verb->add_option("--tolerance", choices.tolerance,
-                   "What is taken as square, parallel and meeting: rad, and share of the machine's size")
+  verb->add_option("--close", choices.closed,
+                   "Two links, A:B: a ball joint connects the origins of their frames; once for each loop");
+  verb->add_option(
+          "--tolerance", choices.tolerance,
+          "Largest error of axes that count as square, parallel or meeting: rad, and share of the machine's size")
       ->check(finiteNotNegative())
       ->capture_default_str();
-  verb->add_option("--lump", choices.lump,
-                   "Share of a leg's moments that the crosses within its joints may have and lose")
+  verb->add_option(
+          "--lump", choices.lump,
+          "Largest share of a leg's moments of inertia that crosses within its joints may have; it is left out")
       ->transform(withoutPercent)
       ->check(finiteNotNegative())
       ->capture_default_str();
   verb->add_option("--out", options->out, "Scenario file (TOML); - for standard output")->capture_default_str();
-  verb->add_flag("--json", options->json,
-                 "Scenario and assumptions as JSON on standard output, and nothing else there");
+  verb->add_flag("--json", options->json, "Prints only scenario and assumptions as JSON on standard output");
   verb->callback([options, &run] { run = [options] { return import(*options); }; });
 }
 

@@ -54,10 +54,11 @@ std::string manPage(const ProgramWords& words) {
   return fmt::format(
       ".TH URSULA 1 \"\" \"ursula {}\" \"User commands\"\n.SH NAME\nursula \\- {}\n.SH SYNOPSIS\n{}.SH OPTIONS\n{}"
       ".SH VERBS\n{}.SH EXIT STATUS\n0 passed, 1 a check failed, 2 bad input or usage and nothing written, 3 "
-      "inconclusive.\n.SH ENVIRONMENT\n{}{}.SH FILES\n.I /usr/share/ursula/scenarios\nscenarios that ship\n",
+      "inconclusive.\n.SH ENVIRONMENT\n{}{}.SH FILES\n.I /usr/share/ursula/scenarios\nscenarios that are installed "
+      "with ursula\n",
       words.version.substr(0, words.version.find(' ')), roff(what.substr(what.find(": ") + 2)), synopses, options,
-      sections, entry("NO_COLOR", "where it is set and not empty, nothing is coloured"),
-      entry("BROWSER", "what ursula open starts; else xdg-open"));
+      sections, entry("NO_COLOR", "if it is set and not empty, the output has no colours"),
+      entry("BROWSER", "the program that ursula open starts; default: xdg-open"));
 }
 
 }  // namespace ursula

@@ -68,11 +68,11 @@ void addMap(CLI::App& app, std::function<int()>& run) {
   for (std::size_t i = 0; i < grid_axes; ++i)
     verb->add_option(std::string("--") + grid_axis_names[i], options->axes[i],
                      std::string(i < 3 ? "Position of P in B, m" : "Angle, degrees: Q = Rz(yaw) Ry(pitch) Rx(roll)") +
-                         ": FROM,TO,COUNT, or one value. Two or three vary; by default x, y, z around the path");
-  verb->add_option("--at", options->at, "Instant, s, whose pose gives the coordinates that are not said")
+                         ": FROM,TO,COUNT, or one value. Two or three axes vary; default: x, y, z around the path");
+  verb->add_option("--at", options->at, "Instant, s; its pose gives the coordinates that are not given")
       ->capture_default_str();
   verb->add_option("--out", options->out, "CSV file; - for standard output, the default without --picture");
-  verb->add_option("--picture", options->picture, "Heat maps of all: SVG file; - for standard output");
+  verb->add_option("--picture", options->picture, "Heat maps of every quantity: SVG file; - for standard output");
   addRowOptions(*verb, options->format, options->jobs);
   verb->callback([options, &run] { run = [options] { return map(*options); }; });
 }

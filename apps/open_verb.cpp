@@ -80,7 +80,7 @@ int openResults(const std::string& folder) {
 void addOpen(CLI::App& app, std::function<int()>& run) {
   const auto folder = std::make_shared<std::string>();
   CLI::App* verb = app.add_subcommand("open", "Shows the report of a results folder in the browser");
-  verb->add_option("folder", *folder, "Folder with report.html or, of a suite, index.html")->required();
+  verb->add_option("folder", *folder, "Folder with report.html, or with index.html if it holds a suite")->required();
   verb->footer("Prints the page's path and starts $BROWSER, else xdg-open, without waiting for it.");
   verb->callback([folder, &run] { run = [folder] { return openResults(*folder); }; });
 }

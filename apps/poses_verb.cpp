@@ -18,7 +18,8 @@ struct PosesOptions {
 
 void addPoses(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<PosesOptions>();
-  CLI::App* verb = app.add_subcommand("poses", "Points A, R, B of every leg along the trajectory, as CSV: to draw it");
+  CLI::App* verb =
+      app.add_subcommand("poses", "Writes points A, R, B of every leg along the trajectory as CSV, for drawings");
   verb->add_option("scenario", options->scenario, "Scenario file (TOML), - for standard input")->required();
   verb->add_option("--samples", options->samples, "Equally spaced instants from 0 to t_f")
       ->check(CLI::Range(2, 1000000))

@@ -67,9 +67,9 @@ void printMatrix(const std::vector<DefectOutcome>& outcomes) {
     fmt::print("{:>4}{}\n", outcome.engines(), remark(outcome));
   }
   fmt::print(
-      "\n{} defects, {} of them change something here; {} of these show on one formulation by their nature; {} caught "
-      "on "
-      "fewer than they must, which is two for the others\n\n",
+      "\n{} defects, {} of them change results here; {} of these can show on one formulation only; {} are caught on "
+      "too "
+      "few formulations (at least two for the others)\n\n",
       outcomes.size(), shown, on_one, weakDefects(outcomes));
 }
 
@@ -81,14 +81,15 @@ std::string listed(const std::vector<std::string>& names) {
 }
 
 void printChecks(const std::vector<CheckProof>& checks) {
-  fmt::print("Check: the defects that it alone catches, and those that it catches first, in the result's order.\n\n");
+  fmt::print(
+      "Each check, with the defects that it alone catches, and those that it catches first (in the result's "
+      "order).\n\n");
   fmt::print("{:<30} {:>5} {:>5}\n", "", "alone", "first");
   for (const CheckProof& proof : checks) {
     fmt::print("{:<30} {:>5} {:>5}  ", proof.check, proof.alone.size(), proof.first.size());
     fmt::print("{}\n", !isNeeded(proof) ? "NONE" : listed(proof.alone.empty() ? proof.first : proof.alone));
   }
-  fmt::print("\n{} checks, {} of them without a defect that they alone or first catch\n\n", checks.size(),
-             idleChecks(checks));
+  fmt::print("\n{} checks; {} of them catch no defect alone or first\n\n", checks.size(), idleChecks(checks));
 }
 
 void printSensitivities(const std::vector<Sensitivity>& sensitivities) {

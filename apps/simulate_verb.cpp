@@ -55,11 +55,11 @@ int simulateVerb(const SimulateOptions& options) {
 
 void addSimulate(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<SimulateOptions>();
-  CLI::App* verb = app.add_subcommand("simulate", "The motion that a torque history produces, as CSV");
+  CLI::App* verb = app.add_subcommand("simulate", "Computes the motion that a torque history produces, as CSV");
   verb->add_option("scenario", options->scenario,
                    "Scenario file (TOML), - for standard input; the motion starts in its commanded state")
       ->required();
-  verb->add_option("--torques", options->torques, "CSV file with t_s and tau_{1..6}_Nm, or _N of motors that slide")
+  verb->add_option("--torques", options->torques, "CSV file with t_s and tau_{1..6}_Nm, or _N for motors that slide")
       ->required();
   addMapOption(*verb, options->map);
   const std::map<std::string, SimulationEngine> engines{{"noc", SimulationEngine::noc},
@@ -67,7 +67,7 @@ void addSimulate(CLI::App& app, std::function<int()>& run) {
   takeOneOf(verb->add_option("--engine", options->engine, "noc: (36); simbody: the closed loop. Default: simbody"),
             engines);
   verb->add_option("--time-limit", options->time_limit,
-                   "The motion stops where it is after so many seconds of work, with exit 1. Default: none")
+                   "The simulation stops after this wall time, s, with exit code 1. Default: no limit")
       ->check(finitePositive());
   verb->add_option("--out", options->out, "CSV file; - for standard output")->capture_default_str();
   verb->callback([options, &run] { run = [options] { return simulateVerb(*options); }; });

@@ -44,13 +44,14 @@ int report(const ReportOptions& options) {
 
 void addSweepReport(CLI::App& sweep, std::function<int()>& run) {
   const auto options = std::make_shared<ReportOptions>();
-  CLI::App* verb =
-      sweep.add_subcommand("report", "A page of what a sweep found: what drives what, and the worst points");
+  CLI::App* verb = sweep.add_subcommand(
+      "report", "Writes a page of a sweep's results: which parameters drive which results, and the worst points");
   verb->add_option("database", options->database, "Database of a sweep")->required();
   verb->add_option("--out", options->out, "Folder of report.html, default results/DATABASE; - for standard output");
-  verb->add_option("--csv", options->csv,
-                   "All points as CSV instead, a row each: a file, or - for standard output; with --out both");
-  verb->footer("Exit: 0, whatever the verdicts of its points.");
+  verb->add_option(
+      "--csv", options->csv,
+      "Writes all points as CSV instead, one row each: a file, or - for standard output; with --out, both");
+  verb->footer("Exit code: 0, whatever the verdicts of the points are.");
   verb->callback([options, &run] { run = [options] { return report(*options); }; });
 }
 

@@ -50,10 +50,10 @@ std::int64_t submitted(const std::vector<std::string>& words) {
 /// Reports shards that are neither missing nor complete.
 void sayOthers(const SlurmStanding& standing, const std::filesystem::path& database, int shards) {
   if (const std::vector<int> queued = standing.in(ShardState::queued); !queued.empty())
-    fmt::print("{} of {} shards are in the queue already, job {}: not submitted again\n", queued.size(), shards,
+    fmt::print("{} of {} shards are already in the queue (job {}) and are not submitted again\n", queued.size(), shards,
                fmt::join(standing.arrays, " and "));
   for (const int index : standing.in(ShardState::locked))
-    fmt::print("{} is being written to: not submitted; call again when that has ended\n",
+    fmt::print("{} is in use and its shard is not submitted; call again when its writer has ended\n",
                shardDatabase(database, {index, shards}).string());
 }
 
@@ -117,10 +117,10 @@ void submit(const SlurmJob& job, const SlurmStanding& standing, bool merge) {
 }  // namespace
 
 int submitSweep(const SweepPlan& plan, SlurmCall call) {
-  if (call.shards == 0) throw UsageError("--slurm: expected --shards N too: how many tasks the sweep is cut into");
+  if (call.shards == 0) throw UsageError("--slurm: expected also --shards N, the number of tasks that share the sweep");
   const SweepIdentity sweep = plan.identity();
   if (call.shards > sweep.points) {
-    say("--shards {}: taken as {}, as there are no more points\n", call.shards, sweep.points);
+    say("--shards {}: reduced to {}, the number of points\n", call.shards, sweep.points);
     call.shards = static_cast<int>(sweep.points);
   }
   SlurmJob job = jobOf(plan, call);

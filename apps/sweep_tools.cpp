@@ -45,7 +45,7 @@ int merge(const MergeOptions& options) {
         },
         [] { return stopSignal() != 0; });
   } catch (const DatabaseStopped&) {
-    say("stopped: databases that were done are in {}; the same command goes on from there\n", options.database);
+    say("stopped: the databases merged so far are in {}; the same command continues from there\n", options.database);
     return 128 + stopSignal();
   }
   fmt::print("{} of {} points, {} of them new\n{}\n", result.done, result.identity.points, result.added,
@@ -73,12 +73,14 @@ int show(const ShowOptions& options) {
 
 void addSweepMerge(CLI::App& sweep, std::function<int()>& run) {
   const auto options = std::make_shared<MergeOptions>();
-  CLI::App* verb = sweep.add_subcommand("merge", "One database from those of shards; may be called again");
+  CLI::App* verb = sweep.add_subcommand("merge", "Merges the databases of shards into one; may be called again");
   verb->add_option("databases", options->parts, "Databases of one sweep")->required();
-  verb->add_option("--db", options->database, "Database that all go into; made where it is not there")->required();
+  verb->add_option("--db", options->database, "Database that receives all points; it is made if it does not exist")
+      ->required();
   verb->footer(
-      "Exit: 0 where all points are there, 3 where some are missing; then it says which, and how to make them.\n"
-      "130 or 143 where Ctrl-C or SIGTERM stopped it: the same command goes on.");
+      "Exit code: 0 if all points are there; 3 if some are missing: it then prints which, and the commands to make "
+      "them.\n"
+      "130 or 143 if Ctrl-C or SIGTERM stopped it: the same command continues.");
   verb->callback([options, &run] { run = [options] { return merge(*options); }; });
 }
 
@@ -89,7 +91,7 @@ void addSweepShow(CLI::App& sweep, std::function<int()>& run) {
   verb->add_option("id", options->id, "Number of the point, from 0")
       ->required()
       ->check(CLI::Range(std::int64_t{0}, most_points - 1));
-  verb->footer("Exit: 0, or 2 where there is no such point.");
+  verb->footer("Exit code: 0, or 2 if there is no such point.");
   verb->callback([options, &run] { run = [options] { return show(*options); }; });
 }
 

@@ -77,7 +77,7 @@ int sweep(const SweepOptions& options) {
   const std::filesystem::path database = databaseOf(options, shard);
   SweepFile file = readSweepFile(options.sweep);
   if (options.pointwise && file.work != SweepWork::validate)
-    throw UsageError("--pointwise: of what = \"validate\" alone");
+    throw UsageError("--pointwise: expected a sweep with what = \"validate\"");
   file.pointwise = file.pointwise || options.pointwise;
   SweepPlan plan(std::move(file));
   if (options.slurm)
@@ -105,12 +105,12 @@ int sweep(const SweepOptions& options) {
 
 void addSlurmOptions(CLI::App& verb, SweepOptions& options) {
   CLI::Option* slurm =
-      verb.add_flag("--slurm", options.slurm, "Give it to a Slurm cluster: a job array and a merge after it");
+      verb.add_flag("--slurm", options.slurm, "Submits the sweep to a Slurm cluster: a job array, then a merge");
   slurm->excludes("--shard")->excludes("--retry-errors");
-  verb.add_option("--shards", options.shards, "Tasks of the array; each of --jobs processes, by default 1")
+  verb.add_option("--shards", options.shards, "Number of tasks in the array; each has --jobs processes, default 1")
       ->check(CLI::Range(1, most_slurm_shards))
       ->needs(slurm);
-  verb.add_flag("--dry-run", options.dry_run, "Print the scripts, submit nothing; needs no Slurm")->needs(slurm);
+  verb.add_flag("--dry-run", options.dry_run, "Prints the scripts and submits nothing; needs no Slurm")->needs(slurm);
 }
 
 }  // namespace
@@ -131,24 +131,24 @@ std::string defaultDatabase(const std::string& stem, const Shard& shard) {
 
 void addSweep(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<SweepOptions>();
-  CLI::App* verb = app.add_subcommand(
-      "sweep",
-      "Many scenarios around one, into a database; goes on where it stopped. Also: sweep merge,\nreport, show");
+  CLI::App* verb = app.add_subcommand("sweep",
+                                      "Runs many variants of one scenario into a database; continues where it stopped. "
+                                      "Also:\nsweep merge, report, show");
   verb->add_option("sweep", options->sweep, "Sweep file (TOML)");
   verb->add_option("--db", options->database, "SQLite database; default results/SWEEP.db");
   verb->add_option("--jobs", options->jobs, "Processes; rows are the same for any number")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  verb->add_option("--shard", options->shard, "I/N: only the I-th of N parts, I from 1; into a database of its own");
+  verb->add_option("--shard", options->shard, "I/N: runs only the I-th of N parts, I from 1, into its own database");
   verb->add_flag("--pointwise", options->pointwise,
-                 "Of validations only what needs no replay: some hundred times as many");
+                 "Runs only the checks that need no replay, which is some hundred times as fast");
   verb->add_flag("--retry-errors", options->retry_errors,
-                 "Make points again that ended in error, as where memory was short");
+                 "Runs points again that ended in error, for example because memory ran out");
   addSlurmOptions(*verb, *options);
   verb->footer(
-      "Exit: 1 if any point failed, else 3 if any was inconclusive or in error, else 0; out of reach or singular is a\n"
-      "result. 130 where Ctrl-C stopped it, 143 where SIGTERM did: what is done is kept, and the same command goes "
-      "on.");
+      "Exit code: 1 if any point failed, else 3 if any was inconclusive or in error, else 0; a point out of reach or\n"
+      "singular is a result. 130 if Ctrl-C stopped it, 143 if SIGTERM did: finished points are kept, and the same\n"
+      "command continues.");
   addSweepMerge(*verb, run);
   addSweepReport(*verb, run);
   addSweepShow(*verb, run);

@@ -12,8 +12,9 @@
 namespace ursula {
 
 void addMapOption(CLI::App& verb, std::vector<std::string>& map) {
-  verb.add_option("--map", map,
-                  "A torque file's own name for a column, as in tau_1_Nm=tau1 or t_ms=Time; may be repeated")
+  verb.add_option(
+          "--map", map,
+          "The name that the torque file gives to a column, such as tau_1_Nm=tau1 or t_ms=Time; may be repeated")
       ->type_name("NAME=COLUMN")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
@@ -24,7 +25,7 @@ TorqueFile readTorquesAloud(const std::string& file, const std::vector<std::stri
   const TorqueFile torques = readTorqueFile(file, parseColumnMap(map, motors), motors);
   if (!torques.read_as.empty()) say("{}: read as: {}\n", shownPath(file), torques.read_as);
   if (!torques.ignored.empty())
-    say("{}: ignoring columns that are none of t_s, {} … {}: {}\n", shownPath(file), effortColumn(motors, 0),
+    say("{}: columns other than t_s, {} … {} are ignored: {}\n", shownPath(file), effortColumn(motors, 0),
         effortColumn(motors, motor_count - 1), shown(fmt::format("{}", fmt::join(torques.ignored, ", ")), 400));
   return torques;
 }

@@ -50,7 +50,7 @@ std::string firstOf(const CLI::App& app, const Wrong& wrong) {
       for (const CLI::Option* option : at->get_options())
         for (const std::string& value : option->results())
           if (const std::string what = wrong(*option, value); !what.empty())
-            return fmt::format("ursula {}: {} {} (ursula {} --help says how it is called)", verb->get_name(),
+            return fmt::format("ursula {}: {} {} (ursula {} --help shows the usage)", verb->get_name(),
                                option->get_name(), what, verb->get_name());
   return "";
 }
@@ -87,10 +87,9 @@ std::string misuse(const CLI::App& app, const CLI::ParseError& error) {
                        who);
   }
   if (!surplus.empty())
-    return fmt::format("{}: \"{}\" is one argument too many ({} --help says how it is called)", who, surplus.front(),
-                       who);
+    return fmt::format("{}: \"{}\" is one argument too many ({} --help shows the usage)", who, surplus.front(), who);
   const char* expected = error.get_name() == "ConversionError" ? ", expected a number" : "";
-  return fmt::format("{}: {}{} ({} --help says how it is called)", who, error.what(), expected, who);
+  return fmt::format("{}: {}{} ({} --help shows the usage)", who, error.what(), expected, who);
 }
 
 std::string emptyValue(const CLI::App& app) {
@@ -107,7 +106,7 @@ std::string oddNumber(const CLI::App& app) {
     const std::string digits = value.substr(value.find_first_not_of("+-"));
     const bool is_plain =
         leadingNumber(value).length == value.size() && (!is_whole || digits.size() == 1 || digits.front() != '0');
-    return is_plain ? "" : fmt::format("{}: is no {}", value, is_whole ? "whole number as people write it" : "number");
+    return is_plain ? "" : fmt::format("{}: is not a {}", value, is_whole ? "whole number in plain digits" : "number");
   });
 }
 

@@ -137,11 +137,12 @@ int validateSuite(const std::vector<SuiteMember>& members, const ValidateOptions
 void requireSense(const ValidateOptions& options, const std::vector<SuiteMember>& members) {
   for (const auto& [option, value] : {std::pair("--torques", options.torques), {"--solver", options.solver.command}})
     if (members.size() > 1 && !value.empty())
-      throw UsageError(fmt::format("{} judges one motion, expected one scenario, not {}", option, members.size()));
+      throw UsageError(
+          fmt::format("{}: got {} scenarios, expected one, because it judges one motion", option, members.size()));
   if (!options.map.empty() && options.torques.empty())
-    throw UsageError("--map names columns, expected --torques FILE.csv");
+    throw UsageError("--map: expected also --torques FILE.csv, whose columns it names");
   if (!options.solver.command.empty() && options.scenarios.front() == "-")
-    throw UsageError("--solver tells its command the scenario's path, expected a file, not -");
+    throw UsageError("--solver: got - as the scenario, expected a file, because the command gets its path");
 }
 
 std::filesystem::path folderOf(const ValidateOptions& options, const std::vector<SuiteMember>& members) {
@@ -193,27 +194,27 @@ int validateAll(const ValidateOptions& options) {
 void addOutputOptions(CLI::App& verb, ValidateOptions& options) {
   verb.add_option("--out", options.out,
                   "Folder of the results; default results/NAME, for several scenarios results/suite");
-  CLI::Option* json =
-      verb.add_flag("--json", options.json,
-                    "The summary alone on standard output, as in summary.json; of several scenarios an array of them,\n"
-                    "where one in error has scenario, verdict \"error\" and error");
+  CLI::Option* json = verb.add_flag(
+      "--json", options.json,
+      "Prints only the summary on standard output, as in summary.json; for several scenarios an array of them.\n"
+      "A scenario in error then has scenario, verdict \"error\" and error");
   verb.add_flag("--quiet", options.quiet,
-                "The verdict alone, a line for each scenario, and why where it is no pass; no progress")
+                "Prints one line for each scenario: the verdict, and the reason unless it is a pass; no progress")
       ->excludes(json);
 }
 
 void addOtherSolvers(CLI::App& verb, ValidateOptions& options) {
   CLI::Option* torques =
       verb.add_option("--torques", options.torques,
-                      "CSV of somebody else's torques or forces to judge instead: t_s and tau_1_Nm … tau_6_Nm,\n"
-                      "tau_1_N … of motors that slide");
-  CLI::Option* solver =
-      verb.add_option("--solver", options.solver.command,
-                      "Command to judge instead: started once by sh, it answers each line of a motion on its standard\n"
-                      "input (t,p,q,v,w,a,alpha: 20 values with commas) with a line of six torques or forces");
+                      "CSV file of other torques or forces to judge instead: t_s and tau_1_Nm … tau_6_Nm,\n"
+                      "tau_1_N … for motors that slide");
+  CLI::Option* solver = verb.add_option(
+      "--solver", options.solver.command,
+      "Command to judge instead: sh starts it once. It reads the motion line by line on its standard input\n"
+      "(t,p,q,v,w,a,alpha: 20 values, separated by commas) and answers each line with six torques or forces");
   solver->excludes(torques)->check(
       [](const std::string& command) { return command.empty() ? std::string("expected a command") : std::string(); });
-  verb.add_option("--solver-timeout", options.solver.timeout, "For an answer of that command, s")
+  verb.add_option("--solver-timeout", options.solver.timeout, "Longest wait for an answer of that command, s")
       ->check(finitePositive())
       ->check(CLI::Range(1e-3, 1e6))
       ->capture_default_str()
@@ -232,30 +233,31 @@ void addValidate(CLI::App& app, std::function<int()>& run) {
       ->required();
   addOutputOptions(*verb, *options);
   verb->add_option("--jobs", options->jobs,
-                   "Scenarios judged at a time; of one, threads. Results are the same for any number")
+                   "Number of scenarios judged at a time; for one scenario, of threads. Results do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  verb->add_option(
-          "--time-limit", options->time_limit,
-          "For a scenario, s: what is not reached by then is inconclusive (exit 3), and the report is written.\n"
-          "Default: none for one scenario, 600 for each of several")
+  verb->add_option("--time-limit", options->time_limit,
+                   "Wall time for each scenario, s: checks that it cuts short are inconclusive (exit 3); the report is "
+                   "written.\n"
+                   "Default: no limit for one scenario, 600 for each of several")
       ->check(finitePositive());
   verb->add_flag("--strict", options->strict,
-                 "Of several scenarios nothing is computed or written unless all can be read and their motions made");
+                 "Computes and writes nothing unless every scenario can be read and has a valid motion");
   addOtherSolvers(*verb, *options);
   verb->add_option(
           "--rtol", options->rtol,
-          "Torques or forces pass that are off by no more, relative to the largest of the motion, also as 1%;\n"
-          "wins over [acceptance] torque")
+          "Largest error of torques or forces that pass, relative to the largest effort of the motion, also as 1%;\n"
+          "takes precedence over [acceptance] torque")
       ->check(finitePositive())
       ->transform(withoutPercent);  // transforms run in reverse order
-  verb->add_option("--atol", options->atol, "The same in N m, or N; both are added")->check(finitePositive());
-  verb->add_flag("--any-tolerance", options->any_tolerance, "Take a tolerance at which zeros would pass, too");
+  verb->add_option("--atol", options->atol, "The same in N m, or N; the sum of both counts")->check(finitePositive());
+  verb->add_flag("--any-tolerance", options->any_tolerance, "Accepts even a tolerance at which zeros would pass");
   verb->footer(
-      "Several scenarios: one folder each under DIR, with index.html and one junit.xml over all. One that cannot be\n"
-      "read, is out of reach or singular is in error there, and the others are judged; with --strict, where all are\n"
-      "in error, or where two share a name, nothing is written (exit 2).\n"
-      "Exit: 1 if any failed or was in error, else 3 if any was inconclusive, else 0.");
+      "Several scenarios: each gets a folder under DIR, and all share index.html and junit.xml. A scenario that "
+      "cannot\n"
+      "be read, is out of reach or is singular counts as an error, and the others are judged. Nothing is written\n"
+      "(exit 2) if all are in error, if two share a name, or if any is in error with --strict.\n"
+      "Exit code: 1 if any failed or was in error, else 3 if any was inconclusive, else 0.");
   verb->callback([options, &run] { run = [options] { return validateAll(*options); }; });
 }
 

@@ -18,7 +18,7 @@ CLI::Validator finite(const char* what, bool (*fits)(double)) {
   const auto check = [what, fits](const std::string& text) {
     const LeadingNumber read = leadingNumber(text);
     const bool is_number = !text.empty() && read.length == text.size() && std::isfinite(read.value);
-    return is_number && fits(read.value) ? std::string() : "'" + text + "' is no " + what;
+    return is_number && fits(read.value) ? std::string() : "'" + text + "' is not a " + what;
   };
   return CLI::Validator(check, "POSITIVE");
 }
@@ -44,7 +44,7 @@ CLI::Validator wholeNumber() {
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool is_whole = error == std::errc() && end == text.data() + text.size();
-    return is_whole ? std::string() : fmt::format("'{}' is no integer from 0 to {}", text, UINT64_MAX);
+    return is_whole ? std::string() : fmt::format("'{}' is not an integer from 0 to {}", text, UINT64_MAX);
   };
   return CLI::Validator(check, "UINT64");
 }

@@ -23,7 +23,7 @@ install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_VENDOR ursula)
 set(CPACK_PACKAGE_CONTACT "The ursula authors <ursula@localhost>")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "whether the dynamics of a six-legged parallel manipulator is right, and why")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "validates the closed-form dynamics of six-legged parallel manipulators")
 set(CPACK_PACKAGE_DESCRIPTION "Computes actuator torques in closed form, builds the same mechanism independently as a
 closed loop in Simbody, drives that loop with those torques, and gives a verdict with reasons. Holds the program, the
 C++ library with its headers, and examples.")

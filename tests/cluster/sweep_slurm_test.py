@@ -155,7 +155,7 @@ def array_with_losses(sweep, cluster):
     wait_until("each task has points", lambda: all(points_in(sweep.shard(k)) > 0 for k in range(1, SHARDS + 1)))
     jobs = cluster.call("squeue", "--array", "--noheader", "--format=%i")
     out = sweep.submit()
-    check("4 of 4 shards are in the queue already" in out and "submitted (" not in out, "running shards were submitted twice")
+    check("4 of 4 shards are already in the queue" in out and "submitted (" not in out, "running shards were submitted twice")
     check(cluster.call("squeue", "--array", "--noheader", "--format=%i") == jobs, "there are more jobs than before")
     kill_one(sweep, cluster, array)
     one = lose_the_node(sweep, cluster, array)

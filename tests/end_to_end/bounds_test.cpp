@@ -50,7 +50,7 @@ TEST(BoundsRun, refusesNumbersThatWouldWrapAround) {
   for (const char* seed : {"-1", "''", "18446744073709551616", "1.5", "1e3", "' 1'"}) {
     const auto run = ursula("prove --only-random --random 0 --seed " + std::string(seed));
     EXPECT_EQ(run.exit_code, bad_input) << seed;
-    EXPECT_THAT(run.err, HasSubstr("is no integer from 0 to 18446744073709551615")) << seed;
+    EXPECT_THAT(run.err, HasSubstr("is not an integer from 0 to 18446744073709551615")) << seed;
   }
   EXPECT_EQ(ursula("prove --only-random --random 0 --seed 18446744073709551615").exit_code, 0);
 }
@@ -157,7 +157,7 @@ TEST(TimeLimitRun, leavesAnInconclusiveReport) {
   EXPECT_EQ(summary["verdict"], "inconclusive");
   for (const char* file : {"report.html", "junit.xml", "timeseries.csv"})
     EXPECT_TRUE(std::filesystem::exists(ursula.folder() / "out" / file)) << file;
-  EXPECT_THAT(ursula("validate small.toml --time-limit 0").err, HasSubstr("is no finite number above 0"));
+  EXPECT_THAT(ursula("validate small.toml --time-limit 0").err, HasSubstr("is not a finite number above 0"));
 }
 
 TEST(TimeLimitRun, holdsForEachOfASuite) {

@@ -78,7 +78,7 @@ TEST(Map, refusesGridsThatCannotBe) {
   const Program ursula;
   const std::vector<std::pair<std::string, std::string>> wrong = {
       {"--x 0,1 --y 0,1,2", "2 numbers, expected FROM,TO,COUNT or one value"},
-      {"--x 0,nan,5 --y 0,1,2", "'nan' is no finite number"},
+      {"--x 0,nan,5 --y 0,1,2", "'nan' is not a finite number"},
       {"--x 0,1,0 --y 0,1,2", "a count of 0, expected a whole number of 1 or more"},
       {"--x 0,1,-3 --y 0,1,2", "a count of -3"},
       {"--x 0,1,2.5 --y 0,1,2", "a count of 2.5"},

@@ -19,7 +19,7 @@ TEST(Init, writesAScenarioThatPassesTheCheckAndCanBeComputed) {
   EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "robot.toml"), HasSubstr("name = \"robot\""));
   const UrsulaRun check = ursula("check robot.toml");
   EXPECT_EQ(check.exit_code, 0) << check.err;
-  EXPECT_EQ(check.out, "robot.toml: can be read and its motion be made; 0 warnings\n");
+  EXPECT_EQ(check.out, "robot.toml: the scenario and its motion are valid; 0 warnings\n");
   EXPECT_EQ(ursula("inverse robot.toml --samples 3").exit_code, 0);
   EXPECT_EQ(ursula("init - --kind URS").out.substr(0, 2), "# ");
   EXPECT_EQ(ursula.files(), 1u);
@@ -30,7 +30,7 @@ TEST(Init, neverOverwrites) {
   ursula.write("mine.toml", "mine");
   const UrsulaRun run = ursula("init mine.toml");
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("mine.toml: is there already"));
+  EXPECT_THAT(run.err, HasSubstr("mine.toml: this file exists and is not overwritten"));
   EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "mine.toml"), "mine");
 }
 
@@ -45,7 +45,7 @@ TEST_P(InitKind, writesAScenarioThatPassesTheCheckAndCanBeComputed) {
   EXPECT_THAT(text, HasSubstr("\nkind = \"" + kind + "\""));
   const UrsulaRun check = ursula("check robot.toml --picture robot.svg");
   EXPECT_EQ(check.exit_code, 0) << check.err;
-  EXPECT_EQ(check.out, "robot.toml: can be read and its motion be made; 0 warnings\n");
+  EXPECT_EQ(check.out, "robot.toml: the scenario and its motion are valid; 0 warnings\n");
   const UrsulaRun inverse = ursula("inverse robot.toml --samples 3");
   EXPECT_EQ(inverse.exit_code, 0) << inverse.err;
   EXPECT_THAT(inverse.out, HasSubstr(kind == "RUS" ? ",tau_6_Nm\n" : ",tau_6_N\n"));
@@ -68,7 +68,7 @@ TEST(CheckVerb, warnsAndPasses) {
   const UrsulaRun run = ursula("check a.toml --picture a.svg");
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_THAT(run.out, AllOf(HasSubstr("a.toml:4:11: warning: manipulator.gravity: its z is +9.81 m/s2"),
-                             HasSubstr("a.toml: can be read and its motion be made; 1 warning\n")));
+                             HasSubstr("a.toml: the scenario and its motion are valid; 1 warning\n")));
   EXPECT_EQ(run.err, "");
   EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "a.svg"), HasSubstr("</svg>"));
 }

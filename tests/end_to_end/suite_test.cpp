@@ -162,7 +162,8 @@ TEST(SuiteRun, helpSaysWhatASuiteDoes) {
   const TemporaryFolder folder;
   const ProgramRun run = runProgram(folder, {"validate", "--help"});
   EXPECT_EQ(run.exit_code, 0);
-  EXPECT_THAT(run.out, AllOf(HasSubstr("--jobs"), HasSubstr("Several scenarios:"), HasSubstr("Exit: 1 if any failed")));
+  EXPECT_THAT(run.out,
+              AllOf(HasSubstr("--jobs"), HasSubstr("Several scenarios:"), HasSubstr("Exit code: 1 if any failed")));
 }
 
 }  // namespace

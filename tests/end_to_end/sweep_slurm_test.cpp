@@ -93,7 +93,7 @@ TEST_F(Slurm, onlyWhatIsMissingIsSubmittedAgain) {
   for (const int index : {1, 3}) ASSERT_EQ(task("results/mass.slurm/array.sh", index), 0);
   ursula_.write("queue", "12|2|RUNNING\n13|N/A|PENDING\n7|4|RUNNING\n");
   const UrsulaRun run = slurm("--shards 4");
-  EXPECT_THAT(run.out, AllOf(HasSubstr("1 of 4 shards are in the queue already, job 12: not submitted again"),
+  EXPECT_THAT(run.out, AllOf(HasSubstr("1 of 4 shards are already in the queue (job 12) and are not submitted again"),
                              HasSubstr("1 of 4 shards submitted (4): job 14")));
   EXPECT_THAT(submitted(), HasSubstr("--dependency=afterany:12:14:13 ")) << "a merge at a time, after all";
   EXPECT_THAT(TemporaryFolder::read(ursula_.folder() / "results/mass.slurm/array.sh"), HasSubstr("--array=4\n"));
@@ -121,7 +121,7 @@ TEST_F(Slurm, dryRunPrintsWhatWouldBeSubmittedAndWritesNothing) {
   const std::size_t before = ursula_.files();
   const UrsulaRun run = slurm("--shards 400 --dry-run --jobs 3");
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.err, HasSubstr("--shards 400: taken as 10"));
+  EXPECT_THAT(run.err, HasSubstr("--shards 400: reduced to 10"));
   EXPECT_THAT(run.out,
               AllOf(HasSubstr("#SBATCH --array=1-10\n"), HasSubstr("--cpus-per-task=3\n"), HasSubstr("sweep merge")));
   EXPECT_EQ(ursula_.files(), before);
@@ -141,7 +141,7 @@ TEST_F(Slurm, misuseIsRefused) {
   std::filesystem::remove(ursula_.folder() / "bin/sbatch");
   const std::string path = (ursula_.folder() / "bin").string();
   for (const auto& [arguments, answer] : std::vector<std::pair<std::string, std::string>>{
-           {"mass.toml --slurm", "expected --shards N"},
+           {"mass.toml --slurm", "expected also --shards N"},
            {"mass.toml --shards 2", "--shards requires --slurm"},
            {"mass.toml --dry-run", "--dry-run requires --slurm"},
            {"mass.toml --slurm --shards 2 --shard 1/2", "excludes"},

@@ -120,7 +120,7 @@ TEST(SweepVerb, refusesInOneLineWhatCannotBe) {
   refused("s.toml --shard 5/4", "--shard 5/4: expected I/N");
   refused("s.toml --shard 1/4x", "--shard 1/4x: expected I/N");
   refused("s.toml --db bad.toml", "bad.toml: error: this is no SQLite database");
-  refused("s.toml --pointwise", "--pointwise: of what = \"validate\" alone");
+  refused("s.toml --pointwise", "--pointwise: expected a sweep with what = \"validate\"");
   refused("show s.toml 50", "point 50: s.toml has points 0 to 49");
   refused("merge s.db none.db --db all.db", "none.db: error: it cannot be opened");
   refused("", "sweep");

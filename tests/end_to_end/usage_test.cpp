@@ -85,8 +85,8 @@ TEST(Usage, aMisspeltVerbOrOptionGetsOneLineWithTheNearest) {
            {"inverse --sampels=3",
             "ursula inverse: no option \"--sampels\"; did you mean \"--samples\"? (ursula inverse --help lists all)\n"},
            {"inverse a.toml b.toml",
-            "ursula inverse: \"b.toml\" is one argument too many (ursula inverse --help says how it is called)\n"},
-           {"inverse", "ursula inverse: scenario is required (ursula inverse --help says how it is called)\n"},
+            "ursula inverse: \"b.toml\" is one argument too many (ursula inverse --help shows the usage)\n"},
+           {"inverse", "ursula inverse: scenario is required (ursula inverse --help shows the usage)\n"},
            {"explain torque.pontwise",
             "error: no check 'torque.pontwise', did you mean 'torque.pointwise'? (ursula explain lists all)\n"}}) {
     const UrsulaRun run = ursula(call);
@@ -109,12 +109,12 @@ TEST(Usage, numbersAreReadAsPeopleWriteThem) {
   ursula.write("helix.toml", Program::shipped("paper-helix.toml"));
   ursula.write("a.csv", "t_s,x\n0,1\n1,2\n");
   for (const auto& [call, says] : std::vector<std::pair<std::string, std::string>>{
-           {"inverse helix.toml --samples 010", "--samples 010: is no whole number as people write it"},
-           {"inverse helix.toml --samples 0x10", "--samples 0x10: is no whole number as people write it"},
-           {"map helix.toml --at 1e-400", "--at 1e-400: is no number"},
+           {"inverse helix.toml --samples 010", "--samples 010: is not a whole number in plain digits"},
+           {"inverse helix.toml --samples 0x10", "--samples 0x10: is not a whole number in plain digits"},
+           {"map helix.toml --at 1e-400", "--at 1e-400: is not a number"},
            {"map helix.toml --at 1,5", "Could not convert: --at = 1,5, expected a number"},
            {"map helix.toml --x 0,1,3 --y=-1e308,1e308,3", "-1e308, expected a size of at most 1e+100"},
-           {"validate helix.toml --rtol 0x1p0", "'0x1p0' is no finite number above 0"},
+           {"validate helix.toml --rtol 0x1p0", "'0x1p0' is not a finite number above 0"},
            {"compare a.csv a.csv --interpolate=7", "interpolate was given a disallowed"},
            {"compare a.csv a.csv --interpolate=x", "interpolate was given a disallowed"},
            {"compare a.csv a.csv --out - --junit -", "--out - and --junit -: expected standard output for one"},
@@ -139,10 +139,11 @@ TEST(Usage, noFileIsNamedTwiceWhereOneIsWritten) {
     EXPECT_EQ(run.exit_code, 2) << call;
     EXPECT_THAT(run.err, testing::HasSubstr(says)) << call;
   };
-  refused("inverse helix.toml --samples 3 --out helix.toml", "--out helix.toml: is also what is read");
-  refused("inverse helix.toml --samples 3 --out ./a/../helix.toml", "is also what is read");
-  refused("check helix.toml --picture helix.toml", "--picture helix.toml: is also what is read");
-  refused("map helix.toml --picture same --out same", "is also --");
+  refused("inverse helix.toml --samples 3 --out helix.toml",
+          "--out helix.toml: the program reads this file, expected another file");
+  refused("inverse helix.toml --samples 3 --out ./a/../helix.toml", "the program reads this file");
+  refused("check helix.toml --picture helix.toml", "--picture helix.toml: the program reads this file");
+  refused("map helix.toml --picture same --out same", " also writes this file, expected another file");
   EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "helix.toml"), shipped);
   EXPECT_FALSE(std::filesystem::exists(ursula.folder() / "same"));
   EXPECT_EQ(ursula("map helix.toml --picture /dev/null --out /dev/null --x=0,1,2 --y=0,1,2").exit_code, 0);

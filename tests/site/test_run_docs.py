@@ -18,7 +18,7 @@ GOOD = """# A page
 $ ursula init my.toml --kind UPS
 wrote my.toml; …
 $ ursula check my.toml
-my.toml: can be read and its motion be made; 0 warnings
+my.toml: the scenario and its motion are valid; 0 warnings
 ```
 
 ```python
@@ -45,7 +45,7 @@ def test_a_good_page_passes(tmp_path):
 @pytest.mark.parametrize("old, new, words", [
     ("ursula check my.toml", "ursula check mine.toml", r"page\.md:3: exit code 2 of\n +ursula check mine.toml"),
     ("ursula check my.toml", "ursula chekc my.toml", "exit code 2"),
-    ("0 warnings", "1 warnings", "expected the line\n +my.toml: can be read and its motion be made; 1 warnings"),
+    ("0 warnings", "1 warnings", "expected the line\n +my.toml: the scenario and its motion are valid; 1 warnings"),
     ("wrote my.toml", "written my.toml", "expected the line"),
     ("3.0000 s", "3.0010 s", r"page\.md:10: expected the line"),
     ("2e-15 N", "2e-3 N", "expected the line"),
