@@ -195,11 +195,11 @@ ScenarioTable coulomb() {
 ScenarioTable rotorInertia() {
   std::vector<ScenarioKey> keys = perCoordinate("kg·m²", "kg");
   keys.resize(coordinate_count);
-  return {
-      "manipulator.leg.rotor_inertia", "rotor_inertia = { … }",
-      "What a motor turns, j, of the energy ½ j q̇² of the coordinate q that it drives: through a gear of ratio n, n² "
-      "times the rotor's own. The motor's effort has j q̈ more.",
-      std::move(keys)};
+  return {"manipulator.leg.rotor_inertia", "rotor_inertia = { … }",
+          "The inertia j of what the motor turns, in the energy ½ j q̇² of the coordinate q that it drives. Behind a "
+          "gear of "
+          "ratio n, j is n² times the inertia of the rotor itself. The motor's effort has the further term j q̈.",
+          std::move(keys)};
 }
 
 ScenarioKey force(const char* meaning) { return {"force", KeyType::vector, "N", "[0.0, 0.0, 0.0]", meaning}; }

@@ -92,7 +92,7 @@ class LegReader {
       const auto& has = rowOf(leg_.kind).coordinates;
       const auto found = std::find_if(has.begin(), has.end(), [&](Coordinate c) { return name == nameOf(c); });
       if (found == has.end())
-        table.fail("actuated", fmt::format("'{}' is no coordinate of {}, a {} leg, expected {}", name, own_.place(),
+        table.fail("actuated", fmt::format("'{}' is not a coordinate of {}, a {} leg, expected {}", name, own_.place(),
                                            rowOf(leg_.kind).name, coordinatesOf(leg_.kind)));
       bool& driven = leg_.actuated[static_cast<std::size_t>(found - has.begin())];
       if (driven) table.fail("actuated", fmt::format("'{}' twice", name));
