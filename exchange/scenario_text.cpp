@@ -117,8 +117,8 @@ std::string scenarioText(const ImportedMachine& machine, const std::string& file
   out +=
       fmt::format("# B is {}; M is the frame of {}. Lengths are between the joints' centres.\n",
                   machine.base.empty() ? "the world" : "the frame of " + shown(machine.base), shown(machine.platform));
-  out += "# What was taken for granted:\n";
-  if (machine.assumptions.empty()) out += "#   nothing\n";
+  out += "# Assumptions of the import:\n";
+  if (machine.assumptions.empty()) out += "#   none\n";
   for (const Assumption& each : machine.assumptions)
     out += fmt::format("#   {}: {} ({:.4g} {})\n", shown(each.where, 200), shown(each.what, 300), each.size, each.unit);
   out += fmt::format("name = \"{}\"\n\n[manipulator]\ngravity = {}\n", plainName(machine.name), list(machine.gravity));

@@ -15,7 +15,7 @@ std::string oneOf(const Element& at, const char* name, std::initializer_list<con
   if (value.empty()) return value;
   for (const char* word : words)
     if (value == word) return value;
-  refuse(at, fmt::format("{} '{}' is no value of it", name, shown(value)));
+  refuse(at, fmt::format("{} '{}' is unknown, expected one of {}", name, shown(value), fmt::join(words, ", ")));
 }
 
 }  // namespace

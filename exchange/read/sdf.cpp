@@ -46,8 +46,8 @@ class SdfReader {
       refuse(root, fmt::format("version '{}', expected 1.0 to 1.12", shown(version)));
     minor_ = static_cast<int>(numberOf(root, version.substr(dot + 1), "version"));
     if (minor_ < 3)
-      refuse(root,
-             fmt::format("version '{}', whose <origin> is not read; write it anew: gz sdf -p FILE", shown(version)));
+      refuse(root, fmt::format("version '{}' has <origin>, which is not read; convert the file: gz sdf -p FILE",
+                               shown(version)));
     graph_.format = "sdf";
     graph_.gravity = Vector3d(0, 0, -9.8);
     graph_.bodies.emplace_back();

@@ -14,7 +14,7 @@ SdfFrames::SdfFrames() : frames_(1), names_(1), done_(1, 1), in_world_(1, Eigen:
 std::size_t SdfFrames::add(const std::string& name, Frame frame) {
   const std::size_t index = frames_.size();
   if (!names_[frame.scope].emplace(name, index).second)
-    refuse(*frame.element, fmt::format("a second '{}' in one model, expected names of its own", shown(name)));
+    refuse(*frame.element, fmt::format("a second '{}' in one model, expected unique names", shown(name)));
   frames_.push_back(std::move(frame));
   names_.emplace_back();
   done_.push_back(0);

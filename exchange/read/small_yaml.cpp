@@ -58,7 +58,7 @@ SmallYaml readSmallYaml(const std::string& text, const std::string& name) {
     if (from == std::string::npos || line[from] == '#' || line.compare(0, 3, "---") == 0) continue;
     if (line.find_first_of("{&*|>!") != std::string::npos)
       throw ImportError(
-          fmt::format("{}:{}: '{}' is no list or word, expected `key: [a, b]`", name, number, shown(line)));
+          fmt::format("{}:{}: '{}' is neither a list nor a word, expected `key: [a, b]`", name, number, shown(line)));
     const std::size_t colon = line.find(':');
     if (from == 0 && line[0] != '-' && line[0] != '[' && colon != std::string::npos) {
       key = line.substr(0, colon);

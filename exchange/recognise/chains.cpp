@@ -204,7 +204,7 @@ void sayWhatIsApart(const Groups& groups, const Chains& chains, std::vector<Assu
   for (std::size_t i = 0; i < groups.groups.size(); ++i) {
     const Group& group = groups.groups[i];
     if (used.count(i) != 0 || group.fixed || group.isFrame()) continue;
-    assumptions.push_back({"This body is not of the machine and is left out", group.name, group.mass, "kg"});
+    assumptions.push_back({"This body does not belong to the machine and is left out", group.name, group.mass, "kg"});
     if (assumptions.size() > 200)
       throw ImportError("more than 200 bodies are not of the machine, expected a model of the machine alone");
   }

@@ -236,7 +236,7 @@ class LegMaker {
                       std::abs(off), task_.choices.tolerance, task_.size));
     if (std::abs(off) > worth_saying * task_.size)
       assumptions_.push_back(
-          {"The ball is taken to lie in the plane of the leg's links", shape_.place, std::abs(off), "m"});
+          {"The ball is assumed to lie in the plane of the leg's links", shape_.place, std::abs(off), "m"});
   }
 
   Vector3d lengthAndDirection(const Vector3d& v, double& length) const {

@@ -100,9 +100,10 @@ void freeSpin(const LegTask& task, const Group& body, const Eigen::Isometry3d& f
         body.line);
   if (share > worth_saying)
     assumptions.push_back(
-        {"What spins freely is taken to be round; its moments differ by this share", body.name, share, "1"});
+        {"This freely spinning body is assumed to be round; its moments differ by this share", body.name, share, "1"});
   if (off > worth_saying * task.size)
-    assumptions.push_back({"What spins freely is taken to have its mass centre on the line", body.name, off, "m"});
+    assumptions.push_back(
+        {"This freely spinning body is assumed to have its mass centre on the line", body.name, off, "m"});
   if (!keep_moment) {
     link.inertia(2, 2) -= local(2, 2);
     if (std::abs(link.inertia(2, 2)) <= 64 * eps * largest) link.inertia(2, 2) = 0;

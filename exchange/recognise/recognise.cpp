@@ -81,7 +81,7 @@ void takeHinges(ModelGraph& graph) {
     first.kind = JointKind::revolute;
     first.axis[0] = apart.normalized();
     second.kind = JointKind::free;
-    graph.assumptions.push_back({"Two balls between the same bodies are taken as a hinge; they are this far apart",
+    graph.assumptions.push_back({"Two balls between the same bodies are read as a hinge; this is their distance",
                                  first.name + ", " + second.name, apart.norm(), "m"});
   }
 }

@@ -70,7 +70,7 @@ TEST_F(SolverRun, aWrongOneFails) {
 
 TEST_F(SolverRun, whatIsNoAnswerIsRefusedWithQuestionAndAnswer) {
   const auto saying = [](const std::string& answer) { return "while read line; do echo \"" + answer + "\"; done"; };
-  EXPECT_THAT(refused(saying("1,2,3,4,5")), AllOf(HasSubstr("5 values, expected six with commas between"),
+  EXPECT_THAT(refused(saying("1,2,3,4,5")), AllOf(HasSubstr("5 values, expected six, separated by commas"),
                                                   ContainsRegex(question + std::string("1,2,3,4,5\n"))));
   EXPECT_THAT(refused(saying("1,2,3,4,5,6,7")), HasSubstr("7 values"));
   EXPECT_THAT(refused(saying("")), HasSubstr("1 value, expected six"));
@@ -139,7 +139,7 @@ TEST_F(SolverRun, whatCannotBeMeantIsRefused) {
   ursula_.write("other.toml", Program::shipped("proving-ground.toml"));
   const UrsulaRun run = ursula_("validate quick.toml other.toml --out out --solver cat");
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("--solver judges one motion, expected one scenario, not 2"));
+  EXPECT_THAT(run.err, HasSubstr("--solver: got 2 scenarios, expected one"));
 }
 
 TEST_F(SolverRun, theScenariosPathIsInTheEnvironment) {

@@ -153,7 +153,7 @@ class Cases(import_test.Imports):
         text = text.replace("</equality>", connects + "</equality>")
         machine["legs"][0]["friction"][2] = None
         scenario, assumptions = self.imported(text, "m.xml")
-        self.said(assumptions, "taken as a hinge")
+        self.said(assumptions, "read as a hinge")
         found = scenario["manipulator"]["leg"][0]
         self.near(found["proximal"]["length"], machine["legs"][0]["l"], 10, "l")
         self.near(found["distal"]["length"], machine["legs"][0]["s"], 10, "s")

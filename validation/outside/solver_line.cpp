@@ -71,7 +71,7 @@ Vector6d solverAnswer(const std::string& line) {
   }
   if (cells.size() != motor_count)
     throw SolverProcessError(
-        fmt::format("{} value{}, expected six with commas between", cells.size(), cells.size() == 1 ? "" : "s"));
+        fmt::format("{} value{}, expected six, separated by commas", cells.size(), cells.size() == 1 ? "" : "s"));
   Vector6d out;
   for (int i = 0; i < motor_count; ++i) out(i) = numberOf(cells[static_cast<std::size_t>(i)], i + 1);
   return out;
