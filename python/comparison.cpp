@@ -71,15 +71,15 @@ Comparison compared(const py::object& reference, const py::object& test, double 
 void addChannel(py::module_& module) {
   using Channel = ChannelComparison;
   py::class_<Channel>(module, "Channel", "One channel of a comparison.")
-      .def_readonly("name", &Channel::name, "The column's.")
+      .def_readonly("name", &Channel::name, "The column's name.")
       .def_readonly("scale", &Channel::scale, "Largest magnitude in its group, as of all tau_*, in its unit.")
       .def_readonly("tolerance", &Channel::tolerance, "In its unit.")
       .def_readonly("max_error", &Channel::max_error, "In its unit.")
       .def_readonly("max_at", &Channel::max_at, "When, s.")
       .def_readonly("rms_error", &Channel::rms_error)
       .def_readonly("final_error", &Channel::final_error)
-      .def_readonly("outside", &Channel::outside, "How far beyond the tube about the reference.")
-      .def_readonly("interpolation", &Channel::interpolation, "What interpolation of the reference may miss.")
+      .def_readonly("outside", &Channel::outside, "The largest distance beyond the tube around the reference.")
+      .def_readonly("interpolation", &Channel::interpolation, "The largest error of interpolating the reference.")
       .def_property_readonly(
           "verdict", [](const Channel& self) { return ursula::name(self.verdict); },
           "\"pass\", \"fail\" or \"inconclusive\".")
@@ -98,13 +98,15 @@ void addComparison(py::module_& module) {
           "\"pass\", \"fail\" or \"inconclusive\".")
       .def_property_readonly(
           "channels", [](const Comparison& self) { return self.channels; },
-          "Those of both, in the reference's order: a list of Channel.")
+          "The channels that both have, in the reference's order: a list of Channel.")
       .def_readonly("only_in_reference", &Comparison::only_in_reference, "Names of channels.")
       .def_readonly("only_in_test", &Comparison::only_in_test, "Names of channels.")
-      .def_readonly("instants", &Comparison::instants, "How many of the test were compared.")
-      .def_readonly("interpolated", &Comparison::interpolated, "Of them, between two of the reference.")
-      .def_readonly("left_out", &Comparison::left_out, "Instants of the test that the reference has nothing for.")
-      .def_readonly("skipped", &Comparison::skipped, "Instants of the reference in gaps of the test.")
+      .def_readonly("instants", &Comparison::instants, "Number of the test's instants that were compared.")
+      .def_readonly("interpolated", &Comparison::interpolated,
+                    "Number of them that lie between two instants of the reference.")
+      .def_readonly("left_out", &Comparison::left_out,
+                    "Number of the test's instants that the reference does not cover.")
+      .def_readonly("skipped", &Comparison::skipped, "Number of the reference's instants in gaps of the test.")
       .def("__str__", [](const Comparison& self) { return comparisonText(self); })
       .def("__repr__", [](const Comparison& self) {
         return "<ursula.Comparison of " + std::to_string(self.channels.size()) +

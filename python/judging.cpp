@@ -20,9 +20,9 @@ std::string atInstant(const Motion<double>& motion) { return " at t = " + std::t
 
 /// Checks that the solver's answer to `motions` has N × 6 finite numbers.
 std::vector<Vector6d> torquesOf(const py::object& answer, const std::vector<Motion<double>>& motions) {
-  const py::array any =
-      numbersIn(answer, "the solver's answer" + atInstant(motions.front()) + " is of type " +
-                            std::string(py::str(py::type::of(answer).attr("__name__"))) + " and no array of numbers");
+  const py::array any = numbersIn(answer, "the solver's answer" + atInstant(motions.front()) + " is of type " +
+                                              std::string(py::str(py::type::of(answer).attr("__name__"))) +
+                                              ", expected an array of numbers");
   if (any.ndim() != 2 || static_cast<std::size_t>(any.shape(0)) != motions.size() || any.shape(1) != motor_count)
     throw py::value_error("the solver's answer to " + std::to_string(motions.size()) + " instants has shape " +
                           std::string(py::str(any.attr("shape"))) + ", expected (" + std::to_string(motions.size()) +

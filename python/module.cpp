@@ -33,13 +33,12 @@ void raiseScenarioError(const std::string& what) {
 
 void addErrors(py::module_& module) {
   py::register_exception<ursula::ScenarioError>(module, "ScenarioError", PyExc_ValueError).doc() =
-      "A scenario that cannot be read: file, line, column, what, and what was expected.";
+      "A scenario that cannot be read. The message gives file, line, column, the error and what was expected.";
   py::register_exception<ursula::UndeterminedPose>(module, "UndeterminedPose", PyExc_ValueError).doc() =
       "Actuated coordinates that do not determine the platform's pose.";
   py::register_exception<ursula::PoseError>(module, "PoseError", PyExc_ValueError).doc() =
-      "A pose that the legs cannot take, or that is singular. leg: 1 to 6, or None; instant, s; measure and bound: "
-      "the\n"
-      "number that tells, and what it had to keep to.";
+      "A pose that the legs cannot reach, or that is singular. leg: 1 to 6, or None. instant: s. measure: the number\n"
+      "that decides. bound: its limit.";
   py::register_exception_translator([](std::exception_ptr thrown) {
     if (!thrown) return;
     try {

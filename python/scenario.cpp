@@ -170,7 +170,7 @@ py::dict inverseKinematics(const ScenarioWithSolver& self, const Motions& motion
 
 [[noreturn]] void refuseIncomplete(int found, int of) {
   throw std::runtime_error("a pose may be missing: " + std::to_string(found) + " of " + std::to_string(of) +
-                           " solutions in the complex numbers were found");
+                           " complex solutions were found");
 }
 
 std::vector<PlatformPose> posesOfPaper(const DirectKinematics& kinematics, const Vector6d& phi) {
@@ -232,10 +232,10 @@ void addPose(py::module_& module) {
             return py::array_t<double>({3, 3}, {8, 24}, pose.Q.data());
           },
           "The same as a matrix: (3, 3).")
-      .def_readonly("multiplicity", &Pose::multiplicity, "How many poses cannot be told from this one.")
+      .def_readonly("multiplicity", &Pose::multiplicity, "Number of poses that rounding merges into this one.")
       .def_readonly("residual", &Pose::residual, "Largest mismatch of the legs, m.")
-      .def_readonly("assembles", &Pose::assembles, "Every leg is in reach.")
-      .def_readonly("front", &Pose::front, "Inverse kinematics answers with the coordinates given.")
+      .def_readonly("assembles", &Pose::assembles, "True if every leg is in reach.")
+      .def_readonly("front", &Pose::front, "True if inverse kinematics returns the given coordinates.")
       .def("__repr__", [](const Pose& pose) {
         return "<ursula.Pose p=" + std::string(py::str(vectorOf(pose.p.data(), 3))) +
                " q=" + std::string(py::str(vectorOf(pose.q.data(), 4))) + (pose.assembles ? ">" : ", out of reach>");
@@ -250,12 +250,12 @@ void addScenario(py::module_& module) {
   addCopies(scenario);
   scenario.def(py::pickle(&textOf, &scenarioOf))
       .def_property_readonly(
-          "name", [](const ScenarioWithSolver& self) { return self.scenario.name; }, "As the file gives it.")
+          "name", [](const ScenarioWithSolver& self) { return self.scenario.name; }, "The name that the file gives.")
       .def_property_readonly(
-          "file", [](const ScenarioWithSolver& self) { return self.scenario.file; }, "What was read.")
+          "file", [](const ScenarioWithSolver& self) { return self.scenario.file; }, "The file that was read.")
       .def_property_readonly(
           "duration", [](const ScenarioWithSolver& self) { return self.scenario.trajectory->duration(); },
-          "Of the motion, t_f, s.")
+          "Duration of the motion, t_f, s.")
       .def("motion", &motionAt, py::arg("t"), words::at)
       .def("inverse_dynamics", &inverseDynamics, py::arg("m"), py::kw_only(), py::arg("jobs") = 0,
            words::inverse_dynamics)

@@ -126,12 +126,12 @@ void addStudies(py::module_& module) {
                         return Simulated{state[0].cast<Motions>(), state[1].cast<py::array_t<double>>(),
                                          state[2].cast<std::string>()};
                       }))
-      .def_readonly("motion", &Simulated::motion, "Of the platform, at the instants reached.")
+      .def_readonly("motion", &Simulated::motion, "Motion of the platform at the instants reached.")
       .def_readonly("tau", &Simulated::tau, "Efforts at the same instants, N m or N: (N, 6).")
       .def_property_readonly(
           "gave_up",
           [](const Simulated& self) { return self.gave_up.empty() ? py::object(py::none()) : py::str(self.gave_up); },
-          "Why the last instant was not reached; None where it was.")
+          "The reason why the last instant was not reached; None if it was.")
       .def("__repr__", [](const Simulated& self) {
         return "<ursula.Simulation of " + std::to_string(self.motion.rows.size()) + " instants" +
                (self.gave_up.empty() ? "" : ", gave up") + ">";

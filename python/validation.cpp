@@ -77,8 +77,8 @@ void addFindings(py::module_& module) {
                       [](const py::tuple& state) {
                         return Finding{state[0].cast<std::string>(), state[1].cast<std::string>()};
                       }))
-      .def_readonly("name", &Finding::name, "What it is about.")
-      .def_readonly("text", &Finding::text, "What was found.")
+      .def_readonly("name", &Finding::name, "The finding's subject.")
+      .def_readonly("text", &Finding::text, "The fact in words.")
       .def("__repr__", [](const Finding& self) { return "<ursula.Finding " + self.name + ": " + self.text + ">"; });
 }
 
@@ -88,14 +88,17 @@ void addDeviation(py::module_& module) {
   addCopies(made);
   made.def(pickled<Deviation>())
       .def_readonly("largest", &Deviation::largest, "In `unit`.")
-      .def_readonly("unit", &Deviation::unit, "Of the efforts: \"N m\", or \"N\" where all motors slide.")
+      .def_readonly("unit", &Deviation::unit, "Unit of the efforts: \"N m\", or \"N\" if all motors slide.")
       .def_readonly("t", &Deviation::t, "When, s.")
       .def_readonly("where", &Deviation::where, "The leg or the motor.")
-      .def_readonly("largest_effort", &Deviation::largest_effort, "Of the expected ones along the motion, in `unit`.")
-      .def_property_readonly("relative", &Deviation::relative, "To the largest effort.")
+      .def_readonly("largest_effort", &Deviation::largest_effort,
+                    "The largest expected effort of the motion, in `unit`.")
+      .def_property_readonly("relative", &Deviation::relative, "`largest` over `largest_effort`.")
       .def_property_readonly("smallest_rtol", &Deviation::smallestRelative, "The smallest rtol that would pass alone.")
-      .def_readonly("drift", &Deviation::drift, "How far such errors may move the platform, m; NaN where unknown.")
-      .def_readonly("allowed", &Deviation::allowed, "By a tolerance of the user's, in `unit`; 0 where there is none.")
+      .def_readonly("drift", &Deviation::drift,
+                    "The distance that such errors may move the platform, m; NaN if unknown.")
+      .def_readonly("allowed", &Deviation::allowed,
+                    "The deviation that the user's tolerance allows, in `unit`; 0 without a tolerance.")
       .def("__repr__", [](const Deviation& self) {
         return "<ursula.Deviation of " + std::string(py::repr(py::float_(self.largest))) + " " + self.unit + ", " +
                self.where + ">";
@@ -110,15 +113,15 @@ void addReplayError(py::module_& module) {
   addCopies(made);
   made.def(pickled<ReplayError>())
       .def_readonly("dominant", &ReplayError::dominant, "The largest source, by name.")
-      .def_readonly("t", &ReplayError::t, "Where the replay ended furthest off, s.")
-      .def_readonly("observed", &ReplayError::observed, "How far, m.")
+      .def_readonly("t", &ReplayError::t, "The instant at which the replay deviates most, s.")
+      .def_readonly("observed", &ReplayError::observed, "The deviation there, m.")
       .def_property_readonly("rounding", errorOf(&ReplayError::rounding), "Its share, m.")
       .def_property_readonly("integration", errorOf(&ReplayError::integration), "Its share, m.")
       .def_property_readonly("closure", errorOf(&ReplayError::closure), "Its share, m.")
       .def_property_readonly("model", errorOf(&ReplayError::model), "Its share, m.")
       .def_readonly("unexplained", &ReplayError::unexplained, "m.")
-      .def_readonly("uncertainty", &ReplayError::uncertainty, "Of the sum of the shares, m.")
-      .def_readonly("amplification", &ReplayError::amplification, "By which a deviation at the start grows.")
+      .def_readonly("uncertainty", &ReplayError::uncertainty, "Uncertainty of the sum of the shares, m.")
+      .def_readonly("amplification", &ReplayError::amplification, "The factor by which a deviation at the start grows.")
       .def("__repr__", [](const ReplayError& self) {
         return "<ursula.ReplayError of " + std::string(py::repr(py::float_(self.observed))) + " m: " + self.dominant +
                ">";
@@ -177,11 +180,11 @@ void addCheck(py::module_& module) {
       .def_property_readonly(
           "verdict", [](const Check& check) { return ursula::name(check.verdict); },
           "\"pass\", \"fail\", \"inconclusive\" or \"not_applicable\".")
-      .def_readonly("basis", &Check::basis, "Where the limit comes from.")
-      .def_readonly("why", &Check::why, "What was found: which leg or body, when, how much.")
+      .def_readonly("basis", &Check::basis, "The origin of the limit.")
+      .def_readonly("why", &Check::why, "Details of the result: the leg or body, the instant, the size.")
       .def_property_readonly(
           "reason", [](const Check& check) { return ursula::name(check.reason); },
-          "Why it is not judged by value and limit: \"none\" where it is.")
+          "The reason why value and limit do not judge it; \"none\" if they do.")
       .def("__repr__",
            [](const Check& check) { return "<ursula.Check " + check.name + ": " + ursula::name(check.verdict) + ">"; });
 }
@@ -191,31 +194,32 @@ void addResult(py::module_& module) {
   py::class_<Result> made(module, "Result", words::result);
   addCopies(made);
   made.def(pickled<Result>())
-      .def_readonly("scenario", &Result::scenario, "Its name.")
+      .def_readonly("scenario", &Result::scenario, "The scenario's name.")
       .def_property_readonly(
           "verdict", [](const Result& result) { return ursula::name(result.verdict); },
           "\"pass\", \"fail\" or \"inconclusive\".")
       .def_property_readonly(
           "reason", [](const Result& result) { return ursula::reason(result.verdict, result.checks); },
-          "The verdict's, in one sentence.")
+          "The reason for the verdict, in one sentence.")
       .def_property_readonly(
           "checks", [](const Result& result) { return result.checks; }, "All checks, in their order: a list of Check.")
       .def_property_readonly("findings", &findingsOf, "Facts that are not judged, in their order: a list of Finding.")
       .def_property_readonly(
           "deviation", [](const Result& result) { return result.deviation; },
-          "How far the efforts are off at most: a Deviation, None where no effort was compared.")
+          "The largest error of the efforts: a Deviation, None if no effort was compared.")
       .def_property_readonly(
           "cause", [](const Result& result) { return result.likely_cause ? result.likely_cause->named : std::nullopt; },
-          "Why the efforts are wrong: a Cause, None where none is sure.")
+          "The likely cause of wrong efforts: a Cause, None if no cause is certain.")
       .def_property_readonly(
           "causes",
           [](const Result& result) {
             return result.likely_cause ? result.likely_cause->others : std::vector<NamedCause>{};
           },
-          "Others that explain the deviation as well: a list of Cause.")
-      .def_property_readonly("terms", &termsOf, "Relative error of what a solver answers to one thing at a time.")
+          "Other causes that explain the deviation equally well: a list of Cause.")
+      .def_property_readonly("terms", &termsOf,
+                             "Relative errors of the solver's answers to motions with one term at a time.")
       .def_property_readonly("replay_error", &replayErrorOf,
-                             "What moved the replay off the path: a ReplayError, None where there was no replay.")
+                             "The sources of the replay's deviation: a ReplayError, None without a replay.")
       .def_property_readonly("timeseries", &seriesOf,
                              "The columns of timeseries.csv, each (N,): motion, torques, errors.")
       .def_property_readonly(
@@ -223,7 +227,7 @@ void addResult(py::module_& module) {
           [](const Result& result) {
             return py::module_::import("json").attr("loads")(report::summaryJson(report::stamped(result)));
           },
-          "What summary.json holds, as a dict.")
+          "The contents of summary.json as a dict.")
       .def("write", &written, py::arg("dir"), words::write)
       .def("__repr__", [](const Result& result) {
         return "<ursula.Result " + result.scenario + ": " + ursula::name(result.verdict) + ">";

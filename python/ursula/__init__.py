@@ -1,4 +1,4 @@
-"""Whether the closed-form dynamics of a six-legged U-R-S parallel manipulator are right, and why.
+"""Validates the closed-form dynamics of a six-dof parallel manipulator.
 
 NumPy in and out; rows are instants; SI units; frames: B is the base's, M the platform's.
 
