@@ -11,10 +11,10 @@ Verdict = Literal["pass", "fail", "inconclusive", "not_applicable"]
 __version__: str
 
 class ScenarioError(ValueError):
-    """A scenario that cannot be read: file, line, column, what, and what was expected."""
+    """A scenario that cannot be read. The message gives file, line, column, the error and what was expected."""
 
 class PoseError(ValueError):
-    """A pose that the legs cannot take, or that is singular."""
+    """A pose that the legs cannot reach, or that is singular."""
 
     leg: int | None  # 1 to 6
     instant: float  # s
@@ -90,7 +90,7 @@ class Pose:
     def front(self) -> bool: ...
 
 class Scenario:
-    """A machine, what it is asked to do, and how that is judged."""
+    """A machine, its commanded motion and the settings of its validation."""
 
     @property
     def name(self) -> str: ...
@@ -98,20 +98,20 @@ class Scenario:
     def file(self) -> os.PathLike[str]: ...
     @property
     def assumptions(self) -> list[dict[str, Any]]:
-        """What import_model() took for granted: what, where, size and unit of each."""
+        """The assumptions of import_model(): what, where, size and unit of each."""
     @property
     def duration(self) -> float:
-        """Of the motion, s."""
+        """Duration of the motion, s."""
     def motion(self, t: npt.ArrayLike) -> Motion:
         """The commanded motion at t, s: (N,) or a number."""
     def inverse_dynamics(self, m: Motion, *, jobs: int = 0) -> Array:
-        """Efforts of the motors, N m, or N where a motor slides: (N, 6)."""
+        """Efforts of the motors, N m, or N if a motor slides: (N, 6)."""
     def forward_dynamics(self, m: Motion, tau: npt.ArrayLike, *, jobs: int = 0) -> tuple[Array, Array]:
         """(a, alpha) of the platform under efforts tau, N m or N, (N, 6): m/s² and rad/s², each (N, 3)."""
     def inverse_kinematics(self, m: Motion) -> dict[str, Array]:
-        """phi, psi, theta, d, those that legs have, with rates and accelerations, rad, m and s, each (N, number of legs)."""
+        """phi, psi, theta, d, if the legs have them, with rates and accelerations, rad, m and s, each (N, number of legs)."""
     def effort_derivatives(self, m: Motion) -> dict[str, Array]:
-        """Of inverse_dynamics by "orientation" (a turn in B), "p", "w", "v", "alpha", "a": each (N, 6, 3)."""
+        """Derivatives of inverse_dynamics by "orientation" (a turn in B), "p", "w", "v", "alpha", "a": each (N, 6, 3)."""
     def parameter_derivatives(self, m: Motion) -> tuple[list[str], Array]:
         """(names, derivatives) by every number of the machine: (N, 6, number of names)."""
     def regressor(self, m: Motion) -> tuple[list[str], Array, Array]:
@@ -119,12 +119,12 @@ class Scenario:
     def direct_kinematics(self, coordinates: npt.ArrayLike) -> list[Pose]:
         """Every real pose for six angles of URS legs, rad, or six lengths of UPS legs, m."""
     def to_dict(self) -> dict[str, Any]:
-        """What it was read from, as a dict."""
+        """The source of the scenario as a dict."""
     def to_toml(self) -> str:
-        """The text that it was read from."""
+        """The text of the scenario's source."""
 
 class Check:
-    """One statement that was judged: it passes exactly if value <= limit."""
+    """One judged comparison; it passes exactly if value <= limit."""
 
     @property
     def name(self) -> str: ...
@@ -138,10 +138,10 @@ class Check:
     def verdict(self) -> Verdict: ...
     @property
     def basis(self) -> str:
-        """Where the limit comes from."""
+        """The origin of the limit."""
     @property
     def why(self) -> str:
-        """What was found."""
+        """Details of the result."""
     @property
     def reason(self) -> str: ...
 
@@ -189,7 +189,7 @@ class Cause:
     def to_s(self) -> float | None: ...
 
 class Deviation:
-    """How far the efforts on trial are from the expected ones, where that is furthest."""
+    """The largest deviation of the efforts under test from the expected ones."""
 
     @property
     def largest(self) -> float:
@@ -210,12 +210,12 @@ class Deviation:
     def smallest_rtol(self) -> float: ...
     @property
     def drift(self) -> float:
-        """m; NaN where unknown."""
+        """m; NaN if unknown."""
     @property
     def allowed(self) -> float: ...
 
 class ReplayError:
-    """What moved the judged replay off the path, source by source, m."""
+    """The sources of the judged replay's deviation from the path, m."""
 
     @property
     def dominant(self) -> str: ...
@@ -240,7 +240,7 @@ class ReplayError:
     def amplification(self) -> float: ...
 
 class Result:
-    """What one validation found."""
+    """The result of one validation."""
 
     @property
     def scenario(self) -> str: ...
@@ -272,17 +272,17 @@ class Result:
         """Writes summary.json, timeseries.csv, report.html and junit.xml into a folder."""
 
 class Simulation:
-    """What efforts make of the machine."""
+    """The motion that efforts produce."""
 
     @property
     def motion(self) -> Motion:
-        """Of the platform, at the instants reached."""
+        """Motion of the platform at the instants reached."""
     @property
     def tau(self) -> Array:
         """Efforts at the same instants, N m or N: (N, 6)."""
     @property
     def gave_up(self) -> str | None:
-        """Why the last instant was not reached."""
+        """The reason why the last instant was not reached."""
 
 class Channel:
     """One channel of a comparison."""
@@ -332,7 +332,7 @@ History = Result | dict[str, npt.ArrayLike] | str | os.PathLike[str]
 Axis = float | tuple[float, float, int] | None
 
 def check(s: Scenario) -> list[str]:
-    """Warnings of what is possible in the scenario but odd."""
+    """Returns warnings of values that are valid but unusual."""
 
 def compare(
     reference: History,
@@ -343,7 +343,7 @@ def compare(
     interpolate: bool | None = None,
     columns: list[str] = ...,
 ) -> Comparison:
-    """Two histories channel by channel."""
+    """Compares two histories channel by channel."""
 
 def map(
     s: Scenario,
@@ -357,7 +357,7 @@ def map(
     at: float = 0.0,
     jobs: int = 0,
 ) -> dict[str, Array]:
-    """Reach, condition number, leg margins and largest static effort over a grid of poses."""
+    """Maps reach, condition number, leg margins and largest static effort over a grid of poses."""
 
 def simulate(
     s: Scenario,
@@ -367,13 +367,13 @@ def simulate(
     engine: Literal["noc", "simbody"] = "simbody",
     time_limit: float | None = None,
 ) -> Simulation:
-    """The motion that efforts (N, 6) at instants t (N,) produce."""
+    """Computes the motion that efforts (N, 6) at instants t (N,) produce."""
 
 def read_scenario(path: str | os.PathLike[str]) -> Scenario:
     """Reads and checks a scenario file (TOML)."""
 
 def scenario(dict_or_text: dict[str, Any] | str, *, folder: str | os.PathLike[str] | None = None) -> Scenario:
-    """A scenario of a dict or of text in TOML; relative paths are from `folder`, by default the current one."""
+    """Makes a scenario from a dict or from text in TOML; relative paths start at `folder`, by default the current one."""
 
 def import_model(
     path: str | os.PathLike[str],
@@ -385,7 +385,7 @@ def import_model(
     tolerance: float = 1e-5,
     lump: float = 1e-3,
 ) -> Scenario:
-    """A scenario of a model in SDF, MJCF or URDF; what was taken for granted is in its `assumptions`."""
+    """Makes a scenario from a model in SDF, MJCF or URDF; `assumptions` lists the assumptions made."""
 
 def validate(
     s: Scenario,
@@ -399,4 +399,4 @@ def validate(
     any_tolerance: bool = False,
     time_limit: float | None = None,
 ) -> Result:
-    """The whole validation of a scenario, of this program's solver or of `solver`: Motion of N instants -> (N, 6), N m or N."""
+    """Validates a scenario with this program's solver or with `solver`: Motion of N instants -> (N, 6), N m or N."""
