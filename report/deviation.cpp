@@ -45,7 +45,7 @@ std::string roundedUp(double value) {
 }  // namespace
 
 std::string sentence(const EffortDeviation& deviation) {
-  if (std::isnan(deviation.largest)) return "The largest deviation is unknown: a torque is no number.";
+  if (std::isnan(deviation.largest)) return "The largest deviation is unknown: a torque is not a number.";
   if (deviation.largest_effort == 0)
     return fmt::format("No torque is needed here; the largest that was found is {:.3g} {}.", deviation.largest,
                        deviation.unit);

@@ -84,8 +84,7 @@ std::vector<Part> parts(const ValidationResult& result, const Picture* picture, 
           {"statistics", "Error statistics", statisticsTable(result)},
           {"input", "Input", picture == nullptr ? "" : inputCard(*picture)},
           {"findings", "Findings", factsTable("Facts that are not judged", result.findings)},
-          {"provenance", "Provenance",
-           factsTable("What this result was made from and with", result.provenance) + command(result)}};
+          {"provenance", "Provenance", factsTable("The sources of this result", result.provenance) + command(result)}};
 }
 
 }  // namespace

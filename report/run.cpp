@@ -28,7 +28,7 @@ std::optional<std::string> contentOf(const std::filesystem::path& file) {
   const std::filesystem::file_status there = std::filesystem::status(file, error);
   if (!std::filesystem::exists(there)) return std::nullopt;
   if (!std::filesystem::is_regular_file(there))
-    throw MixedResults(file.string() + ": error: is no regular file, as a run writes it");
+    throw MixedResults(file.string() + ": error: is not a regular file, expected one that a run writes");
   std::ifstream in(file, std::ios::binary);
   if (!in) return std::nullopt;
   return std::string(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
@@ -39,7 +39,8 @@ Json jsonIn(const std::filesystem::path& file) {
   const std::optional<std::string> text = contentOf(file);
   if (!text) return Json::object();
   Json json = Json::parse(*text, nullptr, false);
-  if (!json.is_object()) throw MixedResults(file.string() + ": error: is no JSON object, as a run writes it");
+  if (!json.is_object())
+    throw MixedResults(file.string() + ": error: is not a JSON object, expected one that a run writes");
   return json;
 }
 
