@@ -104,18 +104,19 @@ std::string besides(const Audit& result) {
   std::string rows;
   for (const AuditRemark& remark : result.remarks)
     rows += line(remark.place, {escaped(remark.says), escaped(remark.found)});
-  return table("What the text says besides its formulas", {"Place", "Says", "Found"}, rows);
+  return table("Further statements of the text", {"Place", "Says", "Found"}, rows);
 }
 
 std::string method(const Audit& result) {
   std::string instants;
   for (const double t : result.instants) instants += fmt::format("{}{}", instants.empty() ? "" : ", ", t);
   return fmt::format(
-      "<p>Truth comes without the paper's formulas: points by rigid motion and meeting circles, rates by extrapolated "
-      "central differences in 50-digit arithmetic, torques by virtual work. A residual is the largest component of a "
-      "formula's mismatch with that truth, over the legs and t = {} s, every input exact. Where a formula holds, some "
-      "1e-40 is left: the differences' rounding.</p>\n<p>Our source is a scan: whether an error is the paper's or the "
-      "scan's cannot be told from it. To do it again: <code>ursula audit --out DIR</code></p>",
+      "<p>The reference does not use the paper's formulas. Points come from rigid motion and intersecting circles, "
+      "rates "
+      "from extrapolated central differences in 50-digit arithmetic, torques from virtual work. A residual is the "
+      "largest component of a formula's mismatch with this reference, over the legs and t = {} s, with exact inputs. "
+      "If a formula holds, some 1e-40 is left: the rounding of the differences.</p>\n<p>Our source is a scan: it does "
+      "not tell whether an error is the paper's or the scan's. To reproduce: <code>ursula audit --out DIR</code></p>",
       instants);
 }
 
@@ -126,7 +127,7 @@ std::string auditHtml(const Audit& result) {
   using audit::countOf, audit::number;
   report::Page page;
   page.kind = "Audit";
-  page.title = "The paper's formulas on trial";
+  page.title = "Audit of the paper's formulas";
   page.subtitle = fmt::format("{}, {:.6g} s", result.scenario, result.duration);
   page.sentence = fmt::format("{} readings fail, {} are plain misprints, {} hold as printed.",
                               countOf(result, AuditRow::Kind::fails), countOf(result, AuditRow::Kind::misprint),
@@ -136,15 +137,16 @@ std::string auditHtml(const Audit& result) {
         "With the failing ones put right the method does what the paper says: its torques (37) agree with virtual work "
         "over differenced positions to {} of {} N·m.",
         number(torques->residual_printed), number(torques->size))};
-  page.sections = {{"failing", "Formulas that do not hold as printed",
-                    audit::corrected(result, AuditRow::Kind::fails, "As printed, and what holds")},
-                   {"effects", "What each does to torques and motion", audit::effects(result)},
-                   {"misprints", "Misprints",
-                    audit::corrected(result, AuditRow::Kind::misprint,
-                                     "Dimensions or types do not match, or a symbol is plainly another's")},
-                   {"holding", "Formulas that hold as printed", audit::holding(result)},
-                   {"besides", "Besides the formulas", audit::besides(result)},
-                   {"method", "Method", audit::method(result)}};
+  page.sections = {
+      {"failing", "Formulas that do not hold as printed",
+       audit::corrected(result, AuditRow::Kind::fails, "As printed, and the correct formula")},
+      {"effects", "Effect of each on torques and motion", audit::effects(result)},
+      {"misprints", "Misprints",
+       audit::corrected(result, AuditRow::Kind::misprint,
+                        "Dimensions or types do not match, or a symbol clearly belongs to another quantity")},
+      {"holding", "Formulas that hold as printed", audit::holding(result)},
+      {"besides", "Besides the formulas", audit::besides(result)},
+      {"method", "Method", audit::method(result)}};
   page.footer = "<p>The same in numbers: <a href=\"audit.json\">audit.json</a>.</p>";
   return report::pageHtml(page);
 }

@@ -115,18 +115,18 @@ const char* name(AuditRow::Kind kind) {
 
 std::string auditText(const Audit& result) {
   std::string out = fmt::format(
-      "The paper's formulas on trial: {}, t_f = {} s. Residuals in 50 digits, each formula alone with exact inputs,\n"
-      "largest over six legs at {} instants, beside the size of what it gives. The leg's index is left out.\n",
+      "Audit of the paper's formulas: {}, t_f = {} s. Residuals in 50 digits, each formula alone with exact inputs,\n"
+      "largest over six legs at {} instants, beside the size of the formula's value. The leg's index is left out.\n",
       result.scenario, result.duration, result.instants.size());
   out += audit::heading("Do not hold as printed in our source");
   out += audit::section(result, AuditRow::Kind::fails);
   for (const AuditRow& row : result.together)
     out += audit::line(row.equation, "does", audit::effectText(*row.effect, result.duration), "");
-  out += audit::heading("Misprints: dimensions or types do not match, or a symbol is another's");
+  out += audit::heading("Misprints: dimensions or types do not match, or a symbol belongs to another quantity");
   out += audit::section(result, AuditRow::Kind::misprint);
   out += audit::heading("Hold as printed");
   out += audit::section(result, AuditRow::Kind::holds);
-  out += audit::heading("Besides");
+  out += audit::heading("Further statements");
   for (const AuditRemark& remark : result.remarks) {
     out += audit::line(remark.place, "says", remark.says, "");
     out += audit::line("", "found", remark.found, "");

@@ -34,7 +34,7 @@ constexpr double largest_coordinate = 1e100;
 double finiteNumber(const std::string& name, const std::string& text, const std::string& part) {
   const LeadingNumber read = leadingNumber(part);
   if (part.empty() || read.length != part.size() || !std::isfinite(read.value))
-    throw GridError(fmt::format("--{} {}: '{}' is no finite number", name, text, part));
+    throw GridError(fmt::format("--{} {}: '{}' is not a finite number", name, text, part));
   if (!(std::abs(read.value) <= largest_coordinate))
     throw GridError(fmt::format("--{} {}: {}, expected a size of at most {}", name, text, part, largest_coordinate));
   return read.value;

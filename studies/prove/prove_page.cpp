@@ -98,8 +98,9 @@ std::string checksTable(const std::vector<CheckProof>& checks) {
         escaped(listed(proof.alone.empty() ? proof.first : proof.alone)));
   }
   return region(
-      "What each check is needed for",
-      "<table>\n<caption>Defects that a check alone catches, and that it catches first.</caption>\n<thead><tr>"
+      "Defects for which each check is needed",
+      "<table>\n<caption>The defects that only this check catches, and those that it catches "
+      "first.</caption>\n<thead><tr>"
       "<th scope=\"col\">Outcome</th><th scope=\"col\">Check</th><th scope=\"col\" class=\"number\">Alone</th>"
       "<th scope=\"col\" class=\"number\">First</th><th scope=\"col\">Such as</th></tr></thead>\n<tbody>\n" +
           rows + "</tbody></table>");

@@ -195,7 +195,7 @@ double ScenarioNumbers::hold(const std::string& key) {
   if (!spot.node->is_number())
     fail(key, spot.node->is_array() || spot.node->is_table()
                   ? "has numbers within it, expected the key of one, such as '" + key + ".0'"
-                  : "is no number");
+                  : "is not a number");
   requireUse(document_, key);
   if (spot.node->is_integer() && !spot.integer) spot.node = asFloat(*parent.node, parts.back(), *spot.node);
   held_.push_back({key, spot.node});

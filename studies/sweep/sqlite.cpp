@@ -51,20 +51,20 @@ std::string inWords(int code, const char* message, int system_error) {
   switch (code) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-      return "it is locked by another program: try again when that has ended";
+      return "another program has locked it: try again when that program has ended";
     case SQLITE_CONSTRAINT:  // each sweep has its own points
-      return "another sweep has written the same points meanwhile; what is there is kept, and a new run goes on from "
-             "it";
+      return "another sweep has written the same points meanwhile; its points are kept, and a new run continues from "
+             "them";
     case SQLITE_FULL:
-      return "the disk is full; what was written before is kept";
+      return "the disk is full; points written earlier are kept";
     case SQLITE_READONLY:
-      return "it cannot be written: file or folder is read-only";
+      return "it cannot be written: the file or its folder is read-only";
     case SQLITE_NOTADB:
-      return "this is no SQLite database";
+      return "it is not an SQLite database";
     case SQLITE_CORRUPT:
       return std::string("it is damaged: ") + message;
     case SQLITE_CANTOPEN:
-      return "it cannot be opened or made here" + (system_error != 0 ? ": " + cause(system_error, "") : "");
+      return "it cannot be opened or created here" + (system_error != 0 ? ": " + cause(system_error, "") : "");
     case SQLITE_IOERR:
       return "reading or writing failed: " + cause(system_error, message);
     default:
@@ -78,7 +78,7 @@ Sqlite::Sqlite(const std::filesystem::path& file, Access access) : file_(file) {
   std::error_code ignored;
   const std::filesystem::file_status there = std::filesystem::status(file, ignored);
   if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
-    throw DatabaseError(fmt::format("{}: error: is no regular file, expected a database", file.string()));
+    throw DatabaseError(fmt::format("{}: error: is not a regular file, expected a database", file.string()));
   // An absolute path, because SQLite gives names such as ":memory:" and "file:…" a special meaning.
   const std::string path = std::filesystem::absolute(file).string();
   const int status = sqlite3_open_v2(path.c_str(), &handle_, flagsOf(access) | SQLITE_OPEN_NOMUTEX, nullptr);

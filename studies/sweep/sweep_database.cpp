@@ -64,9 +64,9 @@ void requireOurs(Sqlite& database) {
   const std::filesystem::path& file = database.file();
   const std::int64_t whose = database.number("PRAGMA application_id"), version = database.number("PRAGMA user_version");
   if (whose != application)
-    refuse(file, isEmpty(database) ? "is empty: no sweep has begun to write it" : "is no database of a sweep");
+    refuse(file, isEmpty(database) ? "is empty: no sweep has begun to write it" : "is not a database of a sweep");
   if (version > layout)
-    refuse(file, fmt::format("has layout {}, of a newer ursula than this, which knows {}", version, layout));
+    refuse(file, fmt::format("has layout {} of a newer ursula, expected at most {}", version, layout));
   requireOurTables(database);
   if (const std::string found = database.text("PRAGMA quick_check(1)"); found != "ok")
     refuse(file, "it is damaged: " + found);
@@ -226,11 +226,13 @@ void SweepDatabase::requireInPlace() {
   if (!sqlite_.hasMoved()) return;
   sqlite_.run("PRAGMA wal_checkpoint(TRUNCATE)");  // its log keeps the old name, where another database may appear
   std::error_code ignored;
-  refuse(sqlite_.file(),
-         fmt::format("{} while the sweep wrote to it: what was found until then is in the file that was "
-                     "there, if that has another name now, and is lost if not",
-                     std::filesystem::exists(sqlite_.file(), ignored) ? "was replaced by another file"
-                                                                      : "was removed or renamed"));
+  refuse(
+      sqlite_.file(),
+      fmt::format(
+          "{} while the sweep wrote to it: the points found before are in the original file if that was renamed; else "
+          "they are lost",
+          std::filesystem::exists(sqlite_.file(), ignored) ? "was replaced by another file"
+                                                           : "was removed or renamed"));
 }
 
 void SweepDatabase::finish() {

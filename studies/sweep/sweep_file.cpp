@@ -166,7 +166,7 @@ SweepFile assemble(const TomlSection& document, const std::filesystem::path& fil
   sweep.scenario = file.parent_path() / scenario;
   if (const auto work = document.readChoice(keysOf("").key("what"))) sweep.work = static_cast<SweepWork>(*work);
   sweep.pointwise = readFlag(document, "pointwise");
-  if (sweep.pointwise && sweep.work != SweepWork::validate) document.fail("pointwise", "of what = 'validate' alone");
+  if (sweep.pointwise && sweep.work != SweepWork::validate) document.fail("pointwise", "expected what = 'validate'");
   readDesign(document, sweep);
   if (document.has("samples")) sweep.samples = static_cast<int>(integerOf(document, "samples"));
   for (const TomlSection& table : document.sections("vary")) sweep.vary.push_back(varyOf(table, sweep.design));

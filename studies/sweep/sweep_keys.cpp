@@ -11,15 +11,16 @@ ScenarioTable document() {
       "",
       "(the top of the file)",
       "",
-      {{"scenario", KeyType::string, "", required, "what is varied; a path from this file's folder"},
+      {{"scenario", KeyType::string, "", required, "the scenario to vary; a path from this file's folder"},
        {"what",
         KeyType::choice,
         "",
         "\"validate\"",
-        "validate: every check of each point; inverse: its largest efforts, and how near it comes to singular poses",
+        "validate: every check of each point; inverse: the largest efforts of each point, and its nearness to singular "
+        "poses",
         {},
         {"validate", "inverse"}},
-       {"pointwise", KeyType::string, "", "false", "of validate: leave out the replays; also `--pointwise`"},
+       {"pointwise", KeyType::string, "", "false", "for validate: leave out the replays; also `--pointwise`"},
        {"design",
         KeyType::choice,
         "",
@@ -31,9 +32,9 @@ ScenarioTable document() {
         KeyType::integer,
         "",
         none,
-        "points of random and sobol, required there",
+        "number of points for random and sobol, required there",
         {"an integer from 1 to 1e12", 1, 1e12}},
-       {"seed", KeyType::integer, "", "1", "of random and sobol", {"an integer from 0 to 2^63 - 1", 0, 9.3e18}},
+       {"seed", KeyType::integer, "", "1", "seed of random and sobol", {"an integer from 0 to 2^63 - 1", 0, 9.3e18}},
        {"samples",
         KeyType::integer,
         "",
@@ -52,7 +53,7 @@ ScenarioTable vary() {
       {{"key", KeyType::string, "", required,
         "any number of the scenario: `manipulator.platform.mass`, `leg.3.proximal.length` (legs from 1), "
         "`leg.3.base_point.0` (entries from 0), `leg.*.base_point.*` (each by itself), a key of `leg_defaults` (all "
-        "legs that have none of their own)"},
+        "legs that do not give it)"},
        {"values", KeyType::vector, "", none, "an array of numbers"},
        {"steps", KeyType::vector, "", none, "`[from, to, count]`: so many equally spaced values"},
        {"uniform", KeyType::vector, "", none, "`[from, to]`"},
@@ -64,10 +65,10 @@ ScenarioTable vary() {
 ScenarioTable slurm() {
   return {"slurm",
           "[slurm]",
-          "What `sbatch` is told; what is not given is the cluster's default.",
+          "Options for `sbatch`; the cluster's defaults apply to options that are not given.",
           {{"partition", KeyType::string, "", none, ""},
            {"time", KeyType::string, "", none, "limit of each task, as `01:00:00`"},
-           {"memory", KeyType::string, "", none, "of each task, as `500M`"},
+           {"memory", KeyType::string, "", none, "memory of each task, as `500M`"},
            {"options", KeyType::choices, "", none, "further options, as `[\"--account=x\"]`"}}};
 }
 

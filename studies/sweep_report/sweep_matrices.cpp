@@ -121,11 +121,12 @@ std::string togetherWords(const SweepSummary& summary, const SweepOutput& output
   double sum = 0;
   for (const Relation& relation : output.relations)
     if (relation.acts) sum += relation.first_order;
-  if (sum == 0) return " No number alone is told from chance: more points may tell.";
+  if (sum == 0) return " The effect of no single number differs from chance: more points may show it.";
   const double percent = 100 * std::min(sum, 1.0);
-  return fmt::format(
-      " Each alone, they make {:.0f} % of the variance{}", percent,
-      percent > 99.5 ? "." : "; what is left comes of numbers acting together, or too little to be told from chance.");
+  return fmt::format(" Taken alone, they explain {:.0f} % of the variance{}", percent,
+                     percent > 99.5
+                         ? "."
+                         : "; the rest comes from interactions, or from effects too small to distinguish from chance.");
 }
 
 }  // namespace
@@ -168,8 +169,8 @@ std::string driversTable(const SweepSummary& summary) {
 
 std::string correlationTable(const SweepSummary& summary) {
   return matrix(summary, shownOf(summary), "Correlations",
-                "Rank correlations (Spearman), from −1 to +1: the deeper the colour, the stronger; blue rises, orange "
-                "falls. Pale numbers are no more than chance makes: below the bound that one in a hundred sweeps of "
+                "Rank correlations (Spearman), from −1 to +1: a deeper colour is stronger; blue rises, orange falls. "
+                "Pale numbers do not differ from chance: they are below the bound that one in a hundred sweeps of "
                 "unrelated numbers would exceed anywhere.",
                 [](const SweepOutput& output, std::size_t p) {
                   const Relation& relation = output.relations[p];
@@ -195,11 +196,11 @@ std::string indexTable(const SweepSummary& summary) {
   shown.outputs = alone ? std::vector<std::size_t>() : with;
   const std::string how =
       summary.identity.design == "grid"
-          ? "Exact main effects over the complete grid."
-          : "Estimated from the points as they are (Plischke, Borgonovo, Smith 2013), less the bias "
-            "of finite classes. Pale numbers are no more than chance makes.";
+          ? "They are the exact main effects over the complete grid."
+          : "They are estimated from the given points (Plischke, Borgonovo, Smith 2013), less the bias of finite "
+            "classes. Pale numbers do not differ from chance.";
   return matrix(summary, shown, "First-order indices",
-                "First-order Sobol’ indices: the share of an output’s variance that each number makes alone. " + how,
+                "First-order Sobol’ indices: the share of an output’s variance that each number explains alone. " + how,
                 [](const SweepOutput& output, std::size_t p) {
                   const Relation& relation = output.relations[p];
                   return Cell{relation.first_order, relation.acts, shareNumber(relation.first_order)};

@@ -20,7 +20,7 @@ std::vector<std::string> namesIn(Sqlite& database) {
   for (Statement each(database, "SELECT DISTINCT name FROM result ORDER BY name"); each.step();) {
     names.push_back(each.text(0));
     if (!std::all_of(names.back().begin(), names.back().end(), isOfName))
-      throw DatabaseError(fmt::format("{}: error: '{}' is no name of a result: the database is damaged",
+      throw DatabaseError(fmt::format("{}: error: '{}' is not a name of a result: the database is damaged",
                                       database.file().string(), shown(names.back())));
   }
   return names;
@@ -67,8 +67,9 @@ void SweepRows::readParameters(SweepRow& row) const {
   using Json = nlohmann::json;
   const Json all = Json::parse(points_.text(1), nullptr, false);
   if (!all.is_object())
-    throw DatabaseError(fmt::format("{}: error: the parameters of point {} are no JSON object: the database is damaged",
-                                    database_.file().string(), row.id));
+    throw DatabaseError(
+        fmt::format("{}: error: the parameters of point {} are not a JSON object: the database is damaged",
+                    database_.file().string(), row.id));
   row.parameters.clear();
   for (const std::string& key : keys_) {
     const auto at = all.find(key);

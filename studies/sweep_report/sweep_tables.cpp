@@ -144,7 +144,7 @@ std::string parametersTable(const SweepSummary& summary) {
   std::string heads = head("Number", false);
   for (const char* each : {"Different values", "Min", "Mean", "Max", "SD"}) heads += head(each);
   const std::string all =
-      table("Numbers that were varied", "What the points have, not what was asked for.", heads, rows);
+      table("Numbers that were varied", "The values of the points, not the requested ones.", heads, rows);
   if (summary.parameters.size() <= 12) return all;
   return fmt::format("<details class=\"group\"><summary>All {} numbers</summary>{}</details>\n",
                      summary.parameters.size(), all);

@@ -145,8 +145,8 @@ std::string drivenBy(const SweepSummary& summary, const SweepOutput& output) {
   if (output.spread.constant) return "the same at every point";
   const std::size_t p = driver(output);
   if (p == summary.parameters.size())
-    return summary.identity.design == "grid" ? "tied to no number by itself"
-                                             : "tied to no number that can be told from chance";
+    return summary.identity.design == "grid" ? "not related to any single number"
+                                             : "not related to any number more than by chance";
   const Relation& relation = output.relations[p];
   if (relation.acts)
     return fmt::format("driven by {}, which alone makes {} of its variance", summary.parameters[p].key,

@@ -119,13 +119,13 @@ TEST(SweepVerb, refusesInOneLineWhatCannotBe) {
   refused("s.toml --shard 0/4", "--shard 0/4: expected I/N with I from 1 to N");
   refused("s.toml --shard 5/4", "--shard 5/4: expected I/N");
   refused("s.toml --shard 1/4x", "--shard 1/4x: expected I/N");
-  refused("s.toml --db bad.toml", "bad.toml: error: this is no SQLite database");
+  refused("s.toml --db bad.toml", "bad.toml: error: it is not an SQLite database");
   refused("s.toml --pointwise", "--pointwise: expected a sweep with what = \"validate\"");
   refused("show s.toml 50", "point 50: s.toml has points 0 to 49");
   refused("merge s.db none.db --db all.db", "none.db: error: it cannot be opened");
   refused("", "sweep");
   refused("merge s.db", "ursula sweep merge: --db is required (ursula sweep merge --help");
-  refused("s.toml --db /dev/null", "/dev/null: error: is no regular file");
+  refused("s.toml --db /dev/null", "/dev/null: error: is not a regular file");
   ursula.write(
       "twice.toml",
       sweepOf("inverse", "design = \"random\"\ncount = 2\n[[vary]]\nkey = \"leg.01.base_point.0\"\nvalues = [0.1]\n"));

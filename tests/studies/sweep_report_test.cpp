@@ -200,7 +200,7 @@ TEST(SweepRows, RefusesNamesThatNoSweepWrites) {
     MadeSweep sweep = validateSweep();
     sweep.points.front().values.front().name = name;
     EXPECT_THAT(refusal<DatabaseError>([&] { csvOf(sweep, "names"); }),
-                AllOf(HasSubstr("is no name of a result: the database is damaged"), Not(HasSubstr("\x1b"))))
+                AllOf(HasSubstr("is not a name of a result: the database is damaged"), Not(HasSubstr("\x1b"))))
         << name;
   }
 }

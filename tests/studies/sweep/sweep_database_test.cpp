@@ -127,11 +127,11 @@ TEST(SweepDatabase, refusesThoseOfOthersAndLeavesThemAsTheyAre) {
   newer.version = "2.0";
   EXPECT_THAT(refused(file, newer), HasSubstr("written by ursula 1.0"));
   Sqlite(file, Sqlite::Access::write).run("PRAGMA user_version = 7");
-  EXPECT_THAT(refused(file), HasSubstr("has layout 7, of a newer ursula"));
+  EXPECT_THAT(refused(file), HasSubstr("has layout 7 of a newer ursula"));
 
   const std::filesystem::path foreign = folder.path() / "foreign.db";
   Sqlite(foreign, Sqlite::Access::create).run("CREATE TABLE x(y); INSERT INTO x VALUES(1)");
-  EXPECT_THAT(refused(foreign), HasSubstr("is no database of a sweep"));
+  EXPECT_THAT(refused(foreign), HasSubstr("is not a database of a sweep"));
   const std::filesystem::path empty = folder.write("empty.db", "");
   EXPECT_THAT(refusal<DatabaseError>([&] { SweepDatabase database(empty); }),
               HasSubstr("is empty: no sweep has begun"));
@@ -139,7 +139,7 @@ TEST(SweepDatabase, refusesThoseOfOthersAndLeavesThemAsTheyAre) {
   const std::filesystem::path text = folder.write("text.db", "this is a text, and long enough that it is one\n");
   EXPECT_THAT(refused(text), HasSubstr("no SQLite database"));
   EXPECT_THAT(TemporaryFolder::read(text), HasSubstr("this is a text"));
-  EXPECT_THAT(refused(text / "s.db"), HasSubstr("cannot be opened or made"));
+  EXPECT_THAT(refused(text / "s.db"), HasSubstr("cannot be opened or created"));
 }
 
 TEST(SweepDatabase, makesItsFolders) {
@@ -229,7 +229,7 @@ TEST(SweepDatabase, isWrittenByOneAtATime) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "s.db";
   SweepDatabase one(file, identity());
-  EXPECT_THAT(refused(file), HasSubstr("locked by another program"));
+  EXPECT_THAT(refused(file), HasSubstr("another program has locked it"));
   EXPECT_EQ(SweepDatabase(file).pointsDone(), 0) << "but anybody may read it";
 }
 
