@@ -70,7 +70,7 @@ void readAcceptance(const TomlSection& table, const std::string& prefix, Scenari
     limit.check = prefix + name;
     const std::vector<std::string> known = namesOfChecks();
     if (std::find(known.begin(), known.end(), limit.check) == known.end())
-      table.fail(name, fmt::format("'{}' is no check{}", shown(limit.check), didYouMean(limit.check, known)));
+      table.fail(name, fmt::format("'{}' is not a check{}", shown(limit.check), didYouMean(limit.check, known)));
     table.require(name, limit.limit);
     if (!(limit.limit > 0)) table.fail(name, fmt::format("{}, expected a number > 0", limit.limit));
     const auto same = [&](const AcceptanceLimit& other) { return other.check == limit.check; };

@@ -34,7 +34,7 @@ bool fails(const ValidationResult& result, const char* name) {
 
 std::string oddOne(const Evidence& evidence, const ValidationResult& result) {
   const bool between = fails(result, "torque.between") && !fails(result, "torque.pointwise");
-  return between ? "the torques on trial, between the samples; at the samples: " + oddOneOut(evidence.engines)
+  return between ? "the torques under test, between the samples; at the samples: " + oddOneOut(evidence.engines)
                  : oddOneOut(evidence.engines);
 }
 

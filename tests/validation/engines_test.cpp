@@ -72,7 +72,7 @@ TEST_P(Engines, seeATorqueThatIsOffByABillionthOfTheLargest) {
     EXPECT_EQ(check.verdict, Verdict::fail) << check.name;
     EXPECT_NEAR(check.value, 1e-9 * largest_, check.limit) << check.name;
   }
-  EXPECT_EQ(oddOneOut(engines), "the torques on trial");
+  EXPECT_EQ(oddOneOut(engines), "the torques under test");
 }
 
 INSTANTIATE_TEST_SUITE_P(Machines, Engines, testing::ValuesIn(machines), machineName);
@@ -111,7 +111,8 @@ struct Faulty {
 };
 
 const std::vector<Faulty> five_formulations = {
-    {"the torques on trial", [](EngineSample& engine) -> Vector6d& { return engine.subject; }, "fail", "fail", "fail"},
+    {"the torques under test", [](EngineSample& engine) -> Vector6d& { return engine.subject; }, "fail", "fail",
+     "fail"},
     {"Simbody, free platform", [](EngineSample& engine) -> Vector6d& { return engine.simbody; }, "pass", "pass",
      "pass"},
     {"Simbody, tree through leg 1", [](EngineSample& engine) -> Vector6d& { return *engine.further[twin]; }, "fail",

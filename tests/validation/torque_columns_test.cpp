@@ -114,7 +114,7 @@ TEST(TorqueColumns, withoutAHeaderOnlyEqualStepsFromZeroAreTheTime) {
   EXPECT_THAT(parseTorqueFile(rows("1"), "a.csv").read_as,
               StartsWith("blanks between, no header, t_s = '1', tau_1_Nm = '2'"));
   EXPECT_THAT(refusal<CsvError>([&] { parseTorqueFile(rows("1.3"), "a.csv"); }),
-              AllOf(HasSubstr("there is no header, and 7 columns (by blanks)"),
+              AllOf(HasSubstr("the file has no header, and 7 columns (separated by blanks)"),
                     EndsWith("--map t_s=1 --map tau_1_Nm=2 --map tau_2_Nm=3 --map tau_3_Nm=4 --map tau_4_Nm=5 --map "
                              "tau_5_Nm=6 --map tau_6_Nm=7")));
   // Two columns that may be the time.
@@ -140,7 +140,7 @@ const std::string uncertain = "zeit;T1;T2;T3;T4;T5;T6\n0;1,25;2;3;4;5;6\n";
 TEST(TorqueColumns, refusesWhatIsNotCertainWithTheOptionThatReadsIt) {
   const std::string said = refusal<CsvError>([] { parseTorqueFile(uncertain, "a.csv"); });
   EXPECT_THAT(said, AllOf(StartsWith("a.csv:1: error: missing column 't_s', expected it in the header"),
-                          HasSubstr("separated by ';' it has: zeit, T1, T2, T3, T4, T5, T6"),
+                          HasSubstr("its columns, separated by ';', are: zeit, T1, T2, T3, T4, T5, T6"),
                           EndsWith("say so: --map t_s=zeit --map tau_1_Nm=T1 --map tau_2_Nm=T2 --map tau_3_Nm=T3 "
                                    "--map tau_4_Nm=T4 --map tau_5_Nm=T5 --map tau_6_Nm=T6")));
   // And it does.
@@ -171,7 +171,7 @@ TEST(TorqueColumns, aWrongMapIsRefused) {
   };
   EXPECT_EQ(said({"tau_1_Nm"}), "--map tau_1_Nm: expected NAME=COLUMN, as in tau_1_Nm=tau1");
   EXPECT_EQ(said({"tau_7_Nm=x"}),
-            "--map tau_7_Nm=x: 'tau_7_Nm' is no column of a torque file, expected t_s or tau_1_Nm "
+            "--map tau_7_Nm=x: 'tau_7_Nm' is not a column of a torque file, expected t_s or tau_1_Nm "
             "to tau_6_Nm, did you mean 'tau_1_Nm'?");
   EXPECT_EQ(said({"t_s=a", "t_ms=b"}), "--map t_ms=b: t_ms is mapped twice");
   EXPECT_EQ(said({"t_s=a", "tau_1_Nm=a"}), "--map tau_1_Nm=a: column 'a' is mapped to t_s already");

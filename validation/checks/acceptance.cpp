@@ -10,7 +10,7 @@ namespace ursula {
 void judgeByUser(double limit, const std::string& whose, Check& check) {
   const bool finished = check.reason == Reason::none || check.reason == Reason::limit_useless;
   if (!finished) {
-    check.why += fmt::format("; {} allows {:.3g} {}, but there is no finished value to hold against it", whose, limit,
+    check.why += fmt::format("; {} allows {:.3g} {}, but there is no finished value to compare with it", whose, limit,
                              check.unit);
     return;
   }

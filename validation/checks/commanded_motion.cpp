@@ -229,8 +229,7 @@ Check judgedAs(const std::string& name, const NearestToLimit& shown, const std::
       exact ? "" : "; 250 eps over the step, to the order of the derivative, and twice what halving the step changes";
   return judged(
       name, shown.value, shown.limit, unit,
-      "25 eps x what is added up to it in powers of (t - start)/h, and what an angle off by its rounding turns" +
-          doubles,
+      "25 eps x the sum of its terms in powers of (t - start)/h, and the effect of an angle's rounding" + doubles,
       fmt::format("{}, at {} instants; shown for t = {:.6g} s, {}", what, instants, shown.t,
                   parts[static_cast<std::size_t>(shown.where)]));
 }

@@ -65,7 +65,7 @@ struct Named {
 };
 
 std::vector<Named> enginesOf(const EngineSample& first) {
-  std::vector<Named> engines{{"the torques on trial", [](const EngineSample& sample) { return &sample.subject; }},
+  std::vector<Named> engines{{"the torques under test", [](const EngineSample& sample) { return &sample.subject; }},
                              {"Simbody, free platform", [](const EngineSample& sample) { return &sample.simbody; }}};
   for (std::size_t k = 0; k < further_engine_count; ++k)
     if (first.further[k])

@@ -63,7 +63,7 @@ TimeSeries distances(const std::vector<PointwiseSample>& samples) {
 void addEvents(const std::vector<PointwiseSample>& samples, const std::vector<WindowedReplay>& windows,
                ValidationResult& result) {
   for (const WindowedReplay& window : windows) {
-    if (&window != &windows.front()) result.events.push_back({window.window.start(), "the replay starts anew"});
+    if (&window != &windows.front()) result.events.push_back({window.window.start(), "the replay starts again"});
     const Replay& replay = window.replay;
     if (!replay.gave_up.empty()) result.events.push_back({replay.stopped_at, "the replay stopped"});
     if (replay.left_path) result.events.push_back({replay.steps.back().t, "the replay left the path"});

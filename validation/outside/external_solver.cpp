@@ -32,7 +32,7 @@ class Process {
     try {
       return solverAnswer(answer.text);
     } catch (const SolverProcessError& error) {
-      refuse("answered what is no answer: " + std::string(error.what()), question, answer.text);
+      refuse("gave an invalid answer: " + std::string(error.what()), question, answer.text);
     }
   }
 

@@ -108,9 +108,9 @@ class Finder {
       if (!isTaken(column)) free.push_back(column);
     text += didYouMean(name, likeliest(name, free));
     text += dialect_.header == 0
-                ? fmt::format("; there is no header, and {} columns (by {})", dialect_.header_cells.size(),
-                              separatorWords(dialect_))
-                : fmt::format("; separated by {} it has: {}", separatorWords(dialect_), headerInWords());
+                ? fmt::format("; the file has no header, and {} columns (separated by {})",
+                              dialect_.header_cells.size(), separatorWords(dialect_))
+                : fmt::format("; its columns, separated by {}, are: {}", separatorWords(dialect_), headerInWords());
     return text + options(free);
   }
 
@@ -198,7 +198,7 @@ ColumnMap parseColumnMap(const std::vector<std::string>& texts, const Motors& mo
     if (name.empty() || column.empty()) fail(fmt::format("expected NAME=COLUMN, as in {}=tau1", targets[1]));
     const std::optional<ColumnMeaning> meaning = meaningOfTarget(name);
     if (!meaning)
-      fail(fmt::format("'{}' is no column of a torque file, expected t_s or {} to {}{}", name, targets[1],
+      fail(fmt::format("'{}' is not a column of a torque file, expected t_s or {} to {}{}", name, targets[1],
                        targets.back(), didYouMean(name, targets)));
     if (meaning->motor >= 0 && !meaning->fits(motors, meaning->motor)) fail(whatItTakes(motors, meaning->motor));
     for (const auto& [other, its_column] : out) {
