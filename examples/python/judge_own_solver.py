@@ -1,4 +1,4 @@
-"""A solver of one's own on trial: judge_own_solver.py SCENARIO [ERROR]. ERROR is put into its torques, relative."""
+"""Judges a solver of your own: judge_own_solver.py SCENARIO [ERROR]. ERROR is a relative error of its torques."""
 
 import sys
 
