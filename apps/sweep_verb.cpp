@@ -63,7 +63,7 @@ int codeOf(const SweepRunResult& result) {
 
 void tellOutcome(const SweepRunResult& result, const std::filesystem::path& database, bool retried) {
   if (result.stopped) {
-    say("stopped: {} of {} points are in {}; the same command goes on from there\n", result.done, result.points,
+    say("stopped: {} of {} points are in {}; the same command continues from there\n", result.done, result.points,
         database.string());
     return;
   }

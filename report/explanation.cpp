@@ -51,7 +51,7 @@ std::string explanation(const std::string& check) {
     throw std::invalid_argument(fmt::format("no check '{}'{}", check, didYouMean(check, namesOfChecks())));
   const std::string unit = *row->unit == '\0' ? "a number" : fmt::format("in {}", row->unit);
   const std::string own = fmt::format(
-      "[acceptance] \"{}\" = X in the scenario; where it is wider than the derived one, the result says so.", check);
+      "[acceptance] \"{}\" = X in the scenario; if it is wider than the derived one, the result says so.", check);
   return fmt::format("{}: {}, {}\n\n{}{}{}{}{}", check, row->title, unit, paragraph("proves", row->proves),
                      paragraph("limit", limitText(*row)), paragraph("limit of yours", own),
                      paragraph("if it fails", row->on_failure), paragraph("needs", needsInWords(row->needs)));

@@ -84,8 +84,8 @@ std::size_t findBase(const ModelGraph& graph, const Groups& groups, const Net& n
     if (groups.groups[i].fixed && !net.at(i).empty()) return i;
   const std::vector<std::size_t> hubs = net.hubs();
   throw ImportError(
-      fmt::format("nothing that moves is joined to the world or to a static body; --base BODY says what "
-                  "stands still: {}",
+      fmt::format("nothing that moves is joined to the world or to a static body; --base BODY names the "
+                  "fixed body: {}",
                   hubs.empty() ? "but no body has three joints" : net.names(hubs)));
 }
 
@@ -108,8 +108,8 @@ std::size_t findPlatform(const ModelGraph& graph, const Groups& groups, const Ne
                     net.name(base),
                     graph.format == "urdf" ? "URDF is a tree: --close A:B closes its loops" : "are its loops closed?"));
   throw ImportError(
-      fmt::format("more than one body has three joints or more: {}; --platform BODY says which one the "
-                  "legs carry",
+      fmt::format("more than one body has three joints or more: {}; --platform BODY names the one "
+                  "that the legs carry",
                   net.names(hubs)));
 }
 

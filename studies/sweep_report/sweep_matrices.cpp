@@ -116,7 +116,7 @@ std::string togetherWords(const SweepSummary& summary, const SweepOutput& output
   if (output.no_index != NoIndex::none)
     return fmt::format(" There are no first-order indices: {}.", reasonOf(output.no_index));
   if (output.spread.count != static_cast<std::size_t>(summary.points_done))
-    return " The indices are over the points that have a value, where the numbers may depend on each other: "
+    return " The indices are over the points that have a value; there the numbers may depend on each other: "
            "their sum says nothing.";
   double sum = 0;
   for (const Relation& relation : output.relations)
@@ -156,10 +156,10 @@ std::string driversTable(const SweepSummary& summary) {
   const std::string more =
       order.size() > most_bars ? fmt::format(" The strongest {} of {} numbers.", most_bars, order.size()) : "";
   return fmt::format(
-      "<p class=\"aside\"><b>{}</b>: the share of its variance that each number makes alone (first-order Sobol’ "
+      "<p class=\"aside\"><b>{}</b>: the share of its variance that each number explains alone (first-order Sobol’ "
       "index), "
-      "and its correlations.{}{}</p>\n<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"What drives it "
-      "most\"><table class=\"drivers\">\n<thead><tr><th scope=\"col\">Number</th><th scope=\"col\">{}</th><th "
+      "and its correlations.{}{}</p>\n<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"Strongest "
+      "drivers\"><table class=\"drivers\">\n<thead><tr><th scope=\"col\">Number</th><th scope=\"col\">{}</th><th "
       "scope=\"col\" class=\"number\">Index</th><th scope=\"col\" class=\"number\">Rank correlation</th><th "
       "scope=\"col\" class=\"number\">Linear correlation</th><th scope=\"col\"><span class=\"unseen\">Remark</span>"
       "</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n",

@@ -92,13 +92,13 @@ std::string sweepPage(const SweepSummary& summary) {
   page.figures = figuresOf(summary);
   page.style = style;
   page.sections = {{"maps", "Over the grid", gridMaps(summary)},
-                   {"drivers", "What drives it", driversTable(summary)},
+                   {"drivers", "Drivers", driversTable(summary)},
                    {"scatter", "Strongest relations", scatterPlots(summary)},
                    {"correlations", "Every number against every output", correlationTable(summary)},
                    {"indices", "First-order indices", indexTable(summary)},
                    {"worst", "Worst points", worstTable(summary)},
                    {"outputs", "Outputs", histograms(summary) + outputsTable(summary)},
-                   {"numbers", "What was varied", parametersTable(summary)},
+                   {"numbers", "Varied numbers", parametersTable(summary)},
                    {"paste", "Table to paste", pasteBox(summary)}};
   page.footer = fmt::format("<p>ursula {}. Every point and number: <code>ursula sweep report DB --csv FILE</code>.</p>",
                             report::escaped(identity.version));

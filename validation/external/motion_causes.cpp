@@ -244,7 +244,7 @@ void addNotTurned(const Scenario& scenario, std::vector<Cause>& out) {
       });
   add({"gravity taken in the platform's frame", NamedCause{CauseKind::frame, "gravity", "all"}},
       [](ManipulatorParameters& machine, const Matrix3d& Q) { machine.gravity = (Q * machine.gravity).eval(); });
-  add({"gravity turned into the platform's frame, where the base's belongs",
+  add({"gravity turned into the platform's frame instead of the base's",
        NamedCause{CauseKind::frame, "gravity", "all"}},
       [](ManipulatorParameters& machine, const Matrix3d& Q) {
         machine.gravity = (Q.transpose() * machine.gravity).eval();
