@@ -41,7 +41,8 @@ void addEngines(const ValidationResult& result, Found& found) {
     worst = std::isnan(worst) ? check->largest.value : std::max(worst, check->largest.value);
     if (std::string(engine) != "torque.twin") ++found.engines;
   }
-  const double expected = std::max(largestOf(result.timeseries, "simbody_tau_"), largestOf(result.timeseries, "tau_"));
+  const double of_engine = largestOf(result.timeseries, "simbody_tau_");
+  const double expected = of_engine > 0 ? of_engine : largestOf(result.timeseries, "tau_");
   found.agreement = expected > 0 ? worst / expected : none;
   if (result.deviation && expected > 0) found.allowed = result.deviation->allowed / expected;
 }
@@ -79,18 +80,21 @@ std::string agrees(const Found& found) {
                             : fmt::format("; {} independent formulations agree {}", inWords(found.engines), share);
 }
 
-/// "303 ± 1 kg"; what explains all but rounding needs no number for that.
+/// ". Likely cause: platform mass 303 ± 1 kg"; what explains all but rounding needs no number for that, and where there
+/// is no cause none is called likely.
 std::string inPrint(std::string cause) {
   for (const auto& [from, to] :
        {std::pair<std::string, std::string>{" +- ", " ± "},
         {", which explains more than 99.9999 % of the deviation", ", which explains all of it"}})
     for (std::size_t at = cause.find(from); at != std::string::npos; at = cause.find(from, at + to.size()))
       cause.replace(at, from.size(), to);
-  return cause;
+  for (const char* none : {"no ", "right but "})
+    if (cause.rfind(none, 0) == 0) return ": " + cause;
+  return cause.rfind("a likely part: ", 0) == 0 ? ". A" + cause.substr(1) : ". Likely cause: " + cause;
 }
 
 std::string failed(const ValidationResult& result, const Found& found) {
-  if (!found.cause.empty()) return fmt::format("{} are wrong. Likely cause: {}.", found.subject, inPrint(found.cause));
+  if (!found.cause.empty()) return found.subject + " are wrong" + inPrint(found.cause) + ".";
   const Check* worst = worstCheck(result.checks);
   if (worst == nullptr) return "No check was made.";
   const std::string numbers = std::isfinite(worst->value) && std::isfinite(worst->limit)
@@ -192,10 +196,11 @@ std::vector<KeyFigure> keyFigures(const ValidationResult& result) {
     out.push_back({"off the path", quantity(facts.replay, "m", 2),
                    std::isnan(facts.replay_limit) ? "" : "limit " + quantity(facts.replay_limit, "m", 2)});
   if (!std::isnan(facts.agreement))
-    out.push_back(
-        {"largest effort deviation",
-         facts.agreement >= 1e-6 ? fmt::format("{:.2g} %", 100 * facts.agreement) : plainNumber(facts.agreement, 2),
-         "of the largest effort"});
+    out.push_back({"largest effort deviation",
+                   facts.agreement >= 1e-6
+                       ? fmt::format(facts.agreement < 0.1 ? "{:.2g} %" : "{:.0f} %", 100 * facts.agreement)
+                       : plainNumber(facts.agreement, 2),
+                   "of the largest effort"});
   if (!facts.dominant.empty() && facts.cause.empty())
     out.push_back(
         {"what limits it", facts.dominant,

@@ -66,7 +66,8 @@ void addShares(const ValidationResult& result, std::vector<MotorDeviation>& moto
 }
 
 std::string shareOfLargest(double share) {
-  return share >= 1e-6 ? fmt::format("{:.2g} %", 100 * share) : plainNumber(share, 2);
+  if (share < 1e-6) return plainNumber(share, 2);
+  return share < 0.1 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
 }
 
 /// "1.003 × expected", "expected + 3 N"; empty where no one number explains it.
@@ -93,8 +94,10 @@ std::string motorRow(const MotorDeviation& motor, bool patterns) {
 std::string motorsTable(const ValidationResult& result) {
   const std::vector<MotorDeviation> motors = motorsOff(result);
   if (motors.empty()) return "";
-  const bool patterns = std::any_of(motors.begin(), motors.end(),
-                                    [](const MotorDeviation& motor) { return !patternText(motor).empty(); });
+  // A factor that one motor of many happens to have says nothing.
+  const bool patterns = std::all_of(motors.begin(), motors.end(), [](const MotorDeviation& motor) {
+    return motor.right || !patternText(motor).empty();
+  });
   std::string rows, heads;
   for (const MotorDeviation& motor : motors) rows += motorRow(motor, patterns);
   for (const char* head : {"off by", "of the largest", "at"})

@@ -111,7 +111,7 @@ class Stage {
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
-    const wide = 1.3; // a stage that is narrower, as on a phone, has the machine's whole width all the same
+    const wide = 1.2; // a stage that is narrower, as on a phone, has the machine's whole width all the same
     this.camera.fov = (360 / Math.PI) * Math.atan(Math.tan((17.5 * Math.PI) / 180) * Math.max(1, (wide * height) / width));
     this.camera.updateProjectionMatrix();
     this.render();
