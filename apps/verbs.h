@@ -32,6 +32,7 @@ void addDirect(CLI::App& app, std::function<int()>& run);
 void addCheck(CLI::App& app, std::function<int()>& run);
 void addCompare(CLI::App& app, std::function<int()>& run);
 void addDocs(CLI::App& app, std::function<int()>& run);
+void addEngines(CLI::App& app, std::function<int()>& run);
 void addExplain(CLI::App& app, std::function<int()>& run);
 void addExport(CLI::App& app, std::function<int()>& run);
 void addImport(CLI::App& app, std::function<int()>& run);

@@ -31,6 +31,7 @@ STUDIES = {
     "suite": "verdict subject",
     "stream": "verdict subject findings",
     "map": "verdict subject stream",
+    "engines": "verdict subject",
     "sweep": "verdict subject checks findings",
     "sweep_report": "verdict sweep",
 }

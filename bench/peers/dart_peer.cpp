@@ -12,7 +12,7 @@
 #include <dart/dynamics/UniversalJoint.hpp>
 #include <stdexcept>
 
-#include "bench/peers/closing.h"
+#include "engines/closing.h"
 #include "bench/peers/peer.h"
 
 namespace ursula::bench {

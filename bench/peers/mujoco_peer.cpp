@@ -1,4 +1,4 @@
-#include "bench/peers/closing.h"
+#include "engines/closing.h"
 #include "bench/peers/peer.h"
 #include "engines/mujoco/mujoco_loop.h"
 

@@ -1,4 +1,4 @@
-#include "bench/peers/closing.h"
+#include "engines/closing.h"
 #include "bench/peers/peer.h"
 #include "engines/simbody/simbody_loop.h"
 #include "validation/findings/provenance.h"

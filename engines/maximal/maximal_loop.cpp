@@ -155,7 +155,7 @@ void MaximalLoop::place(const Motion<double>& motion) {
 }
 
 /// Computes twists and their rates from the constraints and the platform's own.
-void MaximalLoop::solveMotion(const Motion<double>& motion) {
+void MaximalLoop::solveMotion(const Motion<double>& motion, bool with_gamma) {
   const int legs = manipulator_.legCount(), platform = 2 * legs;
   G_.setZero(constraints(), coordinates());
   gamma_.setZero(constraints());
@@ -183,6 +183,7 @@ void MaximalLoop::solveMotion(const Motion<double>& motion) {
     gamma_.segment<rows_per_leg>(rows_per_leg * i) << gammaOf(bodies_, leg.joints[0]), gammaOf(bodies_, leg.joints[1]),
         centripetal(bodies_.back(), leg.B) - centripetal(bodies_[at(legs + i)], leg.B);
   }
+  if (!with_gamma) gamma_.setZero();
   right.head(constraints()) = gamma_;
   right.tail<6>() << motion.omega_dot,
       motion.p_ddot + motion.omega_dot.cross(arm) + motion.omega.cross(motion.omega.cross(arm));
@@ -281,7 +282,11 @@ void MaximalLoop::addEffort(const Motor& motor, Eigen::Ref<VectorX> wrenches) co
 Vector6d MaximalLoop::inverseDynamics(const Motion<double>& motion) {
   place(motion);
   solveMotion(motion);
-  // Gᵀλ + Sτ balances that; S applies each effort to the two bodies of its joint.
+  return balance(motion);
+}
+
+Vector6d MaximalLoop::balance(const Motion<double>& motion) const {
+  // Gᵀλ + Sτ balances the rest; S applies each effort to the two bodies of its joint.
   MatrixX multipliers_and_efforts = MatrixX::Zero(coordinates(), coordinates());
   multipliers_and_efforts.leftCols(constraints()) = G_.transpose();
   for (int m = 0; m < motor_count; ++m)

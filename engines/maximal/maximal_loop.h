@@ -26,13 +26,15 @@ class MaximalLoop : public Engine {
   BodyMotions<double> bodies() const;
 
  private:
+  friend class MaximalCalls;
   using MatrixX = Eigen::MatrixXd;
   using VectorX = Eigen::VectorXd;
 
   int constraints() const;
   int coordinates() const;
   void place(const Motion<double>& motion);
-  void solveMotion(const Motion<double>& motion);
+  void solveMotion(const Motion<double>& motion, bool with_gamma = true);
+  Vector6d balance(const Motion<double>& motion) const;
   VectorX unbalanced(const Motion<double>& motion) const;
   Vector3d frictionOf(int leg) const;
   void subtractFriction(int leg, VectorX& w) const;

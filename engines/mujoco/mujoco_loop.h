@@ -37,6 +37,8 @@ class MujocoLoop : public Engine {
   static double softImpedance();
 
  private:
+  friend class MujocoCalls;
+  friend class MujocoStepped;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

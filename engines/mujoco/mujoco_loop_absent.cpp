@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "engines/loop_engine.h"
 #include "engines/mujoco/mujoco_loop.h"
 
 namespace ursula {
@@ -32,5 +33,7 @@ std::string mujocoVersion() { return "none"; }
 std::unique_ptr<Engine> makeMujocoLoop(const Manipulator& manipulator, std::shared_ptr<const Load> load) {
   return std::make_unique<MujocoLoop>(manipulator, std::move(load));
 }
+
+std::unique_ptr<LoopEngine> makeMujocoCalls(const Manipulator&, std::shared_ptr<const Load>) { throwAbsent(); }
 
 }  // namespace ursula

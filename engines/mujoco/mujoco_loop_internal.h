@@ -73,6 +73,8 @@ struct MujocoLoop::Impl {
   void placeTree(const TreeCoordinates& at);
   /// Reads the Jacobians of the placed state; `forces` are MuJoCo's result for it.
   void readTree(const Motion<double>& motion, const mujoco::VectorOfDofs& forces, OpenTree& out);
+  /// Reads the rates' part of readTree() alone: J and P.
+  void readMaps(const mjModel& in_model, mjData& in_data, OpenTree& out) const;
   /// Converts rates of MuJoCo's free joint to [ω̇; p̈]; they are linear at the mass centre in the world, angular in the
   /// body.
   Vector6d twistRate(const Motion<double>& motion, const Vector6d& rates_of_speeds) const;

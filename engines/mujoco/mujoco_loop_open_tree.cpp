@@ -67,18 +67,22 @@ void MujocoLoop::Impl::placeTree(const TreeCoordinates& at) {
   mj_comVel(model.get(), data.get());
 }
 
-void MujocoLoop::Impl::readTree(const Motion<double>& motion, const mujoco::VectorOfDofs& forces, OpenTree& out) {
+void MujocoLoop::Impl::readMaps(const mjModel& in_model, mjData& in_data, OpenTree& out) const {
   using PointJacobian = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor, 3, most_dofs>;
   PointJacobian jacobian(3, dofs);
-  const mujoco::VectorOfDofs residual = forces - given(*model, *data, motion);
   for (int i = 0; i < legs; ++i) {
     OpenTree::Leg& leg = out.legs[static_cast<std::size_t>(i)];
-    mj_jacSite(model.get(), data.get(), jacobian.data(), nullptr, siteOnLeg(i));
+    mj_jacSite(&in_model, &in_data, jacobian.data(), nullptr, siteOnLeg(i));
     leg.J = jacobian.middleCols<3>(dofOf(i, 0));
-    mj_jacSite(model.get(), data.get(), jacobian.data(), nullptr, siteOnPlatform(legs, i));
+    mj_jacSite(&in_model, &in_data, jacobian.data(), nullptr, siteOnPlatform(legs, i));
     leg.P = jacobian.rightCols<6>();
-    leg.force = residual.segment<3>(dofOf(i, 0));
   }
+}
+
+void MujocoLoop::Impl::readTree(const Motion<double>& motion, const mujoco::VectorOfDofs& forces, OpenTree& out) {
+  const mujoco::VectorOfDofs residual = forces - given(*model, *data, motion);
+  readMaps(*model, *data, out);
+  for (int i = 0; i < legs; ++i) out.legs[static_cast<std::size_t>(i)].force = residual.segment<3>(dofOf(i, 0));
   out.force = residual.tail<6>();
 }
 

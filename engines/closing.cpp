@@ -1,9 +1,9 @@
-#include "bench/peers/closing.h"
+#include "engines/closing.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-namespace ursula::bench {
+namespace ursula {
 namespace {
 
 using Maps = std::array<OpenTree::PointMap, leg_count>;
@@ -18,17 +18,55 @@ Matrix6d motorMap(const Maps& N, const Manipulator& manipulator) {
   return out;
 }
 
+Maps mapsOf(const OpenTree& tree, const Manipulator& manipulator) {
+  Maps N;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(manipulator.legCount()); ++i)
+    N[i].noalias() = tree.legs[i].J.inverse() * tree.legs[i].P;
+  return N;
+}
+
+/// [N; 1]ᵀ times what the tree needs.
+Vector6d wrenchOf(const OpenTree& tree, const Maps& N, const Manipulator& manipulator) {
+  Vector6d wrench = tree.force;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(manipulator.legCount()); ++i)
+    wrench.noalias() += N[i].transpose() * tree.legs[i].force;
+  return wrench;
+}
+
 }  // namespace
 
 Vector6d closedEfforts(const OpenTree& tree, const Manipulator& manipulator) {
-  Maps N;
-  Vector6d wrench = tree.force;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(manipulator.legCount()); ++i) {
-    const OpenTree::Leg& leg = tree.legs[i];
-    N[i].noalias() = leg.J.inverse() * leg.P;
-    wrench.noalias() += N[i].transpose() * leg.force;
+  const Maps N = mapsOf(tree, manipulator);
+  return motorMap(N, manipulator).partialPivLu().solve(wrenchOf(tree, N, manipulator));
+}
+
+Vector6d openEfforts(const OpenTree& tree, const Manipulator& manipulator) {
+  Vector6d out;
+  for (int m = 0; m < motor_count; ++m) {
+    const Motor& motor = manipulator.motors()[static_cast<std::size_t>(m)];
+    out(m) = tree.legs[static_cast<std::size_t>(motor.leg)].force(motor.joint);
   }
-  return motorMap(N, manipulator).partialPivLu().solve(wrench);
+  return out;
+}
+
+Vector6d leastEfforts(const OpenTree& tree, const Manipulator& manipulator) {
+  const Maps N = mapsOf(tree, manipulator);
+  Matrix6d squares = Matrix6d::Identity();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(manipulator.legCount()); ++i)
+    squares.noalias() += N[i].transpose() * N[i];
+  return motorMap(N, manipulator).transpose() * squares.llt().solve(wrenchOf(tree, N, manipulator));
+}
+
+/// J δ_leg − P δ = −gap of each leg, with δ_leg zero at its motors.
+Vector6d displacement(const OpenTree& tree, const std::array<Vector3d, leg_count>& gaps,
+                      const Manipulator& manipulator) {
+  Vector6d right;
+  for (int m = 0; m < motor_count; ++m) {
+    const Motor& motor = manipulator.motors()[static_cast<std::size_t>(m)];
+    const auto leg = static_cast<std::size_t>(motor.leg);
+    right(m) = (tree.legs[leg].J.inverse() * gaps[leg])(motor.joint);
+  }
+  return motorMap(mapsOf(tree, manipulator), manipulator).transpose().partialPivLu().solve(right);
 }
 
 Vector6d closedRates(const OpenTree& tree, const OpenTreeMasses& masses, const Manipulator& manipulator,
@@ -73,4 +111,4 @@ Vector6d changeOfRates(const OpenTree& tree, const OpenTreeMasses& masses, const
   return change;
 }
 
-}  // namespace ursula::bench
+}  // namespace ursula

@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "apps/progress.h"
+#include "apps/verbs.h"
+#include "base/output_folder.h"
+#include "base/shown_text.h"
+#include "model/scenario_input.h"
+#include "studies/engines/side_by_side.h"
+
+namespace ursula {
+namespace {
+
+struct EnginesOptions {
+  std::string scenario, out;
+  std::vector<std::string> engines;
+  SideBySideOptions asked;
+  bool json = false;
+};
+
+std::vector<const LoopEngineKind*> namedEngines(const std::vector<std::string>& names) {
+  std::vector<const LoopEngineKind*> out;
+  for (const std::string& name : names) {
+    const LoopEngineKind* kind = loopEngineNamed(name);
+    if (kind == nullptr) {
+      std::string known;
+      for (const LoopEngineKind& each : loopEngines()) known += (known.empty() ? "" : ", ") + std::string(each.name);
+      throw UsageError(fmt::format("--engine: '{}', expected one of {}", name, known));
+    }
+    if (!kind->available()) throw UsageError("--engine: " + sentenceOfMissing(*kind));
+    out.push_back(kind);
+  }
+  return out;
+}
+
+int engines(EnginesOptions options) {
+  if (!options.out.empty()) {
+    refuseFile(options.out);
+    refuseResults(options.out);
+  }
+  options.asked.engines = namedEngines(options.engines);
+  const Scenario scenario = readScenarioOrInput(options.scenario);
+  std::optional<OutputFolder> folder;  // what cannot be written is found before anything is asked
+  if (!options.out.empty()) folder.emplace(options.out);
+  Progress progress(scenario.name);
+  options.asked.told = [&progress](double share, const std::string& engine) { progress.at(share, engine); };
+  const SideBySide found = alongMotion(scenario, [&] { return engineSideBySide(scenario, options.asked); });
+  if (folder) {
+    folder->write("engines.json", sideBySideJson(found));
+    folder->write("engines.csv", sideBySideCsv(found));
+    folder->write("report.html", sideBySideHtml(found));
+    folder->commit();
+  }
+  std::string text = options.json ? sideBySideJson(found) : withoutControls(sideBySideText(found));
+  if (folder && !options.json)
+    text += fmt::format("page: {}\n", (std::filesystem::path(options.out) / "report.html").string());
+  writeOutput("-", text);
+  return exit_passed;
+}
+
+}  // namespace
+
+void addEngines(CLI::App& app, std::function<int()>& run) {
+  const auto options = std::make_shared<EnginesOptions>();
+  CLI::App* verb = app.add_subcommand(
+      "engines", "Engines side by side on one machine: how to get efforts right, how wrong the obvious calls are");
+  verb->add_option("scenario", options->scenario, "Scenario file (TOML), - for standard input")->required();
+  verb->add_option("--out", options->out, "Folder for a page, engines.json and engines.csv");
+  verb->add_option("--engine", options->engines, "Engines to ask, by name; default: all that this build has")
+      ->delimiter(',');
+  verb->add_option("--samples", options->asked.samples, "Instants at which efforts are asked for")
+      ->check(CLI::Range(2, 100000))
+      ->capture_default_str();
+  verb->add_option("--window", options->asked.window, "Seconds of the motion, from its start, that engines move")
+      ->check(finitePositive())
+      ->capture_default_str();
+  verb->add_flag("--json", options->json, "What was found as JSON on standard output, and nothing else there");
+  verb->callback([options, &run] { run = [options] { return engines(*options); }; });
+}
+
+}  // namespace ursula

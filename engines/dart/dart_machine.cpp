@@ -1,0 +1,202 @@
+// The links' body frames are those of the scenario, with origins at the links' first ends; the platform's is M with its
+// origin in P. A rod in a cylinder has its origin at its inner end.
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <cmath>
+#include <dart/dynamics/PrismaticJoint.hpp>
+#include <dart/dynamics/RevoluteJoint.hpp>
+#include <dart/dynamics/UniversalJoint.hpp>
+#include <stdexcept>
+
+#include "base/angles.h"
+#include "engines/dart/dart_machine_internal.h"
+
+namespace ursula::dart_engine {
+namespace {
+
+namespace dd = dart::dynamics;
+
+dd::BodyNode::AspectProperties bodyOf(const std::string& name, const Link& link, const Vector3d& center) {
+  dd::BodyNode::AspectProperties out(name);
+  out.mInertia = dd::Inertia(link.mass, center, link.inertia);
+  return out;
+}
+
+template <class Kind>
+dd::BodyNode* add(const dd::SkeletonPtr& skeleton, dd::BodyNode* parent, typename Kind::Properties joint,
+                  const Eigen::Isometry3d& place, const dd::BodyNode::AspectProperties& body) {
+  joint.mName = "to_" + body.mName;
+  joint.mT_ParentBodyToJoint = place;
+  return skeleton->createJointAndBodyNodePair<Kind>(parent, joint, body).second;
+}
+
+template <class Kind>
+typename Kind::Properties about(const Vector3d& axis) {
+  typename Kind::Properties out;
+  out.mAxis = axis;
+  return out;
+}
+
+dd::UniversalJoint::Properties universal(const Vector3d& first, const Vector3d& second) {
+  dd::UniversalJoint::Properties out;
+  out.mAxis = {first, second};
+  return out;
+}
+
+/// z along û, x as it is: the second angle is then from û.
+Matrix3d alongAxis() { return Eigen::AngleAxisd(-pi / 2, Vector3d::UnitX()).toRotationMatrix(); }
+
+Eigen::Isometry3d placeOf(const Matrix3d& R, const Vector3d& at) {
+  Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
+  out.linear() = R;
+  out.translation() = at;
+  return out;
+}
+
+/// Between sides a and b of a triangle.
+double angleOpposite(double c, double a, double b) { return std::acos((a * a + b * b - c * c) / (2 * a * b)); }
+
+}  // namespace
+
+Matrix3d fixedFrame(const Leg& leg) {
+  const Vector3d u = leg.base_axis.normalized(), level = u.cross(Vector3d::UnitZ());
+  const Vector3d x = (level.norm() < 1e-10 ? u.cross(Vector3d::UnitY()) : level).normalized();
+  Matrix3d out;
+  out << x, u, x.cross(u);
+  return out;
+}
+
+Vector3d legCoordinates(const Leg& leg, int index, const Vector3d& k) {
+  const double l = leg.proximal.length, s = leg.distal.length, side = leg.knee == Knee::positive ? 1 : -1;
+  const double q = k.norm(), r = std::hypot(k.x(), k.z()), turn = std::atan2(-k.x(), k.z());
+  Vector3d out;
+  switch (leg.kind) {
+    case LegKind::URS:
+      out << turn, std::atan2(r, k.y()) + side * angleOpposite(s, l, q), side * angleOpposite(q, l, s);
+      break;
+    case LegKind::UPS:
+      out << turn, std::atan2(r, k.y()), q;
+      break;
+    case LegKind::RUS: {
+      const double c = std::sqrt(s * s - k.y() * k.y());
+      out << turn - side * angleOpposite(c, l, r), side * (pi - angleOpposite(r, l, c)), std::atan2(k.y(), c);
+      break;
+    }
+    case LegKind::PUS: {
+      const double ahead = side * std::sqrt(s * s - r * r);
+      out << k.y() - ahead, turn, std::atan2(r, ahead);
+      break;
+    }
+  }
+  if (!out.allFinite()) throw std::domain_error(fmt::format("leg {} cannot reach over {} m", index + 1, q));
+  return out;
+}
+
+DartMachine::DartMachine(const Manipulator& from) : manipulator(from), skeleton(dd::Skeleton::create("machine")) {
+  skeleton->setGravity(from.gravity());
+  for (int i = 0; i < from.legCount(); ++i) addLeg(from.leg(i), std::to_string(i));
+  dd::BodyNode::AspectProperties body("platform");
+  body.mInertia = dd::Inertia(from.platform().mass, from.platform().center_of_mass, from.platform().inertia);
+  std::tie(free, platform) =
+      skeleton->createJointAndBodyNodePair<dd::FreeJoint>(nullptr, dd::FreeJoint::Properties(), body);
+}
+
+void DartMachine::addLeg(const Leg& leg, const std::string& index) {
+  const auto first = bodyOf("proximal" + index, leg.proximal, leg.proximalCenter());
+  const auto second = bodyOf("distal" + index, leg.distal, leg.distalCenter());
+  const Matrix3d frame = fixedFrame(leg), one = Matrix3d::Identity();
+  const auto at_A = [&leg](const Matrix3d& R) { return placeOf(R, leg.base_point); };
+  const Vector3d x = Vector3d::UnitX(), y = Vector3d::UnitY(), z = Vector3d::UnitZ(), R = leg.proximal.length * z;
+  DartLeg out;
+  dd::BodyNode* proximal = nullptr;
+  switch (leg.kind) {
+    case LegKind::URS:
+      proximal = add<dd::UniversalJoint>(skeleton, nullptr, universal(-z, x), at_A(frame * alongAxis()), first);
+      out.distal =
+          add<dd::RevoluteJoint>(skeleton, proximal, about<dd::RevoluteJoint>(x),
+                                 placeOf(Eigen::Quaterniond(0, 1, 0, 0).toRotationMatrix(), R), second);  // half a turn
+      break;
+    case LegKind::UPS:
+      proximal = add<dd::UniversalJoint>(skeleton, nullptr, universal(-z, x), at_A(frame * alongAxis()), first);
+      out.distal = add<dd::PrismaticJoint>(skeleton, proximal, about<dd::PrismaticJoint>(z),
+                                           placeOf(one, -leg.distal.length * z), second);
+      break;
+    case LegKind::RUS:
+      proximal = add<dd::RevoluteJoint>(skeleton, nullptr, about<dd::RevoluteJoint>(-y), at_A(frame), first);
+      out.distal = add<dd::UniversalJoint>(skeleton, proximal, universal(-y, -x), placeOf(one, R), second);
+      break;
+    case LegKind::PUS:
+      proximal = add<dd::PrismaticJoint>(skeleton, nullptr, about<dd::PrismaticJoint>(y), at_A(frame), first);
+      out.distal =
+          add<dd::UniversalJoint>(skeleton, proximal, universal(-z, x), placeOf(alongAxis(), Vector3d::Zero()), second);
+      break;
+  }
+  out.joints = {proximal->getParentJoint(), out.distal->getParentJoint()};
+  out.tip = leg.distal.length * z;
+  legs.push_back(out);
+}
+
+void DartMachine::move(const Motion<double>& motion, bool with_bias) {
+  Eigen::Isometry3d pose = placeOf(motion.Q, motion.p);
+  const Vector3d omega = motion.Q.transpose() * motion.omega, v = motion.Q.transpose() * motion.p_dot;
+  Vector6d twist, rate;
+  twist << omega, v;
+  rate << motion.Q.transpose() * motion.omega_dot, motion.Q.transpose() * motion.p_ddot - omega.cross(v);
+  free->setPositions(dd::FreeJoint::convertToPositions(pose));
+  free->setVelocities(twist);
+  free->setAccelerations(rate);
+  constexpr int newton_steps = 3;  // the geometry has half the digits where a leg is nearly stretched
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    const Leg& from = manipulator.leg(static_cast<int>(i));
+    const auto set = [&leg = legs[i]](const Vector3d& values, auto setter) {
+      for (std::size_t j = 0; j < 3; ++j) {
+        const auto [joint, which] = leg.place(j);
+        (joint->*setter)(which, values(static_cast<int>(j)));
+      }
+    };
+    const Vector3d& b = from.platform_point;
+    const Vector3d B = motion.p + motion.Q * b;
+    Vector3d q = legCoordinates(from, static_cast<int>(i), fixedFrame(from).transpose() * (B - from.base_point));
+    const auto J = [&leg = legs[i]] { return Matrix3d(leg.distal->getLinearJacobian(leg.tip, dd::Frame::World())); };
+    for (int step = 0; step < newton_steps; ++step) {
+      set(q, &dd::Joint::setPosition);
+      q -= J().partialPivLu().solve(legs[i].distal->getWorldTransform() * legs[i].tip - B);
+    }
+    set(q, &dd::Joint::setPosition);
+    const Eigen::PartialPivLU<Matrix3d> factors(J());
+    set(factors.solve(platform->getLinearVelocity(b)), &dd::Joint::setVelocity);
+    set(Vector3d::Zero(), &dd::Joint::setAcceleration);
+    const Eigen::Matrix<double, 3, 6> of_platform = platform->getLinearJacobian(b, dd::Frame::World());
+    const Vector3d wanted =
+        with_bias ? Vector3d(platform->getLinearAcceleration(b) - legs[i].distal->getLinearAcceleration(legs[i].tip))
+                  : Vector3d(of_platform * rate);
+    set(factors.solve(wanted), &dd::Joint::setAcceleration);
+  }
+}
+
+void DartMachine::readMaps(PlacedTree& out) const {
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    const Vector3d& b = manipulator.leg(static_cast<int>(i)).platform_point;
+    out.legs[i].J = legs[i].distal->getLinearJacobian(legs[i].tip, dd::Frame::World());
+    out.legs[i].P = platform->getLinearJacobian(b, dd::Frame::World());
+    out.gaps[i] = legs[i].distal->getWorldTransform() * legs[i].tip - platform->getWorldTransform() * b;
+  }
+}
+
+Vector3d DartMachine::friction(int index) const {
+  const Leg& leg = manipulator.leg(index);
+  Vector3d out;
+  for (std::size_t j = 0; j < 3; ++j) {
+    const auto [joint, which] = legs[static_cast<std::size_t>(index)].place(j);
+    const double rate = joint->getVelocity(which);
+    const Coordinate coordinate = rowOf(leg.kind).coordinates[j];
+    out(static_cast<int>(j)) = -leg.friction.on(coordinate) * rate -
+                               leg.coulomb.on(coordinate) * std::tanh(rate / leg.coulomb.speedOf(coordinate));
+  }
+  return out;
+}
+
+}  // namespace ursula::dart_engine

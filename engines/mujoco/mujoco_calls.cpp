@@ -1,0 +1,202 @@
+// MuJoCo as its users ask it about a closed loop, and as it moves one itself.
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+#include "engines/loop_engine.h"
+#include "engines/mujoco/mujoco_loop_internal.h"
+
+namespace ursula {
+namespace {
+
+using mujoco::Connected, mujoco::dofOf, mujoco::VectorOfDofs;
+
+/// As MuJoCo keeps them: time constant and damping ratio; the impedance's least and most, and how it goes between.
+struct Softness {
+  std::array<mjtNum, mjNREF> solref{};
+  std::array<mjtNum, mjNIMP> solimp{};
+};
+
+Softness defaultSoftness() {
+  Softness out;
+  mj_defaultSolRefImp(out.solref.data(), out.solimp.data());
+  return out;
+}
+
+constexpr double default_step = 0.002;  // s, MuJoCo's own
+
+Rigidity rigidity(const std::string& name, double step, const Softness& softness) {
+  return {name,
+          step,
+          {{"solref_timeconst", softness.solref[0]},
+           {"solref_dampratio", softness.solref[1]},
+           {"solimp_dmin", softness.solimp[0]},
+           {"solimp_dmax", softness.solimp[1]}}};
+}
+
+Softness softnessOf(const Rigidity& rigidity) {
+  Softness out = defaultSoftness();
+  out.solref = {rigidity.settings.at(0).second, rigidity.settings.at(1).second};
+  out.solimp[0] = rigidity.settings.at(2).second;
+  out.solimp[1] = rigidity.settings.at(3).second;
+  return out;
+}
+
+/// Of sites in the world's axes.
+void readGaps(const mjData& data, int legs, PlacedTree& out) {
+  for (int i = 0; i < legs; ++i)
+    out.gaps[static_cast<std::size_t>(i)] =
+        Eigen::Map<const Vector3d>(data.site_xpos + 3 * mujoco::siteOnLeg(i)) -
+        Eigen::Map<const Vector3d>(data.site_xpos + 3 * mujoco::siteOnPlatform(legs, i));
+}
+
+/// The loops closed by MuJoCo's `connect`, as soft as is said.
+Connected connected(const Manipulator& manipulator, const Vector3d& origin, const Softness& softness) {
+  Connected out;
+  out.model = mujoco::buildModel(manipulator, origin, mujoco::Closure::connected);
+  for (int leg = 0; leg < manipulator.legCount(); ++leg) {
+    std::copy(softness.solref.begin(), softness.solref.end(), out.model->eq_solref + mjNREF * leg);
+    std::copy(softness.solimp.begin(), softness.solimp.end(), out.model->eq_solimp + mjNIMP * leg);
+  }
+  out.data.reset(mj_makeData(out.model.get()));
+  if (!out.data) throw std::runtime_error("MuJoCo: no memory for its data");
+  return out;
+}
+
+}  // namespace
+
+/// Two times the step is the least time constant that MuJoCo does not round up.
+class MujocoStepped : public SteppedLoop {
+ public:
+  MujocoStepped(const Manipulator& manipulator, std::shared_ptr<const Load> load, const Rigidity& rigidity)
+      : loop_(manipulator, std::move(load)),
+        at_(*loop_.impl_),
+        own_(connected(manipulator, at_.origin, softnessOf(rigidity))) {
+    own_.model->opt.timestep = rigidity.step;
+    own_.model->opt.enableflags |= mjENBL_ENERGY;
+  }
+
+  void start(const Motion<double>& motion) override {
+    at_.place(motion);
+    at_.move(motion);
+    mj_resetData(own_.model.get(), own_.data.get());
+    std::copy_n(at_.data->qpos, own_.model->nq, own_.data->qpos);
+    std::copy_n(at_.data->qvel, own_.model->nv, own_.data->qvel);
+    own_.data->time = motion.t;
+    mj_forward(own_.model.get(), own_.data.get());
+  }
+
+  /// Friction and load stand still over the step, too.
+  void step(const Vector6d& efforts) override {
+    mjData& data = *own_.data;
+    VectorOfDofs applied = at_.given(*own_.model, data, platform());
+    for (int m = 0; m < motor_count; ++m) {
+      const Motor& motor = at_.manipulator.motors()[static_cast<std::size_t>(m)];
+      applied(dofOf(motor.leg, motor.joint)) += efforts(m);
+    }
+    std::copy_n(applied.data(), at_.dofs, data.qfrc_applied);
+    mj_step(own_.model.get(), &data);
+  }
+
+  void read(State& out) override {
+    for (int m = 0; m < motor_count; ++m) {
+      const Motor& motor = at_.manipulator.motors()[static_cast<std::size_t>(m)];
+      const int dof = dofOf(motor.leg, motor.joint);
+      out.q(m) = own_.data->qpos[dof] - (motor.joint == 0 ? at_.offset_of_phi[static_cast<std::size_t>(motor.leg)] : 0);
+      out.q_dot(m) = own_.data->qvel[dof];
+    }
+    mj_forward(own_.model.get(), own_.data.get());  // a step ends with positions that nothing else belongs to
+    out.energy = own_.data->energy[0] + own_.data->energy[1];
+    out.power =
+        at_.given(*own_.model, *own_.data, platform()).dot(Eigen::Map<const VectorOfDofs>(own_.data->qvel, at_.dofs));
+    at_.readMaps(*own_.model, *own_.data, out.tree);
+    readGaps(*own_.data, at_.legs, out.tree);
+  }
+
+ private:
+  /// What load and friction need to know.
+  Motion<double> platform() const {
+    Motion<double> out;
+    out.t = own_.data->time;
+    const double* q = own_.data->qpos + at_.leg_dofs;
+    out.Q = Eigen::Quaterniond(q[3], q[4], q[5], q[6]).toRotationMatrix();
+    out.p = at_.origin + Eigen::Map<const Vector3d>(q) - out.Q * at_.manipulator.platform().center_of_mass;
+    return out;
+  }
+
+  MujocoLoop loop_;
+  MujocoLoop::Impl& at_;
+  Connected own_;
+};
+
+class MujocoCalls : public LoopEngine {
+ public:
+  MujocoCalls(const Manipulator& manipulator, std::shared_ptr<const Load> load)
+      : LoopEngine(manipulator), load_(load), loop_(manipulator, std::move(load)), at_(*loop_.impl_) {}
+
+  const PlacedTree& tree(const Motion<double>& motion, Bias bias) override {
+    at_.place(motion);
+    at_.move(motion);
+    if (bias == Bias::left_out) {
+      Eigen::Map<VectorOfDofs> accelerations(at_.data->qacc, at_.dofs);
+      accelerations.head(at_.leg_dofs) =
+          -at_.G.leftCols(at_.leg_dofs).partialPivLu().solve(at_.G.rightCols<6>() * accelerations.tail<6>());
+    }
+    at_.readTree(motion, at_.forcesOfTree(), tree_);
+    readGaps(*at_.data, at_.legs, tree_);
+    return tree_;
+  }
+
+  std::vector<Rigidity> rigidities() const override {
+    const Softness soft = defaultSoftness();
+    Softness fast = soft, stiff = soft;
+    fast.solref[0] = 2 * default_step;
+    stiff.solimp[0] = stiff.solimp[1] = mjMAXIMP;
+    Softness both = fast, short_step = stiff;
+    both.solimp = stiff.solimp;
+    short_step.solref[0] = default_step / 2;
+    return {rigidity("default", default_step, soft), rigidity("shortest time constant", default_step, fast),
+            rigidity("largest impedance", default_step, stiff), rigidity("both", default_step, both),
+            rigidity("both, a quarter of the step", default_step / 4, short_step)};
+  }
+
+  std::unique_ptr<SteppedLoop> stepped(const Rigidity& rigidity) const override {
+    return std::make_unique<MujocoStepped>(manipulator(), load_, rigidity);
+  }
+
+ protected:
+  Vector6d ownInverse(const Motion<double>& motion) override {
+    if (!soft_.model) soft_ = connected(manipulator(), at_.origin, defaultSoftness());
+    at_.place(motion);
+    at_.move(motion);
+    std::copy_n(at_.data->qpos, soft_.model->nq, soft_.data->qpos);
+    std::copy_n(at_.data->qvel, at_.dofs, soft_.data->qvel);
+    std::copy_n(at_.data->qacc, at_.dofs, soft_.data->qacc);
+    mj_inverse(soft_.model.get(), soft_.data.get());
+    const VectorOfDofs forces = Eigen::Map<const VectorOfDofs>(soft_.data->qfrc_inverse, at_.dofs) -
+                                at_.given(*soft_.model, *soft_.data, motion);
+    Vector6d out;
+    for (int m = 0; m < motor_count; ++m) {
+      const Motor& motor = manipulator().motors()[static_cast<std::size_t>(m)];
+      out(m) = forces(dofOf(motor.leg, motor.joint));
+    }
+    return out;
+  }
+
+ private:
+  std::shared_ptr<const Load> load_;
+  MujocoLoop loop_;
+  MujocoLoop::Impl& at_;
+  PlacedTree tree_;
+  Connected soft_;  ///< made when it is first asked for
+};
+
+std::unique_ptr<LoopEngine> makeMujocoCalls(const Manipulator& manipulator, std::shared_ptr<const Load> load) {
+  return std::make_unique<MujocoCalls>(manipulator, std::move(load));
+}
+
+}  // namespace ursula

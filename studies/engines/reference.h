@@ -1,0 +1,27 @@
+#pragma once
+
+#include "model/scenario.h"
+#include "nocsolver/noc/noc.h"
+
+namespace ursula {
+
+/// What every engine is held against: the paper's method as a validation judges it.
+class EngineReference {
+ public:
+  struct Here {
+    Motion<double> motion;
+    Vector6d efforts, q, q_dot;  ///< of the motors
+    Matrix6d inertia;            ///< in the motors' coordinates
+  };
+
+  explicit EngineReference(const Scenario& scenario);
+
+  Here at(double t);
+
+ private:
+  const Scenario& scenario_;
+  Noc<double> noc_;
+  NocWorkspace<double> work_;
+};
+
+}  // namespace ursula

@@ -1,0 +1,173 @@
+#include "studies/engines/side_by_side.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <stdexcept>
+
+#include "base/shown_text.h"
+#include "nocsolver/errors.h"
+#include "studies/engines/in_time.h"
+#include "studies/engines/reference.h"
+#include "validation/subject/motion_check.h"
+#include "validation/subject/subject.h"
+
+namespace ursula {
+
+EngineReference::EngineReference(const Scenario& scenario) : scenario_(scenario), noc_(*scenario.manipulator) {}
+
+EngineReference::Here EngineReference::at(double t) {
+  const Motors& motors = scenario_.manipulator->motors();
+  Here out;
+  out.motion = scenario_.trajectory->at(t);
+  out.efforts = noc_.inverseDynamics(out.motion, work_, loadAtP(scenario_.load.get(), out.motion));
+  out.q = noc_.angles(work_).driven(motors);
+  out.q_dot = noc_.rates(work_).driven(motors);
+  out.inertia = noc_.I(work_);
+  return out;
+}
+
+namespace {
+
+using Instants = std::vector<EngineReference::Here>;
+
+struct Scale {
+  double effort = 0, power = 0;
+};
+
+Scale scaleOf(const Instants& instants) {
+  Scale out;
+  for (const EngineReference::Here& here : instants) {
+    out.effort = std::max(out.effort, here.efforts.cwiseAbs().maxCoeff());
+    out.power = std::max(out.power, std::abs(here.efforts.dot(here.q_dot)));
+  }
+  return out;
+}
+
+/// NaN stays: it is the largest of all.
+bool exceeds(double value, double other) { return !(value <= other); }
+
+RecipeFound askBy(LoopEngine& engine, Recipe recipe, const Instants& instants, const Scale& scale) {
+  RecipeFound out;
+  out.recipe = recipe;
+  std::vector<double> seconds;
+  for (const EngineReference::Here& here : instants) {
+    const auto start = std::chrono::steady_clock::now();
+    const Vector6d efforts = engine.efforts(recipe, here.motion);
+    seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    const Vector6d off = efforts - here.efforts;
+    for (int m = 0; m < motor_count; ++m)
+      if (const double error = std::abs(off(m)) / scale.effort; exceeds(error, out.error)) {
+        out.error = error;
+        out.at = here.motion.t;
+        out.motor = m;
+      }
+    if (const double power = std::abs(off.dot(here.q_dot)); exceeds(power, out.power)) out.power = power;
+  }
+  out.power = scale.power > 0 ? out.power / scale.power : std::numeric_limits<double>::quiet_NaN();
+  out.seconds = median(seconds);
+  return out;
+}
+
+std::vector<Recipe> recipesOf(const LoopEngineKind& kind) {
+  std::vector<Recipe> out = {Recipe::exact, Recipe::open, Recipe::no_bias, Recipe::least_squares};
+  if (kind.has_own_inverse) out.push_back(Recipe::own_inverse);
+  return out;
+}
+
+/// One engine after another, each told of.
+class Asking {
+ public:
+  Asking(const Scenario& scenario, const SideBySideOptions& options)
+      : scenario_(scenario), options_(options), reference_(scenario) {
+    const double duration = scenario.trajectory->duration();
+    for (int k = 0; k < options.samples; ++k) instants_.push_back(reference_.at(duration * k / (options.samples - 1)));
+    scale_ = scaleOf(instants_);
+    if (!(scale_.effort > 0))
+      throw std::runtime_error("the motion needs no efforts: there is nothing that errors could be related to");
+    window_ = std::min(options.window, duration);
+  }
+
+  const Scale& scale() const { return scale_; }
+  double window() const { return window_; }
+
+  EngineFound ask(const LoopEngineKind& kind) {
+    EngineFound out;
+    out.kind = &kind;
+    out.version = kind.version();
+    try {
+      const std::unique_ptr<LoopEngine> engine = kind.make(*scenario_.manipulator, scenario_.load);
+      for (const EngineReference::Here& here : instants_)
+        out.gap =
+            std::max(out.gap, largestGap(engine->tree(here.motion, LoopEngine::Bias::kept), engine->manipulator()));
+      for (const Recipe recipe : recipesOf(kind)) out.recipes.push_back(askBy(*engine, recipe, instants_, scale_));
+      for (const Rigidity& rigidity : engine->rigidities())
+        out.in_time.push_back(moveInTime(*engine, rigidity, reference_, window_, scale_.effort));
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const PoseError&) {
+      throw;
+    } catch (const std::exception& words) {
+      out.refused = words.what();
+      out.recipes.clear();
+      out.in_time.clear();
+    }
+    return out;
+  }
+
+ private:
+  const Scenario& scenario_;
+  const SideBySideOptions& options_;
+  EngineReference reference_;
+  Instants instants_;
+  Scale scale_;
+  double window_ = 0;
+};
+
+}  // namespace
+
+const RecipeFound& EngineFound::of(Recipe recipe) const {
+  const auto found =
+      std::find_if(recipes.begin(), recipes.end(), [recipe](const RecipeFound& each) { return each.recipe == recipe; });
+  if (found == recipes.end()) throw std::logic_error("the engine was not asked by this recipe");
+  return *found;
+}
+
+const LoopEngineKind* loopEngineNamed(const std::string& name) {
+  const auto lower = [](std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
+    return text;
+  };
+  for (const LoopEngineKind& kind : loopEngines())
+    if (lower(kind.name) == lower(name)) return &kind;
+  return nullptr;
+}
+
+SideBySide engineSideBySide(const Scenario& scenario, const SideBySideOptions& options) {
+  checkMotion(scenario);
+  SideBySide out;
+  std::vector<const LoopEngineKind*> asked;
+  for (const LoopEngineKind& kind : loopEngines()) {
+    const bool wanted = options.engines.empty() ||
+                        std::find(options.engines.begin(), options.engines.end(), &kind) != options.engines.end();
+    if (wanted) (kind.available() ? asked : out.missing).push_back(&kind);
+  }
+  Asking asking(scenario, options);
+  const Motors& motors = scenario.manipulator->motors();
+  out.scenario = scenario.name;
+  out.instants = options.samples;
+  out.largest_effort = asking.scale().effort;
+  out.unit = std::all_of(motors.begin(), motors.end(), [](const Motor& motor) { return motor.slides(); }) ? "N" : "N m";
+  out.window = asking.window();
+  for (const LoopEngineKind* kind : asked) {
+    if (options.told)
+      options.told(static_cast<double>(out.engines.size()) / static_cast<double>(asked.size()), kind->name);
+    out.engines.push_back(asking.ask(*kind));
+  }
+  return out;
+}
+
+}  // namespace ursula

@@ -1,0 +1,159 @@
+// What was found, for people and for programs.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "report/quantity.h"
+#include "studies/engines/side_by_side.h"
+
+namespace ursula {
+namespace {
+
+using nlohmann::ordered_json;
+using report::plainNumber, report::quantity;
+
+/// "12 %"; of what is rounding alone, a power of ten.
+std::string percent(double share) { return plainNumber(100 * share, 3) + " %"; }
+
+std::string called(const EngineFound& engine) {
+  return engine.version.empty() ? engine.kind->name : fmt::format("{} {}", engine.kind->name, engine.version);
+}
+
+ordered_json jsonOf(const RecipeFound& found) {
+  return {{"recipe", name(found.recipe)}, {"error", found.error},       {"at_s", found.at},
+          {"motor", found.motor + 1},     {"power_error", found.power}, {"seconds", found.seconds}};
+}
+
+ordered_json jsonOf(const InTimeFound& found) {
+  ordered_json settings = ordered_json::object();
+  for (const auto& [what, value] : found.rigidity.settings) settings[what] = value;
+  return {{"rigidity", found.rigidity.name},
+          {"step_s", found.rigidity.step},
+          {"settings", settings},
+          {"steps", found.steps},
+          {"gap_m", found.gap},
+          {"sag_m", found.sag},
+          {"effort", found.effort},
+          {"energy_J", found.energy},
+          {"work_J", found.work},
+          {"seconds_a_step", found.seconds},
+          {"gave_up", found.gave_up.empty() ? ordered_json() : ordered_json(found.gave_up)}};
+}
+
+ordered_json jsonOf(const EngineFound& engine) {
+  ordered_json efforts = ordered_json::array(), in_time = ordered_json::array();
+  for (const RecipeFound& found : engine.recipes) efforts.push_back(jsonOf(found));
+  for (const InTimeFound& found : engine.in_time) in_time.push_back(jsonOf(found));
+  return {{"name", engine.kind->name},
+          {"version", engine.version},
+          {"refused", engine.refused.empty() ? ordered_json() : ordered_json(engine.refused)},
+          {"gap_m", engine.gap},
+          {"obvious", name(engine.kind->obvious)},
+          {"sentence", sentence(engine)},
+          {"efforts", efforts},
+          {"in_time", in_time}};
+}
+
+std::string recipeRow(const RecipeFound& found) {
+  return fmt::format("  {:<30} {:>10.2g} {:>10.2g} {:>10.3g}\n", inWords(found.recipe), found.error, found.power,
+                     1e6 * found.seconds);
+}
+
+std::string inTimeRow(const InTimeFound& found) {
+  std::string settings;
+  for (const auto& [what, value] : found.rigidity.settings)
+    settings += fmt::format("{}{} {:g}", settings.empty() ? "" : ", ", what, value);
+  return fmt::format(
+      "  {:<30} {:>10} {:>10} {:>10.2g} {:>10} {:>10.3g}  {}{}\n", found.rigidity.name, quantity(found.gap, "m"),
+      quantity(found.sag, "m"), found.effort, quantity(found.energy, "J"), 1e6 * found.seconds, settings,
+      found.gave_up.empty() ? "" : fmt::format("; gave up after {} steps: {}", found.steps, found.gave_up));
+}
+
+}  // namespace
+
+const char* inWords(Recipe recipe) {
+  constexpr std::array words = {"exact recipe", "loops left open", "rate of J left out", "least squares",
+                                "its own inverse, soft loops"};
+  return words.at(static_cast<std::size_t>(recipe));
+}
+
+std::string sentence(const EngineFound& engine) {
+  if (!engine.refused.empty()) return fmt::format("{} cannot be asked: {}.", called(engine), engine.refused);
+  const LoopEngineKind& kind = *engine.kind;
+  std::string call = kind.obvious_call;
+  return fmt::format("{}: {}; that is off by {} of the largest effort, {} by {}.", called(engine), kind.exact_call,
+                     plainNumber(engine.of(Recipe::exact).error, 2), call, percent(engine.of(kind.obvious).error));
+}
+
+std::string sentence(const SideBySide& found) {
+  double exact = 0, least = 0, most = 0;
+  int asked = 0;
+  for (const EngineFound& engine : found.engines) {
+    if (!engine.refused.empty()) continue;
+    const double obvious = engine.of(engine.kind->obvious).error;
+    exact = std::max(exact, engine.of(Recipe::exact).error);
+    least = asked == 0 ? obvious : std::min(least, obvious);
+    most = std::max(most, obvious);
+    ++asked;
+  }
+  if (asked == 0) return "No engine could be asked about this machine.";
+  return fmt::format("By the exact recipe {} off by {} of the largest effort at most; what {} users call first, by {}.",
+                     asked == 1 ? std::string("the engine is") : report::inWords(asked) + " engines are",
+                     plainNumber(exact, 2), asked == 1 ? "its" : "their",
+                     least == most ? percent(most) : percent(least) + " to " + percent(most));
+}
+
+std::string sentenceOfMissing(const LoopEngineKind& kind) {
+  return fmt::format("{} is not in this build: it needs Debian's {}.", kind.name, kind.package);
+}
+
+std::string sideBySideText(const SideBySide& found) {
+  std::string out = fmt::format("{}: {} instants, largest effort {}\n{}\n", found.scenario, found.instants,
+                                quantity(found.largest_effort, found.unit), sentence(found));
+  for (const EngineFound& engine : found.engines) {
+    out += fmt::format("\n{}\n", called(engine));
+    if (engine.recipes.empty()) continue;
+    out += fmt::format("  {:<30} {:>10} {:>10} {:>10}\n", "efforts", "off by", "power by", "µs a pose");
+    for (const RecipeFound& each : engine.recipes) out += recipeRow(each);
+    if (engine.in_time.empty()) continue;
+    out += fmt::format("  {:<30} {:>10} {:>10} {:>10} {:>10} {:>10}\n", fmt::format("moved for {:.3g} s", found.window),
+                       "gap", "sag", "effort", "energy", "µs a step");
+    for (const InTimeFound& each : engine.in_time) out += inTimeRow(each);
+  }
+  out += "\n";
+  for (const EngineFound& engine : found.engines) out += sentence(engine) + "\n";
+  for (const LoopEngineKind* kind : found.missing) out += sentenceOfMissing(*kind) + "\n";
+  return out;
+}
+
+std::string sideBySideJson(const SideBySide& found) {
+  ordered_json engines = ordered_json::array(), missing = ordered_json::array();
+  for (const EngineFound& engine : found.engines) engines.push_back(jsonOf(engine));
+  for (const LoopEngineKind* kind : found.missing)
+    missing.push_back({{"name", kind->name}, {"package", kind->package}});
+  const ordered_json document = {
+      {"scenario", found.scenario}, {"instants", found.instants}, {"largest_effort", found.largest_effort},
+      {"unit", found.unit},         {"window_s", found.window},   {"sentence", sentence(found)},
+      {"engines", engines},         {"missing", missing}};
+  return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string sideBySideCsv(const SideBySide& found) {
+  std::string out = "engine,version,what,error,power_error,step_s,gap_m,sag_m,effort,energy_J,work_J,seconds\n";
+  for (const EngineFound& engine : found.engines) {
+    const std::string head = fmt::format("{},{},", engine.kind->name, engine.version);
+    for (const RecipeFound& each : engine.recipes)
+      out += fmt::format("{}{},{},{},,{},,,,,{}\n", head, name(each.recipe), each.error, each.power, engine.gap,
+                         each.seconds);
+    for (const InTimeFound& each : engine.in_time)
+      out += fmt::format("{}\"{}\",,,{},{},{},{},{},{},{}\n", head, each.rigidity.name, each.rigidity.step, each.gap,
+                         each.sag, each.effort, each.energy, each.work, each.seconds);
+  }
+  return out;
+}
+
+}  // namespace ursula
