@@ -26,8 +26,10 @@ const char* name(Recipe recipe);
 
 /// How rigid an engine is told to keep the loops, by names of its own.
 struct Rigidity {
-  std::string name;                                      ///< "default"
-  double step = 0;                                       ///< over which efforts stand still, s
+  std::string name;  ///< "default"
+  double step = 0;   ///< over which efforts stand still, s
+  /// Of which instant they are, as a share of the step: where the engine's steps follow a motion best.
+  double instant = 0;
   std::vector<std::pair<std::string, double>> settings;  ///< {"solref_timeconst", 0.02}
 };
 
@@ -49,10 +51,11 @@ double sag(const PlacedTree& tree, const Manipulator& manipulator);
 class SteppedLoop {
  public:
   struct State {
-    Vector6d q, q_dot;  ///< of the motors' coordinates
-    double energy = 0;  ///< kinetic and potential, J
-    double power = 0;   ///< of friction and load, W
-    PlacedTree tree;    ///< its forces are not set
+    Vector3d p = Vector3d::Zero();  ///< of the platform's P, m, in B
+    Vector6d q = Vector6d::Zero();  ///< of the motors
+    double energy = 0;              ///< kinetic and potential, J
+    double power = 0;               ///< of friction and load, W
+    PlacedTree tree;                ///< its forces are not set
   };
 
   SteppedLoop() = default;

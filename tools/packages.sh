@@ -21,7 +21,7 @@ declare -A needs=(
   [fresh]='git:git debootstrap:debootstrap'
 )
 # Done without where they are not to be had: a further formulation, asked for before the first configuration; a peer of the benchmarks;
-# the readers that Gazebo and ROS have, which exported models are held against, and DART, whose example is judged.
+# the readers that Gazebo and ROS have, which exported models are held against, and DART, which `ursula engines` asks.
 declare -A optional=(
   [program]='libmujoco-dev'
   [test]='libsdformat-dev liburdfdom-dev libdart-dev'

@@ -140,12 +140,14 @@ void DartMachine::addLeg(const Leg& leg, const std::string& index) {
 }
 
 void DartMachine::move(const Motion<double>& motion, bool with_bias) {
-  Eigen::Isometry3d pose = placeOf(motion.Q, motion.p);
   const Vector3d omega = motion.Q.transpose() * motion.omega, v = motion.Q.transpose() * motion.p_dot;
   Vector6d twist, rate;
   twist << omega, v;
   rate << motion.Q.transpose() * motion.omega_dot, motion.Q.transpose() * motion.p_ddot - omega.cross(v);
-  free->setPositions(dd::FreeJoint::convertToPositions(pose));
+  // DART's rotations have ten digits alone where the angle is small: the joint is always turned by a radian.
+  const Matrix3d turned = Eigen::AngleAxisd(1, Vector3d::UnitX()).toRotationMatrix();
+  free->setTransformFromParentBodyNode(placeOf(motion.Q * turned.transpose(), motion.p));
+  free->setPositions(dd::FreeJoint::convertToPositions(placeOf(turned, Vector3d::Zero())));
   free->setVelocities(twist);
   free->setAccelerations(rate);
   constexpr int newton_steps = 3;  // the geometry has half the digits where a leg is nearly stretched

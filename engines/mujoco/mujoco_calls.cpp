@@ -32,6 +32,7 @@ constexpr double default_step = 0.002;  // s, MuJoCo's own
 Rigidity rigidity(const std::string& name, double step, const Softness& softness) {
   return {name,
           step,
+          0,
           {{"solref_timeconst", softness.solref[0]},
            {"solref_dampratio", softness.solref[1]},
            {"solimp_dmin", softness.solimp[0]},
@@ -107,9 +108,9 @@ class MujocoStepped : public SteppedLoop {
       const Motor& motor = at_.manipulator.motors()[static_cast<std::size_t>(m)];
       const int dof = dofOf(motor.leg, motor.joint);
       out.q(m) = own_.data->qpos[dof] - (motor.joint == 0 ? at_.offset_of_phi[static_cast<std::size_t>(motor.leg)] : 0);
-      out.q_dot(m) = own_.data->qvel[dof];
     }
     mj_forward(own_.model.get(), own_.data.get());  // a step ends with positions that nothing else belongs to
+    out.p = platform().p;
     out.energy = own_.data->energy[0] + own_.data->energy[1];
     out.power =
         at_.given(*own_.model, *own_.data, platform()).dot(Eigen::Map<const VectorOfDofs>(own_.data->qvel, at_.dofs));
@@ -161,7 +162,7 @@ class MujocoCalls : public LoopEngine {
     short_step.solref[0] = default_step / 2;
     return {rigidity("default", default_step, soft), rigidity("shortest time constant", default_step, fast),
             rigidity("largest impedance", default_step, stiff), rigidity("both", default_step, both),
-            rigidity("both, a quarter of the step", default_step / 4, short_step)};
+            rigidity("both at a quarter of the step", default_step / 4, short_step)};
   }
 
   std::unique_ptr<SteppedLoop> stepped(const Rigidity& rigidity) const override {

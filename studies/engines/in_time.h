@@ -5,9 +5,7 @@
 
 namespace ursula {
 
-/// `largest_effort` is that of the motion, to which the servo's is related.
-InTimeFound moveInTime(const LoopEngine& engine, const Rigidity& rigidity, EngineReference& reference, double window,
-                       double largest_effort);
+InTimeFound moveInTime(const LoopEngine& engine, const Rigidity& rigidity, EngineReference& reference, double moved);
 
 /// Sorts.
 double median(std::vector<double> values);

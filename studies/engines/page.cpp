@@ -69,7 +69,7 @@ std::string inTimeRow(const EngineFound& engine, const InTimeFound& each) {
   return fmt::format("<tr><th scope=\"row\">{} {}</th><td>{} <span class=\"aside\">{}</span>{}</td>{}{}{}{}{}{}</tr>\n",
                      escaped(engine.kind->name), escaped(engine.version), escaped(each.rigidity.name),
                      escaped(settingsText(each.rigidity)), stopped, cell(quantity(each.gap, "m")),
-                     cell(quantity(each.sag, "m")), cell(errorText(each.effort)), cell(quantity(each.energy, "J")),
+                     cell(quantity(each.sag, "m")), cell(quantity(each.away, "m")), cell(quantity(each.energy, "J")),
                      cell(quantity(each.work, "J")), cell(quantity(each.seconds, "s")));
 }
 
@@ -79,13 +79,14 @@ std::string inTimeTable(const SideBySide& found) {
     for (const InTimeFound& each : engine.in_time) rows += inTimeRow(engine, each);
   return rows.empty() ? ""
                       : table(fmt::format("The first {} of the motion, moved by the engine with its own closures under "
-                                          "the NOC's efforts and a servo at the motors. The largest gap of the loops; "
-                                          "sag of the platform's joints with the motors where they are; what the servo "
-                                          "adds, over the largest effort; energy gained beside all work done; time a "
-                                          "step, as measured here.",
-                                          quantity(found.window, "s")),
+                                          "the NOC's efforts. The "
+                                          "largest gap of the loops; sag of the platform's joints with the motors "
+                                          "where they are; how far the platform leaves the motion, which grows where "
+                                          "the motion is unstable; energy gained beside all work done; time a step, as "
+                                          "measured here.",
+                                          quantity(found.moved, "s")),
                               head("Engine", false) + head("Rigidity", false) + head("Gap") + head("Sag") +
-                                  head("Servo adds") + head("Energy gained") + head("Work") + head("Time"),
+                                  head("Off the motion") + head("Energy gained") + head("Work") + head("Time"),
                               rows);
 }
 

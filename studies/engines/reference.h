@@ -10,8 +10,7 @@ class EngineReference {
  public:
   struct Here {
     Motion<double> motion;
-    Vector6d efforts, q, q_dot;  ///< of the motors
-    Matrix6d inertia;            ///< in the motors' coordinates
+    Vector6d efforts, q_dot;  ///< of the motors
   };
 
   explicit EngineReference(const Scenario& scenario);

@@ -21,11 +21,9 @@ EngineReference::EngineReference(const Scenario& scenario) : scenario_(scenario)
 EngineReference::Here EngineReference::at(double t) {
   const Motors& motors = scenario_.manipulator->motors();
   Here out;
-  out.motion = scenario_.trajectory->at(t);
+  out.motion = scenario_.trajectory->at(std::min(t, scenario_.trajectory->duration()));
   out.efforts = noc_.inverseDynamics(out.motion, work_, loadAtP(scenario_.load.get(), out.motion));
-  out.q = noc_.angles(work_).driven(motors);
   out.q_dot = noc_.rates(work_).driven(motors);
-  out.inertia = noc_.I(work_);
   return out;
 }
 
@@ -87,11 +85,11 @@ class Asking {
     scale_ = scaleOf(instants_);
     if (!(scale_.effort > 0))
       throw std::runtime_error("the motion needs no efforts: there is nothing that errors could be related to");
-    window_ = std::min(options.window, duration);
+    moved_ = std::min(options.moved, duration);
   }
 
   const Scale& scale() const { return scale_; }
-  double window() const { return window_; }
+  double moved() const { return moved_; }
 
   EngineFound ask(const LoopEngineKind& kind) {
     EngineFound out;
@@ -104,7 +102,7 @@ class Asking {
             std::max(out.gap, largestGap(engine->tree(here.motion, LoopEngine::Bias::kept), engine->manipulator()));
       for (const Recipe recipe : recipesOf(kind)) out.recipes.push_back(askBy(*engine, recipe, instants_, scale_));
       for (const Rigidity& rigidity : engine->rigidities())
-        out.in_time.push_back(moveInTime(*engine, rigidity, reference_, window_, scale_.effort));
+        out.in_time.push_back(moveInTime(*engine, rigidity, reference_, moved_));
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const PoseError&) {
@@ -123,7 +121,7 @@ class Asking {
   EngineReference reference_;
   Instants instants_;
   Scale scale_;
-  double window_ = 0;
+  double moved_ = 0;
 };
 
 }  // namespace
@@ -161,7 +159,7 @@ SideBySide engineSideBySide(const Scenario& scenario, const SideBySideOptions& o
   out.instants = options.samples;
   out.largest_effort = asking.scale().effort;
   out.unit = std::all_of(motors.begin(), motors.end(), [](const Motor& motor) { return motor.slides(); }) ? "N" : "N m";
-  out.window = asking.window();
+  out.moved = asking.moved();
   for (const LoopEngineKind* kind : asked) {
     if (options.told)
       options.told(static_cast<double>(out.engines.size()) / static_cast<double>(asked.size()), kind->name);

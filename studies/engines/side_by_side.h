@@ -19,14 +19,13 @@ struct RecipeFound {
   double seconds = 0;  ///< a pose, median; a measurement
 };
 
-/// The closed loop moved by the engine under the NOC's efforts and a servo that keeps the motors on their way. Numbers
-/// are the largest of the window.
+/// The closed loop moved by the engine under the NOC's efforts. Gap, sag and away are the largest of that time.
 struct InTimeFound {
   Rigidity rigidity;
   int steps = 0;        ///< taken
   double gap = 0;       ///< of the loops, m
   double sag = 0;       ///< of the platform's joints, with the motors where they are, m
-  double effort = 0;    ///< what the servo adds, over the largest effort of the motion
+  double away = 0;      ///< of P from the commanded motion, m: growth of what is unstable included
   double energy = 0;    ///< what the machine has gained at the end beside all work done on it, J
   double work = 0;      ///< by motors, friction and load, taken as positive, J
   double seconds = 0;   ///< a step, median; a measurement
@@ -48,15 +47,15 @@ struct SideBySide {
   std::string scenario;
   int instants = 0;
   double largest_effort = 0;
-  std::string unit;   ///< "N m", or "N" where all motors slide
-  double window = 0;  ///< of the motion in time, from its start, s
+  std::string unit;  ///< "N m", or "N" where all motors slide
+  double moved = 0;  ///< of the motion in time, from its start, s
   std::vector<EngineFound> engines;
   std::vector<const LoopEngineKind*> missing;  ///< in this build
 };
 
 struct SideBySideOptions {
   int samples = 101;                                           ///< instants at which efforts are asked for, >= 2
-  double window = 1;                                           ///< s, or the whole motion where that is shorter
+  double moved = 0.5;                                          ///< s, or the whole motion where that is shorter
   std::vector<const LoopEngineKind*> engines;                  ///< empty: all that this build has
   std::function<void(double share, const std::string&)> told;  ///< of progress; may be empty
 };

@@ -37,7 +37,7 @@ ordered_json jsonOf(const InTimeFound& found) {
           {"steps", found.steps},
           {"gap_m", found.gap},
           {"sag_m", found.sag},
-          {"effort", found.effort},
+          {"away_m", found.away},
           {"energy_J", found.energy},
           {"work_J", found.work},
           {"seconds_a_step", found.seconds},
@@ -68,8 +68,8 @@ std::string inTimeRow(const InTimeFound& found) {
   for (const auto& [what, value] : found.rigidity.settings)
     settings += fmt::format("{}{} {:g}", settings.empty() ? "" : ", ", what, value);
   return fmt::format(
-      "  {:<30} {:>10} {:>10} {:>10.2g} {:>10} {:>10.3g}  {}{}\n", found.rigidity.name, quantity(found.gap, "m"),
-      quantity(found.sag, "m"), found.effort, quantity(found.energy, "J"), 1e6 * found.seconds, settings,
+      "  {:<30} {:>10} {:>10} {:>10} {:>10} {:>10.3g}  {}{}\n", found.rigidity.name, quantity(found.gap, "m"),
+      quantity(found.sag, "m"), quantity(found.away, "m"), quantity(found.energy, "J"), 1e6 * found.seconds, settings,
       found.gave_up.empty() ? "" : fmt::format("; gave up after {} steps: {}", found.steps, found.gave_up));
 }
 
@@ -120,8 +120,8 @@ std::string sideBySideText(const SideBySide& found) {
     out += fmt::format("  {:<30} {:>10} {:>10} {:>10}\n", "efforts", "off by", "power by", "µs a pose");
     for (const RecipeFound& each : engine.recipes) out += recipeRow(each);
     if (engine.in_time.empty()) continue;
-    out += fmt::format("  {:<30} {:>10} {:>10} {:>10} {:>10} {:>10}\n", fmt::format("moved for {:.3g} s", found.window),
-                       "gap", "sag", "effort", "energy", "µs a step");
+    out += fmt::format("  {:<30} {:>10} {:>10} {:>10} {:>10} {:>10}\n", fmt::format("moved for {:.3g} s", found.moved),
+                       "gap", "sag", "away", "energy", "µs a step");
     for (const InTimeFound& each : engine.in_time) out += inTimeRow(each);
   }
   out += "\n";
@@ -137,13 +137,13 @@ std::string sideBySideJson(const SideBySide& found) {
     missing.push_back({{"name", kind->name}, {"package", kind->package}});
   const ordered_json document = {
       {"scenario", found.scenario}, {"instants", found.instants}, {"largest_effort", found.largest_effort},
-      {"unit", found.unit},         {"window_s", found.window},   {"sentence", sentence(found)},
+      {"unit", found.unit},         {"moved_s", found.moved},     {"sentence", sentence(found)},
       {"engines", engines},         {"missing", missing}};
   return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string sideBySideCsv(const SideBySide& found) {
-  std::string out = "engine,version,what,error,power_error,step_s,gap_m,sag_m,effort,energy_J,work_J,seconds\n";
+  std::string out = "engine,version,what,error,power_error,step_s,gap_m,sag_m,away_m,energy_J,work_J,seconds\n";
   for (const EngineFound& engine : found.engines) {
     const std::string head = fmt::format("{},{},", engine.kind->name, engine.version);
     for (const RecipeFound& each : engine.recipes)
@@ -151,7 +151,7 @@ std::string sideBySideCsv(const SideBySide& found) {
                          each.seconds);
     for (const InTimeFound& each : engine.in_time)
       out += fmt::format("{}\"{}\",,,{},{},{},{},{},{},{}\n", head, each.rigidity.name, each.rigidity.step, each.gap,
-                         each.sag, each.effort, each.energy, each.work, each.seconds);
+                         each.sag, each.away, each.energy, each.work, each.seconds);
   }
   return out;
 }
