@@ -9,7 +9,7 @@
 namespace ursula {
 
 const char* name(Recipe recipe) {
-  constexpr std::array names = {"exact", "open", "no_bias", "least_squares", "own_inverse"};
+  constexpr std::array names = {"exact", "open", "no_bias", "least_squares", "own_inverse", "own_inverse_hard"};
   return names.at(static_cast<std::size_t>(recipe));
 }
 
@@ -39,16 +39,17 @@ Vector6d LoopEngine::efforts(Recipe recipe, const Motion<double>& motion) {
     case Recipe::least_squares:
       return leastEfforts(tree(motion, Bias::kept), manipulator_);
     case Recipe::own_inverse:
+    case Recipe::own_inverse_hard:
       break;
   }
-  return ownInverse(motion);
+  return ownInverse(motion, recipe == Recipe::own_inverse_hard);
 }
 
 Vector6d LoopEngine::closed(const Motion<double>& motion, Bias bias) {
   return closedEfforts(tree(motion, bias), manipulator_);
 }
 
-Vector6d LoopEngine::ownInverse(const Motion<double>&) {
+Vector6d LoopEngine::ownInverse(const Motion<double>&, bool) {
   throw std::logic_error("the engine has no inverse dynamics of closed loops");
 }
 

@@ -14,14 +14,15 @@ namespace ursula {
 
 /// How somebody gets the efforts of a closed loop out of an engine. The first is right; the others are usual.
 enum class Recipe {
-  exact,          ///< tree dynamics, and multipliers of the loop closures
-  open,           ///< inverse dynamics of the trees alone, their loops ignored
-  no_bias,        ///< J̇ u left out of the accelerations of the joints
-  least_squares,  ///< the smallest forces on all coordinates, read at the motors
-  own_inverse,    ///< the engine's own inverse dynamics of the closed loop, read at the motors
+  exact,             ///< tree dynamics, and multipliers of the loop closures
+  open,              ///< inverse dynamics of the trees alone, their loops ignored
+  no_bias,           ///< J̇ u left out of the accelerations of the joints
+  least_squares,     ///< the smallest forces on all coordinates, read at the motors
+  own_inverse,       ///< the engine's own inverse dynamics of the loop at its default softness, read at the motors
+  own_inverse_hard,  ///< the same with the loops as hard as it allows
 };
 
-/// "exact", "open", "no_bias", "least_squares", "own_inverse".
+/// "own_inverse": as they are called above.
 const char* name(Recipe recipe);
 
 /// How rigid an engine is told to keep the loops, by names of its own.
@@ -96,7 +97,7 @@ class LoopEngine {
  protected:
   /// With the multipliers; by the tree where the engine has no way of its own.
   virtual Vector6d closed(const Motion<double>& motion, Bias bias);
-  virtual Vector6d ownInverse(const Motion<double>& motion);
+  virtual Vector6d ownInverse(const Motion<double>& motion, bool hard);
 
  private:
   Manipulator manipulator_;

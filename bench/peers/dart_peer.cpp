@@ -12,8 +12,8 @@
 #include <dart/dynamics/UniversalJoint.hpp>
 #include <stdexcept>
 
-#include "engines/closing.h"
 #include "bench/peers/peer.h"
+#include "engines/closing.h"
 
 namespace ursula::bench {
 namespace {

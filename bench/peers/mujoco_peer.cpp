@@ -1,5 +1,5 @@
-#include "engines/closing.h"
 #include "bench/peers/peer.h"
+#include "engines/closing.h"
 #include "engines/mujoco/mujoco_loop.h"
 
 namespace ursula::bench {

@@ -1,5 +1,5 @@
-#include "engines/closing.h"
 #include "bench/peers/peer.h"
+#include "engines/closing.h"
 #include "engines/simbody/simbody_loop.h"
 #include "validation/findings/provenance.h"
 

@@ -170,16 +170,21 @@ class MujocoCalls : public LoopEngine {
   }
 
  protected:
-  Vector6d ownInverse(const Motion<double>& motion) override {
-    if (!soft_.model) soft_ = connected(manipulator(), at_.origin, defaultSoftness());
+  Vector6d ownInverse(const Motion<double>& motion, bool hard) override {
+    Connected& own = hard ? hard_ : soft_;
+    if (!own.model) {
+      const Rigidity asked = hard ? rigidities().back() : rigidities().front();
+      own = connected(manipulator(), at_.origin, softnessOf(asked));
+      own.model->opt.timestep = asked.step;
+    }
     at_.place(motion);
     at_.move(motion);
-    std::copy_n(at_.data->qpos, soft_.model->nq, soft_.data->qpos);
-    std::copy_n(at_.data->qvel, at_.dofs, soft_.data->qvel);
-    std::copy_n(at_.data->qacc, at_.dofs, soft_.data->qacc);
-    mj_inverse(soft_.model.get(), soft_.data.get());
-    const VectorOfDofs forces = Eigen::Map<const VectorOfDofs>(soft_.data->qfrc_inverse, at_.dofs) -
-                                at_.given(*soft_.model, *soft_.data, motion);
+    std::copy_n(at_.data->qpos, own.model->nq, own.data->qpos);
+    std::copy_n(at_.data->qvel, at_.dofs, own.data->qvel);
+    std::copy_n(at_.data->qacc, at_.dofs, own.data->qacc);
+    mj_inverse(own.model.get(), own.data.get());
+    const VectorOfDofs forces =
+        Eigen::Map<const VectorOfDofs>(own.data->qfrc_inverse, at_.dofs) - at_.given(*own.model, *own.data, motion);
     Vector6d out;
     for (int m = 0; m < motor_count; ++m) {
       const Motor& motor = manipulator().motors()[static_cast<std::size_t>(m)];
@@ -193,7 +198,7 @@ class MujocoCalls : public LoopEngine {
   MujocoLoop loop_;
   MujocoLoop::Impl& at_;
   PlacedTree tree_;
-  Connected soft_;  ///< made when it is first asked for
+  Connected soft_, hard_;  ///< made when they are first asked for
 };
 
 std::unique_ptr<LoopEngine> makeMujocoCalls(const Manipulator& manipulator, std::shared_ptr<const Load> load) {

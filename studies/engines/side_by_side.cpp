@@ -71,7 +71,7 @@ RecipeFound askBy(LoopEngine& engine, Recipe recipe, const Instants& instants, c
 
 std::vector<Recipe> recipesOf(const LoopEngineKind& kind) {
   std::vector<Recipe> out = {Recipe::exact, Recipe::open, Recipe::no_bias, Recipe::least_squares};
-  if (kind.has_own_inverse) out.push_back(Recipe::own_inverse);
+  if (kind.has_own_inverse) out.insert(out.end(), {Recipe::own_inverse, Recipe::own_inverse_hard});
   return out;
 }
 

@@ -76,8 +76,12 @@ std::string inTimeRow(const InTimeFound& found) {
 }  // namespace
 
 const char* inWords(Recipe recipe) {
-  constexpr std::array words = {"exact recipe", "loops left open", "rate of J left out", "least squares",
-                                "its own inverse, soft loops"};
+  constexpr std::array words = {"exact recipe",
+                                "loops left open",
+                                "rate of J left out",
+                                "least squares",
+                                "its own inverse, soft loops",
+                                "its own inverse, hard loops"};
   return words.at(static_cast<std::size_t>(recipe));
 }
 

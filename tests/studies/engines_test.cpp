@@ -59,6 +59,7 @@ TEST(Engines, exactRecipeIsRightAndTheObviousCallIsWrong) {
       EXPECT_GT(engine.of(Recipe::no_bias).error, 1e-6) << "wrong, and little where the motion is slow";
       if (engine.kind->has_own_inverse) {
         EXPECT_GT(engine.of(Recipe::own_inverse).error, 0.01);
+        EXPECT_GT(engine.of(Recipe::own_inverse_hard).error, 0.01);
       }
     }
   }
