@@ -68,8 +68,8 @@ std::string inTimeRow(const InTimeFound& found) {
   for (const auto& [what, value] : found.rigidity.settings)
     settings += fmt::format("{}{} {:g}", settings.empty() ? "" : ", ", what, value);
   return fmt::format(
-      "  {:<30} {:>10} {:>10} {:>10} {:>10} {:>10.3g}  {}{}\n", found.rigidity.name, quantity(found.gap, "m"),
-      quantity(found.sag, "m"), quantity(found.away, "m"), quantity(found.energy, "J"), 1e6 * found.seconds, settings,
+      "  {:<30} {:>10.2g} {:>10.2g} {:>10.2g} {:>10.2g} {:>10.3g}  {}{}\n", found.rigidity.name, found.gap, found.sag,
+      found.away, found.energy, 1e6 * found.seconds, settings,
       found.gave_up.empty() ? "" : fmt::format("; gave up after {} steps: {}", found.steps, found.gave_up));
 }
 
@@ -88,9 +88,12 @@ const char* inWords(Recipe recipe) {
 std::string sentence(const EngineFound& engine) {
   if (!engine.refused.empty()) return fmt::format("{} cannot be asked: {}.", called(engine), engine.refused);
   const LoopEngineKind& kind = *engine.kind;
-  std::string call = kind.obvious_call;
-  return fmt::format("{}: {}; that is off by {} of the largest effort, {} by {}.", called(engine), kind.exact_call,
-                     plainNumber(engine.of(Recipe::exact).error, 2), call, percent(engine.of(kind.obvious).error));
+  const std::string hard = kind.has_own_inverse ? fmt::format(", with the loops at their hardest by {}",
+                                                              percent(engine.of(Recipe::own_inverse_hard).error))
+                                                : "";
+  return fmt::format("{}: {}; that is off by {} of the largest effort, {} by {}{}.", called(engine), kind.exact_call,
+                     plainNumber(engine.of(Recipe::exact).error, 2), kind.obvious_call,
+                     percent(engine.of(kind.obvious).error), hard);
 }
 
 std::string sentence(const SideBySide& found) {
@@ -125,7 +128,7 @@ std::string sideBySideText(const SideBySide& found) {
     for (const RecipeFound& each : engine.recipes) out += recipeRow(each);
     if (engine.in_time.empty()) continue;
     out += fmt::format("  {:<30} {:>10} {:>10} {:>10} {:>10} {:>10}\n", fmt::format("moved for {:.3g} s", found.moved),
-                       "gap", "sag", "away", "energy", "µs a step");
+                       "gap, m", "sag, m", "away, m", "energy, J", "µs a step");
     for (const InTimeFound& each : engine.in_time) out += inTimeRow(each);
   }
   out += "\n";
