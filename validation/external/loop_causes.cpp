@@ -265,6 +265,10 @@ void addClosures(const Scenario& scenario, EffortCauses& out) {
   for (const auto& [whose, off] : left_out)
     out.add(std::string("joint accelerations without the rate of the Jacobian ") + whose, named("bias"),
             [off = off](const MachineTerms& machine) { return ofAccelerations(machine, off); });
+  out.add("joint accelerations with the centripetal part of the platform's points of the wrong sign", named("bias"),
+          [](const MachineTerms& machine) {
+            return ofAccelerations(machine, [](const OpenLeg& leg) { return Vector3d(-2 * leg.platform_bias); });
+          });
   out.add("the links' accelerations without the Jacobian's rate", named("bias"), withoutBias);
 }
 

@@ -53,7 +53,8 @@ def products(machine, d):
 
 def other_knee(machine, d):
     leg = machine["leg"][2]
-    leg["knee"] = "negative" if leg.get("knee", machine["leg_defaults"].get("knee", "positive")) == "positive" else "positive"
+    knee = leg.get("knee", machine.get("leg_defaults", {}).get("knee", "positive"))
+    leg["knee"] = "negative" if knee == "positive" else "positive"
 
 
 def lumped(machine, d):
@@ -97,4 +98,4 @@ add('URS PUS', 'bias-sign', 'w x (w x b) with the wrong sign in the acceleration
 add('URS', 'knee', 'the other knee of leg 3', [K('parameter', parameter='manipulator.leg.3.knee')], params=other_knee)
 add('PUS', 'undivided', 'rates of the carriages without the division by s.u', [K('jacobian')], undivided)
 add('UPS URS', 'single-within', 'rotation and platform forces in single precision within', [K('digits')], single=True)
-add('RUS PUS', 'steiner-prox', 'proximal tensor with the parallel axis term added', RP('proximal'), link_tensor_steiner='proximal')
+add('RUS', 'steiner-prox', 'proximal tensor with the parallel axis term added', RP('proximal'), link_tensor_steiner='proximal')
