@@ -11,6 +11,7 @@
 #include "model/check_catalogue.h"
 #include "model/scenario_excerpt.h"
 #include "model/scenario_sections.h"
+#include "model/toml_tolerances.h"
 
 namespace ursula {
 namespace {
@@ -105,7 +106,8 @@ std::string atLength(const ScenarioError& error) {
 }
 
 Scenario parseScenario(const std::string& text, const std::filesystem::path& file) {
-  const toml::table table = parseToml(text, file.string());
+  toml::table table = parseToml(text, file.string());
+  takeTolerances(table, file.string());  // the text keeps them, for statedTolerances()
   const TomlSection document(table, "", file.string());
   try {
     Scenario scenario = assemble(document);

@@ -6,6 +6,7 @@
 
 #include "model/scenario_keys.h"
 #include "model/scenario_sections.h"
+#include "model/toml_tolerances.h"
 
 namespace ursula {
 namespace {
@@ -103,7 +104,8 @@ PlacedError located(const InvalidParameter& refusal, const TomlSection& document
 
 KeyPlace placeInFile(const Scenario& scenario, const std::string& key) {
   try {
-    const toml::table document = parseToml(scenario.text, scenario.file.string());
+    toml::table document = parseToml(scenario.text, scenario.file.string());
+    takeTolerances(document, scenario.file.string());
     const Found found = find(document, key);
     return {placeAt(scenario.file.string(), found.node->source().begin), found.key, found.given,
             found.node->value<double>()};

@@ -22,6 +22,12 @@ Angles are in radians. Where a key ends in `_deg` it is in degrees and stands fo
 guessed. An orientation is a unit quaternion `[w, x, y, z]`, or `rpy_deg = [roll, pitch, yaw]` in degrees: turns about the **fixed** axes x, y and z of B, in
 this order, Q = R_z(yaw) R_y(pitch) R_x(roll). (About moving axes the same is yaw about z first, then pitch about y, then roll about x.) Degrees are converted
 with one rounding: 90 is the double nearest to π/2.
+
+## Tolerances
+
+Wherever a number stands, `{ value = 10.0, tolerance = 0.05 }` says how well it is known; so does `{ value = [0.0, 0.0, 1.88], tolerance = 0.01 }` of an array, with one tolerance for
+all its entries or an array of them. A tolerance is a standard uncertainty in the number's unit: the true number is within it in 68 %, within twice of it in 95 % of all cases. Of limits ±a that
+are never passed, a/√3 is the tolerance. `ursula identify` judges measured efforts by those of the machine ([identify.md](identify.md)); everything else takes the value.
 )";
 
 std::string typeWords(const ScenarioKey& key) {

@@ -12,7 +12,11 @@ using Json = nlohmann::ordered_json;
 Json schemaOf(const ScenarioTable& table);
 
 Json arrayOf(int least, int most) {
-  return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", least}, {"maxItems", most}};
+  const Json number = {{"type", "number"}};
+  const Json stated = {{"type", "object"},
+                       {"properties", {{"value", number}, {"tolerance", number}}},
+                       {"required", {"value", "tolerance"}}};
+  return {{"type", "array"}, {"items", {{"anyOf", {number, stated}}}}, {"minItems", least}, {"maxItems", most}};
 }
 
 /// Converts a bound of the table: > 0 means at least the smallest positive number.
@@ -25,7 +29,21 @@ void addBound(const KeyBound& bound, Json& out) {
   if (!bound.zero_too) out["not"] = {{"const", 0}};
 }
 
-Json typeOf(const ScenarioKey& key) {
+/// Of a number, or of an array of them, with how well it is known.
+Json withTolerance(const Json& plain) {
+  const Json tolerance = {{"oneOf",
+                           {Json{{"type", "number"}, {"minimum", 0}},
+                            Json{{"type", "array"}, {"items", {{"type", "number"}, {"minimum", 0}}}}}}};
+  Json out = plain.contains("oneOf") ? plain : Json{{"oneOf", {plain}}};
+  const Json value = plain;
+  out["oneOf"].push_back({{"type", "object"},
+                          {"additionalProperties", false},
+                          {"properties", {{"value", value}, {"tolerance", tolerance}}},
+                          {"required", {"value", "tolerance"}}});
+  return out;
+}
+
+Json plainTypeOf(const ScenarioKey& key) {
   switch (key.type) {
     case KeyType::number:
       return {{"type", "number"}};
@@ -52,6 +70,13 @@ Json typeOf(const ScenarioKey& key) {
       break;
   }
   return schemaOf(scenarioTable(key.of));
+}
+
+Json typeOf(const ScenarioKey& key) {
+  const Json plain = plainTypeOf(key);
+  const bool stated = key.type == KeyType::number || key.type == KeyType::vector || key.type == KeyType::center ||
+                      key.type == KeyType::inertia;
+  return stated ? withTolerance(plain) : plain;
 }
 
 std::string description(const ScenarioKey& key) {

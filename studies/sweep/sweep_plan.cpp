@@ -10,8 +10,9 @@
 #include "base/sha1.h"
 #include "model/scenario_files.h"
 #include "model/scenario_sections.h"
+#include "model/toml_tolerances.h"
 #include "model/toml_writer.h"
-#include "studies/sweep/scenario_numbers.h"
+#include "model/scenario_numbers.h"
 #include "validation/findings/provenance.h"
 
 namespace ursula {
@@ -45,6 +46,7 @@ struct SweepPlan::Document {
   std::vector<std::filesystem::path> files;
 
   Document(const SweepFile& sweep, const Scenario& base) : table(parseToml(base.text, base.file.string())) {
+    takeTolerances(table, base.file.string());
     files = makeFilesAbsolute(table, base.file);
     if (!sweep.samples) return;
     if (!table.contains("simulation")) table.insert("simulation", toml::table{});

@@ -1,4 +1,4 @@
-#include "studies/sweep/scenario_numbers.h"
+#include "model/scenario_numbers.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
