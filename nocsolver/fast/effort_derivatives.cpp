@@ -179,7 +179,8 @@ struct EffortDerivatives::Impl {
       : by_state(kernel::machineModel(MachineParameters<ByState>(manipulator))),
         machine(manipulator),
         unit(unitBodies(machine)),
-        numbers(machineNumbers(manipulator.parameters())) {
+        numbers(machineNumbers(manipulator.parameters())),
+        raw(manipulator.parameters()) {
     const ManipulatorParameters moments = withMoments(manipulator.parameters());
     for (const MachineNumber& number : numbers) {
       parameters.push_back(number.path);
@@ -225,6 +226,7 @@ struct EffortDerivatives::Impl {
   kernel::MachineModel<ByState> by_state;
   WrittenMachine machine, unit;
   std::vector<MachineNumber> numbers, linear;
+  ManipulatorParameters raw;
   std::vector<std::string> parameters, regressor;
   std::vector<double> values;
 };
@@ -271,6 +273,25 @@ const std::vector<std::string>& EffortDerivatives::regressorNames() const { retu
 
 Eigen::VectorXd EffortDerivatives::regressorValues() const {
   return Eigen::Map<const Eigen::VectorXd>(impl_->values.data(), static_cast<Eigen::Index>(impl_->values.size()));
+}
+
+/// π is at most quadratic in each number: a central difference is exact to rounding at any step.
+Eigen::MatrixXd EffortDerivatives::regressorByParameters() const {
+  Eigen::MatrixXd out(impl_->linear.size(), impl_->numbers.size());
+  const auto momentsWith = [this](const MachineNumber& number, double value) {
+    ManipulatorParameters changed = impl_->raw;
+    number.set(changed, value);
+    return withMoments(std::move(changed));
+  };
+  for (std::size_t j = 0; j < impl_->numbers.size(); ++j) {
+    const MachineNumber& number = impl_->numbers[j];
+    const double value = number.get(impl_->raw), step = std::max(std::abs(value), 1e-3);
+    const ManipulatorParameters above = momentsWith(number, value + step), below = momentsWith(number, value - step);
+    for (std::size_t i = 0; i < impl_->linear.size(); ++i)
+      out(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          (impl_->linear[i].get(above) - impl_->linear[i].get(below)) / (2 * step);
+  }
+  return out;
 }
 
 EffortDerivatives::Columns EffortDerivatives::regressor(const Motion<double>& motion) const {
