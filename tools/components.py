@@ -34,6 +34,7 @@ STUDIES = {
     "engines": "verdict subject",
     "sweep": "verdict subject checks findings",
     "sweep_report": "verdict sweep",
+    "identify": "verdict subject findings random",
 }
 COMPONENTS = {**VALIDATION, **STUDIES}
 FOLDERS = {"validation": VALIDATION, "studies": STUDIES}

@@ -1,0 +1,217 @@
+#include "studies/identify/comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/csv.h"
+#include "base/shown_text.h"
+#include "studies/identify/log_columns.h"
+#include "validation/subject/subject.h"
+
+namespace ursula::identification {
+
+const char* name(DirectionKind kind) {
+  switch (kind) {
+    case DirectionKind::offset:
+      return "effort_offset";
+    case DirectionKind::delay:
+      return "delay";
+    case DirectionKind::scale:
+      return "effort_scale";
+    case DirectionKind::encoder:
+      return "encoder_offset";
+    case DirectionKind::elastic:
+      return "elastic_joint";
+    case DirectionKind::backlash:
+      return "backlash";
+    case DirectionKind::load_friction:
+      return "load_dependent_friction";
+    case DirectionKind::linear:
+    case DirectionKind::number:
+      break;
+  }
+  return "parameter";
+}
+
+ManipulatorParameters withRotors(ManipulatorParameters machine) {
+  for (Leg& leg : machine.legs)
+    for (const Coordinate coordinate : rowOf(leg.kind).coordinates)
+      if (double& inertia = leg.rotor_inertia.on(coordinate); leg.drives(coordinate) && inertia == 0)
+        inertia = std::numeric_limits<double>::min();
+  return machine;
+}
+
+ModelledLog::ModelledLog(const Scenario& scenario, const MeasuredLog& log, const FilteredLog& filtered)
+    : scenario_(scenario), filtered_(filtered), has_poses_(log.has_poses), chain_(*scenario.manipulator) {
+  placeMotions(log);
+  efforts_.resize(filtered.size(), motor_count);
+  driven_rates_.resize(filtered.size(), motor_count);
+  for (Eigen::Index i = 0; i < filtered.size(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    Motion<double>& motion = motions_[at];
+    motion.t = filtered.time(i);
+    loads_.push_back(log.load.cols() > 0 ? filtered.load(i) : loadAtP(scenario.load.get(), motion));
+    efforts_.row(i) = chain_.efforts(motion, loads_[at]).transpose();
+    driven_rates_.row(i) =
+        has_poses_ ? chain_.driven(motion).second.transpose() : filtered.state(i).rate.transpose().eval();
+  }
+}
+
+void ModelledLog::placeMotions(const MeasuredLog& log) {
+  std::optional<Motion<double>> at;
+  for (Eigen::Index i = 0; i < filtered_.size(); ++i) {
+    const MeasuredState state = filtered_.state(i);
+    if (has_poses_) {
+      motions_.push_back(motionOfPoses(state));
+      try {
+        static_cast<void>(chain_.driven(motions_.back()));
+      } catch (const PoseError&) {
+        refuse(log, i);
+      }
+      continue;
+    }
+    at = at ? chain_.follow(state, *at) : firstMotion(scenario_, chain_, state);
+    if (!at) refuse(log, i);
+    motions_.push_back(*at);
+  }
+}
+
+/// Says what would let the machine follow: degrees, millimetres, two legs exchanged.
+void ModelledLog::refuse(const MeasuredLog& log, Eigen::Index at) const {
+  const MeasuredState state = filtered_.state(at);
+  std::string likely;
+  const auto tryState = [&](MeasuredState changed, const std::string& words) {
+    changed.rate.setZero();
+    changed.acceleration.setZero();
+    if (likely.empty() && !has_poses_ && firstMotion(scenario_, chain_, changed)) likely = words;
+  };
+  const Motors& motors = scenario_.manipulator->motors();
+  MeasuredState scaled = state;
+  for (int k = 0; k < motor_count && !has_poses_; ++k)
+    scaled.value(k) *= motors[static_cast<std::size_t>(k)].slides() ? 1e-3 : std::acos(-1.0) / 180;
+  tryState(scaled, "; they can be reached as degrees and millimetres: --map phi_1_deg=COLUMN says so");
+  for (int k = 0; k < motor_count && at == 0 && !has_poses_; ++k)
+    for (int j = k + 1; j < motor_count; ++j) {
+      MeasuredState swapped = state;
+      std::swap(swapped.value(k), swapped.value(j));
+      tryState(swapped, fmt::format("; with motors {} and {} exchanged they can be reached", k + 1, j + 1));
+    }
+  std::string values;
+  for (Eigen::Index k = 0; k < state.value.size(); ++k)
+    values += fmt::format("{}{:.6g}", k == 0 ? "" : ", ", state.value(k));
+  throw CsvError(fmt::format("{}: error: t = {:.6g} s: the scenario's machine cannot take the {} [{}], expected those of this machine, in rad and m, in the motors' order{}",
+                             shownPath(log.file.string()), filtered_.time(at), has_poses_ ? "pose" : "coordinates", values,
+                             likely));
+}
+
+double ModelledLog::coarseDelay(double most) const {
+  const Eigen::MatrixXd measured = filtered_.efforts();
+  const Eigen::Index rows = filtered_.size(),
+                     reach = std::min<Eigen::Index>(static_cast<Eigen::Index>(most / filtered_.step()), rows / 4);
+  double best = std::numeric_limits<double>::infinity(), found = 0;
+  for (Eigen::Index lag = -reach; lag <= reach; ++lag) {
+    const Eigen::Index count = rows - 2 * reach;
+    double left = 0;
+    for (int k = 0; k < motor_count; ++k) {
+      const Eigen::VectorXd S = efforts_.col(k).segment(reach, count), D = measured.col(k).segment(reach + lag, count);
+      const Eigen::VectorXd s = S.array() - S.mean(), d = D.array() - D.mean();
+      if (d.squaredNorm() == 0 || s.squaredNorm() == 0) continue;
+      left += 1 - std::pow(std::max(0.0, s.dot(d)), 2) / (s.squaredNorm() * d.squaredNorm());
+    }
+    if (left < best) {
+      best = left;
+      found = static_cast<double>(lag) * filtered_.step();
+    }
+  }
+  return found;
+}
+
+void ModelledLog::compare(double delay, Comparison& out) const {
+  out.measured = filtered_.settledEfforts(delay);
+}
+
+Comparison ModelledLog::directions(bool with_further) const {
+  Comparison out;
+  out.segments = filtered_.settledSegments();
+  out.model = filtered_.settle(efforts_);
+  out.model_rate = filtered_.settleBy(filtered_.second().rate, efforts_);
+  out.t.resize(out.model.rows());
+  for (Eigen::Index i = 0; i < out.t.size(); ++i) out.t(i) = filtered_.time(filtered_.settled()[static_cast<std::size_t>(i)]);
+  out.numerical = numericalError();
+  addLinear(out);
+  addOfLog(out);
+  if (!with_further) return out;
+  addSeries(out);
+  addNumbers(out);
+  return out;
+}
+
+/// By how much efforts change when the motion passes its low pass a second time, in the longest stretch of the log:
+/// the first time did the like.
+Vector6d ModelledLog::numericalError() const {
+  constexpr Eigen::Index most = 3000;
+  const Kernel again(filtered_.plan().state_cut, filtered_.step());
+  const auto longest = std::max_element(filtered_.segments().begin(), filtered_.segments().end(), [](const Segment& a, const Segment& b) {
+    return a.end - a.first < b.end - b.first;
+  });
+  std::vector<Eigen::Index> centers;
+  for (Eigen::Index i = longest->first + again.half; i + again.half < longest->end && centers.size() < most; ++i) centers.push_back(i);
+  if (centers.empty()) return Vector6d::Zero();
+  Eigen::MatrixXd error(static_cast<Eigen::Index>(centers.size()), motor_count);
+  for (std::size_t row = 0; row < centers.size(); ++row) {
+    const MeasuredState state = filtered_.smoothedState(again, centers[row]);
+    const auto at = static_cast<std::size_t>(centers[row]);
+    const auto motion = has_poses_ ? std::optional(motionOfPoses(state)) : chain_.follow(state, motions_[at]);
+    error.row(static_cast<Eigen::Index>(row)).setZero();
+    if (motion) error.row(static_cast<Eigen::Index>(row)) = chain_.efforts(*motion, loads_[at]).transpose() - efforts_.row(centers[row]);
+  }
+  std::vector<Eigen::Index> inner;
+  for (Eigen::Index i = filtered_.second().half; i + filtered_.second().half < error.rows(); i += filtered_.plan().fine) inner.push_back(i);
+  const Eigen::MatrixXd settled = inner.empty() ? error : Kernel::apply(filtered_.second().value, error, inner);
+  return settled.colwise().norm().transpose() / std::sqrt(static_cast<double>(settled.rows()));
+}
+
+void ModelledLog::add(Comparison& out, const Direction& direction, const Eigen::MatrixXd& columns) const {
+  out.directions.push_back(direction);
+  for (int k = 0; k < motor_count; ++k) {
+    Eigen::MatrixXd& table = out.columns[static_cast<std::size_t>(k)];
+    table.conservativeResize(columns.rows(), table.cols() + 1);
+    table.rightCols<1>() = columns.col(k);
+  }
+}
+
+void ModelledLog::addLinear(Comparison& out) const {
+  const EffortDerivatives derivatives((Manipulator(withRotors(scenario_.manipulator->parameters()))));
+  out.linear = static_cast<Eigen::Index>(derivatives.regressorNames().size());
+  const Eigen::VectorXd values = derivatives.regressorValues();
+  for (Eigen::Index j = 0; j < out.linear; ++j) {
+    Direction direction;
+    direction.path = direction.words = derivatives.regressorNames()[static_cast<std::size_t>(j)];
+    direction.nominal = values(j);
+    out.directions.push_back(direction);
+  }
+  Eigen::MatrixXd series(filtered_.size(), motor_count * out.linear);
+  for (Eigen::Index i = 0; i < series.rows(); ++i) {
+    const EffortDerivatives::Columns Y = derivatives.regressor(motions_[static_cast<std::size_t>(i)]);
+    for (int k = 0; k < motor_count; ++k) series.row(i).segment(k * out.linear, out.linear) = Y.row(k);
+  }
+  const Eigen::MatrixXd settled = filtered_.settle(series);
+  for (int k = 0; k < motor_count; ++k)
+    out.columns[static_cast<std::size_t>(k)] = settled.middleCols(k * out.linear, out.linear);
+}
+
+void ModelledLog::addOfLog(Comparison& out) const {
+  const Motors& motors = scenario_.manipulator->motors();
+  for (int k = 0; k < motor_count; ++k) {
+    const Motor& motor = motors[static_cast<std::size_t>(k)];
+    Eigen::MatrixXd column = Eigen::MatrixXd::Zero(out.model.rows(), motor_count);
+    column.col(k).setOnes();
+    add(out, {DirectionKind::offset, "", fmt::format("offset of the effort of motor {}", k + 1), motor.effortUnit(), k}, column);
+  }
+  add(out, {DirectionKind::delay, "", "delay of the efforts", "s"}, -out.model_rate);
+}
+
+}  // namespace ursula::identification

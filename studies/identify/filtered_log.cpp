@@ -1,0 +1,146 @@
+#include "studies/identify/filtered_log.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ursula::identification {
+namespace {
+
+/// The low passes may take so much of an open log at each end.
+constexpr double end_share = 0.12, of_bandwidth = 4, enough_of_bandwidth = 2.5, of_rate = 0.18, support = 3.6;
+/// Instants that are wanted, so that noise can be told from what is fitted.
+constexpr double wanted_instants = 150;
+/// Of the largest rate, below which a machine rests.
+constexpr double rest_share = 0.02;
+
+/// Rows beyond the ends: those of the next period, or the first and the last.
+Eigen::MatrixXd carriedOn(const Eigen::MatrixXd& x, Eigen::Index by, Ends ends) {
+  const Eigen::Index rows = x.rows(), mean = std::min<Eigen::Index>(5, rows);
+  Eigen::MatrixXd out(rows + 2 * by, x.cols());
+  out.middleRows(by, rows) = x;
+  for (Eigen::Index i = 0; i < by; ++i) {
+    out.row(i) = ends == Ends::rest ? Eigen::RowVectorXd(x.topRows(mean).colwise().mean()) : Eigen::RowVectorXd(x.row(((i - by) % rows + rows) % rows));
+    out.row(by + rows + i) = ends == Ends::rest ? Eigen::RowVectorXd(x.bottomRows(mean).colwise().mean()) : Eigen::RowVectorXd(x.row(i % rows));
+  }
+  return out;
+}
+
+}  // namespace
+
+Ends endsOf(const MeasuredLog& log, bool is_period) {
+  if (is_period) return Ends::period;
+  const Eigen::Index part = log.rows() / 50;
+  if (part < 8) return Ends::open;
+  for (Eigen::Index k = 0; k < log.motion.cols(); ++k) {
+    const Eigen::VectorXd x = log.motion.col(k);
+    const auto change = [&](Eigen::Index first) {  // of the halves of a part, which noise moves little
+      return std::abs(x.segment(first + part / 2, part / 2).mean() - x.segment(first, part / 2).mean());
+    };
+    double largest = 0;
+    for (Eigen::Index i = 0; i + part <= x.size(); i += part) largest = std::max(largest, change(i));
+    const double noise = 4 * whiteNoise(x) / std::sqrt(0.25 * static_cast<double>(part));
+    if (std::max(change(0), change(x.size() - part)) > std::max(rest_share * largest, noise)) return Ends::open;
+  }
+  return Ends::rest;
+}
+
+FilterPlan planFilters(const MeasuredLog& log, Ends ends) {
+  const double duration = log.step * static_cast<double>(log.rows()), most = of_rate / log.step;
+  FilterPlan out;
+  out.ends = ends;
+  out.bandwidth = motionBandwidth(log);
+  const double shortest = ends == Ends::open ? support / (end_share * duration) : 0;
+  out.state_cut = std::min(std::max({of_bandwidth * out.bandwidth, shortest, 2 / duration}), most);
+  out.too_slow = out.state_cut < enough_of_bandwidth * out.bandwidth;
+  out.effort_cut = std::min(std::max(out.state_cut, 0.5 * wanted_instants / duration), most);
+  out.coarse = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(0.125 / (out.effort_cut * log.step)));
+  out.fine = std::max<Eigen::Index>(1, std::lround(0.5 / (out.effort_cut * log.step * static_cast<double>(out.coarse))));
+  return out;
+}
+
+FilteredLog::FilteredLog(const MeasuredLog& log, const FilterPlan& plan, double reach)
+    : log_(log),
+      plan_(plan),
+      first_(plan.state_cut, log.step),
+      second_(plan.effort_cut, log.step * static_cast<double>(plan.coarse)) {
+  if (plan.ends != Ends::open) {
+    before_ = first_.half + second_.half * plan.coarse + 1 + static_cast<Eigen::Index>(std::ceil(reach / log.step));
+    log_.motion = carriedOn(log.motion, before_, plan.ends);
+    log_.efforts = carriedOn(log.efforts, before_, plan.ends);
+    if (log.load.cols() > 0) log_.load = carriedOn(log.load, before_, plan.ends);
+    log_.missing.insert(log_.missing.begin(), static_cast<std::size_t>(before_), false);
+    log_.missing.resize(static_cast<std::size_t>(log_.rows()), false);
+  }
+  placeCenters(reach);
+  value_ = Kernel::apply(first_.value, log_.motion, centers_);
+  rate_ = Kernel::apply(first_.rate, log_.motion, centers_);
+  acceleration_ = Kernel::apply(first_.acceleration, log_.motion, centers_);
+  if (log_.load.cols() > 0) load_ = Kernel::apply(first_.value, log_.load, centers_);
+  placeSettled();
+}
+
+void FilteredLog::placeCenters(double reach) {
+  const Eigen::Index rows = log_.rows(),
+                     margin = first_.half + 1 + static_cast<Eigen::Index>(std::ceil(reach / log_.step));
+  std::vector<Eigen::Index> lacking(static_cast<std::size_t>(rows) + 1, 0);
+  for (std::size_t i = 0; i < log_.missing.size(); ++i) lacking[i + 1] = lacking[i] + (log_.missing[i] ? 1 : 0);
+  const auto whole = [&](Eigen::Index center) {
+    return lacking[static_cast<std::size_t>(center + margin)] == lacking[static_cast<std::size_t>(center - margin)];
+  };
+  const Eigen::Index all = (rows - 2 * margin) / plan_.coarse;
+  const Eigen::Index parts = all > most_instants ? 16 : 1, length = std::min(all, most_instants) / parts;
+  for (Eigen::Index part = 0; part < parts; ++part) {
+    Eigen::Index last = -1;
+    for (Eigen::Index k = 0; k < length; ++k) {
+      const Eigen::Index center = margin + (part * (all / parts) + k) * plan_.coarse;
+      if (!whole(center)) continue;
+      if (last < 0 || center != last + plan_.coarse) segments_.push_back({size(), size()});
+      centers_.push_back(center);
+      segments_.back().end = size();
+      last = center;
+    }
+  }
+}
+
+void FilteredLog::placeSettled() {
+  for (const Segment& segment : segments_) {
+    const auto begin = static_cast<Eigen::Index>(settled_.size());
+    for (Eigen::Index i = segment.first + second_.half; i + second_.half < segment.end; i += plan_.fine)
+      settled_.push_back(i);
+    const auto end = static_cast<Eigen::Index>(settled_.size());
+    if (end > begin) settled_segments_.push_back({begin, end});
+  }
+}
+
+double FilteredLog::time(Eigen::Index i) const {
+  return log_.time(static_cast<double>(centers_[static_cast<std::size_t>(i)] - before_));
+}
+
+MeasuredState FilteredLog::state(Eigen::Index i) const {
+  return {value_.row(i).transpose(), rate_.row(i).transpose(), acceleration_.row(i).transpose()};
+}
+
+MeasuredState FilteredLog::smoothedState(const Kernel& kernel, Eigen::Index i) const {
+  const auto at = [&](const Eigen::MatrixXd& x) -> Eigen::VectorXd { return Kernel::apply(kernel.value, x, {i}).row(0).transpose(); };
+  return {at(value_), at(rate_), at(acceleration_)};
+}
+
+Vector6d FilteredLog::load(Eigen::Index i) const {
+  return load_.cols() > 0 ? Vector6d(load_.row(i).transpose()) : Vector6d(Vector6d::Zero());
+}
+
+Eigen::MatrixXd FilteredLog::efforts() const {
+  return Kernel::apply(Kernel(plan_.state_cut, log_.step).value, log_.efforts, centers_);
+}
+
+Eigen::MatrixXd FilteredLog::settledEfforts(double shift) const {
+  std::vector<Eigen::Index> rows;
+  for (const Eigen::Index i : settled_) rows.push_back(centers_[static_cast<std::size_t>(i)]);
+  return Kernel::apply(Kernel(plan_.effort_cut, log_.step, shift).value, log_.efforts, rows);
+}
+
+Eigen::MatrixXd FilteredLog::settleBy(const Eigen::VectorXd& weights, const Eigen::MatrixXd& series) const {
+  return Kernel::apply(weights, series, settled_);
+}
+
+}  // namespace ursula::identification

@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "model/toml_reader.h"
+#include "model/toml_tolerances.h"
+#include "model/toml_writer.h"
+#include "studies/identify/results.h"
+#include "model/scenario_numbers.h"
+
+namespace ursula::identification {
+namespace {
+
+/// Of its own uncertainty beforehand, above which a log says nothing of a number.
+constexpr double says_nothing = 0.9;
+
+/// A node by a dotted path as takeTolerances has it, with its parent.
+struct NodePlace {
+  toml::node* parent = nullptr;
+  toml::node* node = nullptr;
+  std::string key;
+};
+
+NodePlace placeOf(toml::table& document, const std::string& path) {
+  NodePlace out{nullptr, &document, ""};
+  for (std::size_t begin = 0; begin <= path.size() && out.node != nullptr;) {
+    const std::size_t end = std::min(path.find('.', begin), path.size());
+    std::string key = path.substr(begin, end - begin);
+    begin = end + 1;
+    out.parent = out.node;
+    if (toml::table* table = out.parent->as_table()) {
+      if (!table->contains(key)) key = otherFrictionName(key);
+      out.node = table->get(key);
+    } else if (toml::array* array = out.parent->as_array()) {
+      const bool tables = !array->empty() && array->front().is_table() && array->front().as_table()->get("value") == nullptr;
+      out.node = array->get(std::stoul(key) - (tables ? 1 : 0));
+    } else {
+      out.node = nullptr;
+    }
+    out.key = key;
+  }
+  return out;
+}
+
+/// Makes a document say numbers with their tolerances.
+class ScenarioMarker {
+ public:
+  explicit ScenarioMarker(toml::table& document) : document_(document) {}
+
+  void set(const MachineNumber& number, double value, double tolerance, const ManipulatorParameters& machine) {
+    const std::string path = held(number, machine);
+    if (path.empty()) return;
+    toml::table stated;
+    stated.insert("value", value);
+    stated.insert("tolerance", tolerance);
+    stated.is_inline(true);
+    marks_.emplace_back(path, std::move(stated));
+  }
+
+  /// Last, as numbers are looked for where plain ones are.
+  void apply() {
+    for (auto& [path, stated] : marks_) {
+      const NodePlace at = placeOf(document_, path);
+      if (at.node == nullptr) continue;
+      if (toml::table* table = at.parent->as_table())
+        table->insert_or_assign(at.key, std::move(stated));
+      else
+        at.parent->as_array()->replace(at.parent->as_array()->cbegin() + std::stol(at.key), std::move(stated));
+    }
+  }
+
+ private:
+  /// The path under which the document has the number, written out of the defaults; empty where it cannot have it.
+  std::string held(const MachineNumber& number, const ManipulatorParameters& machine) {
+    std::string path = number.path;
+    if (number.quantity == Quantity::inertia || number.quantity == Quantity::platform_inertia) makeSix(path);
+    if (hold(path)) return path;
+    if (number.quantity != Quantity::center) return "";
+    const Leg& leg = machine.legs[static_cast<std::size_t>(number.leg)];
+    path += fmt::format(".{}", number.body == "proximal" ? leg.proximalLine() : 2);
+    return hold(path) ? path : "";
+  }
+
+  bool hold(const std::string& path) {
+    try {
+      ScenarioNumbers(document_).hold(path);
+      return true;
+    } catch (const NumberKeyError&) {
+      return false;
+    }
+  }
+
+  /// Moments of inertia may have been given without products.
+  void makeSix(const std::string& path) {
+    hold(path.substr(0, path.rfind('.')) + ".0");
+    toml::array* entries = placeOf(document_, path.substr(0, path.rfind('.'))).node->as_array();
+    while (entries != nullptr && entries->size() == 3) {
+      entries->push_back(0.0);
+      entries->push_back(0.0);
+      entries->push_back(0.0);
+    }
+  }
+
+  toml::table& document_;
+  std::vector<std::pair<std::string, toml::table>> marks_;
+};
+
+bool isShown(const NumberEstimate& each) {
+  if (each.before == 0 || each.deviation > says_nothing * each.before) return false;
+  const bool may_be_none = each.number.group == "friction" || each.number.group == "rotor";
+  return !may_be_none || each.nominal > 1e-200 || each.value > 2 * each.deviation;
+}
+
+}  // namespace
+
+std::string identifiedScenario(const Scenario& scenario, const PhysicalEstimate& estimate) {
+  if (!scenario.isAsRead()) return "";
+  toml::table document = parseToml(scenario.text, scenario.file.string());
+  takeTolerances(document, scenario.file.string());
+  const ManipulatorParameters& machine = scenario.manipulator->given();
+  NumberTolerances others = statedTolerances(scenario);
+  ScenarioMarker marker(document);
+  for (const NumberEstimate& each : estimate.numbers) {
+    if (isShown(each))
+      marker.set(each.number, each.value, each.deviation, machine);
+    else
+      continue;
+    others.erase(each.number.path);
+  }
+  for (const MachineNumber& number : machineNumbers(machine))
+    if (const auto at = others.find(number.path); at != others.end()) marker.set(number, number.get(machine), at->second, machine);
+  marker.apply();
+  return tomlText(document);
+}
+
+}  // namespace ursula::identification

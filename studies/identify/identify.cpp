@@ -1,0 +1,218 @@
+#include "studies/identify/identify.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/identify/judge.h"
+#include "studies/identify/log_signs.h"
+#include "studies/identify/physical.h"
+#include "studies/identify/results.h"
+#include "validation/findings/provenance.h"
+#include "validation/subject/effort_columns.h"
+
+namespace ursula {
+namespace {
+
+using namespace identification;
+
+constexpr double most_delay = 0.25, delay_share = 0.1, settled_delay = 0.002;
+constexpr Eigen::Index fewest_instants = 24;
+/// How much larger than what noise explains the fitted model's residual may be.
+constexpr double most_left = 2;
+
+/// One log against one scenario, step by step.
+class Identification {
+ public:
+  Identification(const Scenario& scenario, MeasuredLog& log, const IdentifyOptions& options)
+      : scenario_(scenario), log_(log), options_(options), tolerances_(options.tolerances.empty() ? statedTolerances(scenario) : options.tolerances) {
+    out_.scenario = scenario;
+    out_.version = buildProvenance().version;
+  }
+
+  IdentifyResult run() {
+    tell(0.05, "reading signs of the log");
+    describe();
+    const Periods periods = averagePeriods(log_);
+    out_.periods = periods.count;
+    const FilterPlan plan = planFilters(log_, endsOf(log_, periods.count > 1));
+    out_.bandwidth = plan.bandwidth;
+    out_.state_cut = plan.state_cut;
+    out_.effort_cut = plan.effort_cut;
+    if (plan.too_slow) noteTooSlow(plan);
+    const double most = std::min(most_delay, delay_share * out_.duration);
+    tell(0.1, "following the motion");
+    const double coarse = coarseDelay(plan, most);
+    if (out_.instants < fewest_instants) return unjudged();
+    const FilteredLog filtered(log_, plan, std::abs(coarse) + 1 / plan.state_cut);
+    const ModelledLog modelled(scenario_, log_, filtered);
+    tell(0.3, "making the regressor");
+    Comparison comparison = modelled.directions(true);
+    setPlausible(scenario_.manipulator->parameters(), comparison, comparison.directions);
+    settleDelay(modelled, coarse, comparison);
+    tell(0.8, "judging and estimating");
+    conclude(modelled, periods, comparison);
+    return std::move(out_);
+  }
+
+ private:
+  void tell(double share, const std::string& what) const {
+    if (options_.progress) options_.progress(share, what);
+  }
+
+  void describe() {
+    out_.file = log_.file.string();
+    out_.read_as = log_.read_as;
+    out_.ignored = log_.ignored;
+    out_.step = log_.file_step;
+    out_.rows = log_.file_rows;
+    out_.duration = log_.step * static_cast<double>(log_.rows());
+    out_.findings = log_.findings;
+    findSigns(log_, scenario_.manipulator->motors(), out_.findings);
+  }
+
+  void noteTooSlow(const FilterPlan& plan) {
+    out_.findings.push_back(
+        {"too_slow", -1, 1 / log_.step, "Hz",
+         fmt::format("{:.4g} rows a second show motion up to {:.3g} Hz, and it goes up to {:.3g} Hz: expected a faster log",
+                     1 / log_.step, plan.state_cut, plan.bandwidth)});
+  }
+
+  double coarseDelay(const FilterPlan& plan, double most) {
+    const FilteredLog filtered(log_, plan, 0);
+    out_.instants = static_cast<Eigen::Index>(filtered.settled().size());
+    if (out_.instants < fewest_instants) return 0;
+    const ModelledLog modelled(scenario_, log_, filtered);
+    findMistakes(modelled, scenario_.manipulator->motors(), out_.findings, out_.causes);
+    return modelled.coarseDelay(most);
+  }
+
+  IdentifyResult unjudged() {
+    out_.findings.push_back(
+        {"too_short", -1, out_.duration, "s",
+         fmt::format("the low passes leave {} independent instants of {:.4g} s at {:.4g} Hz, and at least {} are needed: expected a longer or faster log",
+                     out_.instants, out_.duration, 1 / log_.step, fewest_instants)});
+    out_.verdict = Verdict::inconclusive;
+    out_.sentence = out_.findings.back().what;
+    return std::move(out_);
+  }
+
+  /// Shifts the efforts until the fit finds no delay more.
+  void settleDelay(const ModelledLog& modelled, double coarse, Comparison& comparison) {
+    out_.delay = coarse;
+    for (int pass = 0; pass < 6; ++pass) {
+      modelled.compare(out_.delay, comparison);
+      whitened_ = whiten(comparison);
+      root_ = squareRootOf(whitened_.rows);
+      base_ = fitBase(root_, comparison.directions, comparison.further());
+      const auto found = std::find_if(base_.parameters.begin(), base_.parameters.end(), [&](const BaseParameter& each) {
+        return each.terms.front().first == comparison.delay();
+      });
+      if (found == base_.parameters.end()) return;
+      out_.delay_uncertainty = found->deviation;
+      const double reach = 0.5 / modelled.filtered().plan().state_cut, step = std::clamp(found->value, -reach, reach);
+      if (std::abs(step) < settled_delay * std::min(found->deviation + 1e-9, log_.step) || pass == 5) return;
+      out_.delay = std::clamp(out_.delay + step, coarse - 2 * reach, coarse + 2 * reach);
+    }
+  }
+
+  void conclude(const ModelledLog& modelled, const Periods& periods, const Comparison& comparison) {
+    const ManipulatorParameters& machine = scenario_.manipulator->parameters();
+    out_.instants = comparison.model.rows();
+    out_.noise_order = whitened_.order;
+    const Judgement judged = judge(root_, comparison, suspectsOf(root_, comparison, machine, tolerances_),
+                                   out_.delay_uncertainty, base_.freedom);
+    out_.squares = judged.squares;
+    out_.squares_limit = judged.squares_limit;
+    out_.threshold = judged.threshold;
+    for (const FoundCause& cause : judged.causes) out_.causes.push_back(measuredCause(cause));
+    setMotors(modelled, periods, comparison);
+    const CrossValidation validation = crossValidate(whitened_, comparison);
+    out_.validation_given = validation.given;
+    out_.validation_fitted = validation.fitted;
+    out_.validation_from_s = validation.from_s;
+    addCombinations(base_, comparison, out_);
+    const PhysicalEstimate estimate = estimateMachine(root_, comparison, machine, tolerances_, options_.prior);
+    addNumbers(estimate, base_.quantile, out_);
+    out_.identified_scenario = identifiedScenario(scenario_, estimate);
+    addSeries(comparison, base_, modelled.filtered(), out_);
+    out_.verdict = verdictOf(judged);
+    out_.sentence = identifySentence(out_);
+  }
+
+  /// Per motor: deviation and what it may be.
+  void setMotors(const ModelledLog& modelled, const Periods& periods, const Comparison& comparison) {
+    const Eigen::MatrixXd input = inputUncertainty(comparison, scenario_.manipulator->parameters(), tolerances_);
+    const Vector6d expected = expectedNoise(modelled, log_, periods);
+    const auto rms = [](const Eigen::VectorXd& x) { return std::sqrt(x.squaredNorm() / static_cast<double>(x.size())); };
+    const double freedom = 6.0 * static_cast<double>(comparison.model.rows());
+    const double correction = std::sqrt(freedom / std::max(freedom - static_cast<double>(whitened_.rank), 1.0));
+    u_val_.resize(comparison.model.rows(), motor_count);
+    for (int k = 0; k < motor_count; ++k) {
+      MotorAgreement& motor = out_.motors[static_cast<std::size_t>(k)];
+      const Eigen::VectorXd E = comparison.model.col(k) - comparison.measured.col(k);
+      motor.unit = scenario_.manipulator->motors()[static_cast<std::size_t>(k)].effortUnit();
+      motor.effort = rms(comparison.measured.col(k));
+      motor.deviation = rms(E);
+      Eigen::Index at = 0;
+      motor.largest = E.cwiseAbs().maxCoeff(&at);
+      motor.largest_at_s = comparison.t(at);
+      motor.left = rms(whitened_.residual.col(k)) * correction;
+      motor.expected = expected(k);
+      motor.noise = periods.count > 1 ? periods.effort_noise(k) : whiteNoise(log_.efforts.col(k));
+      motor.u_num = comparison.numerical(k);
+      const Eigen::VectorXd from_delay = comparison.model_rate.col(k) * out_.delay_uncertainty;
+      motor.u_input = rms(input.col(k));
+      motor.u_D = std::hypot(motor.left, rms(from_delay));
+      u_val_.col(k) = (input.col(k).array().square() + from_delay.array().square() + motor.left * motor.left +
+                       motor.u_num * motor.u_num)
+                          .sqrt();
+      motor.u_val = rms(u_val_.col(k));
+      motor.within = static_cast<double>((E.array().abs() <= 1.96 * u_val_.col(k).array()).count()) / static_cast<double>(E.size());
+    }
+    addEfforts(comparison, u_val_, out_);
+    noteLeft();
+  }
+
+  void noteLeft() {
+    for (int k = 0; k < motor_count; ++k) {
+      const MotorAgreement& motor = out_.motors[static_cast<std::size_t>(k)];
+      const double ratio = motor.expected > 0 ? motor.left / std::hypot(motor.expected, motor.u_num) : 0;
+      if (ratio > most_left && motor.left > 1e-6 * motor.effort)
+        out_.findings.push_back({"unmodelled", k, motor.left, motor.unit,
+                                 fmt::format("no numbers of the model make the efforts of motor {} agree to better than {:.3g} {}, {:.3g} times what the noise of its samples explains",
+                                             k + 1, motor.left, motor.unit, ratio)});
+      if (motor.left > 0.5 * motor.effort && motor.effort > 0)
+        out_.findings.push_back({"wrong_scenario", k, motor.left / motor.effort, "",
+                                 fmt::format("whatever its numbers, the model leaves {:.0f} % of the efforts of motor {}: a log of another machine or motor?",
+                                             100 * motor.left / motor.effort, k + 1)});
+    }
+  }
+
+  Verdict verdictOf(const Judgement& judged) const {
+    const auto has = [this](const char* kind) {
+      return std::any_of(out_.findings.begin(), out_.findings.end(), [&](const LogFinding& each) { return each.kind == kind; });
+    };
+    if (judged.deviates || !out_.causes.empty() || has("unmodelled") || has("wrong_scenario")) return Verdict::fail;
+    return has("too_slow") || base_.freedom < 30 ? Verdict::inconclusive : Verdict::pass;
+  }
+
+  const Scenario& scenario_;
+  MeasuredLog& log_;
+  const IdentifyOptions& options_;
+  NumberTolerances tolerances_;
+  Whitened whitened_;
+  SquareRoot root_;
+  BaseFit base_;
+  Eigen::MatrixXd u_val_;
+  IdentifyResult out_;
+};
+
+}  // namespace
+
+IdentifyResult identify(const Scenario& scenario, MeasuredLog log, const IdentifyOptions& options) {
+  return Identification(scenario, log, options).run();
+}
+
+}  // namespace ursula

@@ -1,0 +1,225 @@
+#include "studies/identify/judge.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <map>
+
+namespace ursula::identification {
+namespace {
+
+/// Risks of calling a right model wrong: by one cause of its numbers, by one outside of them, by the deviation's size.
+constexpr double risk_of_number = 0.02, risk_outside = 0.02, risk_of_squares = 0.005;
+constexpr std::size_t most_causes = 6;
+/// Suspects whose scores' squares differ by less cannot be told apart.
+constexpr double alike = 4;
+
+/// Deviations in units of what `allowed` columns, each of deviation 1, and noise let them be.
+class Allowance {
+ public:
+  explicit Allowance(Eigen::MatrixXd allowed) : allowed_(std::move(allowed)) {
+    const Eigen::Index count = allowed_.cols();
+    factors_.compute(Eigen::MatrixXd::Identity(count, count) + allowed_.transpose() * allowed_);
+  }
+
+  Eigen::MatrixXd operator()(const Eigen::MatrixXd& x) const {
+    if (allowed_.cols() == 0) return x;
+    return x - allowed_ * factors_.solve(allowed_.transpose() * x);
+  }
+
+  /// Any amount of a column is allowed from now on.
+  void free(const Eigen::VectorXd& column) {
+    Eigen::MatrixXd more(allowed_.rows(), allowed_.cols() + 1);
+    more << allowed_, column * (1e5 / std::max(column.norm(), 1e-300));
+    *this = Allowance(std::move(more));
+  }
+
+ private:
+  Eigen::MatrixXd allowed_;
+  Eigen::LDLT<Eigen::MatrixXd> factors_;
+};
+
+/// Orthonormal columns that span those of `x`.
+Eigen::MatrixXd basisOf(const Eigen::MatrixXd& x) {
+  Eigen::VectorXd scale = x.colwise().norm().transpose();
+  for (double& each : scale) each = each > 0 ? 1 / each : 0;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(x * scale.asDiagonal());
+  qr.setThreshold(1e-7);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(x.rows(), qr.rank());
+}
+
+/// Whether no change of masses, inertias and friction makes the like.
+bool isOutside(DirectionKind kind) {
+  return kind == DirectionKind::elastic || kind == DirectionKind::backlash || kind == DirectionKind::load_friction ||
+         kind == DirectionKind::encoder || kind == DirectionKind::number || kind == DirectionKind::scale;
+}
+
+struct Score {
+  double score = 0, change = 0, deviation = 0;
+};
+
+std::vector<Score> scoresOf(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& judged, const Eigen::VectorXd& z) {
+  std::vector<Score> out;
+  for (Eigen::Index j = 0; j < columns.cols(); ++j) {
+    const double weight = judged.col(j).dot(columns.col(j)), size = columns.col(j).squaredNorm();
+    if (!(weight > 1e-9 * size)) {
+      out.emplace_back();
+      continue;
+    }
+    const double change = judged.col(j).dot(z) / weight, deviation = 1 / std::sqrt(weight);
+    out.push_back({change / deviation, change, deviation});
+  }
+  return out;
+}
+
+std::size_t largestOf(const std::vector<Score>& scores) {
+  const auto best = std::max_element(scores.begin(), scores.end(), [](const Score& a, const Score& b) {
+    return std::abs(a.score) < std::abs(b.score);
+  });
+  return static_cast<std::size_t>(best - scores.begin());
+}
+
+Eigen::MatrixXd columnsOf(const std::vector<const Suspect*>& suspects, Eigen::Index rows) {
+  Eigen::MatrixXd out(rows, static_cast<Eigen::Index>(suspects.size()));
+  for (std::size_t j = 0; j < suspects.size(); ++j) out.col(static_cast<Eigen::Index>(j)) = suspects[j]->column;
+  return out;
+}
+
+/// A score that the largest of `count` passes at a risk.
+double thresholdOf(double risk, double count, Eigen::Index freedom) {
+  const boost::math::students_t distribution(static_cast<double>(std::max<Eigen::Index>(freedom, 3)));
+  return boost::math::quantile(boost::math::complement(distribution, risk / (2 * std::max(count, 1.0))));
+}
+
+/// Finds causes one after the other, each with those before it free.
+void findCauses(const std::vector<const Suspect*>& suspects, Allowance& allowance, const Eigen::VectorXd& z, double threshold,
+                bool outside, std::vector<FoundCause>& out) {
+  if (suspects.empty()) return;
+  const Eigen::MatrixXd columns = columnsOf(suspects, z.size());
+  const double all = z.dot(allowance(z).col(0));
+  for (std::size_t found = 0; found < most_causes; ++found) {
+    const std::vector<Score> scores = scoresOf(columns, allowance(columns), z);
+    const std::size_t best = largestOf(scores);
+    const Score& score = scores[best];
+    if (!(std::abs(score.score) > threshold)) return;
+    FoundCause cause{suspects[best]->direction, score.change, score.deviation, suspects[best]->tolerance, score.score,
+                     score.score * score.score / std::max(all, 1e-300), {}, outside};
+    for (std::size_t j = 0; j < scores.size(); ++j)
+      if (j != best && scores[j].score * scores[j].score > score.score * score.score - alike)
+        cause.as_well.push_back(suspects[j]->direction);
+    out.push_back(cause);
+    allowance.free(suspects[best]->column);
+  }
+}
+
+}  // namespace
+
+std::vector<Suspect> suspectsOf(const SquareRoot& model, const Comparison& comparison, const ManipulatorParameters& machine,
+                                const NumberTolerances& tolerances) {
+  std::vector<Suspect> out;
+  const ManipulatorParameters rotors = withRotors(machine);
+  const EffortDerivatives derivatives((Manipulator(rotors)));
+  const Eigen::MatrixXd columns = model.R.leftCols(comparison.linear) * derivatives.regressorByParameters();
+  const auto toleranceOf = [&](const std::string& path) {
+    const auto at = tolerances.find(path);
+    return at == tolerances.end() ? 0.0 : at->second;
+  };
+  std::map<std::string, std::vector<std::size_t>> alike_on_legs;
+  const auto numbers = machineNumbers(rotors);
+  const auto add = [&](const MachineNumber& number, const Eigen::VectorXd& column) {
+    if (column.isZero(0)) return;
+    Direction direction{number.group == "length" || number.group == "point" || number.group == "axis" ? DirectionKind::number
+                                                                                                       : DirectionKind::linear,
+                        number.path, number.words, number.unit, -1, number.get(rotors), 1};
+    if (number.leg >= 0) alike_on_legs["manipulator.leg_defaults" + number.path.substr(number.path.find('.', 16))].push_back(out.size());
+    out.push_back({direction, column, toleranceOf(number.path)});
+  };
+  for (std::size_t j = 0; j < numbers.size(); ++j) {
+    const auto further = std::find_if(comparison.directions.begin(), comparison.directions.end(), [&](const Direction& d) {
+      return d.kind == DirectionKind::number && d.path == numbers[j].path;
+    });
+    add(numbers[j], further == comparison.directions.end()
+                        ? Eigen::VectorXd(columns.col(static_cast<Eigen::Index>(j)))
+                        : Eigen::VectorXd(model.R.col(further - comparison.directions.begin())));
+  }
+  for (const auto& [path, legs] : alike_on_legs) {
+    Suspect all = out[legs.front()];
+    all.direction.path = path;
+    for (std::size_t k = 1; k < legs.size(); ++k) {
+      all.column += out[legs[k]].column;
+      if (out[legs[k]].direction.nominal != all.direction.nominal) all.column.setZero();
+    }
+    if (legs.size() > 1 && !all.column.isZero(0)) out.push_back(all);
+  }
+  for (std::size_t j = static_cast<std::size_t>(comparison.linear); j < comparison.directions.size(); ++j)
+    if (const Direction& direction = comparison.directions[j]; direction.kind != DirectionKind::number && direction.kind != DirectionKind::delay)
+      out.push_back({direction, model.R.col(static_cast<Eigen::Index>(j)), 0});
+  return out;
+}
+
+Judgement judge(const SquareRoot& model, const Comparison& comparison, const std::vector<Suspect>& suspects, double delay_deviation,
+                Eigen::Index noise_freedom) {
+  std::vector<Eigen::VectorXd> allowed = {model.R.col(comparison.delay()) * delay_deviation};
+  std::vector<const Suspect*> all, outside;
+  for (const Suspect& each : suspects) {
+    const bool together = each.direction.path.compare(0, 24, "manipulator.leg_defaults") == 0;
+    if (each.tolerance > 0 && !together) allowed.push_back(each.column * each.tolerance);
+    all.push_back(&each);
+    if (isOutside(each.direction.kind)) outside.push_back(&each);
+  }
+  Eigen::MatrixXd columns(model.R.rows(), static_cast<Eigen::Index>(allowed.size()));
+  for (std::size_t j = 0; j < allowed.size(); ++j) columns.col(static_cast<Eigen::Index>(j)) = allowed[j];
+  Judgement out;
+
+  // What neither masses nor inertias nor friction nor offsets can be, whatever they are.
+  const Eigen::MatrixXd basis = basisOf(model.R.leftCols(comparison.further()));
+  Eigen::MatrixXd all_linear = basis * 1e5, with_tolerances(model.R.rows(), all_linear.cols() + columns.cols());
+  with_tolerances << all_linear, columns;
+  Allowance beyond_numbers(with_tolerances);
+  findCauses(outside, beyond_numbers, model.z, thresholdOf(risk_outside, static_cast<double>(outside.size()), noise_freedom), true, out.causes);
+
+  Allowance allowance(columns);
+  for (const FoundCause& cause : out.causes)
+    for (const Suspect& each : suspects)
+      if (each.direction.words == cause.direction.words && each.direction.path == cause.direction.path) allowance.free(each.column);
+  const Eigen::MatrixXd everything = basisOf(columnsOf(all, model.R.rows()));
+  out.freedom = everything.cols();
+  out.threshold = thresholdOf(risk_of_number, static_cast<double>(out.freedom), noise_freedom);
+  out.squares = model.z.dot(everything * (everything.transpose() * allowance(model.z).col(0)));
+  out.squares_limit = boost::math::quantile(boost::math::complement(boost::math::chi_squared(static_cast<double>(out.freedom)), risk_of_squares)) *
+                      (1 + 4 * std::sqrt(2.0 / static_cast<double>(std::max<Eigen::Index>(noise_freedom, 8))));
+  findCauses(all, allowance, model.z, out.threshold, false, out.causes);
+  out.deviates = !out.causes.empty() || out.squares > out.squares_limit;
+  return out;
+}
+
+Eigen::MatrixXd inputUncertainty(const Comparison& comparison, const ManipulatorParameters& machine,
+                                 const NumberTolerances& tolerances) {
+  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(comparison.model.rows(), motor_count);
+  const ManipulatorParameters rotors = withRotors(machine);
+  const EffortDerivatives derivatives((Manipulator(rotors)));
+  const Eigen::MatrixXd slopes = derivatives.regressorByParameters();
+  for (std::size_t j = 0; j < derivatives.parameterNames().size(); ++j) {
+    const std::string& path = derivatives.parameterNames()[j];
+    const auto at = tolerances.find(path);
+    if (at == tolerances.end()) continue;
+    const auto further = std::find_if(comparison.directions.begin(), comparison.directions.end(), [&](const Direction& d) {
+      return d.kind == DirectionKind::number && d.path == path;
+    });
+    for (int k = 0; k < motor_count; ++k) {
+      const Eigen::MatrixXd& table = comparison.columns[static_cast<std::size_t>(k)];
+      const Eigen::VectorXd column = further == comparison.directions.end()
+                                         ? Eigen::VectorXd(table.leftCols(comparison.linear) * slopes.col(static_cast<Eigen::Index>(j)))
+                                         : Eigen::VectorXd(table.col(further - comparison.directions.begin()));
+      squares.col(k).array() += (column.array() * at->second).square();
+    }
+  }
+  return squares.cwiseSqrt();
+}
+
+}  // namespace ursula::identification

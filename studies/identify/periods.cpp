@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <cmath>
+#include <unsupported/Eigen/FFT>
+
+#include "studies/identify/signals.h"
+
+namespace ursula::identification {
+namespace {
+
+/// How unlike a motion is to itself `lag` rows later, for every lag: 0 is the same, 1 unrelated.
+Eigen::VectorXd mismatches(const Eigen::MatrixXd& motion) {
+  const Eigen::Index rows = motion.rows();
+  Eigen::Index size = 16;
+  while (size < 2 * rows) size *= 2;
+  Eigen::FFT<double> fft;
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(rows / 2 + 1);
+  int channels = 0;
+  for (Eigen::Index k = 0; k < motion.cols(); ++k) {
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(size);
+    x.head(rows) = motion.col(k).array() - motion.col(k).mean();
+    const double variance = x.squaredNorm() / static_cast<double>(rows);
+    if (variance == 0) continue;
+    Eigen::VectorXcd transform(size);
+    fft.fwd(transform, x);
+    transform = transform.cwiseAbs2().cast<std::complex<double>>().eval();
+    Eigen::VectorXd correlation(size);
+    fft.inv(correlation, transform);
+    double energy = 2 * x.squaredNorm();
+    for (Eigen::Index lag = 0; lag < out.size(); ++lag) {
+      out(lag) += std::max(0.0, energy - 2 * correlation(lag)) / (2 * variance * static_cast<double>(rows - lag));
+      energy -= x(lag) * x(lag) + x(rows - 1 - lag) * x(rows - 1 - lag);
+    }
+    ++channels;
+  }
+  return channels == 0 ? Eigen::VectorXd(Eigen::VectorXd::Ones(out.size())) : Eigen::VectorXd(out / channels);
+}
+
+double mismatchAt(const Eigen::MatrixXd& motion, Eigen::Index lag) {
+  double sum = 0;
+  int channels = 0;
+  for (Eigen::Index k = 0; k < motion.cols(); ++k) {
+    const double variance = (motion.col(k).array() - motion.col(k).mean()).square().mean();
+    if (variance == 0) continue;
+    const Eigen::Index rows = motion.rows() - lag;
+    sum += (motion.col(k).tail(rows) - motion.col(k).head(rows)).squaredNorm() / (2 * variance * static_cast<double>(rows));
+    ++channels;
+  }
+  return sum / std::max(channels, 1);
+}
+
+/// Rows of one period; 0 where there are not two.
+Eigen::Index periodOf(const MeasuredLog& log) {
+  if (std::find(log.missing.begin(), log.missing.end(), true) != log.missing.end()) return 0;
+  const Eigen::VectorXd unlike = mismatches(log.motion);
+  double noise = 0;
+  for (Eigen::Index k = 0; k < log.motion.cols(); ++k) {
+    const double variance = (log.motion.col(k).array() - log.motion.col(k).mean()).square().mean();
+    if (variance > 0) noise += std::pow(whiteNoise(log.motion.col(k)), 2) / variance / static_cast<double>(log.motion.cols());
+  }
+  const double same = 2 * noise + 1e-6;
+  bool has_left = false;
+  for (Eigen::Index lag = 1; lag + 1 < unlike.size(); ++lag) {
+    has_left = has_left || unlike(lag) > 0.1;
+    if (!has_left || unlike(lag) > 10 * same || unlike(lag) > unlike(lag - 1) || unlike(lag) > unlike(lag + 1)) continue;
+    const Eigen::Index last = (log.rows() / lag - 1) * lag;  // periods that are no whole rows drift apart
+    if (mismatchAt(log.motion, lag) <= same && mismatchAt(log.motion, last) <= same) return lag;
+  }
+  return 0;
+}
+
+/// The mean over the periods, and the deviation of one from it.
+Eigen::MatrixXd averaged(const Eigen::MatrixXd& x, Eigen::Index rows, int count, Eigen::VectorXd& deviation) {
+  Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(rows, x.cols());
+  for (int i = 0; i < count; ++i) mean += x.middleRows(i * rows, rows) / count;
+  deviation = Eigen::VectorXd::Zero(x.cols());
+  for (int i = 0; i < count; ++i)
+    deviation += (x.middleRows(i * rows, rows) - mean).colwise().squaredNorm().transpose();
+  deviation = (deviation / (static_cast<double>(rows) * (count - 1))).cwiseSqrt();
+  return mean;
+}
+
+}  // namespace
+
+Periods averagePeriods(MeasuredLog& log) {
+  Periods out;
+  out.rows = periodOf(log);
+  if (out.rows == 0) {
+    out.rows = log.rows();
+    return out;
+  }
+  out.count = static_cast<int>(log.rows() / out.rows);
+  Eigen::VectorXd unused;
+  log.motion = averaged(log.motion, out.rows, out.count, out.motion_noise);
+  log.efforts = averaged(log.efforts, out.rows, out.count, out.effort_noise);
+  if (log.load.cols() > 0) log.load = averaged(log.load, out.rows, out.count, unused);
+  log.missing.assign(static_cast<std::size_t>(out.rows), false);
+  return out;
+}
+
+}  // namespace ursula::identification

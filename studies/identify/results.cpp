@@ -1,0 +1,178 @@
+#include "studies/identify/results.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/subject/effort_columns.h"
+
+namespace ursula::identification {
+namespace {
+
+constexpr std::size_t most_terms_in_words = 4;
+
+std::vector<std::string> partsOf(const std::string& path) {
+  std::vector<std::string> out(1);
+  for (const char c : path) {
+    if (c == '.')
+      out.emplace_back();
+    else
+      out.back() += c;
+  }
+  return out;
+}
+
+std::string groupOf(const Direction& direction) {
+  if (direction.kind == DirectionKind::offset) return "offset";
+  if (direction.kind == DirectionKind::delay) return "delay";
+  const auto has = [&](const char* word) { return direction.path.find(word) != std::string::npos; };
+  if (has("rotor_inertia")) return "rotor";
+  if (has("friction") || has("coulomb")) return "friction";
+  if (has("first_moment")) return "center";
+  return has("inertia") ? "inertia" : "mass";
+}
+
+void addColumn(TimeSeries& series, const std::string& name, const Eigen::VectorXd& values) {
+  series.names.push_back(name);
+  series.columns.emplace_back(values.data(), values.data() + values.size());
+}
+
+std::string motorColumn(const char* what, int k, const std::string& unit) { return fmt::format("{}_{}_{}", what, k + 1, unit); }
+
+}  // namespace
+
+std::string wordsOf(const Direction& direction) {
+  if (direction.path.empty()) return direction.words;
+  const std::vector<std::string> parts = partsOf(direction.path);
+  const bool platform = parts[1] == "platform";
+  const std::string leg = platform ? "" : fmt::format("leg {}", parts[2]);
+  const std::string& quantity = parts[platform ? 2 : parts.size() > 4 && (parts[3] == "proximal" || parts[3] == "distal") ? 4 : 3];
+  const std::string of = platform ? "the platform" : quantity == parts[3] ? leg : fmt::format("{}'s {} link", leg, parts[3]);
+  static const char* const axes[] = {"x", "y", "z"};
+  static const char* const entries[] = {"xx", "yy", "zz", "xy", "xz", "yz"};
+  const bool has_entry = std::isdigit(static_cast<unsigned char>(parts.back()[0])) != 0 && parts.size() > 3;
+  const int entry = has_entry ? parts.back()[0] - '0' : 0;
+  if (quantity == "mass") return "mass of " + of;
+  if (quantity == "first_moment") return fmt::format("mass × mass centre{} of {}", has_entry ? std::string(" ") + axes[entry % 3] : "", of);
+  if (quantity == "inertia_at_P") return fmt::format("inertia {} of {} about P", entries[entry % 6], of);
+  if (quantity == "inertia_at_end") return fmt::format("inertia {} of {} about its first end", entries[entry % 6], of);
+  if (quantity == "rotor_inertia") return fmt::format("rotor inertia on {} of {}", parts.back(), of);
+  if (quantity == "friction") return fmt::format("viscous friction on {} of {}", parts.back(), of);
+  if (quantity == "coulomb") return fmt::format("Coulomb friction on {} of {}", parts.back(), of);
+  return direction.words;
+}
+
+MeasuredCause measuredCause(const FoundCause& cause) {
+  MeasuredCause out;
+  const Direction& direction = cause.direction;
+  out.kind = name(direction.kind);
+  out.parameter = direction.path;
+  out.what = direction.words;
+  out.unit = direction.unit;
+  out.motor = direction.motor + 1;
+  out.expected = direction.nominal;
+  out.found = direction.nominal + cause.change;
+  out.uncertainty = cause.deviation;
+  out.tolerances = cause.tolerance > 0 ? cause.change / cause.tolerance : 0;
+  out.score = cause.score;
+  out.explained = std::min(1.0, cause.explained);
+  out.outside = cause.outside;
+  for (const Direction& each : cause.as_well) out.as_well.push_back(each.path.empty() ? each.words : each.path);
+  return out;
+}
+
+void addCombinations(const BaseFit& fit, const Comparison& comparison, IdentifyResult& out) {
+  for (const BaseParameter& base : fit.parameters) {
+    const Direction& first = comparison.directions[static_cast<std::size_t>(base.terms.front().first)];
+    MeasuredNumber number;
+    number.group = groupOf(first);
+    number.unit = first.unit;
+    number.nominal = base.nominal;
+    number.value = base.value;
+    if (first.kind == DirectionKind::delay) number.value = out.delay;
+    number.uncertainty = base.deviation;
+    number.low = number.value - fit.quantile * base.deviation;
+    number.high = number.value + fit.quantile * base.deviation;
+    auto terms = base.terms;
+    std::sort(terms.begin() + 1, terms.end(), [&](const auto& a, const auto& b) {
+      const auto size = [&](const auto& term) { return std::abs(term.second) * comparison.directions[static_cast<std::size_t>(term.first)].plausible; };
+      return size(a) > size(b);
+    });
+    for (std::size_t k = 0; k < terms.size(); ++k) {
+      const Direction& direction = comparison.directions[static_cast<std::size_t>(terms[k].first)];
+      number.terms.emplace_back(direction.path.empty() ? direction.words : direction.path, terms[k].second);
+      if (k < most_terms_in_words)
+        number.name += k == 0 ? wordsOf(direction)
+                              : fmt::format(" {} {:.4g} × {}", terms[k].second < 0 ? "−" : "+", std::abs(terms[k].second), wordsOf(direction));
+    }
+    if (terms.size() > most_terms_in_words) number.name += " + …";
+    out.combinations.push_back(number);
+  }
+  for (const Eigen::Index j : fit.unseen) out.unseen.push_back(wordsOf(comparison.directions[static_cast<std::size_t>(j)]));
+}
+
+void addNumbers(const PhysicalEstimate& estimate, double quantile, IdentifyResult& out) {
+  for (const NumberEstimate& each : estimate.numbers) {
+    if (each.before == 0 && each.tolerance < 0) continue;
+    MeasuredNumber number;
+    number.name = each.number.path;
+    number.group = each.number.group;
+    number.unit = each.number.unit;
+    number.nominal = each.nominal;
+    number.value = each.value;
+    number.uncertainty = each.deviation;
+    number.low = each.value - quantile * each.deviation;
+    number.high = each.value + quantile * each.deviation;
+    number.tolerance = each.tolerance;
+    number.identified = each.identified;
+    out.numbers.push_back(number);
+  }
+}
+
+void addEfforts(const Comparison& comparison, const Eigen::MatrixXd& u_val, IdentifyResult& out) {
+  addColumn(out.series, "t_s", comparison.t);
+  for (int k = 0; k < motor_count; ++k) {
+    const std::string unit = out.motors[static_cast<std::size_t>(k)].unit;
+    addColumn(out.series, motorColumn("tau", k, unit), comparison.measured.col(k));
+    addColumn(out.series, motorColumn("model", k, unit), comparison.model.col(k));
+    addColumn(out.series, motorColumn("u_val", k, unit), u_val.col(k));
+  }
+}
+
+void addSeries(const Comparison& comparison, const BaseFit& fit, const FilteredLog& filtered, IdentifyResult& out) {
+  const double step = filtered.step() * static_cast<double>(filtered.plan().fine);
+  for (int k = 0; k < motor_count; ++k) {
+    const std::string unit = out.motors[static_cast<std::size_t>(k)].unit;
+    const Eigen::VectorXd change = comparison.columns[static_cast<std::size_t>(k)].leftCols(fit.step.size()) * fit.step;
+    const Eigen::VectorXd fitted = comparison.model.col(k) + change;
+    addColumn(out.series, motorColumn("fitted", k, unit), fitted);
+    const Eigen::VectorXd spectrum = powerSpectrum(comparison.measured.col(k) - fitted, step);
+    if (k == 0) addColumn(out.spectra, "f_Hz", Eigen::VectorXd::LinSpaced(spectrum.size(), 0, 0.5 / step));
+    addColumn(out.spectra, motorColumn("residual", k, unit + "2_Hz"), spectrum);
+  }
+}
+
+std::string identifySentence(const IdentifyResult& result) {
+  double worst = 0;
+  std::size_t at = 0;
+  for (std::size_t k = 0; k < result.motors.size(); ++k)
+    if (const double share = result.motors[k].deviation / std::max(result.motors[k].u_val, 1e-300); share >= worst) {
+      worst = share;
+      at = k;
+    }
+  const MotorAgreement& motor = result.motors[at];
+  const std::string size = fmt::format("the deviation of motor {} is {:.3g} {} (rms), u_val {:.3g} {}, {:.1f} % of instants within 1.96 u_val",
+                                       at + 1, motor.deviation, motor.unit, motor.u_val, motor.unit, 100 * motor.within);
+  if (result.verdict == Verdict::pass) return "Within u_val at 95 %: " + size + ".";
+  std::string out = result.verdict == Verdict::fail ? "Model error: " + size : "Not judged: " + size;
+  if (result.causes.empty()) return out + (result.verdict == Verdict::fail ? "; no single number explains it." : ".");
+  const MeasuredCause& cause = result.causes.front();
+  if (cause.kind == "order" || cause.kind == "sign" || cause.kind == "units") return out + "; " + cause.what + ".";
+  out += fmt::format("; explained by {} {:.6g} ± {:.2g} {} instead of {:.6g}", cause.parameter.empty() ? cause.what : cause.parameter,
+                     cause.found, 1.96 * cause.uncertainty, cause.unit, cause.expected);
+  if (cause.tolerances != 0) out += fmt::format(", {:.3g} of its tolerances", std::abs(cause.tolerances));
+  return out + (cause.outside ? ", which no mass, inertia or friction can be." : ".");
+}
+
+}  // namespace ursula::identification

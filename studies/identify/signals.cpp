@@ -1,0 +1,167 @@
+#include "studies/identify/signals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unsupported/Eigen/FFT>
+
+namespace ursula::identification {
+namespace {
+
+const double pi = std::acos(-1.0);
+/// Deviation of the Gaussian that rounds the low pass off, in cut-off frequencies; and where its window ends.
+constexpr double roll_off = 0.2, window_end = 4.5;
+
+/// Over nine neighbours, so that no single one of a noise's is taken for a signal.
+Eigen::VectorXd smoothed(const Eigen::VectorXd& x) {
+  Eigen::VectorXd out(x.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const Eigen::Index first = std::max<Eigen::Index>(0, i - 4), end = std::min(x.size(), i + 5);
+    out(i) = x.segment(first, end - first).mean();
+  }
+  return out;
+}
+
+double windowDeviation(double cut) { return 1 / (2 * pi * roll_off * cut); }
+
+/// sin(a u) / (π u) and its derivatives.
+std::array<double, 3> sincOf(double a, double u) {
+  const double x = a * u;
+  if (std::abs(x) < 1e-2)
+    return {a / pi * (1 - x * x / 6), a / pi * (-a * x / 3 + a * x * x * x / 30), a / pi * a * a * (-1.0 / 3 + x * x / 10)};
+  const double s = std::sin(x), c = std::cos(x);
+  return {s / (pi * u), (x * c - s) / (pi * u * u), (2 * s - 2 * x * c - x * x * s) / (pi * u * u * u)};
+}
+
+}  // namespace
+
+int Kernel::halfLength(double cut, double step) {
+  return static_cast<int>(std::ceil(window_end * windowDeviation(cut) / step));
+}
+
+Kernel::Kernel(double cut, double step, double shift)
+    : half(halfLength(cut, step) + static_cast<int>(std::ceil(std::abs(shift) / step))),
+      value(2 * half + 1),
+      rate(2 * half + 1),
+      acceleration(2 * half + 1) {
+  const double s2 = windowDeviation(cut) * windowDeviation(cut), a = 2 * pi * cut;
+  for (int k = -half; k <= half; ++k) {
+    const double u = shift - k * step, window = step * std::exp(-u * u / (2 * s2));
+    const auto [f, f1, f2] = sincOf(a, u);
+    value(k + half) = f * window;
+    rate(k + half) = (f1 - f * u / s2) * window;
+    acceleration(k + half) = (f2 - 2 * f1 * u / s2 + f * (u * u / s2 - 1) / s2) * window;
+  }
+  // What rests has no rate, though its window ends.
+  value /= value.sum();
+  rate.array() -= rate.mean();
+  acceleration.array() -= acceleration.mean();
+}
+
+Eigen::MatrixXd Kernel::apply(const Eigen::VectorXd& weights, const Eigen::MatrixXd& x,
+                              const std::vector<Eigen::Index>& centers) {
+  const Eigen::Index size = weights.size();
+  Eigen::MatrixXd out(static_cast<Eigen::Index>(centers.size()), x.cols());
+  for (Eigen::Index column = 0; column < x.cols(); ++column)
+    for (std::size_t i = 0; i < centers.size(); ++i)
+      out(static_cast<Eigen::Index>(i), column) = weights.dot(x.col(column).segment(centers[i] - size / 2, size));
+  return out;
+}
+
+double whiteNoise(const Eigen::VectorXd& signal) {
+  constexpr Eigen::Index block = 64;
+  std::vector<double> squares;
+  for (Eigen::Index first = 0; first + 7 <= signal.size(); first += block) {
+    double sum = 0;
+    const Eigen::Index end = std::min(first + block, signal.size() - 6);
+    for (Eigen::Index i = first; i < end; ++i) {
+      const double d = signal(i) - 6 * signal(i + 1) + 15 * signal(i + 2) - 20 * signal(i + 3) + 15 * signal(i + 4) -
+                       6 * signal(i + 5) + signal(i + 6);
+      sum += d * d;
+    }
+    if (end > first) squares.push_back(sum / static_cast<double>(end - first));
+  }
+  if (squares.empty()) return 0;
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+  std::nth_element(squares.begin(), middle, squares.end());
+  return std::sqrt(*middle / 924);  // the sum of the squared binomials
+}
+
+double quantum(const Eigen::VectorXd& signal) {
+  const Eigen::Index rows = std::min<Eigen::Index>(signal.size(), 20'000);
+  std::vector<double> steps;
+  for (Eigen::Index i = 1; i < rows; ++i)
+    if (const double step = std::abs(signal(i) - signal(i - 1)); step > 0) steps.push_back(step);
+  if (steps.size() < 16) return 0;
+  const double smallest = *std::min_element(steps.begin(), steps.end());
+  const double size = signal.head(rows).cwiseAbs().maxCoeff();
+  if (smallest < 1e-11 * size) return 0;
+  const auto whole = std::count_if(steps.begin(), steps.end(), [&](double step) {
+    return std::abs(std::remainder(step, smallest)) < 1e-3 * smallest + 1e-13 * size;
+  });
+  return static_cast<double>(whole) > 0.99 * static_cast<double>(steps.size()) ? smallest : 0;
+}
+
+std::vector<Eigen::Index> saturatedRows(const Eigen::VectorXd& signal) {
+  const double high = signal.maxCoeff(), low = signal.minCoeff();
+  if (high == low) return {};
+  Eigen::Index longest_else = 1;
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> at_ends;
+  for (Eigen::Index i = 0; i < signal.size();) {
+    Eigen::Index end = i + 1;
+    while (end < signal.size() && signal(end) == signal(i)) ++end;
+    if (signal(i) == high || signal(i) == low)
+      at_ends.emplace_back(i, end);
+    else
+      longest_else = std::max(longest_else, end - i);
+    i = end;
+  }
+  std::vector<Eigen::Index> out;
+  for (const auto& [first, end] : at_ends)
+    if (end - first >= std::max<Eigen::Index>(5, 3 * longest_else))
+      for (Eigen::Index i = first; i < end; ++i) out.push_back(i);
+  return out;
+}
+
+Eigen::VectorXd powerSpectrum(const Eigen::VectorXd& signal, double step, int most_size) {
+  int size = 16;
+  while (2 * size <= most_size && 2 * size <= signal.size()) size *= 2;
+  Eigen::FFT<double> fft;
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(size / 2 + 1), window(size);
+  for (int k = 0; k < size; ++k) window(k) = 0.5 - 0.5 * std::cos(2 * pi * (k + 0.5) / size);
+  int count = 0;
+  for (Eigen::Index first = 0; first + size <= signal.size(); first += size / 2, ++count) {
+    const Eigen::VectorXd part = (signal.segment(first, size).array() - signal.segment(first, size).mean()) * window.array();
+    Eigen::VectorXcd transform(size);
+    fft.fwd(transform, part);
+    out += transform.head(size / 2 + 1).cwiseAbs2();
+  }
+  return count == 0 ? out : Eigen::VectorXd(out * (2 * step / (count * window.squaredNorm())));
+}
+
+double motionBandwidth(const MeasuredLog& log) {
+  const double nyquist = 0.5 / log.step;
+  double found = 0;
+  Eigen::VectorXd deviations(log.motion.cols());
+  for (Eigen::Index k = 0; k < log.motion.cols(); ++k)
+    deviations(k) = std::sqrt((log.motion.col(k).array() - log.motion.col(k).mean()).square().mean());
+  for (Eigen::Index k = 0; k < log.motion.cols(); ++k) {
+    if (deviations(k) < 1e-2 * deviations.maxCoeff() || log.rows() < 64) continue;
+    const Eigen::Index rows = log.rows() - 2;
+    const Eigen::VectorXd second = log.motion.col(k).tail(rows) - 2 * log.motion.col(k).segment(1, rows) + log.motion.col(k).head(rows);
+    const Eigen::VectorXd power = smoothed(powerSpectrum(second, log.step, 4096));
+    const double noise = whiteNoise(log.motion.col(k));
+    double total = 0;
+    std::vector<double> sums;
+    for (Eigen::Index i = 0; i < power.size(); ++i) {
+      const double share = static_cast<double>(i) / static_cast<double>(power.size() - 1);
+      const double floor = 2 * log.step * noise * noise * std::pow(2 * std::sin(0.5 * pi * share), 4);
+      total += power(i) > 4 * floor ? power(i) - floor : 0;
+      sums.push_back(total);
+    }
+    const auto at = std::lower_bound(sums.begin(), sums.end(), 0.999 * total) - sums.begin();
+    found = std::max(found, nyquist * static_cast<double>(at + 1) / static_cast<double>(power.size() - 1));
+  }
+  return found;
+}
+
+}  // namespace ursula::identification

@@ -1,0 +1,14 @@
+# Logs made in Simbody, and what is found in them.
+add_executable(identify_tests
+  identify/identify_test.cpp
+  identify/measured_log_test.cpp
+  identify/random_logs.cpp
+  identify/random_logs_test.cpp
+  identify/signals_test.cpp
+  identify/synthetic_log.cpp
+  identify/tolerances_test.cpp
+)
+target_link_libraries(identify_tests PRIVATE
+  test_support test_components ursula::simbody_loop nlohmann_json::nlohmann_json fmt::fmt GTest::gmock GTest::gtest_main)
+target_compile_definitions(identify_tests PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
+gtest_discover_tests(identify_tests)

@@ -1,0 +1,153 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/csv.h"
+#include "studies/identify/excite.h"
+#include "studies/identify/identify.h"
+#include "tests/studies/identify/synthetic_log.h"
+
+namespace ursula {
+namespace {
+
+using testing::HasSubstr;
+
+/// The paper's machine with friction, and tolerances of 1 %.
+class Identify : public testing::Test {
+ protected:
+  void SetUp() override {
+    scenario = readScenario(std::string(URSULA_SCENARIOS) + "/paper-helix.toml");
+    truth = scenario.manipulator->parameters();
+    for (Leg& leg : truth.legs) {
+      leg.friction.phi = 20;
+      leg.coulomb.phi = 5;
+    }
+    scenario.manipulator = std::make_shared<Manipulator>(truth);
+    for (const MachineNumber& number : machineNumbers(truth))
+      if (number.group == "mass" || number.group == "center" || number.quantity == Quantity::friction ||
+          number.quantity == Quantity::coulomb)
+        options.tolerances[number.path] = std::max(0.01 * number.size(truth), 1e-6);
+  }
+
+  IdentifyResult run() { return identify(scenario, logOf(syntheticRows(scenario, truth, how), scenario), options); }
+
+  Scenario scenario;
+  ManipulatorParameters truth;
+  SyntheticLog how;
+  IdentifyOptions options;
+};
+
+const MeasuredNumber& numberOf(const IdentifyResult& result, const std::string& name) {
+  for (const MeasuredNumber& each : result.numbers)
+    if (each.name == name) return each;
+  throw std::out_of_range(name);
+}
+
+bool hasFinding(const IdentifyResult& result, const std::string& kind) {
+  return std::any_of(result.findings.begin(), result.findings.end(),
+                     [&](const LogFinding& each) { return each.kind == kind; });
+}
+
+TEST_F(Identify, rightModelIsWithinItsUncertainty) {
+  how.delay = 2.3 / how.rate;
+  const IdentifyResult result = run();
+  EXPECT_EQ(result.verdict, Verdict::pass) << identifyText(result);
+  EXPECT_EQ(result.periods, 2);
+  EXPECT_NEAR(result.delay * how.rate, 2.3, 0.1);
+  EXPECT_GT(result.combinations.size(), 20U);
+  for (const MotorAgreement& motor : result.motors) {
+    EXPECT_GT(motor.u_D, 0);
+    EXPECT_GT(motor.u_input, 0);
+    EXPECT_LT(motor.left, 0.01 * motor.effort);
+  }
+  EXPECT_LT(result.validation_fitted, 1.5);
+}
+
+TEST_F(Identify, wrongMassIsNamedWithItsTolerancesAndFound) {
+  truth.platform.mass *= 1.05;
+  const IdentifyResult result = run();
+  ASSERT_EQ(result.verdict, Verdict::fail);
+  ASSERT_FALSE(result.causes.empty());
+  EXPECT_EQ(result.causes[0].parameter, "manipulator.platform.mass") << identifyText(result);
+  EXPECT_NEAR(result.causes[0].tolerances, 5, 1);
+  const MeasuredNumber& mass = numberOf(result, "manipulator.platform.mass");
+  EXPECT_TRUE(mass.identified);
+  EXPECT_LE(mass.low, 525);
+  EXPECT_GE(mass.high, 525);
+}
+
+TEST_F(Identify, elasticJointIsOutsideOfTheNumbers) {
+  SyntheticRows rows = syntheticRows(scenario, truth, how);
+  for (Eigen::Index i = 0; i < rows.motion.rows(); ++i) rows.motion(i, 2) += 2e-5 * rows.efforts(i, 2);
+  const IdentifyResult result = identify(scenario, logOf(rows, scenario), options);
+  ASSERT_EQ(result.verdict, Verdict::fail);
+  ASSERT_FALSE(result.causes.empty());
+  EXPECT_TRUE(result.causes[0].outside);
+  EXPECT_EQ(result.causes[0].motor, 3) << identifyText(result);
+}
+
+TEST_F(Identify, effortsOfOtherMotorsOrUnitsAreSaidToBe) {
+  SyntheticRows rows = syntheticRows(scenario, truth, how);
+  rows.efforts.col(1).swap(rows.efforts.col(4));
+  const IdentifyResult swapped = identify(scenario, logOf(rows, scenario), options);
+  EXPECT_EQ(swapped.verdict, Verdict::fail);
+  EXPECT_FALSE(swapped.causes.empty());
+  rows.efforts.col(1).swap(rows.efforts.col(4));
+  rows.efforts *= 1e-3;
+  const IdentifyResult scaled = identify(scenario, logOf(rows, scenario), options);
+  EXPECT_TRUE(hasFinding(scaled, "units")) << identifyText(scaled);
+}
+
+TEST_F(Identify, clippedEffortIsFoundAndLeftOut) {
+  SyntheticRows rows = syntheticRows(scenario, truth, how);
+  const double most = 0.98 * rows.efforts.col(0).maxCoeff() + 0.02 * rows.efforts.col(0).mean();
+  rows.efforts.col(0) = rows.efforts.col(0).cwiseMin(most);
+  const IdentifyResult result = identify(scenario, logOf(rows, scenario), options);
+  EXPECT_TRUE(hasFinding(result, "saturation"));
+}
+
+TEST_F(Identify, slowLogIsNotJudged) {
+  how.rate = 10;
+  const IdentifyResult result = run();
+  EXPECT_NE(result.verdict, Verdict::pass) << identifyText(result);
+  EXPECT_TRUE(hasFinding(result, "too_slow") || hasFinding(result, "too_short"));
+}
+
+TEST_F(Identify, coordinatesThatTheMachineCannotTakeAreRefused) {
+  SyntheticRows rows = syntheticRows(scenario, truth, how);
+  rows.motion *= 180 / std::acos(-1.0);
+  try {
+    identify(scenario, logOf(rows, scenario), options);
+    FAIL() << "degrees were taken for radians";
+  } catch (const CsvError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("degrees"));
+  }
+}
+
+TEST_F(Identify, summaryAndScenarioReadBack) {
+  const Scenario read = readScenario(std::string(URSULA_SCENARIOS) + "/paper-helix.toml");
+  const IdentifyResult result = identify(read, logOf(syntheticRows(read, read.manipulator->parameters(), how), read));
+  const auto json = nlohmann::json::parse(identifySummary(result));
+  EXPECT_EQ(json["motors"].size(), 6U);
+  EXPECT_GT(json["combinations"].size(), 20U);
+  EXPECT_THAT(identifyPage(result), HasSubstr("Effort of motor 1"));
+  const Scenario again = parseScenario(result.identified_scenario, "identified.toml");
+  EXPECT_NEAR(again.manipulator->platform().mass, 500, 5);
+  EXPECT_FALSE(statedTolerances(again).empty());
+}
+
+TEST_F(Identify, excitedMotionShowsMoreAndKeepsToLimits) {
+  ExciteOptions limits;
+  limits.tries = 40;
+  limits.effort = 2e4;
+  const Excitation found = excite(scenario, limits);
+  EXPECT_GT(found.shown, 20);
+  EXPECT_LT(found.condition, found.scenario_condition);
+  EXPECT_LE(found.effort, limits.effort);
+  EXPECT_THAT(found.csv, HasSubstr("t_s,p_x_m"));
+}
+
+}  // namespace
+}  // namespace ursula

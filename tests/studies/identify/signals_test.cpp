@@ -1,0 +1,94 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "studies/identify/signals.h"
+
+namespace ursula::identification {
+namespace {
+
+const double pi = std::acos(-1.0);
+
+Eigen::VectorXd sine(Eigen::Index rows, double step, double f) {
+  Eigen::VectorXd out(rows);
+  for (Eigen::Index i = 0; i < rows; ++i) out(i) = std::sin(2 * pi * f * static_cast<double>(i) * step);
+  return out;
+}
+
+TEST(Kernel, valueAndRatesOfWhatPassesAreThoseOfTheSignal) {
+  const double step = 1e-3, f = 2, w = 2 * pi * f, shift = 0.37e-3;
+  const Kernel kernel(20, step, shift);
+  const Eigen::VectorXd x = sine(2000, step, f);
+  const std::vector<Eigen::Index> center = {1000};
+  const double t = 1000 * step + shift;
+  EXPECT_NEAR(Kernel::apply(kernel.value, x, center)(0, 0), std::sin(w * t), 1e-4);
+  EXPECT_NEAR(Kernel::apply(kernel.rate, x, center)(0, 0) / w, std::cos(w * t), 1e-4);
+  EXPECT_NEAR(Kernel::apply(kernel.acceleration, x, center)(0, 0) / (w * w), -std::sin(w * t), 1e-3);
+  const Eigen::VectorXd fast = sine(2000, step, 60);
+  EXPECT_NEAR(Kernel::apply(kernel.value, fast, center)(0, 0), 0, 1e-4) << "and what is beyond does not pass";
+}
+
+TEST(WhiteNoise, isFoundUnderASmoothSignal) {
+  std::mt19937 dice(1);
+  std::normal_distribution<double> normal(0, 0.01);
+  Eigen::VectorXd x = 5 * sine(5000, 1e-3, 3);
+  EXPECT_LT(whiteNoise(x), 1e-4);
+  for (double& each : x) each += normal(dice);
+  EXPECT_NEAR(whiteNoise(x), 0.01, 1e-3);
+}
+
+TEST(Quantum, isTheStepOfWhatIsRounded) {
+  Eigen::VectorXd x = sine(3000, 1e-3, 1);
+  EXPECT_EQ(quantum(x), 0);
+  for (double& each : x) each = 0.004 * std::round(each / 0.004);
+  EXPECT_NEAR(quantum(x), 0.004, 1e-12);
+}
+
+TEST(SaturatedRows, areThoseAtAnEndFarLongerThanElsewhere) {
+  Eigen::VectorXd x = sine(3000, 1e-3, 1);
+  EXPECT_TRUE(saturatedRows(x).empty());
+  x = x.cwiseMin(0.8);
+  const auto rows = saturatedRows(x);
+  ASSERT_FALSE(rows.empty());
+  for (const Eigen::Index row : rows) EXPECT_EQ(x(row), 0.8);
+}
+
+MeasuredLog periodic(double period, double noise) {
+  std::mt19937 dice(2);
+  std::normal_distribution<double> normal(0, noise);
+  MeasuredLog log;
+  log.step = 1e-3;
+  const Eigen::Index rows = 4100;
+  log.motion.resize(rows, 2);
+  log.efforts = Eigen::MatrixXd::Zero(rows, motor_count);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const double t = static_cast<double>(i) * log.step, w = 2 * pi / period;
+    log.motion(i, 0) = std::sin(w * t) + 0.3 * std::cos(2 * w * t) + normal(dice);
+    log.motion(i, 1) = 0.1 * std::cos(3 * w * t) + 0.1 * normal(dice);
+    for (int k = 0; k < motor_count; ++k) log.efforts(i, k) = std::cos(w * t) + normal(dice);
+  }
+  log.missing.assign(static_cast<std::size_t>(rows), false);
+  return log;
+}
+
+TEST(Periods, areAveragedAndGiveTheNoise) {
+  MeasuredLog log = periodic(1, 0.01);
+  const Periods found = averagePeriods(log);
+  ASSERT_EQ(found.count, 4);
+  EXPECT_EQ(log.rows(), 1000);
+  EXPECT_NEAR(found.effort_noise(0), 0.01, 1e-3);
+  EXPECT_NEAR(found.motion_noise(0), 0.01, 1e-3);
+  MeasuredLog once = periodic(3, 0.01);
+  EXPECT_EQ(averagePeriods(once).count, 1);
+  EXPECT_EQ(once.rows(), 4100);
+}
+
+TEST(MotionBandwidth, isWhereTheAccelerationEnds) {
+  MeasuredLog log = periodic(1, 1e-4);
+  EXPECT_GT(motionBandwidth(log), 2);
+  EXPECT_LT(motionBandwidth(log), 6);
+}
+
+}  // namespace
+}  // namespace ursula::identification
