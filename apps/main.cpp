@@ -52,10 +52,11 @@ int runProgram(int argc, char** argv) {
   app.set_version_flag("--version", ursula::buildProvenance().version + " (" + ursula::buildProvenance().commit + ")");
   app.require_subcommand(1);
   std::function<int()> run;
-  for (const auto add : {ursula::addValidate, ursula::addInverse, ursula::addInit, ursula::addCheck, ursula::addCompare,
-                         ursula::addDirect, ursula::addMap, ursula::addEngines, ursula::addProve, ursula::addSimulate,
-                         ursula::addSweep, ursula::addAudit, ursula::addPoses, ursula::addExplain, ursula::addImport,
-                         ursula::addExport, ursula::addOpen, ursula::addDocs})
+  for (const auto add :
+       {ursula::addValidate, ursula::addInverse, ursula::addInit,    ursula::addCheck,  ursula::addCompare,
+        ursula::addDirect,   ursula::addMap,     ursula::addEngines, ursula::addProve,  ursula::addSimulate,
+        ursula::addSweep,    ursula::addAudit,   ursula::addPoses,   ursula::addExcite, ursula::addExplain,
+        ursula::addIdentify, ursula::addImport,  ursula::addExport,  ursula::addOpen,   ursula::addDocs})
     add(app, run);
   ursula::refuseFlagValues(app);
   if (argc < 2) return complain(app.help());

@@ -1,0 +1,9 @@
+#pragma once
+
+/// \file
+/// Measured efforts against the model: readMeasuredLog(), identify() and what they return; excite().
+
+#include "include/ursula/abi.h"
+#include "base/csv.h"
+#include "studies/identify/excite.h"
+#include "studies/identify/identify.h"
