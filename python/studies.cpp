@@ -14,6 +14,7 @@
 
 #include "python/archive.h"
 #include "python/comparison.h"
+#include "python/identification.h"
 #include "python/judging.h"
 #include "python/motion.h"
 #include "python/scenario.h"
@@ -143,6 +144,7 @@ void addStudies(py::module_& module) {
              py::arg("z") = py::none(), py::arg("roll") = py::none(), py::arg("pitch") = py::none(),
              py::arg("yaw") = py::none(), py::arg("at") = 0.0, py::arg("jobs") = 0, words::map);
   addComparison(module);
+  addIdentification(module);
 }
 
 }  // namespace ursula::python

@@ -10,6 +10,7 @@ NumPy in and out; rows are instants; SI units; frames: B is the base's, M the pl
 """
 
 from . import _errors, _notebook
+from ._identify import Identified, identify
 from ._ursula import (
     Cause,
     Channel,
@@ -29,6 +30,7 @@ from ._ursula import (
     __version__,
     check,
     compare,
+    excite,
     import_model,
     map,
     read_scenario,
@@ -44,6 +46,7 @@ __all__ = [
     "Comparison",
     "Deviation",
     "Finding",
+    "Identified",
     "Motion",
     "Pose",
     "PoseError",
@@ -56,6 +59,8 @@ __all__ = [
     "__version__",
     "check",
     "compare",
+    "excite",
+    "identify",
     "import_model",
     "map",
     "read_scenario",
@@ -67,7 +72,7 @@ __all__ = [
 Result.plot = _notebook.plot
 Result._repr_html_ = _notebook.html
 
-_classes = (Cause, Channel, Check, Comparison, Deviation, Finding, Motion, Pose, PoseError, ReplayError, Result, Scenario,
+_classes = (Cause, Channel, Check, Comparison, Deviation, Finding, Identified, Motion, Pose, PoseError, ReplayError, Result, Scenario,
             ScenarioError, Simulation, UndeterminedPose)
 for _each in _classes:
     _each.__module__ = __name__

@@ -359,6 +359,40 @@ def map(
 ) -> dict[str, Array]:
     """Maps reach, condition number, leg margins and largest static effort over a grid of poses."""
 
+class Identified:
+    """Measured efforts against the model; made by identify."""
+
+    verdict: str
+    sentence: str
+    cause: dict[str, Any] | None
+    causes: list[dict[str, Any]]
+    findings: list[dict[str, Any]]
+    delay: dict[str, Any]
+    motors: list[dict[str, Any]]
+    combinations: list[dict[str, Any]]
+    parameters: list[dict[str, Any]]
+    summary: dict[str, Any]
+    efforts: dict[str, Array]
+    spectra: dict[str, Array]
+    scenario_text: str
+    def write(self, folder: str | os.PathLike[str]) -> None: ...
+
+def identify(
+    s: Scenario,
+    measured: str | os.PathLike[str] | None = None,
+    *,
+    t: npt.ArrayLike | None = None,
+    motion: npt.ArrayLike | None = None,
+    efforts: npt.ArrayLike | None = None,
+    map: Sequence[str] = (),
+    constants: Sequence[float] = (),
+    prior: bool = False,
+) -> Identified:
+    """Measured efforts against the model: a CSV file, or arrays."""
+
+def excite(s: Scenario, *, period: float = 0.0, harmonics: int = 5, tries: int = 600, seed: int = 1) -> str:
+    """A periodic motion that shows the machine's numbers, as the text of a samples file."""
+
 def simulate(
     s: Scenario,
     torques: npt.ArrayLike,

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace ursula::python {
+
+/// identify() and excite().
+void addIdentification(pybind11::module_& module);
+
+}  // namespace ursula::python

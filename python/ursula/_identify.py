@@ -1,0 +1,52 @@
+"""What a log says of a machine: the result of ursula.identify."""
+
+import json
+import os
+from html import escape
+
+from . import _ursula
+from ._notebook import _verdict
+
+
+class Identified:
+    """Measured efforts against the model; made by identify.
+
+    `verdict`, `sentence`, `cause`, `causes`, `findings`, `delay`, `motors`, `combinations`, `parameters`: as in `summary`, the dict of
+    summary.json. `efforts` and `spectra`: dicts of arrays by column. `scenario_text`: TOML with the identified numbers and their tolerances.
+    """
+
+    def __init__(self, parts):
+        text, self._page, self._table, self.scenario_text, self.efforts, self.spectra = parts
+        self.summary = json.loads(text)
+        for name in ("verdict", "sentence", "cause", "causes", "findings", "delay", "motors", "combinations", "parameters"):
+            setattr(self, name, self.summary.get(name))
+
+    def write(self, folder):
+        """summary.json, report.html, parameters.csv and identified.toml into a folder, which is made."""
+        os.makedirs(folder, exist_ok=True)
+        for name, text in (("summary.json", json.dumps(self.summary, indent=2) + "\n"), ("report.html", self._page),
+                           ("parameters.csv", self._table), ("identified.toml", self.scenario_text)):
+            with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                file.write(text)
+
+    def _repr_html_(self):
+        rows = "".join(
+            f"<tr><td>{k}</td><td>{m['E_rms']:.3g}</td><td>{m['u_val']:.3g}</td><td>{100 * m['within_95']:.1f} %</td><td>{escape(m['unit'])}</td></tr>"
+            for k, m in enumerate(self.motors, 1))
+        return (f"<p><b>{escape(self.summary['scenario'])}</b>: {_verdict(self.verdict)}. {escape(self.sentence)}</p><table><thead><tr><th>motor</th>"
+                f"<th>E</th><th>u_val</th><th>within</th><th>unit</th></tr></thead><tbody>{rows}</tbody></table>")
+
+    def __repr__(self):
+        return f"<ursula.Identified: {self.verdict}>"
+
+
+def identify(s, measured=None, *, t=None, motion=None, efforts=None, map=(), constants=(), prior=False):
+    """Measured efforts against the model of scenario `s`: is it right within its tolerances, and what the log says of its numbers.
+
+    `measured` is a CSV file, read as `ursula identify` reads it, with `map` of "NAME=COLUMN" and `constants` of currents, N m/A or N/A; or
+    `t` (N,) s, `motion` (N, 6) driven coordinates, rad or m, or (N, 7) poses p, q [w, x, y, z], and `efforts` (N, 6) N m or N are arrays.
+    `prior`: tolerances of the scenario are what is known beforehand. Raises ValueError for a log that cannot be read or followed.
+    """
+    if measured is not None:
+        return Identified(_ursula._identify_file(s, os.fspath(measured), list(map), list(constants), prior))
+    return Identified(_ursula._identify_arrays(s, t, motion, efforts, prior))
