@@ -1,5 +1,8 @@
 // DART as its users ask it about a closed loop, and as it moves one itself.
 
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 #include <dart/config.hpp>
 #include <dart/constraint/BallJointConstraint.hpp>
 #include <dart/constraint/ConstraintSolver.hpp>
@@ -43,6 +46,7 @@ class DartStepped : public SteppedLoop {
 
   void start(const Motion<double>& motion) override {
     machine_.move(motion, true);
+    chooseUnit();
     world_->setTime(motion.t);
     for (std::size_t i = 0; i < machine_.legs.size(); ++i) {
       const DartLeg& leg = machine_.legs[i];
@@ -59,14 +63,15 @@ class DartStepped : public SteppedLoop {
       const Vector3d acts = machine_.friction(static_cast<int>(i));
       for (std::size_t j = 0; j < 3; ++j) {
         const auto [joint, which] = machine_.legs[i].place(j);
-        joint->setForce(which, acts(static_cast<int>(j)));
+        joint->setForce(which, unit_ * acts(static_cast<int>(j)));
       }
     }
     for (int m = 0; m < motor_count; ++m) {
       const auto [joint, which] = place(m);
-      joint->setForce(which, joint->getForce(which) + efforts(m));
+      joint->setForce(which, joint->getForce(which) + unit_ * efforts(m));
     }
-    const Vector6d load = loadOn(load_.get(), world_->getTime(), machine_.platform->getWorldTransform().linear());
+    const Vector6d load =
+        unit_ * loadOn(load_.get(), world_->getTime(), machine_.platform->getWorldTransform().linear());
     machine_.platform->addExtForce(load.tail<3>(), Vector3d::Zero(), false, true);
     machine_.platform->addExtTorque(load.head<3>(), false);
     world_->step();
@@ -79,8 +84,9 @@ class DartStepped : public SteppedLoop {
       out.q(m) = joint->getPosition(which);
     }
     // DART's own potential energy is that of masses at the bodies' origins.
-    out.energy = machine_.skeleton->computeKineticEnergy() -
-                 machine_.skeleton->getMass() * world_->getGravity().dot(machine_.skeleton->getCOM());
+    const dd::SkeletonPtr& skeleton = machine_.skeleton;
+    out.energy =
+        (skeleton->computeKineticEnergy() - skeleton->getMass() * world_->getGravity().dot(skeleton->getCOM())) / unit_;
     out.p = machine_.platform->getWorldTransform().translation();
     const Vector6d load = loadOn(load_.get(), world_->getTime(), machine_.platform->getWorldTransform().linear());
     out.power = load.head<3>().dot(machine_.platform->getAngularVelocity()) +
@@ -96,6 +102,25 @@ class DartStepped : public SteppedLoop {
   }
 
  private:
+  /// DART stops the program where its constraints' matrix is not symmetric to 1e-6: a unit of mass in which that has
+  /// entries of about 1. All forces are in it.
+  void chooseUnit() {
+    PlacedTree tree;
+    machine_.readMaps(tree);
+    const Eigen::MatrixXd M = machine_.skeleton->getMassMatrix();
+    for (std::size_t i = 0; i < machine_.legs.size(); ++i) {
+      const auto first = static_cast<Eigen::Index>(machine_.legs[i].joints[0]->getIndexInSkeleton(0));
+      const Matrix3d& J = tree.legs[i].J;
+      unit_ = std::max(i == 0 ? 0 : unit_, (J * M.block<3, 3>(first, first).inverse() * J.transpose()).norm());
+    }
+    if (!std::isfinite(unit_) || !(unit_ > 0)) throw std::runtime_error("DART moves no legs without mass");
+    for (dd::BodyNode* body : machine_.skeleton->getBodyNodes()) {
+      const dd::Inertia& inertia = body->getInertia();
+      body->setInertia(
+          dd::Inertia(unit_ * inertia.getMass(), inertia.getLocalCOM(), Matrix3d(unit_ * inertia.getMoment())));
+    }
+  }
+
   std::pair<dd::Joint*, std::size_t> place(int m) const {
     const Motor& motor = machine_.manipulator.motors()[static_cast<std::size_t>(m)];
     return machine_.legs[static_cast<std::size_t>(motor.leg)].place(static_cast<std::size_t>(motor.joint));
@@ -105,6 +130,7 @@ class DartStepped : public SteppedLoop {
   std::shared_ptr<const Load> load_;
   Rigidity rigidity_;
   dart::simulation::WorldPtr world_;
+  double unit_ = 1;  ///< 1/kg
 };
 
 class DartCalls : public LoopEngine {

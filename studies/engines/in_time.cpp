@@ -1,9 +1,13 @@
 #include "studies/engines/in_time.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <new>
+#include <stdexcept>
 
 namespace ursula {
 namespace {
@@ -22,11 +26,19 @@ class MovedLoop {
     while (out_.steps < steps && step()) {
     }
     out_.energy = is_.energy - energy - work_;
+    if (out_.steps == 0) out_.sag = out_.away = out_.energy = std::numeric_limits<double>::quiet_NaN();
     out_.seconds = median(seconds_);
     return out_;
   }
 
  private:
+  /// Whatever comes of wide open loops says nothing more, and may end an engine's process.
+  void requireClosed(const SteppedLoop::State& state) {
+    const double gap = largestGap(state.tree, engine_.manipulator());
+    out_.gap = std::max(out_.gap, gap);
+    if (!(gap < reference_.length() / 10)) throw std::runtime_error(fmt::format("a loop is open by {:.2g} m", gap));
+  }
+
   /// False where the engine gives up.
   bool step() {
     const double step = out_.rigidity.step;
@@ -37,6 +49,7 @@ class MovedLoop {
       loop_->step(efforts);
       seconds_.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
       loop_->read(next);
+      requireClosed(next);
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& words) {
@@ -47,7 +60,6 @@ class MovedLoop {
     work_ += of_motors + of_others;
     out_.work += std::abs(of_motors) + std::abs(of_others);
     out_.away = std::max(out_.away, (next.p - reference_.at(out_.steps * step + step).motion.p).norm());
-    out_.gap = std::max(out_.gap, largestGap(next.tree, engine_.manipulator()));
     out_.sag = std::max(out_.sag, sag(next.tree, engine_.manipulator()));
     is_ = next;
     ++out_.steps;
@@ -82,6 +94,7 @@ InTimeFound moveInTime(const LoopEngine& engine, const Rigidity& rigidity, Engin
     InTimeFound out;
     out.rigidity = rigidity;
     out.gave_up = words.what();
+    out.gap = out.sag = out.away = out.energy = std::numeric_limits<double>::quiet_NaN();
     return out;
   }
 }

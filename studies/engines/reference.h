@@ -16,6 +16,8 @@ class EngineReference {
   explicit EngineReference(const Scenario& scenario);
 
   Here at(double t);
+  /// Of the machine's size, m.
+  double length() const { return noc_.machine().length; }
 
  private:
   const Scenario& scenario_;

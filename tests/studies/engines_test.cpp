@@ -176,6 +176,28 @@ TEST(Engines, looserLoopsSagFarther) {
   }
 }
 
+/// Of a machine of grams DART's constraint solver would end the process, were it asked in kilograms.
+TEST(Engines, smallMachinesAndLightLegsAreMovedOrGivenUp) {
+  bool gave_up = false;
+  for (const char* name : {"millimetres", "light-legs"})
+    for (const EngineFound& engine : foundIn(shipped(name), 0.1).engines) {
+      ASSERT_EQ(engine.refused, "") << engine.kind->name;
+      for (const InTimeFound& each : engine.in_time) {
+        EXPECT_GT(each.gap, 0) << name << ", " << engine.kind->name << ", " << each.rigidity.name;
+        if (each.gave_up.empty()) {
+          EXPECT_TRUE(std::isfinite(each.sag + each.away + each.energy)) << name << ", " << engine.kind->name;
+        } else {
+          gave_up = true;
+          EXPECT_THAT(each.gave_up, testing::AnyOf(HasSubstr("a loop is open by"), HasSubstr("unstable")));
+          EXPECT_LT(each.steps, std::floor(0.1 / each.rigidity.step));
+        }
+      }
+    }
+  if (loopEngineNamed("mujoco")->available()) {
+    EXPECT_TRUE(gave_up) << "default softness is too much for light legs";
+  }
+}
+
 TEST(Engines, sentencesSayTheNumbersFound) {
   const SideBySide found = foundIn(shipped("hexaglide"));
   for (const EngineFound& engine : found.engines) {
