@@ -145,7 +145,7 @@ std::string auditHtml(const Audit& result) {
        audit::corrected(result, AuditRow::Kind::misprint,
                         "Dimensions or types do not match, or a symbol clearly belongs to another quantity")},
       {"holding", "Formulas that hold as printed", audit::holding(result)},
-      {"besides", "Besides the formulas", audit::besides(result)},
+      {"besides", "Further statements of the text", audit::besides(result)},
       {"method", "Method", audit::method(result)}};
   page.footer = "<p>The same in numbers: <a href=\"audit.json\">audit.json</a>.</p>";
   return report::pageHtml(page);

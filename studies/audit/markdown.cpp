@@ -122,12 +122,12 @@ std::string besides(const Audit& result) {
 
 std::string auditMarkdown(const Audit& result) {
   return audit::introduction(result) + audit::method(result) + "## Formulas that do not hold as printed\n\n" +
-         audit::failing(result, AuditRow::Kind::fails) + "## What each does to torques and motion\n\n" +
+         audit::failing(result, AuditRow::Kind::fails) + "## Effect of each on torques and motion\n\n" +
          audit::effects(result) +
-         "## Misprints\n\nDimensions or types do not match, or a symbol is plainly another's.\n\n" +
+         "## Misprints\n\nDimensions or types do not match, or a symbol clearly belongs to another quantity.\n\n" +
          audit::failing(result, AuditRow::Kind::misprint) + "## Formulas that hold as printed\n\n" +
-         "Definitions are not measured by themselves: (29), (30), (46) enter (36), (37), (38).\n\n" +
-         audit::holding(result) + "## Besides the formulas\n\n" + audit::besides(result);
+         "Definitions are not measured alone: (29), (30), (46) enter (36), (37), (38).\n\n" + audit::holding(result) +
+         "## Further statements of the text\n\n" + audit::besides(result);
 }
 
 }  // namespace ursula
