@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/csv.h"
+#include "model/machine_numbers.h"
 #include "studies/identify/excite.h"
 #include "studies/identify/identify.h"
 #include "tests/studies/identify/synthetic_log.h"
