@@ -73,7 +73,8 @@ void addEngines(CLI::App& app, std::function<int()>& run) {
   verb->add_option("--samples", options->asked.samples, "Instants at which efforts are asked for")
       ->check(CLI::Range(2, 100000))
       ->capture_default_str();
-  verb->add_option("--seconds", options->asked.moved, "Seconds of the motion, from its start, that engines move the loop")
+  verb->add_option("--seconds", options->asked.moved,
+                   "Seconds of the motion, from its start, that engines move the loop")
       ->check(finitePositive())
       ->capture_default_str();
   verb->add_flag("--json", options->json, "What was found as JSON on standard output, and nothing else there");
