@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "engines/dart/dart_machine_internal.h"
+#include "engines/dart/dart_module.h"
 #include "engines/loop_engine.h"
 
 namespace ursula {
@@ -180,14 +181,12 @@ class DartCalls : public LoopEngine {
   PlacedTree tree_;
 };
 
-}  // namespace
-
-bool dartCallsAvailable() { return true; }
-
-std::string dartVersion() { return DART_VERSION; }
-
-std::unique_ptr<LoopEngine> makeDartCalls(const Manipulator& manipulator, std::shared_ptr<const Load> load) {
+std::unique_ptr<LoopEngine> makeCalls(const Manipulator& manipulator, std::shared_ptr<const Load> load) {
   return std::make_unique<DartCalls>(manipulator, std::move(load));
 }
 
+}  // namespace
 }  // namespace ursula
+
+extern "C" __attribute__((visibility("default")))
+const ursula::DartModule ursula_dart_module = {DART_VERSION, ursula::makeCalls};
