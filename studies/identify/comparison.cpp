@@ -102,9 +102,10 @@ void ModelledLog::refuse(const MeasuredLog& log, Eigen::Index at) const {
   std::string values;
   for (Eigen::Index k = 0; k < state.value.size(); ++k)
     values += fmt::format("{}{:.6g}", k == 0 ? "" : ", ", state.value(k));
-  throw CsvError(fmt::format("{}: error: t = {:.6g} s: the scenario's machine cannot take the {} [{}], expected those of this machine, in rad and m, in the motors' order{}",
-                             shownPath(log.file.string()), filtered_.time(at), has_poses_ ? "pose" : "coordinates", values,
-                             likely));
+  throw CsvError(fmt::format(
+      "{}: error: t = {:.6g} s: the scenario's machine cannot take the {} [{}], expected those of this machine, in rad "
+      "and m, in the motors' order{}",
+      shownPath(log.file.string()), filtered_.time(at), has_poses_ ? "pose" : "coordinates", values, likely));
 }
 
 double ModelledLog::coarseDelay(double most) const {
@@ -129,9 +130,7 @@ double ModelledLog::coarseDelay(double most) const {
   return found;
 }
 
-void ModelledLog::compare(double delay, Comparison& out) const {
-  out.measured = filtered_.settledEfforts(delay);
-}
+void ModelledLog::compare(double delay, Comparison& out) const { out.measured = filtered_.settledEfforts(delay); }
 
 Comparison ModelledLog::directions(bool with_further) const {
   Comparison out;
@@ -139,7 +138,8 @@ Comparison ModelledLog::directions(bool with_further) const {
   out.model = filtered_.settle(efforts_);
   out.model_rate = filtered_.settleBy(filtered_.second().rate, efforts_);
   out.t.resize(out.model.rows());
-  for (Eigen::Index i = 0; i < out.t.size(); ++i) out.t(i) = filtered_.time(filtered_.settled()[static_cast<std::size_t>(i)]);
+  for (Eigen::Index i = 0; i < out.t.size(); ++i)
+    out.t(i) = filtered_.time(filtered_.settled()[static_cast<std::size_t>(i)]);
   out.numerical = numericalError();
   addLinear(out);
   addOfLog(out);
@@ -154,11 +154,12 @@ Comparison ModelledLog::directions(bool with_further) const {
 Vector6d ModelledLog::numericalError() const {
   constexpr Eigen::Index most = 3000;
   const Kernel again(filtered_.plan().state_cut, filtered_.step());
-  const auto longest = std::max_element(filtered_.segments().begin(), filtered_.segments().end(), [](const Segment& a, const Segment& b) {
-    return a.end - a.first < b.end - b.first;
-  });
+  const auto longest =
+      std::max_element(filtered_.segments().begin(), filtered_.segments().end(),
+                       [](const Segment& a, const Segment& b) { return a.end - a.first < b.end - b.first; });
   std::vector<Eigen::Index> centers;
-  for (Eigen::Index i = longest->first + again.half; i + again.half < longest->end && centers.size() < most; ++i) centers.push_back(i);
+  for (Eigen::Index i = longest->first + again.half; i + again.half < longest->end && centers.size() < most; ++i)
+    centers.push_back(i);
   if (centers.empty()) return Vector6d::Zero();
   Eigen::MatrixXd error(static_cast<Eigen::Index>(centers.size()), motor_count);
   for (std::size_t row = 0; row < centers.size(); ++row) {
@@ -166,10 +167,13 @@ Vector6d ModelledLog::numericalError() const {
     const auto at = static_cast<std::size_t>(centers[row]);
     const auto motion = has_poses_ ? std::optional(motionOfPoses(state)) : chain_.follow(state, motions_[at]);
     error.row(static_cast<Eigen::Index>(row)).setZero();
-    if (motion) error.row(static_cast<Eigen::Index>(row)) = chain_.efforts(*motion, loads_[at]).transpose() - efforts_.row(centers[row]);
+    if (motion)
+      error.row(static_cast<Eigen::Index>(row)) =
+          chain_.efforts(*motion, loads_[at]).transpose() - efforts_.row(centers[row]);
   }
   std::vector<Eigen::Index> inner;
-  for (Eigen::Index i = filtered_.second().half; i + filtered_.second().half < error.rows(); i += filtered_.plan().fine) inner.push_back(i);
+  for (Eigen::Index i = filtered_.second().half; i + filtered_.second().half < error.rows(); i += filtered_.plan().fine)
+    inner.push_back(i);
   const Eigen::MatrixXd settled = inner.empty() ? error : Kernel::apply(filtered_.second().value, error, inner);
   return settled.colwise().norm().transpose() / std::sqrt(static_cast<double>(settled.rows()));
 }
@@ -209,7 +213,8 @@ void ModelledLog::addOfLog(Comparison& out) const {
     const Motor& motor = motors[static_cast<std::size_t>(k)];
     Eigen::MatrixXd column = Eigen::MatrixXd::Zero(out.model.rows(), motor_count);
     column.col(k).setOnes();
-    add(out, {DirectionKind::offset, "", fmt::format("offset of the effort of motor {}", k + 1), motor.effortUnit(), k}, column);
+    add(out, {DirectionKind::offset, "", fmt::format("offset of the effort of motor {}", k + 1), motor.effortUnit(), k},
+        column);
   }
   add(out, {DirectionKind::delay, "", "delay of the efforts", "s"}, -out.model_rate);
 }

@@ -21,8 +21,8 @@ struct Direction {
   std::string path;   ///< of a number of the machine, or of what efforts are linear in; empty of the log's own
   std::string words;  ///< "offset of motor 3's effort"
   std::string unit;
-  int motor = -1;     ///< 0-based; −1: of no motor
-  double nominal = 0; ///< what the model has
+  int motor = -1;        ///< 0-based; −1: of no motor
+  double nominal = 0;    ///< what the model has
   double plausible = 1;  ///< a size that a difference may have
 };
 
@@ -35,10 +35,10 @@ struct Comparison {
   Eigen::MatrixXd measured, model;  ///< N·m or N
   Eigen::MatrixXd model_rate;       ///< N·m/s or N/s
   std::vector<Segment> segments;
-  std::vector<Direction> directions;  ///< all linear ones first, then six offsets, then the delay
+  std::vector<Direction> directions;      ///< all linear ones first, then six offsets, then the delay
   Vector6d numerical = Vector6d::Zero();  ///< what the low passes may be off by, root mean square, N·m or N
-  MotorTables columns;                ///< their derivatives of the measured efforts
-  Eigen::Index linear = 0;            ///< how many are linear
+  MotorTables columns;                    ///< their derivatives of the measured efforts
+  Eigen::Index linear = 0;                ///< how many are linear
 
   Eigen::Index offsets() const { return linear; }
   Eigen::Index delay() const { return linear + motor_count; }

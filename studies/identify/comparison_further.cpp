@@ -40,7 +40,8 @@ void ModelledLog::addNumbers(Comparison& out) const {
   for (const MachineNumber& number : machineNumbers(nominal)) {
     if (!isNonlinear(number)) continue;
     const double size = std::max(number.size(nominal), 1e-3), value = number.get(nominal), step = relative_step * size;
-    if (number.group == "friction" && nominal.legs[static_cast<std::size_t>(number.leg)].coulomb.any() == false) continue;
+    if (number.group == "friction" && nominal.legs[static_cast<std::size_t>(number.leg)].coulomb.any() == false)
+      continue;
     ManipulatorParameters changed = nominal;
     number.set(changed, value + step);
     Direction direction;
@@ -66,8 +67,9 @@ Eigen::MatrixXd ModelledLog::changedBy(int motor, const Eigen::MatrixXd& error) 
     state.rate(motor) += step * error(row, 1);
     state.acceleration(motor) += step * error(row, 2);
     const auto motion = chain_.follow(state, motions_[at]);
-    out.row(row) = motion ? Eigen::RowVectorXd((chain_.efforts(*motion, loads_[at]).transpose() - efforts_.row(i)) / step)
-                          : Eigen::RowVectorXd(Eigen::RowVectorXd::Zero(motor_count));
+    out.row(row) = motion
+                       ? Eigen::RowVectorXd((chain_.efforts(*motion, loads_[at]).transpose() - efforts_.row(i)) / step)
+                       : Eigen::RowVectorXd(Eigen::RowVectorXd::Zero(motor_count));
   }
   return out;
 }
@@ -103,7 +105,8 @@ void ModelledLog::addSeries(Comparison& out) const {
     const double rms = std::sqrt(S.squaredNorm() / static_cast<double>(S.size()));
     const Eigen::VectorXd side = -0.5 * (S / (side_share * rms + 1e-300)).array().tanh();
     if (S.minCoeff() * S.maxCoeff() < 0)
-      add(out, {DirectionKind::backlash, "", "backlash of the joint" + of, length, k, 0, 1e-3}, changedBy(k, withRates(side)));
+      add(out, {DirectionKind::backlash, "", "backlash of the joint" + of, length, k, 0, 1e-3},
+          changedBy(k, withRates(side)));
   }
 }
 

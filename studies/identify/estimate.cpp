@@ -21,7 +21,8 @@ Eigen::MatrixXd tableOf(const Comparison& comparison, int k) {
 }
 
 /// What a least-squares fit of the last column by the first `count` leaves, and its rank.
-std::pair<Eigen::VectorXd, Eigen::VectorXd> leastSquares(const Eigen::MatrixXd& rows, Eigen::Index count, Eigen::Index& rank) {
+std::pair<Eigen::VectorXd, Eigen::VectorXd> leastSquares(const Eigen::MatrixXd& rows, Eigen::Index count,
+                                                         Eigen::Index& rank) {
   Eigen::VectorXd scale = rows.leftCols(count).colwise().norm().transpose();
   for (double& each : scale) each = each > 0 ? 1 / each : 0;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.leftCols(count) * scale.asDiagonal());
@@ -32,7 +33,8 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> leastSquares(const Eigen::MatrixXd& 
 }
 
 /// Coefficients of x(i) by x(i − 1), …, x(i − order), by least squares within segments; and what they leave.
-Eigen::VectorXd autoregression(const Eigen::VectorXd& x, const std::vector<Segment>& segments, int order, double& left) {
+Eigen::VectorXd autoregression(const Eigen::VectorXd& x, const std::vector<Segment>& segments, int order,
+                               double& left) {
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(order, order);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(order);
   double squares = 0;
@@ -70,7 +72,8 @@ int orderOf(const Eigen::MatrixXd& residual, const std::vector<Segment>& segment
   return found;
 }
 
-Eigen::MatrixXd filteredBy(const Eigen::VectorXd& coefficients, const std::vector<Segment>& segments, const Eigen::MatrixXd& x) {
+Eigen::MatrixXd filteredBy(const Eigen::VectorXd& coefficients, const std::vector<Segment>& segments,
+                           const Eigen::MatrixXd& x) {
   const Eigen::Index order = coefficients.size();
   std::vector<Eigen::Index> rows;
   for (const Segment& segment : segments)
@@ -126,7 +129,9 @@ Whitened whiten(const Comparison& comparison) {
   Whitened out;
   Matrix6d by = Matrix6d::Identity();
   for (int k = 0; k < motor_count; ++k)
-    by(k, k) = 1 / std::max(std::sqrt(tables[static_cast<std::size_t>(k)].rightCols<1>().squaredNorm() / static_cast<double>(instants)), 1e-280);
+    by(k, k) = 1 / std::max(std::sqrt(tables[static_cast<std::size_t>(k)].rightCols<1>().squaredNorm() /
+                                      static_cast<double>(instants)),
+                            1e-280);
   out.rows = interleaved(tables, by);
   for (int pass = 0; pass < 3; ++pass) {
     const Eigen::VectorXd x = leastSquares(out.rows, fitted, out.rank).first;
@@ -153,7 +158,8 @@ Whitened whiten(const Comparison& comparison) {
   return out;
 }
 
-void setPlausible(const ManipulatorParameters& machine, const Comparison& comparison, std::vector<Direction>& directions) {
+void setPlausible(const ManipulatorParameters& machine, const Comparison& comparison,
+                  std::vector<Direction>& directions) {
   double reach = 0;
   for (const Leg& leg : machine.legs) reach = std::max(reach, leg.platform_point.norm());
   const double effort = std::sqrt(comparison.model.squaredNorm() / static_cast<double>(comparison.model.size()));
@@ -161,25 +167,32 @@ void setPlausible(const ManipulatorParameters& machine, const Comparison& compar
   std::size_t j = 0;
   for (const MachineNumber& number : machineNumbers(rotors)) {
     const bool moment = number.group == "mass" || number.group == "center" || number.group == "inertia";
-    if (!moment && number.group != "rotor" && number.quantity != Quantity::friction && number.quantity != Quantity::coulomb) continue;
+    if (!moment && number.group != "rotor" && number.quantity != Quantity::friction &&
+        number.quantity != Quantity::coulomb)
+      continue;
     Direction& direction = directions[j];
     const Leg& leg = machine.legs[static_cast<std::size_t>(std::max(number.leg, 0))];
     const Link& link = number.body == "proximal" ? leg.proximal : leg.distal;
     const double mass = number.leg < 0 ? machine.platform.mass : link.mass;
-    const double length = number.leg < 0 ? reach + machine.platform.center_of_mass.norm() : std::max(link.length, std::abs(link.center_of_mass));
+    const double length = number.leg < 0 ? reach + machine.platform.center_of_mass.norm()
+                                         : std::max(link.length, std::abs(link.center_of_mass));
     const double power = number.group == "mass" ? 0 : number.group == "center" ? 1 : 2;
     direction.plausible = mass * std::pow(length, power);
     if (!moment) {
       double largest = 0;
-      for (const Eigen::MatrixXd& table : comparison.columns) largest = std::max(largest, table.col(static_cast<Eigen::Index>(j)).cwiseAbs().maxCoeff());
+      for (const Eigen::MatrixXd& table : comparison.columns)
+        largest = std::max(largest, table.col(static_cast<Eigen::Index>(j)).cwiseAbs().maxCoeff());
       direction.plausible = largest > 0 ? effort / largest : 1;
     }
-    direction.unit = number.quantity == Quantity::center || number.quantity == Quantity::center_across ? "kg m" : number.unit;
+    direction.unit =
+        number.quantity == Quantity::center || number.quantity == Quantity::center_across ? "kg m" : number.unit;
     ++j;
   }
   for (; j < directions.size(); ++j)
-    if (directions[j].kind == DirectionKind::offset) directions[j].plausible = effort;
-    else if (directions[j].kind == DirectionKind::delay) directions[j].plausible = 0.01;
+    if (directions[j].kind == DirectionKind::offset)
+      directions[j].plausible = effort;
+    else if (directions[j].kind == DirectionKind::delay)
+      directions[j].plausible = 0.01;
 }
 
 BaseFit fitBase(const SquareRoot& model, const std::vector<Direction>& directions, Eigen::Index count) {
@@ -232,8 +245,10 @@ CrossValidation crossValidate(const Whitened& whitened, const Comparison& compar
   const Eigen::VectorXd y = whitened.rows.col(whitened.rows.cols() - 1).tail(left);
   CrossValidation out;
   out.given = std::sqrt(y.squaredNorm() / static_cast<double>(left));
-  out.fitted = std::sqrt((y - whitened.rows.block(6 * train, 0, left, fitted) * x).squaredNorm() / static_cast<double>(left));
-  out.from_s = comparison.t(std::min(comparison.t.size() - 1, static_cast<Eigen::Index>(train_share * static_cast<double>(comparison.t.size()))));
+  out.fitted =
+      std::sqrt((y - whitened.rows.block(6 * train, 0, left, fitted) * x).squaredNorm() / static_cast<double>(left));
+  out.from_s = comparison.t(std::min(
+      comparison.t.size() - 1, static_cast<Eigen::Index>(train_share * static_cast<double>(comparison.t.size()))));
   return out;
 }
 

@@ -47,7 +47,8 @@ struct BaseFit {
 BaseFit fitBase(const SquareRoot& model, const std::vector<Direction>& directions, Eigen::Index count);
 
 /// Sizes that the linear directions' differences may have, from the machine and its efforts.
-void setPlausible(const ManipulatorParameters& machine, const Comparison& comparison, std::vector<Direction>& directions);
+void setPlausible(const ManipulatorParameters& machine, const Comparison& comparison,
+                  std::vector<Direction>& directions);
 
 /// Root mean square of efforts over their noise, on rows that were not fitted: of the model as given, and as fitted to
 /// the first 70 % of the time. Noise alone gives 1.

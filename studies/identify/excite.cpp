@@ -21,7 +21,8 @@ using Coefficients = Eigen::MatrixXd;  ///< six rows; sines, then cosines of the
 
 constexpr double never = std::numeric_limits<double>::infinity(), relative_rank = 1e-6;
 
-/// P and a Rodrigues vector about a middle, as finite Fourier series that begin and end at rest nowhere but at the middle.
+/// P and a Rodrigues vector about a middle, as finite Fourier series that begin and end at rest nowhere but at the
+/// middle.
 class FourierPoses {
  public:
   FourierPoses(const Motion<double>& middle, double period, int harmonics)
@@ -87,7 +88,8 @@ class ExciteSearch {
         best = next;
         cost = found;
       }
-      if (options_.progress) options_.progress((i + 1.0) / options_.tries, fmt::format("condition {:.4g}", conditionOf(along(best))));
+      if (options_.progress)
+        options_.progress((i + 1.0) / options_.tries, fmt::format("condition {:.4g}", conditionOf(along(best))));
     }
     return result(best);
   }
@@ -118,7 +120,8 @@ class ExciteSearch {
     for (Eigen::MatrixXd& table : sizes.columns) table = rows;
     setPlausible(scenario_.manipulator->parameters(), sizes, sizes.directions);
     plausible_.resize(rows.cols());
-    for (Eigen::Index j = 0; j < rows.cols(); ++j) plausible_(j) = sizes.directions[static_cast<std::size_t>(j)].plausible;
+    for (Eigen::Index j = 0; j < rows.cols(); ++j)
+      plausible_(j) = sizes.directions[static_cast<std::size_t>(j)].plausible;
   }
 
   /// Throws PoseError where a leg cannot follow.
@@ -133,7 +136,8 @@ class ExciteSearch {
       B.leftCols<3>() /= solver_.length();
       const Vector6d singular = B.jacobiSvd().singularValues();
       out.kappa = std::max(out.kappa, singular(0) / singular(5));
-      for (int i = 0; i < scenario_.manipulator->legCount(); ++i) out.margin = std::min(out.margin, static_cast<double>(solver_.margins(work_, i).sine));
+      for (int i = 0; i < scenario_.manipulator->legCount(); ++i)
+        out.margin = std::min(out.margin, static_cast<double>(solver_.margins(work_, i).sine));
       out.effort = std::max(out.effort, solver_.inverseDynamics(motion, work_).cwiseAbs().maxCoeff());
       out.reach = std::max(out.reach, (motion.p - middle_.p).norm());
       out.turn = std::max(out.turn, Eigen::AngleAxisd(middle_.Q.transpose() * motion.Q).angle());
@@ -149,16 +153,18 @@ class ExciteSearch {
   }
 
   Eigen::MatrixXd regressorOf(const std::vector<Motion<double>>& motions) const {
-    Eigen::MatrixXd out(6 * static_cast<Eigen::Index>(motions.size()), static_cast<Eigen::Index>(derivatives_.regressorNames().size()));
-    for (std::size_t i = 0; i < motions.size(); ++i) out.middleRows<6>(6 * static_cast<Eigen::Index>(i)) = derivatives_.regressor(motions[i]);
+    Eigen::MatrixXd out(6 * static_cast<Eigen::Index>(motions.size()),
+                        static_cast<Eigen::Index>(derivatives_.regressorNames().size()));
+    for (std::size_t i = 0; i < motions.size(); ++i)
+      out.middleRows<6>(6 * static_cast<Eigen::Index>(i)) = derivatives_.regressor(motions[i]);
     return out;
   }
 
   bool keepsLimits(const Coefficients& of, int count) {
     try {
       const Extremes found = extremesOf(along(of, count));
-      return found.speed <= limits_.speed && found.effort <= limits_.effort && found.kappa <= limits_.kappa && found.reach <= limits_.reach &&
-             found.turn <= limits_.turn && found.margin >= limits_.margin;
+      return found.speed <= limits_.speed && found.effort <= limits_.effort && found.kappa <= limits_.kappa &&
+             found.reach <= limits_.reach && found.turn <= limits_.turn && found.margin >= limits_.margin;
     } catch (const PoseError&) {
       return false;
     } catch (const std::domain_error&) {
@@ -185,8 +191,10 @@ class ExciteSearch {
         return of;
       }
     }
-    throw UnmadeExcitation(fmt::format("no motion about the pose at {:.6g} s keeps to the limits: speed {:.3g}, effort {:.4g}, condition of B {:.4g}, margin {:.3g}",
-                                       middle_.t, limits_.speed, limits_.effort, limits_.kappa, limits_.margin));
+    throw UnmadeExcitation(
+        fmt::format("no motion about the pose at {:.6g} s keeps to the limits: speed {:.3g}, effort {:.4g}, condition "
+                    "of B {:.4g}, margin {:.3g}",
+                    middle_.t, limits_.speed, limits_.effort, limits_.kappa, limits_.margin));
   }
 
   Eigen::MatrixXd shownBy(const std::vector<Motion<double>>& motions) const {
@@ -197,7 +205,13 @@ class ExciteSearch {
   }
 
   double conditionOf(const std::vector<Motion<double>>& motions) const {
-    const Eigen::VectorXd singular = Eigen::JacobiSVD<Eigen::MatrixXd>(Eigen::HouseholderQR<Eigen::MatrixXd>(shownBy(motions)).matrixQR().topRows(base_.size()).triangularView<Eigen::Upper>().toDenseMatrix()).singularValues();
+    const Eigen::VectorXd singular =
+        Eigen::JacobiSVD<Eigen::MatrixXd>(Eigen::HouseholderQR<Eigen::MatrixXd>(shownBy(motions))
+                                              .matrixQR()
+                                              .topRows(base_.size())
+                                              .triangularView<Eigen::Upper>()
+                                              .toDenseMatrix())
+            .singularValues();
     return singular(singular.size() - 1) > 0 ? singular(0) / singular(singular.size() - 1) : never;
   }
 
@@ -217,7 +231,11 @@ class ExciteSearch {
       const Eigen::Quaterniond q(motion.Q);
       Eigen::Matrix<double, 8, 1> row;
       row << period_ * i / rows, motion.p, q.w(), q.x(), q.y(), q.z();
-      const double side = columns[4].empty() || columns[4].back() * row(4) + columns[5].back() * row(5) + columns[6].back() * row(6) + columns[7].back() * row(7) >= 0 ? 1 : -1;
+      const double side = columns[4].empty() || columns[4].back() * row(4) + columns[5].back() * row(5) +
+                                                        columns[6].back() * row(6) + columns[7].back() * row(7) >=
+                                                    0
+                              ? 1
+                              : -1;
       row.tail<4>() *= side;
       for (std::size_t k = 0; k < 8; ++k) columns[k].push_back(row(static_cast<Eigen::Index>(k)));
     }
@@ -250,6 +268,8 @@ class ExciteSearch {
 
 }  // namespace
 
-Excitation excite(const Scenario& scenario, const ExciteOptions& options) { return ExciteSearch(scenario, options).run(); }
+Excitation excite(const Scenario& scenario, const ExciteOptions& options) {
+  return ExciteSearch(scenario, options).run();
+}
 
 }  // namespace ursula

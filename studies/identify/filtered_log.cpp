@@ -19,8 +19,10 @@ Eigen::MatrixXd carriedOn(const Eigen::MatrixXd& x, Eigen::Index by, Ends ends) 
   Eigen::MatrixXd out(rows + 2 * by, x.cols());
   out.middleRows(by, rows) = x;
   for (Eigen::Index i = 0; i < by; ++i) {
-    out.row(i) = ends == Ends::rest ? Eigen::RowVectorXd(x.topRows(mean).colwise().mean()) : Eigen::RowVectorXd(x.row(((i - by) % rows + rows) % rows));
-    out.row(by + rows + i) = ends == Ends::rest ? Eigen::RowVectorXd(x.bottomRows(mean).colwise().mean()) : Eigen::RowVectorXd(x.row(i % rows));
+    out.row(i) = ends == Ends::rest ? Eigen::RowVectorXd(x.topRows(mean).colwise().mean())
+                                    : Eigen::RowVectorXd(x.row(((i - by) % rows + rows) % rows));
+    out.row(by + rows + i) = ends == Ends::rest ? Eigen::RowVectorXd(x.bottomRows(mean).colwise().mean())
+                                                : Eigen::RowVectorXd(x.row(i % rows));
   }
   return out;
 }
@@ -54,7 +56,8 @@ FilterPlan planFilters(const MeasuredLog& log, Ends ends) {
   out.too_slow = out.state_cut < enough_of_bandwidth * out.bandwidth;
   out.effort_cut = std::min(std::max(out.state_cut, 0.5 * wanted_instants / duration), most);
   out.coarse = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(0.125 / (out.effort_cut * log.step)));
-  out.fine = std::max<Eigen::Index>(1, std::lround(0.5 / (out.effort_cut * log.step * static_cast<double>(out.coarse))));
+  out.fine =
+      std::max<Eigen::Index>(1, std::lround(0.5 / (out.effort_cut * log.step * static_cast<double>(out.coarse))));
   return out;
 }
 
@@ -121,7 +124,9 @@ MeasuredState FilteredLog::state(Eigen::Index i) const {
 }
 
 MeasuredState FilteredLog::smoothedState(const Kernel& kernel, Eigen::Index i) const {
-  const auto at = [&](const Eigen::MatrixXd& x) -> Eigen::VectorXd { return Kernel::apply(kernel.value, x, {i}).row(0).transpose(); };
+  const auto at = [&](const Eigen::MatrixXd& x) -> Eigen::VectorXd {
+    return Kernel::apply(kernel.value, x, {i}).row(0).transpose();
+  };
   return {at(value_), at(rate_), at(acceleration_)};
 }
 

@@ -13,9 +13,9 @@ enum class Ends { open, rest, period };
 /// Whether a motion that is no period begins and ends at rest, so that it may be taken to rest before and after.
 Ends endsOf(const MeasuredLog& log, bool is_period);
 
-/// How a log is filtered. A low pass that leaves the motion as it is gives it and its rates every `coarse` rows; another
-/// acts alike on measured efforts, on the model's and on every column of the regressor, and is looked at every `fine`
-/// of those: there white noise is as good as uncorrelated.
+/// How a log is filtered. A low pass that leaves the motion as it is gives it and its rates every `coarse` rows;
+/// another acts alike on measured efforts, on the model's and on every column of the regressor, and is looked at every
+/// `fine` of those: there white noise is as good as uncorrelated.
 struct FilterPlan {
   double bandwidth = 0;                  ///< of the motion, Hz
   double state_cut = 0, effort_cut = 0;  ///< Hz

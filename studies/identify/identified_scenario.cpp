@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "model/scenario_numbers.h"
 #include "model/toml_reader.h"
 #include "model/toml_tolerances.h"
 #include "model/toml_writer.h"
 #include "studies/identify/results.h"
-#include "model/scenario_numbers.h"
 
 namespace ursula::identification {
 namespace {
@@ -32,7 +32,8 @@ NodePlace placeOf(toml::table& document, const std::string& path) {
       if (!table->contains(key)) key = otherFrictionName(key);
       out.node = table->get(key);
     } else if (toml::array* array = out.parent->as_array()) {
-      const bool tables = !array->empty() && array->front().is_table() && array->front().as_table()->get("value") == nullptr;
+      const bool tables =
+          !array->empty() && array->front().is_table() && array->front().as_table()->get("value") == nullptr;
       out.node = array->get(std::stoul(key) - (tables ? 1 : 0));
     } else {
       out.node = nullptr;
@@ -128,7 +129,8 @@ std::string identifiedScenario(const Scenario& scenario, const PhysicalEstimate&
     others.erase(each.number.path);
   }
   for (const MachineNumber& number : machineNumbers(machine))
-    if (const auto at = others.find(number.path); at != others.end()) marker.set(number, number.get(machine), at->second, machine);
+    if (const auto at = others.find(number.path); at != others.end())
+      marker.set(number, number.get(machine), at->second, machine);
   marker.apply();
   return tomlText(document);
 }

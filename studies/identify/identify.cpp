@@ -21,12 +21,17 @@ constexpr double most_delay = 0.25, delay_share = 0.1, settled_delay = 0.002;
 constexpr Eigen::Index fewest_instants = 24;
 /// How much larger than what noise explains the fitted model's residual may be.
 constexpr double most_left = 2;
+/// Of all noise, beyond which that of the motion is more than that of the efforts.
+constexpr double most_of_motion = 0.7;
 
 /// One log against one scenario, step by step.
 class Identification {
  public:
   Identification(const Scenario& scenario, MeasuredLog& log, const IdentifyOptions& options)
-      : scenario_(scenario), log_(log), options_(options), tolerances_(options.tolerances.empty() ? statedTolerances(scenario) : options.tolerances) {
+      : scenario_(scenario),
+        log_(log),
+        options_(options),
+        tolerances_(options.tolerances.empty() ? statedTolerances(scenario) : options.tolerances) {
     out_.scenario = scenario;
     out_.version = buildProvenance().version;
   }
@@ -75,8 +80,9 @@ class Identification {
   void noteTooSlow(const FilterPlan& plan) {
     out_.findings.push_back(
         {"too_slow", -1, 1 / log_.step, "Hz",
-         fmt::format("{:.4g} rows a second show motion up to {:.3g} Hz, and it goes up to {:.3g} Hz: expected a faster log",
-                     1 / log_.step, plan.state_cut, plan.bandwidth)});
+         fmt::format(
+             "{:.4g} rows a second show motion up to {:.3g} Hz, and it goes up to {:.3g} Hz: expected a faster log",
+             1 / log_.step, plan.state_cut, plan.bandwidth)});
   }
 
   double coarseDelay(const FilterPlan& plan, double most) {
@@ -89,10 +95,10 @@ class Identification {
   }
 
   IdentifyResult unjudged() {
-    out_.findings.push_back(
-        {"too_short", -1, out_.duration, "s",
-         fmt::format("the low passes leave {} independent instants of {:.4g} s at {:.4g} Hz, and at least {} are needed: expected a longer or faster log",
-                     out_.instants, out_.duration, 1 / log_.step, fewest_instants)});
+    out_.findings.push_back({"too_short", -1, out_.duration, "s",
+                             fmt::format("the low passes leave {} independent instants of {:.4g} s at {:.4g} Hz, and "
+                                         "at least {} are needed: expected a longer or faster log",
+                                         out_.instants, out_.duration, 1 / log_.step, fewest_instants)});
     out_.verdict = Verdict::inconclusive;
     out_.sentence = out_.findings.back().what;
     return std::move(out_);
@@ -144,8 +150,10 @@ class Identification {
   /// Per motor: deviation and what it may be.
   void setMotors(const ModelledLog& modelled, const Periods& periods, const Comparison& comparison) {
     const Eigen::MatrixXd input = inputUncertainty(comparison, scenario_.manipulator->parameters(), tolerances_);
-    const Vector6d expected = expectedNoise(modelled, log_, periods);
-    const auto rms = [](const Eigen::VectorXd& x) { return std::sqrt(x.squaredNorm() / static_cast<double>(x.size())); };
+    const ExpectedNoise expected = expectedNoise(modelled, log_, periods);
+    const auto rms = [](const Eigen::VectorXd& x) {
+      return std::sqrt(x.squaredNorm() / static_cast<double>(x.size()));
+    };
     const double freedom = 6.0 * static_cast<double>(comparison.model.rows());
     const double correction = std::sqrt(freedom / std::max(freedom - static_cast<double>(whitened_.rank), 1.0));
     u_val_.resize(comparison.model.rows(), motor_count);
@@ -159,7 +167,8 @@ class Identification {
       motor.largest = E.cwiseAbs().maxCoeff(&at);
       motor.largest_at_s = comparison.t(at);
       motor.left = rms(whitened_.residual.col(k)) * correction;
-      motor.expected = expected(k);
+      motor.expected = expected.whole(k);
+      if (expected.of_motion(k) > most_of_motion * expected.whole(k)) noteNoisyMotion(k, expected.of_motion(k));
       motor.noise = periods.count > 1 ? periods.effort_noise(k) : whiteNoise(log_.efforts.col(k));
       motor.u_num = comparison.numerical(k);
       const Eigen::VectorXd from_delay = comparison.model_rate.col(k) * out_.delay_uncertainty;
@@ -169,10 +178,20 @@ class Identification {
                        motor.u_num * motor.u_num)
                           .sqrt();
       motor.u_val = rms(u_val_.col(k));
-      motor.within = static_cast<double>((E.array().abs() <= 1.96 * u_val_.col(k).array()).count()) / static_cast<double>(E.size());
+      motor.within = static_cast<double>((E.array().abs() <= 1.96 * u_val_.col(k).array()).count()) /
+                     static_cast<double>(E.size());
     }
     addEfforts(comparison, u_val_, out_);
     noteLeft();
+  }
+
+  void noteNoisyMotion(int k, double noise) {
+    const MotorAgreement& motor = out_.motors[static_cast<std::size_t>(k)];
+    out_.findings.push_back({"noisy_motion", k, noise, motor.unit,
+                             fmt::format("noise of the measured motion makes {:.3g} {} of the effort of motor {}, more "
+                                         "than that of its own samples: what "
+                                         "is fitted is drawn from the truth",
+                                         noise, motor.unit, k + 1)});
   }
 
   void noteLeft() {
@@ -181,19 +200,24 @@ class Identification {
       const double ratio = motor.expected > 0 ? motor.left / std::hypot(motor.expected, motor.u_num) : 0;
       if (ratio > most_left && motor.left > 1e-6 * motor.effort)
         out_.findings.push_back({"unmodelled", k, motor.left, motor.unit,
-                                 fmt::format("no numbers of the model make the efforts of motor {} agree to better than {:.3g} {}, {:.3g} times what the noise of its samples explains",
+                                 fmt::format("no numbers of the model make the efforts of motor {} agree to better "
+                                             "than {:.3g} {}, {:.3g} times what the noise of its samples explains",
                                              k + 1, motor.left, motor.unit, ratio)});
       if (motor.left > 0.5 * motor.effort && motor.effort > 0)
         out_.findings.push_back({"wrong_scenario", k, motor.left / motor.effort, "",
-                                 fmt::format("whatever its numbers, the model leaves {:.0f} % of the efforts of motor {}: a log of another machine or motor?",
+                                 fmt::format("whatever its numbers, the model leaves {:.0f} % of the efforts of motor "
+                                             "{}: a log of another machine or motor?",
                                              100 * motor.left / motor.effort, k + 1)});
     }
   }
 
   Verdict verdictOf(const Judgement& judged) const {
     const auto has = [this](const char* kind) {
-      return std::any_of(out_.findings.begin(), out_.findings.end(), [&](const LogFinding& each) { return each.kind == kind; });
+      return std::any_of(out_.findings.begin(), out_.findings.end(),
+                         [&](const LogFinding& each) { return each.kind == kind; });
     };
+    if (has("noisy_motion") && !has("unmodelled") && !has("units") && !has("order") && !has("sign"))
+      return Verdict::inconclusive;
     if (judged.deviates || !out_.causes.empty() || has("unmodelled") || has("wrong_scenario")) return Verdict::fail;
     return has("too_slow") || base_.freedom < 30 ? Verdict::inconclusive : Verdict::pass;
   }

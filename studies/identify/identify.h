@@ -12,22 +12,23 @@
 namespace ursula {
 
 struct IdentifyOptions {
-  bool prior = false;  ///< the scenario's tolerances are what is known of its numbers before the log is
+  bool prior = false;                ///< the scenario's tolerances are what is known of its numbers before the log is
   NumberTolerances tolerances = {};  ///< in place of those that the scenario states, where there are some
   std::function<void(double share, const std::string& what)> progress = {};
 };
 
 /// What may make measured efforts differ from the model's: a number of the machine, or something of the log.
 struct MeasuredCause {
-  std::string kind;       ///< "parameter", "effort_offset", "effort_scale", "encoder_offset", "elastic_joint", "backlash", "load_dependent_friction", "order", "units", "sign"
+  std::string kind;  ///< "parameter", "effort_offset", "effort_scale", "encoder_offset", "elastic_joint", "backlash",
+                     ///< "load_dependent_friction", "order", "units", "sign"
   std::string parameter;  ///< the scenario's path; empty for what is no number of it
   std::string what, unit;
   int motor = 0;  ///< 1-based; 0: of none
   double expected = 0, found = 0, uncertainty = 0;
-  double tolerances = 0;  ///< by how many of its tolerances it is off; 0 where none is stated
-  double score = 0;       ///< change over what tolerances and noise allow
-  double explained = 0;   ///< share of the deviation's square
-  bool outside = false;   ///< no combination of masses, inertias and friction does the same
+  double tolerances = 0;             ///< by how many of its tolerances it is off; 0 where none is stated
+  double score = 0;                  ///< change over what tolerances and noise allow
+  double explained = 0;              ///< share of the deviation's square
+  bool outside = false;              ///< no combination of masses, inertias and friction does the same
   std::vector<std::string> as_well;  ///< what cannot be told from it
 };
 
@@ -45,14 +46,14 @@ struct MeasuredNumber {
 /// How well a motor's measured efforts agree with the model.
 struct MotorAgreement {
   std::string unit;
-  double effort = 0;    ///< root mean square measured
-  double deviation = 0; ///< of E = S − D, root mean square
+  double effort = 0;     ///< root mean square measured
+  double deviation = 0;  ///< of E = S − D, root mean square
   double largest = 0, largest_at_s = 0;
   double u_num = 0, u_input = 0, u_D = 0, u_val = 0;  ///< standard uncertainties, root mean squares
-  double within = 0;  ///< share of instants with |E| ≤ 1.96 u_val
-  double noise = 0;   ///< deviation of one raw sample
-  double left = 0;    ///< of the fitted model, root mean square
-  double expected = 0;  ///< what noise alone would leave; 0: unknown
+  double within = 0;                                  ///< share of instants with |E| ≤ 1.96 u_val
+  double noise = 0;                                   ///< deviation of one raw sample
+  double left = 0;                                    ///< of the fitted model, root mean square
+  double expected = 0;                                ///< what noise alone would leave; 0: unknown
 };
 
 struct IdentifyResult {
@@ -76,8 +77,8 @@ struct IdentifyResult {
   std::vector<std::string> unseen;  ///< numbers that the motion shows nothing of
   double validation_given = 0, validation_fitted = 0, validation_from_s = 0;
   std::string identified_scenario;  ///< TOML
-  TimeSeries series;  ///< t_s; tau_i, model_i, fitted_i, u_val_i of each motor
-  TimeSeries spectra;  ///< f_Hz; residual_i: density of what the fitted model leaves, effort²/Hz
+  TimeSeries series;                ///< t_s; tau_i, model_i, fitted_i, u_val_i of each motor
+  TimeSeries spectra;               ///< f_Hz; residual_i: density of what the fitted model leaves, effort²/Hz
 };
 
 /// Measured efforts against the model: what the log says of the machine's numbers. Throws CsvError and ScenarioError as

@@ -97,8 +97,8 @@ double thresholdOf(double risk, double count, Eigen::Index freedom) {
 }
 
 /// Finds causes one after the other, each with those before it free.
-void findCauses(const std::vector<const Suspect*>& suspects, Allowance& allowance, const Eigen::VectorXd& z, double threshold,
-                bool outside, std::vector<FoundCause>& out) {
+void findCauses(const std::vector<const Suspect*>& suspects, Allowance& allowance, const Eigen::VectorXd& z,
+                double threshold, bool outside, std::vector<FoundCause>& out) {
   if (suspects.empty()) return;
   const Eigen::MatrixXd columns = columnsOf(suspects, z.size());
   const double all = z.dot(allowance(z).col(0));
@@ -107,8 +107,14 @@ void findCauses(const std::vector<const Suspect*>& suspects, Allowance& allowanc
     const std::size_t best = largestOf(scores);
     const Score& score = scores[best];
     if (!(std::abs(score.score) > threshold)) return;
-    FoundCause cause{suspects[best]->direction, score.change, score.deviation, suspects[best]->tolerance, score.score,
-                     score.score * score.score / std::max(all, 1e-300), {}, outside};
+    FoundCause cause{suspects[best]->direction,
+                     score.change,
+                     score.deviation,
+                     suspects[best]->tolerance,
+                     score.score,
+                     score.score * score.score / std::max(all, 1e-300),
+                     {},
+                     outside};
     for (std::size_t j = 0; j < scores.size(); ++j)
       if (j != best && scores[j].score * scores[j].score > score.score * score.score - alike)
         cause.as_well.push_back(suspects[j]->direction);
@@ -119,8 +125,8 @@ void findCauses(const std::vector<const Suspect*>& suspects, Allowance& allowanc
 
 }  // namespace
 
-std::vector<Suspect> suspectsOf(const SquareRoot& model, const Comparison& comparison, const ManipulatorParameters& machine,
-                                const NumberTolerances& tolerances) {
+std::vector<Suspect> suspectsOf(const SquareRoot& model, const Comparison& comparison,
+                                const ManipulatorParameters& machine, const NumberTolerances& tolerances) {
   std::vector<Suspect> out;
   const ManipulatorParameters rotors = withRotors(machine);
   const EffortDerivatives derivatives((Manipulator(rotors)));
@@ -133,16 +139,23 @@ std::vector<Suspect> suspectsOf(const SquareRoot& model, const Comparison& compa
   const auto numbers = machineNumbers(rotors);
   const auto add = [&](const MachineNumber& number, const Eigen::VectorXd& column) {
     if (column.isZero(0)) return;
-    Direction direction{number.group == "length" || number.group == "point" || number.group == "axis" ? DirectionKind::number
-                                                                                                       : DirectionKind::linear,
-                        number.path, number.words, number.unit, -1, number.get(rotors), 1};
-    if (number.leg >= 0) alike_on_legs["manipulator.leg_defaults" + number.path.substr(number.path.find('.', 16))].push_back(out.size());
+    Direction direction{number.group == "length" || number.group == "point" || number.group == "axis"
+                            ? DirectionKind::number
+                            : DirectionKind::linear,
+                        number.path,
+                        number.words,
+                        number.unit,
+                        -1,
+                        number.get(rotors),
+                        1};
+    if (number.leg >= 0)
+      alike_on_legs["manipulator.leg_defaults" + number.path.substr(number.path.find('.', 16))].push_back(out.size());
     out.push_back({direction, column, toleranceOf(number.path)});
   };
   for (std::size_t j = 0; j < numbers.size(); ++j) {
-    const auto further = std::find_if(comparison.directions.begin(), comparison.directions.end(), [&](const Direction& d) {
-      return d.kind == DirectionKind::number && d.path == numbers[j].path;
-    });
+    const auto further =
+        std::find_if(comparison.directions.begin(), comparison.directions.end(),
+                     [&](const Direction& d) { return d.kind == DirectionKind::number && d.path == numbers[j].path; });
     add(numbers[j], further == comparison.directions.end()
                         ? Eigen::VectorXd(columns.col(static_cast<Eigen::Index>(j)))
                         : Eigen::VectorXd(model.R.col(further - comparison.directions.begin())));
@@ -157,13 +170,14 @@ std::vector<Suspect> suspectsOf(const SquareRoot& model, const Comparison& compa
     if (legs.size() > 1 && !all.column.isZero(0)) out.push_back(all);
   }
   for (std::size_t j = static_cast<std::size_t>(comparison.linear); j < comparison.directions.size(); ++j)
-    if (const Direction& direction = comparison.directions[j]; direction.kind != DirectionKind::number && direction.kind != DirectionKind::delay)
+    if (const Direction& direction = comparison.directions[j];
+        direction.kind != DirectionKind::number && direction.kind != DirectionKind::delay)
       out.push_back({direction, model.R.col(static_cast<Eigen::Index>(j)), 0});
   return out;
 }
 
-Judgement judge(const SquareRoot& model, const Comparison& comparison, const std::vector<Suspect>& suspects, double delay_deviation,
-                Eigen::Index noise_freedom) {
+Judgement judge(const SquareRoot& model, const Comparison& comparison, const std::vector<Suspect>& suspects,
+                double delay_deviation, Eigen::Index noise_freedom) {
   std::vector<Eigen::VectorXd> allowed = {model.R.col(comparison.delay()) * delay_deviation};
   std::vector<const Suspect*> all, outside;
   for (const Suspect& each : suspects) {
@@ -181,17 +195,20 @@ Judgement judge(const SquareRoot& model, const Comparison& comparison, const std
   Eigen::MatrixXd all_linear = basis * 1e5, with_tolerances(model.R.rows(), all_linear.cols() + columns.cols());
   with_tolerances << all_linear, columns;
   Allowance beyond_numbers(with_tolerances);
-  findCauses(outside, beyond_numbers, model.z, thresholdOf(risk_outside, static_cast<double>(outside.size()), noise_freedom), true, out.causes);
+  findCauses(outside, beyond_numbers, model.z,
+             thresholdOf(risk_outside, static_cast<double>(outside.size()), noise_freedom), true, out.causes);
 
   Allowance allowance(columns);
   for (const FoundCause& cause : out.causes)
     for (const Suspect& each : suspects)
-      if (each.direction.words == cause.direction.words && each.direction.path == cause.direction.path) allowance.free(each.column);
+      if (each.direction.words == cause.direction.words && each.direction.path == cause.direction.path)
+        allowance.free(each.column);
   const Eigen::MatrixXd everything = basisOf(columnsOf(all, model.R.rows()));
   out.freedom = everything.cols();
   out.threshold = thresholdOf(risk_of_number, static_cast<double>(out.freedom), noise_freedom);
   out.squares = model.z.dot(everything * (everything.transpose() * allowance(model.z).col(0)));
-  out.squares_limit = boost::math::quantile(boost::math::complement(boost::math::chi_squared(static_cast<double>(out.freedom)), risk_of_squares)) *
+  out.squares_limit = boost::math::quantile(boost::math::complement(
+                          boost::math::chi_squared(static_cast<double>(out.freedom)), risk_of_squares)) *
                       (1 + 4 * std::sqrt(2.0 / static_cast<double>(std::max<Eigen::Index>(noise_freedom, 8))));
   findCauses(all, allowance, model.z, out.threshold, false, out.causes);
   out.deviates = !out.causes.empty() || out.squares > out.squares_limit;
@@ -208,14 +225,15 @@ Eigen::MatrixXd inputUncertainty(const Comparison& comparison, const Manipulator
     const std::string& path = derivatives.parameterNames()[j];
     const auto at = tolerances.find(path);
     if (at == tolerances.end()) continue;
-    const auto further = std::find_if(comparison.directions.begin(), comparison.directions.end(), [&](const Direction& d) {
-      return d.kind == DirectionKind::number && d.path == path;
-    });
+    const auto further =
+        std::find_if(comparison.directions.begin(), comparison.directions.end(),
+                     [&](const Direction& d) { return d.kind == DirectionKind::number && d.path == path; });
     for (int k = 0; k < motor_count; ++k) {
       const Eigen::MatrixXd& table = comparison.columns[static_cast<std::size_t>(k)];
-      const Eigen::VectorXd column = further == comparison.directions.end()
-                                         ? Eigen::VectorXd(table.leftCols(comparison.linear) * slopes.col(static_cast<Eigen::Index>(j)))
-                                         : Eigen::VectorXd(table.col(further - comparison.directions.begin()));
+      const Eigen::VectorXd column =
+          further == comparison.directions.end()
+              ? Eigen::VectorXd(table.leftCols(comparison.linear) * slopes.col(static_cast<Eigen::Index>(j)))
+              : Eigen::VectorXd(table.col(further - comparison.directions.begin()));
       squares.col(k).array() += (column.array() * at->second).square();
     }
   }

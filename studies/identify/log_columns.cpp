@@ -156,7 +156,8 @@ class LogFinder {
     if (!hasAll(LogQuantity::time, 1)) missing("t_s");
     const bool poses = hasAll(LogQuantity::position, 3) && hasAll(LogQuantity::quaternion, 4);
     out_.has_poses = poses && !hasAll(LogQuantity::driven, motor_count);
-    if (!poses) requireSix(LogQuantity::driven, [this](int k) { return drivenName(machine_.motors()[std::size_t(k)]); });
+    if (!poses)
+      requireSix(LogQuantity::driven, [this](int k) { return drivenName(machine_.motors()[std::size_t(k)]); });
     out_.has_currents = !hasAny(LogQuantity::effort) && hasAll(LogQuantity::current, motor_count);
     if (!out_.has_currents)
       requireSix(LogQuantity::effort, [this](int k) { return effortColumn(machine_.motors(), k); });

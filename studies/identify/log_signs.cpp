@@ -27,8 +27,8 @@ Eigen::VectorXd combined(const Eigen::VectorXd& first, const Eigen::VectorXd& se
   return out;
 }
 
-void add(std::vector<LogFinding>& findings, std::vector<MeasuredCause>& causes, const char* kind, int motor, double value,
-         const std::string& what) {
+void add(std::vector<LogFinding>& findings, std::vector<MeasuredCause>& causes, const char* kind, int motor,
+         double value, const std::string& what) {
   findings.push_back({kind, motor, value, "", what});
   MeasuredCause cause;
   cause.kind = kind;
@@ -47,11 +47,14 @@ void findSigns(MeasuredLog& log, const Motors& motors, std::vector<LogFinding>& 
     const auto rows = saturatedRows(log.efforts.col(k));
     for (const Eigen::Index row : rows) log.missing[static_cast<std::size_t>(row)] = true;
     if (!rows.empty())
-      findings.push_back({"saturation", k, static_cast<double>(rows.size()) / static_cast<double>(log.rows()), "",
-                          fmt::format("the effort of motor {} rests at {:.6g} {} in {} rows from {:.6g} s on: clipped, and left out",
-                                      k + 1, log.efforts(rows.front(), k), unit, rows.size(), log.time(static_cast<double>(rows.front())))});
+      findings.push_back(
+          {"saturation", k, static_cast<double>(rows.size()) / static_cast<double>(log.rows()), "",
+           fmt::format("the effort of motor {} rests at {:.6g} {} in {} rows from {:.6g} s on: clipped, and left out",
+                       k + 1, log.efforts(rows.front(), k), unit, rows.size(),
+                       log.time(static_cast<double>(rows.front())))});
   }
-  const auto quantised = [&](const Eigen::VectorXd& signal, int channel, const std::string& what, const std::string& unit) {
+  const auto quantised = [&](const Eigen::VectorXd& signal, int channel, const std::string& what,
+                             const std::string& unit) {
     const double step = quantum(signal);
     if (step > 0 && step / std::sqrt(12.0) > 0.5 * whiteNoise(signal))
       findings.push_back({"quantisation", channel, step, unit,
@@ -65,7 +68,8 @@ void findSigns(MeasuredLog& log, const Motors& motors, std::vector<LogFinding>& 
   }
 }
 
-void findMistakes(const ModelledLog& modelled, const Motors& motors, std::vector<LogFinding>& findings, std::vector<MeasuredCause>& causes) {
+void findMistakes(const ModelledLog& modelled, const Motors& motors, std::vector<LogFinding>& findings,
+                  std::vector<MeasuredCause>& causes) {
   const Eigen::MatrixXd measured = modelled.filtered().efforts(), &model = modelled.efforts();
   Eigen::Matrix<double, 6, 6> alike;
   Vector6d factors;
@@ -78,9 +82,11 @@ void findMistakes(const ModelledLog& modelled, const Motors& motors, std::vector
   bool exchanged = false;
   for (int k = 0; k < motor_count; ++k)
     for (int j = k + 1; j < motor_count; ++j)
-      if (alike(k, j) > surely_alike && alike(j, k) > surely_alike && alike(k, k) < hardly_alike && alike(j, j) < hardly_alike) {
+      if (alike(k, j) > surely_alike && alike(j, k) > surely_alike && alike(k, k) < hardly_alike &&
+          alike(j, j) < hardly_alike) {
         exchanged = true;
-        add(findings, causes, "order", k, j + 1, fmt::format("the efforts of motors {} and {} look exchanged", k + 1, j + 1));
+        add(findings, causes, "order", k, j + 1,
+            fmt::format("the efforts of motors {} and {} look exchanged", k + 1, j + 1));
       }
   for (int k = 0; k < motor_count; ++k)
     if (!exchanged && alike(k, k) < -surely_alike)
@@ -88,26 +94,31 @@ void findMistakes(const ModelledLog& modelled, const Motors& motors, std::vector
   const double power = factors.cwiseAbs().cwiseMax(1e-300).array().log10().mean();
   if (alike.diagonal().minCoeff() > surely_alike && std::abs(power) > 1.5)
     add(findings, causes, "units", -1, std::pow(10.0, power),
-        fmt::format("all efforts are {:.4g} times the model's: expected {}", std::pow(10.0, power), motors[0].slides() ? "N" : "N m"));
+        fmt::format("all efforts are {:.4g} times the model's: expected {}", std::pow(10.0, power),
+                    motors[0].slides() ? "N" : "N m"));
 }
 
-Vector6d expectedNoise(const ModelledLog& modelled, const MeasuredLog& log, const Periods& periods) {
-  Vector6d out = Vector6d::Zero();
+ExpectedNoise expectedNoise(const ModelledLog& modelled, const MeasuredLog& log, const Periods& periods) {
+  ExpectedNoise out;
   if (log.has_poses) return out;
   const FilteredLog& filtered = modelled.filtered();
   const double averaged = std::sqrt(static_cast<double>(periods.count));
-  const auto gain = [&](const Eigen::VectorXd& first) { return combined(first, filtered.second().value, filtered.plan().coarse).norm(); };
+  const auto gain = [&](const Eigen::VectorXd& first) {
+    return combined(first, filtered.second().value, filtered.plan().coarse).norm();
+  };
   const double effort_gain = Kernel(filtered.plan().effort_cut, log.step).value.norm();
-  const std::array<double, 3> gains = {gain(filtered.first().value), gain(filtered.first().rate), gain(filtered.first().acceleration)};
+  const std::array<double, 3> gains = {gain(filtered.first().value), gain(filtered.first().rate),
+                                       gain(filtered.first().acceleration)};
   const std::array<Matrix6d, 3> slopes = modelled.sensitivity();
   for (int k = 0; k < motor_count; ++k) {
     const double effort = periods.count > 1 ? periods.effort_noise(k) / averaged : whiteNoise(log.efforts.col(k));
-    double square = std::pow(effort * effort_gain, 2);
+    double square = 0;
     for (int j = 0; j < motor_count; ++j) {
       const double motion = periods.count > 1 ? periods.motion_noise(j) / averaged : whiteNoise(log.motion.col(j));
       for (std::size_t what = 0; what < 3; ++what) square += std::pow(slopes[what](k, j) * motion * gains[what], 2);
     }
-    out(k) = std::sqrt(square);
+    out.of_motion(k) = std::sqrt(square);
+    out.whole(k) = std::hypot(effort * effort_gain, out.of_motion(k));
   }
   return out;
 }

@@ -12,11 +12,11 @@ namespace ursula {
 
 /// Something of a log, or of a model, that its user has to know. `kind` is one of a fixed set of words.
 struct LogFinding {
-  std::string kind;   ///< "drop_outs", "saturation", "quantisation", "jitter", "swapped", "units", …
-  int channel = -1;   ///< 0-based motor; −1: of no motor
-  double value = 0;   ///< how much, in `unit`
+  std::string kind;  ///< "drop_outs", "saturation", "quantisation", "jitter", "swapped", "units", …
+  int channel = -1;  ///< 0-based motor; −1: of no motor
+  double value = 0;  ///< how much, in `unit`
   std::string unit;
-  std::string what;   ///< in a sentence
+  std::string what;  ///< in a sentence
 };
 
 /// How a log is to be read.

@@ -42,8 +42,10 @@ Plot effortPlot(const IdentifyResult& result, std::size_t k) {
   plot.over_time = plot.tube = true;
   plot.x = column(result.series, "t_s");
   plot.rows = plot.x.size();
-  plot.lines = {{"model + 1.96 u_val", unit, 0, Stroke::limit, high}, {"model − 1.96 u_val", unit, 0, Stroke::limit, low},
-                {"measured", unit, 1, Stroke::ghost, of("tau")},      {"model", unit, 0, Stroke::line, of("model")},
+  plot.lines = {{"model + 1.96 u_val", unit, 0, Stroke::limit, high},
+                {"model − 1.96 u_val", unit, 0, Stroke::limit, low},
+                {"measured", unit, 1, Stroke::ghost, of("tau")},
+                {"model", unit, 0, Stroke::line, of("model")},
                 {"fitted model", unit, 2, Stroke::line, of("fitted")}};
   return thinned(plot, buckets);
 }
@@ -57,7 +59,8 @@ Plot spectrumPlot(const IdentifyResult& result) {
   plot.x = column(result.spectra, "f_Hz");
   plot.rows = plot.x.size();
   for (std::size_t k = 0; k < result.motors.size(); ++k)
-    plot.lines.push_back({fmt::format("motor {}", k + 1), result.motors[k].unit + "²/Hz", static_cast<int>(k), Stroke::line,
+    plot.lines.push_back({fmt::format("motor {}", k + 1), result.motors[k].unit + "²/Hz", static_cast<int>(k),
+                          Stroke::line,
                           column(result.spectra, fmt::format("residual_{}_{}2_Hz", k + 1, result.motors[k].unit))});
   return plot;
 }
@@ -79,27 +82,35 @@ std::string numberText(double x) { return report::number(x, 6); }
 /// The interval as a bar between −3 and 3 of the number's tolerances, or of its own size where none is stated.
 std::string barOf(const MeasuredNumber& n) {
   constexpr double width = 160, height = 14;
-  const double unit = n.tolerance > 0 ? n.tolerance : std::abs(n.nominal) > 0 ? 0.1 * std::abs(n.nominal) : n.uncertainty;
+  const double unit = n.tolerance > 0           ? n.tolerance
+                      : std::abs(n.nominal) > 0 ? 0.1 * std::abs(n.nominal)
+                                                : n.uncertainty;
   if (!(unit > 0)) return "";
   const auto x = [&](double value) { return width * std::clamp(((value - n.nominal) / unit + 3) / 6, 0.0, 1.0); };
-  return fmt::format("<svg class=\"static\" width=\"{0}\" height=\"{1}\" role=\"img\" aria-label=\"{6:.3g} of its {7}\">"
-                     "<rect x=\"{2:.1f}\" y=\"0\" width=\"{3:.1f}\" height=\"{1}\" fill=\"currentColor\" opacity=\".12\"/>"
-                     "<line x1=\"{4:.1f}\" x2=\"{5:.1f}\" y1=\"7\" y2=\"7\" stroke=\"currentColor\" stroke-width=\"2\"/>"
-                     "<circle cx=\"{8:.1f}\" cy=\"7\" r=\"3\" fill=\"currentColor\"/></svg>",
-                     width, height, x(n.nominal - unit), x(n.nominal + unit) - x(n.nominal - unit), x(n.low), x(n.high),
-                     (n.value - n.nominal) / unit, n.tolerance > 0 ? "tolerance" : "tenth", x(n.value));
+  return fmt::format(
+      "<svg class=\"static\" width=\"{0}\" height=\"{1}\" role=\"img\" aria-label=\"{6:.3g} of its {7}\">"
+      "<rect x=\"{2:.1f}\" y=\"0\" width=\"{3:.1f}\" height=\"{1}\" fill=\"currentColor\" opacity=\".12\"/>"
+      "<line x1=\"{4:.1f}\" x2=\"{5:.1f}\" y1=\"7\" y2=\"7\" stroke=\"currentColor\" stroke-width=\"2\"/>"
+      "<circle cx=\"{8:.1f}\" cy=\"7\" r=\"3\" fill=\"currentColor\"/></svg>",
+      width, height, x(n.nominal - unit), x(n.nominal + unit) - x(n.nominal - unit), x(n.low), x(n.high),
+      (n.value - n.nominal) / unit, n.tolerance > 0 ? "tolerance" : "tenth", x(n.value));
 }
 
 std::string numbersTable(std::vector<MeasuredNumber> numbers, bool combinations) {
-  numbers.erase(std::remove_if(numbers.begin(), numbers.end(), [](const MeasuredNumber& n) { return !n.identified; }), numbers.end());
+  numbers.erase(std::remove_if(numbers.begin(), numbers.end(), [](const MeasuredNumber& n) { return !n.identified; }),
+                numbers.end());
   std::vector<std::vector<std::string>> rows;
   for (const MeasuredNumber& n : numbers) {
     if (rows.size() == most_rows) break;
-    rows.push_back({escaped(n.name), numberText(n.nominal), numberText(n.value), "± " + report::number(0.5 * (n.high - n.low)), escaped(n.unit),
+    rows.push_back({escaped(n.name), numberText(n.nominal), numberText(n.value),
+                    "± " + report::number(0.5 * (n.high - n.low)), escaped(n.unit),
                     n.tolerance >= 0 ? report::number(n.tolerance) : "–", barOf(n)});
   }
-  std::string out = tableOf({combinations ? "Combination" : "Number", "Model", "Measured", "95 %", "Unit", "Tolerance", "−3 … 3 tolerances, or tenths of the number"}, rows);
-  if (numbers.size() > rows.size()) out += fmt::format("<p>{} more in <code>parameters.csv</code>.</p>", numbers.size() - rows.size());
+  std::string out = tableOf({combinations ? "Combination" : "Number", "Model", "Measured", "95 %", "Unit", "Tolerance",
+                             "−3 … 3 tolerances, or tenths of the number"},
+                            rows);
+  if (numbers.size() > rows.size())
+    out += fmt::format("<p>{} more in <code>parameters.csv</code>.</p>", numbers.size() - rows.size());
   return out;
 }
 
@@ -107,21 +118,26 @@ std::string motorsTable(const IdentifyResult& result) {
   std::vector<std::vector<std::string>> rows;
   for (std::size_t k = 0; k < result.motors.size(); ++k) {
     const MotorAgreement& m = result.motors[k];
-    rows.push_back({fmt::format("{}", k + 1), report::number(m.effort), report::number(m.deviation), report::number(m.u_num), report::number(m.u_input),
-                    report::number(m.u_D), report::number(m.u_val), fmt::format("{:.1f} %", 100 * m.within), report::number(m.left),
+    rows.push_back({fmt::format("{}", k + 1), report::number(m.effort), report::number(m.deviation),
+                    report::number(m.u_num), report::number(m.u_input), report::number(m.u_D), report::number(m.u_val),
+                    fmt::format("{:.1f} %", 100 * m.within), report::number(m.left),
                     m.expected > 0 ? report::number(m.expected) : "–", m.unit});
   }
-  return tableOf({"Motor", "Effort", "E = S − D", "u_num", "u_input", "u_D", "u_val", "within 1.96 u_val", "left by the fit", "noise alone", "Unit"}, rows);
+  return tableOf({"Motor", "Effort", "E = S − D", "u_num", "u_input", "u_D", "u_val", "within 1.96 u_val",
+                  "left by the fit", "noise alone", "Unit"},
+                 rows);
 }
 
 std::string causesTable(const IdentifyResult& result) {
   std::vector<std::vector<std::string>> rows;
   for (const MeasuredCause& c : result.causes) {
     std::string others;
-    for (std::size_t k = 0; k < std::min<std::size_t>(c.as_well.size(), 4); ++k) others += (k > 0 ? ", " : "") + escaped(c.as_well[k]);
+    for (std::size_t k = 0; k < std::min<std::size_t>(c.as_well.size(), 4); ++k)
+      others += (k > 0 ? ", " : "") + escaped(c.as_well[k]);
     rows.push_back({escaped(c.kind), escaped(c.parameter.empty() ? c.what : c.parameter), numberText(c.expected),
                     numberText(c.found) + " ± " + report::number(1.96 * c.uncertainty), escaped(c.unit),
-                    c.tolerances != 0 ? report::number(c.tolerances) : "–", fmt::format("{:.0f} %", 100 * c.explained), others});
+                    c.tolerances != 0 ? report::number(c.tolerances) : "–", fmt::format("{:.0f} %", 100 * c.explained),
+                    others});
   }
   return tableOf({"Kind", "What", "Model", "Log", "Unit", "Tolerances", "Explains", "As well"}, rows);
 }
@@ -148,12 +164,17 @@ std::string identifyPage(const IdentifyResult& result) {
     for (std::size_t k = 0; k < result.motors.size(); ++k) page.charts.push_back(effortPlot(result, k));
     for (std::size_t k = 0; k < page.charts.size(); ++k) efforts += report::figureHtml(page.charts[k], k, "h3");
     page.charts.push_back(spectrumPlot(result));
-    spectrum = "<div class=\"charts\">" + report::figureHtml(page.charts.back(), page.charts.size() - 1, "h3") + "</div>";
+    spectrum =
+        "<div class=\"charts\">" + report::figureHtml(page.charts.back(), page.charts.size() - 1, "h3") + "</div>";
     efforts = "<div class=\"charts\">" + efforts + "</div>";
-    page.figures = {{"Delay", fmt::format("{:.3g} samples", result.delay / result.step), fmt::format("± {:.2g}", 1.96 * result.delay_uncertainty / result.step)},
-                    {"Low passes", fmt::format("{:.3g} Hz", result.effort_cut), fmt::format("motion {:.3g} Hz, goes up to {:.3g} Hz", result.state_cut, result.bandwidth)},
-                    {"Periods", fmt::format("{}", result.periods), fmt::format("{:.4g} s each", result.duration / result.periods)},
-                    {"Not fitted part", fmt::format("{:.3g}", result.validation_fitted), fmt::format("of the noise; as given {:.3g}", result.validation_given)}};
+    page.figures = {
+        {"Delay", fmt::format("{:.3g} samples", result.delay / result.step),
+         fmt::format("± {:.2g}", 1.96 * result.delay_uncertainty / result.step)},
+        {"Low passes", fmt::format("{:.3g} Hz", result.effort_cut),
+         fmt::format("motion {:.3g} Hz, goes up to {:.3g} Hz", result.state_cut, result.bandwidth)},
+        {"Periods", fmt::format("{}", result.periods), fmt::format("{:.4g} s each", result.duration / result.periods)},
+        {"Not fitted part", fmt::format("{:.3g}", result.validation_fitted),
+         fmt::format("of the noise; as given {:.3g}", result.validation_given)}};
   }
   page.sections = {{"causes", "What may be wrong", causesTable(result)},
                    {"findings", "What the log shows", list(findings)},

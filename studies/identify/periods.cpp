@@ -42,7 +42,8 @@ double mismatchAt(const Eigen::MatrixXd& motion, Eigen::Index lag) {
     const double variance = (motion.col(k).array() - motion.col(k).mean()).square().mean();
     if (variance == 0) continue;
     const Eigen::Index rows = motion.rows() - lag;
-    sum += (motion.col(k).tail(rows) - motion.col(k).head(rows)).squaredNorm() / (2 * variance * static_cast<double>(rows));
+    sum += (motion.col(k).tail(rows) - motion.col(k).head(rows)).squaredNorm() /
+           (2 * variance * static_cast<double>(rows));
     ++channels;
   }
   return sum / std::max(channels, 1);
@@ -55,13 +56,15 @@ Eigen::Index periodOf(const MeasuredLog& log) {
   double noise = 0;
   for (Eigen::Index k = 0; k < log.motion.cols(); ++k) {
     const double variance = (log.motion.col(k).array() - log.motion.col(k).mean()).square().mean();
-    if (variance > 0) noise += std::pow(whiteNoise(log.motion.col(k)), 2) / variance / static_cast<double>(log.motion.cols());
+    if (variance > 0)
+      noise += std::pow(whiteNoise(log.motion.col(k)), 2) / variance / static_cast<double>(log.motion.cols());
   }
   const double same = 2 * noise + 1e-6;
   bool has_left = false;
   for (Eigen::Index lag = 1; lag + 1 < unlike.size(); ++lag) {
     has_left = has_left || unlike(lag) > 0.1;
-    if (!has_left || unlike(lag) > 10 * same || unlike(lag) > unlike(lag - 1) || unlike(lag) > unlike(lag + 1)) continue;
+    if (!has_left || unlike(lag) > 10 * same || unlike(lag) > unlike(lag - 1) || unlike(lag) > unlike(lag + 1))
+      continue;
     const Eigen::Index last = (log.rows() / lag - 1) * lag;  // periods that are no whole rows drift apart
     if (mismatchAt(log.motion, lag) <= same && mismatchAt(log.motion, last) <= same) return lag;
   }

@@ -93,22 +93,26 @@ class MachineFit {
   double assumed(const MachineNumber& number, double plausible) const {
     if (number.group == "center") {
       const double mass = number.leg < 0 ? nominal_.platform.mass
-                                         : number.body == "proximal" ? nominal_.legs[static_cast<std::size_t>(number.leg)].proximal.mass
-                                                                     : nominal_.legs[static_cast<std::size_t>(number.leg)].distal.mass;
+                          : number.body == "proximal"
+                              ? nominal_.legs[static_cast<std::size_t>(number.leg)].proximal.mass
+                              : nominal_.legs[static_cast<std::size_t>(number.leg)].distal.mass;
       return plausible / mass;
     }
-    return number.group == "inertia" ? std::max(number.size(nominal_), 0.05 * plausible) : std::max(plausible, number.get(nominal_));
+    return number.group == "inertia" ? std::max(number.size(nominal_), 0.05 * plausible)
+                                     : std::max(plausible, number.get(nominal_));
   }
 
   /// Friction and rotors that the scenario does not have begin a little above zero, where the barrier lets them.
   void start() {
     rest_ = Eigen::VectorXd::Zero(motor_count + 1);
     for (const std::size_t j : free_)
-      if (isPositive(estimates_[j].number) && !(estimates_[j].nominal > 1e-200)) estimates_[j].number.set(machine_, 1e-3 * estimates_[j].before);
+      if (isPositive(estimates_[j].number) && !(estimates_[j].nominal > 1e-200))
+        estimates_[j].number.set(machine_, 1e-3 * estimates_[j].before);
     pi_nominal_ = momentsOf(nominal_).first;
   }
 
-  /// What efforts are linear in, and its derivatives by the free numbers. Only derivatives of a valid machine are asked.
+  /// What efforts are linear in, and its derivatives by the free numbers. Only derivatives of a valid machine are
+  /// asked.
   std::pair<Eigen::VectorXd, Eigen::MatrixXd> momentsOf(const ManipulatorParameters& machine) const {
     const EffortDerivatives derivatives((Manipulator(machine)));
     const Eigen::MatrixXd all = derivatives.regressorByParameters();
@@ -119,7 +123,8 @@ class MachineFit {
 
   Eigen::VectorXd leftOf(const Eigen::VectorXd& moments, const Eigen::VectorXd& rest) const {
     const Eigen::Index linear = comparison_.linear;
-    return model_.z - model_.R.leftCols(linear) * (moments - pi_nominal_) - model_.R.middleCols(linear, motor_count + 1) * rest;
+    return model_.z - model_.R.leftCols(linear) * (moments - pi_nominal_) -
+           model_.R.middleCols(linear, motor_count + 1) * rest;
   }
 
   double costOf(const ManipulatorParameters& machine, const Eigen::VectorXd& rest) const {
@@ -192,7 +197,8 @@ class MachineFit {
         gradient(at) -= barrier_weight / value;
         hessian(at, at) += barrier_weight / (value * value);
       }
-      const bool inertia = each.number.quantity == Quantity::inertia || each.number.quantity == Quantity::platform_inertia;
+      const bool inertia =
+          each.number.quantity == Quantity::inertia || each.number.quantity == Quantity::platform_inertia;
       if (inertia && each.number.entry == 0) addSpread(each.number, hessian, gradient);
     }
     return -scaledSolve(hessian, gradient);
@@ -242,8 +248,9 @@ class MachineFit {
 
 }  // namespace
 
-PhysicalEstimate estimateMachine(const SquareRoot& model, const Comparison& comparison, const ManipulatorParameters& machine,
-                                 const NumberTolerances& tolerances, bool by_tolerances) {
+PhysicalEstimate estimateMachine(const SquareRoot& model, const Comparison& comparison,
+                                 const ManipulatorParameters& machine, const NumberTolerances& tolerances,
+                                 bool by_tolerances) {
   return MachineFit(model, comparison, machine, tolerances, by_tolerances).fit();
 }
 

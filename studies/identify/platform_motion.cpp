@@ -68,7 +68,8 @@ Motion<double> motionOfPoses(const MeasuredState& state) {
   return out;
 }
 
-std::optional<Motion<double>> firstMotion(const Scenario& scenario, const MotorChain& chain, const MeasuredState& state) {
+std::optional<Motion<double>> firstMotion(const Scenario& scenario, const MotorChain& chain,
+                                          const MeasuredState& state) {
   constexpr int instants = 65, tried = 6;
   const Motors& motors = scenario.manipulator->motors();
   std::vector<std::pair<double, Motion<double>>> near;

@@ -37,6 +37,7 @@ Motion<double> motionOfPoses(const MeasuredState& state);
 
 /// A motion of the scenario's that is near these driven coordinates and leads to them; none where they cannot be
 /// reached from any.
-std::optional<Motion<double>> firstMotion(const Scenario& scenario, const MotorChain& chain, const MeasuredState& state);
+std::optional<Motion<double>> firstMotion(const Scenario& scenario, const MotorChain& chain,
+                                          const MeasuredState& state);
 
 }  // namespace ursula::identification

@@ -38,7 +38,9 @@ void addColumn(TimeSeries& series, const std::string& name, const Eigen::VectorX
   series.columns.emplace_back(values.data(), values.data() + values.size());
 }
 
-std::string motorColumn(const char* what, int k, const std::string& unit) { return fmt::format("{}_{}_{}", what, k + 1, unit); }
+std::string motorColumn(const char* what, int k, const std::string& unit) {
+  return fmt::format("{}_{}_{}", what, k + 1, unit);
+}
 
 }  // namespace
 
@@ -47,14 +49,19 @@ std::string wordsOf(const Direction& direction) {
   const std::vector<std::string> parts = partsOf(direction.path);
   const bool platform = parts[1] == "platform";
   const std::string leg = platform ? "" : fmt::format("leg {}", parts[2]);
-  const std::string& quantity = parts[platform ? 2 : parts.size() > 4 && (parts[3] == "proximal" || parts[3] == "distal") ? 4 : 3];
-  const std::string of = platform ? "the platform" : quantity == parts[3] ? leg : fmt::format("{}'s {} link", leg, parts[3]);
+  const std::string& quantity = parts[platform                                                               ? 2
+                                      : parts.size() > 4 && (parts[3] == "proximal" || parts[3] == "distal") ? 4
+                                                                                                             : 3];
+  const std::string of = platform               ? "the platform"
+                         : quantity == parts[3] ? leg
+                                                : fmt::format("{}'s {} link", leg, parts[3]);
   static const char* const axes[] = {"x", "y", "z"};
   static const char* const entries[] = {"xx", "yy", "zz", "xy", "xz", "yz"};
   const bool has_entry = std::isdigit(static_cast<unsigned char>(parts.back()[0])) != 0 && parts.size() > 3;
   const int entry = has_entry ? parts.back()[0] - '0' : 0;
   if (quantity == "mass") return "mass of " + of;
-  if (quantity == "first_moment") return fmt::format("mass × mass centre{} of {}", has_entry ? std::string(" ") + axes[entry % 3] : "", of);
+  if (quantity == "first_moment")
+    return fmt::format("mass × mass centre{} of {}", has_entry ? std::string(" ") + axes[entry % 3] : "", of);
   if (quantity == "inertia_at_P") return fmt::format("inertia {} of {} about P", entries[entry % 6], of);
   if (quantity == "inertia_at_end") return fmt::format("inertia {} of {} about its first end", entries[entry % 6], of);
   if (quantity == "rotor_inertia") return fmt::format("rotor inertia on {} of {}", parts.back(), of);
@@ -96,7 +103,9 @@ void addCombinations(const BaseFit& fit, const Comparison& comparison, IdentifyR
     number.high = number.value + fit.quantile * base.deviation;
     auto terms = base.terms;
     std::sort(terms.begin() + 1, terms.end(), [&](const auto& a, const auto& b) {
-      const auto size = [&](const auto& term) { return std::abs(term.second) * comparison.directions[static_cast<std::size_t>(term.first)].plausible; };
+      const auto size = [&](const auto& term) {
+        return std::abs(term.second) * comparison.directions[static_cast<std::size_t>(term.first)].plausible;
+      };
       return size(a) > size(b);
     });
     for (std::size_t k = 0; k < terms.size(); ++k) {
@@ -104,12 +113,14 @@ void addCombinations(const BaseFit& fit, const Comparison& comparison, IdentifyR
       number.terms.emplace_back(direction.path.empty() ? direction.words : direction.path, terms[k].second);
       if (k < most_terms_in_words)
         number.name += k == 0 ? wordsOf(direction)
-                              : fmt::format(" {} {:.4g} × {}", terms[k].second < 0 ? "−" : "+", std::abs(terms[k].second), wordsOf(direction));
+                              : fmt::format(" {} {:.4g} × {}", terms[k].second < 0 ? "−" : "+",
+                                            std::abs(terms[k].second), wordsOf(direction));
     }
     if (terms.size() > most_terms_in_words) number.name += " + …";
     out.combinations.push_back(number);
   }
-  for (const Eigen::Index j : fit.unseen) out.unseen.push_back(wordsOf(comparison.directions[static_cast<std::size_t>(j)]));
+  for (const Eigen::Index j : fit.unseen)
+    out.unseen.push_back(wordsOf(comparison.directions[static_cast<std::size_t>(j)]));
 }
 
 void addNumbers(const PhysicalEstimate& estimate, double quantile, IdentifyResult& out) {
@@ -162,15 +173,17 @@ std::string identifySentence(const IdentifyResult& result) {
       at = k;
     }
   const MotorAgreement& motor = result.motors[at];
-  const std::string size = fmt::format("the deviation of motor {} is {:.3g} {} (rms), u_val {:.3g} {}, {:.1f} % of instants within 1.96 u_val",
-                                       at + 1, motor.deviation, motor.unit, motor.u_val, motor.unit, 100 * motor.within);
+  const std::string size = fmt::format(
+      "the deviation of motor {} is {:.3g} {} (rms), u_val {:.3g} {}, {:.1f} % of instants within 1.96 u_val", at + 1,
+      motor.deviation, motor.unit, motor.u_val, motor.unit, 100 * motor.within);
   if (result.verdict == Verdict::pass) return "Within u_val at 95 %: " + size + ".";
   std::string out = result.verdict == Verdict::fail ? "Model error: " + size : "Not judged: " + size;
   if (result.causes.empty()) return out + (result.verdict == Verdict::fail ? "; no single number explains it." : ".");
   const MeasuredCause& cause = result.causes.front();
   if (cause.kind == "order" || cause.kind == "sign" || cause.kind == "units") return out + "; " + cause.what + ".";
-  out += fmt::format("; explained by {} {:.6g} ± {:.2g} {} instead of {:.6g}", cause.parameter.empty() ? cause.what : cause.parameter,
-                     cause.found, 1.96 * cause.uncertainty, cause.unit, cause.expected);
+  out += fmt::format("; explained by {} {:.6g} ± {:.2g} {} instead of {:.6g}",
+                     cause.parameter.empty() ? cause.what : cause.parameter, cause.found, 1.96 * cause.uncertainty,
+                     cause.unit, cause.expected);
   if (cause.tolerances != 0) out += fmt::format(", {:.3g} of its tolerances", std::abs(cause.tolerances));
   return out + (cause.outside ? ", which no mass, inertia or friction can be." : ".");
 }

@@ -11,14 +11,32 @@ const double pi = std::acos(-1.0);
 /// Deviation of the Gaussian that rounds the low pass off, in cut-off frequencies; and where its window ends.
 constexpr double roll_off = 0.2, window_end = 4.5;
 
-/// Over nine neighbours, so that no single one of a noise's is taken for a signal.
+/// Over 33 neighbours, some ten of which are independent, so that no single one of a noise's is taken for a signal.
 Eigen::VectorXd smoothed(const Eigen::VectorXd& x) {
   Eigen::VectorXd out(x.size());
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const Eigen::Index first = std::max<Eigen::Index>(0, i - 4), end = std::min(x.size(), i + 5);
+    const Eigen::Index first = std::max<Eigen::Index>(0, i - 16), end = std::min(x.size(), i + 17);
     out(i) = x.segment(first, end - first).mean();
   }
   return out;
+}
+
+/// Of all of a signal, or its first 65,536 values, under one window.
+Eigen::VectorXd wholeSpectrum(const Eigen::VectorXd& signal, double step) {
+  const Eigen::Index rows = std::min<Eigen::Index>(signal.size(), 1 << 16);
+  Eigen::Index size = 16;
+  while (size < rows) size *= 2;
+  Eigen::VectorXd part = Eigen::VectorXd::Zero(size);
+  double squares = 0;
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const double window = 0.5 - 0.5 * std::cos(2 * pi * (static_cast<double>(i) + 0.5) / static_cast<double>(rows));
+    part(i) = signal(i) * window;
+    squares += window * window;
+  }
+  Eigen::FFT<double> fft;
+  Eigen::VectorXcd transform(size);
+  fft.fwd(transform, part);
+  return transform.head(size / 2 + 1).cwiseAbs2() * (2 * step / squares);
 }
 
 double windowDeviation(double cut) { return 1 / (2 * pi * roll_off * cut); }
@@ -27,7 +45,8 @@ double windowDeviation(double cut) { return 1 / (2 * pi * roll_off * cut); }
 std::array<double, 3> sincOf(double a, double u) {
   const double x = a * u;
   if (std::abs(x) < 1e-2)
-    return {a / pi * (1 - x * x / 6), a / pi * (-a * x / 3 + a * x * x * x / 30), a / pi * a * a * (-1.0 / 3 + x * x / 10)};
+    return {a / pi * (1 - x * x / 6), a / pi * (-a * x / 3 + a * x * x * x / 30),
+            a / pi * a * a * (-1.0 / 3 + x * x / 10)};
   const double s = std::sin(x), c = std::cos(x);
   return {s / (pi * u), (x * c - s) / (pi * u * u), (2 * s - 2 * x * c - x * x * s) / (pi * u * u * u)};
 }
@@ -130,7 +149,8 @@ Eigen::VectorXd powerSpectrum(const Eigen::VectorXd& signal, double step, int mo
   for (int k = 0; k < size; ++k) window(k) = 0.5 - 0.5 * std::cos(2 * pi * (k + 0.5) / size);
   int count = 0;
   for (Eigen::Index first = 0; first + size <= signal.size(); first += size / 2, ++count) {
-    const Eigen::VectorXd part = (signal.segment(first, size).array() - signal.segment(first, size).mean()) * window.array();
+    const Eigen::VectorXd part =
+        (signal.segment(first, size).array() - signal.segment(first, size).mean()) * window.array();
     Eigen::VectorXcd transform(size);
     fft.fwd(transform, part);
     out += transform.head(size / 2 + 1).cwiseAbs2();
@@ -147,15 +167,16 @@ double motionBandwidth(const MeasuredLog& log) {
   for (Eigen::Index k = 0; k < log.motion.cols(); ++k) {
     if (deviations(k) < 1e-2 * deviations.maxCoeff() || log.rows() < 64) continue;
     const Eigen::Index rows = log.rows() - 2;
-    const Eigen::VectorXd second = log.motion.col(k).tail(rows) - 2 * log.motion.col(k).segment(1, rows) + log.motion.col(k).head(rows);
-    const Eigen::VectorXd power = smoothed(powerSpectrum(second, log.step, 4096));
+    const Eigen::VectorXd second =
+        log.motion.col(k).tail(rows) - 2 * log.motion.col(k).segment(1, rows) + log.motion.col(k).head(rows);
+    const Eigen::VectorXd power = wholeSpectrum(second, log.step), seen = smoothed(power);
     const double noise = whiteNoise(log.motion.col(k));
     double total = 0;
     std::vector<double> sums;
     for (Eigen::Index i = 0; i < power.size(); ++i) {
       const double share = static_cast<double>(i) / static_cast<double>(power.size() - 1);
       const double floor = 2 * log.step * noise * noise * std::pow(2 * std::sin(0.5 * pi * share), 4);
-      total += power(i) > 4 * floor ? power(i) - floor : 0;
+      total += seen(i) > 4 * floor ? power(i) : 0;
       sums.push_back(total);
     }
     const auto at = std::lower_bound(sums.begin(), sums.end(), 0.999 * total) - sums.begin();

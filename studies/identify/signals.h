@@ -41,8 +41,8 @@ Eigen::VectorXd powerSpectrum(const Eigen::VectorXd& signal, double step, int mo
 
 /// A log of one motion again and again as one period of it, and what its channels scatter by.
 struct Periods {
-  int count = 1;                             ///< 1: not periodic
-  Eigen::Index rows = 0;                     ///< of a period
+  int count = 1;                               ///< 1: not periodic
+  Eigen::Index rows = 0;                       ///< of a period
   Eigen::VectorXd motion_noise, effort_noise;  ///< deviation of a single row; empty where there is one period
 };
 

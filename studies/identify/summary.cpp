@@ -32,8 +32,13 @@ Json jsonOf(const MeasuredCause& cause) {
 }
 
 Json jsonOf(const MeasuredNumber& number) {
-  Json out = {{"name", number.name}, {"group", number.group}, {"unit", number.unit}, {"nominal", number.nominal},
-              {"value", number.value}, {"standard_uncertainty", number.uncertainty}, {"interval_95", {number.low, number.high}}};
+  Json out = {{"name", number.name},
+              {"group", number.group},
+              {"unit", number.unit},
+              {"nominal", number.nominal},
+              {"value", number.value},
+              {"standard_uncertainty", number.uncertainty},
+              {"interval_95", {number.low, number.high}}};
   if (number.tolerance >= 0) out["tolerance"] = number.tolerance;
   if (!number.terms.empty()) {
     out["terms"] = Json::array();
@@ -45,9 +50,18 @@ Json jsonOf(const MeasuredNumber& number) {
 }
 
 Json jsonOf(const MotorAgreement& motor) {
-  Json out = {{"unit", motor.unit}, {"effort_rms", motor.effort}, {"E_rms", motor.deviation}, {"E_largest", motor.largest},
-              {"E_largest_at_s", motor.largest_at_s}, {"u_num", motor.u_num}, {"u_input", motor.u_input}, {"u_D", motor.u_D},
-              {"u_val", motor.u_val}, {"within_95", motor.within}, {"sample_noise", motor.noise}, {"fitted_residual_rms", motor.left}};
+  Json out = {{"unit", motor.unit},
+              {"effort_rms", motor.effort},
+              {"E_rms", motor.deviation},
+              {"E_largest", motor.largest},
+              {"E_largest_at_s", motor.largest_at_s},
+              {"u_num", motor.u_num},
+              {"u_input", motor.u_input},
+              {"u_D", motor.u_D},
+              {"u_val", motor.u_val},
+              {"within_95", motor.within},
+              {"sample_noise", motor.noise},
+              {"fitted_residual_rms", motor.left}};
   out["expected_residual_rms"] = motor.expected > 0 ? Json(motor.expected) : Json();
   return out;
 }
@@ -62,7 +76,10 @@ Json listOf(const Items& items) {
 }  // namespace
 
 std::string identifySummary(const IdentifyResult& result) {
-  Json out = {{"scenario", result.scenario.name}, {"log", result.file}, {"verdict", name(result.verdict)}, {"sentence", result.sentence}};
+  Json out = {{"scenario", result.scenario.name},
+              {"log", result.file},
+              {"verdict", name(result.verdict)},
+              {"sentence", result.sentence}};
   out["cause"] = result.causes.empty() ? Json() : jsonOf(result.causes.front());
   out["causes"] = listOf(result.causes);
   out["findings"] = listOf(result.findings);
@@ -72,15 +89,22 @@ std::string identifySummary(const IdentifyResult& result) {
   out["step_s"] = result.step;
   out["duration_s"] = result.duration;
   out["periods"] = result.periods;
-  out["filter"] = {{"motion_bandwidth_Hz", result.bandwidth}, {"motion_cutoff_Hz", result.state_cut}, {"effort_cutoff_Hz", result.effort_cut},
-                   {"instants", result.instants}, {"noise_model_order", result.noise_order}};
-  out["delay"] = {{"value_s", result.delay}, {"standard_uncertainty_s", result.delay_uncertainty},
-                  {"interval_95_s", {result.delay - 1.96 * result.delay_uncertainty, result.delay + 1.96 * result.delay_uncertainty}},
+  out["filter"] = {{"motion_bandwidth_Hz", result.bandwidth},
+                   {"motion_cutoff_Hz", result.state_cut},
+                   {"effort_cutoff_Hz", result.effort_cut},
+                   {"instants", result.instants},
+                   {"noise_model_order", result.noise_order}};
+  out["delay"] = {{"value_s", result.delay},
+                  {"standard_uncertainty_s", result.delay_uncertainty},
+                  {"interval_95_s",
+                   {result.delay - 1.96 * result.delay_uncertainty, result.delay + 1.96 * result.delay_uncertainty}},
                   {"value_samples", result.step > 0 ? result.delay / result.step : 0},
                   {"standard_uncertainty_samples", result.step > 0 ? result.delay_uncertainty / result.step : 0}};
-  out["validation"] = {{"deviation_squares", result.squares}, {"limit", result.squares_limit}, {"score_threshold", result.threshold}};
+  out["validation"] = {
+      {"deviation_squares", result.squares}, {"limit", result.squares_limit}, {"score_threshold", result.threshold}};
   out["motors"] = listOf(result.motors);
-  out["cross_validation"] = {{"from_s", result.validation_from_s}, {"given_over_noise", result.validation_given},
+  out["cross_validation"] = {{"from_s", result.validation_from_s},
+                             {"given_over_noise", result.validation_given},
                              {"fitted_over_noise", result.validation_fitted}};
   out["combinations"] = listOf(result.combinations);
   out["parameters"] = listOf(result.numbers);
@@ -92,8 +116,9 @@ std::string identifySummary(const IdentifyResult& result) {
 std::string identifyTable(const IdentifyResult& result) {
   std::string out = "kind,name,group,unit,nominal,value,standard_uncertainty,low_95,high_95,tolerance,identified\n";
   const auto add = [&out](const char* kind, const MeasuredNumber& n) {
-    out += fmt::format("{},\"{}\",{},{},{},{},{},{},{},{},{}\n", kind, n.name, n.group, n.unit, n.nominal, n.value, n.uncertainty, n.low,
-                       n.high, n.tolerance >= 0 ? fmt::format("{}", n.tolerance) : "", n.identified ? 1 : 0);
+    out += fmt::format("{},\"{}\",{},{},{},{},{},{},{},{},{}\n", kind, n.name, n.group, n.unit, n.nominal, n.value,
+                       n.uncertainty, n.low, n.high, n.tolerance >= 0 ? fmt::format("{}", n.tolerance) : "",
+                       n.identified ? 1 : 0);
   };
   for (const MeasuredNumber& each : result.combinations) add("combination", each);
   for (const MeasuredNumber& each : result.numbers) add("parameter", each);

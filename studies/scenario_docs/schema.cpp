@@ -11,12 +11,18 @@ using Json = nlohmann::ordered_json;
 
 Json schemaOf(const ScenarioTable& table);
 
-Json arrayOf(int least, int most) {
-  const Json number = {{"type", "number"}};
-  const Json stated = {{"type", "object"},
-                       {"properties", {{"value", number}, {"tolerance", number}}},
-                       {"required", {"value", "tolerance"}}};
-  return {{"type", "array"}, {"items", {{"anyOf", {number, stated}}}}, {"minItems", least}, {"maxItems", most}};
+Json arrayOf(int least, int most) { return {{"$ref", "#/$defs/numbers"}, {"minItems", least}, {"maxItems", most}}; }
+
+/// A number, or an array of them, plainly or with how well it is known: required keys are those of the table alone.
+Json definitions() {
+  const Json number = {{"$ref", "#/$defs/number"}};
+  const Json tolerance = {{"anyOf", {Json{{"type", "number"}}, Json{{"type", "array"}}}}};
+  const Json known = {{"required", {"value", "tolerance"}},
+                      {"properties", {{"value", Json::object()}, {"tolerance", tolerance}}}};
+  Json one = {{"type", {"number", "object"}}}, many = {{"type", {"array", "object"}}, {"items", number}};
+  one.update(known);
+  many.update(known);
+  return {{"number", one}, {"numbers", many}};
 }
 
 /// Converts a bound of the table: > 0 means at least the smallest positive number.
@@ -29,24 +35,10 @@ void addBound(const KeyBound& bound, Json& out) {
   if (!bound.zero_too) out["not"] = {{"const", 0}};
 }
 
-/// Of a number, or of an array of them, with how well it is known.
-Json withTolerance(const Json& plain) {
-  const Json tolerance = {{"oneOf",
-                           {Json{{"type", "number"}, {"minimum", 0}},
-                            Json{{"type", "array"}, {"items", {{"type", "number"}, {"minimum", 0}}}}}}};
-  Json out = plain.contains("oneOf") ? plain : Json{{"oneOf", {plain}}};
-  const Json value = plain;
-  out["oneOf"].push_back({{"type", "object"},
-                          {"additionalProperties", false},
-                          {"properties", {{"value", value}, {"tolerance", tolerance}}},
-                          {"required", {"value", "tolerance"}}});
-  return out;
-}
-
-Json plainTypeOf(const ScenarioKey& key) {
+Json typeOf(const ScenarioKey& key) {
   switch (key.type) {
     case KeyType::number:
-      return {{"type", "number"}};
+      return {{"$ref", "#/$defs/number"}};
     case KeyType::integer:
       return {{"type", "integer"}};
     case KeyType::string:
@@ -60,9 +52,9 @@ Json plainTypeOf(const ScenarioKey& key) {
     case KeyType::quaternion:
       return arrayOf(4, 4);
     case KeyType::center:
-      return {{"oneOf", {Json{{"type", "number"}}, arrayOf(3, 3)}}};
+      return {{"anyOf", {Json{{"$ref", "#/$defs/number"}}, arrayOf(3, 3)}}};
     case KeyType::inertia:
-      return {{"oneOf", {arrayOf(3, 3), arrayOf(6, 6)}}};
+      return {{"anyOf", {arrayOf(3, 3), arrayOf(6, 6)}}};
     case KeyType::tables:
       return {{"type", "array"}, {"items", schemaOf(scenarioTable(key.of))}};
     case KeyType::limits:
@@ -70,13 +62,6 @@ Json plainTypeOf(const ScenarioKey& key) {
       break;
   }
   return schemaOf(scenarioTable(key.of));
-}
-
-Json typeOf(const ScenarioKey& key) {
-  const Json plain = plainTypeOf(key);
-  const bool stated = key.type == KeyType::number || key.type == KeyType::vector || key.type == KeyType::center ||
-                      key.type == KeyType::inertia;
-  return stated ? withTolerance(plain) : plain;
 }
 
 std::string description(const ScenarioKey& key) {
@@ -150,7 +135,8 @@ Json schemaOf(const ScenarioTable& table) {
 std::string scenarioSchema() {
   Json out = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
               {"title", "A scenario of ursula"},
-              {"description", scenarioTable("").meaning}};
+              {"description", scenarioTable("").meaning},
+              {"$defs", definitions()}};
   out.update(schemaOf(scenarioTable("")));
   out["properties"]["manipulator"]["properties"]["leg"]["minItems"] = 3;
   out["properties"]["manipulator"]["properties"]["leg"]["maxItems"] = 6;
