@@ -41,7 +41,9 @@ class Identified:
 
 
 def identify(s, measured=None, *, t=None, motion=None, efforts=None, map=(), constants=(), prior=False):
-    """Measured efforts against the model of scenario `s`: is it right within its tolerances, and what the log says of its numbers.
+    """identify(s, measured=None, *, t=None, motion=None, efforts=None, map=(), constants=(), prior=False) -> Identified
+
+    Compares measured efforts with the model of scenario `s`: whether it is right within its tolerances, and its numbers.
 
     `measured` is a CSV file, read as `ursula identify` reads it, with `map` of "NAME=COLUMN" and `constants` of currents, N m/A or N/A; or
     `t` (N,) s, `motion` (N, 6) driven coordinates, rad or m, or (N, 7) poses p, q [w, x, y, z], and `efforts` (N, 6) N m or N are arrays.

@@ -29,11 +29,6 @@ std::string table(const std::string& caption, const std::string& heads, const st
                                      escaped(caption), heads, rows));
 }
 
-/// What is rounding stays a share; what is wrong is in percent.
-std::string errorText(double error) {
-  return error < 1e-6 ? plainNumber(error, 2) : plainNumber(100 * error, 3) + " %";
-}
-
 std::string effortsTable(const SideBySide& found) {
   std::string rows;
   for (const EngineFound& engine : found.engines)
@@ -49,7 +44,7 @@ std::string effortsTable(const SideBySide& found) {
              : table(fmt::format("Efforts against the NOC's at {} instants, over the largest effort, {}; power "
                                  "of the motors, over the largest; gap of the loops as placed; time a pose, as "
                                  "measured here.",
-                                 found.instants, quantity(found.largest_effort, found.unit)),
+                                 found.instants, largestText(found)),
                      head("Engine", false) + head("Recipe", false) + head("Effort off by") + head("Power off by") +
                          head("Gap") + head("Time"),
                      rows);

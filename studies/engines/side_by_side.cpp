@@ -32,13 +32,21 @@ namespace {
 using Instants = std::vector<EngineReference::Here>;
 
 struct Scale {
-  double effort = 0, power = 0;
+  double torque = 0, force = 0, power = 0;
+
+  double of(const Motor& motor) const {
+    const double own = motor.slides() ? force : torque;
+    return own > 0 ? own : std::max(torque, force);
+  }
 };
 
-Scale scaleOf(const Instants& instants) {
+Scale scaleOf(const Instants& instants, const Motors& motors) {
   Scale out;
   for (const EngineReference::Here& here : instants) {
-    out.effort = std::max(out.effort, here.efforts.cwiseAbs().maxCoeff());
+    for (std::size_t m = 0; m < motors.size(); ++m) {
+      double& largest = motors[m].slides() ? out.force : out.torque;
+      largest = std::max(largest, std::abs(here.efforts(static_cast<Eigen::Index>(m))));
+    }
     out.power = std::max(out.power, std::abs(here.efforts.dot(here.q_dot)));
   }
   return out;
@@ -48,6 +56,7 @@ Scale scaleOf(const Instants& instants) {
 bool exceeds(double value, double other) { return !(value <= other); }
 
 RecipeFound askBy(LoopEngine& engine, Recipe recipe, const Instants& instants, const Scale& scale) {
+  const Motors& motors = engine.manipulator().motors();
   RecipeFound out;
   out.recipe = recipe;
   std::vector<double> seconds;
@@ -57,7 +66,8 @@ RecipeFound askBy(LoopEngine& engine, Recipe recipe, const Instants& instants, c
     seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     const Vector6d off = efforts - here.efforts;
     for (int m = 0; m < motor_count; ++m)
-      if (const double error = std::abs(off(m)) / scale.effort; exceeds(error, out.error)) {
+      if (const double error = std::abs(off(m)) / scale.of(motors[static_cast<std::size_t>(m)]);
+          exceeds(error, out.error)) {
         out.error = error;
         out.at = here.motion.t;
         out.motor = m;
@@ -82,8 +92,8 @@ class Asking {
       : scenario_(scenario), options_(options), reference_(scenario) {
     const double duration = scenario.trajectory->duration();
     for (int k = 0; k < options.samples; ++k) instants_.push_back(reference_.at(duration * k / (options.samples - 1)));
-    scale_ = scaleOf(instants_);
-    if (!(scale_.effort > 0))
+    scale_ = scaleOf(instants_, scenario.manipulator->motors());
+    if (!(std::max(scale_.torque, scale_.force) > 0))
       throw std::runtime_error("the motion needs no efforts: there is nothing that errors could be related to");
     moved_ = std::min(options.moved, duration);
   }
@@ -157,8 +167,11 @@ SideBySide engineSideBySide(const Scenario& scenario, const SideBySideOptions& o
   const Motors& motors = scenario.manipulator->motors();
   out.scenario = scenario.name;
   out.instants = options.samples;
-  out.largest_effort = asking.scale().effort;
-  out.unit = std::all_of(motors.begin(), motors.end(), [](const Motor& motor) { return motor.slides(); }) ? "N" : "N m";
+  const auto slides = [](const Motor& motor) { return motor.slides(); };
+  const bool all_slide = std::all_of(motors.begin(), motors.end(), slides);
+  out.largest_effort = all_slide ? asking.scale().force : asking.scale().torque;
+  out.unit = all_slide ? "N" : "N m";
+  if (!all_slide) out.largest_force = asking.scale().force;
   out.moved = asking.moved();
   for (const LoopEngineKind* kind : asked) {
     if (options.told)

@@ -12,7 +12,7 @@ namespace ursula {
 /// Efforts by one recipe, held against the NOC's.
 struct RecipeFound {
   Recipe recipe = Recipe::exact;
-  double error = 0;    ///< the largest deviation, over the largest effort of the motion
+  double error = 0;    ///< the largest deviation, over the largest effort of the motion with that motor's unit
   double at = 0;       ///< where that is, s
   int motor = 0;       ///< and on which motor, 0-based
   double power = 0;    ///< the largest deviation of the motors' power, over their largest power; NaN at rest
@@ -47,8 +47,9 @@ struct SideBySide {
   std::string scenario;
   int instants = 0;
   double largest_effort = 0;
-  std::string unit;  ///< "N m", or "N" where all motors slide
-  double moved = 0;  ///< of the motion in time, from its start, s
+  std::string unit;          ///< "N m", or "N" if all motors slide
+  double largest_force = 0;  ///< N, beside a largest torque; 0 unless there are motors of both kinds
+  double moved = 0;          ///< of the motion in time, from its start, s
   std::vector<EngineFound> engines;
   std::vector<const LoopEngineKind*> missing;  ///< in this build
 };
@@ -73,6 +74,10 @@ std::string sentence(const EngineFound& engine);
 /// Over all engines.
 std::string sentence(const SideBySide& found);
 std::string sentenceOfMissing(const LoopEngineKind& kind);
+/// Returns "12 %", or the share itself if it is below a millionth.
+std::string errorText(double error);
+/// Returns "203 N", or "4.14 kN·m and 812 N" for motors of both kinds.
+std::string largestText(const SideBySide& found);
 /// "loops left open".
 const char* inWords(Recipe recipe);
 

@@ -1,10 +1,12 @@
 // What was found, for people and for programs.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "report/quantity.h"
@@ -16,8 +18,8 @@ namespace {
 using nlohmann::ordered_json;
 using report::plainNumber, report::quantity;
 
-/// "12 %"; of what is rounding alone, a power of ten.
-std::string percent(double share) { return plainNumber(100 * share, 3) + " %"; }
+/// A call that is off by less is rounding, not a mistake.
+constexpr double as_good = 1e-10;
 
 std::string called(const EngineFound& engine) {
   return engine.version.empty() ? engine.kind->name : fmt::format("{} {}", engine.kind->name, engine.version);
@@ -85,33 +87,52 @@ const char* inWords(Recipe recipe) {
   return words.at(static_cast<std::size_t>(recipe));
 }
 
+std::string largestText(const SideBySide& found) {
+  return quantity(found.largest_effort, found.unit) +
+         (found.largest_force > 0 ? " and " + quantity(found.largest_force, "N") : "");
+}
+
+std::string errorText(double error) {
+  return error < 1e-6 ? plainNumber(error, 2) : plainNumber(100 * error, 3) + " %";
+}
+
 std::string sentence(const EngineFound& engine) {
   if (!engine.refused.empty()) return fmt::format("{} cannot be asked: {}.", called(engine), engine.refused);
   const LoopEngineKind& kind = *engine.kind;
+  const double exact = engine.of(Recipe::exact).error, obvious = engine.of(kind.obvious).error;
+  const std::string right =
+      fmt::format("{}: {}; that is off by {} of the largest effort", called(engine), kind.exact_call, errorText(exact));
+  if (obvious < as_good) return fmt::format("{}. On this motion {} is as good.", right, kind.obvious_call);
   const std::string hard = kind.has_own_inverse ? fmt::format(", with the loops at their hardest by {}",
-                                                              percent(engine.of(Recipe::own_inverse_hard).error))
+                                                              errorText(engine.of(Recipe::own_inverse_hard).error))
                                                 : "";
-  return fmt::format("{}: {}; that is off by {} of the largest effort, {} by {}{}.", called(engine), kind.exact_call,
-                     plainNumber(engine.of(Recipe::exact).error, 2), kind.obvious_call,
-                     percent(engine.of(kind.obvious).error), hard);
+  return fmt::format("{}, {} by {}{}.", right, kind.obvious_call, errorText(obvious), hard);
 }
 
 std::string sentence(const SideBySide& found) {
-  double exact = 0, least = 0, most = 0;
+  double exact = 0, least = std::numeric_limits<double>::infinity(), most = 0;
   int asked = 0;
+  std::vector<std::string> with_users;
   for (const EngineFound& engine : found.engines) {
     if (!engine.refused.empty()) continue;
-    const double obvious = engine.of(engine.kind->obvious).error;
     exact = std::max(exact, engine.of(Recipe::exact).error);
-    least = asked == 0 ? obvious : std::min(least, obvious);
-    most = std::max(most, obvious);
     ++asked;
+    if (engine.version.empty()) continue;  // this program's own formulation
+    const double obvious = engine.of(engine.kind->obvious).error;
+    least = std::min(least, obvious);
+    most = std::max(most, obvious);
+    with_users.emplace_back(engine.kind->name);
   }
   if (asked == 0) return "No engine could be asked about this machine.";
-  return fmt::format("By the exact recipe {} off by {} of the largest effort at most; what {} users call first, by {}.",
-                     asked == 1 ? std::string("the engine is") : report::inWords(asked) + " engines are",
-                     plainNumber(exact, 2), asked == 1 ? "its" : "their",
-                     least == most ? percent(most) : percent(least) + " to " + percent(most));
+  std::string out = fmt::format("By the exact recipe {} off by at most {} of the largest effort",
+                                asked == 1 ? std::string("the engine is") : report::inWords(asked) + " engines are",
+                                errorText(exact));
+  if (with_users.empty()) return out + ".";
+  const std::string last = with_users.back();
+  with_users.pop_back();
+  return fmt::format("{}; what users of {}{}{} call first is off by {}{}.", out, fmt::join(with_users, ", "),
+                     with_users.empty() ? "" : " and ", last, errorText(least),
+                     least == most ? "" : " to " + errorText(most));
 }
 
 std::string sentenceOfMissing(const LoopEngineKind& kind) {
@@ -120,7 +141,7 @@ std::string sentenceOfMissing(const LoopEngineKind& kind) {
 
 std::string sideBySideText(const SideBySide& found) {
   std::string out = fmt::format("{}: {} instants, largest effort {}\n{}\n", found.scenario, found.instants,
-                                quantity(found.largest_effort, found.unit), sentence(found));
+                                largestText(found), sentence(found));
   for (const EngineFound& engine : found.engines) {
     out += fmt::format("\n{}\n", called(engine));
     if (engine.recipes.empty()) continue;
@@ -143,9 +164,15 @@ std::string sideBySideJson(const SideBySide& found) {
   for (const LoopEngineKind* kind : found.missing)
     missing.push_back({{"name", kind->name}, {"package", kind->package}});
   const ordered_json document = {
-      {"scenario", found.scenario}, {"instants", found.instants}, {"largest_effort", found.largest_effort},
-      {"unit", found.unit},         {"moved_s", found.moved},     {"sentence", sentence(found)},
-      {"engines", engines},         {"missing", missing}};
+      {"scenario", found.scenario},
+      {"instants", found.instants},
+      {"largest_effort", found.largest_effort},
+      {"unit", found.unit},
+      {"largest_force_N", found.largest_force > 0 ? ordered_json(found.largest_force) : ordered_json()},
+      {"moved_s", found.moved},
+      {"sentence", sentence(found)},
+      {"engines", engines},
+      {"missing", missing}};
   return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -55,7 +55,7 @@ TEST(CompareVerb, changesNothingOfWhatItReads) {
                            "--junit dangling.xml", "--out hard.csv"}) {
     const UrsulaRun run = ursula(std::string("compare b.csv a ") + into);
     EXPECT_EQ(run.exit_code, 2) << into;
-    EXPECT_THAT(run.err, HasSubstr("is in a, which is compared, expected another folder"));
+    EXPECT_THAT(run.err, HasSubstr("is inside a, which is compared, expected another folder"));
   }
   EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "a/timeseries.csv"), "t_s,x\n0,1\n1,2\n");
   EXPECT_EQ(ursula("compare b.csv a --junit new.xml").exit_code, 0);

@@ -83,7 +83,7 @@ TEST(CheckVerb, exitsWithTwoForErrorsOfAnyScenarioAndNamesThemAll) {
   EXPECT_THAT(run.err, AllOf(HasSubstr("key.toml:5:1: error: unknown key 'weight'"),
                              ContainsRegex("far.toml:44:1: error: the motion cannot be made: leg [1-6] is out of reach "
                                            "at t = 0 s: .* it misses by [0-9.]+ m")));
-  EXPECT_THAT(run.out, HasSubstr("good.toml: can be read"));
+  EXPECT_THAT(run.out, HasSubstr("good.toml: the scenario and its motion are valid"));
   EXPECT_EQ(ursula("check good.toml").exit_code, 0);
   EXPECT_EQ(ursula("check good.toml key.toml --picture x.svg").exit_code, 2);
 }

@@ -143,7 +143,7 @@ TEST(SuiteRun, badUsageExitsWith2AndWritesNothing) {
       {{"a.toml", "b.toml"}, "b.toml: error: name = 'same' is also that of a.toml"},
       {{"empty"}, "empty: error: no scenario in this folder"},
       {{"a.toml", "c.toml", "--jobs", "0"}, "--jobs"},
-      {{"a.toml", "c.toml", "--torques", "t.csv"}, "--torques judges one motion"},
+      {{"a.toml", "c.toml", "--torques", "t.csv"}, "--torques: got 2 scenarios, expected one"},
       {{"a.toml", "c.toml", "--out", "file"}, "expected a folder"},
       {{"none.toml"}, "none.toml"},
       {{}, "scenario is required"},

@@ -69,7 +69,7 @@ TEST(Terminal, aScenarioMayComeFromStandardInput) {
   EXPECT_EQ(bad.exit_code, 2);
   EXPECT_THAT(bad.err, StartsWith("<stdin>:5:1: error: "));
   EXPECT_THAT(ursula("validate - - <a.toml").err, HasSubstr("standard input can be read once"));
-  EXPECT_THAT(ursula("validate - --solver true <a.toml").err, HasSubstr("expected a file, not -"));
+  EXPECT_THAT(ursula("validate - --solver true <a.toml").err, HasSubstr("got - as the scenario, expected a file"));
 }
 
 TEST(Terminal, aFolderIsNotStandardOutput) {

@@ -219,6 +219,26 @@ TEST(Engines, sentencesSayTheNumbersFound) {
   }
 }
 
+TEST(Engines, aCallThatIsRightOnAMotionIsNotCalledWrong) {
+  const SideBySide found = foundIn(shipped("hold"));
+  int as_good = 0;
+  for (const EngineFound& engine : found.engines) {
+    const bool is_good = engine.of(engine.kind->obvious).error < 1e-12;
+    EXPECT_EQ(sentence(engine).find("is as good") != std::string::npos, is_good) << engine.kind->name;
+    as_good += is_good;
+  }
+  EXPECT_EQ(as_good, 1) << "at rest nothing is lost with the rate of J";
+  EXPECT_THAT(sentence(found), Not(HasSubstr("e-"))) << "engines that have users are all wrong";
+}
+
+TEST(Engines, errorsAreSharesOfTheLargestEffortOfTheirUnit) {
+  const SideBySide found = foundIn(shipped("mixture"));
+  EXPECT_EQ(found.unit, "N m");
+  EXPECT_GT(found.largest_force, 0);
+  EXPECT_THAT(largestText(found), HasSubstr(" and "));
+  EXPECT_EQ(foundIn(shipped("hexaglide")).largest_force, 0);
+}
+
 TEST(Engines, sayWhatIsMissingOrRefused) {
   for (const LoopEngineKind& kind : loopEngines())
     if (*kind.package != '\0') {

@@ -11,4 +11,4 @@ add_executable(identify_tests
 target_link_libraries(identify_tests PRIVATE
   test_support test_components ursula::simbody_loop nlohmann_json::nlohmann_json fmt::fmt GTest::gmock GTest::gtest_main)
 target_compile_definitions(identify_tests PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
-gtest_discover_tests(identify_tests)
+ursula_test_suites(identify_tests)

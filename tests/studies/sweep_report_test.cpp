@@ -128,7 +128,7 @@ TEST(SweepSummary, OfACompleteGridIsExact) {
   EXPECT_TRUE(force.relations[1].acts);
   ASSERT_EQ(summary.maps.size(), 1U);
   EXPECT_EQ(summary.maps[0].values[1 * 5 + 2], 100 + 3 * 2 + 1);
-  EXPECT_THAT(sweepPage(summary), HasSubstr("Exact main effects"));
+  EXPECT_THAT(sweepPage(summary), HasSubstr("exact main effects"));
 }
 
 TEST(SweepSummary, OfAGridWithGapsHasNoIndices) {

@@ -33,7 +33,8 @@ void replaceWord(std::string_view word, const std::string& noun, std::string& te
     std::string with = noun;
     if (std::isupper(static_cast<unsigned char>(word[0])) != 0)
       with[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(with[0])));
-    const bool vowel = noun[0] == 'e' && at >= 3 && text.compare(at - 3, 3, " a ") == 0;
+    const bool vowel = noun[0] == 'e' && at >= 2 && text[at - 1] == ' ' && isOneOf("aA", text[at - 2]) &&
+                       (at == 2 || !isLetter(text[at - 3]));
     text.replace(at, word.size(), with);
     if (vowel) text.insert(at - 1, "n");
   }

@@ -137,7 +137,7 @@ TEST(SweepDatabase, refusesThoseOfOthersAndLeavesThemAsTheyAre) {
               HasSubstr("is empty: no sweep has begun"));
   EXPECT_EQ(Sqlite(foreign, Sqlite::Access::read).number("SELECT y FROM x"), 1);
   const std::filesystem::path text = folder.write("text.db", "this is a text, and long enough that it is one\n");
-  EXPECT_THAT(refused(text), HasSubstr("no SQLite database"));
+  EXPECT_THAT(refused(text), HasSubstr("not an SQLite database"));
   EXPECT_THAT(TemporaryFolder::read(text), HasSubstr("this is a text"));
   EXPECT_THAT(refused(text / "s.db"), HasSubstr("cannot be opened or created"));
 }
