@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -19,10 +20,29 @@ using namespace identification;
 
 constexpr double most_delay = 0.25, delay_share = 0.1, settled_delay = 0.002;
 constexpr Eigen::Index fewest_instants = 24;
+constexpr double known_number = 0.05, known_offset = 0.01;
 /// How much larger than what noise explains the fitted model's residual may be.
 constexpr double most_left = 2;
 /// Of all noise, beyond which that of the motion is more than that of the efforts.
 constexpr double most_of_motion = 0.7;
+
+/// The delay that is left, s, and its standard uncertainty. Numbers are taken to be within a twentieth of their size of
+/// the scenario's: a fit of all of them freely trades the delay for friction.
+std::pair<double, double> delayLeft(const SquareRoot& model, const Comparison& comparison) {
+  const Eigen::Index count = comparison.further(), delay = comparison.delay();
+  Eigen::VectorXd known(count);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const double share = j < comparison.linear ? known_number : j < delay ? known_offset : 1;
+    known(j) = share * comparison.directions[static_cast<std::size_t>(j)].plausible;
+  }
+  const Eigen::MatrixXd columns = model.R.leftCols(count) * known.asDiagonal();
+  Eigen::MatrixXd information = columns.transpose() * columns;
+  information.diagonal().head(delay).array() += 1;
+  const Eigen::LDLT<Eigen::MatrixXd> factors(information);
+  const Eigen::VectorXd found = factors.solve(columns.transpose() * model.z);
+  const Eigen::VectorXd variance = factors.solve(Eigen::VectorXd::Unit(count, delay));
+  return {found(delay) * known(delay), std::sqrt(std::max(variance(delay), 0.0)) * known(delay)};
+}
 
 /// One log against one scenario, step by step.
 class Identification {
@@ -112,13 +132,10 @@ class Identification {
       whitened_ = whiten(comparison);
       root_ = squareRootOf(whitened_.rows);
       base_ = fitBase(root_, comparison.directions, comparison.further());
-      const auto found = std::find_if(base_.parameters.begin(), base_.parameters.end(), [&](const BaseParameter& each) {
-        return each.terms.front().first == comparison.delay();
-      });
-      if (found == base_.parameters.end()) return;
-      out_.delay_uncertainty = found->deviation;
-      const double reach = 0.5 / modelled.filtered().plan().state_cut, step = std::clamp(found->value, -reach, reach);
-      if (std::abs(step) < settled_delay * std::min(found->deviation + 1e-9, log_.step) || pass == 5) return;
+      const auto [left, deviation] = delayLeft(root_, comparison);
+      out_.delay_uncertainty = deviation;
+      const double reach = 0.5 / modelled.filtered().plan().state_cut, step = std::clamp(left, -reach, reach);
+      if (std::abs(step) < settled_delay * std::min(deviation + 1e-9, log_.step) || pass == 5) return;
       out_.delay = std::clamp(out_.delay + step, coarse - 2 * reach, coarse + 2 * reach);
     }
   }
