@@ -107,7 +107,7 @@ TEST_F(MeasuredLogs, refusalsHaveTheirPlaceAndWhatIsMissing) {
   std::string back = rows(own(), ",");
   back.replace(back.find("0.020000"), 8, "0.010000");
   EXPECT_THAT(refusal(back), testing::AllOf(HasSubstr("log.csv:4"), HasSubstr("increasing")));
-  EXPECT_THAT(refusal(rows(own(), ","), {"phi_9_rad=x"}), HasSubstr("--map"));
+  EXPECT_THAT(refusal(rows(own(), ","), {"phi_9_rad=tau_1_Nm"}), HasSubstr("--map"));
 }
 
 }  // namespace
