@@ -78,6 +78,6 @@ for _each in _classes:
     _each.__module__ = __name__
 identify.__module__ = __name__
 _errors.put_in_words(_classes)
-for _each in (check, compare, import_model, map, read_scenario, scenario, simulate, validate):
+for _each in (check, compare, excite, import_model, map, read_scenario, scenario, simulate, validate):
     globals()[_each.__name__] = _errors.in_words(_each, _each.__name__)
 del _each, _classes

@@ -4,6 +4,8 @@ import json
 import os
 from html import escape
 
+import numpy as np
+
 from . import _ursula
 from ._notebook import _verdict
 
@@ -49,6 +51,19 @@ def identify(s, measured=None, *, t=None, motion=None, efforts=None, map=(), con
     `t` (N,) s, `motion` (N, 6) driven coordinates, rad or m, or (N, 7) poses p, q [w, x, y, z], and `efforts` (N, 6) N m or N are arrays.
     `prior`: tolerances of the scenario are what is known beforehand. Raises ValueError for a log that cannot be read or followed.
     """
+    if not isinstance(s, _ursula.Scenario):
+        raise TypeError(f"identify: s is of type {type(s).__name__}, expected a Scenario")
     if measured is not None:
-        return Identified(_ursula._identify_file(s, os.fspath(measured), list(map), list(constants), prior))
-    return Identified(_ursula._identify_arrays(s, t, motion, efforts, prior))
+        columns, currents = [str(each) for each in map], [float(each) for each in constants]
+        return Identified(_ursula._identify_file(s, os.fsdecode(measured), columns, currents, bool(prior)))
+    arrays = [_numbers(name, x) for name, x in (("t", t), ("motion", motion), ("efforts", efforts))]
+    return Identified(_ursula._identify_arrays(s, *arrays, bool(prior)))
+
+
+def _numbers(name, x):
+    try:
+        if x is not None:
+            return np.ascontiguousarray(x, dtype=float)
+    except (TypeError, ValueError):
+        pass
+    raise TypeError(f"identify: {name} is of type {type(x).__name__}, expected an array of numbers, or measured a file")
