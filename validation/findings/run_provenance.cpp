@@ -14,7 +14,7 @@ namespace {
 
 const char* formulationInWords(const std::string& formulation) {
   if (formulation == "noc") return "noc: T formed, efforts by (37), accelerations by (36)";
-  return formulation == "fast" ? "fast: the kernels that users call" : "external: a solver or torque file of the user";
+  return formulation == "fast" ? "fast: the kernels that users call" : "external: a solver or file of the user";
 }
 
 }  // namespace
