@@ -10,6 +10,7 @@ namespace ursula::identification {
 namespace {
 
 constexpr int most_order = 6;
+constexpr double most_memory = 0.5;  ///< sum of an autoregression's coefficients
 constexpr double visible = 0.1, train_share = 0.7, rounding = 1e-9;
 
 /// [columns | measured − model] of motor k.
@@ -51,7 +52,8 @@ Eigen::VectorXd autoregression(const Eigen::VectorXd& x, const std::vector<Segme
   return found;
 }
 
-/// The order by Akaike's criterion, the same for all motors.
+/// The order by Akaike's criterion, the same for all motors. One whose noise would drift has more than noise in it:
+/// what a wrong delay or model leaves is smooth, and a fit of its differences would no longer see it.
 int orderOf(const Eigen::MatrixXd& residual, const std::vector<Segment>& segments) {
   const auto rows = static_cast<double>(residual.rows());
   const int most = std::min(most_order, static_cast<int>(rows / 40));
@@ -59,12 +61,13 @@ int orderOf(const Eigen::MatrixXd& residual, const std::vector<Segment>& segment
   int found = 0;
   for (int order = 0; order <= most; ++order) {
     double criterion = 2 * motor_count * order;
+    bool drifts = false;
     for (int k = 0; k < motor_count; ++k) {
       double left = 0;
-      autoregression(residual.col(k), segments, order, left);
+      drifts = drifts || autoregression(residual.col(k), segments, order, left).sum() > most_memory;
       criterion += rows * std::log(std::max(left, 1e-300));
     }
-    if (criterion < best) {
+    if (criterion < best && !drifts) {
       best = criterion;
       found = order;
     }

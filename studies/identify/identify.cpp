@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -20,29 +19,10 @@ using namespace identification;
 
 constexpr double most_delay = 0.25, delay_share = 0.1, settled_delay = 0.002;
 constexpr Eigen::Index fewest_instants = 24;
-constexpr double known_number = 0.05, known_offset = 0.01;
 /// How much larger than what noise explains the fitted model's residual may be.
 constexpr double most_left = 2;
 /// Of all noise, beyond which that of the motion is more than that of the efforts.
 constexpr double most_of_motion = 0.7;
-
-/// The delay that is left, s, and its standard uncertainty. Numbers are taken to be within a twentieth of their size of
-/// the scenario's: a fit of all of them freely trades the delay for friction.
-std::pair<double, double> delayLeft(const SquareRoot& model, const Comparison& comparison) {
-  const Eigen::Index count = comparison.further(), delay = comparison.delay();
-  Eigen::VectorXd known(count);
-  for (Eigen::Index j = 0; j < count; ++j) {
-    const double share = j < comparison.linear ? known_number : j < delay ? known_offset : 1;
-    known(j) = share * comparison.directions[static_cast<std::size_t>(j)].plausible;
-  }
-  const Eigen::MatrixXd columns = model.R.leftCols(count) * known.asDiagonal();
-  Eigen::MatrixXd information = columns.transpose() * columns;
-  information.diagonal().head(delay).array() += 1;
-  const Eigen::LDLT<Eigen::MatrixXd> factors(information);
-  const Eigen::VectorXd found = factors.solve(columns.transpose() * model.z);
-  const Eigen::VectorXd variance = factors.solve(Eigen::VectorXd::Unit(count, delay));
-  return {found(delay) * known(delay), std::sqrt(std::max(variance(delay), 0.0)) * known(delay)};
-}
 
 /// One log against one scenario, step by step.
 class Identification {
@@ -124,15 +104,16 @@ class Identification {
     return std::move(out_);
   }
 
-  /// Shifts the efforts until the fit finds no delay more.
+  /// Shifts the efforts until no delay is left.
   void settleDelay(const ModelledLog& modelled, double coarse, Comparison& comparison) {
     out_.delay = coarse;
+    const ManipulatorParameters& machine = scenario_.manipulator->parameters();
     for (int pass = 0; pass < 6; ++pass) {
       modelled.compare(out_.delay, comparison);
       whitened_ = whiten(comparison);
       root_ = squareRootOf(whitened_.rows);
       base_ = fitBase(root_, comparison.directions, comparison.further());
-      const auto [left, deviation] = delayLeft(root_, comparison);
+      const auto [left, deviation] = delayLeft(root_, comparison, suspectsOf(root_, comparison, machine, tolerances_));
       out_.delay_uncertainty = deviation;
       const double reach = 0.5 / modelled.filtered().plan().state_cut, step = std::clamp(left, -reach, reach);
       if (std::abs(step) < settled_delay * std::min(deviation + 1e-9, log_.step) || pass == 5) return;

@@ -44,6 +44,18 @@ class Allowance {
   Eigen::LDLT<Eigen::MatrixXd> factors_;
 };
 
+/// Columns of what the stated tolerances let numbers be, each of deviation 1.
+Eigen::MatrixXd withinTolerances(const std::vector<Suspect>& suspects, Eigen::Index rows) {
+  std::vector<Eigen::VectorXd> allowed;
+  for (const Suspect& each : suspects) {
+    const bool together = each.direction.path.compare(0, 24, "manipulator.leg_defaults") == 0;
+    if (each.tolerance > 0 && !together) allowed.emplace_back(each.column * each.tolerance);
+  }
+  Eigen::MatrixXd out(rows, static_cast<Eigen::Index>(allowed.size()));
+  for (std::size_t j = 0; j < allowed.size(); ++j) out.col(static_cast<Eigen::Index>(j)) = allowed[j];
+  return out;
+}
+
 /// Orthonormal columns that span those of `x`.
 Eigen::MatrixXd basisOf(const Eigen::MatrixXd& x) {
   Eigen::VectorXd scale = x.colwise().norm().transpose();
@@ -57,6 +69,11 @@ Eigen::MatrixXd basisOf(const Eigen::MatrixXd& x) {
 bool isOutside(DirectionKind kind) {
   return kind == DirectionKind::elastic || kind == DirectionKind::backlash || kind == DirectionKind::load_friction ||
          kind == DirectionKind::encoder || kind == DirectionKind::number || kind == DirectionKind::scale;
+}
+
+/// No joint has a compliance, a backlash or a friction below zero.
+bool cannotBeNegative(DirectionKind kind) {
+  return kind == DirectionKind::elastic || kind == DirectionKind::backlash || kind == DirectionKind::load_friction;
 }
 
 struct Score {
@@ -103,7 +120,9 @@ void findCauses(const std::vector<const Suspect*>& suspects, Allowance& allowanc
   const Eigen::MatrixXd columns = columnsOf(suspects, z.size());
   const double all = z.dot(allowance(z).col(0));
   for (std::size_t found = 0; found < most_causes; ++found) {
-    const std::vector<Score> scores = scoresOf(columns, allowance(columns), z);
+    std::vector<Score> scores = scoresOf(columns, allowance(columns), z);
+    for (std::size_t j = 0; j < scores.size(); ++j)
+      if (cannotBeNegative(suspects[j]->direction.kind) && scores[j].change < 0) scores[j] = {};
     const std::size_t best = largestOf(scores);
     const Score& score = scores[best];
     if (!(std::abs(score.score) > threshold)) return;
@@ -176,18 +195,24 @@ std::vector<Suspect> suspectsOf(const SquareRoot& model, const Comparison& compa
   return out;
 }
 
+std::pair<double, double> delayLeft(const SquareRoot& model, const Comparison& comparison,
+                                    const std::vector<Suspect>& suspects) {
+  const Allowance allowance(withinTolerances(suspects, model.R.rows()));
+  const Eigen::MatrixXd column = model.R.col(comparison.delay());
+  const Score score = scoresOf(column, allowance(column), model.z).front();
+  return {score.change, score.deviation};
+}
+
 Judgement judge(const SquareRoot& model, const Comparison& comparison, const std::vector<Suspect>& suspects,
                 double delay_deviation, Eigen::Index noise_freedom) {
-  std::vector<Eigen::VectorXd> allowed = {model.R.col(comparison.delay()) * delay_deviation};
   std::vector<const Suspect*> all, outside;
   for (const Suspect& each : suspects) {
-    const bool together = each.direction.path.compare(0, 24, "manipulator.leg_defaults") == 0;
-    if (each.tolerance > 0 && !together) allowed.push_back(each.column * each.tolerance);
     all.push_back(&each);
     if (isOutside(each.direction.kind)) outside.push_back(&each);
   }
-  Eigen::MatrixXd columns(model.R.rows(), static_cast<Eigen::Index>(allowed.size()));
-  for (std::size_t j = 0; j < allowed.size(); ++j) columns.col(static_cast<Eigen::Index>(j)) = allowed[j];
+  const Eigen::MatrixXd within = withinTolerances(suspects, model.R.rows());
+  Eigen::MatrixXd columns(model.R.rows(), within.cols() + 1);
+  columns << model.R.col(comparison.delay()) * delay_deviation, within;
   Judgement out;
 
   // What neither masses nor inertias nor friction nor offsets can be, whatever they are.

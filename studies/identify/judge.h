@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "studies/identify/estimate.h"
@@ -37,6 +38,11 @@ struct Judgement {
 /// Every number of the machine, and of the log; numbers that are the same on all legs also together.
 std::vector<Suspect> suspectsOf(const SquareRoot& model, const Comparison& comparison,
                                 const ManipulatorParameters& machine, const NumberTolerances& tolerances);
+
+/// The delay that is left, s, and its standard uncertainty. The numbers are the scenario's within their tolerances: a
+/// free fit of all of them trades the delay for masses and friction.
+std::pair<double, double> delayLeft(const SquareRoot& model, const Comparison& comparison,
+                                    const std::vector<Suspect>& suspects);
 
 /// Deviations are right where tolerances, the delay's uncertainty and noise let them be so in 95 % of all cases.
 Judgement judge(const SquareRoot& model, const Comparison& comparison, const std::vector<Suspect>& suspects,
