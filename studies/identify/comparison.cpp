@@ -149,21 +149,19 @@ Comparison ModelledLog::directions(bool with_further) const {
   return out;
 }
 
-/// By how much efforts change when the motion passes its low pass a second time, in the longest stretch of the log:
-/// the first time did the like.
+/// By how much efforts change with a higher cut-off of the motion's low pass, in the longest stretch of the log: what
+/// is beyond the cut-off falls off, and so the next octave has about what is lost.
 Vector6d ModelledLog::numericalError() const {
   constexpr Eigen::Index most = 3000;
-  const Kernel again(filtered_.plan().state_cut, filtered_.step());
   const auto longest =
       std::max_element(filtered_.segments().begin(), filtered_.segments().end(),
                        [](const Segment& a, const Segment& b) { return a.end - a.first < b.end - b.first; });
   std::vector<Eigen::Index> centers;
-  for (Eigen::Index i = longest->first + again.half; i + again.half < longest->end && centers.size() < most; ++i)
-    centers.push_back(i);
+  for (Eigen::Index i = longest->first; i < longest->end && centers.size() < most; ++i) centers.push_back(i);
   if (centers.empty()) return Vector6d::Zero();
   Eigen::MatrixXd error(static_cast<Eigen::Index>(centers.size()), motor_count);
   for (std::size_t row = 0; row < centers.size(); ++row) {
-    const MeasuredState state = filtered_.smoothedState(again, centers[row]);
+    const MeasuredState state = filtered_.sharperState(centers[row]);
     const auto at = static_cast<std::size_t>(centers[row]);
     const auto motion = has_poses_ ? std::optional(motionOfPoses(state)) : chain_.follow(state, motions_[at]);
     error.row(static_cast<Eigen::Index>(row)).setZero();

@@ -8,6 +8,8 @@ namespace {
 
 /// The low passes may take so much of an open log at each end.
 constexpr double end_share = 0.12, of_bandwidth = 4, enough_of_bandwidth = 2.5, of_rate = 0.18, support = 3.6;
+/// Cut-off that shows what the motion's low pass takes, over its own.
+constexpr double sharper = 1.6;
 /// Instants that are wanted, so that noise can be told from what is fitted.
 constexpr double wanted_instants = 150;
 /// Of the largest rate, below which a machine rests.
@@ -65,7 +67,8 @@ FilteredLog::FilteredLog(const MeasuredLog& log, const FilterPlan& plan, double 
     : log_(log),
       plan_(plan),
       first_(plan.state_cut, log.step),
-      second_(plan.effort_cut, log.step * static_cast<double>(plan.coarse)) {
+      second_(plan.effort_cut, log.step * static_cast<double>(plan.coarse)),
+      sharper_(std::min(sharper * plan.state_cut, of_rate / log.step), log.step) {
   if (plan.ends != Ends::open) {
     before_ = first_.half + second_.half * plan.coarse + 1 + static_cast<Eigen::Index>(std::ceil(reach / log.step));
     log_.motion = carriedOn(log.motion, before_, plan.ends);
@@ -123,11 +126,11 @@ MeasuredState FilteredLog::state(Eigen::Index i) const {
   return {value_.row(i).transpose(), rate_.row(i).transpose(), acceleration_.row(i).transpose()};
 }
 
-MeasuredState FilteredLog::smoothedState(const Kernel& kernel, Eigen::Index i) const {
-  const auto at = [&](const Eigen::MatrixXd& x) -> Eigen::VectorXd {
-    return Kernel::apply(kernel.value, x, {i}).row(0).transpose();
+MeasuredState FilteredLog::sharperState(Eigen::Index i) const {
+  const auto by = [&](const Eigen::VectorXd& weights) -> Eigen::VectorXd {
+    return Kernel::apply(weights, log_.motion, {centers_[static_cast<std::size_t>(i)]}).row(0).transpose();
   };
-  return {at(value_), at(rate_), at(acceleration_)};
+  return {by(sharper_.value), by(sharper_.rate), by(sharper_.acceleration)};
 }
 
 Vector6d FilteredLog::load(Eigen::Index i) const {

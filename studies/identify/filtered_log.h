@@ -43,8 +43,8 @@ class FilteredLog {
   double step() const { return log_.step * static_cast<double>(plan_.coarse); }
   double time(Eigen::Index i) const;
   MeasuredState state(Eigen::Index i) const;
-  /// Smoothed once more, by a kernel for the instants' step.
-  MeasuredState smoothedState(const Kernel& kernel, Eigen::Index i) const;
+  /// The same by a low pass with a higher cut-off.
+  MeasuredState sharperState(Eigen::Index i) const;
   Vector6d load(Eigen::Index i) const;
   const std::vector<Segment>& segments() const { return segments_; }
   /// Efforts at the motion's instants.
@@ -67,7 +67,7 @@ class FilteredLog {
 
   MeasuredLog log_;  ///< of a period with its ends carried on
   FilterPlan plan_;
-  Kernel first_, second_;
+  Kernel first_, second_, sharper_;
   Eigen::Index before_ = 0;  ///< rows carried on before the first
   std::vector<Eigen::Index> centers_, settled_;
   std::vector<Segment> segments_, settled_segments_;
