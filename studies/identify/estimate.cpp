@@ -53,10 +53,11 @@ Eigen::VectorXd autoregression(const Eigen::VectorXd& x, const std::vector<Segme
 }
 
 /// The order by Akaike's criterion, the same for all motors. One whose noise would drift has more than noise in it:
-/// what a wrong delay or model leaves is smooth, and a fit of its differences would no longer see it.
+/// what a wrong delay or model leaves is smooth, and a fit of its differences would no longer see it. The residual of
+/// few instants has lost what the numbers took, and tells of no order.
 int orderOf(const Eigen::MatrixXd& residual, const std::vector<Segment>& segments) {
   const auto rows = static_cast<double>(residual.rows());
-  const int most = std::min(most_order, static_cast<int>(rows / 40));
+  const int most = std::min(most_order, static_cast<int>(rows / 200));
   double best = std::numeric_limits<double>::infinity();
   int found = 0;
   for (int order = 0; order <= most; ++order) {
