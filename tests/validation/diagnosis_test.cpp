@@ -7,8 +7,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "tests/support/motions.h"
 #include "tests/validation/external_torques.h"
+#include "tests/validation/scenario_files.h"
 
 namespace ursula {
 namespace {
@@ -163,6 +166,25 @@ TEST(Diagnosis, namesAFormulaAsPrinted) {
       torquesOf(helix(), wrongNocSubject(*helix().manipulator, nullptr, WithFormulaErrors(FormulaError::eq43b_doubled)),
                 equallySpaced(3, instants));
   EXPECT_THAT(diagnosed(torques).cause, StartsWith("(43b) as printed, its last terms doubled"));
+}
+
+/// The same mistake in other words is no alternative, and a telescopic leg has none of the paper's equations.
+TEST(Diagnosis, namesAMistakeOnceAndWithoutEquations) {
+  const Scenario telescopic = scenarioOf("flight-simulator");
+  for (const auto& [error, words, again] :
+       {std::tuple(FormulaError::drop_gyroscopic_platform, "the gyroscopic moment of the platform left out",
+                   "the platform's gyroscopic moment"),
+        std::tuple(FormulaError::drop_gyroscopic_legs, "the gyroscopic moment of the links left out",
+                   "the links' gyroscopic moments")}) {
+    const std::string cause =
+        diagnosed(
+            torquesOf(telescopic, wrongNocSubject(*telescopic.manipulator, telescopic.load, WithFormulaErrors(error)),
+                      equallySpaced(telescopic.trajectory->duration(), instants)),
+            telescopic)
+            .cause;
+    EXPECT_THAT(cause, StartsWith(words));
+    EXPECT_THAT(cause, AllOf(Not(HasSubstr(again)), Not(HasSubstr("(38)"))));
+  }
 }
 
 TEST(Diagnosis, namesSinglePrecision) {

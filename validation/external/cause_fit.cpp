@@ -82,6 +82,7 @@ class Fit {
     Hypothesis out{cause_.words(x_, deviation), std::sqrt(dot(left, left)) / data_.norm(), cause_.fitted ? 1 : 0};
     out.beyond = data_.beyond(left) / growth();
     if (cause_.named) out.named = cause_.named(x_, deviation);
+    if (cause_.is_possible) out.is_possible = cause_.is_possible(x_);
     return out;
   }
 

@@ -119,7 +119,8 @@ std::string percent(double explained) {
 bool explains(const Hypothesis& one) { return one.beyond <= may_be_beyond && one.unexplained <= may_be_chance; }
 
 /// Returns the best hypotheses: all that explain everything, otherwise all near the smallest remainder. Those with
-/// fewest fitted numbers come first, then the most plausible ones.
+/// fewest fitted numbers come first, then the most plausible ones. Numbers that no body can have are left out beside
+/// others.
 std::vector<Hypothesis> bestOf(const std::vector<Hypothesis>& fitted) {
   const auto least = std::min_element(fitted.begin(), fitted.end(), [](const Hypothesis& a, const Hypothesis& b) {
     return a.unexplained < b.unexplained;
@@ -128,17 +129,31 @@ std::vector<Hypothesis> bestOf(const std::vector<Hypothesis>& fitted) {
   std::vector<Hypothesis> out;
   for (const Hypothesis& one : fitted)
     if (any ? explains(one) : one.unexplained <= 2 * least->unexplained + 1e-9) out.push_back(one);
+  const auto is_possible = [](const Hypothesis& one) { return one.is_possible; };
+  if (std::any_of(out.begin(), out.end(), is_possible))
+    out.erase(std::stable_partition(out.begin(), out.end(), is_possible), out.end());
   std::stable_sort(out.begin(), out.end(),
                    [](const Hypothesis& a, const Hypothesis& b) { return a.free_numbers < b.free_numbers; });
   while (out.back().free_numbers > std::max(1, out.front().free_numbers)) out.pop_back();
   return out;
 }
 
+/// Whether both are one mistake in other words.
+bool isSameMistake(const Hypothesis& first, const Hypothesis& other) {
+  if (!first.named || !other.named || first.named->term.empty()) return false;
+  const NamedCause &a = *first.named, &b = *other.named;
+  return a.kind == b.kind && a.term == b.term && a.body == b.body && a.leg == b.leg && a.parameter == b.parameter;
+}
+
 std::string othersText(const std::vector<Hypothesis>& best) {
   std::string out;
-  for (std::size_t k = 1; k < best.size() && k < most_named; ++k)
-    out += (k == 1 ? "; as well explained by: " : "; ") + best[k].text;
-  if (best.size() > most_named) out += fmt::format("; and {} more", best.size() - most_named);
+  std::size_t count = 1;
+  for (std::size_t k = 1; k < best.size(); ++k) {
+    if (isSameMistake(best.front(), best[k])) continue;
+    if (count < most_named) out += (count == 1 ? "; as well explained by: " : "; ") + best[k].text;
+    ++count;
+  }
+  if (count > most_named) out += fmt::format("; and {} more", count - most_named);
   return out;
 }
 

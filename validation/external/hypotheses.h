@@ -52,6 +52,7 @@ struct Hypothesis {
   int free_numbers = 0;                                     ///< number of fitted numbers
   double beyond = std::numeric_limits<double>::infinity();  ///< the largest remainder, in multiples of the limit
   std::optional<NamedCause> named = {};                     ///< nullopt if the contract has no name for it
+  bool is_possible = true;                                  ///< whether bodies can have the fitted number
   double explained() const { return 1 - unexplained; }
 };
 

@@ -36,13 +36,12 @@ struct WrongFormula {
 const WrongFormula parts[] = {
     {FormulaError::drop_gravity_platform, "the platform's gravity", "gravity", "platform"},
     {FormulaError::drop_gravity_legs, "the links' gravity", "gravity", "legs"},
-    {FormulaError::drop_centrifugal, "the centrifugal terms of (43a,b)", "centripetal", "legs"},
-    {FormulaError::drop_coriolis, "the Coriolis terms of (43a,b)", "coriolis", "legs"},
-    {FormulaError::drop_gyroscopic_legs, "the links' gyroscopic moments of (38)", "gyroscopic", "legs"},
+    {FormulaError::drop_centrifugal, "the centrifugal terms", "centripetal", "legs"},
+    {FormulaError::drop_coriolis, "the Coriolis terms", "coriolis", "legs"},
+    {FormulaError::drop_gyroscopic_legs, "the links' gyroscopic moments", "gyroscopic", "legs"},
     {FormulaError::drop_gyroscopic_platform, "the platform's gyroscopic moment", "gyroscopic", "platform"},
-    {FormulaError::drop_platform_centripetal, "the platform's centripetal acceleration of (43c)", "centripetal",
-     "platform"},
-    {FormulaError::drop_link_coupling, "the terms in the elbow's motion of (41b), (43b)", "coriolis", "distal"},
+    {FormulaError::drop_platform_centripetal, "the platform's centripetal acceleration", "centripetal", "platform"},
+    {FormulaError::drop_link_coupling, "the terms in the elbow's motion", "coriolis", "distal"},
 };
 
 const WrongFormula printed[] = {
@@ -156,6 +155,13 @@ void addParts(Collector& out, double scenario_gravity) {
   out.describe("the load", "load", "platform");
 }
 
+/// Whether the paper's formulas, with their numbers, are those of a leg.
+bool hasPaperLegs(const Manipulator& machine) {
+  for (int i = 0; i < machine.legCount(); ++i)
+    if (machine.leg(i).kind == LegKind::URS) return true;
+  return false;
+}
+
 }  // namespace
 
 std::vector<TorqueTerm> torqueTerms(const Scenario& scenario, const std::vector<Motion<double>>& motions,
@@ -166,7 +172,8 @@ std::vector<TorqueTerm> torqueTerms(const Scenario& scenario, const std::vector<
     out.addFormulaError(part, {}, 1);
     out.describe(part.name, part.term, part.body);
   }
-  for (const WrongFormula& formula : printed) out.addFormulaError(formula, 1.0, -1);
+  if (hasPaperLegs(*scenario.manipulator))
+    for (const WrongFormula& formula : printed) out.addFormulaError(formula, 1.0, -1);
   return out.terms();
 }
 

@@ -66,6 +66,7 @@ void MachineCauses::addTied(const TiedParameters& tied) {
   addFitted(
       change, [tied, machine](double x, double deviation) { return tied.text(machine, x, deviation); },
       [tied, machine](double x, double deviation) { return tied.named(machine, x, deviation); });
+  causes.back().is_possible = [tied, machine](double x) { return tied.isPossible(machine, x); };
   if (tied.members.front().group != "inertia") return;
   const Scenario& scenario = scenario_;
   causes.back().torques = [&scenario, change](double x, const std::vector<Motion<double>>& motions) {

@@ -42,6 +42,16 @@ std::string TiedParameters::text(const ManipulatorParameters& machine, double re
   return fmt::format("{} off by a relative {}", words, withDeviation(relative, deviation));
 }
 
+bool TiedParameters::isPossible(const ManipulatorParameters& machine, double relative) const {
+  const Parameter& first = members.front();
+  const bool is_size =
+      first.group == "mass" || first.group == "length" || (first.group == "inertia" && first.entry < 3);
+  if (!is_size) return true;
+  ManipulatorParameters changed = machine;
+  disturb(changed, relative);
+  return first.get(changed) > 0;
+}
+
 std::optional<NamedCause> TiedParameters::named(const ManipulatorParameters& machine, double relative,
                                                 double deviation) const {
   const Parameter& first = members.front();
@@ -49,9 +59,7 @@ std::optional<NamedCause> TiedParameters::named(const ManipulatorParameters& mac
   disturb(changed, relative);
   disturb(further, relative + deviation);
   const double before = first.get(machine), after = first.get(changed);
-  const bool is_size =
-      first.group == "mass" || first.group == "length" || (first.group == "inertia" && first.entry < 3);
-  if (is_size && !(after > 0)) return std::nullopt;
+  if (!isPossible(machine, relative)) return std::nullopt;
   NamedCause out{CauseKind::parameter, "", first.body.empty() && first.leg >= 0 ? "legs" : first.body};
   const bool one = members.size() == 1;
   const bool is_legs = std::all_of(members.begin(), members.end(), [&](const Parameter& member) {
