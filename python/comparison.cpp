@@ -31,7 +31,7 @@ TimeSeries seriesIn(const py::dict& columns, const std::string& what) {
   for (const auto& [key, values] : columns) {
     const std::string name = py::str(key);
     const py::array_t<double, py::array::c_style | py::array::forcecast> column(
-        numbersIn(py::reinterpret_borrow<py::object>(values), what + "['" + name + "']: expected numbers"));
+        numbersIn(py::reinterpret_borrow<py::object>(values), what + "['" + name + "']: expected real numbers"));
     if (column.ndim() != 1 ||
         (!out.columns.empty() && static_cast<std::size_t>(column.size()) != out.columns[0].size()))
       throw py::value_error(what + "['" + name + "']: shape " + std::string(py::str(column.attr("shape"))) +

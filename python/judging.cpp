@@ -6,8 +6,10 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
+#include "base/leading_number.h"
 #include "python/motion.h"
 #include "python/result.h"
 #include "python/words.h"
@@ -18,11 +20,12 @@ namespace {
 
 std::string atInstant(const Motion<double>& motion) { return " at t = " + std::to_string(motion.t) + " s"; }
 
+std::string typeOf(const py::object& value) { return py::str(py::type::of(value).attr("__name__")); }
+
 /// Checks that the solver's answer to `motions` has N × 6 finite numbers.
 std::vector<Vector6d> torquesOf(const py::object& answer, const std::vector<Motion<double>>& motions) {
   const py::array any = numbersIn(answer, "the solver's answer" + atInstant(motions.front()) + " is of type " +
-                                              std::string(py::str(py::type::of(answer).attr("__name__"))) +
-                                              ", expected an array of numbers");
+                                              typeOf(answer) + ", expected an array of real numbers");
   if (any.ndim() != 2 || static_cast<std::size_t>(any.shape(0)) != motions.size() || any.shape(1) != motor_count)
     throw py::value_error("the solver's answer to " + std::to_string(motions.size()) + " instants has shape " +
                           std::string(py::str(any.attr("shape"))) + ", expected (" + std::to_string(motions.size()) +
@@ -44,6 +47,20 @@ std::string nameOf(const py::object& solver) {
   return py::str(py::getattr(solver, "__qualname__", py::type::of(solver).attr("__name__")));
 }
 
+/// A number, or its text, also as "0.1%".
+using Share = std::optional<std::variant<double, std::string>>;
+
+std::optional<double> shareOf(const char* name, const Share& given) {
+  if (!given || std::holds_alternative<double>(*given))
+    return given ? std::optional(std::get<double>(*given)) : std::nullopt;
+  const std::string& text = std::get<std::string>(*given);
+  const LeadingNumber read = leadingNumber(text);
+  if (read.length > 0 && read.length == text.size()) return read.value;
+  if (read.length > 0 && text.substr(read.length) == "%") return read.value / 100;
+  throw py::type_error(std::string("validate: ") + name + " is '" + text +
+                       "' of type str, expected a number, a share such as '0.1%', or None");
+}
+
 /// Returns the scenario with the given tolerance, if any.
 Scenario tolerant(Scenario scenario, std::optional<double> rtol, std::optional<double> atol, bool any) {
   requirePositive("rtol", rtol);
@@ -53,9 +70,17 @@ Scenario tolerant(Scenario scenario, std::optional<double> rtol, std::optional<d
   return scenario;
 }
 
+void refuseUnlessFunction(const py::object& solver) {
+  if (PyCallable_Check(solver.ptr()) != 0) return;
+  const bool is_text = py::isinstance<py::str>(solver);
+  throw py::type_error("validate: solver is " + (is_text ? std::string(py::repr(solver)) + " " : std::string()) +
+                       "of type " + typeOf(solver) + ", expected a function of a Motion" +
+                       (is_text ? "; `ursula validate --solver` takes a command" : ""));
+}
+
 /// Validates a user's function.
 ValidationResult ofSolver(const Scenario& scenario, const py::object& solver, std::string name, double limit) {
-  if (PyCallable_Check(solver.ptr()) == 0) throw py::type_error("solver: expected a function of a Motion");
+  refuseUnlessFunction(solver);
   OutsideSolver outside;
   outside.name = std::move(name);
   // By reference, because copies are made without the lock.
@@ -75,9 +100,9 @@ ValidationResult ofTorques(const Scenario& scenario, const TorqueFile& torques, 
 }
 
 ValidationResult validated(const ScenarioWithSolver& given, const py::object& solver, const py::object& torques,
-                           const py::object& t, std::optional<double> rtol, std::optional<double> atol,
-                           const py::object& name, bool any_tolerance, std::optional<double> time_limit) {
-  const Scenario scenario = tolerant(given.scenario, rtol, atol, any_tolerance);
+                           const py::object& t, const Share& rtol, std::optional<double> atol, const py::object& name,
+                           bool any_tolerance, std::optional<double> time_limit) {
+  const Scenario scenario = tolerant(given.scenario, shareOf("rtol", rtol), atol, any_tolerance);
   requirePositive("time_limit", time_limit);
   const double limit = time_limit.value_or(0);
   if (!solver.is_none() && !torques.is_none())

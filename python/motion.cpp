@@ -43,7 +43,7 @@ bool isMasked(const py::handle& values) {
 
 /// Uses the constructor of array_t, which keeps NumPy's error, unlike ensure().
 Array numbers(const py::object& values, const char* what) {
-  const Array out(numbersIn(values, std::string(what) + ": expected numbers"));
+  const Array out(numbersIn(values, std::string(what) + ": expected real numbers"));
   refuseNotFinite(out, what);
   return out;
 }

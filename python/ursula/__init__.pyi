@@ -427,7 +427,7 @@ def validate(
     *,
     torques: npt.ArrayLike | None = None,
     t: npt.ArrayLike | None = None,
-    rtol: float | None = None,
+    rtol: float | str | None = None,
     atol: float | None = None,
     name: str | None = None,
     any_tolerance: bool = False,

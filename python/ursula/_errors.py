@@ -32,6 +32,8 @@ def _expected(annotation):
     if optional:
         inner = _expected(optional[1])
         return inner and (inner[0] + " or None", lambda x: x is None or inner[1](x))
+    if annotation == "Union[float, str]":
+        return "a number, a share such as '0.1%'", lambda x: _FITS["float"](x) or _FITS["str"](x)
     if _PATH.search(annotation):
         return "a path", lambda x: isinstance(x, (str, os.PathLike))
     if annotation in _KINDS:
@@ -48,7 +50,7 @@ def _expected(annotation):
 
 def _shown(value):
     text = repr(value)
-    return "None" if value is None else f"{text if len(text) < 60 else '…'} of type {type(value).__name__}"
+    return "None" if value is None else f"{text if len(text) < 60 else 'a value'} of type {type(value).__name__}"
 
 
 def _words(called, doc, arguments, named):

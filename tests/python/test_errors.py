@@ -75,7 +75,11 @@ def test_no_keyword_shows_the_bindings_words(quick):
 @pytest.mark.parametrize("call, words", [
     (lambda s: ursula.validate(), "validate: missing a required argument: 's'"),
     (lambda s: ursula.validate("my.toml"), "validate: s is 'my.toml' of type str, expected ursula.Scenario"),
-    (lambda s: ursula.validate(s, rtol="a lot"), "validate: rtol is 'a lot' of type str, expected a number or None"),
+    (lambda s: ursula.validate(s, rtol="a lot"), "validate: rtol is 'a lot' of type str, expected a number, a share such as '0.1%', or None"),
+    (lambda s: ursula.validate(s, rtol=[1]), r"validate: rtol is \[1\] of type list, expected a number, a share such as '0.1%' or None"),
+    (lambda s: ursula.validate(s, solver="python3 mine.py"),
+     "solver is 'python3 mine.py' of type str, expected a function of a Motion; `ursula validate --solver` takes a command"),
+    (lambda s: s.inverse_dynamics(np.zeros((20, 6))), "m is a value of type ndarray, expected ursula.Motion"),
     (lambda s: ursula.validate(s, rtl=1e-3), "validate: got an unexpected keyword argument 'rtl'"),
     (lambda s: ursula.read_scenario(3), "read_scenario: path is 3 of type int, expected a path"),
     (lambda s: ursula.import_model("a.sdf", actuated=[1]), r"import_model: actuated is \[1\] of type list, expected a list, each a string"),

@@ -65,6 +65,8 @@ def test_a_tolerance_of_ones_own(quick):
 
     assert ursula.validate(s, single).verdict == "fail"
     assert ursula.validate(s, single, rtol=1e-6).verdict == "pass"
+    assert ursula.validate(s, single, rtol="1e-4%").verdict == "pass"
+    assert ursula.validate(s, single, rtol="1e-10%").verdict == "fail"
     assert ursula.validate(s, single, atol=1e-4).verdict == "fail"
     with pytest.raises(ValueError, match="rtol is -1.000000, expected a positive number"):
         ursula.validate(s, rtol=-1)
@@ -75,14 +77,14 @@ def test_a_tolerance_of_ones_own(quick):
     (lambda m: np.zeros((len(m) + 1, 6)), r"to 11 instants has shape \(12, 6\), expected \(11, 6\)"),
     (lambda m: np.where(np.arange(6) == 2, np.nan, np.ones((len(m), 6))), "effort 3 at t = 0.000000 s is nan"),
     (lambda m: np.full((len(m), 6), -np.inf), "effort 1 at t = 0.000000 s is -inf"),
-    (lambda m: None, "of type NoneType, expected an array of numbers"),
-    (lambda m: "torques", "of type str, expected an array of numbers"),
-    (lambda m: np.zeros((len(m), 6), complex), r"of type ndarray, expected an array of numbers \(found complex128\)"),
-    (lambda m: np.zeros((len(m), 6), "datetime64[s]"), r"expected an array of numbers \(found datetime64\[s\]\)"),
-    (lambda m: np.full((len(m), 6), "1"), r"expected an array of numbers \(found str32\)"),
-    (lambda m: [[None] * 6] * len(m), r"expected an array of numbers \(found object\)"),
-    (lambda m: np.ma.masked_all((len(m), 6)), r"expected an array of numbers \(found a masked array\)"),
-    (lambda m: [np.ma.masked_all(6)] * len(m), r"expected an array of numbers \(found a masked array\)"),
+    (lambda m: None, "of type NoneType, expected an array of real numbers"),
+    (lambda m: "torques", "of type str, expected an array of real numbers"),
+    (lambda m: np.zeros((len(m), 6), complex), r"of type ndarray, expected an array of real numbers \(found complex128\)"),
+    (lambda m: np.zeros((len(m), 6), "datetime64[s]"), r"expected an array of real numbers \(found datetime64\[s\]\)"),
+    (lambda m: np.full((len(m), 6), "1"), r"expected an array of real numbers \(found str32\)"),
+    (lambda m: [[None] * 6] * len(m), r"expected an array of real numbers \(found object\)"),
+    (lambda m: np.ma.masked_all((len(m), 6)), r"expected an array of real numbers \(found a masked array\)"),
+    (lambda m: [np.ma.masked_all(6)] * len(m), r"expected an array of real numbers \(found a masked array\)"),
     (lambda m: np.broadcast_to(0.0, (10**12, 6)), r"to 11 instants has shape \(1000000000000, 6\), expected \(11, 6\)"),
 ])
 def test_what_is_no_answer_is_refused(quick, answer, words):
@@ -91,7 +93,7 @@ def test_what_is_no_answer_is_refused(quick, answer, words):
 
 
 def test_what_is_no_function_is_refused(quick):
-    with pytest.raises(TypeError, match="solver: expected a function"):
+    with pytest.raises(TypeError, match="solver is of type int, expected a function"):
         ursula.validate(ursula.read_scenario(quick), solver=3)
 
 
