@@ -38,7 +38,11 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
     best = candidate;
     least = far;
   }
-  return best;
+  if (!best.empty()) return best;
+  // "rpy" lacks the unit of "rpy_deg".
+  const auto lacks_end = [&word](const std::string& candidate) { return candidate.rfind(word + "_", 0) == 0; };
+  const auto longer = std::find_if(candidates.begin(), candidates.end(), lacks_end);
+  return word.empty() || longer == candidates.end() ? "" : *longer;
 }
 
 std::string didYouMean(const std::string& word, const std::vector<std::string>& candidates) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <memory>
 #include <vector>
@@ -49,7 +50,10 @@ std::string readText(const std::filesystem::path& file, const TextBounds& bounds
   std::error_code error;
   if (std::filesystem::is_directory(file, error)) throw TextRefusal(fmt::format("a folder, expected {}", bounds.kind));
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"), &std::fclose);
-  if (!in) throw TextRefusal(fmt::format("cannot be read, expected {}", bounds.kind));
+  if (!in) {
+    const bool is_missing = errno == ENOENT;
+    throw TextRefusal(fmt::format("{}, expected {}", is_missing ? "no such file" : "cannot be read", bounds.kind));
+  }
   return readAll(in.get(), bounds);
 }
 

@@ -13,6 +13,12 @@ namespace {
 
 std::string text(const Vector3d& v) { return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z()); }
 
+/// Six digits, or all where six do not tell the value from the bound.
+std::string computed(double value, double bound) {
+  const std::string text = fmt::format("{:.6g}", value);
+  return value != bound && text == fmt::format("{:.6g}", bound) ? fmt::format("{}", value) : text;
+}
+
 void requireFinite(const std::string& place, const Vector3d& v) {
   if (!v.allFinite()) throw InvalidParameter(place, text(v), "finite numbers");
 }
@@ -44,17 +50,19 @@ void requireInertia(const std::string& place, const Matrix3d& inertia, int line 
   if (!inertia.allFinite()) throw InvalidParameter(place, "a non-finite entry", "finite numbers");
   if (!(inertia - inertia.transpose()).isZero(0)) throw InvalidParameter(place, "not symmetric", "a symmetric tensor");
   const Vector3d moments = Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
-  const std::string value = "principal moments " + text(moments);
+  const double sum = moments(0) + moments(1);
+  const std::string value =
+      fmt::format("principal moments [{:.6g}, {:.6g}, {}]", moments(0), moments(1), computed(moments(2), sum));
   // The eigenvalues are accurate to a few eps of the largest.
   const double rounding = 16 * Eigen::NumTraits<double>::epsilon() * moments.cwiseAbs().maxCoeff();
   if (!(moments(0) > 0) && !(line >= 0 && isRod(inertia, line)))
     throw InvalidParameter(
         place, value,
         line < 0 ? "all principal moments > 0" : "all principal moments > 0, or of a thin rod that about its line = 0");
-  if (!(moments(2) <= moments(0) + moments(1) + rounding))
+  if (!(moments(2) <= sum + rounding))
     throw InvalidParameter(
         place, value,
-        fmt::format("the largest principal moment <= the sum of the others, {}", moments(0) + moments(1)));
+        fmt::format("the largest principal moment <= the sum of the others, {}", computed(sum, moments(2))));
 }
 
 void requireLink(const std::string& place, const Link& link, int line) {
@@ -157,9 +165,15 @@ void requireSpan(const ManipulatorParameters& machine, int i, int j) {
   const double platform = (first.platform_point - second.platform_point).norm();
   const double reach = first.proximal.length + first.distal.length + second.proximal.length + second.distal.length;
   const double gap = std::abs(base - platform);
-  if (!(reach >= gap))
-    throw InvalidParameter(legPlace(i), fmt::format("l + s of legs {} and {} together {} m", i + 1, j + 1, reach),
-                           fmt::format(">= {} m, by which their base and platform distances differ", gap));
+  if (reach >= gap) return;
+  // A hundred times the length of one leg is the base, or the platform, in millimetres.
+  const bool is_mm = gap > 50 * reach;
+  const char* point = base > platform ? ".base_point" : ".platform_point";
+  throw InvalidParameter(
+      legPlace(i) + (is_mm ? point : ""),
+      fmt::format("l + s of legs {} and {} together {} m", i + 1, j + 1, computed(reach, gap)),
+      fmt::format(">= {} m, by which their base and platform distances differ{}", computed(gap, reach),
+                  is_mm ? fmt::format(", did you mean mm? {:.6g} mm are {:.6g} m", gap, gap / 1000) : ""));
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <regex>
+#include <sstream>
 
 #include "base/nearest.h"
 #include "base/shown_text.h"
@@ -45,6 +47,17 @@ std::string quotedList(const std::vector<std::string>& words) {
   return list;
 }
 
+/// ", did you mean 142.0?" where a line ends with 142,0.
+std::string decimalPoint(const std::string& text, std::size_t line) {
+  std::istringstream lines(text);
+  std::string at;
+  for (std::size_t k = 0; k < line; ++k) std::getline(lines, at);
+  static const std::regex with_comma(R"(^[^=#"]{1,100}=\s*([-+]?\d{1,20}),(\d{1,20})\s*(#.*)?$)");
+  std::smatch found;
+  if (at.size() > 300 || !std::regex_match(at, found, with_comma)) return "";
+  return fmt::format(", did you mean {}.{}?", found.str(1), found.str(2));
+}
+
 }  // namespace
 
 std::string placeAt(const std::string& file, const toml::source_position& position) {
@@ -68,7 +81,10 @@ toml::table parseToml(const std::string& text, const std::string& file) {
   } catch (const TextRefusal& refusal) {
     throw errorAt(file, refusal).in(text);
   } catch (const toml::parse_error& error) {
-    throw errorAt(file, error.source().begin, shown(error.description(), 400) + ", expected valid TOML").in(text);
+    throw errorAt(
+        file, error.source().begin,
+        shown(error.description(), 400) + ", expected valid TOML" + decimalPoint(text, error.source().begin.line))
+        .in(text);
   }
 }
 

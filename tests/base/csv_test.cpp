@@ -123,7 +123,7 @@ TEST(Csv, knowsTheLastDigitPrinted) {
 TEST(Csv, refusesAFileThatIsNotThereAndAFolder) {
   const TemporaryFolder folder;
   EXPECT_THAT(refusal<CsvError>([&] { readCsv(folder.path() / "none.csv"); }),
-              EndsWith("none.csv:1: error: cannot be read, expected a CSV file"));
+              EndsWith("none.csv:1: error: no such file, expected a CSV file"));
   EXPECT_THAT(refusal<CsvError>([&] { readCsv(folder.path()); }), EndsWith(":1: error: a folder, expected a CSV file"));
 }
 

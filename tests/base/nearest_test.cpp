@@ -20,6 +20,11 @@ TEST(Nearest, findsNothingFarAway) {
   EXPECT_EQ(nearest("", {"mass"}), "");
 }
 
+TEST(Nearest, addsTheUnitThatIsMissing) {
+  EXPECT_EQ(nearest("rpy", {"position", "rpy_deg"}), "rpy_deg");
+  EXPECT_EQ(nearest("rpy", {"position", "rpydeg"}), "");
+}
+
 TEST(Nearest, prefersTheNearestAndOfEqualsTheFirst) {
   EXPECT_EQ(nearest("end_rat", {"end_gate", "end_rate"}), "end_rate");
   EXPECT_EQ(nearest("phas", {"phase", "phass"}), "phase");

@@ -114,7 +114,7 @@ TEST(SweepVerb, refusesInOneLineWhatCannotBe) {
   };
   refused("bad.toml",
           "bad.toml:3:10: error: design: 'randon', expected 'grid', 'random' or 'sobol', did you mean 'random'?");
-  refused("none.toml", "none.toml:1:1: error: cannot be read");
+  refused("none.toml", "none.toml:1:1: error: no such file");
   refused("other.toml --db s.db", "s.db: error: is of another sweep, s.toml");
   refused("s.toml --shard 0/4", "--shard 0/4: expected I/N with I from 1 to N");
   refused("s.toml --shard 5/4", "--shard 5/4: expected I/N");

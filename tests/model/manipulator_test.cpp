@@ -116,7 +116,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"smoothing", [](Machine& m) { m.legs[3].coulomb.smoothing_speed = 0; },
                 "manipulator.leg[4].coulomb.smoothing_speed", "0", "> 0"},
         Refusal{"span", [](Machine& m) { m.legs[4].base_point.x() = 40; }, "manipulator.leg[1]",
-                "l + s of legs 1 and 5 together 5.", "by which their base and platform distances differ"}),
+                "l + s of legs 1 and 5 together 5.", "by which their base and platform distances differ"},
+        Refusal{"millimetres", [](Machine& m) { m.legs[4].base_point.x() = 1300; }, "manipulator.leg[1].base_point",
+                "l + s of legs 1 and 5 together 5.", "did you mean mm? 1"}),
     nameOf);
 
 TEST(Manipulator, keepsWhatItWasGiven) {

@@ -116,6 +116,8 @@ TEST(ImpossibleScenario, hasNoLegs) {
 TEST(ImpossibleScenario, isNotToml) {
   EXPECT_THAT(refusal<ScenarioError>([] { parseScenario("a = 1\nb = = 2\n", "a.toml"); }),
               testing::AllOf(StartsWith("a.toml:2:5: error: "), EndsWith(", expected valid TOML")));
+  EXPECT_THAT(refusal<ScenarioError>([] { parseScenario("a = 1\nmass = 142,0 # kg\n", "a.toml"); }),
+              testing::AllOf(StartsWith("a.toml:2:"), EndsWith(", expected valid TOML, did you mean 142.0?")));
   EXPECT_THAT(refusal<ScenarioError>([] { parseScenario("mass = 1\nmass = 2\n", "a.toml"); }),
               testing::AllOf(StartsWith("a.toml:2:"), testing::HasSubstr("redefine")));
 }
@@ -123,7 +125,7 @@ TEST(ImpossibleScenario, isNotToml) {
 TEST(ImpossibleScenario, cannotBeRead) {
   const TemporaryFolder folder;
   EXPECT_THAT(refusal<ScenarioError>([&] { readScenario(folder.path() / "none.toml"); }),
-              EndsWith("none.toml:1:1: error: cannot be read, expected a scenario in TOML"));
+              EndsWith("none.toml:1:1: error: no such file, expected a scenario in TOML"));
   EXPECT_THAT(refusal<ScenarioError>([&] { readScenario(folder.path()); }),
               EndsWith(":1:1: error: a folder, expected a scenario in TOML"));
 }
