@@ -134,6 +134,17 @@ std::optional<Value> unlessEmpty(const Value& value) {
   return value == Value{} ? std::nullopt : std::optional(value);
 }
 
+/// "<ursula.Cause missing_term gyroscopic of platform>"
+std::string shownCause(const NamedCause& cause) {
+  std::string out = std::string("<ursula.Cause ") + ursula::name(cause.kind);
+  for (const std::string& word : {cause.term, cause.parameter})
+    if (!word.empty()) out += " " + word;
+  if (cause.parameter.empty() && !cause.body.empty()) out += " of " + cause.body;
+  if (cause.parameter.empty() && cause.leg > 0) out += " of leg " + std::to_string(cause.leg);
+  if (cause.motor > 0) out += " of motor " + std::to_string(cause.motor);
+  return out + ">";
+}
+
 void addCause(py::module_& module) {
   py::class_<NamedCause> made(module, "Cause", words::cause);
   addCopies(made);
@@ -141,10 +152,7 @@ void addCause(py::module_& module) {
       .def_property_readonly(
           "kind", [](const NamedCause& self) { return ursula::name(self.kind); }, "\"parameter\", \"frame\", …")
       .def_readonly("explained", &NamedCause::explained, "Share of the deviation's square, 0 to 1.")
-      .def("__repr__", [](const NamedCause& self) {
-        return "<ursula.Cause " + std::string(ursula::name(self.kind)) + (self.term.empty() ? "" : " " + self.term) +
-               (self.parameter.empty() ? "" : " " + self.parameter) + ">";
-      });
+      .def("__repr__", &shownCause);
   const auto add = [&made](const char* name, auto NamedCause::*member) {
     made.def_property_readonly(name, [member](const NamedCause& self) { return unlessEmpty(self.*member); });
   };

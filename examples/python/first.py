@@ -8,4 +8,5 @@ def mine(m):  # N instants: m.t, m.p, m.q, m.v, m.w, m.a, m.alpha
 
 r = ursula.validate(s, solver=mine)
 print(r.verdict, r.summary["reason"])
+print(r.cause)  # None where it passes, or where no cause alone explains it
 r.write("results/mine")

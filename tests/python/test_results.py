@@ -46,6 +46,7 @@ def test_a_solver_gets_a_cause(quick):
     cause = r.cause
     assert cause.kind == "parameter" and cause.parameter == "manipulator.platform.mass" and cause.body == "platform"
     assert cause.expected == 500 and cause.found == pytest.approx(505, rel=1e-9) and cause.unit == "kg"
+    assert repr(cause) == "<ursula.Cause parameter manipulator.platform.mass>"
     assert cause.explained > 1 - 1e-9 and cause.leg is None and cause.legs is None
     assert r.summary["cause"]["found"] == cause.found and r.summary["causes"] == []
     assert {each["term"]: each["error"] for each in r.summary["terms"]} == r.terms
