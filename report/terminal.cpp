@@ -178,6 +178,29 @@ std::string reasonsText(const ValidationResult& result) {
   return out.empty() ? "" : "\n" + out;
 }
 
+std::string quietHead(const SuiteEntry& entry, bool coloured) {
+  return fmt::format("{}: {} — {}\n", withoutControls(entry.scenario),
+                     painted(name(entry.verdict), paintOf(entry.verdict), coloured),
+                     reason(entry.verdict, entry.checks));
+}
+
+/// "  replay.position, replay.orientation: not replayed": each reason once, at its first check.
+std::string openChecks(const std::vector<Check>& checks) {
+  std::vector<std::pair<std::string, std::string>> lines;  // reason, names
+  for (const Check& check : checks) {
+    if (!isOpen(check)) continue;
+    const std::string why = whyLine(check, "");
+    const auto said = std::find_if(lines.begin(), lines.end(), [&why](const auto& line) { return line.first == why; });
+    if (said == lines.end())
+      lines.emplace_back(why, check.name);
+    else
+      said->second += ", " + check.name;
+  }
+  std::string out;
+  for (const auto& [why, names] : lines) out += fmt::format("  {}: {}\n", names, why);
+  return out;
+}
+
 }  // namespace
 
 std::string validationText(const ValidationResult& result, bool coloured) {
@@ -191,21 +214,17 @@ std::string validationText(const ValidationResult& result, bool coloured) {
 
 std::string quietText(const ValidationResult& result, bool coloured) {
   SuiteEntry entry = suiteEntry(result, "");
-  for (Check& check : entry.checks) check.why = withoutCause(causeOf(result), check.why);
   const std::string cause = causeOf(result);
-  return quietText(entry, coloured) + (cause.empty() ? "" : "  likely cause: " + cause + "\n");
+  for (Check& check : entry.checks) check.why = withoutCause(cause, check.why);
+  return quietHead(entry, coloured) + (cause.empty() ? "" : "  likely cause: " + cause + "\n") +
+         openChecks(entry.checks);
 }
 
 std::string quietText(const SuiteEntry& entry, bool coloured) {
   if (!entry.error.empty())
     return fmt::format("{}: {} — {}\n", withoutControls(entry.scenario), painted("error", Paint::bad, coloured),
                        withoutControls(entry.error));
-  std::string out =
-      fmt::format("{}: {} — {}\n", withoutControls(entry.scenario),
-                  painted(name(entry.verdict), paintOf(entry.verdict), coloured), reason(entry.verdict, entry.checks));
-  for (const Check& check : entry.checks)
-    if (isOpen(check)) out += fmt::format("  {}: {}\n", check.name, whyLine(check, ""));
-  return out;
+  return quietHead(entry, coloured) + openChecks(entry.checks);
 }
 
 bool wantsColour(bool is_terminal, const char* no_color, const char* term) {

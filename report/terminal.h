@@ -13,7 +13,7 @@ namespace ursula::report {
 /// deviations, and the verdict.
 std::string validationText(const ValidationResult& result, bool coloured);
 
-/// Returns the verdict in a line, then a line per failed or undecided check, and the likely cause.
+/// Returns the verdict in a line, then the likely cause, and a line per reason why checks failed or are undecided.
 std::string quietText(const ValidationResult& result, bool coloured);
 std::string quietText(const SuiteEntry& entry, bool coloured);
 

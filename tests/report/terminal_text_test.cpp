@@ -113,8 +113,13 @@ TEST(TerminalText, quietlyIsTheVerdictAndWhatDidNotPass) {
             "paper-helix: pass — 8 of 8 checks held; the closest to its limit, replay.position, is at 0.806 of its "
             "limit.\n");
   EXPECT_THAT(report::quietText(test::externalSample(), false),
-              AllOf(StartsWith("leg-3-off: fail — "), HasSubstr("\n  torque.pointwise: leg 3, t = 2.2 s\n"),
-                    EndsWith("  likely cause: a factor of 1.001 on leg 3\n")));
+              AllOf(StartsWith("leg-3-off: fail — "),
+                    HasSubstr("\n  likely cause: a factor of 1.001 on leg 3\n  torque.pointwise: leg 3, t = 2.2 s\n")));
+  const auto too_few = [](const char* name) {
+    return notJudgeable(Reason::not_covered, name, nan, nan, "m", "", "not replayed: too few samples");
+  };
+  EXPECT_THAT(report::quietText(of({too_few("closure.position"), too_few("closure.velocity")}), false),
+              EndsWith("\n  closure.position, closure.velocity: not replayed: too few samples\n"));
 }
 
 TEST(Columns, countCharactersAndNotBytes) {
