@@ -43,8 +43,13 @@ std::vector<Vector6d> torquesOf(const py::object& answer, const std::vector<Moti
   return out;
 }
 
+/// Without the functions around it; a lambda has no name.
 std::string nameOf(const py::object& solver) {
-  return py::str(py::getattr(solver, "__qualname__", py::type::of(solver).attr("__name__")));
+  static const std::string around = "<locals>.";
+  const std::string whole = py::str(py::getattr(solver, "__qualname__", py::type::of(solver).attr("__name__")));
+  const std::size_t at = whole.rfind(around);
+  const std::string own = at == std::string::npos ? whole : whole.substr(at + around.size());
+  return own == "<lambda>" ? "your function" : own;
 }
 
 /// A number, or its text, also as "0.1%".

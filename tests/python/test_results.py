@@ -58,6 +58,7 @@ def test_a_solver_gets_a_cause(quick):
 def test_where_no_cause_is_sure_none_is_named(quick):
     s = ursula.read_scenario(quick)
     noise = ursula.validate(s, lambda m: s.inverse_dynamics(m) * (1 + 1e-3 * np.sin(1e6 * np.asarray(m.t)))[:, None])
+    assert noise.summary["provenance"]["subject"] == "your function"
     assert noise.verdict == "fail" and noise.cause is None and noise.summary["cause"] is None
     right = ursula.validate(s, s.inverse_dynamics)
     assert right.verdict == "pass" and right.cause is None and right.causes == [] and right.terms == {}

@@ -17,13 +17,15 @@ std::string nearestToSingular(const std::vector<PointwiseSample>& samples, const
   return fmt::format("{:.4g}, at t = {:.6g} s", at.conditioning.kappa_B, at.motion.t * units.time);
 }
 
-/// The smallest |sin θ|, which is 0 if a leg is stretched or folded.
-std::string nearestToEdge(const std::vector<PointwiseSample>& samples, const Units& units) {
+/// The smallest |sin θ|, which is 0 if a leg is stretched or folded; none where no leg has a knee.
+std::vector<std::pair<std::string, std::string>> nearestToEdge(const std::vector<PointwiseSample>& samples,
+                                                               const Units& units) {
   const PointwiseSample& at = *std::min_element(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
     return a.conditioning.smallest_sine < b.conditioning.smallest_sine;
   });
-  return fmt::format("{:.4g}, leg {} at t = {:.6g} s", at.conditioning.smallest_sine,
-                     at.conditioning.smallest_sine_leg + 1, at.motion.t * units.time);
+  if (!(at.conditioning.smallest_sine < 1)) return {};
+  return {{"smallest |sin theta|", fmt::format("{:.4g}, leg {} at t = {:.6g} s", at.conditioning.smallest_sine,
+                                               at.conditioning.smallest_sine_leg + 1, at.motion.t * units.time)}};
 }
 
 void addStopped(const std::vector<WindowedReplay>& windows, const Units& units, ValidationResult& result) {
@@ -59,20 +61,21 @@ void addFindings(const std::vector<PointwiseSample>& samples, const std::vector<
     for (double value : window.window.growth) growth = std::max(growth, value);
   }
   addStopped(windows, units, result);
-  const std::vector<std::pair<std::string, std::string>> findings = {
+  std::vector<std::pair<std::string, std::string>> findings = {
       {"largest torque", fmt::format("{:.6g} {}", torque * units.effort(), units.efforts.unit)},
       {"torque error, relative to the largest", fmt::format("{:.3g}", torque > 0 ? torque_error / torque : 0)},
       {"largest platform acceleration", fmt::format("{:.6g} m/s^2", acceleration * units.acceleration())},
       {"acceleration error, relative to the largest",
        acceleration > 0 ? fmt::format("{:.3g}", acceleration_error / acceleration) : "none commanded"},
       {"largest condition number of B", nearestToSingular(samples, units)},
-      {"smallest |sin theta|", nearestToEdge(samples, units)},
       {"replay tolerance", windows.empty() ? "–" : fmt::format("{:.3g}", windows.front().replay.tolerance)},
       {"replay windows", fmt::format("{}", windows.size())},
       {"replay steps", fmt::format("{}", steps)},
       {"replay derivative evaluations", fmt::format("{}", evaluations)},
       {"growth of a velocity deviation in a window", fmt::format("{:.4g} m/(m/s)", growth * units.time)},
   };
+  const auto edge = nearestToEdge(samples, units);
+  findings.insert(findings.begin() + 5, edge.begin(), edge.end());
   result.findings.insert(result.findings.end(), findings.begin(), findings.end());
 }
 
