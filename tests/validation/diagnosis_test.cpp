@@ -118,7 +118,7 @@ TEST(Diagnosis, namesAPartAsAPart) {
   SeededDraws dice(3);
   for (Vector6d& tau : torques.torques) tau(1) += dice.between(-1, 1);
   EXPECT_THAT(diagnosed(torques).cause,
-              AllOf(StartsWith("a likely part: platform mass 52"), HasSubstr("times the file's precision")));
+              AllOf(StartsWith("a likely part: platform mass 52"), HasSubstr("times the limit of rounding and digits")));
 }
 
 TEST(Diagnosis, namesSwappedLegs) {

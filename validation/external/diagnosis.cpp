@@ -102,13 +102,14 @@ TorqueResidual residualOf(const Scenario& scenario, const ExternalTorques& torqu
   return out;
 }
 
-/// Whether successive residuals are uncorrelated: their correlation is within three of its deviations.
+/// Whether successive residuals are uncorrelated: their correlation is within three of its deviations, and small. Few
+/// instants of a smooth deviation may be within the deviations alone.
 bool isNoise(const TorqueResidual& data) {
   double along = 0, all = 0;
   for (std::size_t k = 0; k + 1 < data.residual.size(); ++k) along += data.residual[k].dot(data.residual[k + 1]);
   for (const Vector6d& row : data.residual) all += row.squaredNorm();
   return data.residual.size() >= 16 &&
-         std::abs(along / all) <= 3 / std::sqrt(static_cast<double>(data.residual.size()));
+         std::abs(along / all) <= std::min(0.3, 3 / std::sqrt(static_cast<double>(data.residual.size())));
 }
 
 std::string percent(double explained) {
@@ -227,7 +228,7 @@ Explanation intervalAlone(const Scenario& scenario, const ExternalTorques& torqu
 }
 
 /// Share of the deviation: a cause that explains less is not mentioned.
-constexpr double worth_naming = 0.01;
+constexpr double worth_naming = 0.5;
 
 Explanation explanationOf(const Scenario& scenario, const ExternalTorques& torques, const AskedApart& asked) {
   const TorqueResidual data = residualOf(scenario, torques, asked);
@@ -238,16 +239,15 @@ Explanation explanationOf(const Scenario& scenario, const ExternalTorques& torqu
   const std::string how_much = fmt::format("{}, which explains {}", first.text, percent(first.explained()));
   if (explains(first)) return named(best, data, how_much + othersText(best));
   if (first.unexplained < may_remain)
-    return {fmt::format("a likely part: {}; what remains is up to {:.3g} times the file's precision{}", how_much,
-                        first.beyond, othersText(best))};
+    return {fmt::format("a likely part: {}; what remains is up to {:.3g} times the limit of rounding and digits{}",
+                        how_much, first.beyond, othersText(best))};
   if (const Explanation interval = intervalAlone(scenario, torques, data); !interval.text.empty()) return interval;
   if (const std::string alone = loneInstants(torques); !alone.empty()) return {"no simple explanation: " + alone};
-  const std::string noise = isNoise(data.alongMotion())
-                                ? "no pattern from one instant to the next, as of noise or too few digits"
-                                : "no simple explanation";
-  if (first.explained() < worth_naming) return {noise};
-  return {
-      fmt::format("{}; the best, {}, explains only {}", noise, first.text, percent(std::max(0.0, first.explained())))};
+  if (first.explained() >= worth_naming)  // noise is explained by nothing
+    return {
+        fmt::format("no simple explanation; the best, {}, explains only {}", first.text, percent(first.explained()))};
+  return {isNoise(data.alongMotion()) ? "no pattern from one instant to the next, as of noise or too few digits"
+                                      : "no simple explanation"};
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 
+#include "base/angles.h"
 #include "validation/external/cause.h"
 #include "validation/external/hypothesis_terms.h"
 #include "validation/external/tried_causes.h"
@@ -51,6 +52,14 @@ std::string knownGravity(double value) {
   return "";
 }
 
+/// " (degrees for radians, squared)" of a term in rates that were taken in degrees.
+std::string inDegrees(double factor) {
+  const double once = std::abs(factor / degrees_per_radian - 1);
+  const double twice = std::abs(factor / (degrees_per_radian * degrees_per_radian) - 1);
+  if (once < 1e-4) return " (degrees for radians)";
+  return twice < 1e-4 ? " (degrees for radians, squared)" : "";
+}
+
 /// Names (1 + c) times a term: omitted, wrong sign, or scaled; gravity also has a value.
 std::optional<NamedCause> namedScale(const TorqueTerm& term, double factor) {
   if (term.term.empty()) return std::nullopt;
@@ -74,6 +83,7 @@ std::optional<Hypothesis> scaledTerm(const TorqueResidual& data, const TorqueTer
   if (std::abs(factor) < 1e-3) text = term.name + " left out";
   if (std::abs(factor + 1) < 1e-3) text = term.name + " with the wrong sign";
   if (term.name == "gravity") text += knownGravity(term.size * factor);
+  text += inDegrees(factor);
   Hypothesis out = hypothesis(data, text, left, 1);
   out.named = namedScale(term, factor);
   return out;
