@@ -9,7 +9,6 @@
 #include <variant>
 #include <vector>
 
-#include "base/leading_number.h"
 #include "python/motion.h"
 #include "python/result.h"
 #include "python/words.h"
@@ -59,9 +58,11 @@ std::optional<double> shareOf(const char* name, const Share& given) {
   if (!given || std::holds_alternative<double>(*given))
     return given ? std::optional(std::get<double>(*given)) : std::nullopt;
   const std::string& text = std::get<std::string>(*given);
-  const LeadingNumber read = leadingNumber(text);
-  if (read.length > 0 && read.length == text.size()) return read.value;
-  if (read.length > 0 && text.substr(read.length) == "%") return read.value / 100;
+  const bool is_percent = !text.empty() && text.back() == '%';
+  const py::str digits(is_percent ? text.substr(0, text.size() - 1) : text);
+  const auto number = py::reinterpret_steal<py::object>(PyFloat_FromString(digits.ptr()));
+  if (number) return number.cast<double>() / (is_percent ? 100 : 1);
+  PyErr_Clear();
   throw py::type_error(std::string("validate: ") + name + " is '" + text +
                        "' of type str, expected a number, a share such as '0.1%', or None");
 }

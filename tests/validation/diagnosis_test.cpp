@@ -117,8 +117,8 @@ TEST(Diagnosis, namesAPartAsAPart) {
   TorqueTable torques = ofAnother([](auto& machine) { machine.platform.mass *= 1.05; });
   SeededDraws dice(3);
   for (Vector6d& tau : torques.torques) tau(1) += dice.between(-1, 1);
-  EXPECT_THAT(diagnosed(torques).cause,
-              AllOf(StartsWith("a likely part: platform mass 52"), HasSubstr("times the limit of rounding and digits")));
+  EXPECT_THAT(diagnosed(torques).cause, AllOf(StartsWith("a likely part: platform mass 52"),
+                                              HasSubstr("times the limit of rounding and digits")));
 }
 
 TEST(Diagnosis, namesSwappedLegs) {
