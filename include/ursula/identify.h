@@ -3,7 +3,7 @@
 /// \file
 /// Measured efforts against the model: readMeasuredLog(), identify() and what they return; excite().
 
-#include "include/ursula/abi.h"
 #include "base/csv.h"
+#include "include/ursula/abi.h"
 #include "studies/identify/excite.h"
 #include "studies/identify/identify.h"

@@ -65,8 +65,8 @@ class EffortDerivatives {
   /// The machine's own values of them, π.
   Eigen::VectorXd regressorValues() const;
 
-  /// ∂π/∂p: the derivative of regressorValues() by the numbers of parameterNames(), one column each; zero for those that
-  /// are in Y. Allocates its result.
+  /// ∂π/∂p: the derivative of regressorValues() by the numbers of parameterNames(), one column each; zero for those
+  /// that are in Y. Allocates its result.
   Eigen::MatrixXd regressorByParameters() const;
 
   /// Y of efforts = Y π, without a load; Y includes gravity. It depends only on geometry, gravity and smoothing speeds.

@@ -9,10 +9,10 @@
 
 #include "base/sha1.h"
 #include "model/scenario_files.h"
+#include "model/scenario_numbers.h"
 #include "model/scenario_sections.h"
 #include "model/toml_tolerances.h"
 #include "model/toml_writer.h"
-#include "model/scenario_numbers.h"
 #include "validation/findings/provenance.h"
 
 namespace ursula {

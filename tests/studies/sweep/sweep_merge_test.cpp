@@ -153,7 +153,8 @@ TEST(SweepMerge, namesThePartThatIsBeingWritten) {
   SweepDatabase writes(part, identity());
   writes.add(point(0));
   writes.commit();
-  EXPECT_THAT(refusal<DatabaseError>([&] { mergeSweeps({part}, all); }), HasSubstr("part.db: error: another program has locked it"));
+  EXPECT_THAT(refusal<DatabaseError>([&] { mergeSweeps({part}, all); }),
+              HasSubstr("part.db: error: another program has locked it"));
   EXPECT_FALSE(std::filesystem::exists(all));
 }
 
