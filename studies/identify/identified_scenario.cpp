@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "model/scenario_numbers.h"
 #include "model/toml_reader.h"
@@ -106,6 +107,12 @@ class ScenarioMarker {
   std::vector<std::pair<std::string, toml::table>> marks_;
 };
 
+/// The array of a body's tensor; empty for other numbers.
+std::string tensorOf(const MachineNumber& number) {
+  const bool entry = number.quantity == Quantity::inertia || number.quantity == Quantity::platform_inertia;
+  return entry ? number.path.substr(0, number.path.rfind('.')) : "";
+}
+
 bool isShown(const NumberEstimate& each) {
   if (each.before == 0 || each.deviation > says_nothing * each.before) return false;
   const bool may_be_none = each.number.group == "friction" || each.number.group == "rotor";
@@ -121,11 +128,15 @@ std::string identifiedScenario(const Scenario& scenario, const PhysicalEstimate&
   const ManipulatorParameters& machine = scenario.manipulator->given();
   NumberTolerances others = statedTolerances(scenario);
   ScenarioMarker marker(document);
+  // A tensor is written as a whole: the estimate is one that a body can have, and a mixture with the old one need not
+  // be.
+  std::set<std::string> tensors;
+  for (const NumberEstimate& each : estimate.numbers)
+    if (isShown(each)) tensors.insert(tensorOf(each.number));
   for (const NumberEstimate& each : estimate.numbers) {
-    if (isShown(each))
-      marker.set(each.number, each.value, each.deviation, machine);
-    else
-      continue;
+    const std::string tensor = tensorOf(each.number);
+    if (!isShown(each) && (tensor.empty() || tensors.count(tensor) == 0)) continue;
+    marker.set(each.number, each.value, each.deviation, machine);
     others.erase(each.number.path);
   }
   for (const MachineNumber& number : machineNumbers(machine))

@@ -13,7 +13,8 @@ Eigen::VectorXd mismatches(const Eigen::MatrixXd& motion) {
   Eigen::Index size = 16;
   while (size < 2 * rows) size *= 2;
   Eigen::FFT<double> fft;
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(rows / 2 + 1);
+  Eigen::VectorXd out =
+      Eigen::VectorXd::Zero(rows / 2 + 2);  // with a neighbour of half the rows: two periods are enough
   int channels = 0;
   for (Eigen::Index k = 0; k < motion.cols(); ++k) {
     Eigen::VectorXd x = Eigen::VectorXd::Zero(size);
