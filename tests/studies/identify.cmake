@@ -1,14 +1,14 @@
-# What a log is read as, and its signals.
+# Logs made in Simbody, and what is found in them.
 add_executable(identify_tests
+  identify/identify_test.cpp
   identify/measured_log_test.cpp
-  identify/random_logs.cpp
   identify/signals_test.cpp
   identify/synthetic_log.cpp
   identify/tolerances_test.cpp
 )
-# Whole logs made in Simbody: evidence that docs/identify.md quotes, and that its intervals do not reach yet.
+# The evidence that docs/identify.md quotes, with what is not reached yet.
 add_executable(identify_logs EXCLUDE_FROM_ALL
-  identify/identify_test.cpp
+  identify/open_test.cpp
   identify/random_logs.cpp
   identify/random_logs_test.cpp
   identify/synthetic_log.cpp

@@ -1,0 +1,19 @@
+// What identify does not reach yet; docs/identify.md has the figures.
+
+#include "tests/studies/identify/paper_machine_log.h"
+
+namespace ursula {
+namespace {
+
+using IdentifyOpen = Identify;
+
+TEST_F(IdentifyOpen, fitToAPartPredictsTheRest) { EXPECT_LT(run().validation_fitted, 1.5); }
+
+TEST_F(IdentifyOpen, elasticJointIsToldFromAllMassesAndInertias) {
+  const IdentifyResult result = runWithCompliance();
+  ASSERT_FALSE(result.causes.empty());
+  EXPECT_TRUE(result.causes[0].outside);
+}
+
+}  // namespace
+}  // namespace ursula
