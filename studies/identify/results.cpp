@@ -10,6 +10,9 @@
 namespace ursula::identification {
 namespace {
 
+/// A rotor that the scenario lacks gets the smallest inertia (withRotors), so that it has a derivative.
+double stated(double nominal) { return std::abs(nominal) < 1e-300 ? 0 : nominal; }
+
 constexpr std::size_t most_terms_in_words = 4;
 
 std::vector<std::string> partsOf(const std::string& path) {
@@ -78,7 +81,7 @@ MeasuredCause measuredCause(const FoundCause& cause) {
   out.what = direction.words;
   out.unit = direction.unit;
   out.motor = direction.motor + 1;
-  out.expected = direction.nominal;
+  out.expected = stated(direction.nominal);
   out.found = direction.nominal + cause.change;
   out.uncertainty = cause.deviation;
   out.tolerances = cause.tolerance > 0 ? cause.change / cause.tolerance : 0;
@@ -95,7 +98,7 @@ void addCombinations(const BaseFit& fit, const Comparison& comparison, IdentifyR
     MeasuredNumber number;
     number.group = groupOf(first);
     number.unit = first.unit;
-    number.nominal = base.nominal;
+    number.nominal = stated(base.nominal);
     number.value = base.value;
     if (first.kind == DirectionKind::delay) number.value = out.delay;
     number.uncertainty = base.deviation;
@@ -130,7 +133,7 @@ void addNumbers(const PhysicalEstimate& estimate, double quantile, IdentifyResul
     number.name = each.number.path;
     number.group = each.number.group;
     number.unit = each.number.unit;
-    number.nominal = each.nominal;
+    number.nominal = stated(each.nominal);
     number.value = each.value;
     number.uncertainty = each.deviation;
     number.low = each.value - quantile * each.deviation;
