@@ -8,7 +8,7 @@ namespace {
 
 using Maps = std::array<OpenTree::PointMap, leg_count>;
 
-/// Column m brings effort m onto the platform's speeds.
+/// Column m maps effort m to the platform's speeds.
 Matrix6d motorMap(const Maps& N, const Manipulator& manipulator) {
   Matrix6d out;
   for (int m = 0; m < motor_count; ++m) {
@@ -25,7 +25,7 @@ Maps mapsOf(const OpenTree& tree, const Manipulator& manipulator) {
   return N;
 }
 
-/// [N; 1]ᵀ times what the tree needs.
+/// Returns [N; 1]ᵀ times the tree's forces.
 Vector6d wrenchOf(const OpenTree& tree, const Maps& N, const Manipulator& manipulator) {
   Vector6d wrench = tree.force;
   for (std::size_t i = 0; i < static_cast<std::size_t>(manipulator.legCount()); ++i)
@@ -57,7 +57,7 @@ Vector6d leastEfforts(const OpenTree& tree, const Manipulator& manipulator) {
   return motorMap(N, manipulator).transpose() * squares.llt().solve(wrenchOf(tree, N, manipulator));
 }
 
-/// J δ_leg − P δ = −gap of each leg, with δ_leg zero at its motors.
+/// Each leg satisfies J δ_leg − P δ = −gap, and δ_leg is zero at its motors.
 Vector6d displacement(const OpenTree& tree, const std::array<Vector3d, leg_count>& gaps,
                       const Manipulator& manipulator) {
   Vector6d right;

@@ -5,31 +5,31 @@
 
 namespace ursula {
 
-// Every engine's loops are closed alike, leg by leg. With N = J⁻¹P of each leg u = [N; 1] u_P satisfies the
-// constraints, and [N; 1]ᵀ frees the forces of multipliers (García de Jalón and Bayo, Kinematic and Dynamic Simulation
-// of Multibody Systems, 1994, sect. 5.3): six equations are left. Nothing is allocated.
+// Every engine's loops are closed alike, leg by leg. With N = J⁻¹P of each leg, u = [N; 1] u_P satisfies the
+// constraints. [N; 1]ᵀ removes the multipliers from the forces (García de Jalón and Bayo, Kinematic and Dynamic
+// Simulation of Multibody Systems, 1994, sect. 5.3), and six equations are left. These functions allocate nothing.
 
-/// Efforts for the forces that a tree needs.
+/// Returns the motors' efforts that balance the tree's forces with closed loops; N·m or N, in motor order.
 Vector6d closedEfforts(const OpenTree& tree, const Manipulator& manipulator);
 
-/// A usual mistake: what moves the legs alone, their loops open.
+/// Returns the motors' efforts with the loops left open. This is a usual mistake.
 Vector6d openEfforts(const OpenTree& tree, const Manipulator& manipulator);
 
-/// A usual mistake: the smallest forces on all coordinates, as a pseudoinverse gives, read at the motors. They depend
-/// on the platform's speeds that the engine has.
+/// Returns the smallest forces on all coordinates, as a pseudoinverse gives, at the motors. This is a usual mistake.
+/// They depend on the engine's choice of the platform's speeds.
 Vector6d leastEfforts(const OpenTree& tree, const Manipulator& manipulator);
 
-/// How the platform moves, in its speeds, where each leg's point moves by `gaps` off the platform's, the motors at
-/// rest.
+/// Returns the platform's displacement, in its speeds, that closes `gaps` (m, leg's point minus platform's) while the
+/// motors stand still.
 Vector6d displacement(const OpenTree& tree, const std::array<Vector3d, leg_count>& gaps,
                       const Manipulator& manipulator);
 
-/// Rates of the platform's speeds under efforts.
+/// Returns the rates of the platform's speeds under efforts.
 Vector6d closedRates(const OpenTree& tree, const OpenTreeMasses& masses, const Manipulator& manipulator,
                      const Vector6d& efforts);
 
-/// What the platform's rates change by, at most and to first order, where of the acceleration at which each gap would
-/// open without its constraint a part is left.
+/// Returns how much soft closures change the platform's rates, at most and to first order. Each closure leaves `part`
+/// of the acceleration at which its gap would open without it.
 Vector6d changeOfRates(const OpenTree& tree, const OpenTreeMasses& masses, const Manipulator& manipulator,
                        const Vector6d& efforts, double part);
 

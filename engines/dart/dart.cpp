@@ -1,4 +1,4 @@
-// Loads the module that asks DART, once it is needed.
+// The module is loaded on first use, because DART's many libraries slow every start.
 
 #include <dlfcn.h>
 
@@ -9,7 +9,7 @@
 namespace ursula {
 namespace {
 
-/// Null if the module is not beside the program, or DART is not installed.
+/// Returns null if the module is not beside the program, or if DART is not installed.
 const DartModule* module() {
   static const DartModule* const found = [] {
     void* library = ::dlopen("ursula_dart.so", RTLD_NOW | RTLD_LOCAL);

@@ -1,4 +1,4 @@
-// DART as its users ask it about a closed loop, and as it moves one itself.
+// Asks DART for efforts of a closed loop as its users do, and lets it step one in time.
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace dd = dart::dynamics;
 using dart::constraint::DynamicJointConstraint;
 using dart_engine::DartLeg, dart_engine::DartMachine;
 
-/// [moment about P; force] of a load, in B.
+/// Returns a load's [moment about P; force] in B.
 Vector6d loadOn(const Load* load, double t, const Matrix3d& Q) {
   Vector6d out = Vector6d::Zero();
   if (load == nullptr) return out;
@@ -32,7 +32,7 @@ Vector6d loadOn(const Load* load, double t, const Matrix3d& Q) {
   return out;
 }
 
-/// By DART's world, its ball constraints and semi-implicit steps.
+/// DART's world moves the loop, with its ball constraints and semi-implicit steps.
 class DartStepped : public SteppedLoop {
  public:
   DartStepped(const Manipulator& manipulator, std::shared_ptr<const Load> load, const Rigidity& rigidity)
@@ -56,7 +56,7 @@ class DartStepped : public SteppedLoop {
     }
   }
 
-  /// Its constants are global.
+  /// DART's constants are global, so each step sets them.
   void step(const Vector6d& efforts) override {
     DynamicJointConstraint::setErrorReductionParameter(rigidity_.settings.at(0).second);
     DynamicJointConstraint::setConstraintForceMixing(rigidity_.settings.at(1).second);
@@ -84,7 +84,7 @@ class DartStepped : public SteppedLoop {
       const auto [joint, which] = place(m);
       out.q(m) = joint->getPosition(which);
     }
-    // DART's own potential energy is that of masses at the bodies' origins.
+    // DART's own potential energy assumes masses at the bodies' origins.
     const dd::SkeletonPtr& skeleton = machine_.skeleton;
     out.energy =
         (skeleton->computeKineticEnergy() - skeleton->getMass() * world_->getGravity().dot(skeleton->getCOM())) / unit_;
@@ -103,8 +103,8 @@ class DartStepped : public SteppedLoop {
   }
 
  private:
-  /// DART stops the program where its constraints' matrix is not symmetric to 1e-6: a unit of mass in which that has
-  /// entries of about 1. All forces are in it.
+  /// DART ends the process if its constraints' matrix is not symmetric to 1e-6. This unit of mass brings the matrix's
+  /// entries near 1. All forces are in that unit.
   void chooseUnit() {
     PlacedTree tree;
     machine_.readMaps(tree);
@@ -131,7 +131,7 @@ class DartStepped : public SteppedLoop {
   std::shared_ptr<const Load> load_;
   Rigidity rigidity_;
   dart::simulation::WorldPtr world_;
-  double unit_ = 1;  ///< 1/kg
+  double unit_ = 1;  ///< factor on masses and forces, 1/kg
 };
 
 class DartCalls : public LoopEngine {
@@ -163,7 +163,7 @@ class DartCalls : public LoopEngine {
   std::vector<Rigidity> rigidities() const override {
     const double erp = DynamicJointConstraint::getErrorReductionParameter(),
                  cfm = DynamicJointConstraint::getConstraintForceMixing();
-    constexpr double step = 0.001;  // s, DART's own
+    constexpr double step = 0.001;  // s, DART's default
     const auto of = [](const char* name, double over, double e, double c) {
       return Rigidity{name, over, 0, {{"erp", e}, {"cfm", c}}};
     };

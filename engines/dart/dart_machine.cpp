@@ -1,5 +1,5 @@
-// The links' body frames are those of the scenario, with origins at the links' first ends; the platform's is M with its
-// origin in P. A rod in a cylinder has its origin at its inner end.
+// The links' body frames are those of the scenario, with origins at the links' first ends. A rod in a cylinder has its
+// origin at its inner end. The platform's frame is M, with its origin in P.
 
 #include <fmt/format.h>
 
@@ -46,7 +46,7 @@ dd::UniversalJoint::Properties universal(const Vector3d& first, const Vector3d& 
   return out;
 }
 
-/// z along û, x as it is: the second angle is then from û.
+/// Turns z to û and keeps x, so that the second angle counts from û.
 Matrix3d alongAxis() { return Eigen::AngleAxisd(-pi / 2, Vector3d::UnitX()).toRotationMatrix(); }
 
 Eigen::Isometry3d placeOf(const Matrix3d& R, const Vector3d& at) {
@@ -56,7 +56,7 @@ Eigen::Isometry3d placeOf(const Matrix3d& R, const Vector3d& at) {
   return out;
 }
 
-/// Between sides a and b of a triangle.
+/// Returns the angle between sides a and b of a triangle.
 double angleOpposite(double c, double a, double b) { return std::acos((a * a + b * b - c * c) / (2 * a * b)); }
 
 }  // namespace
@@ -144,13 +144,13 @@ void DartMachine::move(const Motion<double>& motion, bool with_bias) {
   Vector6d twist, rate;
   twist << omega, v;
   rate << motion.Q.transpose() * motion.omega_dot, motion.Q.transpose() * motion.p_ddot - omega.cross(v);
-  // DART's rotations have ten digits alone where the angle is small: the joint is always turned by a radian.
+  // DART's rotations have only ten digits at small angles, so the joint is always turned by a radian.
   const Matrix3d turned = Eigen::AngleAxisd(1, Vector3d::UnitX()).toRotationMatrix();
   free->setTransformFromParentBodyNode(placeOf(motion.Q * turned.transpose(), motion.p));
   free->setPositions(dd::FreeJoint::convertToPositions(placeOf(turned, Vector3d::Zero())));
   free->setVelocities(twist);
   free->setAccelerations(rate);
-  constexpr int newton_steps = 3;  // the geometry has half the digits where a leg is nearly stretched
+  constexpr int newton_steps = 3;  // geometry loses half the digits if a leg is nearly stretched
   for (std::size_t i = 0; i < legs.size(); ++i) {
     const Leg& from = manipulator.leg(static_cast<int>(i));
     const auto set = [&leg = legs[i]](const Vector3d& values, auto setter) {

@@ -6,9 +6,9 @@
 
 namespace ursula {
 
-/// What the module of DART exports under the name ursula_dart_module.
+/// The DART module exports this under the name ursula_dart_module.
 struct DartModule {
-  const char* version;  ///< of DART, "6.12.1"
+  const char* version;  ///< DART's version, "6.12.1"
   MakeLoopEngine* make;
 };
 

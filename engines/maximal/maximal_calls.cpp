@@ -1,4 +1,4 @@
-// Maximal coordinates as somebody asks for them about a closed loop. They move nothing in time.
+// Asks maximal coordinates for efforts of a closed loop. They have no time stepping.
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -11,7 +11,7 @@
 namespace ursula {
 namespace {
 
-/// Velocity of a point for twists [ω; ċ], a column each, `arm` from the mass centre.
+/// Returns the velocities of a point, `arm` from the mass centre, for twists [ω; ċ] in columns.
 template <class Twists>
 auto velocities(const Twists& twists, const Vector3d& arm) {
   Eigen::Matrix<double, 3, Twists::ColsAtCompileTime> out;
@@ -52,9 +52,9 @@ class MaximalCalls : public LoopEngine {
     loop_.solveMotion(motion, bias == Bias::kept);
   }
 
-  /// With K = [Gᵀ S] of the leg's two bodies the last rows of K⁻¹ are its twists for unit rates of its joints.
+  /// K = [Gᵀ S] belongs to the leg's two bodies. The last rows of K⁻¹ are its twists for unit rates of its joints.
   void addLeg(int i, const Eigen::VectorXd& wrenches) {
-    constexpr int rows = 9;  // of the leg's own joints, before its ball's
+    constexpr int rows = 9;  // constraints of the leg's own joints come before its ball's
     const int legs = manipulator().legCount(), second = 6 * (legs + i);
     Square K;
     K.topLeftCorner<6, rows>() = loop_.G_.block<rows, 6>(12 * i, 6 * i).transpose();

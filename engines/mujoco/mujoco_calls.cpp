@@ -1,4 +1,4 @@
-// MuJoCo as its users ask it about a closed loop, and as it moves one itself.
+// Asks MuJoCo for efforts of a closed loop as its users do, and lets it step one in time.
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -15,7 +15,8 @@ namespace {
 
 using mujoco::Connected, mujoco::dofOf, mujoco::VectorOfDofs;
 
-/// As MuJoCo keeps them: time constant and damping ratio; the impedance's least and most, and how it goes between.
+/// MuJoCo's constraint parameters: solref has time constant and damping ratio; solimp has the impedance's minimum,
+/// maximum and shape.
 struct Softness {
   std::array<mjtNum, mjNREF> solref{};
   std::array<mjtNum, mjNIMP> solimp{};
@@ -27,7 +28,7 @@ Softness defaultSoftness() {
   return out;
 }
 
-constexpr double default_step = 0.002;  // s, MuJoCo's own
+constexpr double default_step = 0.002;  // s, MuJoCo's default
 
 Rigidity rigidity(const std::string& name, double step, const Softness& softness) {
   return {name,
@@ -47,7 +48,7 @@ Softness softnessOf(const Rigidity& rigidity) {
   return out;
 }
 
-/// Of sites in the world's axes.
+/// MuJoCo gives the sites' positions in the world's axes.
 void readGaps(const mjData& data, int legs, PlacedTree& out) {
   for (int i = 0; i < legs; ++i)
     out.gaps[static_cast<std::size_t>(i)] =
@@ -55,7 +56,7 @@ void readGaps(const mjData& data, int legs, PlacedTree& out) {
         Eigen::Map<const Vector3d>(data.site_xpos + 3 * mujoco::siteOnPlatform(legs, i));
 }
 
-/// The loops closed by MuJoCo's `connect`, as soft as is said.
+/// Builds the machine with loops that MuJoCo's `connect` closes at this softness.
 Connected connected(const Manipulator& manipulator, const Vector3d& origin, const Softness& softness) {
   Connected out;
   out.model = mujoco::buildModel(manipulator, origin, mujoco::Closure::connected);
@@ -70,7 +71,7 @@ Connected connected(const Manipulator& manipulator, const Vector3d& origin, cons
 
 }  // namespace
 
-/// Two times the step is the least time constant that MuJoCo does not round up.
+/// MuJoCo raises shorter time constants to two steps.
 class MujocoStepped : public SteppedLoop {
  public:
   MujocoStepped(const Manipulator& manipulator, std::shared_ptr<const Load> load, const Rigidity& rigidity)
@@ -91,7 +92,7 @@ class MujocoStepped : public SteppedLoop {
     mj_forward(own_.model.get(), own_.data.get());
   }
 
-  /// Friction and load stand still over the step, too.
+  /// Friction and load are held over the step, too.
   void step(const Vector6d& efforts) override {
     mjData& data = *own_.data;
     VectorOfDofs applied = at_.given(*own_.model, data, platform());
@@ -109,7 +110,7 @@ class MujocoStepped : public SteppedLoop {
       const int dof = dofOf(motor.leg, motor.joint);
       out.q(m) = own_.data->qpos[dof] - (motor.joint == 0 ? at_.offset_of_phi[static_cast<std::size_t>(motor.leg)] : 0);
     }
-    mj_forward(own_.model.get(), own_.data.get());  // a step ends with positions that nothing else belongs to
+    mj_forward(own_.model.get(), own_.data.get());  // after a step only the positions are up to date
     out.p = platform().p;
     out.energy = own_.data->energy[0] + own_.data->energy[1];
     out.power =
@@ -119,7 +120,7 @@ class MujocoStepped : public SteppedLoop {
   }
 
  private:
-  /// What load and friction need to know.
+  /// Returns the instant and pose for load and friction.
   Motion<double> platform() const {
     Motion<double> out;
     out.t = own_.data->time;
@@ -198,7 +199,7 @@ class MujocoCalls : public LoopEngine {
   MujocoLoop loop_;
   MujocoLoop::Impl& at_;
   PlacedTree tree_;
-  Connected soft_, hard_;  ///< made when they are first asked for
+  Connected soft_, hard_;  ///< made on first use
 };
 
 std::unique_ptr<LoopEngine> makeMujocoCalls(const Manipulator& manipulator, std::shared_ptr<const Load> load) {

@@ -1,4 +1,4 @@
-// Open trees have joints q_L and a free platform q_P. The loops close where the points Bᵢ of distal link and platform
+// Open trees have joints q_L and a free platform q_P. The loops are closed if the points Bᵢ of distal link and platform
 // coincide; G = [G_L G_P] is the Jacobian of the gaps.
 //
 //   G_L q̇_L = −G_P q̇_P                                                                                         (1)

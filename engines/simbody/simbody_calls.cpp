@@ -1,4 +1,4 @@
-// Simbody as its users ask it about a closed loop, and as it moves one itself.
+// Asks Simbody for efforts of a closed loop as its users do, and lets it step one in time.
 
 #include <Eigen/LU>
 #include <stdexcept>
@@ -10,7 +10,7 @@
 namespace ursula {
 namespace {
 
-/// Simbody's rows are of the platform's point less the leg's.
+/// Simbody's rows are the platform's point minus the leg's.
 void turnRows(OpenTree& out) {
   for (OpenTree::Leg& leg : out.legs) {
     leg.J = -leg.J;
@@ -29,7 +29,7 @@ void readGaps(const SimbodyLoop& loop, const Manipulator& manipulator, PlacedTre
   }
 }
 
-/// By Simbody's own integrator, with its constraints and their projection.
+/// Simbody's own integrator moves the loop, with its constraints and their projection.
 class SimbodyStepped : public SteppedLoop {
  public:
   SimbodyStepped(const Manipulator& manipulator, std::shared_ptr<const Load> load, const Rigidity& rigidity)
@@ -98,7 +98,7 @@ class SimbodyCalls : public LoopEngine {
   }
 
   std::vector<Rigidity> rigidities() const override {
-    return {{"default", 0.002, 0.5, {{"accuracy", 1e-3}}}};  // over so short a step no accuracy shows
+    return {{"default", 0.002, 0.5, {{"accuracy", 1e-3}}}};  // other accuracies change nothing over so short a step
   }
 
   std::unique_ptr<SteppedLoop> stepped(const Rigidity& rigidity) const override {
