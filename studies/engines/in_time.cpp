@@ -32,14 +32,14 @@ class MovedLoop {
   }
 
  private:
-  /// Whatever comes of wide open loops says nothing more, and may end an engine's process.
+  /// Throws if a loop is wide open: later states say nothing more, and may end an engine's process.
   void requireClosed(const SteppedLoop::State& state) {
     const double gap = largestGap(state.tree, engine_.manipulator());
     out_.gap = std::max(out_.gap, gap);
     if (!(gap < reference_.length() / 10)) throw std::runtime_error(fmt::format("a loop is open by {:.2g} m", gap));
   }
 
-  /// False where the engine gives up.
+  /// Returns false if the engine gives up.
   bool step() {
     const double step = out_.rigidity.step;
     const Vector6d efforts = reference_.at((out_.steps + out_.rigidity.instant) * step).efforts;
@@ -90,7 +90,7 @@ InTimeFound moveInTime(const LoopEngine& engine, const Rigidity& rigidity, Engin
     return MovedLoop(engine, rigidity, reference).move(steps);
   } catch (const std::bad_alloc&) {
     throw;
-  } catch (const std::exception& words) {  // before the first step
+  } catch (const std::exception& words) {  // the engine gave up before the first step
     InTimeFound out;
     out.rigidity = rigidity;
     out.gave_up = words.what();

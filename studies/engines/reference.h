@@ -5,18 +5,18 @@
 
 namespace ursula {
 
-/// What every engine is held against: the paper's method as a validation judges it.
+/// The reference for every engine: the paper's method as a validation judges it.
 class EngineReference {
  public:
   struct Here {
     Motion<double> motion;
-    Vector6d efforts, q_dot;  ///< of the motors
+    Vector6d efforts, q_dot;  ///< of the motors, in their order
   };
 
   explicit EngineReference(const Scenario& scenario);
 
   Here at(double t);
-  /// Of the machine's size, m.
+  /// Returns the machine's characteristic length, m.
   double length() const { return noc_.machine().length; }
 
  private:

@@ -52,7 +52,7 @@ Scale scaleOf(const Instants& instants, const Motors& motors) {
   return out;
 }
 
-/// NaN stays: it is the largest of all.
+/// NaN counts as the largest value and stays.
 bool exceeds(double value, double other) { return !(value <= other); }
 
 RecipeFound askBy(LoopEngine& engine, Recipe recipe, const Instants& instants, const Scale& scale) {
@@ -85,7 +85,7 @@ std::vector<Recipe> recipesOf(const LoopEngineKind& kind) {
   return out;
 }
 
-/// One engine after another, each told of.
+/// Asks one engine after another and reports progress.
 class Asking {
  public:
   Asking(const Scenario& scenario, const SideBySideOptions& options)

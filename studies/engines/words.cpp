@@ -1,4 +1,4 @@
-// What was found, for people and for programs.
+// Texts of the comparison for people and programs.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,7 +18,7 @@ namespace {
 using nlohmann::ordered_json;
 using report::plainNumber, report::quantity;
 
-/// A call that is off by less is rounding, not a mistake.
+/// A smaller deviation is rounding, not a mistake.
 constexpr double as_good = 1e-10;
 
 std::string called(const EngineFound& engine) {
@@ -117,7 +117,7 @@ std::string sentence(const SideBySide& found) {
     if (!engine.refused.empty()) continue;
     exact = std::max(exact, engine.of(Recipe::exact).error);
     ++asked;
-    if (engine.version.empty()) continue;  // this program's own formulation
+    if (engine.version.empty()) continue;  // this program's own formulation has no version
     const double obvious = engine.of(engine.kind->obvious).error;
     least = std::min(least, obvious);
     most = std::max(most, obvious);
