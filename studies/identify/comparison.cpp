@@ -79,7 +79,7 @@ void ModelledLog::placeMotions(const MeasuredLog& log) {
   }
 }
 
-/// Says what would let the machine follow: degrees, millimetres, two legs exchanged.
+/// Suggests a cure that lets the machine follow: degrees, millimetres, two exchanged legs.
 void ModelledLog::refuse(const MeasuredLog& log, Eigen::Index at) const {
   const MeasuredState state = filtered_.state(at);
   std::string likely;
@@ -149,8 +149,8 @@ Comparison ModelledLog::directions(bool with_further) const {
   return out;
 }
 
-/// By how much efforts change with a higher cut-off of the motion's low pass, in the longest stretch of the log: what
-/// is beyond the cut-off falls off, and so the next octave has about what is lost.
+/// Estimates the low pass's error from the change of efforts at a higher cut-off, over the log's longest stretch. The
+/// signal falls off beyond the cut-off, so the next octave shows about what is lost.
 Vector6d ModelledLog::numericalError() const {
   constexpr Eigen::Index most = 3000;
   const auto longest =

@@ -12,56 +12,57 @@
 namespace ursula::identification {
 
 enum class DirectionKind { linear, offset, delay, number, scale, encoder, elastic, backlash, load_friction };
-/// "effort_scale", "encoder_offset", …: as `summary.json` names what may have caused a deviation.
+/// Returns the kind's name in `summary.json`: "effort_scale", "encoder_offset", …
 const char* name(DirectionKind kind);
 
-/// One way in which measured efforts may come to differ from the model's, by a number that is zero where they agree.
+/// A possible difference between measured and modelled efforts. Its number is zero if they agree.
 struct Direction {
   DirectionKind kind = DirectionKind::linear;
-  std::string path;   ///< of a number of the machine, or of what efforts are linear in; empty of the log's own
+  std::string path;   ///< path of a machine's number or of a linear parameter; empty for the log's own
   std::string words;  ///< "offset of motor 3's effort"
   std::string unit;
-  int motor = -1;        ///< 0-based; −1: of no motor
-  double nominal = 0;    ///< what the model has
-  double plausible = 1;  ///< a size that a difference may have
+  int motor = -1;        ///< 0-based; −1 for no motor
+  double nominal = 0;    ///< the model's value
+  double plausible = 1;  ///< plausible size of a difference
 };
 
-/// Efforts, a row an instant and a column a motor; and of each motor a table with a row an instant.
+/// Tables of efforts, one for each motor, with an instant in each row.
 using MotorTables = std::array<Eigen::MatrixXd, motor_count>;
 
-/// What was measured beside what the model says, after both low passes, and what would change it.
+/// Measured and modelled efforts after both low passes, and the directions that change the model.
 struct Comparison {
-  Eigen::VectorXd t;                ///< s, of the motion
+  Eigen::VectorXd t;                ///< instants of the motion, s
   Eigen::MatrixXd measured, model;  ///< N·m or N
   Eigen::MatrixXd model_rate;       ///< N·m/s or N/s
   std::vector<Segment> segments;
-  std::vector<Direction> directions;      ///< all linear ones first, then six offsets, then the delay
-  Vector6d numerical = Vector6d::Zero();  ///< what the low passes may be off by, root mean square, N·m or N
-  MotorTables columns;                    ///< their derivatives of the measured efforts
-  Eigen::Index linear = 0;                ///< how many are linear
+  std::vector<Direction> directions;      ///< linear ones first, then six offsets, the delay, and further ones
+  Vector6d numerical = Vector6d::Zero();  ///< error of the low passes, root mean square, N·m or N
+  MotorTables columns;                    ///< derivatives of measured efforts by the directions
+  Eigen::Index linear = 0;                ///< number of linear directions
 
   Eigen::Index offsets() const { return linear; }
   Eigen::Index delay() const { return linear + motor_count; }
   Eigen::Index further() const { return delay() + 1; }
 };
 
-/// The motion that a log has, and the efforts that a scenario's machine needs for it.
+/// The log's motion, and the efforts that a scenario's machine needs for it.
 class ModelledLog {
  public:
-  /// Throws CsvError where the machine cannot follow the log's motion, with what may be the reason.
+  /// Throws CsvError with a likely reason if the machine cannot follow the log's motion.
   ModelledLog(const Scenario& scenario, const MeasuredLog& log, const FilteredLog& filtered);
 
   const FilteredLog& filtered() const { return filtered_; }
   const Eigen::MatrixXd& efforts() const { return efforts_; }
-  /// By how much measured efforts come after those of the motion, s, to a step of the filter: where they are likest.
+  /// Returns the delay of measured efforts behind the motion's, s, with the best correlation. Its resolution is a step
+  /// of the filter; |delay| <= `most`.
   double coarseDelay(double most) const;
 
-  /// For efforts that come `delay` s late. Directions that do not change with the delay are made once.
+  /// Sets the measured efforts for a delay of `delay` s. The directions stay, because they do not depend on it.
   void compare(double delay, Comparison& out) const;
-  /// All directions; slow.
+  /// Makes the linear directions, offsets and delay, and also the further ones on request. This is slow.
   Comparison directions(bool with_further) const;
-  /// By the driven coordinates, their rates and accelerations: root mean squares of ∂τᵢ/∂qₖ, 6 × 6 each; empty for
-  /// poses.
+  /// Returns root mean squares of ∂τᵢ/∂qₖ, ∂τᵢ/∂q̇ₖ and ∂τᵢ/∂q̈ₖ for the driven coordinates, 6 × 6 each. They are zero
+  /// for poses.
   std::array<Matrix6d, 3> sensitivity() const;
 
  private:
@@ -85,7 +86,7 @@ class ModelledLog {
   Eigen::MatrixXd efforts_, driven_rates_;
 };
 
-/// A machine on whose driven coordinates rotors have an inertia, if only the smallest.
+/// Returns the machine with a positive rotor inertia on every driven coordinate, however small.
 ManipulatorParameters withRotors(ManipulatorParameters machine);
 
 }  // namespace ursula::identification

@@ -7,9 +7,9 @@
 namespace ursula::identification {
 namespace {
 
-/// Of what a number is changed for its derivative.
+/// Step of a number for its derivative, as a share of its size.
 constexpr double relative_step = 1e-6;
-/// At which share of a motor's effort a backlash has changed sides.
+/// Share of a motor's effort at which a backlash has changed sides.
 constexpr double side_share = 0.02;
 
 bool isNonlinear(const MachineNumber& number) {
@@ -19,7 +19,7 @@ bool isNonlinear(const MachineNumber& number) {
 
 }  // namespace
 
-/// Efforts at the settled instants of a machine with other numbers, whose motors move as was measured.
+/// Computes efforts at the settled instants for a machine with other numbers, with the measured motion of the motors.
 Eigen::MatrixXd ModelledLog::effortsOf(const Manipulator& machine) const {
   const MotorChain chain(machine);
   Eigen::MatrixXd out(static_cast<Eigen::Index>(filtered_.settled().size()), motor_count);
@@ -55,7 +55,8 @@ void ModelledLog::addNumbers(Comparison& out) const {
   }
 }
 
-/// By errors of a driven coordinate, its rate and acceleration at the settled instants: columns of `error`.
+/// Computes the change of efforts by errors of a driven coordinate, its rate and acceleration (the columns of `error`)
+/// at the settled instants.
 Eigen::MatrixXd ModelledLog::changedBy(int motor, const Eigen::MatrixXd& error) const {
   const double step = relative_step / std::max(error.col(0).cwiseAbs().maxCoeff(), 1e-12);
   Eigen::MatrixXd out(error.rows(), motor_count);
@@ -74,7 +75,7 @@ Eigen::MatrixXd ModelledLog::changedBy(int motor, const Eigen::MatrixXd& error) 
   return out;
 }
 
-/// What a motor's own effort, or a wrong coordinate of its, would do.
+/// Adds the effects of a motor's own effort and of a wrong coordinate.
 void ModelledLog::addSeries(Comparison& out) const {
   const Motors& motors = scenario_.manipulator->motors();
   const auto rows = out.model.rows();

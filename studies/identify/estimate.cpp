@@ -10,10 +10,11 @@ namespace ursula::identification {
 namespace {
 
 constexpr int most_order = 6;
-constexpr double most_memory = 0.5;  ///< sum of an autoregression's coefficients
+constexpr double most_memory = 0.5;  ///< largest sum of an autoregression's coefficients
 constexpr double visible = 0.1, train_share = 0.7, rounding = 1e-9;
 
-/// [columns | measured − model] of motor k.
+/// Returns [columns
+/// measured − model] of motor k.
 Eigen::MatrixXd tableOf(const Comparison& comparison, int k) {
   const Eigen::MatrixXd& columns = comparison.columns[static_cast<std::size_t>(k)];
   Eigen::MatrixXd out(columns.rows(), columns.cols() + 1);
@@ -21,7 +22,8 @@ Eigen::MatrixXd tableOf(const Comparison& comparison, int k) {
   return out;
 }
 
-/// What a least-squares fit of the last column by the first `count` leaves, and its rank.
+/// Returns the solution and the residual of a least-squares fit of the last column by the first `count`, and sets the
+/// rank.
 std::pair<Eigen::VectorXd, Eigen::VectorXd> leastSquares(const Eigen::MatrixXd& rows, Eigen::Index count,
                                                          Eigen::Index& rank) {
   Eigen::VectorXd scale = rows.leftCols(count).colwise().norm().transpose();
@@ -33,7 +35,8 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> leastSquares(const Eigen::MatrixXd& 
   return {scale.asDiagonal() * x, y - rows.leftCols(count) * (scale.asDiagonal() * x)};
 }
 
-/// Coefficients of x(i) by x(i − 1), …, x(i − order), by least squares within segments; and what they leave.
+/// Fits x(i) by x(i − 1), …, x(i − order) with least squares within segments. Returns the coefficients and sets the
+/// remaining variance.
 Eigen::VectorXd autoregression(const Eigen::VectorXd& x, const std::vector<Segment>& segments, int order,
                                double& left) {
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(order, order);
@@ -52,9 +55,9 @@ Eigen::VectorXd autoregression(const Eigen::VectorXd& x, const std::vector<Segme
   return found;
 }
 
-/// The order by Akaike's criterion, the same for all motors. One whose noise would drift has more than noise in it:
-/// what a wrong delay or model leaves is smooth, and a fit of its differences would no longer see it. The residual of
-/// few instants has lost what the numbers took, and tells of no order.
+/// Returns the order by Akaike's criterion, the same for all motors. An order with drifting noise is refused, because
+/// it fits more than noise. A wrong delay or model leaves a smooth residual, which a fit of its differences would no
+/// longer see. A short residual shows no order, because the fitted numbers took too much of it.
 int orderOf(const Eigen::MatrixXd& residual, const std::vector<Segment>& segments) {
   const auto rows = static_cast<double>(residual.rows());
   const int most = std::min(most_order, static_cast<int>(rows / 200));
@@ -91,7 +94,7 @@ Eigen::MatrixXd filteredBy(const Eigen::VectorXd& coefficients, const std::vecto
   return out;
 }
 
-/// Tables of the motors as one, six rows for each instant, each instant's multiplied by `by`.
+/// Merges the motors' tables, six rows for each instant; `by` multiplies each instant's six rows.
 Eigen::MatrixXd interleaved(const MotorTables& tables, const Matrix6d& by) {
   Eigen::MatrixXd out(6 * tables[0].rows(), tables[0].cols());
   for (int k = 0; k < motor_count; ++k) {

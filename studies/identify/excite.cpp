@@ -17,12 +17,11 @@ namespace ursula {
 namespace {
 
 using namespace identification;
-using Coefficients = Eigen::MatrixXd;  ///< six rows; sines, then cosines of the harmonics
+using Coefficients = Eigen::MatrixXd;  ///< six rows; columns are sines, then cosines of the harmonics
 
 constexpr double never = std::numeric_limits<double>::infinity(), relative_rank = 1e-6;
 
-/// P and a Rodrigues vector about a middle, as finite Fourier series that begin and end at rest nowhere but at the
-/// middle.
+/// P and a Rodrigues vector about a middle pose, as finite Fourier series. Nothing makes them begin or end at rest.
 class FourierPoses {
  public:
   FourierPoses(const Motion<double>& middle, double period, int harmonics)
@@ -56,7 +55,7 @@ class FourierPoses {
   int harmonics_;
 };
 
-/// The largest along a motion.
+/// Extreme values along a motion: the least margin, and the largest of the others.
 struct Extremes {
   double speed = 0, effort = 0, kappa = 0, reach = 0, turn = 0, margin = 1;
 };
@@ -83,7 +82,7 @@ class ExciteSearch {
     for (int i = 0; i < options_.tries; ++i) {
       Coefficients next = best * (1 + 0.3 * step * dice.uniform(-1, 1)) + step * sizes_.asDiagonal() * drawn(dice);
       const double found = costOf(next);
-      step = std::clamp(step * (found < cost ? 1.5 : 0.93), 0.01, 1.0);  // Rechenberg's fifth
+      step = std::clamp(step * (found < cost ? 1.5 : 0.93), 0.01, 1.0);  // Rechenberg's one-fifth rule
       if (found < cost) {
         best = next;
         cost = found;
@@ -106,12 +105,12 @@ class ExciteSearch {
     limits_.reach = options_.reach > 0 ? options_.reach : 0.1 * solver_.length();
     limits_.turn = options_.turn;
     limits_.margin = std::min(options_.margin, 0.5 * found.margin);
-    if (!(limits_.speed > 0)) limits_.speed = solver_.length();  // the scenario holds a pose
+    if (!(limits_.speed > 0)) limits_.speed = solver_.length();  // the scenario's machine stands still
     sizes_ << Vector3d::Constant(0.2 * limits_.reach), Vector3d::Constant(0.1 * limits_.turn);
     for (const Motion<double>& motion : motions) own_.push_back(motion);
   }
 
-  /// The columns' sizes, by the scenario's own efforts.
+  /// Sets plausible sizes of the columns from the scenario's own efforts.
   void setPlausibleSizes() {
     Comparison sizes;
     sizes.directions.resize(derivatives_.regressorNames().size());
@@ -124,7 +123,7 @@ class ExciteSearch {
       plausible_(j) = sizes.directions[static_cast<std::size_t>(j)].plausible;
   }
 
-  /// Throws PoseError where a leg cannot follow.
+  /// Throws PoseError if a leg cannot follow.
   Extremes extremesOf(const std::vector<Motion<double>>& motions) {
     Extremes out;
     for (const Motion<double>& motion : motions) {
@@ -179,7 +178,8 @@ class ExciteSearch {
     return out;
   }
 
-  /// A random motion, made smaller until it keeps to the limits; what numbers it shows is then what counts.
+  /// Draws a random motion and shrinks it until it keeps to the limits. The numbers that it shows are the ones that
+  /// count from then on.
   Coefficients start(Dice& dice) {
     for (int draw = 0; draw < 8; ++draw) {
       Coefficients of = sizes_.asDiagonal() * drawn(dice);
@@ -215,7 +215,7 @@ class ExciteSearch {
     return singular(singular.size() - 1) > 0 ? singular(0) / singular(singular.size() - 1) : never;
   }
 
-  /// Less the logarithm of the determinant; infinite beyond a limit.
+  /// Returns minus the mean logarithm of the regressor's diagonal; infinite beyond a limit.
   double costOf(const Coefficients& of) {
     if (!keepsLimits(of, 2 * instants_)) return never;
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(shownBy(along(of)));

@@ -6,16 +6,16 @@
 namespace ursula::identification {
 namespace {
 
-/// The low passes may take so much of an open log at each end.
+/// end_share is the share of an open log that the low passes may take at each end.
 constexpr double end_share = 0.12, of_bandwidth = 4, enough_of_bandwidth = 2.5, of_rate = 0.18, support = 3.6;
-/// Cut-off that shows what the motion's low pass takes, over its own.
+/// Cut-off of the low pass that shows what the motion's own takes, as a multiple of that one's.
 constexpr double sharper = 1.6;
-/// Instants that are wanted, so that noise can be told from what is fitted.
+/// So many instants tell noise from the fit.
 constexpr double wanted_instants = 150;
-/// Of the largest rate, below which a machine rests.
+/// A machine rests below this share of the largest rate.
 constexpr double rest_share = 0.02;
 
-/// Rows beyond the ends: those of the next period, or the first and the last.
+/// Extends the log beyond its ends: by the next period, or by the means of the first and last rows at rest.
 Eigen::MatrixXd carriedOn(const Eigen::MatrixXd& x, Eigen::Index by, Ends ends) {
   const Eigen::Index rows = x.rows(), mean = std::min<Eigen::Index>(5, rows);
   Eigen::MatrixXd out(rows + 2 * by, x.cols());
@@ -37,7 +37,7 @@ Ends endsOf(const MeasuredLog& log, bool is_period) {
   if (part < 8) return Ends::open;
   for (Eigen::Index k = 0; k < log.motion.cols(); ++k) {
     const Eigen::VectorXd x = log.motion.col(k);
-    const auto change = [&](Eigen::Index first) {  // of the halves of a part, which noise moves little
+    const auto change = [&](Eigen::Index first) {  // difference of a part's two halves, which noise moves little
       return std::abs(x.segment(first + part / 2, part / 2).mean() - x.segment(first, part / 2).mean());
     };
     double largest = 0;

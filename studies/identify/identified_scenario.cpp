@@ -12,10 +12,10 @@
 namespace ursula::identification {
 namespace {
 
-/// Of its own uncertainty beforehand, above which a log says nothing of a number.
+/// A log says nothing of a number if more than this share of its prior uncertainty remains.
 constexpr double says_nothing = 0.9;
 
-/// A node by a dotted path as takeTolerances has it, with its parent.
+/// A node at a dotted path, as takeTolerances writes it, with its parent.
 struct NodePlace {
   toml::node* parent = nullptr;
   toml::node* node = nullptr;
@@ -44,7 +44,7 @@ NodePlace placeOf(toml::table& document, const std::string& path) {
   return out;
 }
 
-/// Makes a document say numbers with their tolerances.
+/// Writes numbers with their tolerances into a document.
 class ScenarioMarker {
  public:
   explicit ScenarioMarker(toml::table& document) : document_(document) {}
@@ -59,7 +59,7 @@ class ScenarioMarker {
     marks_.emplace_back(path, std::move(stated));
   }
 
-  /// Last, as numbers are looked for where plain ones are.
+  /// Call this last, because numbers are looked up as plain ones.
   void apply() {
     for (auto& [path, stated] : marks_) {
       const NodePlace at = placeOf(document_, path);
@@ -72,7 +72,7 @@ class ScenarioMarker {
   }
 
  private:
-  /// The path under which the document has the number, written out of the defaults; empty where it cannot have it.
+  /// Returns the number's path in the document, written out of the defaults; empty if the document cannot have it.
   std::string held(const MachineNumber& number, const ManipulatorParameters& machine) {
     std::string path = number.path;
     if (number.quantity == Quantity::inertia || number.quantity == Quantity::platform_inertia) makeSix(path);
@@ -92,7 +92,7 @@ class ScenarioMarker {
     }
   }
 
-  /// Moments of inertia may have been given without products.
+  /// The document may give moments of inertia without products.
   void makeSix(const std::string& path) {
     hold(path.substr(0, path.rfind('.')) + ".0");
     toml::array* entries = placeOf(document_, path.substr(0, path.rfind('.'))).node->as_array();

@@ -19,14 +19,14 @@ using namespace identification;
 
 constexpr double most_delay = 0.25, delay_share = 0.1, settled_delay = 0.002;
 constexpr Eigen::Index fewest_instants = 24;
-/// How much larger than what noise explains the fitted model's residual may be.
+/// The fitted model's residual may be this many times what noise explains.
 constexpr double most_left = 2;
-/// Of all noise, beyond which that of the motion is more than that of the efforts.
+/// Beyond this share of all noise, noise of the motion exceeds that of the efforts.
 constexpr double most_of_motion = 0.7;
 /// Of the efforts, below which noise is rounding.
 constexpr double least_noise = 1e-6;
 
-/// One log against one scenario, step by step.
+/// Compares one log with one scenario, step by step.
 class Identification {
  public:
   Identification(const Scenario& scenario, MeasuredLog& log, const IdentifyOptions& options)
@@ -106,7 +106,7 @@ class Identification {
     return std::move(out_);
   }
 
-  /// Shifts the efforts until no delay is left.
+  /// Shifts the efforts until no delay remains.
   void settleDelay(const ModelledLog& modelled, double coarse, Comparison& comparison) {
     out_.delay = coarse;
     const ManipulatorParameters& machine = scenario_.manipulator->parameters();
@@ -147,7 +147,7 @@ class Identification {
     out_.sentence = identifySentence(out_);
   }
 
-  /// Per motor: deviation and what it may be.
+  /// Sets each motor's deviation and its uncertainty.
   void setMotors(const ModelledLog& modelled, const Periods& periods, const Comparison& comparison) {
     const Eigen::MatrixXd input = inputUncertainty(comparison, scenario_.manipulator->parameters(), tolerances_);
     const ExpectedNoise expected = expectedNoise(modelled, log_, periods);

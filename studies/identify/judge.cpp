@@ -13,13 +13,14 @@
 namespace ursula::identification {
 namespace {
 
-/// Risks of calling a right model wrong: by one cause of its numbers, by one outside of them, by the deviation's size.
+/// Risks of calling a right model wrong: by one cause among its numbers, by one outside of them, by the deviation's
+/// size.
 constexpr double risk_of_number = 0.02, risk_outside = 0.02, risk_of_squares = 0.005;
 constexpr std::size_t most_causes = 6;
-/// Suspects whose scores' squares differ by less cannot be told apart.
+/// Suspects are indistinguishable if the squares of their scores differ by less.
 constexpr double alike = 4;
 
-/// Deviations in units of what `allowed` columns, each of deviation 1, and noise let them be.
+/// Multiplies by the inverse covariance of noise and of `allowed` columns, each with deviation 1.
 class Allowance {
  public:
   explicit Allowance(Eigen::MatrixXd allowed) : allowed_(std::move(allowed)) {
@@ -32,7 +33,7 @@ class Allowance {
     return x - allowed_ * factors_.solve(allowed_.transpose() * x);
   }
 
-  /// Any amount of a column is allowed from now on.
+  /// Allows any amount of a column from now on.
   void free(const Eigen::VectorXd& column) {
     Eigen::MatrixXd more(allowed_.rows(), allowed_.cols() + 1);
     more << allowed_, column * (1e5 / std::max(column.norm(), 1e-300));
@@ -44,7 +45,7 @@ class Allowance {
   Eigen::LDLT<Eigen::MatrixXd> factors_;
 };
 
-/// Columns of what the stated tolerances let numbers be, each of deviation 1.
+/// Returns one column for each stated tolerance, scaled to deviation 1.
 Eigen::MatrixXd withinTolerances(const std::vector<Suspect>& suspects, Eigen::Index rows) {
   std::vector<Eigen::VectorXd> allowed;
   for (const Suspect& each : suspects) {
@@ -56,7 +57,7 @@ Eigen::MatrixXd withinTolerances(const std::vector<Suspect>& suspects, Eigen::In
   return out;
 }
 
-/// Orthonormal columns that span those of `x`.
+/// Returns orthonormal columns that span those of `x`.
 Eigen::MatrixXd basisOf(const Eigen::MatrixXd& x) {
   Eigen::VectorXd scale = x.colwise().norm().transpose();
   for (double& each : scale) each = each > 0 ? 1 / each : 0;
@@ -65,13 +66,13 @@ Eigen::MatrixXd basisOf(const Eigen::MatrixXd& x) {
   return qr.householderQ() * Eigen::MatrixXd::Identity(x.rows(), qr.rank());
 }
 
-/// Whether no change of masses, inertias and friction makes the like.
+/// Returns whether no change of masses, inertias and friction has the same effect.
 bool isOutside(DirectionKind kind) {
   return kind == DirectionKind::elastic || kind == DirectionKind::backlash || kind == DirectionKind::load_friction ||
          kind == DirectionKind::encoder || kind == DirectionKind::number || kind == DirectionKind::scale;
 }
 
-/// No joint has a compliance, a backlash or a friction below zero.
+/// No joint has a negative compliance, backlash or friction.
 bool cannotBeNegative(DirectionKind kind) {
   return kind == DirectionKind::elastic || kind == DirectionKind::backlash || kind == DirectionKind::load_friction;
 }
@@ -107,13 +108,13 @@ Eigen::MatrixXd columnsOf(const std::vector<const Suspect*>& suspects, Eigen::In
   return out;
 }
 
-/// A score that the largest of `count` passes at a risk.
+/// Returns the score that the largest of `count` exceeds at this risk.
 double thresholdOf(double risk, double count, Eigen::Index freedom) {
   const boost::math::students_t distribution(static_cast<double>(std::max<Eigen::Index>(freedom, 3)));
   return boost::math::quantile(boost::math::complement(distribution, risk / (2 * std::max(count, 1.0))));
 }
 
-/// Finds causes one after the other, each with those before it free.
+/// Finds one cause after another, with the earlier ones free.
 void findCauses(const std::vector<const Suspect*>& suspects, Allowance& allowance, const Eigen::VectorXd& z,
                 double threshold, bool outside, std::vector<FoundCause>& out) {
   if (suspects.empty()) return;
@@ -215,7 +216,7 @@ Judgement judge(const SquareRoot& model, const Comparison& comparison, const std
   columns << model.R.col(comparison.delay()) * delay_deviation, within;
   Judgement out;
 
-  // What neither masses nor inertias nor friction nor offsets can be, whatever they are.
+  // No masses, inertias, friction or offsets can explain these, whatever their values.
   const Eigen::MatrixXd basis = basisOf(model.R.leftCols(comparison.further()));
   Eigen::MatrixXd all_linear = basis * 1e5, with_tolerances(model.R.rows(), all_linear.cols() + columns.cols());
   with_tolerances << all_linear, columns;

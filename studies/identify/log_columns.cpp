@@ -17,7 +17,7 @@
 namespace ursula::identification {
 namespace {
 
-/// What a name can mean alone; `coordinate` where it names one of a leg, whose `index` then is.
+/// The meaning of a single name. `coordinate` is set if the name is a leg's coordinate; `index` is then the leg.
 struct LogMeaning {
   LogQuantity quantity;
   int index;
@@ -66,7 +66,7 @@ std::optional<LogMeaning> meaningOfColumn(const std::string& name) {
                     axis, factorOf(found[3])};
 }
 
-/// Collects what a log's columns hold.
+/// Finds the meaning of a log's columns.
 class LogFinder {
  public:
   LogFinder(const CsvDialect& dialect, const std::string& file, const Manipulator& machine)
@@ -103,7 +103,7 @@ class LogFinder {
     return at;
   }
 
-  /// What counts motors may do so from 0.
+  /// Returns 0 or 1, the number of the first motor.
   static int countsFrom(const std::vector<std::pair<LogMeaning, std::size_t>>& all) {
     bool zero = false, six = false;
     for (const auto& [meaning, at] : all)
@@ -121,7 +121,7 @@ class LogFinder {
     if (meaning.quantity == LogQuantity::driven || meaning.quantity == LogQuantity::effort ||
         meaning.quantity == LogQuantity::current)
       column.index -= first;
-    if (meaning.coordinate) {  // of a leg: only what a motor drives is taken
+    if (meaning.coordinate) {  // a leg's coordinate counts only if a motor drives it
       const auto motor = std::find_if(motors.begin(), motors.end(), [&](const Motor& each) {
         return each.leg == column.index && each.coordinate == *meaning.coordinate;
       });
@@ -133,7 +133,7 @@ class LogFinder {
     const auto same = [&](const LogColumn& other) {
       return other.quantity == column.quantity && other.index == column.index;
     };
-    if (std::any_of(found_.begin(), found_.end(), same)) return;  // the first that says it, those mapped before all
+    if (std::any_of(found_.begin(), found_.end(), same)) return;  // the first column wins; mapped ones come before all
     found_.push_back(column);
   }
 
@@ -151,7 +151,7 @@ class LogFinder {
     return std::any_of(found_.begin(), found_.end(), [&](const LogColumn& c) { return c.quantity == quantity; });
   }
 
-  /// Driven coordinates rather than poses, efforts rather than currents.
+  /// Prefers driven coordinates to poses, and efforts to currents.
   void choose() {
     if (!hasAll(LogQuantity::time, 1)) missing("t_s");
     const bool poses = hasAll(LogQuantity::position, 3) && hasAll(LogQuantity::quaternion, 4);

@@ -15,7 +15,7 @@ namespace ursula::identification {
 
 constexpr std::size_t fewest_rows = 16, most_gap = 100'000;
 
-/// Rows on their way to a grid: at most most_log_rows of them, neighbours averaged where there are more.
+/// Collects rows of a grid. Beyond most_log_rows it averages neighbours in pairs.
 class GridCollector {
  public:
   explicit GridCollector(std::size_t width) : width_(width), sum_(width, 0.0) {}
@@ -51,7 +51,7 @@ class GridCollector {
   int in_sum_ = 0;
 };
 
-/// Puts rows with their instants on a grid.
+/// Puts rows on a grid of equal steps by their instants.
 class LogGrid {
  public:
   LogGrid(std::size_t width, std::vector<std::size_t> turning)

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double surely_alike = 0.9, hardly_alike = 0.5;
 
-/// Correlation of model and measurement without their means, and by which factor they differ.
+/// Correlation of model and measurement without their means, and the factor between them.
 struct Likeness {
   double correlation = 0, factor = 0;
 };

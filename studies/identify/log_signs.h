@@ -7,15 +7,15 @@
 
 namespace ursula::identification {
 
-/// Saturation, whose rows are then missing, and quantisation coarser than the noise.
+/// Finds saturation, and marks its rows as missing. Also finds quantisation that is coarser than the noise.
 void findSigns(MeasuredLog& log, const Motors& motors, std::vector<LogFinding>& findings);
 
-/// Efforts of other motors, of the other sign, or in other units than those of the model.
+/// Finds efforts of exchanged motors, of the other sign, or in other units than the model's.
 void findMistakes(const ModelledLog& modelled, const Motors& motors, std::vector<LogFinding>& findings,
                   std::vector<MeasuredCause>& causes);
 
-/// What white noise on the log's samples leaves of each motor's effort after the low passes, N·m or N; zero where the
-/// motion is by poses.
+/// Noise of each motor's effort after the low passes, N·m or N, as white noise on the log's samples explains it. Both
+/// are zero for poses.
 struct ExpectedNoise {
   Vector6d whole = Vector6d::Zero(), of_motion = Vector6d::Zero();
 };

@@ -35,7 +35,7 @@ std::vector<std::pair<std::string, std::string>> pairsOf(const std::vector<std::
   return out;
 }
 
-/// N·m/A of each motor.
+/// Returns each motor's constant, N·m/A or N/A.
 std::array<double, motor_count> constantsOf(const LogColumns& columns, const std::vector<double>& given) {
   std::array<double, motor_count> out;
   out.fill(1);
@@ -48,7 +48,7 @@ std::array<double, motor_count> constantsOf(const LogColumns& columns, const std
   return out;
 }
 
-/// Where a value goes in a row: motion, efforts, load.
+/// Returns a value's place in a row: motion, then efforts, then load.
 std::size_t slotOf(const LogColumn& column, const LogColumns& columns) {
   const auto index = static_cast<std::size_t>(std::max(column.index, 0));
   const std::size_t motion = columns.has_poses ? 7 : 6;
@@ -67,7 +67,7 @@ std::size_t slotOf(const LogColumn& column, const LogColumns& columns) {
   }
 }
 
-/// Reads lines with their numbers; nothing else of the file is in memory.
+/// Reads a log line by line, so that large files need little memory.
 class LogReader {
  public:
   LogReader(const LogOptions& options, const Manipulator& machine)
@@ -112,7 +112,7 @@ class LogReader {
   }
 
  private:
-  /// Fills `row` and returns the instant.
+  /// Fills `row` and returns its instant.
   double parse(std::string& line, std::vector<double>& row) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (dialect_.decimal_comma) std::replace(line.begin(), line.end(), ',', '.');
@@ -157,7 +157,7 @@ class LogReader {
     return number.value;
   }
 
-  /// q and −q are one orientation.
+  /// Keeps a quaternion near the previous one, as q and −q are the same orientation.
   static void keepSign(std::vector<double>& row, std::vector<double>& before) {
     if (!before.empty()) {
       double product = 0;

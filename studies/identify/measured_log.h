@@ -10,36 +10,36 @@
 
 namespace ursula {
 
-/// Something of a log, or of a model, that its user has to know. `kind` is one of a fixed set of words.
+/// A fact about a log or model that its user has to know. `kind` is one of a fixed set of words.
 struct LogFinding {
   std::string kind;  ///< "drop_outs", "saturation", "quantisation", "jitter", "swapped", "units", …
-  int channel = -1;  ///< 0-based motor; −1: of no motor
-  double value = 0;  ///< how much, in `unit`
+  int channel = -1;  ///< 0-based motor; −1 for none
+  double value = 0;  ///< size, in `unit`
   std::string unit;
-  std::string what;  ///< in a sentence
+  std::string what;  ///< the fact in a sentence
 };
 
-/// How a log is to be read.
+/// Options for reading a log.
 struct LogOptions {
   std::filesystem::path file;
   std::vector<std::string> map;   ///< NAME=COLUMN
-  std::vector<double> constants;  ///< N·m/A, or N/A: none, one for all motors, or six
+  std::vector<double> constants;  ///< motors' constants, N·m/A or N/A: none, one for all motors, or six
 };
 
-/// A log on a grid of equal steps. Rows that are missing are there, filled between their neighbours and marked.
+/// A log on a grid of equal steps. Missing rows are interpolated and marked.
 struct MeasuredLog {
   std::filesystem::path file;
   std::string read_as;
   std::vector<std::string> ignored;
-  double start = 0, step = 0;  ///< s, of the rows here
-  double file_step = 0;        ///< s, of the file's rows
+  double start = 0, step = 0;  ///< first instant and step of these rows, s
+  double file_step = 0;        ///< step of the file's rows, s
   std::size_t file_rows = 0;
-  int averaged = 1;        ///< neighbouring rows of the file in one here
-  bool has_poses = false;  ///< `motion` has p, m, and q [w, x, y, z], else driven coordinates, rad or m
+  int averaged = 1;        ///< file rows averaged in one row
+  bool has_poses = false;  ///< `motion` has p (m) and q [w, x, y, z]; otherwise driven coordinates, rad or m
   bool by_currents = false;
-  Eigen::MatrixXd motion;   ///< a row an instant, 6 or 7 columns
-  Eigen::MatrixXd efforts;  ///< a row an instant, N·m or N
-  Eigen::MatrixXd load;     ///< a row an instant, [moment about P; force] in B; no column where there is none
+  Eigen::MatrixXd motion;   ///< an instant in each row, 6 or 7 columns
+  Eigen::MatrixXd efforts;  ///< N·m or N, an instant in each row, a motor in each column
+  Eigen::MatrixXd load;     ///< [moment about P; force] in B, an instant in each row; no columns without a load
   std::vector<bool> missing;
   std::vector<LogFinding> findings;
 
@@ -47,15 +47,15 @@ struct MeasuredLog {
   double time(double row) const { return start + row * step; }
 };
 
-/// A log has no more rows in memory: beyond, neighbours are averaged in pairs, motion and efforts alike.
+/// Largest number of rows in memory. Beyond it, neighbours are averaged in pairs, motion and efforts alike.
 constexpr std::size_t most_log_rows = std::size_t{1} << 20;
 
-/// Reads a log as findLogColumns has it, row by row. Turning coordinates are made continuous, quaternions of one sign.
-/// Cells that are empty or nan are missing. Throws CsvError with the place for what is no number, instants that do not
-/// increase, gaps beyond a tenth of the log, and fewer than 16 rows.
+/// Reads a log row by row with the columns of findLogColumns. It unwraps turning coordinates and makes quaternions of
+/// one sign. Empty and nan cells are missing. Throws CsvError with the place for text that is no number, instants that
+/// do not increase, gaps beyond a tenth of the log, and fewer than 16 rows.
 MeasuredLog readMeasuredLog(const LogOptions& options, const Manipulator& machine);
 
-/// The same of arrays; `motion` has 6 or 7 columns. `t` increases.
+/// Makes a log of arrays; `motion` has 6 or 7 columns, and `t` increases.
 MeasuredLog measuredLogOf(const std::vector<double>& t, const Eigen::MatrixXd& motion, const Eigen::MatrixXd& efforts,
                           const Manipulator& machine);
 

@@ -25,7 +25,7 @@ const std::vector<double>& column(const TimeSeries& series, const std::string& n
   return at == series.names.end() ? none : series.columns[static_cast<std::size_t>(at - series.names.begin())];
 }
 
-/// Measured and predicted effort with the band of 1.96 u_val about the model.
+/// Plots measured and predicted effort with a band of 1.96 u_val about the model.
 Plot effortPlot(const IdentifyResult& result, std::size_t k) {
   const std::string unit = result.motors[k].unit;
   const auto of = [&](const char* what) { return column(result.series, fmt::format("{}_{}_{}", what, k + 1, unit)); };
@@ -79,7 +79,7 @@ std::string tableOf(const std::vector<std::string>& heads, const std::vector<std
 
 std::string numberText(double x) { return report::number(x, 6); }
 
-/// The interval as a bar between −3 and 3 of the number's tolerances, or of its own size where none is stated.
+/// Draws the interval as a bar from −3 to 3 tolerances of the number, or tenths of its size without a tolerance.
 std::string barOf(const MeasuredNumber& n) {
   constexpr double width = 160, height = 14;
   const double unit = n.tolerance > 0           ? n.tolerance

@@ -7,7 +7,7 @@
 namespace ursula::identification {
 namespace {
 
-/// How unlike a motion is to itself `lag` rows later, for every lag: 0 is the same, 1 unrelated.
+/// Returns the mismatch of a motion and itself `lag` rows later, for every lag: 0 is equal, 1 unrelated.
 Eigen::VectorXd mismatches(const Eigen::MatrixXd& motion) {
   const Eigen::Index rows = motion.rows();
   Eigen::Index size = 16;
@@ -50,7 +50,7 @@ double mismatchAt(const Eigen::MatrixXd& motion, Eigen::Index lag) {
   return sum / std::max(channels, 1);
 }
 
-/// Rows of one period; 0 where there are not two.
+/// Returns the rows of one period; 0 if there are fewer than two periods.
 Eigen::Index periodOf(const MeasuredLog& log) {
   if (std::find(log.missing.begin(), log.missing.end(), true) != log.missing.end()) return 0;
   const Eigen::VectorXd unlike = mismatches(log.motion);
@@ -66,13 +66,13 @@ Eigen::Index periodOf(const MeasuredLog& log) {
     has_left = has_left || unlike(lag) > 0.1;
     if (!has_left || unlike(lag) > 10 * same || unlike(lag) > unlike(lag - 1) || unlike(lag) > unlike(lag + 1))
       continue;
-    const Eigen::Index last = (log.rows() / lag - 1) * lag;  // periods that are no whole rows drift apart
+    const Eigen::Index last = (log.rows() / lag - 1) * lag;  // periods drift apart if they are not whole rows
     if (mismatchAt(log.motion, lag) <= same && mismatchAt(log.motion, last) <= same) return lag;
   }
   return 0;
 }
 
-/// The mean over the periods, and the deviation of one from it.
+/// Returns the mean over the periods, and sets the standard deviation of a single one.
 Eigen::MatrixXd averaged(const Eigen::MatrixXd& x, Eigen::Index rows, int count, Eigen::VectorXd& deviation) {
   Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(rows, x.cols());
   for (int i = 0; i < count; ++i) mean += x.middleRows(i * rows, rows) / count;

@@ -8,12 +8,12 @@
 namespace ursula::identification {
 namespace {
 
-/// Weight of the barrier, in halves of a squared deviation: what it moves is far below the noise.
+/// The barrier's weight in halves of a squared deviation. It moves the result by far less than the noise.
 constexpr double barrier_weight = 1e-2, identified_share = 0.1;
 
 struct Wanted {
   MachineNumber number;
-  Eigen::Index column = 0;  ///< among the machine's numbers
+  Eigen::Index column = 0;  ///< index among the machine's numbers
 };
 
 bool isOfBodies(const MachineNumber& number) {
@@ -31,10 +31,10 @@ const Matrix3d& inertiaOf(const ManipulatorParameters& machine, const MachineNum
   return number.body == "proximal" ? leg.proximal.inertia : leg.distal.inertia;
 }
 
-/// Positive definite where the moments of inertia are and keep the triangle inequality.
+/// This matrix is positive definite exactly if the moments of inertia are positive and keep the triangle inequality.
 Matrix3d spreadOf(const Matrix3d& inertia) { return 0.5 * inertia.trace() * Matrix3d::Identity() - inertia; }
 
-/// Of a thin rod there is nothing to be said about its line.
+/// A thin rod's moments about its line are not estimated.
 bool isThin(const Matrix3d& inertia) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(spreadOf(inertia), Eigen::EigenvaluesOnly);
   return solver.eigenvalues()(0) < 1e-9 * solver.eigenvalues()(2);
@@ -89,7 +89,7 @@ class MachineFit {
   }
 
  private:
-  /// As large as the number itself, where it may be so large.
+  /// Returns the prior uncertainty, which is about the number's own size.
   double assumed(const MachineNumber& number, double plausible) const {
     if (number.group == "center") {
       const double mass = number.leg < 0 ? nominal_.platform.mass
@@ -102,7 +102,7 @@ class MachineFit {
                                      : std::max(plausible, number.get(nominal_));
   }
 
-  /// Friction and rotors that the scenario does not have begin a little above zero, where the barrier lets them.
+  /// Friction and rotors that the scenario lacks start slightly above zero, inside the barrier.
   void start() {
     rest_ = Eigen::VectorXd::Zero(motor_count + 1);
     for (const std::size_t j : free_)
@@ -111,8 +111,8 @@ class MachineFit {
     pi_nominal_ = momentsOf(nominal_).first;
   }
 
-  /// What efforts are linear in, and its derivatives by the free numbers. Only derivatives of a valid machine are
-  /// asked.
+  /// Returns the linear parameters of the efforts, and their derivatives by the free numbers. Derivatives need a valid
+  /// machine.
   std::pair<Eigen::VectorXd, Eigen::MatrixXd> momentsOf(const ManipulatorParameters& machine) const {
     const EffortDerivatives derivatives((Manipulator(machine)));
     const Eigen::MatrixXd all = derivatives.regressorByParameters();
@@ -146,7 +146,7 @@ class MachineFit {
     }
     try {
       return cost + 0.5 * leftOf(momentsOf(machine).first, rest).squaredNorm();
-    } catch (const std::exception&) {  // no machine can have these
+    } catch (const std::exception&) {  // no machine can have these numbers
       return std::numeric_limits<double>::infinity();
     }
   }
@@ -204,7 +204,7 @@ class MachineFit {
     return -scaledSolve(hessian, gradient);
   }
 
-  /// Unknowns differ by many orders of magnitude.
+  /// Scales the system, because unknowns differ by many orders of magnitude.
   static Eigen::MatrixXd scaledSolve(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right) {
     const Eigen::VectorXd scale = matrix.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     const Eigen::LDLT<Eigen::MatrixXd> factors(scale.asDiagonal() * matrix * scale.asDiagonal());

@@ -6,19 +6,19 @@
 
 namespace ursula::identification {
 
-/// A number of the machine as a log has it.
+/// A machine's number and its estimate from the log.
 struct NumberEstimate {
   MachineNumber number;
   double nominal = 0, value = 0;
-  double tolerance = -1;    ///< stated in the scenario; negative: none
-  double before = 0;        ///< standard uncertainty that was assumed beforehand
-  double deviation = 0;     ///< standard uncertainty afterwards
-  bool identified = false;  ///< the motion says of it at least ten times what was assumed
+  double tolerance = -1;    ///< the scenario's tolerance; negative for none
+  double before = 0;        ///< prior standard uncertainty
+  double deviation = 0;     ///< posterior standard uncertainty
+  bool identified = false;  ///< whether the uncertainty is below a tenth of its own size
 };
 
-/// The machine that has positive masses, moments of inertia that some body can have and friction that resists, and that
-/// is the likeliest by the log, with the scenario's numbers as what is known beforehand: within their tolerances where
-/// `by_tolerances`, else within their own size.
+/// Estimates the likeliest machine that is physical. Masses are positive, some body can have the moments of inertia,
+/// and friction resists. The prior is the scenario's numbers, within their tolerances if `by_tolerances`, otherwise
+/// within their own size.
 struct PhysicalEstimate {
   std::vector<NumberEstimate> numbers;
   ManipulatorParameters machine;

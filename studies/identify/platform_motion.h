@@ -9,20 +9,21 @@
 
 namespace ursula::identification {
 
-/// Value, rate and acceleration of what a log has of the motion: six driven coordinates, or p and q.
+/// Value, rate and acceleration of a log's motion: six driven coordinates, or p and q.
 struct MeasuredState {
   Eigen::VectorXd value, rate, acceleration;
 };
 
-/// The platform's motion from that of the motors, and the efforts that it needs, of one machine.
+/// Computes one machine's platform motion from the motors' motion, and the efforts for it.
 class MotorChain {
  public:
   explicit MotorChain(const Manipulator& machine) : kinematics_(machine) {}
 
-  /// The motion at the pose that continues `from`; in smaller steps where Newton needs them. None where there is none.
+  /// Returns the motion at the pose that continues `from`, in smaller steps if Newton's method needs them. Returns none
+  /// without such a pose.
   std::optional<Motion<double>> follow(const MeasuredState& state, const Motion<double>& from) const;
   Vector6d efforts(const Motion<double>& motion, const Vector6d& load) const;
-  /// Displacements and rates of what the motors drive.
+  /// Returns the driven coordinates and their rates.
   std::pair<Vector6d, Vector6d> driven(const Motion<double>& motion) const;
 
  private:
@@ -32,11 +33,11 @@ class MotorChain {
   mutable Workspace<double> work_;
 };
 
-/// The motion of poses that were measured; q need not be of length 1.
+/// Returns the motion of measured poses; q need not be of length 1.
 Motion<double> motionOfPoses(const MeasuredState& state);
 
-/// A motion of the scenario's that is near these driven coordinates and leads to them; none where they cannot be
-/// reached from any.
+/// Returns a motion of the scenario that is near these driven coordinates and leads to them. Returns none if no motion
+/// of the scenario leads to them.
 std::optional<Motion<double>> firstMotion(const Scenario& scenario, const MotorChain& chain,
                                           const MeasuredState& state);
 

@@ -8,10 +8,12 @@ namespace ursula::identification {
 namespace {
 
 const double pi = std::acos(-1.0);
-/// Deviation of the Gaussian that rounds the low pass off, in cut-off frequencies; and where its window ends.
+/// roll_off is the Gaussian window's deviation over frequency, in cut-off frequencies. window_end is where it ends over
+/// time, in deviations.
 constexpr double roll_off = 0.2, window_end = 4.5;
 
-/// Over 33 neighbours, some ten of which are independent, so that no single one of a noise's is taken for a signal.
+/// Averages 33 neighbours, of which some ten are independent. A single peak of the noise then does not count as a
+/// signal.
 Eigen::VectorXd smoothed(const Eigen::VectorXd& x) {
   Eigen::VectorXd out(x.size());
   for (Eigen::Index i = 0; i < x.size(); ++i) {
@@ -21,7 +23,7 @@ Eigen::VectorXd smoothed(const Eigen::VectorXd& x) {
   return out;
 }
 
-/// Of all of a signal, or its first 65,536 values, under one window.
+/// Returns the spectrum of a whole signal, or of its first 65,536 values, under one window.
 Eigen::VectorXd wholeSpectrum(const Eigen::VectorXd& signal, double step) {
   const Eigen::Index rows = std::min<Eigen::Index>(signal.size(), 1 << 16);
   Eigen::Index size = 16;
@@ -41,7 +43,7 @@ Eigen::VectorXd wholeSpectrum(const Eigen::VectorXd& signal, double step) {
 
 double windowDeviation(double cut) { return 1 / (2 * pi * roll_off * cut); }
 
-/// sin(a u) / (π u) and its derivatives.
+/// Returns sin(a u) / (π u) and its first two derivatives.
 std::array<double, 3> sincOf(double a, double u) {
   const double x = a * u;
   if (std::abs(x) < 1e-2)
@@ -70,7 +72,7 @@ Kernel::Kernel(double cut, double step, double shift)
     rate(k + half) = (f1 - f * u / s2) * window;
     acceleration(k + half) = (f2 - 2 * f1 * u / s2 + f * (u * u / s2 - 1) / s2) * window;
   }
-  // What rests has no rate, though its window ends.
+  // A constant signal has no rate, although the window is finite.
   value /= value.sum();
   rate.array() -= rate.mean();
   acceleration.array() -= acceleration.mean();
@@ -102,7 +104,7 @@ double whiteNoise(const Eigen::VectorXd& signal) {
   if (squares.empty()) return 0;
   const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
   std::nth_element(squares.begin(), middle, squares.end());
-  return std::sqrt(*middle / 924);  // the sum of the squared binomials
+  return std::sqrt(*middle / 924);  // 924 is the sum of the squared binomials
 }
 
 double quantum(const Eigen::VectorXd& signal) {

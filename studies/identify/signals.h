@@ -7,46 +7,48 @@
 
 namespace ursula::identification {
 
-/// A zero-phase low pass of finite length and its first two derivatives: a sinc under a Gaussian window. One smoothing
-/// for the value and both rates, so that what holds between unfiltered signals holds between filtered ones.
+/// A zero-phase low pass of finite length with its first two derivatives: a sinc under a Gaussian window. Value and
+/// both rates have the same smoothing. Relations between unfiltered signals therefore hold between filtered ones.
 struct Kernel {
-  /// For rows `step` s apart, at the instant of a row plus `shift` s. Half of the power passes at `cut`, Hz.
+  /// Serves rows `step` s apart, at a row's instant plus `shift` s. Half of the power passes at `cut`, Hz.
   Kernel(double cut, double step, double shift = 0);
 
-  /// By `weights` at the rows `centers` of `x`, each at least `half` rows from its ends.
+  /// Applies `weights` at the rows `centers` of `x`, each at least `half` rows from its ends.
   static Eigen::MatrixXd apply(const Eigen::VectorXd& weights, const Eigen::MatrixXd& x,
                                const std::vector<Eigen::Index>& centers);
-  /// Rows on either side that a kernel needs.
+  /// Returns the rows that a kernel needs on either side.
   static int halfLength(double cut, double step);
 
   int half;
-  Eigen::VectorXd value, rate, acceleration;  ///< weights of rows −half … half
+  Eigen::VectorXd value, rate, acceleration;  ///< weights for rows −half … half
 };
 
-/// Deviation of white noise on a signal that is smooth over seven rows: by sixth differences, their blocks' median.
+/// Returns the deviation of white noise on a signal that is smooth over seven rows. It is the median of blocks of sixth
+/// differences.
 double whiteNoise(const Eigen::VectorXd& signal);
 
-/// The step in which a signal's values come; 0 where they do not.
+/// Returns the quantisation step of a signal's values; 0 if there is none.
 double quantum(const Eigen::VectorXd& signal);
 
-/// Rows in which a signal rests at its largest or smallest value longer than it does anywhere else.
+/// Returns rows in which a signal stays at its largest or smallest value longer than at any other value.
 std::vector<Eigen::Index> saturatedRows(const Eigen::VectorXd& signal);
 
-/// Up to where a motion has its acceleration: the frequency, Hz, below which all but 0.1 % of its power above the noise
-/// is, the largest over the channels.
+/// Returns a motion's bandwidth, Hz. Below it is all but 0.1 % of the acceleration's power above the noise; the largest
+/// of all channels counts.
 double motionBandwidth(const MeasuredLog& log);
 
-/// One-sided power spectral density, unit²/Hz, at k / (2 (size − 1) step) Hz; Hann windows, half overlapping.
+/// Returns the one-sided power spectral density, unit²/Hz, at k / (2 (size − 1) step) Hz. It uses half-overlapping Hann
+/// windows.
 Eigen::VectorXd powerSpectrum(const Eigen::VectorXd& signal, double step, int most_size = 512);
 
-/// A log of one motion again and again as one period of it, and what its channels scatter by.
+/// The period of a log that repeats one motion, and the scatter of its channels.
 struct Periods {
-  int count = 1;                               ///< 1: not periodic
-  Eigen::Index rows = 0;                       ///< of a period
-  Eigen::VectorXd motion_noise, effort_noise;  ///< deviation of a single row; empty where there is one period
+  int count = 1;                               ///< number of periods; 1 if not periodic
+  Eigen::Index rows = 0;                       ///< rows of a period
+  Eigen::VectorXd motion_noise, effort_noise;  ///< standard deviation of a single row; empty for one period
 };
 
-/// Finds the period; where there are two or more, `log` becomes their average.
+/// Finds the period. If there are two or more, `log` becomes their average.
 Periods averagePeriods(MeasuredLog& log);
 
 }  // namespace ursula::identification
