@@ -8,9 +8,9 @@
 namespace ursula {
 namespace {
 
-constexpr std::size_t most_before = 60, most_shown = 100;  // characters that a terminal has room for
+constexpr std::size_t most_before = 60, most_shown = 100;  // characters that fit in a terminal
 
-/// The characters of UTF-8 that a line has, those that move the cursor as blanks.
+/// Returns the UTF-8 characters of a line, with blanks for those that move the cursor.
 std::vector<std::string> charactersOf(const std::string& line) {
   std::vector<std::string> out;
   for (const char byte : line) {

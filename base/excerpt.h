@@ -5,8 +5,8 @@
 
 namespace ursula {
 
-/// A line of somebody's text with a caret below the sign at `column`; of a long one, what is around it. Both count from
-/// 1, columns in characters. Empty where the text has no such line.
+/// Returns a line of the text with a caret below the character at `column`. A long line is cut around it. Both count
+/// from 1, columns in characters. Empty if the text has no such line.
 ///
 ///      9 | mass = -350.0
 ///        |        ^

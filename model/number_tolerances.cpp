@@ -15,7 +15,7 @@
 namespace ursula {
 namespace {
 
-/// Goes through a document once.
+/// Takes all tolerances in one pass through a document.
 class ToleranceTaker {
  public:
   explicit ToleranceTaker(const std::string& file) : file_(file) {}
@@ -54,7 +54,7 @@ class ToleranceTaker {
     }
   }
 
-  /// The value of a table of the two keys, once its tolerance is noted.
+  /// Notes the tolerance of a table with the two keys, and returns its value.
   toml::node& taken(toml::node& node, const std::string& path) {
     toml::table& table = *node.as_table();
     for (const auto& [key, child] : table)
@@ -94,7 +94,7 @@ class ToleranceTaker {
   const std::string& file_;
 };
 
-/// Whether a table of the document gives the key at the end of `parts`, or one of its other name.
+/// Returns whether the document has the key at the end of `parts`, or the key's other name.
 bool gives(const toml::node* at, const std::vector<std::string>& parts) {
   for (const std::string& part : parts) {
     const toml::table* table = at == nullptr ? nullptr : at->as_table();
@@ -112,7 +112,7 @@ std::optional<double> lookUp(const NumberTolerances& raw, const std::string& pat
   return std::nullopt;
 }
 
-/// A mass centre on the link's line may have been written by three numbers.
+/// The document may give a mass centre on the link's line as three numbers.
 std::optional<double> lookUp(const NumberTolerances& raw, const MachineNumber& number, const std::string& path,
                              const Leg& leg) {
   if (const auto found = lookUp(raw, path); found || number.quantity != Quantity::center) return found;

@@ -12,9 +12,9 @@ class PlacedError : public ScenarioError {
   PlacedError(const std::string& what, std::size_t line, std::size_t column)
       : ScenarioError(what), line_(line), column_(column) {}
 
-  /// The same, with the line at its place; `text` is the whole file.
+  /// Adds the line at its place; `text` is the whole file.
   PlacedError in(const std::string& text) const;
-  /// The line with a caret below, for people; empty where it is not known.
+  /// Returns the line with a caret below, for people; empty if the line is unknown.
   const std::string& excerpt() const { return excerpt_; }
 
  private:
@@ -22,7 +22,7 @@ class PlacedError : public ScenarioError {
   std::string excerpt_;
 };
 
-/// The error's text, and below it the place where that is known.
+/// Returns the error's text, with its place below if that is known.
 std::string atLength(const ScenarioError& error);
 
 }  // namespace ursula
