@@ -11,7 +11,7 @@
 namespace ursula::report {
 namespace {
 
-constexpr double may_remain = 0.01;  // as in the diagnosis: below it the deviation counts as explained
+constexpr double may_remain = 0.01;  // as in the diagnosis; a smaller remainder counts as explained
 
 bool areWrong(const ValidationResult& result) {
   return std::any_of(result.checks.begin(), result.checks.end(), [](const Check& check) {
@@ -19,7 +19,7 @@ bool areWrong(const ValidationResult& result) {
   });
 }
 
-/// Least squares; both sums use the instants that have both efforts.
+/// Fits by least squares. Both sums use the instants that have both efforts.
 MotorDeviation deviationOf(int motor, const std::vector<double>& t, const std::vector<double>& given,
                            const std::vector<double>& expected) {
   MotorDeviation out;
@@ -34,7 +34,7 @@ MotorDeviation deviationOf(int motor, const std::vector<double>& t, const std::v
     sum += off;
     squared += off * off;
   }
-  // The remainder of the squared deviation after a fit of one number.
+  // One number is fitted, and this much of the squared deviation may remain.
   const double may_be_left = may_remain * may_remain * squared;
   if (squared > 0 && squared - off_expected * off_expected / expected_squared <= may_be_left)
     out.factor = 1 + off_expected / expected_squared;
@@ -42,7 +42,7 @@ MotorDeviation deviationOf(int motor, const std::vector<double>& t, const std::v
   return out;
 }
 
-/// Every instant's deviation within its limit, which is there where all motors have one unit.
+/// Returns whether the deviation is within its limit at every instant. The limit exists if all motors have one unit.
 bool isRightThroughout(const ValidationResult& result, const std::string& unit, const std::vector<double>& given,
                        const std::vector<double>& expected) {
   const std::vector<double>* limit = result.timeseries.find("limit_tau_" + unit);
@@ -52,7 +52,7 @@ bool isRightThroughout(const ValidationResult& result, const std::string& unit, 
   return true;
 }
 
-/// Of the largest effort that is expected of any motor of the same unit.
+/// Sets the shares of the largest expected effort of any motor with the same unit.
 void addShares(const ValidationResult& result, std::vector<MotorDeviation>& motors) {
   for (MotorDeviation& motor : motors) {
     double largest = 0;
@@ -70,7 +70,7 @@ std::string shareOfLargest(double share) {
   return share < 0.1 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
 }
 
-/// "1.003 × expected", "expected + 3 N"; empty where no one number explains it.
+/// Returns "1.003 × expected" or "expected + 3 N"; empty if no single number explains the deviation.
 std::string patternText(const MotorDeviation& motor) {
   if (motor.right) return "";
   if (motor.factor) return fmt::format("{:.6g} × expected", *motor.factor);
@@ -94,7 +94,7 @@ std::string motorRow(const MotorDeviation& motor, bool patterns) {
 std::string motorsTable(const ValidationResult& result) {
   const std::vector<MotorDeviation> motors = motorsOff(result);
   if (motors.empty()) return "";
-  // A factor that one motor of many happens to have says nothing.
+  // A factor that fits only one of many motors is a coincidence.
   const bool patterns = std::all_of(motors.begin(), motors.end(), [](const MotorDeviation& motor) {
     return motor.right || !patternText(motor).empty();
   });

@@ -35,12 +35,12 @@ bool isSinglePrecision(const ExternalTorques& torques) {
 
 bool isPrinted(const std::string& text, double value) { return leadingNumber(text).value == value; }
 
-/// A unit in the last of so many significant digits.
+/// Returns one unit of the last of `digits` significant digits.
 double lastDigit(double value, int digits) {
   return value == 0 ? 0 : std::pow(10.0, std::floor(std::log10(std::abs(value))) - digits + 1);
 }
 
-/// Answers that a format of few digits gives back, and that are off by half of the last at most.
+/// Explains answers that a format of few digits reproduces, and that deviate by at most half of the last digit.
 std::optional<Explanation> rounded(const MotorNames& motors, const ExternalTorques& torques) {
   constexpr int most = 12;
   const auto offBy = [&](std::size_t k, int i, double unit) {
@@ -64,7 +64,8 @@ std::optional<Explanation> rounded(const MotorNames& motors, const ExternalTorqu
   return std::nullopt;
 }
 
-/// Off by about as much as answers to nearly the same question jump, and that is more than rounding in doubles.
+/// Explains deviations that are about as large as the jumps of answers to nearly the same question. The jumps must
+/// exceed rounding in doubles.
 std::optional<Explanation> grainy(const MotorNames& motors, const ExternalTorques& torques, const AskedApart& asked) {
   constexpr double grains = 100, more_than_rounding = 100, least = 1e-10, most = 1e-4;
   double largest = 0, rounding = 0;
@@ -90,7 +91,7 @@ std::optional<Explanation> fewDigits(const MotorNames& motors, const ExternalTor
                                      const AskedApart& asked) {
   if (isSinglePrecision(torques))
     return ofDigits("single precision: every torque is a 24-bit number, off by no more than such numbers are");
-  if (asked.motions.empty()) return std::nullopt;  // of a file the limits have its digits
+  if (asked.motions.empty()) return std::nullopt;  // a file's limits include its digits
   if (const auto found = rounded(motors, torques)) return found;
   return grainy(motors, torques, asked);
 }

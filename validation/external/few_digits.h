@@ -8,7 +8,7 @@
 
 namespace ursula {
 
-/// Of one instant and motor, N·m or N: what is off, and by how much right efforts may be.
+/// These give one instant and motor's deviation, its rounding, and the limit of right efforts, N·m or N.
 inline double offAt(const ExternalTorques& torques, std::size_t row, int motor) {
   return torques.file.torques[row](motor) - torques.noc[row](motor);
 }
@@ -19,12 +19,12 @@ inline double limitAt(const ExternalTorques& torques, std::size_t row, int motor
   return roundingAt(torques, row) + torques.precision[row](motor);
 }
 
-/// Efforts that are right but for digits that they lack: numbers of single precision; of a solver that was asked also
-/// answers that are rounded, and answers to nearly the same question that jump by about what they are off. None where
-/// they are off by more.
+/// Explains efforts that lack only digits. These are single-precision numbers. From a solver they are also rounded
+/// answers, and answers to nearly the same question that jump by about the deviation. Returns none for larger
+/// deviations.
 std::optional<Explanation> fewDigits(const MotorNames& motors, const ExternalTorques& torques, const AskedApart& asked);
 
-/// A solver's answers have every digit: nothing is allowed for those that are not printed.
+/// Removes the allowance for unprinted digits, because a solver's answers have every digit.
 ExternalTorques inEveryDigit(ExternalTorques torques);
 
 }  // namespace ursula

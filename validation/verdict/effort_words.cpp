@@ -15,7 +15,8 @@ bool isOneOf(const char* list, char c) { return c != '\0' && std::strchr(list, c
 
 bool isLetter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
 
-/// Part of a name: `torque.pointwise`, `--torques`, `[acceptance] torque`, `torques.csv`, `id="efforts"`.
+/// Returns whether the word is part of a name: `torque.pointwise`, `--torques`, `[acceptance] torque`, `torques.csv`,
+/// `id="efforts"`.
 bool isOfName(std::string_view text, std::size_t begin, std::size_t end) {
   const char before = begin == 0 ? ' ' : text[begin - 1], after = end < text.size() ? text[end] : ' ';
   const bool begins = std::isupper(static_cast<unsigned char>(text[begin])) != 0;

@@ -7,16 +7,16 @@
 
 namespace ursula {
 
-/// What an effort of these motors is called: "force" where all of them slide, "effort" where some do, "torque" else.
+/// Returns the noun for these motors' efforts: "force" if all slide, "effort" if some do, otherwise "torque".
 std::string effortNoun(const Motors& motors);
-/// Of the machine that was judged; "torque" where that is not known.
+/// Returns the noun for the judged machine; "torque" if that is unknown.
 std::string effortNoun(const ValidationResult& result);
 
-/// A text that was written for torques, about efforts that are called `noun`. Names of checks, options, columns and
-/// files stay as they are.
+/// Rewrites a text about torques with `noun` for the efforts. Names of checks, options, columns and files stay as they
+/// are.
 std::string inEffortWords(const std::string& noun, const std::string& text);
 
-/// Every text of the result, in the words of its efforts.
+/// Rewrites every text of the result in its efforts' noun.
 void sayEfforts(ValidationResult& result);
 
 }  // namespace ursula
