@@ -71,7 +71,7 @@ Connected connected(const Manipulator& manipulator, const Vector3d& origin, cons
 
 }  // namespace
 
-/// MuJoCo raises shorter time constants to two steps.
+/// MuJoCo raises time constants below two steps to two steps.
 class MujocoStepped : public SteppedLoop {
  public:
   MujocoStepped(const Manipulator& manipulator, std::shared_ptr<const Load> load, const Rigidity& rigidity)
