@@ -1,5 +1,5 @@
-// Engines side by side: the exact recipe is right for every kind of leg, what is called instead is not, and what is
-// said is what was found.
+// Engines side by side: the exact recipe is right for every kind of leg, the usual calls are not, and the words match
+// the findings.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -67,7 +67,7 @@ TEST(Engines, exactRecipeIsRightAndTheObviousCallIsWrong) {
   EXPECT_EQ(kinds.size(), 4u);
 }
 
-/// Friction and a load, of every engine; the load in the platform's frame.
+/// Every engine has friction and a load; the load is in the platform's frame.
 TEST(Engines, knowFrictionLoadAndRotors) {
   for (const char* name : {"ups-friction-load", "load-platform", "load-table", "viscous-friction", "three-legs"})
     for (const EngineFound& engine : foundIn(shipped(name)).engines) {
@@ -89,7 +89,7 @@ TEST(Engines, knowFrictionLoadAndRotors) {
   }
 }
 
-/// A control: an engine that has another machine is seen.
+/// A control: an engine with another machine must differ.
 TEST(Engines, seeWhereAMachineIsAnother) {
   const Scenario scenario = shipped("flight-simulator");
   ManipulatorParameters other = scenario.manipulator->parameters();
@@ -102,7 +102,7 @@ TEST(Engines, seeWhereAMachineIsAnother) {
   }
 }
 
-/// Legs as trees: Jacobians and forces are the same by any engine, in axes of B.
+/// Jacobians and forces of the legs as trees are the same for any engine, in axes of B.
 TEST(Engines, agreeOnTheLegsAlone) {
   for (const char* name : every_kind) {
     const Scenario scenario = shipped(name);
@@ -124,7 +124,7 @@ TEST(Engines, agreeOnTheLegsAlone) {
   }
 }
 
-/// One leg's point moved along its motor's axis alone: the platform follows as the motor would move it.
+/// Each leg's point moves along its motor's axis, so the platform must follow as these motors would move it.
 TEST(Engines, sagIsWhereTheMotorsHoldThePlatform) {
   const Scenario scenario = shipped("flight-simulator");
   const Motion<double> motion = scenario.trajectory->at(0);
@@ -137,7 +137,7 @@ TEST(Engines, sagIsWhereTheMotorsHoldThePlatform) {
     const Vector3d along = motion.p + motion.Q * leg.platform_point - leg.base_point;
     tree.gaps[static_cast<std::size_t>(i)] = along.normalized() * along.normalized().z() * off;
   }
-  // Lengths that are longer by what a lift of `off` makes of them: a lift it is.
+  // These longer lengths are exactly those of a lift by `off`.
   EXPECT_NEAR(sag(tree, *scenario.manipulator), off, 1e-12);
   EXPECT_LE(largestGap(tree, *scenario.manipulator), off);
 }
@@ -176,7 +176,7 @@ TEST(Engines, looserLoopsSagFarther) {
   }
 }
 
-/// Of a machine of grams DART's constraint solver would end the process, were it asked in kilograms.
+/// DART's constraint solver would end the process for a machine of grams if it got kilograms.
 TEST(Engines, smallMachinesAndLightLegsAreMovedOrGivenUp) {
   bool gave_up = false;
   for (const char* name : {"millimetres", "light-legs"})

@@ -12,7 +12,7 @@
 
 namespace ursula {
 
-/// The paper's machine with friction, and tolerances of 1 %.
+/// The paper's machine with friction and with tolerances of 1 %.
 class Identify : public testing::Test {
  protected:
   void SetUp() override {

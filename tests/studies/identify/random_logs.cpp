@@ -18,13 +18,13 @@ bool hasTolerance(const MachineNumber& number) {
          number.quantity == Quantity::friction || number.quantity == Quantity::coulomb;
 }
 
-/// So that one can be drawn: what the motion shows by itself.
+/// Only numbers that the motion shows by themselves may be wrong; else nothing could name them.
 bool mayBeWrong(const MachineNumber& number) {
   return number.quantity == Quantity::platform_mass || number.quantity == Quantity::mass ||
          (number.quantity == Quantity::platform_center) || number.quantity == Quantity::center;
 }
 
-/// Friction of a size that a motor feels.
+/// Adds friction of a size that a motor feels.
 void rub(ManipulatorParameters& machine, double effort, std::mt19937& dice) {
   std::uniform_real_distribution<double> uniform(0.5, 1.5);
   for (Leg& leg : machine.legs)
@@ -58,7 +58,7 @@ RandomLog randomLog(unsigned seed, RandomWrong wrong) {
     const double tolerance = (number.group == "friction" ? 0.1 : 0.01) * size;
     if (!(tolerance > 0)) continue;
     const bool product = number.entries == 6 && number.entry > 2;
-    if (product) continue;  // so that what is drawn is some body's
+    if (product) continue;  // drawn products might belong to no body
     out.tolerances[number.path] = tolerance;
     number.set(out.truth, number.get(nominal) + tolerance * std::clamp(normal(dice), -2.5, 2.5));
     if (mayBeWrong(number)) candidates.push_back(number);

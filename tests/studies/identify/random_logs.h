@@ -8,10 +8,10 @@
 
 namespace ursula {
 
-/// What is wrong with the model that a log of a random machine is judged by.
+/// The error in the model that judges a log of a random machine.
 enum class RandomWrong { nothing, one_number };
 
-/// A machine of any kind with its log, and the model of it, which is off by what tolerances let it be.
+/// A machine of any kind with its log, and its model, which deviates within its tolerances.
 struct RandomLog {
   Scenario model;
   NumberTolerances tolerances;
@@ -22,14 +22,14 @@ struct RandomLog {
 };
 RandomLog randomLog(unsigned seed, RandomWrong wrong);
 
-/// What a number of logs has shown.
+/// Statistics over a number of logs.
 struct LogStatistics {
   struct Share {
     int hits = 0, of = 0;
     double share() const { return of > 0 ? static_cast<double>(hits) / of : 0; }
   };
   std::map<std::string, Share> within;  ///< combinations whose true value is in the interval, by group
-  Share delay_within, delay_near;       ///< in its interval; within a tenth of a sample
+  Share delay_within, delay_near;       ///< true delay in its interval; delay right to a tenth of a sample
   Share right_passed, wrong_named, wrong_failed;
 
   void add(const RandomLog& log, const IdentifyResult& result);

@@ -7,7 +7,8 @@
 namespace ursula {
 namespace {
 
-/// URSULA_LOGS=300 is the evidence of docs/identify.md; with all tests there are a few.
+/// URSULA_LOGS sets the number of logs. docs/identify.md names the number behind its evidence; a run of all tests makes
+/// a few.
 int logsAsked() {
   const char* asked = std::getenv("URSULA_LOGS");
   return asked == nullptr ? 12 : std::atoi(asked);
