@@ -23,7 +23,8 @@ py::dict columnsOf(const TimeSeries& series) {
   return out;
 }
 
-/// What the Python part makes an object of: summary as JSON, page, identified scenario, efforts and spectra by column.
+/// Returns the parts of Python's Identified: summary as JSON, page, table, identified scenario, efforts and spectra by
+/// column.
 template <class Log>
 py::tuple identified(const ScenarioWithSolver& self, const Log& log, bool prior) {
   IdentifyResult result;

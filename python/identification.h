@@ -4,7 +4,7 @@
 
 namespace ursula::python {
 
-/// identify() and excite().
+/// Adds identify() and excite().
 void addIdentification(pybind11::module_& module);
 
 }  // namespace ursula::python

@@ -42,7 +42,7 @@ std::vector<Vector6d> torquesOf(const py::object& answer, const std::vector<Moti
   return out;
 }
 
-/// Without the functions around it; a lambda has no name.
+/// Returns the function's name without the functions around it; a lambda has no name.
 std::string nameOf(const py::object& solver) {
   static const std::string around = "<locals>.";
   const std::string whole = py::str(py::getattr(solver, "__qualname__", py::type::of(solver).attr("__name__")));

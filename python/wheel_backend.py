@@ -1,7 +1,7 @@
-"""Makes a wheel of the Python module for pip (PEP 517): CMake builds it, and the libraries that it needs go along.
+"""Makes a wheel of the Python module for pip (PEP 517). CMake builds it, and the wheel contains the libraries that it needs.
 
-Debian 12 has no backend for CMake; this one asks pip for nothing, so that `pip install .` works without a network. It
-uses build/, the folder of ./dev build, or a folder below it for another Python than the system's.
+Debian 12 has no backend for CMake. This one asks pip for nothing, so `pip install .` works without a network. It
+builds in build/, the folder of ./dev build; for another Python than the system's it uses a folder below.
 """
 
 import base64
@@ -18,12 +18,12 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 SUFFIX = sysconfig.get_config_var("EXT_SUFFIX")
-# What every system has that runs the wheel: the C library and the compiler's own.
+# Every system has the C library and the compiler's own.
 OF_THE_SYSTEM = re.compile(r"(ld-linux.*|lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+))\.so")
 
 
 def run(*command, **options):
-    """The command's output; an error with what it said where it fails."""
+    """Returns the command's output; raises an error if it fails."""
     if not shutil.which(command[0]):
         raise RuntimeError(f"the wheel needs {command[0]}; on Debian: ./dev setup wheel")
     return subprocess.run([*map(str, command)], check=True, text=True, stdout=subprocess.PIPE, **options).stdout
@@ -41,14 +41,14 @@ def metadata():
 
 
 def tag():
-    """Of this Python, and of this C library or a newer one."""
+    """Returns the wheel's tag: this Python, and this C library or a newer one."""
     python = "cp{}{}".format(*sys.version_info)
     libc = os.confstr("CS_GNU_LIBC_VERSION").split()[1].replace(".", "_")
     return f"{python}-{python}-manylinux_{libc}_{os.uname().machine}"
 
 
 def built():
-    """The folder of the module, after CMake has made it for this Python."""
+    """Builds the module for this Python with CMake, and returns its folder."""
     systems = Path("/usr/bin/python3")
     same = systems.exists() and SUFFIX == run(systems, "-c", "import sysconfig as s; print(s.get_config_var('EXT_SUFFIX'))").strip()
     folder = ROOT / "build" if same else ROOT / "build" / SUFFIX.strip(".")
@@ -60,7 +60,7 @@ def built():
 
 
 def needed(library):
-    """Paths of the shared libraries that this one loads, but for the system's own."""
+    """Returns the shared libraries that this one loads, as paths by name, without the system's own."""
     lines = run("ldd", library).splitlines()
     missing = [line.strip() for line in lines if "not found" in line]
     if missing:
@@ -70,7 +70,7 @@ def needed(library):
 
 
 def laid_out(work):
-    """The package in `work` as it will be installed: all libraries in ursula/lib, found from where they are."""
+    """Makes the installed package in `work`. Libraries are in ursula/lib; run paths relative to each file find them."""
     package = work / "ursula"
     shutil.copytree(built(), package, ignore=shutil.ignore_patterns("__pycache__"))
     module = package / f"_ursula{SUFFIX}"
@@ -110,7 +110,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
 
 
 def build_sdist(sdist_directory, config_settings=None):
-    """What is tracked, for `python3 -m build`."""
+    """Packs the tracked files, for `python3 -m build`."""
     base = f"ursula-{version()}"
     with tarfile.open(Path(sdist_directory) / f"{base}.tar.gz", "w:gz") as out:
         for file in run("git", "ls-files", cwd=ROOT).splitlines():

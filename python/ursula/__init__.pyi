@@ -360,7 +360,7 @@ def map(
     """Maps reach, condition number, leg margins and largest static effort over a grid of poses."""
 
 class Identified:
-    """Measured efforts against the model; made by identify."""
+    """The comparison of measured efforts with the model; identify makes it."""
 
     verdict: str
     sentence: str

@@ -1,4 +1,4 @@
-"""Wrong arguments are told in Python's words, not in those of the binding."""
+"""Reports wrong arguments in Python's words, because the binding's name C++ types."""
 
 import functools
 import inspect
@@ -12,7 +12,7 @@ _PATH = re.compile(r"PathLike|\bPath\b")
 
 
 def _signature(text):
-    """Of a docstring's first line, as the binding writes it: `name(s: T, *, jobs: int = 0) -> R`."""
+    """Parses the first line of a binding's docstring, `name(s: T, *, jobs: int = 0) -> R`."""
     inside = text[text.index("(") + 1:text.rindex(")", 0, (text + " ->").index(" ->"))]
     parameters, kind = [], inspect.Parameter.POSITIONAL_OR_KEYWORD
     for part in re.split(r",\s*(?![^\[\(]*[\]\)])", inside):
@@ -27,7 +27,7 @@ def _signature(text):
 
 
 def _expected(annotation):
-    """What a person calls it, and whether a value is one; None where anything may be given."""
+    """Returns the type in words and a test of values; None if any value is allowed."""
     optional = re.fullmatch(r"(?:typing\.)?Optional\[(.*)\]", annotation)
     if optional:
         inner = _expected(optional[1])
@@ -54,7 +54,7 @@ def _shown(value):
 
 
 def _words(called, doc, arguments, named):
-    """What is wrong with a call that the binding refused."""
+    """Says what is wrong with a call that the binding refused."""
     if "Overloaded function." in doc:
         return f"{called}: {_shown(arguments[-1])} is none of what it takes"
     try:
@@ -70,7 +70,7 @@ def _words(called, doc, arguments, named):
 
 
 def in_words(function, called):
-    """The function, with refusals of its arguments in words."""
+    """Wraps the function so that it refuses arguments in words."""
 
     @functools.wraps(function)
     def wrapped(*arguments, **named):
@@ -85,7 +85,7 @@ def in_words(function, called):
 
 
 def put_in_words(classes):
-    """The same for every method of these classes that takes arguments."""
+    """Wraps every method of these classes that takes arguments."""
     for each in classes:
         for name, method in vars(each).copy().items():
             takes = callable(method) and (method.__doc__ or "").startswith(name + "(")

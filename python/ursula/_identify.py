@@ -1,4 +1,4 @@
-"""What a log says of a machine: the result of ursula.identify."""
+"""Results of ursula.identify."""
 
 import json
 import os
@@ -11,10 +11,10 @@ from ._notebook import _verdict
 
 
 class Identified:
-    """Measured efforts against the model; made by identify.
+    """The comparison of measured efforts with the model; identify makes it.
 
-    `verdict`, `sentence`, `cause`, `causes`, `findings`, `delay`, `motors`, `combinations`, `parameters`: as in `summary`, the dict of
-    summary.json. `efforts` and `spectra`: dicts of arrays by column. `scenario_text`: TOML with the identified numbers and their tolerances.
+    `verdict`, `sentence`, `cause`, `causes`, `findings`, `delay`, `motors`, `combinations` and `parameters` are entries of `summary`, the dict of
+    summary.json. `efforts` and `spectra` are dicts of arrays by column. `scenario_text` is TOML with the identified numbers and their tolerances.
     """
 
     def __init__(self, parts):
@@ -24,7 +24,7 @@ class Identified:
             setattr(self, name, self.summary.get(name))
 
     def write(self, folder):
-        """summary.json, report.html, parameters.csv and identified.toml into a folder, which is made."""
+        """Writes summary.json, report.html, parameters.csv and identified.toml into a folder, which is created if necessary."""
         os.makedirs(folder, exist_ok=True)
         for name, text in (("summary.json", json.dumps(self.summary, indent=2) + "\n"), ("report.html", self._page),
                            ("parameters.csv", self._table), ("identified.toml", self.scenario_text)):
@@ -45,11 +45,12 @@ class Identified:
 def identify(s, measured=None, *, t=None, motion=None, efforts=None, map=(), constants=(), prior=False):
     """identify(s, measured=None, *, t=None, motion=None, efforts=None, map=(), constants=(), prior=False) -> Identified
 
-    Compares measured efforts with the model of scenario `s`: whether it is right within its tolerances, and its numbers.
+    Compares measured efforts with the model of scenario `s`, judges it within its tolerances, and estimates its numbers.
 
-    `measured` is a CSV file, read as `ursula identify` reads it, with `map` of "NAME=COLUMN" and `constants` of currents, N m/A or N/A; or
-    `t` (N,) s, `motion` (N, 6) driven coordinates, rad or m, or (N, 7) poses p, q [w, x, y, z], and `efforts` (N, 6) N m or N are arrays.
-    `prior`: tolerances of the scenario are what is known beforehand. Raises ValueError for a log that cannot be read or followed.
+    `measured` is a CSV file, read as `ursula identify` reads it. `map` has texts "NAME=COLUMN"; `constants` turn currents into efforts, N m/A or N/A.
+    Arrays may replace the file: `t` (N,), s; `motion` (N, 6), driven coordinates, rad or m, or (N, 7), poses p, m, and q [w, x, y, z];
+    `efforts` (N, 6), N m or N.
+    `prior`: whether the scenario's tolerances are the prior uncertainty. Raises ValueError for a log that cannot be read or followed.
     """
     if not isinstance(s, _ursula.Scenario):
         raise TypeError(f"identify: s is of type {type(s).__name__}, expected a Scenario")
