@@ -42,7 +42,7 @@ int engines(EnginesOptions options) {
   }
   options.asked.engines = namedEngines(options.engines);
   const Scenario scenario = readScenarioOrInput(options.scenario);
-  std::optional<OutputFolder> folder;  // what cannot be written is found before anything is asked
+  std::optional<OutputFolder> folder;  // a folder that cannot be written is found before the work
   if (!options.out.empty()) folder.emplace(options.out);
   Progress progress(scenario.name);
   options.asked.told = [&progress](double share, const std::string& engine) { progress.at(share, engine); };
@@ -65,19 +65,18 @@ int engines(EnginesOptions options) {
 void addEngines(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<EnginesOptions>();
   CLI::App* verb = app.add_subcommand(
-      "engines", "Engines side by side on one machine: how to get efforts right, how wrong the obvious calls are");
+      "engines", "Compare engines on one machine: how to get efforts right, how wrong the obvious calls are");
   verb->add_option("scenario", options->scenario, "Scenario file (TOML), - for standard input")->required();
-  verb->add_option("--out", options->out, "Folder for a page, engines.json and engines.csv");
-  verb->add_option("--engine", options->engines, "Engines to ask, by name; default: all that this build has")
+  verb->add_option("--out", options->out, "Folder for report.html, engines.json and engines.csv");
+  verb->add_option("--engine", options->engines, "Names of the engines to ask; default: all in this build")
       ->delimiter(',');
-  verb->add_option("--samples", options->asked.samples, "Instants at which efforts are asked for")
+  verb->add_option("--samples", options->asked.samples, "Number of instants at which efforts are compared")
       ->check(CLI::Range(2, 100000))
       ->capture_default_str();
-  verb->add_option("--seconds", options->asked.moved,
-                   "Seconds of the motion, from its start, that engines move the loop")
+  verb->add_option("--seconds", options->asked.moved, "Duration of the stepped motion from its start, s")
       ->check(finitePositive())
       ->capture_default_str();
-  verb->add_flag("--json", options->json, "What was found as JSON on standard output, and nothing else there");
+  verb->add_flag("--json", options->json, "Write JSON to standard output, and nothing else");
   verb->callback([options, &run] { run = [options] { return engines(*options); }; });
 }
 

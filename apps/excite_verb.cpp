@@ -35,28 +35,33 @@ int exciteMachine(ExciteCall call) {
 void addExcite(CLI::App& app, std::function<int()>& run) {
   const auto call = std::make_shared<ExciteCall>();
   CLI::App* verb = app.add_subcommand(
-      "excite", "A periodic motion that shows the machine's numbers to `identify`, as a samples file");
+      "excite", "Find a periodic motion that shows the machine's numbers to `identify`, as a samples file");
   ExciteOptions& o = call->options;
   verb->add_option("scenario", call->scenario, "Scenario file (TOML), - for standard input")->required();
   verb->add_option("--out", call->out, "CSV file for kind = \"samples\"; - for standard output")->capture_default_str();
-  verb->add_option("--period", o.period, "s; by default the scenario's duration, at least 4 s")
+  verb->add_option("--period", o.period, "Period, s; default: the scenario's duration, at least 4 s")
       ->check(finitePositive());
-  verb->add_option("--harmonics", o.harmonics, "Of the Fourier series")
+  verb->add_option("--harmonics", o.harmonics, "Number of harmonics of the Fourier series")
       ->check(CLI::Range(1, 50))
       ->capture_default_str();
-  verb->add_option("--samples", o.samples, "Rows; by default 20 for each period of the highest harmonic")
+  verb->add_option("--samples", o.samples, "Number of rows; default: 20 for each period of the highest harmonic")
       ->check(CLI::Range(6, 1000000));
-  verb->add_option("--speed", o.speed, "Limit of driven coordinates, rad/s or m/s; by default 1.5 times the scenario's")
+  verb->add_option("--speed", o.speed, "Limit of driven speeds, rad/s or m/s; default: 1.5 times the scenario's")
       ->check(finitePositive());
-  verb->add_option("--effort", o.effort, "Limit of efforts, N m or N; by default 1.5 times the scenario's")
+  verb->add_option("--effort", o.effort, "Limit of efforts, N m or N; default: 1.5 times the scenario's")
       ->check(finitePositive());
-  verb->add_option("--reach", o.reach, "Of P from the middle, m; by default a tenth of the machine's length")
+  verb->add_option("--reach", o.reach,
+                   "Limit of P's distance from the middle, m; default: a tenth of the machine's length")
       ->check(finitePositive());
-  verb->add_option("--turn", o.turn, "From the middle, rad")->check(finitePositive())->capture_default_str();
-  verb->add_option("--condition", o.condition, "Limit of B's condition number; by default 3 times the scenario's")
+  verb->add_option("--turn", o.turn, "Limit of the rotation from the middle, rad")
+      ->check(finitePositive())
+      ->capture_default_str();
+  verb->add_option("--condition", o.condition, "Limit of B's condition number; default: 3 times the scenario's")
       ->check(finitePositive());
-  verb->add_option("--tries", o.tries, "Of the search")->check(CLI::Range(1, 1000000))->capture_default_str();
-  verb->add_option("--seed", o.seed, "Of the search")->check(wholeNumber())->capture_default_str();
+  verb->add_option("--tries", o.tries, "Number of tries of the search")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  verb->add_option("--seed", o.seed, "Seed of the search")->check(wholeNumber())->capture_default_str();
   verb->callback([call, &run] { run = [call] { return exciteMachine(*call); }; });
 }
 
