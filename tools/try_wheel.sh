@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# tools/try_wheel.sh FOLDER [--quick]: makes a wheel in FOLDER, installs it into an empty virtual environment, and runs an
-# example and, unless --quick, the module's tests there. NumPy and pytest are the system's; nothing is fetched.
+# tools/try_wheel.sh FOLDER [--quick] makes a wheel in FOLDER and installs it into an empty virtual environment. It runs an
+# example there, and without --quick also the module's tests. NumPy and pytest are the system's; nothing is fetched.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 folder=${1:?FOLDER}
@@ -14,7 +14,7 @@ python=$folder-try/bin/python
 wheels=("$folder"/ursula-*.whl)
 "$python" -m pip install -q "${wheels[0]}"
 
-# All that is loaded is the wheel's, the interpreter's or NumPy's, or what every system has.
+# Libraries may come only from the wheel, the interpreter, NumPy and what every system has.
 cd "$folder-try"
 bin/python - "$PWD" <<'PYTHON'
 import re, sys
@@ -31,7 +31,7 @@ print(f"the wheel brings {len(ours)} libraries, and loads none of elsewhere but 
 PYTHON
 cd - >/dev/null
 
-# A telescopic hexapod, solved in NumPy and judged; and wrong by a part in a thousand.
+# A NumPy solver of a telescopic hexapod must pass, and fail with an error of a part in a thousand.
 "$python" - <<'PYTHON'
 import sys
 sys.path.append("examples/python")
