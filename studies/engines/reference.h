@@ -10,7 +10,7 @@ class EngineReference {
  public:
   struct Here {
     Motion<double> motion;
-    Vector6d efforts, q_dot;  ///< of the motors, in their order
+    Vector6d efforts, q_dot;  ///< motors' efforts and rates, in their order
   };
 
   explicit EngineReference(const Scenario& scenario);

@@ -21,7 +21,7 @@ SquareRoot squareRootOf(const Eigen::MatrixXd& rows_with_y);
 /// motors.
 struct Whitened {
   Eigen::MatrixXd rows;      ///< six for each instant; columns are the directions, then measured minus model
-  Eigen::MatrixXd residual;  ///< of the fit by linear directions, offsets and delay; N·m or N, an instant in each row
+  Eigen::MatrixXd residual;  ///< left by linear directions, offsets and delay; N·m or N, an instant in each row
   int order = 0;             ///< order of the autoregressions
   Eigen::Index rank = 0;     ///< rank of that fit
 };

@@ -65,7 +65,7 @@ struct IdentifyResult {
   std::string sentence;
   std::vector<LogFinding> findings;
   std::vector<MeasuredCause> causes;
-  double step = 0, duration = 0;  ///< of the log, s
+  double step = 0, duration = 0;  ///< step and duration of the log, s
   std::size_t rows = 0;
   int periods = 1;
   double bandwidth = 0, state_cut = 0, effort_cut = 0;  ///< Hz
