@@ -44,7 +44,7 @@ using OfFurtherEngines = std::array<T, further_engine_count>;
 /// Returns null if `check` compares with no further formulation.
 const EngineKind* furtherEngineOf(const std::string& check);
 
-/// In the order of the table; null for engines that this build lacks.
+/// Returns them in the order of the table; null for engines that this build lacks.
 OfFurtherEngines<std::unique_ptr<Engine>> makeFurtherEngines(const Manipulator& manipulator,
                                                              const std::shared_ptr<const Load>& load);
 
