@@ -12,7 +12,7 @@
 #include "apps/verbs.h"
 #include "base/output_file.h"
 #include "base/output_folder.h"
-#include "model/scenario_input.h"
+#include "model/scenario_files.h"
 #include "studies/audit/audit.h"
 
 namespace ursula {

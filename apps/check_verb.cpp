@@ -9,7 +9,7 @@
 #include "base/csv.h"
 #include "base/shown_text.h"
 #include "model/scenario_excerpt.h"
-#include "model/scenario_input.h"
+#include "model/scenario_files.h"
 #include "studies/check_scenario/check_scenario.h"
 #include "validation/subject/motion_check.h"
 

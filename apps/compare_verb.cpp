@@ -9,7 +9,7 @@
 #include "apps/validate_output.h"
 #include "apps/verbs.h"
 #include "base/shown_text.h"
-#include "report/junit.h"
+#include "report/written_files.h"
 #include "studies/compare/compare_page.h"
 
 namespace ursula {

@@ -13,7 +13,7 @@
 #include "apps/streams.h"
 #include "apps/verbs.h"
 #include "base/csv.h"
-#include "model/scenario_input.h"
+#include "model/scenario_files.h"
 #include "nocsolver/poses/direct_kinematics.h"
 #include "nocsolver/poses/ups_poses.h"
 

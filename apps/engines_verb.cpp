@@ -7,7 +7,7 @@
 #include "apps/verbs.h"
 #include "base/output_folder.h"
 #include "base/shown_text.h"
-#include "model/scenario_input.h"
+#include "model/scenario_files.h"
 #include "studies/engines/side_by_side.h"
 
 namespace ursula {

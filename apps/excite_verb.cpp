@@ -6,7 +6,7 @@
 #include "apps/progress.h"
 #include "apps/streams.h"
 #include "apps/verbs.h"
-#include "model/scenario_input.h"
+#include "model/scenario_files.h"
 #include "studies/identify/excite.h"
 
 namespace ursula {

@@ -10,8 +10,7 @@
 #include "apps/verbs.h"
 #include "exchange/leg_pose.h"
 #include "exchange/write/export.h"
-#include "model/scenario_input.h"
-#include "model/scenario_place.h"
+#include "model/scenario_files.h"
 
 namespace ursula {
 namespace {

@@ -9,7 +9,7 @@
 #include "base/csv.h"
 #include "base/output_folder.h"
 #include "base/shown_text.h"
-#include "model/scenario_input.h"
+#include "model/scenario_files.h"
 #include "studies/identify/identify.h"
 
 namespace ursula {

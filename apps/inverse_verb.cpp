@@ -9,7 +9,7 @@
 #include "apps/output.h"
 #include "apps/progress.h"
 #include "apps/verbs.h"
-#include "model/scenario_input.h"
+#include "model/scenario_files.h"
 #include "studies/stream/inverse_blocks.h"
 
 namespace ursula {

@@ -11,7 +11,7 @@
 #include "apps/output.h"
 #include "apps/progress.h"
 #include "apps/verbs.h"
-#include "model/scenario_input.h"
+#include "model/scenario_files.h"
 #include "studies/map/pose_map.h"
 
 namespace ursula {

@@ -3,7 +3,7 @@
 #include "apps/files_apart.h"
 #include "apps/verbs.h"
 #include "base/csv.h"
-#include "model/scenario_input.h"
+#include "model/scenario_files.h"
 #include "studies/simulate/pose_series.h"
 
 namespace ursula {

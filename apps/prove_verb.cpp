@@ -14,7 +14,7 @@
 #include "apps/progress.h"
 #include "apps/verbs.h"
 #include "base/output_file.h"
-#include "model/scenario_input.h"
+#include "model/scenario_files.h"
 #include "studies/prove/prove_page.h"
 #include "studies/prove/summary.h"
 

@@ -10,9 +10,9 @@
 #include "apps/torque_option.h"
 #include "apps/verbs.h"
 #include "base/csv.h"
-#include "model/scenario_input.h"
+#include "model/scenario_files.h"
 #include "studies/simulate/simulate.h"
-#include "validation/findings/timeseries.h"
+#include "validation/findings/findings.h"
 #include "validation/verdict/effort_words.h"
 
 namespace ursula {

@@ -6,8 +6,7 @@
 #include "apps/sweep_verbs.h"
 #include "apps/verbs.h"
 #include "base/output_file.h"
-#include "studies/sweep_report/sweep_csv.h"
-#include "studies/sweep_report/sweep_page.h"
+#include "studies/sweep_report/sweep_outputs.h"
 
 namespace ursula {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "base/errors.h"
 #include "base/leading_number.h"
 #include "base/nearest.h"
-#include "base/out_of_memory.h"
 
 namespace ursula {
 namespace {

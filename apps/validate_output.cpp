@@ -9,8 +9,8 @@
 #include <iterator>
 
 #include "apps/verbs.h"
-#include "report/summary.h"
 #include "report/terminal.h"
+#include "report/written_files.h"
 
 namespace ursula {
 namespace {

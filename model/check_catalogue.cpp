@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "model/check_rows.h"
-
 namespace ursula {
 
 const std::vector<CheckRow>& checkCatalogue() {

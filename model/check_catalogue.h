@@ -73,4 +73,9 @@ std::size_t groupOf(const std::string& check);
 /// "exact", "derived" or "measured".
 const char* name(LimitFrom from);
 
+/// The three parts of the catalogue, in this order.
+std::vector<CheckRow> checksOfInput();
+std::vector<CheckRow> checksOfTorques();
+std::vector<CheckRow> checksOfReplay();
+
 }  // namespace ursula

@@ -1,4 +1,4 @@
-#include "model/check_rows.h"
+#include "model/check_catalogue.h"
 
 namespace ursula {
 

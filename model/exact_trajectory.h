@@ -1,5 +1,11 @@
 #pragma once
 
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "base/real50.h"
 #include "model/trajectory.h"
 
@@ -18,6 +24,41 @@ class ExactTrajectory : public Trajectory {
   virtual Motion<Real50> at(const Real50& t) const = 0;
   virtual HiddenTerms hiddenTerms() const { return {}; }
   const ExactTrajectory* exact() const override { return this; }
+};
+
+/// A trajectory from one kernel for any scalar: `Kernel<S>::at(const S& t) const -> Motion<S>`.
+template <template <class> class Kernel>
+class KernelTrajectory final : public ExactTrajectory {
+ public:
+  /// Creates the same motion with positions relative to another origin.
+  using Relocate = std::function<std::unique_ptr<Trajectory>(const Vector3d& origin)>;
+
+  KernelTrajectory(std::string kind, double duration, Kernel<double> kernel, Kernel<Real50> kernel50, Relocate relocate,
+                   std::vector<double> knots = {}, HiddenTerms hidden = {})
+      : kind_(std::move(kind)),
+        duration_(duration),
+        kernel_(std::move(kernel)),
+        kernel50_(std::move(kernel50)),
+        relocate_(std::move(relocate)),
+        knots_(std::move(knots)),
+        hidden_(hidden) {}
+
+  std::string kind() const override { return kind_; }
+  double duration() const override { return duration_; }
+  Motion<double> at(double t) const override { return kernel_.at(t); }
+  Motion<Real50> at(const Real50& t) const override { return kernel50_.at(t); }
+  std::unique_ptr<Trajectory> relativeTo(const Vector3d& origin) const override { return relocate_(origin); }
+  const std::vector<double>& knots() const override { return knots_; }
+  HiddenTerms hiddenTerms() const override { return hidden_; }
+
+ private:
+  std::string kind_;
+  double duration_;
+  Kernel<double> kernel_;
+  Kernel<Real50> kernel50_;
+  Relocate relocate_;
+  std::vector<double> knots_;
+  HiddenTerms hidden_;
 };
 
 }  // namespace ursula

@@ -10,7 +10,6 @@
 #include "base/shown_text.h"
 #include "model/machine_numbers.h"
 #include "model/toml_reader.h"
-#include "model/toml_tolerances.h"
 
 namespace ursula {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "base/quintic_spline.h"
 #include "base/real50.h"
-#include "model/kernel_trajectory.h"
+#include "model/exact_trajectory.h"
 
 namespace ursula {
 namespace {

@@ -11,7 +11,7 @@
 #include "model/check_catalogue.h"
 #include "model/scenario_excerpt.h"
 #include "model/scenario_sections.h"
-#include "model/toml_tolerances.h"
+#include "model/toml_reader.h"
 
 namespace ursula {
 namespace {

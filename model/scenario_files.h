@@ -1,8 +1,9 @@
 #pragma once
 
 #include <toml++/toml.h>
-
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "model/scenario.h"
@@ -15,5 +16,21 @@ std::vector<std::filesystem::path> makeFilesAbsolute(toml::table& document, cons
 
 /// Returns the same paths of a scenario that was read; none if a program made it.
 std::vector<std::filesystem::path> filesNamedBy(const Scenario& scenario);
+
+/// Calls readScenario(), or reads standard input, <stdin> in errors, if `file` is "-". Relative paths then refer to the
+/// current folder. Standard input can be read once.
+Scenario readScenarioOrInput(const std::filesystem::path& file);
+
+/// The place of a key in a scenario's file.
+struct KeyPlace {
+  std::string place;             ///< `file:line:column` of its value, or of the nearest enclosing table
+  std::string key;               ///< dotted; in manipulator.leg_defaults if a leg inherits it
+  bool given = false;            ///< whether the leg itself or the defaults give it
+  std::optional<double> number;  ///< its value as written, if that is a number
+};
+
+/// Finds a dotted key (`manipulator.leg[2].proximal.mass`, legs 1-based) in a scenario that was read. If a program made
+/// the scenario, the place is its file's first line.
+KeyPlace placeInFile(const Scenario& scenario, const std::string& key);
 
 }  // namespace ursula

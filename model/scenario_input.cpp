@@ -1,4 +1,4 @@
-#include "model/scenario_input.h"
+#include "model/scenario_files.h"
 
 #include "base/toml_bounds.h"
 #include "model/toml_reader.h"

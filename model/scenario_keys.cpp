@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "model/key_bounds.h"
 #include "model/leg_kind.h"
 #include "model/trajectories/trajectory_kinds.h"
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+// Common parts of the lists of keys.
+
 namespace ursula {
 
 enum class KeyType {
@@ -67,5 +69,13 @@ std::string otherFrictionName(const std::string& key);
 
 /// Throws std::out_of_range for an unknown table.
 const ScenarioTable& scenarioTable(const std::string& name);
+
+inline constexpr double least_positive = std::numeric_limits<double>::denorm_min();
+inline constexpr KeyBound above_zero{"> 0", least_positive};
+inline constexpr KeyBound not_negative{">= 0", 0};
+inline constexpr KeyBound not_zero{"not 0", -std::numeric_limits<double>::max(), std::numeric_limits<double>::max(),
+                                   false};
+inline constexpr const char* required_key = "!";
+inline constexpr const char* no_default = "";
 
 }  // namespace ursula

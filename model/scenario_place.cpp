@@ -1,4 +1,4 @@
-#include "model/scenario_place.h"
+#include "model/scenario_files.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "model/scenario_keys.h"
 #include "model/scenario_sections.h"
-#include "model/toml_tolerances.h"
+#include "model/toml_reader.h"
 
 namespace ursula {
 namespace {

@@ -1,4 +1,4 @@
-#include "python/comparison.h"
+#include "python/bindings.h"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>

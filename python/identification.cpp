@@ -1,4 +1,4 @@
-#include "python/identification.h"
+#include "python/bindings.h"
 
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>

@@ -6,10 +6,9 @@
 #include <exception>
 #include <string>
 
+#include "python/bindings.h"
 #include "python/motion.h"
 #include "python/scenario.h"
-#include "python/studies.h"
-#include "python/validation.h"
 #include "python/words.h"
 
 namespace {

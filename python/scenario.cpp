@@ -14,8 +14,7 @@
 #include <vector>
 
 #include "python/archive.h"
-#include "python/derivatives.h"
-#include "python/documents.h"
+#include "python/bindings.h"
 #include "python/motion.h"
 #include "python/words.h"
 

@@ -1,4 +1,4 @@
-#include "python/studies.h"
+#include "python/bindings.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
@@ -13,8 +13,6 @@
 #include <vector>
 
 #include "python/archive.h"
-#include "python/comparison.h"
-#include "python/identification.h"
 #include "python/judging.h"
 #include "python/motion.h"
 #include "python/scenario.h"

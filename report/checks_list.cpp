@@ -1,4 +1,4 @@
-#include "report/checks_list.h"
+#include "report/sections.h"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,9 @@
-#include "report/figures.h"
+#include "report/plots.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "report/svg_plot.h"
 #include "report/text.h"
 
 namespace ursula::report {

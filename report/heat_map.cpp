@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "report/plots.h"
 #include "report/quantity.h"
-#include "report/svg_plot.h"
 #include "report/text.h"
 
 namespace ursula::report {

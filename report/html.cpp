@@ -1,18 +1,12 @@
-#include "report/html.h"
+#include "report/written_files.h"
 
 #include <fmt/format.h>
 
 #include "report/assets.h"
-#include "report/checks_list.h"
-#include "report/figures.h"
 #include "report/found.h"
-#include "report/input_card.h"
-#include "report/motors.h"
-#include "report/page_data.h"
 #include "report/picture.h"
 #include "report/plots.h"
-#include "report/statistics.h"
-#include "report/svg_machine.h"
+#include "report/sections.h"
 #include "report/text.h"
 #include "validation/verdict/effort_words.h"
 

@@ -5,13 +5,12 @@
 
 #include "model/check_catalogue.h"
 #include "report/assets.h"
-#include "report/checks_list.h"
-#include "report/html.h"
+#include "report/plots.h"
 #include "report/quantity.h"
 #include "report/run.h"
-#include "report/sparkline.h"
-#include "report/suite_json.h"
+#include "report/sections.h"
 #include "report/text.h"
+#include "report/written_files.h"
 
 namespace ursula::report {
 namespace {

@@ -1,4 +1,4 @@
-#include "report/input_card.h"
+#include "report/sections.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "report/junit.h"
+#include "report/written_files.h"
 
 #include <fmt/format.h>
 

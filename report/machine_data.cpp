@@ -1,4 +1,4 @@
-#include "report/machine_data.h"
+#include "report/sections.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "report/motors.h"
+#include "report/sections.h"
 
 #include <fmt/format.h>
 

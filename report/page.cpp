@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 
 #include "report/assets.h"
-#include "report/checks_list.h"
-#include "report/page_data.h"
+#include "report/sections.h"
 #include "report/text.h"
 
 namespace ursula::report {

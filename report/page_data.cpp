@@ -1,11 +1,10 @@
-#include "report/page_data.h"
+#include "report/sections.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "report/json_text.h"
-#include "report/machine_data.h"
 #include "report/quantity.h"
 #include "validation/verdict/effort_words.h"
 

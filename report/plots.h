@@ -54,4 +54,26 @@ struct Indexed {
 };
 std::vector<Indexed> indexed(const TimeSeries& series, const std::string& quantity);
 
+/// Returns a chart as a static drawing, for readers without scripts, for paper and for download. The page's style
+/// defines its colour classes. Empty if nothing can be drawn.
+std::string svgPlot(const Plot& plot);
+
+/// Round numbers within [low, high], about `count` of them.
+std::vector<double> roundTicks(double low, double high, int count);
+
+/// Returns a chart with its caption and its static drawing, or with a place for the script's drawing. `index` is that
+/// of the chart in the page's data.
+enum class Drawing { with, without };
+std::string figureHtml(const Plot& plot, std::size_t index, const char* heading, Drawing drawing = Drawing::with);
+
+/// Returns the figures of one group side by side; "" if there is none.
+std::string figuresHtml(const std::vector<Plot>& plots, PlotGroup group);
+
+/// The replay's position error, m: the largest in each of a few equal parts of the rows, NaN for parts without one.
+/// Empty without a replay.
+std::vector<double> trendOf(const TimeSeries& series);
+
+/// Returns a trend as a line over decades, as large as a word; "" if there is nothing to draw.
+std::string sparkline(const std::vector<double>& trend);
+
 }  // namespace ursula::report

@@ -3,12 +3,9 @@
 #include <ctime>
 
 #include "base/output_folder.h"
-#include "report/html.h"
-#include "report/junit.h"
+#include "report/plots.h"
 #include "report/run.h"
-#include "report/sparkline.h"
-#include "report/suite_json.h"
-#include "report/summary.h"
+#include "report/written_files.h"
 
 namespace ursula {
 

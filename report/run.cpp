@@ -12,7 +12,7 @@
 #include "base/csv.h"
 #include "base/sha1.h"
 #include "report/found.h"
-#include "report/summary.h"
+#include "report/written_files.h"
 
 namespace ursula::report {
 namespace {

@@ -1,4 +1,4 @@
-#include "report/sparkline.h"
+#include "report/plots.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "report/statistics.h"
+#include "report/sections.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "report/suite_json.h"
+#include "report/written_files.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "report/summary.h"
+#include "report/written_files.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

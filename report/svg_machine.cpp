@@ -1,4 +1,4 @@
-#include "report/svg_machine.h"
+#include "report/sections.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "report/svg_plot.h"
+#include "report/plots.h"
 
 #include <fmt/format.h>
 

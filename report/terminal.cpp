@@ -10,8 +10,8 @@
 #include "model/check_catalogue.h"
 #include "report/columns.h"
 #include "report/found.h"
-#include "report/motors.h"
 #include "report/quantity.h"
+#include "report/sections.h"
 #include "validation/verdict/effort_words.h"
 
 namespace ursula::report {

@@ -13,7 +13,7 @@ HEADERS = {
                "nocsolver/fast/effort_derivatives.h", "nocsolver/poses/direct_kinematics.h", "nocsolver/poses/ups_poses.h"],
     "validate": ["validation/subject/subject.h", "validation/validate.h", "validation/outside/outside_solver.h",
                  "validation/validate_external.h", "validation/verdict/result.h"],
-    "report": ["report/report.h", "report/summary.h"],
+    "report": ["report/report.h", "report/written_files.h"],
     "studies": ["studies/simulate/simulate.h", "studies/check_scenario/check_scenario.h", "studies/map/pose_map.h",
                 "studies/compare/compare.h"],
 }

@@ -8,7 +8,7 @@
 #include "validation/checks/families.h"
 #include "validation/checks/judges.h"
 #include "validation/checks/tolerance.h"
-#include "validation/findings/run_provenance.h"
+#include "validation/findings/findings.h"
 #include "validation/subject/motion_check.h"
 
 namespace ursula {

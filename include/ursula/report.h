@@ -5,4 +5,4 @@
 
 #include "include/ursula/abi.h"
 #include "report/report.h"
-#include "report/summary.h"
+#include "report/written_files.h"

@@ -7,8 +7,8 @@
 
 #include "base/errors.h"
 #include "base/real50.h"
-#include "model/kernel_trajectory.h"
-#include "model/key_bounds.h"
+#include "model/exact_trajectory.h"
+#include "model/scenario_keys.h"
 #include "model/trajectories/trajectory_kinds.h"
 #include "model/trajectory.h"
 

@@ -5,9 +5,9 @@
 
 #include "base/errors.h"
 #include "base/real50.h"
-#include "model/kernel_trajectory.h"
-#include "model/key_bounds.h"
+#include "model/exact_trajectory.h"
 #include "model/pose_spline.h"
+#include "model/scenario_keys.h"
 #include "model/trajectories/trajectories.h"
 #include "model/trajectories/trajectory_kinds.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "model/key_bounds.h"
+#include "model/scenario_keys.h"
 #include "model/scenario_orientation.h"
 #include "model/scenario_sections.h"
 

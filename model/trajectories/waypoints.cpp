@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
-#include "model/key_bounds.h"
 #include "model/pose_spline.h"
+#include "model/scenario_keys.h"
 #include "model/trajectories/trajectories.h"
 #include "model/trajectories/trajectory_kinds.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "model/scenario_place.h"
+#include "model/scenario_files.h"
 #include "studies/check_scenario/oddity.h"
 
 namespace ursula {

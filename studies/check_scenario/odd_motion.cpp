@@ -8,7 +8,7 @@
 #include "base/angles.h"
 #include "model/instants.h"
 #include "model/legs/leg_type.h"
-#include "model/scenario_place.h"
+#include "model/scenario_files.h"
 #include "model/trajectories/trajectory_kinds.h"
 #include "nocsolver/errors.h"
 #include "nocsolver/solver.h"

@@ -9,12 +9,12 @@
 
 #include "base/output_folder.h"
 #include "report/assets.h"
-#include "report/checks_list.h"
-#include "report/figures.h"
-#include "report/junit.h"
 #include "report/page.h"
+#include "report/plots.h"
 #include "report/quantity.h"
+#include "report/sections.h"
 #include "report/text.h"
+#include "report/written_files.h"
 
 namespace ursula {
 namespace {

@@ -5,7 +5,6 @@
 
 #include "model/scenario_numbers.h"
 #include "model/toml_reader.h"
-#include "model/toml_tolerances.h"
 #include "model/toml_writer.h"
 #include "studies/identify/results.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "report/assets.h"
-#include "report/figures.h"
 #include "report/page.h"
+#include "report/plots.h"
 #include "report/text.h"
 #include "studies/identify/identify.h"
 

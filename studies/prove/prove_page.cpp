@@ -7,9 +7,9 @@
 
 #include "model/check_catalogue.h"
 #include "report/assets.h"
-#include "report/checks_list.h"
 #include "report/page.h"
 #include "report/quantity.h"
+#include "report/sections.h"
 #include "report/text.h"
 #include "studies/prove/summary.h"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "base/angles.h"
-#include "studies/random/random_machine.h"
+#include "studies/random/random_parts.h"
 
 namespace ursula {
 namespace {

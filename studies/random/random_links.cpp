@@ -4,7 +4,7 @@
 
 #include "base/angles.h"
 #include "model/legs/leg_type.h"
-#include "studies/random/random_layout.h"
+#include "studies/random/random_parts.h"
 
 namespace ursula {
 namespace {

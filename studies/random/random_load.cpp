@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "studies/random/random_motion.h"
+#include "studies/random/random_parts.h"
 
 namespace ursula {
 namespace {

@@ -1,4 +1,4 @@
-#include "studies/random/random_machine.h"
+#include "studies/random/random_parts.h"
 
 #include <cmath>
 

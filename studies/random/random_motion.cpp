@@ -1,4 +1,4 @@
-#include "studies/random/random_motion.h"
+#include "studies/random/random_parts.h"
 
 #include <algorithm>
 #include <cmath>

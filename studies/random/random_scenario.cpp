@@ -10,7 +10,7 @@
 
 #include "base/errors.h"
 #include "nocsolver/solver.h"
-#include "studies/random/random_motion.h"
+#include "studies/random/random_parts.h"
 #include "validation/limits/conditioning.h"
 
 namespace ursula {

@@ -10,7 +10,7 @@
 #include "nocsolver/fast/batch_dynamics.h"
 #include "nocsolver/finite.h"
 #include "nocsolver/solver.h"
-#include "validation/findings/timeseries.h"
+#include "validation/findings/findings.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {

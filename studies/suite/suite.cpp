@@ -11,11 +11,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "base/out_of_memory.h"
+#include "base/errors.h"
 #include "base/output_folder.h"
 #include "base/start_threads.h"
 #include "model/scenario_excerpt.h"
-#include "model/scenario_input.h"
+#include "model/scenario_files.h"
 #include "report/run.h"
 #include "validation/subject/motion_check.h"
 

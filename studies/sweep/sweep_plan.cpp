@@ -11,7 +11,7 @@
 #include "model/scenario_files.h"
 #include "model/scenario_numbers.h"
 #include "model/scenario_sections.h"
-#include "model/toml_tolerances.h"
+#include "model/toml_reader.h"
 #include "model/toml_writer.h"
 #include "validation/findings/provenance.h"
 

@@ -9,7 +9,7 @@
 #include <new>
 #include <stdexcept>
 
-#include "base/out_of_memory.h"
+#include "base/errors.h"
 #include "nocsolver/errors.h"
 #include "studies/sweep/motion_extremes.h"
 #include "validation/checks/judges.h"

@@ -1,4 +1,4 @@
-#include "studies/sweep_report/sweep_csv.h"
+#include "studies/sweep_report/sweep_outputs.h"
 
 #include <cmath>
 

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "report/text.h"
-#include "studies/sweep_report/sweep_tables.h"
+#include "studies/sweep_report/sweep_outputs.h"
 #include "studies/sweep_report/sweep_words.h"
 
 namespace ursula {

@@ -1,11 +1,9 @@
-#include "studies/sweep_report/sweep_page.h"
+#include "studies/sweep_report/sweep_outputs.h"
 
 #include <fmt/format.h>
 
 #include "report/page.h"
 #include "report/text.h"
-#include "studies/sweep_report/sweep_pictures.h"
-#include "studies/sweep_report/sweep_tables.h"
 #include "studies/sweep_report/sweep_words.h"
 
 namespace ursula {

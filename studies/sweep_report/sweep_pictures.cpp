@@ -1,4 +1,4 @@
-#include "studies/sweep_report/sweep_pictures.h"
+#include "studies/sweep_report/sweep_outputs.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 
 #include "report/heat_map.h"
 #include "report/plot_builder.h"
+#include "report/plots.h"
 #include "report/quantity.h"
-#include "report/svg_plot.h"
 #include "report/text.h"
 #include "studies/sweep_report/sweep_words.h"
 

@@ -5,10 +5,9 @@
 #include <limits>
 
 #include "studies/sweep_report/column_store.h"
-#include "studies/sweep_report/drawn_pairs.h"
 #include "studies/sweep_report/output_plan.h"
+#include "studies/sweep_report/sweep_outputs.h"
 #include "studies/sweep_report/sweep_rows.h"
-#include "studies/sweep_report/worst_points.h"
 
 namespace ursula {
 namespace {

@@ -1,4 +1,4 @@
-#include "studies/sweep_report/sweep_tables.h"
+#include "studies/sweep_report/sweep_outputs.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "report/checks_list.h"
 #include "report/quantity.h"
+#include "report/sections.h"
 #include "report/text.h"
 #include "studies/sweep_report/sweep_words.h"
 

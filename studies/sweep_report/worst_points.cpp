@@ -1,4 +1,4 @@
-#include "studies/sweep_report/worst_points.h"
+#include "studies/sweep_report/sweep_outputs.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "studies/sweep_report/sweep_csv.h"
+#include "studies/sweep_report/sweep_outputs.h"
 #include "studies/sweep_report/sweep_summary.h"
 #include "tests/fuzz/fuzz.h"
 

@@ -1,6 +1,6 @@
 // JUnit files as their readers want them. The rules are those of Jenkins' junit-10.xsd, as assertions.
 
-#include "report/junit.h"
+#include "report/written_files.h"
 
 #include <gtest/gtest.h>
 

@@ -8,11 +8,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "report/html.h"
 #include "report/picture.h"
+#include "report/plots.h"
 #include "report/singular.h"
-#include "report/sparkline.h"
-#include "report/suite_json.h"
+#include "report/written_files.h"
 #include "studies/compare/compare_page.h"
 #include "tests/base/temporary_folder.h"
 #include "tests/report/page_samples.h"

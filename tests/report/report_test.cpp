@@ -14,11 +14,10 @@
 
 #include "base/csv.h"
 #include "report/found.h"
-#include "report/html.h"
 #include "report/plots.h"
 #include "report/quantity.h"
-#include "report/summary.h"
 #include "report/text.h"
+#include "report/written_files.h"
 #include "tests/report/report_samples.h"
 #include "tests/report/text_parts.h"
 #include "tests/support/numbers.h"

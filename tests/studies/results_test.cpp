@@ -9,7 +9,7 @@
 
 #include "base/csv.h"
 #include "report/report.h"
-#include "report/summary.h"
+#include "report/written_files.h"
 #include "validation/validate.h"
 
 namespace ursula {

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <regex>
 
-#include "studies/sweep_report/sweep_csv.h"
-#include "studies/sweep_report/sweep_page.h"
+#include "studies/sweep_report/sweep_outputs.h"
 #include "studies/sweep_report/sweep_summary.h"
 #include "tests/model/refusals.h"
 #include "tests/studies/sweep_databases.h"

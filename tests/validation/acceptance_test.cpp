@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/report.h"
-#include "report/summary.h"
+#include "report/written_files.h"
 #include "tests/support/numbers.h"
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"

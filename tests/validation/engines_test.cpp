@@ -16,7 +16,7 @@
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/checks/judges.h"
-#include "validation/findings/timeseries.h"
+#include "validation/findings/findings.h"
 #include "validation/samples/reaction_samples.h"
 
 namespace ursula {

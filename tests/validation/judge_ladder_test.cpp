@@ -10,7 +10,7 @@
 
 #include "tests/validation/checks.h"
 #include "validation/checks/judges.h"
-#include "validation/findings/curves.h"
+#include "validation/findings/findings.h"
 #include "validation/replay/windowed_replay.h"
 
 namespace ursula {

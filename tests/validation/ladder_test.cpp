@@ -12,7 +12,7 @@
 #include "tests/validation/checks.h"
 #include "tests/validation/scenario_files.h"
 #include "validation/checks/judges.h"
-#include "validation/findings/curves.h"
+#include "validation/findings/findings.h"
 #include "validation/replay/windows.h"
 
 namespace ursula {

@@ -12,7 +12,7 @@
 
 #include "model/trajectories/trajectories.h"
 #include "report/report.h"
-#include "report/summary.h"
+#include "report/written_files.h"
 #include "tests/support/vectors.h"
 #include "tests/validation/checks.h"
 #include "validation/checks/families.h"

@@ -1,4 +1,4 @@
-#include "validation/findings/curves.h"
+#include "validation/findings/findings.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "validation/findings/facts.h"
+#include "validation/findings/findings.h"
 
 #include <fmt/format.h>
 

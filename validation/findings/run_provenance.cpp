@@ -1,4 +1,4 @@
-#include "validation/findings/run_provenance.h"
+#include "validation/findings/findings.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "validation/findings/timeseries.h"
+#include "validation/findings/findings.h"
 
 #include <fmt/format.h>
 

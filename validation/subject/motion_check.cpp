@@ -11,7 +11,7 @@
 #include "base/errors.h"
 #include "model/instants.h"
 #include "model/legs/leg_type.h"
-#include "model/scenario_place.h"
+#include "model/scenario_files.h"
 #include "nocsolver/solver.h"
 
 namespace ursula {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Terms of mass centres off their links' lines, added to plane_link.h and plane_mass.h. Internal.
+// Terms of mass centres off their links' lines, added to leg_forces.h and plane_mass.h. Internal.
 //
 // Those files place each mass m at ρ from the first end on the line. Let o lead from there to the mass centre. b is
 // the point's acceleration minus g; V and W are the partial velocities of the point and of the link's ω:

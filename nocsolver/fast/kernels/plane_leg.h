@@ -1,7 +1,13 @@
 #pragma once
 
+#include <array>
+#include <type_traits>
+
+#include "model/leg_kind.h"
+#include "nocsolver/fast/kernels/machine_model.h"
+
 // A leg in the plane that contains B and turns about −u by α (for RUS the rod's plane, turning by φ + ψ). It computes
-// displacement and map, with angles only as sines and cosines. Internal. plane_link.h shows the plane's use. The
+// displacement and map, with angles only as sines and cosines. Internal. leg_forces.h shows the plane's use. The
 // kernels of chain_frame.h compute the same in B from angles; they are the independent reference.
 //
 // Components are along x, u, z of the plane: from A to B (0, k_y, r), v_B = h. Rows of the map, q̇ⱼ = kⱼ · h:
@@ -11,12 +17,28 @@
 //   RUS  φ: (0, k_y/c, 1)/(l sin ψ)   ψ: −(1, k_y cos ψ/(c sin ψ), cos ψ/sin ψ)/c − that of φ   θ: (0, 1/c, 0),  c = s
 //   cos θ
 
-#include <array>
-
-#include "nocsolver/fast/kernels/plane_model.h"
-#include "nocsolver/fast/kernels/with_kind.h"
-
 namespace ursula::kernel {
+
+using Urs = std::integral_constant<LegKind, LegKind::URS>;
+using Ups = std::integral_constant<LegKind, LegKind::UPS>;
+using Rus = std::integral_constant<LegKind, LegKind::RUS>;
+using Pus = std::integral_constant<LegKind, LegKind::PUS>;
+
+/// Calls f with the leg's kind as a constant.
+template <class F>
+auto withKind(LegKind kind, const F& f) {
+  switch (kind) {
+    case LegKind::UPS:
+      return f(Ups{});
+    case LegKind::RUS:
+      return f(Rus{});
+    case LegKind::PUS:
+      return f(Pus{});
+    case LegKind::URS:
+      break;
+  }
+  return f(Urs{});
+}
 
 template <class S>
 struct PlaneLeg {

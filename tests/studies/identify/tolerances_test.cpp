@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "model/number_tolerances.h"
+#include "model/scenario_files.h"
 #include "model/scenario_json.h"
-#include "model/scenario_place.h"
 #include "tests/model/scenario_text.h"
 
 namespace ursula {

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+#include <memory>
+
+#include "python/scenario.h"
+
+namespace ursula::python {
+
+void addComparison(pybind11::module_& module);
+
+using ScenarioClass = pybind11::class_<ScenarioWithSolver, std::shared_ptr<ScenarioWithSolver>>;
+
+void addDerivatives(ScenarioClass& scenario);
+
+/// Adds scenarios from dicts and text, and the reverse.
+void addDocuments(pybind11::module_& module, ScenarioClass& scenario);
+
+/// Adds identify() and excite().
+void addIdentification(pybind11::module_& module);
+
+/// Adds the functions beside validation: simulate, check, map, compare.
+void addStudies(pybind11::module_& module);
+
+void addValidation(pybind11::module_& module);
+
+}  // namespace ursula::python

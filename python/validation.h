@@ -1,9 +1,0 @@
-#pragma once
-
-#include <pybind11/pybind11.h>
-
-namespace ursula::python {
-
-void addValidation(pybind11::module_& module);
-
-}  // namespace ursula::python

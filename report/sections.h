@@ -1,0 +1,64 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/picture.h"
+#include "report/plots.h"
+#include "validation/verdict/result.h"
+
+namespace ursula::report {
+
+/// Returns a verdict as a sign and its word, so that colour is not essential.
+std::string verdictBadge(Verdict verdict);
+
+/// Returns the checks in groups; groups with open issues come first and are unfolded. Each check has a bar of value
+/// over limit on a logarithmic scale. Folded below are its meaning, its result and the origin of its limit. Needs no
+/// script. `cause`, the likely cause, appears elsewhere and is removed from the results.
+std::string checksList(const std::vector<Check>& checks, const std::string& cause = "");
+
+/// Returns machine, load and motion as tables.
+std::string inputCard(const Picture& picture);
+
+/// Returns the machine and its motion in one line: "six U–R–S legs under a platform of 500 kg · helix of 3 s".
+std::string machineLine(const Picture& picture);
+
+/// Returns the machine's points and directions at the picture's instants as JSON, with the errors, efforts and
+/// reactions of `series` there.
+std::string machineJson(const Picture& picture, const TimeSeries& series);
+
+/// Returns the data of the page's script as JSON for a <script> block: charts, the machine along its motion, events. It
+/// is thinned to visible detail; numbers have six digits. `picture` may be null.
+std::string pageData(const ValidationResult& result, const Picture* picture, const std::vector<Plot>& plots);
+
+/// The same for a page with charts only.
+std::string chartData(const std::string& title, const std::vector<Plot>& plots);
+
+/// Returns a table of the errors over time: maximum with its instant, root mean square, last value, and a histogram of
+/// their decades. Empty if there are no errors.
+std::string statisticsTable(const ValidationResult& result);
+
+/// Returns the machine at the start of its motion, with its path, for readers without WebGL and for paper.
+std::string svgMachine(const Picture& picture);
+
+/// Deviation of one motor's efforts.
+struct MotorDeviation {
+  int motor = 0;                 ///< 0-based
+  std::string unit = "Nm";       ///< unit of its efforts, as in columns
+  double largest = 0, t = 0;     ///< largest deviation in that unit, and its instant, s
+  double share = 0;              ///< its share of the largest expected effort of that unit; 0 if there is none
+  bool right = false;            ///< whether it is within the derived limit at every instant
+  std::optional<double> factor;  ///< a factor that alone explains all but a hundredth of the deviation's norm
+  std::optional<double> offset;  ///< an offset that does so, in that unit
+};
+
+/// Returns the deviation of every motor from the columns of the subject's and Simbody's efforts. Empty if no check says
+/// that efforts are wrong, or if the columns are missing.
+std::vector<MotorDeviation> motorsOff(const ValidationResult& result);
+
+/// Returns a row for each motor: its deviation, the instant, and the one number that would correct it. Empty if
+/// motorsOff is.
+std::string motorsTable(const ValidationResult& result);
+
+}  // namespace ursula::report

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/report.h"
+#include "validation/verdict/result.h"
+
+namespace ursula::report {
+
+/// `report.html`: one file that needs no network. Verdict, checks, drawings and tables are plain HTML; its script draws
+/// the charts and animates the machine. In a suite it links to the index.
+std::string reportHtml(const ValidationResult& result, Place place = Place::alone);
+
+/// `index.html` of a suite; its script only sorts and filters.
+std::string indexHtml(const std::vector<SuiteEntry>& entries);
+
+/// JUnit XML with a suite per scenario and a case per check. Undecided checks are `skipped`, which CI systems show and
+/// do not count as passed; an entry's error text is an `error`. A verdict that no case explains (for instance without
+/// checks) gets its own case, so no suite looks better than its verdict. Elements and attributes follow Jenkins'
+/// junit-10.xsd.
+std::string junitXml(const std::vector<SuiteEntry>& entries);
+
+/// The verdict over all entries; as for checks, an empty suite is no success.
+Verdict suiteVerdict(const std::vector<SuiteEntry>& entries);
+
+std::size_t countOf(const std::vector<SuiteEntry>& entries, Verdict verdict);
+
+/// The sum of all wall times, s.
+double secondsOf(const std::vector<SuiteEntry>& entries);
+
+/// `suite.json`: verdict, counts and wall times of all and of each scenario.
+std::string suiteJson(const std::vector<SuiteEntry>& entries);
+
+/// Returns the result with the run in its provenance, as files contain it: see run.h.
+ValidationResult stamped(const ValidationResult& result);
+
+/// `summary.json`. A number that is not finite becomes null; findings and provenance are ordered objects.
+std::string summaryJson(const ValidationResult& result);
+
+/// The summary of a scenario with an error: scenario, verdict "error" and error.
+std::string errorJson(const std::string& scenario, const std::string& error);
+
+}  // namespace ursula::report

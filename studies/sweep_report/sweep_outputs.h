@@ -1,0 +1,68 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "studies/sweep/sqlite.h"
+#include "studies/sweep_report/sweep_summary.h"
+
+namespace ursula {
+
+/// Writes a row per point by ascending id: `id`, `verdict`, a column per varied number by its key, and one per result
+/// by its name. For checks NAME.limit and NAME.verdict follow; the last column is `error`. Numbers have 17 significant
+/// digits; missing values are empty cells. Texts are quoted as in RFC 4180 if needed. Computing times are omitted, so
+/// equal points give equal bytes. Throws DatabaseError.
+void writeSweepCsv(Sqlite& database, const std::function<void(std::string_view)>& sink);
+
+/// report.html: one file that needs neither network nor script.
+std::string sweepPage(const SweepSummary& summary);
+
+// Parts of the page in HTML; empty if there is nothing to draw.
+
+std::string histograms(const SweepSummary& summary);
+std::string scatterPlots(const SweepSummary& summary);
+std::string gridMaps(const SweepSummary& summary);
+
+// Parts of the page in HTML; empty if there is nothing to show.
+
+/// The numbers that drive the primary output, with bars.
+std::string driversTable(const SweepSummary& summary);
+/// Parameters by outputs: rank correlations, and first-order indices.
+std::string correlationTable(const SweepSummary& summary);
+std::string indexTable(const SweepSummary& summary);
+std::string outputsTable(const SweepSummary& summary);
+std::string worstTable(const SweepSummary& summary);
+std::string parametersTable(const SweepSummary& summary);
+std::string pasteBox(const SweepSummary& summary);
+
+/// Selects the points to look at first: at most three errors with different texts, then failures, then the largest
+/// scores; ties by id.
+class WorstPoints {
+ public:
+  /// Whether add() would keep it.
+  bool takes(const WorstPoint& point) const;
+  void add(WorstPoint point);
+  std::vector<WorstPoint> worst() const;
+
+ private:
+  std::vector<WorstPoint> errors_, others_;  ///< the worst first
+};
+
+/// Returns the pairs to draw, without rows. The two strongest of the primary output come first, then the strongest of
+/// other outputs. Each of these appears once, a parameter at most twice. Insignificant relations are omitted.
+std::vector<Scatter> pairsToDraw(const SweepSummary& summary, std::size_t most);
+
+/// Returns the rows to draw: all, or most_scattered spread evenly and without a period.
+std::vector<std::size_t> rowsToDraw(std::size_t rows);
+
+/// Returns the outputs to draw over a grid of two parameters.
+std::vector<std::size_t> outputsToMap(const SweepSummary& summary, std::size_t most);
+
+/// Sorts `values` at the points `x`, `y` into the grid of these ascending levels.
+std::vector<double> onGrid(const std::vector<double>& x_levels, const std::vector<double>& y_levels,
+                           const std::vector<double>& x, const std::vector<double>& y,
+                           const std::vector<double>& values);
+
+}  // namespace ursula
