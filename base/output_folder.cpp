@@ -135,6 +135,7 @@ void OutputFolder::requireSwappable() const {
   if (!error && std::mismatch(folder_.begin(), folder_.end(), here.begin(), here.end()).first == folder_.end())
     refuseToWrite(shown_, "is worked in, expected another folder, as " + below.string());
   requireWritableFolder(above_, shown_);
+  const HeldFolder alone(folder_, HeldFolder::Kind::alone);
   try {
     allIn(folder_);
   } catch (const fs::filesystem_error& in_the_way) {
@@ -221,9 +222,11 @@ void OutputFolder::write(const fs::path& name, const std::string& content) {
 
 void OutputFolder::write(const fs::path& name, const std::function<void(const Take&)>& fill) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (temporary_.empty()) do
-      temporary_ = temporaryIn(above_, own(unfinished));
+  if (temporary_.empty()) {
+    held_above_ = heldWithFoldersAbove(above_);
+    do temporary_ = temporaryIn(above_, own(unfinished));
     while (isThere(temporary_));
+  }
   fresh_.makeFolder((temporary_ / name).parent_path());
   const int descriptor = fresh_.makeFile(temporary_ / name);
   const auto require = [&](bool done) {
@@ -259,10 +262,12 @@ void OutputFolder::commit() {
   fresh_.keep();
   ::unlink(lock_file_.c_str());
   ::close(std::exchange(lock_, -1));
+  held_above_.clear();
 }
 
 /// Marks the folder as complete by its name first, so an interrupted swap leaves two complete folders.
 void OutputFolder::swap() {
+  const HeldFolder alone(folder_, HeldFolder::Kind::alone);
   Paths ours = olderIn(folder_);
   ours.insert(written_.begin(), written_.end());
   carry(folder_, temporary_, ours, Carry::linked);

@@ -5,8 +5,10 @@
 #include <mutex>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "base/fresh_paths.h"
+#include "base/held_folder.h"
 
 namespace ursula {
 
@@ -14,7 +16,8 @@ using Paths = std::set<std::filesystem::path>;
 
 /// A folder whose files belong together. They are written beside it and replace it as a whole when committed, on the
 /// disk. Until then, or on failure, the old folder stays as it was. Files that no older run wrote, such as a user's
-/// notes, are carried over. No other process can write the folder meanwhile.
+/// notes, are carried over. No other process can write the folder meanwhile. Runs may write in a folder below it: the
+/// swap waits until they are done with their files.
 ///
 /// A folder is refused if a swap is impossible or harms its users. These are mount points or folders that hold one,
 /// the working folder of this process, and folders with unreadable content.
@@ -60,7 +63,8 @@ class OutputFolder {
   bool is_alone_ = false;  ///< false if the file system has no locks: other writers are then unknown
   std::mutex mutex_;       // guards what follows
   std::filesystem::path temporary_;
-  Paths written_;  ///< relative paths
+  Paths written_;                       ///< relative paths
+  std::vector<HeldFolder> held_above_;  ///< folders above that nobody swaps while this one's files are written
 };
 
 }  // namespace ursula
