@@ -1,7 +1,8 @@
 #include "report/singular.h"
 
+#include "base/dense.h"
+
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <cmath>
 
 namespace ursula::report {
@@ -51,7 +52,7 @@ std::optional<WeakDirections> weakAt(const Picture& picture, std::size_t k, doub
     out.leg = i;
     out.lost = leg->normal;
   }
-  out.yielding = Eigen::JacobiSVD<Eigen::MatrixXd>(rows, Eigen::ComputeFullV).matrixV().col(5);
+  out.yielding = rightSingularVectors(rows).col(5);
   return out;
 }
 

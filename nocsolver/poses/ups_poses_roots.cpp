@@ -1,9 +1,9 @@
 #include "nocsolver/poses/ups_poses_roots.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "base/dense.h"
 #include "nocsolver/poses/ups_poses_gathering.h"
 
 namespace ursula::ups {
@@ -14,12 +14,12 @@ Roots rootsInChart(const Legs& legs, const LegSection& section, int index) {
   Roots none;
   none.pivot = std::min(multiply.pivot, section.pivot);
   if (!(none.pivot > smallestPivot()) || !multiply.M.allFinite()) return none;
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(multiply.M);
-  if (solver.info() != Eigen::Success) return none;
-  const Eigen::MatrixXcd all = solver.eigenvectors().topRows<section_count>();
+  const std::optional<EigenPairs> pairs = eigenPairs(multiply.M);
+  if (!pairs) return none;
+  const Eigen::MatrixXcd all = pairs->vectors.topRows<section_count>();
   Gathering gathering(legs);
   for (int i = 0; i < solution_count; ++i) {
-    const bool real = solver.eigenvalues()(i).imag() == 0;
+    const bool real = pairs->values(i).imag() == 0;
     const ComplexCoordinates x = multiply.map.cast<std::complex<double>>() * all.col(i);
     gathering.addEigenvector(x.normalized(), real ? 1 : 2);
     if (!real) ++i;

@@ -1,8 +1,8 @@
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <string>
 #include <utility>
 
+#include "base/dense.h"
 #include "validation/external/body_terms.h"
 #include "validation/external/tried_causes.h"
 
@@ -73,7 +73,7 @@ Vector6d leastSquares(const Scenario& scenario, const MachineTerms& machine, con
     for (int k = 0; k < 3; ++k)  // the platform's point is r nearer to B
       G.block<3, 1>(3 * i, 3 * legs + k) += Vector3d::Unit(k).cross(r);
   }
-  const Eigen::VectorXd multipliers = G.transpose().colPivHouseholderQr().solve(f);
+  const Eigen::VectorXd multipliers = leastSquaresSolution(G.transpose(), f);
   return ofMotors(scenario, f - G.transpose() * multipliers);
 }
 

@@ -1,10 +1,10 @@
 #include "validation/limits/amplification.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "base/dense.h"
 #include "validation/limits/linearisation.h"
 
 namespace ursula {
@@ -21,9 +21,8 @@ struct Rates {
 
 /// The growth of the motion, and that at rest without friction, because friction slows a fall without stopping it.
 Rates fastestRates(const Matrix12& J) {
-  const Eigen::EigenSolver<Matrix12>::EigenvalueType moving = Eigen::EigenSolver<Matrix12>(J, false).eigenvalues();
-  const Matrix6d stiffness = J.bottomLeftCorner<6, 6>();
-  const double falling = Eigen::EigenSolver<Matrix6d>(stiffness, false).eigenvalues().cwiseSqrt().real().maxCoeff();
+  const Eigen::VectorXcd moving = eigenvalues(J);
+  const double falling = eigenvalues(J.bottomLeftCorner<6, 6>()).cwiseSqrt().real().maxCoeff();
   return {std::max({0.0, moving.real().maxCoeff(), falling}), std::max(0.0, -moving.real().minCoeff())};
 }
 

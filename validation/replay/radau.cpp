@@ -1,11 +1,12 @@
 #include "validation/replay/radau.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
+
+#include "base/dense.h"
 
 namespace ursula {
 namespace {
@@ -47,9 +48,9 @@ struct Method {
       }
     coefficient = values.inverse();
     A = integrals * coefficient;
-    const Eigen::EigenSolver<Square> eigen(A);
-    eigenvalues = eigen.eigenvalues();
-    vectors = eigen.eigenvectors();
+    const EigenPairs pairs = eigenPairs(A).value();
+    eigenvalues = pairs.values;
+    vectors = pairs.vectors;
     inverse = vectors.inverse();
   }
 

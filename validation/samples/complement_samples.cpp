@@ -1,19 +1,14 @@
 #include "validation/samples/complement_samples.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 
+#include "base/dense.h"
 #include "nocsolver/errors.h"
 
 namespace ursula {
 namespace {
 
 constexpr std::size_t instants = 7;
-
-/// Zero rows and columns of missing legs do not count.
-int rankOf(const Eigen::MatrixXd& matrix) {
-  return static_cast<int>(Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(matrix).rank());
-}
 
 /// Multiplies rotations by the length in T's rows and divides them in D's columns; rows of D are normalised.
 void scale(double length, Complement& of) {
@@ -36,6 +31,7 @@ ComplementSample sampled(const Subject& subject, const PointwiseSample& at, int 
   out.size_T = complement.T.norm();
   out.product = (complement.D * complement.T).norm();
   out.limit = at.conditioning.complementRounding() * out.size_D * out.size_T;
+  // Zero rows and columns of missing legs do not count.
   out.rank_D = rankOf(complement.D);
   out.rank_T = rankOf(complement.T);
   out.wanted_D = 6 * bodies - motor_count;

@@ -1,0 +1,34 @@
+#include "base/dense.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+namespace ursula {
+namespace {
+
+using Solver = Eigen::EigenSolver<Eigen::MatrixXd>;
+
+}  // namespace
+
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) { return Solver(matrix, false).eigenvalues(); }
+
+std::optional<EigenPairs> eigenPairs(const Eigen::MatrixXd& matrix) {
+  const Solver solver(matrix);
+  if (solver.info() != Eigen::Success) return std::nullopt;
+  return EigenPairs{solver.eigenvalues(), solver.eigenvectors(), solver.pseudoEigenvectors()};
+}
+
+int rankOf(const Eigen::MatrixXd& matrix) {
+  return static_cast<int>(Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(matrix).rank());
+}
+
+Eigen::VectorXd leastSquaresSolution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+  return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(A).solve(b);
+}
+
+Eigen::MatrixXd rightSingularVectors(const Eigen::MatrixXd& A) {
+  return Eigen::JacobiSVD<Eigen::MatrixXd>(A, Eigen::ComputeFullV).matrixV();
+}
+
+}  // namespace ursula

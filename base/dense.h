@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+// Eigen's factorisations that compile slowly, of dynamic size, compiled once for all.
+
+namespace ursula {
+
+/// Returns the eigenvalues of a real square matrix; conjugates follow each other.
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
+
+struct EigenPairs {
+  Eigen::VectorXcd values;   ///< conjugates follow each other, with the positive imaginary part first
+  Eigen::MatrixXcd vectors;  ///< columns of norm 1
+  Eigen::MatrixXd parts;     ///< a real value's vector; real and imaginary part of a pair's in two columns. Not scaled
+};
+
+/// Returns nullopt if the iteration does not converge.
+std::optional<EigenPairs> eigenPairs(const Eigen::MatrixXd& matrix);
+
+/// The rank by QR with column pivoting and Eigen's threshold.
+int rankOf(const Eigen::MatrixXd& matrix);
+
+/// Returns the x of the least |Ax − b| by QR with column pivoting.
+Eigen::VectorXd leastSquaresSolution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+
+/// Returns the whole V of A = UΣVᵀ; the singular values decrease.
+Eigen::MatrixXd rightSingularVectors(const Eigen::MatrixXd& A);
+
+}  // namespace ursula
