@@ -53,7 +53,7 @@ std::string inFull(const Check& check) {
                      check.unit.empty() ? "1" : check.unit);
 }
 
-std::string numbers(const Check& check) {
+std::string valueOfLimit(const Check& check) {
   if (std::isnan(check.value) && std::isnan(check.limit)) return "no value";
   return fmt::format("{} <span class=\"aside\">of {}</span>", escaped(quantity(check.value, check.unit)),
                      escaped(quantity(check.limit, check.unit)));
@@ -87,7 +87,7 @@ std::string item(const Check& check, const Decades& decades) {
       "<span class=\"unseen\">{3}: </span></span><span class=\"what\">{4}</span>{5}<span class=\"numbers\">{6}</span>"
       "</summary><dl>{7}{8}{9}{10}</dl></details>\n",
       name(check.verdict), open ? " open" : "", sign(check.verdict), word(check.verdict),
-      escaped(checkTitle(check.name)), bar(check, decades), numbers(check),
+      escaped(checkTitle(check.name)), bar(check, decades), valueOfLimit(check),
       entry("Means", row == nullptr ? "" : row->meaning), entry("Found", check.why), entry("Limit from", check.basis),
       entry("In full", inFull(check)));
 }

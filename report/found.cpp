@@ -88,8 +88,8 @@ std::string inPrint(std::string cause) {
         {", which explains more than 99.9999 % of the deviation", ", which explains all of it"}})
     for (std::size_t at = cause.find(from); at != std::string::npos; at = cause.find(from, at + to.size()))
       cause.replace(at, from.size(), to);
-  for (const char* none : {"no ", "right but "})
-    if (cause.rfind(none, 0) == 0) return ": " + cause;
+  for (const char* unclaimed : {"no ", "right but "})
+    if (cause.rfind(unclaimed, 0) == 0) return ": " + cause;
   return cause.rfind("a likely part: ", 0) == 0 ? ". A" + cause.substr(1) : ". Likely cause: " + cause;
 }
 

@@ -24,18 +24,18 @@ struct Counts {
   }
 };
 
-std::string numbers(const Check& check) {
+std::string valueAndLimit(const Check& check) {
   const std::string unit = check.unit.empty() ? "" : " " + check.unit;
   return fmt::format("value {}{}, limit {}{}", number(check.value, 6), unit, number(check.limit, 6), unit);
 }
 
 std::string outcome(const Check& check) {
   const std::string basis = check.basis.empty() ? "" : "\nlimit from: " + check.basis;
-  const std::string text = escaped(check.why + "\n" + numbers(check) + basis);
+  const std::string text = escaped(check.why + "\n" + valueAndLimit(check) + basis);
   switch (check.verdict) {
     case Verdict::fail:
       return fmt::format("<failure type=\"check\" message=\"{}\">{}</failure>",
-                         escaped(numbers(check) + ": " + check.why), text);
+                         escaped(valueAndLimit(check) + ": " + check.why), text);
     case Verdict::inconclusive:
       return fmt::format("<skipped message=\"inconclusive: {}\"/><system-out>{}</system-out>", escaped(check.why),
                          text);

@@ -14,8 +14,8 @@ constexpr const char* replacement = "\xEF\xBF\xBD";  // U+FFFD
 
 /// Removes U+FFFE and U+FFFF, which XML 1.0 forbids.
 std::string validUtf8(const std::string& text) {
-  using Json = nlohmann::json;
-  std::string out = Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+  using nlohmann::json;
+  std::string out = json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
   for (const char* forbidden : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"})
     for (std::size_t at = out.find(forbidden); at != std::string::npos; at = out.find(forbidden, at))
       out.replace(at, 3, replacement);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "nocsolver/fast/fast_dynamics.h"
-#include "nocsolver/fast/kernels/batch_functions.h"
+#include "nocsolver/fast/kernels/functions_of.h"
 #include "nocsolver/fast/kernels/machine_fields.h"
 
 namespace ursula {

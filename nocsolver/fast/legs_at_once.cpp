@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "nocsolver/fast/kernels/batch_functions.h"
+#include "nocsolver/fast/kernels/functions_of.h"
 #include "nocsolver/fast/kernels/machine_fields.h"
 #include "nocsolver/fast/kernels/solve6.h"
 

@@ -1,15 +1,13 @@
 #pragma once
 
+// The interface between a batch and the source for one instruction set. Internal: plain numbers and functions.
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 
 #include "base/scalar.h"
 #include "model/leg_kind.h"
-#include "nocsolver/fast/instruction_set.h"
-
-// The interface between a batch and the source for one instruction set. Internal: plain numbers and functions.
 
 namespace ursula::kernel {
 
@@ -51,22 +49,5 @@ struct BatchFunctions {
 BatchFunctions batchBySse2();
 BatchFunctions batchByAvx2();
 BatchFunctions batchByAvx512();
-
-/// Returns nullopt for the portable set.
-inline std::optional<BatchFunctions> functionsOf(InstructionSet set) {
-#ifdef URSULA_X86
-  switch (set) {
-    case InstructionSet::sse2:
-      return batchBySse2();
-    case InstructionSet::avx2:
-      return batchByAvx2();
-    case InstructionSet::avx512:
-      return batchByAvx512();
-    case InstructionSet::portable:
-      break;
-  }
-#endif
-  return std::nullopt;
-}
 
 }  // namespace ursula::kernel
