@@ -12,10 +12,10 @@
 #include "apps/verbs.h"
 #include "base/csv.h"
 #include "base/errors.h"
+#include "base/provenance.h"
 #include "model/scenario_excerpt.h"
 #include "nocsolver/errors.h"
 #include "studies/sweep/sqlite.h"
-#include "validation/findings/provenance.h"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <iostream>
 #include <string>
 
+#include "base/provenance.h"
 #include "bench/benchmarks.h"
-#include "validation/findings/provenance.h"
 
 namespace ursula::bench {
 namespace {

@@ -1,4 +1,4 @@
-# ursula::provenance says what a build was made of (validation/findings/provenance.h). The commit is asked for at build time, and
+# ursula::provenance says what a build was made of (base/provenance.h). The commit is asked for at build time, and
 # the source is rewritten only when an answer changed.
 string(TOUPPER "CMAKE_CXX_FLAGS_${CMAKE_BUILD_TYPE}" _ursula_flags_of_type)
 set(_ursula_flags "-std=c++${CMAKE_CXX_STANDARD} ${CMAKE_CXX_FLAGS} ${${_ursula_flags_of_type}}")

@@ -1,7 +1,7 @@
+#include "base/provenance.h"
 #include "bench/peers/peer.h"
 #include "engines/closing.h"
 #include "engines/simbody/simbody_loop.h"
-#include "validation/findings/provenance.h"
 
 namespace ursula::bench {
 namespace {

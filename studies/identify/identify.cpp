@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/provenance.h"
 #include "studies/identify/judge.h"
 #include "studies/identify/log_signs.h"
 #include "studies/identify/physical.h"
 #include "studies/identify/results.h"
-#include "validation/findings/provenance.h"
 #include "validation/subject/effort_columns.h"
 
 namespace ursula {

@@ -7,13 +7,13 @@
 #include <set>
 #include <utility>
 
+#include "base/provenance.h"
 #include "base/sha1.h"
 #include "model/scenario_files.h"
 #include "model/scenario_numbers.h"
 #include "model/scenario_sections.h"
 #include "model/toml_reader.h"
 #include "model/toml_writer.h"
-#include "validation/findings/provenance.h"
 
 namespace ursula {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "base/provenance.h"
 #include "base/sha1.h"
 #include "engines/mujoco/mujoco_loop.h"
 #include "nocsolver/fast/instruction_set.h"
-#include "validation/findings/provenance.h"
 #include "validation/replay/replay.h"
 
 namespace ursula {

@@ -25,7 +25,7 @@ constexpr double most_difference = 1e-3;
 /// … and below this multiple of the start's propagated rounding, differences may be rounding.
 constexpr double above_noise = 3;
 /// Stretches to try, in natural units of time: the longest, and the ratio of successive ones.
-constexpr double longest = 8, shorter = 0.9;
+constexpr double longest_stretch = 8, shorter = 0.9;
 constexpr int attempts = 90;
 /// Number of stretches for an order, doubled if they leave it open.
 constexpr std::size_t most_stretches = 12;
@@ -112,7 +112,7 @@ int firstStretch(LetGo<Stepper>& loop) {
   int too_long = -1, short_enough = attempts;
   while (short_enough - too_long > 1) {
     const int k = (too_long + short_enough) / 2;
-    const double duration = longest * std::pow(shorter, k);
+    const double duration = longest_stretch * std::pow(shorter, k);
     const double difference = loop.difference(loop.reached(duration, 4), loop.reached(duration, 8));
     (difference <= most_difference ? short_enough : too_long) = k;
   }
@@ -128,7 +128,7 @@ template <class Stepper>
 std::vector<double> ordersOf(const Scenario& scenario) {
   LetGo<Stepper> loop(scenario);
   std::vector<double> orders;
-  double duration = longest * std::pow(shorter, firstStretch(loop));
+  double duration = longest_stretch * std::pow(shorter, firstStretch(loop));
   const double noise = above_noise * loop.noise(duration);  // longer stretches have more noise
   for (; orders.size() < most_stretches || (orders.size() < 2 * most_stretches && leaveItOpen(orders));
        duration *= shorter) {
