@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-// Common parts of the lists of keys.
-
 namespace ursula {
 
 enum class KeyType {
@@ -70,6 +68,10 @@ std::string otherFrictionName(const std::string& key);
 /// Throws std::out_of_range for an unknown table.
 const ScenarioTable& scenarioTable(const std::string& name);
 
+/// The tables of the machine, a part of scenarioTables().
+std::vector<ScenarioTable> machineTables();
+
+// Common parts of the lists of keys.
 inline constexpr double least_positive = std::numeric_limits<double>::denorm_min();
 inline constexpr KeyBound above_zero{"> 0", least_positive};
 inline constexpr KeyBound not_negative{">= 0", 0};
