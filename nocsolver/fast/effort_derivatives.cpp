@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <unsupported/Eigen/AutoDiff>
 
 #include "model/machine_numbers.h"
-#include "nocsolver/fast/dual.h"
 #include "nocsolver/fast/kernels/leg_guard.h"
 #include "nocsolver/fast/kernels/plane_dynamics.h"
 #include "nocsolver/finite.h"
@@ -13,6 +13,9 @@
 namespace ursula {
 namespace {
 
+/// A number with its derivatives by N variables.
+template <int N>
+using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, N, 1>>;
 /// Derivatives by the state: δ, p, ω, ṗ, ω̇, p̈.
 using ByState = Dual<18>;
 /// Number of the machine's parameters that one pass differentiates by.
@@ -35,18 +38,31 @@ Motion<S> constant(const Motion<double>& m) {
           constant<S>(m.p_ddot)};
 }
 
+/// Refuses a pose by its numbers alone.
+template <class S>
+struct GuardOfValues {
+  kernel::LegGuard<double> guard;
+
+  void reach(const S& inside, const S& square, const S& bound) const {
+    guard.reach(inside.value(), square.value(), bound.value());
+  }
+  void stroke(const S& d, const S& least, const S& most) const { guard.stroke(d.value(), least.value(), most.value()); }
+  void offAxis(const S& r, const S& size) const { guard.offAxis(r.value(), size.value()); }
+  void regular(const S& sine, const char* what) const { guard.regular(sine.value(), what); }
+};
+
 /// Inverse dynamics by the kernels.
 template <class S>
 Vector6<S> efforts(const kernel::MachineModel<S>& machine, const Motion<S>& motion, const Vector6<S>& load) {
   S pivots;
-  const auto guardOf = [&motion](int leg) { return kernel::LegGuard<S>{leg, motion.t}; };
+  const auto guardOf = [&motion](int leg) { return GuardOfValues<S>{{leg, motion.t.value()}}; };
   const Vector6<S> found = kernel::inverseDynamics<S>(machine, motion, load, guardOf, pivots);
-  legs::requireRegularB(static_cast<double>(pivots), static_cast<double>(motion.t));
+  legs::requireRegularB(pivots.value(), motion.t.value());
   return found;
 }
 
 void seed(int first, Vector3<ByState>& v) {
-  for (int k = 0; k < 3; ++k) v(k).d(first + k) = 1;
+  for (int k = 0; k < 3; ++k) v(k).derivatives()(first + k) = 1;
 }
 
 /// A machine with its axes as given, without normalisation.
@@ -66,7 +82,7 @@ void vary(WrittenMachine& machine, const MachineNumber& number, int slope) {
   const auto i = static_cast<std::size_t>(std::max(number.leg, 0)), k = static_cast<std::size_t>(number.entry);
   LegModel<ByNumbers>& leg = m.legs[i];
   const bool proximal = number.body == "proximal";
-  const auto one = [slope](ByNumbers& place) { place.d(slope) = 1; };
+  const auto one = [slope](ByNumbers& place) { place.derivatives()(slope) = 1; };
   const auto entry = [&](Matrix3<ByNumbers>& I) {
     const auto& [row, column] = tensor_entries[k];
     one(I(row, column));
@@ -204,7 +220,7 @@ struct EffortDerivatives::Impl {
       for (int k = 0; k < here; ++k) vary(seeded, numbers[static_cast<std::size_t>(first + k)], k);
       const Vector6<ByNumbers> found = efforts(modelOf(seeded), m, on_platform);
       for (int k = 0; k < here; ++k)
-        for (int row = 0; row < 6; ++row) out(row, first + k) = found(row).d(k);
+        for (int row = 0; row < 6; ++row) out(row, first + k) = found(row).derivatives()(k);
     }
     requireFinite(out.data(), static_cast<std::size_t>(out.size()), "derivative", motion.t);
     return out;
@@ -241,7 +257,7 @@ EffortsByState EffortDerivatives::byState(const Motion<double>& motion, const Ve
     const Vector3d q = motion.Q.col(k);
     for (int j = 0; j < 3; ++j) {
       const Vector3d slope = Vector3d::Unit(j).cross(q);
-      for (int row = 0; row < 3; ++row) m.Q(row, k).d(j) = slope(row);
+      for (int row = 0; row < 3; ++row) m.Q(row, k).derivatives()(j) = slope(row);
     }
   }
   seed(3, m.p);
@@ -251,12 +267,12 @@ EffortsByState EffortDerivatives::byState(const Motion<double>& motion, const Ve
   seed(15, m.p_ddot);
   Vector6<ByState> on_platform = load.cast<ByState>();
   for (int row = 0; row < 6; ++row)
-    for (int j = 0; j < 3; ++j) on_platform(row).d(j) = load_by_turn(row, j);
+    for (int j = 0; j < 3; ++j) on_platform(row).derivatives()(j) = load_by_turn(row, j);
   const Vector6<ByState> found = efforts(impl_->by_state, m, on_platform);
   EffortsByState out;
   for (int row = 0; row < 6; ++row) {
-    out.efforts(row) = found(row).v;
-    out.derivatives.row(row) = found(row).d.matrix().transpose();
+    out.efforts(row) = found(row).value();
+    out.derivatives.row(row) = found(row).derivatives().transpose();
   }
   finite(out.efforts, "effort", motion.t);
   requireFinite(out.derivatives.data(), static_cast<std::size_t>(out.derivatives.size()), "derivative", motion.t);
