@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
-#include "base/number_text.h"
 #include "base/shown_text.h"
 
 namespace ursula {
@@ -32,18 +32,14 @@ namespace {
 void appendRowsBetween(std::size_t from, std::size_t to_row, const std::vector<std::vector<double>>& columns, NanAs nan,
                        std::string& out) {
   constexpr std::size_t usual = 21;  // 17 digits, a sign, a point, "0." or similar, and a comma
-  out.reserve(out.size() + (to_row - from) * columns.size() * usual + columns.size() * longest_number);
+  out.reserve(out.size() + (to_row - from) * columns.size() * usual);
   for (std::size_t row = from; row < to_row; ++row) {
-    const std::size_t before = out.size();
-    out.resize(before + columns.size() * (longest_number + 1));
-    char* to = &out[before];
     for (const std::vector<double>& column : columns) {
       const double value = column[row];
-      if (nan == NanAs::word || !std::isnan(value)) to = writeNumber(value, to);
-      *to++ = ',';
+      if (nan == NanAs::word || !std::isnan(value)) fmt::format_to(std::back_inserter(out), "{}", value);
+      out += ',';
     }
-    to[-1] = '\n';
-    out.resize(static_cast<std::size_t>(to - out.data()));
+    out.back() = '\n';
   }
 }
 

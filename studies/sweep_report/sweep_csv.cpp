@@ -1,9 +1,11 @@
 #include "studies/sweep_report/sweep_outputs.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <iterator>
 
 #include "base/csv_rows.h"
-#include "base/number_text.h"
 #include "studies/sweep/sweep_database.h"
 #include "studies/sweep_report/sweep_rows.h"
 
@@ -14,8 +16,7 @@ constexpr std::size_t piece = 1 << 16;  // approximate size of the sink's pieces
 
 void addNumber(double value, std::string& out) {
   if (std::isnan(value)) return;
-  char digits[longest_number];
-  out.append(digits, writeNumber(value, digits));
+  fmt::format_to(std::back_inserter(out), "{}", value);
 }
 
 std::string header(const std::vector<std::string>& keys, const std::vector<std::string>& names, bool checks) {
