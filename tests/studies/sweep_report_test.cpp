@@ -264,7 +264,7 @@ TEST(SweepCsv, HasARowForEachPoint) {
   sweep.add({2, -0.5}, "error", "said \"no\",\nthen ended");
   EXPECT_EQ(csvOf(sweep, "csv"),
             "id,verdict,\"x,1\",y,tau_1_Nm,error\n"
-            "0,pass,0.10000000000000001,1.0000000000000001e+300,0.33333333333333331,\n"
+            "0,pass,0.1,1e+300,0.3333333333333333,\n"
             "1,error,2,-0.5,,\"said \"\"no\"\",\nthen ended\"\n");
 }
 
