@@ -13,6 +13,7 @@
 #include "base/csv.h"
 #include "base/errors.h"
 #include "base/provenance.h"
+#include "exchange/import_error.h"
 #include "model/scenario_excerpt.h"
 #include "nocsolver/errors.h"
 #include "studies/sweep/sqlite.h"
@@ -33,6 +34,8 @@ int runVerb(const CLI::App& app, const std::function<int()>& run) {
     return complain(error.what());  // likewise
   } catch (const ursula::DatabaseError& error) {
     return complain(error.what());  // starts with the file
+  } catch (const ursula::exchange::ImportError& error) {
+    return complain(error.what());  // likewise
   } catch (const ursula::PoseError& error) {
     return complain(fmt::format("error: the motion cannot be made: {}", error.what()));
   } catch (const std::bad_alloc&) {

@@ -15,7 +15,7 @@ std::string valueOf(const Element& element, const char* child, const char* of_ur
 
 void addBall(const Element& element, ModelGraph& graph, const BodyByName& body) {
   GraphJoint ball;
-  ball.name = attribute(element, "name").empty() ? fmt::format("ball constraint of line {}", element.GetLineNum())
+  ball.name = attribute(element, "name").empty() ? fmt::format("drake:ball_constraint of line {}", element.GetLineNum())
                                                  : attribute(element, "name");
   ball.line = element.GetLineNum();
   ball.kind = JointKind::ball;

@@ -58,6 +58,7 @@ class Refusals(unittest.TestCase):
         self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
         self.assertFalse(out.exists())
         self.assertIn(name, done.stderr)
+        self.assertEqual(done.stderr.count("error:"), 1, done.stderr)
         for word in words:
             self.assertIn(word, done.stderr)
         self.assertEqual(done.stdout, "")
