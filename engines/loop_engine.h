@@ -116,11 +116,9 @@ struct LoopEngineKind {
   bool has_own_inverse;
 };
 
-// Each engine's folder defines its own.
+// Each engine's folder defines its own; DART, Bullet and ODE are modules (engine_module.h).
 using MakeLoopEngine = std::unique_ptr<LoopEngine>(const Manipulator& manipulator, std::shared_ptr<const Load> load);
-MakeLoopEngine makeSimbodyCalls, makeMaximalCalls, makeMujocoCalls, makeDartCalls;
-bool dartCallsAvailable();  ///< false if DART or its module is not installed
-std::string dartVersion();
+MakeLoopEngine makeSimbodyCalls, makeMaximalCalls, makeMujocoCalls;
 std::string simbodyVersion();  ///< version of the loaded library, "3.7.0"
 
 /// All engines. A new one needs a folder here and a row.

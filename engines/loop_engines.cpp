@@ -1,8 +1,43 @@
+#include <dlfcn.h>
+
+#include <stdexcept>
+
+#include "engines/engine_module.h"
 #include "engines/further_engines.h"
-#include "engines/loop_engine.h"
 #include "engines/mujoco/mujoco_loop.h"
 
 namespace ursula {
+namespace {
+
+constexpr char dart[] = "ursula_dart.so", ode[] = "ursula_ode.so", bullet[] = "ursula_bullet.so";
+
+/// Returns null if the module is not beside the program, or if its engine is not installed.
+template <const char* file>
+const EngineModule* module() {
+  static const EngineModule* const found = [] {
+    void* library = ::dlopen(file, RTLD_NOW | RTLD_LOCAL);
+    return library == nullptr ? nullptr : static_cast<const EngineModule*>(::dlsym(library, "ursula_engine_module"));
+  }();
+  return found;
+}
+
+template <const char* file>
+bool moduleAvailable() {
+  return module<file>() != nullptr;
+}
+
+template <const char* file>
+std::string moduleVersion() {
+  return moduleAvailable<file>() ? module<file>()->version : "none";
+}
+
+template <const char* file>
+std::unique_ptr<LoopEngine> makeByModule(const Manipulator& manipulator, std::shared_ptr<const Load> load) {
+  if (!moduleAvailable<file>()) throw std::runtime_error(std::string(file) + " is not there");
+  return module<file>()->make(manipulator, std::move(load));
+}
+
+}  // namespace
 
 const std::vector<LoopEngineKind>& loopEngines() {
   static const std::vector<LoopEngineKind> table = {
@@ -17,10 +52,24 @@ const std::vector<LoopEngineKind>& loopEngines() {
        "take mj_rne with armature · q̈ at accelerations that close the loops (mj_rnePostConstraint, "
        "mj_objectAcceleration), and solve for the motors beside the multipliers of mj_jacSite's rows",
        "mj_inverse with the equality constraints at their default softness, read at the motors,", true},
-      {"DART", "libdart-dev", dartCallsAvailable, dartVersion, makeDartCalls, Recipe::open,
+      {"DART", "libdart-dev", moduleAvailable<dart>, moduleVersion<dart>, makeByModule<dart>, Recipe::open,
        "take computeInverseDynamics at accelerations that close the loops (getLinearAcceleration of the points), and "
        "solve for the motors beside the multipliers of getLinearJacobian's rows",
        "computeInverseDynamics, read at the motors,", false},
+      {"Bullet", "libbullet-dev", moduleAvailable<bullet>, moduleVersion<bullet>, makeByModule<bullet>,
+       Recipe::own_inverse,
+       "take M(q̈ − q̈₀) with the columns of calcAccelerationDeltasMultiDof and q̈₀ of "
+       "computeAccelerationsArticulatedBodyAlgorithmMultiDof at accelerations that close the loops, and solve for the "
+       "motors beside the multipliers of fillConstraintJacobianMultiDof's rows",
+       "a step with btMultiBodyJointMotor at the rates of its end and btMultiBodyPoint2Point, its motors' impulses "
+       "read,",
+       true},
+      {"ODE", "libode-dev", moduleAvailable<ode>, moduleVersion<ode>, makeByModule<ode>, Recipe::own_inverse,
+       "drive every axis of the trees to its rate at v in a dWorldStep of h from v − h·a, with CFM zero, gyroscopic "
+       "mode off and −ω × Iω added; dJointFeedback at the axes is inverse dynamics, and solve for the motors beside "
+       "the "
+       "multipliers of the axes' and anchors' rows",
+       "a dWorldStep from v with the motors driven to the rates of its end, dJointFeedback read at the motors,", true},
   };
   return table;
 }

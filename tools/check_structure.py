@@ -32,10 +32,10 @@ ALLOWED = {
     "tests": "bench examples base model nocsolver engines exchange validation report studies",
     "bench": "base model nocsolver engines validation studies",
 }
-ENGINE_HEADER = re.compile(r"(?i)^(simbody|simtk|simmath|mujoco/|dart/)|/(simbody|simtk|simmath)")
+ENGINE_HEADER = re.compile(r"(?i)^(simbody|simtk|simmath|mujoco/|dart/|ode/|bullet|btbullet)|/(simbody|simtk|simmath)")
 # What users of the library have: the standard library, Eigen and the library itself.
 PYTHONS_HEADER = re.compile(r"pybind11/[\w/]+\.h")
-ENGINES_HEADER = re.compile(r"(mujoco|dart|drake|pinocchio|rbdl)/|tinyxml2\.h$")
+ENGINES_HEADER = re.compile(r"(mujoco|dart|BulletDynamics|drake|pinocchio|rbdl)/|tinyxml2\.h$")
 USERS_HEADER = re.compile(r"[a-z_]+|Eigen/\w+|ursula/\w+\.h")
 # Within nocsolver/: the NOC that is judged and the fast kernels never see each other.
 WITHIN_SOLVER = {"legs": {"legs"}, "noc": {"noc", "legs"}, "fast": {"fast", "legs"},

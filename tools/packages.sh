@@ -21,10 +21,10 @@ declare -A needs=(
   [fresh]='git:git debootstrap:debootstrap'
 )
 # Done without where they are not to be had: a further formulation, asked for before the first configuration; a peer of the benchmarks;
-# the readers that Gazebo and ROS have, which exported models are held against, and DART, which `ursula engines` asks.
+# the readers that Gazebo and ROS have, which exported models are held against, and DART, Bullet and ODE, which `ursula engines` asks.
 declare -A optional=(
   [program]='libmujoco-dev'
-  [test]='libsdformat-dev liburdfdom-dev libdart-dev'
+  [test]='libsdformat-dev liburdfdom-dev libdart-dev libbullet-dev libode-dev'
   [bench]='libmujoco-dev libdart-dev'
 )
 

@@ -11,7 +11,8 @@
 #include <utility>
 
 #include "engines/dart/dart_machine_internal.h"
-#include "engines/dart/dart_module.h"
+#include "engines/engine_module.h"
+#include "engines/leg_chain.h"
 #include "engines/loop_engine.h"
 
 namespace ursula {
@@ -20,17 +21,6 @@ namespace {
 namespace dd = dart::dynamics;
 using dart::constraint::DynamicJointConstraint;
 using dart_engine::DartLeg, dart_engine::DartMachine;
-
-/// Returns a load's [moment about P; force] in B.
-Vector6d loadOn(const Load* load, double t, const Matrix3d& Q) {
-  Vector6d out = Vector6d::Zero();
-  if (load == nullptr) return out;
-  const Wrench<double> wrench = load->at(t);
-  const Matrix3d to_base = load->frame == Load::Frame::platform ? Q : Matrix3d(Matrix3d::Identity());
-  const Vector3d force = to_base * wrench.force;
-  out << to_base * wrench.moment + (Q * load->point).cross(force), force;
-  return out;
-}
 
 /// DART's world moves the loop, with its ball constraints and semi-implicit steps.
 class DartStepped : public SteppedLoop {
@@ -72,7 +62,7 @@ class DartStepped : public SteppedLoop {
       joint->setForce(which, joint->getForce(which) + unit_ * efforts(m));
     }
     const Vector6d load =
-        unit_ * loadOn(load_.get(), world_->getTime(), machine_.platform->getWorldTransform().linear());
+        unit_ * loadInBase(load_.get(), world_->getTime(), machine_.platform->getWorldTransform().linear());
     machine_.platform->addExtForce(load.tail<3>(), Vector3d::Zero(), false, true);
     machine_.platform->addExtTorque(load.head<3>(), false);
     world_->step();
@@ -89,7 +79,7 @@ class DartStepped : public SteppedLoop {
     out.energy =
         (skeleton->computeKineticEnergy() - skeleton->getMass() * world_->getGravity().dot(skeleton->getCOM())) / unit_;
     out.p = machine_.platform->getWorldTransform().translation();
-    const Vector6d load = loadOn(load_.get(), world_->getTime(), machine_.platform->getWorldTransform().linear());
+    const Vector6d load = loadInBase(load_.get(), world_->getTime(), machine_.platform->getWorldTransform().linear());
     out.power = load.head<3>().dot(machine_.platform->getAngularVelocity()) +
                 load.tail<3>().dot(machine_.platform->getLinearVelocity());
     for (std::size_t i = 0; i < machine_.legs.size(); ++i) {
@@ -153,7 +143,7 @@ class DartCalls : public LoopEngine {
                                    leg.rotor_inertia.on(rowOf(leg.kind).coordinates[j]) * joint->getAcceleration(which);
       }
     }
-    const Vector6d load = loadOn(load_.get(), motion.t, motion.Q);
+    const Vector6d load = loadInBase(load_.get(), motion.t, motion.Q);
     for (std::size_t k = 0; k < 6; ++k) tree_.force(static_cast<int>(k)) = machine_.free->getForce(k);
     tree_.force.head<3>() -= motion.Q.transpose() * load.head<3>();
     tree_.force.tail<3>() -= motion.Q.transpose() * load.tail<3>();
@@ -189,4 +179,4 @@ std::unique_ptr<LoopEngine> makeCalls(const Manipulator& manipulator, std::share
 }  // namespace ursula
 
 extern "C" __attribute__((visibility("default")))
-const ursula::DartModule ursula_dart_module = {DART_VERSION, ursula::makeCalls};
+const ursula::EngineModule ursula_engine_module = {DART_VERSION, ursula::makeCalls};

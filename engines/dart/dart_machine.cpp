@@ -1,18 +1,14 @@
 // The links' body frames are those of the scenario, with origins at the links' first ends. A rod in a cylinder has its
 // origin at its inner end. The platform's frame is M, with its origin in P.
 
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <cmath>
 #include <dart/dynamics/PrismaticJoint.hpp>
 #include <dart/dynamics/RevoluteJoint.hpp>
 #include <dart/dynamics/UniversalJoint.hpp>
-#include <stdexcept>
 
-#include "base/angles.h"
 #include "engines/dart/dart_machine_internal.h"
+#include "engines/leg_chain.h"
 
 namespace ursula::dart_engine {
 namespace {
@@ -46,9 +42,6 @@ dd::UniversalJoint::Properties universal(const Vector3d& first, const Vector3d& 
   return out;
 }
 
-/// Turns z to û and keeps x, so that the second angle counts from û.
-Matrix3d alongAxis() { return Eigen::AngleAxisd(-pi / 2, Vector3d::UnitX()).toRotationMatrix(); }
-
 Eigen::Isometry3d placeOf(const Matrix3d& R, const Vector3d& at) {
   Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
   out.linear() = R;
@@ -56,44 +49,7 @@ Eigen::Isometry3d placeOf(const Matrix3d& R, const Vector3d& at) {
   return out;
 }
 
-/// Returns the angle between sides a and b of a triangle.
-double angleOpposite(double c, double a, double b) { return std::acos((a * a + b * b - c * c) / (2 * a * b)); }
-
 }  // namespace
-
-Matrix3d fixedFrame(const Leg& leg) {
-  const Vector3d u = leg.base_axis.normalized(), level = u.cross(Vector3d::UnitZ());
-  const Vector3d x = (level.norm() < 1e-10 ? u.cross(Vector3d::UnitY()) : level).normalized();
-  Matrix3d out;
-  out << x, u, x.cross(u);
-  return out;
-}
-
-Vector3d legCoordinates(const Leg& leg, int index, const Vector3d& k) {
-  const double l = leg.proximal.length, s = leg.distal.length, side = leg.knee == Knee::positive ? 1 : -1;
-  const double q = k.norm(), r = std::hypot(k.x(), k.z()), turn = std::atan2(-k.x(), k.z());
-  Vector3d out;
-  switch (leg.kind) {
-    case LegKind::URS:
-      out << turn, std::atan2(r, k.y()) + side * angleOpposite(s, l, q), side * angleOpposite(q, l, s);
-      break;
-    case LegKind::UPS:
-      out << turn, std::atan2(r, k.y()), q;
-      break;
-    case LegKind::RUS: {
-      const double c = std::sqrt(s * s - k.y() * k.y());
-      out << turn - side * angleOpposite(c, l, r), side * (pi - angleOpposite(r, l, c)), std::atan2(k.y(), c);
-      break;
-    }
-    case LegKind::PUS: {
-      const double ahead = side * std::sqrt(s * s - r * r);
-      out << k.y() - ahead, turn, std::atan2(r, ahead);
-      break;
-    }
-  }
-  if (!out.allFinite()) throw std::domain_error(fmt::format("leg {} cannot reach over {} m", index + 1, q));
-  return out;
-}
 
 DartMachine::DartMachine(const Manipulator& from) : manipulator(from), skeleton(dd::Skeleton::create("machine")) {
   skeleton->setGravity(from.gravity());
@@ -189,16 +145,12 @@ void DartMachine::readMaps(PlacedTree& out) const {
 }
 
 Vector3d DartMachine::friction(int index) const {
-  const Leg& leg = manipulator.leg(index);
-  Vector3d out;
+  Vector3d rates;
   for (std::size_t j = 0; j < 3; ++j) {
     const auto [joint, which] = legs[static_cast<std::size_t>(index)].place(j);
-    const double rate = joint->getVelocity(which);
-    const Coordinate coordinate = rowOf(leg.kind).coordinates[j];
-    out(static_cast<int>(j)) = -leg.friction.on(coordinate) * rate -
-                               leg.coulomb.on(coordinate) * std::tanh(rate / leg.coulomb.speedOf(coordinate));
+    rates(static_cast<int>(j)) = joint->getVelocity(which);
   }
-  return out;
+  return frictionOn(manipulator.leg(index), rates);
 }
 
 }  // namespace ursula::dart_engine

@@ -47,10 +47,4 @@ struct DartMachine {
   void addLeg(const Leg& leg, const std::string& index);
 };
 
-/// Returns a leg's coordinates for B at `k` from A in the frame [x̂, û, ẑ]. They have only some digits if the leg is
-/// nearly stretched. Throws std::domain_error if it cannot reach.
-Vector3d legCoordinates(const Leg& leg, int index, const Vector3d& k);
-/// Returns [x̂, û, ẑ] with a horizontal x̂.
-Matrix3d fixedFrame(const Leg& leg);
-
 }  // namespace ursula::dart_engine

@@ -51,7 +51,7 @@ TEST(EnginesVerb, refusesWhatItCannotDo) {
   }());
   ursula.write("file", "mine");
   const std::vector<std::pair<std::string, std::string>> wrong = {
-      {quick + "--engine bullet", "'bullet', expected one of Simbody, maximal coordinates, MuJoCo, DART"},
+      {quick + "--engine havok", "'havok', expected one of Simbody, maximal coordinates, MuJoCo, DART"},
       {quick + "--samples 1", "--samples"},
       {quick + "--seconds 0", "--seconds"},
       {quick + "--seconds nan", "--seconds"},

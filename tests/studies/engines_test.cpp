@@ -59,12 +59,20 @@ TEST(Engines, exactRecipeIsRightAndTheObviousCallIsWrong) {
       EXPECT_GT(engine.of(Recipe::no_bias).error, 1e-6) << "wrong, and little where the motion is slow";
       if (engine.kind->has_own_inverse) {
         EXPECT_GT(engine.of(Recipe::own_inverse).error, 0.01);
-        EXPECT_GT(engine.of(Recipe::own_inverse_hard).error, 2 * engine.of(Recipe::own_inverse).error)
-            << "harder loops make it worse: they take the rate of J for an error";
+        EXPECT_GT(engine.of(Recipe::own_inverse_hard).error, 1e-3) << "closures that leave out the rate of J";
+        if (engine.kind->name == std::string("MuJoCo")) {
+          EXPECT_GT(engine.of(Recipe::own_inverse_hard).error, 2 * engine.of(Recipe::own_inverse).error)
+              << "harder loops make it worse: they take the rate of J for an error";
+        }
       }
     }
   }
   EXPECT_EQ(kinds.size(), 4u);
+}
+
+bool movesNoRotors(const EngineFound& engine) {
+  const std::string name = engine.kind->name;
+  return name == "DART" || name == "Bullet" || name == "ODE";
 }
 
 /// Every engine has friction and a load; the load is in the platform's frame.
@@ -85,7 +93,7 @@ TEST(Engines, knowFrictionLoadAndRotors) {
     ASSERT_EQ(engine.refused, "") << engine.kind->name;
     EXPECT_LE(engine.of(Recipe::exact).error, 1e-12) << engine.kind->name;
     for (const InTimeFound& each : engine.in_time)
-      EXPECT_EQ(each.gave_up, engine.kind->name == std::string("DART") ? "DART moves no rotors" : "");
+      EXPECT_EQ(each.gave_up, movesNoRotors(engine) ? engine.kind->name + std::string(" moves no rotors") : "");
   }
 }
 
@@ -99,6 +107,33 @@ TEST(Engines, seeWhereAMachineIsAnother) {
   for (const LoopEngineKind* kind : enginesHere()) {
     const Vector6d wrong = kind->make(Manipulator(other), scenario.load)->efforts(Recipe::exact, here.motion);
     EXPECT_GT((wrong - here.efforts).norm() / here.efforts.norm(), 1e-9) << kind->name;
+  }
+}
+
+/// A step from rest has no rate of J to leave out: driven motors are then right, if all loops are held.
+TEST(Engines, aDrivenStepIsRightAtRestAlone) {
+  int asked = 0;
+  for (const char* engine_name : {"ODE", "Bullet"}) {
+    const LoopEngineKind& kind = *loopEngineNamed(engine_name);
+    if (!kind.available()) continue;
+    ++asked;
+    const Scenario scenario = shipped("flight-simulator");
+    EngineReference reference(scenario);
+    const std::unique_ptr<LoopEngine> engine = kind.make(*scenario.manipulator, scenario.load);
+    for (const double t : {0.0, 0.4 * scenario.trajectory->duration()}) {
+      const EngineReference::Here here = reference.at(t);
+      const Vector6d off = engine->efforts(Recipe::own_inverse_hard, here.motion) - here.efforts;
+      const double share = off.norm() / here.efforts.norm();
+      if (t == 0) {
+        ASSERT_EQ(here.motion.p_dot.norm() + here.motion.omega.norm(), 0);
+        EXPECT_LE(share, 1e-4) << engine_name;
+      } else {
+        EXPECT_GE(share, 1e-3) << engine_name;
+      }
+    }
+  }
+  if (loopEngineNamed("ode")->available() && loopEngineNamed("bullet")->available()) {
+    EXPECT_EQ(asked, 2);
   }
 }
 
@@ -173,6 +208,13 @@ TEST(Engines, looserLoopsSagFarther) {
     if (engine.kind->name == std::string("DART")) {
       EXPECT_GT(named(engine, "default").gap, 10 * named(engine, "all of the error a step").gap);
     }
+    if (engine.kind->name == std::string("ODE")) {
+      EXPECT_GT(named(engine, "soft").sag, 1000 * named(engine, "default").sag);
+      EXPECT_GT(named(engine, "default").gap, 2 * named(engine, "all of the error a step").gap);
+    }
+    if (engine.kind->name == std::string("Bullet")) {
+      EXPECT_GT(named(engine, "default").gap, 5 * named(engine, "direct, a short step").gap);
+    }
   }
 }
 
@@ -188,7 +230,8 @@ TEST(Engines, smallMachinesAndLightLegsAreMovedOrGivenUp) {
           EXPECT_TRUE(std::isfinite(each.sag + each.away + each.energy)) << name << ", " << engine.kind->name;
         } else {
           gave_up = true;
-          EXPECT_THAT(each.gave_up, testing::AnyOf(HasSubstr("a loop is open by"), HasSubstr("unstable")));
+          EXPECT_THAT(each.gave_up,
+                      testing::AnyOf(HasSubstr("a loop is open by"), HasSubstr("unstable"), HasSubstr("not finite")));
           EXPECT_LT(each.steps, std::floor(0.1 / each.rigidity.step));
         }
       }

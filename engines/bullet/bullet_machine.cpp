@@ -1,0 +1,301 @@
+#include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
+#include <BulletDynamics/Featherstone/btMultiBodyMLCPConstraintSolver.h>
+#include <BulletDynamics/Featherstone/btMultiBodyPoint2Point.h>
+#include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <stdexcept>
+
+#include "engines/bullet/bullet_machine_internal.h"
+
+namespace ursula::bullet_engine {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+btVector3 toBullet(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+btQuaternion toBullet(const Matrix3d& R) {
+  const Eigen::Quaterniond q(R);
+  return {q.x(), q.y(), q.z(), q.w()};
+}
+Vector3d vectorOf(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
+
+/// Bullet clips without a limit of one's own: impulses of a constraint at 100 N·s, and speeds at 100.
+constexpr double unlimited = 1e30;
+
+void prepare(btMultiBody& body) {
+  body.setLinearDamping(0);
+  body.setAngularDamping(0);
+  body.setMaxCoordinateVelocity(unlimited);
+  body.finalizeMultiDof();
+}
+
+}  // namespace
+
+BulletMachine::Principal BulletMachine::principalOf(const Matrix3d& inertia) {
+  if (inertia.isDiagonal(0)) return {Matrix3d::Identity(), inertia.diagonal()};
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(inertia);
+  Matrix3d axes = solver.eigenvectors();
+  if (axes.determinant() < 0) axes.col(0) = -axes.col(0).eval();
+  return {axes, solver.eigenvalues()};
+}
+
+BulletMachine::BulletMachine(const Manipulator& from) : manipulator(from), states_(at(from.legCount())) {
+  for (int i = 0; i < from.legCount(); ++i) addLeg(from.leg(i));
+  of_platform_ = principalOf(from.platform().inertia);
+  platform_ = std::make_unique<btMultiBody>(0, from.platform().mass, toBullet(of_platform_.moments), false, false);
+  prepare(*platform_);
+}
+
+/// Each joint of the chain is a link; the links' frames are at mass centres.
+void BulletMachine::addLeg(const Leg& leg) {
+  chains_.push_back(chainOf(leg));
+  const LegChain& chain = chains_.back();
+  legs_.push_back(std::make_unique<btMultiBody>(3, 0, btVector3(0, 0, 0), true, false));
+  btMultiBody& body = *legs_.back();
+  axes_.push_back({Matrix3d::Identity(), Matrix3d::Identity()});
+  Matrix3d before = Matrix3d::Identity();
+  Vector3d center_before = Vector3d::Zero();
+  for (int j = 0; j < 3; ++j) {
+    const LegChain::Joint& joint = chain.joints[at(j)];
+    Principal own{Matrix3d::Identity(), Vector3d::Zero()};
+    Vector3d center = Vector3d::Zero();
+    double mass = 0;
+    if (joint.body >= 0) {
+      own = principalOf(chain.links[at(joint.body)].inertia);
+      axes_.back()[at(joint.body)] = own.axes;
+      center = chain.centers[at(joint.body)];
+      mass = chain.links[at(joint.body)].mass;
+    }
+    const Matrix3d turn = own.axes.transpose() * joint.place.linear().transpose() * before;
+    const btVector3 pivot = toBullet(Vector3d(before.transpose() * (joint.place.translation() - center_before)));
+    const btVector3 arm = toBullet(Vector3d(own.axes.transpose() * center));
+    const btVector3 axis = toBullet(Vector3d(own.axes.transpose() * joint.axis));
+    if (joint.slides)
+      body.setupPrismatic(j, mass, toBullet(own.moments), j - 1, toBullet(turn), axis, pivot, arm, true);
+    else
+      body.setupRevolute(j, mass, toBullet(own.moments), j - 1, toBullet(turn), axis, pivot, arm, true);
+    before = own.axes;
+    center_before = center;
+  }
+  prepare(body);
+}
+
+void BulletMachine::place(btMultiBody& body) {
+  btAlignedObjectArray<btVector3> origins;
+  body.forwardKinematics(scratch_q_, origins);
+}
+
+void BulletMachine::set(const Motion<double>& motion, bool with_bias) {
+  for (int i = 0; i < manipulator.legCount(); ++i) {
+    LegState& state = states_[at(i)] = legState(chains_[at(i)], manipulator.leg(i), i, motion, with_bias);
+    for (int j = 0; j < 3; ++j) {
+      body(i).setJointPos(j, state.q(j));
+      body(i).setJointVel(j, state.rates(j));
+    }
+    place(body(i));
+  }
+  const Matrix3d R = motion.Q * of_platform_.axes;
+  const Vector3d r = motion.Q * manipulator.platform().center_of_mass;
+  platform_->setBasePos(toBullet(Vector3d(motion.p + r)));
+  platform_->setWorldToBaseRot(toBullet(Matrix3d(R.transpose())));
+  platform_->setBaseOmega(toBullet(motion.omega));
+  platform_->setBaseVel(toBullet(Vector3d(motion.p_dot + motion.omega.cross(r))));
+  place(*platform_);
+}
+
+Eigen::MatrixXd BulletMachine::massInverse(btMultiBody& body, int first, int size, Eigen::VectorXd& free) {
+  constexpr double dt = 1;  // s; Bullet adds accelerations times this to the speeds
+  const int all = 6 + body.getNumDofs();
+  const std::vector<btScalar> before(body.getVelocityVector(), body.getVelocityVector() + all);
+  body.clearForcesAndTorques();
+  const Vector3d& g = manipulator.gravity();
+  if (!body.hasFixedBase()) body.addBaseForce(toBullet(Vector3d(body.getBaseMass() * g)));
+  for (int k = 0; k < body.getNumLinks(); ++k) body.addLinkForce(k, toBullet(Vector3d(body.getLinkMass(k) * g)));
+  body.computeAccelerationsArticulatedBodyAlgorithmMultiDof(dt, scratch_r_, scratch_v_, scratch_m_, false, false,
+                                                            false);
+  free = Eigen::VectorXd(size);
+  for (int k = 0; k < size; ++k) free(k) = (body.getVelocityVector()[first + k] - before[at(first + k)]) / dt;
+  Eigen::MatrixXd out(size, size);
+  for (int k = 0; k < size; ++k) {
+    std::vector<btScalar> unit(at(all), 0), response(at(all), 0);
+    unit[at(first + k)] = 1;
+    body.calcAccelerationDeltasMultiDof(unit.data(), response.data(), scratch_r_, scratch_v_);
+    for (int row = 0; row < size; ++row) out(row, k) = response[at(first + row)];
+  }
+  body.clearForcesAndTorques();
+  for (int k = 0; k < body.getNumLinks(); ++k) body.setJointVel(k, before[at(6 + k)]);
+  body.setBaseOmega(btVector3(before[0], before[1], before[2]));
+  body.setBaseVel(btVector3(before[3], before[4], before[5]));
+  return out;
+}
+
+Vector3d BulletMachine::forces(int leg, const Vector3d& u_dot) {
+  Eigen::VectorXd free;
+  const Matrix3d inverse = massInverse(body(leg), 6, 3, free);
+  return inverse.partialPivLu().solve(u_dot - Vector3d(free));
+}
+
+Vector6d BulletMachine::platformForces(const Vector6d& u_dot) {
+  Eigen::VectorXd free;
+  const Matrix6d inverse = massInverse(*platform_, 0, 6, free);
+  return inverse.partialPivLu().solve(u_dot - Vector6d(free));
+}
+
+btVector3 BulletMachine::tip(int leg) const {
+  const LegChain& chain = chains_[at(leg)];
+  return toBullet(Vector3d(axes_[at(leg)][1].transpose() * (chain.tip - chain.centers[1])));
+}
+
+btVector3 BulletMachine::platformPoint(int leg) const {
+  const Vector3d& b = manipulator.leg(leg).platform_point;
+  return toBullet(Vector3d(of_platform_.axes.transpose() * (b - manipulator.platform().center_of_mass)));
+}
+
+void BulletMachine::readMaps(PlacedTree& out) {
+  for (int i = 0; i < manipulator.legCount(); ++i) {
+    const btVector3 end = body(i).localPosToWorld(2, tip(i)), point = platform_->localPosToWorld(-1, platformPoint(i));
+    out.gaps[at(i)] = vectorOf(end - point);
+    for (int k = 0; k < 3; ++k) {
+      btScalar row[9] = {}, of_platform[6] = {};
+      const btVector3 along = toBullet(Vector3d(Vector3d::Unit(k))), none(0, 0, 0);
+      body(i).fillConstraintJacobianMultiDof(2, end, none, along, row, scratch_r_, scratch_v_, scratch_m_);
+      platform_->fillConstraintJacobianMultiDof(-1, point, none, along, of_platform, scratch_r_, scratch_v_,
+                                                scratch_m_);
+      out.legs[at(i)].J.row(k) = Eigen::Map<const Eigen::RowVector3d>(row + 6);
+      out.legs[at(i)].P.row(k) = Eigen::Map<const Eigen::Matrix<double, 1, 6>>(of_platform);
+    }
+  }
+}
+
+Vector3d BulletMachine::rates(int leg) const {
+  const btMultiBody& of = *legs_[at(leg)];
+  return {of.getJointVel(0), of.getJointVel(1), of.getJointVel(2)};
+}
+
+Matrix3d BulletMachine::orientation() const {
+  const btQuaternion q = platform_->getWorldToBaseRot();
+  const Eigen::Quaterniond turned(q.w(), q.x(), q.y(), q.z());
+  return turned.normalized().toRotationMatrix().transpose() * of_platform_.axes.transpose();
+}
+
+Vector3d BulletMachine::position() const {
+  return vectorOf(platform_->getBasePos()) - orientation() * manipulator.platform().center_of_mass;
+}
+
+Vector6d BulletMachine::loadAtCenter(const Load* load, double t) const {
+  Vector6d out = loadInBase(load, t, orientation());
+  const Vector3d r = orientation() * manipulator.platform().center_of_mass;
+  out.head<3>() -= r.cross(Vector3d(out.tail<3>()));
+  return out;
+}
+
+void BulletMachine::addFrictionAndLoad(const Load* load, double t) {
+  for (int i = 0; i < manipulator.legCount(); ++i) {
+    const Vector3d acts = frictionOn(manipulator.leg(i), rates(i));
+    for (int j = 0; j < 3; ++j) body(i).addJointTorque(j, acts(j));
+  }
+  const Vector6d w = loadAtCenter(load, t);
+  platform_->addBaseTorque(toBullet(Vector3d(w.head<3>())));
+  platform_->addBaseForce(toBullet(Vector3d(w.tail<3>())));
+}
+
+/// Bullet gives velocities in the bodies' frames.
+double BulletMachine::energyOf(btMultiBody& body) {
+  const int links = body.getNumLinks();
+  std::vector<btVector3> omega(at(links + 1)), velocity(at(links + 1));
+  body.compTreeLinkVelocities(omega.data(), velocity.data());
+  double out = 0;
+  for (int k = -1; k < links; ++k) {
+    const double mass = k < 0 ? (body.hasFixedBase() ? 0 : body.getBaseMass()) : body.getLinkMass(k);
+    const btVector3 inertia = k < 0 ? body.getBaseInertia() : body.getLinkInertia(k);
+    const btVector3 &w = omega[at(k + 1)], &v = velocity[at(k + 1)];
+    const Vector3d c = vectorOf(body.localPosToWorld(k, btVector3(0, 0, 0)));
+    out += mass * (v.dot(v) / 2 - manipulator.gravity().dot(c)) + w.dot(inertia * w) / 2;
+  }
+  return out;
+}
+
+double BulletMachine::energy() {
+  double out = energyOf(*platform_);
+  for (const auto& leg : legs_) out += energyOf(*leg);
+  return out;
+}
+
+double BulletMachine::powerOfFrictionAndLoad(const Load* load, double t) const {
+  const Vector6d w = loadAtCenter(load, t);
+  double out =
+      w.head<3>().dot(vectorOf(platform_->getBaseOmega())) + w.tail<3>().dot(vectorOf(platform_->getBaseVel()));
+  for (int i = 0; i < manipulator.legCount(); ++i) out += frictionOn(manipulator.leg(i), rates(i)).dot(rates(i));
+  return out;
+}
+
+BulletWorld::BulletWorld(BulletMachine& machine, Solver solver, int iterations, double erp, double cfm)
+    : machine_(machine) {
+  if (solver == Solver::dantzig) {
+    direct_ = std::make_unique<btDantzigSolver>();
+    solver_ = std::make_unique<btMultiBodyMLCPConstraintSolver>(direct_.get());
+  } else {
+    solver_ = std::make_unique<btMultiBodyConstraintSolver>();
+  }
+  world_ = std::make_unique<btMultiBodyDynamicsWorld>(&dispatcher_, &broadphase_, solver_.get(), &configuration_);
+  world_->setGravity(toBullet(machine.manipulator.gravity()));
+  btContactSolverInfo& info = world_->getSolverInfo();
+  info.m_numIterations = iterations;
+  info.m_erp = info.m_erp2 = erp;
+  info.m_globalCfm = cfm;
+  add(machine.platform());
+  for (int i = 0; i < machine.manipulator.legCount(); ++i) {
+    add(machine.body(i));
+    balls_.push_back(std::make_unique<btMultiBodyPoint2Point>(&machine.body(i), 2, &machine.platform(), -1,
+                                                              machine.tip(i), machine.platformPoint(i)));
+    balls_.back()->setMaxAppliedImpulse(unlimited);
+    balls_.back()->finalizeMultiDof();
+    world_->addMultiBodyConstraint(balls_.back().get());
+  }
+}
+
+/// Islands are made of colliders: constraints of bodies without one are left out in silence. So are all constraints of
+/// multibodies if islands are not split.
+void BulletWorld::add(btMultiBody& body) {
+  world_->addMultiBody(&body);
+  for (int link = -1; link < body.getNumLinks(); ++link) {
+    colliders_.push_back(std::make_unique<btMultiBodyLinkCollider>(&body, link));
+    colliders_.back()->setCollisionShape(&shape_);
+    colliders_.back()->setActivationState(DISABLE_DEACTIVATION);
+    world_->addCollisionObject(colliders_.back().get(), 0, 0);
+    if (link < 0)
+      body.setBaseCollider(colliders_.back().get());
+    else
+      body.getLink(link).m_collider = colliders_.back().get();
+  }
+}
+
+void BulletWorld::remove(btMultiBody& body) {
+  world_->removeMultiBody(&body);
+  body.setBaseCollider(nullptr);
+  for (int link = 0; link < body.getNumLinks(); ++link) body.getLink(link).m_collider = nullptr;
+}
+
+BulletWorld::~BulletWorld() {
+  for (const auto& of : {&balls_, &motors_})
+    for (const auto& each : *of) world_->removeMultiBodyConstraint(each.get());
+  for (const auto& each : colliders_) world_->removeCollisionObject(each.get());
+  for (int i = 0; i < machine_.manipulator.legCount(); ++i) remove(machine_.body(i));
+  remove(machine_.platform());
+}
+
+void BulletWorld::drive(int leg, int j, double rate) {
+  motors_.push_back(std::make_unique<btMultiBodyJointMotor>(&machine_.body(leg), j, rate, unlimited));
+  motors_.back()->finalizeMultiDof();
+  world_->addMultiBodyConstraint(motors_.back().get());
+}
+
+void BulletWorld::step(double h) {
+  world_->stepSimulation(h, 0);
+  if (!machine_.position().allFinite()) throw std::runtime_error("Bullet's state is not finite");
+}
+
+double BulletWorld::effort(std::size_t motor, double h) const { return motors_[motor]->getAppliedImpulse(0) / h; }
+
+}  // namespace ursula::bullet_engine
