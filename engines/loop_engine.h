@@ -18,7 +18,7 @@ enum class Recipe {
   open,              ///< inverse dynamics of the trees without the loops
   no_bias,           ///< the exact recipe without J̇ u in the joints' accelerations
   least_squares,     ///< the smallest forces on all coordinates, read at the motors
-  own_inverse,       ///< the engine's own inverse dynamics of the loop at its default softness, read at the motors
+  own_inverse,       ///< the engine's own answer with loops of default softness: inverse dynamics, or a driven step
   own_inverse_hard,  ///< the same at the hardest loops that it allows
 };
 

@@ -1,8 +1,3 @@
-#include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
-#include <BulletDynamics/Featherstone/btMultiBodyMLCPConstraintSolver.h>
-#include <BulletDynamics/Featherstone/btMultiBodyPoint2Point.h>
-#include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
-
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <stdexcept>
@@ -19,9 +14,6 @@ btQuaternion toBullet(const Matrix3d& R) {
   return {q.x(), q.y(), q.z(), q.w()};
 }
 Vector3d vectorOf(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
-
-/// Bullet clips without a limit of one's own: impulses of a constraint at 100 N·s, and speeds at 100.
-constexpr double unlimited = 1e30;
 
 void prepare(btMultiBody& body) {
   body.setLinearDamping(0);
@@ -229,73 +221,5 @@ double BulletMachine::powerOfFrictionAndLoad(const Load* load, double t) const {
   for (int i = 0; i < manipulator.legCount(); ++i) out += frictionOn(manipulator.leg(i), rates(i)).dot(rates(i));
   return out;
 }
-
-BulletWorld::BulletWorld(BulletMachine& machine, Solver solver, int iterations, double erp, double cfm)
-    : machine_(machine) {
-  if (solver == Solver::dantzig) {
-    direct_ = std::make_unique<btDantzigSolver>();
-    solver_ = std::make_unique<btMultiBodyMLCPConstraintSolver>(direct_.get());
-  } else {
-    solver_ = std::make_unique<btMultiBodyConstraintSolver>();
-  }
-  world_ = std::make_unique<btMultiBodyDynamicsWorld>(&dispatcher_, &broadphase_, solver_.get(), &configuration_);
-  world_->setGravity(toBullet(machine.manipulator.gravity()));
-  btContactSolverInfo& info = world_->getSolverInfo();
-  info.m_numIterations = iterations;
-  info.m_erp = info.m_erp2 = erp;
-  info.m_globalCfm = cfm;
-  add(machine.platform());
-  for (int i = 0; i < machine.manipulator.legCount(); ++i) {
-    add(machine.body(i));
-    balls_.push_back(std::make_unique<btMultiBodyPoint2Point>(&machine.body(i), 2, &machine.platform(), -1,
-                                                              machine.tip(i), machine.platformPoint(i)));
-    balls_.back()->setMaxAppliedImpulse(unlimited);
-    balls_.back()->finalizeMultiDof();
-    world_->addMultiBodyConstraint(balls_.back().get());
-  }
-}
-
-/// Islands are made of colliders: constraints of bodies without one are left out in silence. So are all constraints of
-/// multibodies if islands are not split.
-void BulletWorld::add(btMultiBody& body) {
-  world_->addMultiBody(&body);
-  for (int link = -1; link < body.getNumLinks(); ++link) {
-    colliders_.push_back(std::make_unique<btMultiBodyLinkCollider>(&body, link));
-    colliders_.back()->setCollisionShape(&shape_);
-    colliders_.back()->setActivationState(DISABLE_DEACTIVATION);
-    world_->addCollisionObject(colliders_.back().get(), 0, 0);
-    if (link < 0)
-      body.setBaseCollider(colliders_.back().get());
-    else
-      body.getLink(link).m_collider = colliders_.back().get();
-  }
-}
-
-void BulletWorld::remove(btMultiBody& body) {
-  world_->removeMultiBody(&body);
-  body.setBaseCollider(nullptr);
-  for (int link = 0; link < body.getNumLinks(); ++link) body.getLink(link).m_collider = nullptr;
-}
-
-BulletWorld::~BulletWorld() {
-  for (const auto& of : {&balls_, &motors_})
-    for (const auto& each : *of) world_->removeMultiBodyConstraint(each.get());
-  for (const auto& each : colliders_) world_->removeCollisionObject(each.get());
-  for (int i = 0; i < machine_.manipulator.legCount(); ++i) remove(machine_.body(i));
-  remove(machine_.platform());
-}
-
-void BulletWorld::drive(int leg, int j, double rate) {
-  motors_.push_back(std::make_unique<btMultiBodyJointMotor>(&machine_.body(leg), j, rate, unlimited));
-  motors_.back()->finalizeMultiDof();
-  world_->addMultiBodyConstraint(motors_.back().get());
-}
-
-void BulletWorld::step(double h) {
-  world_->stepSimulation(h, 0);
-  if (!machine_.position().allFinite()) throw std::runtime_error("Bullet's state is not finite");
-}
-
-double BulletWorld::effort(std::size_t motor, double h) const { return motors_[motor]->getAppliedImpulse(0) / h; }
 
 }  // namespace ursula::bullet_engine

@@ -16,6 +16,9 @@
 
 namespace ursula::bullet_engine {
 
+/// Bullet clips without a limit of one's own: impulses of a constraint at 100 N·s, and speeds at 100.
+inline constexpr double unlimited = 1e30;
+
 /// Multibodies of Bullet: each leg with three links, of which one has no mass, and the platform as a free base. Bullet
 /// has a body's frame at its mass centre, with its principal axes. The platform's speeds are [ω; velocity of its mass
 /// centre] in B.

@@ -82,8 +82,8 @@ const char* inWords(Recipe recipe) {
                                 "loops left open",
                                 "rate of J left out",
                                 "least squares",
-                                "its own inverse, soft loops",
-                                "its own inverse, hard loops"};
+                                "its own closures, soft",
+                                "its own closures, hard"};
   return words.at(static_cast<std::size_t>(recipe));
 }
 
