@@ -78,12 +78,8 @@ std::string inTimeRow(const InTimeFound& found) {
 }  // namespace
 
 const char* inWords(Recipe recipe) {
-  constexpr std::array words = {"exact recipe",
-                                "loops left open",
-                                "rate of J left out",
-                                "least squares",
-                                "its own closures, soft",
-                                "its own closures, hard"};
+  constexpr std::array words = {"exact recipe",  "loops left open",        "rate of J left out",
+                                "least squares", "its own closures, soft", "its own closures, hard"};
   return words.at(static_cast<std::size_t>(recipe));
 }
 

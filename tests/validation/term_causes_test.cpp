@@ -71,6 +71,42 @@ TEST_P(Terms, areEachSeen) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Terms, testing::Values("URS", "UPS", "RUS", "PUS"));
 
+/// The loops are left open but for forces in proportion to J̇ u, with a number of its own for each leg.
+TEST_P(Terms, softLoopsAreNamedAndNothingAlike) {
+  const auto residual = [this](double sign, double viscous) {
+    TorqueResidual out;
+    const Subject noc = nocSubject(machine_, nullptr);
+    for (int k = 0; k < 8; ++k) {
+      Motion<double> at = motion();
+      at.omega *= 1 + 0.1 * k;
+      at.p_dot.x() -= 0.1 * k;
+      const MachineTerms terms = machineTerms(machine_, nullptr, at);
+      Vector6d found;
+      for (int m = 0; m < motor_count; ++m) {
+        const Motor& motor = machine_.motors()[static_cast<std::size_t>(m)];
+        const OpenLeg& leg = terms.legs[static_cast<std::size_t>(motor.leg)];
+        const Vector3d off = sign * (leg.bias - leg.platform_bias) + viscous * at.p_dot;
+        found(m) = leg.efforts(motor.joint) - (100 + 10 * m) * (leg.J.transpose() * off)(motor.joint);
+      }
+      out.add(at, noc.torques(at), found, Vector6d::Constant(1e-7));
+    }
+    out.commanded = out.exact.size();
+    return out;
+  };
+  const std::optional<Hypothesis> soft = softLoops(scenario_, residual(1, 0));
+  ASSERT_TRUE(soft.has_value());
+  EXPECT_LE(soft->unexplained, 1e-9);
+  EXPECT_LE(soft->beyond, 1);
+  EXPECT_EQ(soft->named->term, "soft");
+  EXPECT_THAT(soft->text, testing::HasSubstr("100 to 150 kg"));
+  EXPECT_FALSE(softLoops(scenario_, residual(-1, 0)).has_value()) << "no closure pushes its gap open";
+  const std::optional<Hypothesis> viscous = softLoops(scenario_, residual(1, 3));
+  if (viscous) {
+    EXPECT_GT(viscous->unexplained, 1e-3) << "forces of another kind are not soft closures";
+  }
+  EXPECT_FALSE(softLoops(scenario_, residual(0, 0)).value_or(Hypothesis()).beyond <= 1) << "nor are open loops";
+}
+
 /// Torques of a solver that knows nothing of the scenario's rotors, and the other way round.
 TEST(RotorCause, isNamedEitherWayAndNeverNegative) {
   const Scenario without = readScenario(std::string(URSULA_SOURCE) + "/apps/starting/UPS.toml");

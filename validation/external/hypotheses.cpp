@@ -234,6 +234,7 @@ std::vector<Hypothesis> fitHypotheses(const Scenario& scenario, const TorqueResi
   }
   for (const TorqueTerm& term : terms)
     if (term.fixed) add(scaledTerm(data, term));
+  if (data.exact.size() >= 3) add(softLoops(scenario, data));
   std::vector<Cause> causes = machineCauses(scenario);
   for (Cause& cause : motionCauses(scenario)) causes.push_back(std::move(cause));
   for (Cause& cause : termCauses(scenario)) causes.push_back(std::move(cause));

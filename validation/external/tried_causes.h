@@ -30,6 +30,11 @@ std::optional<Hypothesis> signsAndOrder(const TorqueResidual& data);
 /// within the motion; returns nullopt if they are too few.
 std::optional<Hypothesis> timeShift(const Scenario& scenario, const TorqueResidual& data);
 
+/// Tries efforts of an engine whose soft constraints close the loops, as mj_inverse has them: open loops, with forces
+/// in proportion to J̇ u. One number per leg is fitted. Returns nullopt if a leg's number is not positive or has no
+/// effect.
+std::optional<Hypothesis> softLoops(const Scenario& scenario, const TorqueResidual& data);
+
 /// The efforts that a mistake adds for one motion.
 using EffortChange = std::function<Vector6d(const MachineTerms&)>;
 
