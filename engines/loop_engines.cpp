@@ -61,14 +61,12 @@ const std::vector<LoopEngineKind>& loopEngines() {
        "take M(q̈ − q̈₀) with the columns of calcAccelerationDeltasMultiDof and q̈₀ of "
        "computeAccelerationsArticulatedBodyAlgorithmMultiDof at accelerations that close the loops, and solve for the "
        "motors beside the multipliers of fillConstraintJacobianMultiDof's rows",
-       "a step with btMultiBodyJointMotor at the rates of its end and btMultiBodyPoint2Point, its motors' impulses "
-       "read,",
+       "a step with btMultiBodyPoint2Point and btMultiBodyJointMotor at the rates of its end, whose impulses are read,",
        true},
       {"ODE", "libode-dev", moduleAvailable<ode>, moduleVersion<ode>, makeByModule<ode>, Recipe::own_inverse,
        "drive every axis of the trees to its rate at v in a dWorldStep of h from v − h·a, with CFM zero, gyroscopic "
        "mode off and −ω × Iω added; dJointFeedback at the axes is inverse dynamics, and solve for the motors beside "
-       "the "
-       "multipliers of the axes' and anchors' rows",
+       "the multipliers of the axes' and anchors' rows",
        "a dWorldStep from v with the motors driven to the rates of its end, dJointFeedback read at the motors,", true},
   };
   return table;
