@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -22,9 +23,10 @@ SoftLeg softLeg(const OpenLeg& leg, const Motion<double>& motion) {
   Vector6d twist, rate;
   twist << motion.omega, motion.p_dot;
   rate << motion.omega_dot, motion.p_ddot;
+  const double condition = leg.J.norm() * leg.J.inverse().norm();  // rates and accelerations are solved by J
   const double velocity = (leg.P * twist).norm(), acceleration = (leg.P * rate + leg.platform_bias).norm();
   return {leg.efforts, -leg.J.transpose() * (leg.bias - leg.platform_bias),
-          leg.J.norm() * (acceleration + closing_rate * velocity)};
+          leg.J.norm() * condition * (acceleration + closing_rate * velocity)};
 }
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
