@@ -147,8 +147,9 @@ std::string motorsText(const std::vector<MotorDeviation>& motors) {
 
 /// The sources of the replay's error, one per line.
 std::string replayText(const ReplayError& found) {
+  if (!found.measured)
+    return "dominant error: " + found.dominant + (found.dominant == "model" ? ", the torques\n" : "\n");
   std::string out = "dominant error: " + found.dominant + "\n";
-  if (!found.measured) return out;
   std::vector<std::vector<std::string>> rows;
   for (const auto& [source, share] : {std::pair("rounding", found.rounding),
                                       {"integration", found.integration},

@@ -189,6 +189,27 @@ TEST(Budgets, becomeFindings) {
   EXPECT_THAT(result.findings, Contains(Pair("amplification of a deviation at the start", "1000")));
 }
 
+/// Errors that do not add up any more are not told apart: the torques are blamed, not the gaps.
+TEST(Budgets, blameWrongTorquesAloneWhereSourcesDoNotAddUp) {
+  const auto found = [](Verdict of_torques) {
+    ErrorBudget budget = madeBudget();
+    budget.observed = {0.7, 0, 0};
+    budget.closure = {{0.6, 0, 0}, 0.003};
+    budget.model = {{2.9, 0, 0}, 2.9};
+    ValidationResult result;
+    result.checks = {judged("torque.pointwise", of_torques == Verdict::fail ? 2 : 0.5, 1, "N m", "", "")};
+    addBudget(budget, result);
+    return result;
+  };
+  const ValidationResult wrong = found(Verdict::fail);
+  EXPECT_THAT(wrong.findings, testing::ElementsAre(Pair("dominant error", "model")));
+  EXPECT_TRUE(wrong.curves.empty());
+  EXPECT_FALSE(wrong.replay_error->measured);
+  const ValidationResult right = found(Verdict::pass);
+  EXPECT_TRUE(right.replay_error->measured) << "right torques do not explain it";
+  EXPECT_THAT(right.findings, Contains(Pair("of it by the loops' gaps", "0.6 m +- 0.003 m")));
+}
+
 TEST(Budgets, nameAmplificationWhereItPreventsJudging) {
   const auto dominant = [](const Check& check) {
     ValidationResult result;

@@ -40,6 +40,17 @@ TEST(Worst, keepsTheWorstShareAndTheLargestValueApart) {
   EXPECT_FALSE(found.beyond());
 }
 
+TEST(Worst, showsTheLargestOfAFailure) {
+  const Shown both = worstOf({{3, 1}, {5, 4}}).shown(100);
+  EXPECT_TRUE(both.beyond);
+  EXPECT_EQ(both.value, 5) << "the largest, not the 3 that is further beyond its limit";
+  EXPECT_EQ(both.limit, 4);
+  EXPECT_EQ(both.where, 1);
+  const Shown other = worstOf({{3, 1}, {5, 6}}).shown(100);
+  EXPECT_TRUE(other.beyond);
+  EXPECT_EQ(other.value, 3) << "the largest is within its own limit";
+}
+
 TEST(Worst, doesNotDependOnTheOrder) {
   std::vector<Each> all = {{3, 10}, {2, 4}, {5, 100}, {1, 3}};
   for (int turns = 0; turns < 4; ++turns) {

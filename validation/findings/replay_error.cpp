@@ -97,9 +97,11 @@ void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units&
                                : budget.measured ? budget.dominant
                                                  : ErrorSource::model;
   ReplayError found = replayErrorOf(budget, units);
+  // Errors of wrong torques soon leave the range in which sources add up; then the torques are all that can be told.
+  if (torques_fail && 2 * found.uncertainty > found.observed) found = {};
   found.dominant = name(dominant);
   result.findings.emplace_back("dominant error", found.dominant);
-  if (budget.measured) {
+  if (found.measured) {
     result.curves.emplace_back("Sources of the replay's error", curveOf(budget.along));
     addSources(found, result);
   }

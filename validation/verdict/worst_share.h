@@ -57,7 +57,9 @@ struct Worst {
 
   /// Compares each value with its derived limit L and with `useful` U, above which a value matters. Beyond L it fails.
   /// Between U and L, or without L, it is undecidable. Within both it passes, and the smaller limit is shown.
+  /// A failure shows the largest value if that is beyond its own limit.
   Shown shown(double useful) const {
+    if (!(largest <= largest_limit)) return {largest, largest_limit, largest_t, largest_where, true, false};
     if (beyond()) return {value, limit, t, where, true, false};
     if (!std::isfinite(widest_limit)) return {largest, widest_limit, widest_t, largest_where, false, true};
     if (!(largest <= useful)) return {largest, largest_limit, largest_t, largest_where, false, true};
