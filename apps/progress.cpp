@@ -17,6 +17,8 @@ namespace ursula {
 namespace {
 
 constexpr double silent_seconds = 2;
+/// After so long without a line, somebody who reads a log wonders.
+constexpr double worried_seconds = 10;
 constexpr std::chrono::milliseconds redraw{250};
 
 /// A dumb terminal cannot return to the start of a line.
@@ -48,11 +50,13 @@ Progress::~Progress() {
 void Progress::at(double share, const std::string& note) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const bool next_tenth = static_cast<int>(10 * share) != static_cast<int>(10 * share_);
+  const bool worth_a_line = next_tenth || (!said_ && seconds() > worried_seconds);
   share_ = share;
   note_ = note;
   at_seconds_ = seconds();
-  if (!on_terminal_ && lines_ == Lines::tenths && next_tenth && at_seconds_ > silent_seconds)
-    say("{}: {}{}\n", what_, note_, timeText());
+  if (on_terminal_ || lines_ != Lines::tenths || !worth_a_line || at_seconds_ < silent_seconds) return;
+  say("{}: {}{}\n", what_, note_, timeText());
+  said_ = true;
 }
 
 /// Runs in its own thread, because slow work reports rarely.

@@ -39,7 +39,7 @@ class Progress {
   Clock::time_point start_;
   std::mutex mutex_;  // guards what follows
   std::condition_variable ending_;
-  bool ended_ = false, drawn_ = false;
+  bool ended_ = false, drawn_ = false, said_ = false;
   double share_ = 0, at_seconds_ = 0;  ///< the last share, and its time
   std::string note_;
   std::thread drawing_;

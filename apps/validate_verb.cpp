@@ -73,9 +73,9 @@ ValidationResult judge(const Scenario& scenario, const ValidateOptions& options)
   if (from_file) return validateExternal(scenario, torques, options.time_limit);
   ValidationOptions validation;
   validation.time_limit = options.time_limit;
+  if (progress) validation.progress = [&progress](double share, const char* now) { progress->at(share, now); };
   if (!options.solver.command.empty()) return validateExternalSolver(scenario, options.solver, validation);
   validation.threads = options.jobs;
-  if (progress) validation.progress = [&progress](double share, const char* now) { progress->at(share, now); };
   return validate(scenario, validation);
 }
 

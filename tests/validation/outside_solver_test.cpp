@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <stdexcept>
+#include <vector>
 
 #include "tests/support/vectors.h"
 #include "tests/validation/checks.h"
@@ -104,6 +106,24 @@ TEST(OutsideSolver, aWrongNumberOfAnswersIsRefused) {
   few.torques = [](const std::vector<Motion<double>>&) { return std::vector<Vector6d>(1, Vector6d::Zero()); };
   EXPECT_THAT([&] { validateOutside(here.scenario, few); },
               testing::ThrowsMessage<std::invalid_argument>(HasSubstr("outside: 1 answers to 11 motions")));
+}
+
+/// A slow process is not silent: each answer is progress.
+TEST(ExternalSolver, everyAnswerIsTold) {
+  const Case here;
+  std::vector<double> shares;
+  ValidationOptions options;
+  options.progress = [&shares](double share, const char* now) {
+    EXPECT_STREQ(now, "asking the solver");
+    shares.push_back(share);
+  };
+  ExternalSolverOptions zeros;
+  zeros.command = "while read line; do echo 0,0,0,0,0,0; done";
+  EXPECT_EQ(validateExternalSolver(here.scenario, zeros, options).verdict, Verdict::fail);
+  ASSERT_GT(shares.size(), 100u);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_GT(shares.front(), 0);
+  EXPECT_LT(shares.back(), 1);
 }
 
 TEST(ExternalSolver, questionsAreTheMotionToTheLastBit) {

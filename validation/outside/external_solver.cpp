@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 #include "base/deadline.h"
@@ -15,6 +17,8 @@ namespace {
 
 /// Time for a process to end by itself after its input is closed, s.
 constexpr double grace = 1;
+/// About so many instants does a validation ask for.
+constexpr double usual_questions = 20000;
 
 /// A process that speaks the protocol.
 class Process {
@@ -62,16 +66,20 @@ ValidationResult validateExternalSolver(const Scenario& scenario, const External
   const Deadline deadline(validation.time_limit);
   OutsideSolver solver;
   solver.name = options.command;
-  solver.torques = [process, deadline](const std::vector<Motion<double>>& motions) {
+  const auto asked = std::make_shared<int>(0);
+  solver.torques = [process, deadline, asked, tell = validation.progress](const std::vector<Motion<double>>& motions) {
     std::vector<Vector6d> out;
     out.reserve(motions.size());
     for (const Motion<double>& motion : motions) {
       deadline.require();  // an answer may take long
       out.push_back(process->torques(motion));
+      if (tell) tell(std::min(++*asked / usual_questions, 0.99), "asking the solver");
     }
     return out;
   };
-  ValidationResult result = validateOutside(scenario, solver, validation);
+  ValidationOptions silent = validation;
+  silent.progress = nullptr;  // the answers take nearly all of the time
+  ValidationResult result = validateOutside(scenario, solver, silent);
   process->finish();
   return result;
 }
