@@ -91,7 +91,7 @@ Subject inSi(const Subject& subject, const FrameChange& natural) {
   return out;
 }
 
-/// Explains a solver's answers like a file's, and asks separate questions in addition.
+/// Explains a solver's answers like a file's, and asks separate questions in addition if there is time.
 void diagnoseSolver(const Scenario& scenario, const Evidence& evidence, const Subject& subject,
                     ValidationResult& result) {
   const GivenTorques answers = answersOf(evidence, subject.name);
@@ -101,8 +101,9 @@ void diagnoseSolver(const Scenario& scenario, const Evidence& evidence, const Su
   for (const double t : answers.t) motions.push_back(here.trajectory->at(t));
   const TorqueFile file =
       within(torqueFileOf(answers, scenario.manipulator->motors()), scenario.trajectory->duration());
-  addDiagnosis(diagnose(here, runExternal(here, file), askedApart(inSi(subject, evidence.natural), here, motions)),
-               result);
+  AskedApart asked;
+  if (evidence.has.out_of_time.empty()) asked = askedApart(inSi(subject, evidence.natural), here, motions);
+  addDiagnosis(diagnose(here, runExternal(here, file), asked), result);
 }
 
 ValidationResult run(const Scenario& scenario, const Reference& reference, const Subject& given, bool right,
@@ -139,8 +140,7 @@ ValidationResult run(const Scenario& scenario, const Reference& reference, const
   listEveryCheck(scenario, evidence.has, result);
   judgeByTolerance(scenario, 0, result);
   judgeByUser(scenario.acceptance, result);
-  if (result.verdict == Verdict::fail && subject.formulation == Formulation::external &&
-      evidence.has.out_of_time.empty())
+  if (result.verdict == Verdict::fail && subject.formulation == Formulation::external)
     diagnoseSolver(scenario, evidence, subject, result);
   sayEfforts(result);
   addProvenance(scenario, subject.name, result);
