@@ -15,8 +15,8 @@
 #include "model/legs/leg_type.h"
 #include "nocsolver/finite.h"
 #include "nocsolver/solver.h"
-#include "validation/external/torque_spline.h"
 #include "validation/subject/subject.h"
+#include "validation/subject/torque_spline.h"
 
 namespace ursula {
 namespace {

@@ -5,12 +5,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
 
 #include "model/instants.h"
 #include "model/scenario.h"
+#include "nocsolver/errors.h"
+#include "tests/support/motions.h"
 #include "validation/external/diagnosis.h"
 #include "validation/limits/conditioning.h"
 #include "validation/subject/torque_file.h"
@@ -105,6 +110,101 @@ TEST_P(Terms, softLoopsAreNamedAndNothingAlike) {
     EXPECT_GT(viscous->unexplained, 1e-3) << "forces of another kind are not soft closures";
   }
   EXPECT_FALSE(softLoops(scenario_, residual(0, 0)).value_or(Hypothesis()).beyond <= 1) << "nor are open loops";
+}
+
+/// A telescopic machine with rotors, on a motion that turns about every axis.
+Scenario withRotors() {
+  Scenario scenario = readScenario(std::string(URSULA_SOURCE) + "/apps/starting/UPS.toml");
+  scenario.trajectory = std::shared_ptr<const Trajectory>(tumbling(scenario, 3));
+  ManipulatorParameters machine = scenario.manipulator->parameters();
+  machine.platform.inertia << 50, 4, -3, 4, 60, 5, -3, 5, 95;
+  machine.platform.center_of_mass = {0.05, -0.03, 0.2};
+  for (Leg& leg : machine.legs) leg.rotor_inertia.d = 30;
+  scenario.manipulator = std::make_shared<Manipulator>(machine);
+  return scenario;
+}
+
+std::vector<Cause> causesLike(const Scenario& scenario, const std::string& words) {
+  std::vector<Cause> out;
+  for (const auto& causes : {termCauses, loopCauses, slidingCauses})
+    for (const Cause& cause : causes(scenario))
+      if (cause.words(0, 0).find(words) != std::string::npos) out.push_back(cause);
+  return out;
+}
+
+class Mistake : public testing::TestWithParam<const char*> {};
+
+TEST_P(Mistake, isNamedAsItself) {
+  const Scenario scenario = withRotors();
+  const std::vector<Cause> causes = causesLike(scenario, GetParam());
+  ASSERT_EQ(causes.size(), 1u);
+  GivenTorques given{"solver", equallySpaced(scenario.trajectory->duration(), 31), {}};
+  std::vector<Motion<double>> motions;
+  for (const double t : given.t) motions.push_back(scenario.trajectory->at(t));
+  given.torques = causes.front().torques(0, motions);
+  const Diagnosis found =
+      diagnose(scenario, runExternal(scenario, torqueFileOf(given, scenario.manipulator->motors())));
+  ASSERT_TRUE(found.named) << found.cause;
+  const NamedCause expected = causes.front().named(0, 0).value();
+  EXPECT_EQ(found.named->kind, expected.kind) << found.cause;
+  EXPECT_EQ(found.named->term, expected.term) << found.cause;
+}
+
+INSTANTIATE_TEST_SUITE_P(Telescopic, Mistake,
+                         testing::Values("inertia of the platform turned on one side only",
+                                         "the moment of inertia of the platform left in its own frame",
+                                         "the gyroscopic moment of the platform left in its own frame",
+                                         "moment about P of gravity", "moment about P of the force of inertia",
+                                         "spin of the links about their own lines left out of omega",
+                                         "cylinders measured back from the platform's joints",
+                                         "rods measured from the base's joints",
+                                         "Coriolis acceleration halved in the joints' accelerations and the rods'",
+                                         "forces of the legs across their lines",
+                                         "each leg carries the same part of the platform",
+                                         "that carry the platform, and those of the legs",
+                                         "about the platform's mass centre, its own about P",
+                                         "accelerations without the rate of the Jacobian of legs and platform"),
+                         [](const auto& each) { return "n" + std::to_string(each.index); });
+
+/// A solver that reads the motion wrongly, and whose legs have no end of stroke.
+TEST(ReadingCause, isNamedBeyondTheStrokeAndOfBothRates) {
+  const Scenario scenario = withRotors();
+  ManipulatorParameters longer = scenario.manipulator->parameters();
+  for (Leg& leg : longer.legs) {
+    leg.proximal.length = 9;
+    leg.distal.length -= 0.9;
+    leg.distal.center_of_mass -= 0.9;  // at the same place
+  }
+  const Subject solver = nocSubject(Manipulator(longer), nullptr);
+  const auto diagnosed = [&](const std::function<void(Motion<double>&)>& misread) {
+    GivenTorques given{"solver", equallySpaced(scenario.trajectory->duration(), 31), {}};
+    for (const double t : given.t) {
+      Motion<double> motion = scenario.trajectory->at(t);
+      misread(motion);
+      given.torques.push_back(solver.torques(motion));
+    }
+    return diagnose(scenario, runExternal(scenario, torqueFileOf(given, scenario.manipulator->motors())));
+  };
+  const auto expect = [](const Diagnosis& found, CauseKind kind, const char* term) {
+    ASSERT_TRUE(found.named) << found.cause;
+    EXPECT_EQ(found.named->kind, kind) << found.cause;
+    EXPECT_EQ(found.named->term, term) << found.cause;
+  };
+  const auto x_first = [](Motion<double>& motion) {
+    const Eigen::Quaterniond q(motion.Q);
+    motion.Q = Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y()).toRotationMatrix();
+  };
+  Motion<double> turned = scenario.trajectory->at(0);
+  x_first(turned);
+  EXPECT_THROW(nocSubject(*scenario.manipulator, nullptr).torques(turned), PoseError) << "it is not beyond the stroke";
+  expect(diagnosed(x_first), CauseKind::frame, "orientation");
+  expect(diagnosed([](Motion<double>& motion) {
+           motion.omega *= 180 / M_PI;
+           motion.omega_dot *= 180 / M_PI;
+         }),
+         CauseKind::units, "angular_velocity");
+  expect(diagnosed([](Motion<double>& motion) { motion.omega /= 2; }), CauseKind::scale, "angular_velocity");
+  EXPECT_TRUE(diagnosed([](const Motion<double>&) {}).summary.empty()) << "of right efforts nothing is said";
 }
 
 /// Torques of a solver that knows nothing of the scenario's rotors, and the other way round.

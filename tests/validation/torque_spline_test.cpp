@@ -1,6 +1,6 @@
 // The spline through samples of torques: its order, and that what is said of its errors bounds them without excess.
 
-#include "validation/external/torque_spline.h"
+#include "validation/subject/torque_spline.h"
 #include "model/instants.h"
 
 #include <gtest/gtest.h>

@@ -80,6 +80,13 @@ Vector6d MachineTerms::forceAtP() const {
   return out;
 }
 
+Vector6d MachineTerms::ofAccelerations(const std::function<Vector3d(const OpenLeg&)>& off) const {
+  Vector6d at_P = Vector6d::Zero();
+  for (const OpenLeg& leg : legs)
+    at_P += leg.P.transpose() * leg.J.transpose().lu().solve(Vector3d(leg.mass * leg.J.lu().solve(off(leg))));
+  return T_P.transpose() * at_P;
+}
+
 MachineTerms machineTerms(const Manipulator& machine, const std::shared_ptr<const Load>& load,
                           const Motion<double>& motion) {
   const Noc<double> noc(machine);
@@ -126,14 +133,18 @@ MachineTerms machineTerms(const Manipulator& machine, const std::shared_ptr<cons
       const Coordinate coordinate = row.coordinates[static_cast<std::size_t>(j)];
       open.efforts(j) += frictionOf(leg, coordinate, rate.of(coordinate)(static_cast<int>(i)));
       q_ddot(j) = acceleration.of(coordinate)(static_cast<int>(i));
+      open.mass(j, j) = leg.rotor_inertia.on(coordinate);
+      open.efforts(j) += open.mass(j, j) * q_ddot(j);
     }
     first.bias = first.twist_rate - of_first * q_ddot;
     second.bias = second.twist_rate - of_second * q_ddot;
-    open.mass = of_first.transpose() * first.massTimes(of_first) + of_second.transpose() * second.massTimes(of_second);
+    open.mass += of_first.transpose() * first.massTimes(of_first) + of_second.transpose() * second.massTimes(of_second);
     const Vector3d b = motion.Q * leg.platform_point;
+    open.arm = b;
     open.platform_bias = motion.omega.cross(motion.omega.cross(b));
     open.J = unitTwists(row, at, at.B, 3).bottomRows<3>();
     open.P << -crossed(b), Matrix3d::Identity();
+    open.coriolis = 2 * second.omega().cross(second.sliding);
     open.bias = motion.p_ddot + motion.omega_dot.cross(b) + open.platform_bias - open.J * q_ddot;
     out.legs.push_back(open);
     out.proximal.push_back(first);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -35,9 +36,11 @@ struct OpenLeg {
   Matrix3d J = Matrix3d::Zero();  ///< velocity of B per unit rates of its coordinates
   Eigen::Matrix<double, 3, 6> P =
       Eigen::Matrix<double, 3, 6>::Zero();    ///< the same per unit of the platform's twist at P
-  Vector3d efforts = Vector3d::Zero();        ///< of its coordinates, for its own links and friction
-  Matrix3d mass = Matrix3d::Zero();           ///< of its links, in its coordinates
+  Vector3d efforts = Vector3d::Zero();        ///< of its coordinates, for its own links, rotors and friction
+  Matrix3d mass = Matrix3d::Zero();           ///< of its links and rotors, in its coordinates
+  Vector3d arm = Vector3d::Zero();            ///< Q b, m
   Vector3d bias = Vector3d::Zero();           ///< J̇ q̇ of its point B, m/s²
+  Vector3d coriolis = Vector3d::Zero();       ///< the part of it by sliding while turning
   Vector3d platform_bias = Vector3d::Zero();  ///< ω × (ω × Qb) of the platform's, m/s²
 };
 
@@ -55,6 +58,8 @@ struct MachineTerms {
 
   /// The generalised force at P of platform, links and friction; the efforts are T_Pᵀ times it.
   Vector6d forceAtP() const;
+  /// The efforts of errors in joint accelerations of J⁻¹ times the leg's `off`, m/s².
+  Vector6d ofAccelerations(const std::function<Vector3d(const OpenLeg&)>& off) const;
 };
 
 /// [n; 0] and [0; f].

@@ -22,6 +22,8 @@ struct Cause {
   std::function<std::vector<Vector6d>(const std::vector<Motion<double>>&)> slope = {};
   /// The same as `words`, typed; empty if the contract has no name for it.
   std::function<std::optional<NamedCause>(double x, double deviation)> named = {};
+  /// Rounding of the torques of one motion, N·m; empty if it is that of the right ones.
+  std::function<double(const Motion<double>&)> rounding = {};
   /// Whether a body can have the fitted number; empty if it can have every one.
   std::function<bool(double x)> is_possible = {};
 };

@@ -80,7 +80,7 @@ class Fit {
     const Rows left = remaining(x_);
     const double deviation = cause_.fitted ? deviationAt(left) : 0;
     Hypothesis out{cause_.words(x_, deviation), std::sqrt(dot(left, left)) / data_.norm(), cause_.fitted ? 1 : 0};
-    out.beyond = data_.beyond(left) / growth();
+    out.beyond = beyond(left);
     if (cause_.named) out.named = cause_.named(x_, deviation);
     if (cause_.is_possible) out.is_possible = cause_.is_possible(x_);
     return out;
@@ -95,6 +95,16 @@ class Fit {
       exact = std::max(exact, data_.exact[k].cwiseAbs().maxCoeff());
     }
     return exact > 0 ? std::max(1.0, found / exact) : 1;
+  }
+
+  /// The remainder in multiples of its limits, which are wider where the cause's torques round more.
+  double beyond(const Rows& left) const {
+    const double as_of_right_ones = data_.beyond(left) / growth();
+    if (!cause_.rounding) return as_of_right_ones;
+    TorqueResidual wider = data_;
+    for (std::size_t k = 0; k < left.size(); ++k)
+      wider.limit[k] = wider.limit[k].cwiseMax(cause_.rounding(data_.motions[k]));
+    return std::min(as_of_right_ones, wider.beyond(left));
   }
 
   /// Returns nullopt if the cause has no torques.

@@ -189,7 +189,8 @@ std::string loneInstants(const ExternalTorques& torques) {
                      window.off == 1 ? "is" : "are", torques.file.t[window.first]);
 }
 
-/// Whether a solver that was asked term by term is right outside the interval, whatever it is asked.
+/// Whether a solver that was asked term by term is right outside the interval, whatever it is asked. `from` and `to`
+/// are the right samples next to it, at which a motion at rest may hide a missing term.
 bool answersRightOutside(const TorqueResidual& data, double from, double to) {
   for (std::size_t k = data.commanded; k < data.motions.size(); ++k) {
     if (data.motions[k].t >= from && data.motions[k].t <= to) continue;
@@ -206,7 +207,9 @@ Explanation intervalAlone(const Scenario& scenario, const ExternalTorques& torqu
   if (window.rows() < enough || 20 * window.off < 19 * window.rows() || 10 * window.rows() > 9 * torques.file.rows())
     return {};
   const double from = torques.file.t[window.first], to = torques.file.t[window.last];
-  if (!answersRightOutside(data, from, to)) return {};
+  const double before = torques.file.t[window.first == 0 ? 0 : window.first - 1];
+  const double after = torques.file.t[std::min(window.last + 1, torques.file.rows() - 1)];
+  if (!answersRightOutside(data, before, after)) return {};
   Explanation out{fmt::format("right but from t = {:.6g} to {:.6g} s", from, to)};
   out.named = NamedCause{CauseKind::window};
   out.named->from_s = from;

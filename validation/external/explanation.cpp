@@ -32,12 +32,17 @@ bool sayTheSame(const NamedCause& first, const NamedCause& other) {
          other.parameter.compare(0, first.parameter.size(), first.parameter) == 0 && !first.parameter.empty();
 }
 
-/// Does not blame the other links if their mass centres make no difference.
+/// Does not blame the other links if their mass centres make no difference. Of a term it names no body if several would
+/// do.
 void leaveOutOtherLinks(const std::vector<Hypothesis>& best, NamedCause& named) {
-  if (named.kind != CauseKind::reference_point || named.body != "legs") return;
-  for (const Hypothesis& one : best)
-    if (one.named && sayTheSame(named, *one.named) && (one.named->body == "proximal" || one.named->body == "distal"))
-      named.body = one.named->body;
+  const std::string body = named.body;
+  for (const Hypothesis& one : best) {
+    if (!one.named || !sayTheSame(named, *one.named)) continue;
+    const bool is_link = one.named->body == "proximal" || one.named->body == "distal";
+    if (named.kind == CauseKind::reference_point && body == "legs" && is_link) named.body = one.named->body;
+    if (named.kind == CauseKind::missing_term && one.named->kind == named.kind && one.named->body != body)
+      named.body.clear();
+  }
 }
 
 }  // namespace

@@ -7,9 +7,9 @@
 #include <limits>
 #include <memory>
 
-#include "validation/external/torque_spline.h"
 #include "validation/replay/windows.h"
 #include "validation/subject/subject.h"
+#include "validation/subject/torque_spline.h"
 
 namespace ursula {
 namespace {

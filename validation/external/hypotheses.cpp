@@ -236,9 +236,8 @@ std::vector<Hypothesis> fitHypotheses(const Scenario& scenario, const TorqueResi
     if (term.fixed) add(scaledTerm(data, term));
   if (data.exact.size() >= 3) add(softLoops(scenario, data));
   std::vector<Cause> causes = machineCauses(scenario);
-  for (Cause& cause : motionCauses(scenario)) causes.push_back(std::move(cause));
-  for (Cause& cause : termCauses(scenario)) causes.push_back(std::move(cause));
-  for (Cause& cause : loopCauses(scenario)) causes.push_back(std::move(cause));
+  for (const auto& more : {motionCauses, rateCauses, termCauses, slidingCauses, loopCauses})
+    for (Cause& cause : more(scenario)) causes.push_back(std::move(cause));
   for (const Hypothesis& fitted : fitCauses(causes, data)) add(fitted);
   return out;
 }

@@ -17,15 +17,24 @@ Vector6d throughJacobian(const MachineTerms& machine, const Matrix6d& wrong, con
 
 Matrix6d jacobian(const MachineTerms& machine) { return machine.T_P.inverse(); }
 
-/// Rows [b × n; n] with b in the platform's frame, as if it were the base's.
-Matrix6d unturnedJacobian(const Scenario& scenario, const MachineTerms& machine) {
+/// An arm of a leg's force, m.
+using Arm = std::function<Vector3d(std::size_t leg)>;
+
+/// Rows [arm × n; n].
+Matrix6d jacobianOf(const Scenario& scenario, const MachineTerms& machine, const Arm& arm) {
   Matrix6d out = jacobian(machine);
   const Motors& motors = scenario.manipulator->motors();
   for (int m = 0; m < motor_count; ++m) {
-    const Vector3d b = scenario.manipulator->leg(motors[static_cast<std::size_t>(m)].leg).platform_point;
-    out.row(m).head<3>() = b.cross(Vector3d(out.row(m).tail<3>())).transpose();
+    const Vector3d r = arm(static_cast<std::size_t>(motors[static_cast<std::size_t>(m)].leg));
+    out.row(m).head<3>() = r.cross(Vector3d(out.row(m).tail<3>())).transpose();
   }
   return out;
+}
+
+/// With b in the platform's frame, as if it were the base's.
+Matrix6d unturnedJacobian(const Scenario& scenario, const MachineTerms& machine) {
+  return jacobianOf(scenario, machine,
+                    [&scenario](std::size_t i) { return scenario.manipulator->parameters().legs[i].platform_point; });
 }
 
 /// Three per leg, in leg order.
@@ -77,15 +86,24 @@ Vector6d leastSquares(const Scenario& scenario, const MachineTerms& machine, con
   return ofMotors(scenario, f - G.transpose() * multipliers);
 }
 
-/// The least efforts of all joints, driven or not, that move the machine.
-Vector6d leastEfforts(const Scenario& scenario, const MachineTerms& machine) {
+/// Each leg carries the same part of the platform's force.
+Vector6d equallyShared(const Scenario& scenario, const MachineTerms& machine) {
+  Coordinates all = openEfforts(machine);
+  const Vector3d part = machine.platform_wrench.tail<3>() / static_cast<double>(machine.legs.size());
+  for (std::size_t i = 0; i < machine.legs.size(); ++i)
+    all.segment<3>(3 * static_cast<Eigen::Index>(i)) += machine.legs[i].J.transpose() * part;
+  return ofMotors(scenario, all);
+}
+
+/// The least efforts of all joints, driven or not, for a generalised force at P.
+Coordinates leastEfforts(const MachineTerms& machine, const Vector6d& at_P) {
   const auto legs = static_cast<Eigen::Index>(machine.legs.size());
   Eigen::MatrixXd N(3 * legs, 6);
   for (Eigen::Index i = 0; i < legs; ++i) {
     const OpenLeg& leg = machine.legs[static_cast<std::size_t>(i)];
     N.middleRows<3>(3 * i) = leg.J.lu().solve(leg.P);
   }
-  return ofMotors(scenario, N * Matrix6d(N.transpose() * N).lu().solve(machine.forceAtP()));
+  return N * Matrix6d(N.transpose() * N).lu().solve(at_P);
 }
 
 /// Twist rates of links as J ṫ_P, without J̇ t_P.
@@ -97,16 +115,6 @@ Vector6d withoutBias(const MachineTerms& machine) {
       out += body.T.transpose() * (body.inertiaWrench(rate) - body.inertiaWrench(body.twist_rate));
     }
   return out;
-}
-
-/// The efforts of errors in joint accelerations of J⁻¹ times the leg's `off`, m/s².
-Vector6d ofAccelerations(const MachineTerms& machine, const std::function<Vector3d(const OpenLeg&)>& off) {
-  Vector6d at_P = Vector6d::Zero();
-  for (const OpenLeg& leg : machine.legs) {
-    const Vector3d efforts = leg.mass * leg.J.lu().solve(off(leg));
-    at_P += leg.P.transpose() * leg.J.transpose().lu().solve(efforts);
-  }
-  return machine.T_P.transpose() * at_P;
 }
 
 /// Swaps [ω; v] to [v; ω]: a transposed Jacobian reveals its order.
@@ -132,7 +140,7 @@ void addTransposed(EffortCauses& out) {
 }
 
 /// The generalised force at P if the legs' forces on the platform act at other points, `arm` from P.
-Vector6d forceAtP(const MachineTerms& machine, const std::function<Vector3d(std::size_t leg)>& arm) {
+Vector6d forceAtP(const MachineTerms& machine, const Arm& arm) {
   Vector6d out = machine.platform_wrench;
   for (std::size_t i = 0; i < machine.legs.size(); ++i) {
     const Vector3d f = machine.legs[i].J.transpose().lu().solve(machine.legs[i].efforts);
@@ -164,6 +172,12 @@ void addJacobians(const Scenario& scenario, EffortCauses& out) {
           [](const MachineTerms& machine) {
             const Vector6d wrong = forceAtP(machine, [](std::size_t) { return Vector3d::Zero().eval(); });
             return Vector6d(machine.T_P.transpose() * (wrong - machine.forceAtP()));
+          });
+  out.add("the legs' forces about the platform's mass centre, its own about P",
+          {CauseKind::reference_point, "", "platform"}, [&scenario](const MachineTerms& machine) {
+            const auto arm = [&machine](std::size_t i) { return Vector3d(machine.legs[i].arm - machine.rho); };
+            return throughJacobian(machine, jacobianOf(scenario, machine, arm), forceAtP(machine, arm),
+                                   machine.forceAtP());
           });
   out.add("the platform's forces at its mass centre taken for such at P", {CauseKind::reference_point, "", "platform"},
           [](const MachineTerms& machine) {
@@ -221,24 +235,6 @@ void addPointsNotTurned(const Scenario& scenario, EffortCauses& out) {
     }
 }
 
-/// Of rods on carriages: forces along the rods, where those along the rails belong.
-void addUndivided(const Scenario& scenario, EffortCauses& out) {
-  out.add("the carriages' forces along the rods, not along the rails", {CauseKind::jacobian, "", "all"},
-          [&scenario](const MachineTerms& machine) {
-            Vector6d change = Vector6d::Zero();
-            const Vector6d right = exactEfforts(machine);
-            for (int m = 0; m < motor_count; ++m) {
-              const Motor& motor = scenario.manipulator->motors()[static_cast<std::size_t>(m)];
-              const Leg& leg = scenario.manipulator->leg(motor.leg);
-              if (!rowOf(leg.kind).hasCarriage() || !motor.slides()) continue;
-              const double along =
-                  machine.distal[static_cast<std::size_t>(motor.leg)].line.dot(leg.base_axis.normalized());
-              change(m) = right(m) / along - right(m);
-            }
-            return change;
-          });
-}
-
 void addClosures(const Scenario& scenario, EffortCauses& out) {
   const auto closed = [&scenario](auto efforts) {
     return [&scenario, efforts](const MachineTerms& machine) {
@@ -257,17 +253,25 @@ void addClosures(const Scenario& scenario, EffortCauses& out) {
           named("least_squares"), closed([](const Scenario& of, const MachineTerms& machine) {
             return leastSquares(of, machine, machine.rho);
           }));
-  out.add("the least efforts over all joints, read at the motors", named("least_squares"), closed(leastEfforts));
+  out.add("the least efforts over all joints, read at the motors", named("least_squares"),
+          closed([](const Scenario& of, const MachineTerms& machine) {
+            return ofMotors(of, leastEfforts(machine, machine.forceAtP()));
+          }));
+  out.add("the least efforts over all joints that carry the platform, and those of the legs", named("least_squares"),
+          closed([](const Scenario& of, const MachineTerms& machine) {
+            return ofMotors(of, openEfforts(machine) + leastEfforts(machine, machine.platform_wrench));
+          }));
+  out.add("the loops left open: each leg carries the same part of the platform", named("open"), closed(equallyShared));
   const std::pair<const char*, std::function<Vector3d(const OpenLeg&)>> left_out[] = {
       {"of the legs", [](const OpenLeg& leg) { return leg.bias; }},
       {"of the platform", [](const OpenLeg& leg) { return Vector3d(-leg.platform_bias); }},
       {"of legs and platform", [](const OpenLeg& leg) { return Vector3d(leg.bias - leg.platform_bias); }}};
   for (const auto& [whose, off] : left_out)
     out.add(std::string("joint accelerations without the rate of the Jacobian ") + whose, named("bias"),
-            [off = off](const MachineTerms& machine) { return ofAccelerations(machine, off); });
+            [off = off](const MachineTerms& machine) { return machine.ofAccelerations(off); });
   out.add("joint accelerations with the centripetal part of the platform's points of the wrong sign", named("bias"),
           [](const MachineTerms& machine) {
-            return ofAccelerations(machine, [](const OpenLeg& leg) { return Vector3d(-2 * leg.platform_bias); });
+            return machine.ofAccelerations([](const OpenLeg& leg) { return Vector3d(-2 * leg.platform_bias); });
           });
   out.add("the links' accelerations without the Jacobian's rate", named("bias"), withoutBias);
 }
@@ -278,7 +282,6 @@ std::vector<Cause> loopCauses(const Scenario& scenario) {
   EffortCauses out(scenario);
   addJacobians(scenario, out);
   addPointsNotTurned(scenario, out);
-  addUndivided(scenario, out);
   addClosures(scenario, out);
   return std::move(out.causes);
 }

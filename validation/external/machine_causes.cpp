@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <tuple>
 #include <utility>
 
 #include "validation/external/machine_collector.h"
@@ -39,14 +40,23 @@ void addInertias(MachineCauses& out) {
                  Platform& one = machine.platform;
                  one.inertia = moved(one.inertia, one.mass, one.center_of_mass, -1);
                });
-  out.addLinks("inertias of ", " with x and y exchanged", CauseKind::frame, "inertia", [](Link& one) {
-    one.inertia.row(0).swap(one.inertia.row(1));
-    one.inertia.col(0).swap(one.inertia.col(1));
-  });
-  out.addLinks("inertias of ", " with x and z exchanged", CauseKind::frame, "inertia", [](Link& one) {
-    one.inertia.row(0).swap(one.inertia.row(2));
-    one.inertia.col(0).swap(one.inertia.col(2));
-  });
+  const std::tuple<const char*, int, int> exchanged[] = {{"x and y", 0, 1}, {"x and z", 0, 2}, {"y and z", 1, 2}};
+  for (const auto& [axes, i, k] : exchanged) {
+    const auto exchange = [i = i, k = k](Matrix3d& inertia) {
+      inertia.row(i).swap(inertia.row(k));
+      inertia.col(i).swap(inertia.col(k));
+    };
+    const std::string words = fmt::format(" with {} exchanged", axes);
+    out.addLinks("inertias of ", words, CauseKind::frame, "inertia", [exchange](Link& one) { exchange(one.inertia); });
+    out.addFixed({"inertia of the platform" + words, NamedCause{CauseKind::frame, "inertia", "platform"}},
+                 [exchange](Machine& machine) { exchange(machine.platform.inertia); });
+  }
+  out.addFixed({"inertia of the platform without products of inertia",
+                NamedCause{CauseKind::parameter, "", "platform", "manipulator.platform.inertia"}},
+               [](Machine& machine) {
+                 Matrix3d& inertia = machine.platform.inertia;
+                 inertia = inertia.diagonal().asDiagonal().toDenseMatrix();
+               });
   out.addLinks("inertias of ", " without products of inertia", CauseKind::missing_term, "inertia",
                [](Link& one) { one.inertia = one.inertia.diagonal().asDiagonal().toDenseMatrix(); });
   out.addLinks("products of inertia of ", " with the wrong sign", CauseKind::sign, "inertia",
@@ -80,13 +90,14 @@ void addExchanged(MachineCauses& out) {
                [](Machine& machine) { machine.platform.center_of_mass.setZero(); });
   out.addFixed({"mass centre of the platform on the other side of P", platform_centre},
                [](Machine& machine) { machine.platform.center_of_mass *= -1; });
-  out.addFixed({"proximal and distal links exchanged, but for their lengths"}, [](Machine& machine) {
+  const NamedCause of_links{CauseKind::parameter, "", "legs", "manipulator.leg_defaults"};
+  out.addFixed({"proximal and distal links exchanged, but for their lengths", of_links}, [](Machine& machine) {
     for (Leg& leg : machine.legs) {
       std::swap(leg.proximal, leg.distal);
       std::swap(leg.proximal.length, leg.distal.length);
     }
   });
-  out.addFixed({"proximal and distal inertias exchanged"}, [](Machine& machine) {
+  out.addFixed({"proximal and distal inertias exchanged", of_links}, [](Machine& machine) {
     for (Leg& leg : machine.legs) std::swap(leg.proximal.inertia, leg.distal.inertia);
   });
   out.addFixed({"base axes without their part along z"}, [](Machine& machine) {

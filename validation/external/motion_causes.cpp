@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <utility>
 
-#include "base/angles.h"
+#include "validation/limits/conditioning.h"
 #include "validation/subject/subject.h"
 
 namespace ursula {
@@ -20,16 +19,17 @@ using Motions = std::vector<Motion<double>>;
 using MotionChange = std::function<void(Motion<double>&)>;
 using MachineChange = std::function<void(ManipulatorParameters&, const Matrix3d& Q)>;
 
-Cause readOtherwise(const Scenario& scenario, const CauseName& name, const MotionChange& change) {
-  return fixedCause(name, [&scenario, change](const Motions& motions) {
-    const Subject noc = nocSubject(*scenario.manipulator, scenario.load);
-    Rows out;
-    for (Motion<double> motion : motions) {
-      change(motion);
-      out.push_back(noc.torques(motion));
-    }
-    return out;
-  });
+/// Telescopic legs without an end of stroke, because a misread pose may be beyond it, and a solver need not care.
+Manipulator withoutStroke(const Manipulator& machine) {
+  ManipulatorParameters out = machine.parameters();
+  for (Leg& leg : out.legs) {
+    if (leg.kind != LegKind::UPS) continue;
+    const double whole = leg.proximal.length + leg.distal.length, shorter = 0.999 * leg.distal.length;
+    leg.proximal.length = 10 * whole;
+    leg.distal.length -= shorter;
+    leg.distal.center_of_mass -= shorter;  // at the same place
+  }
+  return Manipulator(out);
 }
 
 /// Uses another machine at each instant.
@@ -39,7 +39,7 @@ Cause notTurned(const Scenario& scenario, const CauseName& name, const MachineCh
     for (const Motion<double>& motion : motions) {
       ManipulatorParameters machine = scenario.manipulator->parameters();
       change(machine, motion.Q);
-      out.push_back(nocSubject(Manipulator(machine), scenario.load).torques(motion));
+      out.push_back(nocSubject(withoutStroke(Manipulator(machine)), scenario.load).torques(motion));
     }
     return out;
   });
@@ -141,62 +141,6 @@ void addFrames(const Scenario& scenario, std::vector<Cause>& out) {
       });
 }
 
-/// Q = R₁ R₂ R₃, turns about axes of the frame that turns along: the directions of their rates in B, e₁, e₂, e₃.
-struct EulerAxes {
-  Vector3d e1, e2, e3;
-};
-EulerAxes rollPitchYaw(const Matrix3d& Q) {
-  const double pitch = std::asin(-Q(2, 0)), yaw = std::atan2(Q(1, 0), Q(0, 0));
-  return {Vector3d::UnitZ(),
-          {-std::sin(yaw), std::cos(yaw), 0},
-          {std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), -std::sin(pitch)}};
-}
-EulerAxes cardan(const Matrix3d& Q) {
-  const double first = std::atan2(-Q(1, 2), Q(2, 2)), second = std::asin(Q(0, 2));
-  return {Vector3d::UnitX(),
-          {0, std::cos(first), std::sin(first)},
-          {std::sin(second), -std::sin(first) * std::cos(second), std::cos(first) * std::cos(second)}};
-}
-
-/// The angles' rates, and theirs, where ω and ω̇ belong; `of_x` is the angle that stands for x, 0 or 2.
-void anglesForOmega(const EulerAxes& at, int of_x, Motion<double>& motion) {
-  Matrix3d E;
-  E << at.e1, at.e2, at.e3;
-  const Vector3d rate = E.lu().solve(motion.omega);
-  const Vector3d bias =
-      rate(0) * rate(1) * at.e1.cross(at.e2) + rate(2) * (rate(0) * at.e1 + rate(1) * at.e2).cross(at.e3);
-  const Vector3d second = E.lu().solve(motion.omega_dot - bias);
-  motion.omega = of_x == 0 ? rate : Vector3d(rate.reverse());
-  motion.omega_dot = of_x == 0 ? second : Vector3d(second.reverse());
-}
-
-void addAngles(const Scenario& scenario, std::vector<Cause>& out) {
-  const NamedCause named{CauseKind::frame, "angular_velocity", "all"};
-  out.push_back(readOtherwise(scenario, {"rates of roll, pitch and yaw taken for the angular velocity", named},
-                              [](Motion<double>& motion) { anglesForOmega(rollPitchYaw(motion.Q), 2, motion); }));
-  out.push_back(readOtherwise(scenario, {"rates of Cardan's angles x, y, z taken for the angular velocity", named},
-                              [](Motion<double>& motion) { anglesForOmega(cardan(motion.Q), 0, motion); }));
-}
-
-void addUnits(const Scenario& scenario, std::vector<Cause>& out) {
-  constexpr double millimetres = 1000;
-  const auto add = [&](const char* text, const char* term, double factor, Vector3d Motion<double>::*of) {
-    NamedCause named{CauseKind::units, term, "all"};
-    named.expected = 1;
-    named.found = factor;
-    out.push_back(
-        readOtherwise(scenario, {text, named}, [of, factor](Motion<double>& motion) { motion.*of *= factor; }));
-  };
-  add("omega in degrees per second", "angular_velocity", degrees_per_radian, &Motion<double>::omega);
-  add("omega in degrees per second, taken for radians", "angular_velocity", 1 / degrees_per_radian,
-      &Motion<double>::omega);
-  add("the rate of omega in degrees", "angular_acceleration", degrees_per_radian, &Motion<double>::omega_dot);
-  add("the rate of omega in degrees, taken for radians", "angular_acceleration", 1 / degrees_per_radian,
-      &Motion<double>::omega_dot);
-  add("the velocity of P in millimetres", "velocity", millimetres, &Motion<double>::p_dot);
-  add("the acceleration of P in millimetres", "acceleration", millimetres, &Motion<double>::p_ddot);
-}
-
 void addLeftOut(const Scenario& scenario, std::vector<Cause>& out) {
   const auto add = [&](const CauseName& name, const MotionChange& change) {
     out.push_back(readOtherwise(scenario, name, change));
@@ -236,6 +180,11 @@ void addNotTurned(const Scenario& scenario, std::vector<Cause>& out) {
       [](ManipulatorParameters& machine, const Matrix3d& Q) {
         machine.platform.center_of_mass = (Q.transpose() * machine.platform.center_of_mass).eval();
       });
+  add({"the platform's points not turned into the base's frame",
+       NamedCause{CauseKind::frame, "orientation", "platform"}},
+      [](ManipulatorParameters& machine, const Matrix3d& Q) {
+        for (Leg& leg : machine.legs) leg.platform_point = (Q.transpose() * leg.platform_point).eval();
+      });
   add({"the platform's products of inertia with the other sign (as CAD writes them)",
        NamedCause{CauseKind::sign, "inertia", "platform"}},
       [](ManipulatorParameters& machine, const Matrix3d& /*Q*/) {
@@ -272,15 +221,31 @@ void addLoads(const Scenario& scenario, std::vector<Cause>& out) {
 
 }  // namespace
 
+Cause readOtherwise(const Scenario& scenario, const CauseName& name,
+                    const std::function<void(Motion<double>&)>& change) {
+  Cause out = fixedCause(name, [&scenario, change](const Motions& motions) {
+    const Subject noc = nocSubject(withoutStroke(*scenario.manipulator), scenario.load);
+    Rows torques;
+    for (Motion<double> motion : motions) {
+      change(motion);
+      torques.push_back(noc.torques(motion));
+    }
+    return torques;
+  });
+  out.rounding = [&scenario, change](Motion<double> motion) {
+    change(motion);
+    return ConditioningProbe(withoutStroke(*scenario.manipulator), scenario.load).at(motion).torqueRounding();
+  };
+  return out;
+}
+
 std::vector<Cause> motionCauses(const Scenario& scenario) {
   std::vector<Cause> out;
   addFrames(scenario, out);
-  addAngles(scenario, out);
-  addUnits(scenario, out);
   addLeftOut(scenario, out);
   addNotTurned(scenario, out);
   addLoads(scenario, out);
-  out.push_back(motorInertia(scenario));
+  if (!hasRotors(*scenario.manipulator)) out.push_back(motorInertia(scenario));
   return out;
 }
 

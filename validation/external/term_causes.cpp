@@ -76,6 +76,13 @@ Vector6d velocityTerms(const MachineTerms& machine, const BodyTerms& body) {
   return bias(machine, body) + gyroscopic(machine, body);
 }
 
+/// The moment about the first joint, or P, of a part's force.
+Wrench ofItsArm(const Wrench& part) {
+  return [part](const MachineTerms& machine, const BodyTerms& body) {
+    return momentWrench(body.from.cross(Vector3d(part(machine, body).tail<3>())));
+  };
+}
+
 /// A twist or its rate without the link's rotation about its own line. For ω̇ it is the rate of ω without spin.
 Vector6d withoutSpin(const BodyTerms& body, const Vector6d& twist) {
   Vector6d out = twist;
@@ -137,23 +144,34 @@ class Collector : public EffortCauses {
   }
 };
 
-Wrench withoutSpinOf(bool of_reaction) {
-  return [of_reaction](const MachineTerms& /*machine*/, const BodyTerms& body) {
-    const BodyTerms still = withoutSpin(body);
+/// Ways to leave out the spin: of motion and reaction, of the motion, or of ω and ω̇ without its effect on ω̇.
+enum class Spinless { motion_and_reaction, motion, crudely };
+
+Wrench withoutSpinOf(Spinless way) {
+  return [way](const MachineTerms& /*machine*/, const BodyTerms& body) {
+    BodyTerms still = withoutSpin(body);
+    if (way == Spinless::crudely) {
+      const double spin = body.line.dot(body.omega());
+      still.twist_rate.head<3>() += spin * body.omega().cross(body.line);
+      still.twist_rate.tail<3>() -= spin * body.line.dot(body.from) * still.omega();
+    }
     Vector6d wrench = still.inertiaWrench(still.twist_rate);
-    if (of_reaction) wrench = withoutSpin(body, wrench);  // Tᵀ without spin takes no moment about the line
+    // Tᵀ without spin takes no moment about the line
+    if (way == Spinless::motion_and_reaction) wrench = withoutSpin(body, wrench);
     return Vector6d(wrench - body.inertiaWrench(body.twist_rate));
   };
 }
 
 void addSpin(Collector& out) {
+  const std::pair<Spinless, const char*> ways[] = {{Spinless::motion_and_reaction, ""},
+                                                   {Spinless::motion, " of their motion"},
+                                                   {Spinless::crudely, " of omega and its rate"}};
   for (const Group& group : groups) {
     if (group.platform) continue;
-    for (const bool of_reaction : {true, false})
-      out.add(fmt::format("the spin of {} about their own lines left out{}", group.words,
-                          of_reaction ? "" : " of their motion"),
-              {CauseKind::missing_term, "spin", group.body}, [group, of_reaction](const MachineTerms& machine) {
-                return effortsOf(machine, group, withoutSpinOf(of_reaction));
+    for (const auto& [way, words] : ways)
+      out.add(fmt::format("the spin of {} about their own lines left out{}", group.words, words),
+              {CauseKind::missing_term, "spin", group.body}, [group, way = way](const MachineTerms& machine) {
+                return effortsOf(machine, group, withoutSpinOf(way));
               });
   }
 }
@@ -189,12 +207,24 @@ void addTensors(Collector& out) {
                   const Matrix3d twice = body.R * body.R;
                   return twice.transpose() * body.inertia * twice;
                 }));
+  out.addChange("inertia of ", " turned on one side only", CauseKind::frame, "inertia",
+                withTensor([](const BodyTerms& body) -> Matrix3d { return body.inertia * body.R; }));
   out.addChange("inertia of ", " about the first joint, or P, used as about the mass centre",
                 CauseKind::reference_point, "inertia",
                 withTensor([](const BodyTerms& body) -> Matrix3d { return body.inertia + steiner(body); }));
   out.addChange("inertia of ", ", about the mass centre, taken for such about the first joint, or P",
                 CauseKind::reference_point, "inertia",
                 withTensor([](const BodyTerms& body) -> Matrix3d { return body.inertia - steiner(body); }));
+  const auto leftInOwnFrame = [](const Wrench& moment) {
+    return [moment](const MachineTerms& machine, const BodyTerms& body) {
+      const Vector3d n = moment(machine, body).head<3>();
+      return momentWrench(body.R.transpose() * n - n);
+    };
+  };
+  out.addChange("the gyroscopic moment of ", " left in its own frame", CauseKind::frame, "gyroscopic",
+                leftInOwnFrame(gyroscopic));
+  out.addChange("the moment of inertia of ", " left in its own frame", CauseKind::frame, "inertia",
+                leftInOwnFrame(turningInertia));
   out.addChange("the gyroscopic moment of ", " with the tensor of its own frame", CauseKind::frame, "gyroscopic",
                 [](const MachineTerms& machine, const BodyTerms& body) {
                   BodyTerms own = body;
@@ -229,6 +259,8 @@ std::vector<Cause> termCauses(const Scenario& scenario) {
   out.addPart("inertia", "inertia", inertia);
   out.addPart("inertia and gravity", "inertia", everything, "",
               false);  // the wrong sign would be that of every effort
+  out.addPart("the moment about P of gravity", "gravity", ofItsArm(gravity), "platform", false);
+  out.addPart("the moment about P of the force of inertia", "inertia", ofItsArm(movingInertia), "platform", false);
   for (const char* body : {"legs", "proximal", "distal"}) {
     out.addPart("what velocities make of the accelerations", "coriolis", bias, body);
     out.addPart("what velocities make of the angular accelerations", "coriolis", turningBias, body);

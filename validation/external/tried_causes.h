@@ -22,6 +22,13 @@ std::vector<Cause> machineCauses(const Scenario& scenario);
 /// platform quantities used without rotation, and inertias of the motors.
 std::vector<Cause> motionCauses(const Scenario& scenario);
 
+/// Rates read otherwise: rates of angles for the angular velocity, degrees, millimetres.
+std::vector<Cause> rateCauses(const Scenario& scenario);
+
+/// The NOC's efforts for a motion that a solver read otherwise; telescopic legs then have no end of stroke.
+Cause readOtherwise(const Scenario& scenario, const CauseName& name,
+                    const std::function<void(Motion<double>&)>& change);
+
 /// Tries every order of the legs with the best signs, in the unit that the torques' size suggests. Returns nullopt if
 /// neither order nor signs differ.
 std::optional<Hypothesis> signsAndOrder(const TorqueResidual& data);
@@ -57,5 +64,9 @@ std::vector<Cause> termCauses(const Scenario& scenario);
 
 /// A wrong Jacobian, open loops or loops closed by least squares, missing J̇. `scenario` must outlive them.
 std::vector<Cause> loopCauses(const Scenario& scenario);
+
+/// Of legs that slide, UPS and PUS: mass centres measured from the joint at the leg's other end, forces along the wrong
+/// line. `scenario` must outlive them.
+std::vector<Cause> slidingCauses(const Scenario& scenario);
 
 }  // namespace ursula

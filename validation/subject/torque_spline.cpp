@@ -1,4 +1,4 @@
-#include "validation/external/torque_spline.h"
+#include "validation/subject/torque_spline.h"
 
 #include <algorithm>
 #include <array>
