@@ -53,7 +53,7 @@ void addCoriolis(EffortCauses& out) {
     for (const bool rods : {true, false})
       out.add(fmt::format("the Coriolis acceleration {} the joints' accelerations{}", words,
                           rods ? " and the rods'" : " alone"),
-              {kind, "coriolis", "distal"}, [share = share, rods](const MachineTerms& machine) {
+              {kind, "coriolis", "legs"}, [share = share, rods](const MachineTerms& machine) {
                 Vector6d change = machine.ofAccelerations([](const OpenLeg& leg) { return leg.coriolis; });
                 for (std::size_t i = 0; rods && i < machine.legs.size(); ++i) {
                   const BodyTerms& rod = machine.distal[i];
