@@ -8,6 +8,7 @@
 #include "exchange/read/readers.h"
 #include "exchange/recognise/recognise.h"
 #include "exchange/scenario_text.h"
+#include "model/scenario.h"
 
 namespace ursula::exchange {
 namespace {
@@ -24,6 +25,7 @@ void refuseTemplates(const std::string& text, const std::string& file) {
 
 ModelGraph readText(const std::string& text, const std::filesystem::path& file) {
   tinyxml2::XMLDocument document;
+  requireModest(text);
   refuseTemplates(text, file.filename().string());
   parseXml(text, document);
   const Element& root = *document.RootElement();
@@ -61,6 +63,15 @@ ModelGraph readFile(const std::filesystem::path& file) {
   return readText(ursula::readText(file, {most_model_bytes, "a model (SDF, MJCF or URDF)"}), file);
 }
 
+/// What is written can be read: numbers that no scenario may have are the file's fault.
+void requireReadable(const std::string& scenario) {
+  try {
+    static_cast<void>(parseScenario(scenario, "scenario"));
+  } catch (const ScenarioError& error) {
+    throw ImportError(fmt::format("its scenario would be refused: {}", error.what()));
+  }
+}
+
 }  // namespace
 
 ModelGraph readModel(const std::filesystem::path& file) {
@@ -70,7 +81,9 @@ ModelGraph readModel(const std::filesystem::path& file) {
 Imported importModel(const std::filesystem::path& file, const ImportChoices& choices) {
   return inFile(file, [&] {
     const ImportedMachine machine = recognise(readFile(file), choices);
-    return Imported{scenarioText(machine, file.filename().string()), machine.assumptions};
+    Imported out{scenarioText(machine, file.filename().string()), machine.assumptions};
+    requireReadable(out.scenario);
+    return out;
   });
 }
 

@@ -35,8 +35,12 @@ void addBall(const Element& element, ModelGraph& graph, const BodyByName& body) 
 
 void readDrakeConstraints(const Element& model, ModelGraph& graph, const BodyByName& body) {
   eachChild(model, "drake:ball_constraint", [&](const Element& e) { addBall(e, graph, body); });
-  for (const char* name : {"drake:linear_bushing_rpy", "drake:distance_constraint", "drake:tendon_constraint"})
-    if (const Element* found = model.FirstChildElement(name)) refuse(*found, "which a scenario has no words for");
+  eachChild(model, nullptr, [](const Element& e) {
+    const std::string name = e.Name();
+    const bool couples = name.rfind("drake:", 0) == 0 && name.find("_constraint") != std::string::npos;
+    if (name == "drake:linear_bushing_rpy" || (couples && name != "drake:ball_constraint"))
+      refuse(e, "which a scenario has no words for");
+  });
 }
 
 double drakeRotorInertia(const Element& element) {
@@ -44,7 +48,9 @@ double drakeRotorInertia(const Element& element) {
   const std::string gear = valueOf(element, "drake:gear_ratio", "value");
   if (rotor.empty()) return 0;
   const double ratio = gear.empty() ? 1 : numberOf(element, gear, "drake:gear_ratio");
-  return numberOf(element, rotor, "drake:rotor_inertia") * ratio * ratio;
+  const double inertia = numberOf(element, rotor, "drake:rotor_inertia");
+  if (inertia < 0) refuse(element, fmt::format("a rotor's inertia of {}, expected none below zero", inertia));
+  return inertia * ratio * ratio;
 }
 
 }  // namespace ursula::exchange

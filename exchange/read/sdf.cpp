@@ -9,33 +9,21 @@
 #include "exchange/read/drake.h"
 #include "exchange/read/readers.h"
 #include "exchange/read/sdf_frames.h"
+#include "exchange/read/sdf_values.h"
 
 namespace ursula::exchange {
 namespace {
 
 using Kind = SdfFrames::Kind;
 
-const std::set<std::string> known_in_link = {"pose",       "inertial",     "collision",         "visual",
-                                             "sensor",     "gravity",      "kinematic",         "light",
-                                             "frame",      "self_collide", "must_be_base_link", "projector",
-                                             "audio_sink", "audio_source", "battery",           "particle_emitter",
-                                             "plugin"};
-const std::set<std::string> known_in_joint = {"pose",
-                                              "parent",
-                                              "child",
-                                              "axis",
-                                              "axis2",
-                                              "thread_pitch",
-                                              "screw_thread_pitch",
-                                              "gearbox_ratio",
-                                              "gearbox_reference_body",
-                                              "sensor",
-                                              "frame",
-                                              "plugin"};
-const std::set<std::string> known_in_axis = {"xyz",  "initial_position", "use_parent_model_frame", "dynamics", "limit",
-                                             "mimic"};
-const std::set<std::string> known_in_dynamics = {"damping", "friction", "spring_reference", "spring_stiffness"};
-const std::set<std::string> known_in_inertial = {"mass", "pose", "inertia", "frame", "fluid_added_mass", "density"};
+const std::set<std::string> known_in_link = wordsOf(
+    "pose inertial collision visual sensor gravity kinematic light frame self_collide must_be_base_link "
+    "projector audio_sink audio_source battery particle_emitter plugin");
+const std::set<std::string> known_in_joint = wordsOf(
+    "pose parent child axis axis2 thread_pitch screw_thread_pitch gearbox_ratio gearbox_reference_body "
+    "sensor frame plugin");
+const std::set<std::string> known_in_axis = wordsOf("xyz initial_position use_parent_model_frame dynamics limit mimic");
+constexpr int newest_minor = 12;
 
 class SdfReader {
  public:
@@ -45,9 +33,12 @@ class SdfReader {
     if (version.substr(0, dot) != "1" || dot == std::string::npos)
       refuse(root, fmt::format("version '{}', expected 1.0 to 1.12", shown(version)));
     minor_ = static_cast<int>(numberOf(root, version.substr(dot + 1), "version"));
-    if (minor_ < 3)
+    if (minor_ < 2)
       refuse(root, fmt::format("version '{}' has <origin>, which is not read; convert the file: gz sdf -p FILE",
                                shown(version)));
+    if (minor_ > newest_minor)
+      refuse(root, fmt::format("version '{}', of which nothing is known, expected at most 1.{}", shown(version),
+                               newest_minor));
     graph_.format = "sdf";
     graph_.gravity = Vector3d(0, 0, -9.8);
     graph_.bodies.emplace_back();
@@ -61,7 +52,7 @@ class SdfReader {
     if (world != nullptr && world->NextSiblingElement("world") != nullptr)
       refuse(*world->NextSiblingElement("world"), "a second world, expected one");
     readGravity(top);
-    refuseIncludes(top);
+    refuseSdfIncludes(top, graph_.assumptions);
     eachChild(top, "frame", [&](const Element& e) { addFrame(e, SdfFrames::world); });
     eachChild(top, "model", [&](const Element& e) { addModel(e, SdfFrames::world, false); });
     if (models_.empty()) refuse(top, "no <model>, expected one");
@@ -88,34 +79,19 @@ class SdfReader {
                                     fmt::format("<{}>", top.Name()), 9.8, "m/s²"});
   }
 
-  static void refuseIncludes(const Element& scope) {
-    if (const Element* include = scope.FirstChildElement("include"))
-      refuse(*include, fmt::format("includes {}, which is not fetched; put its <model> into this file (gz sdf -p FILE)",
-                                   shown(childText(*include, "uri"))));
+  /// A frame's name in an attribute; before 1.7 some readers go by it and some do not.
+  std::string frameNamed(const Element* element, const char* name) const {
+    const std::string frame = element == nullptr ? "" : attribute(*element, name);
+    if (minor_ < 7 && !frame.empty())
+      refuse(*element, fmt::format("{}='{}' in version 1.{}, in which readers differ; expected version 1.7 or newer",
+                                   name, shown(frame), minor_));
+    return frame;
   }
 
-  /// Position and rotation of a <pose>.
-  Eigen::Isometry3d poseOf(const Element& element) const {
-    const Element* pose = element.FirstChildElement("pose");
-    if (pose == nullptr || textOf(*pose).empty()) return Eigen::Isometry3d::Identity();
-    const bool quaternion = attribute(*pose, "rotation_format") == "quat_xyzw";
-    const std::vector<double> v = numbersOf(*pose, textOf(*pose), quaternion ? 7 : 6, "<pose>");
-    const Vector3d position(v[0], v[1], v[2]);
-    if (quaternion) {
-      const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
-      if (!(q.norm() > 1e-12)) refuse(*pose, "a quaternion of zero");
-      return placed(position, q.normalized().toRotationMatrix());
-    }
-    Vector3d angles(v[3], v[4], v[5]);
-    const std::string degrees = attribute(*pose, "degrees");
-    if (!degrees.empty() && truthOf(*pose, degrees, "degrees")) angles *= 3.14159265358979323846 / 180;
-    return placed(position, rollPitchYaw(angles));
-  }
-
-  /// Versions before 1.7 ignored `frame`.
   std::string relativeTo(const Element& element) const {
-    const Element* pose = element.FirstChildElement("pose");
-    return pose == nullptr || minor_ < 7 ? "" : attribute(*pose, "relative_to");
+    const Element* pose = onlyChild(element, "pose");
+    if (minor_ < 7) static_cast<void>(frameNamed(pose, "frame"));
+    return frameNamed(pose, "relative_to");
   }
 
   SdfFrames::Frame frameOf(const Element& element, std::size_t scope, Kind kind) const {
@@ -124,7 +100,7 @@ class SdfReader {
     out.element = &element;
     out.scope = scope;
     out.parent = scope;
-    out.pose = poseOf(element);
+    out.pose = sdfPoseOf(element);
     out.relative_to = relativeTo(element);
     return out;
   }
@@ -146,9 +122,14 @@ class SdfReader {
 
   void addModel(const Element& element, std::size_t scope, bool fixed) {
     const std::string name = requiredAttribute(element, "name"), placement = attribute(element, "placement_frame");
-    refuseIncludes(element);
+    refuseSdfIncludes(element, graph_.assumptions);
     const std::size_t model = frames_.add(name, frameOf(element, scope, Kind::model));
     models_.push_back(model);
+    eachChild(element, "plugin", [&](const Element& e) {
+      graph_.assumptions.push_back(
+          {fmt::format("The plugin {} is left out, with the forces that it may bring", shown(attribute(e, "filename"))),
+           name, 0, "1"});
+    });
     const std::string is_static = childText(element, "static");
     fixed = fixed || (!is_static.empty() && truthOf(element, is_static, "<static>"));
     const std::string path = scope == SdfFrames::world ? "" : paths_[scope] + name + "::";
@@ -205,39 +186,7 @@ class SdfReader {
     body.weightless = !gravity.empty() && !truthOf(element, gravity, "<gravity>");
     if (!kinematic.empty() && truthOf(element, kinematic, "<kinematic>"))
       refuse(element, "<kinematic>, moved from outside, which a scenario has no words for");
-    const Element* inertial = element.FirstChildElement("inertial");
-    if (inertial != nullptr) listUnknown(*inertial, known_in_inertial, graph_.assumptions);
-    if (inertial != nullptr && inertial->FirstChildElement("fluid_added_mass"))
-      refuse(element, "<fluid_added_mass>, which a scenario has no words for");
-    if (inertial != nullptr && attribute(*inertial, "auto") == "true")
-      refuse(element, "an inertia that is left to the program (auto), expected numbers; run: gz sdf -p FILE");
-    takeInertia(element, inertial, body);
-  }
-
-  void takeInertia(const Element& element, const Element* inertial, GraphBody& body) {
-    const std::string mass = inertial == nullptr ? "" : childText(*inertial, "mass");
-    const Element* inertia = inertial == nullptr ? nullptr : inertial->FirstChildElement("inertia");
-    body.mass = mass.empty() ? 1 : numberOf(element, mass, "<mass>");
-    if (body.mass < 0) refuse(element, fmt::format("a mass of {}, expected none below zero", body.mass));
-    std::array<double, 6> entries = {1, 1, 1, 0, 0, 0};
-    constexpr std::array<const char*, 6> names = {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"};
-    for (std::size_t k = 0; k < names.size() && inertia != nullptr; ++k) {
-      const std::string text = childText(*inertia, names[k]);
-      if (text.empty()) continue;
-      entries[k] = numberOf(*inertia, text, names[k]);
-      body.inertia_rounding = std::max(body.inertia_rounding, halfLastDigit(text));
-    }
-    if ((mass.empty() || inertia == nullptr) && !body.fixed)
-      graph_.assumptions.push_back({mass.empty()
-                                        ? "The file gives no mass: SDF's default of 1 kg, with 1 kg·m² where no "
-                                          "inertia is given, was taken"
-                                        : "The file gives no inertia: SDF's default of 1 kg·m² was taken",
-                                    body.name, 1, mass.empty() ? "kg" : "kg·m²"});
-    const Eigen::Isometry3d at = body.frame * (inertial == nullptr ? Eigen::Isometry3d::Identity() : poseOf(*inertial));
-    const Matrix3d turn = at.linear();
-    body.center_of_mass = at.translation();
-    body.inertia =
-        turn * tensorOf({entries[0], entries[1], entries[2]}, {entries[3], entries[4], entries[5]}) * turn.transpose();
+    takeSdfInertial(element, body, graph_.assumptions);
   }
 
   std::size_t bodyIndex(const Element& at, std::size_t frame) const {
@@ -307,16 +256,16 @@ class SdfReader {
 
   void takeAxis(const Element& element, const char* which, std::size_t scope, const Eigen::Isometry3d& at, bool endless,
                 GraphJoint& joint) {
-    const Element* axis = element.FirstChildElement(which);
+    const Element* axis = onlyChild(element, which);
     if (axis == nullptr) refuse(element, fmt::format("no <{}>, expected one", which));
     listUnknown(*axis, known_in_axis, graph_.assumptions);
-    const Element* xyz = axis->FirstChildElement("xyz");
+    const Element* xyz = onlyChild(*axis, "xyz");
     const Vector3d given = xyz == nullptr ? Vector3d::UnitZ() : vectorOf(*xyz, textOf(*xyz), "<xyz>");
     Matrix3d frame = at.linear();
     const std::string of_model = childText(*axis, "use_parent_model_frame");
     const bool in_model = !of_model.empty() && truthOf(*axis, of_model, "<use_parent_model_frame>");
     if (minor_ <= 4 || (minor_ <= 6 && in_model)) frame = frames_.inWorld(scope).linear();
-    const std::string expressed_in = xyz == nullptr || minor_ < 7 ? "" : attribute(*xyz, "expressed_in");
+    const std::string expressed_in = frameNamed(xyz, "expressed_in");
     if (!expressed_in.empty())
       frame = frames_.inWorld(frames_.find(*xyz, scope, expressed_in, "expressed_in")).linear();
     joint.axis[0] = frame * directionOf(*axis, given, "<xyz>");
@@ -327,40 +276,7 @@ class SdfReader {
            "turn by this",
            joint.name, std::atan2(other.cross(joint.axis[0]).norm(), other.dot(joint.axis[0])), "rad"});
     }
-    if (axis->FirstChildElement("mimic")) refuse(element, "mimic, which a scenario has no words for");
-    takeLimits(*axis, endless, joint);
-    if (const Element* dynamics = axis->FirstChildElement("dynamics")) {
-      listUnknown(*dynamics, known_in_dynamics, graph_.assumptions);
-      takeDynamics(element, *dynamics, joint);
-    }
-  }
-
-  /// Numbers of 1e16 and more, and "inf", mean no limit.
-  static void takeLimits(const Element& axis, bool endless, GraphJoint& joint) {
-    const Element* limit = axis.FirstChildElement("limit");
-    if (limit == nullptr || endless) return;
-    const auto take = [&](const char* name, double& to) {
-      const std::string text = childText(*limit, name);
-      if (text.empty() || text == "inf" || text == "-inf" || text == "+inf") return;
-      const double value = numberOf(*limit, text, name);
-      if (std::abs(value) < 1e16) to = value;
-    };
-    take("lower", joint.lower);
-    take("upper", joint.upper);
-    if (joint.lower > joint.upper) joint.lower = -(joint.upper = std::numeric_limits<double>::infinity());
-  }
-
-  static void takeDynamics(const Element& element, const Element& dynamics, GraphJoint& joint) {
-    const auto read = [&](const char* name) {
-      const std::string text = childText(dynamics, name);
-      const double value = text.empty() ? 0 : numberOf(dynamics, text, name);
-      if (value < 0) refuse(element, fmt::format("<{}> {}, expected none below zero", name, value));
-      return value;
-    };
-    joint.damping = read("damping");
-    joint.friction = read("friction");
-    if (const double stiffness = read("spring_stiffness"); stiffness != 0)
-      refuse(element, fmt::format("a spring of {}, which a scenario has no words for", stiffness));
+    takeSdfMotion(element, *axis, endless, joint, graph_.assumptions);
   }
 
   const Element& root_;

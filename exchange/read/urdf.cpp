@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 #include <vector>
 
 #include "base/nearest.h"
@@ -16,12 +18,27 @@ namespace ursula::exchange {
 namespace {
 
 Eigen::Isometry3d originOf(const Element& element) {
-  const Element* origin = element.FirstChildElement("origin");
+  const Element* origin = onlyChild(element, "origin");
   if (origin == nullptr) return Eigen::Isometry3d::Identity();
-  const std::string xyz = attribute(*origin, "xyz"), rpy = attribute(*origin, "rpy");
-  return placed(xyz.empty() ? Vector3d::Zero() : vectorOf(*origin, xyz, "xyz"),
-                rpy.empty() ? Matrix3d::Identity() : rollPitchYaw(vectorOf(*origin, rpy, "rpy")));
+  Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
+  for (const tinyxml2::XMLAttribute* a = origin->FirstAttribute(); a != nullptr; a = a->Next()) {
+    const std::string name = a->Name();
+    if (name == "xyz")
+      out.translation() = vectorOf(*origin, a->Value(), "xyz");
+    else if (name == "rpy")
+      out.linear() = rollPitchYaw(vectorOf(*origin, a->Value(), "rpy"));
+    else
+      refuse(*origin, fmt::format("{}, which is not read, expected xyz and rpy", shown(name)));
+  }
+  return out;
 }
+
+/// What a <gazebo> of a link or a joint may say without a change of the dynamics.
+const std::set<std::string> known_in_gazebo = wordsOf(
+    "gravity turnGravityOff kinematic static springStiffness springReference material mu1 mu2 kp kd fdir1 "
+    "maxVel minDepth maxContacts selfCollide self_collide laserRetro sensor plugin visual collision "
+    "provideFeedback implicitSpringDamper stopCfm stopErp cfmDamping fudgeFactor joint "
+    "disableFixedJointLumping preserveFixedJoint");
 
 class UrdfReader {
  public:
@@ -61,7 +78,7 @@ class UrdfReader {
   }
 
   std::size_t linkOf(const Element& joint, const char* side) const {
-    const Element* child = joint.FirstChildElement(side);
+    const Element* child = onlyChild(joint, side);
     const std::string name = child == nullptr ? "" : attribute(*child, "link");
     if (const auto found = links_.find(name); found != links_.end()) return found->second;
     std::vector<std::string> names;
@@ -112,22 +129,26 @@ class UrdfReader {
     for (std::size_t i = 0; i < graph_.bodies.size(); ++i) readInertial(*link_elements_[i], graph_.bodies[i]);
   }
 
-  static void readInertial(const Element& link, GraphBody& body) {
-    const Element* inertial = link.FirstChildElement("inertial");
+  void readInertial(const Element& link, GraphBody& body) {
+    const Element* inertial = onlyChild(link, "inertial");
     if (inertial == nullptr) return;
-    const Element* mass = inertial->FirstChildElement("mass");
-    const Element* inertia = inertial->FirstChildElement("inertia");
-    if (mass == nullptr) refuse(*inertial, "no <mass>, expected one");
+    const Element* mass = onlyChild(*inertial, "mass");
+    const Element* inertia = onlyChild(*inertial, "inertia");
+    if (mass == nullptr || inertia == nullptr)
+      refuse(link, fmt::format("no <{}> in <inertial>, expected one", mass == nullptr ? "mass" : "inertia"));
     body.mass = numberOf(*mass, requiredAttribute(*mass, "value"), "mass");
     if (body.mass < 0) refuse(*mass, fmt::format("a mass of {}, expected none below zero", body.mass));
     const Eigen::Isometry3d at = body.frame * originOf(*inertial);
     body.center_of_mass = at.translation();
-    if (inertia == nullptr) return;
     std::array<double, 6> entries = {};
     constexpr std::array<const char*, 6> names = {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"};
     for (std::size_t k = 0; k < names.size(); ++k) {
-      const std::string text = attribute(*inertia, names[k]);
-      if (text.empty()) continue;
+      const std::string text = k < 3 ? requiredAttribute(*inertia, names[k]) : attribute(*inertia, names[k]);
+      if (text.empty()) {
+        graph_.assumptions.push_back(
+            {fmt::format("The file gives no {}: zero was taken", names[k]), body.name, 0, "kg·m²"});
+        continue;
+      }
       entries[k] = numberOf(*inertia, text, names[k]);
       body.inertia_rounding = std::max(body.inertia_rounding, halfLastDigit(text));
     }
@@ -149,7 +170,7 @@ class UrdfReader {
     const Eigen::Isometry3d& at = graph_.bodies[joint.child].frame;
     joint.centre = joint.centre_of_child = at.translation();
     joint.rotor_inertia = drakeRotorInertia(element);
-    if (element.FirstChildElement("mimic"))
+    if (element.FirstChildElement("mimic") || element.FirstChildElement("drake:mimic"))
       refuse(element, "mimic: it follows another joint, which a scenario has no words for");
     if (type == "fixed")
       joint.kind = JointKind::fixed;
@@ -166,7 +187,7 @@ class UrdfReader {
              fmt::format("a {} joint, which a scenario has no words for, expected revolute, continuous, prismatic or "
                          "fixed",
                          shown(type)));
-    const Element* axis = element.FirstChildElement("axis");
+    const Element* axis = onlyChild(element, "axis");
     const std::string xyz = axis == nullptr ? "" : attribute(*axis, "xyz");
     const Vector3d given = xyz.empty() ? Vector3d::UnitX() : vectorOf(*axis, xyz, "axis");
     joint.axis = {Vector3d(at.linear() * directionOf(element, given, "axis")), Vector3d(at.linear().col(1))};
@@ -176,8 +197,8 @@ class UrdfReader {
     graph_.joints.push_back(joint);
   }
 
-  static void takeLimits(const Element& element, const std::string& type, GraphJoint& joint) {
-    if (const Element* limit = element.FirstChildElement("limit"); limit != nullptr && type != "continuous") {
+  void takeLimits(const Element& element, const std::string& type, GraphJoint& joint) {
+    if (const Element* limit = onlyChild(element, "limit"); limit != nullptr && type != "continuous") {
       const auto take = [&](const char* name, double& to) {
         const std::string text = attribute(*limit, name);
         if (text.empty() || text == "inf" || text == "-inf") return;
@@ -187,9 +208,12 @@ class UrdfReader {
       take("lower", joint.lower);
       take("upper", joint.upper);
       // URDF's default for both is zero, so a joint that cannot move is one without given limits.
+      if (joint.lower == joint.upper && !attribute(*limit, "lower").empty())
+        graph_.assumptions.push_back(
+            {"The file's limits hold this joint where it is; it was taken as free to move", joint.name, 0, "1"});
       if (!(joint.lower < joint.upper)) joint.lower = -(joint.upper = std::numeric_limits<double>::infinity());
     }
-    const Element* dynamics = element.FirstChildElement("dynamics");
+    const Element* dynamics = onlyChild(element, "dynamics");
     if (dynamics == nullptr) return;
     const auto read = [&](const char* name) {
       const std::string text = attribute(*dynamics, name);
@@ -231,6 +255,11 @@ class UrdfReader {
       const std::string of = attribute(e, "reference"), on = childText(e, "gravity"),
                         off = childText(e, "turnGravityOff");
       const auto link = links_.find(of);
+      if (!of.empty()) listUnknown(e, known_in_gazebo, graph_.assumptions);
+      for (const char* word : {"static", "kinematic"})
+        if (const std::string text = childText(e, word); !text.empty() && truthOf(e, text, word))
+          refuse(e, fmt::format("<{}> holds {} where it is, expected a machine that moves", word,
+                                of.empty() ? "the model" : shown(of)));
       if (link != links_.end() &&
           ((!on.empty() && !truthOf(e, on, "<gravity>")) || (!off.empty() && truthOf(e, off, "<turnGravityOff>"))))
         graph_.bodies[link->second].weightless = true;

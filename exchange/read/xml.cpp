@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <sstream>
 
 #include "base/leading_number.h"
 #include "base/shown_text.h"
@@ -73,8 +75,9 @@ class Size {
 
 }  // namespace
 
+void requireModest(const std::string& text) { Size(text).requireModest(); }
+
 void parseXml(const std::string& text, tinyxml2::XMLDocument& document) {
-  Size(text).requireModest();
   document.Parse(text.data(), text.size());
   if (document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED)
     throw ImportError(fmt::format("elements nested deeper than {}, expected a model", TINYXML2_MAX_ELEMENT_DEPTH),
@@ -113,8 +116,15 @@ std::string textOf(const Element& element) {
 }
 
 std::string childText(const Element& element, const char* name) {
-  const Element* child = element.FirstChildElement(name);
+  const Element* child = onlyChild(element, name);
   return child == nullptr ? "" : textOf(*child);
+}
+
+const Element* onlyChild(const Element& element, const char* name) {
+  const Element* child = element.FirstChildElement(name);
+  if (child != nullptr && child->NextSiblingElement(name) != nullptr)
+    refuse(element, fmt::format("a second <{}>, expected one", name));
+  return child;
 }
 
 std::vector<double> numbersOf(const Element& at, std::string_view text, std::size_t count, const std::string& what) {
@@ -164,6 +174,11 @@ double halfLastDigit(std::string_view text) {
     i = end;
   }
   return largest;
+}
+
+std::set<std::string> wordsOf(const std::string& text) {
+  std::istringstream in(text);
+  return {std::istream_iterator<std::string>(in), {}};
 }
 
 void listUnknown(const Element& element, const std::set<std::string>& children, std::vector<Assumption>& assumptions) {

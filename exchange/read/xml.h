@@ -23,9 +23,11 @@ constexpr std::size_t most_model_bytes = std::size_t{8} << 20;
 /// No list of numbers in a model is longer.
 constexpr std::size_t most_numbers = 100;
 constexpr std::size_t most_unknown = 200;  ///< the longest list of unknown names
-constexpr std::size_t most_tags = 100'000, most_attributes = 100'000, most_attributes_of_one = 100;
+constexpr std::size_t most_tags = 25'000, most_attributes = 100'000, most_attributes_of_one = 100;
 
-/// Parses a text within these bounds; it refuses own entities and expands none. Throws ImportError.
+/// Refuses a text beyond these bounds, and own entities. Throws ImportError.
+void requireModest(const std::string& text);
+/// Parses a modest text and expands no entity. Throws ImportError.
 void parseXml(const std::string& text, tinyxml2::XMLDocument& document);
 
 /// "<joint name='a'>", for messages.
@@ -38,6 +40,8 @@ std::string requiredAttribute(const Element& element, const char* name);
 /// Returns the text of a child or of the element itself in the same way.
 std::string textOf(const Element& element);
 std::string childText(const Element& element, const char* name);
+/// Returns the only child of that name, or null. Throws for a second one, as readers differ in which they take.
+const Element* onlyChild(const Element& element, const char* name);
 
 /// Reads finite decimal numbers separated by white space; `what` names them in the error. Throws unless there are
 /// `count` of them; 0 allows any number.
@@ -55,6 +59,8 @@ void eachChild(const Element& element, const char* name, const Visit& visit) {
   for (const Element* e = element.FirstChildElement(name); e != nullptr; e = e->NextSiblingElement(name)) visit(*e);
 }
 
+/// Splits "pose parent child" at its blanks.
+std::set<std::string> wordsOf(const std::string& text);
 /// Lists unknown child elements or attributes, so that misspelt words are noticed. Names of other name spaces ("gz:…")
 /// are ignored.
 void listUnknown(const Element& element, const std::set<std::string>& children, std::vector<Assumption>& assumptions);

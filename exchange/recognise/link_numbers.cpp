@@ -13,6 +13,7 @@ namespace ursula::exchange {
 namespace {
 
 constexpr double eps = 2.3e-16;
+constexpr double most_of_the_digits = 0.1;  ///< of the largest moment, what rounded digits may leave open
 
 std::string moments(const Vector3d& m) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", m.x(), m.y(), m.z()); }
 
@@ -37,7 +38,9 @@ Matrix3d snapped(const Matrix3d& inertia, double rounding, bool line_may_be_zero
   const Matrix3d symmetric = (inertia + inertia.transpose()) / 2;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(symmetric);
   Vector3d m = principal.eigenvalues();
-  const double noise = 256 * eps * m.cwiseAbs().maxCoeff(), slack = 3 * rounding + noise;
+  // One digit, as of 1e5, would leave open what it likes.
+  const double noise = 256 * eps * m.cwiseAbs().maxCoeff(),
+               slack = std::min(3 * rounding, most_of_the_digits * m.cwiseAbs().maxCoeff()) + noise;
   const bool line_is_zero = line_may_be_zero && std::abs(symmetric(2, 2)) <= noise;
   if (!(m(0) > noise) && !line_is_zero)
     throw ImportError(fmt::format("body {}: principal moments of inertia {}, expected all of them above zero",
@@ -104,7 +107,11 @@ void freeSpin(const LegTask& task, const Group& body, const Eigen::Isometry3d& f
   if (off > worth_saying * task.size)
     assumptions.push_back(
         {"This freely spinning body is assumed to have its mass centre on the line", body.name, off, "m"});
-  if (!keep_moment) {
+  if (keep_moment) {
+    const double across = (link.inertia(0, 0) + link.inertia(1, 1)) / 2;
+    link.inertia = Vector3d(across, across, link.inertia(2, 2)).asDiagonal();
+    link.center_of_mass.head<2>().setZero();
+  } else {
     link.inertia(2, 2) -= local(2, 2);
     if (std::abs(link.inertia(2, 2)) <= 64 * eps * largest) link.inertia(2, 2) = 0;
   }

@@ -14,8 +14,9 @@ Matrix3d snapped(const Matrix3d& inertia, double rounding, bool line_may_be_zero
 ImportedLink linkOf(const LegTask& task, const Group& link, const Eigen::Isometry3d& frame, double length,
                     bool line_may_be_zero, std::vector<Assumption>& assumptions);
 
-/// Removes from `link` the moment about the line of a freely spinning body, at zero rate. Throws ImportError if that
-/// changes the dynamics: unequal transverse moments, a mass centre off the line.
+/// Makes `link` exactly round with `keep_moment`, as `spin = "free"` asks; else removes from it the moment about the
+/// line of a freely spinning body, at zero rate. Throws ImportError if that changes the dynamics: unequal transverse
+/// moments, a mass centre off the line.
 void freeSpin(const LegTask& task, const Group& body, const Eigen::Isometry3d& frame, bool keep_moment,
               ImportedLink& link, std::vector<Assumption>& assumptions);
 

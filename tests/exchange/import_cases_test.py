@@ -4,8 +4,10 @@
     import_cases_test.py PROGRAM
 """
 
+import subprocess
 import sys
 import unittest
+from pathlib import Path
 
 import numpy as np
 
@@ -51,6 +53,7 @@ class Cases(import_test.Imports):
                 driven = ",".join(j["name"] for j in joints if j["driven"])
                 scenario, assumptions = self.imported(text, "m.sdf", "--actuated", driven)
                 self.said(assumptions, "spin freely")
+                self.assertEqual(self.checked(text, "m.sdf", "--actuated", driven).returncode, 0)
                 for leg, found in zip(machine["legs"], scenario["manipulator"]["leg"]):
                     self.assertEqual((found["kind"], found["spin"], found["actuated"]), (kind, "free", [COORDINATES[kind][leg["driven"]]]))
                     self.near(found["distal"]["center_of_mass"], leg["links"][1]["com"][2], 10, "mass centre")
@@ -60,13 +63,31 @@ class Cases(import_test.Imports):
                         line = machine["platform"]["p"] + machine["platform"]["Q"] @ leg["b"] - leg["A"]
                         self.near(np.dot(found["base_axis"], line), 0, 10, "base_axis")
 
+    def checked(self, text, name, *options):
+        """`ursula check` on the scenario as it is written."""
+        path, out = Path(self.folder.name) / name, Path(self.folder.name) / "out.toml"
+        path.write_text(text)
+        done = import_test.run(path, "--out", out, *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return subprocess.run([import_test.PROGRAM, "check", str(out)], capture_output=True, text=True, timeout=120)
+
+    def test_a_free_rod_that_is_nearly_round(self):
+        """What the tolerance lets pass is written round."""
+        machine, bodies, joints, rng = made(3, ("UPS",), free=True)
+        rod = bodies["leg1_second"]
+        rod["I"] = rod["I"] + 1e-3 * np.abs(rod["I"]).max() * np.array([[0, 1, 0], [1, 0, 0], [0, 0, 0.5]])
+        text = files.write_sdf(bodies, self.with_balls(machine, joints), machine["gravity"], rng)
+        driven = ",".join(f"leg{i}_j2" for i in range(1, 7))
+        self.refused(text, "m.sdf", ["leg1_second", "transverse"], "--actuated", driven)
+        done = self.checked(text, "m.sdf", "--actuated", driven, "--tolerance", "0.01")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
     def test_a_free_rod_that_is_not_round_is_refused(self):
         machine, bodies, joints, rng = made(3, ("UPS",))
         text = files.write_sdf(bodies, self.with_balls(machine, joints), machine["gravity"], rng)
         self.refused(text, "m.sdf", ["leg1_", "spins freely", "transverse"], "--actuated", ",".join(f"leg{i}_j2" for i in range(1, 7)))
 
     def refused(self, text, name, words, *options):
-        from pathlib import Path
         path = Path(self.folder.name) / name
         path.write_text(text)
         done = import_test.run(path, *options)
@@ -180,6 +201,7 @@ class Cases(import_test.Imports):
         self.assertAlmostEqual(self.said(assumptions, "exceeded")[0]["size"], 0.01, delta=1e-12)
         self.refused(thin.format("0.33 0.33 0.70"), "m.xml", ["platform", "exceeds"])
         self.refused(thin.format("0.3300 0.3300 0.6700"), "m.xml", ["platform", "exceeds"])
+        self.refused(thin.format("0.33 0.33 1e2"), "m.xml", ["platform", "exceeds"])  # not a number of one digit
 
 
 if __name__ == "__main__":

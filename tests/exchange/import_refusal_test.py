@@ -183,7 +183,71 @@ class Refusals(unittest.TestCase):
     def test_springs_and_old_files(self):
         self.refused(self.changed(mjcf(), '<joint name="leg1_j2"', '<joint springdamper="1 1" name="leg1_j2"'), "m.xml",
                      ["leg1_j2", "springdamper"])
-        self.refused(re.sub(r'<sdf version="[0-9.]+"', '<sdf version="1.2"', sdf()), "m.sdf", ["1.2", "gz sdf"])
+        self.refused(re.sub(r'<sdf version="[0-9.]+"', '<sdf version="1.0"', sdf()), "m.sdf", ["1.0", "gz sdf"])
+        self.refused(re.sub(r'<sdf version="[0-9.]+"', '<sdf version="1.99"', sdf()), "m.sdf", ["1.99", "1.12"])
+
+    def test_frames_of_sdf_before_1_7(self):
+        """Readers differ in what they make of a frame's name there."""
+        model = ('<sdf version="{}"><model name="m"><link name="a"/><link name="b"><pose {}>0 0 0 0 0 0</pose></link><joint name="j" type="revolute">'
+                 "<parent>a</parent><child>b</child><axis><xyz {}>0 0 1</xyz></axis></joint></model></sdf>")
+        for pose, xyz, word in (('relative_to="a"', "", "relative_to"), ('frame="a"', "", "frame"), ("", 'expressed_in="a"', "expressed_in")):
+            with self.subTest(word=word):
+                self.refused(model.format("1.6", pose, xyz), "m.sdf", [f"{word}='a'", "1.7"])
+                self.refused(model.format("1.7", pose, xyz), "m.sdf", ["--base"])  # not for the frame's name
+        self.refused(model.format("1.6", 'frame=""', ""), "m.sdf", ["--base"])
+
+    def test_what_is_given_twice(self):
+        drives = ("--actuated", ",".join(f"leg{i}_j2" for i in range(1, 7)))
+        for pattern, word in ((r"(<mass>.*?</mass>)", "mass"), (r"(<inertial>.*?</inertial>)", "inertial"), (r"(<axis>.*?</axis>)", "axis"),
+                              (r"(<parent>.*?</parent>)", "parent")):
+            with self.subTest(word=word):
+                self.refused(self.changed(sdf(), f"(?s){pattern}", r"\1\1"), "m.sdf", [f"second <{word}>"], *drives)
+        for pattern, word in ((r"(<inertial>.*?</inertial>)", "inertial"), (r"(<origin [^>]*/>)", "origin"), (r"(<axis [^>]*/>)", "axis"),
+                              (r"(<parent [^>]*/>)", "parent")):
+            with self.subTest(word=word):
+                self.refused(self.changed(urdf(), f"(?s){pattern}", r"\1\1"), "m.urdf", [f"second <{word}>"])
+
+    def test_a_joint_that_cannot_move(self):
+        drives = ("--actuated", ",".join(f"leg{i}_j2" for i in range(1, 7)))
+        still = "<limit><lower>0.5</lower><upper>0.5</upper></limit>"
+        whole = re.sub(r"(?s)<limit>.*?</limit>", "", sdf())
+        self.refused(self.changed(whole, "</axis>", still + "</axis>"), "m.sdf", ["cannot move", "0.5", "fixed"], *drives)
+        text = self.changed(re.sub(r"<limit[^>]*/>", "", urdf()), r'(<joint name="leg2_j2".*?)</joint>',
+                            r'\1<limit lower="0" upper="0" effort="1" velocity="1"/></joint>')
+        done, _ = self.call(text, "m.urdf")
+        self.assertRegex(done.stderr, "leg2_j2: The file's limits hold this joint")
+
+    def test_numbers_that_urdf_needs(self):
+        whole = urdf()
+        for pattern, to, words in (
+                (r"<inertia [^>]*/>", "", ["no <inertia>"]),
+                (r' ixx="[^"]*"', "", ["ixx"]),
+                (r'<origin [^>]*rpy="[^"]*"', '<origin rpy=""', ["rpy has 0 numbers"]),
+                (r"<origin ", '<origin quat_xyzw="0 0 0 1" ', ["quat_xyzw", "xyz and rpy"]),
+                (r"</robot>", "<drake:coupler_constraint/></robot>", ["drake:coupler_constraint"]),
+                (r"</robot>", "<gazebo><static>true</static></gazebo></robot>", ["static", "moves"]),
+                (r"</robot>", '<gazebo reference="leg1_first"><kinematic>1</kinematic></gazebo></robot>', ["kinematic", "leg1_first"])):
+            with self.subTest(words=words):
+                self.refused(self.changed(whole, pattern, to), "m.urdf", words)
+        done, out = self.call(self.changed(whole, r' ixy="[^"]*"', ""), "m.urdf")
+        self.assertIn("gives no ixy", done.stderr)
+
+    def test_what_no_scenario_may_have(self):
+        """Nothing is written that the program would not read."""
+        rotor = r'\1<drake:rotor_inertia value="-0.5"/>'
+        self.refused(self.changed(urdf(), r"(<actuator [^>]*>)", rotor), "m.urdf", ["rotor", "-0.5"])
+        self.refused(self.changed(mjcf(), r'<joint name="leg1_j2"', '<joint armature="-0.5" name="leg1_j2"'), "m.xml", ["-0.5"])
+
+    def test_worlds(self):
+        """Light, floor and plugins of a world are listed; other models are not fetched."""
+        drives = ("--actuated", ",".join(f"leg{i}_j2" for i in range(1, 7)))
+        include = "<include><uri>model://{}</uri></include><model "
+        text = self.changed(sdf(), "<model ", include.format("sun") + '')
+        self.assertIn("<world", text)
+        done, _ = self.call(self.changed(text, "</model>(?!.*</model>)", '<plugin name="p" filename="libBuoyancy.so"/></model>'), "m.sdf", *drives)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("model://sun is left out", done.stderr)
+        self.assertIn("libBuoyancy.so", done.stderr)
 
     def test_a_platform_that_stands_still(self):
         whole = self.changed(mjcf(), "<freejoint/>", "")

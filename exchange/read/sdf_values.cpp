@@ -1,0 +1,137 @@
+#include "exchange/read/sdf_values.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/shown_text.h"
+
+namespace ursula::exchange {
+namespace {
+
+const std::set<std::string> known_in_dynamics = wordsOf("damping friction spring_reference spring_stiffness");
+const std::set<std::string> known_in_inertial = wordsOf("mass pose inertia frame fluid_added_mass density");
+
+/// Numbers of 1e16 and more, and "inf", mean no limit.
+void takeLimits(const Element& joint_element, const Element& axis, GraphJoint& joint) {
+  const Element* limit = onlyChild(axis, "limit");
+  if (limit == nullptr) return;
+  const auto take = [&](const char* name, double& to) {
+    const std::string text = childText(*limit, name);
+    if (text.empty() || text == "inf" || text == "-inf" || text == "+inf") return;
+    const double value = numberOf(*limit, text, name);
+    if (std::abs(value) < 1e16) to = value;
+  };
+  take("lower", joint.lower);
+  take("upper", joint.upper);
+  if (joint.lower == joint.upper)
+    refuse(joint_element, fmt::format("lower and upper limit are both {}: it cannot move; expected a joint of type "
+                                      "fixed, or limits apart",
+                                      joint.lower));
+  if (joint.lower > joint.upper) joint.lower = -(joint.upper = std::numeric_limits<double>::infinity());
+}
+
+void takeDynamics(const Element& joint_element, const Element& dynamics, GraphJoint& joint) {
+  const auto read = [&](const char* name) {
+    const std::string text = childText(dynamics, name);
+    const double value = text.empty() ? 0 : numberOf(dynamics, text, name);
+    if (value < 0) refuse(joint_element, fmt::format("<{}> {}, expected none below zero", name, value));
+    return value;
+  };
+  joint.damping = read("damping");
+  joint.friction = read("friction");
+  if (const double stiffness = read("spring_stiffness"); stiffness != 0)
+    refuse(joint_element, fmt::format("a spring of {}, which a scenario has no words for", stiffness));
+}
+
+Matrix3d tensorIn(const Element& inertia, double& rounding) {
+  std::array<double, 6> entries = {1, 1, 1, 0, 0, 0};
+  constexpr std::array<const char*, 6> names = {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"};
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const std::string text = childText(inertia, names[k]);
+    if (text.empty()) continue;
+    entries[k] = numberOf(inertia, text, names[k]);
+    rounding = std::max(rounding, halfLastDigit(text));
+  }
+  return tensorOf({entries[0], entries[1], entries[2]}, {entries[3], entries[4], entries[5]});
+}
+
+/// What cannot be had as numbers: added mass of a fluid, an inertia from shapes.
+void requirePlain(const Element& link, const Element& inertial) {
+  if (inertial.FirstChildElement("fluid_added_mass"))
+    refuse(link, "<fluid_added_mass>, which a scenario has no words for");
+  if (attribute(inertial, "auto") == "true")
+    refuse(link, "an inertia that is left to the program (auto), expected numbers; run: gz sdf -p FILE");
+  const Element* pose = inertial.FirstChildElement("pose");
+  if (pose != nullptr && !attribute(*pose, "relative_to").empty())
+    refuse(link, "relative_to in the <pose> of <inertial>, which SDF does not allow: that is always in the link");
+}
+
+}  // namespace
+
+Eigen::Isometry3d sdfPoseOf(const Element& element) {
+  const Element* pose = onlyChild(element, "pose");
+  if (pose == nullptr || textOf(*pose).empty()) return Eigen::Isometry3d::Identity();
+  const bool quaternion = attribute(*pose, "rotation_format") == "quat_xyzw";
+  const std::vector<double> v = numbersOf(*pose, textOf(*pose), quaternion ? 7 : 6, "<pose>");
+  const Vector3d position(v[0], v[1], v[2]);
+  if (quaternion) {
+    const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
+    if (!(q.norm() > 1e-12)) refuse(*pose, "a quaternion of zero");
+    return placed(position, q.normalized().toRotationMatrix());
+  }
+  Vector3d angles(v[3], v[4], v[5]);
+  const std::string degrees = attribute(*pose, "degrees");
+  if (!degrees.empty() && truthOf(*pose, degrees, "degrees")) angles *= 3.14159265358979323846 / 180;
+  return placed(position, rollPitchYaw(angles));
+}
+
+void takeSdfInertial(const Element& link, GraphBody& body, std::vector<Assumption>& assumptions) {
+  const Element* inertial = onlyChild(link, "inertial");
+  Eigen::Isometry3d at = body.frame;
+  std::string mass;
+  const Element* inertia = nullptr;
+  if (inertial != nullptr) {
+    listUnknown(*inertial, known_in_inertial, assumptions);
+    requirePlain(link, *inertial);
+    mass = childText(*inertial, "mass");
+    inertia = onlyChild(*inertial, "inertia");
+    at = at * sdfPoseOf(*inertial);
+  }
+  body.mass = mass.empty() ? 1 : numberOf(link, mass, "<mass>");
+  if (body.mass < 0) refuse(link, fmt::format("a mass of {}, expected none below zero", body.mass));
+  if ((mass.empty() || inertia == nullptr) && !body.fixed)
+    assumptions.push_back({mass.empty()
+                               ? "The file gives no mass: SDF's default of 1 kg, with 1 kg·m² where no inertia "
+                                 "is given, was taken"
+                               : "The file gives no inertia: SDF's default of 1 kg·m² was taken",
+                           body.name, 1, mass.empty() ? "kg" : "kg·m²"});
+  const Matrix3d tensor = inertia == nullptr ? Matrix3d::Identity() : tensorIn(*inertia, body.inertia_rounding);
+  body.center_of_mass = at.translation();
+  body.inertia = at.linear() * tensor * at.linear().transpose();
+}
+
+void takeSdfMotion(const Element& joint_element, const Element& axis, bool endless, GraphJoint& joint,
+                   std::vector<Assumption>& assumptions) {
+  if (axis.FirstChildElement("mimic")) refuse(joint_element, "mimic, which a scenario has no words for");
+  if (!endless) takeLimits(joint_element, axis, joint);
+  if (const Element* dynamics = onlyChild(axis, "dynamics")) {
+    listUnknown(*dynamics, known_in_dynamics, assumptions);
+    takeDynamics(joint_element, *dynamics, joint);
+  }
+}
+
+void refuseSdfIncludes(const Element& scope, std::vector<Assumption>& assumptions) {
+  eachChild(scope, "include", [&](const Element& include) {
+    const std::string uri = childText(include, "uri");
+    if (std::string(scope.Name()) == "world" && (uri == "model://sun" || uri == "model://ground_plane"))
+      assumptions.push_back({fmt::format("{} is left out: light and floor are no part of a machine", uri),
+                             fmt::format("<include> of line {}", include.GetLineNum()), 0, "1"});
+    else
+      refuse(include, fmt::format("includes {}, which is not fetched; put its <model> into this file (gz sdf -p FILE)",
+                                  shown(uri)));
+  });
+}
+
+}  // namespace ursula::exchange

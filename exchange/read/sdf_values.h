@@ -1,0 +1,21 @@
+#pragma once
+
+#include "exchange/read/xml.h"
+
+namespace ursula::exchange {
+
+/// Position and rotation of an element's <pose>; the identity without one.
+Eigen::Isometry3d sdfPoseOf(const Element& element);
+
+/// Reads <inertial>: mass, mass centre and tensor, for a body whose frame is known. SDF's defaults are said.
+void takeSdfInertial(const Element& link, GraphBody& body, std::vector<Assumption>& assumptions);
+
+/// Reads limits and friction of an <axis>; `endless` leaves the limits out. Throws ImportError for springs, mimic and
+/// joints that cannot move.
+void takeSdfMotion(const Element& joint_element, const Element& axis, bool endless, GraphJoint& joint,
+                   std::vector<Assumption>& assumptions);
+
+/// Refuses <include>, but for the usual light and floor of a world, which are listed.
+void refuseSdfIncludes(const Element& scope, std::vector<Assumption>& assumptions);
+
+}  // namespace ursula::exchange
