@@ -112,11 +112,19 @@ std::string motionText(const ImportedMachine& machine) {
 
 }  // namespace
 
+std::string motorsOf(const ImportedMachine& machine) {
+  std::string out;
+  for (const ImportedLeg& leg : machine.legs)
+    for (const std::string& motor : leg.motors) out += (out.empty() ? "" : ", ") + motor;
+  return out;
+}
+
 std::string scenarioText(const ImportedMachine& machine, const std::string& file) {
   std::string out = fmt::format("# Made by `ursula import` from {}. SI units: m, kg, s, N, rad.\n", shown(file, 200));
   out +=
       fmt::format("# B is {}; M is the frame of {}. Lengths are between the joints' centres.\n",
                   machine.base.empty() ? "the world" : "the frame of " + shown(machine.base), shown(machine.platform));
+  out += fmt::format("# Effort columns 1, 2, …: {}.\n", shown(motorsOf(machine), 1000));
   out += "# Assumptions of the import:\n";
   if (machine.assumptions.empty()) out += "#   none\n";
   for (const Assumption& each : machine.assumptions)

@@ -31,7 +31,7 @@ class SdfReader {
     const std::string version = attribute(root, "version");
     const std::size_t dot = version.find('.');
     if (version.substr(0, dot) != "1" || dot == std::string::npos)
-      refuse(root, fmt::format("version '{}', expected 1.0 to 1.12", shown(version)));
+      refuse(root, fmt::format("version '{}', expected 1.2 to 1.12", shown(version)));
     minor_ = static_cast<int>(numberOf(root, version.substr(dot + 1), "version"));
     if (minor_ < 2)
       refuse(root, fmt::format("version '{}' has <origin>, which is not read; convert the file: gz sdf -p FILE",

@@ -26,8 +26,9 @@ struct ImportedLeg {
   bool knee_positive = true;
   bool free_spin = false;
   std::array<double, 3> damping = {}, friction = {}, rotor_inertia = {};  ///< in the order of the kind's coordinates
-  std::string joints;                                                     ///< names in the file
-  bool stroke_from_file = false;  ///< whether the lengths of UPS come from the file's limits
+  std::vector<std::string> motors;  ///< names of the driven joints in the file, in that order
+  std::string joints;               ///< names in the file
+  bool stroke_from_file = false;    ///< whether the lengths of UPS come from the file's limits
 };
 
 struct ImportedPose {

@@ -8,6 +8,7 @@
 #include "base/angles.h"
 #include "base/shown_text.h"
 #include "exchange/import_error.h"
+#include "exchange/recognise/leg_dynamics.h"
 #include "exchange/recognise/link_numbers.h"
 
 namespace ursula::exchange {
@@ -64,7 +65,7 @@ class LegMaker {
     leg_.base_point = task_.base.inverse() * base_point_;
     leg_.base_axis = task_.base.linear().transpose() * u_;
     leg_.platform_point = task_.platform.inverse() * joints_.back().outer;
-    takeDynamics();
+    takeLegDynamics(task_, u_, proximal_frame_.linear(), distal_frame_.linear(), leg_, assumptions_);
     sayGaps();
     return leg_;
   }
@@ -121,37 +122,12 @@ class LegMaker {
       requireSquare(joints_[1].axis, e, fmt::format("the axis of {} and the leg's line", shown(joint(1).name)));
     if (!(u_.cross(e).norm() > 1e-6)) refuseLeg("its first axis lies along its line, expected it across");
     const Vector3d x = u_.cross(e).normalized();
-    makeStroke(slide, e, d);
+    const Stroke stroke = strokeOf(task_, slide, e, d, assumptions_);
+    leg_.stroke_from_file = stroke.from_file;
+    s_ = stroke.least;
+    l_ = stroke.most - stroke.least;
     proximal_frame_ = placedAt(A_, frameOf(x, e));
     distal_frame_ = placedAt(A_ + (d - s_) * e, frameOf(x, e));
-  }
-
-  /// The rod's inner end stays in the cylinder: the lengths mean only s < d < s + l.
-  void makeStroke(const Primitive& slide, const Vector3d& e, double d) {
-    const GraphJoint& joint = task_.graph.joints[slide.joint];
-    const double sign = slide.axis.dot(e) > 0 ? 1 : -1;
-    double least = d + sign * (sign > 0 ? joint.lower - joint.position : joint.upper - joint.position);
-    double most = d + sign * (sign > 0 ? joint.upper - joint.position : joint.lower - joint.position);
-    leg_.stroke_from_file = std::isfinite(least) && std::isfinite(most) && least > 0 && most > least;
-    if (!leg_.stroke_from_file) {
-      least = 2 * d / 3;
-      most = 4 * d / 3;
-      assumptions_.push_back(
-          {"The file limits this slide's stroke to no usable range: a third of the leg's length either "
-           "way was taken",
-           joint.name, d / 3, "m"});
-    } else if (!(least < d && d < most)) {
-      assumptions_.push_back({"The initial pose lies outside the slide's limits, or at one; the stroke was widened",
-                              joint.name, std::max(least - d, d - most), "m"});
-      const double margin = 0.05 * (most - least);
-      if (!(least < d)) least = std::max(d - margin, d / 2);
-      if (!(d < most)) most = d + margin;
-    }
-    if (sign < 0)
-      assumptions_.push_back(
-          {"The file's coordinate of this slide shortens the leg; d lengthens it", joint.name, -1, "1"});
-    s_ = least;
-    l_ = most - least;
   }
 
   void makeUrs() {
@@ -265,36 +241,6 @@ class LegMaker {
       const bool outer = std::find(shape_.distal.begin(), shape_.distal.end(), group) != shape_.distal.end();
       freeSpin(task_, task_.groups.groups[group], outer ? distal_frame_ : proximal_frame_, false,
                outer ? leg_.distal : leg_.proximal, assumptions_);
-    }
-  }
-
-  /// Copies friction, motors and rotors to the kind's coordinates. Joints that a ball replaces have none, as checked
-  /// before.
-  void takeDynamics() {
-    const auto coordinates = rowOf(leg_.kind).coordinates;
-    for (std::size_t k = 0; k < coordinates.size(); ++k) {
-      std::size_t at = k;
-      if (shape_.has_inner_ball) {
-        const bool mine = leg_.kind == LegKind::UPS ? k == 2 : k == 0;
-        if (!mine) continue;
-        at = leg_.kind == LegKind::UPS ? 1 : 0;
-      }
-      const GraphJoint& from = joint(at);
-      leg_.actuated[k] = from.driven;
-      leg_.damping[k] = from.damping;
-      leg_.friction[k] = from.friction;
-      leg_.rotor_inertia[k] = from.rotor_inertia;
-      if (from.rotor_inertia != 0 && !from.driven)
-        throw ImportError(
-            fmt::format("joint {} has a rotor's inertia of {} (armature) and is not driven, which a scenario "
-                        "has no key for",
-                        shown(from.name), from.rotor_inertia),
-            from.line);
-      if (from.friction != 0)
-        assumptions_.push_back(
-            {fmt::format("Coulomb friction is smoothed below 0.01 {}, of which the file says nothing",
-                         slides(coordinates[k]) ? "m/s" : "rad/s"),
-             from.name, from.friction, slides(coordinates[k]) ? "N" : "N·m"});
     }
   }
 

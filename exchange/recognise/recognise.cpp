@@ -123,6 +123,7 @@ class Recogniser {
     for (const LegShape& shape : shapes)
       machine_.legs.push_back(legOf({graph_, groups, shape, choices_, size, B, M}, platform, machine_.assumptions));
     takePlatform(groups, platform, B, M, size);
+    sayOrder();
     sayLimits(chains);
     proposeMotion(machine_, size);
     return machine_;
@@ -192,6 +193,16 @@ class Recogniser {
         snapped(local, platform.inertia_rounding, false, platform.name, platform.line, machine_.assumptions);
     const Eigen::Isometry3d pose = B.inverse() * M;
     machine_.initial = {0, pose.translation(), pose.linear()};
+  }
+
+  /// Efforts go leg by leg, whatever the order of `--actuated`.
+  void sayOrder() {
+    std::vector<std::string> motors;
+    for (const ImportedLeg& leg : machine_.legs) motors.insert(motors.end(), leg.motors.begin(), leg.motors.end());
+    if (!choices_.actuated.empty() && motors != choices_.actuated)
+      machine_.assumptions.push_back({"Efforts are in the order of the file's legs, not in that of --actuated",
+                                      fmt::format("{}", fmt::join(motors, ", ")), static_cast<double>(motors.size()),
+                                      "1"});
   }
 
   /// Strokes of telescopic legs are kept; a scenario cannot express other limits.

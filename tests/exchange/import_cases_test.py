@@ -115,6 +115,26 @@ class Cases(import_test.Imports):
             self.near(mass, machine["legs"][0]["links"][0]["mass"] + (1e-3 if kind == "RUS" else 0), 5, "mass")
             self.refused(text, "m.sdf", ["cross", "--lump"], "--actuated", driven, "--lump", "1e-9")
 
+    def test_order_and_sign_of_efforts(self):
+        """The comment names the joints of the efforts; a hinge that turns the other way and another order are said."""
+        machine, bodies, joints, rng = made(18, ("URS",))
+        text = files.write_mjcf(bodies, joints, machine["gravity"], rng)
+        names = [f"leg{i}_j0" for i in range(1, 7)]
+        path, driven = Path(self.folder.name) / "m.xml", names[:5] + ["leg1_j1"]
+        path.write_text(text)
+        done = import_test.run(path, "--actuated", ",".join(driven))
+        order = done.stdout.split("# Effort columns 1, 2, …: ")[1].split(".\n")[0].split(", ")
+        self.assertEqual(sorted(order), sorted(driven))
+        self.assertEqual(order[order.index("leg1_j0") + 1], "leg1_j1")
+        self.assertIn("not in that of --actuated", done.stderr)
+        hinge = next(j for j in joints if j["name"] == "leg1_j1")
+        said = "leg1_j1: The file's coordinate of this hinge grows against the scenario's psi" in done.stderr
+        hinge["axis"] = -hinge["axis"]
+        path.write_text(files.write_mjcf(bodies, joints, machine["gravity"], rng))
+        self.assertNotEqual("leg1_j1: The file's coordinate of this hinge grows against" in import_test.run(path, "--actuated", ",".join(driven)).stderr, said)
+        path.write_text(text)
+        self.assertNotIn("not in that of", import_test.run(path, "--actuated", ",".join(dict.fromkeys(order))).stderr)
+
     def test_a_base_with_a_frame_of_its_own(self):
         machine, bodies, joints, rng = made(12, ("URS", "UPS"))
         T = (np.array([0.5, -1, 2]), machines.random_rotation(rng))
