@@ -12,34 +12,15 @@
 namespace ursula::exchange {
 namespace {
 
-const std::set<std::string> known_in_body = {"body", "joint",  "freejoint", "inertial", "geom",
-                                             "site", "camera", "light",     "frame"};
+const std::set<std::string> known_in_mujoco = wordsOf(
+    "compiler option size visual statistic default asset worldbody contact equality actuator sensor keyframe custom "
+    "tendon deformable extension");
+const std::set<std::string> known_in_body = wordsOf("body joint freejoint inertial geom site camera light frame");
 
-const std::set<std::string> known_of_joint = {"name",
-                                              "class",
-                                              "type",
-                                              "group",
-                                              "pos",
-                                              "axis",
-                                              "springdamper",
-                                              "limited",
-                                              "solreflimit",
-                                              "solimplimit",
-                                              "stiffness",
-                                              "range",
-                                              "margin",
-                                              "ref",
-                                              "springref",
-                                              "armature",
-                                              "damping",
-                                              "frictionloss",
-                                              "solreffriction",
-                                              "solimpfriction",
-                                              "user",
-                                              "align",
-                                              "actuatorfrcrange",
-                                              "actuatorfrclimited",
-                                              "actuatorgravcomp"};
+const std::set<std::string> known_of_joint = wordsOf(
+    "name class type group pos axis springdamper limited solreflimit solimplimit stiffness range margin "
+    "ref springref armature damping frictionloss solreffriction solimpfriction user align "
+    "actuatorfrcrange actuatorfrclimited actuatorgravcomp");
 
 /// The reference of an element's numbers.
 struct Place {
@@ -60,6 +41,7 @@ class MjcfReader {
 
   ModelGraph read() {
     refuseParts();
+    listUnknown(root_, known_in_mujoco, graph_.assumptions);
     eachChild(root_, "compiler", [this](const Element& e) { compiler_.read(e); });
     eachChild(root_, "option", [this](const Element& e) { readOption(e); });
     defaults_.read(root_);
@@ -131,7 +113,7 @@ class MjcfReader {
 
   /// Reads geoms, sites and child bodies of the body with index `body`.
   void readChildren(const Element& element, std::size_t body, const Place& place, const Element&) {
-    const Element* inertial = element.FirstChildElement("inertial");
+    const Element* inertial = onlyChild(element, "inertial");
     const bool from_geoms = compiler_.from_geom == MjcfCompiler::FromGeom::yes ||
                             (compiler_.from_geom == MjcfCompiler::FromGeom::automatic && inertial == nullptr);
     if (body != 0 && !from_geoms && inertial != nullptr)
@@ -139,10 +121,15 @@ class MjcfReader {
     eachContent(element, place, [&](const Element& e, const Place& at) {
       const std::string kind = e.Name();
       const auto get = [&](const char* name) { return defaults_.get(e, at.childclass, name); };
+      if (body == 0 && (kind == "joint" || kind == "freejoint" || kind == "inertial"))
+        refuse(e, "of the world, which does not move; expected one of a body");
       if (kind == "geom" && body != 0 && from_geoms) addGeom(e, compiler_, at.frame, get, graph_.bodies[body]);
       if (kind == "site" && !attribute(e, "name").empty())
         named_.sites[attribute(e, "name")] = {body, at.frame * placeOf(e, get)};
     });
+    // A body without geoms keeps its own numbers, whatever inertiafromgeom says.
+    if (body != 0 && from_geoms && inertial != nullptr && graph_.bodies[body].mass == 0)
+      takeInertial(*inertial, compiler_, place.frame, graph_.bodies[body]);
     if (body != 0) boundInertia(element, compiler_, graph_.bodies[body], graph_.assumptions);
     eachContent(element, place, [&](const Element& e, const Place& at) {
       if (std::string(e.Name()) == "body") readBody(e, body, at);
@@ -161,8 +148,11 @@ class MjcfReader {
     if (!compensated.empty() && numberOf(element, compensated, "gravcomp") != 0)
       refuse(element,
              fmt::format("gravcomp {}: gravity is taken off a body, which a scenario has no key for", compensated));
-    if (attribute(element, "mocap") == "true")
-      refuse(element, "mocap: moved from outside, which a scenario has no words for");
+    if (attribute(element, "mocap") == "true") {
+      if (element.FirstChildElement("joint") != nullptr) refuse(element, "mocap and a joint, expected one of them");
+      graph_.assumptions.push_back(
+          {"This body is moved from outside (mocap); it was taken to stand still", name, 0, "1"});
+    }
     const std::size_t body = addFrames(element, name, parent, place);
     if (!named_.bodies.emplace(name, body).second)
       refuse(element, "a second body of that name, expected names of their own");

@@ -21,9 +21,16 @@ const typename Map::mapped_type& find(const Element& at, const Map& map, const s
   refuse(at, fmt::format("{} '{}': nothing has that name{}", what, shown(name), didYouMean(name, names)));
 }
 
+constexpr double most_turned = 0.1;  ///< rad; more is no small gap but another pose
+
 void sayGap(const std::string& name, const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, ModelGraph& graph) {
   const double gap = (a.translation() - b.translation()).norm();
   const double angle = Eigen::AngleAxisd(Matrix3d(a.linear().transpose() * b.linear())).angle();
+  if (angle > most_turned)
+    throw ImportError(
+        fmt::format("{} is turned by {:.3g} rad at the file's initial pose, expected the pose in which its "
+                    "bodies are one",
+                    shown(name), angle));
   if (gap > 1e-12) graph.assumptions.push_back({"This weld is open at the file's initial pose", name, gap, "m"});
   if (angle > 1e-9) graph.assumptions.push_back({"This weld is turned at the file's initial pose", name, angle, "rad"});
 }

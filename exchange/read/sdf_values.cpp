@@ -45,14 +45,19 @@ void takeDynamics(const Element& joint_element, const Element& dynamics, GraphJo
     refuse(joint_element, fmt::format("a spring of {}, which a scenario has no words for", stiffness));
 }
 
-Matrix3d tensorIn(const Element& inertia, double& rounding) {
+Matrix3d tensorIn(const Element& inertia, GraphBody& body, std::vector<Assumption>& assumptions) {
   std::array<double, 6> entries = {1, 1, 1, 0, 0, 0};
   constexpr std::array<const char*, 6> names = {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"};
   for (std::size_t k = 0; k < names.size(); ++k) {
     const std::string text = childText(inertia, names[k]);
-    if (text.empty()) continue;
+    if (text.empty()) {
+      if (k < 3 && !body.fixed)
+        assumptions.push_back(
+            {fmt::format("The file gives no {}: SDF's default of 1 kg·m² was taken", names[k]), body.name, 1, "kg·m²"});
+      continue;
+    }
     entries[k] = numberOf(inertia, text, names[k]);
-    rounding = std::max(rounding, halfLastDigit(text));
+    body.inertia_rounding = std::max(body.inertia_rounding, halfLastDigit(text));
   }
   return tensorOf({entries[0], entries[1], entries[2]}, {entries[3], entries[4], entries[5]});
 }
@@ -107,7 +112,7 @@ void takeSdfInertial(const Element& link, GraphBody& body, std::vector<Assumptio
                                  "is given, was taken"
                                : "The file gives no inertia: SDF's default of 1 kg·m² was taken",
                            body.name, 1, mass.empty() ? "kg" : "kg·m²"});
-  const Matrix3d tensor = inertia == nullptr ? Matrix3d::Identity() : tensorIn(*inertia, body.inertia_rounding);
+  const Matrix3d tensor = inertia == nullptr ? Matrix3d::Identity() : tensorIn(*inertia, body, assumptions);
   body.center_of_mass = at.translation();
   body.inertia = at.linear() * tensor * at.linear().transpose();
 }

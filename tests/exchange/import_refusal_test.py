@@ -98,6 +98,8 @@ class Refusals(unittest.TestCase):
                 (r'<motor joint="leg6_j2"/>', "", ["5 driven joints", "leg6_j2", "--actuated"]),
                 (r'<actuator>', '<actuator><muscle name="m" joint="leg1_j0"/>', ["muscle", "leg1_j0"]),
                 (r"<freejoint/>", '<joint name="f" type="free" armature="0.5"/>', ['name="f"', "free joint", "0.5"]),
+                (r"<worldbody>", '<worldbody><joint name="w"/>', ['name="w"', "of the world"]),
+                (r"<equality>", '<equality><weld name="g" body1="leg1_first" body2="leg1_second" relpose="0 0 0 0 1 0 0"/>', ["g", "turned"]),
                 (r"<option ", '<option viscosity="0.1" ', ["viscosity"])):
             with self.subTest(words=words):
                 self.refused(self.changed(whole, pattern, to), "m.xml", words)
@@ -237,6 +239,20 @@ class Refusals(unittest.TestCase):
         rotor = r'\1<drake:rotor_inertia value="-0.5"/>'
         self.refused(self.changed(urdf(), r"(<actuator [^>]*>)", rotor), "m.urdf", ["rotor", "-0.5"])
         self.refused(self.changed(mjcf(), r'<joint name="leg1_j2"', '<joint armature="-0.5" name="leg1_j2"'), "m.xml", ["-0.5"])
+
+    def test_what_mjcf_files_have_beside_the_machine(self):
+        """A marker that the mouse moves, words of other tools, and inertiafromgeom with bodies that have no geoms."""
+        whole = mjcf()
+        done, out = self.call(whole, "m.xml")
+        plain = out.read_text().split("\nname =")[1]
+        for pattern, to, words in ((r"<worldbody>", '<worldbody><body name="target" mocap="true"><site/></body>', "target: .*mocap"),
+                                   (r"<worldbody>", "<wurst/><worldbody>", "<wurst>"),
+                                   (r"<compiler ", '<compiler inertiafromgeom="true" ', "^")):
+            with self.subTest(words=words):
+                done, out = self.call(self.changed(whole, pattern, to), "m.xml")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertRegex(done.stderr, words)
+                self.assertEqual(out.read_text().split("\nname =")[1], plain)
 
     def test_worlds(self):
         """Light, floor and plugins of a world are listed; other models are not fetched."""
