@@ -149,7 +149,8 @@ class MjcfReader {
       refuse(element,
              fmt::format("gravcomp {}: gravity is taken off a body, which a scenario has no key for", compensated));
     if (attribute(element, "mocap") == "true") {
-      if (element.FirstChildElement("joint") != nullptr) refuse(element, "mocap and a joint, expected one of them");
+      for (const char* joint : {"joint", "freejoint"})
+        if (element.FirstChildElement(joint) != nullptr) refuse(element, "mocap and a joint, expected one of them");
       graph_.assumptions.push_back(
           {"This body is moved from outside (mocap); it was taken to stand still", name, 0, "1"});
     }

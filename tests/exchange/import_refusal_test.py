@@ -87,6 +87,7 @@ class Refusals(unittest.TestCase):
                 (hinge, '<joint name="leg2_j1" type="hinge"', ["leg2_j1", "second joint"]),
                 (r'(<body name="leg3_first")', r'\1 gravcomp="1"', ["leg3_first", "gravcomp"]),
                 (r'(<body name="leg3_first")', r'\1 mocap="true"', ["leg3_first", "mocap"]),
+                (r'(<body name="platform")', r'\1 mocap="true"', ["platform", "mocap"]),
                 (r"<compiler ", '<compiler coordinate="global" ', ["global"]),
                 (r"<compiler ", '<include file="x.xml"/><compiler ', ["x.xml", "mj_saveLastXML"]),
                 (r"<worldbody>", '<tendon><fixed name="t"/></tendon><worldbody>', ["t", "tendon"]),
