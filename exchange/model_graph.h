@@ -60,6 +60,7 @@ struct ModelGraph {
   Vector3d gravity = {0.0, 0.0, -9.81};
   std::vector<GraphBody> bodies;
   std::vector<GraphJoint> joints;
+  std::vector<std::string> motors;  ///< driven joints in the order of the file's motors, or of the user's choice
   std::vector<Assumption> assumptions;
 };
 

@@ -105,6 +105,7 @@ void readActuator(const Element& element, const MjcfDefaults& defaults, const Mj
            fmt::format("a {} that acts on {}, expected a motor, position, velocity or general actuator on a joint",
                        shown(kind), target.empty() ? "no joint" : "joint " + shown(target)));
   GraphJoint& joint = graph.joints[find(element, named.joints, target, "joint")];
+  if (!joint.driven) graph.motors.push_back(joint.name);
   joint.driven = true;
   const std::string gear = get("gear");
   const double ratio = gear.empty() ? 1 : numbersOf(element, gear, 0, "gear").at(0);

@@ -273,6 +273,7 @@ class UrdfReader {
     const auto found = index_of_.find(name);
     if (found == index_of_.end()) refuse(at, fmt::format("joint '{}': no joint has that name", shown(name)));
     GraphJoint& joint = graph_.joints[found->second];
+    if (!joint.driven) graph_.motors.push_back(joint.name);
     joint.driven = true;
     return joint;
   }

@@ -49,6 +49,7 @@ void close(ModelGraph& graph, const std::vector<std::string>& pairs) {
 /// Applies `--actuated J,…` instead of the file's motors.
 void drive(ModelGraph& graph, const std::vector<std::string>& names) {
   if (names.empty()) return;
+  graph.motors = names;
   std::vector<std::string> known;
   for (GraphJoint& joint : graph.joints) {
     joint.driven = false;
@@ -195,14 +196,15 @@ class Recogniser {
     machine_.initial = {0, pose.translation(), pose.linear()};
   }
 
-  /// Efforts go leg by leg, whatever the order of `--actuated`.
+  /// Efforts go leg by leg, whatever the order of the file's motors or of `--actuated`.
   void sayOrder() {
     std::vector<std::string> motors;
     for (const ImportedLeg& leg : machine_.legs) motors.insert(motors.end(), leg.motors.begin(), leg.motors.end());
-    if (!choices_.actuated.empty() && motors != choices_.actuated)
-      machine_.assumptions.push_back({"Efforts are in the order of the file's legs, not in that of --actuated",
-                                      fmt::format("{}", fmt::join(motors, ", ")), static_cast<double>(motors.size()),
-                                      "1"});
+    if (!graph_.motors.empty() && motors != graph_.motors)
+      machine_.assumptions.push_back(
+          {"Efforts are in the order of the file's legs, not in that of its motors or of "
+           "--actuated",
+           fmt::format("{}", fmt::join(motors, ", ")), static_cast<double>(motors.size()), "1"});
   }
 
   /// Strokes of telescopic legs are kept; a scenario cannot express other limits.

@@ -4,6 +4,7 @@
     import_cases_test.py PROGRAM
 """
 
+import re
 import subprocess
 import sys
 import unittest
@@ -126,14 +127,22 @@ class Cases(import_test.Imports):
         order = done.stdout.split("# Effort columns 1, 2, …: ")[1].split(".\n")[0].split(", ")
         self.assertEqual(sorted(order), sorted(driven))
         self.assertEqual(order[order.index("leg1_j0") + 1], "leg1_j1")
-        self.assertIn("not in that of --actuated", done.stderr)
+        self.assertIn("not in that of its motors", done.stderr)
         hinge = next(j for j in joints if j["name"] == "leg1_j1")
         said = "leg1_j1: The file's coordinate of this hinge grows against the scenario's psi" in done.stderr
         hinge["axis"] = -hinge["axis"]
         path.write_text(files.write_mjcf(bodies, joints, machine["gravity"], rng))
         self.assertNotEqual("leg1_j1: The file's coordinate of this hinge grows against" in import_test.run(path, "--actuated", ",".join(driven)).stderr, said)
         path.write_text(text)
-        self.assertNotIn("not in that of", import_test.run(path, "--actuated", ",".join(dict.fromkeys(order))).stderr)
+        self.assertNotIn("not in that of", import_test.run(path, "--actuated", ",".join(order)).stderr)
+        start, end = text.index("<actuator>") + len("<actuator>"), text.index("</actuator>")
+        motors = re.findall(r"<\w+ [^>]*/>", text[start:end])
+        self.assertEqual(len(motors), 6)
+        said = set()
+        for order in (motors, motors[::-1]):
+            path.write_text(text[:start] + "".join(order) + text[end:])
+            said.add("not in that of its motors" in import_test.run(path).stderr)
+        self.assertIn(True, said)  # one of the two orders at least is not that of the legs
 
     def test_a_base_with_a_frame_of_its_own(self):
         machine, bodies, joints, rng = made(12, ("URS", "UPS"))
