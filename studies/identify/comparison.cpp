@@ -140,7 +140,8 @@ Comparison ModelledLog::directions(bool with_further) const {
   out.t.resize(out.model.rows());
   for (Eigen::Index i = 0; i < out.t.size(); ++i)
     out.t(i) = filtered_.time(filtered_.settled()[static_cast<std::size_t>(i)]);
-  out.numerical = numericalError();
+  out.slopes = slopes();
+  out.numerical = numericalError(out.slopes);
   addLinear(out);
   addOfLog(out);
   if (!with_further) return out;
@@ -150,9 +151,10 @@ Comparison ModelledLog::directions(bool with_further) const {
 }
 
 /// Estimates the low pass's error from the change of efforts at a higher cut-off, over the log's longest stretch. The
-/// signal falls off beyond the cut-off, so the next octave shows about what is lost.
-Vector6d ModelledLog::numericalError() const {
+/// signal falls off beyond the cut-off, so the next octave shows about what is lost, beside noise, which is known.
+Vector6d ModelledLog::numericalError(const std::vector<Eigen::MatrixXd>& slopes) const {
   constexpr Eigen::Index most = 3000;
+  constexpr double chance = 1.5;  // noise may be more by chance
   const auto longest =
       std::max_element(filtered_.segments().begin(), filtered_.segments().end(),
                        [](const Segment& a, const Segment& b) { return a.end - a.first < b.end - b.first; });
@@ -173,7 +175,18 @@ Vector6d ModelledLog::numericalError() const {
   for (Eigen::Index i = filtered_.second().half; i + filtered_.second().half < error.rows(); i += filtered_.plan().fine)
     inner.push_back(i);
   const Eigen::MatrixXd settled = inner.empty() ? error : Kernel::apply(filtered_.second().value, error, inner);
-  return settled.colwise().norm().transpose() / std::sqrt(static_cast<double>(settled.rows()));
+  const Eigen::Matrix3d passed = filtered_.sharperLines().covariance(0);
+  const Eigen::VectorXd motion = filtered_.plan().noise.motion.cwiseAbs2();
+  Vector6d noise = Vector6d::Zero();
+  for (const Eigen::MatrixXd& slope : slopes)
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b)
+        noise += passed(a, b) / static_cast<double>(slopes.size()) *
+                 slope.middleCols(a * motion.size(), motion.size())
+                     .cwiseProduct(slope.middleCols(b * motion.size(), motion.size())) *
+                 motion;
+  const Vector6d seen = settled.colwise().squaredNorm().transpose() / static_cast<double>(settled.rows());
+  return (seen - chance * noise).cwiseMax(0).cwiseSqrt();
 }
 
 void ModelledLog::add(Comparison& out, const Direction& direction, const Eigen::MatrixXd& columns) const {

@@ -37,8 +37,10 @@ struct Comparison {
   std::vector<Segment> segments;
   std::vector<Direction> directions;      ///< linear ones first, then six offsets, the delay, and further ones
   Vector6d numerical = Vector6d::Zero();  ///< error of the low passes, root mean square, N·m or N
-  MotorTables columns;                    ///< derivatives of measured efforts by the directions
-  Eigen::Index linear = 0;                ///< number of linear directions
+  std::vector<Eigen::MatrixXd> slopes;  ///< derivatives of an instant's efforts by value, rate and acceleration of each
+                                        ///< channel of the motion, 6 × 3 channels
+  MotorTables columns;                  ///< derivatives of measured efforts by the directions
+  Eigen::Index linear = 0;              ///< number of linear directions
 
   Eigen::Index offsets() const { return linear; }
   Eigen::Index delay() const { return linear + motor_count; }
@@ -61,20 +63,17 @@ class ModelledLog {
   void compare(double delay, Comparison& out) const;
   /// Makes the linear directions, offsets and delay, and also the further ones on request. This is slow.
   Comparison directions(bool with_further) const;
-  /// Returns root mean squares of ∂τᵢ/∂qₖ, ∂τᵢ/∂q̇ₖ and ∂τᵢ/∂q̈ₖ for the driven coordinates, 6 × 6 each. They are zero
-  /// for poses.
-  std::array<Matrix6d, 3> sensitivity() const;
 
  private:
   void placeMotions(const MeasuredLog& log);
   [[noreturn]] void refuse(const MeasuredLog& log, Eigen::Index at) const;
-  Vector6d numericalError() const;
+  Vector6d numericalError(const std::vector<Eigen::MatrixXd>& slopes) const;
   void addLinear(Comparison& out) const;
   void addOfLog(Comparison& out) const;
   void addNumbers(Comparison& out) const;
   void addSeries(Comparison& out) const;
   void add(Comparison& out, const Direction& direction, const Eigen::MatrixXd& columns) const;
-  Eigen::MatrixXd changedBy(int motor, const Eigen::MatrixXd& error) const;
+  std::vector<Eigen::MatrixXd> slopes() const;
   Eigen::MatrixXd effortsOf(const Manipulator& machine) const;
 
   const Scenario& scenario_;

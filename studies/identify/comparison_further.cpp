@@ -55,22 +55,22 @@ void ModelledLog::addNumbers(Comparison& out) const {
   }
 }
 
-/// Computes the change of efforts by errors of a driven coordinate, its rate and acceleration (the columns of `error`)
-/// at the settled instants.
-Eigen::MatrixXd ModelledLog::changedBy(int motor, const Eigen::MatrixXd& error) const {
-  const double step = relative_step / std::max(error.col(0).cwiseAbs().maxCoeff(), 1e-12);
-  Eigen::MatrixXd out(error.rows(), motor_count);
-  for (Eigen::Index row = 0; row < error.rows(); ++row) {
-    const Eigen::Index i = filtered_.settled()[static_cast<std::size_t>(row)];
+/// Computes the derivatives of efforts by the measured motion at the settled instants.
+std::vector<Eigen::MatrixXd> ModelledLog::slopes() const {
+  std::vector<Eigen::MatrixXd> out;
+  for (const Eigen::Index i : filtered_.settled()) {
     const auto at = static_cast<std::size_t>(i);
-    MeasuredState state = filtered_.state(i);
-    state.value(motor) += step * error(row, 0);
-    state.rate(motor) += step * error(row, 1);
-    state.acceleration(motor) += step * error(row, 2);
-    const auto motion = chain_.follow(state, motions_[at]);
-    out.row(row) = motion
-                       ? Eigen::RowVectorXd((chain_.efforts(*motion, loads_[at]).transpose() - efforts_.row(i)) / step)
-                       : Eigen::RowVectorXd(Eigen::RowVectorXd::Zero(motor_count));
+    const MeasuredState state = filtered_.state(i);
+    const Eigen::Index channels = state.value.size();
+    out.push_back(Eigen::MatrixXd::Zero(motor_count, 3 * channels));
+    for (Eigen::Index k = 0; k < 3 * channels; ++k) {
+      MeasuredState moved = state;
+      const Eigen::Index which = k / channels;
+      (which == 0 ? moved.value : which == 1 ? moved.rate : moved.acceleration)(k % channels) += relative_step;
+      const auto motion = has_poses_ ? std::optional(motionOfPoses(moved)) : chain_.follow(moved, motions_[at]);
+      if (motion)
+        out.back().col(k) = (chain_.efforts(*motion, loads_[at]) - efforts_.row(i).transpose()) / relative_step;
+    }
   }
   return out;
 }
@@ -84,6 +84,16 @@ void ModelledLog::addSeries(Comparison& out) const {
     error << filtered_.settle(series), filtered_.settleBy(filtered_.second().rate, series),
         filtered_.settleBy(filtered_.second().acceleration, series);
     return error;
+  };
+  const auto changedBy = [&](int motor, const Eigen::MatrixXd& error) {
+    Eigen::MatrixXd change(rows, motor_count);
+    for (Eigen::Index row = 0; row < rows; ++row) {
+      const Eigen::MatrixXd& slope = out.slopes[static_cast<std::size_t>(row)];
+      change.row(row) = (slope.col(motor) * error(row, 0) + slope.col(motor_count + motor) * error(row, 1) +
+                         slope.col(2 * motor_count + motor) * error(row, 2))
+                            .transpose();
+    }
+    return change;
   };
   for (int k = 0; k < motor_count; ++k) {
     const Motor& motor = motors[static_cast<std::size_t>(k)];
@@ -109,29 +119,6 @@ void ModelledLog::addSeries(Comparison& out) const {
       add(out, {DirectionKind::backlash, "", "backlash of the joint" + of, length, k, 0, 1e-3},
           changedBy(k, withRates(side)));
   }
-}
-
-std::array<Matrix6d, 3> ModelledLog::sensitivity() const {
-  std::array<Matrix6d, 3> out{Matrix6d::Zero(), Matrix6d::Zero(), Matrix6d::Zero()};
-  if (has_poses_) return out;
-  const auto settled = static_cast<Eigen::Index>(filtered_.settled().size());
-  const Eigen::Index every = std::max<Eigen::Index>(1, settled / 20);
-  int count = 0;
-  for (Eigen::Index row = 0; row < settled; row += every, ++count) {
-    const Eigen::Index i = filtered_.settled()[static_cast<std::size_t>(row)];
-    const auto at = static_cast<std::size_t>(i);
-    for (int what = 0; what < 3; ++what)
-      for (int k = 0; k < motor_count; ++k) {
-        MeasuredState state = filtered_.state(i);
-        (what == 0 ? state.value : what == 1 ? state.rate : state.acceleration)(k) += relative_step;
-        const auto motion = chain_.follow(state, motions_[at]);
-        if (!motion) continue;
-        const Vector6d slope = (chain_.efforts(*motion, loads_[at]) - efforts_.row(i).transpose()) / relative_step;
-        out[static_cast<std::size_t>(what)].col(k) += slope.cwiseAbs2();
-      }
-  }
-  for (Matrix6d& each : out) each = (each / std::max(count, 1)).cwiseSqrt();
-  return out;
 }
 
 }  // namespace ursula::identification

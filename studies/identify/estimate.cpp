@@ -9,12 +9,12 @@
 namespace ursula::identification {
 namespace {
 
-constexpr int most_order = 6;
-constexpr double most_memory = 0.5;  ///< largest sum of an autoregression's coefficients
-constexpr double visible = 0.1, train_share = 0.7, rounding = 1e-9;
+/// Deviations of the noise's variance beyond which a residual is more than noise.
+constexpr double surely = 3;
+constexpr double visible = 10, train_share = 0.7, rounding = 1e-9;
+constexpr Eigen::Index most_tested = 300;  ///< instants of the part that is not fitted
 
-/// Returns [columns
-/// measured − model] of motor k.
+/// Returns [columns, measured − model] of motor k.
 Eigen::MatrixXd tableOf(const Comparison& comparison, int k) {
   const Eigen::MatrixXd& columns = comparison.columns[static_cast<std::size_t>(k)];
   Eigen::MatrixXd out(columns.rows(), columns.cols() + 1);
@@ -35,82 +35,12 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> leastSquares(const Eigen::MatrixXd& 
   return {scale.asDiagonal() * x, y - rows.leftCols(count) * (scale.asDiagonal() * x)};
 }
 
-/// Fits x(i) by x(i − 1), …, x(i − order) with least squares within segments. Returns the coefficients and sets the
-/// remaining variance.
-Eigen::VectorXd autoregression(const Eigen::VectorXd& x, const std::vector<Segment>& segments, int order,
-                               double& left) {
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(order, order);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(order);
-  double squares = 0;
-  Eigen::Index count = 0;
-  for (const Segment& segment : segments)
-    for (Eigen::Index i = segment.first + most_order; i < segment.end; ++i, ++count) {
-      const Eigen::VectorXd before = x.segment(i - order, order).reverse();
-      normal += before * before.transpose();
-      right += before * x(i);
-      squares += x(i) * x(i);
-    }
-  const Eigen::VectorXd found = order == 0 ? Eigen::VectorXd() : Eigen::VectorXd(normal.ldlt().solve(right));
-  left = count == 0 ? 0 : (squares - (order == 0 ? 0 : found.dot(right))) / static_cast<double>(count);
-  return found;
-}
-
-/// Returns the order by Akaike's criterion, the same for all motors. An order with drifting noise is refused, because
-/// it fits more than noise. A wrong delay or model leaves a smooth residual, which a fit of its differences would no
-/// longer see. A short residual shows no order, because the fitted numbers took too much of it.
-int orderOf(const Eigen::MatrixXd& residual, const std::vector<Segment>& segments) {
-  const auto rows = static_cast<double>(residual.rows());
-  const int most = std::min(most_order, static_cast<int>(rows / 200));
-  double best = std::numeric_limits<double>::infinity();
-  int found = 0;
-  for (int order = 0; order <= most; ++order) {
-    double criterion = 2 * motor_count * order;
-    bool drifts = false;
-    for (int k = 0; k < motor_count; ++k) {
-      double left = 0;
-      drifts = drifts || autoregression(residual.col(k), segments, order, left).sum() > most_memory;
-      criterion += rows * std::log(std::max(left, 1e-300));
-    }
-    if (criterion < best && !drifts) {
-      best = criterion;
-      found = order;
-    }
-  }
-  return found;
-}
-
-Eigen::MatrixXd filteredBy(const Eigen::VectorXd& coefficients, const std::vector<Segment>& segments,
-                           const Eigen::MatrixXd& x) {
-  const Eigen::Index order = coefficients.size();
-  std::vector<Eigen::Index> rows;
-  for (const Segment& segment : segments)
-    for (Eigen::Index i = segment.first + order; i < segment.end; ++i) rows.push_back(i);
-  Eigen::MatrixXd out(static_cast<Eigen::Index>(rows.size()), x.cols());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    out.row(static_cast<Eigen::Index>(i)) = x.row(rows[i]);
-    for (Eigen::Index j = 0; j < order; ++j)
-      out.row(static_cast<Eigen::Index>(i)) -= coefficients(j) * x.row(rows[i] - 1 - j);
-  }
-  return out;
-}
-
-/// Merges the motors' tables, six rows for each instant; `by` multiplies each instant's six rows.
-Eigen::MatrixXd interleaved(const MotorTables& tables, const Matrix6d& by) {
+/// Merges the motors' tables, six rows for each instant.
+Eigen::MatrixXd interleaved(const MotorTables& tables) {
   Eigen::MatrixXd out(6 * tables[0].rows(), tables[0].cols());
-  for (int k = 0; k < motor_count; ++k) {
-    Eigen::MatrixXd mixed = Eigen::MatrixXd::Zero(tables[0].rows(), tables[0].cols());
-    for (int j = 0; j < motor_count; ++j)
-      if (by(k, j) != 0) mixed += by(k, j) * tables[static_cast<std::size_t>(j)];
-    for (Eigen::Index i = 0; i < mixed.rows(); ++i) out.row(6 * i + k) = mixed.row(i);
-  }
+  for (int k = 0; k < motor_count; ++k)
+    for (Eigen::Index i = 0; i < tables[0].rows(); ++i) out.row(6 * i + k) = tables[static_cast<std::size_t>(k)].row(i);
   return out;
-}
-
-Matrix6d whiteningOf(const Eigen::MatrixXd& residual, double correction, const Vector6d& numerical) {
-  Matrix6d covariance = residual.transpose() * residual * correction / static_cast<double>(residual.rows());
-  const double floor = 1e-24 * std::max(covariance.diagonal().maxCoeff(), 1e-280);
-  covariance.diagonal().array() += floor + numerical.array().square();
-  return Matrix6d(covariance.llt().matrixL()).triangularView<Eigen::Lower>().solve(Matrix6d::Identity());
 }
 
 }  // namespace
@@ -129,38 +59,30 @@ SquareRoot squareRootOf(const Eigen::MatrixXd& rows) {
   return out;
 }
 
-Whitened whiten(const Comparison& comparison) {
+Whitened whiten(const Comparison& comparison, EffortNoise noise) {
   const Eigen::Index fitted = comparison.further(), instants = comparison.model.rows();
   MotorTables tables;
   for (int k = 0; k < motor_count; ++k) tables[static_cast<std::size_t>(k)] = tableOf(comparison, k);
+  const Eigen::MatrixXd rows = interleaved(tables);
   Whitened out;
-  Matrix6d by = Matrix6d::Identity();
-  for (int k = 0; k < motor_count; ++k)
-    by(k, k) = 1 / std::max(std::sqrt(tables[static_cast<std::size_t>(k)].rightCols<1>().squaredNorm() /
-                                      static_cast<double>(instants)),
-                            1e-280);
-  out.rows = interleaved(tables, by);
+  out.expected = noise.variances().colwise().mean().transpose().cwiseSqrt();
   for (int pass = 0; pass < 3; ++pass) {
-    const Eigen::VectorXd x = leastSquares(out.rows, fitted, out.rank).first;
-    out.residual.resize(instants, motor_count);
+    out.rows = noise.whitened(rows);
+    const Eigen::VectorXd x = leastSquares(out.rows, fitted, out.rank).first,
+                          left = rows.rightCols<1>() - rows.leftCols(fitted) * x;
+    out.residual =
+        Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>>(left.data(), instants, 6);
+    const double freedom = 6.0 * static_cast<double>(instants),
+                 correction = freedom / std::max(freedom - static_cast<double>(out.rank), 1.0);
+    const double chance = 1 + surely * std::sqrt(2 / static_cast<double>(instants));
+    out.variances = noise.variances();
+    Vector6d more = Vector6d::Zero();
     for (int k = 0; k < motor_count; ++k) {
-      const Eigen::MatrixXd& table = tables[static_cast<std::size_t>(k)];
-      out.residual.col(k) = table.rightCols<1>() - table.leftCols(fitted) * x;
+      const double seen = correction * out.residual.col(k).cwiseAbs2().mean(), known = out.variances.col(k).mean();
+      if (seen > chance * known) more(k) = seen - known;
     }
-    out.order = orderOf(out.residual, comparison.segments);
-    MotorTables white;
-    Eigen::MatrixXd left;
-    for (int k = 0; k < motor_count; ++k) {
-      double unused = 0;
-      const Eigen::VectorXd a = autoregression(out.residual.col(k), comparison.segments, out.order, unused);
-      white[static_cast<std::size_t>(k)] = filteredBy(a, comparison.segments, tables[static_cast<std::size_t>(k)]);
-      const Eigen::VectorXd column = filteredBy(a, comparison.segments, out.residual.col(k));
-      if (k == 0) left.resize(column.size(), motor_count);
-      left.col(k) = column;
-    }
-    const double rows = 6.0 * static_cast<double>(left.rows());
-    const double correction = rows / std::max(rows - static_cast<double>(out.rank + motor_count * out.order), 1.0);
-    out.rows = interleaved(white, whiteningOf(left, correction, comparison.numerical));
+    if (more.isZero(0) || pass == 2) break;
+    noise.add(more);
   }
   return out;
 }
@@ -244,18 +166,24 @@ BaseFit fitBase(const SquareRoot& model, const std::vector<Direction>& direction
 
 CrossValidation crossValidate(const Whitened& whitened, const Comparison& comparison) {
   const Eigen::Index fitted = comparison.further(), instants = whitened.rows.rows() / 6,
-                     train = static_cast<Eigen::Index>(train_share * static_cast<double>(instants));
-  Eigen::MatrixXd rows(6 * train, fitted + 1);
-  rows << whitened.rows.topLeftCorner(6 * train, fitted), whitened.rows.col(whitened.rows.cols() - 1).head(6 * train);
-  const Eigen::VectorXd x = fitBase(squareRootOf(rows), comparison.directions, fitted).step;
-  const Eigen::Index left = 6 * (instants - train);
-  const Eigen::VectorXd y = whitened.rows.col(whitened.rows.cols() - 1).tail(left);
+                     train = static_cast<Eigen::Index>(train_share * static_cast<double>(instants)),
+                     left = 6 * std::min<Eigen::Index>(instants - train, most_tested);
+  Eigen::MatrixXd rows(6 * train + fitted, fitted + 1);
+  rows << whitened.rows.topLeftCorner(6 * train, fitted), whitened.rows.rightCols<1>().head(6 * train),
+      Eigen::MatrixXd::Zero(fitted, fitted + 1);
+  for (Eigen::Index j = 0; j < fitted; ++j)  // numbers that the first part does not show stay within their size
+    rows(6 * train + j, j) = 1 / comparison.directions[static_cast<std::size_t>(j)].plausible;
+  const SquareRoot root = squareRootOf(rows);
+  const auto triangle = root.R.triangularView<Eigen::Upper>();
+  const Eigen::MatrixXd tested = whitened.rows.block(6 * train, 0, left, fitted);
+  const Eigen::VectorXd y = whitened.rows.rightCols<1>().segment(6 * train, left), x = triangle.solve(root.z);
+  const Eigen::MatrixXd uncertain = triangle.solve<Eigen::OnTheRight>(tested);
+  const Eigen::LLT<Eigen::MatrixXd> expected(Eigen::MatrixXd::Identity(left, left) + uncertain * uncertain.transpose());
+  const auto size = static_cast<double>(left);
   CrossValidation out;
-  out.given = std::sqrt(y.squaredNorm() / static_cast<double>(left));
-  out.fitted =
-      std::sqrt((y - whitened.rows.block(6 * train, 0, left, fitted) * x).squaredNorm() / static_cast<double>(left));
-  out.from_s = comparison.t(std::min(
-      comparison.t.size() - 1, static_cast<Eigen::Index>(train_share * static_cast<double>(comparison.t.size()))));
+  out.given = std::sqrt(y.squaredNorm() / size);
+  out.fitted = std::sqrt(expected.matrixL().solve(y - tested * x).squaredNorm() / size);
+  out.from_s = comparison.t(train);
   return out;
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/identify/comparison.h"
+#include "studies/identify/noise.h"
 
 namespace ursula::identification {
 
@@ -17,15 +17,16 @@ struct SquareRoot {
 };
 SquareRoot squareRootOf(const Eigen::MatrixXd& rows_with_y);
 
-/// The comparison after whitening: an autoregression for each motor whitens along time, then a covariance between
-/// motors.
+/// The comparison in units of its noise.
 struct Whitened {
-  Eigen::MatrixXd rows;      ///< six for each instant; columns are the directions, then measured minus model
-  Eigen::MatrixXd residual;  ///< left by linear directions, offsets and delay; N·m or N, an instant in each row
-  int order = 0;             ///< order of the autoregressions
-  Eigen::Index rank = 0;     ///< rank of that fit
+  Eigen::MatrixXd rows;       ///< six for each instant; columns are the directions, then measured minus model
+  Eigen::MatrixXd residual;   ///< left by linear directions, offsets and delay; N·m or N, an instant in each row
+  Eigen::MatrixXd variances;  ///< of the noise, likewise
+  Vector6d expected;          ///< root mean squares of noise as the samples explain it, N·m or N
+  Eigen::Index rank = 0;      ///< rank of that fit
 };
-Whitened whiten(const Comparison& comparison);
+/// Noise of a motor grows to its residual if that is more than chance.
+Whitened whiten(const Comparison& comparison, EffortNoise noise);
 
 /// A combination of directions that the motion shows, and its value.
 struct BaseParameter {
@@ -44,16 +45,17 @@ struct BaseFit {
   double quantile = 0;  ///< Student's quantile for 95 %
 };
 
-/// Fits the first `count` directions by QR with column pivoting. A combination counts as shown if a plausible change of
-/// it is at least a tenth of the noise.
+/// Fits the first `count` directions by QR with column pivoting. A combination counts as shown if noise is at most a
+/// tenth of its plausible change. What is not shown has no effect on those combinations.
 BaseFit fitBase(const SquareRoot& model, const std::vector<Direction>& directions, Eigen::Index count);
 
 /// Sets plausible sizes of the linear directions' differences, from the machine and its efforts.
 void setPlausible(const ManipulatorParameters& machine, const Comparison& comparison,
                   std::vector<Direction>& directions);
 
-/// Root mean squares of efforts divided by their noise, on rows that were not fitted. One is for the given model, the
-/// other for the fit to the first 70 % of the time. Noise alone gives 1.
+/// Root mean squares of efforts on rows that were not fitted, divided by what is expected: 1 if the model holds. One is
+/// the given model's, by the noise; the other is that of the fit to the first 70 % of the time, by noise and the fit's
+/// own uncertainty.
 struct CrossValidation {
   double given = 0, fitted = 0;
   double from_s = 0;

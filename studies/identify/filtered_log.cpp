@@ -7,9 +7,10 @@ namespace ursula::identification {
 namespace {
 
 /// end_share is the share of an open log that the low passes may take at each end.
-constexpr double end_share = 0.12, of_bandwidth = 4, enough_of_bandwidth = 2.5, of_rate = 0.18, support = 3.6;
+constexpr double end_share = 0.12, of_bandwidth = 4, of_end = 1.67, enough_of_bandwidth = 2.5, of_rate = 0.18,
+                 support = 3.6;
 /// Cut-off of the low pass that shows what the motion's own takes, as a multiple of that one's.
-constexpr double sharper = 1.6;
+constexpr double sharper = 1.6, beyond = 1.7;  ///< little passes beyond this multiple of a cut-off
 /// So many instants tell noise from the fit.
 constexpr double wanted_instants = 150;
 /// A machine rests below this share of the largest rate.
@@ -27,6 +28,18 @@ Eigen::MatrixXd carriedOn(const Eigen::MatrixXd& x, Eigen::Index by, Ends ends) 
                                                 : Eigen::RowVectorXd(x.row(i % rows));
   }
   return out;
+}
+
+double gainOf(const Eigen::VectorXd& weights, double angle) {
+  double out = 0;
+  for (Eigen::Index j = 0; j < weights.size(); ++j)
+    out += weights(j) * std::cos(angle * static_cast<double>(j - weights.size() / 2));
+  return out;
+}
+
+/// A period's series has so many harmonics at most, if more than its own are wanted.
+int sharperHarmonics(const FilterPlan& plan) {
+  return std::min(static_cast<int>(std::ceil(sharper * plan.series.harmonics())), plan.series.known());
 }
 
 }  // namespace
@@ -48,16 +61,25 @@ Ends endsOf(const MeasuredLog& log, bool is_period) {
   return Ends::rest;
 }
 
-FilterPlan planFilters(const MeasuredLog& log, Ends ends) {
+FilterPlan planFilters(const MeasuredLog& log, Ends ends, const SampleNoise& noise) {
   const double duration = log.step * static_cast<double>(log.rows()), most = of_rate / log.step;
+  const Bandwidth bandwidth = motionBandwidth(log);
   FilterPlan out;
   out.ends = ends;
-  out.bandwidth = motionBandwidth(log);
-  const double shortest = ends == Ends::open ? support / (end_share * duration) : 0;
-  out.state_cut = std::min(std::max({of_bandwidth * out.bandwidth, shortest, 2 / duration}), most);
-  out.too_slow = out.state_cut < enough_of_bandwidth * out.bandwidth;
-  out.effort_cut = std::min(std::max(out.state_cut, 0.5 * wanted_instants / duration), most);
-  out.coarse = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(0.125 / (out.effort_cut * log.step)));
+  out.noise = noise;
+  out.bandwidth = bandwidth.most;
+  if (ends == Ends::period) {
+    out.series = FourierSeries(log.motion, log.step, noise.motion, bandwidth.most);
+    out.state_cut = (out.series.harmonics() + 0.5) * out.series.frequency();
+  } else {
+    const double shortest = ends == Ends::open ? support / (end_share * duration) : 0;
+    out.state_cut = std::min(std::max({of_end * bandwidth.end, shortest, 2 / duration}), most);
+  }
+  out.too_slow = most < enough_of_bandwidth * out.bandwidth;
+  out.effort_cut =
+      std::min(std::max(std::min(out.state_cut, of_bandwidth * out.bandwidth), 0.5 * wanted_instants / duration), most);
+  out.coarse = std::max<Eigen::Index>(
+      1, static_cast<Eigen::Index>(std::min(0.125 / out.effort_cut, 0.3 / out.state_cut) / log.step));
   out.fine =
       std::max<Eigen::Index>(1, std::lround(0.5 / (out.effort_cut * log.step * static_cast<double>(out.coarse))));
   return out;
@@ -81,6 +103,12 @@ FilteredLog::FilteredLog(const MeasuredLog& log, const FilterPlan& plan, double 
   value_ = Kernel::apply(first_.value, log_.motion, centers_);
   rate_ = Kernel::apply(first_.rate, log_.motion, centers_);
   acceleration_ = Kernel::apply(first_.acceleration, log_.motion, centers_);
+  for (Eigen::Index i = 0; i < size() && plan.ends == Ends::period; ++i) {
+    const Eigen::MatrixXd state = plan.series.at(time(i) - log.start, plan.series.harmonics());
+    value_.row(i) = state.col(0).transpose();
+    rate_.row(i) = state.col(1).transpose();
+    acceleration_.row(i) = state.col(2).transpose();
+  }
   if (log_.load.cols() > 0) load_ = Kernel::apply(first_.value, log_.load, centers_);
   placeSettled();
 }
@@ -127,6 +155,10 @@ MeasuredState FilteredLog::state(Eigen::Index i) const {
 }
 
 MeasuredState FilteredLog::sharperState(Eigen::Index i) const {
+  if (plan_.ends == Ends::period) {
+    const Eigen::MatrixXd state = plan_.series.at(time(i) - log_.start, sharperHarmonics(plan_));
+    return {state.col(0), state.col(1), state.col(2)};
+  }
   const auto by = [&](const Eigen::VectorXd& weights) -> Eigen::VectorXd {
     return Kernel::apply(weights, log_.motion, {centers_[static_cast<std::size_t>(i)]}).row(0).transpose();
   };
@@ -145,6 +177,56 @@ Eigen::MatrixXd FilteredLog::settledEfforts(double shift) const {
   std::vector<Eigen::Index> rows;
   for (const Eigen::Index i : settled_) rows.push_back(centers_[static_cast<std::size_t>(i)]);
   return Kernel::apply(Kernel(plan_.effort_cut, log_.step, shift).value, log_.efforts, rows);
+}
+
+double FilteredLog::memory() const { return 2 * (first_.half * log_.step + second_.half * step()); }
+
+Eigen::Matrix3d FilteredLog::Lines::covariance(double later) const {
+  Eigen::Matrix3d out = Eigen::Matrix3d::Zero();
+  for (std::size_t k = 0; k < omega.size(); ++k)
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b)
+        out(a, b) +=
+            weight[k] * std::pow(omega[k], a + b) * std::cos(omega[k] * later + (b - a) * 0.5 * std::acos(-1.0));
+  return out;
+}
+
+template <class Gain>
+FilteredLog::Lines FilteredLog::linesOf(double spacing, double end, const Gain& gain) const {
+  Lines out;
+  for (int k = 0; k * spacing < end; ++k) {
+    const double omega = 2 * std::acos(-1.0) * k * spacing, pass = gain(omega);
+    out.omega.push_back(omega);
+    out.weight.push_back((k == 0 ? 1 : 2) * log_.step * spacing * pass * pass);
+  }
+  return out;
+}
+
+FilteredLog::Lines FilteredLog::effortLines() const {
+  const Kernel efforts(plan_.effort_cut, log_.step);
+  return linesOf(0.5 / memory(), beyond * plan_.effort_cut,
+                 [&](double omega) { return gainOf(efforts.value, omega * log_.step); });
+}
+
+FilteredLog::Lines FilteredLog::motionLines() const {
+  const double period = plan_.series.frequency();
+  if (plan_.ends == Ends::period)
+    return linesOf(period, plan_.state_cut, [&](double omega) { return gainOf(second_.value, omega * step()); });
+  return linesOf(0.5 / memory(), beyond * plan_.state_cut, [&](double omega) {
+    return gainOf(second_.value, omega * step()) * gainOf(first_.value, omega * log_.step);
+  });
+}
+
+FilteredLog::Lines FilteredLog::sharperLines() const {
+  const double period = plan_.series.frequency();
+  if (plan_.ends == Ends::period)
+    return linesOf(period, (sharperHarmonics(plan_) + 0.5) * period, [&](double omega) {
+      return omega < 2 * std::acos(-1.0) * plan_.state_cut ? 0.0 : gainOf(second_.value, omega * step());
+    });
+  return linesOf(0.5 / memory(), sharper * beyond * plan_.state_cut, [&](double omega) {
+    return gainOf(second_.value, omega * step()) *
+           (gainOf(sharper_.value, omega * log_.step) - gainOf(first_.value, omega * log_.step));
+  });
 }
 
 Eigen::MatrixXd FilteredLog::settleBy(const Eigen::VectorXd& weights, const Eigen::MatrixXd& series) const {

@@ -13,17 +13,19 @@ enum class Ends { open, rest, period };
 /// Returns whether a motion is a period, or else begins and ends at rest, so that rest may extend it.
 Ends endsOf(const MeasuredLog& log, bool is_period);
 
-/// The plan of two low passes. One leaves the motion as it is, and gives it and its rates every `coarse` rows. The
-/// other acts alike on measured efforts, modelled efforts and every column of the regressor. It is sampled every `fine`
-/// of those rows, at which white noise is nearly uncorrelated.
+/// The plan of two low passes. One, or a period's Fourier series, leaves the motion as it is, and gives it and its
+/// rates every `coarse` rows. The other acts alike on measured efforts, modelled efforts and every column of the
+/// regressor. It is sampled every `fine` of those rows, at which white noise is nearly uncorrelated.
 struct FilterPlan {
   double bandwidth = 0;                  ///< bandwidth of the motion, Hz
   double state_cut = 0, effort_cut = 0;  ///< Hz
   Eigen::Index coarse = 1, fine = 1;
   Ends ends = Ends::open;
   bool too_slow = false;  ///< the log's rate is too low for the motion's bandwidth
+  SampleNoise noise;
+  FourierSeries series;  ///< the motion of a period, instead of the first low pass
 };
-FilterPlan planFilters(const MeasuredLog& log, Ends ends);
+FilterPlan planFilters(const MeasuredLog& log, Ends ends, const SampleNoise& noise);
 
 /// Consecutive instants first … end − 1 without a gap.
 struct Segment {
@@ -57,11 +59,26 @@ class FilteredLog {
   const std::vector<Eigen::Index>& settled() const { return settled_; }
   /// Returns the segments of the settled instants.
   const std::vector<Segment>& settledSegments() const { return settled_segments_; }
-  const Kernel& first() const { return first_; }
+  /// Returns weights and frequencies, rad/s, whose weighted cosines of the time between two settled instants are the
+  /// covariance of what white noise of deviation 1 on the samples leaves after both low passes.
+  struct Lines {
+    std::vector<double> omega, weight;
+
+    /// Returns the covariance of value, rate and acceleration (rows) with those `later` s later (columns).
+    Eigen::Matrix3d covariance(double later) const;
+  };
+  Lines effortLines() const;
+  Lines motionLines() const;
+  /// The same for what the low pass with the higher cut-off passes in addition.
+  Lines sharperLines() const;
+  /// Returns the time beyond which noise is uncorrelated, s.
+  double memory() const;
   const Kernel& second() const { return second_; }
   const FilterPlan& plan() const { return plan_; }
 
  private:
+  template <class Gain>
+  Lines linesOf(double spacing, double end, const Gain& gain) const;
   void placeCenters(double reach);
   void placeSettled();
 

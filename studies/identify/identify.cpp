@@ -21,10 +21,6 @@ constexpr double most_delay = 0.25, delay_share = 0.1, settled_delay = 0.002;
 constexpr Eigen::Index fewest_instants = 24;
 /// The fitted model's residual may be this many times what noise explains.
 constexpr double most_left = 2;
-/// Beyond this share of all noise, noise of the motion exceeds that of the efforts.
-constexpr double most_of_motion = 0.7;
-/// Of the efforts, below which noise is rounding.
-constexpr double least_noise = 1e-6;
 
 /// Compares one log with one scenario, step by step.
 class Identification {
@@ -43,7 +39,7 @@ class Identification {
     describe();
     const Periods periods = averagePeriods(log_);
     out_.periods = periods.count;
-    const FilterPlan plan = planFilters(log_, endsOf(log_, periods.count > 1));
+    const FilterPlan plan = planFilters(log_, endsOf(log_, periods.count > 1), sampleNoise(log_, periods));
     out_.bandwidth = plan.bandwidth;
     out_.state_cut = plan.state_cut;
     out_.effort_cut = plan.effort_cut;
@@ -59,7 +55,7 @@ class Identification {
     setPlausible(scenario_.manipulator->parameters(), comparison, comparison.directions);
     settleDelay(modelled, coarse, comparison);
     tell(0.8, "judging and estimating");
-    conclude(modelled, periods, comparison);
+    conclude(modelled, comparison);
     return std::move(out_);
   }
 
@@ -110,9 +106,10 @@ class Identification {
   void settleDelay(const ModelledLog& modelled, double coarse, Comparison& comparison) {
     out_.delay = coarse;
     const ManipulatorParameters& machine = scenario_.manipulator->parameters();
+    const EffortNoise noise(modelled.filtered(), comparison);
     for (int pass = 0; pass < 6; ++pass) {
       modelled.compare(out_.delay, comparison);
-      whitened_ = whiten(comparison);
+      whitened_ = whiten(comparison, noise);
       root_ = squareRootOf(whitened_.rows);
       base_ = fitBase(root_, comparison.directions, comparison.further());
       const auto [left, deviation] = delayLeft(root_, comparison, suspectsOf(root_, comparison, machine, tolerances_));
@@ -123,17 +120,16 @@ class Identification {
     }
   }
 
-  void conclude(const ModelledLog& modelled, const Periods& periods, const Comparison& comparison) {
+  void conclude(const ModelledLog& modelled, const Comparison& comparison) {
     const ManipulatorParameters& machine = scenario_.manipulator->parameters();
     out_.instants = comparison.model.rows();
-    out_.noise_order = whitened_.order;
     const Judgement judged = judge(root_, comparison, suspectsOf(root_, comparison, machine, tolerances_),
                                    out_.delay_uncertainty, base_.freedom);
     out_.squares = judged.squares;
     out_.squares_limit = judged.squares_limit;
     out_.threshold = judged.threshold;
     for (const FoundCause& cause : judged.causes) out_.causes.push_back(measuredCause(cause));
-    setMotors(modelled, periods, comparison);
+    setMotors(modelled, comparison);
     const CrossValidation validation = crossValidate(whitened_, comparison);
     out_.validation_given = validation.given;
     out_.validation_fitted = validation.fitted;
@@ -141,6 +137,9 @@ class Identification {
     addCombinations(base_, comparison, out_);
     const PhysicalEstimate estimate = estimateMachine(root_, comparison, machine, tolerances_, options_.prior);
     addNumbers(estimate, base_.quantile, out_);
+    for (MeasuredNumber& each : out_.numbers)
+      if (const auto at = judged.least_found.find(each.name); at != judged.least_found.end())
+        each.least_found = at->second;
     out_.identified_scenario = identifiedScenario(scenario_, estimate);
     addSeries(comparison, base_, modelled.filtered(), out_);
     out_.verdict = verdictOf(judged);
@@ -148,9 +147,8 @@ class Identification {
   }
 
   /// Sets each motor's deviation and its uncertainty.
-  void setMotors(const ModelledLog& modelled, const Periods& periods, const Comparison& comparison) {
+  void setMotors(const ModelledLog& modelled, const Comparison& comparison) {
     const Eigen::MatrixXd input = inputUncertainty(comparison, scenario_.manipulator->parameters(), tolerances_);
-    const ExpectedNoise expected = expectedNoise(modelled, log_, periods);
     const auto rms = [](const Eigen::VectorXd& x) {
       return std::sqrt(x.squaredNorm() / static_cast<double>(x.size()));
     };
@@ -167,18 +165,14 @@ class Identification {
       motor.largest = E.cwiseAbs().maxCoeff(&at);
       motor.largest_at_s = comparison.t(at);
       motor.left = rms(whitened_.residual.col(k)) * correction;
-      motor.expected = expected.whole(k);
-      if (expected.of_motion(k) >
-          std::max(most_of_motion * expected.whole(k), least_noise * rms(comparison.model.col(k))))
-        noteNoisyMotion(k, expected.of_motion(k));
-      motor.noise = periods.count > 1 ? periods.effort_noise(k) : whiteNoise(log_.efforts.col(k));
+      motor.expected = whitened_.expected(k);
+      motor.noise = modelled.filtered().plan().noise.efforts(k) * std::sqrt(static_cast<double>(out_.periods));
       motor.u_num = comparison.numerical(k);
       const Eigen::VectorXd from_delay = comparison.model_rate.col(k) * out_.delay_uncertainty;
       motor.u_input = rms(input.col(k));
-      motor.u_D = std::hypot(motor.left, rms(from_delay));
-      u_val_.col(k) = (input.col(k).array().square() + from_delay.array().square() + motor.left * motor.left +
-                       motor.u_num * motor.u_num)
-                          .sqrt();
+      const Eigen::VectorXd noise = whitened_.variances.col(k);
+      motor.u_D = std::sqrt(noise.mean() - motor.u_num * motor.u_num + from_delay.cwiseAbs2().mean());
+      u_val_.col(k) = (input.col(k).cwiseAbs2() + from_delay.cwiseAbs2() + noise).cwiseSqrt();
       motor.u_val = rms(u_val_.col(k));
       motor.within = static_cast<double>((E.array().abs() <= 1.96 * u_val_.col(k).array()).count()) /
                      static_cast<double>(E.size());
@@ -187,19 +181,10 @@ class Identification {
     noteLeft();
   }
 
-  void noteNoisyMotion(int k, double noise) {
-    const MotorAgreement& motor = out_.motors[static_cast<std::size_t>(k)];
-    out_.findings.push_back({"noisy_motion", k, noise, motor.unit,
-                             fmt::format("noise of the measured motion makes {:.3g} {} of the effort of motor {}, more "
-                                         "than that of its own samples: what "
-                                         "is fitted is drawn from the truth",
-                                         noise, motor.unit, k + 1)});
-  }
-
   void noteLeft() {
     for (int k = 0; k < motor_count; ++k) {
       const MotorAgreement& motor = out_.motors[static_cast<std::size_t>(k)];
-      const double ratio = motor.expected > 0 ? motor.left / std::hypot(motor.expected, motor.u_num) : 0;
+      const double ratio = motor.expected > 0 ? motor.left / motor.expected : 0;
       if (ratio > most_left && motor.left > 1e-6 * motor.effort)
         out_.findings.push_back({"unmodelled", k, motor.left, motor.unit,
                                  fmt::format("no numbers of the model make the efforts of motor {} agree to better "
@@ -220,8 +205,7 @@ class Identification {
     };
     for (const char* kind : {"unmodelled", "units", "order", "sign", "wrong_scenario"})
       if (has(kind)) return Verdict::fail;
-    // Noise of the motion is in the columns too: scores are not what they would be without it.
-    if (judged.deviates || !out_.causes.empty()) return has("noisy_motion") ? Verdict::inconclusive : Verdict::fail;
+    if (judged.deviates || !out_.causes.empty()) return Verdict::fail;
     return has("too_slow") || base_.freedom < 30 ? Verdict::inconclusive : Verdict::pass;
   }
 

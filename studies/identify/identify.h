@@ -40,6 +40,8 @@ struct MeasuredNumber {
   std::string unit;
   double nominal = 0, value = 0, uncertainty = 0, low = 0, high = 0;
   double tolerance = -1;   ///< stated tolerance; negative for none
+  double least_found = 0;  ///< smallest deviation that the log tells from tolerances and noise in 95 % of all cases; 0
+                           ///< if there is no such or no tolerance
   bool identified = true;  ///< whether a single number's uncertainty is below a tenth of its own size
   std::vector<std::pair<std::string, double>> terms;  ///< names and factors of a combination
 };
@@ -70,7 +72,6 @@ struct IdentifyResult {
   int periods = 1;
   double bandwidth = 0, state_cut = 0, effort_cut = 0;  ///< Hz
   Eigen::Index instants = 0;                            ///< number of judged instants
-  int noise_order = 0;                                  ///< order of the autoregressions
   double delay = 0, delay_uncertainty = 0;              ///< delay of efforts behind the motion, s
   double squares = 0, squares_limit = 0, threshold = 0;
   std::array<MotorAgreement, motor_count> motors;

@@ -17,6 +17,8 @@ namespace {
 /// size.
 constexpr double risk_of_number = 0.02, risk_outside = 0.02, risk_of_squares = 0.005;
 constexpr std::size_t most_causes = 6;
+/// Deviations of a normal variable that 95 % do not exceed.
+constexpr double one_sided = 1.645;
 /// Suspects are indistinguishable if the squares of their scores differ by less.
 constexpr double alike = 4;
 
@@ -102,6 +104,11 @@ std::size_t largestOf(const std::vector<Score>& scores) {
   return static_cast<std::size_t>(best - scores.begin());
 }
 
+/// Returns the standard uncertainty of a suspect's change by everything but its own tolerance.
+double ownDeviation(const Score& score, double tolerance) {
+  return std::sqrt(std::max(0.0, score.deviation * score.deviation - tolerance * tolerance));
+}
+
 Eigen::MatrixXd columnsOf(const std::vector<const Suspect*>& suspects, Eigen::Index rows) {
   Eigen::MatrixXd out(rows, static_cast<Eigen::Index>(suspects.size()));
   for (std::size_t j = 0; j < suspects.size(); ++j) out.col(static_cast<Eigen::Index>(j)) = suspects[j]->column;
@@ -129,7 +136,7 @@ void findCauses(const std::vector<const Suspect*>& suspects, Allowance& allowanc
     if (!(std::abs(score.score) > threshold)) return;
     FoundCause cause{suspects[best]->direction,
                      score.change,
-                     score.deviation,
+                     ownDeviation(score, suspects[best]->tolerance),
                      suspects[best]->tolerance,
                      score.score,
                      score.score * score.score / std::max(all, 1e-300),
@@ -232,6 +239,12 @@ Judgement judge(const SquareRoot& model, const Comparison& comparison, const std
   const Eigen::MatrixXd everything = basisOf(columnsOf(all, model.R.rows()));
   out.freedom = everything.cols();
   out.threshold = thresholdOf(risk_of_number, static_cast<double>(out.freedom), noise_freedom);
+  const Eigen::MatrixXd every = columnsOf(all, model.R.rows());
+  const std::vector<Score> scores = scoresOf(every, allowance(every), model.z);
+  for (std::size_t j = 0; j < all.size(); ++j)
+    if (const double tolerance = all[j]->tolerance; tolerance > 0 && scores[j].deviation > 0)
+      out.least_found[all[j]->direction.path] =
+          out.threshold * scores[j].deviation + one_sided * ownDeviation(scores[j], tolerance);
   out.squares = model.z.dot(everything * (everything.transpose() * allowance(model.z).col(0)));
   out.squares_limit = boost::math::quantile(boost::math::complement(
                           boost::math::chi_squared(static_cast<double>(out.freedom)), risk_of_squares)) *

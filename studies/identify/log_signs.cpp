@@ -21,12 +21,6 @@ Likeness likeness(const Eigen::VectorXd& model, const Eigen::VectorXd& measured)
   return size > 0 ? Likeness{s.dot(d) / size, s.dot(d) / s.squaredNorm()} : Likeness{};
 }
 
-Eigen::VectorXd combined(const Eigen::VectorXd& first, const Eigen::VectorXd& second, Eigen::Index coarse) {
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(first.size() + (second.size() - 1) * coarse);
-  for (Eigen::Index j = 0; j < second.size(); ++j) out.segment(j * coarse, first.size()) += second(j) * first;
-  return out;
-}
-
 void add(std::vector<LogFinding>& findings, std::vector<MeasuredCause>& causes, const char* kind, int motor,
          double value, const std::string& what) {
   findings.push_back({kind, motor, value, "", what});
@@ -96,31 +90,6 @@ void findMistakes(const ModelledLog& modelled, const Motors& motors, std::vector
     add(findings, causes, "units", -1, std::pow(10.0, power),
         fmt::format("all efforts are {:.4g} times the model's: expected {}", std::pow(10.0, power),
                     motors[0].slides() ? "N" : "N m"));
-}
-
-ExpectedNoise expectedNoise(const ModelledLog& modelled, const MeasuredLog& log, const Periods& periods) {
-  ExpectedNoise out;
-  if (log.has_poses) return out;
-  const FilteredLog& filtered = modelled.filtered();
-  const double averaged = std::sqrt(static_cast<double>(periods.count));
-  const auto gain = [&](const Eigen::VectorXd& first) {
-    return combined(first, filtered.second().value, filtered.plan().coarse).norm();
-  };
-  const double effort_gain = Kernel(filtered.plan().effort_cut, log.step).value.norm();
-  const std::array<double, 3> gains = {gain(filtered.first().value), gain(filtered.first().rate),
-                                       gain(filtered.first().acceleration)};
-  const std::array<Matrix6d, 3> slopes = modelled.sensitivity();
-  for (int k = 0; k < motor_count; ++k) {
-    const double effort = periods.count > 1 ? periods.effort_noise(k) / averaged : whiteNoise(log.efforts.col(k));
-    double square = 0;
-    for (int j = 0; j < motor_count; ++j) {
-      const double motion = periods.count > 1 ? periods.motion_noise(j) / averaged : whiteNoise(log.motion.col(j));
-      for (std::size_t what = 0; what < 3; ++what) square += std::pow(slopes[what](k, j) * motion * gains[what], 2);
-    }
-    out.of_motion(k) = std::sqrt(square);
-    out.whole(k) = std::hypot(effort * effort_gain, out.of_motion(k));
-  }
-  return out;
 }
 
 }  // namespace ursula::identification

@@ -14,11 +14,4 @@ void findSigns(MeasuredLog& log, const Motors& motors, std::vector<LogFinding>& 
 void findMistakes(const ModelledLog& modelled, const Motors& motors, std::vector<LogFinding>& findings,
                   std::vector<MeasuredCause>& causes);
 
-/// Noise of each motor's effort after the low passes, N·m or N, as white noise on the log's samples explains it. Both
-/// are zero for poses.
-struct ExpectedNoise {
-  Vector6d whole = Vector6d::Zero(), of_motion = Vector6d::Zero();
-};
-ExpectedNoise expectedNoise(const ModelledLog& modelled, const MeasuredLog& log, const Periods& periods);
-
 }  // namespace ursula::identification

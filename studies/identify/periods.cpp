@@ -101,4 +101,13 @@ Periods averagePeriods(MeasuredLog& log) {
   return out;
 }
 
+SampleNoise sampleNoise(const MeasuredLog& log, const Periods& periods) {
+  const double share = 1 / std::sqrt(static_cast<double>(periods.count));
+  if (periods.count > 1) return {periods.motion_noise * share, periods.effort_noise * share};
+  SampleNoise out{Eigen::VectorXd(log.motion.cols()), Eigen::VectorXd(motor_count)};
+  for (Eigen::Index k = 0; k < log.motion.cols(); ++k) out.motion(k) = whiteNoise(log.motion.col(k));
+  for (Eigen::Index k = 0; k < motor_count; ++k) out.efforts(k) = whiteNoise(log.efforts.col(k));
+  return out;
+}
+
 }  // namespace ursula::identification

@@ -12,12 +12,12 @@ const double pi = std::acos(-1.0);
 /// time, in deviations.
 constexpr double roll_off = 0.2, window_end = 4.5;
 
-/// Averages 33 neighbours, of which some ten are independent. A single peak of the noise then does not count as a
-/// signal.
-Eigen::VectorXd smoothed(const Eigen::VectorXd& x) {
+/// Averages 2 `by` + 1 neighbours, of which about a third is independent. A single peak of the noise then does not
+/// count as a signal.
+Eigen::VectorXd smoothed(const Eigen::VectorXd& x, Eigen::Index by) {
   Eigen::VectorXd out(x.size());
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const Eigen::Index first = std::max<Eigen::Index>(0, i - 16), end = std::min(x.size(), i + 17);
+    const Eigen::Index first = std::max<Eigen::Index>(0, i - by), end = std::min(x.size(), i + by + 1);
     out(i) = x.segment(first, end - first).mean();
   }
   return out;
@@ -160,9 +160,9 @@ Eigen::VectorXd powerSpectrum(const Eigen::VectorXd& signal, double step, int mo
   return count == 0 ? out : Eigen::VectorXd(out * (2 * step / (count * window.squaredNorm())));
 }
 
-double motionBandwidth(const MeasuredLog& log) {
+Bandwidth motionBandwidth(const MeasuredLog& log) {
   const double nyquist = 0.5 / log.step;
-  double found = 0;
+  Bandwidth out;
   Eigen::VectorXd deviations(log.motion.cols());
   for (Eigen::Index k = 0; k < log.motion.cols(); ++k)
     deviations(k) = std::sqrt((log.motion.col(k).array() - log.motion.col(k).mean()).square().mean());
@@ -171,20 +171,69 @@ double motionBandwidth(const MeasuredLog& log) {
     const Eigen::Index rows = log.rows() - 2;
     const Eigen::VectorXd second =
         log.motion.col(k).tail(rows) - 2 * log.motion.col(k).segment(1, rows) + log.motion.col(k).head(rows);
-    const Eigen::VectorXd power = wholeSpectrum(second, log.step), seen = smoothed(power);
+    const Eigen::VectorXd power = wholeSpectrum(second, log.step), wide = smoothed(power, 16),
+                          narrow = smoothed(power, 4);
     const double noise = whiteNoise(log.motion.col(k));
+    const auto frequency = [&](Eigen::Index i) {
+      return nyquist * static_cast<double>(i) / static_cast<double>(power.size() - 1);
+    };
+    const auto floor = [&](Eigen::Index i) {
+      return 2 * log.step * noise * noise * std::pow(2 * std::sin(0.5 * pi * frequency(i) / nyquist), 4);
+    };
     double total = 0;
     std::vector<double> sums;
     for (Eigen::Index i = 0; i < power.size(); ++i) {
-      const double share = static_cast<double>(i) / static_cast<double>(power.size() - 1);
-      const double floor = 2 * log.step * noise * noise * std::pow(2 * std::sin(0.5 * pi * share), 4);
-      total += seen(i) > 4 * floor ? power(i) : 0;
+      total += wide(i) > 4 * floor(i) ? power(i) : 0;
       sums.push_back(total);
     }
-    const auto at = std::lower_bound(sums.begin(), sums.end(), 0.999 * total) - sums.begin();
-    found = std::max(found, nyquist * static_cast<double>(at + 1) / static_cast<double>(power.size() - 1));
+    Eigen::Index at = std::lower_bound(sums.begin(), sums.end(), 0.999 * total) - sums.begin();
+    out.most = std::max(out.most, frequency(at + 1));
+    while (at + 1 < power.size() && narrow(at) > 5 * floor(at)) ++at;
+    out.end = std::max(out.end, frequency(at + 1));
   }
-  return found;
+  return out;
+}
+
+FourierSeries::FourierSeries(const Eigen::MatrixXd& rows, double step, const Eigen::VectorXd& noise, double least)
+    : frequency_(1 / (step * static_cast<double>(rows.rows()))), cosines_(rows.colwise().mean().transpose()) {
+  constexpr double surely = 15, hardly = 3, highest = 0.18, rounding = 1e-11;
+  constexpr int silent = 6, most = 1000;  // so many harmonics in the noise end the series
+  sines_ = Eigen::MatrixXd::Zero(rows.cols(), 1);
+  const auto count = static_cast<double>(rows.rows());
+  const Eigen::ArrayXd floor = noise.array().max(rounding * rows.cwiseAbs().maxCoeff()).max(1e-150).square();
+  int last = 0;
+  bool falls = true;
+  for (int k = 1; k < std::min<double>(highest * count, most) && (k <= 2 * last + silent || k * frequency_ < least);
+       ++k) {
+    Eigen::VectorXd c(rows.rows()), s(rows.rows());
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+      const double angle = 2 * pi * std::fmod(static_cast<double>(k) * static_cast<double>(i), count) / count;
+      c(i) = 2 / count * std::cos(angle);
+      s(i) = 2 / count * std::sin(angle);
+    }
+    cosines_.conservativeResize(Eigen::NoChange, k + 1);
+    sines_.conservativeResize(Eigen::NoChange, k + 1);
+    cosines_.col(k) = rows.transpose() * c;
+    sines_.col(k) = rows.transpose() * s;
+    const Eigen::ArrayXd power = cosines_.col(k).array().square() + sines_.col(k).array().square();
+    const double over = (power * count / (4 * floor)).maxCoeff();
+    falls = over > surely || (falls && over > hardly);
+    if (falls) last = k;
+  }
+  harmonics_ = std::min(last + 1, known());
+}
+
+Eigen::MatrixXd FourierSeries::at(double t, int harmonics) const {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(cosines_.rows(), 3);
+  out.col(0) = cosines_.col(0);
+  for (int k = 1; k <= harmonics; ++k) {
+    const double w = 2 * pi * frequency_ * k, c = std::cos(w * t), s = std::sin(w * t);
+    const Eigen::VectorXd value = cosines_.col(k) * c + sines_.col(k) * s;
+    out.col(0) += value;
+    out.col(1) += w * (sines_.col(k) * c - cosines_.col(k) * s);
+    out.col(2) -= w * w * value;
+  }
+  return out;
 }
 
 }  // namespace ursula::identification

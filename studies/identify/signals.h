@@ -33,9 +33,32 @@ double quantum(const Eigen::VectorXd& signal);
 /// Returns rows in which a signal stays at its largest or smallest value longer than at any other value.
 std::vector<Eigen::Index> saturatedRows(const Eigen::VectorXd& signal);
 
-/// Returns a motion's bandwidth, Hz. Below it is all but 0.1 % of the acceleration's power above the noise; the largest
-/// of all channels counts.
-double motionBandwidth(const MeasuredLog& log);
+/// Frequencies of a motion, Hz; the largest of all channels counts.
+struct Bandwidth {
+  double most = 0;  ///< below it is all but 0.1 % of the acceleration's power above the noise
+  double end = 0;   ///< the acceleration falls below its noise here
+};
+Bandwidth motionBandwidth(const MeasuredLog& log);
+
+/// One period of equally spaced rows as a finite Fourier series, a channel in each column.
+class FourierSeries {
+ public:
+  FourierSeries() = default;
+  /// Ends with the last harmonic above white noise of this deviation for each channel, not before `least` Hz.
+  FourierSeries(const Eigen::MatrixXd& rows, double step, const Eigen::VectorXd& noise, double least);
+
+  int harmonics() const { return harmonics_; }
+  /// Returns the number of harmonics with their noise.
+  int known() const { return static_cast<int>(cosines_.cols()) - 1; }
+  double frequency() const { return frequency_; }
+  /// Returns value, rate and acceleration in three columns, by the first `harmonics` <= known() harmonics.
+  Eigen::MatrixXd at(double t, int harmonics) const;
+
+ private:
+  double frequency_ = 0;  ///< Hz
+  int harmonics_ = 0;
+  Eigen::MatrixXd cosines_, sines_;  ///< a harmonic in each column; the first cosine is the mean
+};
 
 /// Returns the one-sided power spectral density, unit²/Hz, at k / (2 (size − 1) step) Hz. It uses half-overlapping Hann
 /// windows.
@@ -47,6 +70,12 @@ struct Periods {
   Eigen::Index rows = 0;                       ///< rows of a period
   Eigen::VectorXd motion_noise, effort_noise;  ///< standard deviation of a single row; empty for one period
 };
+
+/// Standard deviation of white noise on each channel of a log's rows.
+struct SampleNoise {
+  Eigen::VectorXd motion, efforts;
+};
+SampleNoise sampleNoise(const MeasuredLog& log, const Periods& periods);
 
 /// Finds the period. If there are two or more, `log` becomes their average.
 Periods averagePeriods(MeasuredLog& log);

@@ -40,6 +40,7 @@ Json jsonOf(const MeasuredNumber& number) {
               {"standard_uncertainty", number.uncertainty},
               {"interval_95", {number.low, number.high}}};
   if (number.tolerance >= 0) out["tolerance"] = number.tolerance;
+  if (number.least_found > 0) out["least_deviation_found"] = number.least_found;
   if (!number.terms.empty()) {
     out["terms"] = Json::array();
     for (const auto& [name, factor] : number.terms) out["terms"].push_back({{"number", name}, {"factor", factor}});
@@ -92,8 +93,7 @@ std::string identifySummary(const IdentifyResult& result) {
   out["filter"] = {{"motion_bandwidth_Hz", result.bandwidth},
                    {"motion_cutoff_Hz", result.state_cut},
                    {"effort_cutoff_Hz", result.effort_cut},
-                   {"instants", result.instants},
-                   {"noise_model_order", result.noise_order}};
+                   {"instants", result.instants}};
   out["delay"] = {{"value_s", result.delay},
                   {"standard_uncertainty_s", result.delay_uncertainty},
                   {"interval_95_s",

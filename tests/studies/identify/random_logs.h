@@ -8,9 +8,6 @@
 
 namespace ursula {
 
-/// The error in the model that judges a log of a random machine.
-enum class RandomWrong { nothing, one_number };
-
 /// A machine of any kind with its log, and its model, which deviates within its tolerances.
 struct RandomLog {
   Scenario model;
@@ -20,7 +17,10 @@ struct RandomLog {
   SyntheticLog how;
   SyntheticRows rows;
 };
-RandomLog randomLog(unsigned seed, RandomWrong wrong);
+/// Makes the log; one number among these paths is off by five tolerances, unless there are none.
+RandomLog randomLog(unsigned seed, const std::vector<std::string>& wrong_among = {});
+/// Returns the paths of masses and mass centres of a random log's model.
+std::vector<std::string> massesAndCenters(const RandomLog& log);
 
 /// Statistics over a number of logs.
 struct LogStatistics {
@@ -30,6 +30,7 @@ struct LogStatistics {
   };
   std::map<std::string, Share> within;  ///< combinations whose true value is in the interval, by group
   Share delay_within, delay_near;       ///< true delay in its interval; delay right to a tenth of a sample
+  Share delay_near_known;               ///< the same if its own uncertainty is at most half of that
   Share right_passed, wrong_named, wrong_failed;
 
   void add(const RandomLog& log, const IdentifyResult& result);

@@ -1,0 +1,86 @@
+#include "studies/identify/noise.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace ursula::identification {
+namespace {
+
+/// So many instants are correlated with each other.
+constexpr Eigen::Index longest_block = 160;
+/// Least noise of efforts, as a share of them: rounding.
+constexpr double least = 1e-9;
+
+}  // namespace
+
+EffortNoise::EffortNoise(const FilteredLog& filtered, const Comparison& comparison) {
+  const FilterPlan& plan = filtered.plan();
+  const double spacing = filtered.step() * static_cast<double>(plan.fine);
+  const FilteredLog::Lines efforts = filtered.effortLines(), motion = filtered.motionLines();
+  memory_.resize(longest_block);
+  for (Eigen::Index lag = 0; lag < longest_block; ++lag) {
+    const double later = static_cast<double>(lag) * spacing;
+    const bool is_near = later < filtered.memory();
+    memory_(lag) = is_near ? efforts.covariance(later)(0, 0) : 0;
+    by_motion_.push_back(is_near || plan.ends == Ends::period ? motion.covariance(later)
+                                                              : Eigen::Matrix3d(Eigen::Matrix3d::Zero()));
+  }
+  const double gain = memory_(0);
+  memory_ /= gain;
+  for (const Segment& segment : comparison.segments) {
+    const Eigen::Index all = segment.end - segment.first, parts = (all + longest_block - 1) / longest_block;
+    for (Eigen::Index part = 0; part < parts; ++part) {
+      const Eigen::Index first = segment.first + all * part / parts, end = segment.first + all * (part + 1) / parts;
+      blocks_.push_back({first, end - first, {}, {}});
+      fill(blocks_.back(), comparison, plan.noise.motion);
+    }
+  }
+  variances_ = Eigen::MatrixXd::Zero(comparison.model.rows(), motor_count);
+  Vector6d samples;
+  for (int k = 0; k < motor_count; ++k)
+    samples(k) = plan.noise.efforts(k) * plan.noise.efforts(k) * gain +
+                 least * least * comparison.model.col(k).cwiseAbs2().mean() + 1e-200;
+  add(samples + comparison.numerical.cwiseAbs2());
+}
+
+/// Adds noise of the motion with these deviations of its channels.
+void EffortNoise::fill(Block& block, const Comparison& comparison, const Eigen::VectorXd& motion) const {
+  block.covariance = Eigen::MatrixXd::Zero(6 * block.count, 6 * block.count);
+  const Eigen::Index channels = motion.size();
+  for (Eigen::Index i = 0; i < block.count; ++i)
+    for (Eigen::Index j = i; j < block.count; ++j) {
+      const Eigen::Matrix3d& between = by_motion_[static_cast<std::size_t>(j - i)];
+      if (between.isZero(0)) continue;
+      const Eigen::MatrixXd &here = comparison.slopes[static_cast<std::size_t>(block.first + i)],
+                            &there = comparison.slopes[static_cast<std::size_t>(block.first + j)];
+      Matrix6d sum = Matrix6d::Zero();
+      for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b)
+          sum += between(a, b) * here.middleCols(a * channels, channels) * motion.cwiseAbs2().asDiagonal() *
+                 there.middleCols(b * channels, channels).transpose();
+      block.covariance.block<6, 6>(6 * i, 6 * j) = sum;
+      block.covariance.block<6, 6>(6 * j, 6 * i) = sum.transpose();
+    }
+}
+
+void EffortNoise::add(const Vector6d& more) {
+  for (Block& block : blocks_) {
+    for (Eigen::Index i = 0; i < block.count; ++i)
+      for (Eigen::Index j = 0; j < block.count; ++j)
+        block.covariance.block<6, 6>(6 * i, 6 * j).diagonal() += more * memory_(std::abs(j - i));
+    for (Eigen::Index i = 0; i < block.count; ++i)
+      variances_.row(block.first + i) = block.covariance.diagonal().segment<6>(6 * i).transpose();
+    block.factors.compute(block.covariance);
+  }
+}
+
+Eigen::MatrixXd EffortNoise::whitened(const Eigen::MatrixXd& rows) const {
+  Eigen::MatrixXd out = rows;
+  for (const Block& block : blocks_)
+    out.middleRows(6 * block.first, 6 * block.count) =
+        block.factors.matrixL().solve(rows.middleRows(6 * block.first, 6 * block.count));
+  return out;
+}
+
+}  // namespace ursula::identification

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+
+#include "studies/identify/comparison.h"
+
+namespace ursula::identification {
+
+/// Covariance of efforts by noise of the samples of efforts and motion, after the low passes. Instants are correlated
+/// within blocks, and blocks are independent of each other.
+class EffortNoise {
+ public:
+  EffortNoise(const FilteredLog& filtered, const Comparison& comparison);
+
+  /// Returns each motor's variance at each instant, (N·m)² or N²; an instant in each row.
+  const Eigen::MatrixXd& variances() const { return variances_; }
+  /// Adds noise of the efforts' samples: each motor's variances grow by `more`, (N·m)² or N².
+  void add(const Vector6d& more);
+  /// Makes the noise of all rows independent, with deviation 1; six rows for each instant, in the order of time.
+  Eigen::MatrixXd whitened(const Eigen::MatrixXd& rows) const;
+
+ private:
+  struct Block {
+    Eigen::Index first = 0, count = 0;  ///< instants
+    Eigen::MatrixXd covariance;
+    Eigen::LLT<Eigen::MatrixXd> factors;
+  };
+  void fill(Block& block, const Comparison& comparison, const Eigen::VectorXd& motion) const;
+
+  Eigen::VectorXd memory_;                  ///< correlation of the efforts' noise by the number of instants between
+  std::vector<Eigen::Matrix3d> by_motion_;  ///< covariance of value, rate and acceleration, likewise, 3 × 3
+  std::vector<Block> blocks_;
+  Eigen::MatrixXd variances_;
+};
+
+}  // namespace ursula::identification
