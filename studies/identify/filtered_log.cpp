@@ -7,12 +7,14 @@ namespace ursula::identification {
 namespace {
 
 /// end_share is the share of an open log that the low passes may take at each end.
-constexpr double end_share = 0.12, of_bandwidth = 4, of_end = 1.67, enough_of_bandwidth = 2.5, of_rate = 0.18,
+constexpr double end_share = 0.12, of_bandwidth = 4, beyond_end = 1.2, enough_of_bandwidth = 2.5, of_rate = 0.18,
                  support = 3.6;
 /// Cut-off of the low pass that shows what the motion's own takes, as a multiple of that one's.
 constexpr double sharper = 1.6, beyond = 1.7;  ///< little passes beyond this multiple of a cut-off
 /// So many instants tell noise from the fit.
-constexpr double wanted_instants = 150;
+constexpr double wanted_instants = 100;
+/// Cut-off of the motion's low pass in units of the efforts': it passes all that those show.
+constexpr double apart = 2.5;
 /// A machine rests below this share of the largest rate.
 constexpr double rest_share = 0.02;
 
@@ -68,16 +70,15 @@ FilterPlan planFilters(const MeasuredLog& log, Ends ends, const SampleNoise& noi
   out.ends = ends;
   out.noise = noise;
   out.bandwidth = bandwidth.most;
+  const double shortest = ends == Ends::open ? support / (end_share * duration) : 0,
+               wanted = std::min(beyond_end * bandwidth.end, of_bandwidth * bandwidth.most);
+  out.effort_cut = std::min(std::max({wanted, shortest, 0.5 * wanted_instants / duration}), most / apart);
+  out.state_cut = apart * out.effort_cut;
   if (ends == Ends::period) {
     out.series = FourierSeries(log.motion, log.step, noise.motion, bandwidth.most);
     out.state_cut = (out.series.harmonics() + 0.5) * out.series.frequency();
-  } else {
-    const double shortest = ends == Ends::open ? support / (end_share * duration) : 0;
-    out.state_cut = std::min(std::max({of_end * bandwidth.end, shortest, 2 / duration}), most);
   }
   out.too_slow = most < enough_of_bandwidth * out.bandwidth;
-  out.effort_cut =
-      std::min(std::max(std::min(out.state_cut, of_bandwidth * out.bandwidth), 0.5 * wanted_instants / duration), most);
   out.coarse = std::max<Eigen::Index>(
       1, static_cast<Eigen::Index>(std::min(0.125 / out.effort_cut, 0.3 / out.state_cut) / log.step));
   out.fine =

@@ -100,11 +100,15 @@ void addCombinations(const BaseFit& fit, const Comparison& comparison, IdentifyR
     number.unit = first.unit;
     number.nominal = stated(base.nominal);
     number.value = base.value;
-    if (first.kind == DirectionKind::delay) number.value = out.delay;
     number.uncertainty = base.deviation;
-    number.low = number.value - fit.quantile * base.deviation;
-    number.high = number.value + fit.quantile * base.deviation;
     auto terms = base.terms;
+    if (first.kind == DirectionKind::delay) {  // it has its own fit, within the numbers' tolerances
+      number.value = out.delay;
+      number.uncertainty = out.delay_uncertainty;
+      terms.resize(1);
+    }
+    number.low = number.value - fit.quantile * number.uncertainty;
+    number.high = number.value + fit.quantile * number.uncertainty;
     std::sort(terms.begin() + 1, terms.end(), [&](const auto& a, const auto& b) {
       const auto size = [&](const auto& term) {
         return std::abs(term.second) * comparison.directions[static_cast<std::size_t>(term.first)].plausible;

@@ -32,6 +32,8 @@ TEST_F(Identify, rightModelIsWithinItsUncertainty) {
   EXPECT_EQ(result.periods, 2);
   EXPECT_NEAR(result.delay * how.rate, 2.3, 0.1);
   EXPECT_GT(result.combinations.size(), 20U);
+  EXPECT_LT(result.validation_fitted, 1.5);
+  EXPECT_GT(result.validation_fitted, 0.5);
   for (const MotorAgreement& motor : result.motors) {
     EXPECT_GT(motor.u_D, 0);
     EXPECT_GT(motor.u_input, 0);

@@ -86,8 +86,24 @@ TEST(Periods, areAveragedAndGiveTheNoise) {
 
 TEST(MotionBandwidth, isWhereTheAccelerationEnds) {
   MeasuredLog log = periodic(1, 1e-4);
-  EXPECT_GT(motionBandwidth(log), 2);
-  EXPECT_LT(motionBandwidth(log), 6);
+  const Bandwidth found = motionBandwidth(log);
+  EXPECT_GT(found.most, 2);
+  EXPECT_LT(found.most, 6);
+  EXPECT_GE(found.end, found.most);
+  EXPECT_LT(found.end, 10);
+}
+
+TEST(FourierSeries, endsWithTheLastHarmonicAboveTheNoise) {
+  MeasuredLog log = periodic(1, 1e-4);
+  const Periods periods = averagePeriods(log);
+  const FourierSeries series(log.motion, log.step, sampleNoise(log, periods).motion, 1);
+  EXPECT_GE(series.harmonics(), 3);
+  EXPECT_LE(series.harmonics(), 5);
+  const double t = 0.21, w = 2 * pi;
+  const Eigen::MatrixXd found = series.at(t, series.harmonics());
+  EXPECT_NEAR(found(0, 0), std::sin(w * t) + 0.3 * std::cos(2 * w * t), 1e-4);
+  EXPECT_NEAR(found(0, 1) / w, std::cos(w * t) - 0.6 * std::sin(2 * w * t), 1e-4);
+  EXPECT_NEAR(found(1, 2) / (9 * w * w), -0.1 * std::cos(3 * w * t), 1e-4);
 }
 
 }  // namespace
