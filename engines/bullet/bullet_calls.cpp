@@ -94,7 +94,7 @@ class BulletCalls : public LoopEngine {
     return {of("default", usual_step, usual_iterations, usual_erp, usual_cfm),
             of("many iterations", usual_step, 1000, usual_erp, usual_cfm),
             of("direct solver", usual_step, 0, usual_erp, usual_cfm),
-            of("direct, a short step", 0.001, 0, usual_erp, usual_cfm)};
+            of("direct and short step", 0.001, 0, usual_erp, usual_cfm)};
   }
 
   std::unique_ptr<SteppedLoop> stepped(const Rigidity& rigidity) const override {

@@ -213,7 +213,7 @@ TEST(Engines, looserLoopsSagFarther) {
       EXPECT_GT(named(engine, "default").gap, 2 * named(engine, "all of the error a step").gap);
     }
     if (engine.kind->name == std::string("Bullet")) {
-      EXPECT_GT(named(engine, "default").gap, 5 * named(engine, "direct, a short step").gap);
+      EXPECT_GT(named(engine, "default").gap, 5 * named(engine, "direct and short step").gap);
     }
   }
 }
