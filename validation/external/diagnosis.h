@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "model/scenario.h"
+#include "validation/evidence/external_samples.h"
 #include "validation/external/asked_apart.h"
-#include "validation/external/external_samples.h"
 #include "validation/verdict/result.h"
 
 namespace ursula {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engines/simbody/simbody_loop.h"
-#include "validation/external/external_samples.h"
+#include "validation/evidence/external_samples.h"
 #include "validation/replay/windows.h"
 
 namespace ursula {

@@ -1,4 +1,4 @@
-#include "validation/external/external_samples.h"
+#include "validation/evidence/external_samples.h"
 
 #include <algorithm>
 #include <cmath>

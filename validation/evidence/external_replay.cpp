@@ -1,4 +1,4 @@
-#include "validation/external/external_replay.h"
+#include "validation/evidence/external_replay.h"
 
 #include <fmt/format.h>
 
