@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "base/dense.h"
-#include "validation/external/body_terms.h"
 #include "validation/external/tried_causes.h"
+#include "validation/subject/body_terms.h"
 
 namespace ursula {
 namespace {

@@ -4,8 +4,8 @@
 #include <tuple>
 #include <utility>
 
-#include "validation/external/body_terms.h"
 #include "validation/external/tried_causes.h"
+#include "validation/subject/body_terms.h"
 
 namespace ursula {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "validation/external/body_terms.h"
+#include "validation/subject/body_terms.h"
 
 namespace ursula {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "validation/external/body_terms.h"
 #include "validation/external/cause.h"
 #include "validation/external/hypotheses.h"
+#include "validation/subject/body_terms.h"
 
 // The causes that hypotheses.cpp tries on efforts that are wrong, a source for each group.
 

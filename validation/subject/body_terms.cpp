@@ -1,4 +1,4 @@
-#include "validation/external/body_terms.h"
+#include "validation/subject/body_terms.h"
 
 #include <Eigen/LU>
 #include <cmath>
