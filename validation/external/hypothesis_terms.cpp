@@ -9,7 +9,6 @@ namespace ursula {
 namespace {
 
 using Rows = std::vector<Vector6d>;
-using Change = std::function<void(ManipulatorParameters&)>;
 using MotionChange = std::function<void(Motion<double>&)>;
 
 Rows torquesOf(const Subject& subject, const std::vector<Motion<double>>& motions) {
@@ -70,7 +69,7 @@ class Collector {
   std::vector<TorqueTerm> terms() { return std::move(terms_); }
 
   /// Adds the effect of a change of the machine: what it removes from the torques (`sign` 1) or adds (−1).
-  void addChange(const std::string& name, const Change& change, double sign) {
+  void addChange(const std::string& name, const std::function<void(ManipulatorParameters&)>& change, double sign) {
     ManipulatorParameters parameters = scenario_.manipulator->parameters();
     change(parameters);
     add(name, {}, sign, [&] { return torquesOf(nocSubject(Manipulator(parameters), scenario_.load), motions_); });
