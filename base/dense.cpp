@@ -16,7 +16,7 @@ Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) { return Solver(matr
 std::optional<EigenPairs> eigenPairs(const Eigen::MatrixXd& matrix) {
   const Solver solver(matrix);
   if (solver.info() != Eigen::Success) return std::nullopt;
-  return EigenPairs{solver.eigenvalues(), solver.eigenvectors(), solver.pseudoEigenvectors()};
+  return EigenPairs{solver.eigenvalues(), solver.eigenvectors()};
 }
 
 int rankOf(const Eigen::MatrixXd& matrix) {

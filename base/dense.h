@@ -13,7 +13,6 @@ Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
 struct EigenPairs {
   Eigen::VectorXcd values;   ///< conjugates follow each other, with the positive imaginary part first
   Eigen::MatrixXcd vectors;  ///< columns of norm 1
-  Eigen::MatrixXd parts;     ///< a real value's vector; real and imaginary part of a pair's in two columns. Not scaled
 };
 
 /// Returns nullopt if the iteration does not converge.

@@ -1,9 +1,9 @@
 #include "report/singular.h"
 
-#include "base/dense.h"
-
 #include <Eigen/Geometry>
 #include <cmath>
+
+#include "base/dense.h"
 
 namespace ursula::report {
 namespace {

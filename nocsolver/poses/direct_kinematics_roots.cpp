@@ -1,7 +1,6 @@
 #include "nocsolver/poses/direct_kinematics_roots.h"
 
-#include "base/dense.h"
-
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
@@ -201,11 +200,11 @@ Roots rootsInChart(const ThreeQuadrics& quadrics, double rounding, int index) {
   Roots none;
   none.pivot = multiplication.pivot;
   if (!(multiplication.pivot > eps) || !multiplication.M.allFinite()) return none;
-  const std::optional<EigenPairs> pairs = eigenPairs(multiplication.M);
-  if (!pairs) return none;
-  const Eigen::Matrix<double, 4, root_count> V = chart(index) * pairs->parts.topRows<4>();
+  const Eigen::EigenSolver<Matrix8d> solver(multiplication.M);
+  if (solver.info() != Eigen::Success) return none;
+  const Eigen::Matrix<double, 4, root_count> V = chart(index) * solver.pseudoEigenvectors().topRows<4>();
   for (int i = 0; i < root_count; ++i) {
-    const double imaginary = pairs->values(i).imag();
+    const double imaginary = solver.eigenvalues()(i).imag();
     if (imaginary == 0) {
       gathering.addReal(V.col(i).normalized());
     } else if (i + 1 < root_count) {
