@@ -36,7 +36,7 @@ HeldFolder::~HeldFolder() {
 
 HeldFolder::HeldFolder(HeldFolder&& from) noexcept : descriptor_(std::exchange(from.descriptor_, -1)) {}
 
-/// From outside in, so that none is held in a folder that goes.
+/// The outermost folder is held first: a swap above would take the inner ones along.
 std::vector<HeldFolder> heldWithFoldersAbove(const std::filesystem::path& folder) {
   std::vector<HeldFolder> held;
   std::filesystem::path at = folder.root_path();

@@ -43,8 +43,7 @@ const std::vector<LoopEngineKind>& loopEngines() {
   static const std::vector<LoopEngineKind> table = {
       {"Simbody", "", alwaysAvailable, simbodyVersion, makeSimbodyCalls, Recipe::open,
        "take calcResidualForceIgnoringConstraints at accelerations that satisfy calcBiasForAccelerationConstraints, "
-       "and "
-       "solve for the motors beside the multipliers of calcGTranspose",
+       "and solve for the motors beside the multipliers of calcGTranspose",
        "calcResidualForceIgnoringConstraints, read at the motors,", false},
       {"maximal coordinates", "", alwaysAvailable, [] { return std::string(); }, makeMaximalCalls, Recipe::no_bias,
        "solve Gᵀλ + Sτ = Mṫ + bias − w at twist rates of Gṫ = γ", "the same with γ left out", false},

@@ -11,7 +11,7 @@
 
 namespace ursula::ode_engine {
 
-/// What ODE's world is told of its constraints.
+/// Softness of ODE's constraints.
 struct Softness {
   double erp = 0;  ///< share of an error that a step corrects
   double cfm = 0;  ///< 1/kg or 1/(kg·m²), times 1/s

@@ -31,7 +31,7 @@ Matrix6d jacobianOf(const Scenario& scenario, const MachineTerms& machine, const
   return out;
 }
 
-/// With b in the platform's frame, as if it were the base's.
+/// The Jacobian of a solver that takes b, given in the platform's frame, for a vector in the base's.
 Matrix6d unturnedJacobian(const Scenario& scenario, const MachineTerms& machine) {
   return jacobianOf(scenario, machine,
                     [&scenario](std::size_t i) { return scenario.manipulator->parameters().legs[i].platform_point; });

@@ -44,7 +44,7 @@ Vector6d measuredAlongTheOther(const Scenario& scenario, const MachineTerms& mac
   return change;
 }
 
-/// The Coriolis acceleration mistaken in the joints' accelerations, in the rods' as well or not.
+/// The solver mistakes the Coriolis acceleration in the joints' accelerations, and perhaps in the rods' too.
 void addCoriolis(EffortCauses& out) {
   const std::tuple<double, CauseKind, const char*> mistakes[] = {{1, CauseKind::missing_term, "left out of"},
                                                                  {0.5, CauseKind::missing_term, "halved in"},
@@ -79,7 +79,7 @@ void addForcesAcross(const Scenario& scenario, EffortCauses& out) {
           });
 }
 
-/// Of rods on carriages: forces along the rods, where those along the rails belong.
+/// The solver gives the forces along the rods of carriages, and not those along the rails.
 void addUndivided(const Scenario& scenario, EffortCauses& out) {
   out.add("the carriages' forces along the rods, not along the rails", {CauseKind::jacobian, "", "all"},
           [&scenario](const MachineTerms& machine) {

@@ -9,7 +9,8 @@
 namespace ursula {
 namespace {
 
-/// Efforts with open loops, their change per kilogram of a leg's soft closure, and what this change is a small rest of.
+/// Efforts with open loops, and their change per kilogram of a leg's soft closure. That change is a small difference of
+/// forces of size `rounded` per kilogram, and has their rounding.
 struct SoftLeg {
   Vector3d open, per_kilogram;
   double rounded = 0;
@@ -31,7 +32,7 @@ SoftLeg softLeg(const OpenLeg& leg, const Motion<double>& motion) {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// Efforts as open loops and one closure a leg give them.
+/// Fits the efforts of open loops with one soft closure for each leg.
 class SoftFit {
  public:
   SoftFit(const Scenario& scenario, const TorqueResidual& data)

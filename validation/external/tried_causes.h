@@ -65,8 +65,8 @@ std::vector<Cause> termCauses(const Scenario& scenario);
 /// A wrong Jacobian, open loops or loops closed by least squares, missing J̇. `scenario` must outlive them.
 std::vector<Cause> loopCauses(const Scenario& scenario);
 
-/// Of legs that slide, UPS and PUS: mass centres measured from the joint at the leg's other end, forces along the wrong
-/// line. `scenario` must outlive them.
+/// Mistakes with sliding legs, UPS and PUS: a mass centre is measured from the joint at the leg's other end, or a force
+/// is along the wrong line. `scenario` must outlive them.
 std::vector<Cause> slidingCauses(const Scenario& scenario);
 
 }  // namespace ursula

@@ -14,7 +14,7 @@
 //   n_x = J_x χ̈ + D α̇² + …,  n_y = −K α̈ + 2 D α̇ χ̇ + …                                                        (d)
 //
 // Below, the links' loads are projected on a leg's coordinates, in the axes of the leg's plane. They need the rates of
-// leg_rates.h; `base` is −g along x, u, z of the plane. The recursion of chain_motion.h is the independent reference.
+// leg_rates.h; `base` is −g along x, u, z of the plane. noc/ is the independent reference.
 
 namespace ursula::kernel {
 

@@ -1,8 +1,7 @@
 #pragma once
 
 // Rates and accelerations of a leg's coordinates from B's motion, in closed form in the axes of the leg's plane.
-// Internal. The recursion of chain_motion.h, which uses only the joints' axes, is the independent reference; tests
-// compare both to rounding.
+// Internal. legs/, which works with angles, is the independent reference; tests compare both to rounding.
 //
 // Along x, u, z of the plane v_B = h and a_B = a; the rows of the legs' maps in plane_leg.h give the rates.
 

@@ -7,8 +7,8 @@
 #include "nocsolver/fast/kernels/machine_model.h"
 
 // A leg in the plane that contains B and turns about −u by α (for RUS the rod's plane, turning by φ + ψ). It computes
-// displacement and map, with angles only as sines and cosines. Internal. leg_forces.h shows the plane's use. The
-// kernels of chain_frame.h compute the same in B from angles; they are the independent reference.
+// displacement and map, with angles only as sines and cosines. Internal. leg_forces.h shows the plane's use. legs/
+// computes the same in B from angles, and is the independent reference.
 //
 // Components are along x, u, z of the plane: from A to B (0, k_y, r), v_B = h. Rows of the map, q̇ⱼ = kⱼ · h:
 //   UPS  φ: (−1/r, 0, 0)   ψ: (0, −S, C)/d                  d: (0, C, S)

@@ -1,7 +1,7 @@
 #pragma once
 
 // A leg's mass matrix in its coordinates, in the axes of its plane. Internal. It holds the partial derivatives of
-// leg_forces.h by the accelerations, in closed form; chain_motion.h computes the same from partial velocities.
+// leg_forces.h by the accelerations, in closed form; noc/ computes the same from T.
 //
 // For a link along [0, C, S], with I about any point of its axis, the products about x and the plane's axis are: P =
 // I_xy S + I_xz C, J = I_yy S² + 2 I_yz S C + I_zz C².
