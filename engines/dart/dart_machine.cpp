@@ -6,6 +6,7 @@
 #include <dart/dynamics/PrismaticJoint.hpp>
 #include <dart/dynamics/RevoluteJoint.hpp>
 #include <dart/dynamics/UniversalJoint.hpp>
+#include <vector>
 
 #include "engines/dart/dart_machine_internal.h"
 #include "engines/leg_chain.h"
@@ -21,6 +22,7 @@ dd::BodyNode::AspectProperties bodyOf(const std::string& name, const Link& link,
   return out;
 }
 
+/// Joins the body to its parent by the joint's kind and properties, at `place` in the parent.
 template <class Kind>
 dd::BodyNode* add(const dd::SkeletonPtr& skeleton, dd::BodyNode* parent, typename Kind::Properties joint,
                   const Eigen::Isometry3d& place, const dd::BodyNode::AspectProperties& body) {
@@ -42,6 +44,22 @@ dd::UniversalJoint::Properties universal(const Vector3d& first, const Vector3d& 
   return out;
 }
 
+/// Adds a leg's body behind its one or two joints; two make a universal joint.
+dd::BodyNode* addBody(const dd::SkeletonPtr& skeleton, dd::BodyNode* parent, const LegChain& chain, std::size_t body,
+                      const std::string& name) {
+  const auto properties = bodyOf(name, chain.links[body], chain.centers[body]);
+  std::vector<LegChain::Joint> joints;
+  for (std::size_t j = 0; j < 3; ++j)
+    if (chain.bodyOf(j) == body) joints.push_back(chain.joints[j]);
+  const LegChain::Joint& first = joints.front();
+  if (joints.size() == 2)
+    return add<dd::UniversalJoint>(skeleton, parent, universal(first.axis, joints.back().axis), first.place,
+                                   properties);
+  if (first.slides)
+    return add<dd::PrismaticJoint>(skeleton, parent, about<dd::PrismaticJoint>(first.axis), first.place, properties);
+  return add<dd::RevoluteJoint>(skeleton, parent, about<dd::RevoluteJoint>(first.axis), first.place, properties);
+}
+
 Eigen::Isometry3d placeOf(const Matrix3d& R, const Vector3d& at) {
   Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
   out.linear() = R;
@@ -61,37 +79,12 @@ DartMachine::DartMachine(const Manipulator& from) : manipulator(from), skeleton(
 }
 
 void DartMachine::addLeg(const Leg& leg, const std::string& index) {
-  const auto first = bodyOf("proximal" + index, leg.proximal, leg.proximalCenter());
-  const auto second = bodyOf("distal" + index, leg.distal, leg.distalCenter());
-  const Matrix3d frame = fixedFrame(leg), one = Matrix3d::Identity();
-  const auto at_A = [&leg](const Matrix3d& R) { return placeOf(R, leg.base_point); };
-  const Vector3d x = Vector3d::UnitX(), y = Vector3d::UnitY(), z = Vector3d::UnitZ(), R = leg.proximal.length * z;
+  const LegChain chain = chainOf(leg);
   DartLeg out;
-  dd::BodyNode* proximal = nullptr;
-  switch (leg.kind) {
-    case LegKind::URS:
-      proximal = add<dd::UniversalJoint>(skeleton, nullptr, universal(-z, x), at_A(frame * alongAxis()), first);
-      out.distal =
-          add<dd::RevoluteJoint>(skeleton, proximal, about<dd::RevoluteJoint>(x),
-                                 placeOf(Eigen::Quaterniond(0, 1, 0, 0).toRotationMatrix(), R), second);  // half a turn
-      break;
-    case LegKind::UPS:
-      proximal = add<dd::UniversalJoint>(skeleton, nullptr, universal(-z, x), at_A(frame * alongAxis()), first);
-      out.distal = add<dd::PrismaticJoint>(skeleton, proximal, about<dd::PrismaticJoint>(z),
-                                           placeOf(one, -leg.distal.length * z), second);
-      break;
-    case LegKind::RUS:
-      proximal = add<dd::RevoluteJoint>(skeleton, nullptr, about<dd::RevoluteJoint>(-y), at_A(frame), first);
-      out.distal = add<dd::UniversalJoint>(skeleton, proximal, universal(-y, -x), placeOf(one, R), second);
-      break;
-    case LegKind::PUS:
-      proximal = add<dd::PrismaticJoint>(skeleton, nullptr, about<dd::PrismaticJoint>(y), at_A(frame), first);
-      out.distal =
-          add<dd::UniversalJoint>(skeleton, proximal, universal(-z, x), placeOf(alongAxis(), Vector3d::Zero()), second);
-      break;
-  }
+  dd::BodyNode* proximal = addBody(skeleton, nullptr, chain, 0, "proximal" + index);
+  out.distal = addBody(skeleton, proximal, chain, 1, "distal" + index);
   out.joints = {proximal->getParentJoint(), out.distal->getParentJoint()};
-  out.tip = leg.distal.length * z;
+  out.tip = chain.tip;
   legs.push_back(out);
 }
 

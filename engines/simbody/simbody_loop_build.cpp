@@ -1,8 +1,5 @@
-// Builds the closed loop. Universal turns about its x, then y; Pin about z; Slider moves along x. For URS φ turns about
-// −u, ψ and θ about x. For UPS d moves along e. For RUS φ and ψ turn about −u, θ about −x₂. For PUS d moves along u, ψ
-// turns about −u, θ about x. The links' body frames are G = [x, e × x, e] and H = [x, s × x, s] of the paper's (40)
-// (for a carriage [x̂, u, ẑ]). Their origins are at the links' first ends, so the raw inertias apply unchanged. Rotors
-// are bodies as well, so Simbody's own dynamics, energy and integrators include them.
+// Builds the closed loop: platform, balls, rotors and forces; simbody_loop_legs.cpp has the legs. Rotors are bodies as
+// well, so Simbody's own dynamics, energy and integrators include them.
 
 #include <fmt/format.h>
 
@@ -13,38 +10,6 @@
 
 namespace ursula {
 namespace {
-
-/// Simbody undoes the shift again, and refuses the result if rounding invalidates it.
-SimTK::MassProperties massProperties(double mass, const Vector3d& center, const Matrix3d& about_center) try {
-  const SimTK::Inertia central(about_center(0, 0), about_center(1, 1), about_center(2, 2), about_center(0, 1),
-                               about_center(0, 2), about_center(1, 2));
-  const SimTK::MassProperties out(mass, toSimTK(center), central.shiftFromMassCenter(-toSimTK(center), mass));
-  static_cast<void>(out.calcCentralInertia());
-  return out;
-} catch (const SimTK::Exception::Base&) {
-  throw std::domain_error(
-      fmt::format("Simbody cannot hold a body of {:.6g} kg whose center of mass is {:.6g} m from its origin: its "
-                  "moments of inertia of {:.6g} kg m^2 are lost beside {:.6g} kg m^2",
-                  mass, center.norm(), about_center.diagonal().maxCoeff(), mass * center.squaredNorm()));
-}
-
-SimTK::Body::Rigid proximalBody(const Leg& leg) {
-  return SimTK::Body::Rigid(massProperties(leg.proximal.mass, leg.proximalCenter(), leg.proximal.inertia));
-}
-
-SimTK::Body::Rigid distalBody(const Leg& leg) {
-  return SimTK::Body::Rigid(massProperties(leg.distal.mass, leg.distalCenter(), leg.distal.inertia));
-}
-
-/// A frame in axes of a body.
-SimTK::Transform frameOf(const Vector3d& x, const Vector3d& y, const Vector3d& z,
-                         const Vector3d& origin = Vector3d::Zero()) {
-  Matrix3d R;
-  R << x, y, z;
-  return {toSimTK(R), toSimTK(origin)};
-}
-
-const Vector3d e_x = Vector3d::UnitX(), e_y = Vector3d::UnitY(), e_z = Vector3d::UnitZ();
 
 /// Supplies torques, Coulomb friction and load to Simbody.
 class DriverForce : public SimTK::Force::Custom::Implementation {
@@ -91,13 +56,17 @@ void addDamper(SimTK::GeneralForceSubsystem& forces, const SimTK::MobilizedBody&
 
 }  // namespace
 
-Matrix3d baseFrame(const Vector3d& axis) {
-  const Vector3d u = axis.normalized();
-  const bool vertical = u.cross(Vector3d::UnitZ()).norm() < 1e-10;
-  const Vector3d x = u.cross(vertical ? Vector3d(Vector3d::UnitY()) : Vector3d(Vector3d::UnitZ())).normalized();
-  Matrix3d frame;
-  frame << -u, x, x.cross(u);
-  return frame;
+SimTK::MassProperties massProperties(double mass, const Vector3d& center, const Matrix3d& about_center) try {
+  const SimTK::Inertia central(about_center(0, 0), about_center(1, 1), about_center(2, 2), about_center(0, 1),
+                               about_center(0, 2), about_center(1, 2));
+  const SimTK::MassProperties out(mass, toSimTK(center), central.shiftFromMassCenter(-toSimTK(center), mass));
+  static_cast<void>(out.calcCentralInertia());
+  return out;
+} catch (const SimTK::Exception::Base&) {
+  throw std::domain_error(
+      fmt::format("Simbody cannot hold a body of {:.6g} kg whose center of mass is {:.6g} m from its origin: its "
+                  "moments of inertia of {:.6g} kg m^2 are lost beside {:.6g} kg m^2",
+                  mass, center.norm(), about_center.diagonal().maxCoeff(), mass * center.squaredNorm()));
 }
 
 Mechanism::Place Mechanism::place(int joint, int leg) const {
@@ -140,61 +109,6 @@ SimbodyLoop::Impl::Impl(const Manipulator& manipulator, Topology topology_, std:
   open = state;
   for (const SimTK::Constraint::Ball& ball : mechanism.balls) ball.disable(open);
   system.realizeModel(open);
-}
-
-void SimbodyLoop::Impl::addLeg(int leg) {
-  const Leg& from = parameters.leg(leg);
-  switch (from.kind) {
-    case LegKind::URS:
-    case LegKind::UPS:
-      addUniversalLeg(from);
-      break;
-    case LegKind::RUS:
-      addCrank(from);
-      break;
-    case LegKind::PUS:
-      addCarriage(from);
-      break;
-  }
-  mechanism.joints_of_proximal.push_back(rowOf(from.kind).joints_of_proximal);
-}
-
-void SimbodyLoop::Impl::addUniversalLeg(const Leg& from) {
-  // ψ = 0 lays e along u: Universal's axes −u, x, z are then −e, x, −(e × x).
-  SimTK::MobilizedBody::Universal first(matter.Ground(),
-                                        SimTK::Transform(toSimTK(baseFrame(from.base_axis)), toSimTK(from.base_point)),
-                                        proximalBody(from), frameOf(-e_z, e_x, -e_y));
-  mechanism.proximal.push_back(first);
-  if (from.kind == LegKind::UPS) {
-    // d = s puts the rod's inner end at A.
-    mechanism.distal.push_back(SimTK::MobilizedBody::Slider(first, frameOf(e_z, e_x, e_y, -from.distal.length * e_z),
-                                                            distalBody(from), frameOf(e_z, e_x, e_y)));
-    return;
-  }
-  // Pin's z is x of the leg. θ = 0 folds the leg: s = −e.
-  mechanism.distal.push_back(SimTK::MobilizedBody::Pin(first, frameOf(e_y, e_z, e_x, from.proximal.length * e_z),
-                                                       distalBody(from), frameOf(-e_y, -e_z, e_x)));
-}
-
-void SimbodyLoop::Impl::addCrank(const Leg& from) {
-  const Matrix3d base = baseFrame(from.base_axis);
-  SimTK::MobilizedBody::Pin crank(matter.Ground(), frameOf(base.col(1), base.col(2), base.col(0), from.base_point),
-                                  proximalBody(from), frameOf(e_x, e_z, -e_y));
-  mechanism.proximal.push_back(crank);
-  // ψ = θ = 0 lays the rod along the crank.
-  mechanism.distal.push_back(SimTK::MobilizedBody::Universal(
-      crank, frameOf(-e_y, -e_x, -e_z, from.proximal.length * e_z), distalBody(from), frameOf(-e_y, -e_x, -e_z)));
-}
-
-void SimbodyLoop::Impl::addCarriage(const Leg& from) {
-  const Matrix3d base = baseFrame(from.base_axis);
-  SimTK::MobilizedBody::Slider carriage(matter.Ground(),
-                                        frameOf(-base.col(0), base.col(2), base.col(1), from.base_point),
-                                        proximalBody(from), frameOf(e_y, e_z, e_x));
-  mechanism.proximal.push_back(carriage);
-  // θ = 0 lays the rod along the rail.
-  mechanism.distal.push_back(
-      SimTK::MobilizedBody::Universal(carriage, frameOf(-e_y, e_x, e_z), distalBody(from), frameOf(-e_z, e_x, -e_y)));
 }
 
 void SimbodyLoop::Impl::addPlatform() {

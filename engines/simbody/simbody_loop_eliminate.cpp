@@ -27,33 +27,6 @@ struct LegClosure {
   Vector3d bias;  ///< a_P − a
 };
 
-/// The velocity of B per unit rates of the leg's joints, with axes from Simbody.
-Matrix3d jacobianOf(const Leg& leg, const SimTK::State& state, const SimTK::MobilizedBody& first,
-                    const SimTK::MobilizedBody& second, const Vector3d& from_A, const Vector3d& to_B) {
-  const auto base = [&](int k) {
-    return toEigen(SimTK::Vec3(first.getInboardFrame(state).R().getAxisUnitVec(SimTK::CoordinateAxis(k))));
-  };
-  const Vector3d x = toEigen(SimTK::Vec3(second.getBodyRotation(state).x()));
-  Matrix3d J;
-  switch (leg.kind) {
-    case LegKind::URS: {
-      const Vector3d minus_u = base(0), x_1 = toEigen(SimTK::Vec3(first.getBodyRotation(state).x()));
-      J << minus_u.cross(from_A), x_1.cross(from_A), x_1.cross(to_B);
-      break;
-    }
-    case LegKind::UPS:
-      J << base(0).cross(from_A), x.cross(from_A), toEigen(SimTK::Vec3(second.getBodyRotation(state).z()));
-      break;
-    case LegKind::RUS:
-      J << base(2).cross(from_A), base(2).cross(to_B), to_B.cross(x);
-      break;
-    case LegKind::PUS:
-      J << base(0), to_B.cross(base(0)), x.cross(to_B);
-      break;
-  }
-  return J;
-}
-
 Vector3d centripetal(const Vector3d& omega, const Vector3d& arm) { return omega.cross(omega.cross(arm)); }
 
 LegClosure closureOf(const Mechanism& mechanism, const SimTK::State& state, std::size_t i, const Leg& leg,
@@ -64,7 +37,7 @@ LegClosure closureOf(const Mechanism& mechanism, const SimTK::State& state, std:
   const Vector3d from_A = R + to_B - A;
   const Vector3d arm = toEigen(mechanism.platform.getBodyRotation(state)) * leg.platform_point;
   LegClosure out;
-  out.J = jacobianOf(leg, state, first, second, from_A, to_B);
+  out.J = legJacobian(leg, state, first, second, from_A, to_B);
   out.P.leftCols<3>() << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0;
   out.P.rightCols<3>().setIdentity();
   const SimTK::SpatialVec& second_at_rest = at_rest[second.getMobilizedBodyIndex()];

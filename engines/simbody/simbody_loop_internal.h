@@ -87,6 +87,14 @@ Matrix3d baseFrame(const Vector3d& axis);
 /// baseFrame of its axis.
 std::optional<std::array<double, 3>> legGeometry(const Leg& leg, const Matrix3d& base, const Vector3d& d);
 
+/// Returns the velocity of B per unit rates of the leg's joints; axes are Simbody's. `first` and `second` are the leg's
+/// bodies, `from_A` and `to_B` lead to B from A and from the second body's origin, in B.
+Matrix3d legJacobian(const Leg& leg, const SimTK::State& state, const SimTK::MobilizedBody& first,
+                     const SimTK::MobilizedBody& second, const Vector3d& from_A, const Vector3d& to_B);
+
+/// Simbody undoes the shift to the body's origin again. Throws std::domain_error if rounding invalidates the result.
+SimTK::MassProperties massProperties(double mass, const Vector3d& center, const Matrix3d& about_center);
+
 /// [moment about P; force] of the load in B for the platform's pose in `state`, realized to Position.
 SimTK::SpatialVec loadOnPlatform(const Load& load, const Mechanism& mechanism, const SimTK::State& state);
 
