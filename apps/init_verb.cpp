@@ -56,9 +56,10 @@ void addInit(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<InitOptions>();
   CLI::App* verb = app.add_subcommand("init", "Writes a commented scenario to start from; never overwrites");
   verb->add_option("file", options->file, "New scenario file (TOML); - for standard output")->required();
-  verb->add_option("--kind", options->kind,
-                   "Kind of the legs: URS (the paper's), UPS (telescopic), RUS (crank and rod), PUS (carriage and rod)")
-      ->capture_default_str();
+  std::string kinds;
+  for (const LegKindRow& row : leg_kinds)
+    kinds += fmt::format("{}{} ({})", kinds.empty() ? "" : ", ", row.name, row.words);
+  verb->add_option("--kind", options->kind, "Kind of the legs: " + kinds)->capture_default_str();
   verb->callback([options, &run] { run = [options] { return init(*options); }; });
 }
 

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <array>
+#include <type_traits>
 
 namespace ursula {
 
 /// The three joints from the base to the platform's spherical joint: universal–revolute, universal–prismatic,
 /// revolute–universal, prismatic–universal.
 enum class LegKind { URS, UPS, RUS, PUS };
-constexpr std::size_t leg_kind_count = 4;
 
 /// The coordinates of a leg's joints; φ, ψ, θ are angles, d is a length.
 enum class Coordinate { phi, psi, theta, d };
@@ -24,6 +24,8 @@ constexpr const char* nameOf(Coordinate coordinate) {
 /// add a kind.
 struct LegKindRow {
   const char* name;
+  const char* words;                      ///< "telescopic"
+  const char* joints;                     ///< "universal joint, cylinder and rod, ball"
   std::array<Coordinate, 3> coordinates;  ///< from the base to the tip
   int joints_of_proximal;                 ///< number of coordinates before the proximal link
   std::size_t actuated;                   ///< index of the coordinate that a motor drives by default
@@ -35,13 +37,55 @@ struct LegKindRow {
   constexpr bool isTelescopic() const { return slides(coordinates[2]); }
 };
 
-inline constexpr std::array<LegKindRow, leg_kind_count> leg_kinds = {{
-    {"URS", {Coordinate::phi, Coordinate::psi, Coordinate::theta}, 2, 0, "sin theta"},
-    {"UPS", {Coordinate::phi, Coordinate::psi, Coordinate::d}, 2, 2, nullptr},
-    {"RUS", {Coordinate::phi, Coordinate::psi, Coordinate::theta}, 1, 0, "sin psi"},
-    {"PUS", {Coordinate::d, Coordinate::psi, Coordinate::theta}, 1, 0, "cos theta"},
-}};
+/// All kinds, in the order of LegKind.
+inline constexpr std::array leg_kinds = {
+    LegKindRow{"URS",
+               "the paper's",
+               "universal joint, pin at the knee, ball",
+               {Coordinate::phi, Coordinate::psi, Coordinate::theta},
+               2,
+               0,
+               "sin theta"},
+    LegKindRow{"UPS",
+               "telescopic",
+               "universal joint, cylinder and rod, ball",
+               {Coordinate::phi, Coordinate::psi, Coordinate::d},
+               2,
+               2,
+               nullptr},
+    LegKindRow{"RUS",
+               "crank and rod",
+               "pin, universal joint, ball",
+               {Coordinate::phi, Coordinate::psi, Coordinate::theta},
+               1,
+               0,
+               "sin psi"},
+    LegKindRow{"PUS",
+               "carriage and rod",
+               "slide, universal joint, ball",
+               {Coordinate::d, Coordinate::psi, Coordinate::theta},
+               1,
+               0,
+               "cos theta"},
+};
+constexpr std::size_t leg_kind_count = leg_kinds.size();
 
 constexpr const LegKindRow& rowOf(LegKind kind) { return leg_kinds[static_cast<std::size_t>(kind)]; }
+
+/// Calls f with the kind as a constant.
+template <class F>
+auto withKind(LegKind kind, const F& f) {
+  switch (kind) {
+    case LegKind::UPS:
+      return f(std::integral_constant<LegKind, LegKind::UPS>());
+    case LegKind::RUS:
+      return f(std::integral_constant<LegKind, LegKind::RUS>());
+    case LegKind::PUS:
+      return f(std::integral_constant<LegKind, LegKind::PUS>());
+    case LegKind::URS:
+      break;
+  }
+  return f(std::integral_constant<LegKind, LegKind::URS>());
+}
 
 }  // namespace ursula

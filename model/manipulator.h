@@ -59,7 +59,7 @@ struct Leg {
   /// Whether a motor drives the coordinate.
   bool drives(Coordinate coordinate) const;
   /// The axis of the proximal link's frame along its line; for a carriage that is û.
-  int proximalLine() const { return kind == LegKind::PUS ? 1 : 2; }
+  int proximalLine() const { return rowOf(kind).hasCarriage() ? 1 : 2; }
   /// Mass centres relative to the links' first ends, in the links' frames.
   Vector3d proximalCenter() const {
     return proximal.off_line + proximal.center_of_mass * Vector3d::Unit(proximalLine());

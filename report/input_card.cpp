@@ -54,15 +54,14 @@ std::string frictionText(const JointFriction& friction, LegKind kind, const char
 
 /// The legs in words: the kind, then the driven coordinates.
 std::string kindText(const Leg& leg) {
-  static constexpr std::array<const char*, leg_kind_count> words = {
-      "URS: universal joint, pin at the knee, ball", "UPS: telescopic, universal joint, cylinder and rod, ball",
-      "RUS: crank and rod, pin, universal joint, ball", "PUS: carriage and rod, slide, universal joint, ball"};
+  const LegKindRow& kind = rowOf(leg.kind);
+  // The paper's kind has a name of its own.
+  const std::string words = leg.kind == LegKind::URS ? kind.joints : fmt::format("{}, {}", kind.words, kind.joints);
   std::string driven;
   for (std::size_t j = 0; j < 3; ++j)
     if (leg.actuated[j])
       driven += (driven.empty() ? "" : " and ") + std::string(symbol(rowOf(leg.kind).coordinates[j]));
-  return fmt::format("{}; {}", words[static_cast<std::size_t>(leg.kind)],
-                     driven.empty() ? "no motor" : "a motor on " + driven);
+  return fmt::format("{}: {}; {}", kind.name, words, driven.empty() ? "no motor" : "a motor on " + driven);
 }
 
 std::string loadText(const Load* load) {

@@ -35,29 +35,13 @@ struct Structure {
   }
 };
 
-/// The text for a kind of leg: its joints, and the distal link's rotation in the proximal one at coordinates zero.
-struct KindText {
-  const char* on_proximal;
-  const char* quaternion;  ///< rotation of the distal link
-  const char* on_distal;
-};
-
-constexpr std::array<KindText, leg_kind_count> kind_texts = {{
-    // URS: θ = 0 folds the leg, s = −e: half a turn about x.
-    {R"(<joint axis="0 0 -1"/><joint axis="1 0 0"/>)", "0 1 0 0", R"(<joint axis="1 0 0"/>)"},
-    {R"(<joint axis="0 0 -1"/><joint axis="1 0 0"/>)", "1 0 0 0", R"(<joint type="slide" axis="0 0 1"/>)"},
-    {R"(<joint axis="0 -1 0"/>)", "1 0 0 0", R"(<joint axis="0 -1 0"/><joint axis="-1 0 0"/>)"},
-    // PUS: θ = 0 lays the rod along u, the carriage's y: a quarter turn about −x.
-    {R"(<joint type="slide" axis="0 1 0"/>)", "1 -1 0 0", R"(<joint axis="0 0 -1"/><joint axis="1 0 0"/>)"},
-}};
-
 /// The inertial numbers are placeholders that get overwritten.
 std::string describe(const Structure& structure) {
   const std::vector<LegKind>& kinds = structure.kinds;
   const std::string inertial = R"(<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>)";
   std::string text = R"(<mujoco><worldbody>)";
   for (std::size_t leg = 0; leg < kinds.size(); ++leg) {
-    const KindText& kind = kind_texts[static_cast<std::size_t>(kinds[leg])];
+    const KindText& kind = textOf(kinds[leg]);
     text += fmt::format(R"(<body name="proximal{0}">{1}{2}<body name="distal{0}" quat="{3}">{1}{4})"
                         R"(<site name="leg{0}"/></body></body>)",
                         leg, inertial, kind.on_proximal, kind.quaternion, kind.on_distal);
@@ -149,7 +133,7 @@ void writeInertia(mjModel& model, int body, double mass, const Vector3d& center,
 
 void writeLeg(mjModel& model, int index, const Leg& leg, const Vector3d& origin) {
   const int proximal = proximalBody(index), distal = distalBody(index);
-  const bool telescopic = leg.kind == LegKind::UPS, carriage = leg.kind == LegKind::PUS;
+  const bool telescopic = rowOf(leg.kind).isTelescopic(), carriage = rowOf(leg.kind).hasCarriage();
   // The distal link's origin in the proximal one at coordinates zero, and the link's extent behind its origin.
   const double joined_at = telescopic || carriage ? 0 : leg.proximal.length;
   const double behind = telescopic ? leg.distal.length : 0;
@@ -183,20 +167,6 @@ void connect(mjModel& model, int legs) {
 }
 
 }  // namespace
-
-Matrix3d frameAtZero(const Leg& leg) {
-  const Vector3d u = leg.base_axis.normalized();
-  Matrix3d frame;
-  if (rowOf(leg.kind).joints_of_proximal == 2) {
-    const Vector3d x = u.unitOrthogonal();
-    frame << x, u.cross(x), u;
-    return frame;
-  }
-  const Vector3d level = u.cross(Vector3d::UnitZ());
-  const Vector3d x = level.norm() < 1e-10 ? u.cross(Vector3d::UnitY()).normalized() : level.normalized();
-  frame << x, u, x.cross(u);
-  return frame;
-}
 
 Model buildModel(const Manipulator& manipulator, const Vector3d& origin, Closure closure) {
   const int legs = manipulator.legCount();

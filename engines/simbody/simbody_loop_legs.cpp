@@ -130,7 +130,7 @@ void SimbodyLoop::Impl::addUniversalLeg(const Leg& from) {
                                         SimTK::Transform(toSimTK(baseFrame(from.base_axis)), toSimTK(from.base_point)),
                                         proximalBody(from), frameOf(-e_z, e_x, -e_y));
   mechanism.proximal.push_back(first);
-  if (from.kind == LegKind::UPS) {
+  if (rowOf(from.kind).isTelescopic()) {
     // d = s puts the rod's inner end at A.
     mechanism.distal.push_back(SimTK::MobilizedBody::Slider(first, frameOf(e_z, e_x, e_y, -from.distal.length * e_z),
                                                             distalBody(from), frameOf(e_z, e_x, e_y)));

@@ -1,6 +1,6 @@
 #pragma once
 
-// Selects the class of a leg's kind. Internal.
+// Selects the class of a leg's kind; each kind's file has its `classOf`. Internal.
 
 #include "nocsolver/legs/pus.h"
 #include "nocsolver/legs/rus.h"
@@ -12,17 +12,7 @@ namespace ursula::legs {
 /// Calls f with the class of the leg's kind.
 template <class F>
 auto withLeg(LegKind kind, const F& f) {
-  switch (kind) {
-    case LegKind::UPS:
-      return f(Ups{});
-    case LegKind::RUS:
-      return f(Rus{});
-    case LegKind::PUS:
-      return f(Pus{});
-    case LegKind::URS:
-      break;
-  }
-  return f(Urs{});
+  return withKind(kind, [&f](auto constant) { return f(classOf(constant)); });
 }
 
 }  // namespace ursula::legs

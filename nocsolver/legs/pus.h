@@ -84,4 +84,6 @@ struct Pus : ByRows {
   }
 };
 
+constexpr Pus classOf(std::integral_constant<LegKind, LegKind::PUS>) { return {}; }
+
 }  // namespace ursula::legs

@@ -103,4 +103,6 @@ struct Rus : ByRows {
   }
 };
 
+constexpr Rus classOf(std::integral_constant<LegKind, LegKind::RUS>) { return {}; }
+
 }  // namespace ursula::legs

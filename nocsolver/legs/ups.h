@@ -86,4 +86,6 @@ struct Ups : ByRows {
   }
 };
 
+constexpr Ups classOf(std::integral_constant<LegKind, LegKind::UPS>) { return {}; }
+
 }  // namespace ursula::legs

@@ -232,4 +232,6 @@ struct Urs {
   }
 };
 
+constexpr Urs classOf(std::integral_constant<LegKind, LegKind::URS>) { return {}; }
+
 }  // namespace ursula::legs

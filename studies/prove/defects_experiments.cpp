@@ -137,7 +137,7 @@ std::vector<Defect> wrongEngines(const Manipulator& machine) {
                  [=](P& m) {
                    Leg& leg = m.legs[fourth];
                    // A cylinder's length is its stroke; a carriage's is only for drawing.
-                   const bool matters = leg.kind == LegKind::URS || leg.kind == LegKind::RUS;
+                   const bool matters = !rowOf(leg.kind).isTelescopic() && !rowOf(leg.kind).hasCarriage();
                    (matters ? leg.proximal : leg.distal).length *= 1 + 1e-9;
                  }),
           stabilised("stabilised replay: a mass off by 1e-7", [](P& m) { m.platform.mass *= 1 + 1e-7; }),

@@ -13,11 +13,8 @@
 #include <Eigen/Geometry>
 #include "model/motion.h"
 
-#include "nocsolver/fast/kernels/leg_forces.h"
-#include "nocsolver/fast/kernels/leg_rates.h"
+#include "nocsolver/fast/kernels/leg_kernels.h"
 #include "nocsolver/fast/kernels/machine_model.h"
-#include "nocsolver/fast/kernels/off_line.h"
-#include "nocsolver/fast/kernels/plane_mass.h"
 #include "nocsolver/fast/kernels/solve6.h"
 
 namespace ursula::kernel {
