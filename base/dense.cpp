@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <unsupported/Eigen/MatrixFunctions>
 
 namespace ursula {
 namespace {
@@ -12,6 +13,10 @@ using Solver = Eigen::EigenSolver<Eigen::MatrixXd>;
 }  // namespace
 
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) { return Solver(matrix, false).eigenvalues(); }
+
+Eigen::VectorXd symmetricEigenvalues(const Eigen::MatrixXd& matrix) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
+}
 
 std::optional<EigenPairs> eigenPairs(const Eigen::MatrixXd& matrix) {
   const Solver solver(matrix);
@@ -27,8 +32,14 @@ Eigen::VectorXd leastSquaresSolution(const Eigen::MatrixXd& A, const Eigen::Vect
   return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(A).solve(b);
 }
 
+Eigen::VectorXd singularValues(const Eigen::MatrixXd& A) {
+  return Eigen::JacobiSVD<Eigen::MatrixXd>(A).singularValues();
+}
+
 Eigen::MatrixXd rightSingularVectors(const Eigen::MatrixXd& A) {
   return Eigen::JacobiSVD<Eigen::MatrixXd>(A, Eigen::ComputeFullV).matrixV();
 }
+
+Eigen::MatrixXd exponential(const Eigen::MatrixXd& A) { return A.exp(); }
 
 }  // namespace ursula

@@ -15,6 +15,9 @@ struct EigenPairs {
   Eigen::MatrixXcd vectors;  ///< columns of norm 1
 };
 
+/// Returns the eigenvalues of a symmetric matrix, increasing.
+Eigen::VectorXd symmetricEigenvalues(const Eigen::MatrixXd& matrix);
+
 /// Returns nullopt if the iteration does not converge.
 std::optional<EigenPairs> eigenPairs(const Eigen::MatrixXd& matrix);
 
@@ -24,7 +27,13 @@ int rankOf(const Eigen::MatrixXd& matrix);
 /// Returns the x of the least |Ax − b| by QR with column pivoting.
 Eigen::VectorXd leastSquaresSolution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
+/// Returns the singular values, decreasing.
+Eigen::VectorXd singularValues(const Eigen::MatrixXd& A);
+
 /// Returns the whole V of A = UΣVᵀ; the singular values decrease.
 Eigen::MatrixXd rightSingularVectors(const Eigen::MatrixXd& A);
+
+/// Returns exp(A) by scaling, squaring and Padé's approximants.
+Eigen::MatrixXd exponential(const Eigen::MatrixXd& A);
 
 }  // namespace ursula

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "base/dense.h"
 #include "validation/limits/linearisation.h"
@@ -30,7 +29,7 @@ Rates fastestRates(const Matrix12& J) {
 /// (Blanes, Casas, Oteo, Ros, Phys. Rep. 470 (2009) 151). Strong friction does not make it unstable.
 Matrix12 between(const Matrix12& J0, const Matrix12& J1, const Matrix12& J2, double h) {
   const Matrix12 Omega = h / 6 * (J0 + 4 * J1 + J2) + h * h / 12 * (J2 * J0 - J0 * J2);
-  return Omega.exp();
+  return exponential(Omega);
 }
 
 /// The same bits as Eigen's product, which is slow at this size.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/dense.h"
 #include "validation/subject/scaled_jacobian.h"
 #include "validation/subject/subject.h"
 
@@ -72,7 +73,7 @@ Projection project(const Manipulator& manipulator, const TwistShaping<double>& T
 double conditionOfI(const Matrix6d& I) {
   const Vector6d root = I.diagonal().cwiseSqrt();
   const Matrix6d scaled = root.cwiseInverse().asDiagonal() * I * root.cwiseInverse().asDiagonal();
-  const Vector6d eigenvalues = Eigen::SelfAdjointEigenSolver<Matrix6d>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
+  const Vector6d eigenvalues = symmetricEigenvalues(scaled);
   return eigenvalues(0) > 0 ? eigenvalues(5) / eigenvalues(0) : std::numeric_limits<double>::infinity();
 }
 

@@ -46,12 +46,12 @@ struct Method {
         values(i, k) = legendre(k, node(i));
         integrals(i, k) = integralOfLegendre(k, node(i));
       }
-    coefficient = values.inverse();
+    coefficient = Eigen::MatrixXd(values).inverse();
     A = integrals * coefficient;
     const EigenPairs pairs = eigenPairs(A).value();
     eigenvalues = pairs.values;
     vectors = pairs.vectors;
-    inverse = vectors.inverse();
+    inverse = pairs.vectors.inverse();
   }
 
  private:

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <Eigen/SVD>
-
+#include "base/dense.h"
 #include "base/scalar.h"
 
 namespace ursula {
@@ -14,7 +13,7 @@ inline Matrix6d scaledB(Matrix6d B, double length) {
 
 /// The condition number in the 2-norm.
 inline double conditionNumber(const Matrix6d& matrix) {
-  const Vector6d singular = Eigen::JacobiSVD<Matrix6d>(matrix).singularValues();
+  const Vector6d singular = singularValues(matrix);
   return singular(0) / singular(5);
 }
 
