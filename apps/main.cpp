@@ -51,7 +51,7 @@ int runVerb(const CLI::App& app, const std::function<int()>& run) {
 }
 
 int runProgram(int argc, char** argv) {
-  CLI::App app("ursula: validates the closed-form dynamics of a six-legged U-R-S parallel manipulator", "ursula");
+  CLI::App app("ursula: validates the closed-form dynamics of six-dof parallel manipulators", "ursula");
   app.set_version_flag("--version", ursula::buildProvenance().version + " (" + ursula::buildProvenance().commit + ")");
   app.require_subcommand(1);
   std::function<int()> run;

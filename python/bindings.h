@@ -2,10 +2,14 @@
 
 #include <pybind11/pybind11.h>
 #include <memory>
+#include <string>
 
 #include "python/scenario.h"
 
 namespace ursula::python {
+
+/// Returns the message with options of the command line as arguments: "any_tolerance" for "--any-tolerance".
+std::string inPython(const std::string& message);
 
 void addComparison(pybind11::module_& module);
 

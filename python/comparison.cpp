@@ -64,7 +64,7 @@ Comparison compared(const py::object& reference, const py::object& test, double 
   } catch (const py::builtin_exception&) {
     throw;
   } catch (const std::runtime_error& error) {  // from a file, or from a column's name
-    throw py::value_error(error.what());
+    throw py::value_error(inPython(error.what()));
   }
 }
 

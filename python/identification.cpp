@@ -38,7 +38,7 @@ py::tuple identified(const ScenarioWithSolver& self, const Log& log, bool prior)
     page = identifyPage(result);
     table = identifyTable(result);
   } catch (const CsvError& error) {
-    throw py::value_error(error.what());
+    throw py::value_error(inPython(error.what()));
   }
   return py::make_tuple(summary, page, table, result.identified_scenario, columnsOf(result.series),
                         columnsOf(result.spectra));

@@ -1,4 +1,5 @@
 #include "python/judging.h"
+#include "python/bindings.h"
 
 #include <pybind11/stl.h>
 #include <ursula/validate.h>
@@ -9,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "python/bindings.h"
 #include "python/motion.h"
 #include "python/result.h"
 #include "python/words.h"
@@ -140,7 +142,7 @@ TorqueFile torquesAt(const ScenarioWithSolver& given, const py::object& torques,
   try {
     return within(torqueFileOf(table, given.scenario.manipulator->motors()), given.scenario.trajectory->duration());
   } catch (const CsvError& error) {
-    throw py::value_error(error.what());
+    throw py::value_error(inPython(error.what()));
   }
 }
 

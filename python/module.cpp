@@ -3,7 +3,9 @@
 #include <ursula/scenario.h>
 #include <ursula/solver.h>
 
+#include <algorithm>
 #include <exception>
+#include <regex>
 #include <string>
 
 #include "python/bindings.h"
@@ -27,7 +29,8 @@ void raisePoseError(const ursula::PoseError& error) {
 }
 
 void raiseScenarioError(const std::string& what) {
-  PyErr_SetString(py::module_::import("ursula._ursula").attr("ScenarioError").ptr(), what.c_str());
+  PyErr_SetString(py::module_::import("ursula._ursula").attr("ScenarioError").ptr(),
+                  ursula::python::inPython(what).c_str());
 }
 
 void addErrors(py::module_& module) {
@@ -53,6 +56,20 @@ void addErrors(py::module_& module) {
 }
 
 }  // namespace
+
+std::string ursula::python::inPython(const std::string& message) {
+  static const std::regex option("--[a-z]+(-[a-z]+)*");
+  std::string out;
+  auto at = message.begin();
+  for (std::sregex_iterator each(message.begin(), message.end(), option), none; each != none; ++each) {
+    out.append(at, message.begin() + each->position());
+    std::string name = each->str().substr(2);
+    std::replace(name.begin(), name.end(), '-', '_');
+    out += name;
+    at = message.begin() + each->position() + each->length();
+  }
+  return out.append(at, message.end());
+}
 
 PYBIND11_MODULE(_ursula, module) {
   module.doc() = ursula::python::words::module;

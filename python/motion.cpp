@@ -181,7 +181,8 @@ void addMotion(py::module_& module) {
       .def("__getitem__", &row, py::arg("row"))
       .def("__getitem__", &slice, py::arg("rows"))
       .def("__repr__", [](const Motions& motion) {
-        return "<ursula.Motion of " + std::to_string(motion.rows.size()) + " instants>";
+        const std::size_t count = motion.rows.size();
+        return "<ursula.Motion of " + std::to_string(count) + (count == 1 ? " instant>" : " instants>");
       });
 }
 

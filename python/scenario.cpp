@@ -198,6 +198,9 @@ std::vector<PlatformPose> posesOfStewartGough(const Manipulator& machine, const 
 std::vector<PlatformPose> directKinematics(const ScenarioWithSolver& self, const py::object& coordinates) {
   const py::array_t<double> given = rowsOf(coordinates, leg_count, "coordinates");
   if (given.shape(0) != 1) throw py::value_error("coordinates: expected six numbers, of one pose");
+  if (!isStewartGough(*self.scenario.manipulator) && !self.scenario.manipulator->isOfThePaper())
+    throw py::value_error(
+        "direct_kinematics: all poses are known for six URS legs driven by phi and for six UPS legs driven by d only");
   const Vector6d driven = Eigen::Map<const Vector6d>(given.data());
   const py::gil_scoped_release unlocked;
   const Manipulator& machine = *self.scenario.manipulator;

@@ -54,7 +54,7 @@ Simulated simulated(const ScenarioWithSolver& self, const py::object& torques, c
       return simulate(self.scenario, chosen, given, Deadline(options.time_limit, options.asked_to_end));
     });
   } catch (const CsvError& error) {
-    throw py::value_error(error.what());
+    throw py::value_error(inPython(error.what()));
   }
   const py::array_t<double> tau =
       table(run.torques, motor_count, [](const Vector6d& row, double* to) { Eigen::Map<Vector6d>{to} = row; });
@@ -110,7 +110,7 @@ py::dict mapped(const ScenarioWithSolver& self, const py::object& x, const py::o
     return columnsOf(mapBlocks(self.scenario, grid, nullptr),
                      jobs > 0 ? jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
   } catch (const GridError& error) {
-    throw py::value_error(error.what());
+    throw py::value_error(inPython(error.what()));
   }
 }
 

@@ -3,25 +3,15 @@
 #include <cmath>
 
 #include "base/leading_number.h"
+#include "report/quantity.h"
 #include "report/report.h"
 
 namespace ursula {
 namespace {
 
-/// 0.041 → "41 mm".
-std::string lengthText(double metres) {
-  static constexpr struct {
-    double size;
-    const char* name;
-  } units[] = {{1, "m"}, {1e-3, "mm"}, {1e-6, "µm"}, {1e-9, "nm"}};
-  for (const auto& unit : units)
-    if (metres >= unit.size) return fmt::format("{:.2g} {}", metres / unit.size, unit.name);
-  return fmt::format("{:.2g} pm", metres / 1e-12);
-}
-
 /// "0.03 %"; a plain number below a millionth, because nobody reads 0.0000003 %.
 std::string shareText(double share) {
-  return share >= 1e-6 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.1e} of the largest", share);
+  return share >= 1e-6 ? report::percentText(share) : fmt::format("{:.1e} of the largest", share);
 }
 
 std::string driftText(const EffortDeviation& deviation) {
@@ -30,7 +20,7 @@ std::string driftText(const EffortDeviation& deviation) {
     return fmt::format("from errors of this size the open-loop motion may be lost within {:.3g} s; ",
                        deviation.duration);
   return fmt::format("from errors of this size the open-loop motion would drift by up to {} in {:.3g} s; ",
-                     lengthText(deviation.drift), deviation.duration);
+                     report::quantity(deviation.drift, "m", 2), deviation.duration);
 }
 
 /// Rounds up, so that the rounded value passes, too.
@@ -55,11 +45,12 @@ std::string sentence(const EffortDeviation& deviation) {
           ? fmt::format(" An error of {:.1g} of the largest torque would have been seen.", deviation.seen)
           : "";
   return fmt::format(
-      "{} {}: the largest deviation is {:.3g} {} of {:.6g} {}, {} at t = {:.4g} s; {}the smallest --rtol that "
+      "{} {}: the largest deviation is {} {} of {:.6g} {}, {} at t = {:.4g} s; {}the smallest --rtol that "
       "would pass is {}.{}",
       deviation.relative() <= right || deviation.largest == 0 ? "Right to" : "Off by at most",
-      shareText(deviation.relative()), deviation.largest, deviation.unit, deviation.largest_effort, deviation.unit,
-      deviation.where, deviation.t, driftText(deviation), roundedUp(deviation.smallestRelative()), seen);
+      shareText(deviation.relative()), fmt::format(deviation.largest < 1000 ? "{:.3g}" : "{:.0f}", deviation.largest),
+      deviation.unit, deviation.largest_effort, deviation.unit, deviation.where, deviation.t, driftText(deviation),
+      roundedUp(deviation.smallestRelative()), seen);
 }
 
 }  // namespace ursula

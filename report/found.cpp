@@ -197,11 +197,10 @@ std::vector<KeyFigure> keyFigures(const ValidationResult& result) {
                    std::isnan(facts.replay_limit) ? "" : "limit " + quantity(facts.replay_limit, "m", 2)});
   if (!std::isnan(facts.agreement))
     out.push_back({"largest effort deviation",
-                   facts.agreement >= 1e-6
-                       ? fmt::format(facts.agreement < 0.1 ? "{:.2g} %" : "{:.0f} %", 100 * facts.agreement)
-                       : plainNumber(facts.agreement, 2),
+                   facts.agreement >= 1e-6 ? percentText(facts.agreement) : plainNumber(facts.agreement, 2),
                    "of the largest effort"});
-  if (!facts.dominant.empty() && facts.cause.empty())
+  const bool passed = result.verdict == Verdict::pass && facts.dominant == "unexplained";  // then nothing is missing
+  if (!facts.dominant.empty() && facts.cause.empty() && !passed)
     out.push_back(
         {"what limits it", facts.dominant,
          facts.windows > 1 ? fmt::format("{} windows", facts.windows) : "largest source of the replay's error"});

@@ -29,13 +29,10 @@ std::string factsTable(const char* caption, const std::vector<std::pair<std::str
 
 constexpr const char* suite_link = "<a class=\"up\" href=\"../index.html\">← The suite</a>\n";
 
-/// The command as typed in the scenario's folder.
+/// The command, if the result comes from the command line.
 std::string command(const ValidationResult& result) {
-  const std::string file = fact(result.provenance, "scenario file"), subject = fact(result.provenance, "subject");
-  if (file.empty()) return "";
-  const bool from_file = subject.size() > 4 && subject.compare(subject.size() - 4, 4, ".csv") == 0;
-  return fmt::format("<p>To do it again: <code>ursula validate {}{}</code></p>", escaped(file),
-                     from_file ? " --torques " + escaped(subject) : "");
+  const std::string typed = fact(result.provenance, "command");
+  return typed.empty() ? "" : fmt::format("<p>To do it again: <code>{}</code></p>", escaped(typed));
 }
 
 std::string keyFiguresHtml(const ValidationResult& result) {

@@ -52,6 +52,12 @@ std::string deciding(const SuiteEntry& entry) {
   return fmt::format("{} <span class=\"aside\">{}</span>", escaped(checkTitle(worst->name)), standing(*worst));
 }
 
+/// A scenario without a result is in error, which its verdict calls a failure.
+std::string badgeOf(const SuiteEntry& entry) {
+  return entry.error.empty() ? verdictBadge(entry.verdict)
+                             : "<span class=\"badge fail\"><span aria-hidden=\"true\">✗</span> ERROR</span>";
+}
+
 std::string row(const SuiteEntry& entry, const std::vector<std::string>& names) {
   const auto passed = std::count_if(entry.checks.begin(), entry.checks.end(),
                                     [](const Check& check) { return check.verdict == Verdict::pass; });
@@ -63,9 +69,9 @@ std::string row(const SuiteEntry& entry, const std::vector<std::string>& names) 
       "<tr class=\"scenario {0}\" data-verdict=\"{0}\"><td>{1}</td><th scope=\"row\">{2}</th><td "
       "class=\"number\">{3}</td><td class=\"deciding\">{4}</td><td>{5}</td><td class=\"number\" "
       "data-value=\"{6:.3f}\">{6:.1f}</td><td>{7}</td>{8}</tr>\n",
-      name(entry.verdict), verdictBadge(entry.verdict),
+      name(entry.verdict), badgeOf(entry),
       entry.error.empty() ? fmt::format("<a href=\"{}\">{}</a>", link, scenario) : scenario,
-      fmt::format("{} of {}", passed, judgedCount(entry.checks)), deciding(entry),
+      entry.error.empty() ? fmt::format("{} of {}", passed, judgedCount(entry.checks)) : "–", deciding(entry),
       entry.dominant.empty() ? "–" : escaped(entry.dominant), entry.time.seconds, sparkline(entry.trend), cells);
 }
 
@@ -96,13 +102,13 @@ std::string heads(const std::vector<std::string>& names) {
 std::string indexHtml(const std::vector<SuiteEntry>& entries) {
   const std::vector<std::string> names = columns(entries);
   const Verdict verdict = suiteVerdict(entries);
+  const std::string counts = countsOf(entries);  // "1 passed, 0 failed, …"
   return filled(index_template,
                 {{"style", std::string(report_style)},
                  {"verdict", name(verdict)},
                  {"badge", verdictBadge(verdict)},
-                 {"counts", fmt::format("{} of {} scenario{} passed, {} failed, {} inconclusive.",
-                                        countOf(entries, Verdict::pass), entries.size(), entries.size() == 1 ? "" : "s",
-                                        countOf(entries, Verdict::fail), countOf(entries, Verdict::inconclusive))},
+                 {"counts", fmt::format("{} of {} scenario{}{}.", countOf(entries, "pass"), entries.size(),
+                                        entries.size() == 1 ? "" : "s", counts.substr(counts.find(' ')))},
                  {"seconds", fmt::format("{:.1f}", secondsOf(entries))},
                  {"run", runOf(entries)},
                  {"heads", heads(names)},

@@ -65,10 +65,7 @@ void addShares(const ValidationResult& result, std::vector<MotorDeviation>& moto
   }
 }
 
-std::string shareOfLargest(double share) {
-  if (share < 1e-6) return plainNumber(share, 2);
-  return share < 0.1 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
-}
+std::string shareOfLargest(double share) { return share < 1e-6 ? plainNumber(share, 2) : percentText(share); }
 
 /// Returns "1.003 × expected" or "expected + 3 N"; empty if no single number explains the deviation.
 std::string patternText(const MotorDeviation& motor) {

@@ -81,6 +81,10 @@ std::string plainNumber(double value, int digits) {
   return mantissa == "1" ? power : mantissa + joined + "×" + joined + power;
 }
 
+std::string percentText(double share) {
+  return share < 0.1 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
+}
+
 int digitsToTell(double low, double high) {
   constexpr int fewest = 4, most = 15;
   const double ratio = std::max(std::abs(low), std::abs(high)) / (high - low);

@@ -14,6 +14,9 @@ std::string quantity(double value, const std::string& unit, int digits = 3);
 /// 3.2e-15 → "3.2 × 10⁻¹⁵"; from 0.001 to 99999 plain.
 std::string plainNumber(double value, int digits = 3);
 
+/// 0.0314 → "3.1 %", 0.31 → "31 %".
+std::string percentText(double share);
+
 /// Number of significant digits, at least four, that distinguish numbers between low and high to a hundredth of the
 /// range.
 int digitsToTell(double low, double high);

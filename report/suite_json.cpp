@@ -1,5 +1,7 @@
 #include "report/written_files.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -26,7 +28,7 @@ Json checkCounts(const std::vector<Check>& checks) {
 Json entryJson(const SuiteEntry& entry) {
   const Check* worst = worstCheck(entry.checks);
   Json json = {{"name", entry.scenario},
-               {"verdict", name(entry.verdict)},
+               {"verdict", wordOf(entry)},
                {"checks", checkCounts(entry.checks)},
                {"seconds", rounded(entry.time.seconds)},
                {"folder", entry.error.empty() ? entry.folder.generic_string() : ""},
@@ -48,9 +50,17 @@ Verdict suiteVerdict(const std::vector<SuiteEntry>& entries) {
   return overall(verdicts);
 }
 
-std::size_t countOf(const std::vector<SuiteEntry>& entries, Verdict verdict) {
-  return static_cast<std::size_t>(std::count_if(
-      entries.begin(), entries.end(), [verdict](const SuiteEntry& entry) { return entry.verdict == verdict; }));
+std::string wordOf(const SuiteEntry& entry) { return entry.error.empty() ? name(entry.verdict) : "error"; }
+
+std::size_t countOf(const std::vector<SuiteEntry>& entries, const std::string& word) {
+  return static_cast<std::size_t>(std::count_if(entries.begin(), entries.end(),
+                                                [&word](const SuiteEntry& entry) { return wordOf(entry) == word; }));
+}
+
+std::string countsOf(const std::vector<SuiteEntry>& entries) {
+  const std::size_t errors = countOf(entries, "error");
+  return fmt::format("{} passed, {} failed, {} inconclusive{}", countOf(entries, "pass"), countOf(entries, "fail"),
+                     countOf(entries, "inconclusive"), errors == 0 ? "" : fmt::format(", {} in error", errors));
 }
 
 double secondsOf(const std::vector<SuiteEntry>& entries) {
@@ -61,8 +71,7 @@ double secondsOf(const std::vector<SuiteEntry>& entries) {
 
 std::string suiteJson(const std::vector<SuiteEntry>& entries) {
   Json counts = {{"scenarios", entries.size()}};
-  for (const Verdict verdict : {Verdict::pass, Verdict::fail, Verdict::inconclusive})
-    counts[name(verdict)] = countOf(entries, verdict);
+  for (const char* word : {"pass", "fail", "inconclusive", "error"}) counts[word] = countOf(entries, word);
   Json scenarios = Json::array();
   for (const SuiteEntry& entry : entries) scenarios.push_back(entryJson(entry));
   const Json suite = {{"verdict", name(suiteVerdict(entries))},

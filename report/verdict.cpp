@@ -46,7 +46,8 @@ std::string standing(const Check& check) {
   if (std::isinf(check.value)) return "is infinite";
   if (std::isnan(share)) return "cannot be set against its limit";
   if (std::isinf(share)) return "exceeds its limit of 0";
-  return fmt::format("is at {:.3g} {} its limit", share, share > 1 ? "times" : "of");
+  if (share > 1) return fmt::format("is at {:.{}g} times its limit", share, share < 1.01 ? 8 : 3);
+  return fmt::format("is at {:.3g} of its limit", share);
 }
 
 std::ptrdiff_t judgedCount(const std::vector<Check>& checks) {

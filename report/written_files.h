@@ -24,7 +24,12 @@ std::string junitXml(const std::vector<SuiteEntry>& entries);
 /// The verdict over all entries; as for checks, an empty suite is no success.
 Verdict suiteVerdict(const std::vector<SuiteEntry>& entries);
 
-std::size_t countOf(const std::vector<SuiteEntry>& entries, Verdict verdict);
+/// The verdict in one word, or "error" if there is no result.
+std::string wordOf(const SuiteEntry& entry);
+/// The number of entries with that word.
+std::size_t countOf(const std::vector<SuiteEntry>& entries, const std::string& word);
+/// "1 passed, 0 failed, 2 inconclusive, 1 in error"
+std::string countsOf(const std::vector<SuiteEntry>& entries);
 
 /// The sum of all wall times, s.
 double secondsOf(const std::vector<SuiteEntry>& entries);

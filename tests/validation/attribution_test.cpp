@@ -157,6 +157,10 @@ TEST(Attribution, withoutAReplayNothingIsMeasured) {
   EXPECT_FALSE(none.measured);
   ValidationResult result;
   addBudget(none, result);
+  EXPECT_THAT(result.findings, testing::IsEmpty());
+  EXPECT_FALSE(result.replay_error);
+  result.checks = {judged("kinematics.positions", 2, 1, "m", "", "")};
+  addBudget(none, result);
   EXPECT_THAT(result.findings, testing::ElementsAre(Pair("dominant error", "model")));
 }
 

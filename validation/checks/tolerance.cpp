@@ -110,7 +110,7 @@ void judgeByTolerance(const Scenario& scenario, double between, ValidationResult
       continue;
     check.verdict = Verdict::not_applicable;
     check.reason = Reason::reported;
-    check.why = "reported, not judged, for at a tolerance of the user's the torques alone are: " + check.why;
+    check.why = "reported, not judged: where a tolerance is given, only the torques are judged. " + check.why;
   }
 }
 

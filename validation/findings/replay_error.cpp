@@ -92,6 +92,9 @@ void addBudget(const ErrorBudget& budget, ValidationResult& result, const Units&
   const bool torques_fail = std::any_of(result.checks.begin(), result.checks.end(), [](const Check& check) {
     return check.verdict == Verdict::fail && check.reason == Reason::none && check.name.rfind("torque.", 0) == 0;
   });
+  const bool something_fails = std::any_of(result.checks.begin(), result.checks.end(),
+                                           [](const Check& check) { return check.verdict == Verdict::fail; });
+  if (!budget.measured && !something_fails && !limit_too_large) return;  // there is no error to have a source
   const ErrorSource dominant = torques_fail      ? ErrorSource::model
                                : limit_too_large ? ErrorSource::amplification
                                : budget.measured ? budget.dominant

@@ -39,7 +39,11 @@ void addProvenance(const Scenario& scenario, const std::string& subject, Validat
                        {"duration", fmt::format("{} s", scenario.trajectory->duration())},
                        {"samples", fmt::format("{}", scenario.simulation.samples)},
                        {"integrator", name(scenario.simulation.integrator)},
-                       {"tolerance", fmt::format("{:g}", scenario.simulation.tolerance)}};
+                       {"integrator's tolerance", fmt::format("{:g}", scenario.simulation.tolerance)}};
+  if (scenario.tolerance)
+    result.provenance.emplace_back(
+        "tolerance of efforts",
+        fmt::format("relative {}, absolute {}", scenario.tolerance->relative, scenario.tolerance->absolute));
 }
 
 }  // namespace ursula
