@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Holds the tree to what docs and design promise of it.
 
-    tools/check_structure.py [ROOT]          who includes whom; docs/equations.md against the tags in the code
+    tools/check_structure.py [ROOT]          who includes whom; docs/equations.md against the tags in the code; paths
+                                             that documents and comments name
     tools/check_structure.py --tags [ROOT]   only lists which file carries the tag of which equation
 
 Exits with 0, or with 1 after one line `place: what is wrong` for each finding.
@@ -13,6 +14,7 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True
 import components  # noqa: E402
+import named_paths  # noqa: E402
 import sources  # noqa: E402
 
 # Which folder may include from which, beside itself: from the ground up, so that every arrow points down.
@@ -253,7 +255,8 @@ def main(arguments):
         for equation in EQUATIONS:
             print(f"({equation})", ", ".join(f"{p}:{n}" for p, n in tags.get(equation, {}).items()) or "—")
     else:
-        findings = check_includes(root) + check_targets(root) + components.check_components(root) + check_equations(root)
+        findings = (check_includes(root) + check_targets(root) + components.check_components(root) + check_equations(root)
+                    + named_paths.check_paths(root) + named_paths.check_subfolders(root))
     print(*findings, sep="\n", end="\n" if findings else "", file=sys.stderr)
     if not findings and not only_tags:
         print(f"structure: {len(sources.files(root))} files, {len(components.COMPONENTS)} components, {len(EQUATIONS)} equations, nothing amiss")

@@ -10,6 +10,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import check_structure  # noqa: E402
 import components  # noqa: E402
+import named_paths  # noqa: E402
 import sources  # noqa: E402
 
 
@@ -38,7 +39,7 @@ def sound_tree():
         "nocsolver/leg.cpp": '#include "nocsolver/leg.h"\nvoid legRates();  // (paper, eqs. 15a–b)\n',
         "validation/replay/replay.cpp": '#include "engines/simbody/simbody_loop.h"\n#include "nocsolver/leg.h"\n',
         "validation/verdict/result.h": "// Verdicts.\n",
-        "validation/verdict/CMakeLists.txt": "ursula_room(verdict)\n",
+        "validation/verdict/CMakeLists.txt": "ursula_component(verdict)\n",
         "validation/checks/engines.cpp": '#include "validation/verdict/result.h"\n#include "validation/replay/replay.h"\n',
         "validation/replay/replay.h": "// Replays.\n",
         "include/ursula/solver.h": '#include <ursula/build.h>\n#include "nocsolver/leg.h"\n',
@@ -51,6 +52,7 @@ def sound_tree():
         "apps/main.cpp": '#include "model/machine.h"\n',
         "tests/support.h": '#include "nocsolver/leg.h"\n',
         "tests/leg_test.cpp": '#include "support.h"\nTEST(Leg, Rates) {}\n',
+        "validation/README.md": "Start with `validate.h`; see `checks/` and `verdict/`, and `replay/`. `NAME.cpp` stands for any.\n",
         "docs/equations.md": "\n".join(["| equation | says | code | test | deviation |", "|---|---|---|---|---|"] + rows) + "\n",
     }
 
@@ -70,7 +72,7 @@ class CheckStructure(unittest.TestCase):
                 (root / path).parent.mkdir(parents=True, exist_ok=True)
                 (root / path).write_text(text, encoding="utf-8")
             return (check_structure.check_includes(root) + check_structure.check_targets(root) + components.check_components(root)
-                    + check_structure.check_equations(root))
+                    + check_structure.check_equations(root) + named_paths.check_paths(root) + named_paths.check_subfolders(root))
 
     def assert_caught(self, expected, **changes):
         findings = self.findings(**changes)
@@ -139,7 +141,7 @@ class CheckStructure(unittest.TestCase):
                            validation__verdict__CMakeLists_DOT_txt=("", "target_link_libraries(v ursula::checks)\n"))
         self.assert_caught("too large for a component", validation__checks__a_DOT_cpp=("", "\n" * 2000))
 
-    def test_plan_of_rooms(self):
+    def test_plan_of_components(self):
         self.assertEqual(components.check_plan(), [])
         self.assertTrue(components.check_plan({"a": "b", "b": ""}))
 
@@ -159,6 +161,16 @@ class CheckStructure(unittest.TestCase):
         self.assert_caught("no equation (15)", docs__equations_DOT_md=("", row.replace("(7)", "(15)")))
         self.assert_caught("neither code nor a reason", docs__equations_DOT_md=(row, row.replace("— a definition", "—")))
         self.assert_caught("five filled cells", docs__equations_DOT_md=(row, "| (7) | what | none |\n"))
+
+    def test_named_paths(self):
+        self.assert_caught("validation/README.md:2: there is no tools/rooms.py", validation__README_DOT_md=("", "`tools/rooms.py`\n"))
+        self.assert_caught("validation/README.md:1: there is no verify.h", validation__README_DOT_md=("validate.h", "verify.h"))
+        self.assert_caught("docs/a.md:1: there is no model/cars/", docs__a_DOT_md=("", "`model/cars/`"))
+        self.assert_caught("leg.cpp:3: there is no model/machine.cpp", nocsolver__leg_DOT_cpp=("", "// As in model/machine.cpp.\n"))
+        self.assert_caught("base/CMakeLists.txt:2: there is no cmake/a.cmake", base__CMakeLists_DOT_txt=("", "# See cmake/a.cmake.\n"))
+        self.assert_caught("tools/a.py:1: there is no tools/b.py", tools__a_DOT_py=("", f"# As tools/b.{'py'} does.\n"))
+        self.assert_caught("validation/README.md: does not name replay/", validation__README_DOT_md=(", and `replay/`", ""))
+        self.assertEqual(self.findings(nocsolver__leg_DOT_cpp=("", '// As in model/machine.h.\nauto s = "model/none.h";\n')), [])
 
     def test_malformed_tags(self):
         for tag in ("(paper, eq 7)", "(paper, eq. 99)", "(paper, eq. 7a)", "(paper, eq. b)", "(paper eq. 7)", "(paper, eq.\n// 7)"):

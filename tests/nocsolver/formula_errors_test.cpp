@@ -1,4 +1,4 @@
-// Every error of nocsolver/reading.h makes a difference to what the solver says of a machine in motion, and with none
+// Every error of nocsolver/legs/reading.h makes a difference to what the solver says of a machine in motion, and with none
 // set the readings are the same to the last bit.
 
 #include <gtest/gtest.h>

@@ -34,8 +34,8 @@ struct FileAsWritten {
   std::optional<LoadAsWritten> load;
 };
 
-/// A scenario's text read a second time, by code that shares with model/scenario*.cpp, model/toml_reader and base/csv
-/// nothing but toml++. It judges nothing: a number that is missing or of another type is NaN, which equals none.
+/// A scenario's text read a second time, by code that shares with model/scenario*.cpp, model/toml_reader.h
+/// and base/csv.h nothing but toml++. It judges nothing: a number that is missing or of another type is NaN, which equals none.
 FileAsWritten asWritten(const Scenario& scenario);
 
 }  // namespace ursula
