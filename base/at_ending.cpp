@@ -26,7 +26,7 @@ thread_local int depth = 0;   ///< number of nested holds in this thread
 
 void nothing(const void*) {}
 
-/// Two threads may both run this.
+/// Two threads may run this at once.
 void workAndEnd() {
   for (auto slot = slots.rbegin(); slot != slots.rend(); ++slot)
     if (const AtEnding::Work work = slot->work; work != nullptr && slot->process == ::getpid()) work(slot->what);

@@ -5,9 +5,9 @@
 
 namespace ursula {
 
-/// Does `work(what)` first when a signal ends this process while this object lives; newer objects work first. It covers
-/// signals that somebody sends or a system limit raises. Crash signals and signals with another handler are not
-/// covered. A process forked from this one does no such work.
+/// While this object lives, `work(what)` runs before a signal ends this process. The work of newer objects runs first.
+/// This covers signals that somebody sends or a system limit raises, but neither crash signals nor signals with another
+/// handler. A process forked from this one does no such work.
 class AtEnding {
  public:
   using Work = void (*)(const void* what);
@@ -23,7 +23,7 @@ class AtEnding {
 };
 
 /// Defers such signals in every thread while this object lives. A deferred signal ends the process when the last of
-/// these objects goes; no new object begins after it.
+/// these objects is destroyed. Once a signal is deferred, the constructor waits for that end.
 class EndingHeld {
  public:
   EndingHeld();

@@ -40,7 +40,7 @@ struct Pipe {
   int read = -1, write = -1;
 };
 
-/// Our environment as `NAME=value`, without the variables in `more`, then those.
+/// Returns our environment as `NAME=value`; `more` replaces variables of the same names.
 std::vector<std::string> environmentWith(const std::vector<std::pair<std::string, std::string>>& more) {
   std::vector<std::string> out;
   for (char** each = environ; *each != nullptr; ++each) {
@@ -61,7 +61,7 @@ std::vector<char*> pointersTo(std::vector<std::string>& texts) {
   return each;
 }
 
-/// What starts a command. The child handles signals by default, even those that this program ignores or blocks.
+/// Starts a command. In the child every signal has its default action, even one that this program ignores or blocks.
 class Start {
  public:
   explicit Start(short further_flags) {
@@ -100,11 +100,11 @@ class Start {
 /// The group is killed because a command may ignore the end of its input.
 void endGroup(const void* leader) { ::kill(-*static_cast<const pid_t*>(leader), SIGKILL); }
 
-/// The copy leaves terminal and pipe signals to its parent, and dies with it.
+/// The copy ignores SIGINT, which a terminal sends to all, and SIGPIPE. It dies with its parent.
 void leaveToParent(pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(0);
-  std::signal(SIGINT, SIG_IGN);                                                 // a terminal sends it to all
+  std::signal(SIGINT, SIG_IGN);                                                 // the parent handles it
   if (std::signal(SIGTERM, SIG_DFL) == SIG_IGN) std::signal(SIGTERM, SIG_IGN);  // keeps what our starter chose
   std::signal(SIGPIPE, SIG_IGN);
 }
@@ -116,7 +116,7 @@ ChildProcess::ChildProcess(const Command& command) : leads_group_(command.is_ask
   Start start(command.is_asked ? POSIX_SPAWN_SETPGROUP : 0);
   if (command.is_asked) posix_spawn_file_actions_adddup2(&start.files, there.read, STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&start.files, back.write, STDOUT_FILENO);
-  const EndingHeld held;  // until it is known what a signal has to end
+  const EndingHeld held;  // until the process that a signal must end is known
   pid_ = start(command.words, environmentWith(command.environment));
   if (leads_group_) ends_with_us_.emplace(endGroup, &pid_);
   if (command.is_asked) to_ = std::exchange(there.write, -1);

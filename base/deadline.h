@@ -10,13 +10,13 @@
 
 namespace ursula {
 
-/// Thrown when the time is up. It is no std::exception, because an experiment turns those into results.
+/// Thrown when the time is up. It is not a std::exception, because experiments turn those into results.
 struct OutOfTime {
   std::string words;  ///< "the time limit of 600 s was reached", "it was asked to end"
 };
 
-/// When long work has to end: after some seconds, once somebody asks for it, or never by default. Cheap to copy and to
-/// ask.
+/// Says when long work has to end: after some seconds, once somebody asks for it, or never (the default). It is cheap
+/// to copy and to ask.
 class Deadline {
  public:
   Deadline() = default;

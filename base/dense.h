@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-// Eigen's factorisations that compile slowly, of dynamic size, compiled once for all.
+// Eigen's factorisations of dynamic size compile slowly, so they are compiled once, here.
 
 namespace ursula {
 
@@ -21,7 +21,7 @@ Eigen::VectorXd symmetricEigenvalues(const Eigen::MatrixXd& matrix);
 /// Returns nullopt if the iteration does not converge.
 std::optional<EigenPairs> eigenPairs(const Eigen::MatrixXd& matrix);
 
-/// The rank by QR with column pivoting and Eigen's threshold.
+/// Returns the rank by QR with column pivoting and Eigen's threshold.
 int rankOf(const Eigen::MatrixXd& matrix);
 
 /// Returns the x of the least |Ax − b| by QR with column pivoting.

@@ -16,7 +16,7 @@ FreshPaths::FreshPaths()
 void FreshPaths::makeFolder(const std::filesystem::path& folder) {
   if (folder.empty() || std::filesystem::is_directory(folder)) return;
   makeFolder(folder.parent_path());
-  const EndingHeld held;  // until it is known what a signal has to remove
+  const EndingHeld held;  // until the path that a signal must remove is known
   if (std::filesystem::create_directory(folder)) made_.push_back(folder);
 }
 

@@ -34,11 +34,11 @@ class FreshPaths {
   AtEnding ending_;
 };
 
-/// `.ursula-KIND-PROCESS-N` in `folder`. The name is short, so it never exceeds the system's limit. The process id and
-/// a count of this process make it unique.
+/// Returns `.ursula-KIND-PROCESS-N` in `folder`. The name is short, so it never exceeds the system's limit. The process
+/// id and a count of this process make it unique.
 std::filesystem::path temporaryIn(const std::filesystem::path& folder, const std::string& kind);
 
-/// Takes a lock on an open file; it ends with the last descriptor of this opening, so a dead process holds none.
+/// Takes a lock on an open file. The lock ends with the last descriptor of this opening, so a dead process holds none.
 /// Returns `free` if the lock was taken, `taken` if another holds it, `unknown` if the file system has no locks.
 enum class Lock { free, taken, unknown };
 Lock tryLock(int descriptor);
@@ -49,7 +49,7 @@ bool isStill(int descriptor, const std::filesystem::path& name);
 /// Writes all of `content` to an open file. Returns false and sets errno if the system refuses.
 bool writeAll(int descriptor, std::string_view content);
 
-/// Makes changes in a folder survive a loss of power. Best effort: not every file system can.
+/// Makes changes in a folder survive a loss of power, if the file system can.
 void syncFolder(const std::filesystem::path& folder);
 
 }  // namespace ursula

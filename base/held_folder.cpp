@@ -13,7 +13,7 @@
 
 namespace ursula {
 
-/// A folder that was swapped meanwhile is another one, so it is opened again.
+/// If the folder was swapped meanwhile, the new one is opened.
 HeldFolder::HeldFolder(const std::filesystem::path& folder, Kind kind) {
   constexpr std::chrono::seconds patience{5};
   constexpr std::chrono::milliseconds between_tries{2};

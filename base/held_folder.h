@@ -5,8 +5,8 @@
 
 namespace ursula {
 
-/// Keeps a folder in its place while files are written in it, or to itself while it is listed or swapped. Other
-/// processes wait for each other some seconds. Holds nothing where a folder cannot be locked, as on some networks.
+/// Locks a folder: with others while files are written in it, alone while it is listed or swapped. Processes wait for
+/// each other some seconds. Holds nothing where a folder cannot be locked, as on some network file systems.
 class HeldFolder {
  public:
   enum class Kind { with_others, alone };
@@ -20,7 +20,7 @@ class HeldFolder {
   int descriptor_ = -1;
 };
 
-/// Holds a folder and all above it with others: another run may swap any of them.
+/// Holds a folder and all above it, with others, because another run may swap any of them.
 std::vector<HeldFolder> heldWithFoldersAbove(const std::filesystem::path& folder);
 
 }  // namespace ursula

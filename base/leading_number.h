@@ -11,8 +11,8 @@ struct LeadingNumber {
   std::size_t length = 0;  ///< 0 if the text begins with no number or with one outside a double's range
 };
 
-/// Reads digits as in C whatever the process's locale is, because a host program may set one with decimal commas. A
-/// leading plus is accepted, white space is not.
+/// Reads digits as in the C locale, because a host program may set one with decimal commas. A leading plus is accepted,
+/// white space is not.
 LeadingNumber leadingNumber(std::string_view text);
 
 }  // namespace ursula

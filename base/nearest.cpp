@@ -31,7 +31,7 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
   for (const std::string& candidate : candidates) {
     const std::size_t longer = std::max(word.size(), candidate.size());
     const std::size_t allowed = std::max<std::size_t>(1, longer / 3);
-    // Words that differ too much are no typing errors, and long words would take too long.
+    // Words that differ so much are not misspelled, and long words would take too long.
     if (longer > longest || longer - std::min(word.size(), candidate.size()) > allowed) continue;
     const std::size_t far = distance(word, candidate);
     if (far > allowed || (!best.empty() && far >= least)) continue;

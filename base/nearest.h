@@ -5,8 +5,8 @@
 
 namespace ursula {
 
-/// Returns the candidate at the least Damerau–Levenshtein distance from `word`, the first of equals. The result is
-/// empty if that exceeds a third of the longer word's length (at least 1).
+/// Returns the candidate at the least optimal string alignment distance from `word`, the first of equals. Returns an
+/// empty string if that distance exceeds a third of the longer word's length (at least 1).
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
 
 /// `, did you mean 'mass'?`, or empty if no candidate is near.

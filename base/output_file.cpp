@@ -33,7 +33,7 @@ bool isOpenElsewhere(const fs::path& link) {
   return !error && folder.string().compare(0, 6, "/proc/") == 0;
 }
 
-/// Whether it is a device, a pipe or an open file: replacing it would take it from its users.
+/// Whether it is a device, a pipe or an open file, whose users would lose it if it were replaced.
 bool isWrittenThrough(const fs::path& end) {
   std::error_code ignored;
   const fs::file_status status = fs::status(end, ignored);
@@ -46,8 +46,8 @@ bool isRootsOwn(const fs::path& folder) {
   return ::geteuid() == 0 && (folder == "/" || (home != nullptr && folder == home));
 }
 
-/// Removes files whose process is gone and thus holds no lock. Nobody else removes a file locked here, so its name
-/// cannot change its meaning before the removal.
+/// Removes files whose process is gone and thus holds no lock. Nobody else removes a file that is locked here, so its
+/// name cannot pass to another file before the removal.
 void sweepTemporaries(const fs::path& folder) {
   const std::string prefix = std::string(".ursula-") + kind + "-";
   std::error_code error;

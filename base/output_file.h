@@ -9,11 +9,11 @@
 namespace ursula {
 
 /// A file written in pieces that readers see only once it is complete and on the disk. Until then it has a temporary
-/// name in the same folder. An uncommitted file is removed; that of a killed process, when the next file is written
-/// there.
+/// name in the same folder. An uncommitted file is removed. If the process was killed, the next file written there
+/// removes it.
 ///
-/// A replaced file keeps its mode and, if the system permits, its owner. A symbolic link stays; its target is
-/// replaced. Of several hard links one name gets the new file. Devices, named pipes and open files (/dev/stdout) are
+/// A replaced file keeps its mode and, if the system permits, its owner. A symbolic link stays; its target is replaced.
+/// Of several hard links, only this name gets the new file. Devices, named pipes and open files (/dev/stdout) are
 /// written in place. Read-only files are refused.
 ///
 /// Makes missing parent folders, and removes them if nothing is committed. Throws std::filesystem::filesystem_error
@@ -49,9 +49,9 @@ void writeFileAtomically(const std::filesystem::path& file, const std::string& c
 /// is an end. Throws std::runtime_error for a circle.
 std::filesystem::path endOfLinks(std::filesystem::path file);
 
-/// Throws std::runtime_error, "cannot write FILE: why", if a file of that name cannot be written or replaced; makes
+/// Throws std::runtime_error, "cannot write FILE: WHY", if a file of that name cannot be written or replaced; makes
 /// nothing. Reasons are a folder of that name, a read-only file, a name too long, a file in place of a folder, or a
-/// folder without write permission. What is read-only is refused for root, too.
+/// folder without write permission. Root is refused a read-only file or folder, too.
 void requireWritable(const std::filesystem::path& file);
 
 /// The same for files in a folder that may not exist yet; the message names `shown`.

@@ -122,12 +122,12 @@ OutputFolder::OutputFolder(fs::path folder, OlderFiles older)
 OutputFolder::~OutputFolder() {
   const EndingHeld held;
   std::error_code ignored;
-  if (!temporary_.empty()) fs::remove_all(temporary_, ignored);  // with what was carried over
-  fresh_.remove();                                               // and the lock file while it is locked
+  if (!temporary_.empty()) fs::remove_all(temporary_, ignored);  // and what was carried over into it
+  fresh_.remove();                                               // removes the lock file while it is still locked
   if (lock_ >= 0) ::close(lock_);
 }
 
-/// Runs before anything is computed. A process that works in a swapped folder would be left in a removed one.
+/// Refuses before anything is computed. A process whose working folder is swapped would be left in a removed one.
 void OutputFolder::requireSwappable() const {
   std::error_code error;
   const fs::path here = fs::current_path(error), below = shown_ / "results";
@@ -143,7 +143,7 @@ void OutputFolder::requireSwappable() const {
   }
 }
 
-/// A name unique among the folders in `above_`; its length is fixed.
+/// Returns a name of fixed length that is unique among the folders in `above_`.
 std::string OutputFolder::own(const std::string& kind) const {
   return kind + "-" + sha1(folder_.filename().string()).substr(0, 12);
 }
@@ -172,7 +172,7 @@ void OutputFolder::lock() {
 bool OutputFolder::tryToLock() {
   constexpr mode_t as_the_user_says = 0666;
   fresh_.makeFolder(above_);
-  const EndingHeld held;  // until it is known that the file must be removed
+  const EndingHeld held;  // until the lock file is listed for removal
   lock_ = ::open(lock_file_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, as_the_user_says);
   if (lock_ < 0 && errno == EACCES)  // another user's run left it: locking needs no write permission
     lock_ = ::open(lock_file_.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
@@ -188,8 +188,8 @@ bool OutputFolder::tryToLock() {
   return false;
 }
 
-/// Removes what dead processes left. Both folders of an interrupted swap are complete. One takes the place if it is
-/// empty; the files written last are carried over.
+/// Removes what dead processes left. Both folders of an interrupted swap are complete. If neither has its final name,
+/// one gets it, and the newer files are carried over.
 void OutputFolder::sweep() const {
   std::vector<fs::path> left;
   std::error_code error;

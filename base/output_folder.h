@@ -14,13 +14,13 @@ namespace ursula {
 
 using Paths = std::set<std::filesystem::path>;
 
-/// A folder whose files belong together. They are written beside it and replace it as a whole when committed, on the
-/// disk. Until then, or on failure, the old folder stays as it was. Files that no older run wrote, such as a user's
-/// notes, are carried over. No other process can write the folder meanwhile. Runs may write in a folder below it: the
-/// swap waits until they are done with their files.
+/// A folder whose files belong together. They are written into a folder beside it, which replaces it as a whole on
+/// commit. Until then, or on failure, the old folder stays as it was. Files that no older run wrote, such as a user's
+/// notes, are carried over. No other process can write the folder meanwhile. Other runs may write in a folder below it;
+/// the swap waits for them.
 ///
-/// A folder is refused if a swap is impossible or harms its users. These are mount points or folders that hold one,
-/// the working folder of this process, and folders with unreadable content.
+/// A folder is refused if a swap is impossible or harms its users. Such are mount points, folders that contain one, the
+/// working folder of this process, and folders with unreadable content.
 class OutputFolder {
  public:
   /// Returns the files that an older run wrote, relative to the folder; these are not carried over.
@@ -41,7 +41,8 @@ class OutputFolder {
   /// The same for content that `fill` gives in pieces.
   using Take = std::function<void(const std::string& piece)>;
   void write(const std::filesystem::path& name, const std::function<void(const Take&)>& fill);
-  /// Comes last; others may then write there. Throws std::runtime_error or std::filesystem::filesystem_error.
+  /// Replaces the folder and lets others write there; nothing may be written afterwards. Throws std::runtime_error or
+  /// std::filesystem::filesystem_error.
   void commit();
 
  private:
@@ -64,7 +65,7 @@ class OutputFolder {
   std::mutex mutex_;       // guards what follows
   std::filesystem::path temporary_;
   Paths written_;                       ///< relative paths
-  std::vector<HeldFolder> held_above_;  ///< folders above that nobody swaps while this one's files are written
+  std::vector<HeldFolder> held_above_;  ///< folders above this one; no run swaps them while they are held
 };
 
 }  // namespace ursula

@@ -4,7 +4,7 @@
 
 namespace ursula {
 
-/// The paper's machine has the most legs of all machines here.
+/// The largest number of legs; the paper's machine has it.
 constexpr int leg_count = 6;
 constexpr int motor_count = 6;
 /// Two links per leg and the platform, ordered as in (30a): proximal links, distal links, platform. The places of legs

@@ -29,7 +29,7 @@ std::vector<std::thread> startThreads(std::size_t count, const Work& work) {
 }
 
 /// Does `task(k)` for k = 0 … count − 1 on `jobs` threads. Nothing begins after the first exception, which is rethrown.
-/// oneTBB does not fit: tasks take seconds, wait for each other, and must go on with fewer threads.
+/// oneTBB does not fit, because tasks take seconds, wait for each other, and must go on with fewer threads.
 template <class Task>
 void inParallel(int jobs, int count, const Task& task) {
   std::atomic<int> next{0};
@@ -51,7 +51,8 @@ void inParallel(int jobs, int count, const Task& task) {
   if (failure) std::rethrow_exception(failure);
 }
 
-/// How many of `count` threads the system gives at once. Some libraries abort if it gives fewer.
+/// Returns how many of `count` threads the system gives at once. Some libraries abort if it gives fewer than they ask
+/// for.
 inline std::size_t threadsThatStart(std::size_t count) {
   std::promise<void> all;
   const std::shared_future<void> asked = all.get_future().share();

@@ -7,7 +7,8 @@
 
 namespace ursula {
 
-/// Refuses a text as input: the message says what is wrong and what was expected. Line and column are 1-based.
+/// Thrown for a text that is refused as input; the message says what is wrong and what was expected. Line and column
+/// are 1-based.
 class TextRefusal : public std::runtime_error {
  public:
   explicit TextRefusal(const std::string& what, std::size_t in_line = 1, std::size_t in_column = 1)
@@ -16,7 +17,7 @@ class TextRefusal : public std::runtime_error {
   std::size_t line, column;
 };
 
-/// The largest size of a text and its kind, for messages.
+/// The largest size of a text, and its kind for messages.
 struct TextBounds {
   std::size_t most_bytes = 0;
   const char* kind = "";  ///< "a scenario in TOML"

@@ -83,7 +83,7 @@ class BoundsScan {
            sign == '_' || sign == '-' || sign == '+';
   }
 
-  /// Skips a word. A number is a word with at most one dot behind a digit.
+  /// Skips a word; a number is a word with at most one dot after a digit.
   void passWord() {
     const std::size_t begin = at_;
     while (at_ < text_.size() && isOfWord(text_[at_])) ++at_;

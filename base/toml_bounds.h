@@ -7,7 +7,7 @@
 
 namespace ursula {
 
-/// Limits of a document. Our deepest has six levels, our longest some ten thousand waypoints.
+/// Limits of a document. Real ones have at most six levels and some ten thousand waypoints.
 constexpr std::size_t most_toml_bytes = std::size_t{32} << 20, most_toml_depth = 64, most_toml_keys = 200'000,
                       most_toml_values = 2'000'000;
 
