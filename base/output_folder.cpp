@@ -80,8 +80,8 @@ bool isNewer(const fs::path& a, const fs::path& b) {
   return fs::last_write_time(a, ignored) > fs::last_write_time(b, ignored);
 }
 
-/// Carries what is not `ours` from `old` into `fresh`. It links it, or copies it if the file system has no links.
-/// Otherwise it moves what `fresh` lacks or what changed since. Throws what the file system throws.
+/// Carries what is not `ours` from `old` into `fresh`. Carry::linked makes links, or copies if the file system has no
+/// links. Carry::moved moves what `fresh` lacks or what changed since. Throws what the file system throws.
 void carry(const fs::path& old, const fs::path& fresh, const Paths& ours, Carry how) {
   for (const fs::path& name : allIn(old)) {
     const fs::path from = old / name, to = fresh / name;

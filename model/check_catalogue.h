@@ -35,8 +35,8 @@ enum class LimitFrom {
   measured,  ///< the same computation in other changes of frame, or at other steps or tolerances
 };
 
-/// The description of one check; `ursula explain`, reports and docs/checks.md are made from it. The family in
-/// validation/checks/families.cpp that names the check judges it.
+/// The description of one check. `ursula explain`, reports and docs/checks.md are made from it. A family in
+/// validation/checks/families.cpp names the check and judges it.
 struct CheckRow {
   const char* name;
   const char* unit;
@@ -73,7 +73,7 @@ std::size_t groupOf(const std::string& check);
 /// "exact", "derived" or "measured".
 const char* name(LimitFrom from);
 
-/// The three parts of the catalogue, in this order.
+/// The catalogue's three parts, in the order of checkCatalogue().
 std::vector<CheckRow> checksOfInput();
 std::vector<CheckRow> checksOfTorques();
 std::vector<CheckRow> checksOfReplay();

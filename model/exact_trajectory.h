@@ -11,7 +11,8 @@
 
 namespace ursula {
 
-/// Sizes of intermediate sums that a pose does not show, such as a helix's angles and their heights.
+/// Sizes of intermediate sums that a pose does not show, such as a helix's angles and their heights; roundings are
+/// counted from them.
 struct HiddenTerms {
   double angle = 6.2831853071795864769;  ///< rad; one turn by default
   double length = 0;                     ///< m

@@ -16,8 +16,8 @@ std::vector<double> equallySpaced(double duration, int count);
 /// The instants at which a higher derivative of motion or load jumps, in order.
 std::vector<double> allKnots(const Scenario& scenario);
 
-/// A replay steps to each of up to this many knots. Of more, it skips those less than a 4096th of the motion after
-/// another; the integration loses its order there.
+/// A replay steps to each of up to this many knots. If there are more, it skips each that is less than a 4096th of the
+/// motion after another; the integration loses its order there.
 constexpr std::size_t most_knots = 2048;
 
 /// Returns the knots within (start, end) that a replay steps to.

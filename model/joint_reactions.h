@@ -6,8 +6,8 @@
 
 namespace ursula {
 
-/// Forces and moments that one leg's joints exert on the outboard body at the joint's point; in B, N and N·m. The
-/// moments include constraint moments, motor torque and friction.
+/// Forces and moments that one leg's joints exert on the body nearer to the platform, at the joint's point; in B, N and
+/// N·m. The moments include constraint moments, motor torque and friction.
 struct LegReactions {
   Vector3d f_A = Vector3d::Zero(), n_A = Vector3d::Zero();  ///< base on proximal link, at A
   Vector3d f_R = Vector3d::Zero(), n_R = Vector3d::Zero();  ///< proximal on distal link, at R

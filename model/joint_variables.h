@@ -27,7 +27,7 @@ struct JointVariables {
   }
   const Vector6<S>& of(Coordinate coordinate) const { return const_cast<JointVariables&>(*this).of(coordinate); }
 
-  /// Returns the driven ones in the order of the motors.
+  /// Returns the driven coordinates in the order of the motors.
   Vector6<S> driven(const Motors& motors) const {
     Vector6<S> out;
     for (int k = 0; k < motor_count; ++k) {

@@ -13,10 +13,10 @@ namespace {
 
 using LoadKnot = CurvePoint<Real50, 6>;
 
-/// The harmonic mean of the slopes on both sides, 0 at an extremum (F. N. Fritsch and J. Butland, SIAM J. Sci. Stat.
-/// Comput. 5 (1984) 300–304): at most twice the lesser. A quintic that rises by 1 over s in [0, 1] with end slopes m₀,
-/// m₁ in [0, 2] and zero second derivatives there is monotone. Its slope is linear in m₀ and m₁. At that square's
-/// corners it is 30 s²(1 − s)², 2 (1 − s)²(1 + 2s), its mirror image, and 2 − 30 s²(1 − s)² >= 1/8.
+/// Returns the harmonic mean of the slopes on both sides, 0 at an extremum (F. N. Fritsch and J. Butland, SIAM J. Sci.
+/// Stat. Comput. 5 (1984) 300–304): at most twice the lesser. A quintic that rises by 1 over s in [0, 1] with end
+/// slopes m₀, m₁ in [0, 2] and zero second derivatives there is monotone. Its slope is linear in m₀ and m₁. At that
+/// square's corners it is 30 s²(1 − s)², 2 (1 − s)²(1 + 2s), its mirror image, and 2 − 30 s²(1 − s)² >= 1/8.
 Real50 limitedSlope(const Real50& before, const Real50& after) {
   return before * after > 0 ? Real50(2 * before * after / (before + after)) : Real50(0);
 }

@@ -26,7 +26,7 @@ struct TimedWrench {
 /// wrench is constant. It is twice continuously differentiable, so an integrator keeps its order across rows.
 class LoadHistory {
  public:
-  /// Needs at least two finite rows with increasing times. Throws InvalidParameter (places `load.table[n].…`, 1-based).
+  /// Takes at least two finite rows with increasing times. Throws InvalidParameter (places `load.table[n].…`, 1-based).
   explicit LoadHistory(const std::vector<TimedWrench>& rows);
   /// The same history under a linear map of [force; moment], with time divided by `time_unit`. Mapped rows would give
   /// another curve, because slopes are limited per component.

@@ -8,7 +8,7 @@
 namespace ursula {
 namespace {
 
-/// Where a number is: i in a vector, i and j in a tensor.
+/// The place of a number: i in a vector, i and j in a tensor.
 struct Place {
   ManipulatorParameters& machine;
   Leg& leg;

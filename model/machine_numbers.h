@@ -40,16 +40,16 @@ struct MachineNumber {
   std::string unit;   ///< "kg m^2"
 
   double get(const ManipulatorParameters& machine) const;
-  /// Sets both xy and yx of an inertia.
+  /// Sets both entries of an off-diagonal pair of an inertia.
   void set(ManipulatorParameters& machine, double value) const;
   /// The norm of its vector, the largest entry of its tensor, or its own absolute value.
   double size(const ManipulatorParameters& machine) const;
 };
 
 /// Returns all numbers that efforts can depend on: 13 of gravity and platform, then those of each leg. A cylinder's
-/// length, which limits its stroke, is omitted; so is everything of a carriage except its mass. A scenario's
-/// `smoothing_speed` gives two numbers; `sliding_speed` is that of d. Rotor inertias and off-line mass centres appear
-/// only if the machine has them. The position along the line is then the mass centre's third entry.
+/// length, which only limits its stroke, is omitted; so is everything of a carriage except its mass. A scenario's
+/// `smoothing_speed` gives two numbers; `sliding_speed` is that of d. Rotor inertias appear only if the machine has
+/// them. A mass centre is one number, or three if it is off the link's line.
 std::vector<MachineNumber> machineNumbers(const ManipulatorParameters& machine);
 
 /// Row and column of a tensor's entries, in the order of a scenario.

@@ -13,7 +13,7 @@ namespace {
 
 std::string text(const Vector3d& v) { return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z()); }
 
-/// Six digits, or all where six do not tell the value from the bound.
+/// Prints six digits, or all of them if six do not tell the value from the bound.
 std::string computed(double value, double bound) {
   const std::string text = fmt::format("{:.6g}", value);
   return value != bound && text == fmt::format("{:.6g}", bound) ? fmt::format("{}", value) : text;
@@ -81,7 +81,7 @@ void requireFriction(const std::string& place, const JointFriction& friction) {
   }
 }
 
-/// The spin of a link may be ignored only if the link is round and nothing else depends on the spin.
+/// A link's spin may be ignored only if the link is round and nothing else depends on the spin.
 void requireRound(const std::string& place, const Link& link) {
   const Matrix3d& I = link.inertia;
   const std::string tensor =
@@ -166,7 +166,7 @@ void requireSpan(const ManipulatorParameters& machine, int i, int j) {
   const double reach = first.proximal.length + first.distal.length + second.proximal.length + second.distal.length;
   const double gap = std::abs(base - platform);
   if (reach >= gap) return;
-  // A hundred times the length of one leg is the base, or the platform, in millimetres.
+  // A base or platform so much larger than the leg is probably given in millimetres.
   const bool is_mm = gap > 50 * reach;
   const char* point = base > platform ? ".base_point" : ".platform_point";
   throw InvalidParameter(

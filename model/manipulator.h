@@ -52,8 +52,8 @@ struct Leg {
   CoulombFriction coulomb;  ///< N·m, for d N
   LegKind kind = LegKind::URS;
   std::array<bool, 3> actuated = {true, false, false};  ///< which of the kind's coordinates a motor drives
-  PerCoordinate rotor_inertia;  ///< j in the rotor's energy ½ j q̇², kg·m², for d kg; only of driven coordinates
-  /// Whether the rod between two balls, or cylinder and rod, turns freely about its line; initially it does not spin.
+  PerCoordinate rotor_inertia;  ///< j in the rotor's energy ½ j q̇², kg·m², for d kg; zero unless driven
+  /// Whether the rod between two balls, or cylinder and rod, turns freely about its line. At first it does not spin.
   bool spins = false;
 
   /// Whether a motor drives the coordinate.
@@ -101,16 +101,16 @@ class Manipulator {
   /// base and platform. Throws InvalidParameter with key, value and bound.
   explicit Manipulator(const ManipulatorParameters& parameters);
 
-  /// The parameters of the moving machine: a freely spinning link has no moment about its line, as its spin stays at
-  /// rest.
+  /// The parameters of the moving machine: here a freely spinning link has no inertia about its line, because it never
+  /// begins to spin.
   const ManipulatorParameters& parameters() const { return parameters_; }
   /// The parameters as given.
   const ManipulatorParameters& given() const { return given_; }
   const Leg& leg(int i) const { return parameters_.legs[static_cast<std::size_t>(i)]; }
   int legCount() const { return static_cast<int>(parameters_.legs.size()); }
-  /// In the order of efforts: by leg, then by the leg's coordinates.
+  /// The motors in the order of efforts: by leg, then by the leg's coordinates.
   const Motors& motors() const { return motors_; }
-  /// Whether there are six URS legs with a motor on each φ, for which the paper's equations hold.
+  /// Whether it has six URS legs with a motor on each φ; the paper's equations hold for these.
   bool isOfThePaper() const;
   const Platform& platform() const { return parameters_.platform; }
   const Vector3d& gravity() const { return parameters_.gravity; }

@@ -53,7 +53,7 @@ class ToleranceTaker {
     }
   }
 
-  /// Notes the tolerance of a table with the two keys, and returns its value.
+  /// Notes the tolerance of a table that has `value` and `tolerance`, and returns its value.
   toml::node& taken(toml::node& node, const std::string& path) {
     toml::table& table = *node.as_table();
     for (const auto& [key, child] : table)
@@ -93,7 +93,7 @@ class ToleranceTaker {
   const std::string& file_;
 };
 
-/// Returns whether the document has the key at the end of `parts`, or the key's other name.
+/// Whether the document has the key at the end of `parts`, under either name.
 bool gives(const toml::node* at, const std::vector<std::string>& parts) {
   for (const std::string& part : parts) {
     const toml::table* table = at == nullptr ? nullptr : at->as_table();

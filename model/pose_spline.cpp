@@ -46,7 +46,7 @@ class PoseSplineKernel {
 
 using PoseKnot = CurvePoint<Real50, 7>;
 
-/// The spline runs through R⁴, so it uses q or −q, whichever is nearer to the previous quaternion.
+/// The spline runs through R⁴, so each knot uses q or −q, whichever is nearer to the previous one.
 std::vector<PoseKnot> knotsOf(const std::vector<TimedPose>& poses) {
   std::vector<PoseKnot> knots(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {

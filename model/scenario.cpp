@@ -40,7 +40,7 @@ SimulationSettings readSimulation(const TomlSection& table) {
   return settings;
 }
 
-/// Reads `torque = { relative = X, absolute = Y }`; one of them may be missing.
+/// Reads `torque = { relative = X, absolute = Y }`; either may be missing.
 EffortTolerance readTolerance(const TomlSection& table) {
   EffortTolerance tolerance;
   for (const auto& [key, member] :

@@ -38,7 +38,7 @@ struct AcceptanceLimit {
 /// The user's tolerance of efforts: `relative` to the largest effort of the motion, plus `absolute` (N·m or N).
 struct EffortTolerance {
   double relative = 0, absolute = 0;
-  bool any = false;  ///< allows even a tolerance at which zero torques would pass
+  bool any = false;  ///< allows a tolerance so large that zero torques would pass
 };
 
 /// A machine, its commanded motion, and how both are judged; read from a file or made by a program.
@@ -55,7 +55,7 @@ struct Scenario {
 
   /// Marks machine, trajectory and load as those that `text` describes.
   void markAsRead() { read_ = {manipulator.get(), trajectory.get(), load.get()}; }
-  /// Returns false if a program made the scenario or changed it after reading; its text is then no description.
+  /// Whether `text` describes it: false if a program made the scenario or changed it after reading.
   bool isAsRead() const {
     return read_[0] != nullptr && read_ == std::array<const void*, 3>{manipulator.get(), trajectory.get(), load.get()};
   }

@@ -6,13 +6,13 @@
 
 namespace ursula {
 
-/// A ScenarioError that knows its line and column, from 1, and can show them.
+/// A ScenarioError that knows its line and column, both from 1, and can show them.
 class PlacedError : public ScenarioError {
  public:
   PlacedError(const std::string& what, std::size_t line, std::size_t column)
       : ScenarioError(what), line_(line), column_(column) {}
 
-  /// Adds the line at its place; `text` is the whole file.
+  /// Adds the excerpt of `text`, the whole file.
   PlacedError in(const std::string& text) const;
   /// Returns the line with a caret below, for people; empty if the line is unknown.
   const std::string& excerpt() const { return excerpt_; }

@@ -17,14 +17,14 @@ std::vector<std::filesystem::path> makeFilesAbsolute(toml::table& document, cons
 /// Returns the same paths of a scenario that was read; none if a program made it.
 std::vector<std::filesystem::path> filesNamedBy(const Scenario& scenario);
 
-/// Calls readScenario(), or reads standard input, <stdin> in errors, if `file` is "-". Relative paths then refer to the
-/// current folder. Standard input can be read once.
+/// Calls readScenario(), or reads standard input if `file` is "-". Then errors name it <stdin>, and relative paths
+/// refer to the current folder. Standard input can be read once.
 Scenario readScenarioOrInput(const std::filesystem::path& file);
 
 /// The place of a key in a scenario's file.
 struct KeyPlace {
   std::string place;             ///< `file:line:column` of its value, or of the nearest enclosing table
-  std::string key;               ///< dotted; in manipulator.leg_defaults if a leg inherits it
+  std::string key;               ///< dotted; begins with manipulator.leg_defaults if a leg inherits it
   bool given = false;            ///< whether the leg itself or the defaults give it
   std::optional<double> number;  ///< its value as written, if that is a number
 };

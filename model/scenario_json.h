@@ -12,7 +12,7 @@ namespace ursula {
 std::string scenarioJson(const Scenario& scenario);
 
 /// Returns the same document in TOML, for parseScenario(); `file` names it in errors. Throws ScenarioError if the text
-/// is no JSON object, and with the key for null, which TOML lacks.
+/// is no JSON object, or if a value is null, which TOML lacks.
 std::string tomlOfJson(const std::string& json, const std::filesystem::path& file);
 
 }  // namespace ursula

@@ -61,8 +61,8 @@ struct ScenarioTable {
 /// docs/scenario.schema.json are generated from them.
 const std::vector<ScenarioTable>& scenarioTables();
 
-/// Returns the second name of a friction coefficient on the paper's legs: `actuated` for `phi`, and back. Returns an
-/// empty string if there is none.
+/// Returns the second name of a friction coefficient on the paper's legs: `actuated` for `phi`, and vice versa. Returns
+/// an empty string if there is none.
 std::string otherFrictionName(const std::string& key);
 
 /// Throws std::out_of_range for an unknown table.

@@ -63,7 +63,7 @@ std::string childTable(const std::string& key, const ScenarioKey& about) {
   return key == "trajectory" ? "trajectory" : "";
 }
 
-/// Copies the value of the leg's defaults or the program's; creates a missing table.
+/// Writes a missing key: the value of the leg's defaults, else the program's default; a table is made empty.
 void writeOut(toml::table& table, const ScenarioKey& about, const toml::node* inherited, const std::string& whole) {
   if (about.type == KeyType::table) {
     table.insert(about.name, toml::table{});
@@ -94,7 +94,7 @@ std::string asWritten(const Spot& spot, const std::string& part) {
 
 Spot intoTable(const Spot& spot, const std::string& asked, const std::string& whole) {
   const std::string part = asWritten(spot, asked);
-  // Limits have the names of checks, dotted or in tables; those in the scenario can vary.
+  // Keys of limits are names of checks, dotted or in tables; only those in the scenario can vary.
   if (spot.table.compare(0, 10, "acceptance") == 0)
     if (toml::node* given = spot.node->as_table()->get(part)) return {given, nullptr, "acceptance"};
   const ScenarioTable& keys = keysOf(spot);

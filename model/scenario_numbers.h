@@ -14,7 +14,7 @@ struct NumberKeyError : std::runtime_error {
 
 /// Accesses numbers of a scenario's document by dotted keys. In `manipulator.leg.3.distal.mass`, tables of an array
 /// count from 1, entries of an array of numbers from 0. Keys not found at the top are searched in `manipulator`. A
-/// number from the leg's defaults or the program's is written into the document on first access.
+/// number that comes from the leg's defaults or the program's is written into the document on first access.
 ///
 /// Internal, because its interface has a document of toml++. Refers to the document.
 class ScenarioNumbers {
@@ -24,7 +24,7 @@ class ScenarioNumbers {
   /// Expands `*` to all matching keys; other keys stay. Adds a missing `manipulator.`.
   std::vector<std::string> expanded(const std::string& key) const;
 
-  /// Makes the key's number settable and returns its current value.
+  /// Lists the key's number among those that set() changes, and returns its current value.
   double hold(const std::string& key);
   /// Whether the k-th held number must be an integer.
   bool isInteger(std::size_t k) const { return held_[k].node->is_integer(); }

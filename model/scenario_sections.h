@@ -8,8 +8,8 @@
 #include "model/scenario.h"
 #include "model/toml_reader.h"
 
-// Each function reads one table of a scenario; scenario.cpp combines them. All throw ScenarioError. They throw
-// InvalidParameter for what only Manipulator or a trajectory can check; `located` adds the place.
+// Each function reads one table of a scenario; scenario.cpp combines them. All throw ScenarioError. What only
+// Manipulator or a trajectory can check throws InvalidParameter; `located` adds the place.
 
 namespace ursula {
 

@@ -35,7 +35,7 @@ std::string typeName(const toml::node& node) {
   }
 }
 
-/// No SI quantity is larger, or smaller than its inverse; a double holds products of a few such numbers.
+/// No SI quantity is larger than this or smaller than its inverse; a double holds products of a few such numbers.
 constexpr double largest_number = 1e100;
 
 std::string quotedList(const std::vector<std::string>& words) {
@@ -61,7 +61,7 @@ std::string decimalPoint(const std::string& text, std::size_t line) {
 }  // namespace
 
 std::string placeAt(const std::string& file, const toml::source_position& position) {
-  // A default position is line 0; people and editors count from 1.
+  // Without a position toml++ gives line 0; people and editors count from 1.
   return fmt::format("{}:{}:{}", shownPath(file), std::max(position.line, 1U), std::max(position.column, 1U));
 }
 

@@ -56,7 +56,7 @@ class TomlSection {
   /// Throws if the key is given and its number is out of bounds.
   void requireBound(const ScenarioKey& key, double value) const;
 
-  /// Reads an angle in rad from `key`, or in degrees from `key`_deg, correctly rounded; both together are an error.
+  /// Reads an angle in rad from `key`, or in degrees from `key`_deg and correctly rounded. Both together are an error.
   bool readAngle(const std::string& key, double& value) const;
   void requireAngle(const std::string& key, double& value) const {
     if (!readAngle(key, value)) missing(key, "a number, rad, or '" + key + "_deg' in degrees");

@@ -20,15 +20,15 @@ class Trajectory {
   virtual std::string kind() const = 0;
   virtual double duration() const = 0;  ///< t_f, s
   virtual Motion<double> at(double t) const = 0;
-  /// The motion in the 50 digits of the checks; S must be Real50, else it does not link. Throws std::logic_error if
-  /// exact() is null.
+  /// The motion in 50 digits, as the checks need it; S must be Real50, else it does not link. Throws std::logic_error
+  /// if exact() is null.
   template <class S, class = std::enable_if_t<!std::is_arithmetic_v<S>>>
   Motion<S> at(const S& t) const;
   /// Returns null if the motion is known in doubles only; differences of doubles then check its derivatives.
   virtual const ExactTrajectory* exact() const { return nullptr; }
-  /// The same motion with P's position relative to `origin` (m, in B), subtracted before rounding. So a machine far
-  /// from the base's origin loses no digits. Returns null if the trajectory cannot do this; the caller then uses
-  /// at(t).p − origin.
+  /// Returns the same motion with P's position relative to `origin` (m, in B), subtracted before rounding, so that a
+  /// machine far from the base's origin loses no digits. Returns null if the trajectory cannot do this; the caller then
+  /// uses at(t).p − origin.
   virtual std::unique_ptr<Trajectory> relativeTo(const Vector3d& /*origin*/) const { return nullptr; }
   /// Instants in s, increasing, at which a higher derivative jumps; an integrator keeps its order only between them.
   virtual const std::vector<double>& knots() const {

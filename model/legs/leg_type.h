@@ -8,19 +8,19 @@
 
 namespace ursula {
 
-/// From a leg's base point to its platform point, m: the distance, and its parts along and across the base axis.
+/// The distance from a leg's base point to its platform point, and its parts along and across the base axis; m.
 struct LegSpan {
   double distance, along, across;
 };
 
-/// The distance that a leg must span, and the range that its links can span, m; with words for messages.
+/// The distance that a leg must span and the range that its links can span, in m, with words for messages.
 struct Reach {
   double distance, least, most;
   const char* before;  ///< "its base and platform points are"
   const char* after;   ///< "m apart, and its two links span"
 };
 
-/// A pose at which a leg's rate is undetermined: "is stretched straight", and a clause with the distance from it.
+/// A pose at which a leg's rates are undetermined: "is stretched straight", and a clause with the distance from it.
 struct DeadCentre {
   std::string state, measure;
 };
@@ -43,12 +43,12 @@ class LegType {
   /// Describes how near a pose is to the leg's dead centre; there the leg spans `reach`.
   virtual DeadCentre deadCentre(const Reach& reach) const;
 
-  /// Returns leg i's distance from the end of its reach: zero there, with the opposite sign beyond.
+  /// Returns leg i's margin from the end of its reach: zero there, with the opposite sign beyond.
   virtual double margin(const Leg& leg, const JointVariables<double>& q, int i) const = 0;
   /// Returns the name of that end: "stretched".
   virtual const char* endOfReach(const JointVariables<double>& q, int i) const = 0;
 
-  /// The axis about which the first angle is measured, and the angle's owner, for a platform point on that axis.
+  /// Names the axis about which the first angle is measured, for the message about a platform point on it.
   virtual const char* firstAxis() const { return "axis of its motor"; }
   virtual const char* firstAngle() const { return "motor's"; }
   /// The part that bends, and its state at a dead centre.

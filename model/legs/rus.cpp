@@ -8,7 +8,7 @@ namespace {
 /// The leg of crank and rod.
 class Rus : public LegType {
  public:
-  /// Checks the distance from the crank's plane first, then the one within it.
+  /// Checks the distance from the crank's plane first, then the distance within it.
   Reach reach(const Leg& leg, const LegSpan& span) const override {
     const double l = leg.proximal.length, s = leg.distal.length;
     if (span.along > s)

@@ -79,7 +79,8 @@ class HelixKernel {
 
     Motion<S> motion;
     motion.t = t;
-    // The chord from the start avoids the difference of two radii, which cancel if the axis is far away.
+    // The chord from the start is computed directly, because a difference of two radii would cancel if the axis is far
+    // away.
     const S half = helix.rise / 2, middle = coefficients_[0] + phase_ + half, chord = 2 * sin(half);
     motion.p = start_ + Vector3<S>(-a_ * chord * sin(middle), a_ * chord * cos(middle), b_ * helix.rise);
     motion.p_dot = m * helix.rate;
@@ -93,7 +94,7 @@ class HelixKernel {
   }
 
  private:
-  /// p at β₀ relative to the origin, rounded once: far from the base's origin the two cancel.
+  /// Returns p at β₀ relative to the origin, rounded once, because the two cancel far from the base's origin.
   static Vector3<S> startOf(const HelixParameters& helix, const Vector3d& origin) {
     const Real50 angle = Real50(helix.start_angle) + helix.phase;
     const Real50 height = Real50(helix.pitch) * (Real50(helix.start_angle) + Real50(helix.height_phase));

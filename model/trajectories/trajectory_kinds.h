@@ -14,7 +14,7 @@ namespace ursula {
 struct TrajectoryKind {
   const char* name;         ///< value of `kind`
   const char* words;        ///< "the helix"
-  const char* orientation;  ///< the key of its first quaternion; null if there is none
+  const char* orientation;  ///< the dotted key of its first quaternion; null if there is none
   std::vector<ScenarioTable> (*keys)();
   std::shared_ptr<const Trajectory> (*read)(const TomlSection& table);
 };
@@ -44,7 +44,7 @@ std::vector<ScenarioTable> motionTables();
 /// The key `kind`, with the names above as choices.
 ScenarioKey kindKey();
 ScenarioKey positionKey();
-/// The keys `orientation`, a quaternion, and `rpy_deg` as its alternative; readOrientation() reads either.
+/// The keys `orientation`, a quaternion, and `rpy_deg`, its alternative; readOrientation() reads either.
 std::array<ScenarioKey, 2> orientationKeys();
 Eigen::Vector4d readOrientation(const TomlSection& table);
 
