@@ -5,7 +5,7 @@
 
 namespace ursula {
 
-/// A pose at which the formulas do not hold, with the leg, the instant and the number that shows how near it is.
+/// A pose at which the formulas do not hold, with the leg, the instant, and the number that is out of bounds.
 class PoseError : public std::runtime_error {
  public:
   /// `leg` is 0-based, or −1 if no single leg causes it; `instant` is in s. The pose is refused because `measure` is

@@ -6,7 +6,7 @@
 
 namespace ursula {
 
-/// Solver's intermediate results; each thread needs its own. Its size is fixed, so nothing is allocated.
+/// A Solver's intermediate results; each thread needs its own. Its size is fixed, so nothing is allocated.
 template <class S>
 using Workspace = NocWorkspace<S>;
 
@@ -44,7 +44,7 @@ class Solver {
 
   /// A, B of (23) and the factors of Bᵀ, from the displacements in `work`.
   void jacobians(const Motion<S>& motion, Workspace<S>& work) const { noc_.jacobians(motion, work); }
-  /// Its rows are [Qb × n; n], n of length 1.
+  /// B of (23); its rows are [Qb × n; n], n of length 1.
   const Matrix6<S>& B(const Workspace<S>& work) const { return work.B; }
   /// The determinant of Bᵀ, with its moment rows divided by the length. Needs jacobians.
   S determinant(const Workspace<S>& work) const { return work.B_transposed.determinant(); }
@@ -67,8 +67,9 @@ class Solver {
     return finite(dynamics_.inverseDynamics(motion, load), "effort", motion.t);
   }
 
-  /// The platform's twist rate [ω̇; p̈] under efforts, by (36) projected on t_P; ignores accelerations in `motion`. Does
-  /// not throw SingularJacobian: the motors act whether or not they determine the motion. The workspace is unused.
+  /// The platform's twist rate [ω̇; p̈] under efforts, by (36) projected on t_P; ignores accelerations in `motion`.
+  /// Does not throw SingularJacobian, because the motors act whether or not they determine the motion. The workspace is
+  /// unused.
   Vector6<S> directDynamics(const Motion<S>& motion, const Vector6<S>& efforts, Workspace<S>&,
                             const Vector6<S>& load = Vector6<S>::Zero()) const {
     return finite(dynamics_.directDynamics(motion, efforts, load), "twist rate", motion.t);

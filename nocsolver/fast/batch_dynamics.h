@@ -29,7 +29,7 @@ class BatchDynamics {
 
   InstructionSet instructionSet() const;
 
-  /// Efforts as FastDynamics::inverseDynamics; all pointers have `count` entries. `loads` may be null: no load.
+  /// Efforts as FastDynamics::inverseDynamics; all pointers have `count` entries. Without a load `loads` is null.
   void inverseDynamics(const Motion<double>* motions, std::size_t count, Vector6d* efforts, PoseFault* faults,
                        const Vector6d* loads = nullptr) const;
 

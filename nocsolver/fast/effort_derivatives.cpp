@@ -38,7 +38,7 @@ Motion<S> constant(const Motion<double>& m) {
           constant<S>(m.p_ddot)};
 }
 
-/// Refuses a pose by its numbers alone.
+/// Refuses a pose by the values alone, whatever the derivatives are.
 template <class S>
 struct GuardOfValues {
   kernel::LegGuard<double> guard;
@@ -152,8 +152,8 @@ Matrix3d about(double mass, const Vector3d& r, const Matrix3d& I) {
   return I + mass * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
 }
 
-/// Replaces mass centres by first moments, and inertias by those about P and the links' first ends, in which efforts
-/// are linear.
+/// Replaces mass centres by first moments, and inertias by those about P and the links' first ends. Efforts are linear
+/// in these.
 ManipulatorParameters withMoments(ManipulatorParameters machine) {
   Platform& platform = machine.platform;
   platform.inertia = about(platform.mass, platform.center_of_mass, platform.inertia);
@@ -291,7 +291,7 @@ Eigen::VectorXd EffortDerivatives::regressorValues() const {
   return Eigen::Map<const Eigen::VectorXd>(impl_->values.data(), static_cast<Eigen::Index>(impl_->values.size()));
 }
 
-/// π is at most quadratic in each number: a central difference is exact to rounding at any step.
+/// π is at most quadratic in each number, so a central difference is exact to rounding at any step.
 Eigen::MatrixXd EffortDerivatives::regressorByParameters() const {
   Eigen::MatrixXd out(impl_->linear.size(), impl_->numbers.size());
   const auto momentsWith = [this](const MachineNumber& number, double value) {

@@ -52,8 +52,8 @@ class EffortDerivatives {
   /// of a carriage except its mass.
   const std::vector<std::string>& parameterNames() const;
 
-  /// Derivatives by each of them, in SI. An inertia's xy varies yx as well; `base_axis` varies by its components as
-  /// given, without normalisation. `load` stays fixed. Allocates its result.
+  /// Derivatives by each number of parameterNames(), in SI. An inertia's xy varies yx as well; `base_axis` varies by
+  /// its components as given, without normalisation. `load` stays fixed. Allocates its result.
   Columns byParameters(const Motion<double>& motion, const Vector6d& load = Vector6d::Zero()) const;
 
   /// Names of the parameters in which efforts are linear for a given geometry. The platform's mass, first moment and
@@ -62,11 +62,11 @@ class EffortDerivatives {
   /// follow. "manipulator.platform.first_moment.0", kg·m, "manipulator.leg.2.distal.inertia_at_end.0", kg·m².
   const std::vector<std::string>& regressorNames() const;
 
-  /// The machine's own values of them, π.
+  /// The machine's values of these parameters, π.
   Eigen::VectorXd regressorValues() const;
 
-  /// ∂π/∂p: the derivative of regressorValues() by the numbers of parameterNames(), one column each; zero for those
-  /// that are in Y. Allocates its result.
+  /// ∂π/∂p: the derivative of regressorValues() by the numbers of parameterNames(), one column each; zero if Y depends
+  /// on the number instead of π. Allocates its result.
   Eigen::MatrixXd regressorByParameters() const;
 
   /// Y of efforts = Y π, without a load; Y includes gravity. It depends only on geometry, gravity and smoothing speeds.

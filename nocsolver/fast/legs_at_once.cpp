@@ -22,7 +22,7 @@ bool areAlike(const MachineModel<double>& machine) {
   return true;
 }
 
-/// The first leg's shape serves for all; it gets each property that any leg has.
+/// Returns the first leg's shape with each property that any leg has; it serves for all legs.
 MachineShape commonShape(const MachineModel<double>& machine) {
   MachineShape out = shapeOf(machine);
   for (std::size_t i = 1; i < leg_count; ++i) {

@@ -8,7 +8,7 @@
 
 namespace ursula {
 
-/// Possible errors in a formula of noc/ or of a leg kind: a misprint of our source of the paper, or a missing term.
+/// Possible errors in a formula of noc/ or of a kind of leg: a misprint of our source of the paper, or a missing term.
 /// They show the effect of each error and which check catches it.
 enum class FormulaError {
   eq2,                   ///< (2a,b) frame built as if uᵢ lay in the base plane

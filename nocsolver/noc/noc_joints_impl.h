@@ -10,7 +10,7 @@
 namespace ursula {
 namespace legs {
 
-/// Builds the rows of D, joint by joint.
+/// Builds D, joint by joint.
 template <class S>
 class ConstraintRows {
  public:

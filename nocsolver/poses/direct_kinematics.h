@@ -38,7 +38,7 @@ struct PlatformPose {
 struct PlatformPoses {
   std::array<PlatformPose, 8> list;
   int size = 0;
-  /// Number of complex solutions found, with multiplicities: 8 proves that none is missing.
+  /// Number of complex solutions found, with multiplicities. If it is 8, none is missing.
   int counted = 0;
 
   const PlatformPose* begin() const { return list.data(); }
@@ -63,14 +63,14 @@ class DirectKinematics {
   explicit DirectKinematics(const Manipulator& manipulator)
       : solver_(manipulator), of_the_paper_(manipulator.isOfThePaper()) {}
 
-  /// Every real pose for φ, rad: the solutions of (27) with (13), and those that legs cannot reach. Throws
+  /// Every real pose for φ, rad: the solutions of (27) with (13), including those that legs cannot reach. Throws
   /// UndeterminedPose if there are infinitely many, or nearly so; std::invalid_argument unless φ is finite;
   /// std::domain_error unless the machine is of the paper's kind.
   PlatformPoses poses(const Vector6d& phi) const;
 
-  /// The pose for φ, or for other driven coordinates, that continues `from`, by Newton, for legs of any kinds. Returns
-  /// nullopt if Newton's steps do not shrink as near a solution, or would cross a singular pose. Then `from` is too far
-  /// away, or no continuation exists.
+  /// Continues `from` to the pose for φ, or for other driven coordinates, by Newton's method; legs may be of any kinds.
+  /// Returns nullopt if the steps do not shrink as they do near a solution, or would cross a singular pose. Then `from`
+  /// is too far away, or no continuation exists.
   std::optional<PlatformPose> track(const Vector6d& phi, const PlatformPose& from) const;
 
   /// The platform's motion at `pose` for rates and accelerations of φ, rad/s and rad/s², by (24) and (25). Leaves

@@ -7,8 +7,8 @@
 
 // Three generic quadrics in affine x, y, z define a ring of dimension 8 = 1 + 3 + 3 + 1. Its basis has 1, x, y, z,
 // three of the six monomials of degree two and one of the ten of degree three; the pivots select them:
-//   the quadrics themselves give three monomials of degree two by the others;                              (a)
-//   x, y, z times the quadrics give nine monomials of degree three by the tenth, c, and lower ones;        (b)
+//   the quadrics themselves express three monomials of degree two by the others;                           (a)
+//   x, y, z times the quadrics express nine monomials of degree three by the tenth, c, and lower ones;     (b)
 //   x c, y c, z c follow, because each monomial of degree four arises from different products of degree
 //   three: xⱼ (xₖ n) = xₖ (xⱼ n) for each n of degree two.                                                (c)
 

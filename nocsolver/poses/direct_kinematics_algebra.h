@@ -15,8 +15,8 @@ struct ThreeQuadrics {
   std::array<Eigen::Matrix4d, 3> S;
 };
 
-/// A rotation of the quaternion's four-space, q = H [1, x, y, z] up to a factor; one of `chart_count` fixed generic
-/// ones. No pose of a sensible machine lies in one chart's plane at infinity, and none in that of all.
+/// A chart is a fixed generic rotation H of the quaternion's four-space: q = H [1, x, y, z] up to a factor. A pose
+/// hardly ever lies in one chart's plane at infinity, and never in those of all charts.
 constexpr int chart_count = 8;
 const Eigen::Matrix4d& chart(int index);
 

@@ -118,7 +118,7 @@ class Gathering {
  public:
   Gathering(const ThreeQuadrics& quadrics, double rounding) : quadrics_(quadrics), rounding_(rounding) {}
 
-  /// Adds a real eigenvector. If Newton's method finds nothing real, a complex pair is close by.
+  /// Adds a real eigenvector. If Newton's method finds no real root, a complex pair is near.
   void addReal(Q4<double> q) {
     if (polish<double>(quadrics_, rounding_, q)) {
       insert(q.cast<Complex>(), true, 1);
@@ -160,7 +160,7 @@ class Gathering {
         insert(*real, true, weight);
         return;
       }
-      if (real) {  // both of the pair are real, on either side of their start
+      if (real) {  // the pair is two real roots, on either side of the start
         insert(*real, true, 1);
         const double side = from.real().dot(real->real()) < 0 ? -1 : 1;
         Q4<double> other = (2 * side * from.real() - real->real()).normalized();

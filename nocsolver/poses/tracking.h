@@ -8,7 +8,7 @@
 namespace ursula::poses {
 
 /// Finds the pose with the driven coordinates `driven` that continues `from`, by Newton's method with T of (24).
-/// Returns nullopt if steps do not shrink as near a solution, or if a leg cannot follow.
+/// Returns nullopt if the steps do not shrink as they do near a solution, or if a leg cannot follow.
 std::optional<PlatformPose> track(const Noc<double>& solver, const Vector6d& driven, const PlatformPose& from);
 
 }  // namespace ursula::poses

@@ -28,7 +28,7 @@ void requireFinite(const Points& base_points, const Points& platform_points, con
     throw std::invalid_argument("lengths of legs must be finite and not negative");
 }
 
-/// The machine relative to its joints' centres, in its mean length as the unit.
+/// The machine with its points relative to their centres in base and platform, in units of its mean length.
 struct Centred {
   ups::Legs legs;
   Vector3d a, b;
@@ -50,8 +50,8 @@ struct Centred {
   }
 
  private:
-  /// Distant base points determine the orientation poorly. Its terms aᵢᵀ Q bᵢ in the squared lengths need half of the
-  /// digits.
+  /// Distant base points determine the orientation poorly. The terms aᵢᵀ Q bᵢ of the squared lengths must keep half of
+  /// the digits.
   void requireOrientation() const {
     double of_base = 0, of_platform = 0;
     for (std::size_t i = 0; i < 6; ++i) {
@@ -77,7 +77,7 @@ bool listedBefore(const UpsPose& a, const UpsPose& b) {
   return key(a) < key(b);
 }
 
-/// Tracks paths if the ring fails.
+/// Falls back on tracking paths if the ring fails.
 ups::Roots allRoots(const ups::Legs& legs) {
   ups::Roots ring = ups::findRoots(legs);
   if (ring.complete()) return ring;

@@ -18,7 +18,8 @@ using Complex = std::complex<double>;
 using RealPose = Placed<double>;
 
 constexpr double eps = Eigen::NumTraits<double>::epsilon();
-/// Solutions farther apart, as unit coordinates, are never merged; neither is a solution with another's eigenvector.
+/// Solutions whose unit coordinates are farther apart are never merged. A solution farther from an eigenvector does not
+/// belong to it.
 const double cluster_radius = std::pow(eps, 1.0 / 8);
 /// |h| of unit coordinates at infinity is 0, up to the spread of a fourfold solution. A real pose has at least 1/(2 +
 /// ‖p‖²), so it never counts as one at infinity.
@@ -82,8 +83,8 @@ bool isMultiple(const Legs& legs, const Placed<Scalar>& pose) {
   return sigma * sigma <= 4 * std::sqrt(6.0) * at.curvature * at.rounding;
 }
 
-/// Whether the equations' rounding moves the pose by less than 1/64 of its coordinates. Near infinity everything far
-/// away solves them.
+/// Whether the equations' rounding moves the pose by less than 1/64 of its coordinates. Near infinity every distant
+/// pose solves them.
 bool isDetermined(const Legs& legs, const ComplexPose& pose) {
   Equations<Complex> at = equations<Complex>(legs, pose);
   at.J.rightCols<3>() *= 1 + pose.p.norm();
@@ -168,7 +169,7 @@ bool Gathering::addReal(const ComplexPose& pose, const ComplexPose& from, int we
     insert(complexOf(*real), true, weight);
     return true;
   }
-  insert(complexOf(*real), true, 1);  // both of the pair are real, on either side of their start
+  insert(complexOf(*real), true, 1);  // the pair is two real solutions, on either side of the start
   if (const std::optional<RealPose> between = realPart(from)) {
     const double sign = between->q.dot(real->q) < 0 ? -1 : 1;
     RealPose other{(2 * sign * between->q - real->q).normalized(), 2 * between->p - real->p};

@@ -12,10 +12,10 @@
 // and Schicho, "Bond theory for pentapods and hexapods", J. Geom. 106, 2015). 37 quadrics vanish on it:
 //   QQᵀ = QᵀQ = h²1, adj Q = hQᵀ, Qu = hp, Qᵀp = hu, uᵀu = pᵀp = rh, qᵢ × p = Σⱼₖ εᵢⱼₖ uⱼ qₖ,  qᵢ: column i of Q.  (b)
 // Six legs and a chart's plane at infinity reduce it to a ring of dimension 40 = 1 + 10 + 18 + 10 + 1, found degree by
-// degree. The quadrics leave 18 of the 55 monomials of degree two. Of their 180 products with yⱼ, 10 stay free, since
-// each monomial of degree three arises from two products; and so on. (c) Each step is a QR of relations E w + K l = 0
-// between the products w and the known part l. Then w = V l + (null space) c, where c are the basis of the new degree.
-// (d)
+// degree. The quadrics leave 18 of the 55 monomials of degree two. Of their 180 products with yⱼ, 10 stay free, because
+// each monomial of degree three arises from two products; likewise in the next degree. (c) Each step is a QR of
+// relations E w + K l = 0 between the products w and the known part l. Then w = V l + (null space) c, where c are the
+// basis of the new degree. (d)
 
 namespace ursula::ups {
 namespace {

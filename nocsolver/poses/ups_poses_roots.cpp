@@ -33,7 +33,7 @@ Roots rootsInChart(const Legs& legs, const LegSection& section, int index) {
 
 double smallestPivot() { return 16 * std::pow(Eigen::NumTraits<double>::epsilon(), 0.75); }
 
-/// A plane at infinity that meets a solution makes one chart fail, hardly two.
+/// If a solution lies in a chart's plane at infinity, that chart fails; this hardly happens to two.
 Roots findRoots(const Legs& legs) {
   const LegSection section = legSection(legs);
   Roots best;

@@ -43,7 +43,7 @@ double smallestPivot();
 Roots findRoots(const Legs& legs);
 
 /// Follows paths from the solutions of a nearby machine. It serves machines with infinitely many solutions at infinity,
-/// and shows whether only infinity has them.
+/// and shows whether all but finitely many are there.
 Roots trackRoots(const Legs& legs);
 
 }  // namespace ursula::ups

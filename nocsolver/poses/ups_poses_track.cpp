@@ -83,7 +83,7 @@ double size(const Vec6<Complex>& step, const ComplexPose& pose) {
   return step.head<3>().norm() + step.tail<3>().norm() / (1 + pose.p.norm());
 }
 
-/// Newton's method at s; nullopt unless it starts close to its end.
+/// Newton's method at s; nullopt unless the start is close to the solution.
 std::optional<ComplexPose> corrected(const LegsOver<Complex>& legs, ComplexPose pose, double closeness) {
   double previous = closeness;
   for (int i = 0; i < 4; ++i) {
@@ -98,8 +98,8 @@ std::optional<ComplexPose> corrected(const LegsOver<Complex>& legs, ComplexPose 
   return std::nullopt;
 }
 
-/// The pose at t = 2⁻³⁶, or where rounding hides the path before, as near a singular end or infinity. Returns nullopt
-/// if the path is lost.
+/// Returns the pose at t = 2⁻³⁶, or earlier where rounding hides the path, as it does near a singular end or infinity.
+/// Returns nullopt if the path is lost.
 std::optional<ComplexPose> follow(const Way& way, ComplexPose pose, double closeness) {
   double t = 1, fraction = 0.05;
   for (int i = 0; i < step_limit && t > last_t; ++i) {

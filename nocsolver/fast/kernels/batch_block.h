@@ -1,8 +1,8 @@
 #pragma once
 
 // Computes a batch block by block for one instruction set. Internal; sources compiled for that set include it. They
-// share only plain numbers with other sources. A function of doubles is forbidden here, because the linker might use it
-// for all.
+// share only plain numbers with other sources. No function of plain doubles may stand here, because the linker might
+// use this set's copy in all sources.
 
 #include <array>
 #include <cstdint>

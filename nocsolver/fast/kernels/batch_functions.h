@@ -11,7 +11,7 @@
 
 namespace ursula::kernel {
 
-/// The properties of a machine that are no real numbers.
+/// The properties of a machine that are not real numbers.
 struct MachineShape {
   int legs = 0;
   std::array<LegKind, leg_count> kinds{};
@@ -38,7 +38,7 @@ struct BatchFunctions {
   void (*destroy)(void* machine);
   void (*inverse)(const void* machine, const BatchSpans& spans);
   void (*direct)(const void* machine, const BatchSpans& spans);
-  // For one pose, with one leg per lane (leg_lanes.h); false if a leg refuses the pose.
+  // For one pose, with one leg per lane (leg_lanes.h); these return false if a leg refuses the pose.
   void* (*make_legs)(const double* numbers, const MachineShape& shape);
   void (*destroy_legs)(void* legs);
   bool (*inverse_legs)(const void* legs, const double* motion, LegSums& out);

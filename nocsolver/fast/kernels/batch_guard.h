@@ -7,7 +7,7 @@
 
 namespace ursula::kernel {
 
-// Bounds in doubles, because sources of an instruction set may define no function of doubles.
+// The bounds are constants, because sources for an instruction set may define no function of doubles.
 // legs/requirements.h computes the same from the scalar's eps.
 constexpr double root_eps = 0x1p-26;      ///< √eps: a smaller sine or lever has no correct digit left
 constexpr double least_pivots = 0x1p-48;  ///< 16 eps: least ratio of the smallest to the largest pivot of Bᵀ

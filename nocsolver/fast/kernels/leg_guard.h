@@ -12,7 +12,7 @@ struct LegGuard {
   int leg;
   S t;
 
-  /// `inside` must not be negative; `square` is that of the distance to compare with `bound`.
+  /// `inside` must not be negative; `square` is the square of the distance that the message compares with `bound`.
   void reach(const S& inside, const S& square, const S& bound) const {
     using std::abs;
     using std::sqrt;

@@ -97,7 +97,8 @@ Vector3<S> rotorInertia(const PlaneModel<S>& model) {
   return {model.rotor[0], model.rotor[1], model.rotor[2]};
 }
 
-/// Forces of rotors and of off-line mass centres. A separate function keeps the rounding of the surrounding code.
+/// Forces of rotors and of off-line mass centres. They have a separate function so that they do not change how the
+/// surrounding code rounds.
 template <class Kind, class S>
 [[gnu::noinline]] Vector3<S> addedForces(Kind kind, const PlaneModel<S>& model, const Vector3<S>& base,
                                          const PlaneLeg<S>& leg) {

@@ -6,8 +6,8 @@ namespace ursula {
 
 // BatchDynamics on several threads (oneTBB). Results equal those of one thread to the last bit. Arguments are those of
 // BatchDynamics. At most `jobs` threads work, including the caller, and no more than the processor has. 0 means as many
-// as the caller's TBB arena allows, by default all. Only TBB allocates; fewer than 512 poses or one job do not use it.
-// Threads share everything here.
+// as the caller's TBB arena allows, by default all. Only TBB allocates; it is not used for fewer than 512 poses or for
+// one job. Any thread may call these.
 
 /// Efforts as BatchDynamics::inverseDynamics.
 void inverseDynamics(const BatchDynamics& batch, const Motion<double>* motions, std::size_t count, Vector6d* efforts,
