@@ -15,12 +15,12 @@ Vector6d closedEfforts(const OpenTree& tree, const Manipulator& manipulator);
 /// Returns the motors' efforts with the loops left open. This is a usual mistake.
 Vector6d openEfforts(const OpenTree& tree, const Manipulator& manipulator);
 
-/// Returns the smallest forces on all coordinates, as a pseudoinverse gives, at the motors. This is a usual mistake.
-/// They depend on the engine's choice of the platform's speeds.
+/// Returns the motors' share of the smallest forces on all coordinates, as a pseudoinverse gives them. This is a usual
+/// mistake. They depend on the engine's choice of the platform's speeds.
 Vector6d leastEfforts(const OpenTree& tree, const Manipulator& manipulator);
 
-/// Returns the platform's displacement, in its speeds, that closes `gaps` (m, leg's point minus platform's) while the
-/// motors stand still.
+/// Returns the platform's displacement, in the coordinates of its speeds, that closes `gaps` (m, leg's point minus
+/// platform's) while the motors stand still.
 Vector6d displacement(const OpenTree& tree, const std::array<Vector3d, leg_count>& gaps,
                       const Manipulator& manipulator);
 
@@ -28,7 +28,7 @@ Vector6d displacement(const OpenTree& tree, const std::array<Vector3d, leg_count
 Vector6d closedRates(const OpenTree& tree, const OpenTreeMasses& masses, const Manipulator& manipulator,
                      const Vector6d& efforts);
 
-/// Returns how much soft closures change the platform's rates, at most and to first order. Each closure leaves `part`
+/// Returns a bound, to first order, of how much soft closures change the platform's rates. Each closure leaves `part`
 /// of the acceleration at which its gap would open without it.
 Vector6d changeOfRates(const OpenTree& tree, const OpenTreeMasses& masses, const Manipulator& manipulator,
                        const Vector6d& efforts, double part);

@@ -7,8 +7,8 @@
 
 namespace ursula {
 
-/// A further formulation of the torques, beside the solver's and Simbody's six-ball loop. It is another engine or
-/// method with its own geometry from raw parameters. Not thread-safe; each thread needs its own.
+/// A further formulation of the torques, beside those of the solver and of Simbody's loop with six balls. It is another
+/// engine or method with its own geometry, built from raw parameters. Not thread-safe; each thread needs its own.
 class Engine {
  public:
   Engine() = default;

@@ -25,7 +25,7 @@ MakeEngine makeSimbodyTree, makeMaximalLoop, makeMujocoLoop;
 bool mujocoAvailable();  ///< false if this build lacks MuJoCo
 inline bool alwaysAvailable() { return true; }
 
-/// All further formulations. A new one needs a folder here and a row.
+/// All further formulations. A new one needs a folder in engines/ and a row.
 inline constexpr std::array further_engines = {
     EngineKind{"torque.twin", "Simbody, tree through leg 1", "Simbody's loop grown through leg 1, balls at the others",
                "Simbody", alwaysAvailable, makeSimbodyTree},

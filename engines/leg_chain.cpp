@@ -85,7 +85,7 @@ LegChain chainOf(const Leg& leg) {
   const Eigen::Isometry3d at_A = placed(frame, leg.base_point), turned = placed(frame * alongAxis(), leg.base_point);
   LegChain out{{}, {leg.proximal, leg.distal}, {leg.proximalCenter(), leg.distalCenter()}, leg.distal.length * z};
   switch (leg.kind) {
-    case LegKind::URS:  // the knee is half a turn away at zero
+    case LegKind::URS:  // at zero the distal link is turned by half a turn
       out.joints = {
           {{turned, -z, false, -1},
            {placed(one, none), x, false, 0},

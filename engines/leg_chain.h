@@ -13,10 +13,10 @@ namespace ursula {
 
 /// Returns [x̂, û, ẑ] with a horizontal x̂.
 Matrix3d fixedFrame(const Leg& leg);
-/// Turns z to û and keeps x, so that the second angle counts from û.
+/// Returns the rotation that turns z to û and keeps x, so that the second angle counts from û.
 Matrix3d alongAxis();
-/// Returns a leg's coordinates for B at `k` from A in the frame [x̂, û, ẑ]. They have only some digits if the leg is
-/// nearly stretched. Throws std::domain_error if it cannot reach; the text has `index` + 1.
+/// Returns a leg's coordinates for B at `k` from A in the frame [x̂, û, ẑ]. They lose digits if the leg is nearly
+/// stretched. Throws std::domain_error if the leg cannot reach; the message names leg `index` + 1.
 Vector3d legCoordinates(const Leg& leg, int index, const Vector3d& k);
 
 /// A leg as three joints of one axis each. The bodies' frames are those of the scenario, with origins at the links'
@@ -40,7 +40,7 @@ struct LegChain {
 };
 LegChain chainOf(const Leg& leg);
 
-/// A body in B: frame, and angular velocity and acceleration with the rates of its origin.
+/// A body's frame, angular velocity and acceleration, and its origin's velocity and acceleration; in B.
 struct ChainBody {
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
   Vector3d omega = Vector3d::Zero(), velocity = Vector3d::Zero();

@@ -19,7 +19,7 @@ enum class Recipe {
   no_bias,           ///< the exact recipe without J̇ u in the joints' accelerations
   least_squares,     ///< the smallest forces on all coordinates, read at the motors
   own_inverse,       ///< the engine's own answer with loops of default softness: inverse dynamics, or a driven step
-  own_inverse_hard,  ///< the same at the hardest loops that it allows
+  own_inverse_hard,  ///< the same with the hardest loops that it allows
 };
 
 /// Returns the enumerator's name, "own_inverse".
@@ -29,7 +29,8 @@ const char* name(Recipe recipe);
 struct Rigidity {
   std::string name;  ///< "default"
   double step = 0;   ///< time for which efforts are held, s
-  /// Instant of the held efforts as a share of the step, chosen so that the steps follow a motion best.
+  /// Efforts are held over a step at their values of this instant, a share of the step. It is chosen so that the steps
+  /// follow a motion best.
   double instant = 0;
   std::vector<std::pair<std::string, double>> settings;  ///< {"solref_timeconst", 0.02}
 };
@@ -44,8 +45,8 @@ struct PlacedTree : OpenTree {
 /// Returns the norm of the largest gap, m.
 double largestGap(const PlacedTree& tree, const Manipulator& manipulator);
 
-/// Returns the largest deviation of a platform joint's centre, m, to first order in the gaps. The reference is the
-/// closed loop at the same motor coordinates.
+/// Returns the largest distance of a platform joint's centre from its place in the closed loop at the same motor
+/// coordinates; m, to first order in the gaps.
 double sag(const PlacedTree& tree, const Manipulator& manipulator);
 
 /// The closed loop under the engine's own time stepping.
@@ -111,8 +112,8 @@ struct LoopEngineKind {
   std::string (*version)();  ///< "" if it has no version of its own
   std::unique_ptr<LoopEngine> (*make)(const Manipulator& manipulator, std::shared_ptr<const Load> load);
   Recipe obvious;            ///< the recipe that its users try first
-  const char* exact_call;    ///< an imperative: "take …, and …"
-  const char* obvious_call;  ///< a subject: "mj_inverse, read at the motors,"
+  const char* exact_call;    ///< completes a sentence as an imperative: "take …, and …"
+  const char* obvious_call;  ///< completes a sentence as its subject: "mj_inverse, read at the motors,"
   bool has_own_inverse;
 };
 
@@ -121,7 +122,7 @@ using MakeLoopEngine = std::unique_ptr<LoopEngine>(const Manipulator& manipulato
 MakeLoopEngine makeSimbodyCalls, makeMaximalCalls, makeMujocoCalls;
 std::string simbodyVersion();  ///< version of the loaded library, "3.7.0"
 
-/// All engines. A new one needs a folder here and a row.
+/// All engines. A new one needs a folder in engines/ and a row.
 const std::vector<LoopEngineKind>& loopEngines();
 
 }  // namespace ursula

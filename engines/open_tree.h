@@ -7,8 +7,8 @@
 
 namespace ursula {
 
-/// Coordinates of an engine's trees with rates and accelerations, in the engine's order and frames. They are the
-/// engine's input after the platform's motion has been mapped to the joints.
+/// Coordinates of an engine's trees with rates and accelerations, in the engine's order and frames. They are the input
+/// of an engine's calls, found from the platform's motion.
 struct TreeCoordinates {
   Motion<double> motion;  ///< the platform's motion that they belong to
   std::vector<double> q, u, u_dot;

@@ -1,5 +1,5 @@
-// Asks Bullet for efforts of a closed loop as its users do, and lets it step one in time. Debian has no headers of
-// Bullet's inverse dynamics: its multibodies give their masses and free accelerations instead.
+// Asks Bullet for efforts of a closed loop as its users do, and lets it step one in time. Debian lacks the headers of
+// Bullet's inverse dynamics, so the multibodies give their masses and free accelerations instead.
 
 #include <fmt/format.h>
 
@@ -86,7 +86,7 @@ class BulletCalls : public LoopEngine {
     return tree_;
   }
 
-  /// No iterations: the direct solver.
+  /// The solver is direct, so it has no iterations.
   std::vector<Rigidity> rigidities() const override {
     const auto of = [](const char* name, double step, double iterations, double erp, double cfm) {
       return Rigidity{name, step, 0, {{"iterations", iterations}, {"erp", erp}, {"cfm", cfm}}};
@@ -102,7 +102,7 @@ class BulletCalls : public LoopEngine {
   }
 
  protected:
-  /// A step from the motion's own rates; motors take theirs at its end.
+  /// Steps once from the motion's own rates; the motors bring the coordinates to the rates at the step's end.
   Vector6d ownInverse(const Motion<double>& motion, bool hard) override {
     const double h = hard ? 1e-3 * usual_step : usual_step;
     BulletWorld world(machine_, hard ? Solver::dantzig : Solver::gauss_seidel, usual_iterations, usual_erp, usual_cfm);

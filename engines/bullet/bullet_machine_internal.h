@@ -16,7 +16,7 @@
 
 namespace ursula::bullet_engine {
 
-/// Bullet clips without a limit of one's own: impulses of a constraint at 100 N·s, and speeds at 100.
+/// By default Bullet clips a constraint's impulses at 100 N·s, and speeds at 100.
 inline constexpr double unlimited = 1e30;
 
 /// Multibodies of Bullet: each leg with three links, of which one has no mass, and the platform as a free base. Bullet
@@ -28,9 +28,9 @@ class BulletMachine {
 
   /// Sets the legs and the platform to the motion with closed loops. Throws std::domain_error if a leg cannot reach.
   void set(const Motion<double>& motion, bool with_bias);
-  /// Returns M u̇ + bias − weight of the leg's coordinates. `u_dot` are the leg's accelerations.
+  /// Returns M u̇ + bias − weight on the leg's coordinates; `u_dot` are their accelerations.
   Vector3d forces(int leg, const Vector3d& u_dot);
-  /// The same of the platform at [α; acceleration of the mass centre].
+  /// The same for the platform; `u_dot` is [α; acceleration of the mass centre].
   Vector6d platformForces(const Vector6d& u_dot);
   void readMaps(PlacedTree& out);
   /// Adds friction and load until the world's next step.

@@ -35,8 +35,8 @@ BulletWorld::BulletWorld(BulletMachine& machine, Solver solver, int iterations, 
   }
 }
 
-/// Islands are made of colliders: constraints of bodies without one are left out in silence. So are all constraints of
-/// multibodies if islands are not split.
+/// Bullet makes islands of colliders, and silently ignores constraints of bodies without one. If islands are not split,
+/// it ignores all constraints of multibodies.
 void BulletWorld::add(btMultiBody& body) {
   world_->addMultiBody(&body);
   for (int link = -1; link < body.getNumLinks(); ++link) {

@@ -52,7 +52,8 @@ class MaximalCalls : public LoopEngine {
     loop_.solveMotion(motion, bias == Bias::kept);
   }
 
-  /// K = [Gᵀ S] belongs to the leg's two bodies. The last rows of K⁻¹ are its twists for unit rates of its joints.
+  /// K = [Gᵀ S] belongs to the leg's two bodies. The last rows of K⁻¹ are the bodies' twists for unit rates of the
+  /// leg's joints.
   void addLeg(int i, const Eigen::VectorXd& wrenches) {
     constexpr int rows = 9;  // constraints of the leg's own joints come before its ball's
     const int legs = manipulator().legCount(), second = 6 * (legs + i);

@@ -42,19 +42,19 @@ Eigen::Matrix<double, 3, 6> pointRows(const BodyMotion<double>& body, const Vect
   return rows;
 }
 
-/// Two bodies share a point: v_parent − v_child = 0.
+/// Adds the rows of a point that two bodies share: v_parent − v_child = 0.
 void addPoint(const Bodies& bodies, int parent, int child, const Vector3d& point, int row, Eigen::MatrixXd& G) {
   if (parent != base_body) G.block<3, 6>(row, 6 * parent) = pointRows(bodies[at(parent)], point);
   G.block<3, 6>(row, 6 * child) = -pointRows(bodies[at(child)], point);
 }
 
-/// No relative rotation about `normal`: (ω_child − ω_parent) · n = 0.
+/// Adds the row that forbids relative rotation about `normal`: (ω_child − ω_parent) · n = 0.
 void addNormal(const Joint& joint, const Vector3d& normal, int row, Eigen::MatrixXd& G) {
   if (joint.parent != base_body) G.block<1, 3>(row, 6 * joint.parent) = -normal.transpose();
   G.block<1, 3>(row, 6 * joint.child) = normal.transpose();
 }
 
-/// The child's point stays on the line fixed in the parent.
+/// Adds the rows that keep the child's point on a line fixed in the parent.
 void addSlide(const Bodies& bodies, const Joint& joint, int row, Eigen::MatrixXd& G) {
   for (int k = 0; k < 3; ++k) addNormal(joint, Vector3d::Unit(k), row + k, G);
   const Eigen::Matrix<double, 2, 3> across = joint.across.transpose();
@@ -154,7 +154,7 @@ void MaximalLoop::place(const Motion<double>& motion) {
   }
 }
 
-/// Computes twists and their rates from the constraints and the platform's own.
+/// Computes the links' twists and their rates from the constraints and the platform's twist and its rate.
 void MaximalLoop::solveMotion(const Motion<double>& motion, bool with_gamma) {
   const int legs = manipulator_.legCount(), platform = 2 * legs;
   G_.setZero(constraints(), coordinates());
@@ -214,7 +214,7 @@ void MaximalLoop::subtractFriction(int index, VectorX& w) const {
   const Vector3d on = frictionOf(index);
   VectorX given = VectorX::Zero(coordinates());
   if (manipulator_.leg(index).kind ==
-      LegKind::URS) {  // ψ and θ turn about one axis: the proximal link carries the remainder
+      LegKind::URS) {  // ψ and θ turn about one axis, and the proximal link carries the remainder
     addForce(bodies_, leg.joints[0], 0, on(0), given);
     addForce(bodies_, leg.joints[0], 1, on(1) - on(2), given);
     given.segment<3>(6 * leg.joints[1].child) = on(2) * leg.joints[1].axes[0];
@@ -254,7 +254,7 @@ MaximalLoop::VectorX MaximalLoop::unbalanced(const Motion<double>& motion) const
 }
 
 /// q̈ of a motor's coordinate from its bodies: the rate of (ω_child − ω_parent) · axis, or of the velocity along the
-/// slide. There the Coriolis acceleration and the parent's rotation have no part along the axis.
+/// slide. Along the slide, Coriolis acceleration and the parent's rotation have no part.
 double MaximalLoop::accelerationOf(const Motor& motor) const {
   const PlacedLeg& leg = legs_[at(motor.leg)];
   const auto [which, k] = jointAndAxis(leg, motor.joint);

@@ -15,7 +15,7 @@ struct Ends {
   Vector3d u, A, B, AB;
 };
 
-/// AB as a part along u and one across it.
+/// AB, split into a part along u and a part across it.
 struct Split {
   double along, distance;
   Vector3d outwards;  ///< unit, from u's line to B
@@ -83,7 +83,8 @@ void placeUps(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& 
   out.joints[1].point = ends.B;
 }
 
-/// R is where the crank's circle meets the sphere of radius s about B, which intersects the circle's plane in a circle.
+/// R is where the crank's circle meets the sphere of radius s about B. That sphere intersects the circle's plane in a
+/// circle.
 void placeRus(const Leg& leg, int index, const Ends& ends, double t, PlacedLeg& out) {
   const double l = leg.proximal.length, s = leg.distal.length;
   const Split B(ends);

@@ -31,9 +31,9 @@ class MujocoLoop : public Engine {
   Vector6d twistRate(const TreeCoordinates& at, const Vector6d& rates_of_speeds) const;
 
   /// The platform's twist rate [ω̇; p̈] under efforts by mj_forward, with MuJoCo's own `connect` constraints. They are
-  /// soft: about a part of 1 − softImpedance() of an unconstrained gap's acceleration remains. They also omit J̇ q̇.
+  /// soft: a share of about 1 − softImpedance() of an unconstrained gap's acceleration remains. They also omit J̇ q̇.
   Vector6d softTwistRate(const TreeCoordinates& at, const Vector6d& efforts);
-  /// The value nearest to 1 that MuJoCo allows.
+  /// The impedance nearest to 1 that MuJoCo allows.
   static double softImpedance();
 
  private:

@@ -1,4 +1,4 @@
-// Replaces the formulation if MuJoCo is missing at build time.
+// Stands in for the formulation if MuJoCo is missing at build time.
 
 #include <stdexcept>
 

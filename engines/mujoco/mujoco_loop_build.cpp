@@ -1,6 +1,6 @@
 // Builds the machine in MuJoCo. A text describes its structure. All numbers are then overwritten in binary, because
 // decimal digits and MuJoCo's compiler would round them. The links' body frames are [x, axis × x, axis], a carriage's
-// is [x̂, û, ẑ]. Origins are at the links' first ends; that of a rod in a cylinder is at its far end, which slides from
+// is [x̂, û, ẑ]. Origins are at the links' first ends; for a rod in a cylinder that is the inner end, which slides from
 // A.
 
 #include <fmt/format.h>
@@ -140,7 +140,7 @@ void writeLeg(mjModel& model, int index, const Leg& leg, const Vector3d& origin)
   write(leg.base_point - origin, model.body_pos, proximal);
   write(Eigen::Quaterniond(frameAtZero(leg)).normalized(), model.body_quat, proximal);
   write(Vector3d(0, 0, joined_at), model.body_pos, distal);
-  if (carriage)  // again, because MuJoCo rounded the digits in the text
+  if (carriage)  // set again, because MuJoCo rounded the digits in the text
     write(Eigen::Quaterniond(1, -1, 0, 0).normalized(), model.body_quat, distal);
   write(Vector3d(0, 0, leg.distal.length - behind), model.site_pos, siteOnLeg(index));
   writeInertia(model, proximal, leg.proximal.mass, leg.proximalCenter(), leg.proximal.inertia);
@@ -153,8 +153,8 @@ void writeLeg(mjModel& model, int index, const Leg& leg, const Vector3d& origin)
   model.body_subtreemass[proximal] = leg.proximal.mass + leg.distal.mass;
 }
 
-/// Sets the constants that MuJoCo derives from inertias when it parses a text. Then it restores the constraints' points
-/// from the sites, because that call moves them. They are as hard as MuJoCo allows.
+/// Makes the constraints as hard as MuJoCo allows. It sets the constants that MuJoCo derives from inertias when it
+/// parses a text, and then restores the constraints' points from the sites, because that call moves them.
 void connect(mjModel& model, int legs) {
   const Data data(mj_makeData(&model));
   if (!data) throwMessage("no memory for its data");

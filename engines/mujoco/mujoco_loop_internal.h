@@ -95,7 +95,7 @@ struct MujocoLoop::Impl {
   Manipulator manipulator;
   std::shared_ptr<const Load> load;
   int legs, leg_dofs, dofs;
-  Vector3d origin;  ///< B's origin may be far from the machine; MuJoCo's world is near
+  Vector3d origin;  ///< the origin of MuJoCo's world, because B's may be far from the machine
   mujoco::Model model;
   mujoco::Data data;
   mujoco::GapJacobian G;

@@ -1,4 +1,4 @@
-// The fewest calls of MuJoCo that suffice, without its constraints, contacts and integrator.
+// Uses the fewest calls of MuJoCo that suffice, without its constraints, contacts and integrator.
 
 #include <Eigen/Geometry>
 #include <algorithm>

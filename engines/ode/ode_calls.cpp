@@ -93,7 +93,7 @@ class OdeCalls : public LoopEngine {
   }
 
  protected:
-  /// A step from the motion's own twists; motors take their rates at its end.
+  /// Steps once from the motion's own twists; the motors bring the coordinates to the rates at the step's end.
   Vector6d ownInverse(const Motion<double>& motion, bool hard) override {
     OdeMachine& machine = hard ? machineFor(hard_machine_, motion, OdeMachine::Loops::closed, {usual.erp, 0})
                                : machineFor(soft_machine_, motion, OdeMachine::Loops::closed, usual);
@@ -114,8 +114,8 @@ class OdeCalls : public LoopEngine {
     return *machine;
   }
 
-  /// Every coordinate has a motor. A step from v − h a to v gives the forces of a exactly, whatever h is: the joints'
-  /// rows at this pose hold for v.
+  /// Every coordinate has a motor. A step from v − h a to v gives the forces for the acceleration a exactly, whatever h
+  /// is, because v satisfies the joints' constraints at this pose.
   void stepTo(OdeMachine& machine, const Motion<double>& motion, Bias bias) {
     constexpr double h = 1;  // s
     machine.set(motion, bias == Bias::kept);
@@ -137,7 +137,7 @@ class OdeCalls : public LoopEngine {
     return out;
   }
 
-  /// A free body's force is Newton's and Euler's: no joint of ODE feels it.
+  /// The platform's force follows from Newton and Euler, because no joint of ODE acts on it.
   void setPlatform(const Motion<double>& motion) {
     const Platform& of = manipulator().platform();
     const ChainBody body = platformOf(motion);

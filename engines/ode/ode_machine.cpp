@@ -81,7 +81,7 @@ void OdeMachine::setBody(const Body& body, const ChainBody& state) {
   dBodySetAngularVel(body.id, state.omega.x(), state.omega.y(), state.omega.z());
 }
 
-/// A joint holds each body: one coordinate makes a hinge or slider, two a universal.
+/// Each link has one joint: a hinge or slider for one coordinate, a universal for two.
 void OdeMachine::addLeg(int index) {
   const LegChain& chain = chains_[at(index)];
   const LegState& state = states_[at(index)];
@@ -187,9 +187,9 @@ void OdeMachine::addEffort(int leg, int j, double effort) {
   }
 }
 
-/// Feedback is force and moment about the mass centre of the child, from all that the joint does.
+/// ODE's feedback is the joint's whole force on the child, and its moment about the child's mass centre.
 double OdeMachine::effort(int leg, int j) const {
-  const LegState& state = states_[at(leg)];  // ODE has moved on since
+  const LegState& state = states_[at(leg)];  // where the step began; ODE has moved since
   const std::size_t b = chains_[at(leg)].bodyOf(at(j));
   const dJointFeedback& felt = feedback_[at(leg)][b];
   const Vector3d force = vectorOf(felt.f1), moment = vectorOf(felt.t1);

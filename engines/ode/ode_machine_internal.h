@@ -17,7 +17,7 @@ struct Softness {
   double cfm = 0;  ///< 1/kg or 1/(kg·m²), times 1/s
 };
 
-/// ODE's bodies and joints: each link and the platform is a body with six coordinates. Universals, hinges and sliders
+/// The machine in ODE, where each link and the platform is a body with six coordinates. Universals, hinges and sliders
 /// hold the legs, and balls close the loops. Body 1 of a joint is the outer one.
 class OdeMachine {
  public:
@@ -28,15 +28,15 @@ class OdeMachine {
 
   /// Sets the bodies to the motion with closed loops. Throws std::domain_error if a leg cannot reach.
   void set(const Motion<double>& motion, bool with_bias);
-  /// Turns all twists back by the twist rates of what was set, times `h`.
+  /// Subtracts from all twists `h` times the twist rates that were set.
   void goBack(double h);
   /// Adds friction at the present rates and the load.
   void addFrictionAndLoad(const Load* load, double t);
-  /// Takes the gyroscopic moments from ODE, which has them to first order in the step, and adds the exact ones.
+  /// Switches off ODE's gyroscopic moments, which are exact only to first order in the step, and adds the exact ones.
   void addGyroscopic();
   /// Adds an effort to the leg's j-th coordinate until the next step.
   void addEffort(int leg, int j, double effort);
-  /// Makes a motor bring the leg's j-th coordinate to this rate within the next step, by whatever effort it takes.
+  /// Makes a motor bring the leg's j-th coordinate to this rate within the next step, with any effort.
   void drive(int leg, int j, double rate);
   /// Throws std::runtime_error if ODE gives up.
   void step(double h, int quick_iterations);

@@ -10,7 +10,7 @@
 namespace ursula {
 namespace {
 
-/// Simbody's rows are the platform's point minus the leg's.
+/// Reverses the rows' signs, because Simbody's are the platform's point minus the leg's.
 void turnRows(OpenTree& out) {
   for (OpenTree::Leg& leg : out.legs) {
     leg.J = -leg.J;

@@ -52,7 +52,7 @@ class SimbodyLoop {
 
   // --- state ---
 
-  /// Moves the platform to `motion`; vector geometry with each leg's branch places the legs. Rates and accelerations
+  /// Moves the platform to `motion`; vector geometry places the legs, each on its own branch. Rates and accelerations
   /// follow from Simbody's constraint Jacobian and bias. Returns the joint motion. Throws std::domain_error if a leg
   /// cannot reach, and std::runtime_error if the constraints do not determine the rates.
   JointMotion place(const Motion<double>& motion);
@@ -62,10 +62,9 @@ class SimbodyLoop {
 
   /// The joints of the state last placed or set.
   JointMotion joints() const;
-  Motion<double> platform() const;  ///< accelerations are the last placed or computed ones
+  Motion<double> platform() const;  ///< its accelerations are the last placed or computed ones
   Closure closure() const;
-  /// The largest acceleration, m/s², at which a ball's gap opens after accelerate(); it is pure rounding. Only for
-  /// six_balls.
+  /// The largest acceleration, m/s², at which a ball's gap opens after accelerate(): rounding only. Only for six_balls.
   double gapAcceleration() const;
   Energy energy() const;
 
@@ -84,7 +83,7 @@ class SimbodyLoop {
   void accelerate(const Vector6d& torques);
 
   /// The platform's twist rate [ω̇; p̈] by Simbody's own realize(Acceleration) minus that by accelerate(), under these
-  /// torques. It is rounding, unless Simbody drops multipliers. Only for six_balls.
+  /// torques. The difference is rounding unless Simbody drops multipliers. Only for six_balls.
   Vector6d ownTwistRateError(const Vector6d& torques);
 
   /// Forces and moments at the joints after accelerate(). Only for six_balls.
@@ -92,7 +91,7 @@ class SimbodyLoop {
 
   // --- how a user who has the joints' motion and needs only numbers would call Simbody; six_balls only ---
 
-  /// Realizes nothing.
+  /// Fills `out` for openTree() and twistRate(); realizes nothing.
   void coordinates(const Motion<double>& motion, const JointMotion& joint_motion, TreeCoordinates& out) const;
 
   /// Uses realize(Velocity), calcResidualForceIgnoringConstraints and calcGTranspose; the platform's speeds are [ω; ṗ].

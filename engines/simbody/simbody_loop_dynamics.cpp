@@ -24,7 +24,7 @@ BodyMotion<double> bodyMotion(const SimTK::State& state, const SimTK::MobilizedB
   return out;
 }
 
-/// Simbody treats every exception as a step that was too long.
+/// Wraps the torques to note a lack of memory, because Simbody takes every exception for too long a step.
 SimbodyLoop::TorqueHistory noting(bool& memory_ran_out, const SimbodyLoop::TorqueHistory& torques) {
   return [&memory_ran_out, &torques](double t) {
     try {
@@ -225,7 +225,7 @@ SimbodyLoop::Counters SimbodyLoop::integrateRungeKuttaMerson(double accuracy, co
   counters.derivative_evaluations = loop.system.getNumRealizationsOfThisStage(SimTK::Stage::Acceleration) - before;
   counters.steps = integrator.getNumStepsTaken();
   loop.applied->history = nullptr;
-  if (memory_ran_out) throw std::bad_alloc();  // it says nothing about the motion
+  if (memory_ran_out) throw std::bad_alloc();  // a lack of memory says nothing about the motion
   return counters;
 }
 

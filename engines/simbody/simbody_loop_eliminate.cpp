@@ -118,8 +118,8 @@ double SimbodyLoop::gapAcceleration() const {
   return largest;
 }
 
-/// The loop's closing force by (d), then Newton–Euler outboard body by body. It uses Simbody's inertias, accelerations
-/// and applied forces.
+/// Computes the loop's closing force by (d), then the other reactions by Newton–Euler, body by body. It uses Simbody's
+/// inertias, accelerations and applied forces.
 Reactions SimbodyLoop::reactions() const {
   const Impl& loop = *impl_;
   const SimTK::State& open = loop.open;

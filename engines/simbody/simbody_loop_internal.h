@@ -47,7 +47,7 @@ struct AppliedForces {
   Vector6d torques = Vector6d::Zero();  ///< torques of the motors
   SimbodyLoop::TorqueHistory history;   ///< replaces `torques` if set
   std::shared_ptr<const Load> load;
-  std::vector<Leg> legs;  ///< for their Coulomb friction
+  std::vector<Leg> legs;  ///< with their Coulomb friction
   Motors motors;
   bool any_coulomb = false;
 };
@@ -144,7 +144,7 @@ struct SimbodyLoop::Impl {
   void eliminate(const Vector6d& torques);
   /// Sets the velocities and accelerations of all coordinates from the platform's.
   void setRates(const Motion<double>& motion);
-  /// The same for a platform that hangs on no single leg.
+  /// The same if the platform is free instead of on leg 1.
   void setFreePlatform(const Motion<double>& motion);
 
  private:

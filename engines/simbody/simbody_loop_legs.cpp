@@ -1,5 +1,5 @@
-// A kind of leg as Simbody has it: its bodies and joints, the coordinates for a position of B, and the velocity of B by
-// its rates. Universal turns about its x, then y; Pin about z; Slider moves along x. For URS φ turns about −u, ψ and θ
+// Each kind of leg in Simbody: its bodies and joints, the coordinates for a position of B, and the velocity of B by its
+// rates. Universal turns about its x, then y; Pin about z; Slider moves along x. For URS φ turns about −u, ψ and θ
 // about x. For UPS d moves along e. For RUS φ and ψ turn about −u, θ about −x₂. For PUS d moves along u, ψ turns about
 // −u, θ about x. The links' body frames are G = [x, e × x, e] and H = [x, s × x, s] of the paper's (40) (for a carriage
 // [x̂, u, ẑ]). Their origins are at the links' first ends, so the raw inertias apply unchanged. Coordinates come from
@@ -21,7 +21,7 @@ SimTK::Body::Rigid distalBody(const Leg& leg) {
   return SimTK::Body::Rigid(massProperties(leg.distal.mass, leg.distalCenter(), leg.distal.inertia));
 }
 
-/// A frame in axes of a body.
+/// Returns the frame with these axes, given in a body.
 SimTK::Transform frameOf(const Vector3d& x, const Vector3d& y, const Vector3d& z,
                          const Vector3d& origin = Vector3d::Zero()) {
   Matrix3d R;

@@ -1,5 +1,5 @@
-// The fewest calls of Simbody that suffice. Forces are summed here, because its own force subsystem would realize all
-// stages up to Dynamics.
+// Uses the fewest calls of Simbody that suffice. Forces are summed here, because its own force subsystem would realize
+// all stages up to Dynamics.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -76,7 +76,7 @@ void SimbodyLoop::openTree(const TreeCoordinates& at, OpenTree& out) {
   loop.applyForces();
   loop.matter.calcResidualForceIgnoringConstraints(loop.state, scratch.mobility_forces, scratch.body_forces, loop.u_dot,
                                                    scratch.residual);
-  // One sweep per constraint instead of calcG's one per coordinate.
+  // This takes one sweep per constraint; calcG takes one per coordinate.
   loop.matter.calcGTranspose(loop.state, scratch.G_transposed);
 
   const auto force = mapped(scratch.residual);

@@ -6,7 +6,7 @@
 namespace ursula {
 namespace {
 
-/// The same builder as for six balls, with another cut.
+/// SimbodyLoop with the platform on leg 1, so the loops are cut elsewhere.
 class SimbodyTree : public Engine {
  public:
   SimbodyTree(const Manipulator& manipulator, std::shared_ptr<const Load> load)
