@@ -48,7 +48,7 @@ void addFacts(const std::optional<ErrorBudget>& budget, Evidence& evidence, Vali
   if (!evidence.ladder.rungs.empty()) result.curves.emplace_back("Work and precision", workPrecision(evidence.ladder));
 }
 
-/// `done` is the completed part of all work.
+/// Reports progress; `done` is the completed part of all work.
 void tell(const ValidationOptions& options, const WorkParts& work, double done, const char* now) {
   if (options.progress) options.progress(done / work.total(), now);
 }

@@ -6,7 +6,7 @@
 
 namespace ursula {
 
-/// A wider limit decides only if there is a finished value to compare with.
+/// A limit decides only if there is a finished value to compare with.
 void judgeByUser(double limit, const std::string& whose, Check& check) {
   const bool finished = check.reason == Reason::none || check.reason == Reason::limit_useless;
   if (!finished) {

@@ -22,8 +22,8 @@ constexpr int highest = 5;  ///< highest derivative: motions are quintics, or fu
 using Real = Vector3<Real50>;
 using RealMatrix = Matrix3<Real50>;
 
-/// How a trajectory's poses are differentiated: in 50 digits if it has them, else in doubles. The step in doubles makes
-/// (1/512)⁶ of a seventh derivative smaller than eps; the remaining error is measured.
+/// The way in which a trajectory's poses are differentiated: in 50 digits if it has them, else in doubles. The step in
+/// doubles makes (1/512)⁶ of a seventh derivative smaller than eps; the remaining error is measured.
 struct Differences {
   bool exact;
   Real50 share;   ///< step as a share of a piece; a power of two for instants in doubles
@@ -127,9 +127,10 @@ struct ExactPieces {
 ///   p: |p| + P₀ + hidden length    Q: A
 ///   v: P₁ + |v| A                  ω: A₁ + |ω| A
 ///   a: P₂ + 2 |v| A₁ + 2 |a| A     α: A₂ + 2 |ω| A₁ + |α| A
-/// The reason: an angle off by δ turns v by δ, and n β̇², m β̈ and (r·ṙ) ω are products of two rounded factors.
-/// Differences in 50 digits add the rounding of seven poses over step^m, with weights that sum to less than 10. Their
-/// truncation, (1e-7)⁶ of a seventh derivative, is far below eps. For differences of doubles see widenedBy.
+/// These terms appear because an angle off by δ turns v by δ, and because n β̇², m β̈ and (r·ṙ) ω are products of two
+/// rounded factors. Differences in 50 digits add the rounding of seven poses over step^m, with weights that sum to less
+/// than 10. Their truncation, (1e-7)⁶ of a seventh derivative, is far below eps. For differences of doubles see
+/// widenedBy.
 struct Limits {
   double p, Q, v, omega, a, alpha;
 };

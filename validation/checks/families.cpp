@@ -42,7 +42,7 @@ std::vector<Check> judgeSamples(const Evidence& e) {
   return checks;
 }
 
-/// If NOC and fast kernels differ at the samples, a comparison between samples is meaningless.
+/// If NOC and fast kernels differ at the samples already, comparing them between samples is meaningless.
 std::vector<Check> judgeBetweenSamples(const Evidence& e) {
   const bool by_fast = e.subject->formulation == Formulation::noc;
   const auto inverseFails = [&e] {

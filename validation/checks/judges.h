@@ -21,13 +21,13 @@
 #include "validation/subject/subject.h"
 #include "validation/verdict/result.h"
 
-// The functions that judge: from what experiments found to checks with a value, a limit and a verdict. families.cpp
-// says which of them a subject is judged by. `units` convert to SI for the words.
+// The functions that judge turn what experiments found into checks with a value, a limit and a verdict. families.cpp
+// says which of them judge a subject. `units` convert to SI for the words.
 
 namespace ursula {
 
 /// Checks the commanded motion and the load: `motion.pose`, `.twist`, `.twist_rate`, and `motion.load` if there is a
-/// load. All formulations share these and so cannot check them. It uses no solver's results.
+/// load. All formulations share these and so cannot check them. No solver's results are used.
 std::vector<Check> judgeCommandedMotion(const Scenario& scenario);
 
 /// `motion.pose`, `.twist`, `.twist_rate`. The machine's `length` converts angles to metres.
@@ -57,7 +57,7 @@ Check judgeBetween(const Scenario& scenario, const Subject& subject, const std::
                    const RoundingProfile& profile, const Units& units = {});
 
 /// Compares every answer that a subject ever gave with the NOC's. It replaces judgeBetween's check, whose instants it
-/// includes. A solver may also be wrong beyond the first thousands.
+/// includes. A solver may also go wrong after its first thousands of answers.
 Check judgeAnswers(const Scenario& scenario, std::vector<Answered> answers, const std::vector<PointwiseSample>& samples,
                    const RoundingProfile& profile, const Units& units);
 
@@ -79,7 +79,7 @@ std::vector<Check> judgeComplement(const std::vector<ComplementSample>& samples,
 std::vector<Check> judgeFast(const FastSamples& fast, const std::vector<PointwiseSample>& samples, const Units& units);
 
 /// Exact invariances without a reference, `invariance.*`: the world rotated (with gravity), legs relabelled, masses
-/// doubled, time reversed. Returns none if the subject is no solver. They use no load.
+/// doubled, time reversed. Returns none if the subject is no solver. Loads are left out.
 std::vector<Check> judgeInvariances(const std::vector<InvarianceSamples>& invariances,
                                     const std::vector<PointwiseSample>& samples, const RoundingProfile& profile,
                                     const Units& units = {});

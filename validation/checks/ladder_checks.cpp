@@ -14,8 +14,8 @@ namespace {
 
 constexpr const char* second_check = "integration.second";
 
-/// Its accuracy applies per step and enters the error with a power between 4/5 and 1. So ten times the accuracy reduces
-/// the error at least five times.
+/// The second integrator's accuracy applies per step and enters the error with a power between 4/5 and 1. So ten times
+/// the accuracy reduces the error at least five times.
 constexpr double second_safety = 10;
 /// A hundred times the tolerance gives a hundred times the error at any order; less than this factor means no
 /// convergence. If knots instead of the tolerance set the steps, the error need only fall with the steps, by half the
@@ -25,7 +25,7 @@ constexpr double least_gain = 4;
 /// An error below this share of the largest useful limit decides nothing, even without convergence.
 constexpr double harmless = 0.01;
 
-/// Inconclusive if this proves nothing, otherwise a failure.
+/// Returns an inconclusive check if this proves nothing, otherwise a failure.
 Check notClimbed(bool proves_nothing, const std::string& why) {
   static constexpr const char* check = "integration.ladder";
   return proves_nothing ? notJudgeable(Reason::unfinished, check, std::nan(""), std::nan(""), "m", "", why)
@@ -49,7 +49,7 @@ Check judgeConvergence(const Ladder& ladder, const WindowedReplay& finest, doubl
   std::string orders;
   for (double p : ladder.observed_orders) orders += fmt::format("{}{:.3g}", orders.empty() ? "" : ", ", p);
   const double steps = static_cast<double>(fine.steps) / static_cast<double>(std::max(coarse.steps, 1L));
-  // The rungs take equal steps, unlike the judged replay, so knots do not set their steps.
+  // The rungs take as many steps as each other, but the judged replay takes more, so knots do not set the steps.
   const bool heedless =
       steps <= 1 && static_cast<double>(finest.replay.accepted) > 1.5 * static_cast<double>(fine.steps);
   const double share = heedless ? 1 / least_gain : std::max(1 / least_gain, 2 * std::pow(steps, -nominal_order / 2));

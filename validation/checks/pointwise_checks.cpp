@@ -45,7 +45,7 @@ double largestSize(const std::vector<PointwiseSample>& samples, const Quantity& 
   return largest;
 }
 
-/// The unit of one motor, which is the machine's; `where` is then a motor.
+/// Stands for the unit of the machine's efforts; `where` is then a motor.
 constexpr const char* of_efforts = "";
 
 Check judgeQuantity(const std::vector<PointwiseSample>& samples, Quantity quantity, const Units& units,
@@ -56,7 +56,7 @@ Check judgeQuantity(const std::vector<PointwiseSample>& samples, Quantity quanti
     return is_effort ? motorName(units, where) : placeName(where, quantity.of_body);
   };
   Worst worst;
-  double given = 0;  // missing digits of a file do not make a limit too wide
+  double given = 0;  // possible error from a file's missing digits, which does not make a limit useless
   for (const PointwiseSample& sample : samples) {
     if (!sample.refused.empty()) return notMade(quantity.name, quantity.unit, "no answer: " + sample.refused);
     const Deviation& deviation = sample.*quantity.deviation;

@@ -17,13 +17,13 @@ constexpr const char* check_name = "torque.between";
 /// Instants of the first round; a quarter more follow where the torques curve. On the paper's motion of 3 s this
 /// spacing meets a pulse of 1 ms more than once.
 constexpr int least_instants = 8192;
-/// Per second, in the scenario's own units of time: a long motion has no wider gaps than a short one …
+/// Instants per unit of time of the scenario, so that a long motion has no wider gaps than a short one.
 constexpr double instants_per_time = 600;
-/// … up to a limit that avoids seconds of work.
+/// More instants than this would take seconds.
 constexpr int most_instants = 65536;
 
-/// k φ⁻¹ mod 1: gaps have at most three lengths and match no period (Knuth, The Art of Computer Programming 3, sect.
-/// 6.4, theorem S).
+/// Returns k φ⁻¹ mod 1 of the duration. The gaps have at most three lengths and match no period (Knuth, The Art of
+/// Computer Programming 3, sect. 6.4, theorem S).
 std::vector<double> goldenInstants(double duration, int count) {
   const double ratio = (std::sqrt(5.0) - 1) / 2;
   std::vector<double> out;
@@ -49,7 +49,7 @@ std::vector<double> curvedInstants(const std::vector<Answered>& instants) {
   return out;
 }
 
-/// The larger limit of the two samples beside t; this first look saves most instants a limit of their own.
+/// The smaller limit of the two samples beside t. Most instants stay within it and need no limit of their own.
 class SampledTorqueLimit {
  public:
   explicit SampledTorqueLimit(const std::vector<PointwiseSample>& samples) : samples_(samples) {}
@@ -83,7 +83,7 @@ class Comparison {
     Eigen::Index leg = 0;
     const double error = (answer.torques - expected).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(&leg);
     double limit = limit_.at(t);
-    // An own limit is expensive, so only instants that could decide get one.
+    // A limit of its own is expensive, so an instant gets one only if it could decide.
     const bool decided = worst_.beyond() && Worst::share(error, limit) <= Worst::share(worst_.value, worst_.limit);
     if (!(error <= limit) && !decided) {
       const Conditioning here = profile_.at(motion);

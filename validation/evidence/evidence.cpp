@@ -20,7 +20,7 @@ std::vector<EngineSample> engineSamples(const Evidence& evidence) {
   return out;
 }
 
-/// Computes the subject's reactions if it has them or they are falsified; the right solver's are known.
+/// Computes the subject's reactions if it has its own or an injected fault changes them; the right solver's are known.
 void lookAtReactions(Evidence& evidence) {
   const Scenario& scenario = *evidence.scenario;
   const bool own = evidence.subject->reactions && !evidence.right;
@@ -79,7 +79,7 @@ void runReplays(bool ladder, Evidence& evidence) {
                                          first_is_right && !fault.feedback ? &reference.stabilised() : nullptr);
 }
 
-/// The shares of progress were measured with many samples.
+/// The shares of the work were measured with many samples.
 void lookAtSamples(const Experiments& experiments, Evidence& out) {
   const auto tell = [&experiments](double share) {
     if (experiments.progress) experiments.progress(share);

@@ -81,7 +81,7 @@ std::string missing(const ExternalTorques& torques, double duration, const Units
                      file.t.back() * units.time, duration * units.time);
 }
 
-/// Returns the worst window if even the shortest windows' bounds exceed the useful limit.
+/// Returns the worst window if even the shortest windows' bounds exceed the useful limit; else null.
 const GrowthWindow* hopeless(const ReplayPlan& plan, const std::vector<GrowthWindow>& windows, double useful) {
   const GrowthWindow* worst = nullptr;
   double largest = useful;

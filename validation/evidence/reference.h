@@ -30,7 +30,7 @@ struct RightReplays {
   std::vector<WindowedReplay> windows;  ///< with their integration errors
 };
 
-/// The first step: the well-scaled scenario.
+/// The well-scaled scenario, which is the first step.
 struct PreparedScenario {
   FrameChange natural;           ///< of the given scenario
   Scenario relocated;            ///< SI, positions from natural.origin
@@ -62,7 +62,7 @@ class Reference : public PreparedScenario {
   Reference(const Reference&) = delete;
   Reference& operator=(const Reference&) = delete;
 
-  /// Lets the background threads make also the parts that a subject with these is compared with.
+  /// Lets the background threads also make the parts for replays and, if asked, for direct dynamics and the ladder.
   void prepare(bool direct_dynamics, bool ladder) const;
 
   /// Stops the background threads and removes the deadline.

@@ -162,7 +162,7 @@ std::vector<ErrorsAt> sharesAlong(const Tracks& tracks, const std::vector<Pointw
 }
 
 ErrorSource dominantOf(const ErrorBudget& budget) {
-  // The residuals of torques that are right to rounding are rounding too, and no model error.
+  // If torques are right to rounding, their residuals are rounding too, and no model error.
   const double model = budget.model.error.norm();
   const std::pair<ErrorSource, double> shares[] = {{ErrorSource::model, model > budget.model_rounding ? model : 0},
                                                    {ErrorSource::integration, budget.integration.error.norm()},
@@ -212,7 +212,8 @@ ErrorBudget attribute(const Scenario& scenario, const std::vector<PointwiseSampl
   double spread = 0;
   for (const auto& each : seen) spread = std::max(spread, (each->end - mean).norm());
   budget.closure.error = budget.observed - tracks.plain.end;
-  budget.rounding = {tracks.plain.end - mean, spread};  // of the mean of three, and of the judged replay relative to it
+  budget.rounding = {tracks.plain.end - mean,
+                     spread};  // the uncertainty covers the mean and the judged replay relative to it
   budget.closure.uncertainty = spread;
   budget.integration = integrationShare(tracks.plain.end, tracks.coarse.end);
   budget.along = sharesAlong(tracks, samples, *window, amplification);

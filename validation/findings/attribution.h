@@ -42,7 +42,7 @@ struct ErrorBudget {
   ErrorShare integration;     ///< from the change with a hundredfold tolerance
   ErrorShare rounding;        ///< from the change in turned, relabelled and rescaled frames
   ErrorShare closure;         ///< from the change when the gaps are projected away
-  double amplification = 0;   ///< growth of a deviation at the window's start; no error itself
+  double amplification = 0;   ///< growth of a deviation at the window's start; not an error itself
   ErrorSource dominant = ErrorSource::unexplained;
   bool measured = false;        ///< false without a replay to analyse
   std::vector<ErrorsAt> along;  ///< the same from the window's start to t, for a plot

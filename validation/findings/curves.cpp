@@ -28,7 +28,7 @@ TimeSeries replayAndLimit(const std::vector<WindowedReplay>& windows, double pos
       error.push_back(step.position_error.norm());
       limit.push_back(replayLimit(window, position_scale, step.t));
       if (&step != &window.replay.steps.back() || reachesEnd(window)) continue;
-      t.push_back(window.window.end());  // nothing was computed from here on
+      t.push_back(window.window.end());  // nothing was computed after this
       error.push_back(std::nan(""));
       limit.push_back(std::nan(""));
     }

@@ -81,12 +81,12 @@ const WindowedReplay* windowAt(const std::vector<WindowedReplay>& windows, doubl
   return windows.empty() ? nullptr : &windows.back();
 }
 
-/// The ends of two integrators differ by rounding.
+/// Whether the replay reached t; the ends of two integrators differ by rounding.
 bool reached(const Replay& replay, double t) {
   return !replay.steps.empty() && t <= replay.steps.back().t * (1 + 1e-12);
 }
 
-/// After a replay stopped there is nothing to plot.
+/// Returns a step of NaN for an instant after a replay stopped.
 ReplayStep notComputed(double t) {
   const Vector3d none = Vector3d::Constant(std::nan(""));
   return {t, none, none, none, none, {std::nan(""), std::nan("")}, std::nan("")};

@@ -18,7 +18,8 @@ struct Rates {
   double growth = 0, decay = 0;
 };
 
-/// The growth of the motion, and that at rest without friction, because friction slows a fall without stopping it.
+/// Returns the larger of the motion's growth and that without friction, because friction slows a fall without stopping
+/// it.
 Rates fastestRates(const Matrix12& J) {
   const Eigen::VectorXcd moving = eigenvalues(J);
   const double falling = eigenvalues(J.bottomLeftCorner<6, 6>()).cwiseSqrt().real().maxCoeff();

@@ -18,8 +18,8 @@ bool sameBits(const Motion<double>& a, const Motion<double>& b) {
          a.omega_dot == b.omega_dot;
 }
 
-/// Coulomb friction varies over its smoothing speed, everything else over the machine's own speed. The step is a
-/// compromise between both.
+/// Returns a step between two scales: Coulomb friction varies over its smoothing speed, everything else over the
+/// machine's own speed.
 double stepFor(const Manipulator& machine) {
   double speed = 1;
   for (const Leg& leg : machine.parameters().legs)

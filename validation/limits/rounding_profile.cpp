@@ -191,7 +191,7 @@ RoundingProfile::RoundingProfile(const Scenario& scenario, int instants)
     const double t = instants > 1 ? scenario.trajectory->duration() * k / (instants - 1) : 0;
     Motion<double> motion = scenario.trajectory->at(t);
     if (k > 0 && areSame(motion, first_of_held))
-      nudge(motion, k, workspace_->noc.machine().length);  // else a held pose would repeat one measurement
+      nudge(motion, k, workspace_->noc.machine().length);  // without this a held pose would repeat one measurement
     else
       first_of_held = motion;
     measured_.push_back(measure(motion, nullptr));

@@ -22,9 +22,9 @@ class RoundingProfile {
 
   /// The conditioning at an instant of the motion, with measured levels.
   Conditioning at(const Motion<double>& motion) const;
-  /// The same, but it also measures the instant itself, with the direct dynamics under `torques` if given. The
+  /// The same, but measured also at the instant itself, with the direct dynamics under `torques` if given. The
   /// unavoidable difference of two formulations is at most their spread plus their least difference in any change of
-  /// frame. A larger one is no rounding, because no change of frame removes it.
+  /// frame. A larger one is not rounding, because no change of frame removes it.
   Conditioning closer(const Motion<double>& motion, const Vector6d* torques = nullptr) const;
 
   /// The measured spread of `quantity` at each measured instant, in units of its shape.
@@ -43,8 +43,8 @@ class RoundingProfile {
   std::vector<Measured> measured_;
 };
 
-/// Limits that are measured again for values beyond them. This stops once a value stays beyond its limit, because the
-/// check has then failed.
+/// Limits that are measured again for values beyond them. Once a value stays beyond its limit, no more are measured,
+/// because the check has failed.
 class SecondLook {
  public:
   explicit SecondLook(const RoundingProfile& profile) : profile_(profile) {}
@@ -68,11 +68,11 @@ int profileInstants(int samples);
 /// covers other distributions. Over 5,000 random machines the largest error used about a third of its limit.
 constexpr double rounding_safety = 10;
 
-/// The least level. The shape is a worst case, and double rounding seldom reaches a hundredth of it. But it may round
-/// equally in every frame.
+/// The least level, in case all frames round equally and show no spread. The shape is a worst case, and rounding of
+/// doubles seldom reaches a hundredth of it.
 constexpr double rounding_floor = 0.02;
-/// … but at most this share of the quantity's terms. Near a singular pose the product of several condition numbers
-/// exceeds everything measured and would make a useless limit. The remaining digits there are measured.
+/// The floor is at most this share of the quantity's terms. Near a singular pose the product of several condition
+/// numbers exceeds everything measured and would make a useless limit. The remaining digits there are measured.
 constexpr double floor_share = 1e-9;
 
 }  // namespace ursula

@@ -67,8 +67,8 @@ void makeRung(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torque
   addRung(settings, replayBeside(scenario, torques, settings, change), finest.replay, ladder.rungs, ladder.asked);
 }
 
-/// Limit for one run of Simbody's own integrator: twice the need of the paper's whole motion at its best. With massless
-/// links it would run for minutes.
+/// Limit of evaluations for one run of Simbody's own integrator: twice what the paper's whole motion needs. With
+/// massless links it would run for minutes.
 constexpr long most_second_evaluations = 20000;
 
 /// The largest contradiction at some instants of the commanded motion, in natural units, where rotations and
@@ -112,7 +112,7 @@ void replaySecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& to
   Replay coarse = run(10 * second_accuracy);
   if (!coarse.gave_up.empty()) return;
   Replay fine = run(second_accuracy);
-  // Equal runs, whose steps do not depend on the accuracy, say nothing about the error.
+  // If the steps do not depend on the accuracy, equal runs say nothing about the error.
   for (double accuracy = second_accuracy / 10; accuracy > 1e-14 && fine.evaluations <= coarse.evaluations;
        accuracy /= 10) {
     coarse = std::move(fine);
@@ -123,8 +123,8 @@ void replaySecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& to
       both ? (coarse.steps.back().position_error - fine.steps.back().position_error).norm() : std::nan("");
 }
 
-/// Covers only the first steps, at least a tenth, because it only needs another integrator, not another replay. It
-/// covers fewer if they take too many evaluations.
+/// Covers only the first steps, at least a tenth, because it tests the integrator and not the whole replay. It covers
+/// fewer if they take too many evaluations.
 void climbSecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
                  const ChangeSettings& change, Ladder& ladder) {
   const std::vector<ReplayStep>& steps = finest.replay.steps;
@@ -164,7 +164,8 @@ Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques
     ladder.observed_orders.push_back(order(ladder.rungs[k], ladder.rungs[k + 1]));
   ladder.asymptotic = std::all_of(ladder.observed_orders.begin(), ladder.observed_orders.end(),
                                   [](double p) { return std::abs(p - nominal_order) <= 2; });
-  // Richardson extrapolation with the last observed order; without an asymptotic range, the last difference itself.
+  // The error is extrapolated (Richardson) with the last observed order; without an asymptotic range it is the last
+  // difference.
   const Rung& last = ladder.rungs.back();
   const double ratio = static_cast<double>(finest.replay.accepted) / static_cast<double>(std::max(last.steps, 1L));
   const double p = ladder.asymptotic ? ladder.observed_orders.back() : 0;

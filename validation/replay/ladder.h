@@ -20,8 +20,8 @@ struct Rung {
   bool left_path = false;  ///< the replay ended early, so its end is meaningless
 };
 
-/// Accuracy of Simbody's own integrator; at a finer one its fourth-order error control takes too many steps. If its
-/// accelerations have larger errors, in natural units, its steps follow those and not the motion. It is then no
+/// Accuracy of Simbody's own integrator; with a finer one its fourth-order error control takes too many steps. If its
+/// accelerations have larger errors, in natural units, its steps follow those and not the motion. Then it is no
 /// evidence.
 constexpr double second_accuracy = 1e-9;
 

@@ -20,14 +20,14 @@ namespace {
 namespace odeint = boost::numeric::odeint;
 using OdeState = std::vector<double>;
 
-/// The largest difference, in natural units; above it, steps are too long for an order …
+/// Larger differences, in natural units, mean that steps are too long for an order.
 constexpr double most_difference = 1e-3;
-/// … and below this multiple of the start's propagated rounding, differences may be rounding.
+/// Differences below this multiple of the start's propagated rounding may be rounding.
 constexpr double above_noise = 3;
 /// Stretches to try, in natural units of time: the longest, and the ratio of successive ones.
 constexpr double longest_stretch = 8, shorter = 0.9;
 constexpr int attempts = 90;
-/// Number of stretches for an order, doubled if they leave it open.
+/// Number of stretches that give an order; twice as many if these leave it open.
 constexpr std::size_t most_stretches = 12;
 
 /// The loop released from the commanded state at the start of the motion.
@@ -39,7 +39,8 @@ class LetGo {
         machine_(frictionless(*scenario.manipulator)),
         loop_(machine_),
         start_(trajectory_.at(0)) {
-    // Torques for about a natural unit of acceleration in every direction; else a motion from rest would stay there.
+    // These torques give about a natural unit of acceleration in every direction; otherwise a motion from rest would
+    // stay there.
     Motion<double> pushed = start_;
     pushed.p_ddot += Vector3d(0.3, -0.4, 0.5);
     pushed.omega_dot += Vector3d(0.4, 0.3, -0.5);

@@ -73,7 +73,7 @@ class ControlledRadau {
     } catch (const TooLong&) {
       throw;
     } catch (const GaveUp&) {
-      // A stage went far away: the step is too long.
+      // If a stage went far away, the step is too long.
     }
     const bool accepted = error && *error <= 1;
     if (accepted) t += h;
@@ -154,8 +154,8 @@ class Run {
   void integrate(Stepper stepper) {
     OdeState x = loop_.state();
     x.push_back(0.0);
-    // The first step has the scale of the whole motion; otherwise each of many short windows would grow its own from
-    // nothing.
+    // The first step has the scale of the whole motion. Otherwise each of many short windows would begin with tiny
+    // steps.
     double step = trajectory_.duration() / 128;
     double t = settings_.start;
     observe(x, t);
@@ -263,7 +263,7 @@ Replay replay(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torque
   } catch (const TooLong& error) {
     run.giveUp(error.what(), true);
   } catch (const std::bad_alloc&) {
-    throw;  // it says nothing about the motion
+    throw;  // a lack of memory says nothing about the motion
   } catch (const std::exception& error) {
     run.giveUp(error.what(), false);  // the completed part is still reported
   }

@@ -1,4 +1,4 @@
-// Evaluates a replay's steps.
+// Finds errors at a replay's steps and between them.
 
 #include <algorithm>
 #include <cmath>

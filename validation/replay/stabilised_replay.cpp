@@ -30,7 +30,7 @@ constexpr double shortest_step = 1e-12;
 /// A deviation, m or rad, that is too large to follow: the torques are wrong, and their error is known.
 constexpr double lost = 0.1;
 constexpr long max_evaluations = 200000;
-/// Torques known to be wrong get fewer evaluations for the size of their error.
+/// Limit of evaluations for torques that are known to be wrong, of which only the size of the error is sought.
 constexpr long max_evaluations_of_wrong = 2000;
 /// The relative accuracy of a deviation under wrong torques.
 constexpr double three_digits = 1e-3;
@@ -140,7 +140,7 @@ class Stabilised {
   long evaluations_ = 0;
 };
 
-/// Has the interface of try_step in Boost.Odeint's controlled steppers.
+/// Takes one step, like try_step of Boost.Odeint's controlled steppers.
 template <class RateAt>
 bool stiffStep(RadauStep& radau, const RateAt& rate, Deviation& deviation, double& t, double& h,
                const RadauStep::Tolerance& tolerance) {
@@ -254,7 +254,7 @@ StabilisedReplay stabilisedReplay(const Scenario& scenario, const Subject& subje
   try {
     follow(loop, subject, found.asked.of(torques), *scenario.trajectory, found);
   } catch (const std::bad_alloc&) {
-    throw;                                 // it says nothing about the motion
+    throw;                                 // a lack of memory says nothing about the motion
   } catch (const std::exception& error) {  // earlier results are kept
     found.stopped = error.what();
     found.gave_up = true;

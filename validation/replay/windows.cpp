@@ -46,7 +46,7 @@ double derivativeNoise(SimbodyLoop& loop, const Motion<double>& motion, const Ve
 
 double reachableTolerance(const Scenario& scenario, double step_rate, bool stiff) {
   SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
-  const Subject right = nocSubject(*scenario.manipulator, scenario.load);  // not those of the subject
+  const Subject right = nocSubject(*scenario.manipulator, scenario.load);  // not the subject's torques
   constexpr int instants = 5;
   double noise = 0;
   for (int k = 0; k < instants; ++k) {
@@ -68,7 +68,7 @@ bool isStiff(const Amplification& amplification, double duration) {
 
 long enoughEvaluations(const Scenario& scenario, double step_rate) {
   const auto knots = static_cast<long>(allKnots(scenario).size());
-  constexpr double most = 1e12;  // a time limit handles longer work
+  constexpr double most = 1e12;  // a time limit deals with longer work
   return 20000 + static_cast<long>(std::min(most, 4 * 13 * step_rate * scenario.trajectory->duration())) +
          4 * 13 * knots;
 }
@@ -168,7 +168,7 @@ namespace {
 
 constexpr unsigned frames_of_replay = 3;
 
-/// The path's errors, rotated back to this frame. Units stay, so the tolerance keeps its meaning.
+/// Replays in another frame and rotates the path's errors back. Units stay, so the tolerance keeps its meaning.
 Replay replayedElsewhere(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window, unsigned seed) {
   FrameChange there = randomFrameChange(seed, window.length, *scenario.manipulator);
   there.units = {};
@@ -183,7 +183,7 @@ Replay replayedElsewhere(const Scenario& scenario, const ReplayPlan& plan, const
   return out;
 }
 
-/// If no step was rejected, the difference is the error of the steps.
+/// Replays with halved steps. If no step was rejected, the difference from `here` is the error of the steps.
 Replay replayedByHalves(const Scenario& scenario, const ReplayPlan& plan, const GrowthWindow& window,
                         const Replay& here) {
   ReplaySettings settings = settingsOf(scenario, plan, window, 1);

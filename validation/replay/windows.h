@@ -22,7 +22,7 @@ struct ReplayPlan {
   std::function<void(const std::vector<double>&)> foresee = nullptr;  ///< as in ReplaySettings; may be empty
 };
 
-/// 300, or 40 per second if that is more, up to 300,000.
+/// Returns 300 intervals, or 40 per second if that is more, up to 300,000.
 int linearisedIntervals(double duration);
 /// The growth of deviations along the scenario's motion, in linearisedIntervals().
 Amplification linearised(const Scenario& scenario);
@@ -64,7 +64,7 @@ std::vector<WindowedReplay> replayInWindows(const Scenario& scenario, const Repl
 /// are connected, this is far above eps.
 double reachableTolerance(const Scenario& scenario, double step_rate, bool stiff = false);
 
-/// For smooth torques; the verdict uses the actual number of steps.
+/// Returns the expected steps per second under smooth torques; the verdict uses the actual number.
 double plannedStepRate(double duration);
 
 /// Whether friction shortens an explicit integrator's steps so much that implicit steps cost less.

@@ -31,7 +31,7 @@ ComplementSample sampled(const Subject& subject, const PointwiseSample& at, int 
   out.size_T = complement.T.norm();
   out.product = (complement.D * complement.T).norm();
   out.limit = at.conditioning.complementRounding() * out.size_D * out.size_T;
-  // Zero rows and columns of missing legs do not count.
+  // Zero rows and columns of missing legs do not change a rank.
   out.rank_D = rankOf(complement.D);
   out.rank_T = rankOf(complement.T);
   out.wanted_D = 6 * bodies - motor_count;

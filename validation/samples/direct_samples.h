@@ -23,7 +23,7 @@ struct DirectSample {
   std::vector<DirectAnswer> off_path;
 };
 
-/// At some of `conditions`; `simbody` are Simbody's answers there.
+/// Asks Simbody at some of `conditions`; `simbody` are its earlier answers there.
 std::vector<DirectSample> runDirect(const Scenario& scenario, const std::vector<Conditions>& conditions,
                                     const std::vector<SimbodyAnswer>& simbody);
 

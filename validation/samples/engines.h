@@ -21,10 +21,10 @@ struct EngineSample {
   double limit = 0;                   ///< rounding limit between any two, N·m
 };
 
-/// Computes them at the instants.
+/// Computes the torques of all further formulations at the instants.
 std::vector<EngineTorques> engineTorques(const Scenario& scenario, const std::vector<double>& instants);
 
-/// `engines` are those at the instants of `samples`.
+/// Combines the subject's torques with `engines`, which are those at the instants of `samples`.
 std::vector<EngineSample> runEngines(const std::vector<EngineTorques>& engines,
                                      const std::vector<PointwiseSample>& samples, const RoundingProfile& profile);
 /// Computes the further formulations at the instants of `samples`.

@@ -11,7 +11,7 @@ constexpr std::size_t most_instants = 500;
 /// Size of a batch that repeats the same instants: larger than any kernel's block, and no multiple of its lanes.
 constexpr std::size_t in_batch = 4099;
 
-/// The questions to all, in SI, as users ask; loads only if there is one.
+/// The questions to all kernels, in SI as users ask them; loads only if there is one.
 struct Questions {
   std::vector<Motion<double>> motions;
   std::vector<Vector6d> loads, efforts;

@@ -34,7 +34,7 @@ struct FastFault {
   explicit operator bool() const { return model || answers; }
 };
 
-/// At up to 500 samples. The kernels run in SI, as for users; `scenario` is in the units `natural`.
+/// Asks at up to 500 samples. The kernels run in SI, as for users; `scenario` is in the units `natural`.
 FastSamples runFast(const Scenario& scenario, const Units& natural, const std::vector<PointwiseSample>& samples,
                     const FastFault& fault = {});
 

@@ -32,7 +32,7 @@ SimbodyAnswer simbodyAnswer(SimbodyLoop& loop, const Subject& right, const Motio
     loop.accelerate(torques);
     out.right = SimbodyAnswer::OfRight{torques, twistRate(loop)};
   } catch (const PoseError&) {
-    // The subject itself is asked later.
+    // The subject is asked later and reports the error.
   }
   return out;
 }

@@ -40,7 +40,7 @@ struct OpenLeg {
   Matrix3d mass = Matrix3d::Zero();           ///< of its links and rotors, in its coordinates
   Vector3d arm = Vector3d::Zero();            ///< Q b, m
   Vector3d bias = Vector3d::Zero();           ///< J̇ q̇ of its point B, m/s²
-  Vector3d coriolis = Vector3d::Zero();       ///< the part of it by sliding while turning
+  Vector3d coriolis = Vector3d::Zero();       ///< the part of `bias` from sliding while turning
   Vector3d platform_bias = Vector3d::Zero();  ///< ω × (ω × Qb) of the platform's, m/s²
 };
 

@@ -43,7 +43,7 @@ std::vector<Range> travels(const Scenario& scenario) {
       for (std::size_t i = 0; i < out.size(); ++i) out[i].include(solver.angles(work).d(static_cast<int>(i)));
     }
   } catch (const PoseError&) {
-    // The part before it is drawn.
+    // The part of the motion before this pose is drawn.
   }
   return out;
 }

@@ -59,7 +59,7 @@ std::string outOfReach(const Scenario& scenario, const PoseError& refusal) {
                      too_far ? "at most" : "at least", too_far ? reach.most : reach.least, by, worstMiss(scenario, by));
 }
 
-/// For a knee within √eps of straight: the span of its links minus the distance, as a length.
+/// Says how far a stretched or folded leg is from its dead centre, as a length.
 std::string stretched(const Scenario& scenario, const PoseError& refusal) {
   const Leg& leg = scenario.manipulator->leg(refusal.leg());
   const DeadCentre at = typeOf(leg.kind).deadCentre(reachOf(leg, scenario.trajectory->at(refusal.instant())));
@@ -92,7 +92,7 @@ void requireWhole(const Scenario& scenario) {
     if (!is_there) throw InvalidParameter(place, "none", "a scenario that has one");
 }
 
-/// det B is continuous wherever the legs reach, so it vanishes between opposite signs.
+/// det B is continuous wherever the legs reach, so it vanishes between two poses at which its signs differ.
 void checkMotion(const Scenario& scenario) {
   requireWhole(scenario);
   const Solver<double> solver(*scenario.manipulator);

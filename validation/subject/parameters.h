@@ -10,8 +10,8 @@ namespace ursula {
 /// "manipulator.leg.2.base_axis.across", rad.
 struct Parameter : MachineNumber {
   bool turns() const { return quantity == Quantity::base_axis; }
-  /// Applies a relative error. For an inertia entry it is one of the largest moment, for points of the vector's norm
-  /// (or of one metre if that is zero), for axes an angle.
+  /// Applies a relative error. It is relative to the largest moment for an inertia entry, and to the vector's norm (or
+  /// one metre if that is zero) for a point. For an axis it is an angle.
   void disturb(ManipulatorParameters& machine, double relative) const;
 };
 

@@ -50,7 +50,7 @@ struct Subject {
   std::function<Vector6d(const Motion<double>&, const Vector6d& torques)> accelerations;
   std::function<Complement(const Motion<double>&)> complement;  ///< empty if the subject computes none
   std::function<Reactions(const Motion<double>&)> reactions;    ///< under its own torques; empty if it computes none
-  /// Receives in advance the motions whose torques will be needed, for a subject that answers many at once faster.
+  /// Receives in advance the motions whose torques will be needed, for a subject that is faster with many at once.
   /// Empty if that is useless. Changes no answer.
   std::function<void(const std::vector<Motion<double>>&)> foresee;
   /// Returns all answers so far; empty if it stores nothing.

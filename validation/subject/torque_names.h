@@ -26,7 +26,7 @@ struct ColumnMeaning {
 /// Interprets `tau1`, `Tau 1 [Nm]`, `torque_1 (kN m)`, `force 2 [N]`, `t`, `Time [ms]`; nullopt for an ambiguous name.
 std::optional<ColumnMeaning> meaningOf(const std::string& name);
 
-/// Interprets a name of the contract, possibly with another unit: `tau_1_kNm`; numbered from 0.
+/// Interprets a name of the contract, possibly with another unit: `tau_1_kNm`. Its motor is numbered from 0.
 std::optional<ColumnMeaning> meaningOfTarget(const std::string& name);
 
 /// "t_s" for −1, otherwise the column of that motor's effort.

@@ -84,8 +84,8 @@ std::shared_ptr<const Trajectory> shifted(const std::shared_ptr<const Trajectory
 
 double powerOfTwo(double x) { return std::exp2(std::floor(std::log2(x))); }
 
-/// Subtracts multiples of a power of two above the machine's size, which causes no rounding (Sterbenz). The first
-/// multiple is excluded, because coordinates near it are too small.
+/// Returns an origin of multiples of a power of two above the machine's size; subtracting it causes no rounding
+/// (Sterbenz). The first multiple is excluded, because coordinates near it are too small.
 Vector3d roundOrigin(const Manipulator& machine, double length) {
   Vector3d middle = Vector3d::Zero();
   for (const Leg& leg : machine.parameters().legs) middle += leg.base_point / machine.legCount();
@@ -135,8 +135,8 @@ KinematicAnswer answerIn(const FrameChange& to, const FrameChange& back, Kinemat
   return answer;
 }
 
-/// Compares efforts of rotating and sliding motors by their numbers. So a machine of usual size gets 1 m as its unit of
-/// length, and a newton counts as a newton metre.
+/// If some motors rotate and some slide, their efforts are compared by their numbers. So a machine of usual size gets 1
+/// m as its unit of length, and a newton counts as a newton metre.
 double lengthUnit(const Manipulator& machine, double length) {
   constexpr double usual = 64;
   const Motors& motors = machine.motors();

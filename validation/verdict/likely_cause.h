@@ -41,7 +41,7 @@ struct NamedCause {
   double explained = std::numeric_limits<double>::quiet_NaN();  ///< share of the deviation's square; NaN: unknown
 };
 
-/// The name of the error for a repeated question.
+/// The `term` of the error by which answers to a repeated question differ.
 constexpr const char* repeat_term = "repeat";
 
 /// The relative error of a solver's answers to one separate question: "statics", "angular_velocity", …
