@@ -15,7 +15,7 @@
 namespace ursula::report {
 namespace {
 
-// The decades of the bars, equal for all so that they are comparable; the limit is at 0.
+// The decades of the bars, equal for all bars so that they are comparable; the limit is at 0.
 struct Decades {
   double low = -3, high = 1;
 

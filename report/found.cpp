@@ -80,8 +80,8 @@ std::string agrees(const Found& found) {
                             : fmt::format("; {} independent formulations agree {}", inWords(found.engines), share);
 }
 
-/// ". Likely cause: platform mass 303 ± 1 kg"; what explains all but rounding needs no number for that, and where there
-/// is no cause none is called likely.
+/// Returns ". Likely cause: platform mass 303 ± 1 kg". A share that lacks only rounding becomes "all of it"; a text
+/// without a cause is not called likely.
 std::string inPrint(std::string cause) {
   for (const auto& [from, to] :
        {std::pair<std::string, std::string>{" +- ", " ± "},

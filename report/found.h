@@ -10,7 +10,7 @@ namespace ursula::report {
 /// The curve with the sources of the replay's error.
 constexpr const char* sources_curve = "Sources of the replay's error";
 
-/// A result as typed facts; texts are made from them last.
+/// The facts of a result, from which texts are made.
 struct Found {
   std::string subject, motion;  ///< "The NOC's efforts", "the helix"
   double duration = 0;          ///< s; NaN without a time series
@@ -22,17 +22,17 @@ struct Found {
   int engines = 1;     ///< number of formulations that give efforts, including the subject's
   int windows = 1;     ///< number of windows in the replay
   std::string dominant;    ///< source of the replay's error; may be empty
-  std::string off, cause;  ///< of wrong efforts: which ones, and why; may be empty
+  std::string off, cause;  ///< which efforts are wrong, and why; may be empty
 };
 Found found(const ValidationResult& result);
 
 /// Returns the verdict as a sentence about the results. A failure starts with its likely cause.
 std::string sentence(const ValidationResult& result);
 
-/// Returns the text below: the detailed reason for a failure or an undecided verdict; else empty.
+/// Returns the text below the sentence: the detailed reason for a failure or an undecided verdict; else empty.
 std::string detail(const ValidationResult& result);
 
-/// The few numbers that show how right it is: (what, number, remark).
+/// One of the few numbers that show how right a result is: what, number, remark.
 struct KeyFigure {
   std::string what, value, remark;
 };

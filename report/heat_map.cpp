@@ -17,7 +17,7 @@ namespace {
 constexpr double panel = 230, left = 70, top = 62;  // px
 constexpr double overlap = 0.3;                     // px: prevents hairlines between cells
 constexpr int colours = 24;
-constexpr std::size_t most_labelled = 6;  // most cells with a label each
+constexpr std::size_t most_labelled = 6;  // up to this many cells, each has a label
 
 /// A colour of viridis, which keeps its order in grey and for colour-blind readers.
 std::string colour(int k) {
@@ -38,7 +38,8 @@ struct Label {
   std::string text;
 };
 
-/// Cells surround their values; a value between two cells is placed in proportion.
+/// Returns the place of a value as a share of the axis. Cells surround their values; between two cells it is
+/// interpolated.
 double shareOf(const std::vector<double>& values, double value) {
   const bool falls = values.back() < values.front();
   const auto after = std::find_if(values.begin() + 1, values.end() - 1,

@@ -9,7 +9,7 @@ namespace ursula::report {
 /// colours for the others.
 class HeatScale {
  public:
-  /// Covers the finite ones of `values`; if `log`, logarithmically and only the positive ones.
+  /// Covers the finite `values`. With `log` it is logarithmic and covers only the positive ones.
   HeatScale(std::vector<float> values, bool log);
 
   bool empty() const { return !(high_ > low_); }

@@ -26,7 +26,7 @@ std::vector<std::string> columns(const std::vector<SuiteEntry>& entries) {
   return names;
 }
 
-/// Nearness to the limit in five shades: 0 below a thousandth, 4 above a third.
+/// Returns one of five shades for the share of a limit: 0 below a thousandth, 4 above a third.
 int shade(double share) {
   return std::isfinite(share) && share > 0 ? std::clamp(static_cast<int>(std::floor(2 * std::log10(share))) + 5, 0, 4)
                                            : 0;

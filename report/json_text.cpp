@@ -17,7 +17,7 @@ void addNumber(double value, std::string& out) {
 
 std::string jsonNumbers(const std::vector<double>& values) { return jsonList(values, addNumber); }
 
-/// Escapes what could end a script and what is no HTML character.
+/// Escapes text that could end a script, and characters that HTML does not have.
 std::string jsonText(const std::string& words) {
   std::string out = nlohmann::json(words).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   for (const auto& [odd, escape] :

@@ -14,7 +14,7 @@
 namespace ursula::report {
 namespace {
 
-/// x, y, z of all instants in order; a constant point is written once.
+/// Writes x, y, z of all instants in order; a constant point is written once.
 template <class Vectors>
 std::string track(const Vectors& points) {
   const bool still = std::all_of(points.begin(), points.end(), [&](const auto& point) { return point == points[0]; });

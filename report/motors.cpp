@@ -11,7 +11,7 @@
 namespace ursula::report {
 namespace {
 
-constexpr double may_remain = 0.01;  // as in the diagnosis; a smaller remainder counts as explained
+constexpr double may_remain = 0.01;  // share of a deviation that an explanation may leave, as in the diagnosis
 
 bool areWrong(const ValidationResult& result) {
   return std::any_of(result.checks.begin(), result.checks.end(), [](const Check& check) {
@@ -19,7 +19,7 @@ bool areWrong(const ValidationResult& result) {
   });
 }
 
-/// Fits by least squares. Both sums use the instants that have both efforts.
+/// Fits a factor or an offset by least squares, over the instants that have both efforts.
 MotorDeviation deviationOf(int motor, const std::vector<double>& t, const std::vector<double>& given,
                            const std::vector<double>& expected) {
   MotorDeviation out;

@@ -19,7 +19,7 @@ struct PageSection {
   std::string html;       ///< an empty section is omitted
 };
 
-/// A page in the report's style with its own sections below a verdict sentence.
+/// A page in the report's style, with its own sections below a sentence on the verdict.
 struct Page {
   std::string kind;  ///< "Comparison": the kind of page, above its title
   std::string title;

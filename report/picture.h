@@ -23,8 +23,8 @@ struct Picture {
     std::string name;         ///< its name for people: "universal joint", "pin", …
     Track at;                 ///< its point
     std::vector<Track> axes;  ///< unit vectors, the driven one first; empty for a ball
-    bool driven = false;      ///< about or along the first axis; its effort counts positive in the opposite direction
-    bool slides = false;      ///< along its only axis
+    bool driven = false;  ///< by a motor about or along the first axis; positive efforts act in the opposite direction
+    bool slides = false;  ///< along its only axis
   };
 
   struct Leg {

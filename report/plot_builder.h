@@ -42,7 +42,7 @@ class TimePlots {
   std::vector<double> t_;
 };
 
-/// Adds the charts of the time series. `motors` are those of its efforts; `allowed` is a user's tolerance in their
+/// Adds the charts of the time series. Its efforts are those of `motors`; `allowed` is a user's tolerance in their
 /// unit, 0 if there is none.
 void addSeriesPlots(const TimeSeries& series, const Motors& motors, double allowed, std::vector<Plot>& plots);
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double decades_for_log = 3;
 
-/// Zero, where an error starts, has no place on a logarithmic axis and is ignored.
+/// The range of values. Zeros are ignored, because an error starts at zero, which a logarithmic axis cannot show.
 struct Span {
   bool positive = true;
   double least = std::numeric_limits<double>::infinity(), most = -std::numeric_limits<double>::infinity();
@@ -101,7 +101,7 @@ std::pair<double, double> extremes(const std::vector<double>& values, std::size_
   return low < high ? std::pair(values[low], values[high]) : std::pair(values[high], values[low]);
 }
 
-/// What the chart says of efforts, in the machine's words.
+/// Rewrites the chart's texts with the noun for the machine's efforts.
 void sayEfforts(const std::string& noun, Plot& plot) {
   for (std::string* text : {&plot.title, &plot.x_label, &plot.y_label}) *text = inEffortWords(noun, *text);
   for (Line& line : plot.lines) line.label = inEffortWords(noun, line.label);

@@ -30,7 +30,7 @@ struct Plot {
   bool log_x = false, log_y = false;
   bool over_time = false;  ///< plots over time share their cursor
   bool tube = false;       ///< the first two lines are its upper and lower bound
-  std::size_t rows = 0;    ///< rows of the data; more than `x` has after thinning
+  std::size_t rows = 0;    ///< rows of the data; after thinning `x` has fewer
   std::vector<double> x;   ///< ascending and finite
   std::vector<Line> lines;
 };
@@ -47,7 +47,7 @@ bool isDrawable(const Plot& plot, const Line& line);
 /// Describes a chart in a sentence for its caption: the largest magnitude, and where.
 std::string inWords(const Plot& plot);
 
-/// One of the columns `quantity_1_unit`, in their order: its index "1", "2", … and its unit as in columns.
+/// A column named `quantity_1_unit`: its index "1", "2", … and its unit, as in columns.
 struct Indexed {
   std::string index, unit;
   const std::vector<double>* values = nullptr;
@@ -61,16 +61,16 @@ std::string svgPlot(const Plot& plot);
 /// Round numbers within [low, high], about `count` of them.
 std::vector<double> roundTicks(double low, double high, int count);
 
-/// Returns a chart with its caption and its static drawing, or with a place for the script's drawing. `index` is that
-/// of the chart in the page's data.
+/// Returns a chart with its caption and its static drawing, or with an empty place for the script's drawing. `index` is
+/// the chart's index in the page's data.
 enum class Drawing { with, without };
 std::string figureHtml(const Plot& plot, std::size_t index, const char* heading, Drawing drawing = Drawing::with);
 
 /// Returns the figures of one group side by side; "" if there is none.
 std::string figuresHtml(const std::vector<Plot>& plots, PlotGroup group);
 
-/// The replay's position error, m: the largest in each of a few equal parts of the rows, NaN for parts without one.
-/// Empty without a replay.
+/// Returns the replay's position error, m: the largest in each of a few equal parts of the rows, NaN for parts without
+/// one. Empty without a replay.
 std::vector<double> trendOf(const TimeSeries& series);
 
 /// Returns a trend as a line over decades, as large as a word; "" if there is nothing to draw.

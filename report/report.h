@@ -12,7 +12,7 @@ namespace ursula {
 
 class OutputFolder;
 
-/// The time of a run, only for JUnit files: everything else is equal in equal runs.
+/// The time of a run, for JUnit files only. Everything else is equal in equal runs.
 struct RunTime {
   double seconds = 0;   ///< wall time
   std::string started;  ///< UTC, as in 2026-11-22T05:13:18; if empty, no time is written
@@ -29,7 +29,7 @@ class Stopwatch {
   std::string started_;
 };
 
-/// A scenario's line in a suite: data for the index, without the time series.
+/// A scenario's entry in a suite, without the time series.
 struct SuiteEntry {
   std::string scenario;
   Verdict verdict = Verdict::fail;
@@ -42,7 +42,7 @@ struct SuiteEntry {
   std::vector<std::pair<std::string, std::string>> properties = {};  ///< for the JUnit file: limits, provenance
 };
 
-/// Returns the line of `result` in a suite.
+/// Returns the entry of `result` in a suite.
 SuiteEntry suiteEntry(const ValidationResult& result, std::filesystem::path folder, const RunTime& time = {});
 
 /// Returns the verdict's reason in one sentence: the number of failed checks and the worst, or the nearest to its
@@ -52,17 +52,17 @@ std::string reason(Verdict verdict, const std::vector<Check>& checks);
 /// Whether only checks of the fast kernels failed, so that the NOC itself is right.
 bool onlyFastFails(const std::vector<Check>& checks);
 
-/// "Right to 0.03 %: the largest deviation is 7.4 N m of 25066 N m, leg 3 at t = 2.97 s; …": the effect of such errors,
-/// and the smallest --rtol that would pass.
+/// Returns "Right to 0.03 %: the largest deviation is 7.4 N m of 25066 N m, leg 3 at t = 2.97 s; …", followed by the
+/// effect of such errors and the smallest --rtol that would pass.
 std::string sentence(const EffortDeviation& deviation);
 
-/// value / limit, 0 for values below zero; NaN without a value or without a finite non-negative limit.
+/// Returns value / limit, and 0 for values below zero; NaN without a value or without a finite non-negative limit.
 double limitShare(const Check& check);
 
 /// The same in words: "is at 0.8 of its limit", "has no value", …
 std::string standing(const Check& check);
 
-/// Returns how many of them apply.
+/// Returns how many of the checks apply.
 std::ptrdiff_t judgedCount(const std::vector<Check>& checks);
 
 /// Returns the decisive check, the first of equals: first by verdict (fail, inconclusive, pass, not applicable), then
@@ -78,7 +78,7 @@ enum class Place { alone, in_suite };
 void writeResults(const ValidationResult& result, const std::filesystem::path& dir, const RunTime& time = {},
                   Place place = Place::alone);
 
-/// Writes the same into the folder `below` of `out`, which the caller commits; `result` is stamped. Returns the line of
+/// Writes the same into the folder `below` of `out`, which the caller commits; stamps `result`. Returns the entry of
 /// the written results.
 SuiteEntry addResults(ValidationResult& result, OutputFolder& out, const std::filesystem::path& below,
                       const RunTime& time, Place place);

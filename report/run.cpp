@@ -22,7 +22,7 @@ using Json = nlohmann::json;
 constexpr std::size_t digits = 16;
 constexpr const char *run_key = "run", *series_key = "timeseries.csv sha1";
 
-/// Returns nullopt if there is no file. A device or a pipe, which may never end, is no result.
+/// Returns nullopt if there is no file. Throws MixedResults for a device or a pipe, which may never end.
 std::optional<std::string> contentOf(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::file_status there = std::filesystem::status(file, error);
@@ -86,7 +86,7 @@ void refuseMixtureOfSuite(const std::filesystem::path& folder) {
   }
 }
 
-/// A scenario's folder is one level below, even if a changed file says otherwise.
+/// Whether a scenario's folder is one level below; a changed file may name another.
 bool isBelow(const std::filesystem::path& folder) {
   return !folder.empty() && !folder.has_parent_path() && folder != "." && folder != "..";
 }
@@ -139,7 +139,7 @@ Paths resultsIn(const std::filesystem::path& folder) {
   return paths;
 }
 
-/// Compares by name, for any of the result files at any depth.
+/// Compares names of files, for every result file at any depth.
 std::filesystem::path replacedInput(const std::vector<std::filesystem::path>& inputs,
                                     const std::filesystem::path& folder) {
   const auto isResult = [](const std::filesystem::path& name) {

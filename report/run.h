@@ -42,9 +42,9 @@ struct MixedResults : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Throws MixedResults if a results folder, of a scenario or a suite, mixes several runs or was changed. It looks
-/// twice, because another run may replace the files meanwhile. Older versions' results, which lack the hash, are
-/// accepted.
+/// Throws MixedResults if a results folder, of a scenario or a suite, mixes several runs or was changed. It reads the
+/// folder again before it throws, because another run may be replacing the files. Older versions' results, which lack
+/// the hash, are accepted.
 void refuseMixture(const std::filesystem::path& folder);
 
 }  // namespace ursula::report

@@ -10,12 +10,12 @@
 
 namespace ursula::report {
 
-/// Returns a verdict as a sign and its word, so that colour is not essential.
+/// Returns a verdict as a sign and a word, so that it does not depend on colour.
 std::string verdictBadge(Verdict verdict);
 
-/// Returns the checks in groups; groups with open issues come first and are unfolded. Each check has a bar of value
-/// over limit on a logarithmic scale. Folded below are its meaning, its result and the origin of its limit. Needs no
-/// script. `cause`, the likely cause, appears elsewhere and is removed from the results.
+/// Returns the checks in groups; groups with checks that did not pass come first and are unfolded. Each check has a bar
+/// of value over limit on a logarithmic scale. Folded below are its meaning, its result and the origin of its limit.
+/// Needs no script. `cause`, the likely cause, appears elsewhere and is removed from the results.
 std::string checksList(const std::vector<Check>& checks, const std::string& cause = "");
 
 /// Returns machine, load and motion as tables.
@@ -24,7 +24,7 @@ std::string inputCard(const Picture& picture);
 /// Returns the machine and its motion in one line: "six U–R–S legs under a platform of 500 kg · helix of 3 s".
 std::string machineLine(const Picture& picture);
 
-/// Returns the machine's points and directions at the picture's instants as JSON, with the errors, efforts and
+/// Returns as JSON the machine's points and directions at the picture's instants, with the errors, efforts and
 /// reactions of `series` there.
 std::string machineJson(const Picture& picture, const TimeSeries& series);
 

@@ -15,7 +15,7 @@ std::vector<double> differences(const std::vector<double>& a, const std::vector<
   return out;
 }
 
-/// Efforts of one kind share an axis: "effort (N·m)", "effort (N·m, N)".
+/// Returns the label of an axis that all efforts share: "effort (N·m)", "effort (N·m, N)".
 std::string effortLabel(const char* what, const std::vector<Indexed>& efforts) {
   std::vector<std::string> units;
   for (const Indexed& each : efforts)

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t steps = 40;
 constexpr double line_width = 100, line_height = 22;
 
-/// Zero, where an error starts, has no place among decades.
+/// Whether the line shows a value: an error starts at zero, which has no decade.
 bool takes(double value) { return std::isfinite(value) && value > 0; }
 
 }  // namespace

@@ -50,7 +50,7 @@ Frame frameOf(const Plot& plot) {
   for (const double value : plot.x) frame.x.include(value);
   for (const Line& line : plot.lines)
     for (const double value : line.values) frame.y.include(value);
-  if (!plot.log_x && frame.x.high > frame.x.low) {  // the time axis spans the frame exactly
+  if (!plot.log_x && frame.x.high > frame.x.low) {  // the axis spans the frame exactly
     frame.y.widen();
     return frame;
   }

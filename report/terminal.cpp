@@ -45,7 +45,7 @@ std::string numberText(double value) {
   return std::isinf(value) ? "infinite" : fmt::format("{:.3g}", value);
 }
 
-/// Only if value and limit decided: the share of a useless limit means nothing.
+/// Returns a share only if value and limit decided, because the share of a useless limit means nothing.
 std::string shareText(const Check& check) {
   const double share = limitShare(check);
   if (check.verdict == Verdict::inconclusive || check.verdict == Verdict::not_applicable || std::isnan(share))
@@ -80,7 +80,7 @@ std::string whyLine(const Check& check, const std::string& cause) {
 
 std::string indented(std::size_t columns, const std::string& text) { return std::string(columns, ' ') + text + "\n"; }
 
-/// Adjacent checks with the same reason share its line.
+/// Returns a group's text, in which adjacent checks with the same reason share its line.
 std::string groupText(const std::vector<const Check*>& checks, const std::vector<std::string>& lines,
                       const std::string& cause, bool coloured) {
   std::string out;
@@ -168,7 +168,7 @@ bool replayIsOpen(const std::vector<Check>& checks) {
                      [](const Check& check) { return isOpen(check) && check.name.rfind("replay.", 0) == 0; });
 }
 
-/// Details of a replay and of wrong torques; right ones need none.
+/// Returns details of the replay and of wrong torques; right torques need none.
 std::string reasonsText(const ValidationResult& result) {
   std::string out;
   if (result.replay_error && replayIsOpen(result.checks))
@@ -185,7 +185,7 @@ std::string quietHead(const SuiteEntry& entry, bool coloured) {
                      reason(entry.verdict, entry.checks));
 }
 
-/// "  replay.position, replay.orientation: not replayed": each reason once, at its first check.
+/// Returns lines such as "  replay.position, replay.orientation: not replayed", with each reason once.
 std::string openChecks(const std::vector<Check>& checks) {
   std::vector<std::pair<std::string, std::string>> lines;  // reason, names
   for (const Check& check : checks) {

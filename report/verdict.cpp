@@ -24,7 +24,7 @@ int severity(Verdict verdict) {
   return 0;
 }
 
-// A number beyond its limit says more than a missing one, which is often only its consequence.
+// A number beyond its limit comes before a missing number, which is often only its consequence.
 std::pair<int, double> badness(const Check& check) {
   const double share = limitShare(check);
   return {severity(check.verdict), std::isnan(share) ? 1.0 : share};

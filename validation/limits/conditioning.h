@@ -37,7 +37,7 @@ enum class Rounded {
   reactions,       ///< forces at the joints and moments over the machine's length, N
   direct,          ///< solver's and Simbody's direct dynamics under the same torques, m/s²
   solver_direct,   ///< the solver's direct dynamics alone, m/s²
-  further_engine,  ///< solver's torque and that of the first further formulation, N·m; the others:
+  further_engine,  ///< solver's torque and the first further formulation's, N·m; for the others
                    ///< ofFurtherEngine
 };
 constexpr std::size_t rounded_count = static_cast<std::size_t>(Rounded::further_engine) + further_engine_count;
