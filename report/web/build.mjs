@@ -1,5 +1,5 @@
-// Bundles scripts and style of the report, and notes which sources they were made of.
-// usage: node build.mjs FOLDER, with node_modules beside this file; ./dev bundle calls it
+// Bundles scripts and style of the report, and records the hashes of their sources. usage: node build.mjs FOLDER, with
+// node_modules beside this file; ./dev bundle calls it
 import { build } from "esbuild";
 import katex from "katex";
 import { createHash } from "node:crypto";
@@ -25,14 +25,14 @@ async function bundled(entry, extra) {
   return result.outputFiles[0].text;
 }
 
-// KaTeX wraps its MathML for a style sheet that is not there, and repeats the LaTeX, which no reader needs.
+// KaTeX wraps its MathML for a style sheet that the page lacks, and repeats the LaTeX, which no reader needs.
 function mathml(latex) {
   const wrapped = katex.renderToString(latex, { output: "mathml", displayMode: false, strict: "error", throwOnError: true });
   const [math] = wrapped.match(/<math[\s\S]*<\/math>/);
   return math
     .replace(/<annotation[\s\S]*?<\/annotation>/, "")
     .replace(/<\/?semantics>/g, "")
-    // The thin spaces about functions' names, which browsers leave out.
+    // Adds the thin spaces around names of functions, which browsers leave out.
     .replace(/(<\/m(?:i|over|row|sup)>)<mi>(sin|cos)<\/mi>/g, '$1<mspace width="0.17em"/><mi>$2</mi>')
     .replace(/<mo>\u2061<\/mo>(?=<m(?:i|over))/g, '<mo>\u2061</mo><mspace width="0.17em"/>')
     .replace("<math", '<math display="inline" displaystyle="true"');
@@ -61,7 +61,7 @@ for (const [name, text] of Object.entries(files)) {
   if (name.endsWith(".js") && /<\/script|<!--/i.test(text)) throw new Error(`${name} cannot stand inside <script>`);
 }
 
-// What the bundle is made of; the templates go into the program as they are. CMake compares, so that it notices what is stale.
+// The hashes of the bundle's sources, by which CMake notices a stale bundle. Templates go into the program unchanged.
 const sources = (await readdir(here)).filter((name) => /\.(m?js|css|json)$/.test(name)).sort();
 const hash = (text) => createHash("sha256").update(text).digest("hex");
 const lines = await Promise.all(sources.map(async (name) => `${hash(await read(name))}  ${name}\n`));

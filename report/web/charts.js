@@ -1,4 +1,4 @@
-// Charts of a page that has nothing else to move; without this script it shows their drawings.
+// Draws the charts of a page without a machine. Without this script the page shows their static drawings.
 import { Clock } from "./clock.js";
 import { drawCharts } from "./plots.js";
 
@@ -8,10 +8,10 @@ const ends = data.plots.map((plot) => plot.x.at(-1) ?? 0);
 document.documentElement.classList.add("live");
 const clock = new Clock(Math.max(0, ...ends));
 drawCharts(document, data, clock);
-// Nothing moves here: an instant is marked when a click has asked for one.
+// Nothing moves here; a click marks an instant.
 clock.onChange(() => document.body.classList.toggle("marked", clock.t > 0));
 
-// A link to something folded unfolds it.
+// A link to a folded part unfolds it.
 function unfold() {
   const target = location.hash ? document.getElementById(decodeURIComponent(location.hash.slice(1))) : null;
   if (target instanceof HTMLDetailsElement) target.open = true;

@@ -1,4 +1,4 @@
-/** The one instant that machine and charts show, and how it runs on. */
+/** The instant that machine and charts show, and its advance. */
 export class Clock {
   #listeners = [];
   #last = 0;

@@ -1,5 +1,6 @@
-// The formulas of `ursula audit`: each text of its rows beside the LaTeX that the page shows instead. ./dev bundle turns these
-// into MathML, so that no page needs a script or a font for it; what stands here twice or nowhere is a finding of the tests.
+// The formulas of `ursula audit`: each text of its rows beside the LaTeX that the page shows instead. ./dev bundle
+// turns these into MathML, so that no page needs a script or a font for it. Tests find texts that are missing here or
+// that occur twice.
 const D = String.raw`-l\sin\psi + s\sin(\psi+\theta)`;
 const Q_hat = String.raw`\hat Q`;
 const norm = String.raw`\lVert \dot p + \Omega Q b\rVert`;

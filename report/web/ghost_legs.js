@@ -3,7 +3,7 @@ import { vectorAt } from "./tracks.js";
 
 const tiny = 1e-6;
 
-/** The knee between A and B of a leg in the plane of `inPlane`, on the side of `knee`; null where the links do not reach. */
+/** The knee between A and B of a leg in the plane of `inPlane`, on the side of `knee`; null if the links do not reach. */
 function kneeInPlane(A, B, knee, commanded, inPlane) {
   const [l, s] = [knee.distanceTo(A), commanded.distanceTo(knee)];
   const along = B.clone().sub(A);
@@ -21,7 +21,7 @@ function kneeInPlane(A, B, knee, commanded, inPlane) {
   return A.clone().addScaledVector(along, share).add(side);
 }
 
-// Errors enlarged may lead where no leg reaches: then the leg is turned and stretched until it does.
+// Enlarged errors may put B out of the leg's reach; then the leg is drawn turned and stretched.
 function kneeStretched(A, B, knee, commanded) {
   const [from, to] = [commanded.clone().sub(A), B.clone().sub(A)];
   const turned = knee.clone().sub(A);
@@ -30,7 +30,7 @@ function kneeStretched(A, B, knee, commanded) {
   return A.clone().addScaledVector(turned, to.length() / from.length());
 }
 
-/** Where the knee stands when the platform holds the leg at B instead of where it was commanded. */
+/** The knee of a leg that the platform holds at B instead of at the commanded point. */
 export function kneeFor(leg, place, B) {
   const A = vectorAt(leg.links[0].from, place);
   const knee = vectorAt(leg.links[0].to, place);
@@ -47,7 +47,7 @@ export function ghostLegs(machine, color) {
   const positions = new BufferAttribute(new Float32Array(12 * machine.legs.length), 3);
   const geometry = new BufferGeometry().setAttribute("position", positions);
   const lines = new LineSegments(geometry, new LineBasicMaterial({ color }));
-  lines.frustumCulled = false; // its points move, its bounds would not
+  lines.frustumCulled = false; // its points move, but its bounds would stay
   const holds = machine.legs.map((_, k) => new Vector3(...machine.hold.slice(3 * k, 3 * k + 3)));
   const update = (place, platform) => {
     machine.legs.forEach((leg, k) => {

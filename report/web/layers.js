@@ -7,7 +7,7 @@ import { largestVector, numbersAt, quaternionAt, rotation, vectorAt } from "./tr
 
 const errorAt = (machine, place) => [vectorAt(machine.error, place, 6, 0), vectorAt(machine.error, place, 6, 1)];
 
-/** The simulated platform with its errors enlarged, the legs that hold it, and its path; the machine itself stands as commanded. */
+/** The simulated platform with its errors enlarged, the legs that hold it, and its path. The machine itself is drawn as commanded. */
 export function errorLayer(machine, size) {
   if (machine.error.length === 0) return null;
   const group = new Group();
@@ -34,7 +34,7 @@ export function errorLayer(machine, size) {
   };
   const update = (place) => {
     const [shift, turn] = errorAt(machine, place);
-    // Where it cannot be told from the machine's own platform it would only stain that.
+    // If it cannot be told from the machine's own platform, it would only stain that one.
     const off = factor * (shift.length() + 0.3 * size * turn.length());
     ghost.visible = P.visible = legs.lines.visible = off > 2e-3 * size;
     if (!ghost.visible) return;
@@ -47,7 +47,7 @@ export function errorLayer(machine, size) {
   return { group, update, magnify };
 }
 
-/** Every joint's axes; those that a motor drives are longer. */
+/** Every joint's axes; driven ones are longer. */
 export function axesLayer(machine, size) {
   const group = new Group();
   const rods = [];
@@ -82,7 +82,7 @@ export function framesLayer(machine, size) {
   return { group, update };
 }
 
-/** Each motor's effort as an arrow along its axis: of a torque, its moment vector. */
+/** Each motor's effort as an arrow along its axis; for a torque it is the moment vector. */
 export function effortsLayer(machine, size) {
   const joints = machine.legs.flatMap((leg, k) => leg.joints.filter((joint) => joint.driven).map((joint) => ({ joint, k })));
   const count = joints.length;

@@ -4,7 +4,8 @@ const sample = (line) =>
   `<svg width="26" height="8" aria-hidden="true"><path d="M0 4H26" fill="none" stroke="${colorOf(line)}"
     stroke-width="${widthOf(line)}" stroke-dasharray="${dashOf(line).join(" ")}"/></svg>`;
 
-// uPlot's own markers are squares; a sample of the line shows its dashes. A button hides the line by keyboard, too.
+// A sample of the line shows its dashes, unlike uPlot's own square markers. A button hides the line, so that the
+// keyboard can.
 function makeButton(label, chart, index) {
   const button = document.createElement("button");
   button.type = "button";

@@ -1,6 +1,6 @@
 import { color, lineColor } from "./theme.js";
 
-// Distinct without colour too: every line has its own dashes.
+// Every line has its own dashes, so that lines are distinct without colour, too.
 const dashes = [[], [8, 4], [2, 3], [10, 3, 2, 3], [14, 5], [5, 2], [3, 2]];
 
 export const dashOf = (line) => (line.stroke === "ghost" ? [] : line.stroke === "limit" ? [6, 4] : dashes[line.color % 7]);

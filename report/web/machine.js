@@ -31,7 +31,7 @@ function makeJoint(joint, size, material) {
   return group;
 }
 
-// A link that begins within the one before slides in it as a rod in its cylinder.
+// A link that begins within the previous link is a rod that slides in its cylinder.
 function linkRadius(leg, k) {
   if (k > 0) return 0.011;
   return leg.links.length > 1 && leg.links[1].from !== leg.links[0].to ? 0.024 : 0.016;
@@ -67,7 +67,7 @@ function outlined(geometry, material, edges) {
   return group;
 }
 
-/** Base, legs, platform and path, drawn from points alone: legs of any kind. */
+/** Base, legs of any kind, platform and path, drawn from points alone. */
 export function makeMachine(machine, size) {
   const group = new Group();
   const start = { index: 0, share: 0 };

@@ -1,4 +1,5 @@
-// The report is complete without this script: it makes charts live, lets the machine move and links both by one time.
+// The report is complete without this script. It makes charts live, lets the machine move, and gives both the same
+// time.
 import { Clock } from "./clock.js";
 import { drawCharts } from "./plots.js";
 import { addPlayer } from "./player.js";
@@ -20,8 +21,8 @@ function addMachine(host) {
   performance.mark("report:moving");
 }
 
-// The machine's drawing is there at once. What makes it move takes its time, and is made when it is near the screen and
-// the page has been painted.
+// The machine's drawing is there at once. The moving machine takes longer; it is made once the page has been painted
+// and it is near the screen.
 const host = document.getElementById("stage");
 if (!data.machine) {
   if (duration > 0) addPlayer(document, data.events, clock, null);

@@ -23,7 +23,7 @@ function choice(name, options, chosen, onChange) {
   return select;
 }
 
-// A motion of an hour is not watched in an hour: it starts at a speed that takes some ten seconds.
+// A long motion starts at a speed at which it takes some ten seconds.
 function startSpeed(duration) {
   return duration > 20 ? Math.ceil(duration / 10) : duration < 1 ? 0.1 : 1;
 }
@@ -36,7 +36,7 @@ function transport(clock) {
   const shown = element("output", { "data-role": "now" });
   button.addEventListener("click", () => (clock.playing ? clock.pause() : clock.play()));
   slider.addEventListener("input", () => {
-    const t = Number(slider.value); // before the clock, told to pause, moves the slider back
+    const t = Number(slider.value); // read before clock.pause(), which moves the slider back
     clock.pause();
     clock.set(t);
   });
@@ -86,7 +86,7 @@ function magnification(stage) {
   return labelled("Errors enlarged", choice("factor", options, stage.factor, (factor) => stage.magnify(factor)));
 }
 
-/** Play, scrub and speed below the machine; where no machine is, below the header. */
+/** Controls for playing, scrubbing and speed; below the machine, or below the header without one. */
 export function addPlayer(document, events, clock, stage) {
   clock.speed = startSpeed(clock.duration);
   const host = element("div", { class: "player", role: "group", "aria-label": "Motion" });

@@ -16,7 +16,7 @@ function csv(plot) {
   return [head.map(cell).join(","), ...rows, ""].join("\n");
 }
 
-// With the page's colours written into it, for it leaves the page's style behind.
+// The page's colours are written into the file, because it has no style sheet.
 function svg(drawing) {
   const copy = drawing.cloneNode(true);
   const from = [drawing, ...drawing.querySelectorAll("*")];
@@ -49,7 +49,7 @@ function button(text, title, action) {
   return out;
 }
 
-/** Below a chart: the whole range again, and what it shows as a file. */
+/** Buttons below a chart: one shows the whole range again, the others save it as a file. */
 export function addTools(host, chart, plot, drawing, scenario) {
   const bar = document.createElement("div");
   bar.className = "tools";

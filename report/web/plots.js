@@ -5,12 +5,11 @@ import { color, watchTheme } from "./theme.js";
 import { colorOf, dashOf, widthOf } from "./line_style.js";
 import { isDecade, linearTicks, logTicks, shortNumber } from "./ticks.js";
 
-// Zero has no place on a logarithmic axis; it becomes a gap. So does what is as good as zero: uPlot throws at less than
-// 1e-32.
+// Zero has no place on a logarithmic axis and becomes a gap. So do values below 1e-32, at which uPlot throws.
 const least_on_log = 1e-30;
 
 function seriesOptions(line, plot, few) {
-  const said = !line.unit || plot.yLabel.endsWith(`(${line.unit})`); // by the axis
+  const said = !line.unit || plot.yLabel.endsWith(`(${line.unit})`); // the axis already has the unit
   return {
     label: said ? line.label : `${line.label} (${line.unit})`,
     stroke: () => colorOf(line),
@@ -22,7 +21,7 @@ function seriesOptions(line, plot, few) {
   };
 }
 
-// uPlot would rule all of 2, 3, … 9 × 10ⁿ; over many decades that is a grey wall.
+// uPlot would draw grid lines at 2, 3, … 9 × 10ⁿ, which over many decades become a grey wall.
 const onlyDecades = (_, splits) => splits.map((split) => (isDecade(split) ? split : null));
 
 function axisOptions(label, log, size) {
@@ -114,7 +113,7 @@ function options(plot, width, events, together) {
   };
 }
 
-/** Values in the legends of charts on the screen, once a frame: each changes the page's layout. */
+/** Updates the legends of charts on the screen once a frame, because each update changes the page's layout. */
 class Legends {
   #shown = new Set();
   #asked = false;
@@ -142,14 +141,15 @@ class Legends {
   }
 }
 
-// The instant that the machine shows: a line over the chart, and while nothing hovers, the values in the legend.
+// Marks the instant that the machine shows by a line over the chart and, while nothing hovers, by the values in the
+// legend.
 function follow(host, chart, plot, clock, legends) {
   const mark = document.createElement("div");
   mark.className = "now";
   chart.over.append(mark);
   const move = () => {
     const left = chart.valToPos(clock.t, "x");
-    const within = left >= 0 && left <= chart.bbox.width / uPlot.pxRatio; // asking the element would lay the page out
+    const within = left >= 0 && left <= chart.bbox.width / uPlot.pxRatio; // asking the element for its size would cause a layout
     if (mark.hidden === within) mark.hidden = !within;
     mark.style.transform = `translateX(${left}px)`;
     mark.dataset.t = clock.t;
@@ -162,7 +162,7 @@ function follow(host, chart, plot, clock, legends) {
   let down = 0;
   chart.over.addEventListener("mousedown", (event) => (down = event.clientX));
   chart.over.addEventListener("click", (event) => {
-    if (Math.abs(event.clientX - down) > 3) return; // that was a zoom
+    if (Math.abs(event.clientX - down) > 3) return; // the pointer was dragged, to zoom
     clock.pause();
     clock.set(chart.posToVal(event.offsetX, "x"));
   });
@@ -197,7 +197,7 @@ function drawChart(host, plot, data, clock, together, legends) {
   };
 }
 
-/** Draws each chart when it comes near the screen, and again whenever width or theme change. */
+/** Draws each chart when it comes near the screen, and again when its width or the theme changes. */
 export function drawCharts(document, data, clock) {
   const together = new Together();
   const legends = new Legends();
@@ -215,7 +215,7 @@ export function drawCharts(document, data, clock) {
   for (const host of document.querySelectorAll("[data-plot]")) watcher.observe(host);
   const redrawAll = () => {
     redraws.forEach((redraw) => redraw());
-    clock.set(clock.t); // puts the marks where the time now is
+    clock.set(clock.t); // moves the marks to the present time
   };
   window.addEventListener("resize", redrawAll);
   watchTheme(redrawAll);

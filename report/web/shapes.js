@@ -5,7 +5,7 @@ const round = 20;
 
 export const paint = (color, options = {}) => new MeshStandardMaterial({ color, roughness: 0.6, metalness: 0.15, ...options });
 
-/** A rod that `between` stretches from one point to another. */
+/** A rod; `between` stretches it from one point to another. */
 export function rod(radius, material) {
   return new Mesh(new CylinderGeometry(radius, radius, 1, round), material);
 }
@@ -22,11 +22,11 @@ export function between(mesh, from, to) {
 
 export const ball = (radius, material) => new Mesh(new SphereGeometry(radius, round, round / 2), material);
 
-/** A drum about an axis that `turnTo` gives it. */
+/** A drum; `turnTo` sets its axis. */
 export const drum = (radius, width, material) => new Mesh(new CylinderGeometry(radius, radius, width, round), material);
 export const turnTo = (mesh, axis) => mesh.quaternion.setFromUnitVectors(up, axis);
 
-/** An arrow from a point; `aim` sets it, and hides one of no length. */
+/** An arrow from a point; `aim` sets it, and hides it if it has no length. */
 export function arrow(radius, material) {
   const group = new Group();
   const shaft = new Mesh(new CylinderGeometry(radius, radius, 1, 10), material);

@@ -15,7 +15,7 @@ const makers = [
 ];
 const view = new Vector3(0.75, -1.15, 0.5);
 
-/** What the machine sweeps over the whole motion. */
+/** The box that the machine sweeps over the whole motion. */
 function room(machine) {
   const box = new Box3();
   for (const leg of machine.legs) for (const link of leg.links) box.setFromPoints([...points(link.from), ...points(link.to), ...corners(box)]);
@@ -23,7 +23,7 @@ function room(machine) {
 }
 const corners = (box) => (box.isEmpty() ? [] : [box.min.clone(), box.max.clone()]);
 
-/** Powers of ten that make the largest error visible, the first of them by default; 1 where it can be seen as it is. */
+/** Powers of ten that make the largest error visible, the default first; 1 if it is visible without. */
 function factorsFor(machine, size) {
   const largest = machine.error.length ? largestVector(machine.error, 6) : 0;
   if (largest === 0) return machine.error.length ? [1] : [];
@@ -71,7 +71,7 @@ class Stage {
     new ResizeObserver(() => this.#fit()).observe(renderer.domElement.parentElement);
   }
 
-  /** Makes all anew, in the colours of the style sheet. */
+  /** Builds everything again in the colours of the style sheet. */
   repaint() {
     this.scene = new Scene();
     this.drawn = makeMachine(this.#machine, this.#size);
@@ -111,13 +111,13 @@ class Stage {
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
-    const wide = 1.2; // a stage that is narrower, as on a phone, has the machine's whole width all the same
+    const wide = 1.2; // a narrower stage, as on a phone, still shows the machine's whole width
     this.camera.fov = (360 / Math.PI) * Math.atan(Math.tan((17.5 * Math.PI) / 180) * Math.max(1, (wide * height) / width));
     this.camera.updateProjectionMatrix();
     this.render();
   }
 
-  /** Once a frame at most. */
+  /** Draws once a frame at most. */
   render() {
     if (this.#asked) return;
     this.#asked = true;
@@ -131,7 +131,7 @@ class Stage {
   }
 }
 
-/** The moving machine in place of its drawing; null, and the drawing stays, where there is no WebGL. */
+/** Replaces the machine's drawing by the moving machine. Without WebGL it returns null and the drawing stays. */
 export function addStage(host, machine, clock) {
   let renderer;
   try {

@@ -29,7 +29,7 @@ sorted.forEach((head, column) => {
   head.replaceChildren(button);
 });
 
-// The verdicts that there are, in the words of their badges.
+// The verdicts that occur, in the words of their badges.
 const word = (row) => row.cells[0].querySelector(".badge").lastChild.textContent.trim().toLowerCase();
 const choices = new Map(rows.map((row) => [row.dataset.verdict, word(row)]));
 const tools = document.createElement("div");

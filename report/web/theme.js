@@ -1,6 +1,6 @@
 const darkness = window.matchMedia("(prefers-color-scheme: dark)");
 
-/** A colour of the style sheet, as it is now: "c0" … "c6", "text", "rule", … */
+/** The present colour of the style sheet by name: "c0" … "c6", "text", "rule", … */
 export function color(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 }

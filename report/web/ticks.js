@@ -12,7 +12,7 @@ export function powerOfTen(exponent) {
   return `10${exponent < 0 ? "⁻" : ""}${digits}`;
 }
 
-/** Labels of a logarithmic axis: only decades, and of many every second, third, …; the same decades at every zoom. */
+/** Labels of a logarithmic axis: decades, or every second, third, … of many. They are the same at every zoom. */
 export function logTicks(splits) {
   const step = Math.ceil(splits.filter(isDecade).length / 8);
   return splits.map((split) => {
@@ -29,7 +29,7 @@ function decimalsOf(increment) {
   return decimals;
 }
 
-/** Labels of a linear axis, all with the decimals that tell neighbours apart; the browser's language plays no part. */
+/** Labels of a linear axis, all with enough decimals to tell neighbours apart, whatever the browser's language. */
 export function linearTicks(splits, increment) {
   const largest = Math.max(...splits.map(Math.abs));
   const decimals = decimalsOf(increment);
@@ -40,7 +40,7 @@ export function linearTicks(splits, increment) {
   return splits.map((split) => (split + 0).toFixed(decimals).replace("-", "−"));
 }
 
-/** A value as the legend shows it. */
+/** Formats a value for the legend. */
 export function shortNumber(value) {
   return value == null ? "–" : value.toPrecision(4).replace("e+", "e");
 }

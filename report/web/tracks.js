@@ -1,6 +1,6 @@
 import { Quaternion, Vector3 } from "three";
 
-/** Where `t` lies between the instants: the one before, and the share of the way to the next. */
+/** The place of `t` among the instants: the index of the previous one, and the share of the way to the next. */
 export function placeAt(instants, t) {
   let low = 0;
   let high = instants.length - 1;
@@ -13,7 +13,7 @@ export function placeAt(instants, t) {
   return { index: low, share: width > 0 ? Math.min(Math.max((t - instants[low]) / width, 0), 1) : 0 };
 }
 
-/** Item `item` of `size` numbers, of rows of `row` numbers, between two instants; a track of one row stands still. */
+/** Interpolates item `item`, of `size` numbers, in rows of `row` numbers. A track with one row is constant. */
 export function numbersAt(track, { index, share }, size, row = size, item = 0) {
   const still = track.length <= row;
   const from = (still ? 0 : index * row) + item * size;
@@ -26,13 +26,13 @@ export function numbersAt(track, { index, share }, size, row = size, item = 0) {
 
 export const vectorAt = (track, place, row = 3, item = 0) => new Vector3(...numbersAt(track, place, 3, row, item));
 
-/** From [w, x, y, z], which are continuous. */
+/** A rotation from [w, x, y, z], whose signs are continuous. */
 export function quaternionAt(track, place) {
   const [w, x, y, z] = numbersAt(track, place, 4);
   return new Quaternion(x, y, z, w).normalize();
 }
 
-/** The machine with its tracks in the places that refer to them by number. */
+/** Returns the machine with tracks in place of their numbers. */
 export function resolved(machine) {
   const track = (index) => machine.tracks[index];
   const legs = machine.legs.map((leg) => ({
@@ -44,7 +44,7 @@ export function resolved(machine) {
   return { ...machine, legs };
 }
 
-/** The rotation by a rotation vector. */
+/** The quaternion of a rotation vector. */
 export function rotation(vector) {
   const angle = vector.length();
   return angle > 0 ? new Quaternion().setFromAxisAngle(vector.clone().divideScalar(angle), angle) : new Quaternion();

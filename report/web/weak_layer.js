@@ -5,8 +5,8 @@ import { color, lineColor } from "./theme.js";
 import { numbersAt, quaternionAt, vectorAt } from "./tracks.js";
 
 /**
- * What a singular pose would be singular in: how the platform yields most while the motors hold (velocities of its corners and of P),
- * and the direction at B in which the leg that is nearest to its own limit is hardly moved by its motor.
+ * The weak directions near a singular pose: the platform's motion that the locked motors resist least (velocities of its corners and
+ * of P), and the direction at B along which the motor of the leg nearest to its own limit hardly moves it.
  */
 export function weakLayer(machine, size) {
   if (!machine.weak) return null;
