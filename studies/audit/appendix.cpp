@@ -28,7 +28,7 @@ struct Helix {
         (12 * beta_f - 12 * beta_0 - (6 * rate_f + 6 * rate_0) * T - (acceleration_0 - acceleration_f) * T2) /
             (2 * T2 * T2 * T)};
   }
-  /// (50), and (53) from its first non-zero term.
+  /// β of (50), and its rates (53) from their first non-zero terms.
   S beta(const S& t) const {
     return sum(
         t, [](int) { return 1; }, 0);

@@ -88,8 +88,7 @@ AuditRow rowOf(const Formula& formula, const Scenario& scenario, const std::vect
   return row;
 }
 
-/// Every error that enters (37) at once, with and without the one that makes the legs too short; and none, as a
-/// control.
+/// Sets every error of (37) at once, with and without the one that makes the legs too short, and none as a control.
 std::vector<AuditRow> allTogether(const Scenario& scenario, const std::vector<Formula>& formulas) {
   std::vector<AuditRow> rows;
   for (const bool with_5 : {true, false}) {
@@ -131,7 +130,7 @@ Audit runAudit(const Scenario& scenario) {
   result.largest_torque = audit::largestTorque(scenario, audit::torque_samples);
   const audit::WitnessStand stand(*scenario.manipulator, *scenario.trajectory);
   std::vector<audit::Witness> witnesses;
-  for (int k = 1; k < 8; ++k) {  // mid-motion instants, so that no rate vanishes at all of them
+  for (int k = 1; k < 8; ++k) {  // instants within the motion, so that no rate vanishes at all of them
     result.instants.push_back(result.duration * k / 8);
     witnesses.push_back(stand.at(Real50(result.instants.back())));
   }

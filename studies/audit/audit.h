@@ -13,7 +13,7 @@ struct AuditEffect {
   std::string refused;        ///< why there are no torques; else empty
   double torque_error = 0;    ///< largest over the motion, N·m
   double relative_error = 0;  ///< the same over the largest torque
-  double to_1_mm = -1;        ///< s until the replay is that far from the path; negative for never
+  double to_1_mm = -1;        ///< s until the replay is 1 mm from the path; negative for never
   double to_10_mm = -1;       ///< s
   double replay_end = 0;      ///< s; before t_f if P was off by more than the platform's size
   double end_deviation = 0;   ///< of P at replay_end, m
@@ -27,7 +27,7 @@ struct AuditRow {
   std::string equation, printed, holds, unit, note;
   double residual_printed = 0;  ///< NaN if undefined
   double residual_holds = 0;    ///< of the correct formula; NaN as above
-  double size = 0;              ///< the largest component of the expected values
+  double size = 0;              ///< largest component of the expected values
   std::optional<AuditEffect> effect;
 };
 

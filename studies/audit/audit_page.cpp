@@ -48,7 +48,7 @@ std::string line(const std::string& head, const std::vector<std::string>& cells)
   return out + "</tr>\n";
 }
 
-// A sign and a word accompany the colour.
+// The badge has a sign and a word, so that it does not depend on colour.
 const char* const fails_badge = "<span class=\"badge fail\"><span aria-hidden=\"true\">✗</span> ";
 const char* const holds_badge = "<span class=\"badge pass\"><span aria-hidden=\"true\">✓</span> ";
 

@@ -25,7 +25,7 @@ Direction s(const LegWitness& leg) {
   return {-s.value, -s.rate, -s.acceleration};
 }
 
-/// One formula for the proximal link and one for the distal link, each a vector of a leg.
+/// Returns a formula for a vector of a leg, as there is one for the proximal link and one for the distal link.
 Formula legVector(const char* equation, const char* printed, const char* unit, V (*formula)(const LegWitness&),
                   V (*truth)(const LegWitness&)) {
   Formula f;

@@ -106,7 +106,7 @@ AuditEffect effectOf(const Scenario& scenario, const Torques& torques, int sampl
       if (!(error <= effect.torque_error)) effect.torque_error = error;  // keeps a NaN
     }
   } catch (const std::bad_alloc&) {
-    throw;  // it says nothing about the formula
+    throw;  // a lack of memory says nothing about the formula
   } catch (const std::exception& error) {
     effect.refused = error.what();
     return effect;

@@ -9,7 +9,7 @@ namespace ursula::audit {
 
 using Torques = std::function<Vector6d(const Motion<double>&)>;
 
-/// Torques with `formula_errors`, by (37) or, for formulas that only Ṫ needs, by (36).
+/// Torques with `formula_errors`, by (37), or by (36) for formulas that only Ṫ needs.
 Torques torquesWith(const Scenario& scenario, const WithFormulaErrors& formula_errors, bool through_36);
 
 /// Compares torques and replay with those of the correct formulas, at `samples` instants.

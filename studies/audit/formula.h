@@ -47,12 +47,12 @@ struct Formula {
   std::string printed;  ///< as printed in our source, in plain text without the leg's index
   std::string holds;    ///< empty if the printed one is correct
   std::string unit;
-  Side as_printed;  ///< every input is exact, so only the formula is under audit
+  Side as_printed;  ///< evaluated with exact input, so that only the formula is under audit
   Side that_holds;  ///< empty if the printed one is correct
   Side truth;       ///< the expected values
   std::string note;
   std::vector<FormulaError> formula_errors;  ///< the same error in the solver, to find its effect on the torques
-  bool through_36 = false;                   ///< (37) does not use it: its torques are those of (36)
+  bool through_36 = false;                   ///< whether (37) does not use it, so that its effect is found by (36)
   bool misprint = false;  ///< dimensions or types do not match, or a symbol plainly belongs elsewhere
 };
 

@@ -16,7 +16,7 @@ Matrix6<S> stacked(const Witness& at, Vector6<S> (*row)(const LegWitness&)) {
 
 Vector6<S> rowOf(const LegPose& pose) { return pose.rowOfB(); }
 
-/// The first row's six entries; the source prints the row of leg 1 without Q.
+/// Compares the six entries of Ḃ's first row, which our source prints without Q.
 Formula forwardJacobianRate() {
   Formula f;
   f.equation = "(26) Ḃ";

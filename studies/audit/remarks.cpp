@@ -27,7 +27,7 @@ AuditRemark ranges(const std::vector<Witness>& witnesses) {
               k_z > 0 ? ": without the range, (14a) as a principal value would do here" : "")};
 }
 
-/// The printed formulas divide by zero where the printed denominator of (15a), (19a) changes its sign.
+/// Finds where the printed denominator of (15a), (19a) changes its sign, so that the printed formulas divide by zero.
 AuditRemark vanishingDenominator(const Scenario& scenario, const WitnessStand& stand) {
   constexpr int grid = 300;
   std::string legs;
@@ -48,7 +48,7 @@ AuditRemark vanishingDenominator(const Scenario& scenario, const WitnessStand& s
                     "instants sampled. The distance of B from the axis does not vanish."};
 }
 
-/// (27) and the first two rows of (13) of every leg with (−ψ, −θ) instead of (ψ, θ).
+/// Measures (27) and the first two rows of (13) with (−ψ, −θ) instead of (ψ, θ) on every leg.
 AuditRemark mirroredLegs(const std::vector<Witness>& witnesses) {
   S worst(0), third(0);
   for (const Witness& witness : witnesses)
@@ -67,7 +67,7 @@ AuditRemark mirroredLegs(const std::vector<Witness>& witnesses) {
                   worst.convert_to<double>(), third.convert_to<double>())};
 }
 
-/// About the joint, a link's transverse moment of inertia is at least m ρ².
+/// Compares inertias with m ρ², which is the least transverse moment of a link about its joint.
 AuditRemark inertiaPoints(const Scenario& scenario) {
   const auto left = [](const Link& link) {
     return link.inertia(0, 0) - link.mass * link.center_of_mass * link.center_of_mass;

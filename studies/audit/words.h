@@ -14,10 +14,10 @@ std::string number(double value);
 /// "0.61 rad/s of 1.1": a residual and the size of its quantity.
 std::string residualOf(double residual, const AuditRow& row);
 
-/// The time at which the replay was that far off.
+/// Formats a time at which the replay was 1 mm or 10 mm off.
 std::string instant(double t);
 
-/// The end of the replay.
+/// Says where the replay ended.
 std::string ending(const AuditEffect& effect, double duration);
 
 }  // namespace ursula::audit

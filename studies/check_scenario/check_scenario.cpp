@@ -12,7 +12,7 @@ namespace ursula {
 
 namespace {
 
-/// A line for each; what six legs inherit is odd once.
+/// Returns a line for each odd value; a value that legs inherit gives one line.
 std::vector<std::string> linesOf(const Scenario& scenario, bool hints_alone) {
   std::vector<Oddity> all = oddMachine(scenario);
   for (Oddity& oddity : oddMotion(scenario)) all.push_back(std::move(oddity));

@@ -8,7 +8,8 @@
 namespace ursula {
 
 /// Returns `file:line:column: warning: key: …` for unusual but possible values, each with the suspicious number. A
-/// value that all legs inherit gives one warning. For an impossible motion (tryMotion) it uses the numbers alone.
+/// value that all legs inherit gives one warning. If the motion is impossible (tryMotion), only the numbers are
+/// checked.
 std::vector<std::string> warnings(const Scenario& scenario);
 
 /// Returns only the warnings for which another unit makes the number usual: "did you mean mm? …".

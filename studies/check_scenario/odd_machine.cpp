@@ -111,7 +111,8 @@ void platform(const ManipulatorParameters& machine, std::vector<Oddity>& out) {
                                       far, size));
 }
 
-/// Detects millimetres among metres: they differ by a thousand, real machines by less than a hundred.
+/// Detects millimetres among metres. These differ by a factor of a thousand; lengths of real machines differ by less
+/// than a hundred.
 void units(const ManipulatorParameters& machine, std::vector<Oddity>& out) {
   const double base = extent(machine, [](const Leg& leg) { return leg.base_point; });
   for (int i = 0; i < static_cast<int>(machine.legs.size()); ++i) {

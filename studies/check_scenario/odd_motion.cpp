@@ -21,13 +21,14 @@ double turned(const Matrix3d& Q) { return Eigen::AngleAxisd(Q).angle(); }
 
 double degrees(double angle) { return angle * 180 / pi; }
 
-/// The rotation if [w, x, y, z] was meant as [x, y, z, w].
+/// Returns the rotation that was meant if the file gives [x, y, z, w] instead of [w, x, y, z].
 Matrix3d asScalarLast(const Matrix3d& Q) {
   const Eigen::Quaterniond q(Q);
   return Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y()).toRotationMatrix();
 }
 
-/// Many libraries put the scalar last; machines of this kind hardly rotate by more than a right angle.
+/// Detects a quaternion with the scalar last, as many libraries write it: such machines hardly rotate by more than a
+/// right angle.
 void scalarLast(const Scenario& scenario, const std::string& key, std::vector<Oddity>& out) {
   if (!placeInFile(scenario, key).given) return;
   const Matrix3d Q = scenario.trajectory->at(0).Q;
@@ -70,7 +71,7 @@ void haste(const Scenario& scenario, std::vector<Oddity>& out) {
                                scenario.trajectory->duration() / 1000)});
 }
 
-/// Where the platform begins, against what its legs can span.
+/// Compares the platform's first position with what its legs can span.
 void distance(const Scenario& scenario, std::vector<Oddity>& out) {
   const std::vector<Leg>& legs = scenario.manipulator->parameters().legs;
   double span = 0, near = std::numeric_limits<double>::infinity();
@@ -122,7 +123,7 @@ std::vector<NearestOfLeg> nearestOfLegs(const Scenario& scenario) {
   return all;
 }
 
-/// Warns within 3° of a pose with undetermined rates, or a fiftieth of a cylinder from its end.
+/// Warns of poses within 3° of undetermined rates, and of rods within a fiftieth of a cylinder from its end.
 void legsAtTheirLimits(const Scenario& scenario, std::vector<Oddity>& out) {
   constexpr double near = 3 * pi / 180;
   const std::vector<NearestOfLeg> all = nearestOfLegs(scenario);

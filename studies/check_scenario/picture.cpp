@@ -22,7 +22,7 @@ struct Pose {
   std::vector<LegPoints> legs;
   std::vector<std::optional<Stretch>> rails;
   std::vector<LegKind> kinds;
-  bool reached;  ///< otherwise the legs cannot take the pose, and R, S are meaningless
+  bool reached;  ///< false if the legs cannot take the pose; R and S are then meaningless
 };
 
 Pose poseAtStart(const Scenario& scenario) {

@@ -38,7 +38,7 @@ std::string groupOf(const std::string& channel) {
   return out;
 }
 
-/// The group whose scale applies to an error; the error's own size is only rounding.
+/// Returns the group whose scale applies to an error, because the error's own size is only rounding.
 std::string scaleGroupOf(const std::string& channel) {
   static const std::map<std::string, std::string> of = {
       {"error_p_m", "p_*_m"},
@@ -146,8 +146,8 @@ std::vector<Gap> gapsOf(const std::vector<double>& reference, const std::vector<
   return out;
 }
 
-/// Counts the reference's instants that the test skips. They are where it has less than a third of the density, or less
-/// than nearly everywhere else, as for a missing row.
+/// Counts the reference's instants that the test skips: where it is less than a third as dense, or less dense than
+/// nearly everywhere else, as at a missing row.
 std::size_t skippedOf(const std::vector<double>& reference, const std::vector<double>& test, double rounding) {
   constexpr std::size_t few = 3;
   const std::vector<Gap> gaps = gapsOf(reference, test, rounding);
@@ -176,7 +176,8 @@ std::unordered_map<std::string_view, const std::vector<double>*> byName(const Ti
   return out;
 }
 
-/// The test's instants within the reference's; those between two of the reference only if it is interpolated.
+/// Returns the test's instants within the reference's. Instants between two of the reference are included only if it is
+/// interpolated.
 std::vector<std::size_t> rowsToCompare(const std::vector<double>& reference, const std::vector<double>& test,
                                        double rounding, const CompareOptions& options, Comparison& out) {
   const HistoryLine times(reference, reference);
@@ -212,7 +213,7 @@ Verdict verdictOf(const Comparison& comparison) {
   return is_whole ? Verdict::pass : Verdict::inconclusive;
 }
 
-/// A pattern that matches no column of either side is an error.
+/// Throws for a pattern that matches no column of either side.
 void refuseUnknown(const std::vector<std::string>& patterns, const TimeSeries& reference, const TimeSeries& test) {
   std::vector<std::string> names = reference.names;
   names.insert(names.end(), test.names.begin(), test.names.end());

@@ -25,13 +25,13 @@ struct CompareOptions {
   std::vector<std::string> columns = {};  ///< patterns of the compared columns, with at most one `*` each; empty: all
 };
 
-/// The comparison of two histories of one channel.
+/// The comparison of one channel of two histories.
 struct ChannelComparison {
   std::string name;
   std::string group;     ///< `scale` is the largest magnitude of this group: "tau_*_Nm"
   double scale = 0;      ///< in the channel's unit
   double tolerance = 0;  ///< in the channel's unit
-  double max_error = 0;  ///< NaN if a value of either is NaN; so are the others
+  double max_error = 0;  ///< NaN if a value of either is NaN, as are the numbers below
   double max_at = 0;     ///< s
   double rms_error = 0, final_error = 0;
   double outside = 0;        ///< the largest distance from the tube around the reference, in the channel's unit

@@ -25,8 +25,8 @@ using report::Plot;
 using report::quantity;
 using report::Stroke;
 
-// These limits keep a page of a hundred channels below 3 MB: points in all, and static drawings only for the worst
-// channels.
+// These limits keep a page of a hundred channels below 3 MB. They bound the points in all; only the worst channels have
+// static drawings.
 constexpr std::size_t buckets_in_all = 9000, fewest_buckets = 60, most_buckets = 400;
 constexpr std::size_t drawn_without_script = 24;
 constexpr std::size_t open_at_first = 3;

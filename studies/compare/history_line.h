@@ -34,7 +34,7 @@ class HistoryLine {
     return {low, high};
   }
 
-  /// The distance of `value` from that range; NaN if the line or the value is NaN.
+  /// The distance of `value` from the line's range over [from, to]; NaN if the line or the value is NaN.
   double distance(double value, double from, double to) const {
     const auto [low, high] = range(from, to);
     if (std::isnan(low) || std::isnan(value)) return std::numeric_limits<double>::quiet_NaN();

@@ -32,7 +32,7 @@ class MovedLoop {
   }
 
  private:
-  /// Throws if a loop is wide open: later states say nothing more, and may end an engine's process.
+  /// Throws if a loop is wide open, because later states say nothing and may make an engine end the process.
   void requireClosed(const SteppedLoop::State& state) {
     const double gap = largestGap(state.tree, engine_.manipulator());
     out_.gap = std::max(out_.gap, gap);

@@ -7,7 +7,7 @@ namespace ursula {
 
 InTimeFound moveInTime(const LoopEngine& engine, const Rigidity& rigidity, EngineReference& reference, double moved);
 
-/// Takes a copy, because it reorders the values. Returns 0 for none.
+/// Reorders its copy of the values. Returns 0 for none.
 double median(std::vector<double> values);
 
 }  // namespace ursula

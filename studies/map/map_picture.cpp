@@ -22,7 +22,7 @@ struct ShownValues {
   report::HeatScale scale;
 };
 
-/// A singular pose, which has no number, exceeds every colour.
+/// Replaces the missing number of a singular pose by infinity, which has the last colour.
 ShownValues shown(const std::string& title, const DrawnMap& drawn, const std::vector<float>& values, bool log) {
   ShownValues out{title, values, {values, log}};
   for (std::size_t k = 0; k < values.size(); ++k)
@@ -55,7 +55,7 @@ std::vector<int> slices(const PoseGrid& grid) {
   return out;
 }
 
-/// "z = 2.2 m, roll = 0°": the constant coordinates of a row.
+/// Returns the constant coordinates of a row: "z = 2.2 m, roll = 0°".
 std::string standing(const PoseGrid& grid, int slice) {
   std::string out;
   for (std::size_t i = 0; i < grid_axes; ++i) {

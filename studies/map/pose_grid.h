@@ -10,7 +10,7 @@
 
 namespace ursula {
 
-/// An impossible grid; says what was given and what was expected.
+/// Thrown for an impossible grid; says what was given and what was expected.
 struct GridError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -18,8 +18,8 @@ struct Defect {
   SubjectOf subject = nullptr;             ///< the solver under test
   InjectedFault::Seen scenario = nullptr;  ///< the changed scenario for all formulations: commanded motion, load
   InjectedFault fault = {};                ///< a changed experiment
-  /// Number of formulations that must catch it. It is 1 if only one can see it by its nature. Such defects are in
-  /// direct dynamics and reactions (only Simbody has them), in shared parts, or in an engine. Others do not affect the
+  /// Number of formulations that must catch it. It is 1 if by its nature only one can see it. Such defects are in
+  /// direct dynamics and reactions (only Simbody has them), in shared parts, or in an engine, or do not affect the
   /// motion.
   int engines = 2;
   bool control = false;  ///< no defect, but the same mechanism: it must pass

@@ -1,4 +1,4 @@
-// Defects in a narrow range: about a millisecond of a motion of three seconds, and never at one of its samples.
+// Defects in a narrow range: about a millisecond of a motion of three seconds, and never at a sample.
 
 #include <fmt/format.h>
 
@@ -61,7 +61,7 @@ Defect branch(const std::string& name, double share, const Quantity& quantity) {
 
 using ChangeLeg = std::function<void(Vector6d& torques)>;
 
-/// Only at the instants of a pulse.
+/// A defect that acts only during a pulse.
 Defect pulse(const char* name, double share, const ChangeLeg& change) {
   Defect out = wrongTorques(name, "branch", [share, change](const Scenario& s) -> ChangeTorques {
     return [pulse = Pulse(*s.trajectory, share), change](const Vector6d& torques, const Motion<double>& m) {

@@ -82,7 +82,8 @@ Defect eachStep(const std::string& name, FaultState change) {
       name, [change](ReplaySettings& settings) { settings.fault = [change](double, State& x) { change(x); }; });
 }
 
-/// After each step, with the legs moved back to the platform: a drift along the machine's freedom.
+/// Changes the state after each step and moves the legs back to the platform, which is a drift along the machine's
+/// freedom.
 Defect drift(const char* name, FaultState change) {
   return wrongReplay(name, [change](ReplaySettings& settings) {
     settings.fault = [change](double, State& x) { change(x); };
@@ -90,7 +91,7 @@ Defect drift(const char* name, FaultState change) {
   });
 }
 
-/// Only after the last step, so that nothing follows from it.
+/// Changes the state after the last step only, so that nothing follows from it.
 Defect lastStep(const std::string& name, FaultState change) {
   return wrongReplay(name, [change](ReplaySettings& settings) {
     settings.fault = [change, end = settings.end](double t, State& x) {

@@ -1,4 +1,4 @@
-// Torques that only another machine or another motion would show to be wrong.
+// Torques that only another machine or another motion shows to be wrong.
 
 #include <algorithm>
 
@@ -32,7 +32,7 @@ Defect hiddenMachine(const char* name, bool (*wrong)(const Manipulator&)) {
   });
 }
 
-/// P moves up or down at a speed that the commanded motion lacks, but its reversal has.
+/// Wrong while P moves up or down at a speed that the commanded motion lacks but its reversal has.
 Wrong beyondSpeeds(const Scenario& s) {
   double low = 0, high = 0;
   constexpr int instants = 6000;

@@ -65,7 +65,7 @@ Defect countedOtherwise(Coordinate q, const char* how, ChangeCoordinate change) 
   return out;
 }
 
-/// The opposite sign, another axis, the other end.
+/// Coordinates with the opposite sign, about another axis, or from the other end.
 std::vector<Defect> otherCoordinates(const Manipulator& machine) {
   constexpr double half_pi = 1.57079632679489661923;
   std::vector<Defect> out;

@@ -12,7 +12,7 @@ namespace {
 
 using P = ManipulatorParameters;
 
-/// Large relative to rounding, but invisible to people in a plot.
+/// This is large relative to rounding, but invisible in a plot.
 constexpr double parameter_error = 1e-6;
 
 /// Tensor of a point mass about a point `arm` away.

@@ -45,7 +45,7 @@ Defect formulaErrorInConstraints(const char* name, FormulaError which) {
   return out;
 }
 
-/// Large relative to rounding, but invisible to people in a plot.
+/// This is large relative to rounding, but invisible in a plot.
 constexpr double off = 1e-6;
 
 bool has(const Manipulator& machine, LegKind kind) {
@@ -123,7 +123,7 @@ bool upright(const Read& machine) {
   return g > 0 && machine.gravity.z() <= -0.99 * g;
 }
 
-/// Off by 1e-6 for one leg, in one frame, in one system of units.
+/// Terms that are off by 1e-6 for one leg, in one frame, or in one system of units.
 std::vector<Defect> ofLegFrameAndUnit() {
   const auto first = [](Read& m) -> LegModel<double>& { return m.legs.front(); };
   return {read("leg 1 alone: distal mass", "leg", [=](Read& m) { first(m).mass_2 *= 1 + off; }),

@@ -1,4 +1,4 @@
-// Defects that all formulations share, so none can see them: in the commanded motion and the load.
+// Defects in the commanded motion and the load. All formulations share these, so none can see them.
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// Torques changed after the solver, at all instants or taken from other instants.
+// Torques that are changed after the solver, or taken from other instants.
 
 #include <fmt/format.h>
 

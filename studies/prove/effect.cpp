@@ -33,7 +33,8 @@ std::vector<Eigen::VectorXd> answersOf(const Subject& subject, const Motion<doub
   return out;
 }
 
-/// The difference of two right formulations, with some margin and at least a few units of the last place.
+/// Returns the allowed difference: that of two right formulations, with some margin and at least a few units of the
+/// last place.
 Eigen::VectorXd roomBetween(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   const double room = 16 * (a - b).cwiseAbs().maxCoeff() + 64 * eps * a.cwiseAbs().maxCoeff();
   return Eigen::VectorXd::Constant(a.size(), room);
@@ -55,7 +56,7 @@ RightAnswers::RightAnswers(const Scenario& scenario) {
 }
 
 RightAnswers::Off RightAnswers::offIn(const Subject& subject) const {
-  if (instants_.empty()) return Off::dynamics;  // nothing is known about it
+  if (instants_.empty()) return Off::dynamics;  // nothing is known about the defect
   Off out = Off::nothing;
   for (const Instant& instant : instants_) try {
       const auto answers = answersOf(subject, instant.motion);
@@ -94,7 +95,7 @@ bool sayOtherwise(const std::vector<Check>& a, const std::vector<Check>& b, doub
     if (one.verdict == Verdict::not_applicable || other.verdict == Verdict::not_applicable) return true;
     const bool both_nan = std::isnan(one.value) && std::isnan(other.value);
     const bool same = both_nan || one.value == other.value;
-    // Each has its own limit, because rounding may select another instant.
+    // Shares of limits are compared, because rounding may select another instant with another limit.
     const double apart = Worst::share(one.value, one.limit) - Worst::share(other.value, other.limit);
     return one.verdict == other.verdict && (same || std::abs(apart) <= share);
   };

@@ -15,9 +15,9 @@ class RightAnswers {
  public:
   explicit RightAnswers(const Scenario& scenario);
 
-  /// Quantities off by more than rounding, at instants that are no samples; dynamics if no instant has an answer. Wrong
-  /// kinematics with right dynamics (a reversed axis without friction and motor) are visible only in comparison with
-  /// Simbody's.
+  /// Which quantities are off by more than rounding, at instants between the samples; `dynamics` if no instant has an
+  /// answer. Wrong kinematics with right dynamics (a reversed axis without friction and motor) are visible only in
+  /// comparison with Simbody's.
   enum class Off { nothing, kinematics, dynamics };
   Off offIn(const Subject& subject) const;
 
@@ -32,7 +32,7 @@ class RightAnswers {
   std::vector<Instant> instants_;
 };
 
-/// Whether another trajectory has the same motion up to rounding; false for the same object.
+/// Whether the scenarios' trajectories are different objects with the same motion up to rounding.
 bool movesAlike(const Scenario& a, const Scenario& b);
 
 /// Whether a check that applies to both has another verdict, or a value that differs by more than `share` of its limit.

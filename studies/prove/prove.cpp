@@ -22,7 +22,7 @@
 namespace ursula {
 namespace {
 
-/// Instants for one of many validations: enough for three per step of the replay.
+/// Number of instants for one of many validations: enough for three per step of the replay.
 constexpr int samples_in_a_row = 101;
 constexpr int samples_of_sensitivity = 31;
 
@@ -36,7 +36,7 @@ class TorqueReference {
       largest_ = std::max(largest_, sample.torques_simbody.cwiseAbs().maxCoeff());
   }
 
-  /// The change of torque relative to the largest; negative if it is not caught.
+  /// Returns the change of torque relative to the largest; negative if the subject is not caught.
   double caught(const Subject& subject) const {
     double change = 0;
     bool beyond = false;

@@ -35,7 +35,7 @@ struct DefectProof {
   std::vector<CheckProof> checks;  ///< every check of the scenario's result
   /// Checks that fail the right solver, or a mechanism without a defect; then nothing is proved.
   std::vector<std::string> without_defect;
-  int controls = 0;  ///< number of mechanisms tried without a defect
+  int controls = 0;  ///< number of mechanisms that were tried without a defect
 };
 
 /// What a check compares with: "Simbody" in either topology, "maximal coordinates", "MuJoCo", or the check itself if it
@@ -61,7 +61,7 @@ DefectProof proveDefects(const Scenario& scenario, int jobs, const std::function
 /// Returns the scenario with few samples, for one of many validations: enough for three per step of the replay.
 Scenario sampledForMany(Scenario scenario);
 
-/// Bisects the exponent to one in a hundred.
+/// Finds the smallest caught error of every parameter, to one in a hundred.
 std::vector<Sensitivity> proveSensitivities(const Scenario& scenario);
 
 /// The reverse test: `count` random valid scenarios from `seed` on; none may fail.

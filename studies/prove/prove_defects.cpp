@@ -77,7 +77,7 @@ class Proof {
     return validateMade(scenario_, defect.subject ? defect.subject : right, faulty).checks;
   }
 
-  /// An impossible motion is refused but still judged.
+  /// Judges the commanded motion of a scenario that is refused as impossible.
   static std::vector<Check> judged(const Scenario& scenario, DefectOutcome& outcome) {
     ValidationOptions afresh;
     afresh.budget = false;

@@ -10,7 +10,7 @@ namespace ursula {
 /// Number of effective defects that too few formulations caught.
 int weakDefects(const std::vector<DefectOutcome>& outcomes);
 
-/// Whether it catches a defect alone or first.
+/// Whether the check catches a defect alone or first.
 inline bool isNeeded(const CheckProof& proof) { return !proof.alone.empty() || !proof.first.empty(); }
 
 /// Number of checks that are not needed, because earlier ones catch everything that they do.

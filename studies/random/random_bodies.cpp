@@ -7,7 +7,7 @@
 namespace ursula {
 namespace {
 
-/// At most one leg has it exactly at an end, so that no two legs share a number.
+/// Draws a mass centre. At most one leg has it exactly at an end, so that no two legs share a number.
 double massCentre(Dice& dice, const Recipe& recipe, bool may_be_at_end, double length) {
   if (!recipe.centres_anywhere) return dice.uniform(0.2, 0.8) * length;
   if (may_be_at_end) return dice.chance(0.5) ? 0 : length;
@@ -45,7 +45,7 @@ JointFriction randomFriction(Dice& dice, LegKind kind, double largest, double le
   return out;
 }
 
-/// F q̇ and c tanh(q̇ / v), at most `share` of the weight that the leg carries.
+/// Draws viscous and Coulomb friction of at most a share of the weight that the leg carries.
 void drawFriction(Dice& dice, const Recipe& recipe, double torque, Leg& leg) {
   const double time = recipe.time(), length = recipe.length;
   if (recipe.viscous) {

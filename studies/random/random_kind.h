@@ -22,7 +22,8 @@ struct LegRecipe {
   std::array<bool, 3> actuated = {true, false, false};
 };
 
-/// Three to six legs with six motors; URS draws no random number. `other_motors` may drive any coordinates.
+/// Returns three to six legs with six motors; for URS it draws no random number. With `other_motors`, motors may drive
+/// any coordinate.
 std::vector<LegRecipe> randomLegs(Dice& dice, RandomKind kind, bool other_motors);
 
 /// "UPS d", or one such text per leg.

@@ -87,7 +87,7 @@ LegPlace placeLeg(Dice& dice, const Recipe& recipe, const Rings& rings, int i) {
   return place;
 }
 
-/// Along z, exactly or up to a hundredth off.
+/// Returns an axis along z, exactly or up to a hundredth off.
 Vector3d axisAlongZ(Dice& dice) {
   Vector3d axis(0, 0, dice.spreadOfEitherSign(0.5, 2));
   if (dice.chance(0.5)) return axis;

@@ -64,7 +64,8 @@ std::vector<double> randomTimes(Dice& dice, double duration, int count, double u
   return times;
 }
 
-/// A few poses at nearly even times; many, each near its predecessor; or some intervals of a twentieth of the others.
+/// Returns waypoints of one of three sorts: a few at nearly even times; many, each near its predecessor; or some
+/// intervals of a twentieth of the others.
 std::shared_ptr<const Trajectory> waypointMotion(Dice& dice, const Recipe& recipe, const Design& design, double share) {
   const bool tight = recipe.pace == Pace::tight, abrupt = recipe.pace == Pace::abrupt;
   const int count = tight ? dice.whole(8, 24) : dice.whole(2, 5) + (abrupt ? 1 : 0);
@@ -102,7 +103,8 @@ class Waves {
   Shift amplitudes_[2], turns_[2], phases_[2];
 };
 
-/// Noise of ε lengths at intervals h causes accelerations of ε / h²; limits them to a few times the machine's unit.
+/// Returns the size of noise in lengths. Noise of ε lengths at intervals h causes accelerations of ε / h², which are
+/// limited to a few times the machine's unit.
 double noiseOf(Dice& dice, const Recipe& recipe, double share, int count) {
   if (!recipe.noisy) return 0;
   const double h = recipe.duration / recipe.time() / (count - 1);
@@ -111,7 +113,7 @@ double noiseOf(Dice& dice, const Recipe& recipe, double share, int count) {
 
 std::shared_ptr<const Trajectory> sampleMotion(Dice& dice, const Recipe& recipe, const Design& design, double share) {
   const int count = recipe.pace == Pace::tight ? dice.whole(40, 120) : dice.whole(7, 40);
-  // At least six samples per turn, and no more turns than natural times.
+  // The waves have at least six samples per turn, and no more turns than natural times.
   const double most = std::min(1 + recipe.duration / recipe.time(), count / 6.0);
   const Waves waves(dice, randomReach(dice, share), std::max(most, 0.3));
   const double noise = noiseOf(dice, recipe, share, count);

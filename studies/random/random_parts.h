@@ -43,14 +43,14 @@ Design randomDesign(Dice& dice, const Recipe& recipe);
 /// L, the torque of the weight on a leg.
 void drawBodies(Dice& dice, const Recipe& recipe, const Vector3d& middle, ManipulatorParameters& machine);
 
-/// Exactly zero, or of the recipe's size.
+/// Returns a gravity of exactly zero or of the recipe's size.
 Vector3d randomGravity(Dice& dice, const Recipe& recipe);
 
 /// A motion of the recipe's kind about the design's pose. `share` makes it smaller if the legs cannot follow. Throws
 /// InvalidParameter if the spline between the poses overshoots too far.
 std::shared_ptr<const Trajectory> randomMotion(Dice& dice, const Recipe& recipe, const Design& design, double share);
 
-/// Null if the recipe has no load.
+/// Returns null if the recipe has no load.
 std::shared_ptr<const Load> randomLoad(Dice& dice, const Recipe& recipe, const Design& design);
 
 }  // namespace ursula

@@ -35,12 +35,12 @@ struct Recipe {
   bool unequal_links = false;  ///< one link of a leg is up to five times the other
   bool stroke_end = false;     ///< one or two telescopic legs are nearly as short or as long as possible
   bool far_zero = false;       ///< a carriage is far from its rail's zero
-  bool axis_along_z = false;   ///< of one leg, exactly or nearly; the fixed frame then uses another axis
+  bool axis_along_z = false;   ///< one leg's axis lies along e_z, exactly or nearly; its fixed frame then uses e_y
   bool turned = false;         ///< the machine has any orientation in B
   double offset = 0;           ///< distance of the machine from the origin of B, m
   double platform_offset = 0;  ///< distance of P from the platform's points, m
   Masses masses = Masses::even;
-  bool centres_anywhere = false;  ///< mass centres of links at their ends and outside them
+  bool centres_anywhere = false;  ///< mass centres of links may be at their ends or outside them
   double platform_centre = 0;     ///< distance of the platform's mass centre from its points, m
   Inertias inertias = Inertias::solid;
   bool viscous = false, coulomb = false;

@@ -96,7 +96,7 @@ bool findMotion(Dice& dice, const Recipe& recipe, const Design& design, int& dra
       ++draws;
       scenario.trajectory = randomMotion(dice, recipe, design, share);
       if (canBeJudged(recipe, scenario)) return true;
-    } catch (const PoseError&) {  // out of reach
+    } catch (const PoseError&) {  // a leg cannot reach
     } catch (const InvalidParameter&) {
     }
   return false;
@@ -108,7 +108,7 @@ bool tryDesign(Dice& dice, const Recipe& recipe, int& draws, Scenario& scenario)
     const Design design = randomDesign(dice, recipe);
     const auto manipulator = std::make_shared<const Manipulator>(design.machine);
     if (!canStand(recipe, design, *manipulator)) return false;
-    --draws;  // counted with its motions
+    --draws;  // the design is counted with its motions
     scenario.manipulator = manipulator;
     scenario.load = randomLoad(dice, recipe, design);
     return findMotion(dice, recipe, design, draws, scenario);

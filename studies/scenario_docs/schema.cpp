@@ -13,7 +13,7 @@ Json schemaOf(const ScenarioTable& table);
 
 Json arrayOf(int least, int most) { return {{"$ref", "#/$defs/numbers"}, {"minItems", least}, {"maxItems", most}}; }
 
-/// A number, or an array of them, plainly or with how well it is known: required keys are those of the table alone.
+/// Returns the definitions of a number and an array of numbers, each plain or in a table with its tolerance.
 Json definitions() {
   const Json number = {{"$ref", "#/$defs/number"}};
   const Json tolerance = {{"anyOf", {Json{{"type", "number"}}, Json{{"type", "array"}}}}};
@@ -85,7 +85,7 @@ const char* standInFor(const ScenarioTable& table, const std::string& name) {
   return nullptr;
 }
 
-/// A leg's required keys may be in the defaults instead, and an editor sees one table at a time.
+/// Whether the table's required keys may be in the legs' defaults instead, because an editor sees one table at a time.
 bool mayBeElsewhere(const ScenarioTable& table) {
   return table.name == std::string("manipulator.leg") || table.name == std::string("manipulator.leg.link");
 }
@@ -110,7 +110,7 @@ Json plainSchemaOf(const ScenarioTable& table) {
   return out;
 }
 
-/// [trajectory]: one of its kinds.
+/// Returns the schema of [trajectory]: one of its kinds.
 Json kindsOf(const ScenarioTable& trajectory) {
   Json out = {{"type", "object"}, {"oneOf", Json::array()}};
   for (const std::string& kind : trajectory.key("kind").choices) {

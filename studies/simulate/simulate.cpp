@@ -63,7 +63,7 @@ class NocSystem {
     const Motion<double> now = motion(t, x, torques);
     const Eigen::Quaterniond q(x[3], x[4], x[5], x[6]);
     const Eigen::Quaterniond spin(0, now.omega.x(), now.omega.y(), now.omega.z());
-    const Eigen::Quaterniond q_dot = spin * q;  // twice q̇, ω in B
+    const Eigen::Quaterniond q_dot = spin * q;  // twice q̇, from ω in B
     Eigen::Map<Eigen::Matrix<double, 13, 1>>(rate.data()) << now.p_dot, q_dot.w() / 2, q_dot.vec() / 2, now.p_ddot,
         now.omega_dot;
   }
@@ -100,7 +100,7 @@ void checkKnees(const ReachEnds& ends, const JointVariables<double>& before, con
     if (const int i = static_cast<int>(k); ends.of(before, i) * ends.of(now, i) <= 0) throw ends.outOfReach(now, i, t);
 }
 
-/// Within this distance of 0, the end of reach causes the shrinking steps.
+/// If a margin is smaller than this, the end of reach causes the shrinking steps.
 constexpr double at_edge = 1e-3;
 
 void stopped(const ReachEnds& ends, const JointVariables<double>& q, double t) {
@@ -195,7 +195,7 @@ Simulation integrate(System system, const Scenario& scenario, const EffortHistor
       out.motions.push_back(motion);
     }
   } catch (const std::bad_alloc&) {
-    throw;  // it says nothing about the motion
+    throw;  // a lack of memory says nothing about the motion
   } catch (const std::exception& error) {
     out.gave_up = error.what();  // the completed part is still reported
   }

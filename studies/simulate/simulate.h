@@ -27,13 +27,13 @@ struct Simulation {
 /// stopping at each instant.
 ///
 /// The NOC engine integrates (36) with the platform's pose and twist as the state. So it needs no direct kinematics,
-/// and the assembly is unique. The Simbody engine integrates the closed loop's own coordinates. Stops when the deadline
-/// is over.
+/// and the assembly is unique. The Simbody engine integrates the closed loop's own coordinates. It stops when the
+/// deadline is over.
 Simulation simulate(const Scenario& scenario, SimulationEngine engine, const EffortHistory& torques,
                     const std::vector<double>& instants, double tolerance, const Deadline& deadline = {});
 
-/// The same under torques at their own instants within the motion: on the quintic spline through them, from the first
-/// to the last, at the scenario's tolerance. Throws CsvError if there are too few to interpolate.
+/// The same under torques at their own instants within the motion, from the first to the last, at the scenario's
+/// tolerance. A quintic spline interpolates them; throws CsvError if there are too few.
 Simulation simulate(const Scenario& scenario, SimulationEngine engine, const TorqueFile& torques,
                     const Deadline& deadline = {});
 

@@ -16,7 +16,7 @@
 namespace ursula {
 namespace {
 
-/// Large enough that the transfer of a block costs nothing, small enough for the second-level cache.
+/// Blocks are so large that handing one over costs nothing, and so small that they fit into the second-level cache.
 constexpr int rows_of_block = 512;
 
 /// Files contain no infinities or NaN.
@@ -69,7 +69,7 @@ class InverseBlocks {
   BatchDynamics batch_;
 };
 
-/// Keeps quaternion signs continuous across blocks, each of which begins with w >= 0, by the previous row.
+/// Keeps quaternion signs continuous across blocks by the previous row, because each block begins with w >= 0.
 class Turning {
  public:
   void operator()(TimeSeries& block) {

@@ -16,7 +16,8 @@ struct Part {
   std::int64_t first = 0, last = 0;  ///< its smallest and its largest point
 };
 
-/// A database being written has changing points, and SQLite's error would name the target instead.
+/// Throws if another process writes the database. Its points would change, and SQLite's error would name the target
+/// instead.
 void requireUnlocked(const std::filesystem::path& file) {
   Sqlite(file, Sqlite::Access::write).run("BEGIN IMMEDIATE; ROLLBACK");
 }
@@ -47,7 +48,8 @@ std::vector<Part> opened(const std::vector<std::filesystem::path>& files, const 
   return out;
 }
 
-/// Finds different points. Errors are ignored, because the computer caused them, for instance by lack of memory.
+/// Finds points that differ. Points with errors are ignored, because the computer caused them, for instance by lack of
+/// memory.
 constexpr const char* differing = R"(
 SELECT p.id FROM part.point p JOIN main.point m ON m.id = p.id WHERE m.parameters IS NOT p.parameters
   OR ('error' NOT IN (m.verdict, p.verdict) AND (m.verdict IS NOT p.verdict OR m.error IS NOT p.error))
@@ -62,7 +64,7 @@ DELETE FROM main.result WHERE point IN (SELECT m.id FROM main.point m JOIN part.
   WHERE m.verdict = 'error' AND p.verdict <> 'error');
 DELETE FROM main.point WHERE verdict = 'error' AND id IN (SELECT id FROM part.point WHERE verdict <> 'error'))";
 
-/// Points that exist already must be the same.
+/// Throws unless the points that both have are the same.
 void requireSame(Sqlite& database, const Part& part) {
   Statement other(database, differing);
   if (!other.step()) return;
@@ -95,10 +97,10 @@ void requireAgreement(const std::vector<Part>& parts, const Stop& stop) {
   }
 }
 
-/// Runs within one transaction.
+/// Copies the points that `into` lacks, within one transaction.
 std::int64_t takeIn(SweepDatabase& into, const Part& part) {
   Sqlite& database = into.sqlite();
-  if (database.number(meets) == 0) {  // copies all of it
+  if (database.number(meets) == 0) {  // the parts share no point, so everything is copied
     database.run("INSERT INTO main.result SELECT * FROM part.result; INSERT INTO main.point SELECT * FROM part.point");
     return database.changed();
   }
@@ -164,7 +166,7 @@ MergeResult mergeSweeps(const std::vector<std::filesystem::path>& files, const s
   for (const Part& part : parts) compare(database.sqlite(), part);
   std::size_t done = 0;
   for (const Part& part : parts) {
-    database.sqlite().run("BEGIN IMMEDIATE");  // before the attachment, which it would lock, too
+    database.sqlite().run("BEGIN IMMEDIATE");  // begins before the attachment, which would be locked, too
     attach(database.sqlite(), part.file);
     out.added += takeIn(database, part);
     database.sqlite().run("COMMIT; DETACH part");

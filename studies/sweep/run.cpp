@@ -29,7 +29,7 @@ class Missing {
   std::int64_t known_;  ///< the first existing point from at_ on
 };
 
-/// Commits at intervals: rarely enough to cost little, often enough to lose little.
+/// Commits so rarely that it costs little, and so often that little can be lost.
 class Writer {
  public:
   explicit Writer(SweepDatabase& database) : database_(database) {}
@@ -55,7 +55,7 @@ std::map<std::string, std::int64_t> verdictsOf(Sqlite& database) {
   return out;
 }
 
-/// The number of points to hand out at once: few hand-outs, and all workers end together.
+/// Returns how many points to hand out at once, so that hand-outs are few and all workers end at about the same time.
 std::int64_t handfulOf(const SweepPlan& plan, std::int64_t points, int jobs) {
   const std::int64_t most = plan.file().work == SweepWork::inverse ? 64 : 1;
   return std::clamp<std::int64_t>(points / (8 * jobs), 1, most);

@@ -34,7 +34,7 @@ std::string logIn(const std::filesystem::path& folder, const std::string& name) 
   return out + "/" + name;
 }
 
-/// sbatch accepts abbreviated long names.
+/// Throws for an option that the user may not set; sbatch accepts abbreviated long names.
 void requireUsersOwn(const std::string& option) {
   const std::string name = option.substr(0, option.find_first_of("= "));
   for (const std::string ours : {"--array", "-a", "--dependency", "-d", "--wrap", "--parsable", "--test-only"})
@@ -43,7 +43,7 @@ void requireUsersOwn(const std::string& option) {
           fmt::format("[slurm] options: '{}' is not to be set here: ursula sets {} itself", option, ours));
 }
 
-/// "--comment=a b" is one word, "-A x" and "--account x" are two.
+/// Escapes an option as sbatch's words: "--comment=a b" is one, "-A x" and "--account x" are two.
 std::string words(const std::string& option) {
   const std::size_t end = option.find_first_of("= ");
   if (end == std::string::npos || option[end] == '=') return escaped(option);
@@ -52,7 +52,7 @@ std::string words(const std::string& option) {
 
 std::string setting(const std::string& line) { return fmt::format("#SBATCH {}\n", line); }
 
-/// The user's options come last and take precedence.
+/// Returns the lines `#SBATCH`. The user's options come last and take precedence.
 std::string head(const SlurmJob& job, const std::string& name, int cpus, const std::string& log) {
   std::string out = "#!/bin/bash\n";
   out += setting("--job-name=" + escaped(fmt::format("{}-{}", name, job.database.stem().string())));

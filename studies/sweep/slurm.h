@@ -19,7 +19,7 @@ struct SlurmJob {
   SlurmSettings settings;
 };
 
-/// The numbers of as many shards, even if every other one is missing, fit into one option of sbatch.
+/// The largest number of shards. Even if every other one is missing, their numbers fit into one option of sbatch.
 constexpr int most_slurm_shards = 2000;
 
 /// A file next to the final database: "tolerances.shard-2-of-4.db".

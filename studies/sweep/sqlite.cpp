@@ -11,7 +11,7 @@
 namespace ursula {
 namespace {
 
-/// Others may lock the database while they write one batch.
+/// Waits this long, because others may lock the database while they write one batch.
 constexpr int patience = 5000;  // ms
 /// Steps of SQLite's virtual machine between two polls: some microseconds.
 constexpr int steps_between = 100;
@@ -94,7 +94,7 @@ Sqlite::Sqlite(const std::filesystem::path& file, Access access) : file_(file) {
 }
 
 Sqlite::~Sqlite() {
-  sqlite3_progress_handler(handle_, 0, nullptr, nullptr);  // otherwise a poll that stops it leaves its log behind
+  sqlite3_progress_handler(handle_, 0, nullptr, nullptr);  // a poll that stopped the closing would leave its log behind
   sqlite3_close(handle_);
 }
 

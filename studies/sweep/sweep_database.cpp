@@ -43,7 +43,7 @@ void create(Sqlite& database, const SweepIdentity& identity) {
   insert.bind(k, nlohmann::json(identity.keys).dump()).run();
 }
 
-/// Another process may be writing.
+/// Sets up writing; throws DatabaseLocked if another process is writing.
 void prepareToWrite(Sqlite& database) {
   database.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 4000");
 }
@@ -105,7 +105,7 @@ void requireSound(Sqlite& database, const SweepIdentity& sweep) {
       refuse(database.file(), "is damaged: " + fmt::format(fmt::runtime(what), row.integer(0)));
 }
 
-/// Returns no folder below a file: SQLite's error then names it.
+/// Returns the file's folder, or an empty path if a parent is a file; SQLite's error then names it.
 std::filesystem::path folderFor(const std::filesystem::path& file) {
   std::filesystem::path there = file.parent_path();
   while (!there.empty() && !std::filesystem::exists(there)) there = there.parent_path();
@@ -206,7 +206,7 @@ void SweepDatabase::add(const SweepPoint& point) {
   into.bind(0, point.id).bind(1, point.parameters).bind(2, point.verdict).bind(3, point.seconds);
   point.error.empty() ? into.bindNull(4) : into.bind(4, point.error);
   into.run();
-  statements_->stale.bind(0, point.id).run();  // results of a point that somebody removed manually
+  statements_->stale.bind(0, point.id).run();  // removes results of a point that somebody removed manually
   Statement& result = statements_->result;
   for (const SweepValue& value : point.values) {
     result.bind(0, point.id).bind(1, value.name).bind(2, value.value).bind(3, value.limit);
@@ -240,7 +240,7 @@ void SweepDatabase::finish() {
   requireInPlace();
   try {
     sqlite_.run("PRAGMA journal_mode = DELETE");
-  } catch (const DatabaseLocked&) {  // a reader keeps it in this mode, which is as good
+  } catch (const DatabaseLocked&) {  // a reader keeps the database in this mode, which is as good
   }
   requireSoundFile();
 }

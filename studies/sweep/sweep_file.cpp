@@ -131,7 +131,7 @@ bool readFlag(const TomlSection& table, const char* key) {
   return node->as_boolean()->get();
 }
 
-/// The value becomes part of a script line.
+/// Reads one word, because the value becomes part of a script's line.
 void readWord(const TomlSection& table, const char* key, std::string& value) {
   table.read(key, value);
   const bool plain = std::none_of(value.begin(), value.end(), [](unsigned char c) { return c <= ' ' || c == 0x7f; });

@@ -120,7 +120,7 @@ std::string SweepPlan::text(std::int64_t i) {
   return fmt::format("# Point {} of the sweep {}\n\n{}", i, file_.file.filename().string(), text);
 }
 
-/// Line numbers refer to the output of `sweep show`, not to the base scenario.
+/// Errors have line numbers of the output of `sweep show`, not of the base scenario.
 Scenario SweepPlan::read(std::int64_t i) {
   return parseScenario(text(i), fmt::format("point {} of {}", i, file_.file.filename().string()));
 }

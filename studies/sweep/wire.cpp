@@ -39,7 +39,7 @@ class Reader {
   const char* at_;
 };
 
-/// One list of fields for both directions.
+/// Lists the fields of a point, for packing and unpacking.
 template <class Stream, class Point>
 void fields(Stream& stream, Point& point) {
   stream.plain(point.id);

@@ -100,7 +100,7 @@ void SweepWorker::validate(std::int64_t i, SweepPoint& point) {
   point.verdict = name(result.verdict);
 }
 
-/// Judges a motion that all points share only once.
+/// Judges the commanded motion only once if all points share it.
 ValidationResult SweepWorker::pointwise(std::int64_t i) {
   if (plan_.variesMotion()) return validatePointwise(plan_.read(i));
   if (!of_motion_) of_motion_ = judgeCommandedMotion(plan_.base());

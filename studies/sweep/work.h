@@ -15,7 +15,7 @@ class SweepWorker {
  public:
   explicit SweepWorker(SweepPlan& plan) : plan_(plan) {}
 
-  /// Verdict and error of the point contain every problem; throws nothing itself.
+  /// Throws nothing: the point's verdict and error hold every problem.
   SweepPoint at(std::int64_t i);
 
  private:

@@ -60,7 +60,7 @@ WorkerPool::~WorkerPool() = default;
 
 void WorkerPool::start(Worker& worker) {
   worker.process = std::make_unique<ChildProcess>([this](int from, int to) {
-    for (const auto& other : workers_)  // otherwise they would never see the end of their input
+    for (const auto& other : workers_)  // otherwise the others would never see the end of their input
       if (other->runs()) other->process->closePipes();
     serve(from, to, tasks_.makeWork);
   });
@@ -86,7 +86,7 @@ bool WorkerPool::feed(Worker& worker) {
     if (range.first == range.end) break;
     if (!worker.runs()) start(worker);
     worker.given.push_back(range);
-    // A worker that just ended is noticed when it is read from.
+    // If the worker has just ended, reading from it shows that.
     [[maybe_unused]] const ssize_t sent = ::write(worker.process->to(), &range, sizeof range);
   }
   return !worker.given.empty();

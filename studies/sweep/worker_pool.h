@@ -12,10 +12,10 @@
 
 namespace ursula {
 
-/// Worker processes instead of threads, so that a crash harms only one of them. Its point is tried once more, then
-/// becomes a point with verdict "error" and the way its worker ended.
+/// Worker processes instead of threads, so that a crash harms only one of them. Its point is tried once more. Then it
+/// gets the verdict "error", with how its worker ended.
 ///
-/// They are copies of the calling process (fork), which should have no threads that hold locks.
+/// Workers are copies of the calling process (fork), which should have no threads that hold locks.
 class WorkerPool {
  public:
   struct Tasks {

@@ -12,7 +12,7 @@ struct Pair {
   double strength;
 };
 
-/// Two values make no scatter plot, and each check has its own.
+/// Whether a scatter plot of the output says something: one with two values does not, and each check has its own plot.
 bool saysMore(OutputKind kind) { return kind != OutputKind::not_passed && kind != OutputKind::largest_share; }
 
 /// The primary output's pairs first, the strongest first.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
-/// The instant of a largest effort helps the search and is in the table, but its distribution means nothing.
+/// Whether it is the instant of a largest effort, which is in the table, but whose distribution means nothing.
 bool isInstant(const std::string& name) { return name.size() > 4 && name.compare(name.size() - 4, 4, "_t_s") == 0; }
 
 SweepOutput outputOf(bool validates, const std::string& name) {

@@ -31,10 +31,10 @@ std::vector<std::uint32_t> orderOf(const std::vector<double>& values);
 /// Returns ranks from 1 of the finite values, mean ranks for ties, and NaN for other values.
 std::vector<double> ranksOf(const std::vector<double>& values);
 
-/// The division of x for the variance of means.
+/// How x is divided into classes for the variance of means.
 enum class Classes {
   levels,     ///< one class per value of x: the exact main effect over a complete factorial grid
-  quantiles,  ///< about √n equally filled classes, no value in two; they hide a trend of order 1/n only
+  quantiles,  ///< about √n equally filled classes, with no value in two; what they hide of a trend is of order 1/n
   strata      ///< about ∛n classes for evenly spread points; chance gives less than (M − 1)/n of the variance
 };
 

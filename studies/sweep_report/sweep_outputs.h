@@ -41,7 +41,7 @@ std::string pasteBox(const SweepSummary& summary);
 /// scores; ties by id.
 class WorstPoints {
  public:
-  /// Whether add() would keep it.
+  /// Whether add() would keep the point.
   bool takes(const WorstPoint& point) const;
   void add(WorstPoint point);
   std::vector<WorstPoint> worst() const;

@@ -41,7 +41,7 @@ bool isWhole(const SweepSummary& summary) {
   return summary.identity.shards == 1 && summary.points_done >= summary.identity.points;
 }
 
-/// Efforts are shown but not judged.
+/// Returns the page's verdict. Without failed points a sweep of `inverse` has none, because efforts are not judged.
 Verdict verdictOf(const SweepSummary& summary) {
   const auto has = [&summary](const char* verdict) { return summary.verdicts.count(verdict) > 0; };
   if (has("fail") || has("error")) return Verdict::fail;

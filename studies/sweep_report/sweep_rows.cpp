@@ -55,7 +55,7 @@ bool SweepRows::next(SweepRow& row) {
   row.values.clear();
   std::size_t guess = 0;
   for (; has_result_ && results_.integer(0) <= row.id; has_result_ = results_.step()) {
-    if (results_.integer(0) < row.id) continue;  // belongs to no point
+    if (results_.integer(0) < row.id) continue;  // a result without a point
     const std::size_t name = indexOf(results_.text(1), guess);
     row.values.push_back({name, results_.real(2), results_.real(3), results_.text(4)});
     guess = name + 1;

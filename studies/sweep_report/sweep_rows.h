@@ -22,8 +22,8 @@ struct SweepRow {
   std::vector<Value> values;
 };
 
-/// Reads points by ascending id, one at a time, as of its construction, even if others write meanwhile. A connection
-/// can have only one. Throws DatabaseError.
+/// Reads points by ascending id, one at a time, as they were at its construction, even if others write meanwhile. A
+/// connection can have only one reader. Throws DatabaseError.
 class SweepRows {
  public:
   SweepRows(Sqlite& database, const std::vector<std::string>& keys);

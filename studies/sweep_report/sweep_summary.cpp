@@ -12,7 +12,8 @@
 namespace ursula {
 namespace {
 
-constexpr std::size_t fewest_for_index = 200;  // 14 classes of 14: for unrelated numbers it scatters by 0.025
+constexpr std::size_t fewest_for_index =
+    200;  // 14 classes of 14 points; the index of unrelated numbers then scatters by 0.025
 constexpr std::size_t bins = 30, most_drawn = 6, most_maps = 4, most_cells = 250'000;
 constexpr double below_rounding = 1e-9;  // for an exact index
 
@@ -42,7 +43,7 @@ class Summary {
   }
 
  private:
-  /// Comes first, because later steps need the keys.
+  /// Reads the identity first, because later steps need its keys.
   const std::vector<std::string>& identify(Sqlite& database) {
     out_.identity = readIdentity(database);
     out_.identity.scenario.clear();

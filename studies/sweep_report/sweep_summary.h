@@ -68,7 +68,7 @@ struct WorstPoint {
 };
 constexpr std::size_t most_worst = 10;
 
-/// A sweep's results as typed facts; texts are made from them last.
+/// The facts of a sweep's results, from which texts are made.
 struct SweepSummary {
   SweepIdentity identity;  ///< without the scenario's text
   std::int64_t points_done = 0;
@@ -78,7 +78,7 @@ struct SweepSummary {
   std::vector<SweepOutput> outputs;  ///< outputs without any number are omitted
   std::size_t primary = 0;           ///< the main output of the page; outputs.size() if there is none
   std::size_t pairs =
-      0;  ///< number of tested pairs; of a hundred sweeps with unrelated numbers, one has a significant pair
+      0;  ///< number of tested pairs; one in a hundred sweeps with unrelated numbers has a significant pair
   std::vector<Scatter> scatters;
   std::vector<GridMap> maps;
   std::vector<WorstPoint> worst;

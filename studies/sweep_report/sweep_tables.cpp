@@ -69,7 +69,7 @@ std::string badge(const std::string& verdict) {
                      escaped(verdictWords(verdict)));
 }
 
-/// The reason why it is one of the worst.
+/// Says why the point is one of the worst.
 std::string whyOf(const SweepSummary& summary, const WorstPoint& point) {
   if (!point.error.empty()) return point.error;
   if (std::isnan(point.score) || point.because >= summary.outputs.size()) return "";

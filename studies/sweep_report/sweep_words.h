@@ -16,7 +16,7 @@ std::string verdictWords(const std::string& verdict);
 std::string titleOf(const SweepOutput& output);
 /// Returns one of its values with the unit.
 std::string valueOf(const SweepOutput& output, double value);
-/// The same with its reference: "12.3 kN·m", "0.84 of its limit".
+/// Returns the value as a sentence says it: "12.3 kN·m", "0.84 of its limit".
 std::string saidOf(const SweepOutput& output, double value);
 
 /// Returns a dotted name as HTML that may break after each dot.
