@@ -6,7 +6,7 @@
 
 namespace ursula {
 
-/// The command line as typed facts, from the definitions behind --help.
+/// An option of the command line, from the definition behind --help.
 struct OptionWords {
   std::vector<std::string> names;  ///< "--out", "-h"
   std::string value;               ///< type of its value: "TEXT", "FLOAT"; empty for a flag

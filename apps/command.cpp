@@ -12,7 +12,7 @@
 namespace ursula {
 namespace {
 
-/// Reads until all writers have closed the other end.
+/// Returns everything until all writers have closed the other end.
 std::string allOf(int from) {
   std::string out;
   std::array<char, 4096> buffer{};

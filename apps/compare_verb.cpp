@@ -40,7 +40,7 @@ int compareFiles(const Options& options) {
     writeOutput(options.junit,
                 report::junitXml({comparisonSuite(comparison, options.reference + " : " + options.test)}));
   if (isTable(options.out)) writeOutput(options.out, comparisonCsv(comparison));
-  // Standard output gets either data or text: with the CSV there, the table goes to standard error.
+  // Standard output gets either data or text. If the CSV goes there, the table goes to standard error.
   std::string text = withoutControls(comparisonText(comparison));
   if (!options.out.empty() && !isTable(options.out))
     text += fmt::format("page: {}\n", (std::filesystem::path(options.out) / "compare.html").string());

@@ -135,7 +135,7 @@ int directOfPaper(const Scenario& scenario, const DirectOptions& options) {
   writeOutput(options.out, csvText(table.names, table.columns));
   summarise(poses);
   if (poses.counted != 8) return exit_inconclusive;  // one may be missing
-  return exit_passed;                                // no real pose is also an answer
+  return exit_passed;                                // that there is no real pose is also an answer
 }
 
 std::string csvOf(const UpsPoses& poses) {
@@ -194,7 +194,7 @@ std::string inWords(const Manipulator& machine) {
   return fmt::format("{} legs: {}", machine.legCount(), fmt::join(kinds, "; "));
 }
 
-/// The given option must suit the machine.
+/// Refuses an option that does not suit the machine.
 int direct(const DirectOptions& options) {
   const Scenario scenario = readScenarioOrInput(options.scenario);
   const Manipulator& machine = *scenario.manipulator;

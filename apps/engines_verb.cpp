@@ -42,7 +42,7 @@ int engines(EnginesOptions options) {
   }
   options.asked.engines = namedEngines(options.engines);
   const Scenario scenario = readScenarioOrInput(options.scenario);
-  std::optional<OutputFolder> folder;  // a folder that cannot be written is found before the work
+  std::optional<OutputFolder> folder;  // made before the work, so that a folder that cannot be written is found early
   if (!options.out.empty()) folder.emplace(options.out);
   Progress progress(scenario.name);
   options.asked.told = [&progress](double share, const std::string& engine) { progress.at(share, engine); };

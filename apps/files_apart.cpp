@@ -24,7 +24,7 @@ bool isWritten(const std::string& option) {
   return std::find(writing.begin(), writing.end(), option) != writing.end();
 }
 
-/// Flags name no file. Positional options that are no files are also checked, which is harmless.
+/// Gathers values that may name files. Flags name none; positional options that are no files do no harm.
 void gather(const CLI::App& app, std::vector<Named>& out) {
   for (const CLI::Option* option : app.get_options()) {
     const std::string name = option->get_name();
@@ -38,7 +38,7 @@ void gather(const CLI::App& app, std::vector<Named>& out) {
 
 bool areSame(const std::string& a, const std::string& b) {
   std::error_code none, ignored;
-  if (std::filesystem::is_character_file(a, none)) return false;  // both may be /dev/null
+  if (std::filesystem::is_character_file(a, none)) return false;  // two names of /dev/null are fine
   return std::filesystem::equivalent(a, b, ignored) ||
          std::filesystem::absolute(a, none).lexically_normal() == std::filesystem::absolute(b, none).lexically_normal();
 }
@@ -65,7 +65,7 @@ std::string namedTwice(const CLI::App& app) {
 }
 
 void requireApart(const Scenario& scenario, std::initializer_list<std::string> written) {
-  if (std::none_of(written.begin(), written.end(), namesFile)) return;  // the text need not be parsed again
+  if (std::none_of(written.begin(), written.end(), namesFile)) return;  // then the text need not be parsed again
   for (const std::filesystem::path& read : filesNamedBy(scenario))
     for (const std::string& file : written)
       if (namesFile(file) && areSame(file, read.string()))

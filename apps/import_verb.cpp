@@ -26,7 +26,7 @@ std::string asJson(const exchange::Imported& imported) {
   return document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-/// With `--json` standard output gets only the document; the scenario goes to a named file.
+/// With `--json` standard output gets only the document, and the scenario goes to a named file.
 int import(const ImportOptions& options) {
   const exchange::Imported imported = exchange::importModel(options.model, options.choices);
   if (!options.json) {

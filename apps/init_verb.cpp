@@ -29,7 +29,7 @@ LegKind kindOf(const std::string& name) {
                                didYouMean(name, names)));
 }
 
-/// The starting scenario with the file's name, if that is a valid name.
+/// Returns the starting scenario, named after the file if that is a valid name.
 std::string textFor(const std::string& file, LegKind kind) {
   const std::string stem = std::filesystem::path(file).stem().string();
   const bool plain = file != "-" && !stem.empty() && std::all_of(stem.begin(), stem.end(), [](unsigned char c) {

@@ -6,7 +6,7 @@
 namespace ursula {
 namespace {
 
-/// Escapes text so that no line is a request and no hyphen a dash.
+/// Escapes text so that no line becomes a request and no hyphen a dash.
 std::string roff(const std::string& text) {
   std::string out = "\\&";
   for (const char c : text) {

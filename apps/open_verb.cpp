@@ -32,7 +32,8 @@ bool isInPath(const std::string& program) {
   return false;
 }
 
-/// A command for `sh -c` with the page as $1 instead of each %s, quoted or not. It is one word for any path.
+/// Returns a command for `sh -c` with the page as $1 instead of each %s, quoted or not. The page is one word for any
+/// path.
 std::string withPage(const std::string& browser) {
   std::string out;
   char quote = '\0';
@@ -54,8 +55,8 @@ std::string withPage(const std::string& browser) {
   return out;
 }
 
-/// A command for `sh -c` with the page as $1: the first of $BROWSER, possibly with %s, else xdg-open; "" if there is
-/// neither.
+/// Returns a command for `sh -c` with the page as $1: the first of $BROWSER, possibly with %s, else xdg-open; "" if
+/// there is neither.
 std::string browserCommand() {
   const char* browser = std::getenv("BROWSER");
   std::string command = browser == nullptr ? "" : browser;

@@ -17,11 +17,11 @@ namespace ursula {
 namespace {
 
 constexpr double silent_seconds = 2;
-/// After so long without a line, somebody who reads a log wonders.
+/// After this time without a line, a reader of a log wonders whether work goes on.
 constexpr double worried_seconds = 10;
 constexpr std::chrono::milliseconds redraw{250};
 
-/// A dumb terminal cannot return to the start of a line.
+/// Whether a bar can be drawn; a dumb terminal cannot return to the start of a line.
 bool canDraw() {
   const char* term = std::getenv("TERM");
   return ::isatty(::fileno(stderr)) == 1 && (term == nullptr || std::string(term) != "dumb");
@@ -44,7 +44,7 @@ Progress::~Progress() {
   }
   ending_.notify_all();
   if (drawing_.joinable()) drawing_.join();
-  if (drawn_) sayText("\r\033[K");  // stdout has the results
+  if (drawn_) sayText("\r\033[K");  // the results go to stdout
 }
 
 void Progress::at(double share, const std::string& note) {
@@ -59,7 +59,7 @@ void Progress::at(double share, const std::string& note) {
   said_ = true;
 }
 
-/// Runs in its own thread, because slow work reports rarely.
+/// Draws in its own thread, because slow work reports rarely.
 void Progress::keepDrawing() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (!ending_.wait_for(lock, redraw, [this] { return ended_; }))
@@ -74,7 +74,8 @@ void Progress::draw() {
   drawn_ = true;
 }
 
-/// The time left by the last share, counted down; without a share, or beyond the estimate, the elapsed time.
+/// Returns the time left, counted down since the last share. Without a share, or after the estimated end, it returns
+/// the elapsed time.
 std::string Progress::timeText() const {
   if (share_ <= 0) return fmt::format("{}{:.0f} s", note_.empty() ? "" : ", ", seconds());
   const double left = at_seconds_ / share_ * (1 - share_) - (seconds() - at_seconds_);

@@ -24,7 +24,8 @@ void say(fmt::format_string<Arguments...> form, Arguments&&... arguments) {
 /// an error of the write instead of a signal.
 void secureStreams();
 
-/// Loads the library that unwinds threads early. The C library loads it on demand and aborts if memory is short then.
+/// Loads early the library that unwinds threads. The C library loads it on demand and aborts if memory is short by
+/// then.
 void loadUnwinder();
 
 /// If the address space is bounded (`ulimit -v`), makes threads share one arena. glibc reserves 64 MB for each further

@@ -57,14 +57,14 @@ void sayOthers(const SlurmStanding& standing, const std::filesystem::path& datab
                shardDatabase(database, {index, shards}).string());
 }
 
-/// The submissions of one call, and their record.
+/// Submits the jobs of one call and records them.
 class Submission {
  public:
   Submission(SlurmJob job, const SlurmStanding& standing)
       : job_(std::move(job)),
         folder_(slurmFolder(job_.database)),
         jobs_{job_.shards, standing.arrays, standing.merges} {
-    std::filesystem::create_directories(folder_ / "logs");  // Slurm does not create it
+    std::filesystem::create_directories(folder_ / "logs");  // Slurm does not create the folder of logs
     writeSlurmJobs(folder_, jobs_);                         // fails before anything is submitted
   }
 

@@ -41,7 +41,7 @@ const CLI::App* calledOf(const CLI::App& app) {
   return nullptr;
 }
 
-/// Returns the first non-empty line that `wrong` returns for the given values; else "".
+/// Calls `wrong` with each given value and returns its first non-empty line; "" if there is none.
 template <class Wrong>
 std::string firstOf(const CLI::App& app, const Wrong& wrong) {
   for (const CLI::App* verb : app.get_subcommands())

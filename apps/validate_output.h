@@ -19,7 +19,8 @@ void printSuite(const std::vector<SuiteEntry>& entries, const std::filesystem::p
 
 int exitCode(Verdict verdict);
 
-/// An entry with an error counts as a failure: results were written, so it is no bad input.
+/// Returns the exit code. An entry with an error counts as a failure and not as bad input, because results were
+/// written.
 int exitCode(const std::vector<SuiteEntry>& entries);
 
 }  // namespace ursula

@@ -111,7 +111,7 @@ int validateOne(const Scenario& scenario, const ValidateOptions& options, const 
   return exitCode(result.verdict);
 }
 
-/// A bar over all scenarios, or a line per scenario.
+/// Shows a bar over all scenarios, or a line per scenario.
 class SuiteProgress {
  public:
   explicit SuiteProgress(std::size_t total) : total_(total), bar_("validate", Progress::Lines::none) {}
@@ -272,7 +272,7 @@ void addValidate(CLI::App& app, std::function<int()>& run) {
           "Largest error of torques or forces that pass, relative to the largest effort of the motion, also as 1%;\n"
           "takes precedence over [acceptance] torque")
       ->check(finitePositive())
-      ->transform(withoutPercent);  // transforms run in reverse order
+      ->transform(withoutPercent);  // runs first, because transforms run in reverse order
   verb->add_option("--atol", options->atol, "The same in N m, or N; the sum of both counts")->check(finitePositive());
   verb->add_flag("--any-tolerance", options->any_tolerance, "Accepts even a tolerance at which zeros would pass");
   verb->footer(

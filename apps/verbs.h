@@ -17,12 +17,12 @@ struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// For options: a finite number above 0, or not below it. CLI11's own validators accept nan.
+/// Accept a finite number above 0, or of 0 or more. CLI11's own validators accept nan.
 CLI::Validator finitePositive();
 CLI::Validator finiteNotNegative();
 /// For transform(): "1%" becomes "0.01"; other text stays.
 std::string withoutPercent(std::string text);
-/// A 64-bit unsigned integer in range: CLI11's own parser wraps around.
+/// Accepts a 64-bit unsigned integer in range. CLI11's own parser wraps around.
 CLI::Validator wholeNumber();
 
 /// Each registers its verb and stores in `run` its action, which returns the exit code.
@@ -61,7 +61,7 @@ auto alongMotion(const Scenario& scenario, Run&& run) {
 void writeOutput(const std::string& file, const std::string& content);
 /// Throws UsageError if `--out` names a file; it may be empty, or a folder that does not exist.
 void refuseFile(const std::string& out);
-/// Throws UsageError if it is a folder of a validation's results, whose files would be mixed with others.
+/// Throws UsageError if `--out` names a folder with a validation's results, among which other files must not be.
 void refuseResults(const std::filesystem::path& out);
 
 }  // namespace ursula

@@ -1,5 +1,5 @@
-# A component: one folder as a static library, ursula::NAME. LINKS are the components that its headers may name,
-# PRIVATE those and the libraries that its sources alone need; tools/check_structure.py holds both to the plan.
+# A component: one folder as a static library, ursula::NAME. LINKS are the components that its headers may name; PRIVATE
+# are components and libraries that only its sources need. tools/check_structure.py compares both with the plan.
 function(ursula_component name)
   cmake_parse_arguments(PARSE_ARGV 1 component "" "" "SOURCES;LINKS;PRIVATE")
   add_library(ursula_${name} STATIC ${component_SOURCES})
@@ -10,8 +10,8 @@ function(ursula_component name)
   set_property(GLOBAL APPEND PROPERTY URSULA_COMPONENTS ursula_${name})
 endfunction()
 
-# Compiles so many sources together, as they include the same headers and templates. Two sources of a folder may therefore
-# not give one name to different things, not even in unnamed namespaces. The preset `dev` compiles each alone.
+# Compiles `batch` sources together, because they include the same headers and templates. So two sources of a folder may
+# not give one name to different things, not even in unnamed namespaces. The preset `dev` compiles each source alone.
 function(ursula_unity name batch)
   set_target_properties(ursula_${name} PROPERTIES UNITY_BUILD ${URSULA_UNITY} UNITY_BUILD_BATCH_SIZE ${batch})
 endfunction()

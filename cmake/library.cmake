@@ -1,5 +1,5 @@
 # The shared library for users in C++: all static parts in one, headers, and a CMake package. It passes on Eigen's
-# headers and C++17; no warnings, definitions or sanitizers, for the parts are linked privately.
+# headers and C++17, but no warnings, definitions or sanitizers, because the parts are linked privately.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 include(CheckTypeSize)
@@ -15,7 +15,7 @@ unset(CMAKE_REQUIRED_LIBRARIES)
 
 set(public_include ${PROJECT_BINARY_DIR}/include)
 configure_file(include/ursula/build.h.in ${public_include}/ursula/build.h @ONLY)
-# Laid out now as well, for their names: what is compiled against them is only then compiled anew with them.
+# The headers are laid out at configuration, too, because targets compiled against them depend on their names.
 set(lay_out_headers ${CMAKE_COMMAND} -D SOURCE_DIR=${PROJECT_SOURCE_DIR} -D OUTPUT=${public_include}
   -P ${PROJECT_SOURCE_DIR}/cmake/public_headers.cmake)
 execute_process(COMMAND ${lay_out_headers} COMMAND_ERROR_IS_FATAL ANY)
@@ -26,8 +26,8 @@ add_custom_target(ursula_headers ALL
   BYPRODUCTS ${public_headers}
   COMMENT "Laying out the public headers" VERBATIM)
 
-# All objects of the static parts, and one source that sees the headers as users do. The parts are linked as well, for
-# the libraries that they need.
+# The library has all objects of the static parts, and one source that sees the headers as users do. The parts are also
+# linked, for the libraries that they need.
 set(parts ursula_base ursula_model ursula_nocsolver ursula_parallel ursula_simbody_loop ursula_maximal_loop ursula_mujoco ursula_further_engines ursula_verdict
   ursula_subject ursula_limits ursula_samples ursula_replay ursula_evidence ursula_checks ursula_findings
   ursula_external ursula_report ursula_validation ursula_outside ursula_provenance
@@ -70,7 +70,7 @@ install(FILES ${PROJECT_BINARY_DIR}/ursula.pc DESTINATION ${CMAKE_INSTALL_LIBDIR
 install(DIRECTORY scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/ursula)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
-# The reference of the public headers, where Doxygen is: a warning of its is an error.
+# The reference of the public headers, if Doxygen is installed; its warnings are errors.
 find_program(URSULA_DOXYGEN doxygen)
 mark_as_advanced(URSULA_DOXYGEN)
 find_package(Python3 COMPONENTS Interpreter)

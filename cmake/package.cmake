@@ -1,6 +1,6 @@
 # The Debian package: `cmake --build build --target package`, or cpack in the build folder.
 if(NOT CMAKE_CROSSCOMPILING)
-  # The man page and the completions, of the definitions that --help shows.
+  # The man page and the completions are made from the definitions that --help shows.
   set(call_docs ${PROJECT_BINARY_DIR}/call_docs)
   set(wanted --man "--completion bash" "--completion zsh" "--completion fish")
   set(call_files ${call_docs}/ursula.1 ${call_docs}/ursula ${call_docs}/_ursula ${call_docs}/ursula.fish)
@@ -34,7 +34,8 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libeigen3-dev (>= 3.4), python3-numpy")  # for the headers; for the Python module
-# A package's libraries are installed beside it. Of those that were unpacked nothing here says whose they are.
+# CPack finds the packages of installed libraries. Unpacked libraries are unknown to it, so their packages are named
+# here.
 if(unpacked_libraries)
   set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_INSTALL_RPATH})
   file(GLOB versioned ${CMAKE_INSTALL_RPATH}/libSimTKsimbody.so.*)

@@ -1,7 +1,7 @@
-# What nearly every source of ours includes is parsed once, not a hundred times: most of what a source takes. Each still
-# includes what it uses; the presets for development and clang-tidy read it without this.
+# Headers that nearly every source includes are parsed once instead of a hundred times; they take most of a source's
+# time. Each source still includes what it uses; the presets for development and clang-tidy compile without this.
 
-# Without this ccache keeps nothing that was compiled with it, or only for this very folder.
+# Without these settings ccache keeps no object that was compiled with the header, or only for this very folder.
 if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache")
   list(PREPEND CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros
     CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1)
@@ -15,7 +15,7 @@ target_precompile_headers(ursula_precompiled PRIVATE
   <algorithm> <array> <cmath> <functional> <memory> <optional> <string> <vector>
   <fmt/format.h> <Eigen/Geometry> <Eigen/LU> <base/real50.h>)
 
-# The header was read with fmt's definitions: who uses it has them too.
+# The header was parsed with fmt's definitions, so a target that uses it needs them, too.
 function(ursula_use_precompiled target)
   target_precompile_headers(${target} REUSE_FROM ursula_precompiled)
   target_link_libraries(${target} PRIVATE ursula::eigen)

@@ -1,5 +1,5 @@
-# ursula::provenance says what a build was made of (base/provenance.h). The commit is asked for at build time, and
-# the source is rewritten only when an answer changed.
+# ursula::provenance says what a build was made of (base/provenance.h). The commit is found at build time, and the
+# source is rewritten only if it changed.
 string(TOUPPER "CMAKE_CXX_FLAGS_${CMAKE_BUILD_TYPE}" _ursula_flags_of_type)
 set(_ursula_flags "-std=c++${CMAKE_CXX_STANDARD} ${CMAKE_CXX_FLAGS} ${${_ursula_flags_of_type}}")
 if(URSULA_SANITIZE)

@@ -1,9 +1,9 @@
 # Run at build time (cmake -P): lays out the installed headers. include/ursula/*.h go to OUTPUT/ursula, and what they
 # include of ours, directly or not, to OUTPUT/ursula/detail under its path in the tree. Includes are rewritten to match,
-# so that users need one include directory, and none of our folders' names can clash with theirs.
+# so that users need one include directory and our folders' names cannot clash with theirs.
 cmake_policy(VERSION 3.25)
 
-# Where a header of ours is installed, below OUTPUT.
+# Sets `out` to the place of one of our headers below OUTPUT.
 function(installed_name header out)
   if(header MATCHES "^include/(ursula/.*)$")
     set(${out} ${CMAKE_MATCH_1} PARENT_SCOPE)
@@ -12,7 +12,7 @@ function(installed_name header out)
   endif()
 endfunction()
 
-# Users have Eigen and the standard library: nothing else may be asked of them.
+# Refuses a header of any other library, because users have only Eigen and the standard library.
 function(refuse_foreign_headers header text)
   string(REGEX MATCHALL "#include <[^>\n]+>" lines "${text}")
   foreach(line IN LISTS lines)

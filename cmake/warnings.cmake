@@ -1,16 +1,17 @@
-# One interface target carries what every target of ours is compiled with; nothing is set globally.
+# One interface target has the compile options of all our targets; nothing is set globally.
 add_library(ursula_options INTERFACE)
 add_library(ursula::options ALIAS ursula_options)
 target_include_directories(ursula_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_features(ursula_options INTERFACE cxx_std_17)
-# Everything may become part of the shared library. None of its functions is meant to be replaced from outside: calls
-# within it are inlined as in a program.
+# Everything may become part of the shared library. Its functions are not to be replaced from outside, so calls within
+# it are inlined as in a program.
 set_target_properties(ursula_options PROPERTIES INTERFACE_POSITION_INDEPENDENT_CODE ON)
 target_compile_options(ursula_options INTERFACE -fno-semantic-interposition)
 target_compile_options(ursula_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
-# GCC 12 warns of fixed-size Eigen and Boost.Multiprecision code that it inlines (PR 105562 and kin); false alarms.
+# These warnings of GCC 12 are false alarms about fixed-size Eigen and Boost.Multiprecision code that it inlines (PR
+# 105562 and similar).
 target_compile_options(ursula_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overread>)
-# GoogleTest's own macros ask for it.
+# GoogleTest's macros need this.
 target_compile_options(ursula_options INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-gnu-zero-variadic-macro-arguments>)
 if(URSULA_WERROR)
   target_compile_options(ursula_options INTERFACE -Werror)

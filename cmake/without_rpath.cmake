@@ -1,4 +1,4 @@
-# CPack runs this over what it has gathered: the folders where this machine has libraries are nobody else's.
+# CPack runs this over the files that it gathered, because other machines do not have this machine's library folders.
 file(GLOB_RECURSE gathered ${CPACK_TEMPORARY_DIRECTORY}/*)
 foreach(file IN LISTS gathered)
   if(NOT IS_SYMLINK ${file} AND (file MATCHES "\\.so[.0-9a-z_-]*$" OR file MATCHES "/bin/[^/]+$"))

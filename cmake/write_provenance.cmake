@@ -5,7 +5,7 @@ if(GIT)
   set(git ${GIT} -c safe.directory=${SOURCE_DIR} --no-optional-locks -C ${SOURCE_DIR})
   execute_process(COMMAND ${git} rev-parse --show-prefix HEAD
     OUTPUT_VARIABLE answer RESULT_VARIABLE failed ERROR_QUIET)
-  if(NOT failed AND answer MATCHES "^\n([0-9a-f]+)\n$")  # an empty prefix: the checkout is ours, not one around us
+  if(NOT failed AND answer MATCHES "^\n([0-9a-f]+)\n$")  # with an empty prefix the checkout is ours and not one around us
     set(COMMIT ${CMAKE_MATCH_1})
     execute_process(COMMAND ${git} status --porcelain --untracked-files=no -- . ":(exclude)results" ":(exclude,glob)**/*.md"
       OUTPUT_VARIABLE changes RESULT_VARIABLE failed ERROR_QUIET)

@@ -104,7 +104,7 @@ auto pickled() {
       });
 }
 
-/// Copies of an immutable object are the object itself.
+/// Lets copies of an immutable object be the object itself.
 template <class Class>
 void addCopies(Class& of) {
   namespace py = pybind11;

@@ -18,7 +18,7 @@ namespace {
 using Block = EffortsByState::Block;
 using Rows = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The change of the load at P with a rotation of the platform: through the load's frame and its point.
+/// Returns the derivative of the load at P by a rotation of the platform, through the load's frame and its point.
 Block loadByTurn(const Load* load, const Motion<double>& motion, const Vector6d& at_P) {
   Block out = Block::Zero();
   if (load == nullptr) return out;

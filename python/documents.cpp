@@ -25,7 +25,7 @@ std::string typeOf(const py::handle& value) { return py::str(py::type::of(value)
   throw ScenarioError(std::string(from_dict) + ": error: " + (place.empty() ? "" : place + ": ") + what);
 }
 
-/// Applies Python's recursion limit, for a dict that contains itself.
+/// Applies Python's recursion limit, because a dict may contain itself.
 struct Depth {
   Depth() {
     if (Py_EnterRecursiveCall(" in a scenario's dict") != 0) throw py::error_already_set();

@@ -35,13 +35,14 @@ void refuseNotFinite(const Array& values, const char* what) {
 
 bool isMasked(const py::handle& values) {
   const py::object type = py::module_::import("numpy.ma").attr("MaskedArray");
-  if (py::isinstance<py::list>(values) || py::isinstance<py::tuple>(values))  // NumPy drops their masks
+  if (py::isinstance<py::list>(values) ||
+      py::isinstance<py::tuple>(values))  // in these NumPy drops masks of their items
     for (const py::handle each : values)
       if (py::isinstance(each, type)) return true;
   return py::isinstance(values, type);
 }
 
-/// Uses the constructor of array_t, which keeps NumPy's error, unlike ensure().
+/// Converts by the constructor of array_t, which, unlike ensure(), keeps NumPy's error.
 Array numbers(const py::object& values, const char* what) {
   const Array out(numbersIn(values, std::string(what) + ": expected real numbers"));
   refuseNotFinite(out, what);

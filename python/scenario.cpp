@@ -54,7 +54,7 @@ Motions motionAt(const ScenarioWithSolver& self, const py::object& t) {
   return out;
 }
 
-/// Answers of a batch, with `all` for a block. one(k) handles flagged poses and throws the program's error.
+/// Answers block by block with `all`. For a flagged pose it calls one(k), which throws the program's error.
 template <class All, class One, class Put>
 void answers(const ScenarioWithSolver& self, const Motions& motion, All&& all, One&& one, Put&& put) {
   const py::gil_scoped_release unlocked;
@@ -190,7 +190,7 @@ std::vector<PlatformPose> posesOfStewartGough(const Manipulator& machine, const 
     row.multiplicity = pose.multiplicity;
     row.residual = pose.residual;
     row.assembles = beyondStroke(machine, lengths) < 0;
-    row.front = true;  // a length has one inverse solution
+    row.front = true;  // a UPS leg has one inverse solution
   }
   return out;
 }

@@ -128,7 +128,7 @@ void addReplayError(py::module_& module) {
       });
 }
 
-/// Empty text, and numbers that count from 1, become None if they do not apply.
+/// Turns values that do not apply into None: empty text, and 0 for numbers that count from 1.
 template <class Value>
 std::optional<Value> unlessEmpty(const Value& value) {
   return value == Value{} ? std::nullopt : std::optional(value);

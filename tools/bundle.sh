@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the report's script and style anew from their sources and the lock file, with npm.
+# Builds the report's script and style from their sources and the lock file, with npm.
 #
 #   tools/bundle.sh           writes report/web/bundle
 #   tools/bundle.sh --check   fails unless that folder holds the very bytes; 77 if npm's registry does not answer
@@ -12,7 +12,7 @@ if grep -l '"resolved"' "$web"/package-lock.json tests/browser/package-lock.json
   exit 1
 fi
 
-# npm and esbuild look beside the sources for packages: they work on a copy, and the source tree stays clean.
+# npm and esbuild look for packages beside the sources, so they work on a copy and the source tree stays clean.
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cp "$web"/*.* "$web"/.npmrc "$work"

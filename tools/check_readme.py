@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The programs in README.md are the examples that tests build and run, letter for letter."""
+"""Checks that the programs in README.md are, letter for letter, the examples that tests build and run."""
 
 import pathlib
 import re

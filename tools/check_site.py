@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Follows every link of the built site: check_site.py FOLDER.
 
-Fails where a file or an anchor that a page leads to is not there, where a page is reached from nowhere, and where a page
-would fetch a script, a style, a font or a picture from the net.
+Fails if a link leads to a missing file or anchor, if no link leads to a page, and if a page would fetch a script, a style, a font or
+a picture from the net.
 """
 
 import re
@@ -48,7 +48,7 @@ def style_urls(text):
 
 
 def target(folder, page, url):
-    """(file, anchor) that a link leads to, None for one that leaves the site."""
+    """The (file, anchor) of a link; None if it leaves the site."""
     parts = urlsplit(url)
     if parts.scheme or parts.netloc:
         return None

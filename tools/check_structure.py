@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Holds the tree to what docs and design promise of it.
+"""Checks the tree against the promises of documents and design.
 
     tools/check_structure.py [ROOT]          who includes whom; docs/equations.md against the tags in the code; paths
                                              that documents and comments name
@@ -17,7 +17,7 @@ import components  # noqa: E402
 import named_paths  # noqa: E402
 import sources  # noqa: E402
 
-# Which folder may include from which, beside itself: from the ground up, so that every arrow points down.
+# The folders that each folder may include from, beside itself. The order is from the ground up, so every arrow points down.
 ALLOWED = {
     "base": "",
     "model": "base",
@@ -35,11 +35,11 @@ ALLOWED = {
     "bench": "base model nocsolver engines validation studies",
 }
 ENGINE_HEADER = re.compile(r"(?i)^(simbody|simtk|simmath|mujoco/|dart/|ode/|bullet|btbullet)|/(simbody|simtk|simmath)")
-# What users of the library have: the standard library, Eigen and the library itself.
+# Users of the library have the standard library, Eigen and the library itself.
 PYTHONS_HEADER = re.compile(r"pybind11/[\w/]+\.h")
 ENGINES_HEADER = re.compile(r"(mujoco|dart|BulletDynamics|drake|pinocchio|rbdl)/|tinyxml2\.h$")
 USERS_HEADER = re.compile(r"[a-z_]+|Eigen/\w+|ursula/\w+\.h")
-# Within nocsolver/: the NOC that is judged and the fast kernels never see each other.
+# Within nocsolver/ the judged NOC and the fast kernels never see each other.
 WITHIN_SOLVER = {"legs": {"legs"}, "noc": {"noc", "legs"}, "fast": {"fast", "legs"},
                  "poses": {"poses", "noc", "fast", "legs", ""}, "": {"noc", "fast", "legs", ""}}
 OTHER_ROAD = re.compile(r"^engines/(\w+)/")
@@ -83,7 +83,7 @@ def check_includes(root):
 
 
 def check_engines(root, path):
-    """The engines meet nowhere, not through a third file either."""
+    """Engines and the solver never see each other, not even through a third file."""
     findings = []
     for name, chain in sources.reach(root, path).items():
         via = " -> ".join(chain)
@@ -97,7 +97,7 @@ def check_engines(root, path):
 
 
 def check_users(root, path):
-    """A public header, with all that it includes, and an example ask for nothing that users do not have."""
+    """A public header, with all that it includes, and an example need nothing that users do not have."""
     return [f"{path}: users of the library do not have {name} ({' -> '.join(chain)})"
             for name, chain in sources.reach(root, path).items()
             if not (root / name).is_file() and not USERS_HEADER.fullmatch(name)
@@ -114,7 +114,7 @@ def check_no_simtk(path, text):
 
 
 def check_targets(root):
-    """What the CMake targets link, by folder."""
+    """Checks what the CMake targets of each folder link."""
     forbidden = {"base": re.compile(r"(?i)ursula::(?!options|eigen|base)\w+|simbody|mujoco"),
                  "model": re.compile(r"(?i)ursula::(nocsolver|validation|report)|simbody|mujoco"),
                  "nocsolver": re.compile(r"(?i)simbody|mujoco|ursula::validation|tbb"),

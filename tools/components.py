@@ -1,12 +1,12 @@
 """The plan of validation/ and studies/: their components from the ground up, and which components each may see. Includes and CMake
-targets are held to it. Who may see whom among the top-level folders stands in check_structure.py."""
+targets are checked against it. check_structure.py has the plan of the top-level folders."""
 
 import re
 
 import sources
 
-# A component may see those named, which stand above it in this list: so there is no circle and no arrow back up. Every component
-# of studies/ may see the entry, validation/*.cpp, and report/.
+# A component may see those named, which stand above it in this list; so there is no circle and no arrow back up. Every component of
+# studies/ may also see the entry, validation/*.cpp, and report/.
 VALIDATION = {
     "verdict": "",
     "subject": "",
@@ -86,7 +86,7 @@ def check_components(root):
 
 
 def check_component_targets(root):
-    """What the components' CMake targets link."""
+    """Checks what the components' CMake targets link."""
     findings = []
     for path in sorted(p for folder in FOLDERS for p in (root / folder).glob("*/CMakeLists.txt")):
         component = path.parent.name

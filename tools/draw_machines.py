@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the machines of tests/vectors/kind-*.toml: random ones with legs of every kind, the same on every call.
+"""Draws the machines of tests/vectors/kind-*.toml at random, with legs of every kind; every call draws the same.
 
     tools/draw_machines.py FOLDER [NAME…]      writes FOLDER/kind-NAME.toml and, by tools/make_vectors.py, FOLDER/kind-NAME.csv
 
@@ -16,11 +16,11 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 import make_vectors  # noqa: E402
 
-ROOM = 0.18  # of every margin that a leg names
+ROOM = 0.18  # least share of every margin that a leg names
 LARGEST_CONDITION = 60
 INSTANTS = 7
 
-# kind, actuated coordinates (none: the default), û along e_z
+# (kind, actuated coordinates, or none for the default, whether û is along e_z)
 URS, UPS, RUS, PUS = "URS", "UPS", "RUS", "PUS"
 MACHINES = {
     "ups-1": dict(legs=[(UPS, None, i == 2) for i in range(6)], motion="helix"),
@@ -70,7 +70,7 @@ class Draw:
         return [x / n for x in v]
 
     def tensor(self, low, high):
-        """Of a body that can exist: second moments along three random perpendicular axes."""
+        """The inertia of a body that can exist, from second moments along three random perpendicular axes."""
         a = self.direction()
         b = self.direction()
         along = sum(x * y for x, y in zip(a, b))
@@ -88,7 +88,7 @@ class Draw:
         return {"length": exact(length), "mass": self.number(6, 25), "center_of_mass": exact(center), "inertia": self.tensor(0.5, 3)}
 
     def axis(self, angle, along_z):
-        """Along the base's circle, outwards or between, and tilted."""
+        """An axis along the base's circle, outwards or between, and tilted."""
         if along_z:
             return [0.0, 0.0, 1.0]
         at = angle + math.radians(self.random.uniform(0, 360))
@@ -235,7 +235,7 @@ def drawn(name):
 
 
 def quick(scenario):
-    """At a middle pose only."""
+    """The same at a middle pose only."""
     machine = make_vectors.Machine(scenario)
     duration, motion = make_vectors.motion_of(scenario["trajectory"])
     t = duration / 2

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Tries ./dev validate as a newcomer meets it: a clean clone of HEAD in an empty Debian 12, made and removed here.
-# Prints what that took and what it added. Needs root, debootstrap and some 2 GB below TMPDIR; takes some minutes.
+# Tries ./dev validate as a newcomer would: in a clean clone of HEAD in an empty Debian 12, which is made and removed
+# here. It prints the time taken and the packages added. It needs root, debootstrap and some 2 GB below TMPDIR, and
+# takes some minutes.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 suite=bookworm
@@ -15,7 +16,7 @@ work=$(mktemp -d)
 trap 'rm -rf --one-file-system "$work"' EXIT
 root=$work/root
 
-# The host's own mirror, and its way there.
+# Returns the host's own mirror.
 mirror() {
   # shellcheck disable=SC2016  # the dollars are apt's
   apt-get indextargets --format '$(CODENAME) $(REPO_URI)' 'Created-By: Packages' | sed -n "s/^$suite //p" | head -n 1

@@ -5,7 +5,7 @@
     tools/make_vectors.py --compare SCENARIO.toml FILE.csv                       digits in which the file's rows agree
     tools/make_vectors.py --check SCENARIO.toml… [--count N]                     reach, conditioning and largest efforts
 
-Only positions are written down here: the pose over time, where the two links of a leg and its joint variables are at a pose.
+Only positions are given here: the pose over time, and a leg's links and joint variables at a pose.
 Rates, accelerations, angular velocities and virtual displacements are differences of those over a step of 1e-15 in 100 digits,
 which leaves about 50 right; efforts follow from d'Alembert's principle, one equation for each of the platform's six virtual
 displacements. No Jacobian, no rate formula of the paper and no code of the program is used. Needs Debian's python3-mpmath.
@@ -22,14 +22,14 @@ from mpmath import mp, mpf
 mp.dps = 100
 STEP = mpf(10) ** -15
 DIGITS = 25
-ZERO = mpf(10) ** -40  # what differences leave of nothing is far below
+ZERO = mpf(10) ** -40  # differences of equal numbers leave far less
 COORDINATES = {"URS": ("phi", "psi", "theta"), "UPS": ("phi", "psi", "d"), "RUS": ("phi", "psi", "theta"), "PUS": ("d", "psi", "theta")}
 NAMES = ("phi", "psi", "theta", "d")
 FRICTION_OF_URS = {"phi": "actuated", "psi": "universal", "theta": "knee"}
 
 
 class OutOfReach(ValueError):
-    """No leg of this kind gets there."""
+    """A leg of this kind cannot reach the point."""
 
 
 # Vectors are lists of three; frames and matrices lists of three columns.
@@ -81,7 +81,7 @@ def skew_part(columns):
 
 
 def turn(axis, angle):
-    """About axis 0, 1 or 2 of B."""
+    """The rotation about axis 0, 1 or 2 of B."""
     c, s = mp.cos(angle), mp.sin(angle)
     one, two = (axis + 1) % 3, (axis + 2) % 3
     columns = [[mpf(0)] * 3 for _ in range(3)]
@@ -92,11 +92,11 @@ def turn(axis, angle):
 
 
 def wrapped(angle):
-    """Into (-pi, pi]."""
+    """The same angle in (-pi, pi]."""
     return angle - 2 * mp.pi * mp.ceil((angle - mp.pi) / (2 * mp.pi))
 
 
-# The pose over time: each of these returns a function of an instant, smooth around the instant it is asked for.
+# The pose over time. Each of these returns a function of an instant that is smooth around the given one.
 
 
 def helix(keys):
@@ -133,7 +133,7 @@ def quintic(begin, end, at_begin, at_end):
 
 
 def spline(knots, values):
-    """Pieces of degree five, four times continuously differentiable, at rest at both ends: all their coefficients at once."""
+    """Pieces of degree five, four times continuously differentiable, at rest at both ends: all coefficients are found at once."""
     pieces = len(knots) - 1
     h = [knots[i + 1] - knots[i] for i in range(pieces)]
     rows, right, width = [], [], len(values[0])
@@ -168,7 +168,7 @@ def spline(knots, values):
 
 
 def quaternion(point):
-    """Of a pose's keys, normalised. Roll, pitch and yaw are turns about the fixed x, y and z."""
+    """The unit quaternion of a pose's keys. Roll, pitch and yaw are turns about the fixed x, y and z."""
     if "rpy_deg" in point:
         roll, pitch, yaw = (mp.radians(mpf(angle)) for angle in point["rpy_deg"])
         q = [mpf(1), mpf(0), mpf(0), mpf(0)]
@@ -182,7 +182,7 @@ def quaternion(point):
 
 
 def rotation(q):
-    """Of a quaternion of any length."""
+    """The rotation of a quaternion of any length."""
     w, x, y, z = q
     n = dot(q, q)
     rows = [
@@ -246,7 +246,7 @@ class Link:
 
 
 class Leg:
-    """Where its coordinates and its two links are, as a function of the place of B."""
+    """The leg's coordinates and links as a function of the place of B."""
 
     def __init__(self, keys):
         self.kind = keys.get("kind", "URS")
@@ -388,7 +388,7 @@ class Machine:
 
 
 def first(values):
-    """Of five values STEP apart."""
+    """Derivatives from five values that are STEP apart."""
     return (8 * (values[3] - values[1]) - (values[4] - values[0])) / (12 * STEP)
 
 
@@ -417,7 +417,7 @@ def turning(frames):
 
 
 class Instant:
-    """Everything at one instant."""
+    """All results at one instant."""
 
     def __init__(self, machine, motion, t):
         self.t = mpf(t)
@@ -443,7 +443,7 @@ class Instant:
 
     @staticmethod
     def inertial(machine, b, places):
-        """Force and moment of weight and inertia on body b."""
+        """The force and moment of weight and inertia on body b."""
         acceleration = entrywise(second, [c for c, _ in places])
         frames = [frame for _, frame in places]
         w, alpha = turning(frames)
@@ -452,7 +452,7 @@ class Instant:
         return force, scaled(-1, add(turned(alpha), cross(w, turned(w))))
 
     def displacement(self, machine, direction):
-        """Of coordinates, bodies (mass centre, turn) and platform (P, turn), for a unit shift or turn of the platform."""
+        """Displacements of coordinates, bodies (mass centre, turn) and platform (P, turn), for a unit shift or turn of the platform."""
         poses = []
         for k in range(-2, 3):
             if direction < 3:
@@ -498,7 +498,7 @@ class Instant:
         return q if q[0] >= 0 else scaled(-1, q)
 
     def condition(self, machine):
-        """Of the map from the platform's twist to the motors' rates, turns measured in a length of the platform's."""
+        """The condition number of the map from the platform's twist to the motors' rates; turns count times a length of the platform."""
         length = mp.sqrt(sum(dot(leg.b, leg.b) for leg in machine.legs) / len(machine.legs))
         rows = [[q / (length if direction >= 3 else 1) * (length if leg_coordinate(machine, motor) != "d" else 1)
                  for direction, q in enumerate(column)] for motor, column in enumerate(transposed(self.jacobian))]
@@ -537,7 +537,7 @@ def written(name, value):
 
 
 def instants(duration, count, inside):
-    """Equally spaced; `inside` keeps away from the ends, where rates and accelerations are zero, and takes exact binary fractions."""
+    """Equally spaced instants; `inside` keeps away from the ends, where rates and accelerations are zero, and takes exact binary fractions."""
     if inside:
         return [round(1024 * float(duration) * (k + 0.5) / count) / 1024 for k in range(count)]
     return [float(duration) * k / (count - 1) for k in range(count)]
@@ -559,7 +559,7 @@ def write(path, at, count, out):
 
 
 def compare(path, other):
-    """Digits in which the file agrees, of the largest value in each group of columns."""
+    """The number of digits in which the file agrees, relative to the largest value in each group of columns."""
     machine, _, motion = load(path)
     with open(other, newline="") as file:
         theirs = list(csv.DictReader(file))

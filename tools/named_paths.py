@@ -8,7 +8,7 @@ import sources
 
 FOLDERS = (*sources.FOLDERS, "cmake", "docs", "results", "scenarios", "sweeps", "tools")
 SOURCES = (*sources.SUFFIXES, ".py", ".cmake")
-# A path of this tree begins with one of its folders or ends as a source does. Users have results/ too, of other names.
+# A path of this tree begins with one of its folders or ends like a source file. Users write folders in a results/ of their own.
 PATH = re.compile(r"[\w*.-]+(?:/[\w*.-]+)*/?")
 OURS = re.compile(rf"(?:{'|'.join(f for f in FOLDERS if f != 'results')})/|[\w*./-]+\.(?:h|inl|cpp|py|cmake|mjs)$")
 OTHERS = {"mujoco/mujoco.h", "mujoco.h", "Simbody.h", "mine.py", "path/file.h", "path/other.cpp"}  # of libraries, of users, of nobody

@@ -1,7 +1,8 @@
 # shellcheck shell=bash
-# What the verbs of ./dev need, and how it is brought here. For ./dev to read; it has say().
+# The packages that the verbs of ./dev need, and their installation. ./dev sources this file and has say().
 
-# What a verb needs: a command and the package that brings it where the command is not there already, or a library's package.
+# The needs of each verb: COMMAND:PACKAGE, where the package is installed only if the command is missing, or a library's
+# package.
 declare -A needs=(
   [program]='g++:g++ cmake:cmake ninja:ninja-build libeigen3-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libxsimd-dev libtbb-dev libsqlite3-dev libtinyxml2-dev'
   [test]='libgtest-dev libgmock-dev python3 python3-dev python3-numpy python3-pytest pybind11-dev python3-pip python3-venv patchelf:patchelf pkg-config:pkgconf octave-cli:octave node:nodejs npm:npm chromium:chromium sbatch:slurm-wlm munged:munge furo python3-myst-parser python3-sphinx'
@@ -20,21 +21,23 @@ declare -A needs=(
   [bundle]='node:nodejs npm:npm'
   [fresh]='git:git debootstrap:debootstrap'
 )
-# Done without where they are not to be had: a further formulation, asked for before the first configuration; a peer of the benchmarks;
-# the readers that Gazebo and ROS have, which exported models are held against, and DART, Bullet and ODE, which `ursula engines` asks.
+# Optional packages, which a verb does without if they cannot be installed: a further formulation, needed before the
+# first configuration; a peer of the benchmarks; the readers of Gazebo and ROS, which check exported models; DART,
+# Bullet and ODE for `ursula engines`.
 declare -A optional=(
   [program]='libmujoco-dev'
   [test]='libsdformat-dev liburdfdom-dev libdart-dev libbullet-dev libode-dev'
   [bench]='libmujoco-dev libdart-dev'
 )
 
-# Used for their headers, and some 350 MB if installed: libsimbody-dev brings OpenGL with a compiler for it, and most of
-# Boost is never touched. Where they are not installed, what is used of them is unpacked into .deps/, which CMake looks into.
+# Only the headers of these are used, but they install some 350 MB: libsimbody-dev brings OpenGL with a compiler for it,
+# and most of Boost is never used. Unless they are installed, the used parts are unpacked into .deps/, where CMake
+# looks.
 unpacked=(libsimbody-dev libboost-dev)
 left_out=(asio beast compute geometry gil graph hana interprocess log msm phoenix polygon proto qvm spirit test thread wave
   xpressive)
 
-# Of these needs, the packages that are not there.
+# Prints those of the needed packages that are not installed.
 missing() {
   local need installed=''
   if command -v dpkg-query >/dev/null; then
@@ -72,7 +75,7 @@ install_packages() {
   update_lists && "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "$@" >&2
 }
 
-# The package, and what it stands for or links to: libboost1.74-dev, libsimbody3.7.
+# Unpacks the package and the packages that it stands for or links to: libboost1.74-dev, libsimbody3.7.
 unpack() {
   local work deb names status=0
   say "unpacking $1"
@@ -97,7 +100,7 @@ setup_unpacked() {
     if ! command -v apt-get >/dev/null || ! update_lists || ! unpack "$package"; then
       install_packages "$package"
     elif [[ $package == libsimbody-dev ]]; then
-      # Its libraries bring LAPACK themselves: to name it too would ask for LAPACK's own package of headers.
+      # Simbody's libraries bring LAPACK themselves. To name LAPACK, too, would require its own package of headers.
       sed -i -E 's#/[^;"]*/lib(blas|lapack)\.so;##g' .deps/usr/lib/*/cmake/simbody/SimbodyTargets-*.cmake
       install_packages liblapack3
     fi
@@ -114,7 +117,7 @@ setup() {
   setup_unpacked
 }
 
-# What this verb needs, without the program's needs.
+# Installs what the verb itself needs, without the program's needs.
 setup_tools() {
   local wanted packages
   read -ra wanted <<<"${needs[$1]}"
@@ -122,7 +125,7 @@ setup_tools() {
   install_packages "${packages[@]}"
 }
 
-# What a verb does without where it is not to be had.
+# Installs the optional packages of a verb, if possible.
 setup_optional() {
   local wanted packages
   read -ra wanted <<<"${optional[$1]}"

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Makes tables and the figures' data of what the benchmarks measured, and measures how `ursula validate` grows.
+"""Makes tables and figures' data from the benchmarks' measurements, and measures how the cost of `ursula validate` grows.
 
     tools/performance.py BENCHMARKS.json FOLDER [--ursula PROGRAM]
 
-BENCHMARKS.json is what build/bench/ursula_bench wrote with repetitions. Into FOLDER go medians.csv, performance.json and
-README.md; with --ursula scenarios.csv, too. tools/performance.gp draws the figures.
+BENCHMARKS.json is the output of build/bench/ursula_bench with repetitions. FOLDER gets medians.csv, performance.json and
+README.md, and with --ursula scenarios.csv. tools/performance.gp draws the figures.
 """
 
 import argparse
@@ -23,12 +23,12 @@ ROOT = Path(__file__).resolve().parent.parent
 PACKAGES = ("libsimbody3.7", "libmujoco2.2.2", "libdart6.12", "libeigen3-dev", "libbenchmark1debian", "g++-12")
 BATCH = "ursula, batch "
 OWN = ("ursula", "ursula, T formed")
-SAMPLES = 1000  # of the batches in the table: what they need is in the cache
+SAMPLES = 1000  # of the batches in the table; their data fit into the cache
 SCENARIOS, JOBS, TIMES = (1, 2, 4), (1, 2), 3
 
 
 def write(path, text):
-    """Whole or not at all."""
+    """Writes the file whole or not at all."""
     with tempfile.NamedTemporaryFile("w", encoding="utf-8", dir=path.parent, delete=False) as file:
         file.write(text)
     os.chmod(file.name, 0o644)
@@ -85,7 +85,7 @@ def machine(context):
 
 
 def candidate(name):
-    """Of the package that ./dev would unpack."""
+    """The version of the package that ./dev would unpack."""
     done = subprocess.run(["apt-cache", "policy", name], capture_output=True, text=True, check=False)
     return next((line.split(":", 1)[1].strip() for line in done.stdout.splitlines() if "Candidate:" in line), "")
 
@@ -143,7 +143,7 @@ def side_by_side(found, agree):
         if task == "samples" and count == SAMPLES:
             what, instructions = who.split(" ", 1)
             rows.setdefault(BATCH + instructions, {})[what] = entry
-    for who in OWN:  # they begin with the platform's motion, and find the joints' as far as they need it
+    for who in OWN:  # ours begin with the platform's motion, so both are the same
         rows[who]["inverse_with_kinematics"] = rows[who]["inverse"]
     for who in rows:
         if who.startswith(BATCH):

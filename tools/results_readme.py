@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes what was measured into results/README.md, between its markers.
+"""Writes the measured numbers into results/README.md, between its markers.
 
     tools/results_readme.py FOLDER README     FOLDER holds summary.json and inverse.csv
 """

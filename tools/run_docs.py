@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Runs what a page of docs/ shows, in order, in a folder of its own: run_docs.py PROGRAM PAGE… [--module FOLDER].
+"""Runs the examples of a page of docs/, in order, in a folder of their own: run_docs.py PROGRAM PAGE… [--module FOLDER].
 
-    ```console   commands after `$ `, then the lines of their output that matter, in order. `…` stands for any text, white space
-                 does not count. Numbers are compared to the digits shown, give or take one of the last; below 1e-6 both must be.
-                 A command must succeed: one that is to fail is followed by `|| echo "exit code $?"`.
+    ```console   commands after `$ `, then the lines of their output that matter, in order. `…` stands for any text, and
+                 white space does not count. Numbers are compared to the digits shown, give or take one of the last; below 1e-6 both must be.
+                 A command must succeed; one that must fail is followed by `|| echo "exit code $?"`.
     ```python    a program, run by itself; a ```text block after it is its output.
     ```cpp       stands letter for letter in a file of examples/, which other tests build and run.
-    ```sh        what a test cannot run: the build, packages, containers. Nothing of `ursula`.
+    ```sh        commands that a test cannot run: the build, packages, containers, but nothing of `ursula`.
 
 A block of any language whose first line is a comment with a file's name, `# mine.py`, is written to that file instead.
 """
@@ -48,7 +48,7 @@ def same_number(shown, found):
 
 
 def matches(shown, found):
-    """Whether a line of output has what the page shows of it."""
+    """Whether a line of output agrees with the line on the page."""
     pattern, numbers = "", []
     for part in re.split(r"(…|\s+)", shown.strip()):
         if part == "…":

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Measures what sweeps cost on this machine, and simulates 1,000 shards of one: real databases, real merge.
+"""Measures the cost of sweeps on this machine, and computes and merges 1,000 shards of one.
 
     tools/scale.py URSULA FOLDER [--shards N]     writes FOLDER/README.md
 
-Best with nothing else on the machine; a few minutes.
+It takes a few minutes; nothing else should run on the machine.
 """
 
 import argparse
@@ -45,7 +45,7 @@ def sweep_file(folder, name, what, count, pointwise=False):
 
 
 def timed(*call):
-    """Seconds, and the largest memory of it and its workers so far, MB."""
+    """The seconds of a command, and the largest memory of it and its workers so far, MB."""
     start = time.monotonic()
     subprocess.run([str(part) for part in call], check=True, capture_output=True)
     return time.monotonic() - start, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
@@ -79,7 +79,7 @@ def memory(ursula, folder):
 
 
 def shards(ursula, folder, count):
-    """One process for each shard, as a cluster's tasks are, and one merge."""
+    """Runs one process for each shard, as a cluster does, and one merge."""
     path = sweep_file(folder, "shards", "inverse", 100 * count)
     parts = [folder / f"part-{k}.db" for k in range(1, count + 1)]
     start = time.monotonic()

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Builds the documentation site from docs/: site.py OUT --program build/ursula.
 
-Stages a copy of docs/ beside OUT, adds what is generated (the references of the libraries, drawings of the legs, reports
-on wrong efforts), lets Sphinx make the pages, warnings being errors, and follows every link of the result.
+It copies docs/ to a folder beside OUT and adds generated pages: the references of the libraries, drawings of the legs, reports
+on wrong efforts. Sphinx makes the pages, with warnings as errors. Then every link of the result is followed.
 """
 
 import argparse
@@ -25,7 +25,7 @@ OPTIONAL = re.compile(r"^(\w+)  # where it is there\n", re.M)
 
 
 def with_files(text, extra):
-    """Links to files outside docs/ lead to copies in the site; of a folder only its name stays."""
+    """Links to files outside docs/ lead to copies in the site; of a link to a folder only the text stays."""
     def copied(match):
         picture, words, path = match.groups()
         source = ROOT / path

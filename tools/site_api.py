@@ -5,7 +5,7 @@ import importlib
 import inspect
 import re
 
-# The page's sections: what a public header is for, and the headers whose declarations are shown there.
+# The page's sections: a public header, and the headers whose declarations the page shows there.
 HEADERS = {
     "scenario": ["model/scenario.h", "model/scenario_json.h", "model/manipulator.h", "model/trajectory.h", "model/trajectories/trajectories.h",
                  "model/motion.h", "model/load.h", "model/instants.h", "model/quaternions.h", "base/errors.h"],
@@ -21,7 +21,7 @@ ENTITY = re.compile(r"\b(?:class|struct|enum class|enum)\s+(\w+)[^;()]*[{]|\b(?:
 
 
 def declarations(text):
-    """[(comment, declaration)] of what stands right in namespace ursula: a brace or parenthesis left open goes on."""
+    """[(comment, declaration)] of the declarations in namespace ursula; one goes on while a brace or parenthesis is open."""
     inside = re.search(r"^namespace ursula[:\w]* \{$(.*)^\}  // namespace ursula", text, re.M | re.S)[1]
     comment, code, depth = [], [], 0
     for line in inside.splitlines():
@@ -45,7 +45,7 @@ def title(code):
 
 
 def entity(comment, code):
-    """A public declaration: its comment, which may hold the only words, and the code; bodies of functions go."""
+    """A public declaration as its comment and its code, without bodies of functions."""
     if not re.search(r"\b(class|struct|enum)\b", code.split("{")[0]):
         code = re.sub(r"\s*\{.*\}\s*$", ";", code, flags=re.S)
     code = re.sub(r"\n private:\n.*?(?=\n\};)", "", code, flags=re.S)
@@ -53,7 +53,7 @@ def entity(comment, code):
 
 
 def escaped(words):
-    """A comment is text, in which Markdown sees marks that are none."""
+    """Escapes characters of a comment that Markdown would take for marks."""
     spans = re.split(r"(`[^`]*`)", words)
     return "".join(each if each.startswith("`") else re.sub(r"([*_<\[\]])", r"\\\1", each) for each in spans)
 
@@ -82,7 +82,7 @@ def cpp(root):
 
 
 def docstring(module, path, stub):
-    """The module's own words, which say more than the stub's; without the signature that pybind11 puts first."""
+    """The module's docstring, which says more than the stub's, without the signature that pybind11 puts first."""
     found = module
     for name in path.split("."):
         found = getattr(found, name, None)
@@ -100,7 +100,7 @@ def signature(function, is_method):
     line = f"{function.name}({arguments}){result}".replace("npt.ArrayLike", "ArrayLike")
     if len(line) <= 84:
         return line
-    # One argument a line; commas within brackets stay.
+    # Each argument gets a line; commas within brackets stay.
     each = re.split(r", (?![^\[(]*[\])])", arguments.replace("npt.ArrayLike", "ArrayLike"))
     return f"{function.name}(\n" + "".join(f"    {argument},\n" for argument in each) + f"){result}"
 

@@ -1,6 +1,6 @@
 """Drawings of a leg of each kind with its frames, points, coordinates and signs, from its geometry: SVG files.
 
-The geometry is that of the table of kinds in docs/conventions.md, and nothing of the program's: tests/site holds it against
+The geometry is that of the table of kinds in docs/conventions.md and not the program's; tests/site compares it with
 `ursula poses`.
 """
 
@@ -38,7 +38,7 @@ def link_frame(x, along):
 
 
 def leg(kind, A, u, B, l, s, knee=1):
-    """What a drawing needs: coordinates, points A, R, B, directions of the links, frames, the fixed frame and the turned one."""
+    """The content of a drawing: coordinates, points A, R, B, directions of the links, frames, the fixed frame and the turned one."""
     A, B = np.asarray(A, float), np.asarray(B, float)
     F_hat = fixed_frame(u)
     k = F_hat.T @ (B - A)
@@ -107,7 +107,7 @@ class Drawing:
         self.text(point, words, "#111", dx, dy)
 
     def arc(self, centre, start, end, radius, words, dx=4, dy=-4):
-        """From one unit direction to the other, the way that the coordinate grows."""
+        """An arc from one unit direction to the other, in the direction in which the coordinate grows."""
         angle = math.acos(float(np.clip(start @ end, -1, 1)))
         normal = np.cross(np.cross(start, end), start)
         normal = normal / np.linalg.norm(normal)
@@ -122,7 +122,7 @@ class Drawing:
                 f'<title>{title}</title><defs>{heads}</defs><rect width="100%" height="100%" fill="#fff"/>{"".join(self.parts)}</svg>\n')
 
 
-# What is drawn of each kind, and how far from A's corner the eye looks.
+# The drawn leg of each kind: the place of B, and the lengths of the links.
 LEGS = {
     "URS": dict(B=(-0.75, 0.75, 1.0), l=0.95, s=0.9),
     "UPS": dict(B=(-0.80, 0.50, 0.95), l=0.78, s=0.85),
@@ -165,7 +165,7 @@ def draw(kind):
 
 
 def frames(on, of, kind):
-    """The axes of both links' frames, where their inertias are given."""
+    """The axes of the frames in which the links' inertias are given."""
     A, R, B, e, s = (of[key] for key in ("A", "R", "B", "e", "s"))
     links = [(A + 0.55 * (R - A) if kind in ("URS", "RUS") else A if kind == "UPS" else R, of["x1"], e, "e")]
     if kind == "UPS":

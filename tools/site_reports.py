@@ -1,4 +1,4 @@
-"""Reports on wrong efforts, made by the program while the site is built: the pages themselves and pictures of them."""
+"""Reports on wrong efforts, which the program makes while the site is built, as pages and pictures."""
 
 import hashlib
 import os
@@ -11,7 +11,7 @@ SAMPLES = 151
 WIDTH, HEIGHT = 1100, 720
 LARGEST = 300_000  # bytes of a picture
 
-# name: what is done to the right efforts, rows of (time, six efforts)
+# name: a change of the right efforts, which are rows of (time, six efforts)
 EXAMPLES = {
     "right": lambda rows: rows,
     "swapped": lambda rows: [[t, b, a, *rest] for t, a, b, *rest in rows],
@@ -49,7 +49,7 @@ def screenshot(chromium, page, picture):
 
 
 def write(program, chromium, folder, kept):
-    """Into a folder of pages; what an unchanged program made before is taken from the folder `kept`."""
+    """Writes reports into a folder of pages; those that an unchanged program made before come from the folder `kept`."""
     stamp = kept / "made_by"
     made_by = hashlib.sha1(program.read_bytes() + Path(__file__).read_bytes()).hexdigest()
     if not stamp.is_file() or stamp.read_text(encoding="utf-8") != made_by:

@@ -1,4 +1,4 @@
-"""What the checks know of the source tree: its files, their includes, their text without comments."""
+"""The source tree for the checks: files, their includes, and their text without comments."""
 
 import posixpath
 import re
@@ -41,7 +41,7 @@ def includes(text):
 
 
 def resolve(root, path, name):
-    """The file of ours that `path` means by `name`: named from the root, or beside `path`. `name` itself if it is none."""
+    """The file of ours that `path` means by `name`: named from the root, or beside `path`. Returns `name` if it is no file of ours."""
     beside = posixpath.normpath(posixpath.join(posixpath.dirname(path), name))
     return beside if not (Path(root) / name).is_file() and (Path(root) / beside).is_file() else name
 

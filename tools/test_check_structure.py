@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""check_structure.py passes a sound tree and names each defect put into one."""
+"""Tests that check_structure.py passes a sound tree and names each defect put into one."""
 
 import sys
 import tempfile
@@ -59,7 +59,7 @@ def sound_tree():
 
 class CheckStructure(unittest.TestCase):
     def findings(self, **changes):
-        """Of the sound tree after `path=(old, new)`; an empty old appends; `__` stands for / and `_DOT_` for a point."""
+        """The findings in the sound tree after `path=(old, new)`; an empty old appends; `__` stands for / and `_DOT_` for a point."""
         tree = sound_tree()
         for path, (old, new) in changes.items():
             path = path.replace("__", "/").replace("_DOT_", ".")

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # tools/thread_tbb.sh FOLDER: installs oneTBB under the thread sanitizer there, from Debian's source of it. TBB
-# synchronises by atomics of its own: where these are not seen, every task looks like a race.
+# synchronises by its own atomics; if the sanitizer does not see these, every task looks like a race.
 set -euo pipefail
 prefix=$(realpath -m "${1:?a folder}")
 [[ ! -e $prefix/lib/libtbb.so ]] || exit 0
@@ -8,7 +8,7 @@ prefix=$(realpath -m "${1:?a folder}")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$work"/{parts,lists/partial,source}
-# Where this machine has Debian's packages from, it has their sources from; nothing of the machine's own is changed.
+# Sources come from where this machine's packages come from. The machine's own lists do not change.
 for list in /etc/apt/sources.list.d/*.sources; do
   if grep -qs debian-archive "$list"; then sed 's/^Types:.*/Types: deb-src/' "$list" >"$work/parts/$(basename "$list")"; fi
 done

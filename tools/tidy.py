@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""clang-tidy over this project's translation units; one that passed is not looked at again until it changes.
+"""Runs clang-tidy over this project's translation units; one that passed is skipped until it changes.
 
     tools/tidy.py BUILD_FOLDER [FILE…]      BUILD_FOLDER holds compile_commands.json; without FILEs, all of ours
 
-What passed is remembered in BUILD_FOLDER/tidy under a hash of the unit, everything of ours that it includes, its compile
+A unit that passed is recorded in BUILD_FOLDER/tidy by a hash of the unit, everything of ours that it includes, its compile
 command, its .clang-tidy and the version of clang-tidy. Exits with 1 if anything was found.
 """
 

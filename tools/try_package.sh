@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # tools/try_package.sh PACKAGE.deb: installs the package into an empty Debian and validates the paper's helix there.
-# As root, with debootstrap; exits with 77 where no empty Debian can be made. Takes suite, mirrors and keys from this
+# Needs root and debootstrap; exits with 77 if no empty Debian can be made. Takes suite, mirrors and keys from this
 # machine's own apt.
 set -euo pipefail
 
@@ -19,7 +19,7 @@ mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' "Cod
 debootstrap --variant=minbase "$suite" "$root" "$mirror" >"$root.log" 2>&1 || { tail -n 20 "$root.log" >&2; exit 77; }
 rm -f "$root.log"
 
-# The root asks the same mirrors, with the same keys and certificates.
+# The new system uses the same mirrors, keys and certificates.
 for path in etc/apt etc/resolv.conf etc/hosts usr/share/keyrings usr/local/share/ca-certificates etc/ssl/certs; do
   if [[ -e /$path ]]; then
     mkdir -p "$root/$(dirname "$path")"
