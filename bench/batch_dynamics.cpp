@@ -1,4 +1,4 @@
-// Batches: by every instruction set that the processor has, of few poses and of many, in one thread and in two.
+// Batches of few poses and of many, by every instruction set that the processor has, on one thread and on two.
 
 #include <algorithm>
 #include <stdexcept>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t most = 100000;
 
-/// The helix' poses over and over.
+/// The helix's poses, repeated.
 struct Many {
   explicit Many(std::size_t count) : motions(count), efforts(count), found(count), faults(count) {
     for (std::size_t k = 0; k < count; ++k) {

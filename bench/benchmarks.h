@@ -12,12 +12,12 @@
 
 namespace ursula::bench {
 
-// Names are TASK/WHO or TASK/WHO/HOW MUCH; tools/performance.py makes the tables of them.
+// Names are TASK/WHO or TASK/WHO/HOW MUCH; tools/performance.py makes tables from them.
 
-/// Leaves the time of one pose as a counter, s, where each iteration does `poses` of them.
+/// Adds the time of one pose as a counter, s; each iteration does `poses` of them.
 void countPoses(benchmark::State& state, double poses = 1);
 
-/// Goes round all poses, one in each iteration.
+/// Does one pose in each iteration, round and round.
 template <class Do>
 void roundPoses(benchmark::State& state, Do&& act) {
   std::size_t k = 0;
@@ -28,14 +28,14 @@ void roundPoses(benchmark::State& state, Do&& act) {
   countPoses(state);
 }
 
-/// Those that this processor has, the widest last.
+/// Returns the instruction sets of this processor, the widest last.
 std::vector<InstructionSet> instructionSets();
 
 using Peers = std::vector<std::unique_ptr<Peer>>;
 
 /// The solver's formulations and the peers on the paper's helix.
 void registerSideBySide(const Peers& peers);
-/// What the solver's formulations make of the poses that are timed.
+/// Returns the answers of the solver's formulations at the timed poses.
 std::vector<Answers> ownAnswers();
 
 /// Batches by instruction set, number of samples and threads.

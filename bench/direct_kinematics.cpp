@@ -8,7 +8,7 @@
 namespace ursula::bench {
 namespace {
 
-/// Actuated angles with their rates at instants of the helix, 10 ms apart: what a controller would track.
+/// Actuated angles with their rates at instants of the helix, 10 ms apart, as a controller would track them.
 struct ActuatedHelix {
   ActuatedHelix() : kinematics(helix().manipulator()) {
     const Trajectory& trajectory = *helix().scenario.trajectory;
@@ -27,7 +27,7 @@ struct ActuatedHelix {
   std::vector<PlatformPose> poses;
 };
 
-/// All poses, polished, with what each needs of the legs.
+/// All poses, polished, with each leg's part.
 void allPoses(benchmark::State& state) {
   const ActuatedHelix actuated;
   std::size_t k = 0;
@@ -37,7 +37,7 @@ void allPoses(benchmark::State& state) {
   }
   countPoses(state);
 }
-/// One pose from that of 10 ms before.
+/// Tracks one pose from that of 10 ms before.
 void track(benchmark::State& state) {
   const ActuatedHelix actuated;
   std::size_t k = 0, lost = 0;

@@ -1,4 +1,4 @@
-// Machines with legs of other kinds, one pose after the other and in batches.
+// Machines with legs of other kinds, one pose at a time and in batches.
 
 #include "bench/benchmarks.h"
 

@@ -1,4 +1,4 @@
-// All benchmarks in one process. That all engines agree is asserted first: where one does not, nothing is timed.
+// All benchmarks in one process. First all engines must agree; if one does not, nothing is timed.
 
 #include <algorithm>
 #include <iostream>

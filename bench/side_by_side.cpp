@@ -19,7 +19,8 @@ std::vector<InstructionSet> instructionSets() {
 
 namespace {
 
-/// From pose, twist and twist rate of the platform to six efforts; and from pose, twist and efforts to the twist rate.
+/// Times the way from pose, twist and twist rate of the platform to six efforts, and from pose, twist and efforts to
+/// the twist rate.
 template <class Solving>
 void registerScalar(const std::string& name, const Solving& solving) {
   benchmark::RegisterBenchmark(("inverse/" + name).c_str(), [solving](benchmark::State& state) {
@@ -73,7 +74,7 @@ std::vector<TreeCoordinates> coordinatesOf(const Peer& peer) {
   return out;
 }
 
-/// From the joints' motion, which the closed forms have to find first: without that time, and with it.
+/// Times a peer from the joints' motion, without and with the time in which the closed forms find that.
 void registerPeer(Peer& peer) {
   const auto at = std::make_shared<std::vector<TreeCoordinates>>(coordinatesOf(peer));
   if (peer.hasInverse()) {

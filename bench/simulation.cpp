@@ -1,5 +1,5 @@
 // Direct-dynamics simulation of the paper's helix of 3 s under the efforts of the inverse dynamics, by
-// Runge–Kutta–Fehlberg 7(8), to where it is commanded within 2e-9 m.
+// Runge–Kutta–Fehlberg 7(8). It must end within 2e-9 m of the commanded pose.
 
 #include "bench/benchmarks.h"
 #include "nocsolver/fast/fast_dynamics.h"
@@ -15,11 +15,11 @@ struct Simulated {
 
   Vector6d efforts(double t) const { return single.inverseDynamics(scenario.scenario.trajectory->at(t)); }
   double end() const { return scenario.scenario.trajectory->duration(); }
-  /// Counters, or an error where it is not arrived at.
+  /// Adds the counters, or an error if the end is elsewhere.
   void count(benchmark::State& state, const Motion<double>& last, long evaluations) const {
     const double off = (last.p - scenario.scenario.trajectory->at(end()).p).norm();
     if (!(off <= close_enough)) state.SkipWithError("the helix did not come back");
-    countPoses(state);  // for the tables: the time of the whole run
+    countPoses(state);  // the tables want the time of the whole run
     state.counters["off_m"] = off;
     state.counters["evaluations"] = static_cast<double>(evaluations);
   }

@@ -1,12 +1,12 @@
-// Where the limits come from. A peer closes the loops with an elimination in n = 24 coordinates: its backward error is
-// n ε in each coefficient, what that does to the efforts is the condition number of the map between the platform's
-// twist and the joints' rates, κ(B) over the smallest of the legs' margins, to which their 3 × 3 parts are
+// The limits are derived as follows. A peer closes the loops by an elimination in n = 24 coordinates, with a backward
+// error of n ε in each coefficient. The efforts amplify it by the condition number of the map between the platform's
+// twist and the joints' rates. That is κ(B) over the smallest of the legs' margins, to which their 3 × 3 parts are
 // proportional:
 //   δτ / max τ ≤ n ε κ                                                                                           (1)
 // Accelerations are a difference of wrenches as large as that of the motors, w = T⁻ᵀτ, which the machine's mass matrix
 // turns into accelerations; they may be much smaller than that:
 //   δa / max a ≤ n ε κ ‖M⁻¹‖ ‖w‖ / max a                                                                         (2)
-// Angular parts are times the machine's length throughout.
+// Angular parts are multiplied by the machine's length throughout.
 
 #include "bench/peers/agreement.h"
 
@@ -72,7 +72,7 @@ Scales scalesOf(const Poses& poses) {
   return out;
 }
 
-double larger(double a, double b) { return a >= b || std::isnan(a) ? a : b; }  // NaN stays
+double larger(double a, double b) { return a >= b || std::isnan(a) ? a : b; }  // a NaN is kept
 
 void requireAll(const std::vector<Vector6d>& answers, const Poses& poses) {
   if (answers.size() != poses.motions.size()) throw std::invalid_argument("an answer for each pose is needed");

@@ -27,7 +27,7 @@ dd::BodyNode::AspectProperties bodyOf(const std::string& name, double mass, cons
   return out;
 }
 
-/// φ = 0 puts the plane of the leg upright, ψ = 0 lays e along u.
+/// Returns the base frame in which φ = 0 puts the leg's plane upright and ψ = 0 lays e along u.
 Eigen::Isometry3d baseOf(const Leg& leg) {
   const Vector3d u = leg.base_axis.normalized(), level = u.cross(Vector3d::UnitZ());
   const Vector3d x = (level.norm() < 1e-10 ? u.cross(Vector3d::UnitY()) : level).normalized();
@@ -43,8 +43,8 @@ struct DartLeg {
   dd::BodyNode *proximal, *distal;
 };
 
-/// On as many coordinates as move it. DART's own mass matrix is made column by column of unit accelerations: twice as
-/// slow as all the rest of the direct dynamics.
+/// Adds a body's mass in the coordinates that move it. DART computes its own mass matrix column by column from unit
+/// accelerations, which takes twice as long as all the rest of the direct dynamics.
 template <int Size>
 Eigen::Matrix<double, Size, Size> massOf(const dd::BodyNode& body) {
   const Eigen::Matrix<double, 6, Size> J = body.getJacobian();
@@ -163,7 +163,7 @@ class DartPeer : public Peer {
     free_->setAccelerationsStatic(Eigen::Map<const Vector6d>(u_dot.data() + 3 * leg_count));
   }
 
-  /// What the accelerations that were set need.
+  /// Reads the forces for the accelerations that were set.
   void readForces(const TreeCoordinates& at) {
     skeleton_->computeInverseDynamics();
     for (std::size_t i = 0; i < leg_count; ++i)

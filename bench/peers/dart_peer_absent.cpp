@@ -1,4 +1,4 @@
-// Stands in for the peer where this is built without DART.
+// Stands in for the peer in a build without DART.
 
 #include "bench/peers/peer.h"
 

@@ -7,7 +7,7 @@
 
 namespace ursula::bench {
 
-/// Instants inside the motion of a scenario that ships, evenly spread, with what every engine works from.
+/// Evenly spaced instants within the motion of a shipped scenario, with the input of every engine.
 struct Poses {
   static constexpr int count = 64;
 

@@ -41,7 +41,7 @@ class SoftMujocoPeer : public MujocoPeer {
     return loop_.softTwistRate(at, efforts);
   }
 
-  /// The same loop closed exactly, with J̇ q̇ and without.
+  /// Compares the loop closed exactly, with J̇ q̇ and without.
   Deviation deviation(const TreeCoordinates& at, const Vector6d& efforts) override {
     loop_.openTree(at, tree_, masses_);
     const Vector6d with = closedRates(tree_, masses_, manipulator_, efforts);

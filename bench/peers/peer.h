@@ -10,9 +10,9 @@
 
 namespace ursula::bench {
 
-/// An engine that solves the machine's dynamics, used as somebody would who knows it well: coordinates are handed over
-/// in the engine's own form, nothing is asked for twice, its own Jacobians close the loops. Built of raw parameters
-/// alone. Not thread-safe.
+/// An engine that solves the machine's dynamics, used as an expert would: coordinates have the engine's own form,
+/// nothing is computed twice, and its own Jacobians close the loops. It is built from raw parameters alone. Not
+/// thread-safe.
 class Peer {
  public:
   Peer() = default;
@@ -30,13 +30,13 @@ class Peer {
 
   virtual bool hasInverse() const { return true; }
   virtual Vector6d inverseDynamics(const TreeCoordinates& at) = 0;
-  /// [ω̇; p̈] under efforts; accelerations in `at` are not read.
+  /// [ω̇; p̈] under efforts; ignores accelerations in `at`.
   virtual Vector6d directDynamics(const TreeCoordinates& at, const Vector6d& efforts) = 0;
 
-  /// How direct dynamics of an engine that is not exact by design may differ from the truth.
+  /// The possible deviation of an engine whose direct dynamics are not exact by design.
   struct Deviation {
-    Vector6d left_out = Vector6d::Zero();  ///< [ω̇; p̈] for a term that it leaves out, to first order
-    Vector6d softness = Vector6d::Zero();  ///< bound on each component for constraints that yield
+    Vector6d left_out = Vector6d::Zero();  ///< [ω̇; p̈] of a term that it leaves out, to first order
+    Vector6d softness = Vector6d::Zero();  ///< bound on each component, because its constraints yield
   };
   virtual Deviation deviation(const TreeCoordinates&, const Vector6d& /*efforts*/) { return {}; }
 };
@@ -45,22 +45,23 @@ class Peer {
 /// realize(Acceleration) with its own constraints.
 std::unique_ptr<Peer> makeSimbodyPeer(const Manipulator& manipulator);
 
-/// MuJoCo: inverse by mj_rne, direct by mj_rne and mj_crb, both closed by mj_jacSite. Null where it is not there.
+/// MuJoCo: inverse by mj_rne, direct by mj_rne and mj_crb, both closed by mj_jacSite. Null in a build without it.
 std::unique_ptr<Peer> makeMujocoPeer(const Manipulator& manipulator);
 
-/// MuJoCo: direct by mj_forward with its own soft constraints, which leave out J̇ q̇; no inverse. Null where it is not
-/// there.
+/// MuJoCo: direct by mj_forward with its own soft constraints, which leave out J̇ q̇; no inverse. Null in a build
+/// without it.
 std::unique_ptr<Peer> makeSoftMujocoPeer(const Manipulator& manipulator);
 
 /// DART: inverse by computeInverseDynamics, direct by the same at rest and masses from its Jacobians and inertias, both
-/// closed by its Jacobians. Six URS legs only, or std::invalid_argument is thrown. Null where it is not there.
+/// closed by its Jacobians. Throws std::invalid_argument unless the machine has six URS legs. Null in a build without
+/// it.
 std::unique_ptr<Peer> makeDartPeer(const Manipulator& manipulator);
-/// DART is optional: false where this was built without it.
+/// False in a build without DART.
 bool dartAvailable();
 
-/// Those that this build has.
+/// Returns the peers of this build.
 std::vector<std::unique_ptr<Peer>> makePeers(const Manipulator& manipulator);
-/// Names of those that it could have and has not.
+/// Returns the names of peers that this build lacks.
 std::vector<std::string> missingPeers();
 
 }  // namespace ursula::bench
