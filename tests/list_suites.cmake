@@ -1,4 +1,5 @@
-# Run by ctest: adds the suites of the program `suites_of`. A program that is not there or lists no suite is a test that fails.
+# Run by ctest: adds the suites of the program `suites_of`. A missing program, or one without suites, becomes a failing
+# test.
 set(suites_found "")
 if(EXISTS "${suites_of}")
   execute_process(COMMAND "${suites_of}" --gtest_list_tests OUTPUT_VARIABLE suites_listed RESULT_VARIABLE suites_failed)
@@ -13,7 +14,7 @@ foreach(suite IN LISTS suites_found)
   string(STRIP "${suite}" suite)
   string(REGEX REPLACE "\\.$" "" suite "${suite}")
   add_test("${suites_prefix}${suite}" "${suites_of}" "--gtest_filter=${suite}.*")
-  # GoogleTest lists what it skipped, then what failed: output that ends with a skip has no failure.
+  # GoogleTest lists skipped tests before failed ones, so output that ends with a skip has no failure.
   set_tests_properties("${suites_prefix}${suite}" PROPERTIES SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\] [^\n]+\n*$")
   if(suites_labels)
     set_tests_properties("${suites_prefix}${suite}" PROPERTIES LABELS "${suites_labels}")

@@ -1,4 +1,5 @@
-// What is endless, too deep, too long or no text is refused before it is read or parsed, with its place and its bound.
+// Input that is endless, too deep, too long or no text is refused before it is read or parsed, with its place and its
+// bound.
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-// Processes that this one starts: what they are given and say, and how they end.
+// Child processes: their input, their output, and how they end.
 
 #include "base/child_process.h"
 
@@ -30,7 +30,7 @@ std::string allFrom(int descriptor) {
   return all;
 }
 
-/// Looks again and again: what was killed may take a moment.
+/// Looks repeatedly, because a killed process may take a moment to end.
 bool comesTrue(const std::function<bool()>& what) {
   for (int k = 0; k < 1000 && !what(); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   return what();

@@ -100,7 +100,7 @@ TEST(Csv, readsOnlyWhatIsWanted) {
               parseCsv("note,note\n1,2\n", "a.csv", {wanted, true});
             }),
             "a.csv:1: error: duplicate column 'note', expected each name once");
-  // The control: without the option the note is refused.
+  // Control: without the option the note is refused.
   EXPECT_THAT(refusal<CsvError>([&] { parseCsv("note,t_s\nfirst,0\n", "a.csv"); }),
               StartsWith("a.csv:2: error: 'first'"));
 }
@@ -137,7 +137,7 @@ TEST(Csv, writtenAndReadAgainGivesTheSameDoubles) {
   EXPECT_THAT(table.at("x"), testing::ElementsAreArray(hard));
 }
 
-/// A piece of a long table is a small part of it, and every row comes once.
+/// Each piece of a long table is a small part of it, and every row appears once.
 TEST(Csv, isWrittenInPieces) {
   constexpr std::size_t rows = 200'000;
   std::vector<double> column(rows);

@@ -22,7 +22,7 @@ void writeRun(const fs::path& folder, const std::string& text) {
   out.commit();
 }
 
-/// Runs write in `inner` until `outer` has been replaced eight times. Returns how many there were.
+/// Runs write in `inner` until `outer` was replaced eight times. Returns the number of runs.
 int writeInside(const fs::path& inner, const fs::path& outer) {
   writeRun(outer, "first");
   std::atomic<bool> ends{false};

@@ -66,13 +66,13 @@ TEST(OutputFile, thatASignalEndsLeavesNothing) {
   const auto ended = [&] {
     OutputFile file(folder.path() / "new" / "file");
     file.write("half");
-    if (filesIn(folder.path() / "new") == 1) std::raise(SIGTERM);  // or nothing would be seen
+    if (filesIn(folder.path() / "new") == 1) std::raise(SIGTERM);  // otherwise the test would see nothing
   };
   EXPECT_EXIT(ended(), testing::KilledBySignal(SIGTERM), "");
   EXPECT_EQ(filesIn(folder.path()), 0);
 }
 
-/// No reader takes it for the file, and the next that is written removes it.
+/// No reader takes the temporary file for the file, and the next written file removes it.
 TEST(OutputFile, thatIsKilledLeavesTheOldOne) {
   const TemporaryFolder folder;
   folder.write("file", "old");
@@ -175,7 +175,7 @@ TEST(OutputFile, keepsTheModeAndLeavesOtherNamesOfTheOldFile) {
   EXPECT_EQ(TemporaryFolder::read(other), "old");
 }
 
-/// Root could, and is refused all the same.
+/// Root could write it, but is refused, too.
 TEST(OutputFile, thatIsReadOnlyOrInAReadOnlyFolderIsRefused) {
   const TemporaryFolder folder;
   const fs::path file = folder.write("file", "old");

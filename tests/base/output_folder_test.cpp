@@ -1,4 +1,4 @@
-// A folder that is swapped in as a whole: what is carried over, what goes, what a failure leaves, who may write.
+// A folder that is swapped in as a whole: files carried over and removed, the state after a failure, and who may write.
 
 #include "base/output_folder.h"
 
@@ -26,10 +26,10 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Pair;
 
-/// An older run has written these, and the folder of one of its scenarios.
+/// The paths that an older run wrote, with the folder of one of its scenarios.
 Paths older(const fs::path&) { return {"a", "b", "gone", "gone/a"}; }
 
-/// Every file by its path, folders with a stroke at their end.
+/// Every file's content by its path; paths of folders end in a slash.
 std::map<std::string, std::string> contents(const fs::path& folder) {
   std::map<std::string, std::string> all;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -100,7 +100,7 @@ TEST(OutputFolder, thatASignalEndsLeavesEverythingAsItWas) {
   }
 }
 
-/// Whatever thread the signal comes to.
+/// The signal may arrive in any thread.
 TEST(OutputFolder, isThereAsAWholeWhereASignalComesWhileItIsCommitted) {
   const TemporaryFolder folder;
   writeRun(folder.path() / "dir", "old");
@@ -178,14 +178,14 @@ TEST(OutputFolder, isWrittenByOneAtATime) {
   EXPECT_EQ(refusal<std::runtime_error>([&] { OutputFolder(dir, older); }),
             dir.string() + ": another run (process " + std::to_string(::getpid()) +
                 ") is writing there, expected a folder that no other run has");
-  OutputFolder(folder.path() / "other", older);  // in nobody's way
+  OutputFolder(folder.path() / "other", older);  // another folder is in nobody's way
   first.write("a", "first");
   first.commit();
   OutputFolder second(dir, older);
   EXPECT_EQ(TemporaryFolder::read(dir / "a"), "first");
 }
 
-/// Names as a process that died has left them.
+/// The name that a dead process left.
 fs::path left(const TemporaryFolder& folder, const std::string& kind) {
   return folder.path() / (".ursula-" + kind + "-" + sha1("dir").substr(0, 12) + "-1-0");
 }
@@ -222,7 +222,7 @@ TEST(OutputFolder, putsBackWhatWasRenamedAwayAndNeverReplaced) {
   EXPECT_EQ(TemporaryFolder::read(folder.path() / "dir/a"), "old");
 }
 
-/// Comes back to where the tests are.
+/// Returns to the tests' working folder at its end.
 class WorkingIn {
  public:
   explicit WorkingIn(const fs::path& folder) : before_(fs::current_path()) { fs::current_path(folder); }
@@ -234,7 +234,7 @@ class WorkingIn {
   fs::path before_;
 };
 
-/// The shell would be left in a folder that is gone.
+/// A shell in it would be left in a removed folder.
 TEST(OutputFolder, thatIsWorkedInIsRefused) {
   const TemporaryFolder folder;
   writeRun(folder.path() / "dir", "old");
@@ -251,7 +251,7 @@ TEST(OutputFolder, thatIsWorkedInIsRefused) {
   EXPECT_EQ(contents(folder.path()), before);
 }
 
-/// A small file system of its own, where the machine lets one have it.
+/// A small file system, if the machine permits one.
 class SmallDisk {
  public:
   explicit SmallDisk(fs::path folder) : folder_(std::move(folder)) {
@@ -304,7 +304,7 @@ TEST(OutputFolder, thatIsOrHoldsAMountPointIsRefused) {
   EXPECT_EQ(TemporaryFolder::read(data / "results/a"), "new");
 }
 
-/// What is mounted is the same file system: its number does not tell.
+/// A bind mount is of the same file system, so the device number does not reveal it.
 TEST(OutputFolder, thatIsOrHoldsAFolderOfElsewhereIsRefused) {
   const TemporaryFolder folder;
   const fs::path dir = folder.path() / "dir", elsewhere = folder.path() / "elsewhere";
@@ -322,7 +322,7 @@ TEST(OutputFolder, thatIsOrHoldsAFolderOfElsewhereIsRefused) {
   }
 }
 
-/// Somebody who may not do everything.
+/// The process as another user than root.
 class OtherUser {
  public:
   OtherUser() : is_another_(::geteuid() == 0 && ::seteuid(65534) == 0) {}

@@ -10,7 +10,7 @@
 
 namespace ursula {
 
-/// A folder of the running test's own, removed with everything in it.
+/// A folder for the running test; it is removed with its content.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

@@ -1,4 +1,4 @@
-// Under a umask that leaves the user nothing, a results folder cannot be filled, and what was begun goes.
+// Under a umask that takes all rights from the user, a results folder cannot be filled and is removed.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Somebody whom modes bind, while this exists: root they do not.
+/// Makes the process another user while it exists, because modes do not bind root.
 class Bound {
  public:
   explicit Bound(const fs::path& home) : user_(::geteuid()), mask_(::umask(0777)) {

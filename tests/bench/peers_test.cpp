@@ -1,5 +1,5 @@
-// The peers of the benchmarks against the paper's equations, on the machines that are timed and on legs of other kinds;
-// and that a peer with a wrong parameter, or wrong efforts, does not agree.
+// Compares the benchmarks' peers with the paper's equations, on the timed machines and on legs of other kinds. A peer
+// with a wrong parameter or wrong efforts must not agree.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ MATCHER(Holds, "agrees") {
   return arg.holds();
 }
 
-/// Where every test is asked for, no peer that CI installs is passed over in silence.
+/// In CI, where every test must run, a missing peer is a failure.
 TEST(Peers, mujocoIsThereInContinuousIntegration) {
   const char* ci = std::getenv("CI");
   if (ci != nullptr && std::string(ci) == "true") {
@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Shipped, PeersOnKinds,
                            return name;
                          });
 
-/// As many agreements as `peers` have, none of which holds.
+/// Expects as many agreements as `peers` have, none of which holds.
 void expectNoneAgrees(const Manipulator& wrong) {
   for (const std::unique_ptr<Peer>& peer : makePeers(wrong)) {
     const auto found = agreementsOf(answersOf(*peer, helix()), helix());
@@ -65,7 +65,8 @@ void expectNoneAgrees(const Manipulator& wrong) {
 
 ManipulatorParameters ofTheHelix() { return helix().manipulator().parameters(); }
 
-/// By so much that the softest of them, which yields by some hundredths of an acceleration, shows it.
+/// The platform is so much heavier that even the softest peer shows it, which yields by some hundredths of an
+/// acceleration.
 TEST(Peers, withAHeavierPlatformDoNotAgree) {
   ManipulatorParameters wrong = ofTheHelix();
   wrong.platform.mass *= 1.01;
@@ -90,7 +91,7 @@ TEST(Peers, withAPointSlightlyOffDoNotAgree) {
     }
 }
 
-/// What MuJoCo's own constraints leave out is what was said to be left out: without that they do not agree.
+/// MuJoCo's own constraints agree only after correction by the term that they are said to leave out.
 TEST(Peers, softConstraintsLeaveOutWhatIsSaid) {
   const auto peer = makeSoftMujocoPeer(helix().manipulator());
   if (!peer) GTEST_SKIP() << "MuJoCo is not installed";

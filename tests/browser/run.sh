@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# Runs the browser tests; what npm must bring for it is installed first, beside the build.
-# usage: run.sh SAMPLES_DIR WORK_DIR [CHROMIUM]
-# Exits with 77 (ctest: skipped) where npm's registry does not answer; in CI that is a failure.
+# Runs the browser tests. Their npm packages are installed first, beside the build. usage: run.sh SAMPLES_DIR WORK_DIR
+# [CHROMIUM] Exits with 77 (ctest: skipped) if npm's registry does not answer; in CI that is a failure.
 set -uo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 samples=$1 work=$2 chromium=${3:-}

@@ -12,7 +12,7 @@ import tempfile
 import time
 from pathlib import Path
 
-PATIENCE = 300  # s, until what is waited for is given up: no measure of anything
+PATIENCE = 300  # s until a wait is given up; it measures nothing
 SLURM_CONF = """\
 ClusterName=ursula
 SlurmctldHost={host}(127.0.0.1)

@@ -26,7 +26,7 @@ from slurm_cluster import Cluster, NoCluster, wait_until  # noqa: E402
 
 SHARDS = 4
 KILLED, OTHERS = 2, (1, 3, 4)
-SECONDS_A_TASK = 6  # of work, so that what is done to a task hits it at work
+SECONDS_A_TASK = 6  # of work, so that a signal or limit meets a working task
 LEAST_POINTS = 60  # of a task
 SWEEP = """\
 scenario = {scenario}
@@ -196,7 +196,7 @@ def compare(sweep, one):
 
 def main(program, scenario):
     began = time.monotonic()
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # what was started is then torn down
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # so that started processes are stopped
     folder = Path(tempfile.mkdtemp(prefix="ursula it's 100% \"$HOME\" & # "))
     try:
         with Cluster(cpus=SHARDS) as cluster:

@@ -1,4 +1,4 @@
-// What is endless, absurd or empty ends at once, with a word for its cause.
+// Endless, absurd or empty input ends the program at once, and the message names the cause.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -66,7 +66,7 @@ TEST(BoundsRun, tellsTheTerminalNothing) {
   }
 }
 
-/// Whatever a path holds, one error is one line.
+/// An error is one line, whatever the path contains.
 TEST(BoundsRun, makesNoLineOfAPath) {
   const Program ursula;
   const std::string text = good_scenario;
@@ -135,7 +135,7 @@ TEST(BoundsRun, saysThatTheWorkingFolderIsGone) {
   }
 }
 
-/// A solver that takes its time is not asked on and on.
+/// A slow solver is not asked after the limit.
 TEST(TimeLimitRun, endsWithTheAnswerOfASlowSolver) {
   const Program ursula;
   ursula.write("small.toml", good_scenario);

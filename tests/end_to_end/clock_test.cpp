@@ -1,5 +1,4 @@
-// A wall clock that is set back, or that leaps: what is newer by its date is replaced all the same, a sweep goes on,
-// and no limit of time is upset.
+// With a wall clock that goes back or leaps, newer files are replaced all the same, sweeps go on, and time limits hold.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,7 +18,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 constexpr const char* shim = "LD_PRELOAD='" URSULA_WORLD_SHIM "' SHIM_CLOCK_STEP=";
-/// Each question to the wall clock is answered a day further back, or further on, than the one before.
+/// Each reading of the wall clock is a day earlier, or later, than the previous one.
 const std::string backwards = std::string("env ") + shim + "-86400 \"$URSULA\" ";
 const std::string leaping = std::string("env ") + shim + "86400 \"$URSULA\" ";
 
@@ -31,7 +30,7 @@ void makeOfTomorrow(const fs::path& path) {
   fs::last_write_time(path, tomorrow);
 }
 
-/// What a run that was killed leaves beside the folder `name`.
+/// Makes what a killed run leaves beside the folder `name`.
 fs::path leftoverOf(const Program& ursula, const std::string& name) {
   const std::string folder = ".ursula-new-" + sha1(name).substr(0, 12) + "-4711-0";
   fs::create_directory(ursula.folder() / folder);
@@ -98,7 +97,7 @@ TEST(ClockSetBack, aSweepGoesOnWhereItStopped) {
   EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "err"), HasSubstr("nothing to do"));
 }
 
-/// One that were held against the wall clock would come at once where it leaps, and never where it goes back.
+/// A limit by the wall clock would end at once if the clock leaps, and never if it goes back.
 TEST(ClockSetBack, limitsOfTimeAreUpsetByNoClock) {
   const Program ursula;
   ursula.write("a.toml", quickScenario("one"));

@@ -1,4 +1,4 @@
-// `ursula compare` as people call it: what ships against a fresh run, chosen columns, JUnit, exit codes.
+// `ursula compare` as users call it: the shipped results against a fresh run, chosen columns, JUnit, exit codes.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

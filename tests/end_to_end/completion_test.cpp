@@ -1,4 +1,4 @@
-// Completions and man page hold what --help lists, verb by verb.
+// Completions and man page contain what --help lists, verb by verb.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -75,7 +75,7 @@ TEST(Completion, holdsEachVerbAndOptionOfTheHelp) {
   EXPECT_GT(options, 40u);
 }
 
-/// What bash itself offers for a line.
+/// Returns what bash itself offers for a line.
 std::vector<std::string> offered(const Program& ursula, const std::string& line) {
   ursula.write("complete.bash", "source completion\nCOMP_WORDS=(" + line +
                                     ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_ursula\n"

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 const std::string random_sweep = massSweep("one.toml", "what = \"inverse\"\ncount = 60\nseed = 1\nsamples = 5\n");
 
-/// Every verb that writes results, into the folder `out`; $1 is the number of --jobs.
+/// Calls every verb that writes results, into the folder `out`; $1 is the number of --jobs.
 constexpr const char* all_verbs = R"(set -e
 rm -rf out && mkdir out
 "$URSULA" validate one.toml --jobs $1 --out out/one >out/said.one
@@ -32,9 +32,9 @@ for sweep in random pointwise; do
 done
 )";
 
-/// What a run of the program took, and when it began: the only fields that may differ.
+/// The number of fields that may differ: durations and start times.
 constexpr int times_in_all =
-    11;  // a junit.xml of one, of two, and of each of these; suite.json and index.html: all, each
+    11;  // junit.xml of one, of two, and of each of these; suite.json and index.html: all, each
 
 std::string withoutTimes(const std::string& text, int& times) {
   static const std::regex time(
@@ -46,7 +46,7 @@ std::string withoutTimes(const std::string& text, int& times) {
   return std::regex_replace(text, time, "(time)");
 }
 
-/// The files of `out`; times only where the format has some.
+/// Returns the files of `out` without their times, which only some formats have.
 Files filesOf(const fs::path& out) {
   Files all;
   int times = 0;
@@ -118,7 +118,7 @@ TEST(Determinism, ofAnyNumberOfJobs) {
   EXPECT_EQ(differing(of_one, inputs.results(7)), std::vector<std::string>{});
 }
 
-/// Legs that are a hundredth longer, and another seed: were these not seen, nothing would be.
+/// Control: legs that are a hundredth longer, and another seed, must make a difference.
 TEST(Determinism, isNotThatNothingIsSeen) {
   const Program ursula;
   const Inputs inputs(ursula), longer(ursula, "longer", "length = 1.313");
@@ -134,7 +134,7 @@ TEST(Determinism, isNotThatNothingIsSeen) {
   EXPECT_NE(TemporaryFolder::read(inputs.path() / "2.csv"), first.at("random.csv"));
 }
 
-/// As on Kiritimati, whether or not time zones are installed: 14 hours before UTC's noon is noon there.
+/// The time zone of Kiritimati, UTC+14, as a rule that needs no installed time zones.
 constexpr const char* kiritimati = "TZ='<+14>-14'";
 
 TEST(Determinism, ofAnyFolderAndTimeZone) {

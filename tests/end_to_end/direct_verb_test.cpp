@@ -30,7 +30,7 @@ CsvTable table(const std::string& text) {
   return parseCsv(text, "direct.csv", options);
 }
 
-/// φ of a row of `ursula inverse`, as --phi takes it.
+/// Returns φ of a row of `ursula inverse` in the form of --phi.
 std::string anglesOf(const CsvTable& inverse, std::size_t row) {
   std::string text;
   for (const char leg : std::string("123456")) {
@@ -115,7 +115,7 @@ TEST_F(DirectVerb, TellsNoPoseFromNoDeterminedPose) {
   const auto none = direct("-0.1,0.2,0.3,0.1,0.2,-0.4");
   EXPECT_EQ(none.exit_code, 0) << "none is all there are";
   EXPECT_EQ(std::count(none.out.begin(), none.out.end(), '\n'), 1) << "the header alone";
-  const auto free = direct("0,0,0,0,0,0");  // all planes upright: the platform may rise and fall
+  const auto free = direct("0,0,0,0,0,0");  // with all planes upright the platform may rise and fall
   EXPECT_EQ(free.exit_code, 3);
   EXPECT_EQ(free.out, "");
   EXPECT_NE(free.err.find("free to move along a line"), std::string::npos) << free.err;

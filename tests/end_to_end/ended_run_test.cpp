@@ -1,4 +1,4 @@
-// Runs that end before they are done: by a signal, or for want of descriptors.
+// Runs that end before they are done, by a signal or for lack of descriptors.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 using testing::HasSubstr;
 using testing::Not;
 
-/// The longest by far is spent before anything is written.
+/// Nearly all time passes before anything is written.
 TEST(EndedRun, ofASignalLeavesNothing) {
   const Program ursula;
   ursula.write("a.toml", good_scenario);
@@ -39,7 +39,7 @@ TEST(EndedRun, ofTooFewDescriptorsNamesAPath) {
   const Program ursula;
   for (const char* name : {"one", "two"}) ursula.write(std::string(name) + ".toml", quickScenario(name));
   bool is_seen = false;
-  for (const char* most : {"4", "5", "6"}) {  // a path, whoever meets the limit first
+  for (const char* most : {"4", "5", "6"}) {  // the message has a path, whichever part meets the limit first
     shell(ursula,
           std::string("prlimit --nofile=") + most + " $URSULA validate one.toml two.toml --out out >said 2>err");
     const std::string said = TemporaryFolder::read(ursula.folder() / "err");

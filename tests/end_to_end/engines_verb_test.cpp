@@ -1,4 +1,4 @@
-// `ursula engines`: what it prints and writes, and what it refuses.
+// `ursula engines`: its output, its files, and its refusals.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// `ursula inverse` as the contract of its files has it, and its numbers against tests/vectors.
+// Compares the files of `ursula inverse` with their contract, and its numbers with tests/vectors.
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ TEST(Inverse, printsTheColumnsOfTheContract) {
   EXPECT_EQ(table.at("t_s").back(), 3);
 }
 
-/// 17 significant digits, or a number that needs fewer; nothing else between the commas.
+/// Cells have 17 significant digits, or fewer if the number needs fewer, and nothing else.
 TEST(Inverse, writesNumbersThatReadBackTheSame) {
   const Program ursula;
   std::istringstream lines(ursula("inverse --samples 2 " + helix).out);

@@ -1,4 +1,4 @@
-// A terminal that is lost ends nothing; data that is lost is said.
+// A lost terminal does not end the program; lost data is reported.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

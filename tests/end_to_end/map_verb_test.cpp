@@ -1,4 +1,4 @@
-// `ursula map`: its rows against `ursula inverse`, its picture, and grids that cannot be.
+// `ursula map`: its rows against `ursula inverse`, its picture, and impossible grids.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ TEST(Map, hasARowForEachPoseTheFirstAxisFastest) {
   for (const double z : table.at("p_z_m")) EXPECT_EQ(z, 2.5);
 }
 
-/// A motion that rests asks for the efforts of the map.
+/// The efforts of a motion at rest are those of the map.
 TEST(Map, largestEffortIsThatOfAMotionAtRest) {
   const Program ursula;
   const CsvTable rest = parseCsv(ursula("inverse --samples 2 '" URSULA_SCENARIOS "/hold.toml'").out, "stdout");

@@ -1,7 +1,7 @@
-// Less and less memory: a run passes with the results that it has anywhere, or is refused and leaves the old ones.
+// With less and less memory, a run either gives its usual results, or is refused and leaves the old ones.
 //
-// The limits are of the address space, which is all that a shell can limit. Program and libraries alone take some 45 MB
-// of it; below that the loader gives up before the program could say a word.
+// The limits are of the address space, because a shell can limit nothing else. Program and libraries alone take some 45
+// MB of it; below that the loader fails before the program starts.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ using testing::Not;
 constexpr int passed = 0, in_error_of_suite = 1, refused = 2, in_error_of_sweep = 3;
 constexpr int limits[] = {700, 250, 150, 80, 60};  // MB
 
-/// In a program that a signal ends, a shell's exit code is 128 and more.
+/// Runs under a limit. If a signal ends the program, the shell's exit code is 128 or more.
 int limited(const Program& ursula, int megabytes, const std::string& arguments) {
   return shell(ursula,
                "ulimit -v " + std::to_string(1000 * megabytes) + " && \"$URSULA\" " + arguments + " >said 2>err");
@@ -31,7 +31,7 @@ std::string complaint(const Program& ursula) { return TemporaryFolder::read(ursu
 
 const auto saysMemory = AnyOf(HasSubstr("out of memory"), HasSubstr("llocate memory"), HasSubstr("no memory"));
 
-/// A call that writes below "at", and what it finds there.
+/// A call that writes below "at", with the content of that folder.
 class Call {
  public:
   Call(const Program& program, std::string arguments) : ursula(program), arguments_(std::move(arguments)) {
@@ -43,7 +43,7 @@ class Call {
 
   const fs::path at() const { return ursula.folder() / "at"; }
 
-  /// So much memory; without `megabytes`, as much as there is.
+  /// Runs with so much memory, or without a limit.
   int run(int megabytes = 0) const {
     fs::remove_all(at());
     fs::copy(ursula.folder() / "old", at(), fs::copy_options::recursive);
@@ -60,7 +60,7 @@ class Call {
   std::string arguments_;
 };
 
-/// How many of the runs were refused.
+/// Returns the number of refused runs.
 int holdsUnderEveryLimit(const Call& call) {
   EXPECT_EQ(call.run(), passed) << complaint(call.ursula);
   const auto fresh = call.results(), old = call.old();
@@ -100,7 +100,7 @@ TEST(LittleMemory, aFileIsWholeOrTheOldOne) {
   }
 }
 
-/// Two tables of which each takes more than the smallest limit.
+/// Each of two tables takes more than the smallest limit.
 TEST(LittleMemory, whatNeedsMoreThanThereIsIsRefused) {
   const Program ursula;
   ursula.write("a.toml", quickScenario("one"));
@@ -116,7 +116,7 @@ std::string withSamples(int count) {
   return replaced(quickScenario("one"), "samples = 3", "samples = " + std::to_string(count));
 }
 
-/// Some 5 kB a sample beside what every run takes: twice that would not fit, nor would an arena for each thread.
+/// A sample takes some 5 kB. Twice as much would not fit, nor would an arena for each thread.
 TEST(LittleMemory, manySamplesFit) {
   const Program ursula;
   ursula.write("a.toml", withSamples(10000));
@@ -126,7 +126,7 @@ TEST(LittleMemory, manySamplesFit) {
   EXPECT_EQ(std::count(series.begin(), series.end(), '\n'), 10001);
 }
 
-/// What needs less is named as the verb has it.
+/// The message names what would need less memory, in the terms of the verb.
 TEST(LittleMemory, isExplainedByWhatTheVerbHas) {
   const Program ursula;
   ursula.write("a.toml", withSamples(1000000));
@@ -137,7 +137,7 @@ TEST(LittleMemory, isExplainedByWhatTheVerbHas) {
   EXPECT_THAT(complaint(ursula), HasSubstr("fewer --samples need less"));
 }
 
-/// One of a suite may be in error, which says why; the other is judged as anywhere.
+/// One scenario of a suite may end with an error that says why; the other is judged as usual.
 TEST(LittleMemory, oneOfASuiteIsInErrorOrWhatItIsAnywhere) {
   const Program ursula;
   for (const char* name : {"one", "two"}) ursula.write(std::string(name) + ".toml", quickScenario(name));
@@ -160,7 +160,7 @@ TEST(LittleMemory, oneOfASuiteIsInErrorOrWhatItIsAnywhere) {
 
 const std::string small_sweep = massSweep("a.toml", "pointwise = true\ncount = 12\n");
 
-/// What a sweep could not make for want of memory, it makes when there is some.
+/// A sweep computes the points that failed for lack of memory once there is enough.
 TEST(LittleMemory, losesNoRowOfASweep) {
   const Program ursula;
   ursula.write("a.toml", quickScenario("one"));

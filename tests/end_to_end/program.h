@@ -11,16 +11,17 @@
 
 namespace ursula {
 
-/// The paper's helix, quoted: it goes into command lines.
+/// The paper's helix, quoted for command lines.
 inline const std::string helix = "'" URSULA_SCENARIOS "/paper-helix.toml'";
 
-/// What one call of the built program did.
+/// The results of one call of the built program.
 struct UrsulaRun {
-  int exit_code = -1;  ///< −1 where it did not end by itself
+  int exit_code = -1;  ///< −1 if it did not end by itself
   std::string out, err;
 };
 
-/// `arguments` as a shell reads them, called in `folder`; standard input is empty unless they say <file.
+/// Calls the program in `folder` with `arguments` as a shell reads them. Standard input is empty unless they contain
+/// <file.
 inline UrsulaRun callProgram(const TemporaryFolder& folder, const std::string& arguments) {
   const std::filesystem::path& path = folder.path();
   const std::string command =
@@ -37,14 +38,14 @@ inline UrsulaRun callProgram(const TemporaryFolder& folder, const std::string& a
 
 using ProgramRun = UrsulaRun;
 
-/// The same with one argument each, as they are: no shell reads them. None holds a single quote.
+/// The same with each argument unchanged, because no shell reads them. None may contain a single quote.
 inline ProgramRun runProgram(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
   std::string line;
   for (const std::string& argument : arguments) line += " '" + argument + "'";
   return callProgram(folder, line);
 }
 
-/// The program, called in a folder of the test's own.
+/// The program, called in a folder for the test.
 class Program {
  public:
   const std::filesystem::path& folder() const { return folder_.path(); }
@@ -55,12 +56,12 @@ class Program {
     return folder_.write(name, content);
   }
 
-  /// A file that ships, or one of tests/vectors.
+  /// Returns a shipped file, or one of tests/vectors.
   static std::string shipped(const std::string& name) {
     return TemporaryFolder::read(std::filesystem::path(URSULA_SCENARIOS) / name);
   }
 
-  /// Names of what lies in the folder, at the top.
+  /// Returns the number of entries at the top of the folder.
   std::size_t files() const {
     const std::filesystem::directory_iterator begin(folder());
     return static_cast<std::size_t>(std::distance(begin, std::filesystem::directory_iterator{}));

@@ -40,13 +40,13 @@ inline int shell(const Program& ursula, const std::string& line) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-/// Random masses of a scenario's platform; `settings` are what and how many.
+/// Returns a sweep over random masses of a scenario's platform; `settings` are the work and the number of points.
 inline std::string massSweep(const std::string& scenario, const std::string& settings) {
   return "scenario = \"" + scenario + "\"\ndesign = \"random\"\n" + settings +
          "[[vary]]\nkey = \"manipulator.platform.mass\"\nuniform = [400.0, 600.0]\n";
 }
 
-/// As results have it: date and time of UTC, which sort as text.
+/// Returns date and time of UTC in the form of results, which sorts as text.
 inline std::string utcNow() {
   const std::time_t now = std::time(nullptr);
   std::tm utc{};
@@ -56,7 +56,7 @@ inline std::string utcNow() {
   return text;
 }
 
-/// When the run began that a junit.xml is of, in the same form; "" where it does not say.
+/// Returns the start of the run in a junit.xml, in the same form; "" if there is none.
 inline std::string startSaidBy(const std::filesystem::path& junit) {
   const std::string text = TemporaryFolder::read(junit), before = "timestamp=\"";
   const std::size_t at = text.find(before);

@@ -41,14 +41,14 @@ class Running {
     process_ = -1;
   }
   void send(int signal) const { ::kill(process_, signal); }
-  /// When it has ended by itself; −1 where a signal ended it.
+  /// Waits for its end and returns the exit code; −1 if a signal ended it.
   int exitCode() {
     int status = 0;
     ::waitpid(process_, &status, 0);
     process_ = -1;
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
-  /// Whether that signal has ended it.
+  /// Waits for its end; whether that signal ended it.
   bool isEndedBy(int signal) {
     int status = 0;
     ::kill(process_, signal);

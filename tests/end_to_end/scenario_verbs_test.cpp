@@ -1,4 +1,4 @@
-// `ursula init` and `ursula check`, and what is said of a motion that cannot be made.
+// `ursula init` and `ursula check`, and the errors for an impossible motion.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -102,7 +102,7 @@ TEST(UnreachableMotion, namesPlaceInstantLegAndMetres) {
   }
 }
 
-/// What is too short or too far, in the words of the leg's kind.
+/// The error says what is too short or too far, in the words of the leg's kind.
 TEST(UnreachableMotion, isToldOfLegsOfEveryKind) {
   const Program ursula;
   const std::pair<const char*, const char*> kinds[] = {

@@ -1,4 +1,4 @@
-// `ursula simulate`: the commanded motion comes back, and what does not reach its end says so.
+// `ursula simulate`: it returns the commanded motion, and reports a motion that does not reach its end.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ class Simulate : public testing::TestWithParam<std::string> {
 
   const Program ursula_{};
   const std::string file_ =
-      testing::TempDir() + "/simulate_" + std::to_string(::getpid()) + ".csv";  // tests run at once
+      testing::TempDir() + "/simulate_" + std::to_string(::getpid()) + ".csv";  // because tests run at once
 };
 
 TEST_P(Simulate, theRightTorquesMakeTheMotion) {
@@ -47,7 +47,7 @@ TEST_P(Simulate, theRightTorquesMakeTheMotion) {
   ASSERT_EQ(motion.rows(), 61u);
   const CsvTable commanded = parseCsv(ursula_("inverse " + helix + " --samples 61").out, "stdout");
   for (const char* axis : {"p_x_m", "p_y_m", "p_z_m"})
-    EXPECT_NEAR(motion.at(axis).back(), commanded.at(axis).back(), 1e-4);  // of the spline between 61
+    EXPECT_NEAR(motion.at(axis).back(), commanded.at(axis).back(), 1e-4);  // error of the spline through 61 rows
 }
 
 TEST_P(Simulate, aFileThatEndsBeforeTheMotionIsSaidSo) {
@@ -57,7 +57,7 @@ TEST_P(Simulate, aFileThatEndsBeforeTheMotionIsSaidSo) {
   EXPECT_EQ(parseCsv(run.out, "stdout").at("t_s").back(), 1.5) << "what was reached is kept";
 }
 
-/// Torques larger by a third lift the platform until a leg is stretched: neither engine goes on, or on for ever.
+/// Torques larger by a third lift the platform until a leg is stretched. There both engines stop.
 TEST_P(Simulate, aMotionThatLeavesWhatTheLegsReachStopsThere) {
   const UrsulaRun run = simulate(torquesTimes(1.3));
   EXPECT_EQ(run.exit_code, 1);
@@ -75,13 +75,13 @@ TEST_P(Simulate, theRightEffortsMakeTheMotionOfLegsOfEveryKind) {
     std::remove(machine.c_str());
     ASSERT_EQ(ursula_("init '" + machine + "' --kind " + kind).exit_code, 0);
     const std::string all = ursula_("inverse '" + machine + "' --samples 301").out;
-    std::ofstream(file_) << all;  // with columns that simulate passes over
+    std::ofstream(file_) << all;  // with columns that simulate ignores
     const UrsulaRun run = ursula_("simulate '" + machine + "' --engine " + GetParam() + " --torques '" + file_ + "'");
     EXPECT_EQ(run.exit_code, 0) << kind << run.err;
     const CsvTable motion = parseCsv(run.out, "stdout"), commanded = parseCsv(all, "stdout");
     ASSERT_EQ(motion.rows(), 301u) << kind;
     for (const char* axis : {"p_x_m", "p_y_m", "p_z_m"})
-      EXPECT_NEAR(motion.at(axis).back(), commanded.at(axis).back(), 1e-3) << kind;  // of the spline, enlarged
+      EXPECT_NEAR(motion.at(axis).back(), commanded.at(axis).back(), 1e-3) << kind;  // error of the spline, amplified
   }
 }
 

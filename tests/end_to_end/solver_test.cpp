@@ -1,4 +1,4 @@
-// `ursula validate --solver`: somebody else's solver as a process, right, wrong and against the protocol.
+// `ursula validate --solver`: a foreign solver as a process, which is right, wrong, or breaks the protocol.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ class SolverRun : public testing::Test {
   UrsulaRun judge(const std::string& command, const std::string& more = "") const {
     return ursula_("validate quick.toml --out out --solver '" + command + "' " + more);
   }
-  /// What is said where nothing may be written.
+  /// Returns the error of a call that may write nothing.
   std::string refused(const std::string& command, const std::string& more = "") const {
     const UrsulaRun run = judge(command, more);
     EXPECT_EQ(run.exit_code, 2) << run.out << run.err;
@@ -93,14 +93,14 @@ TEST_F(SolverRun, anEarlyEndIsRefused) {
               AllOf(HasSubstr("not found"), HasSubstr("ended with exit code 127")));
 }
 
-/// A process that is not, or is dead and only not yet waited for, does not run.
+/// Whether a process runs; a dead one that nobody has waited for does not.
 bool runs(const std::string& pid) {
   std::ifstream stat("/proc/" + pid + "/stat");
   std::string number, name, state;
   return stat >> number >> name >> state && state != "Z" && state != "X";
 }
 
-/// Whether the process whose number is in `file` is gone, or goes.
+/// Whether the process whose number is in `file` has ended or ends soon.
 bool ends(const std::filesystem::path& file) {
   std::string pid = TemporaryFolder::read(file);
   pid.erase(pid.find_last_not_of('\n') + 1);
@@ -124,7 +124,7 @@ TEST_F(SolverRun, oneIsEndedWithAProgramThatIsInterrupted) {
   EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
 }
 
-/// It looks at nothing that would tell it.
+/// The solver's process does not notice by itself that the program ends.
 TEST_F(SolverRun, oneIsEndedByWhateverSignalEndsTheProgram) {
   for (const char* signal : {"TERM", "HUP", "QUIT", "ALRM", "USR1", "USR2", "XCPU", "VTALRM", "PROF"}) {
     EXPECT_NE(judge("echo $$ > self; kill -" + std::string(signal) + " $PPID; exec sleep 1000").exit_code, 0) << signal;

@@ -21,7 +21,7 @@ using testing::HasSubstr;
 
 const std::string helix_file = URSULA_SCENARIOS "/paper-helix.toml";
 
-/// The most memory that a run took, MB.
+/// Returns the largest memory of a run, MB.
 double memoryOf(const std::string& samples) {
   const pid_t child = ::fork();
   if (child == 0) {

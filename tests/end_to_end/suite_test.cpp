@@ -1,4 +1,4 @@
-// `ursula validate` on several scenarios, as a user calls it: exit codes, what is printed where, what is written.
+// `ursula validate` on several scenarios, as a user calls it: exit codes, both output streams, and files.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ std::string tooTight(const std::string& name) {
   return shortScenario(name) + "\n[acceptance]\n\"torque.pointwise\" = 1e-30\n";
 }
 
-/// Whether `path` is there, under the folder of the run.
+/// Whether `path` exists below the run's folder.
 bool isThere(const TemporaryFolder& folder, const std::string& path) {
   return std::filesystem::exists(folder.path() / path);
 }
@@ -43,7 +43,7 @@ TEST(SuiteRun, aFolderThatPassesExitsWith0AndWritesEverything) {
   EXPECT_THAT(run.out, AllOf(StartsWith("pass          first   "), HasSubstr("\npass          second  "),
                              HasSubstr("results/suite/first/report.html\n"),
                              EndsWith("2 passed, 0 failed, 0 inconclusive\nindex: results/suite/index.html\n")));
-  // Not on a terminal: a line for each, no bar.
+  // This is no terminal, so each scenario gets a line and there is no bar.
   EXPECT_THAT(run.err, AllOf(HasSubstr("[1/2] pass "), HasSubstr("[2/2] pass "), Not(HasSubstr("\r"))));
   for (const char* file : {"index.html", "junit.xml", "suite.json", "first/summary.json", "first/timeseries.csv",
                            "first/report.html", "first/junit.xml", "second/summary.json"})

@@ -1,5 +1,4 @@
-// `ursula sweep --slurm` with stand-ins for sbatch and squeue, its scripts run by bash. On a real Slurm:
-// tests/cluster/.
+// `ursula sweep --slurm` with stand-ins for sbatch and squeue; bash runs its scripts. tests/cluster/ uses a real Slurm.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,7 +19,7 @@ class Slurm : public testing::Test {
  protected:
   void SetUp() override {
     write("mass.toml", "");
-    // Keeps what it is given, and answers with numbers from 12 on.
+    // Records its arguments, and answers with numbers from 12 on.
     program("sbatch", "echo \"$*\" >>'$HERE/submitted'; echo $((11 + $(wc -l <'$HERE/submitted')))\n");
     program("squeue", "cat '$HERE/queue' 2>/dev/null; exit 0\n");
   }
@@ -47,7 +46,7 @@ class Slurm : public testing::Test {
 
   std::string submitted() const { return TemporaryFolder::read(ursula_.folder() / "submitted"); }
 
-  /// As Slurm would run it; the exit code.
+  /// Runs a task as Slurm would; returns the exit code.
   int task(const std::string& script, int index = 0) const {
     const std::string command = "cd / && SLURM_ARRAY_TASK_ID=" + std::to_string(index) + " bash '" +
                                 (ursula_.folder() / script).string() + "' >/dev/null 2>&1";

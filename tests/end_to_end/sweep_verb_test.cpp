@@ -1,4 +1,4 @@
-// `ursula sweep`, called as people call it.
+// `ursula sweep`, called as users call it.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -81,7 +81,7 @@ TEST(SweepVerb, mergeMakesFoldersWhereItWritesAlone) {
   EXPECT_TRUE(std::filesystem::exists(ursula.folder() / "c/d/all.db"));
 }
 
-/// Stopped while its log is there, and so in the middle.
+/// The merge is stopped while its log exists, and so within it.
 TEST(SweepVerb, mergeThatASignalStopsLeavesOneFile) {
   const Program ursula;
   ursula.write("s.toml", sweepOf("inverse", "design = \"random\"\ncount = 20000\nsamples = 5\n"));
@@ -132,7 +132,7 @@ TEST(SweepVerb, refusesInOneLineWhatCannotBe) {
   refused("twice.toml", "'01', expected an index from 1 to 6");
 }
 
-/// SQLite has meanings of its own for some names.
+/// SQLite gives some names a special meaning.
 TEST(SweepVerb, keepsItsDatabaseWhateverItIsCalled) {
   const Program ursula;
   ursula.write("-a b's.toml", sweepOf("inverse", "design = \"random\"\ncount = 4\nsamples = 5\n"));
@@ -150,7 +150,7 @@ TEST(SweepVerb, keepsItsDatabaseWhateverItIsCalled) {
   EXPECT_EQ(ursula(said.substr(at + 9, said.find('\n', at) - at - 9)).exit_code, 0) << "as pasted: " << said;
 }
 
-/// A shell's background, where Ctrl-C is for what is in front.
+/// A shell starts background jobs with SIGINT ignored, because Ctrl-C is for the foreground.
 TEST(SweepVerb, leavesIgnoredWhatWasIgnoredWhenItWasStarted) {
   const Program ursula;
   ursula.write("s.toml", sweepOf("inverse", "design = \"random\"\ncount = 20000\nsamples = 5\n"));
@@ -163,7 +163,7 @@ TEST(SweepVerb, leavesIgnoredWhatWasIgnoredWhenItWasStarted) {
   EXPECT_THAT(TemporaryFolder::read(ursula.folder() / "said"), HasSubstr("20000 points: 20000 pass"));
 }
 
-/// A hundredth of each: none may fail, or be in error.
+/// Runs a hundredth of each shipped sweep; no point may fail or have an error.
 TEST(SweepVerb, sweepsThatShipPass) {
   const Program ursula;
   for (const char* name : {"payload", "random-machines", "tolerances", "workspace"}) {

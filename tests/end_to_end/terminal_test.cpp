@@ -1,4 +1,4 @@
-// What a person at a terminal asks for beside the verdict: JSON, few words, standard input, explanations, the browser.
+// Options beside the verdict for a person at a terminal: JSON, --quiet, standard input, explanations, the browser.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -95,7 +95,7 @@ TEST(Explain, hasAPageForEachCheckAndAListOfAll) {
   }
 }
 
-/// A stand-in for a browser, which writes what it was given and goes on until the test's folder is gone.
+/// The browser's stand-in writes its arguments and runs until the test's folder is gone.
 TEST(Open, startsTheBrowserWithTheReportAndDoesNotWait) {
   const Program ursula;
   ursula.write("browser",
@@ -114,7 +114,7 @@ TEST(Open, startsTheBrowserWithTheReportAndDoesNotWait) {
   EXPECT_EQ(TemporaryFolder::read(ursula.folder() / "shown"), run.out);
 }
 
-/// As other programs read it: each %s is the page, one word, also where it stands in quotes.
+/// $BROWSER is read as other programs read it: each %s is the page as one word, even within quotes.
 TEST(Open, takesTheBrowserAsItIsQuoted) {
   const Program ursula;
   const std::filesystem::path folder = ursula.folder() / "a  b's $HOME";

@@ -17,7 +17,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-/// A folder with a scenario and what `ursula inverse` writes for it.
+/// Makes a scenario and its results of `ursula inverse`.
 void prepare(const Program& ursula, const std::string& samples) {
   ursula.write("small.toml", good_scenario);
   ASSERT_EQ(ursula("inverse small.toml --samples " + samples + " --out tau.csv").exit_code, 0);
@@ -112,7 +112,7 @@ TEST(CompareRun, twoResultFolders) {
     ASSERT_EQ(ursula("validate small.toml --torques tau.csv --out " + std::string(out)).exit_code, 0);
   const auto run = ursula("compare one two --tolerance 0");
   EXPECT_EQ(run.exit_code, 0) << run.out;
-  EXPECT_EQ(ursula("compare one tau.csv").exit_code, 3);  // a part of the channels, all alike
+  EXPECT_EQ(ursula("compare one tau.csv").exit_code, 3);  // only a part of the channels is common, and all agree
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// From the list in the program's own help.
+/// Returns the verbs listed by --help.
 std::vector<std::string> verbs(const Program& ursula) {
   std::istringstream lines(ursula("--help").out);
   std::vector<std::string> out;
@@ -129,7 +129,7 @@ TEST(Usage, numbersAreReadAsPeopleWriteThem) {
     EXPECT_EQ(ursula(call).exit_code, 0) << call << ursula(call).err;
 }
 
-/// What is read would be lost, or one of two results.
+/// Otherwise an input, or one of two results, would be lost.
 TEST(Usage, noFileIsNamedTwiceWhereOneIsWritten) {
   const Program ursula;
   const std::string shipped = Program::shipped("paper-helix.toml");

@@ -81,7 +81,7 @@ TEST(ValidateVerb, exitsWithOneWhereACheckFailsAndStillReports) {
   EXPECT_EQ(summary.at("verdict"), "fail");
 }
 
-/// Exit code 2, a message, and nothing written.
+/// Expects exit code 2, the message, and no file.
 void expectRefused(const std::string& scenario, const std::string& message) {
   const Program ursula;
   ursula.write("bad.toml", scenario);

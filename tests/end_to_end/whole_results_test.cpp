@@ -1,5 +1,5 @@
-// Results of one run belong together, whatever happens to it: killed at any moment, a full disk, a second run beside
-// it.
+// Results of one run belong together, even if it is killed at any moment, the disk is full, or another run writes
+// there.
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -28,7 +28,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-/// Sees the first that is written in a folder or below it.
+/// Notices the first write in a folder or below it.
 class Watch {
  public:
   explicit Watch(const fs::path& folder) : descriptor_(::inotify_init1(IN_CLOEXEC | IN_NONBLOCK)) {
@@ -41,7 +41,7 @@ class Watch {
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
 
-  /// The lock is taken before anything is computed.
+  /// Whether results appeared, beside the lock, which is taken before anything is computed.
   bool sawResults() const {
     alignas(inotify_event) char events[4096];
     const ssize_t size = ::read(descriptor_, events, sizeof events);
@@ -57,7 +57,7 @@ class Watch {
   int descriptor_;
 };
 
-/// A run is killed at most so long after its start, or after its first writing.
+/// Kills a run within this time after its start, or after its first write.
 void killSomewhere(const Program& ursula, const std::vector<std::string>& call, std::chrono::microseconds at_most,
                    bool while_writing, std::mt19937& random) {
   const Watch watch(ursula.folder());
@@ -67,7 +67,7 @@ void killSomewhere(const Program& ursula, const std::vector<std::string>& call, 
   run.kill();
 }
 
-/// The time from the first writing within which a kill meets the swap about every second time, however loaded the
+/// Adapts the time after the first write so that about every second kill comes before the swap, however loaded the
 /// machine is.
 class AroundTheSwap {
  public:
@@ -79,7 +79,7 @@ class AroundTheSwap {
   std::chrono::microseconds at_most_{30ms};
 };
 
-/// More of them in ./dev faults: URSULA_KILLS=500.
+/// Returns the number of kills; ./dev faults sets URSULA_KILLS to do more.
 int killsWanted() {
   const char* wanted = std::getenv("URSULA_KILLS");
   return wanted == nullptr ? 12 : std::atoi(wanted);
@@ -89,8 +89,8 @@ struct Outcomes {
   int old = 0, fresh = 0;
 };
 
-/// Runs of `calls`, which write other results into one folder, are killed, until some were before the swap and some
-/// after it: what is there is always one of them.
+/// Kills runs of `calls`, which write different results into one folder, until some kills came before the swap and some
+/// after it. The folder must always contain the results of one run.
 void killRuns(const Program& ursula, const std::vector<std::vector<std::string>>& calls) {
   std::vector<std::map<std::string, std::string>> whole;
   std::chrono::microseconds longest{0};

@@ -1,6 +1,6 @@
-// A library to preload, for a program in another world. Of the wall clock: each question is answered SHIM_CLOCK_STEP
-// seconds further off than the one before. Of the locale: SHIM_DECIMAL_POINT says that the process takes the one that
-// its environment names, as somebody's library may, and which decimal point it then has to have.
+// A library to preload that changes clock and locale. Each reading of the wall clock is SHIM_CLOCK_STEP seconds further
+// off than the previous one. With SHIM_DECIMAL_POINT the process takes the locale of its environment, as a library may
+// do; the variable is the decimal point that this locale must have.
 
 #include <sys/syscall.h>
 #include <sys/time.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int no_such_locale = 99;
 
-/// Without such a locale nothing would be tried.
+/// Without such a locale the test would test nothing.
 __attribute__((constructor)) void takeLocale() {
   const char* wanted = std::getenv("SHIM_DECIMAL_POINT");
   if (wanted == nullptr) return;

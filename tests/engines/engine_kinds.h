@@ -16,7 +16,8 @@ namespace ursula {
 
 constexpr LegKind U = LegKind::URS, T = LegKind::UPS, R = LegKind::RUS, P = LegKind::PUS;
 
-inline constexpr double worst_condition = 1e3;  ///< of what takes efforts to the platform; worse machines are not asked
+inline constexpr double worst_condition =
+    1e3;  ///< of the map from efforts to the platform; worse machines are left out
 /// One rounding for each of 24 coordinates and 24 pivots, on either side of a comparison, times the condition number.
 inline constexpr double room = 96 * worst_condition * Eigen::NumTraits<double>::epsilon();
 
@@ -31,7 +32,7 @@ inline Vector6d wrenchOf(const Load* load, const Motion<double>& motion) {
   return out;
 }
 
-/// The solver's efforts; none where a machine is too near to a singular pose to be asked.
+/// The solver's efforts; nullopt if the machine is too near to a singular pose.
 inline std::optional<Vector6d> bySolver(const Manipulator& machine, const Load* load, const Motion<double>& motion) {
   const Noc<double> solver(machine);
   NocWorkspace<double> work;
@@ -45,7 +46,7 @@ inline std::optional<Vector6d> bySolver(const Manipulator& machine, const Load* 
   }
 }
 
-/// The same efforts by every formulation; those that this build has.
+/// The same efforts by every formulation of this build.
 inline std::vector<Vector6d> byEngines(const Manipulator& machine, const std::shared_ptr<const Load>& load,
                                        const Motion<double>& motion) {
   std::vector<Vector6d> out = {MaximalLoop(machine, load).inverseDynamics(motion)};
@@ -53,7 +54,7 @@ inline std::vector<Vector6d> byEngines(const Manipulator& machine, const std::sh
   return out;
 }
 
-/// A state that every formulation can be asked for, with one motor or more on each leg.
+/// A state for every formulation, with one motor or more on each leg.
 inline KindCase goodCase(const std::vector<LegKind>& kinds, unsigned seed) {
   SeededDraws dice(seed);
   for (;;) {

@@ -1,6 +1,6 @@
-// Maximal coordinates and MuJoCo for legs of all kinds, any number of them and motors anywhere: against vectors made of
-// positions alone in 100 digits, against each other and against the solver, which share nothing but raw parameters; and
-// that a parameter that is wrong in one of them is seen.
+// Maximal coordinates and MuJoCo for any number of legs of all kinds with motors anywhere. They are compared with
+// vectors from positions in 100 digits, with each other and with the solver, which share only raw parameters. A
+// parameter that is wrong in one of them must be seen.
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ TEST_P(OnKindVectors, bothEnginesHaveTheirEfforts) {
 
 class OnVectorsOfSixLegs : public OnKindVectors {};
 
-/// Frames and mass centres are those of the contract, twists their rates.
+/// Frames and mass centres are those of the contract, and twists are their rates.
 TEST_P(OnVectorsOfSixLegs, bodiesMoveAsTheSolversDo) {
   const Scenario scenario = vectorScenario(GetParam());
   MaximalLoop loop(*scenario.manipulator);
@@ -86,7 +86,7 @@ const std::vector<Structure> structures = {
 
 class OnMachinesAtRandom : public testing::TestWithParam<Structure> {};
 
-/// Any pose, twist and twist rate, with motors on any coordinates, friction on all, and a load.
+/// The states have any pose, twist and twist rate, with motors on any coordinates, friction on all, and a load.
 TEST_P(OnMachinesAtRandom, theEnginesAgree) {
   SeededDraws dice(101);
   double from_solver = 0, from_each_other = 0;
@@ -114,7 +114,7 @@ TEST_P(OnMachinesAtRandom, theEnginesAgree) {
 INSTANTIATE_TEST_SUITE_P(Structures, OnMachinesAtRandom, testing::ValuesIn(structures),
                          [](const auto& each) { return std::string(each.param.name); });
 
-/// To the last bit, whatever structures other threads ask for meanwhile.
+/// Answers are equal to the last bit, whatever structures other threads build meanwhile.
 TEST(EnginesOfKinds, answerAlikeOnWhateverThread) {
   if (!mujocoAvailable()) GTEST_SKIP() << "built without MuJoCo";
   std::vector<KindCase> cases;

@@ -1,5 +1,4 @@
-// What the two formulations must see and refuse: a parameter that is wrong, friction on each coordinate, a leg that
-// cannot reach.
+// The two formulations must see a wrong parameter and friction on each coordinate, and refuse a leg that cannot reach.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,7 +15,7 @@ namespace {
 
 struct Wrong {
   const char* what;
-  std::function<void(Leg&, double)> change;  ///< by that part of itself
+  std::function<void(Leg&, double)> change;  ///< by this share of itself
 };
 
 const std::vector<Wrong> wrongs = {
@@ -36,7 +35,7 @@ const std::vector<Wrong> wrongs = {
      }},
 };
 
-/// What a carriage has to no effect, as it does not turn; and the length of a cylinder is for its stroke alone.
+/// Parameters without effect on some kinds: a carriage does not turn, and a cylinder's length only limits its stroke.
 const std::vector<Wrong> at_times_idle = {
     {"proximal.length", [](Leg& leg, double by) { leg.proximal.length *= 1 + by; }},
     {"proximal.center_of_mass", [](Leg& leg, double by) { leg.proximal.center_of_mass += by; }},
@@ -55,7 +54,7 @@ class OnEachKind : public testing::TestWithParam<int> {
   const std::vector<Vector6d> efforts_ = byEngines(Manipulator(right_.machine), right_.load, right_.motion);
   const double size_ = largest(efforts_[0]);
 
-  /// The least change that any formulation has by it; and all change alike.
+  /// Returns the smallest change over all formulations, which must all change alike.
   double leastChange(const std::function<void(Leg&)>& change, const char* what) {
     ManipulatorParameters parameters = right_.machine;
     change(parameters.legs[leg_]);
@@ -82,7 +81,7 @@ TEST_P(OnEachKind, everyParameterHasASay) {
   EXPECT_EQ(leastChange(bend, "knee") > 1e-3, rowOf(kind_).knee != nullptr);
 }
 
-/// Friction on a driven coordinate falls on its motor, along its rate; on another it is seen as well.
+/// Friction on a driven coordinate acts on its motor, against its rate; on another coordinate it has an effect, too.
 TEST_P(OnEachKind, frictionActsAgainstItsCoordinate) {
   const Noc<double> solver{Manipulator(right_.machine)};
   NocWorkspace<double> work;
@@ -114,7 +113,7 @@ TEST_P(OnEachKind, frictionActsAgainstItsCoordinate) {
 
 INSTANTIATE_TEST_SUITE_P(Legs, OnEachKind, testing::Range(0, 4));
 
-/// Each way out of reach, by the length that is too short or too long at a pose that is right.
+/// Each way out of reach: a length that is too short or too long at a right pose.
 TEST(EnginesOfKinds, refuseWhatALegCannotReach) {
   const KindCase right = goodCase({U, T, R, P}, 102);
   const auto refuses = [&](std::size_t leg, double proximal, double distal) {

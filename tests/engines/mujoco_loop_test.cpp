@@ -1,5 +1,5 @@
-// MuJoCo's formulation against reference vectors of 25 digits, against Simbody's six balls and against the maximal
-// coordinates; and that a parameter that is wrong in one of them is seen.
+// Compares MuJoCo's formulation with reference vectors of 25 digits, with Simbody's six balls and with maximal
+// coordinates. A parameter that is wrong in one of them must be seen.
 
 #include "engines/mujoco/mujoco_loop.h"
 
@@ -49,7 +49,7 @@ const auto asName = [](const auto& name) {
   return text;
 };
 
-/// Where every test is asked for, none of these is passed over in silence.
+/// In CI, where every test must run, a build without MuJoCo is a failure.
 TEST(Mujoco, isThereInContinuousIntegration) {
   const char* ci = std::getenv("CI");
   if (ci != nullptr && std::string(ci) == "true") {
@@ -57,7 +57,7 @@ TEST(Mujoco, isThereInContinuousIntegration) {
   }
 }
 
-/// All that is tested here is optional.
+/// Skips the tests in a build without MuJoCo.
 class Named : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
@@ -79,7 +79,7 @@ TEST_P(MujocoOnVectors, hasTheirTorques) {
   }
 }
 
-/// Any twist and any twist rate, and loads in both frames.
+/// The states have any twist and twist rate, and loads in both frames.
 TEST_P(MujocoOnVectors, agreesWithTheOtherEnginesOnStatesAtRandom) {
   SeededDraws dice(71);
   for (const auto frame : {Load::Frame::base, Load::Frame::platform}) {
@@ -100,7 +100,7 @@ TEST_P(MujocoOnVectors, agreesWithTheOtherEnginesOnStatesAtRandom) {
   }
 }
 
-/// Kilometres off, B's origin costs digits of p and aᵢ, which both formulations are given, and no more.
+/// If B's origin is kilometres away, only the given p and aᵢ lose digits.
 TEST_P(MujocoOnVectors, areAsGoodWhereTheOriginIsFar) {
   const Vector3d away(3000, -5000, 7000);
   ManipulatorParameters parameters = scenario_.manipulator->parameters();
@@ -133,7 +133,8 @@ TEST_P(MujocoOnScenarios, agreesWithTheOtherEngines) {
     from_maximal = std::max(from_maximal, largest(torques - maximal.inverseDynamics(motion)));
     from_simbody = std::max(from_simbody, largest(torques - simbody.inverseDynamics()));
   }
-  const double condition = GetParam().rfind("near-", 0) == 0 ? 1e2 : 1;  // stretched legs, and a singular pose
+  const double condition =
+      GetParam().rfind("near-", 0) == 0 ? 1e2 : 1;  // because of stretched legs and a singular pose
   EXPECT_GT(size, 1);
   EXPECT_LE(from_maximal, condition * room * size);
   EXPECT_LE(from_simbody, condition * room * size);
@@ -146,10 +147,10 @@ INSTANTIATE_TEST_SUITE_P(Shipped, MujocoOnScenarios, testing::ValuesIn(shippedSc
 
 struct Wrong {
   const char* what;
-  std::function<void(ManipulatorParameters&, double)> change;  ///< by that part of itself
+  std::function<void(ManipulatorParameters&, double)> change;  ///< by this share of itself
 };
 
-/// One of every kind that a leg, the platform and the surroundings have.
+/// A change of every kind of parameter of a leg, the platform and the surroundings.
 const std::vector<Wrong> wrongs = {
     {"gravity", [](auto& m, double by) { m.gravity.z() *= 1 + by; }},
     {"platform.mass", [](auto& m, double by) { m.platform.mass *= 1 + by; }},
@@ -174,7 +175,7 @@ const std::vector<Wrong> wrongs = {
     {"coulomb.theta", [](auto& m, double by) { m.legs[3].coulomb.theta += by; }},
 };
 
-/// Control: every parameter has a say, and the same as in the other formulation.
+/// Control: every parameter has an effect, which is the same as in the other formulation.
 TEST(MujocoLoops, seeEveryParameterAsTheMaximalCoordinatesDo) {
   if (!mujocoAvailable()) GTEST_SKIP() << "built without MuJoCo";
   const Scenario scenario = shipped("proving-ground");
@@ -192,7 +193,7 @@ TEST(MujocoLoops, seeEveryParameterAsTheMaximalCoordinatesDo) {
   }
 }
 
-/// The other knee is another machine.
+/// With the other knee it is another machine.
 TEST(MujocoLoops, bendEachKneeAsItIsToldTo) {
   if (!mujocoAvailable()) GTEST_SKIP() << "built without MuJoCo";
   const Scenario scenario = shipped("paper-helix");
@@ -208,7 +209,7 @@ TEST(MujocoLoops, bendEachKneeAsItIsToldTo) {
   }
 }
 
-/// To the last bit, whatever was asked before and on whatever thread.
+/// Answers are equal to the last bit on any thread, whatever was asked before.
 TEST(MujocoLoops, answerAlikeWhateverWasAskedBefore) {
   if (!mujocoAvailable()) GTEST_SKIP() << "built without MuJoCo";
   const Scenario scenario = shipped("proving-ground");

@@ -1,5 +1,5 @@
-// The closed loop in Simbody by itself: two topologies of one machine, and what must hold of any of them. This program
-// does not link the solver.
+// The closed loop in Simbody by itself: two topologies of one machine, and the properties of both. This program does
+// not link the solver.
 
 #include "engines/simbody/simbody_loop.h"
 
@@ -21,8 +21,9 @@ namespace {
 using Topology = SimbodyLoop::Topology;
 
 constexpr double eps = Eigen::NumTraits<double>::epsilon();
-/// Rounding on the way from a pose to accelerations and torques and back: one error for each of the 30 coordinates of
-/// either side of a comparison, times a condition number that stays below 1e3 for these machines near their helices.
+/// Rounding on the way from a pose to accelerations and torques and back. There is one error for each of the 30
+/// coordinates on either side of a comparison, times a condition number below 1e3 for these machines near their
+/// helices.
 constexpr double room = 64 * 1e3 * eps;
 
 double norm(const JointVariables<double>& a, const JointVariables<double>& b) {
@@ -45,7 +46,7 @@ class Loop : public testing::TestWithParam<std::string> {
 
 constexpr Topology topologies[] = {Topology::six_balls, Topology::tree_through_leg_1};
 
-/// Position-level truth of tests/vectors, which were made without Simbody and without the paper's rates.
+/// The vectors are the truth at position level, made without Simbody and without the paper's rates.
 TEST_P(Loop, hasTheJointMotionOfTheVectors) {
   for (const Topology topology : topologies) {
     SimbodyLoop at = loop(topology);
@@ -93,7 +94,7 @@ TEST_P(Loop, closesTheLoopsAndTakesThePlatformWhereItIsTold) {
   }
 }
 
-/// Control: the closure sees an angle and a rate that are off.
+/// Control: the closure reveals a wrong angle and a wrong rate.
 TEST_P(Loop, closureSeesAnOpenLoop) {
   SimbodyLoop at = loop(Topology::six_balls);
   const Motion<double> motion = randomState(scenario_, dice_);
@@ -164,14 +165,14 @@ TEST_P(Loop, acceleratesAsCommandedUnderItsOwnTorques) {
       const Motion<double> found = at.platform();
       return (found.p_ddot - motion.p_ddot).norm() + (found.omega_dot - motion.omega_dot).norm();
     };
-    // Here what cancels is what the torques alone would do.
+    // Here the effects of the torques alone cancel.
     EXPECT_LE(error(torques), room * (motion.p_ddot.norm() + motion.omega_dot.norm() + error(Vector6d::Zero())));
     EXPECT_GT(error(torques + 1e-3 * Vector6d::Unit(2)), 1e-7) << "it sees a millinewton metre";
   }
 }
 
-/// What the motors turn adds j q̈ to their efforts and ½ j q̇² to the energy; both topologies' dynamics, by elimination
-/// and by Simbody's own, undo them.
+/// Rotors add j q̈ to the efforts and ½ j q̇² to the energy. The dynamics of both topologies, by elimination and by
+/// Simbody, give the accelerations back.
 TEST_P(Loop, hasTheRotorsOfItsMotors) {
   ManipulatorParameters machine = scenario_.manipulator->parameters();
   Vector6d rotors;
@@ -201,7 +202,7 @@ TEST_P(Loop, hasTheRotorsOfItsMotors) {
   }
 }
 
-/// Simbody's own forward dynamics drops multipliers there, and is off by as much as gravity.
+/// Here Simbody's own forward dynamics drops multipliers, and its error is as large as gravity.
 TEST_P(Loop, acceleratesAsCommandedWithNearlyMasslessRods) {
   ManipulatorParameters light = scenario_.manipulator->parameters();
   for (Leg& leg : light.legs) {
@@ -243,7 +244,7 @@ TEST_P(Loop, energyGrowsByThePower) {
     };
     const double slope = (energy(step) - energy(-step)) / (2 * step);
     const double size = std::abs(energy(0)) + std::abs(sum);
-    // Truncation goes with step² over the square of the motion's time, some 0.1 s; rounding with eps / step.
+    // Truncation is step² over the square of the motion's time, some 0.1 s; rounding is eps / step.
     EXPECT_NEAR(slope, sum, size * (step * step / 0.01 + 64 * eps / step));
     EXPECT_GT(std::abs(sum), 1e3 * size * (step * step / 0.01 + 64 * eps / step)) << "the room says nothing";
     EXPECT_LE(power.friction, 0);
@@ -271,7 +272,7 @@ TEST(LoopSizes, sixDegreesOfFreedomEitherWay) {
   EXPECT_EQ(size(Topology::tree_through_leg_1), 6 * 3 + 4 + 21);  // and for its ball on leg 1
 }
 
-/// The knees' friction works against their rates, and Coulomb's as well.
+/// Viscous and Coulomb friction of the knees act against their rates.
 TEST(LoopFriction, costsTorqueAndPower) {
   const Scenario scenario = vectorScenario("paper-helix");
   ManipulatorParameters parameters = scenario.manipulator->parameters();
@@ -329,7 +330,7 @@ TEST(LoopIntegration, rungeKuttaMersonObservesEveryInstantAskedFor) {
   EXPECT_FALSE(counters.gave_up);
   EXPECT_GT(counters.steps, 2);
   EXPECT_GE(counters.derivative_evaluations, 4 * counters.steps);
-  EXPECT_LE(error, 1e-6);  // the accuracy asked for, over some steps, amplified a little
+  EXPECT_LE(error, 1e-6);  // the requested accuracy, over some steps, slightly amplified
   EXPECT_GT(error, 0);
 }
 

@@ -1,6 +1,6 @@
-// A library to preload: of the calls that write below FAULTS_FOLDER, that numbered FAULTS_AT fails with FAULTS_ERROR
-// (an errno) and is not made; the others go to the C library. Each is a line of the file FAULTS_LOG: "NUMBER CALL
-// PATH". Numbers count on over forked processes. Without FAULTS_AT all succeed, which numbers them.
+// A library to preload. It numbers the calls that write below FAULTS_FOLDER, also over forked processes. Call number
+// FAULTS_AT fails with FAULTS_ERROR (an errno) instead of being made; the others go to the C library. The file
+// FAULTS_LOG gets a line for each: "NUMBER CALL PATH". Without FAULTS_AT all succeed.
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -26,7 +26,7 @@ struct Plan {
   long at = 0;
   int error = EIO;
   int log = -1;
-  std::atomic<long>* count = nullptr;  ///< shared with the processes that are forked
+  std::atomic<long>* count = nullptr;  ///< shared with forked processes
 
   Plan() {
     const char* log_file = std::getenv("FAULTS_LOG");
@@ -51,7 +51,7 @@ bool isBelow(const char* path) {
   return std::strncmp(path, plan().folder, length) == 0 && (path[length] == '/' || path[length] == '\0');
 }
 
-/// The call fails here; errno is set.
+/// Whether this call must fail; sets errno.
 bool failsAt(const char* call, const char* path) {
   const long number = ++*plan().count;
   char line[PATH_MAX + 64];
@@ -93,7 +93,7 @@ mode_t modeOf(int flags, va_list rest) {
 
 }  // namespace
 
-// What is written below has one form: the call's declaration, what its path or descriptor is, its arguments.
+// Defines a call that may fail, from its declaration, its path or descriptor, and its arguments.
 #define FAILS_ON(what, result, name, parameters, arguments, ...)                         \
   extern "C" __attribute__((visibility("default"))) result name parameters __VA_ARGS__ { \
     static const auto real = next<result(*) parameters>(#name);                          \
@@ -139,7 +139,7 @@ extern "C" __attribute__((visibility("default"))) int unlinkat(int folder, const
   return (folder == AT_FDCWD ? fails("unlinkat", path) : fails("unlinkat", folder)) ? -1 : real(folder, path, flags);
 }
 
-/// After a failed close the descriptor is gone.
+/// A failed close still closes the descriptor.
 extern "C" __attribute__((visibility("default"))) int close(int file) {
   static const auto real = next<int (*)(int)>("close");
   const bool is_to_fail = fails("close", file);

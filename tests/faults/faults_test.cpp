@@ -1,5 +1,5 @@
-// The built program, while one call of the system after the other fails in what it writes: what is there afterwards are
-// the old results or the new ones, whole, and the exit code says which.
+// The built program, while one writing system call after another fails. Afterwards there are the whole old or the whole
+// new results, and the exit code says which.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -27,14 +27,14 @@ struct Call {
   std::string name, path;
 };
 
-/// A call of the program whose writing below "at" is counted or disturbed.
+/// A call of the program whose writes below "at" are counted or disturbed.
 class Disturbed {
  public:
   explicit Disturbed(std::string arguments) : arguments_(std::move(arguments)) {
     fs::create_directory(ursula.folder() / "at");
   }
 
-  /// Exit code; with call number `at` failing, or none for 0.
+  /// Returns the exit code while call number `at` fails; none fails for 0.
   int run(long at, int error = EIO) const {
     fs::remove(ursula.folder() / "log");
     return shell(ursula, "LD_PRELOAD='" URSULA_FAULT_SHIM "' FAULTS_LOG=log FAULTS_FOLDER=\"$PWD/at\" FAULTS_AT=" +
@@ -65,8 +65,8 @@ std::set<std::string> namesOf(const std::vector<Call>& calls) {
   return names;
 }
 
-/// Numbers from 0 of the calls that are made to fail: all with URSULA_EVERY_CALL set (./dev faults). Else one in so
-/// many, and the first and last of each name.
+/// Returns the indices of the calls that shall fail: all if URSULA_EVERY_CALL is set (./dev faults), else a sample with
+/// the first and last of each name.
 std::set<std::size_t> failing(const std::vector<Call>& calls) {
   constexpr std::size_t wanted = 16;
   const std::size_t step =
@@ -81,7 +81,7 @@ std::set<std::size_t> failing(const std::vector<Call>& calls) {
   return chosen;
 }
 
-/// Under the names that people read.
+/// Returns the results under their final names.
 std::map<std::string, std::string> results(const fs::path& folder) {
   auto all = contents(folder);
   for (auto each = all.begin(); each != all.end();)
@@ -96,7 +96,7 @@ std::string leftovers(const fs::path& folder) {
   return found;
 }
 
-/// What a file of `results`, made by a run that nothing disturbs, is after every failure, with `prepare` before each.
+/// After every failure the results must be those of an undisturbed run, old or new. `prepare` runs before each.
 void holdsThroughEveryFailure(const Disturbed& disturbed, const std::function<void()>& prepare,
                               const std::set<std::string>& expected_calls) {
   const fs::path at = disturbed.ursula.folder() / "at";
@@ -121,7 +121,7 @@ void holdsThroughEveryFailure(const Disturbed& disturbed, const std::function<vo
       EXPECT_THAT(disturbed.complaint(), HasSubstr("error: ")) << where;
     }
     refused += exit_code == 2;
-    if (leftovers(at).empty()) continue;  // the next run finds what any finds
+    if (leftovers(at).empty()) continue;  // nothing was left, so the next run is like any other
     ASSERT_EQ(disturbed.run(0), undisturbed) << disturbed.complaint();
     EXPECT_TRUE(results(at) == fresh) << "after " << where;
     EXPECT_EQ(leftovers(at), "") << "after " << where;
@@ -137,7 +137,7 @@ void putOld(const Disturbed& disturbed, const fs::path& old) {
   fs::copy(old, disturbed.ursula.folder() / "at", fs::copy_options::recursive);
 }
 
-/// Of validations that end at once, inconclusive: what is written is what matters here.
+/// The validations end at once as inconclusive, because only writing matters here.
 TEST(Faults, leaveARunsResultsWhole) {
   const Disturbed disturbed("validate a.toml --time-limit 1e-9 --out at/out");
   disturbed.ursula.write("a.toml", quickScenario("one"));
@@ -174,7 +174,7 @@ TEST(Faults, leaveAFileWhole) {
   }
 }
 
-/// All that a sweep's database says, but for the seconds it took.
+/// Returns the content of a sweep's database, without computing times.
 std::string rowsOf(const fs::path& file) {
   sqlite3* database = nullptr;
   std::string all;
@@ -195,8 +195,8 @@ std::string rowsOf(const fs::path& file) {
 
 const std::string small_sweep = massSweep("a.toml", "what = \"inverse\"\ncount = 40\nsamples = 5\n");
 
-/// The call that fails may end the sweep, which goes on when it is called again; rows are those of one that nothing
-/// disturbs.
+/// The failing call may end the sweep, which continues at the next call. The rows must be those of an undisturbed
+/// sweep.
 void holdsRowsThroughEveryFailure(const Disturbed& disturbed, const std::set<std::string>& expected_calls) {
   const fs::path at = disturbed.ursula.folder() / "at", database = at / "s.db";
   ASSERT_EQ(disturbed.run(0), 0) << disturbed.complaint();

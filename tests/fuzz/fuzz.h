@@ -5,19 +5,19 @@
 #include <string>
 #include <utility>
 
-/// A target of libFuzzer: whatever the bytes, an error of the reader's own or an answer, and nothing else.
+/// A target of libFuzzer. Any bytes give an answer or the reader's own error, and nothing else.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace ursula::fuzz {
 
-/// Inputs that were read and not refused: none, and a target tests only how its reader refuses.
+/// The number of accepted inputs. If it is 0, a target tests only refusals.
 inline std::size_t accepted = 0;
 
 inline std::string textOf(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// Two files in one: before and after the first line of dashes.
+/// Splits a text into two files at the first line of dashes.
 inline std::pair<std::string, std::string> twoOf(const std::string& text) {
   const std::string between = "\n---\n";
   const std::size_t at = text.find(between);

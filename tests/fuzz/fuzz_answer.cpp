@@ -1,4 +1,4 @@
-// What a solver's process answers.
+// The answers of a solver's process.
 
 #include <cstdlib>
 

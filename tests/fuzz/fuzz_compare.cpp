@@ -1,4 +1,4 @@
-// Two histories side by side.
+// The comparison of two histories.
 
 #include <cmath>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// A CSV, as numbers, as a motion sampled densely, as somebody's torques.
+// A CSV, read as numbers, as a sampled motion, and as torques.
 
 #include <cstdlib>
 

@@ -1,4 +1,4 @@
-// A database that is opened, and what a report makes of it: a file's bytes, or what SQL makes of a sound one.
+// A database and its report. The database is a file of any bytes, or a sound one changed by SQL.
 
 #include <sqlite3.h>
 #include <unistd.h>
@@ -14,8 +14,8 @@
 
 namespace {
 
-/// In memory, where the system has such a place: libFuzzer opens it thousands of times a second. Not a name below
-/// /proc: SQLite follows links to a file's own name.
+/// The file is in memory if possible, because libFuzzer opens it thousands of times a second. A name below /proc does
+/// not work, because SQLite follows links to a file's own name.
 const std::filesystem::path& file() {
   static const std::filesystem::path path = [] {
     const std::filesystem::path memory = "/dev/shm";
@@ -28,7 +28,7 @@ const std::filesystem::path& file() {
 
 void write(const std::string& bytes) { std::ofstream(file(), std::ios::binary | std::ios::trunc) << bytes; }
 
-/// A small sweep's, in small pages.
+/// The database of a small sweep, with small pages.
 const std::string& soundDatabase() {
   static const std::string bytes = [] {
     std::filesystem::remove(file());
@@ -56,7 +56,7 @@ const std::string& soundDatabase() {
   return bytes;
 }
 
-/// As far as it is SQL, and for so many steps: what is endless is then the statement, not the reader.
+/// Runs the SQL for a bounded number of steps, so that an endless statement ends.
 void change(const std::string& sql) {
   sqlite3* handle = nullptr;
   if (sqlite3_open(file().c_str(), &handle) == SQLITE_OK) {
@@ -82,7 +82,7 @@ void read() {
 /// The sound database is read here, not in LLVMFuzzerInitialize. Writing a file catches SIGALRM, and libFuzzer, which
 /// catches signals after that function, leaves a signal alone that is caught.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  [[maybe_unused]] static const bool sound_is_read = [] {  // or nothing is tested
+  [[maybe_unused]] static const bool sound_is_read = [] {  // otherwise nothing is tested
     write(soundDatabase());
     read();
     return true;

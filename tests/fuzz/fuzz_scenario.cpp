@@ -1,4 +1,4 @@
-// A scenario's text. What is accepted has a motion.
+// A scenario's text. An accepted scenario has a motion.
 
 #include <cmath>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// Gives files to a target, in place of libFuzzer: what it once found stays mended.
+// Gives files to a target instead of libFuzzer, so that its findings stay fixed.
 
 #include <cstdio>
 #include <filesystem>

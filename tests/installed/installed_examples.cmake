@@ -1,5 +1,6 @@
-# Installs into an empty folder, builds the examples there against what was installed, with warnings as errors in our
-# headers too, and runs them. cmake -D BUILD=… -D CXX=… -D GENERATOR=… -D EIGEN=… [-D PYTHON=…] -D WORK=… -P installed_examples.cmake
+# Installs into an empty folder, builds the examples there against the installed files, with warnings as errors even in
+# our headers, and runs them. cmake -D BUILD=… -D CXX=… -D GENERATOR=… -D EIGEN=… [-D PYTHON=…] -D WORK=… -P
+# installed_examples.cmake
 cmake_policy(VERSION 3.25)
 
 include(${CMAKE_CURRENT_LIST_DIR}/../support/run.cmake)
@@ -9,7 +10,7 @@ file(MAKE_DIRECTORY ${WORK})
 set(prefix ${WORK}/prefix)
 run(0 "" ${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
 
-# Nothing of ours is forced on users: no options, no definitions, no library but our own.
+# The package forces no options, no definitions and no other library on its users.
 file(GLOB_RECURSE exported ${prefix}/lib*/ursula-targets*.cmake)
 foreach(file IN LISTS exported)
   file(READ ${file} text)
@@ -27,7 +28,7 @@ run(0 "" ${CMAKE_COMMAND} -S ${source} -B ${WORK}/build -G ${GENERATOR} -D CMAKE
   -D CMAKE_PREFIX_PATH=${prefix} -D CMAKE_NO_SYSTEM_FROM_IMPORTED=ON "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror -pedantic")
 run(0 "" ${CMAKE_COMMAND} --build ${WORK}/build)
 
-# Containers of another layout are refused by the compiler.
+# The compiler must refuse containers of another layout.
 set(compile ${CXX} -std=c++17 -fsyntax-only -I${prefix}/include -I${EIGEN} ${source}/judge_own_solver.cpp)
 run(0 "" ${compile})
 run(0 "" ${compile} -D_GLIBCXX_ASSERTIONS)
@@ -49,7 +50,7 @@ foreach(file summary.json timeseries.csv report.html junit.xml)
   endif()
 endforeach()
 
-# The same by pkg-config, as meson and make ask it. Eigen's own file says where it would be if it was installed.
+# The same by pkg-config, which meson and make use. Eigen's own file names the place of an installed Eigen.
 find_program(PKG_CONFIG NAMES pkg-config pkgconf)
 if(PKG_CONFIG)
   file(GLOB_RECURSE pc ${prefix}/lib*/ursula.pc)
@@ -68,7 +69,7 @@ if(PKG_CONFIG)
 endif()
 run(0 "[0-9]" ${prefix}/bin/ursula --version)
 
-# What the README shows, beside a telescopic machine of one's own; zeros are no efforts.
+# Runs the README's program beside a telescopic machine; its efforts of zero must fail.
 file(MAKE_DIRECTORY ${WORK}/own)
 function(run_own expected pattern)
   run(${expected} "${pattern}" ${CMAKE_COMMAND} -E chdir ${WORK}/own ${CMAKE_COMMAND} -E env PYTHONDONTWRITEBYTECODE=1 ${ARGN})
