@@ -9,7 +9,8 @@
 
 namespace ursula {
 
-/// Largest mismatches, over the instants given, between what a trajectory says and what its pose says.
+/// Largest mismatches, over the given instants, of a trajectory's velocities and accelerations with derivatives of its
+/// pose.
 struct DerivativeMismatch {
   double omega = 0, omega_dot = 0, p_dot = 0, p_ddot = 0;
   double worst() const { return std::max({omega, omega_dot, p_dot, p_ddot}); }
@@ -17,7 +18,7 @@ struct DerivativeMismatch {
 
 /// Step of the central differences; they are off by h²/6 times a third derivative, so by 2e-25 times that.
 inline const Real50 difference_step("1e-12");
-/// Room for third derivatives up to 5e6 of the motions tested (which stay below 1e4), and far below a double's eps.
+/// Allows for third derivatives up to 5e6 (those of the tested motions are below 1e4), and is far below a double's eps.
 constexpr double difference_tolerance = 1e-18;
 
 template <class V>
@@ -46,14 +47,14 @@ inline DerivativeMismatch derivativeMismatch(const Trajectory& trajectory, const
   return mismatch;
 }
 
-/// `count` instants inside (0, duration), none at a round fraction of it where a knot may be.
+/// `count` instants inside (0, duration), none at a round fraction of it, where a knot may be.
 inline std::vector<double> instantsInside(double duration, int count) {
   std::vector<double> instants;
   for (int i = 0; i < count; ++i) instants.push_back(duration * (i + 0.381966) / count);
   return instants;
 }
 
-/// The largest entry of QᵀQ − 1, or 2 where Q turns right into left.
+/// The largest entry of QᵀQ − 1, or 2 if Q is a reflection.
 template <class S>
 double orthonormalityError(const Matrix3<S>& Q) {
   const Matrix3<S> product = Q.transpose() * Q - Matrix3<S>::Identity();
@@ -61,7 +62,8 @@ double orthonormalityError(const Matrix3<S>& Q) {
   return handedness > 0 ? static_cast<double>(product.cwiseAbs().maxCoeff()) : 2.0;
 }
 
-/// Largest entry by which the double kernel differs from the 50-digit one, over what size it has in the whole motion.
+/// The largest difference between the kernels in doubles and in 50 digits, over the quantity's size in the whole
+/// motion.
 inline double roundingError(const Trajectory& trajectory, const std::vector<double>& instants) {
   double scale[6] = {1, 1, 1, 1, 1, 1}, error[6] = {};
   for (const double t : instants) {
@@ -84,7 +86,7 @@ inline double roundingError(const Trajectory& trajectory, const std::vector<doub
   return worst;
 }
 
-/// Another trajectory with an error put into one derivative: what a check must catch.
+/// A trajectory with an error in one derivative, which a check must catch.
 class Falsified : public ExactTrajectory {
  public:
   enum class Part { omega, omega_dot, p_dot, p_ddot };
@@ -95,7 +97,7 @@ class Falsified : public ExactTrajectory {
   Motion<Real50> at(const Real50& t) const override { return falsified(truth_.at(t)); }
 
  private:
-  /// Grows with t, so that the derivative of the falsified quantity is off as well.
+  /// The error grows with t, so that the falsified quantity's derivative is wrong, too.
   template <class S>
   Motion<S> falsified(Motion<S> motion) const {
     const S error = S(error_) * (1 + motion.t);

@@ -1,5 +1,5 @@
-// The helix of the paper's Appendix by two formulations: its closed forms against differences of its own pose in 50
-// digits, and against what (49)-(55) say of a curve: ends, tangent, normal.
+// The helix of the paper's Appendix: its closed forms against differences of its own pose in 50 digits, and against the
+// properties that (49)-(55) give a curve: ends, tangent, normal.
 
 #include <gmock/gmock.h>
 
@@ -29,7 +29,7 @@ HelixParameters paperHelix() {
   return helix;
 }
 
-/// Every parameter away from its default, the pitch negative.
+/// No parameter has its default, and the pitch is negative.
 HelixParameters generalHelix() {
   HelixParameters helix = paperHelix();
   helix.duration = 1.7;
@@ -105,7 +105,7 @@ TEST_P(Helix, inDoubleIsTheExactOneRounded) {
   EXPECT_LE(roundingError(*helix, instantsInside(helix->duration(), 100)), 200 * eps);
 }
 
-/// A rounding of the angle itself, 1e6 eps, would show beside the 200 eps of above.
+/// A rounding of the angle itself, 1e6 eps, would show beside the 200 eps above.
 TEST(HelixOfManyTurns, losesNoDigits) {
   HelixParameters far = generalHelix();
   far.phase = 1e6;
@@ -121,7 +121,7 @@ TEST(HelixOfManyTurns, losesNoDigits) {
       EXPECT_LE((rounded.Q - exact.Q.cast<double>()).norm(), 200 * eps);
       EXPECT_LE((rounded.p_ddot - exact.p_ddot.cast<double>()).norm(), 200 * eps * exact.p_ddot.cast<double>().norm());
     }
-    EXPECT_GT((helix->at(0).Q - makeHelix(generalHelix())->at(0).Q).norm(), 0.01);  // another angle it is
+    EXPECT_GT((helix->at(0).Q - makeHelix(generalHelix())->at(0).Q).norm(), 0.01);  // the angle is another one
   }
 }
 
@@ -132,7 +132,7 @@ TEST(PaperHelixMotion, startsAndEndsAtRest) {
     EXPECT_LE((motion.p_dot.norm() + motion.omega.norm()).convert_to<double>(), 1e-45);
     EXPECT_LE((motion.p_ddot.norm() + motion.omega_dot.norm()).convert_to<double>(), 1e-45);
   }
-  // The quintic from rest to rest is half way at half time, with the rate 15/8 of the mean one.
+  // The quintic from rest to rest is half way at half time, with 15/8 of the mean rate.
   const Motion<Real50> middle = helix->at(Real50(1.5));
   const Real50 mean = (Real50(-1.0471975511965976) - Real50(-1.5707963267948966)) / 3;
   EXPECT_LE(abs(middle.omega.z() - 15 * mean / 8).convert_to<double>(), 1e-45);

@@ -1,4 +1,4 @@
-// The load over time: through its rows, twice continuously differentiable for all t, never outside its neighbours.
+// The load over time goes through its rows, is twice continuously differentiable, and stays between neighbouring rows.
 
 #include "model/load.h"
 
@@ -61,7 +61,7 @@ TEST(LoadHistory, inDoubleIsTheExactOneRounded) {
   }
 }
 
-/// First and second derivative of all six components by differences on one side, h from the instant.
+/// First and second derivatives of all six components by one-sided differences of step h.
 struct OneSided {
   Vector6<Real50> first, second;
 };
@@ -80,7 +80,7 @@ TEST(LoadHistory, isTwiceContinuouslyDifferentiableAtEveryRowEvenTheEnds) {
     const Real50 h("1e-15");
     const OneSided right = oneSided(history, Real50(row.time), h),
                    left = oneSided(history, Real50(row.time), Real50(-h));
-    // Off by h times the next derivative, which 60 · 100 N / (0.2 s)³ bounds.
+    // The error is h times the next derivative, which 60 · 100 N / (0.2 s)³ bounds.
     EXPECT_LE((right.first - left.first).norm().convert_to<double>(), 1e-8);
     EXPECT_LE((right.second - left.second).norm().convert_to<double>(), 1e-8);
   }

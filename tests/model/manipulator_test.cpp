@@ -1,4 +1,4 @@
-// Every refusal of a machine that cannot exist, and that the machine one step inside each bound is accepted.
+// Every impossible machine is refused, and the machine one step inside each bound is accepted.
 
 #include "model/manipulator.h"
 
@@ -135,7 +135,7 @@ TEST(Manipulator, acceptsAThinRod) {
   Machine machine = good();
   machine.legs[2].distal.inertia = Vector3d(4, 4, 0).asDiagonal();
   EXPECT_EQ(Manipulator(machine).leg(2).distal.inertia(2, 2), 0);
-  machine.legs[2].distal.inertia(0, 0) = 4 * (1 + 1e-15);  // the triangle inequality is one of rounded numbers
+  machine.legs[2].distal.inertia(0, 0) = 4 * (1 + 1e-15);  // the triangle inequality allows for rounding
   EXPECT_NO_THROW(Manipulator{machine});
   machine.platform.inertia = Vector3d(4, 4, 0).asDiagonal();
   EXPECT_THROW(Manipulator{machine}, InvalidParameter);
@@ -153,7 +153,7 @@ Machine spinning() {
   return machine;
 }
 
-/// Its momentum about its line stays zero: nothing moves by it.
+/// Its momentum about its line stays zero, so it has no effect.
 TEST(Manipulator, takesNoMomentAboutTheLineOfWhatSpins) {
   const Manipulator manipulator(spinning());
   EXPECT_EQ(manipulator.leg(1).proximal.inertia, Matrix3d(Vector3d(4, 4, 0).asDiagonal()));
@@ -191,7 +191,8 @@ TEST(Manipulator, acceptsALaminaInAnyAttitude) {
 }
 
 TEST(Manipulator, acceptsLegsThatJustReach) {
-  // Base and platform edges of legs 1 and 5 differ by 1 mm less, and 1 mm more, than both legs stretched bridge.
+  // Base and platform edges of legs 1 and 5 differ by 1 mm less, and then 1 mm more, than both stretched legs can
+  // bridge.
   Machine machine = good();
   for (Leg& leg : machine.legs) leg.base_point = leg.platform_point = Vector3d::Zero();
   machine.legs[4].base_point = {5.399, 0, 0};

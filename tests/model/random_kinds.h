@@ -14,14 +14,14 @@
 
 namespace ursula {
 
-/// A machine with legs of the kinds that are asked for, which reach at the motion; all else is thrown.
+/// A machine with legs of the given kinds that reach at the motion; everything else is random.
 struct KindCase {
   ManipulatorParameters machine;
   Motion<double> motion;
   std::shared_ptr<Load> load = std::make_shared<Load>();
 };
 
-/// What a body of positive density has: a full tensor within the triangle inequality.
+/// A full tensor within the triangle inequality, as a body of positive density has it.
 inline Matrix3d thrownInertia(SeededDraws& dice, double size) {
   Matrix3d second = Matrix3d::Zero();
   for (int k = 0; k < 4; ++k) {
@@ -45,7 +45,7 @@ inline void throwFriction(SeededDraws& dice, Leg& leg) {
   leg.coulomb.sliding_speed = dice.between(0.1, 0.5);
 }
 
-/// Lengths that reach over AB, well off the ends of what they reach.
+/// Draws lengths that span AB, well inside the leg's reach.
 inline void throwLengths(SeededDraws& dice, const Vector3d& AB, Leg& leg) {
   const double q = AB.norm(), along = leg.base_axis.normalized().dot(AB), r = std::sqrt(q * q - along * along);
   double l = dice.between(0.6, 0.9) * q, s = dice.between(0.6, 0.9) * q;
@@ -77,7 +77,7 @@ inline Leg thrownLeg(SeededDraws& dice, LegKind kind, double around, const Motio
   return leg;
 }
 
-/// A motor on each leg, the rest anywhere.
+/// Draws a motor on each leg, and the rest anywhere.
 inline void throwMotors(SeededDraws& dice, std::vector<Leg>& legs) {
   const auto one_more = [&](Leg& leg) {
     bool& driven = leg.actuated[static_cast<std::size_t>(dice.between(0, 3))];
@@ -90,7 +90,8 @@ inline void throwMotors(SeededDraws& dice, std::vector<Leg>& legs) {
     if (one_more(legs[static_cast<std::size_t>(dice.between(0, static_cast<double>(legs.size())))])) ++motors;
 }
 
-/// Rotors on the motors, mass centres off the links' lines, thin rods: of every other machine, thrown after all else.
+/// Adds rotors, mass centres off the links' lines, and thin rods to every other machine, after everything else is
+/// drawn.
 inline void throwAdded(SeededDraws& dice, std::vector<Leg>& legs) {
   if (dice.between(0, 1) < 0.5) return;
   for (Leg& leg : legs) {

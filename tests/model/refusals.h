@@ -10,7 +10,7 @@
 
 namespace ursula {
 
-/// The message of the E that `call` throws; a test failure, and a text that equals nothing, where it throws none.
+/// Returns the message of the E that `call` throws. If it throws none, the test fails and the text equals nothing.
 template <class E, class Call>
 std::string refusal(Call&& call) {
   try {
@@ -25,7 +25,7 @@ std::string refusal(Call&& call) {
   return "(nothing thrown)";
 }
 
-/// Place, value and bound of the InvalidParameter that `call` throws.
+/// Returns place, value and bound of the InvalidParameter that `call` throws.
 template <class Call>
 std::tuple<std::string, std::string, std::string> refusedParameter(Call&& call) {
   try {

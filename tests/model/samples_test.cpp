@@ -1,5 +1,5 @@
-// A sampled motion: derivatives against differences in 50 digits, a quintic given back exactly, the order on the helix,
-// and refusals with the CSV's line.
+// A sampled motion: derivatives against differences in 50 digits, exact reproduction of a quintic, the order on the
+// helix, and refusals with the CSV's line.
 
 #include <gmock/gmock.h>
 
@@ -96,7 +96,7 @@ TEST(Samples, giveAQuinticBackHoweverUnevenTheTimes) {
   }
   const auto motion = makeSamples(samples);
   for (const double t : instantsInside(motion->duration(), 50)) {
-    // Values rounded to eps/2 come back differentiated twice over steps of at least 0.14 s: 16 / 0.14² roundings.
+    // Values rounded to eps/2 are differentiated twice over steps of at least 0.14 s, which gives 16 / 0.14² roundings.
     EXPECT_NEAR(motion->at(t).p_ddot.x(), second(t), 1000 * eps * 40);
     EXPECT_NEAR(motion->at(t).p.x(), polynomial(t), 32 * eps);
   }

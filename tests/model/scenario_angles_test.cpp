@@ -1,4 +1,4 @@
-// Degrees where the key says so.
+// Angles in degrees, for keys that say so.
 
 #include <gmock/gmock.h>
 
@@ -32,7 +32,7 @@ TEST(ScenarioAngles, aHelixInDegreesIsTheSameMotion) {
   std::string text = replaced(good_scenario, "start_angle = -1.5707963267948966", "start_angle_deg = -90");
   text = replaced(text, "end_angle = -1.0471975511965976", "end_angle_deg = -60\nphase_deg = 0");
   const Scenario a = parseScenario(good_scenario, "a.toml"), b = parseScenario(text, "a.toml");
-  // The end angle in radians is off in its last digit, and β adds up terms of 31 times the rise.
+  // The end angle in radians is rounded in its last digit, and β adds terms of up to 31 times the rise.
   constexpr double rounding = 31 * 2.3e-16;
   for (double t : {0.0, 1.1, 3.0}) {
     EXPECT_LE((a.trajectory->at(t).p - b.trajectory->at(t).p).norm(), rounding);

@@ -1,4 +1,4 @@
-// The table of keys against the reader: what the docs say of types, defaults and bounds is what it does.
+// The table of keys against the reader: types, defaults and bounds in the docs are those that it applies.
 
 #include "model/scenario_keys.h"
 
@@ -20,7 +20,7 @@ const std::string points =
     "points = [{ time = 0, position = [0, 0, 1], orientation = [1, 0, 0, 0] }, { time = 2, position = [0, 0, 1.1], "
     "orientation = [1, 0, 0, 0] }]";
 
-/// A scenario with `line` in the table of that name, in place of the same key where it is there.
+/// A scenario with `line` in the table of that name; it replaces the same key if that exists.
 std::string withLine(const std::string& table, const std::string& key, const std::string& line) {
   const std::string machine = good_scenario.substr(0, good_scenario.find("[trajectory]"));
   using Lines = std::vector<std::pair<std::string, std::string>>;
@@ -77,7 +77,7 @@ std::string withLine(const std::string& table, const std::string& key, const std
   };
   if (table == "manipulator.leg") return leg(line);
   const std::string part = table == "manipulator.leg.link" ? "proximal" : table.substr(table.rfind('.') + 1);
-  // Of URS no coordinate slides. A rotor is on a coordinate that a motor drives.
+  // No coordinate of URS slides. A rotor is on a driven coordinate.
   const bool other_motor = table == "manipulator.leg.rotor_inertia" && key != "d";
   return leg((key == "d"    ? "kind = \"UPS\"\n"
               : other_motor ? "actuated = [\"" + key + "\"]\n"
@@ -91,7 +91,7 @@ bool isTried(const std::string& table) {
   return others.count(table) == 0;
 }
 
-/// What a refusal says it expected, by the type in the table.
+/// The expectation in a refusal, by the type in the table.
 std::string expectation(const ScenarioKey& key) {
   switch (key.type) {
     case KeyType::number:
@@ -167,14 +167,14 @@ TEST(ScenarioKeys, haveTheDefaultsThatTheReaderTakes) {
       if (!isTried(table.name) || key.isRequired() || key.fallback[0] == '\0') continue;
       const std::string line = std::string(key.name) + " = " + key.fallback;
       const bool of_friction = std::string(table.name).find("friction") != std::string::npos;
-      // The good scenario's defaults have friction of their own.
+      // The good scenario's defaults already have friction.
       const std::string plain = of_friction ? "friction = { actuated = 0.5, universal = 0.25, knee = 0.125 }" : "";
       const auto read = [&](const std::string& with) {
         const std::string text = withLine(table.name, key.name, with);
         return numbersOf(parseScenario(of_friction ? replaced(text, plain, "") : text, "a.toml"));
       };
       const bool is_load_force = table.name == std::string("load") && key.name == std::string("moment");
-      if (is_load_force) continue;  // without it the load has nothing
+      if (is_load_force) continue;  // without it the load would be empty
       EXPECT_EQ(read(line), read("")) << table.name << '.' << key.name;
       ++tried;
     }

@@ -1,4 +1,4 @@
-// What a scenario that is accepted means: values, defaults, overrides, the paper's own example.
+// The meaning of an accepted scenario: values, defaults, overrides, the paper's example.
 
 #include "model/scenario.h"
 
@@ -132,7 +132,7 @@ TEST(PaperScenario, isTheNumericalExample) {
   EXPECT_NEAR(start.p.z(), 1.2 * (2.2 - std::acos(-1.0) / 2), 1e-15);
   EXPECT_NEAR(start.p.y(), -0.2, 1e-16);
   // Table I: both families of legs, turned by 120° from one leg to the next, to its four digits; the platform points of
-  // legs 1, 3 and 4 lie 7 mm off.
+  // legs 1, 3 and 4 are 7 mm off.
   const double angle = 2 * std::acos(-1.0) / 3;
   Matrix3d third;
   third << std::cos(angle), -std::sin(angle), 0, std::sin(angle), std::cos(angle), 0, 0, 0, 1;

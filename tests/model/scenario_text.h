@@ -7,7 +7,7 @@
 
 namespace ursula {
 
-/// A small scenario that is accepted as it stands; tests change one place of it.
+/// A small valid scenario; tests change one place of it.
 inline const std::string good_scenario = R"(name = "small"
 
 [manipulator]
@@ -61,7 +61,7 @@ end_angle = -1.0471975511965976
 height_phase = 2.2
 )";
 
-/// `text` with the first `from` replaced; a test failure where there is none.
+/// Returns `text` with the first `from` replaced; the test fails if there is none.
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const auto place = text.find(from);
   if (place == std::string::npos) {
@@ -71,7 +71,7 @@ inline std::string replaced(std::string text, const std::string& from, const std
   return text.replace(place, from.size(), to);
 }
 
-/// A text and the `line:column` of the one '@' that was in it.
+/// A text and the `line:column` of the '@' that was in it.
 struct MarkedText {
   std::string text, place;
 };

@@ -1,4 +1,4 @@
-// [trajectory] and [load] of a scenario: what each kind means, and every refusal. An @ marks the place.
+// [trajectory] and [load] of a scenario: the meaning of each kind, and every refusal. An @ marks the place.
 
 #include <gmock/gmock.h>
 
@@ -13,7 +13,7 @@ namespace {
 using testing::EndsWith;
 using testing::HasSubstr;
 
-/// The good scenario with this in place of its trajectory.
+/// The good scenario with these tables instead of its trajectory.
 std::string with(const std::string& tables) {
   return good_scenario.substr(0, good_scenario.find("[trajectory]")) + tables;
 }
@@ -80,7 +80,7 @@ TEST(ScenarioTrajectory, refusesBadSamplesAtTheirLine) {
               EndsWith("pose.csv:5: error: time: 2, expected > 2, the time before"));
 }
 
-/// The refusal of a marked scenario, without file and place where they are those of the mark.
+/// The refusal of a marked scenario, without file and place if they are those of the mark.
 std::string refusalAtMark(const std::string& text) {
   const MarkedText changed = marked(text);
   const std::string message = refusal<ScenarioError>([&] { parseScenario(changed.text, "nowhere/a.toml"); });

@@ -1,4 +1,4 @@
-// Values that a scenario can spell but no machine, setting or file can have, with the whole message. An @ marks the
+// Values that a scenario can express but no machine, setting or file can have, with the whole message. An @ marks the
 // place.
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
-// The reader against a second one, which shares nothing with it but toml++; and scenarios that are not what their text
-// says: every kind of number is held.
+// Compares the reader with a second one, which shares only toml++ with it. Scenarios that differ from their text in any
+// kind of number must be caught.
 
 #include "tests/model/second_reading/second_reading.h"
 
@@ -33,7 +33,7 @@ TEST(SecondReading, findsNothingWhereNothingWasChanged) {
   EXPECT_GT(check.compared(), 100);
 }
 
-/// None of them is zero on the proving ground.
+/// No parameter is zero on the proving ground.
 TEST(SecondReading, seesEveryParameterOffByARounding) {
   const Scenario right = scenarioOf("proving-ground");
   for (const Parameter& parameter : allParameters(*right.manipulator)) {
@@ -155,7 +155,7 @@ TEST(SecondReading, seesAHoldAndSamplesThatAreNotTheFiles) {
   EXPECT_THAT(mismatchesOf(withTrajectory("samples", makeSamples(samples))).first(), HasSubstr("pose 18.position"));
 }
 
-/// Beyond 60 poses most are compared in doubles.
+/// Of more than 60 poses most are compared in doubles.
 TEST(SecondReading, holdsEveryOneOfManySamples) {
   const TemporaryFolder folder;
   std::string table = "t_s,p_x_m,p_y_m,p_z_m,q_w,q_x,q_y,q_z\n";

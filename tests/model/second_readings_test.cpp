@@ -1,5 +1,5 @@
-// The reader against a second one: over all scenarios that ship, over random ones, and misread in the ways that readers
-// are wrong. None of these is seen by a validation, as every formulation is given the same wrong numbers.
+// Compares the reader with a second one on all shipped scenarios, on random ones, and on scenarios misread in likely
+// ways. A validation sees none of these errors, because every formulation gets the same wrong numbers.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ TEST(SecondReadings, findNothingInWhatShips) {
   }
 }
 
-/// With one parameter that is not zero off by a rounding.
+/// The scenario with one non-zero parameter off by a rounding.
 Scenario misreadByARounding(const Scenario& right, std::uint64_t seed) {
   const std::vector<Parameter> parameters = allParameters(*right.manipulator);
   ManipulatorParameters machine = right.manipulator->parameters();

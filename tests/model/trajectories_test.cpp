@@ -24,7 +24,7 @@ Eigen::Vector4d turn(double angle, const Vector3d& axis) {
   return {q.w(), q.x(), q.y(), q.z()};
 }
 
-/// Uneven times, turns about changing axes, and one quaternion with the other sign.
+/// Four poses with uneven times, turns about changing axes, and one quaternion of the other sign.
 std::vector<TimedPose> fourPoints() {
   return {{0.0, {0.0, 0.0, 0.8}, turn(0.0, {0, 0, 1})},
           {0.9, {0.1, -0.2, 1.0}, turn(0.7, {1, 0.2, 0})},
@@ -72,7 +72,7 @@ TEST(Waypoints, areAtRestAtBothEndsAndNowhereBetween) {
   }
 }
 
-/// One-sided second differences of the accelerations, that is fourth derivatives from the left and from the right.
+/// One-sided second differences of the accelerations, which are fourth derivatives from the left and from the right.
 template <class Part>
 double fourthDerivativeJump(const Trajectory& motion, double knot, Part part, double& size) {
   const Real50 t(knot), h("1e-12");
@@ -106,7 +106,8 @@ TEST(Waypoints, areFourTimesContinuouslyDifferentiableAtTheKnots) {
 
 TEST(Waypoints, inDoubleAreTheExactOnesRounded) {
   const auto motion = makeWaypoints(fourPoints());
-  // The shortest piece lasts 0.5 s: coefficients of s⁵ weigh 20 / 0.25 in an acceleration, six roundings each.
+  // The shortest piece lasts 0.5 s. In an acceleration, coefficients of s⁵ have the factor 20 / 0.25 and six roundings
+  // each.
   EXPECT_LE(roundingError(*motion, instantsInside(3.0, 200)), 480 * eps);
   for (const double t : instantsInside(3.0, 50)) EXPECT_LE(orthonormalityError(motion->at(t).Q), 16 * eps);
 }
@@ -179,7 +180,7 @@ INSTANTIATE_TEST_SUITE_P(
                      "trajectory.points[2].orientation", "turned by 177.6 degrees", "<= 170 degrees"},
         PointRefusal{"swing",
                      [](Points& p) {
-                       // Nearly half a turn within a hundredth of the time of the piece after: the spline overshoots.
+                       // The spline overshoots after nearly half a turn within a hundredth of the next piece's time.
                        p = {{0, {0, 0, 1}, turn(0, {1, 0, 0})},
                             {0.01, {0, 0, 1}, turn(2.9, {1, 0, 0})},
                             {3, {0, 0, 1}, turn(2.9, {1, 0, 0})},

@@ -1,6 +1,6 @@
-// Rotors, thin rods, rods that spin and mass centres off the links' lines, on legs of all kinds: against d'Alembert's
-// principle in 50 digits, with motions and virtual displacements by differences of poses. It knows no rate, Jacobian,
-// tensor or wrench of the solver.
+// Rotors, thin rods, spinning rods and mass centres off the links' lines, on legs of all kinds. They are compared with
+// d'Alembert's principle in 50 digits, with motions and virtual displacements by differences of poses. It uses no rate,
+// Jacobian, tensor or wrench of the solver.
 
 #include <gtest/gtest.h>
 
@@ -49,14 +49,14 @@ void addTo(Leg& leg, std::size_t i, Added added) {
   }
 }
 
-/// A machine of tests/vectors without friction, and what is added to it.
+/// A machine of tests/vectors without friction, with the addition.
 ManipulatorParameters machineWith(const std::string& name, Added added) {
   ManipulatorParameters machine = frictionless(*vectorScenario(name).manipulator).parameters();
   for (std::size_t i = 0; i < machine.legs.size(); ++i) addTo(machine.legs[i], i, added);
   return machine;
 }
 
-/// Of all bodies, with E = ½ tr(I) 1 − I, so that the virtual work of inertia is tr(R̈ E δRᵀ) + m c̈ · δc.
+/// A body, with E = ½ tr(I) 1 − I, so that the virtual work of inertia is tr(R̈ E δRᵀ) + m c̈ · δc.
 struct Body {
   Real mass;
   Matrix3<Real> E;
@@ -78,7 +78,7 @@ class Mechanism {
       const Leg& leg = machine.legs[i];
       bodies_[i] = {Real(leg.proximal.mass), secondMoments(leg.proximal.inertia)};
       bodies_[leg_count + i] = {Real(leg.distal.mass), secondMoments(leg.distal.inertia)};
-      if (!leg.spins) continue;  // its energy is that of its line alone
+      if (!leg.spins) continue;  // a spinning link's energy is that of its line alone
       const Matrix3<Real> of_line = Vector3<Real>::UnitZ() * Vector3<Real>::UnitZ().transpose();
       if (leg.kind == LegKind::UPS) bodies_[i].E = Real(leg.proximal.inertia(0, 0)) * of_line;
       bodies_[leg_count + i].E = Real(leg.distal.inertia(0, 0)) * of_line;
@@ -134,7 +134,7 @@ class Mechanism {
     return out;
   }
 
-  /// By a turn about an axis through P, or along one.
+  /// The pose displaced by a turn about an axis through P, or along one.
   Pose displaced(const Motion<Real>& motion, int k, const Real& h) const {
     const auto by = [&](int steps) {
       Motion<Real> there = motion;
@@ -195,7 +195,8 @@ class AddedInertia : public testing::TestWithParam<std::tuple<std::string, Added
   Scenario scenario_ = vectorScenario(name());
 };
 
-/// Differences of fourth order at 1e-8 leave some 1e-32 of derivatives of up to 1e6 times the motion's; rounding 1e-34.
+/// Differences of fourth order with step 1e-8 have errors of some 1e-32, with derivatives up to 1e6 times the motion's;
+/// rounding is 1e-34.
 TEST_P(AddedInertia, effortsAreThoseOfDAlembertsPrinciple) {
   const Noc<Real> solver(machine_), plain(frictionless(*scenario_.manipulator));
   const Mechanism mechanism(parameters_);
@@ -256,7 +257,8 @@ TEST_P(AddedInertia, everyInstructionSetHasThem) {
   }
 }
 
-/// By differences in 50 digits; efforts are linear in a rotor's inertia and quadratic in where a mass centre is.
+/// Derivatives are compared with differences in 50 digits; efforts are linear in a rotor's inertia and quadratic in a
+/// mass centre's place.
 TEST_P(AddedInertia, derivativesAndRegressorHaveThem) {
   const EffortDerivatives of(machine_);
   const Motion<double> at = rounded(rows_[3].motion);

@@ -1,5 +1,5 @@
 // T is the natural orthogonal complement of the joints' velocity constraints: D T = 0 (33), with D of rank 72 and T of
-// rank 6, neither of them zero; and the loops close. D is built of poses alone (tests/nocsolver/mechanism.h).
+// rank 6, neither of them zero. The loops close. D is built from poses alone (tests/nocsolver/mechanism.h).
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ struct Found {
   TwistShaping<S> T;
   ConstraintMatrix<S> D;
 
-  /// ‖D T‖ over what cancels in it.
+  /// ‖D T‖ over the size of its cancelling terms.
   double violation() const { return (D * T).norm() / (D.norm() * T.norm()); }
 };
 
@@ -60,7 +60,7 @@ TEST_P(Constraints, leaveSixDegreesOfFreedomAndTSpansThem) {
   EXPECT_EQ(Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(at.T).rank(), leg_count);
 }
 
-/// Column j of T turns leg j's actuator, about −u, by one and no other.
+/// Column j of T turns only leg j's actuator, about −u, at unit rate.
 TEST_P(Constraints, leaveTheActuatedRatesFree) {
   const auto at = found(randomState(scenario_, dice_));
   for (int i = 0; i < leg_count; ++i) {
@@ -87,7 +87,7 @@ TEST_P(Constraints, closeTheLoops) {
   }
 }
 
-/// Controls: formulas that are wrong leave the constraints violated, or the loops open.
+/// Controls: with wrong formulas the constraints are violated, or the loops open.
 TEST_P(Constraints, areViolatedByWrongFormulas) {
   const Motion<double> motion = randomState(scenario_, dice_);
   for (const FormulaError formula_error : {FormulaError::eq23, FormulaError::eq16, FormulaError::eq47,

@@ -14,14 +14,14 @@ namespace ursula {
 
 constexpr double eps = Eigen::NumTraits<double>::epsilon();
 
-/// Lengths that the plane equations are made of, m.
+/// Size of the lengths in the plane equations, m.
 inline double sizeOf(const MachineParameters<double>& model, const Vector3d& p) {
   double size = p.norm() + model.length;
   for (const LegModel<double>& leg : model.legs) size = std::max(size, p.norm() + model.length + leg.a.norm());
   return size;
 }
 
-/// The farther of p in m and Q in Frobenius' norm.
+/// The larger error of p in m and of Q in the Frobenius norm.
 inline double poseError(const PlatformPose& pose, const Motion<double>& motion) {
   return std::max((pose.p - motion.p).norm(), (pose.Q - motion.Q).norm());
 }
@@ -33,8 +33,8 @@ inline const PlatformPose* nearestPose(const PlatformPoses& poses, const Motion<
   return nearest;
 }
 
-/// Errors from a motion to the actuated angles and back: B, moments over the machine's length, is what the planes are
-/// solved with.
+/// Errors from a motion to the actuated angles and back. The planes are solved with B, whose moments are divided by the
+/// machine's length.
 struct Conditioned {
   Vector6d phi;
   Eigen::JacobiSVD<Matrix6d> svd;
@@ -57,7 +57,7 @@ struct Conditioned {
   }
 
   double condition() const { return svd.singularValues()(0) / svd.singularValues()(5); }
-  /// Six planes of some ten roundings each, there and back, grown by the condition number.
+  /// The limit: six planes with some ten roundings each, there and back, times the condition number.
   double limit() const { return 128 * eps * condition() * size; }
 };
 
@@ -67,7 +67,8 @@ inline Motion<double> displaced(Motion<double> motion, const Vector3d& move, con
   return motion;
 }
 
-/// The paper's machine with every parameter of its geometry thrown by up to `spread`: lengths relative, places in m.
+/// The paper's machine with every geometric parameter changed at random by up to `spread`, relative for lengths, in m
+/// for points.
 inline ManipulatorParameters thrown(const ManipulatorParameters& paper, SeededDraws& dice, double spread) {
   ManipulatorParameters parameters = paper;
   for (Leg& leg : parameters.legs) {
@@ -99,8 +100,8 @@ inline Case feasibleCase(const Scenario& paper, SeededDraws& dice, double spread
       Workspace<double> work;
       made.kinematics->solver().displacements(made.motion, work);
       return made;
-    } catch (const std::invalid_argument&) {  // no such machine: throw the dice again
-    } catch (const PoseError&) {              // no such pose of it
+    } catch (const std::invalid_argument&) {  // the machine is impossible; draw again
+    } catch (const PoseError&) {              // the pose is impossible
     }
   }
 }

@@ -1,4 +1,4 @@
-// Common roots of three quadrics that are known beforehand: pairs of planes meet in eight points.
+// Quadrics with known common roots: three pairs of planes meet in eight points.
 
 #include "nocsolver/poses/direct_kinematics_roots.h"
 
@@ -48,7 +48,7 @@ struct PlanePairs {
     return orthonormal(S);
   }
 
-  /// One plane of each pair, by the bits of `which`.
+  /// The root where one plane of each pair meets, selected by the bits of `which`.
   Eigen::Vector4d meeting(unsigned which) const {
     Eigen::Matrix<double, 3, 4> planes;
     for (std::size_t k = 0; k < 3; ++k) planes.row(static_cast<int>(k)) = n[k][which >> k & 1U].transpose();
@@ -63,7 +63,7 @@ PlanePairs randomPairs(SeededDraws& dice) {
   return pairs;
 }
 
-/// How far the nearest real root is from q; 2 where there is none.
+/// The distance of the nearest real root from q; 2 if there is none.
 double nearest(const Roots& roots, const Eigen::Vector4d& q) {
   double distance = 2;
   for (int i = 0; i < roots.size; ++i) {
@@ -91,7 +91,7 @@ TEST(QuadricRoots, AreTheEightPointsWherePlanesMeet) {
   }
 }
 
-/// Both planes of a pair through one point of the others: there two of the eight fall together.
+/// Both planes of a pair pass through one point of the others, so two of the eight roots coincide there.
 TEST(QuadricRoots, CountTwoThatFallTogether) {
   SeededDraws dice(4);
   for (int n = 0; n < 200; ++n) {

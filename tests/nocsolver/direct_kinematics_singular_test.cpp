@@ -1,4 +1,4 @@
-// Poses at and near singular B, where two of them merge, and angles that leave the platform free to move.
+// Poses at and near a singular B, where two poses merge, and angles that leave the platform free to move.
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace ursula {
 namespace {
 
-/// A machine, and a pose on a straight way from a regular one at which det B changes sign.
+/// A machine, and a pose at which det B changes sign on a straight way from a regular pose.
 struct Fold {
   Case made;
   Vector3d move, turn;
@@ -22,7 +22,7 @@ struct Fold {
   }
 };
 
-/// None where the way leads out of reach or meets no singular pose.
+/// Returns nullopt if the way leads out of reach or meets no singular pose.
 std::optional<Fold> findFold(const Scenario& paper, SeededDraws& dice) {
   ManipulatorParameters parameters = thrown(paper.manipulator->parameters(), dice, 0.05);
   for (Leg& leg : parameters.legs) {  // long legs, so that singular poses are in reach
@@ -59,7 +59,7 @@ std::optional<Fold> findFold(const Scenario& paper, SeededDraws& dice) {
 /// below δ it cannot be told from 0: t ≤ (2δ/h)^½.
 struct DoubleRoot {
   Conditioned conditioned;
-  double uncertainty = 0;  ///< m, the moments' length being the machine's
+  double uncertainty = 0;  ///< m, with moments divided by the machine's length
   Vector6d left;           ///< u
 
   DoubleRoot(const DirectKinematics& kinematics, const Motion<double>& motion)
@@ -71,7 +71,7 @@ struct DoubleRoot {
     double h = 0;
     for (int i = 0; i < leg_count; ++i)
       h += left(i) * planes.x(i).dot(omega.cross(omega.cross(motion.Q * model.legs[static_cast<std::size_t>(i)].b)));
-    // 64 roundings at the size of the machine, grown by the elimination of p and the choice of three quadrics.
+    // 64 roundings at the size of the machine, amplified by the elimination of p and the choice of three quadrics.
     const double delta = 64 * eps * conditioned.size / (elimination.normals * elimination.independence);
     uncertainty = std::sqrt(2 * delta / std::abs(h));
   }
@@ -128,7 +128,7 @@ TEST(DirectKinematics, FindsSingularPosesAsDoubleAndTheirNeighboursAsPairs) {
   }
 }
 
-/// Angles moved across a fold in φ: A φ̇ = B t_P has a solution for uᵀA φ̇ = 0 only, so ±A⁻¹u leads to two poses on
+/// The angles move across a fold in φ. A φ̇ = B t_P has a solution only for uᵀA φ̇ = 0, so ±A⁻¹u leads to two poses on
 /// one side and to none on the other.
 TEST(DirectKinematics, APairOfPosesVanishesAcrossAFoldAndTrackingSaysSo) {
   const Scenario paper = vectorScenario("paper-helix");
@@ -156,7 +156,7 @@ TEST(DirectKinematics, APairOfPosesVanishesAcrossAFoldAndTrackingSaysSo) {
   EXPECT_EQ(followed, folds) << "a refusal that comes whatever is asked for says nothing";
 }
 
-/// The pivot ratio that the machine is refused with, or 1.
+/// The pivot ratio with which the machine is refused, or 1.
 template <class Change>
 double refusal(Change&& change) {
   const Scenario paper = vectorScenario("paper-helix");

@@ -1,5 +1,5 @@
-// Poses from actuated angles against the poses that the angles come from, and against the paper's 18 equations written
-// out here from raw parameters.
+// Compares poses from actuated angles with the poses that the angles come from, and with the paper's 18 equations,
+// written here from raw parameters.
 
 #include "nocsolver/poses/direct_kinematics.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 double wider(double worst, double error) { return error <= worst ? worst : error; }  // keeps a NaN
 
-/// Q̂ᵢ of (2b), with the frame that holds for any tilt but 90°.
+/// Q̂ᵢ of (2b), with the frame that is valid for any tilt but 90°.
 Matrix3d fixedFrame(const Leg& leg) {
   const Vector3d u = leg.base_axis.normalized(), x_hat = u.cross(Vector3d::UnitZ()).normalized();
   Matrix3d Q_hat;
@@ -45,7 +45,7 @@ double mismatch(const Manipulator& manipulator, const Vector6d& phi, const Platf
   return worst;
 }
 
-/// What a round trip over many machines and poses shows, each entry over its limit.
+/// Results of round trips over many machines and poses, each over its limit.
 struct RoundTrips {
   int tested = 0, lost = 0, missing = 0, assembling = 0, out_of_reach = 0, behind = 0, ambiguous = 0;
   double error = 0, mismatch = 0, residual = 0;
@@ -93,13 +93,13 @@ TEST(DirectKinematics, FindsThePoseAgainForTenThousandMachinesAndPoses) {
   EXPECT_LE(trips.error, 1);
   EXPECT_LE(trips.mismatch, 1);
   EXPECT_LE(trips.residual, 1);
-  // Nothing of this was idle: other poses than the one asked for were there to be told apart.
+  // The test was not vacuous: there were other poses than the wanted one.
   EXPECT_GT(trips.out_of_reach, 0);
   EXPECT_GT(trips.behind, 0);
   EXPECT_GT(trips.ambiguous, 0);
 }
 
-/// (14a) with +aᵢ as printed in (5), (27); then no leg reaches, and only φ can be compared.
+/// Angles by (14a) with +aᵢ as printed in (5), (27). Then no leg reaches, so only φ can be compared.
 Vector6d anglesAsPrinted(const Manipulator& manipulator, const Motion<double>& motion) {
   Vector6d phi;
   for (int i = 0; i < leg_count; ++i) {

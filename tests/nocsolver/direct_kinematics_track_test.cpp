@@ -1,4 +1,4 @@
-// One pose tracked along the paper's helix; Newton's convergence; the heap.
+// Tracking one pose along the paper's helix; Newton's convergence; no use of the heap.
 
 #include <gtest/gtest.h>
 
@@ -59,8 +59,8 @@ TEST(DirectKinematics, TracksTheBranchThatItIsOnAndNoOther) {
   EXPECT_GT(others, 0);
 }
 
-/// With J of condition κ, an error e leaves one of at most κ e²/length: second derivatives of the planes are those of
-/// Q b, at most ‖b‖ for each rad².
+/// If J has condition κ, a step leaves at most κ e²/length of an error e, because the planes' second derivatives are
+/// those of Q b, at most ‖b‖ per rad².
 TEST(DirectKinematics, NewtonConvergesQuadratically) {
   const Scenario paper = vectorScenario("paper-helix");
   const DirectKinematics kinematics(*paper.manipulator);

@@ -1,5 +1,5 @@
-// Inverse and direct dynamics by two formulations: the solver's, which never forms T, against (37) and (34) with the
-// whole T assembled; and the power balance, which knows nothing of T.
+// Inverse and direct dynamics by two formulations: the solver's, which never forms T, and (37) and (34) with the whole
+// T. The power balance, which does not need T, checks both.
 
 #include <gtest/gtest.h>
 
@@ -58,7 +58,7 @@ class Dynamics : public testing::TestWithParam<std::string> {
  protected:
   Dynamics() {
     ManipulatorParameters parameters = vectorScenario(GetParam()).manipulator->parameters();
-    for (Leg& leg : parameters.legs) {  // smoothed so far that it is not just its sign
+    for (Leg& leg : parameters.legs) {  // smoothed so much that it is not just the rate's sign
       leg.coulomb.phi = 3, leg.coulomb.psi = 5, leg.coulomb.theta = 7;
       leg.coulomb.smoothing_speed = 0.5;
     }
@@ -83,13 +83,13 @@ TEST_P(Dynamics, inverseIsTheProductWithTheAssembledT) {
 }
 
 TEST_P(Dynamics, inverseIsThatProductIn50DigitsToo) {
-  const auto trajectory = tumbling(scenario_, 5);  // its orientation is one to 50 digits
+  const auto trajectory = tumbling(scenario_, 5);  // its orientation is exact to 50 digits
   const Engines<Real50> engines(*with_coulomb_, trajectory->at(Real50(0.3 * trajectory->duration())));
   EXPECT_LE(engines.torqueError(), engines.torque_limit);
   EXPECT_LE(engines.torque_limit, 1e-36) << "the limit has lost its meaning";
 }
 
-/// Controls: each of these makes a difference of more than a tenth of a newton metre.
+/// Controls: each omission makes a difference of more than a tenth of a newton metre.
 TEST_P(Dynamics, aTermLeftOutIsSeen) {
   const Motion<double> motion = randomState(scenario_, dice_);
   for (const FormulaError formula_error :
@@ -115,7 +115,7 @@ TEST_P(Dynamics, aLoadIsCarriedByTheTransposedJacobian) {
   EXPECT_GT(expected.norm(), 1);
 }
 
-/// An error δτ of the torques becomes M_P⁻¹ T_P⁻ᵀ δτ of the accelerations.
+/// An error δτ of the torques causes an error of M_P⁻¹ T_P⁻ᵀ δτ in the accelerations.
 TEST_P(Dynamics, directUndoesInverse) {
   double worst = 0;
   for (int k = 0; k < 20; ++k) {
@@ -127,7 +127,7 @@ TEST_P(Dynamics, directUndoesInverse) {
     const Vector6d torques = solver.inverseDynamics(motion, work, load);
     const Engines<double> engines(*with_coulomb_, motion);
     Motion<double> unread = motion;
-    unread.omega_dot.setConstant(std::nan(""));  // accelerations in the motion are not read
+    unread.omega_dot.setConstant(std::nan(""));  // it must ignore accelerations in the motion
     unread.p_ddot.setConstant(std::nan(""));
     const Vector6d found = solver.directDynamics(unread, torques, work, load);
     const double error = (found - twistRateOf(motion)).norm();

@@ -109,7 +109,7 @@ EffortsByState::Block turning(const Vector6d& load) {
   return out;
 }
 
-/// Norm of the k-th column, or of the three of a vector to which it belongs: their errors mix.
+/// Norm of the k-th column, or of all three columns of its vector, because their errors mix.
 double sizeOf(const EffortDerivatives::Columns& columns, const MachineNumber& number, std::size_t k) {
   const auto at = static_cast<Eigen::Index>(k);
   return number.entries == 3 ? columns.middleCols(at - number.entry, 3).norm() : columns.col(at).norm();
@@ -183,7 +183,7 @@ TEST_P(DerivativesOf, refuseWhatInverseDynamicsRefuse) {
   EXPECT_GT(refused, 10);
 }
 
-/// Y π = τ, whatever the bodies are.
+/// Y π = τ for any bodies.
 TEST_P(DerivativesOf, regressorTimesItsValuesIsTheEfforts) {
   const EffortDerivatives of(machine());
   const Eigen::VectorXd values = of.regressorValues();
@@ -209,8 +209,8 @@ TEST_P(DerivativesOf, regressorDoesNotDependOnTheBodies) {
   EXPECT_GT((Y * of.regressorValues() - expected).norm(), 1e-6 * expected.norm());
 }
 
-/// Differences in 50 digits of machines whose numbers are doubles, extrapolated: their error goes with the fourth power
-/// of the step. One-sided where a body could not be so; only inertias have such bounds, and efforts are linear in them.
+/// Compares with extrapolated differences in 50 digits, whose error is of fourth order in the step. They are one-sided
+/// if a body would become impossible; only inertias have such bounds, and efforts are linear in them.
 TEST_P(DerivativesOf, byParametersAreTheDifferencesInFiftyDigits) {
   const Motion<double> at = motion(3);
   const Vector6d load = someLoad().cast<double>();
@@ -243,7 +243,7 @@ TEST_P(DerivativesOf, byParametersAreTheDifferencesInFiftyDigits) {
     const double scale = std::max(std::abs(number.get(machine().parameters())), 0x1p-6), h = 0x1p-18 * scale;
     const Vector6d expected = Six((4 * slope(number, h / 2) - slope(number, h)) / 3).cast<double>();
     const auto column = found.col(static_cast<Eigen::Index>(k));
-    // What has next to no effect is right to rounding of the efforts.
+    // Columns with hardly any effect are right to rounding of the efforts.
     const double size = sizeOf(found, number, k);
     const double limit = promised * std::max(size, 1e-4 * largest / scale);
     EXPECT_LE((column - expected).norm(), limit) << number.path << ": " << expected.transpose();

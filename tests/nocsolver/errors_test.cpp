@@ -1,5 +1,4 @@
-// Poses that the formulas cannot take: each is refused by its type, naming leg, instant and number; next to them none
-// is.
+// Poses at which the formulas fail are refused with their type, leg, instant and number; poses next to them are not.
 
 #include "nocsolver/errors.h"
 
@@ -17,11 +16,11 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr int odd = 3;  ///< the leg that is changed: leg 4 for people
+constexpr int odd = 3;  ///< the changed leg, which is leg 4 for people
 constexpr double instant = 1.25;
 
-/// The paper's machine with the platform level at z = 0.9 m and one leg of its own: it stands along +z of B from a base
-/// point below its platform point, its actuated axis along +x, so that every number of its triangle is a double.
+/// The paper's machine with a level platform at z = 0.9 m and one different leg. That leg stands along +z of B below
+/// its platform point, with its actuated axis along +x, so that every number of its triangle is a double.
 struct Case {
   Case(const Vector3d& AB, double l, double s) {
     const Scenario scenario = vectorScenario("paper-helix");
@@ -128,7 +127,7 @@ TEST(PointOnAxis, nextToItIsNone) {
   EXPECT_TRUE(refusalOf<PointOnAxis>(Case({2, 0, 1e-8}, 1.5, 1.0)));
 }
 
-/// Two equal legs: two equal rows of B.
+/// Two equal legs, which give two equal rows of B.
 Case twoEqualLegs(double difference) {
   Case at({0, 0, 2}, 1.5, 1.0);
   at.parameters.legs[odd + 1] = at.parameters.legs[odd];
@@ -149,7 +148,7 @@ TEST(SingularJacobian, namesItsPivots) {
 
 TEST(SingularJacobian, nextToItIsNone) { EXPECT_FALSE(refusalOf<SingularJacobian>(twoEqualLegs(1e-6))); }
 
-/// The torques of a singular pose act all the same; (36), in the rates of the motors, has no answer there.
+/// Torques act at a singular pose, too, although (36), in the rates of the motors, has no answer there.
 TEST(SingularJacobian, doesNotHinderDirectDynamics) {
   const Case at = twoEqualLegs(0);
   const Manipulator machine(at.parameters);
@@ -161,7 +160,7 @@ TEST(SingularJacobian, doesNotHinderDirectDynamics) {
   EXPECT_THROW(solver.jacobians(at.motion, work), SingularJacobian);
 }
 
-/// Control: the machine that the cases are made of is a good one.
+/// Control: the cases' machine is good.
 TEST(GoodPose, isTaken) {
   const Case at({0, 0, 2}, 1.5, 1.0);
   const Noc<double> solver{Manipulator(at.parameters)};

@@ -45,7 +45,7 @@ Vector6<S> someLoad() {
   return load;
 }
 
-/// What this processor has, from the plainest on.
+/// The instruction sets of this processor, the plainest first.
 std::vector<InstructionSet> supportedSets() {
   std::vector<InstructionSet> out;
   for (const InstructionSet set :
@@ -54,7 +54,7 @@ std::vector<InstructionSet> supportedSets() {
   return out;
 }
 
-/// Far from all.
+/// A pose far from all legs.
 Motion<double> away(Motion<double> motion) {
   motion.p *= 100;
   return motion;
@@ -122,7 +122,7 @@ TEST_P(FastOf, allocatesNothing) {
   }
 }
 
-/// Poses that cannot be are refused as the recursion refuses them.
+/// FastDynamics refuses the same impossible poses as Noc.
 TEST_P(FastOf, refusesWhatTheRecursionRefuses) {
   const Noc<double> chain(*scenario_.manipulator);
   NocWorkspace<double> work;
@@ -153,7 +153,7 @@ TEST_P(FastOf, refusesWhatTheRecursionRefuses) {
 
 class BatchOf : public FastOf {
  protected:
-  /// The rows' motions, again and again, with a motion that no leg reaches at `bad`.
+  /// The rows' motions, repeated, with an unreachable motion at `bad`.
   std::vector<Motion<double>> motions(std::size_t count, std::size_t bad) const {
     std::vector<Motion<double>> out;
     for (std::size_t k = 0; k < count; ++k) out.push_back(rounded(rows_[k % rows_.size()].motion));
@@ -190,7 +190,7 @@ TEST_P(BatchOf, givesWhatSinglePosesGive) {
   }
 }
 
-/// A velocity whose square no double holds: the pose is flagged, and Solver names its instant.
+/// The square of a velocity overflows: the pose is flagged, and Solver names its instant.
 TEST_P(BatchOf, flagsWhatIsNotFinite) {
   const Solver<double> solver(*scenario_.manipulator);
   Workspace<double> work;
@@ -225,13 +225,14 @@ TEST_P(BatchOf, andDerivativesOutliveAMove) {
   const auto m = motions(1, 1);
   Vector6d by_from, by_to;
   PoseFault fault = PoseFault::none;
-  batch.inverseDynamics(m.data(), 1, &by_from, &fault);  // NOLINT(bugprone-use-after-move): that is the point
+  batch.inverseDynamics(m.data(), 1, &by_from,
+                        &fault);  // NOLINT(bugprone-use-after-move): using it after the move is the point
   to.inverseDynamics(m.data(), 1, &by_to, &fault);
   EXPECT_EQ(by_from, by_to);
   EXPECT_EQ(derivatives.byState(m[0]).efforts, there.byState(m[0]).efforts);  // NOLINT(bugprone-use-after-move)
 }
 
-/// Where a pose is in a batch, and what is beside it, is nothing to its numbers.
+/// A pose's numbers do not depend on its place in a batch or on its neighbours.
 TEST_P(BatchOf, numbersDoNotDependOnTheNeighbours) {
   for (const InstructionSet set : supportedSets()) {
     const BatchDynamics batch(*scenario_.manipulator, set);

@@ -1,5 +1,5 @@
-// Every error of nocsolver/legs/reading.h makes a difference to what the solver says of a machine in motion, and with none
-// set the readings are the same to the last bit.
+// Every error of nocsolver/legs/reading.h changes the solver's results for a moving machine. With no error set the
+// results are equal to the last bit.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 namespace ursula {
 namespace {
 
-/// Everything that a reading decides, kind by kind.
+/// All results that a reading can change, kind by kind.
 struct Answer {
   explicit Answer(std::string why) : refused(std::move(why)) {}
 
@@ -64,7 +64,7 @@ Answer altered(const Manipulator& manipulator, const Motion<double>& motion, con
   }
 }
 
-/// The kind that is off most, relative in the norm; a refusal is off by all.
+/// The kind with the largest relative change in the norm; a refusal counts as 1.
 std::pair<std::string, double> largestEffect(const Answer& right, const Answer& wrong) {
   if (!wrong.refused.empty()) return {"refused: " + wrong.refused, 1};
   std::pair<std::string, double> out{"none", 0};
@@ -88,7 +88,7 @@ TEST_P(EveryFormulaError, makesADifference) {
   EXPECT_GT(size, 1e-4);  // far above rounding, some 1e-14
 }
 
-/// Those from half_coriolis on are the general formulation's.
+/// Errors from half_coriolis on belong to the general formulation.
 INSTANTIATE_TEST_SUITE_P(OfAll, EveryFormulaError, testing::Range(0, static_cast<int>(FormulaError::half_coriolis)));
 
 class Corrections : public testing::TestWithParam<std::string> {};

@@ -1,4 +1,4 @@
-// Legs of all kinds against tests/vectors/kind-*, made from positions alone in 100 digits.
+// Compares legs of all kinds with tests/vectors/kind-*, which come from positions alone in 100 digits.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 constexpr double promised = 1e-12;
 
-/// ‖found − expected‖/‖expected‖ over the legs, 0 where both are zero; a NaN stays.
+/// ‖found − expected‖/‖expected‖ over the legs, 0 if both are zero; a NaN is kept.
 template <class V>
 void widen(double& worst, const V& found, const Vector6<Real50>& expected) {
   const Vector6<Real50> difference = found.template cast<Real50>() - expected;
@@ -70,7 +70,7 @@ class Kinds : public testing::TestWithParam<std::string> {
   std::vector<VectorRow> rows_ = vectorRows(GetParam());
 };
 
-/// D T = 0 with neither of them zero, and D t = 0: T is the complement of what the joints allow.
+/// D T = 0 with neither of them zero, and D t = 0: T is the complement of the joints' constraints.
 TEST_P(Kinds, shapingIsTheComplementOfTheConstraints) {
   const Noc<double> solver(*scenario_.manipulator);
   NocWorkspace<double> work;
@@ -85,7 +85,7 @@ TEST_P(Kinds, shapingIsTheComplementOfTheConstraints) {
     EXPECT_GT(T.colwise().norm().minCoeff(), 1e-3);
     EXPECT_EQ(Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(D).rank(), 12 * solver.machine().legs_in_all);
     EXPECT_EQ(Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(T).rank(), motor_count);
-    for (Eigen::Index k = 0; k < D.rows(); ++k) {  // control: no row is met by chance
+    for (Eigen::Index k = 0; k < D.rows(); ++k) {  // control: no row is satisfied by chance
       const Eigen::VectorXd row_k = D.row(k);
       D.row(k).setConstant(0.5);
       ASSERT_GT(violation(), 1e-6) << "row " << k;
@@ -102,7 +102,7 @@ TEST_P(Kinds, inDoubles) {
   EXPECT_LE(errors.worst(), promised);
 }
 
-/// All numbers of these machines are doubles: nothing but the vectors' 25th digit is left.
+/// All numbers of these machines are doubles, so only rounding in the vectors' 25th digit remains.
 TEST_P(Kinds, inFiftyDigits) {
   const Noc<Real50> solver(*scenario_.manipulator);
   Errors errors;
@@ -119,7 +119,7 @@ TEST_P(Kinds, theTrajectoryIsTheVectors) {
   }
 }
 
-/// What the efforts do is the motion: direct dynamics undoes inverse dynamics.
+/// Direct dynamics undoes inverse dynamics.
 TEST_P(Kinds, directDynamicsGivesTheMotionBack) {
   const Noc<Real50> solver(*scenario_.manipulator);
   NocWorkspace<Real50> work;
@@ -135,7 +135,7 @@ TEST_P(Kinds, directDynamicsGivesTheMotionBack) {
   }
 }
 
-/// T, Ṫ and the twist-shaping matrix against the motion.
+/// Compares T, Ṫ and the twist-shaping matrix with the motion.
 TEST_P(Kinds, theJacobiansGiveTwistAndTwistRate) {
   const Noc<Real50> solver(*scenario_.manipulator);
   NocWorkspace<Real50> work;
@@ -163,8 +163,8 @@ TEST_P(Kinds, theJacobiansGiveTwistAndTwistRate) {
   }
 }
 
-/// (34), (36) and w^N of (31) in 50 digits: I is that of the platform's mass matrix, I q̈ + C q̇ is what inverse dynamics
-/// gives without gravity, friction and load, and what is left of Newton and Euler does no work.
+/// (34), (36) and w^N of (31) in 50 digits. I follows from the platform's mass matrix. I q̈ + C q̇ is inverse dynamics
+/// without gravity, friction and load. The constraint wrenches do no work.
 TEST_P(Kinds, generalisedInertiaAndWrenchesAreThoseOfTheMotion) {
   const Noc<Real50> solver(*scenario_.manipulator);
   ManipulatorParameters bare = scenario_.manipulator->parameters();
@@ -195,7 +195,7 @@ TEST_P(Kinds, generalisedInertiaAndWrenchesAreThoseOfTheMotion) {
   }
 }
 
-/// Each wrong term of section 3 shows in efforts, accelerations or D T, where the machine has it.
+/// Each wrong term of section 3 shows in efforts, accelerations or D T, if the machine has the term.
 TEST_P(Kinds, eachWrongTermOfSectionThreeShows) {
   const Motion<double> motion = rounded(rows_[2].motion);
   const Vector6d load = 100 * Vector6d::Ones();
@@ -234,7 +234,7 @@ TEST_P(Kinds, eachWrongTermOfSectionThreeShows) {
     EXPECT_GT((answers(&formula_error) - right).norm(), 1e-9) << static_cast<int>(formula_error);
 }
 
-/// Doubles against long doubles: rounding, and not the same to the last bit.
+/// Doubles differ from long doubles by rounding, but are not equal to the last bit.
 TEST_P(Kinds, roundInDoubles) {
   const Noc<double> solver(*scenario_.manipulator);
   const Noc<long double> longer(*scenario_.manipulator);

@@ -14,7 +14,7 @@
 namespace ursula {
 namespace {
 
-/// Everything that the solver says of one instant.
+/// All results of the solver at one instant.
 struct Answer {
   Motion<Real50> motion;
   NocWorkspace<Real50> work;
@@ -135,7 +135,7 @@ TEST_P(Kinematics, jacobiansMapJointRatesToTwists) {
 INSTANTIATE_TEST_SUITE_P(Machines, Kinematics, testing::Values("paper-helix", "random-2", "random-5"),
                          [](const auto& name) { return "of_" + std::string(1, name.param.back()); });
 
-/// Control: each formula as printed in our source, or with a term left out, is seen at its own level.
+/// Control: each formula as printed in our source, or without a term, shows at its own level.
 struct WrongFormula {
   FormulaError formula_error;
   double Mismatch::*seen;

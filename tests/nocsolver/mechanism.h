@@ -6,8 +6,8 @@
 #include "model/joint_variables.h"
 #include "model/manipulator.h"
 
-// The joints as mechanics textbooks state them, from the poses of the 13 bodies and raw parameters alone: no formula of
-// the solver is used here.
+// The joints as mechanics textbooks state them, from the poses of the 13 bodies and raw parameters alone, without any
+// formula of the solver.
 
 namespace ursula {
 
@@ -39,7 +39,7 @@ constexpr int constraint_count = constraints_per_leg * leg_count;
 template <class S>
 using ConstraintMatrix = Eigen::Matrix<S, constraint_count, 6 * body_count>;
 
-/// Rows that one constraint has over the columns of one body.
+/// A constraint's rows in the columns of one body.
 template <class S>
 class ConstraintRows {
  public:

@@ -28,7 +28,7 @@ Inertia<S> inertiaOf(const Manipulator& manipulator, int body) {
 template <class S>
 using GeneralizedWrench = Eigen::Matrix<S, 6 * body_count, 1>;
 
-/// wⁿ of (38) with (46); with `magnitudes` the absolute values of its terms added, for what rounding is relative to.
+/// wⁿ of (38) with (46). With `magnitudes` the absolute values of its terms are added, which is the scale of rounding.
 template <class S>
 Vector6<S> inertiaWrench(const Inertia<S>& inertia, const BodyMotion<S>& body, bool magnitudes = false) {
   const Matrix3<S> I = body.R * inertia.about_center * body.R.transpose();
@@ -58,8 +58,8 @@ S frictionTorque(double viscous, double coulomb, double speed, const S& rate) {
   return -(S(viscous) * rate + S(coulomb) * tanh(S(rate / S(speed))));
 }
 
-/// Adds w^d of (35): moments of the friction in the joints on the bodies beside them. φ turns about −u, ψ and θ about
-/// x.
+/// Adds w^d of (35): the moments of friction in the joints on the bodies that they connect. φ turns about −u, ψ and θ
+/// about x.
 template <class S>
 void addFriction(const Manipulator& manipulator, const BodyMotions<S>& bodies, const JointVariables<S>& rates,
                  GeneralizedWrench<S>& w) {
@@ -90,7 +90,7 @@ GeneralizedWrench<S> generalizedWrench(const Manipulator& manipulator, const Bod
   return w;
 }
 
-/// ‖|T|ᵀ|w|‖: the size of what cancels in (37).
+/// ‖|T|ᵀ|w|‖: the size of the cancelling terms in (37).
 template <class S>
 S wrenchScale(const Manipulator& manipulator, const BodyMotions<S>& bodies, const JointVariables<S>& rates,
               const TwistShaping<S>& T) {

@@ -1,4 +1,4 @@
-// No evaluation touches the heap, for any scalar; each function by itself, after a first call.
+// After a first call, no function uses the heap, for any scalar.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace ursula {
 namespace {
 
-/// Control: the counter counts what operator new, malloc and Eigen do.
+/// Control: the counter counts allocations of operator new, malloc and Eigen.
 TEST(AllocationCounter, counts) {
   EXPECT_EQ(allocationsIn([] {}), 0);
   std::unique_ptr<int> kept;

@@ -6,13 +6,13 @@
 
 namespace ursula {
 
-/// Rounding errors on the longest chain of dependent operations: one a body and one a pivot on either side of a
-/// comparison, 2 (13 + 6), rounded up to a power of two.
+/// Rounding errors on the longest chain of dependent operations. There is one per body and per pivot on either side of
+/// a comparison, 2 (13 + 6), rounded up to a power of two.
 constexpr double chain_length = 64;
 
-/// How much a relative error of the motion or of a parameter may grow on its way to rates and torques: the condition
-/// number of B (moments over a length of the machine; Frobenius norms bound the spectral ones) times that of the worst
-/// leg, where rates go with 1/sin θ and q/r. Needs inverseKinematics and jacobians.
+/// The amplification of a relative error of the motion or of a parameter on its way to rates and torques. It is the
+/// condition number of B (moments over a length of the machine; Frobenius norms bound the spectral ones) times that of
+/// the worst leg, whose rates contain 1/sin θ and q/r. Needs inverseKinematics and jacobians.
 template <class S>
 S conditionNumber(const Noc<S>& solver, const NocWorkspace<S>& work) {
   Matrix6<S> B = work.B;

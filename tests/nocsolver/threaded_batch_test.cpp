@@ -1,4 +1,4 @@
-// A batch by several threads is the batch, to the last bit.
+// A batch on several threads equals the batch on one, to the last bit.
 
 #include "nocsolver/fast/parallel/threaded_batch.h"
 
@@ -15,7 +15,7 @@
 namespace ursula {
 namespace {
 
-constexpr std::size_t count = 20011;  // no multiple of any share, nor of any register's lanes
+constexpr std::size_t count = 20011;  // no multiple of a thread's share or of a register's lanes
 
 class ThreadedBatch : public testing::TestWithParam<std::string> {
  protected:
@@ -32,7 +32,7 @@ class ThreadedBatch : public testing::TestWithParam<std::string> {
     return std::memcmp(a.data(), b.data(), sizeof(Vector6d) * count) == 0;
   }
 
-  tbb::global_control threads_{tbb::global_control::max_allowed_parallelism, 8};  // more than the processor has
+  tbb::global_control threads_{tbb::global_control::max_allowed_parallelism, 8};  // more threads than the processor has
   Scenario scenario_;
   BatchDynamics batch_;
   std::vector<Motion<double>> motions_;
@@ -64,7 +64,7 @@ TEST_P(ThreadedBatch, isTheBatchForAnyNumberOfThreads) {
   EXPECT_FALSE(same(efforts_by, efforts)) << "the load is seen";
 }
 
-/// What TBB does for itself is its own affair; here few poses, and one job, which it has no part in.
+/// TBB itself may allocate, so the test has few poses, or one job, for which TBB is not used.
 TEST_P(ThreadedBatch, allocatesNothingItself) {
   std::vector<Vector6d> efforts(count);
   std::vector<PoseFault> faults(count);

@@ -9,13 +9,13 @@
 
 #include "nocsolver/poses/ups_poses.h"
 
-// Six-legged machines thrown at random, and their poses. For tests/nocsolver/ups_poses_*.
+// Random six-legged machines and their poses. For tests/nocsolver/ups_poses_*.
 
 namespace ursula::ups_cases {
 
 constexpr double eps = Eigen::NumTraits<double>::epsilon();
 
-/// The standard fixes what an engine gives, not what a distribution makes of it.
+/// Random numbers that are equal everywhere: the standard defines engines exactly, but not distributions.
 class Dice {
  public:
   explicit Dice(unsigned seed) : engine_(seed) {}
@@ -104,7 +104,7 @@ inline double largestResidual(const UpsPoses& poses) {
   return largest;
 }
 
-/// Rounding of the lengths, some 16 of 6 m or less, grown by the condition number.
+/// Some 16 roundings of lengths of up to 6 m, times the condition number.
 inline double expectedError(const Case& made) {
   const Eigen::JacobiSVD<Matrix6d> svd(made.machine.jacobian(made.at));
   return 16 * 6 * eps * svd.singularValues()(0) / svd.singularValues()(5);

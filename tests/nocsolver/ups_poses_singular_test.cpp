@@ -1,4 +1,4 @@
-// Poses of a Stewart–Gough platform where two of them merge, and machines whose platform is free to move.
+// Poses of a Stewart–Gough platform where two poses merge, and machines whose platform is free to move.
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ std::optional<Case> singular(unsigned seed) {
   return made;
 }
 
-/// Along the null vector [ω; v] of J the lengths grow as κ t², κ = ½ |Σ uᵢ f″ᵢ|, and are off by some 16 roundings.
+/// Along the null vector [ω; v] of J the lengths grow as κ t², κ = ½ |Σ uᵢ f″ᵢ|; their error is some 16 roundings.
 double spread(const Case& made) {
   const Eigen::JacobiSVD<Matrix6d> svd(made.machine.jacobian(made.at), Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Vector3d omega = svd.matrixV().col(5).head<3>(), v = svd.matrixV().col(5).tail<3>();
@@ -65,7 +65,8 @@ TEST(UpsPoses, MergeAtSingularOnes) {
   EXPECT_GE(doubled, tried / 2);
 }
 
-/// Similar hexagons on a conic let the platform move, whatever the lengths; so do joints on a line, and one leg twice.
+/// Similar hexagons on a conic let the platform move, whatever the lengths are. So do joints on a line, and two equal
+/// legs.
 TEST(UpsPoses, AreRefusedWhereThePlatformIsFree) {
   Case similar = thrown(7000), line = similar, twice = similar;
   for (std::size_t i = 0; i < 6; ++i) {
@@ -79,11 +80,11 @@ TEST(UpsPoses, AreRefusedWhereThePlatformIsFree) {
   EXPECT_THROW(similar.poses(), UndeterminedPose);
   EXPECT_THROW(line.poses(), UndeterminedPose);
   EXPECT_THROW(twice.poses(), UndeterminedPose);
-  similar.machine.b[0].x() += 0.1;  // no longer
+  similar.machine.b[0].x() += 0.1;  // no longer similar
   EXPECT_LE(nearest(similar.poses(), similar.at), expectedError(similar));
 }
 
-/// From far away a platform is a point, turned as it likes.
+/// For very long legs the platform is a point, whose orientation is undetermined.
 TEST(UpsPoses, OfLegsTooLongForTheirJointsAreRefused) {
   const Case near = thrown(7000);
   const auto posesFrom = [&near](double distance) {

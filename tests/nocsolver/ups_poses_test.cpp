@@ -1,4 +1,4 @@
-// All poses of a Stewart–Gough platform: found again from the lengths they give; counted; against published machines.
+// All poses of a Stewart–Gough platform: found from their lengths, counted, and compared with published machines.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ TEST(UpsPoses, FindsThePoseAgainForManyMachines) {
   }
 }
 
-/// Mirrored at the base's plane, and the platform at its own, a pose is another one.
+/// Mirroring at the base's plane, and of the platform at its own, turns a pose into another one.
 TEST(UpsPoses, OfPlanarMachinesComeInMirroredPairs) {
   const Matrix3d mirror = Vector3d(1, 1, -1).asDiagonal();
   for (unsigned seed = 0; seed < 40; ++seed) {
@@ -83,7 +83,7 @@ TEST(UpsPoses, OfDietmaiersMachineAreFortyAndReal) {
   EXPECT_GE(apart, 0.01);
 }
 
-/// A 3–3 machine, joints in pairs: 16 poses (Nanua, Waldron and Murthy 1990: eight and their mirrored ones).
+/// A 3–3 machine, with joints in pairs, has 16 poses (Nanua, Waldron and Murthy 1990: eight and their mirror images).
 TEST(UpsPoses, OfOctahedralMachinesAreSixteen) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
@@ -97,7 +97,8 @@ TEST(UpsPoses, OfOctahedralMachinesAreSixteen) {
   }
 }
 
-/// 3–2–1: three spheres, then two, then one: 2 · 2 · 2. Infinitely many solutions at infinity, so by paths.
+/// A 3–2–1 machine intersects three spheres, then two, then one, which gives 2 · 2 · 2 poses. It has infinitely many
+/// solutions at infinity, so paths are tracked.
 TEST(UpsPoses, OfThreeTwoOneMachinesAreEight) {
   for (unsigned seed = 0; seed < 5; ++seed) {
     SCOPED_TRACE(seed);
@@ -109,7 +110,7 @@ TEST(UpsPoses, OfThreeTwoOneMachinesAreEight) {
   }
 }
 
-/// Two semi-regular hexagons, level, as in many simulators; the regular pose of which is the most symmetrical.
+/// Two level semi-regular hexagons, as in many simulators, at their most symmetrical pose.
 TEST(UpsPoses, OfASimulatorAtHome) {
   Case made;
   made.at = {Vector3d(0, 0, 1.2), Matrix3d::Identity()};

@@ -1,4 +1,4 @@
-// The solver against tests/vectors, which were made without any of the paper's rate formulas.
+// Compares the solver with tests/vectors, which were made without any of the paper's rate formulas.
 
 #include <gtest/gtest.h>
 
@@ -14,10 +14,10 @@
 namespace ursula {
 namespace {
 
-/// What the project promises of every quantity, relative in the norm over the legs.
+/// The promised accuracy of every quantity, relative in the norm over the legs.
 constexpr double promised = 1e-12;
 
-/// The largest ‖found − expected‖/‖expected‖ of every kind of quantity; a NaN stays.
+/// The largest ‖found − expected‖/‖expected‖ of every kind of quantity; a NaN is kept.
 struct Errors {
   double torques = 0, angles = 0, rates = 0, accelerations = 0, motion = 0;
 
@@ -92,9 +92,8 @@ TEST_P(Vectors, inDoublesFromTheTrajectory) {
   EXPECT_LE(errors.worst(), promised);
 }
 
-/// No rounding is left on the way, so what remains is that the machine's numbers were rounded to doubles when they were
-/// read (0.3420 is none): half an ulp of each of the 32 numbers that a leg, the platform and the motion go into a
-/// torque with, grown by conditioning.
+/// In 50 digits only the machine's numbers have errors, because reading rounded them to doubles (0.3420 is none). That
+/// is half an ulp of each of the 32 numbers of a leg, the platform and the motion in a torque, times the conditioning.
 TEST_P(Vectors, inFiftyDigitsUpToTheRoundingOfTheParameters) {
   const Noc<Real50> solver(*scenario_.manipulator);
   NocWorkspace<Real50> work;

@@ -28,7 +28,7 @@ std::string linkText(const char* name, const Link& link) {
                      link.center_of_mass, tensor(link.inertia));
 }
 
-/// By the coordinates' names, or of a URS leg by those of its joints.
+/// Writes friction by the coordinates' names, or for a URS leg by those of its joints.
 std::string frictionText(const Leg& leg, const JointFriction& friction, bool by_joint) {
   std::vector<std::string> out;
   for (const Coordinate coordinate : rowOf(leg.kind).coordinates) {
@@ -40,7 +40,7 @@ std::string frictionText(const Leg& leg, const JointFriction& friction, bool by_
   return fmt::format("{}", fmt::join(out, ", "));
 }
 
-/// Zeros as well, which a leg that inherits others has to write.
+/// Writes zeros, too, because a leg that inherits other values must write them.
 std::string rotorText(const Leg& leg) {
   std::vector<std::string> out;
   for (const Coordinate coordinate : rowOf(leg.kind).coordinates)

@@ -29,7 +29,7 @@ std::vector<std::string> cells(const std::string& line) {
   return out;
 }
 
-/// Rows by the names of their columns; none where the file cannot be read any more.
+/// Rows by the names of their columns; none if the file cannot be read any more.
 std::vector<std::map<std::string, double>> rowsOf(const std::filesystem::path& file) {
   std::vector<std::map<std::string, double>> rows;
   std::ifstream in(file);
@@ -60,12 +60,12 @@ Vector3d axes(const std::map<std::string, double>& row, const std::string& befor
 // --- motion and load
 // --------------------------------------------------------------------------------------------------
 
-/// π to more digits than are kept of anything here.
+/// π with more digits than any number here.
 const Real50 pi("3.14159265358979323846264338327950288419716939937510582097494");
 
 Real50 inRadians(const View& degrees) { return Real50(number(degrees)) * pi / 180; }
 
-/// An angle, rad, by its own key or by that of degrees.
+/// An angle, rad, by its key in radians or in degrees.
 double angleOr(const View& table, const std::string& key, double otherwise) {
   const View degrees = table[key + "_deg"];
   return degrees ? static_cast<double>(inRadians(degrees)) : numberOr(table[key], otherwise);
@@ -80,7 +80,7 @@ Matrix3<Real50> turn(int j, int k, const Real50& angle) {
   return out;
 }
 
-/// Of which entry is largest, from the squares that trace and diagonal give; the others from the entries beside it.
+/// Finds the largest entry from the squares that trace and diagonal give, and the others from the off-diagonal entries.
 Eigen::Vector4d quaternionOf(const Matrix3<Real50>& Q) {
   Eigen::Matrix<Real50, 4, 1> squares;  // 4 w², 4 x², …
   squares(0) = 1 + Q.trace();

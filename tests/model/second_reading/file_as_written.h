@@ -12,7 +12,7 @@
 
 namespace ursula {
 
-/// `[trajectory]` as its file has it; what belongs to other kinds is left alone.
+/// `[trajectory]` as its file has it; members of other kinds keep their defaults.
 struct TrajectoryAsWritten {
   std::string kind;
   double duration = 0;           ///< of helix and hold
@@ -34,8 +34,9 @@ struct FileAsWritten {
   std::optional<LoadAsWritten> load;
 };
 
-/// A scenario's text read a second time, by code that shares with model/scenario*.cpp, model/toml_reader.h
-/// and base/csv.h nothing but toml++. It judges nothing: a number that is missing or of another type is NaN, which equals none.
+/// A scenario's text read a second time, by code that shares with model/scenario*.cpp, model/toml_reader.h and
+/// base/csv.h nothing but toml++. It refuses nothing; a number that is missing or of another type is NaN, which equals
+/// none.
 FileAsWritten asWritten(const Scenario& scenario);
 
 }  // namespace ursula

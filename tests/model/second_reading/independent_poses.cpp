@@ -24,7 +24,8 @@ double distance(const A& a, const B& b) {
 // --- helix
 // ------------------------------------------------------------------------------------------------------------
 
-/// β by control points; the pose by (49) and the triad of the curve: along the tangent, to the centre, and across.
+/// Computes β by control points, and the pose by (49) and the curve's triad: tangent, normal to the centre, and
+/// binormal.
 struct WrittenHelix {
   const HelixParameters& helix;
   Real50 a{helix.radius}, b{helix.pitch}, duration{helix.duration};
@@ -47,7 +48,7 @@ struct WrittenHelix {
         -sine, Real50(0), cosine;
     return Q;
   }
-  /// Size of what is added up in β, with the larger of the phases; coefficients of powers of s: 10, 15, 6 of the rise.
+  /// Size of the terms of β and of the larger phase; the coefficients of powers of s are 10, 15 and 6 times the rise.
   double terms() const {
     const double T = helix.duration;
     return 1 + std::abs(helix.start_angle) + std::max(std::abs(helix.phase), std::abs(helix.height_phase)) +
@@ -69,7 +70,7 @@ void compareHelix(const Trajectory& trajectory, const HelixParameters& helix, Mi
     mismatches.within("trajectory: p" + at, distance(motion.p, written.position(s)), limit * length);
     mismatches.within("trajectory: Q" + at, distance(motion.Q, written.orientation(s)), limit);
     if (share != 0 && share != 1) continue;
-    // The ends pin what the poses between would only hint at.
+    // At the ends, rates and accelerations are exact, while poses between would only approximate them.
     const double rate = share == 0 ? helix.start_rate : helix.end_rate;
     const double acceleration = share == 0 ? helix.start_acceleration : helix.end_acceleration;
     mismatches.within("trajectory: rate" + at, std::abs(rounded(motion.omega.z() - rate)), 5 * limit / T);
@@ -81,7 +82,7 @@ void compareHelix(const Trajectory& trajectory, const HelixParameters& helix, Mi
 // --- poses
 // ------------------------------------------------------------------------------------------------------------
 
-/// Of [w, x, y, z], normalised: the columns are what q makes of the axes.
+/// The rotation of [w, x, y, z], normalised; its columns are the axes rotated by q.
 template <class S>
 Matrix3<S> rotation(const Eigen::Vector4d& written) {
   using std::sqrt;
@@ -95,8 +96,8 @@ Matrix3<S> rotation(const Eigen::Vector4d& written) {
   return Q;
 }
 
-/// In 50 digits. At the last instant the end of a quintic is reached: the coefficients of a polynomial of fifth degree
-/// that stays within ±1 on [0, 1] add up to 3363 at most (those of Chebyshev's), and it may pass the poses threefold.
+/// Compares in 50 digits. The last instant is the end of a quintic. The coefficients of a polynomial of fifth degree
+/// within ±1 on [0, 1] add up to at most 3363 (Chebyshev's), and the quintic may exceed the poses threefold.
 void comparePose(const Trajectory& trajectory, const TimedPose& pose, double t, const std::string& place,
                  double position_scale, Mismatches& mismatches) {
   const double limit = rounding_depth * rounded(eps50) * 3 * 3363;
@@ -113,14 +114,14 @@ void comparePoses(const Trajectory& trajectory, const std::vector<TimedPose>& po
   mismatches.number("trajectory.duration", trajectory.duration(), poses.back().time);
   double scale = 0;
   for (const TimedPose& pose : poses) scale = std::max(scale, pose.position.norm());
-  constexpr std::size_t in_50_digits = 60;  // of thousands, for 50 digits are dear
+  constexpr std::size_t in_50_digits = 60;  // of thousands, because 50 digits are expensive
   const std::size_t every = (poses.size() + in_50_digits - 1) / in_50_digits;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const std::string place = fmt::format("trajectory, pose {}", i + 1);
     mismatches.number(place + ".time", times[i], poses[i].time);
     if (i % every == 0 || i + 1 == poses.size()) {
       comparePose(trajectory, poses[i], times[i], place, scale, mismatches);
-    } else {  // at its start a quintic is its first coefficient
+    } else {  // at its start a quintic equals its first coefficient
       const Motion<double> motion = trajectory.at(times[i]);
       const double limit = rounding_depth * std::numeric_limits<double>::epsilon();
       mismatches.within(place + ".position", (motion.p - poses[i].position).norm(), 0);

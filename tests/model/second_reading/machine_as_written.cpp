@@ -7,7 +7,7 @@
 namespace ursula::written {
 namespace {
 
-/// A leg's keys: its own, and where it has not that one, the defaults'.
+/// A leg's keys: its own, or the defaults' if it lacks one.
 class LegKeys {
  public:
   LegKeys(View own, View defaults) : own_(own), defaults_(defaults) {}
@@ -26,7 +26,7 @@ class LegKeys {
   View own_, defaults_;
 };
 
-/// A carriage need have no length.
+/// Reads a link; a carriage need not have a length.
 Link linkOf(const LegKeys& keys, const char* name, bool carriage = false) {
   Link link;
   link.length = numberOr(keys(name, "length"), carriage ? 0 : none);
@@ -50,14 +50,14 @@ LegKind kindOf(const std::string& text) {
   return text == "PUS" ? LegKind::PUS : LegKind::URS;
 }
 
-/// The three that a leg turns or slides by, as docs/scenario.md has them.
+/// The names of a leg's coordinates, as in docs/scenario.md.
 std::array<std::string, 3> coordinatesOf(LegKind kind) {
   if (kind == LegKind::UPS) return {"phi", "psi", "d"};
   if (kind == LegKind::PUS) return {"d", "psi", "theta"};
   return {"phi", "psi", "theta"};
 }
 
-/// Those in the list, or the one that a leg of the kind has a motor on if nothing is said.
+/// The coordinates in the list, or the kind's default if there is no list.
 std::array<bool, 3> actuatedOf(const View& list, LegKind kind) {
   if (!list) return {kind != LegKind::UPS, false, kind == LegKind::UPS};
   std::array<bool, 3> out = {false, false, false};
@@ -68,8 +68,8 @@ std::array<bool, 3> actuatedOf(const View& list, LegKind kind) {
   return out;
 }
 
-/// By the coordinate's name, of URS legs also by the joint's; what the defaults say of other legs' coordinates is not
-/// this one's. A leg's own table speaks before the defaults', whichever of the two names it uses.
+/// Reads friction by the coordinate's name, for URS legs also by the joint's. Defaults for coordinates that the leg
+/// lacks are ignored. A leg's own table precedes the defaults', whichever name it uses.
 JointFriction frictionOf(const LegKeys& keys, const char* name, LegKind kind) {
   const std::array<std::string, 3> has = coordinatesOf(kind);
   const auto of = [&](const char* coordinate, const char* joint) {

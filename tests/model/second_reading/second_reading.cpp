@@ -23,7 +23,7 @@ void compareFriction(const std::string& place, const JointFriction& read, const 
   mismatches.number(place + ".d", read.d, written.d);
 }
 
-/// The joints that motors drive, "1" for each that has one.
+/// The driven joints as a text, with "1" for each that has a motor.
 std::string motorsOf(const Leg& leg) {
   std::string out;
   for (const bool driven : leg.actuated) out += driven ? '1' : '0';
@@ -61,7 +61,7 @@ void compareMachine(const ManipulatorParameters& read, const ManipulatorParamete
     compareLeg(fmt::format("manipulator.leg[{}]", i + 1), read.legs[i], written.legs[i], mismatches);
 }
 
-/// At its rows a history has their values to the last bit, and so it says what was read.
+/// At its rows a history has their values to the last bit, which shows what was read.
 void compareRows(const LoadHistory& read, const std::vector<TimedWrench>& written, Mismatches& mismatches) {
   const std::vector<double>& times = read.knots();
   mismatches.number("load: the number of rows", static_cast<double>(times.size()), static_cast<double>(written.size()));

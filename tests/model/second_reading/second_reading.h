@@ -8,15 +8,15 @@
 #include "base/scalar.h"
 #include "tests/model/second_reading/file_as_written.h"
 
-// The numbers of a scenario as read against those of its file, read a second time: an error of the reader would be the
-// same on every formulation, and so no check of a validation sees it.
+// Compares a scenario's numbers with those of its file, read a second time. An error of the reader would be the same in
+// every formulation, so no check of a validation sees it.
 
 namespace ursula {
 
-/// Numbers that are not what a file says, counted; the first is kept in words.
+/// Counts numbers that differ from the file, and keeps the first in words.
 class Mismatches {
  public:
-  /// The same to the last bit; NaN equals nothing.
+  /// Both must be equal to the last bit; NaN equals nothing.
   void number(const std::string& place, double read, double written) {
     note(read == written && std::signbit(read) == std::signbit(written), place,
          [&] { return fmt::format("{:.17g}, the file says {:.17g}", read, written); });
@@ -31,7 +31,7 @@ class Mismatches {
     note(read == written, place, [&] { return fmt::format("'{}', the file says '{}'", read, written); });
   }
 
-  /// What cannot be equal to the last bit: off by no more than a rounding limit, so that NaN never holds.
+  /// For numbers that cannot be equal to the last bit: the error must be within a rounding limit; NaN never is.
   void within(const std::string& place, double error, double limit) {
     note(error <= limit, place,
          [&] { return fmt::format("off by {:.3g} from what the file says, beyond {:.3g}", error, limit); });
@@ -53,10 +53,11 @@ class Mismatches {
   std::string first_;
 };
 
-/// None where the reader is right: parameters to the last bit, 50-digit poses by rounding in the 50th digit.
+/// Returns no mismatch if the reader is right. Parameters must be equal to the last bit, 50-digit poses to rounding in
+/// the 50th digit.
 Mismatches mismatchesOf(const Scenario& scenario);
 
-/// Their part for the motion: poses at the instants that the file names, by other formulas than the trajectory's.
+/// The part for the motion: compares poses at the file's instants, by other formulas than the trajectory's.
 void compareTrajectory(const Trajectory& trajectory, const TrajectoryAsWritten& written, Mismatches& mismatches);
 
 }  // namespace ursula

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a scenario's text is read with a second time: numbers of toml++'s nodes, and nothing refused.
+// Reads numbers from toml++'s nodes for the second reading; it refuses nothing.
 
 #include <toml++/toml.h>
 
