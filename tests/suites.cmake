@@ -1,5 +1,5 @@
-# ursula_test_suites(PROGRAM [PREFIX report.] [LABELS preloaded]): one test of ctest for each suite of a program of GoogleTest.
-# A suite makes once what its tests share, and starts one process instead of one for each test.
+# ursula_test_suites(PROGRAM [PREFIX report.] [LABELS preloaded]): one test of ctest for each suite of a program of
+# GoogleTest. A suite computes the common data of its tests once, and starts one process instead of one for each test.
 function(ursula_test_suites program)
   cmake_parse_arguments(PARSE_ARGV 1 suites "" "PREFIX;LABELS" "")
   set(listing ${CMAKE_CURRENT_BINARY_DIR}/${program}_suites.cmake)

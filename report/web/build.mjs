@@ -1,5 +1,5 @@
-// Bundles scripts and style of the report, and records the hashes of their sources. usage: node build.mjs FOLDER, with
-// node_modules beside this file; ./dev bundle calls it
+// Bundles scripts and style of the report, and records the hashes of their sources.
+// usage: node build.mjs FOLDER, with node_modules beside this file; ./dev bundle calls it
 import { build } from "esbuild";
 import katex from "katex";
 import { createHash } from "node:crypto";

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Runs the browser tests. Their npm packages are installed first, beside the build. usage: run.sh SAMPLES_DIR WORK_DIR
-# [CHROMIUM] Exits with 77 (ctest: skipped) if npm's registry does not answer; in CI that is a failure.
+# Runs the browser tests. Their npm packages are installed first, beside the build.
+# usage: run.sh SAMPLES_DIR WORK_DIR [CHROMIUM]
+# Exits with 77 (ctest: skipped) if npm's registry does not answer; in CI that is a failure.
 set -uo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 samples=$1 work=$2 chromium=${3:-}

@@ -1,7 +1,7 @@
-# Judges a solver process on a machine that `ursula init` writes. cmake -D URSULA=… -D WORK=FOLDER -D KIND=UPS [-D
-# FORMAT=urdf] -D SOLVER=… -D CODE=0 -D PATTERN=… -P judge_recipe.cmake -D TILTED=1 tilts the platform during the whole
-# motion. The motion takes a fifth of its time, so that replays need fewer steps. @MODEL@ in SOLVER is the exported
-# file. Output has to match PATTERN, and the exit code is to be CODE.
+# Judges a solver process on a machine that `ursula init` writes.
+# cmake -D URSULA=… -D WORK=FOLDER -D KIND=UPS [-D FORMAT=urdf] -D SOLVER=… -D CODE=0 -D PATTERN=… -P judge_recipe.cmake
+# -D TILTED=1 tilts the platform during the whole motion. The motion takes a fifth of its time, so that replays need
+# fewer steps. @MODEL@ in SOLVER is the exported file. The output must match PATTERN, and the exit code must be CODE.
 cmake_policy(VERSION 3.25)
 
 include(${CMAKE_CURRENT_LIST_DIR}/../support/run.cmake)

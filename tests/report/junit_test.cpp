@@ -1,4 +1,4 @@
-// JUnit files as their readers want them. The rules are those of Jenkins' junit-10.xsd, as assertions.
+// JUnit files must satisfy the rules of Jenkins' junit-10.xsd, written as assertions.
 
 #include "report/written_files.h"
 
@@ -18,7 +18,7 @@ namespace {
 
 using boost::property_tree::ptree;
 
-/// What an element may hold; attributes that it must have begin with "!".
+/// The allowed content of an element; required attributes begin with "!".
 struct Rule {
   std::set<std::string> attributes, children;
 };
@@ -43,7 +43,7 @@ const std::map<std::string, Rule>& rules() {
   return out;
 }
 
-/// Returns how many elements were looked at.
+/// Returns the number of checked elements.
 std::size_t expectValid(const std::string& name, const ptree& element) {
   const auto rule = rules().find(name);
   if (rule == rules().end()) {
@@ -74,7 +74,7 @@ std::size_t expectValid(const std::string& name, const ptree& element) {
   return count;
 }
 
-/// Characters that XML 1.0 has: of what is UTF-8, all but most control characters, U+FFFE and U+FFFF.
+/// Expects only characters of XML 1.0: valid UTF-8 without most control characters, U+FFFE and U+FFFF.
 void expectCharacters(const std::string& xml) {
   for (const unsigned char c : xml) EXPECT_TRUE(c >= 0x20 || c == '\n' || c == '\t') << int{c};
   for (const char* forbidden : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"}) EXPECT_EQ(xml.find(forbidden), std::string::npos);

@@ -8,16 +8,16 @@
 
 namespace ursula::test {
 
-/// A test's history beside that of the passed sample: one effort 0.1 % off, one channel that is missing.
+/// A history to compare with the passed sample's: one effort is 0.1 % off, and one channel is missing.
 TimeSeries comparedSample();
 
 /// The passed sample stretched to sixty seconds at a kilohertz, with a ripple that thinning must keep.
 ValidationResult longSample();
 
-/// A made-up proof: defects that are caught by several checks, by one, and not at all.
+/// A made-up proof, with defects that several checks catch, one catches, or none.
 ProveFound proveSample(bool weak);
 
-/// A made-up audit of rows that the paper has.
+/// A made-up audit with equations of the paper.
 Audit auditSample();
 
 /// Writes `comparison/`, `same/`, `prove.html`, `weak.html` and `audit.html` into `dir`.

@@ -1,5 +1,4 @@
-// The pages of compare, prove and audit, and what a suite writes: what they say, that nothing becomes markup, how
-// large.
+// The pages of compare, prove and audit, and a suite's files: their texts, their size, and that no text becomes markup.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +22,7 @@ namespace {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// Of the two sample histories, with their page.
+/// The comparison of the two sample histories, with its page.
 struct Compared {
   std::vector<ChannelCharts> charts;
   Comparison comparison;
@@ -78,7 +77,7 @@ TEST(ComparePage, ofTheSameIsAPass) {
   EXPECT_FALSE(has(same.html, "FAIL"));
 }
 
-/// The tube of a tolerance in time is wider where the reference moves.
+/// The tube of a tolerance in time is wider while the reference changes.
 TEST(ComparePage, drawsTheToleranceInTime) {
   CompareOptions options;
   options.time_tolerance = 0.05;
@@ -92,7 +91,7 @@ TEST(ComparePage, drawsTheToleranceInTime) {
   EXPECT_GT(widest, 20);
 }
 
-/// Sixty seconds at a kilohertz in a hundred channels.
+/// The histories have sixty seconds at a kilohertz in a hundred channels.
 TEST(ComparePage, ofMuchDataStaysSmall) {
   TimeSeries series;
   std::vector<double> t(60001);
@@ -171,7 +170,7 @@ TEST(LongMotion, makesASmallReportThatKeepsThePeaks) {
   EXPECT_LT(report::reportHtml(result).size(), 3'000'000u);
 }
 
-/// Six legs of the paper's machine at the poses of the sample, which are the true ones of the base and the platform.
+/// Six legs of the paper's machine at the sample's true poses of base and platform.
 TEST(Singular, directionsAreThoseThatTheMotorsResistLeast) {
   const ValidationResult result = test::passedSample();
   const std::shared_ptr<const Picture> picture = makePicture(*result.asked, {0.0, 1.5, 3.0});
@@ -184,7 +183,7 @@ TEST(Singular, directionsAreThoseThatTheMotorsResistLeast) {
     const report::WeakDirections& at = (*weak)[k];
     EXPECT_NEAR(at.yielding.norm(), 1, 1e-12);
     EXPECT_NEAR(at.lost.norm(), 1, 1e-12);
-    // What a motor must turn for this motion is less than for any other: here than for each single axis.
+    // This motion needs the smallest motor rates: here it is compared with each single axis.
     const auto resistance = [&](const Eigen::Matrix<double, 6, 1>& motion) {
       double sum = 0;
       for (const Picture::Leg& leg : picture->legs) {

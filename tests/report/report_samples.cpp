@@ -52,7 +52,7 @@ void addMotion(TimeSeries& series) {
     series.add(prefix + "q_x", sampled([](double t) { return std::sin(0.05 * t); }));
     for (const char* part : {"q_y", "q_z"}) series.add(prefix + part, std::vector<double>(rows, 0.0));
   }
-  // Zero or nearly so at the start, as in every replay, then the growth of an unstable motion.
+  // An error that is nearly zero at the start, as in every replay, and then grows as in an unstable motion.
   const auto grown = [](double scale, double start) {
     return [scale, start](double t) { return t == 0 ? start : scale * std::exp(4.6 * t) * (1.2 + std::sin(9 * t)); };
   };

@@ -8,18 +8,18 @@
 
 namespace ursula::test {
 
-/// Made-up results with the shapes that real ones have: every chart, two curves, findings, provenance.
+/// Made-up results in the form of real ones, with every chart, two curves, findings and provenance.
 ValidationResult passedSample();
-/// Two checks beyond their limits, one that was not made, and torques alone.
+/// Torques alone, with two checks beyond their limits and one that was not made.
 ValidationResult failedSample();
 ValidationResult inconclusiveSample();
-/// A file's efforts with a factor on one motor: what is off and why is known. Three telescopic legs carry the platform,
-/// and the replay stopped on the way.
+/// A file's efforts with a factor on one motor, of which the likely cause is known. Three telescopic legs carry the
+/// platform, and the replay stopped on the way.
 ValidationResult externalSample();
-/// Markup, control characters and broken UTF-8 wherever text goes, numbers that are not finite wherever numbers go.
+/// Markup, control characters and broken UTF-8 in every text, and non-finite values in every number.
 ValidationResult hostileSample();
 
-/// The index of a suite in `dir`, whose folders of scenarios stay.
+/// Writes the index of a suite into `dir`; the scenarios' folders stay.
 void writeSuiteIndex(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir);
 
 }  // namespace ursula::test

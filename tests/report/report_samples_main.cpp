@@ -1,5 +1,5 @@
 // usage: report_samples DIR
-// Writes the sample results with an index over them, and the other pages, for the browser test.
+// Writes the sample results with their index, and the other pages, for the browser test.
 
 #include <filesystem>
 #include <iostream>

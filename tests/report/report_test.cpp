@@ -1,5 +1,5 @@
-// The files of a result, read back by other parsers than the code that wrote them: nlohmann::json, Boost's XML reader
-// and the project's CSV reader. What a browser makes of the HTML is report_browser_test.mjs's.
+// Reads the files of a result back with other parsers: nlohmann::json, Boost's XML reader and the project's CSV reader.
+// report_browser_test.mjs tests the HTML in a browser.
 
 #include "report/report.h"
 
@@ -69,7 +69,7 @@ TEST_F(ReportFiles, ofASuiteAreIndexAndJunit) {
   EXPECT_NE(index.find("href=\"sub%20folder/%C3%A4%26b/report.html\""), std::string::npos);
   EXPECT_NE(index.find("1 of 1 scenario passed"), std::string::npos);
   EXPECT_NE(index.find("Position along the motion"), std::string::npos);           // the check closest to its limit
-  EXPECT_NE(index.find("amplification of integration error"), std::string::npos);  // what dominates
+  EXPECT_NE(index.find("amplification of integration error"), std::string::npos);  // the dominant error
   const ptree suite = parsedXml(contentOf(dir_ / "junit.xml")).get_child("testsuites.testsuite.<xmlattr>");
   EXPECT_EQ(suite.get<std::string>("name"), "paper-helix");
   EXPECT_EQ(suite.count("time"), 0u) << "nobody measured it";
@@ -156,7 +156,7 @@ TEST(Plots, chooseLogarithmicAxesByTheData) {
   };
   EXPECT_FALSE(plot("Efforts of the motors").log_y);
   EXPECT_TRUE(plot("Closure of the loops").log_y);
-  EXPECT_TRUE(plot("Work against precision").log_x && plot("Work against precision").log_y);  // powers of ten in both
+  EXPECT_TRUE(plot("Work against precision").log_x && plot("Work against precision").log_y);  // logarithmic in both
   EXPECT_TRUE(!plot("Amplification").log_x && plot("Amplification").log_y);                   // over time
   ValidationResult narrow;
   narrow.curves.emplace_back();
@@ -165,7 +165,7 @@ TEST(Plots, chooseLogarithmicAxesByTheData) {
   EXPECT_FALSE(report::plots(narrow)[0].log_x || report::plots(narrow)[0].log_y);
 }
 
-/// The lines that limit the charts of the motors' deviations.
+/// The limit lines in the charts of the motors' deviations.
 std::vector<report::Line> effortLimits(const ValidationResult& result) {
   std::vector<report::Line> out;
   for (const report::Plot& plot : report::plots(result))
@@ -237,7 +237,7 @@ TEST(Plots, areThinnedForTheEyeWithoutLosingAPeak) {
   EXPECT_EQ(report::thinned(plot, 30000).x.size(), 60000u);
 }
 
-/// With plain spaces for the no-break ones that join a number to its unit.
+/// The text with plain spaces instead of the no-break spaces between numbers and units.
 std::string plain(std::string text) {
   const std::string joined = "\u00A0";
   for (auto at = text.find(joined); at != std::string::npos; at = text.find(joined))

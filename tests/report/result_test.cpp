@@ -69,7 +69,7 @@ TEST(JudgedIfUseful, isInconclusiveOnlyBetweenWhatIsUsefulAndTheDerivedLimit) {
   const auto check = [](double value, double limit) {
     Worst worst;
     worst.add(value, limit, 0);
-    return judgedIfUseful({"name", "m", 1e6}, worst, "basis", "why", "the cause");  // 1 is useful
+    return judgedIfUseful({"name", "m", 1e6}, worst, "basis", "why", "the cause");  // values above 1 matter
   };
   EXPECT_EQ(check(0.5, 0.9).verdict, Verdict::pass);
   EXPECT_EQ(check(0.5, 0.9).reason, Reason::none);
@@ -91,7 +91,7 @@ TEST(JudgedIfUseful, isInconclusiveOnlyBetweenWhatIsUsefulAndTheDerivedLimit) {
 
 TEST(Worst, showsTheValueNearestToTheLesserOfLimitAndUse) {
   Worst worst;
-  worst.add(0.5, 100, 1, 1);  // a wide limit, which the use of 1 bounds
+  worst.add(0.5, 100, 1, 1);  // a wide limit, above the threshold of 1
   worst.add(0.2, 0.8, 2, 2);  // nearer to its own limit
   EXPECT_EQ(worst.shown(1).t, 1);
   EXPECT_EQ(worst.shown(1).limit, 1);

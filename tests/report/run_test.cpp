@@ -1,4 +1,4 @@
-// What tells the files of one run from those of another.
+// Files of one run are told from those of another.
 
 #include "report/run.h"
 
@@ -19,7 +19,7 @@
 namespace ursula {
 namespace {
 
-/// The results `a` are of one run; with any of `files` from `b` they are not.
+/// The results in `a` are of one run; with any of `files` from `b` they are refused.
 void expectRefusedOf(const std::filesystem::path& dir, const std::vector<std::string>& files) {
   report::refuseMixture(dir / "a");
   for (const std::string& file : files) {
@@ -53,7 +53,7 @@ TEST(Run, ofTwoTheFilesAreRefused) {
   expectRefusedOf(dir, {report::result_files.begin(), report::result_files.end()});
 }
 
-/// As OutputFolder swaps it, at any moment while the files are read.
+/// The folder is swapped, as OutputFolder does, at any moment while its files are read.
 TEST(Run, isWholeInAFolderThatIsSwappedMeanwhile) {
   const TemporaryFolder folder;
   const std::filesystem::path &dir = folder.path(), shown = dir / "shown";
@@ -86,7 +86,7 @@ TEST(Run, ofASuiteRefusesAnothersScenario) {
   expectRefusedOf(dir, {"suite.json", "index.html", "junit.xml", "s/summary.json"});
 }
 
-/// A device or a pipe need not end.
+/// A device or a pipe may never end.
 TEST(Run, isReadOfFilesAlone) {
   const TemporaryFolder folder;
   const std::filesystem::path& dir = folder.path();

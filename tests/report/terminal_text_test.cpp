@@ -1,4 +1,4 @@
-// What a result looks like on a terminal, and what is said of each check.
+// The text of a result on a terminal, and of each check.
 
 #include "report/terminal.h"
 

@@ -34,7 +34,7 @@ def test_coordinates_are_the_programs(kind, tmp_path):
         assert len(names) == 3
         for name in names:
             found = float(row[f"{name}_{k}_m" if name == "d" else f"{name}_{k}_rad"])
-            assert abs(of[name] - found) < 1e-12, (kind, k, name)  # roundings of a metre or a radian, some thousand of them
+            assert abs(of[name] - found) < 1e-12, (kind, k, name)  # some thousand roundings of a metre or a radian
         assert np.linalg.norm(of["R"] + leg["distal"]["length"] * of["s"] - of["B"]) < 1e-12
         wrong = site_legs.leg(kind, leg["base_point"], -np.array(leg["base_axis"]), p + leg["platform_point"],
                               leg["proximal"].get("length", 0.1), leg["distal"]["length"], knee)

@@ -1,4 +1,4 @@
-# One program and one test: the audit takes its time, and is made once.
+# One program and one test, so that the slow audit is made once.
 add_executable(audit_tests audit_formula_errors_test.cpp audit_test.cpp)
 target_link_libraries(audit_tests PRIVATE test_scalars test_components nlohmann_json::nlohmann_json GTest::gtest_main)
 target_compile_definitions(audit_tests PRIVATE

@@ -1,5 +1,5 @@
-// The audit's formulas to the letter against the solver's errors: two readings of the same print, written apart. And
-// the audit's witness against the solver: two formulations to every angle, rate and torque.
+// Compares the audit's printed formulas with the solver's errors, which are two independent readings of the same print.
+// Compares the audit's reference with the solver in every angle, rate and torque.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 Scenario paperHelix() { return readScenario(URSULA_SCENARIOS "/paper-helix.toml"); }
 
-/// What the solver with an error says, in the order of the formula's values.
+/// The results of the solver with an error, in the order of the formula's values.
 using Reading = std::function<Values(const Noc<S, WithFormulaErrors>&, const Motion<S>&, NocWorkspace<S>&)>;
 
 template <class F>
@@ -28,7 +28,7 @@ Reading overJoints(F pick) {
   };
 }
 
-/// Three components of a link's twist or its rate, of proximal or distal links or both.
+/// Reads three components of a twist or its rate, for proximal or distal links or both.
 Reading overLinks(bool rate, int first, bool proximal, bool distal) {
   return [=](const Noc<S, WithFormulaErrors>& solver, const Motion<S>& motion, NocWorkspace<S>& work) {
     BodyMotions<S> bodies;
@@ -90,7 +90,7 @@ double largestDifference(const Values& a, const Values& b) {
   return worst.convert_to<double>();
 }
 
-/// As in audit_test.cpp: what second differences in 50 digits leave, with room for conditioning.
+/// The error of second differences in 50 digits, with a margin for conditioning, as in audit_test.cpp.
 constexpr double rounding = 1e-33;
 
 TEST(AuditFormulas, asPrintedAreTheSolversFormulaErrors) {
@@ -110,7 +110,7 @@ TEST(AuditFormulas, asPrintedAreTheSolversFormulaErrors) {
             reading(Noc<S, WithFormulaErrors>(*scenario.manipulator, formula_errors), witness.motion, work), printed),
         rounding)
         << equation;
-    // The control: without the error the solver says something else, and that is the truth.
+    // Control: without the error the solver's result is different, and is the truth.
     const Values right = reading(Noc<S, WithFormulaErrors>(*scenario.manipulator), witness.motion, work);
     EXPECT_GT(largestDifference(right, printed), 1e-6) << equation;
     EXPECT_LE(largestDifference(right, found->truth(witness)), rounding) << equation;

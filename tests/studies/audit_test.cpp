@@ -29,8 +29,8 @@ const AuditRow* find(const std::string& equation) {
   return nullptr;
 }
 
-/// Second differences in 50 digits over steps of 3e-5 s leave 1e-48/h² = 1e-39 of a unit; a million times that is room
-/// for the conditioning of legs and B.
+/// Second differences in 50 digits over steps of 3e-5 s have errors of 1e-48/h² = 1e-39 of a unit. The limit is a
+/// million times that, for the conditioning of legs and B.
 double roundingLimit(const AuditRow& row) { return 1e-33 * std::max(1.0, row.size); }
 
 TEST(Audit, whatHoldsLeavesRoundingOnly) {
@@ -90,7 +90,7 @@ TEST(Audit, saysWhatEachFormulaErrorDoes) {
 TEST(Audit, theControlStaysOnTheHelix) {
   const AuditRow& none = theAudit().together.back();
   ASSERT_TRUE(none.equation == "none" && none.effect);
-  EXPECT_LE(none.effect->torque_error, 1e-6);  // N·m: doubles with 25,000 N·m and κ(B) some 100
+  EXPECT_LE(none.effect->torque_error, 1e-6);  // N·m; doubles with 25,000 N·m and κ(B) of some 100
   EXPECT_LT(none.effect->to_1_mm, 0);
   EXPECT_EQ(none.effect->replay_end, theAudit().duration);
 }
@@ -121,7 +121,7 @@ const std::regex& numeral() {
   return pattern;
 }
 
-/// One in the last digit printed.
+/// One unit of the last printed digit.
 double lastDigit(const std::string& number) {
   const std::size_t e = number.find('e'), point = number.find('.');
   const std::string mantissa = number.substr(0, e);
@@ -132,7 +132,8 @@ double lastDigit(const std::string& number) {
   return std::pow(10.0, exponent + static_cast<int>(zeros));
 }
 
-/// The first place where two pages differ by more than one in a printed digit; what is below 1e-30 is rounding.
+/// The first place where two pages differ by more than one unit of the last printed digit; numbers below 1e-30 are
+/// rounding.
 std::string firstDifference(const std::string& a, const std::string& b) {
   std::sregex_token_iterator words_a(a.begin(), a.end(), numeral(), -1), words_b(b.begin(), b.end(), numeral(), -1),
       end;
@@ -168,7 +169,7 @@ TEST(AuditPage, comparisonSeesADigit) {
   EXPECT_NE(firstDifference("x 1", "x 1 and 2"), "");
 }
 
-/// The table of LaTeX is written by hand: each formula of the audit is in it, and nothing else.
+/// The table of LaTeX is written by hand. It must have each formula of the audit, and no other.
 TEST(Audit, pageHasMathmlForEachFormulaAndForNoOther) {
   const auto table = nlohmann::json::parse(report::formulas_mathml);
   std::set<std::string> texts;

@@ -1,4 +1,4 @@
-// What `ursula check` finds odd: each oddity by its number and place, and none of it in good scenarios.
+// The warnings of `ursula check`: each with its number and place, and none in good scenarios.
 
 #include "studies/check_scenario/check_scenario.h"
 
@@ -91,7 +91,7 @@ Scenario starting(const std::string& kind) {
   return readScenario(std::string(URSULA_SCENARIOS) + "/../apps/starting/" + kind + ".toml");
 }
 
-/// With a change to every leg.
+/// The scenario with a change to every leg.
 template <class Change>
 Scenario startingWith(const std::string& kind, Change&& change) {
   Scenario scenario = starting(kind);

@@ -1,4 +1,4 @@
-// Two histories at other instants: what is interpolated, what is left open, and what is only a part.
+// Two histories at different instants: interpolation, open questions, and parts.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -71,7 +71,7 @@ TEST(Compare, aTestWithGapsLeavesThemOpen) {
   EXPECT_EQ(compare(history(t_101), history(equallySpaced(1, 51)), {}).verdict, Verdict::pass);
 }
 
-/// A row that is missing may have been the only peak.
+/// The missing row may have been the only peak.
 TEST(Compare, oneMissingRowIsAGap) {
   std::vector<double> t = t_101;
   t.erase(t.begin() + 40);
@@ -80,7 +80,7 @@ TEST(Compare, oneMissingRowIsAGap) {
   std::vector<double> half = equallySpaced(1, 51);
   half.erase(half.begin() + 20);
   EXPECT_EQ(compare(history(t_101), history(half), {}).skipped, 3U);
-  for (const int finer : {101, 151, 201, 1234, 4567})  // other instants, none passed over
+  for (const int finer : {101, 151, 201, 1234, 4567})  // other instants, of which none may be skipped
     EXPECT_EQ(compare(history(t_101), history(equallySpaced(1, finer)), {}).skipped, 0U) << finer;
 }
 

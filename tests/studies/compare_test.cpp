@@ -1,4 +1,5 @@
-// Two histories channel by channel: tubes in value and time, what is not compared, and that nothing passes by absence.
+// Two histories channel by channel: tubes in value and time, channels that are not compared, and that nothing missing
+// passes.
 
 #include "studies/compare/compare.h"
 
@@ -32,7 +33,7 @@ TEST(Compare, aHistoryPassesAgainstItself) {
   EXPECT_THAT(comparisonText(result), HasSubstr("compared 2 of 2 channels at 101 instants; 2 within tolerance"));
 }
 
-/// 1e15 s is rounded to an eighth of a second, which is no tolerance for instants in the first third of one.
+/// 1e15 s is rounded to an eighth of a second, which must be no tolerance for instants within a third of a second.
 TEST(Compare, tellsTwoInstantsOfTheReferenceApart) {
   const TimeSeries reference = history(equallySpaced(0.3, 301));
   const TimeSeries one = history({0, 1e15});
@@ -92,7 +93,7 @@ TEST(Compare, theTubeIsInTimeAsWell) {
   EXPECT_EQ(compare(history(t_101), late, {1e-9, 0}).verdict, Verdict::fail);
   EXPECT_EQ(compare(history(t_101), late, {1e-9, 0.009}).verdict, Verdict::fail);
   const Comparison result = compare(history(t_101), late, {1e-9, 0.0101});
-  // The first instant alone is off: what it holds came before the reference begins.
+  // Only the first instant is wrong: its value is from before the reference begins.
   EXPECT_EQ(result.channels[0].verdict, Verdict::fail);
   EXPECT_NEAR(result.channels[0].outside, 10 * std::sin(0.02), 1e-9);
   TimeSeries held = late;
@@ -113,7 +114,7 @@ TEST(Compare, nanNeverPasses) {
   }
 }
 
-/// A turn about z by more than half a revolution, whose w changes sign.
+/// A turn about z by more than half a revolution, in which w changes its sign.
 TimeSeries turning(const std::vector<double>& t, double sign) {
   TimeSeries out{{"t_s", "q_w", "q_x", "q_y", "q_z"}, {t, {}, {}, {}, {}}};
   for (const double at : t)

@@ -9,7 +9,7 @@ namespace ursula {
 
 constexpr int scenarios_drawn = 300;
 
-/// Those of the seeds from 1 on.
+/// The random scenarios of the seeds from 1 on, drawn once.
 inline const std::vector<Scenario>& drawnScenarios() {
   static const std::vector<Scenario> scenarios = [] {
     std::vector<Scenario> out;

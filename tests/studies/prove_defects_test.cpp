@@ -1,4 +1,4 @@
-// All of `ursula prove`: every defect is caught, and every check catches one that those before it do not.
+// All of `ursula prove`: every defect is caught, and every check catches one that earlier checks do not.
 
 #include <gtest/gtest.h>
 
@@ -12,11 +12,10 @@
 namespace ursula {
 namespace {
 
-/// For machines of other kinds what is not there (friction, a load) has defects that change nothing, and checks that
-/// nothing tries.
+/// On machines without friction or load, some defects change nothing, and some checks have nothing to catch.
 class ProofOf : public testing::TestWithParam<const char*> {};
 
-/// 1e-9 a step is less than what a coarse rung of this machine's ladder is off by itself.
+/// An error of 1e-9 per step is smaller than the error of a coarse rung of this machine's ladder.
 bool isBelowWhatShows(const std::string& scenario, const std::string& defect) {
   return scenario == "hexaglide" && defect == "coarser replays falsified by 1e-9 after each step";
 }
@@ -44,7 +43,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ProofOf,
                            return name;
                          });
 
-/// One test, for it takes its time: whatever it says is of one run.
+/// This is one test, because it is slow; all of it is from one run.
 TEST(Proof, catchesEveryDefectAndNeedsEveryCheck) {
   const DefectProof proof = proveDefects(scenarioOf("proving-ground"), 2, [](int) {});
   EXPECT_TRUE(proof.without_defect.empty()) << "the right solver fails " << proof.without_defect.front();

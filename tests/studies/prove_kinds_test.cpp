@@ -1,5 +1,5 @@
-// Defects of machines with legs of other kinds than the paper's: lists that hold what there is to get wrong, and some
-// of those for telescopic legs caught. All of them: prove_defects_test.cpp.
+// Defects of machines with other legs than the paper's. The lists cover everything that can be wrong, and some defects
+// of telescopic legs are caught here. prove_defects_test.cpp tests all of them.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ TEST_P(DefectsOf, areManyAndOfEveryGroup) {
   for (const auto& [group, count] : groups) EXPECT_GE(count, group == "complement" ? 2 : 4) << group;
 }
 
-/// Every kind of leg that the machine has is got wrong.
+/// Every kind of leg of the machine has defects.
 TEST_P(DefectsOf, areOfItsLegs) {
   const Scenario scenario = scenarioOf(GetParam());
   const std::vector<Defect> defects = allDefects(*scenario.manipulator);
@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, DefectsOf,
                          testing::Values("flight-simulator", "hexa", "hexaglide", "mixture", "three-legs"),
                          [](const auto& scenario) { return asTestName(scenario.param); });
 
-/// Telescopic legs that rub, under a load.
+/// Telescopic legs with friction, under a load.
 const Scenario& telescopes() {
   static const Scenario scenario = [] {
     Scenario read = scenarioOf("ups-friction-load");
@@ -62,10 +62,10 @@ const Scenario& telescopes() {
   return scenario;
 }
 
-/// A term that this machine has not changes nothing but rounding; one that it has, something.
+/// A term that this machine lacks changes only rounding; a term that it has changes results.
 TEST(RightAnswers, areKnownFromRounding) {
   using Off = RightAnswers::Off;
-  const Scenario machine = scenarioOf("flight-simulator");  // which neither rubs nor bears a load
+  const Scenario machine = scenarioOf("flight-simulator");  // which has neither friction nor load
   const RightAnswers right(machine);
   const auto faulty = [&](FormulaError formula_error) {
     return wrongNocSubject(*machine.manipulator, machine.load, WithFormulaErrors(formula_error));
@@ -90,7 +90,7 @@ TEST(SayOtherwise, knowsAnotherVerdictAndAnotherValue) {
   const std::vector<Check> right = {judged("a", 1, 8, "m", "", ""), notApplicable("b", "m", "")};
   std::vector<Check> other = right;
   EXPECT_FALSE(sayOtherwise(other, right, 0));
-  other[1] = judged("b", 9, 8, "m", "", "");  // what was not tried says nothing
+  other[1] = judged("b", 9, 8, "m", "", "");  // a check that does not apply says nothing
   EXPECT_FALSE(sayOtherwise(other, right, 0));
   other[0].value = 1.5;
   EXPECT_TRUE(sayOtherwise(other, right, 0));

@@ -1,4 +1,4 @@
-// Who guards the guard: defects that are caught, parameters that are seen, random machines that raise no alarm.
+// Tests of the checks themselves: defects are caught, wrong parameters are seen, and random machines pass.
 
 #include "studies/prove/prove.h"
 #include "base/start_threads.h"
@@ -32,13 +32,13 @@ const Scenario& provingGround() {
   return scenario;
 }
 
-/// A defect is in the solver, in what all are given, or in an experiment.
+/// Counts where the defect is: in the solver, in the common input, or in an experiment.
 int placesOf(const Defect& defect) {
   const bool in_experiment = !defect.subject && !defect.scenario;
   return (defect.subject ? 1 : 0) + (defect.scenario ? 1 : 0) + (in_experiment ? 1 : 0);
 }
 
-/// One reference for all that leave the scenario alone.
+/// Uses one reference for all defects that do not change the scenario.
 std::vector<Check> checksWith(const Defect& defect) {
   static const auto reference = makeReference(provingGround());
   ValidationOptions options;
@@ -68,7 +68,7 @@ TEST(Defects, areManyAndOfEveryGroup) {
   EXPECT_EQ(groups.size(), 20u);
 }
 
-/// Those that only one formulation can see are of these groups; all others are held to two.
+/// Defects that only one formulation can see belong to these groups; all others need two.
 TEST(Defects, areHeldToTwoEnginesButWhereOneAloneCanSee) {
   const std::set<std::string> alone = {"branch",      "kinematics", "direct",    "hidden",     "shared motion",
                                        "shared load", "experiment", "one frame", "complement", "fast"};
@@ -80,8 +80,8 @@ TEST(Defects, areHeldToTwoEnginesButWhereOneAloneCanSee) {
 
 struct Caught {
   const char *group, *name;
-  const char* by;      ///< a check that must be among those that fail
-  const char* not_by;  ///< one that has nothing to do with it
+  const char* by;      ///< a check that must fail
+  const char* not_by;  ///< a check that must not fail
 };
 
 class OneDefect : public testing::TestWithParam<Caught> {};
@@ -125,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(
         Caught{"experiment", "sign of f_B, leg 4", "reactions.pointwise", "torque.pointwise"}),
     [](const auto& caught) { return asTestName(caught.param.group); });
 
-/// Each mechanism of a defect, without one, changes nothing: else what it injects is caught for another reason.
+/// A defect's mechanism changes nothing by itself. Otherwise its defects would be caught for another reason.
 TEST(NoDefect, isCaughtByNoneInAnyMechanism) {
   int controls = 0;
   for (const Defect& defect : allDefects(*provingGround().manipulator)) {
@@ -136,7 +136,7 @@ TEST(NoDefect, isCaughtByNoneInAnyMechanism) {
   EXPECT_GE(controls, 15);
 }
 
-/// An error of the mechanism itself, beside each of its defects, is noticed by its control.
+/// The control notices an error of the mechanism itself.
 TEST(NoDefect, noticesAnErrorOfTheMechanism) {
   for (const Defect& defect : allDefects(*provingGround().manipulator)) {
     if (!defect.control || !defect.subject) continue;
@@ -154,7 +154,7 @@ TEST(NoDefect, noticesAnErrorOfTheMechanism) {
 
 TEST(NoDefect, isCaughtByNone) { EXPECT_EQ(others(checksWith({"none", ""}), Verdict::pass), ""); }
 
-/// What is not there cannot be falsified, and is not said to be.
+/// Absent things cannot be falsified, and the list does not claim it.
 TEST(NoDefect, changesNothing) {
   const Defect none{"none", "", nullptr, [](const Scenario& s) { return s; }};
   const std::vector<Check> alone = checksWith({"none", ""}), afresh = checksWith(none);
@@ -208,7 +208,7 @@ TEST(Sensitivities, everyParameterShowsOnTheProvingGround) {
   }
 }
 
-/// torque.pointwise for the solver with one parameter wrong.
+/// The verdict of torque.pointwise on the solver with one wrong parameter.
 std::string verdictWith(const Parameter& parameter, double relative) {
   Subject subject = disturbedSubject(provingGround(), parameter, relative);
   subject.kinematics = nullptr;
@@ -231,13 +231,13 @@ TEST(Sensitivities, areTheThresholdOfTheCheckItself) {
 
 TEST(Sensitivities, whatIsNotThereDoesNotShow) {
   for (const Sensitivity& each : proveSensitivities(scenarioOf("paper-helix"))) {
-    if (each.group != "friction") continue;  // the helix has none: a part of nothing is nothing
+    if (each.group != "friction") continue;  // the helix has none, and a share of zero is zero
     EXPECT_TRUE(std::isinf(each.smallest_caught)) << each.parameter;
     EXPECT_EQ(each.torque_change, 0) << each.parameter;
   }
 }
 
-/// What two scenarios differ in.
+/// The numbers in which scenarios may differ.
 std::vector<double> numbersOf(const Scenario& scenario) {
   const Motion<double> motion = scenario.trajectory->at(0.4 * scenario.trajectory->duration());
   const Vector6d torques = solverOf(scenario).torques(motion);
@@ -257,7 +257,7 @@ TEST(RandomScenario, isTheSeeds) {
   EXPECT_EQ(seen.size(), 10u) << "two seeds give the same";
 }
 
-/// Between them, few seeds hold what machines differ in; else whole kinds would never be judged.
+/// A few seeds together have all properties of machines. Otherwise whole kinds would never be judged.
 TEST(RandomScenario, isOfEveryKind) {
   std::set<std::string> kinds;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {

@@ -1,4 +1,4 @@
-// Random machines of each kind of leg: what they are, and that they vary. Nothing is validated.
+// Random machines of each kind of leg: their properties, and that they vary. Nothing is validated.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -64,7 +64,7 @@ TEST_P(RandomKinds, haveTheLegsThatWereAskedFor) {
   }
 }
 
-/// Between them they drive every coordinate, have both knees, rub on every coordinate or not at all.
+/// Together they drive every coordinate, have both knees, and have friction on every coordinate or on none.
 TEST_P(RandomKinds, areOfEveryKind) {
   std::set<std::string> seen;
   for (const Scenario& scenario : drawnOf(GetParam())) {
@@ -77,14 +77,14 @@ TEST_P(RandomKinds, areOfEveryKind) {
     }
   }
   for (const Coordinate q : {Coordinate::phi, Coordinate::psi, Coordinate::theta, Coordinate::d}) {
-    if (seen.count(std::string("no ") + nameOf(q)) == 0) continue;  // a coordinate that the kind has not
+    if (seen.count(std::string("no ") + nameOf(q)) == 0) continue;  // a coordinate that the kind lacks
     EXPECT_THAT(seen, testing::IsSupersetOf({std::string(nameOf(q)), std::string("viscous ") + nameOf(q),
                                              std::string("dry ") + nameOf(q)}));
   }
   EXPECT_THAT(seen, testing::IsSupersetOf({"knee out", "knee in"}));
 }
 
-/// No two legs share a number other than zero.
+/// No two legs share a non-zero number.
 TEST_P(RandomKinds, haveLegsThatShareNothing) {
   for (const Scenario& scenario : drawnOf(GetParam())) {
     std::map<double, int> owners;
@@ -103,7 +103,7 @@ TEST_P(RandomKinds, haveLegsThatShareNothing) {
   }
 }
 
-/// At more instants than the generator looked at.
+/// This checks more instants than the generator did.
 TEST_P(RandomKinds, followTheirWholeMotion) {
   for (const Scenario& scenario : drawnOf(GetParam())) {
     const Solver<double> solver(*scenario.manipulator);
@@ -124,7 +124,7 @@ TEST_P(RandomKinds, followTheirWholeMotion) {
   }
 }
 
-/// What was asked before, and what memory held, is nothing to an answer.
+/// An answer does not depend on earlier questions or on the content of memory.
 TEST_P(RandomKinds, areSolvedAlikeInAnyWorkspace) {
   for (const Scenario& scenario : drawnOf(GetParam())) {
     const Solver<double> solver(*scenario.manipulator);

@@ -1,4 +1,4 @@
-// What random scenarios span: the claims of studies/random/random_scenario.h, asked of many draws. Nothing is
+// The ranges of random scenarios: checks the claims of studies/random/random_scenario.h on many draws. Nothing is
 // validated.
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@
 namespace ursula {
 namespace {
 
-/// A quantity of a scenario of which values as small and as large as these must be seen.
+/// A quantity of which values as small and as large as these must occur.
 struct Range {
   const char* name;
   double low, high;
@@ -56,14 +56,14 @@ Vector3d momentsOf(const Link& link) {
   return Eigen::SelfAdjointEigenSolver<Matrix3d>(link.inertia, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
-/// Duration in times that gravity takes about a link's length; none without gravity.
+/// The duration over the time of a fall by about a link's length; none without gravity.
 std::vector<double> naturalTimes(const Scenario& scenario) {
   const double gravity = scenario.manipulator->gravity().norm();
   if (gravity == 0) return {};
   return {scenario.trajectory->duration() / std::sqrt(sizeOf(scenario) / gravity)};
 }
 
-/// What friction takes at most, in weights of a leg's share at its length.
+/// The largest friction, over the moment of a leg's share of the weight at its length.
 std::vector<double> frictionShares(const Scenario& scenario) {
   const ManipulatorParameters& machine = scenario.manipulator->parameters();
   std::vector<double> out;
@@ -176,7 +176,7 @@ TEST(RandomScenarios, spanTheRangesOfMotions) {
   EXPECT_THAT(notSpanned(motionRanges(), drawnScenarios()), testing::IsEmpty());
 }
 
-/// Negative control: machines about one in size and shape span none of the ranges.
+/// Negative control: machines of nearly one size and shape span none of the ranges.
 TEST(RandomScenarios, wouldBeFoundOutIfAlike) {
   const std::vector<Scenario> same(5, drawnScenarios().front());
   std::vector<Range> ranges = machineRanges();
@@ -194,7 +194,7 @@ std::string gravityKind(const Vector3d& gravity) {
   return std::abs(slope) < 0.1 ? "gravity sideways" : "gravity tilted";
 }
 
-/// Two rows of different wrenches less than a hundredth of the motion apart.
+/// Whether two rows with different wrenches are less than a hundredth of the motion apart.
 bool jumps(const LoadHistory& history, double duration) {
   const std::vector<double>& times = history.knots();
   for (std::size_t i = 1; i < times.size(); ++i)
@@ -242,7 +242,7 @@ TEST(RandomScenarios, areOfEveryKind) {
                          "load table", "load jumps"));
 }
 
-/// At more instants than the generator looked at: legs in reach, B off its axis, det B of one sign.
+/// Checks at more instants than the generator did that legs reach, B is off its axis, and det B keeps its sign.
 TEST(RandomScenarios, stayAwayFromSingularities) {
   for (const Scenario& scenario : drawnScenarios()) {
     const Solver<double> solver(*scenario.manipulator);

@@ -21,10 +21,10 @@ std::vector<ManipulatorParameters> machines() {
 
 using Seen = std::map<std::string, std::vector<double>>;
 
-/// Of six legs of the paper's.
+/// The numbers of a machine with six legs of the paper's kind.
 std::vector<MachineNumber> numbers() { return machineNumbers({}); }
 
-/// Names of which two values out of many are alike; what is left out (zero) in most is no variety.
+/// Names of numbers of which two values are equal, or which have fewer values than `at_least`.
 std::vector<std::string> constantsIn(const Seen& seen, std::size_t at_least) {
   std::vector<std::string> out;
   for (const auto& [name, values] : seen) {
@@ -45,7 +45,7 @@ std::vector<std::string> constantsOf(std::vector<ManipulatorParameters> all) {
   return constantsIn(seen, all.size() / 5);
 }
 
-/// The numbers of legs that another leg has as well.
+/// The numbers of legs that are equal on another leg.
 std::vector<std::string> sharedByLegs(const ManipulatorParameters& machine) {
   std::map<double, std::pair<std::string, int>> owners;
   std::vector<std::string> out;
@@ -63,7 +63,7 @@ TEST(RandomMachines, varyInEveryNumber) {
   EXPECT_THAT(constantsOf(machines()), testing::IsEmpty());
 }
 
-/// Negative control: a generator that leaves any one number alone is found out, by the number's name.
+/// Negative control: a generator that never varies one number is detected, with the number's name.
 TEST(RandomMachines, wouldBeFoundOutWithOneNumberConstant) {
   std::vector<ManipulatorParameters> all = machines();
   all.resize(60);
@@ -100,7 +100,7 @@ TEST(RandomScenarios, varyInMotionAndLoad) {
     note(motionNumbers(*scenario.trajectory));
     if (scenario.load) note(loadNumbers(*scenario.load, scenario.trajectory->duration()));
   }
-  // The helix's normal is level: its triad has a zero, which no motion of the kind can vary.
+  // The helix's normal is level, so its triad has an entry that is always zero.
   for (auto entry = seen.begin(); entry != seen.end();)
     entry = entry->first.find("helix") == 0 && entry->second.front() == 0 ? seen.erase(entry) : std::next(entry);
   EXPECT_EQ(seen.size(), 4u * 37 - 3 + 2 * 21);

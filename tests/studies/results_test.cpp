@@ -62,7 +62,7 @@ TEST(CommittedResults, haveTheVerdictAndTheChecksOfAFreshRun) {
 TEST(CommittedResults, haveTheTorquesOfAFreshRun) {
   const CsvTable committed = readCsv(std::string(folder) + "/inverse.csv");
   EXPECT_LE(worstShare(committed, fresh().timeseries, 0), 1) << "./dev results refreshes results/";
-  EXPECT_GT(worstShare(committed, fresh().timeseries, 4), 1);  // the control: four limits off is seen
+  EXPECT_GT(worstShare(committed, fresh().timeseries, 4), 1);  // control: a deviation of four limits shows
 }
 
 TEST(CommittedResults, areOfThisScenario) {

@@ -1,4 +1,4 @@
-// docs/scenario.md, docs/scenario.schema.json and docs/checks.md are what their tables give: ./dev docs writes them.
+// docs/scenario.md, docs/scenario.schema.json and docs/checks.md agree with their tables; ./dev docs writes them.
 
 #include "studies/scenario_docs/scenario_docs.h"
 

@@ -1,4 +1,4 @@
-// Suites: which files, what is refused before anything is made, results that do not depend on the number of threads.
+// Suites: their files, refusals before anything is computed, and results that do not depend on the number of threads.
 
 #include "studies/suite/suite.h"
 
@@ -25,7 +25,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-/// The small scenario under another name, few instants of a short motion.
+/// The small scenario under another name, with few instants of a short motion.
 std::string scenarioText(const std::string& name) {
   std::string text = replaced(good_scenario, "name = \"small\"", "name = \"" + name + "\"");
   text = replaced(text, "duration = 3.0", "duration = 0.3");
@@ -45,7 +45,7 @@ std::vector<SuiteMember> threeScenarios(const TemporaryFolder& folder) {
                     folder.write("c.toml", loaded("load"))});
 }
 
-/// Wall times, which are in the suite's own files and in JUnit's, are the one thing that two runs write differently.
+/// Removes wall times from the suite's files and JUnit's, because only these differ between two runs.
 std::string withoutTimes(const std::string& file, const std::string& content) {
   const auto without = [&content](const char* times) { return std::regex_replace(content, std::regex(times), ""); };
   if (file == "suite.json") return without("\"seconds\": [0-9.e-]+");
@@ -54,7 +54,7 @@ std::string withoutTimes(const std::string& file, const std::string& content) {
   return content;
 }
 
-/// Every file under `dir` by its path from there.
+/// The content of every file below `dir` by its relative path.
 std::map<std::string, std::string> contents(const std::filesystem::path& dir) {
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(dir))
@@ -108,7 +108,7 @@ TEST(Suite, resultsAreTheSameToTheByteForAnyNumberOfJobs) {
     for (const auto& [name, content] : one) EXPECT_TRUE(several.at(name) == content) << name << " with jobs = " << jobs;
     std::filesystem::remove_all(dir);
   }
-  // Not the same for want of content: the scenarios differ.
+  // The contents are not trivially equal, because the scenarios differ.
   EXPECT_NE(one.at("plain/timeseries.csv"), one.at("knees/timeseries.csv"));
   EXPECT_NE(one.at("plain/timeseries.csv"), one.at("load/timeseries.csv"));
 }
@@ -118,7 +118,7 @@ TEST(Suite, severalAreJudgedAtATimeAndEntriesKeepTheirOrder) {
   std::atomic<int> waiting{0};
   SuiteOptions two = options(2, [&waiting](const Scenario& scenario) {
     ++waiting;
-    // The first is not done before another has begun: with one thread this would never end.
+    // The first waits until another has begun, so with one thread this would never end.
     while (scenario.name == "plain" && waiting < 2) std::this_thread::yield();
     return passing(scenario);
   });
@@ -216,7 +216,7 @@ TEST(SuiteInput, everyBadScenarioIsNamedAtOnce) {
             HasSubstr("empty: error: no scenario in this folder, expected *.toml"), Not(HasSubstr("good.toml"))));
 }
 
-/// Through the pose that is turned by about 45.26° about e_z, between instants, where no instant is singular itself.
+/// The motion passes a singular pose, turned by about 45.26° about e_z, between two instants.
 TEST(SuiteInput, aMotionThroughASingularPoseIsRefusedThoughNoInstantMeetsIt) {
   const TemporaryFolder folder;
   std::string text = scenarioText("singular");

@@ -1,4 +1,4 @@
-# Many scenarios around one.
+# Tests of sweeps.
 find_package(SQLite3 REQUIRED)
 add_executable(sweep_tests
   sweep/slurm_test.cpp

@@ -12,7 +12,7 @@
 
 namespace ursula::test {
 
-/// Databases of sweeps that were not run, in a folder of the test's own.
+/// A database of a sweep that was not run, in the test's folder.
 struct MadeSweep {
   SweepIdentity identity;
   std::vector<SweepPoint> points;
@@ -20,11 +20,11 @@ struct MadeSweep {
   /// Adds a point with the next id; `values` in the order of the identity's keys.
   SweepPoint& add(const std::vector<double>& values, const std::string& verdict = "pass",
                   const std::string& error = "");
-  /// A result that is no check.
+  /// Adds a result that is no check.
   static void result(SweepPoint& point, const std::string& name, double value);
   static void check(SweepPoint& point, const std::string& name, double value, double limit, const std::string& verdict);
 
-  /// Writes it and opens it anew to be read.
+  /// Writes the database and opens it for reading.
   std::unique_ptr<Sqlite> written(const std::string& name) const;
 };
 

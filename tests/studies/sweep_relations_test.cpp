@@ -1,4 +1,5 @@
-// The statistics of a sweep against closed forms: a linear model, the Ishigami function, a grid's exact main effects.
+// Compares the statistics of a sweep with closed forms: a linear model, the Ishigami function, a grid's exact main
+// effects.
 #include <gmock/gmock.h>
 
 #include <boost/random/sobol.hpp>
@@ -78,7 +79,7 @@ TEST(Correlations, OfRanksSeeWhatIsMonotonicAlone) {
   for (const double each : x) rising.push_back(-std::exp(20 * each)), bowl.push_back((each - 0.5) * (each - 0.5));
   EXPECT_NEAR(relation(x, rising).spearman, -1, 1e-12);
   EXPECT_GT(relation(x, rising).pearson, -0.8);
-  EXPECT_LT(std::abs(relation(x, bowl).spearman), 0.1);  // no wrong sign of a driver: its index sees it
+  EXPECT_LT(std::abs(relation(x, bowl).spearman), 0.1);  // so correlation does not show this driver, but the index does
   EXPECT_GT(relation(x, bowl).first_order, 0.95);
 }
 
@@ -124,7 +125,7 @@ TEST(FirstOrder, OfIshigamiAreItsClosedForms) {
   EXPECT_NEAR(relation(u[0], y).first_order, first, 0.02);
   EXPECT_NEAR(relation(u[1], y).first_order, second, 0.02);
   EXPECT_NEAR(relation(u[2], y).first_order, 0, 0.01);
-  // The second has no correlation at all: an index taken for its square would be wrong.
+  // The second has no correlation, so the index is not the square of that.
   EXPECT_LT(std::pow(relation(u[1], y).pearson, 2), 0.01);
 }
 
@@ -135,7 +136,7 @@ TEST(FirstOrder, IsNotBiasedByChance) {
     const auto u = uniform(2, 200, 100 + static_cast<std::uint64_t>(draw));
     mean += relation(u[0], u[1]).first_order / draws;
   }
-  // One draw scatters by √(2 (M − 1)) / n = 0.0255; uncorrected, the mean would be (M − 1) / (n − 1) = 0.065.
+  // One draw scatters by √(2 (M − 1)) / n = 0.0255. Without correction the mean would be (M − 1) / (n − 1) = 0.065.
   EXPECT_NEAR(mean, 0, 4 * 0.0255 / std::sqrt(draws));
 }
 
@@ -145,7 +146,7 @@ TEST(FirstOrder, NeverPartsEqualValues) {
   EXPECT_EQ(relation(x, y).classes, 2U);
 }
 
-/// Sobol's points have less scatter than independent ones, whose scatter must not be taken off.
+/// Sobol's points scatter less than independent ones, so the scatter of those must not be subtracted.
 TEST(FirstOrder, OfSobolsPointsIsNotCorrectedForChance) {
   constexpr std::size_t rows = 4096;
   boost::random::sobol engine(3);
@@ -197,7 +198,7 @@ TEST(Bounds, AreExceededByChanceAsOftenAsTheySay) {
 TEST(Bounds, AreOneWhereThereIsTooLittle) {
   EXPECT_EQ(correlationBound(2, 0.01), 1);
   EXPECT_EQ(indexBound(5, 5, 0.01), 1);
-  EXPECT_NEAR(correlationBound(12, 0.05), 0.576, 5e-4);  // as tables of the correlation coefficient have it
+  EXPECT_NEAR(correlationBound(12, 0.05), 0.576, 5e-4);  // as in tables of the correlation coefficient
 }
 
 TEST(ColumnStore, GivesTheSameFromMemoryAndFile) {

@@ -1,4 +1,4 @@
-# What a sweep's database says.
+# Tests of a sweep's report.
 add_executable(sweep_report_tests
   heat_map_test.cpp
   sweep_databases.cpp

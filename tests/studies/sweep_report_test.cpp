@@ -1,4 +1,4 @@
-// A sweep's summary, page and table, of databases made here.
+// A sweep's summary, page and table, from databases made here.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ const SweepOutput& outputOf(const SweepSummary& summary, OutputKind kind) {
                        [kind](const SweepOutput& each) { return each.kind == kind; });
 }
 
-/// Efforts that the mass drives, the length less, and the last number not at all.
+/// A sweep whose efforts depend most on the mass, less on the length, and not on the last number.
 MadeSweep inverseSweep(std::int64_t points) {
   MadeSweep sweep = madeSweep("inverse", "random", {"platform.mass", "leg.1.length", "idle"}, points);
   Dice dice(4);
@@ -52,7 +52,7 @@ MadeSweep inverseSweep(std::int64_t points) {
   return sweep;
 }
 
-/// Without what a script or a style holds.
+/// Expects no "nan" or "inf" outside scripts and styles.
 void expectNoNumberless(const std::string& page) {
   const std::string body = page.substr(page.find("<body"));
   EXPECT_FALSE(std::regex_search(body, std::regex("\\b(nan|NaN|inf)\\b"))) << body.substr(0, 3000);
@@ -138,7 +138,7 @@ TEST(SweepSummary, OfAGridWithGapsHasNoIndices) {
   EXPECT_EQ(outputOf(summary, OutputKind::not_passed).spread.mean, 3 / 20.0);
   EXPECT_THAT(sweepPage(summary), HasSubstr("17 passed, 3 out of reach"));
   MadeSweep half = gridSweep(0);
-  half.points.resize(10);  // the sweep has not ended, though these are a grid of their own
+  half.points.resize(10);  // the sweep has not ended, although these points form a grid
   EXPECT_EQ(summaryOf(half, "half").outputs.front().no_index, NoIndex::grid_not_complete);
 }
 
@@ -170,7 +170,7 @@ TEST(SweepSummary, NamesTheCheckNearestToItsLimit) {
   ASSERT_EQ(summary.worst.size(), most_worst);
   EXPECT_EQ(summary.worst[0].verdict, "error");
   EXPECT_EQ(summary.worst[1].error, "other");
-  EXPECT_EQ(summary.worst[2].verdict, "fail");  // equal texts are said once
+  EXPECT_EQ(summary.worst[2].verdict, "fail");  // equal texts appear once
   EXPECT_EQ(summary.worst[2].id, nearest.worst_point);
 }
 

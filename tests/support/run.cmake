@@ -1,4 +1,4 @@
-# run(EXIT_CODE PATTERN COMMAND…), in the folder WORK: the command's output has to match.
+# run(EXIT_CODE PATTERN COMMAND…) runs the command in the folder WORK; its output must match.
 function(run expected pattern)
   execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
   message("$ ${ARGN}\n${output}")

@@ -1,5 +1,5 @@
-// Limits of the user's: held against the largest value, wherever the derived limit was nearest, and never a way around
-// what was not finished or not made.
+// A user's limits apply to the largest value, wherever the value nearest to its derived limit is. They never excuse a
+// check that was unfinished or not made.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ ValidationResult judgedBy(const std::vector<AcceptanceLimit>& acceptance, const 
   return result;
 }
 
-/// Nearest to its derived limit where the value is 1, and largest, 5, where that limit is far.
+/// A check whose value 1 is nearest to its derived limit, and whose largest value 5 is far from it.
 Check twoWorsts() {
   Check check = judged("torque.pointwise", 1, 2, "N m", "derived", "found");
   check.largest = {5, 0.75, "leg 3"};
@@ -75,7 +75,7 @@ TEST(UserLimits, liftALimitThatSaysNothing) {
   const Check useless =
       notJudgeable(Reason::limit_useless, "replay.position", 1e-9, 1e-3, "m", "derived", "says nothing");
   EXPECT_EQ(judgedBy({}, {useless}).verdict, Verdict::inconclusive);
-  for (const double limit : {1e-8, 1e-2}) {  // wider or not: there was none that could be used
+  for (const double limit : {1e-8, 1e-2}) {  // wider or not, because there was no useful limit
     const ValidationResult lifted = judgedBy({{"replay.position", limit}}, {useless});
     EXPECT_EQ(lifted.verdict, Verdict::pass);
     EXPECT_EQ(lifted.limits, LimitBy::user);
@@ -109,7 +109,7 @@ TEST(UserLimits, acceptNoNaN) {
   EXPECT_EQ(judgedBy({{"torque.pointwise", nan}}, {twoWorsts()}).verdict, Verdict::fail);
 }
 
-/// The paper's machine with the third motor's torque too large by a thousandth: 25 N·m.
+/// The paper's machine with the third motor's torque a thousandth too large, by 25 N·m.
 class LegThree : public testing::Test {
  protected:
   ValidationResult run(double limit) const {

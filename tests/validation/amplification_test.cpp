@@ -1,4 +1,4 @@
-// The growth of deviations by the variational equations against nonlinear simulations of deviated motions.
+// Compares the growth of deviations by the variational equations with nonlinear simulations of deviated motions.
 
 #include "validation/limits/amplification.h"
 
@@ -18,7 +18,7 @@
 namespace ursula {
 namespace {
 
-/// Open-loop motion of the platform by the solver's direct dynamics under the commanded torques, by Runge–Kutta.
+/// The platform's open-loop motion under the commanded torques, by the solver's direct dynamics and Runge–Kutta.
 class Simulation {
  public:
   using State = Eigen::Matrix<double, 13, 1>;  ///< p, quaternion [x, y, z, w], ṗ, ω
@@ -89,13 +89,13 @@ class Growth : public testing::TestWithParam<std::string> {
   Amplification amplification_{scenario_, 300};
 };
 
-/// ∂position/∂velocity over the window, column by column from pairs of deviated nonlinear motions.
+/// Compares ∂position/∂velocity over the window with pairs of deviated nonlinear motions, column by column.
 TEST_P(Growth, isThatOfDeviatedMotions) {
   Simulation simulation(scenario_);
   const std::size_t first = 60, last = 240;
   const GrowthWindow window = amplification_.window(first, none, 0, any);
   const double start = amplification_.instants()[first], end = amplification_.instants()[last];
-  const double deviation = 1e-6, L = simulation.length();  // grows some thousandfold and stays small
+  const double deviation = 1e-6, L = simulation.length();  // it grows some thousandfold and stays small
   Matrix6d measured;
   for (int j = 0; j < 6; ++j) {
     std::array<Simulation::State, 2> states;
@@ -113,7 +113,7 @@ TEST_P(Growth, isThatOfDeviatedMotions) {
   EXPECT_GT(predicted, 2 * (end - start)) << "nothing grows here beyond what free flight does";
 }
 
-/// An error of the torques, as an error of the acceleration, never moves the platform further than the bound says.
+/// An error of the torques, as an error of the acceleration, never moves the platform beyond the bound.
 TEST_P(Growth, boundsWhatWrongTorquesDo) {
   Simulation simulation(scenario_);
   const double end = amplification_.instants()[150], L = simulation.length();
@@ -185,8 +185,8 @@ Eigen::Matrix<double, 24, 6> ratesPerActuated(const Solver<double>& solver, Moti
   return out;
 }
 
-/// Known of the helix in Simbody: 1e-8 rad/s put into φ̇₁ at the start moves P by 6e-10 m at 0.5 s and by 2.6e-6 m at 3
-/// s. Simbody projects such a state onto the constraints by least squares, so that less than 1e-8 is left in φ̇₁.
+/// It is known of the helix in Simbody that 1e-8 rad/s in φ̇₁ at the start moves P by 6e-10 m at 0.5 s and by 2.6e-6 m
+/// at 3 s. Simbody projects such a state onto the constraints by least squares, so that less than 1e-8 remains in φ̇₁.
 TEST(PaperHelixGrowth, isAsKnown) {
   const Scenario scenario = vectorScenario("paper-helix");
   Simulation simulation(scenario);
@@ -206,11 +206,11 @@ TEST(PaperHelixGrowth, isAsKnown) {
   for (Simulation::State& x : states) simulation.advance(x, 0.5, 3, 500);
   const double late = (states[0] - states[1]).head<3>().norm();
   std::cout << early << " m at 0.5 s, " << late << " m at 3 s\n";
-  EXPECT_NEAR(early, 6e-10, 0.5e-10);  // half a unit of the last digit known
+  EXPECT_NEAR(early, 6e-10, 0.5e-10);  // half a unit of the last known digit
   EXPECT_NEAR(late, 2.6e-6, 0.05e-6);
 }
 
-/// Holds a pose and says that it does not: its last bit comes and goes.
+/// A held pose that does not look held, because its last bit alternates.
 class Trembling : public Trajectory {
  public:
   explicit Trembling(std::shared_ptr<const Trajectory> held) : held_(std::move(held)) {}
@@ -226,7 +226,7 @@ class Trembling : public Trajectory {
   std::shared_ptr<const Trajectory> held_;
 };
 
-/// While a pose is held one propagator is carried for all instants: the same growth as one for each.
+/// While a pose is held, one propagator serves all instants and gives the same growth as one for each.
 TEST(AmplificationOfAHeldPose, isThatOfAnyOtherMotion) {
   Scenario scenario = vectorScenario("paper-helix");
   const Eigen::Quaterniond q(scenario.trajectory->at(1).Q);

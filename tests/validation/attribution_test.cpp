@@ -1,4 +1,4 @@
-// What moved the replay, measured: the shares add up, what is left is within what is not known, and the cause is named.
+// The measured sources of the replay's error: they add up, the rest is within the uncertainty, and the cause is named.
 
 #include "validation/findings/attribution.h"
 
@@ -25,7 +25,7 @@ using testing::Pair;
 using InjectedFault = std::function<void(double t, std::vector<double>& x)>;
 using Change = std::function<Vector6d(const Motion<double>& motion, const Vector6d& torques)>;
 
-/// A scenario made ready once; few samples, for speed.
+/// A scenario's reference, made once with few samples for speed.
 const Reference& referenceOf(const std::string& name) {
   static std::map<std::string, std::shared_ptr<const Reference>> made;
   std::shared_ptr<const Reference>& reference = made[name];
@@ -37,7 +37,7 @@ const Reference& referenceOf(const std::string& name) {
   return *reference;
 }
 
-/// The windows of the right torques replayed under changed ones, with a state that is falsified where asked for.
+/// Replays the windows of the right torques under changed torques, with a falsified state if `fault` has one.
 ErrorBudget budgetOf(const std::string& name, const Change& change = nullptr, const InjectedFault& fault = nullptr) {
   const Reference& reference = referenceOf(name);
   const Scenario& scenario = reference.scenario;
@@ -76,7 +76,7 @@ TEST_P(Budget, isWholeAndLeavesNoMoreThanIsNotKnown) {
   EXPECT_LE((sum - budget.observed).norm(), 4 * Eigen::NumTraits<double>::epsilon() * size);
   EXPECT_LE(budget.unexplained().norm(), budget.uncertainty());
   EXPECT_NE(budget.dominant, ErrorSource::model) << "the torques are right";
-  // Known to no more than a few times what there is, or the bar says nothing; but for what is hardly above rounding.
+  // Unless the error is hardly above rounding, the uncertainty must be at most a few times the error.
   if (budget.observed.norm() > 1e-13) {
     EXPECT_LT(budget.uncertainty(), 100 * size);
   }
@@ -105,7 +105,7 @@ TEST(Attribution, namesTheModelWhereOneLegIsOffByABillionth) {
   EXPECT_LE(wrong.unexplained().norm(), wrong.uncertainty());
 }
 
-/// Where the variational equations hold no more, the torques are still what moved the replay.
+/// Even if the variational equations no longer hold, the torques moved the replay.
 TEST(Attribution, namesTheModelWhereTheMotionIsLost) {
   const ErrorBudget wrong = budgetOf("paper-helix", [](const auto&, Vector6d torques) {
     torques(2) *= 1.001;
@@ -115,7 +115,7 @@ TEST(Attribution, namesTheModelWhereTheMotionIsLost) {
   EXPECT_EQ(wrong.dominant, ErrorSource::model);
 }
 
-/// A state that is falsified after each step is no error of the torques'.
+/// A state that is falsified after each step is not an error of the torques.
 TEST(Attribution, doesNotNameTheModelWhereTheIntegratorIsFaulty) {
   const ErrorBudget faulty = budgetOf("paper-helix", nullptr, [](double, std::vector<double>& x) {
     for (double& each : x) each *= 1 + 1e-11;
@@ -125,7 +125,7 @@ TEST(Attribution, doesNotNameTheModelWhereTheIntegratorIsFaulty) {
   EXPECT_LT(faulty.model.error.norm(), 0.1 * faulty.observed.norm());
 }
 
-/// The replay that ends furthest off is the one that is taken apart.
+/// The analysed replay is the one with the largest end error.
 TEST(Attribution, looksAtTheWindowThatEndsFurthestOff) {
   const Reference& reference = referenceOf("helix-10s");
   ASSERT_GE(reference.replays().windows.size(), 3u);
@@ -193,7 +193,7 @@ TEST(Budgets, becomeFindings) {
   EXPECT_THAT(result.findings, Contains(Pair("amplification of a deviation at the start", "1000")));
 }
 
-/// Errors that do not add up any more are not told apart: the torques are blamed, not the gaps.
+/// If errors no longer add up, they are not told apart, and the torques are blamed instead of the gaps.
 TEST(Budgets, blameWrongTorquesAloneWhereSourcesDoNotAddUp) {
   const auto found = [](Verdict of_torques) {
     ErrorBudget budget = madeBudget();
@@ -228,7 +228,7 @@ TEST(Budgets, nameAmplificationWhereItPreventsJudging) {
   EXPECT_EQ(dominant(notMade("replay.position", "m", "gave up")), "integration") << "a failure prevents nothing";
 }
 
-/// What is no number is not counted as none.
+/// NaN does not count as zero.
 TEST(Attribution, blamesTheModelForTorquesThatAreNoNumbers) {
   Scenario scenario = scenarioOf("paper-helix");
   scenario.simulation.samples = 5;

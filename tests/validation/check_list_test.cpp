@@ -1,4 +1,4 @@
-// Every check is in every result, in one order: judged, or not applicable with the reason.
+// Every check is in every result, in one order, and is judged or not applicable with the reason.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ void expectEveryCheck(const ValidationResult& result) {
   EXPECT_EQ(judgedCount(result.checks), static_cast<std::ptrdiff_t>(applicable));
 }
 
-/// Words and functions are bound by the name.
+/// A check's name connects its words with its function.
 TEST(CheckList, hasOneFamilyForEachRowOfTheCatalogue) {
   std::vector<std::string> judged;
   for (const CheckFamily& family : checkFamilies())
@@ -105,7 +105,7 @@ TEST(CheckList, ofNothingJudgedIsNoPass) {
   EXPECT_EQ(overall({notApplicable("torque.mujoco", "N m", "none"), judged("a", 0, 1, "", "", "")}), Verdict::pass);
 }
 
-/// Torques 1 % too large lose the machine: after that there is nothing to show.
+/// Under torques 1 % too large the machine leaves its path, and later there is nothing to show.
 TEST(CheckList, whatWasNotComputedIsNotShown) {
   const Scenario scenario = quick("paper-helix");
   Subject wrong = solverOf(scenario);

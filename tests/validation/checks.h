@@ -8,19 +8,19 @@
 
 namespace ursula {
 
-/// nullptr where there is none of that name.
+/// Returns nullptr if there is no check of that name.
 inline const Check* findCheck(const std::vector<Check>& checks, const std::string& name) {
   const auto found = std::find_if(checks.begin(), checks.end(), [&](const Check& check) { return check.name == name; });
   return found == checks.end() ? nullptr : &*found;
 }
 
-/// "(none)" where there is no check of that name.
+/// Returns "(none)" if there is no check of that name.
 inline std::string verdictOf(const std::vector<Check>& checks, const std::string& check_name) {
   const Check* check = findCheck(checks, check_name);
   return check == nullptr ? "(none)" : name(check->verdict);
 }
 
-/// Names of the checks that apply and have not the verdict, with their numbers; of none that apply, a complaint.
+/// Returns the applicable checks without the verdict, with their numbers; a complaint if no check applies.
 inline std::string others(const std::vector<Check>& checks, Verdict verdict) {
   std::string out;
   bool any = false;

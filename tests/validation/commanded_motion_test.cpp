@@ -1,4 +1,4 @@
-// What all formulations share: right as it ships, and each way to be wrong is seen by the check that is for it.
+// The input that all formulations share: shipped scenarios pass, and the proper check sees each error.
 
 #include "validation/checks/judges.h"
 
@@ -28,7 +28,7 @@ std::vector<std::string> shipped() {
 
 class CommandedMotion : public testing::TestWithParam<std::string> {};
 
-/// A third of a limit that holds for the worst is more than roundings ever take.
+/// Roundings never reach a third of a limit, because limits hold for the worst case.
 TEST_P(CommandedMotion, isRightWithAMargin) {
   const Scenario scenario = readScenario(std::string(URSULA_SCENARIOS) + "/" + GetParam() + ".toml");
   const std::vector<Check> checks = judgeCommandedMotion(scenario);
@@ -118,7 +118,8 @@ INSTANTIATE_TEST_SUITE_P(
         Control{"alpha_is_no_number", "samples", "motion.twist_rate", [](auto& m) { m.omega_dot.z() = nan_value; }}),
     [](const auto& control) { return std::string(control.param.name); });
 
-/// Steep, slow, far from rest at the ends, many turns, uneven waypoints: rounding alone never fails.
+/// Rounding alone never fails a motion that is steep, slow, far from rest at its ends, or has many turns or uneven
+/// waypoints.
 TEST(CommandedMotionLimits, holdForMotionsAtTheEdges) {
   HelixParameters helix;
   helix.radius = 0.2, helix.pitch = 1.2, helix.start_angle = -1.5, helix.end_angle = -1, helix.height_phase = 2.2;

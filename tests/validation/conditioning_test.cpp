@@ -1,5 +1,5 @@
-// The factors of every pointwise limit: each against its definition by another formulation, and limits that rounding
-// keeps but that mean something.
+// The factors of every pointwise limit are compared with their definitions by another formulation. Rounding stays
+// within the limits, which are not much larger.
 
 #include "validation/limits/conditioning.h"
 #include "nocsolver/solver.h"
@@ -47,7 +47,7 @@ TEST_P(ConditioningOf, kappaBIsThatOfB) {
   }
 }
 
-/// ‖S T_P I⁻¹‖ column by column: what the platform does for a unit torque.
+/// ‖S T_P I⁻¹‖ column by column, from the platform's accelerations under unit torques.
 TEST_P(ConditioningOf, responseIsThatOfTheAccelerationsToTorques) {
   const Solver<double> solver(*scenario_.manipulator);
   ConditioningProbe probe(*scenario_.manipulator, nullptr);
@@ -57,7 +57,7 @@ TEST_P(ConditioningOf, responseIsThatOfTheAccelerationsToTorques) {
     const Conditioning found = probe.at(motion);
     const Vector6d torques = solver.inverseDynamics(motion, work);
     const Vector6d base = solver.directDynamics(motion, torques, work);
-    const double size = 1e3;  // linear in the torques: as large as they are themselves
+    const double size = 1e3;  // the response is linear, so these are as large as the torques themselves
     double sum = 0;
     for (int j = 0; j < leg_count; ++j) {
       Vector6d change = (solver.directDynamics(motion, torques + size * Vector6d::Unit(j), work) - base) / size;
@@ -84,7 +84,7 @@ TEST_P(ConditioningOf, legsAreJudgedByTheirSinesAndLevers) {
   EXPECT_GE(found.kappa_legs * (1 + 16 * eps), 1 / (found.smallest_sine * found.smallest_sine));
 }
 
-/// Doubles against 50 digits: within the limit, and the limit within five orders of magnitude of them.
+/// The error of doubles against 50 digits is within the limit, and the limit is within five orders of magnitude of it.
 TEST_P(ConditioningOf, torqueRoundingIsKeptAndMeansSomething) {
   const Solver<double> solver(*scenario_.manipulator);
   const FastDynamics<Real50> exact(*scenario_.manipulator);
@@ -113,8 +113,8 @@ TEST_P(ConditioningOf, aLoadOnlyRaisesTheLimit) {
   EXPECT_EQ(with.kappa_B, without.kappa_B);
 }
 
-/// A free distal link pushed at its end moves there as Newton and Euler have it: never more than the largest compliance
-/// says, and in the worst direction of the worst leg not much less.
+/// A free distal link, pushed at its end, moves there by Newton and Euler. It never moves more than by the largest
+/// compliance, and in the worst direction of the worst leg not much less.
 TEST_P(ConditioningOf, legComplianceIsThatOfAPushedLink) {
   const Conditioning found = ConditioningProbe(*scenario_.manipulator, nullptr).at(randomState(scenario_, dice_));
   double most = 0;
@@ -133,7 +133,7 @@ TEST_P(ConditioningOf, legComplianceIsThatOfAPushedLink) {
   EXPECT_GT(found.shape(Rounded::gaps), 0);
 }
 
-/// A limit is its shape times its level, and each quantity has its own.
+/// A limit is a shape times a level, and each quantity has its own.
 TEST_P(ConditioningOf, limitsAreShapesTimesLevels) {
   Conditioning found = ConditioningProbe(*scenario_.manipulator, nullptr).at(randomState(scenario_, dice_));
   for (std::size_t q = 0; q < rounded_count; ++q) {
@@ -149,7 +149,7 @@ TEST_P(ConditioningOf, limitsAreShapesTimesLevels) {
   EXPECT_EQ(found.accelerationRounding(), found.rounding(Rounded::acceleration));
 }
 
-/// Wherever the machine stands, however it is turned and in whatever units: shapes are measured alike.
+/// Shapes do not depend on the machine's place and orientation or on units.
 TEST_P(ConditioningOf, shapesDoNotDependOnTheFrameChange) {
   const Motion<double> motion = randomState(scenario_, dice_);
   const Conditioning here = ConditioningProbe(*scenario_.manipulator, scenario_.load).at(motion);
@@ -182,8 +182,8 @@ TEST_P(ConditioningOf, shapesDoNotDependOnTheFrameChange) {
 INSTANTIATE_TEST_SUITE_P(Machines, ConditioningOf, testing::ValuesIn(vectorNames()),
                          [](const auto& name) { return "of_" + std::string(1, name.param.back()); });
 
-/// κ(I) of a machine's inertia by the inverse's norm; a motor's unit changes nothing, and within the paper's range
-/// there are digits.
+/// κ(I) of a machine's inertia agrees with the inverse's norm. It does not depend on a motor's unit, and within the
+/// paper's range I has digits.
 TEST_P(ConditioningOf, inertiaHasDigits) {
   const Conditioning found = ConditioningProbe(*scenario_.manipulator, nullptr).at(randomState(scenario_, dice_));
   EXPECT_GE(found.kappa_I, 1);
@@ -192,7 +192,8 @@ TEST_P(ConditioningOf, inertiaHasDigits) {
   EXPECT_TRUE(std::isfinite(found.rounding(Rounded::direct)));
 }
 
-/// A platform so heavy that its rotations are lost in I: direct dynamics has no limit there, and inverse dynamics has.
+/// The platform is so heavy that its rotations are lost in I. Then direct dynamics has no limit, but inverse dynamics
+/// has.
 TEST(ConditioningOfAHeavyPlatform, directDynamicsCannotBeJudged) {
   const Scenario scenario = vectorScenario("paper-helix");
   for (const auto& [mass, has_digits] : {std::pair{1e6, true}, {1e18, false}}) {
@@ -208,12 +209,12 @@ TEST(ConditioningOfAHeavyPlatform, directDynamicsCannotBeJudged) {
   }
 }
 
-/// Up to where a leg is stretched the limits grow without bound, and there the probe refuses.
+/// Limits grow without bound towards a stretched leg, and there the probe throws.
 TEST(ConditioningNearTheReach, growsAndThenRefuses) {
   const Scenario scenario = vectorScenario("paper-helix");
   ConditioningProbe probe(*scenario.manipulator, nullptr);
   Motion<double> motion = scenario.trajectory->at(0);
-  double reach = 0, beyond = 10;  // by how much P is raised: bisected to the edge of the workspace
+  double reach = 0, beyond = 10;  // the lift of P, bisected to the edge of the workspace
   const auto raised = [&](double by) {
     Motion<double> out = motion;
     out.p.z() += by;

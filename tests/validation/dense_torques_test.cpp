@@ -1,4 +1,4 @@
-// Torques between the samples: a pulse that no sample meets is met there, and how narrow one may be is said.
+// Torques between the samples: torque.between meets a pulse that no sample meets, and says how narrow one may be.
 
 #include "model/instants.h"
 #include "validation/checks/judges.h"
@@ -26,7 +26,7 @@ using testing::HasSubstr;
 class Between : public testing::Test {
  protected:
   Check judge(const Subject& subject) const { return judgeBetween(scenario_, subject, samples_, profile_); }
-  /// Right torques with a pulse of leg 3's over [from, from + length).
+  /// Right torques with a pulse on leg 3 over [from, from + length).
   Subject pulsed(double from, double length, double size) const {
     Subject subject = right_;
     subject.torques = [right = right_.torques, from, length, size](const Motion<double>& motion) {
@@ -51,7 +51,7 @@ TEST_F(Between, rightTorquesPass) {
   EXPECT_THAT(check.why, HasSubstr("at 10240 instants"));
 }
 
-/// A millisecond of a quarter of a million newton metres between two samples: no other check of torques sees it.
+/// No other check of torques sees a millisecond of a quarter of a million newton metres between two samples.
 TEST_F(Between, aPulseBetweenTheSamplesFailsThereAlone) {
   const Subject subject = pulsed(1.2345, 1e-3, 2.5e5);
   const auto samples = runPointwise(scenario_, subject, instants_, profile_);
@@ -84,7 +84,7 @@ TEST_F(Between, theNarrowestPulseSeenIsWhatItSays) {
   EXPECT_GT(missed, 0) << "far narrower ones are seen: the number says too little";
 }
 
-/// In other units the same is said.
+/// The result is the same in other units.
 TEST_F(Between, saysSoInSeconds) {
   const FrameChange natural = naturalFrameChange(scenario_);
   const Scenario there = natural.of(scenario_);
@@ -104,7 +104,7 @@ TEST_F(Between, seesWhatIsWrongEverywhere) {
   EXPECT_EQ(judge(wrong).verdict, Verdict::fail);
 }
 
-/// Whatever they were asked for: not only those to the check's own questions.
+/// All answers are judged, not only those to the check's own questions.
 TEST_F(Between, everyAnswerIsJudged) {
   Subject late = right_;
   late.torques = [right = right_.torques, calls = 0](const Motion<double>& motion) mutable {

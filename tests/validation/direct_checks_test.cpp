@@ -1,4 +1,4 @@
-// Direct dynamics on trial: the mass matrix column by column, and in states beside the path.
+// Tests of direct dynamics: the mass matrix column by column, and states off the path.
 
 #include "validation/checks/judges.h"
 
@@ -37,7 +37,7 @@ class Direct : public testing::TestWithParam<std::string> {
   Check offPath(const Subject& subject) const {
     return judgeOffPath(reference_->direct(), subject, samples_, reference_->rounding().profile);
   }
-  /// M (1 + share) for M: the acceleration that torques give is smaller by as much.
+  /// A subject with M (1 + share) instead of M, whose accelerations under torques are smaller by that share.
   Subject heavier(double share) const {
     return with([this, share](const Motion<double>& motion, const Vector6d& torques) {
       const KinematicAnswer answer = right_.kinematics(motion);
@@ -45,7 +45,8 @@ class Direct : public testing::TestWithParam<std::string> {
       return Vector6d(rest + (right_.accelerations(motion, torques) - rest) / (1 + share));
     });
   }
-  /// What the pose does to the acceleration, off by that share; on the commanded motion nothing is.
+  /// A subject in which the pose's effect on the acceleration is wrong by that share; on the commanded motion it is
+  /// right.
   Subject stiffer(double share) const {
     return with([this, share](const Motion<double>& motion, const Vector6d& torques) {
       Motion<double> commanded = motion;
@@ -75,7 +76,7 @@ TEST_P(Direct, aMassMatrixOffByAHundredMillionthFails) {
   EXPECT_EQ(pointwise(heavier(0)).verdict, Verdict::pass) << "the control's own way round";
 }
 
-/// Under the commanded torques nothing is wrong: it shows where that motor's is changed.
+/// Under the commanded torques nothing is wrong; the error shows if that motor's torque changes.
 TEST_P(Direct, oneColumnOffIsSeenAndNamed) {
   for (int motor = 0; motor < leg_count; ++motor) {
     const Check check = pointwise(with([&, motor](const Motion<double>& motion, Vector6d torques) {
@@ -120,7 +121,7 @@ TEST_P(Direct, noNumberIsNoAgreement) {
 INSTANTIATE_TEST_SUITE_P(Scenarios, Direct, testing::Values("paper-helix", "proving-ground", "millimetres"),
                          [](const auto& name) { return asTestName(name.param); });
 
-/// Nothing moves and no force acts on the path, so that nothing rounds there: beside it something does.
+/// On the path nothing moves and no force acts, so nothing rounds; off the path there is rounding.
 TEST(DirectChecks, aMachineAtRestWithoutWeightPasses) {
   Scenario scenario = scenarioOf("hold");
   ManipulatorParameters machine = scenario.manipulator->parameters();

@@ -1,5 +1,5 @@
-// Four formulations to the torques, and a fifth where MuJoCo is built in: exact ones agree, a wrong one is seen by
-// every other, and the one that is wrong is named.
+// Four formulations of the torques, and a fifth in builds with MuJoCo. Right ones agree, every other sees a wrong one,
+// and the wrong one is named.
 
 #include "validation/samples/engines.h"
 
@@ -27,7 +27,7 @@ using testing::HasSubstr;
 constexpr int instants = 11;
 constexpr std::size_t twin = 0, maximal = 1, mujoco = 2;  ///< in the table
 
-/// Friction, a load and Coulomb's law are in these four between them.
+/// These four together have friction, a load and Coulomb friction.
 const std::vector<std::string> machines = {"paper-helix", "random-2", "random-5", "proving-ground"};
 const auto machineName = [](const auto& name) { return asTestName(name.param); };
 
@@ -82,7 +82,7 @@ void setLimits(EngineSample& engine, double limit) {
   engine.limits.fill(limit);
 }
 
-/// Formulations made up: all at 1000 N·m within a limit of 1e-9 N·m, but for a rounding of each.
+/// Made-up formulations at 1000 N·m with a limit of 1e-9 N·m, each with a rounding of its own.
 std::vector<EngineSample> agreeing() {
   std::vector<EngineSample> engines(5);
   for (std::size_t k = 0; k < engines.size(); ++k) {
@@ -98,7 +98,7 @@ std::vector<EngineSample> agreeing() {
   return engines;
 }
 
-/// As from a build without MuJoCo.
+/// The samples of a build without MuJoCo.
 std::vector<EngineSample> withoutMujoco(std::vector<EngineSample> engines) {
   for (EngineSample& engine : engines) engine.further[mujoco].reset();
   return engines;
@@ -107,7 +107,7 @@ std::vector<EngineSample> withoutMujoco(std::vector<EngineSample> engines) {
 struct Faulty {
   const char* name;
   Vector6d& (*torques)(EngineSample&);
-  const char *twin, *maximal, *mujoco;  ///< verdicts where this formulation is wrong
+  const char *twin, *maximal, *mujoco;  ///< verdicts if this formulation is wrong
 };
 
 const std::vector<Faulty> five_formulations = {
@@ -149,7 +149,7 @@ TEST(OddOneOut, isNamedWhereOneLegOfItIsNoNumber) {
 }
 
 TEST(OddOneOut, isNobodyWhereTwoAreWrong) {
-  for (const double other : {1e-8, -1e-8}) {  // alike and each in its own way
+  for (const double other : {1e-8, -1e-8}) {  // all alike, and each in its own way
     std::vector<EngineSample> engines = agreeing();
     (*engines[2].further[maximal])(1) += 1e-8;
     engines[2].subject(1) += other;
@@ -180,7 +180,7 @@ TEST(JudgeEngines, failsWhereTheSubjectAndThatEngineDiffer) {
 
 TEST(JudgeEngines, judgesEachInstantByItsOwnLimit) {
   std::vector<EngineSample> engines = agreeing();
-  (*engines[4].further[maximal])(0) += 1e-7, setLimits(engines[4], 1e-6);  // larger, and allowed there
+  (*engines[4].further[maximal])(0) += 1e-7, setLimits(engines[4], 1e-6);  // larger, but allowed there
   EXPECT_EQ(verdictOf(judgeEngines(engines), "torque.maximal"), "pass");
   (*engines[1].further[maximal])(0) += 1e-8;
   const Check check = *findCheck(judgeEngines(engines), "torque.maximal");
@@ -188,7 +188,7 @@ TEST(JudgeEngines, judgesEachInstantByItsOwnLimit) {
   EXPECT_THAT(check.why, HasSubstr("t = 0.5 s"));
 }
 
-/// Each formulation rounds in its own way, so each has a limit of its own.
+/// Each formulation rounds differently, so each has its own limit.
 TEST(JudgeEngines, judgesEachEngineByItsOwnLimit) {
   const std::pair<const char*, std::size_t> limits[] = {
       {"torque.twin", twin}, {"torque.maximal", maximal}, {"torque.mujoco", mujoco}};

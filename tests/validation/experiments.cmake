@@ -1,4 +1,4 @@
-# The witnesses beside the replay: each shows that a wrong input fails it.
+# The experiments beside the replay; each test shows that a wrong input fails them.
 add_executable(witness_tests
   attribution_test.cpp
   extremes_test.cpp
@@ -14,7 +14,7 @@ target_link_libraries(witness_tests PRIVATE
 target_compile_definitions(witness_tests PRIVATE URSULA_SCENARIOS="${PROJECT_SOURCE_DIR}/scenarios")
 ursula_test_suites(witness_tests)
 
-# What all formulations share: the commanded motion and the load.
+# The input that all formulations share: the commanded motion and the load.
 add_executable(commanded_tests
   commanded_motion_test.cpp
   load_check_test.cpp

@@ -1,4 +1,4 @@
-// Machines and motions at the edges of what can be judged: exact torques pass there, too, and wrong ones fail.
+// Machines and motions at the edges of the judged range: right torques pass there, too, and wrong ones fail.
 
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ TEST(Knots, areThoseOfWaypointsWithinAndNoneOfAHelix) {
   EXPECT_FALSE(knotsWithin(scenarioOf("load-table"), 0, 3).empty());
 }
 
-/// The same motion that says nothing of its knots.
+/// The same motion, which does not name its knots.
 class Knotless final : public ExactTrajectory {
  public:
   explicit Knotless(std::shared_ptr<const Trajectory> whole) : whole_(std::move(whole)) {}
@@ -66,14 +66,14 @@ class Knotless final : public ExactTrajectory {
 };
 
 Replay exactReplay(const Scenario& scenario) {
-  const Subject right = fastSubject(*scenario.manipulator, scenario.load);  // rounds the least
+  const Subject right = fastSubject(*scenario.manipulator, scenario.load);  // it has the least rounding
   ReplaySettings settings;
   settings.end = scenario.trajectory->duration();
   return replay(
       scenario, [&](double t) { return right.torques(scenario.trajectory->at(t)); }, settings);
 }
 
-/// A step across a knot errs by far more than its estimate says; steps that end there do not.
+/// A step across a knot has a far larger error than its estimate; steps that end at the knot do not.
 TEST(Knots, keepTheIntegratorsOrder) {
   Scenario scenario = scenarioOf("waypoints");
   const Replay run = exactReplay(scenario);

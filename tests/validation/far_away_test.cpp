@@ -1,4 +1,4 @@
-// A machine far from the base's origin is judged as the same machine at it.
+// A machine far from the base's origin is judged like the same machine at the origin.
 
 #include <gtest/gtest.h>
 
@@ -13,10 +13,10 @@
 namespace ursula {
 namespace {
 
-/// The paper's machine and motion at z = `height`: b Δω̄ is that.
+/// The paper's machine and motion at z = `height`, which is b Δω̄.
 Scenario helixAt(double height) {
   Scenario scenario = scenarioOf("paper-helix");
-  scenario.text.clear();  // it is not the file's any more
+  scenario.text.clear();  // the scenario is no longer the file's
   scenario.simulation.samples = 61;
   ManipulatorParameters machine = scenario.manipulator->parameters();
   for (Leg& leg : machine.legs) leg.base_point.z() += height;
@@ -30,7 +30,7 @@ Scenario helixAt(double height) {
 
 class FarAway : public testing::TestWithParam<double> {};
 
-/// Limits at every instant, of all that rounds.
+/// Compares the limits of all quantities at every instant.
 TEST_P(FarAway, everythingRoundsAsAtTheOrigin) {
   const auto near = makeReference(helixAt(0)), far = makeReference(helixAt(GetParam()));
   EXPECT_EQ(near->natural.origin, Vector3d::Zero());
@@ -42,7 +42,7 @@ TEST_P(FarAway, everythingRoundsAsAtTheOrigin) {
     };
     for (std::size_t k = 1; k + 1 < near->rounding().conditions.size(); ++k) {  // at rest, rates have no size
       const double a = limit(*near, k), b = limit(*far, k);
-      if (a == 0 && b == 0) continue;  // a formulation that is not built in
+      if (a == 0 && b == 0) continue;  // a formulation that this build lacks
       EXPECT_LE(b, 10 * a) << q << " at " << k;
       EXPECT_GE(b, 0.1 * a) << q << " at " << k;
       largest = std::max(largest, b / a);
@@ -65,8 +65,8 @@ TEST_P(FarAway, everyCheckPassesByLimitsLikeThoseAtTheOrigin) {
   for (const Check& check : far.checks) {
     const Check* same = findCheck(near.checks, check.name);
     ASSERT_NE(same, nullptr) << check.name;
-    // Of the position as it is given, so far from the origin; and of rates, which are shown for an instant with another
-    // speed: the test above compares them.
+    // These checks concern the given position, far from the origin, or rates at an instant with another speed. The test
+    // above compares them.
     if (check.name == "motion.pose" || check.name.rfind("kinematics.", 0) == 0) continue;
     ASSERT_EQ(check.verdict, same->verdict) << check.name;
     if (check.verdict == Verdict::not_applicable) continue;
@@ -74,7 +74,7 @@ TEST_P(FarAway, everyCheckPassesByLimitsLikeThoseAtTheOrigin) {
     if (same->limit > 0) largest = std::max(largest, check.limit / same->limit);
   }
   std::cout << "limits grow by up to " << largest << '\n';
-  // Results are where the machine is.
+  // Results are at the machine's place.
   EXPECT_NEAR(far.timeseries.find("p_z_m")->front() - near.timeseries.find("p_z_m")->front(), GetParam(), 1e-9);
   EXPECT_NEAR(far.timeseries.find("sim_p_z_m")->back() - near.timeseries.find("sim_p_z_m")->back(), GetParam(), 1e-8);
   EXPECT_NEAR(far.timeseries.find("p_x_m")->front(), near.timeseries.find("p_x_m")->front(), 1e-12);

@@ -1,4 +1,4 @@
-// The stabilised witness: exact torques need no help, wrong ones need what they are wrong by.
+// The stabilised replay: right torques need no help; wrong ones need as much as their error.
 
 #include "validation/replay/stabilised_replay.h"
 
@@ -66,7 +66,7 @@ TEST_P(Feedback, answersALastingErrorWithItsSize) {
   });
   EXPECT_EQ(check.verdict, Verdict::fail);
   EXPECT_GT(check.value, 0.5 * wrong);
-  EXPECT_LT(check.value, 3 * wrong);  // 4/3 along a mode, whose directions mix legs
+  EXPECT_LT(check.value, 3 * wrong);  // the factor is 4/3 along a mode, and modes mix legs
 }
 
 INSTANTIATE_TEST_SUITE_P(Machines, Feedback, testing::Values("paper-helix", "random-2", "random-3", "random-5"),
@@ -105,7 +105,7 @@ TEST(FeedbackWitness, torquesThatAreNoNumbersFail) {
   EXPECT_EQ(check.verdict, Verdict::fail);
 }
 
-/// Friction slows a fall but holds nothing: a term that is to hold the machine must be as stiff with it as without.
+/// Friction slows a fall but holds nothing, so the stabilising term must be as stiff with friction as without.
 TEST(FeedbackWitness, isAsStiffWithFrictionAsWithout) {
   Scenario scenario = scenarioOf("hold");
   const Amplification free(scenario, 10);

@@ -1,4 +1,4 @@
-# What every verdict stands on: limits, presentations, the user's say, and witnesses between the samples.
+# The foundations of every verdict: limits, changes of frame, users' limits, and comparisons between the samples.
 add_executable(foundation_tests
   acceptance_test.cpp
   check_list_test.cpp

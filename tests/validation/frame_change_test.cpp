@@ -1,5 +1,5 @@
-// The same physics from elsewhere: there and back is where it was, torques do not change, and a change of frame that
-// forgets any one part is seen.
+// Changes of frame: there and back gives the same numbers, torques do not change, and a change that omits any part is
+// seen.
 
 #include "validation/subject/frame_change.h"
 
@@ -21,7 +21,7 @@
 namespace ursula {
 namespace {
 
-/// There and back is some ten products of three terms each, and positions lose what the origin's distance adds.
+/// There and back takes some ten products of three terms each, and positions lose digits by the origin's distance.
 constexpr double room = 1e-14;
 
 /// A machine with everything: full tensors, both laws of friction, no two legs alike.
@@ -43,7 +43,7 @@ std::shared_ptr<const Load> tabulatedLoad(Load::Frame frame) {
 class Transformed : public testing::TestWithParam<unsigned> {
  protected:
   Transformed() : there_(randomFrameChange(GetParam(), 1.5, *everything().manipulator)), back_(inverse(there_)) {
-    // The control: the same but for a turn by a billionth.
+    // Control: the same change but for a turn by a billionth.
     off_ = there_;
     off_.turn = (Eigen::AngleAxisd(1e-9, Vector3d(0.6, 0, 0.8)) * off_.turn).eval();
     off_.platform_turn = (Eigen::AngleAxisd(1e-9, Vector3d(0.6, 0, 0.8)) * off_.platform_turn).eval();
@@ -72,8 +72,8 @@ TEST_P(Transformed, machineMotionTorquesAndLoadComeBack) {
   EXPECT_EQ(there_.of(std::shared_ptr<const Load>()), nullptr);
 }
 
-/// A table's slopes are limited along its own axes, so it is the curve that is turned: rows turned give another
-/// between.
+/// A table's slopes are limited along its own axes, so the curve must be turned. Turned rows would give another curve
+/// between them.
 TEST_P(Transformed, aTabulatedLoadIsTheSameBetweenItsRows) {
   const auto load = tabulatedLoad(Load::Frame::base);
   const Units& units = there_.units;
@@ -106,7 +106,7 @@ TEST_P(Transformed, answersComeBack) {
   EXPECT_GT(numbersOf(off_.back(back_.back(reactions))).distance(numbersOf(reactions)), 1e-10);
 }
 
-/// What the solver says of a machine there, here: torques, N·m.
+/// The solver's torques for the machine in the other frame, converted back, N·m.
 Vector6d torquesFrom(const FrameChange& there, const Manipulator& machine, const std::shared_ptr<const Load>& load,
                      const Motion<double>& motion) {
   return there.torquesBack(nocSubject(machine, load).torques(motion));
@@ -126,7 +126,7 @@ TEST_P(Transformed, torquesAreTheSame) {
     }
 }
 
-/// Each leaves one thing as it is here, in the change of frame's numbers of all else.
+/// Each omission leaves one quantity unchanged while all others change their frame.
 const std::vector<std::pair<const char*, std::function<void(const FrameChange&, const ManipulatorParameters& here,
                                                             ManipulatorParameters& there)>>>
     forgotten = {
@@ -209,7 +209,7 @@ TEST_P(Transformed, trajectoriesAreTheMotionsTransformed) {
   }
 }
 
-/// A subject made here, asked from there; units alone, as validate() has it.
+/// The subject is made in one frame and asked in another, with other units only, as in validate().
 TEST_P(Transformed, subjectsAnswerFromThere) {
   FrameChange there;
   there.origin = there_.origin;
@@ -238,7 +238,7 @@ TEST_P(Transformed, subjectsAnswerFromThere) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Transformed, testing::Range(1001u, 1006u));
 
-/// All engines' answers from two places; what is compared is beyond rounding where a leg is mistaken for another.
+/// Compares all engines' answers in two frames; a mistaken leg would exceed rounding.
 TEST(EngineFrameChanges, seeTheSame) {
   const Scenario& scenario = everything();
   const Motion<double> motion = scenario.trajectory->at(1.3);
@@ -262,7 +262,7 @@ TEST(EngineFrameChanges, seeTheSame) {
   EXPECT_GT((a.direct - a.acceleration).norm(), 0.1) << "other torques are to move it otherwise";
 }
 
-/// Rounding of the solver is measured in one frame: the views differ by it, and by no more.
+/// The solver's rounding is measured in one frame; its evaluations differ by rounding and by no more.
 TEST(SolverRounding, isThatOfDoublesAndNotZero) {
   const Scenario& scenario = everything();
   const Motion<double> motion = scenario.trajectory->at(1.3);

@@ -1,5 +1,4 @@
-// Symmetries that need no reference: the solver has all four, and a solver that lacks one fails by the name of that
-// one.
+// Symmetries need no reference. The solver has all of them, and a solver that lacks one fails its check.
 
 #include "validation/checks/judges.h"
 
@@ -19,7 +18,7 @@ const std::vector<std::string> names = {"invariance.rotation", "invariance.label
                                         "invariance.time_reversal"};
 constexpr int instants = 7;
 
-/// What a wrong solver adds to right torques.
+/// The torques that a wrong solver adds to the right ones.
 using Extra = std::function<Vector6d(const Manipulator& machine, const Motion<double>& motion)>;
 
 /// A solver that is wrong in the same way for every machine.
@@ -49,7 +48,7 @@ TEST_P(SolverInvariance, isWhole) {
   const std::vector<Check> checks = judgeInvariances(runInvariances(scenario, solverOf(scenario), samples), samples,
                                                      RoundingProfile(scenario, instants));
   for (const std::string& name : names) EXPECT_EQ(verdictOf(checks, name), "pass") << others(checks, Verdict::pass);
-  // In the others a sum may come out the same to the last bit.
+  // In the other symmetries sums may be equal to the last bit.
   EXPECT_GT(findCheck(checks, "invariance.rotation")->value, 0) << "nothing was turned";
   for (const Check& check : checks) EXPECT_LT(check.limit, 1e-10 * largestTorque(samples)) << check.name;
 }
@@ -65,8 +64,8 @@ struct Defect {
 
 double massOf(const Manipulator& machine) { return machine.platform().mass; }
 
-/// Each keeps the other three symmetries: it scales with the mass, knows no direction of the world, no leg's number and
-/// no sense of time, but for the one that it breaks.
+/// Each defect breaks one symmetry and keeps the others: it scales with the mass, and knows no direction of the world,
+/// no leg's number and no sense of time.
 const std::vector<Defect> defects = {
     {"invariance.rotation",
      [](const Manipulator& machine, const Motion<double>& motion) {
@@ -93,7 +92,7 @@ TEST_P(BrokenInvariance, failsAlone) {
 INSTANTIATE_TEST_SUITE_P(Machines, BrokenInvariance, testing::Values("paper-helix", "random-2", "random-5"),
                          [](const auto& name) { return asTestName(name.param); });
 
-/// Of the sort that the time reversal is made for: the friction of a machine that has some.
+/// Time reversal detects such friction on a machine that has friction.
 TEST(Invariance, frictionThatDoesNotTurnWithTheMotionFails) {
   const Extra extra = [](const Manipulator& machine, const Motion<double>& motion) {
     Vector6d out;
@@ -106,7 +105,7 @@ TEST(Invariance, frictionThatDoesNotTurnWithTheMotionFails) {
   EXPECT_EQ(others(judge(scenarioOf("paper-helix"), broken(extra)), Verdict::pass), "") << "there is no friction";
 }
 
-/// It is the torque at the instant that is judged, not the motion's largest.
+/// The limit depends on the torque at the instant, not on the motion's largest.
 TEST(Invariance, anErrorAtOneInstantFailsAndIsPlaced) {
   const Extra extra = [](const Manipulator&, const Motion<double>& motion) {
     return Vector6d::Constant(std::abs(motion.t - 1) < 0.01 ? 1e-6 : 0);

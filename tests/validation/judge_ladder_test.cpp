@@ -1,4 +1,4 @@
-// The judgement of ladders, on ladders made up: each rung is held to its own bound.
+// Judging made-up ladders: each rung has its own bound.
 
 #include "validation/replay/ladder.h"
 
@@ -20,7 +20,7 @@ using testing::HasSubstr;
 
 constexpr double position_scale = 2;
 
-/// A window of 1 s in which nothing grows. Of a machine of no `length` no distance is harmless.
+/// A window of 1 s in which nothing grows. For a machine of length 0 no distance is harmless.
 WindowedReplay madeReplay(double length = 0) {
   WindowedReplay out;
   out.window.length = length;
@@ -38,7 +38,7 @@ WindowedReplay madeReplay(double length = 0) {
   return out;
 }
 
-/// Each a hundredth of the one before; the other integrator's two a tenth apart.
+/// Each distance is a hundredth of the previous one; those of the other integrator differ by a factor of ten.
 Ladder madeLadder() {
   Ladder out;
   out.rungs = {{Integrator::rkf78, 1e-8, 300, 20, 1e-8, ""},
@@ -85,7 +85,7 @@ TEST(JudgeLadder, failsARungBeyondItsBoundAndThatOneAlone) {
   }
 }
 
-/// A hundredth of the tolerance has to bring the end nearer at least four times, but for rounding.
+/// A hundredth of the tolerance must bring the end at least four times nearer, except for rounding.
 TEST(JudgeLadder, theBoundIsAQuarterOfTheCoarserRungsDistance) {
   const auto limit = [](double coarser) {
     return findCheck(judge(1, [coarser](Rung& rung) { rung.distance = coarser; }), "integration.ladder")->limit;
@@ -97,7 +97,7 @@ TEST(JudgeLadder, theBoundIsAQuarterOfTheCoarserRungsDistance) {
   EXPECT_LT(limit(0), 1e-13);
 }
 
-/// Where knots decide the steps, a finer tolerance takes few more, and the error is asked to fall with them alone.
+/// If knots set the steps, a finer tolerance takes few more steps, and the error need only fall with these.
 TEST(JudgeLadder, theBoundIsWiderWhereStepsAreHardlyMore) {
   const auto limit = [](long steps) {
     return findCheck(judge(2, [steps](Rung& rung) { rung.steps = steps; }), "integration.ladder")->limit;
@@ -107,7 +107,7 @@ TEST(JudgeLadder, theBoundIsWiderWhereStepsAreHardlyMore) {
   EXPECT_DOUBLE_EQ(limit(70), 0.25e-10) << "twice as many: a quarter";
 }
 
-/// The other integrator by what it changes itself, and by what the judged replay may be off by at that instant.
+/// The other integrator's bound is its own change plus the possible error of the judged replay at that instant.
 TEST(JudgeLadder, theSecondIsBoundByItsOwnErrorAndTheReplays) {
   const auto limit = [](double difference, double end) {
     return findCheck(judge([=](Ladder& ladder) { ladder.second_difference = difference, ladder.second_end = end; }),
@@ -130,7 +130,7 @@ TEST(JudgeLadder, failsWithTheReasonWhereARungGaveUp) {
   }
 }
 
-/// It is Simbody's own, and a stiff loop may be beyond it: that says nothing of the judged replay.
+/// Simbody's own integrator may fail on a stiff loop, which says nothing about the judged replay.
 TEST(JudgeLadder, leavesTheSecondOpenWhereThatIntegratorDidNotGetThere) {
   for (std::size_t rung = 0; rung < 2; ++rung)
     for (const bool left_path : {false, true}) {
@@ -149,7 +149,7 @@ TEST(JudgeLadder, leavesTheSecondOpenWhereThatIntegratorDidNotGetThere) {
   EXPECT_EQ(verdictOf(judge([](Ladder& ladder) { ladder.second.clear(); }), "integration.second"), "fail");
 }
 
-/// Accelerations that miss Simbody's own constraints are no evidence.
+/// Accelerations that violate Simbody's own constraints are no evidence.
 TEST(JudgeLadder, asksNoIntegratorThatContradictsItself) {
   const auto second = [](double contradiction) {
     return *findCheck(judge([=](Ladder& ladder) { ladder.second_contradiction = contradiction; }, 1),
@@ -162,8 +162,8 @@ TEST(JudgeLadder, asksNoIntegratorThatContradictsItself) {
   }
 }
 
-/// Steps of a fourth-order method that become ten times as many for ten times the accuracy follow noise: what such an
-/// integrator ends up with is no evidence, and what it agrees with is.
+/// If ten times the accuracy takes a fourth-order method ten times the steps, it follows noise. Its disagreement is
+/// then no evidence, but its agreement is.
 TEST(JudgeLadder, asksNoIntegratorWhoseStepsFollowNoise) {
   const auto second = [](long evaluations, double distance) {
     return *findCheck(judge(

@@ -1,5 +1,4 @@
-// The judgement of replays, on replays made up: each check fails by itself, and only a limit that means something
-// judges.
+// Judging made-up replays: each check fails by itself, and only a useful limit judges.
 
 #include "validation/checks/judges.h"
 
@@ -75,7 +74,7 @@ TEST(JudgeReplay, catchesEachErrorByItsName) {
   }
 }
 
-/// The limit is smaller early on: an error that is allowed at the end is not allowed before.
+/// The limit is smaller early on, so an error that is allowed at the end is not allowed before.
 TEST(JudgeReplay, judgesEveryStepByItsOwnLimit) {
   const double allowed_at_end = 5e-10;
   const auto faulty = [allowed_at_end](std::size_t step) {
@@ -87,7 +86,7 @@ TEST(JudgeReplay, judgesEveryStepByItsOwnLimit) {
   EXPECT_EQ(faulty(1), "fail");
 }
 
-/// Gaps as large as they may be, and the work on them of the forces that hold the loops, on a machine of any size.
+/// Allows the largest gaps, and the work of the loops' forces on them, for a machine of any size.
 TEST(JudgeReplay, allowsTheWorkOfForcesOnTheGapsItAllows) {
   for (const auto& [size, rounding] : {std::pair(0.01, 0.0), std::pair(2.0, 1e-10), std::pair(20.0, 0.0)}) {
     WindowedReplay replay = made();
@@ -105,7 +104,7 @@ TEST(JudgeReplay, allowsTheWorkOfForcesOnTheGapsItAllows) {
   }
 }
 
-/// What rounding of the gaps' accelerations makes of them is allowed to the last.
+/// Gaps due to rounding of their accelerations are allowed in full.
 TEST(JudgeReplay, allowsGapsThatOpenByTheForcesRounding) {
   const GapOpening opening{0.5e-8, 1e-8};
   const auto with = [](const GapOpening& of) {
@@ -154,7 +153,7 @@ TEST(JudgeReplay, failsWithTheReasonWhereTheIntegratorGaveUp) {
   for (const Check& check : checks) EXPECT_NE(check.why.find("the step vanished"), std::string::npos) << check.why;
 }
 
-/// Too many evaluations prove nothing, but what was reached may already be wrong.
+/// Too many evaluations prove nothing, but the completed part may already be wrong.
 TEST(JudgeReplay, leavesOpenWhatTookTooLongUnlessItIsWrongAlready) {
   const auto hasty = [](double error) {
     return judge([error](WindowedReplay& window) {
@@ -198,7 +197,7 @@ TEST(IntegrationErrors, areDifferencesOfTwoReplaysAndTheGapsOfTheCoarser) {
   EXPECT_NEAR(at.energy, 4e-10 * 0.5, 1e-20);
 }
 
-/// The largest up to there: an error that comes back to nothing was there.
+/// Values are the largest so far, because an error that returns to zero still occurred.
 TEST(IntegrationErrors, neverFallAndKeepNaN) {
   Replay coarse = errors(0);
   coarse.steps[3].position_error.x() = 1e-9;
@@ -218,7 +217,7 @@ TEST(IntegrationErrors, areInfiniteWhereTheCoarserDidNotGetTo) {
   EXPECT_FALSE(IntegrationError{}.measured());
 }
 
-/// With a measured integration error the tolerance has no part in a limit; three times the measured one has.
+/// With a measured integration error the limit contains three times that instead of the tolerance.
 TEST(JudgeReplay, takesTheMeasuredIntegrationErrorForTheTolerance) {
   WindowedReplay window = made();
   for (std::size_t k = 0; k < 10; ++k) window.replay.steps[k] = errors(0).steps[k];  // so that the end is shown

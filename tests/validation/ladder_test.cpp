@@ -1,5 +1,5 @@
-// The ladder of tolerances: the integrator's error falls with the tolerance, another integrator gets to the same place,
-// and a rung that is off, no number or gave up fails.
+// The ladder of tolerances: the integrator's error falls with the tolerance, another integrator ends at the same place,
+// and a rung that is wrong, NaN or gave up fails.
 
 #include "validation/replay/ladder.h"
 
@@ -39,7 +39,7 @@ class Climb {
   const Ladder& ladder() const { return ladder_; }
   const WindowedReplay& finest() const { return finest_; }
   std::vector<Check> checks() const { return judgeLadder(ladder_, finest_, position_scale_); }
-  /// What the judged replay itself may be off by, m.
+  /// The possible error of the judged replay, m.
   double bound() const {
     return driftLimit(finest_.window, finest_.replay.tolerance, static_cast<double>(finest_.replay.accepted),
                       position_scale_, finest_.window.end());
@@ -67,7 +67,7 @@ TEST(PaperHelixLadder, converges) {
   }
 }
 
-/// The torques being exact, the replay's distance from the path is the integrator's error, but for rounding.
+/// The torques are right, so the replay's distance from the path is the integrator's error, except for rounding.
 TEST(PaperHelixLadder, extrapolatesTheErrorThatTheFinestReplayHas) {
   const Climb climb;
   const double error = climb.finest().replay.steps.back().position_error.norm();
@@ -87,7 +87,7 @@ TEST(PaperHelixLadder, climbsToFinerTolerancesInMoreSteps) {
   }
 }
 
-/// Twice, so that its own error is known; over the beginning, for it takes many more steps.
+/// It runs twice, so that its own error is known, and only over the beginning, because it takes many more steps.
 TEST(PaperHelixLadder, hasAnotherIntegratorOverTheBeginning) {
   const Climb climb;
   const Ladder& ladder = climb.ladder();
@@ -104,9 +104,9 @@ TEST(PaperHelixLadder, hasAnotherIntegratorOverTheBeginning) {
   EXPECT_LT(findCheck(climb.checks(), "integration.second")->limit, 5e-8) << "the limit says little";
 }
 
-/// The torques right but for jumps of a millionth, which no formula of eighth order steps over: there is no order to
-/// extrapolate with. Fehlberg's error estimate sees a jump only by where in a step it falls, so that the end settles
-/// for some places of the jumps and does not for others.
+/// The torques are right except for jumps of a millionth, at which a formula of eighth order loses its order, so there
+/// is nothing to extrapolate. Whether Fehlberg's error estimate sees a jump depends on its place in a step. So the end
+/// converges for some places of the jumps and not for others.
 TEST(PaperHelixLadder, extrapolatesNothingWhereTheTorquesJump) {
   int settled = 0;
   for (const double later : {0.0, 0.007, 0.021, 0.035, 0.056}) {
@@ -119,7 +119,7 @@ TEST(PaperHelixLadder, extrapolatesNothingWhereTheTorquesJump) {
   EXPECT_GT(settled, 0);
 }
 
-/// Noise that is another at every instant: however fine the tolerance, the end does not settle.
+/// Noise differs at every instant, so the end does not converge however fine the tolerance is.
 TEST(PaperHelixLadder, failsWhereTheIntegrationDoesNotConverge) {
   const auto noise = [](double t) { return std::fmod(std::abs(std::sin(1e9 * t)) * 1e6, 1.0) - 0.5; };
   const Climb climb([noise](double t) { return 1 + 1e-9 * noise(t); });
@@ -130,7 +130,7 @@ TEST(PaperHelixLadder, failsWhereTheIntegrationDoesNotConverge) {
   EXPECT_FALSE(climb.ladder().asymptotic);
 }
 
-/// One hundredth too much throws the platform off its path by more than its size.
+/// Torques one hundredth too large move the platform off its path by more than its size.
 TEST(PaperHelixLadder, saysNothingOfTorquesThatLoseTheMachine) {
   const Climb climb([](double) { return 1.01; });
   EXPECT_TRUE(climb.finest().replay.left_path);

@@ -1,4 +1,4 @@
-// The load over time: what LoadHistory promises, and tables and curves that break it.
+// The load over time: LoadHistory keeps its promises, and tables and curves that break them fail.
 
 #include "validation/checks/load_check.h"
 
@@ -13,7 +13,7 @@
 namespace ursula {
 namespace {
 
-/// Uneven times, extrema, flats, and values over many orders of magnitude.
+/// A table with uneven times, extrema, flat parts, and values over many orders of magnitude.
 std::vector<TimedWrench> table() {
   std::mt19937_64 engine(7);
   const auto uniform = [&engine] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1; };
@@ -48,7 +48,7 @@ TEST(LoadCheck, seesARowThatIsNotTheTables) {
 
 class WrongCurve : public testing::TestWithParam<const char*> {};
 
-/// Between two rows; the rows themselves are kept.
+/// The load is wrong between two rows and right at the rows.
 Wrench<double> wrongBetween(const std::string& way, const LoadHistory& history, double t) {
   const std::vector<double>& knots = history.knots();
   Wrench<double> wrench = history.at(t);
@@ -83,7 +83,7 @@ TEST(LoadCheck, holdsAConstantLoadAgainstItself) {
   EXPECT_EQ(judgeLoad(load, 3).verdict, Verdict::fail);
 }
 
-/// A mapped history goes through its rows, and not as their table does: slopes are limited by component.
+/// A mapped history goes through its rows, but not like their table, because slopes are limited by component.
 TEST(LoadCheck, seesSlopesThatAreNotOfTheRows) {
   Load load;
   Matrix6d map = Matrix6d::Identity();

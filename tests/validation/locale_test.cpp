@@ -24,7 +24,7 @@ class DecimalComma : public std::numpunct<char> {
   std::string do_grouping() const override { return "\3"; }
 };
 
-/// The process's locales until it is gone.
+/// Changes the process's locales while it exists.
 class Commas {
  public:
   Commas() : before_(std::locale::global(std::locale(std::locale::classic(), new DecimalComma))) {

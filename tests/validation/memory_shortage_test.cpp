@@ -1,4 +1,4 @@
-// Where memory is short, nothing has been found: std::bad_alloc comes through, and is no property of the motion.
+// A lack of memory is no finding about the motion: std::bad_alloc passes through.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ Scenario small() {
                        "a.toml");
 }
 
-/// Right until it has been asked so often; then it throws.
+/// A subject that is right for some questions and then throws.
 template <class Thrown>
 class Ending {
  public:
@@ -39,7 +39,7 @@ class Ending {
   std::shared_ptr<std::atomic<int>> count_ = std::make_shared<std::atomic<int>>(0);
 };
 
-/// What anything else is that goes wrong.
+/// Any other error.
 struct Refusal : SingularJacobian {
   Refusal() : SingularJacobian("B is singular, its smallest pivot over its largest", -1, 0, 0, 1e-15, "") {}
 };
@@ -73,7 +73,7 @@ TEST(MemoryShortage, isNoEndOfASimulation) {
   }
 }
 
-/// Wherever it comes: at the samples, between them, in the replays.
+/// It may occur at the samples, between them, or in the replays.
 TEST(MemoryShortage, isNoVerdict) {
   const Scenario scenario = small();
   const auto judged = [&scenario](const auto& torques) {

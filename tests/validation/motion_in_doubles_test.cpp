@@ -1,5 +1,4 @@
-// A trajectory that somebody wrote in doubles alone: judged by differences of doubles, and still found wrong where it
-// is.
+// A user's trajectory in doubles alone is judged by differences of doubles; an error in it is still found.
 
 #include <gtest/gtest.h>
 

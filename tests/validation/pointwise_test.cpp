@@ -1,4 +1,4 @@
-// Solver and Simbody at the same instants: what is right passes, what is wrong fails, by name.
+// Solver and Simbody at the same instants: a right solver passes, and a wrong one fails the proper check.
 
 #include "validation/samples/pointwise.h"
 #include "model/instants.h"
@@ -36,7 +36,7 @@ Outcome judge(const Scenario& scenario, const Subject& subject, int instants = 3
 
 Subject noc(const Scenario& scenario) { return nocSubject(*scenario.manipulator, scenario.load); }
 
-/// The solver's own answers but for what `change` does to the torques.
+/// The solver's own answers with torques changed by `change`.
 template <class F>
 Subject changedTorques(const Scenario& scenario, F change) {
   Subject subject = noc(scenario);
@@ -62,7 +62,7 @@ TEST_P(Pointwise, theSolverPasses) {
   }
   std::cout << "relative to the largest: torque " << torque_error / torque << ", acceleration "
             << acceleration_error / acceleration << '\n';
-  EXPECT_LE(torque_error, 1e-12 * torque);  // what the project promises
+  EXPECT_LE(torque_error, 1e-12 * torque);  // the project's promise
   EXPECT_LE(acceleration_error, 1e-10 * acceleration);
 }
 
@@ -130,7 +130,7 @@ TEST(PointwiseControl, notANumberFailsEverything) {
   EXPECT_EQ(others(judge(scenario, subject, 3).checks, Verdict::fail), "");
 }
 
-/// One component among many that are right.
+/// One component is NaN among many right ones.
 TEST(PointwiseControl, aSingleNotANumberFailsItsCheck) {
   const Scenario scenario = vectorScenario("paper-helix");
   Subject subject = noc(scenario);

@@ -1,5 +1,5 @@
-// Where the numbers are good: natural units and origins lose no digit, and a motion far from the base's origin keeps
-// all of its own.
+// Well-scaled numbers: natural units and origins lose no digit, and a motion far from the base's origin keeps its
+// digits.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ bool isPowerOfTwo(double x) {
   return x > 0 && std::frexp(x, &exponent) == 0.5;
 }
 
-/// With the base `by` further along a direction, and the motion left where it is.
+/// The scenario with its base moved by `by` and its motion unchanged.
 Scenario movedBase(Scenario scenario, const Vector3d& by) {
   ManipulatorParameters machine = scenario.manipulator->parameters();
   for (Leg& leg : machine.legs) leg.base_point += by;
@@ -64,7 +64,7 @@ TEST(NaturalFrameChange, losesNoDigitOfRandomMachines) {
   }
 }
 
-/// Wherever the base stands: near enough to its origin the origin stays, further away it follows.
+/// If the base is near its origin, the origin stays; farther away it moves to the base.
 TEST(NaturalFrameChange, losesNoDigitWhereverTheBaseIs) {
   const Scenario helix = scenarioOf("paper-helix");
   double largest = 0;
@@ -84,7 +84,7 @@ TEST(NaturalFrameChange, losesNoDigitWhereverTheBaseIs) {
   EXPECT_GT(largest, 1e6) << "no origin was moved";
 }
 
-/// The rotated columns of a pose, the way there is from a quaternion.
+/// A quaternion of a rotation by `angle` about `axis`.
 Eigen::Vector4d quaternion(double angle, const Vector3d& axis) {
   const Eigen::Quaterniond q(Eigen::AngleAxisd(angle, axis.normalized()));
   return {q.w(), q.x(), q.y(), q.z()};
@@ -126,7 +126,7 @@ const std::vector<Far> far_motions = {
        return makeHold({0.3 * distance, -0.2 * distance, distance + 1.1}, quaternion(0.3, {1, 2, 3}), 3);
      }}};
 
-/// The largest distance of `motion`, plus what it was moved by, from `exact`, m.
+/// The largest distance, m, of `motion`, moved back, from `exact`.
 double distanceFrom(const Trajectory& exact, const std::function<Vector3d(double t)>& position,
                     const Vector3d& origin) {
   double largest = 0;
@@ -153,7 +153,7 @@ TEST(RelocatedTrajectories, keepTheirDigitsFarFromTheBasesOrigin) {
       const double error = distanceFrom(
           *whole, [&](double t) { return near->at(t).p; }, origin);
       std::cout << far.name << " at " << distance << " m: " << error / size << " of the machine's size\n";
-      // A helix's quintic β(t) by itself rounds to as much, wherever it is.
+      // A helix's quintic β(t) alone rounds by as much at any place.
       EXPECT_LE(error, (far.name == std::string("helix") ? 1.2e-15 : 1e-15) * size);
       EXPECT_EQ(near->kind(), whole->kind());
       EXPECT_EQ(near->duration(), whole->duration());
@@ -163,15 +163,15 @@ TEST(RelocatedTrajectories, keepTheirDigitsFarFromTheBasesOrigin) {
         EXPECT_LE((near->at(Real50(t)).p + origin.cast<Real50>() - whole->at(Real50(t)).p).norm().convert_to<double>(),
                   1e-40);
       }
-      // The control: the rounded motion less the origin has lost what its distance rounds.
-      if (far.name == std::string("hold")) continue;  // one rounding, of the position given
+      // Control: the rounded motion minus the origin has lost digits by its distance.
+      if (far.name == std::string("hold")) continue;  // it has one rounding, that of the given position
       EXPECT_GT(distanceFrom(
                     *whole, [&](double t) { return Vector3d(whole->at(t).p - origin); }, origin),
                 1e-14 * distance / 1e3);
     }
 }
 
-/// Twice moved is moved by the sum.
+/// Two moves equal one by their sum.
 TEST(RelocatedTrajectories, moveOnFromWhereTheyAre) {
   for (const Far& far : far_motions) {
     const auto whole = far.make(1e3);
@@ -182,7 +182,7 @@ TEST(RelocatedTrajectories, moveOnFromWhereTheyAre) {
   }
 }
 
-/// One that cannot move its origin is shifted as it is.
+/// A trajectory that cannot move its origin, so that it is shifted from outside.
 class Immovable final : public ExactTrajectory {
  public:
   std::string kind() const override { return "immovable"; }

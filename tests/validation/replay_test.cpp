@@ -1,4 +1,4 @@
-// The Simbody loop driven open loop: it follows the helix under the right torques and leaves it under wrong ones.
+// Open-loop replays of the Simbody loop follow the helix under right torques and leave it under wrong ones.
 
 #include "validation/replay/replay.h"
 
@@ -28,7 +28,7 @@ class PaperHelixReplay : public testing::Test {
     out.end = end;
     return out;
   }
-  /// How far two replays to `tolerance` may be apart, by the variational equations.
+  /// The possible distance of two replays at `tolerance`, by the variational equations.
   double bound(double tolerance, const Replay& replay, double t) const {
     const Amplification amplification(scenario_, 300);
     const GrowthWindow window = amplification.window(
@@ -52,7 +52,7 @@ TEST_F(PaperHelixReplay, staysOnTheHelix) {
   EXPECT_EQ(found.gave_up, "");
   EXPECT_EQ(found.steps.front().t, 0);
   EXPECT_NEAR(found.steps.back().t, 3, 1e-12);
-  EXPECT_LE(found.maxPositionError(), 1e-9);  // these five are what the project promises
+  EXPECT_LE(found.maxPositionError(), 1e-9);  // these five are the project's promises
   EXPECT_LE(found.maxRotationError(), 1e-9);
   EXPECT_LE(gap, 1e-12);
   EXPECT_LE(found.evaluations, 1600);
@@ -130,7 +130,7 @@ TEST_F(PaperHelixReplay, startsAnywhereOnTheMotion) {
   EXPECT_LE(found.maxPositionError(), 1e-11);
 }
 
-/// Errors that are a cubic in t, with their derivatives as rates.
+/// Errors that are cubic in t, with their derivatives as rates.
 ReplayStep cubic(double t) {
   ReplayStep step;
   step.t = t;

@@ -1,5 +1,5 @@
-// How formulations round, measured: limits hold for places that were not measured, know nothing of what is wrong with a
-// model, and are about the same however the world is turned.
+// Measured rounding of formulations: limits hold at instants that were not measured, do not depend on model errors, and
+// hardly depend on the frame.
 
 #include "validation/limits/rounding_profile.h"
 
@@ -21,7 +21,7 @@ namespace {
 
 constexpr int instants = 31;
 
-/// Without MuJoCo's, where that is not built in.
+/// The quantities of this build, which may lack MuJoCo.
 std::vector<Rounded> quantities(const RoundingProfile& profile) {
   std::vector<Rounded> out;
   for (std::size_t q = 0; q < rounded_count; ++q) {
@@ -33,12 +33,13 @@ std::vector<Rounded> quantities(const RoundingProfile& profile) {
   return out;
 }
 
-/// The conditioning that `profile` of `scenario` says at its k-th instant.
+/// The conditioning by `profile` at the k-th instant of `scenario`.
 Conditioning at(const Scenario& scenario, const RoundingProfile& profile, int k, int of = instants) {
   return profile.at(scenario.trajectory->at(scenario.trajectory->duration() * k / (of - 1)));
 }
 
-/// The NOC's direct dynamics round by the frame: they are measured where they are judged, and held against 50 digits.
+/// Whether the quantity's rounding depends on the frame, as that of the NOC's direct dynamics does. It is measured at
+/// the judged instant and compared with 50 digits.
 bool isOfOneFrame(Rounded quantity) { return quantity == Rounded::direct || quantity == Rounded::solver_direct; }
 
 /// Limit over twice the noise that was seen from elsewhere, in units of the shape, which is the same everywhere.
@@ -148,7 +149,8 @@ TEST_P(Profile, limitsAreTheSameHoweverTheWorldIsTurned) {
   std::cout << GetParam() << ": limits differ by a factor of up to " << furthest << '\n';
 }
 
-/// The same wrong machine in every frame rounds as the right one does: no error of a model makes room for itself.
+/// A machine that is wrong alike in every frame rounds like the right one, so a model error does not widen its own
+/// limit.
 TEST_P(Profile, knowsNothingOfAWrongModel) {
   ManipulatorParameters machine = scenario_.manipulator->parameters();
   machine.platform.mass *= 1.01;
@@ -176,7 +178,7 @@ TEST(RandomProfiles, dominateTheNoiseSeenFromElsewhere) {
     expectDominance(randomScenario(seed), static_cast<unsigned>(2000 + seed), 9);
 }
 
-/// A held pose is measured as often as a motion: its noise is not one number again and again.
+/// A held pose is measured anew at each instant, so its noise is not one repeated number.
 TEST(ProfileAt, measuresAHeldPoseAnewAtEachInstant) {
   const RoundingProfile profile(scenarioOf("hold"), instants);
   std::vector<double> spreads = profile.spreads(Rounded::effort);
@@ -196,7 +198,7 @@ TEST(ProfileAt, takesTheLargestOfTheFiveInstantsAbout) {
   }
 }
 
-/// Near a singular pose the worst case makes no limit of its own.
+/// Near a singular pose the worst case does not set the limit.
 TEST(ProfileAt, hasAFloorThatIsASmallShareOfTheQuantity) {
   const Scenario scenario = scenarioOf("near-singular");
   const RoundingProfile profile(scenario, instants);
@@ -212,7 +214,7 @@ TEST(ProfileAt, hasAFloorThatIsASmallShareOfTheQuantity) {
     EXPECT_GT(here.levels[q], rounding_safety * spread);
     largest = std::max(largest, here.shape(Rounded::jacobian_rate) / even.shape(Rounded::jacobian_rate));
     const std::vector<double> spreads = profile.spreads(Rounded::jacobian_rate);
-    if (spread < *std::max_element(spreads.begin(), spreads.end())) continue;  // a neighbour's is larger
+    if (spread < *std::max_element(spreads.begin(), spreads.end())) continue;  // a neighbour's spread is larger
     EXPECT_LE(floor, 1.001 * floor_share * quantity);
     ++held;
   }

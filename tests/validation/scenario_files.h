@@ -14,13 +14,13 @@
 
 namespace ursula {
 
-/// scenarios/NAME.toml where there is one, else the machine of tests/vectors.
+/// Returns scenarios/NAME.toml if it exists, else the machine of tests/vectors.
 inline Scenario scenarioOf(const std::string& name) {
   const std::string file = std::string(URSULA_SCENARIOS) + "/" + name + ".toml";
   return std::filesystem::exists(file) ? readScenario(file) : vectorScenario(name);
 }
 
-/// The names of all that ship, in order.
+/// The names of all shipped scenarios, in order.
 inline std::vector<std::string> shippedScenarios() {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(URSULA_SCENARIOS))
@@ -36,7 +36,7 @@ inline std::vector<PointwiseSample> rightSamples(const Scenario& scenario, int c
   return runPointwise(scenario, solverOf(scenario), equallySpaced(scenario.trajectory->duration(), count));
 }
 
-/// The largest torque of Simbody's, N·m.
+/// Simbody's largest torque, N·m.
 inline double largestTorque(const std::vector<PointwiseSample>& samples) {
   double largest = 0;
   for (const PointwiseSample& sample : samples)

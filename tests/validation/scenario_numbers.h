@@ -5,7 +5,7 @@
 
 #include "model/scenario.h"
 
-// Motions and loads as lists of named numbers, to ask of many scenarios which of them differ.
+// Motions and loads as lists of named numbers, to find which of them differ among many scenarios.
 
 namespace ursula {
 

@@ -1,4 +1,4 @@
-// Where a value is beyond its limit: what is measured there, and that no error of a model hides behind it.
+// Second looks at values beyond their limits: the measurement there, which no model error can hide behind.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ class SecondLooks : public testing::TestWithParam<std::string> {
 TEST_P(SecondLooks, measureTheInstantItself) {
   const Conditioning closer = profile_.closer(motion_);
   for (std::size_t q = 0; q < rounded_count; ++q) EXPECT_GE(closer.levels[q], at_.levels[q]);
-  // As if rounding were far smaller everywhere else.
+  // This is as if rounding were far smaller everywhere else.
   Conditioning sharp = at_;
   sharp.levels = uniformLevels(1e-9);
   SecondLook look(profile_);
@@ -51,7 +51,7 @@ TEST_P(SecondLooks, areNotTakenAgainOnceAnErrorIsConfirmed) {
   EXPECT_EQ(other.limit(std::nan(""), sharp, Rounded::torque, motion_), sharp.rounding(Rounded::torque));
 }
 
-/// The direct dynamics are looked at under the torques that showed the error.
+/// The second look at direct dynamics uses the torques that showed the error.
 TEST_P(SecondLooks, knowTheTorquesOfTheDirectDynamics) {
   const Vector6d large = Vector6d::Constant(1e6 * at_.torque_scale);
   EXPECT_GT(profile_.closer(motion_, &large).levels[static_cast<std::size_t>(Rounded::direct)],
@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, SecondLooks, testing::Values("paper-helix", 
 class Orders : public testing::TestWithParam<std::string> {};
 
 TEST_P(Orders, ofTheJudgedIntegratorIsEightAndAnotherFails) {
-  const Reference reference(scenarioOf(GetParam()));  // ends the motion with itself
+  const Reference reference(scenarioOf(GetParam()));  // the motion ends with it
   const Scenario& scenario = reference.scenario;
   const Check right = judgeOrder(observedOrders(scenario)), lower = judgeOrder(observedOrders(scenario, true));
   EXPECT_EQ(right.verdict, Verdict::pass) << right.why;

@@ -1,4 +1,4 @@
-// What is made once for many subjects: it is what each would have got alone, and whoever differs is judged by his own.
+// Results that many subjects share equal those that each would get alone; a subject that differs gets its own.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ namespace {
 
 Vector6d constant(double value) { return Vector6d::Constant(value); }
 
-/// What was asked at 0, 1 and 2.
+/// The record of questions at 0, 1 and 2.
 AskedTorques askedOf(const SimbodyLoop::TorqueHistory& torques) {
   AskedTorques asked;
   const SimbodyLoop::TorqueHistory listening = asked.of(torques);
@@ -108,7 +108,7 @@ class Shared : public testing::TestWithParam<std::string> {
 TEST_P(Shared, theLoopSaysTheSameWhateverItWasAskedBefore) {
   SimbodyLoop loop(*here().manipulator, SimbodyLoop::Topology::six_balls, here().load);
   const Subject right = solverOf(here());
-  for (std::size_t k = reference_->instants.size(); k-- > 0;) {  // the other way round
+  for (std::size_t k = reference_->instants.size(); k-- > 0;) {  // in reverse order
     const SimbodyAnswer& known = reference_->simbody()[k];
     const Motion<double> motion = here().trajectory->at(reference_->instants[k]);
     ASSERT_TRUE(known.right.has_value());
@@ -142,7 +142,7 @@ TEST_P(Shared, replaysAskAtAllThatTheyDependOn) {
 TEST_P(Shared, theLadderIsTheOneClimbedAlone) {
   WindowedReplay window = reference_->replays().windows.front();
   ASSERT_NE(window.coarse, nullptr);
-  window.coarse = nullptr;  // no rung is known
+  window.coarse = nullptr;  // then no rung is known
   const Ladder alone = climb(here(), reference_->replays().plan.torques, window);
   const Ladder& shared = reference_->ladder();
   ASSERT_EQ(alone.rungs.size(), shared.rungs.size());
@@ -173,7 +173,7 @@ TEST_P(Shared, theStabilisedReplayStandsForTheSameTorquesOnly) {
   EXPECT_GT(of_wrong.value, alone.value);
 }
 
-/// With what was shared by others before, after a wrong subject, every check says what it says alone.
+/// After other subjects, also a wrong one, used the shared results, every check is the same as alone.
 TEST_P(Shared, everyCheckIsTheOneOfAValidationAlone) {
   ValidationOptions options;
   options.budget = false;
@@ -203,7 +203,8 @@ TEST_P(Shared, everyCheckIsTheOneOfAValidationAlone) {
   }
 }
 
-/// A subject that answers many questions at once is told of each step: not asked one by one whether it answers alike.
+/// A subject that answers many questions at once is told of each step. It is not asked one by one whether it answers
+/// alike.
 TEST_P(Shared, whoeverWantsToForeseeHasReplaysOfHisOwn) {
   Subject subject = solverOf(here());
   const auto told = std::make_shared<int>(0);

@@ -1,5 +1,5 @@
-// Stiff friction and poses held for long: an implicit integrator where friction would shorten an explicit one's steps,
-// and a held pose that costs what its windows do.
+// Stiff friction and long-held poses: an implicit integrator is used if friction would shorten an explicit one's steps,
+// and a held pose costs only its windows.
 
 #include "validation/replay/radau.h"
 
@@ -17,7 +17,7 @@
 namespace ursula {
 namespace {
 
-/// coulomb-friction.toml with its friction times so much.
+/// coulomb-friction.toml with its friction multiplied.
 struct Friction {
   double viscous = 1, coulomb = 1, smoothing_speed = 1;
 };
@@ -47,7 +47,7 @@ Replay replayed(const Scenario& scenario, bool stiff, double end, double factor 
       scenario, [&](double t) -> Vector6d { return factor * right.torques(scenario.trajectory->at(t)); }, settings);
 }
 
-/// y' = −λ (y − cos t) − sin t, of which cos t is the solution whatever λ.
+/// y' = −λ (y − cos t) − sin t, whose solution is cos t for any λ.
 RadauStep::Rate decaying(double lambda, long& evaluations) {
   return [lambda, &evaluations](const std::vector<double>& x, std::vector<double>& rate, double t) {
     ++evaluations;
@@ -64,7 +64,7 @@ TEST(Radau, aDecayOfAMillionASecondShortensNoStep) {
     double t = 0, h = 0.1;
     while (t < 5) {
       h = std::min(h, 5 - t);
-      const auto error = step.tryStep(rate, x, t, h, {1e-9, 1e-9});  // above what λ makes of rounding
+      const auto error = step.tryStep(rate, x, t, h, {1e-9, 1e-9});  // above rounding amplified by λ
       if (error && *error <= 1) t += h;
       h *= changeOfStep(error);
       if (5 - t < 1e-12) break;
@@ -74,7 +74,7 @@ TEST(Radau, aDecayOfAMillionASecondShortensNoStep) {
   }
 }
 
-/// Of order 17: twice the step, 2^17 times the error and more; a lower order would show.
+/// At order 17, twice the step has 2^17 times the error or more; a lower order would show.
 TEST(Radau, isOfOrderSeventeen) {
   const auto errorOf = [](double h) {
     RadauStep step;
@@ -115,7 +115,7 @@ TEST(StiffReplay, arrivesWhereTheExplicitOneDoes) {
   }
 }
 
-/// What could not be followed before.
+/// No explicit integrator can follow this friction.
 TEST(StiffReplay, followsFrictionThatNoExplicitIntegratorCan) {
   const Scenario scenario = rubbing({1e6, 1, 1});
   const Replay implicit = replayed(scenario, true, 0.5), explicitly = replayed(scenario, false, 0.5);
@@ -137,7 +137,7 @@ TEST(Stiffness, isTheFrictions) {
   EXPECT_FALSE(stiff(readScenario(URSULA_SCENARIOS "/hold.toml")));
 }
 
-/// Friction of the cylinders shortens explicit steps fifty times as much as the platform's own decay says.
+/// Friction of the cylinders shortens explicit steps fifty times more than the platform's own decay does.
 TEST(Stiffness, isFoundWhereAnExplicitReplayTakesTooLong) {
   Scenario scenario = readScenario(URSULA_SCENARIOS "/three-legs.toml");
   ManipulatorParameters machine = scenario.manipulator->parameters();

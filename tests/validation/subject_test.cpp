@@ -1,4 +1,4 @@
-// Subjects are asked from many threads at once, and answer each as if it were alone.
+// Many threads ask subjects at once, and each gets the answer that it would get alone.
 
 #include "validation/subject/subject.h"
 
@@ -15,7 +15,7 @@
 namespace ursula {
 namespace {
 
-/// All that a subject can be asked, at one motion.
+/// All answers of a subject at one motion.
 struct Answers {
   Vector6d torques, accelerations, rebuilt;
   Numbers joints, bodies;
@@ -40,7 +40,7 @@ Answers ask(const Subject& subject, const Manipulator& machine, const Motion<dou
   return out;
 }
 
-/// Two machines' subjects, right and altered, transformed and not, and motions of each.
+/// Subjects of two machines, right and altered, transformed and not, with motions of each.
 class Asked {
  public:
   Asked() {

@@ -1,4 +1,5 @@
-// A time limit: what is not reached is inconclusive and says why, the rest is judged, and no number depends on it.
+// A time limit: unreached parts are inconclusive with the reason, the rest is judged, and no number depends on the
+// limit.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -41,7 +42,7 @@ ValidationOptions within(double seconds) {
 
 constexpr double none_at_all = 1e-9, plenty = 1e8;
 
-/// Or this would wait for ever.
+/// Otherwise this would wait for ever.
 TEST(BackgroundTasks, cutsShortWhatHasBegunWhenNobodyWillAsk) {
   std::atomic<bool> begun{false}, cut_short{false}, ended{false};
   {
@@ -85,7 +86,8 @@ void expectAllUnfinished(const ValidationResult& result) {
     EXPECT_EQ(verdictOf(result.checks, name), "inconclusive") << name;
 }
 
-/// Measured: a sample takes some 30 evaluations of the loop, and few samples little of a whole validation.
+/// It was measured that a sample takes some 30 evaluations of the loop, and that few samples take little of a whole
+/// validation.
 TEST(Work, isForetoldByTheNumberOfSamples) {
   Scenario scenario = quick();
   const WorkParts few = workParts(scenario);
@@ -122,14 +124,14 @@ TEST(TimeLimit, changesNoNumberWhereItIsNotReached) {
   EXPECT_EQ(run(plenty), run(0));
 }
 
-/// Ten times what a run takes here, s: a loaded machine and a build with sanitizers reach what they have to, too.
+/// Ten times the duration of a run, s, so that a loaded machine and a build with sanitizers get far enough, too.
 double ample() {
   const Stopwatch watch;
   EXPECT_EQ(validate(quick(), within(0)).verdict, Verdict::pass);
   return std::max(10.0, 10 * watch.time().seconds);
 }
 
-/// A subject that takes all the time there is, from its `last` answer on.
+/// A subject that takes all remaining time after its `last` answer.
 Subject slowFrom(int last, const Deadline& deadline) {
   Subject subject = nocSubject(*quick().manipulator, nullptr);
   subject.torques = [right = subject.torques, last, deadline, asked = std::make_shared<int>(0)](const auto& motion) {
@@ -141,7 +143,7 @@ Subject slowFrom(int last, const Deadline& deadline) {
 }
 
 TEST(TimeLimit, judgesWhatWasReached) {
-  const double limit = ample();  // of which most is waited for in the replays
+  const double limit = ample();  // of which most passes waiting in the replays
   const Scenario scenario = quick();
   const Subject slow = slowFrom(200, Deadline(limit));
   const ValidationResult result = validate(scenario, slow, within(limit));
@@ -152,14 +154,14 @@ TEST(TimeLimit, judgesWhatWasReached) {
   EXPECT_EQ(result.timeseries.rows(), 21U);
 }
 
-/// The last experiment takes the error apart, which decides nothing. Answers of somebody else's solver are judged after
-/// it all the same.
+/// The last experiment finds the error's sources, which decides nothing. A foreign solver's answers are judged after
+/// it, too.
 TEST(TimeLimit, keepsWhatWasJudgedWhereTimeIsUpAfterIt) {
   const Scenario scenario = quick();
   for (const Formulation formulation : {Formulation::noc, Formulation::external}) {
     Subject subject = nocSubject(*scenario.manipulator, nullptr);
     subject.formulation = formulation;
-    const Deadline deadline(ample());  // most of it is waited for
+    const Deadline deadline(ample());  // most of it passes waiting
     ValidationOptions options;
     options.reference = makeReference(scenario, 1, deadline);
     bool waited = false;
@@ -175,7 +177,7 @@ TEST(TimeLimit, keepsWhatWasJudgedWhereTimeIsUpAfterIt) {
   }
 }
 
-/// Kernels that were not asked before time was up are not wrong; not asked for another reason, they are.
+/// Kernels that were not asked because time was up are not wrong; kernels that were not asked for another reason are.
 TEST(TimeLimit, judgesNoKernelsThatWereNotAsked) {
   const auto& families = checkFamilies();
   const auto fast = std::find_if(families.begin(), families.end(),
@@ -219,7 +221,7 @@ TEST(TimedScenario, throwsWhereTheDeadlineIsOverAndUntilItIsLifted) {
   EXPECT_NO_THROW(timed(scenario, Deadline(plenty)).trajectory->at(1.0));
 }
 
-/// A host asks the run to end after a few questions; the run hears it, whenever that is.
+/// A host asks the run to end after a few questions, and the run obeys at any time.
 TEST(TimeLimit, isReachedOnceItIsAskedToEnd) {
   for (const int last : {0, 10, 5000}) {
     int asked = 0;

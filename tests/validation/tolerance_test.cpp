@@ -1,4 +1,4 @@
-// A tolerance of the user's: torques are held against it, what they do to the motion is reported.
+// A user's tolerance judges torques; their effect on the motion is reported.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-/// The paper's helix under torques of leg 3 that are too large by a share.
+/// The paper's helix with torques of leg 3 that are too large by a share.
 ValidationResult judgedWith(double error, std::optional<EffortTolerance> tolerance) {
   Scenario scenario = scenarioOf("paper-helix");
   scenario.tolerance = tolerance;
@@ -69,8 +69,8 @@ TEST(Tolerance, addsBothParts) {
   EXPECT_EQ(judgedWith(1e-3, EffortTolerance{0.4 * largest / effort, 0.4 * largest}).verdict, Verdict::fail);
 }
 
-/// Three legs of 0.5 m with two motors each, one that turns and one that pushes: newtons and newton metres alike are
-/// what they are.
+/// Three legs of 0.5 m have two motors each, one that rotates and one that slides. Newtons and newton metres are
+/// compared by their numbers.
 TEST(Tolerance, isPlainNumbersForMotorsOfBothSorts) {
   const auto judged = [](int motor, double error, double absolute) {
     Scenario scenario = scenarioOf("three-legs");
@@ -119,7 +119,7 @@ TEST(Tolerance, isReadFromAcceptance) {
   EXPECT_THROW(read("torque = { relativ = 1e-3 }"), ScenarioError);
 }
 
-/// Four digits at 31 instants, which no replay can judge.
+/// The file has four digits at 31 instants, which no replay can judge.
 TEST(Tolerance, judgesAFileOfFewDigits) {
   Scenario scenario = scenarioOf("paper-helix");
   std::string text = "t_s,tau_1_Nm,tau_2_Nm,tau_3_Nm,tau_4_Nm,tau_5_Nm,tau_6_Nm\n";
@@ -139,7 +139,7 @@ TEST(Tolerance, judgesAFileOfFewDigits) {
   EXPECT_EQ(judged().verdict, Verdict::fail) << "four digits are not right to a millionth";
 }
 
-/// The scale is the motion's, not that of the instants that a file happens to have.
+/// The scale is the largest effort of the motion, not of the file's instants.
 TEST(Tolerance, isRelativeToTheMotionsLargestEffortForAnyFile) {
   const Scenario scenario = scenarioOf("paper-helix");
   TorqueTable start = exactTorques(scenario, 301);
@@ -155,7 +155,7 @@ TEST(Tolerance, isRelativeToTheMotionsLargestEffortForAnyFile) {
   EXPECT_LT(largest_at_start, 0.99 * own->largest_effort) << "the start has the largest: nothing is shown";
 }
 
-/// What is not there cannot be right to anything.
+/// Missing parts are not within any tolerance.
 TEST(Tolerance, doesNotCoverWhatTheFileLeavesOut) {
   Scenario scenario = scenarioOf("paper-helix");
   scenario.tolerance = EffortTolerance{1e-3, 0};
@@ -165,7 +165,7 @@ TEST(Tolerance, doesNotCoverWhatTheFileLeavesOut) {
   EXPECT_EQ(validateExternal(scenario, half.file()).verdict, Verdict::inconclusive);
 }
 
-/// A tolerance judges what was asked: between 2, 5 or 11 rows the torques may be anything.
+/// A tolerance judges the given rows. Between 2, 5 or 11 rows the torques may be anything.
 TEST(Tolerance, leavesOpenWhatLiesBetweenFewRows) {
   Scenario scenario = scenarioOf("paper-helix");
   for (const double relative : {1e-12, 1e-6, 1e-3}) {

@@ -1,5 +1,5 @@
-// Torque files as other programs write them: what is certain is read and said, what is not is refused with the option
-// that would read it.
+// Torque files of other programs: an unambiguous one is read and reported; another is refused with the option that
+// would read it.
 
 #include "validation/subject/torque_columns.h"
 
@@ -41,7 +41,7 @@ std::string crlf(const std::string& text) {
   return out;
 }
 
-/// With points for commas' sake swapped: "0;1,25;…".
+/// The text with semicolons and decimal commas: "0;1,25;…".
 std::string german(const std::string& text) { return with(with(text, ',', ';'), '.', ','); }
 
 class ForeignTorques : public testing::TestWithParam<Foreign> {};
@@ -117,7 +117,7 @@ TEST(TorqueColumns, withoutAHeaderOnlyEqualStepsFromZeroAreTheTime) {
               AllOf(HasSubstr("the file has no header, and 7 columns (separated by blanks)"),
                     EndsWith("--map t_s=1 --map tau_1_Nm=2 --map tau_2_Nm=3 --map tau_3_Nm=4 --map tau_4_Nm=5 --map "
                              "tau_5_Nm=6 --map tau_6_Nm=7")));
-  // Two columns that may be the time.
+  // Two columns may be the time.
   EXPECT_THROW(parseTorqueFile("0,0,2,3,4,5,6\n1,1,2,3,4,5,6\n2,2,2,3,4,5,6\n", "a.csv"), CsvError);
 }
 
@@ -143,7 +143,7 @@ TEST(TorqueColumns, refusesWhatIsNotCertainWithTheOptionThatReadsIt) {
                           HasSubstr("its columns, separated by ';', are: zeit, T1, T2, T3, T4, T5, T6"),
                           EndsWith("say so: --map t_s=zeit --map tau_1_Nm=T1 --map tau_2_Nm=T2 --map tau_3_Nm=T3 "
                                    "--map tau_4_Nm=T4 --map tau_5_Nm=T5 --map tau_6_Nm=T6")));
-  // And it does.
+  // The named option does read the file.
   const ColumnMap map = parseColumnMap(
       {"t_s=zeit", "tau_1_Nm=T1", "tau_2_Nm=T2", "tau_3_Nm=T3", "tau_4_Nm=T4", "tau_5_Nm=T5", "tau_6_Nm = T6"});
   EXPECT_EQ(parseTorqueFile(uncertain, "a.csv", map).torques[0], (Vector6d() << 1.25, 2, 3, 4, 5, 6).finished());
@@ -194,7 +194,7 @@ TEST(TorqueColumns, instantsOutsideOfTheMotionSayWhatTheyLookLike) {
 
 // --- motors that slide
 
-/// Motors 1 and 2 turn, the others slide.
+/// Motors 1 and 2 rotate, the others slide.
 Motors mixedMotors() {
   Motors motors;
   for (std::size_t k = 2; k < motors.size(); ++k) motors[k] = {static_cast<int>(k), 2, Coordinate::d};
@@ -226,7 +226,7 @@ TEST(SlidingMotors, anotherUnitIsRefusedByTheColumnThatIsWanted) {
   EXPECT_EQ(refused(mixed_header, {}), "a.csv:1: error: 'tau_3_N', but motor 3 turns: expected 'tau_3_Nm', N m");
   EXPECT_EQ(refusal<CsvError>([] { parseColumnMap({"tau_3_Nm=x"}, mixedMotors()); }),
             "--map tau_3_Nm=x: motor 3 slides: expected 'tau_3_N', N");
-  // Nobody asks for the unit of what is not needed.
+  // The unit of an unneeded column does not matter.
   const TorqueFile both = parseTorqueFile(
       "tau_3_Nm," + mixed_header + "9," + plain_rows.substr(0, plain_rows.find('\n')), "a.csv", {}, mixedMotors());
   EXPECT_THAT(both.ignored, ElementsAre("tau_3_Nm"));

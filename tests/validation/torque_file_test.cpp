@@ -1,5 +1,4 @@
-// The reader of somebody else's torques: what it takes, what it refuses and where, how finely it says they were
-// printed.
+// The reader of foreign torques: accepted files, refusals with their places, and the precision of printed numbers.
 
 #include "validation/subject/torque_file.h"
 
@@ -104,7 +103,7 @@ TEST(TorqueFile, instantsOfAGridAreExactAndThoseOfARoundedOneAreNot) {
   };
   EXPECT_THAT(precision({"0", "0.01", "0.02", "0.03"}), ElementsAre(0, 0, 0, 0));
   EXPECT_THAT(precision({"0", "0.333", "0.667", "1"}), ElementsAre(5e-4, 5e-4, 5e-4, 5e-4));
-  // Neither: as fine as the torques beside them.
+  // These are neither, so they are as precise as the torques beside them.
   for (double value : precision({"0.1", "0.25", "0.7"})) EXPECT_LT(value, 1e-12);
 }
 

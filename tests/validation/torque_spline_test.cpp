@@ -1,4 +1,4 @@
-// The spline through samples of torques: its order, and that what is said of its errors bounds them without excess.
+// The spline through samples of torques: its order, and that the bounds of its errors hold and are not too large.
 
 #include "validation/subject/torque_spline.h"
 #include "model/instants.h"

@@ -16,7 +16,7 @@
 
 namespace ursula {
 
-/// The way back from `p`: what inverse(p).of makes of p.of(x) is x.
+/// The inverse of `p`: inverse(p).of(p.of(x)) is x.
 inline FrameChange inverse(const FrameChange& p) {
   FrameChange out;
   out.turn = p.turn.transpose();
@@ -37,7 +37,7 @@ class Numbers {
     groups_.emplace_back(value.data(), value.data() + value.size());
   }
 
-  /// The largest distance of two groups over the size of the group there; infinite where only one is zero.
+  /// The largest distance of two groups over the size of the group; infinite if only one is zero.
   double distance(const Numbers& other) const {
     if (groups_.size() != other.groups_.size()) return std::numeric_limits<double>::infinity();
     double largest = 0;

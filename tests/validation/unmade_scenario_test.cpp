@@ -1,4 +1,4 @@
-// A scenario without a machine or a motion, as one is that was moved from, is refused wherever one is taken.
+// Every function refuses a scenario without a machine or a motion, such as a moved-from one.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The whole validation: the verdict, what it names, what it records, and that it comes out the same twice.
+// The whole validation: its verdict, names and records, and that it is reproducible.
 
 #include "validation/validate.h"
 #include "model/instants.h"
@@ -38,7 +38,7 @@ const std::vector<std::string> promised = {"kinematics.joint_angles",
                                            "torque.between",
                                            "feedback.torque"};
 
-/// Of a subject that is a solver whole.
+/// Checks of a subject that is a complete solver.
 const std::vector<std::string> of_solvers = {
     "direct.pointwise",    "direct.off_path",          "invariance.rotation",
     "invariance.labels",   "invariance.mass",          "invariance.time_reversal",
@@ -51,7 +51,7 @@ Scenario quick(const std::string& name) {
   return scenario;
 }
 
-/// Leaves out what is judged beside the promised checks.
+/// Leaves out what is judged beside the promised checks, for speed.
 const ValidationOptions without_extras{false, false};
 
 class Validate : public testing::TestWithParam<std::string> {};
@@ -107,7 +107,7 @@ TEST(ValidateControl, theFormulaErrorOf15aFailsAndTheJointRatesAreNamedFirst) {
   EXPECT_EQ(verdictOf(result.checks, "torque.pointwise"), "fail");
 }
 
-/// What users call is judged beside the NOC, and does not make the NOC wrong.
+/// The users' kernels are judged beside the NOC, and their errors are not the NOC's.
 TEST(ValidateControl, aWrongFastKernelFailsAndTheNocHolds) {
   const auto fault = std::make_shared<InjectedFault>();
   fault->fast.answers = [](FastAnswers& answers) {
@@ -126,7 +126,7 @@ TEST(ValidateControl, aWrongFastKernelFailsAndTheNocHolds) {
   EXPECT_FALSE(std::isnan(result.deviation->largest));
 }
 
-/// In the last pose of a long batch alone, which fills no block of any kernel.
+/// Only the last pose of a long batch is wrong; the batch's length fills no whole number of blocks.
 TEST(ValidateControl, aWrongPoseAtTheEndOfABatchFails) {
   const auto fault = std::make_shared<InjectedFault>();
   fault->fast.answers = [](FastAnswers& answers) {
@@ -138,8 +138,8 @@ TEST(ValidateControl, aWrongPoseAtTheEndOfABatchFails) {
   EXPECT_EQ(firstFailing(validate(quick("paper-helix"), options).checks), "fast.inverse_batch");
 }
 
-/// Where one pose at a time is wrong, nothing is learnt between the samples, and the NOC's deviation is known all the
-/// same.
+/// If the kernels for single poses are wrong, nothing is learnt between the samples, but the NOC's deviation is still
+/// known.
 TEST(ValidateControl, aWrongKernelOfOnePoseLeavesTheDeviationKnown) {
   const auto fault = std::make_shared<InjectedFault>();
   fault->fast.answers = [](FastAnswers& answers) { answers.torques.front()(0) *= 1 + 1e-7; };
@@ -152,7 +152,7 @@ TEST(ValidateControl, aWrongKernelOfOnePoseLeavesTheDeviationKnown) {
   EXPECT_FALSE(std::isnan(result.deviation->largest));
 }
 
-/// An error of the NOC's own is no error of the fast kernels, though both checks see it.
+/// An error of the NOC is not an error of the fast kernels, although both checks see it.
 TEST(ValidateControl, aWrongNocFailsAndTheTorquesAreNamed) {
   const Scenario scenario = quick("paper-helix");
   for (const FormulaError formula_error : {FormulaError::scaled_efforts, FormulaError::scaled_first_effort}) {
@@ -191,7 +191,7 @@ TEST(ValidateControl, torquesThatAreNoNumbersNeverPass) {
     EXPECT_EQ(verdictOf(result.checks, name), "pass") << name << ": its direct dynamics are right";
 }
 
-/// Torques alone: what only a solver can be asked is left out, and nothing else.
+/// With torques alone, only checks that need a solver are left out.
 TEST(ValidateControl, torquesAloneAreJudgedByWhatNeedsNoMore) {
   const Scenario scenario = quick("paper-helix");
   Subject subject = nocSubject(*scenario.manipulator, nullptr);
@@ -205,7 +205,7 @@ TEST(ValidateControl, torquesAloneAreJudgedByWhatNeedsNoMore) {
   for (const std::string& name : of_solvers) EXPECT_EQ(verdictOf(result.checks, name), "not_applicable") << name;
 }
 
-/// What depends on the scenario alone may be made before, for many subjects.
+/// The parts that depend on the scenario alone may be made before, for many subjects.
 TEST(ValidateResult, isTheSameWithAReferenceMadeBefore) {
   const Scenario scenario = quick("random-2");
   ValidationOptions with_reference = without_extras;
@@ -218,7 +218,7 @@ TEST(ValidateResult, isTheSameWithAReferenceMadeBefore) {
   EXPECT_EQ(made_before, run(with_reference)) << "the first left something behind";
 }
 
-/// What is made ahead by other threads is what would have been made when asked for.
+/// Results that other threads make in advance equal those made on request.
 TEST(ValidateResult, isTheSameWhateverTheNumberOfThreads) {
   const Scenario scenario = quick("paper-helix");
   const auto run = [&](int threads) {
@@ -231,7 +231,7 @@ TEST(ValidateResult, isTheSameWhateverTheNumberOfThreads) {
   EXPECT_EQ(run(5), alone);
 }
 
-/// The replay's own judges are judged: a state falsified after each step fails it, and nothing pointwise.
+/// Tests the checks of replays: a state falsified after each step fails them, and no pointwise check.
 TEST(ValidateControl, aFaultyReplayFails) {
   const Scenario scenario = quick("paper-helix");
   ValidationOptions faulty = without_extras;
@@ -248,7 +248,7 @@ TEST(ValidateControl, aFaultyReplayFails) {
     EXPECT_EQ(verdictOf(result.checks, name), "pass") << name;
 }
 
-/// Made for the scenario where its numbers are good, or as it is given: the same verdicts.
+/// Verdicts are the same whether the subject is made for the well-scaled or for the given scenario.
 TEST(ValidateResult, doesNotDependOnHowTheSubjectIsMade) {
   const Scenario scenario = quick("paper-helix");
   const SubjectOf make = [](const Scenario& here) { return nocSubject(*here.manipulator, here.load); };

@@ -1,4 +1,4 @@
-// A long motion in windows: they cover it, each as long as its limit says something, each restarted on the commanded
+// A long motion in windows: they cover it, each is as long as its limit is useful, and each restarts on the commanded
 // state.
 
 #include "validation/replay/windows.h"
@@ -17,7 +17,7 @@
 namespace ursula {
 namespace {
 
-/// The paper's helix in 10 s, whose deviations grow too far for one window.
+/// The paper's helix in 10 s, in which deviations grow too much for one window.
 class LongMotion : public testing::Test {
  protected:
   SimbodyLoop::TorqueHistory right() const {
@@ -26,7 +26,7 @@ class LongMotion : public testing::Test {
   ReplayPlan plan() const {
     return {right(), SampledLimit(samples_), positionScale(samples_), plannedStepRate(duration_)};
   }
-  /// The same with acceleration errors so many times as large.
+  /// The plan with acceleration errors multiplied by `factor`.
   ReplayPlan plan(double factor) const {
     ReplayPlan out = plan();
     out.acceleration = [this, factor](double t) { return factor * SampledLimit(samples_)(t); };
@@ -39,7 +39,7 @@ class LongMotion : public testing::Test {
     EXPECT_DOUBLE_EQ(windows.back().end(), duration_);
     for (std::size_t k = 1; k < windows.size(); ++k) EXPECT_EQ(windows[k].start(), windows[k - 1].end()) << k;
   }
-  /// What planWindows holds a bound against, m.
+  /// The limit with which planWindows compares a bound, m.
   double useful() const { return useful_replay_limit / 4 * amplification_.length(); }
   std::vector<Check> judge(const std::vector<WindowedReplay>& replays) const {
     return judgeReplay(replays, positionScale(samples_), amplification_.length(), loopForces(samples_));
@@ -93,7 +93,7 @@ TEST_F(LongMotion, hasTheShortestWindowsWhereNoneIsUseful) {
 
 TEST_F(LongMotion, restartsOnTheCommandedState) {
   const std::vector<WindowedReplay> replays = replayInWindows(scenario_, amplification_, plan());
-  double before = 1;  // the first leaves nothing behind
+  double before = 1;  // the first window has no predecessor
   for (const WindowedReplay& each : replays) {
     ASSERT_EQ(each.replay.gave_up, "");
     const ReplayStep& step = each.replay.steps.front();
@@ -108,7 +108,7 @@ TEST_F(LongMotion, restartsOnTheCommandedState) {
   EXPECT_EQ(others(judge(replays), Verdict::pass), "");
 }
 
-/// What the windows are for.
+/// One window would not suffice.
 TEST_F(LongMotion, couldNotBeJudgedInOne) {
   const ReplayPlan plan = this->plan();
   const double rate = plan.step_rate * errorPerStep(scenario_.simulation.tolerance, plan.position_scale);
@@ -138,10 +138,10 @@ TEST_F(LongMotion, givesUpWhereAWindowTakesTooMuch) {
     EXPECT_THAT(each.replay.gave_up, testing::HasSubstr("more than 30 derivative evaluations"));
 }
 
-/// A plan with far fewer steps than are taken makes windows that are too long; what was taken makes them right.
+/// A plan with far too few steps makes windows too long; the number of steps taken corrects them.
 TEST_F(LongMotion, isPlannedAgainWhereMoreStepsWereTaken) {
   ReplayPlan rash = plan();
-  rash.tolerance = 1e-12;  // so that steps, not torques, decide how long a window may be
+  rash.tolerance = 1e-12;  // so that steps, not torques, limit the windows
   rash.step_rate /= 100;
   const std::vector<GrowthWindow> first = windows(rash);
   const std::vector<Check> of_first = judge(replayInWindows(scenario_, rash, first));
@@ -177,8 +177,8 @@ TEST(SampledLimit, isTheLargerOfTwoNeighbours) {
   EXPECT_DOUBLE_EQ(limit(1.7) / unit, 1);
 }
 
-/// Legs of a gram under half a ton are no trouble, for their coordinates are eliminated; steps so long that the noise
-/// of one derivative exceeds the tolerance are.
+/// Legs of a gram under half a ton do not matter, because their coordinates are eliminated. Steps that are so long that
+/// the noise of one derivative exceeds the tolerance do.
 TEST(ReachableTolerance, isTheScenariosUnlessDerivativesAreNoisier) {
   const Scenario helix = scenarioOf("paper-helix"), light_legs = scenarioOf("light-legs");
   const double rate = plannedStepRate(3);

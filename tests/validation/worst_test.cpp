@@ -1,4 +1,5 @@
-// What a check shows of many instants: the largest share of a limit and the largest value, and NaN before all.
+// The value that a check shows of many instants: the largest share of a limit and the largest value, with NaN before
+// all.
 
 #include "tests/support/numbers.h"
 #include "validation/verdict/worst_share.h"
@@ -18,7 +19,7 @@ struct Each {
   double value, limit;
 };
 
-/// Each at its index as t and as where.
+/// Adds each value with its index as t and as place.
 Worst worstOf(const std::vector<Each>& all) {
   Worst out;
   for (std::size_t k = 0; k < all.size(); ++k)
@@ -69,7 +70,7 @@ TEST(Worst, isTheFirstOfEqualOnes) {
   EXPECT_EQ(found.widest_t, 2);
 }
 
-/// Wherever it comes, before whatever is beyond its limit, and the first of several.
+/// NaN comes before any value beyond its limit, wherever it occurs; the first of several is kept.
 TEST(Worst, keepsNaNBeforeAll) {
   for (std::size_t at = 0; at < 3; ++at) {
     std::vector<Each> all = {{9, 1}, {1e9, 1}, {infinite, 1}};

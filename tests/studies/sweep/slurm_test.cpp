@@ -1,5 +1,5 @@
-// What sbatch is given, against bash itself where bash reads it; and what of a sweep is still to be submitted. The
-// whole on a real Slurm: tests/cluster/.
+// The input of sbatch, checked by bash itself if bash reads it, and the parts of a sweep still to be submitted.
+// tests/cluster/ tests the whole on a real Slurm.
 
 #include "studies/sweep/slurm.h"
 
@@ -125,7 +125,7 @@ class SlurmStandingTest : public testing::Test {
 
   std::filesystem::path database() const { return folder_.path() / "mass.db"; }
 
-  /// Points [first, end) of a shard, or of the whole.
+  /// Makes the database with points [first, end) of a shard or of the whole.
   void make(const Shard& shard, std::int64_t first, std::int64_t end, const std::string& hash = "h") const {
     SweepIdentity identity = sweep();
     identity.hash = hash;
@@ -154,7 +154,7 @@ TEST_F(SlurmStandingTest, whatIsNotThereOrNotWholeIsMissing) {
   EXPECT_FALSE(standing().merged);
 }
 
-/// A task that was killed before it had written anything.
+/// Such is the database of a task that was killed before it wrote anything.
 TEST_F(SlurmStandingTest, anEmptyDatabaseIsMissing) {
   { const Sqlite begun(shardDatabase(database(), {1, 4}), Sqlite::Access::create); }
   EXPECT_THAT(standing().in(ShardState::missing), ElementsAre(1, 2, 3, 4));

@@ -9,7 +9,7 @@
 
 namespace ursula::test {
 
-/// Of a sweep of four points.
+/// The identity of a sweep of four points.
 inline SweepIdentity identity(const std::string& hash = "aa", int shard = 1, int shards = 1) {
   SweepIdentity out;
   out.hash = hash;
@@ -26,7 +26,7 @@ inline SweepPoint point(std::int64_t id, double value = 1.5) {
   return {id, R"({"a.b":1})", "pass", 0.5, "", {{"tau", value, std::nan(""), ""}, {"check", 0.1, 0.2, "pass"}}};
 }
 
-/// All rows but their seconds, as text.
+/// All rows as text, without their seconds.
 inline std::string rowsOf(const std::filesystem::path& file) {
   Sqlite database(file, Sqlite::Access::read);
   std::string out;

@@ -1,4 +1,4 @@
-// What is kept in a sweep's database, and which databases are refused.
+// The content of a sweep's database, and refused databases.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ TEST(SweepDatabase, keepsWhatWasCommitted) {
   EXPECT_EQ(again.sqlite().number("SELECT count(*) FROM point WHERE error IS NULL"), 1);
 }
 
-/// Somebody renames, replaces or removes it between two batches. What was found by then is in the renamed one.
+/// Somebody renames, replaces or removes the file between two batches. The renamed file has the earlier results.
 TEST(SweepDatabase, refusesToGoOnWithoutItsFile) {
   for (const bool at_the_end : {false, true})
     for (const auto& [comes, says] : {std::pair("", "s.db: error: was removed or renamed"),
@@ -66,7 +66,7 @@ TEST(SweepDatabase, refusesToGoOnWithoutItsFile) {
     }
 }
 
-/// Another program cuts its log short: what was in it is lost, and what this connection has in memory hides it.
+/// Another program truncates the log. Its content is lost, which this connection's memory hides.
 TEST(SweepDatabase, refusesToFinishWhereItsLogWasCutShort) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "s.db";
@@ -86,7 +86,7 @@ TEST(SweepDatabase, refusesToFinishWhereItsLogWasCutShort) {
   }
 }
 
-/// The same sweep may be started twice: the second one meets points that the first one wrote.
+/// The same sweep may be started twice. The second one then meets points of the first.
 TEST(SweepDatabase, namesAnotherSweepThatWroteThePoint) {
   const TemporaryFolder folder;
   SweepDatabase database(folder.path() / "s.db", identity());
@@ -95,7 +95,7 @@ TEST(SweepDatabase, namesAnotherSweepThatWroteThePoint) {
               HasSubstr("another sweep has written the same points meanwhile"));
 }
 
-/// As `ulimit -f` has it.
+/// The limit is that of `ulimit -f`.
 TEST(SweepDatabase, namesTheLimitOfItsSize) {
   const TemporaryFolder folder;
   SweepDatabase database(folder.path() / "s.db", identity("aa", 1, 1));
@@ -158,7 +158,7 @@ TEST(SweepDatabase, refusesTablesThatAreNoneOfOursBeforeTheyAreRead) {
     Sqlite(file, Sqlite::Access::write).run(sql);
     return refused(file);
   };
-  // Without an end: who reads it waits for ever.
+  // The view never ends, so a reader would wait for ever.
   EXPECT_THAT(
       changed("DROP TABLE point; CREATE VIEW point AS WITH RECURSIVE n(id) AS (SELECT 0 UNION ALL SELECT 0 FROM "
               "n) SELECT id, '{}' AS parameters, 'pass' AS verdict, 0.1 AS seconds, NULL AS error FROM n"),
@@ -175,7 +175,7 @@ TEST(SweepDatabase, refusesTablesThatAreNoneOfOursBeforeTheyAreRead) {
   EXPECT_EQ(SweepDatabase(file).pointsDone(), 0) << "what somebody adds for queries of his own is left alone";
 }
 
-/// SQLite takes text for a number, and says 0 when asked for it.
+/// SQLite accepts text in a column of numbers, and returns it as 0.
 TEST(SweepDatabase, refusesRowsThatNoSweepWrites) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "s.db";
@@ -203,7 +203,7 @@ TEST(SweepDatabase, refusesRowsThatNoSweepWrites) {
       changed(
           "INSERT INTO result SELECT point + 1000000000, name, value, \"limit\", verdict FROM result WHERE point = 1"),
       HasSubstr("is damaged: it has results of point 1000000001, which is none of this sweep"));
-  // A merge looks at each shard: of so many it took all memory.
+  // A merge looks at each shard, and so many would take all memory.
   for (const char* value : {"shards = 2147483647", "shards = 1000001", "shards = 4294967297", "shards = 0",
                             "shard = 4294967297", "points = 9223372036854775807"})
     EXPECT_THAT(changed("UPDATE sweep SET " + std::string(value)), HasSubstr("does not say which points it is to hold"))
@@ -233,7 +233,7 @@ TEST(SweepDatabase, isWrittenByOneAtATime) {
   EXPECT_EQ(SweepDatabase(file).pointsDone(), 0) << "but anybody may read it";
 }
 
-/// Another sweep comes first after this one has looked, and found nothing.
+/// Another sweep creates the database after this one found it empty.
 TEST(SweepDatabase, isOfTheSweepThatWroteFirst) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "s.db", made = folder.path() / "made.db";

@@ -1,4 +1,4 @@
-// What a sweep's file may say, and how the rest is refused.
+// The content of a sweep's file, and refusals of anything else.
 
 #include <gtest/gtest.h>
 

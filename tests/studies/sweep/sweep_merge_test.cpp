@@ -1,4 +1,4 @@
-// Databases of shards taken together, and what is refused before anything is written.
+// Merging databases of shards, and refusals before anything is written.
 
 #include "studies/sweep/merge.h"
 
@@ -58,7 +58,7 @@ TEST(SweepMerge, takesEachPointOnceInAnyOrderAndSaysWhatIsMissing) {
   EXPECT_EQ(rowsOf(all), rowsOf(whole));
 }
 
-/// An error is the machine's: what a shard made of it again counts, in whatever order they come.
+/// An error is the computer's. If a shard computed the point again, that result counts, in any order of the parts.
 TEST(SweepMerge, takesAPointThatWasMadeAgainForOneInError) {
   const TemporaryFolder folder;
   const auto made = [&](const std::string& name, bool in_error) {
@@ -104,7 +104,7 @@ TEST(SweepMerge, refusesOtherSweepsAndPointsThatDiffer) {
               HasSubstr("cannot be opened"));
 }
 
-/// What is there already stays as it is, wherever among the parts the one is that does not fit.
+/// Existing content stays unchanged, whichever part does not fit.
 TEST(SweepMerge, writesNothingWhereAPartIsRefused) {
   const TemporaryFolder folder;
   const auto made = [&](const std::string& name, int id, double value) {
@@ -122,7 +122,7 @@ TEST(SweepMerge, writesNothingWhereAPartIsRefused) {
   EXPECT_EQ(rowsOf(all), before);
 }
 
-/// Between two parts, and before anything is read: what is there is whole, with nothing beside it.
+/// It stops between two parts, and before anything is read. The database is whole then, with no other file beside it.
 TEST(SweepMerge, stopsWhereItIsAskedAndGoesOnLater) {
   const TemporaryFolder folder;
   const auto part = [&](int shard) {

@@ -1,4 +1,4 @@
-// Which scenario a point is: from the sweep and its index alone.
+// A point's scenario depends only on the sweep and the point's index.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ TEST(SweepPoints, gridIsTheProductTheLastFastest) {
   EXPECT_EQ(plan.parameters(5), R"({"manipulator.platform.mass":500,"manipulator.gravity.2":-10})");
 }
 
-/// Means and deviations of 4,000 points, to five standard errors.
+/// Checks means and deviations of 4,000 points, to five standard errors.
 TEST(SweepPoints, deviatesHaveTheirDistributions) {
   for (const char* design : {"random", "sobol"}) {
     const SweepPlan plan = planOf("inverse", "design = \"" + std::string(design) + "\"\ncount = 4000\nseed = 5\n" +
@@ -45,7 +45,7 @@ TEST(SweepPoints, deviatesHaveTheirDistributions) {
   }
 }
 
-/// Sobol's first 2^m points have one in each of 2^m equal intervals, shifted digitally or not.
+/// Of Sobol's first 2^m points one is in each of 2^m equal intervals, with or without a digital shift.
 TEST(SweepPoints, sobolFillsEvenly) {
   const auto cells = [](const char* design) {
     const SweepPlan plan = planOf("inverse", "design = \"" + std::string(design) + "\"\ncount = 256\n" +
@@ -57,7 +57,7 @@ TEST(SweepPoints, sobolFillsEvenly) {
     return count;
   };
   for (const auto& each : cells("sobol")) EXPECT_THAT(each, testing::Each(1));
-  EXPECT_THAT(cells("random")[0], testing::Contains(testing::Gt(1)));  // else the test would pass for anything
+  EXPECT_THAT(cells("random")[0], testing::Contains(testing::Gt(1)));  // otherwise the test would pass for anything
 }
 
 TEST(SweepPoints, hangOnSeedAndIndexAlone) {
@@ -69,7 +69,7 @@ TEST(SweepPoints, hangOnSeedAndIndexAlone) {
   EXPECT_NE(plan.points().at(499), plan.points().at(498));
   EXPECT_EQ(plan.identity().hash, same.identity().hash);
   EXPECT_NE(plan.identity().hash, other.identity().hash);
-  // The standard lays both generators down: a value that is the same everywhere.
+  // The standard defines both generators exactly, so this value is the same everywhere.
   EXPECT_EQ(plan.parameters(0), R"({"manipulator.platform.mass":483.61680293250924})");
 }
 
@@ -85,7 +85,7 @@ TEST(SweepPoints, starVariesEveryLegAndEntryByItself) {
   }
 }
 
-/// By the path that derivatives and causes name it by. No two numbers of this machine are alike.
+/// A number's key is its path in derivatives and causes. No two numbers of this machine are equal.
 TEST(SweepPoints, everyNumberOfTheMachineIsAKey) {
   std::string scenario = TemporaryFolder::read(URSULA_SCENARIOS "/proving-ground.toml");
   for (const auto& [from, to] : {std::pair<std::string, std::string>{"{ actuated =", "{ phi ="},
@@ -123,7 +123,7 @@ TEST(SweepPoints, aDefaultMovesAllLegsAndALegsOwnOnlyIt) {
   }
 }
 
-/// `actuated` and `phi` are one number; a leg or the defaults may have either name for it.
+/// `actuated` and `phi` are one number; a leg or the defaults may use either name.
 TEST(SweepPoints, frictionVariesByEitherOfItsNames) {
   const TemporaryFolder folder;
   const std::string helix = TemporaryFolder::read(helix_file), defaults = "[manipulator.leg_defaults]\n";

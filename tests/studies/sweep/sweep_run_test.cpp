@@ -1,4 +1,4 @@
-// What points are found to be, and that nothing of it hangs on jobs, shards or stops.
+// Results of points, which do not depend on jobs, shards or stops.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ const std::string around = "design = \"random\"\ncount = 60\nsamples = 21\n" +
                            vary("platform.mass", "uniform = [400.0, 600.0]") +
                            vary("leg_defaults.distal.length", "uniform = [0.5, 1.5]");
 
-/// By the paper's equations, one by one.
+/// The expected values come from the paper's equations, pose by pose.
 TEST(SweepWorker, findsTheLargestEffortsAndTheWorstPose) {
   SweepPlan plan = planOf("inverse", around);
   SweepWorker worker(plan);
@@ -83,7 +83,7 @@ TEST(SweepWorker, outOfReachIsAResultAndANumberThatNoMachineHasAnError) {
   for (const char* what : {"inverse", "validate"}) {
     SweepPlan negative =
         planOf(what, "design = \"grid\"\nsamples = 5\n" + vary("platform.mass", "values = [-5, 500, -5]"));
-    for (const std::int64_t i : {0, 2}) {  // the first as any other
+    for (const std::int64_t i : {0, 2}) {  // the first point is treated as any other
       const SweepPoint point = SweepWorker(negative).at(i);
       EXPECT_EQ(point.verdict, "error");
       EXPECT_THAT(point.error, testing::HasSubstr("manipulator.platform.mass: -5, expected > 0"));
@@ -131,7 +131,7 @@ TEST(SweepWorker, pointwiseHasTheValuesOfTheWholeAndFailsWrongMachines) {
     EXPECT_GT(found.at(name).limit, 0);
   }
   EXPECT_EQ(found.count("replay.position"), 0u);
-  // The user's own limit, far below rounding, fails.
+  // A user's limit far below rounding fails.
   SweepFile strict = parseSweepFile(sweepText("validate", rest), "sweep.toml");
   const TemporaryFolder folder;
   strict.scenario =
@@ -195,14 +195,14 @@ TEST(SweepRun, makesErrorsAgainWhereItIsAsked) {
   EXPECT_EQ(done(false), 3);
   EXPECT_EQ(done(false), 0);
   EXPECT_EQ(done(true), 1);
-  Sqlite(file, Sqlite::Access::write).run("DELETE FROM point WHERE id = 0");  // by hand, its results left
+  Sqlite(file, Sqlite::Access::write).run("DELETE FROM point WHERE id = 0");  // removed manually, without its results
   EXPECT_EQ(done(false), 1);
   SweepDatabase database(file);
   EXPECT_EQ(database.pointsDone(), 3);
   EXPECT_EQ(database.sqlite().number("SELECT count(*) FROM result WHERE point = 0"), 14);
 }
 
-/// Which are those that only they have the names for.
+/// Each kind has its own names of margins.
 TEST(SweepWorker, namesTheMarginsOfEveryKind) {
   for (const auto& [file, name] : {std::pair{"paper-helix", "sin_theta"},
                                    {"hexaglide", "cos_theta"},

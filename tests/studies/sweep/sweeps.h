@@ -9,7 +9,7 @@ namespace ursula {
 
 constexpr const char* helix_file = URSULA_SCENARIOS "/paper-helix.toml";
 
-/// A sweep of the paper's helix; `rest` is what comes after what and scenario.
+/// A sweep of the paper's helix; `rest` follows the keys `what` and `scenario`.
 inline std::string sweepText(const std::string& what, const std::string& rest) {
   return "scenario = \"" + std::string(helix_file) + "\"\nwhat = \"" + what + "\"\n" + rest;
 }

@@ -1,4 +1,4 @@
-// Processes that work on points, and what becomes of those that crash.
+// Processes that work on points, and crashes of these.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ SweepPoint answer(std::int64_t id) {
   return {id, "{}", "pass", 0.25, "", {{"square", double(id) * double(id), 1, "pass"}}};
 }
 
-/// All points of [0, count), each handed out with `handful` others; what `work` makes of them, by id.
+/// Runs `work` on all points of [0, count), handed out by `handful`; returns the results by id.
 std::map<std::int64_t, SweepPoint> run(int workers, std::int64_t count, std::int64_t handful,
                                        const std::function<SweepPoint(std::int64_t)>& work) {
   std::map<std::int64_t, SweepPoint> out;
