@@ -1,4 +1,4 @@
-"""The sources of the toys of toys.py: new files, and lines put before a line of a file that exists."""
+"""The sources of the toys of toys.py: new files, and lines inserted before a line of an existing file."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -9,7 +9,7 @@ STARTING_UPS = Path(__file__).resolve().parent.parent / "apps/starting/UPS.toml"
 @dataclass
 class Toy:
     new: dict = field(default_factory=dict)    # file: text
-    edits: dict = field(default_factory=dict)  # file: [(the line before which, what is put)]
+    edits: dict = field(default_factory=dict)  # file: [(an existing line, what is inserted before it)]
 
 
 CHECK = Toy(

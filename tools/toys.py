@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Shows what is touched for each thing that is added often: adds a toy of each to a copy of the tree, and looks for them.
+"""Shows which files each frequent addition touches: adds a toy of each to a copy of the tree, and looks for them.
 
     tools/toys.py add TREE        adds all toys to a copy of the tree, which is then built as ever
     tools/toys.py look PROGRAM    looks for each of them in what that build says and does
@@ -66,7 +66,7 @@ class Program:
         return path.read_text(encoding="utf-8") if path.is_file() else ""
 
     def scenario(self, name, old="", new=""):
-        """A scenario that ships, changed at one place; returns its name."""
+        """Writes a shipped scenario with one change; returns its name."""
         text = (ROOT / "scenarios/paper-helix.toml").read_text(encoding="utf-8")
         (self.folder / name).write_text(text.replace(old, new, 1) if old else text, encoding="utf-8")
         return name

@@ -134,7 +134,7 @@ void writeInertia(mjModel& model, int body, double mass, const Vector3d& center,
 void writeLeg(mjModel& model, int index, const Leg& leg, const Vector3d& origin) {
   const int proximal = proximalBody(index), distal = distalBody(index);
   const bool telescopic = rowOf(leg.kind).isTelescopic(), carriage = rowOf(leg.kind).hasCarriage();
-  // The distal link's origin in the proximal one at coordinates zero, and the link's extent behind its origin.
+  // The distal link's origin in the proximal link at coordinates zero, and how far the link extends behind its origin.
   const double joined_at = telescopic || carriage ? 0 : leg.proximal.length;
   const double behind = telescopic ? leg.distal.length : 0;
   write(leg.base_point - origin, model.body_pos, proximal);

@@ -1,4 +1,4 @@
-// A kind of leg as MuJoCo has it: its joints, and its coordinates at a pose.
+// Each kind of leg in MuJoCo: its joints, and its coordinates at a pose.
 
 #include <fmt/format.h>
 
@@ -65,7 +65,7 @@ class JointsAt {
       throw std::domain_error(fmt::format("leg {} cannot reach over {} m at t = {} s", index_ + 1, distance, t_));
   }
 
-  /// The angle about −u from the frame's zero, and the angle between u and AB.
+  /// Returns the angle about −u from the frame's zero, the angle between u and AB, and 0.
   Vector3d universal() const {
     const Vector3d u = zero_.col(2), across = u.cross(AB_);
     return {std::atan2(-across.dot(zero_.col(1)), across.dot(zero_.col(0))), std::atan2(across.norm(), u.dot(AB_)), 0};

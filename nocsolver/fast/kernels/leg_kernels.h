@@ -1,6 +1,6 @@
 #pragma once
 
-// The fast kernels of all kinds of legs, a file each, and what they have in common. Internal. A kind has
+// The fast kernels of all kinds of legs, each in its file, and their common parts. Internal. A kind has
 //   rowOfMap    the non-zero components of the rows of its map
 //   place       displacement and map, from AB
 //   setRates    rates and accelerations of the coordinates, from B's motion in the axes of the leg's plane
