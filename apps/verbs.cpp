@@ -31,7 +31,8 @@ CLI::Validator finitePositive() {
 
 std::string withoutPercent(std::string text) {
   const LeadingNumber read = leadingNumber(text);
-  const bool is_share = read.length > 0 && read.length + 1 == text.size() && text.back() == '%';
+  const std::string rest = read.length > 0 ? text.substr(read.length) : "";
+  const bool is_share = rest == "%" || rest == " %";
   return is_share ? fmt::format("{}", read.value / 100) : text;
 }
 

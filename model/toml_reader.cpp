@@ -226,8 +226,10 @@ bool TomlSection::readAngle(const std::string& key, double& value) const {
 
 std::optional<std::size_t> TomlSection::readChoice(const ScenarioKey& key) const {
   const std::vector<std::string>& choices = key.choices;
-  std::string given;
-  if (!read(key.name, given)) return std::nullopt;
+  const toml::node* node = table_->get(key.name);
+  if (!node) return std::nullopt;
+  if (!node->is_string()) fail(key.name, fmt::format("{}, expected {}", typeName(*node), quotedList(choices)));
+  const std::string given = node->as_string()->get();
   const auto found = std::find(choices.begin(), choices.end(), given);
   if (found == choices.end())
     fail(key.name, fmt::format("'{}', expected {}{}", shown(given), quotedList(choices), didYouMean(given, choices)));

@@ -187,10 +187,13 @@ std::string quietHead(const SuiteEntry& entry, bool coloured) {
 
 /// Returns lines such as "  replay.position, replay.orientation: not replayed", with each reason once.
 std::string openChecks(const std::vector<Check>& checks) {
+  const bool any_failed =
+      std::any_of(checks.begin(), checks.end(), [](const Check& check) { return check.verdict == Verdict::fail; });
   std::vector<std::pair<std::string, std::string>> lines;  // reason, names
   for (const Check& check : checks) {
     if (!isOpen(check)) continue;
-    const std::string why = whyLine(check, "");
+    const bool undecided = any_failed && check.verdict == Verdict::inconclusive;
+    const std::string why = (undecided ? "inconclusive: " : "") + whyLine(check, "");
     const auto said = std::find_if(lines.begin(), lines.end(), [&why](const auto& line) { return line.first == why; });
     if (said == lines.end())
       lines.emplace_back(why, check.name);

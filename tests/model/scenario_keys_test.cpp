@@ -99,8 +99,9 @@ std::string expectation(const ScenarioKey& key) {
     case KeyType::integer:
       return "expected an integer";
     case KeyType::string:
-    case KeyType::choice:
       return "expected a string";
+    case KeyType::choice:
+      return "expected '";
     case KeyType::choices:
       return "expected an array of strings";
     case KeyType::vector:

@@ -158,7 +158,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "[manipulator]\nplatform = @5\n[manipulator.leg_defaults.x]",
                 "manipulator.platform: an integer, expected a table"},
         Refusal{"knee", "friction = {", "knee = @1\nfriction = {",
-                "manipulator.leg_defaults.knee: an integer, expected a string"},
+                "manipulator.leg_defaults.knee: an integer, expected 'positive' or 'negative'"},
         Refusal{
             "knee_word", "friction = {", "knee = @\"postive\"\nfriction = {",
             "manipulator.leg_defaults.knee: 'postive', expected 'positive' or 'negative', did you mean 'positive'?"}),
