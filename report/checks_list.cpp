@@ -124,21 +124,23 @@ std::string group(const std::string& title, std::vector<Check> checks, const Dec
 
 std::string notApplicable(const std::vector<Check>& checks) {
   std::map<std::string, std::string> names;  // keyed by reason
-  std::size_t count = 0;
+  std::size_t count = 0, reported = 0;
   for (const Check& check : checks) {
     if (check.verdict != Verdict::not_applicable) continue;
-    std::string& of = names[check.why];
+    const bool is_reported = check.reason == Reason::reported;
+    std::string& of = names[is_reported ? "a tolerance is given: reported, not judged" : check.why];
     of += (of.empty() ? "" : ", ") + checkTitle(check.name);
-    ++count;
+    ++(is_reported ? reported : count);
   }
-  if (count == 0) return "";
+  if (count + reported == 0) return "";
   std::string items;
   for (const auto& [why, which] : names)
     items += fmt::format("<dt>since {}</dt><dd>{}</dd>", escaped(why), escaped(which));
   return fmt::format(
       "<details class=\"group not_applicable\"><summary>{} <span class=\"title\">{} more do not apply "
-      "here</span></summary><dl>{}</dl></details>\n",
-      verdictBadge(Verdict::not_applicable), count, items);
+      "here{}</span></summary><dl>{}</dl></details>\n",
+      verdictBadge(Verdict::not_applicable), count,
+      reported == 0 ? "" : fmt::format(", {} are reported and not judged", reported), items);
 }
 
 }  // namespace

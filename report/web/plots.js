@@ -102,7 +102,7 @@ function options(plot, width, events, together) {
       x: { time: false, distr: plot.logX ? 3 : 1, ...(plot.overTime && together.range) },
       y: { distr: plot.logY ? 3 : 1 },
     },
-    axes: [axisOptions(plot.xLabel, plot.logX, 30), axisOptions(plot.yLabel, plot.logY, 60)],
+    axes: [axisOptions(plot.xLabel, plot.logX, 30), axisOptions(plot.yLabel, plot.logY, plot.logY ? 60 : 74)],
     series: [
       { label: plot.xLabel, value: (_, value) => shortNumber(value) },
       ...plot.lines.map((line) => seriesOptions(line, plot, few)),
