@@ -13,6 +13,8 @@ const makers = [
   ["frames", "frames", false, framesLayer],
   ["weak", "singular directions", false, weakLayer],
 ];
+/** The page's own word for what a layer draws: a machine of sliding motors has forces. */
+const headingOf = (key) => document.querySelector(`#${key} > h2`)?.textContent.toLowerCase();
 const view = new Vector3(0.75, -1.15, 0.5);
 
 /** The box that the machine sweeps over the whole motion. */
@@ -65,7 +67,7 @@ class Stage {
     this.factors = factorsFor(machine, this.#size);
     this.factor = this.factors[0] ?? 1;
     this.repaint();
-    this.layers = makers.filter(([key]) => this.#layers.get(key)).map(([key, text, on]) => [key, text, on]);
+    this.layers = makers.filter(([key]) => this.#layers.get(key)).map(([key, text, on]) => [key, headingOf(key) ?? text, on]);
     this.resetView();
     clock.onChange(() => this.render());
     new ResizeObserver(() => this.#fit()).observe(renderer.domElement.parentElement);

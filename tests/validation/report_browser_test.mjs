@@ -63,6 +63,8 @@ for (const [folder, legs] of [["passed", "six URS legs"], ["external", "three UP
     await page.mouse.up();
     assert.ok(!(await machineSeen(page)).equals(later), "the view did not turn");
     for (const layer of await page.locator("[data-layer]").all()) await layer.setChecked(true);
+    const switchText = await page.locator("label", { has: page.locator("[data-layer=efforts]") }).innerText();
+    assert.equal(switchText.trim(), (await page.locator("#efforts > h2").innerText()).toLowerCase(), "two words for efforts");
     assertQuietAndOffline(report);
   });
 
