@@ -129,6 +129,47 @@ TEST(NamedCause, columnsAreNamed) {
   EXPECT_NEAR(window.to_s.value(), 2, 1e-12);
 }
 
+TEST(NamedCause, anAxisIsNamedByItsEntryOrAsAWhole) {
+  const NamedCause entry = named(diagnosed(ofMachine([](auto& machine) { machine.legs[2].base_axis.z() += 0.02; })));
+  EXPECT_EQ(entry.kind, CauseKind::parameter);
+  EXPECT_EQ(entry.parameter, "manipulator.leg.3.base_axis.2");
+  EXPECT_NEAR(entry.found.value() - entry.expected.value(), 0.02, 1e-9);
+  const NamedCause whole =
+      named(diagnosed(ofMachine([](auto& machine) { machine.legs[2].base_axis += Vector3d(0.01, 0.02, 0.02); })));
+  EXPECT_EQ(whole.parameter, "manipulator.leg.3.base_axis");
+  EXPECT_EQ(whole.leg, 3);
+  EXPECT_EQ(named(diagnosed(ofMachine([](auto& machine) {
+              machine.gravity = {0.4, -0.7, -9.78};
+            }))).parameter,
+            "manipulator.gravity");
+  const Diagnosis two = diagnosed(ofMachine([](auto& machine) {
+    for (const std::size_t i : {1, 4}) machine.legs[i].base_axis += Vector3d(0.01, 0.02, 0.02);
+  }));
+  EXPECT_FALSE(two.cause.empty());
+  EXPECT_FALSE(two.named) << two.cause;
+}
+
+/// Answers that say nothing of the machine are small beside the right ones: what they leave out is no cause.
+TEST(NamedCause, theSameAnswerAlwaysIsNamedAndNothingElse) {
+  const TorqueTable exact = exactTorques(helix(), instants);
+  const auto all = [&](const Vector6d& answer) {
+    return diagnosed(exact.changed([answer](std::size_t, Vector6d& tau) { tau = answer; }));
+  };
+  for (const Vector6d& answer : {Vector6d(Vector6d::Zero()), Vector6d(Vector6d::Unit(5)), exact.torques[7]}) {
+    const NamedCause found = named(all(answer));
+    EXPECT_EQ(found.kind, CauseKind::constant);
+    EXPECT_EQ(found.body, "all");
+  }
+  const NamedCause stuck = named(diagnosed(exact.changed([](std::size_t, Vector6d& tau) { tau(3) = 12; })));
+  EXPECT_EQ(stuck.kind, CauseKind::constant);
+  EXPECT_EQ(stuck.motor, 4);
+  EXPECT_EQ(stuck.found, 12);
+  const Diagnosis little =
+      diagnosed(exact.changed([](std::size_t k, Vector6d& tau) { tau = Vector6d::Unit(static_cast<int>(k % 6)); }));
+  EXPECT_FALSE(little.named);
+  EXPECT_EQ(little.cause.find("left out"), std::string::npos) << little.cause;
+}
+
 TEST(NamedCause, noneIsNamedWithoutEvidence) {
   SeededDraws dice(5);
   const Diagnosis noise = diagnosed(exactTorques(helix(), instants).changed([&](std::size_t, Vector6d& tau) {

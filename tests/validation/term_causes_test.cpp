@@ -126,7 +126,7 @@ Scenario withRotors() {
 
 std::vector<Cause> causesLike(const Scenario& scenario, const std::string& words) {
   std::vector<Cause> out;
-  for (const auto& causes : {termCauses, loopCauses, slidingCauses})
+  for (const auto& causes : {termCauses, loopCauses, slidingCauses, rateCauses, motionCauses})
     for (const Cause& cause : causes(scenario))
       if (cause.words(0, 0).find(words) != std::string::npos) out.push_back(cause);
   return out;
@@ -150,21 +150,21 @@ TEST_P(Mistake, isNamedAsItself) {
   EXPECT_EQ(found.named->term, expected.term) << found.cause;
 }
 
-INSTANTIATE_TEST_SUITE_P(Telescopic, Mistake,
-                         testing::Values("inertia of the platform turned on one side only",
-                                         "the moment of inertia of the platform left in its own frame",
-                                         "the gyroscopic moment of the platform left in its own frame",
-                                         "moment about P of gravity", "moment about P of the force of inertia",
-                                         "spin of the links about their own lines left out of omega",
-                                         "cylinders measured back from the platform's joints",
-                                         "rods measured from the base's joints",
-                                         "Coriolis acceleration halved in the joints' accelerations and the rods'",
-                                         "forces of the legs across their lines",
-                                         "each leg carries the same part of the platform",
-                                         "that carry the platform, and those of the legs",
-                                         "about the platform's mass centre, its own about P",
-                                         "accelerations without the rate of the Jacobian of legs and platform"),
-                         [](const auto& each) { return "n" + std::to_string(each.index); });
+INSTANTIATE_TEST_SUITE_P(
+    Telescopic, Mistake,
+    testing::Values(
+        "inertia of the platform turned on one side only",
+        "the moment of inertia of the platform left in its own frame",
+        "the gyroscopic moment of the platform left in its own frame", "moment about P of gravity",
+        "moment about P of the force of inertia", "spin of the links about their own lines left out of omega",
+        "cylinders measured back from the platform's joints", "rods measured from the base's joints",
+        "Coriolis acceleration halved in the joints' accelerations and the rods'",
+        "forces of the legs across their lines", "each leg carries the same part of the platform",
+        "that carry the platform, and those of the legs", "about the platform's mass centre, its own about P",
+        "accelerations without the rate of the Jacobian of legs and platform",
+        "second rates of roll, pitch and yaw without the rate", "roll, pitch and yaw turned in the other order",
+        "x, y, z turned in the other order", "the position of the platform's mass centre taken for that of P"),
+    [](const auto& each) { return "n" + std::to_string(each.index); });
 
 /// A solver that reads the motion wrongly, and whose legs have no end of stroke.
 TEST(ReadingCause, isNamedBeyondTheStrokeAndOfBothRates) {

@@ -1,5 +1,6 @@
 #include "validation/external/asked_apart.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -76,7 +77,7 @@ Poses posesOf(const Manipulator& machine, const std::vector<Motion<double>>& mot
   return out;
 }
 
-/// Second differences of the answers at positions a few units of single precision apart; in double precision they are
+/// Second differences of the answers to questions a few units of single precision apart; in double precision they are
 /// rounding.
 double grainOf(const Subject& subject, const Poses& poses) {
   constexpr int steps = 8;
@@ -87,6 +88,8 @@ double grainOf(const Subject& subject, const Poses& poses) {
     for (int j = 0; j < steps; ++j) {
       Motion<double> near = asked(poses.at[k], both, poses.v[k], poses.w[k]);
       near.p += j * step * someVector(near.p.norm(), k);
+      near.Q = (Eigen::AngleAxisd(j * step, someVector(1, k).normalized()) * near.Q).eval();
+      near.omega *= 1 + j * step;
       answers[static_cast<std::size_t>(j)] = subject.torques(near);
     }
     for (std::size_t j = 2; j < steps; ++j)

@@ -28,17 +28,6 @@ void pick(const TorqueResidual& data, std::size_t first, std::size_t last, std::
   }
 }
 
-/// Picks rows; half of them lie along the motion if a solver also answered separate questions.
-TorqueResidual picked(const TorqueResidual& data, std::size_t most) {
-  TorqueResidual out;
-  out.motors = data.motors;
-  const std::size_t rows = data.exact.size(), apart = rows - data.commanded;
-  pick(data, 0, data.commanded, most - std::min(apart, most / 2), out);
-  out.commanded = out.exact.size();
-  pick(data, data.commanded, rows, most / 2, out);
-  return out;
-}
-
 double dot(const Rows& a, const Rows& b) {
   double sum = 0;
   for (std::size_t k = 0; k < a.size(); ++k) sum += a[k].dot(b[k]);
@@ -192,8 +181,18 @@ void keepBest(std::vector<Candidate>& candidates, std::size_t most) {
 
 }  // namespace
 
+TorqueResidual TorqueResidual::picked(std::size_t most) const {
+  TorqueResidual out;
+  out.motors = motors;
+  const std::size_t rows = exact.size(), apart = rows - commanded;
+  pick(*this, 0, commanded, most - std::min(apart, most / 2), out);
+  out.commanded = out.exact.size();
+  pick(*this, commanded, rows, most / 2, out);
+  return out;
+}
+
 std::vector<Hypothesis> fitCauses(const std::vector<Cause>& causes, const TorqueResidual& data) {
-  const TorqueResidual few = picked(data, few_instants), all = picked(data, most_instants);
+  const TorqueResidual few = data.picked(few_instants), all = data.picked(most_instants);
   std::vector<Candidate> candidates;
   if (!(few.norm() > 0)) return {};
   for (std::size_t i = 0; i < causes.size(); ++i) {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "validation/external/answers_alone.h"
 #include "validation/external/explanation.h"
-#include "validation/external/few_digits.h"
 #include "validation/external/hypotheses.h"
 
 namespace ursula {
@@ -117,7 +117,11 @@ std::string percent(double explained) {
   return fmt::format("{:.4f} % of the deviation", 100 * std::max(0.0, explained));
 }
 
-bool explains(const Hypothesis& one) { return one.beyond <= may_be_beyond && one.unexplained <= may_be_chance; }
+/// A small remainder of the deviation may still be all that was answered, where few digits make wide limits.
+bool explains(const Hypothesis& one) {
+  return one.beyond <= may_be_beyond && one.unexplained <= may_be_chance &&
+         (one.of_found <= may_be_chance || one.beyond <= 1);
+}
 
 /// Returns the best hypotheses: all that explain everything, otherwise all near the smallest remainder. Those with
 /// fewest fitted numbers come first, then the most plausible ones. Numbers that no body can have are left out beside
@@ -241,12 +245,12 @@ Explanation explanationOf(const Scenario& scenario, const ExternalTorques& torqu
   const Hypothesis& first = best.front();
   const std::string how_much = fmt::format("{}, which explains {}", first.text, percent(first.explained()));
   if (explains(first)) return named(best, data, how_much + othersText(best));
-  if (first.unexplained < may_remain)
+  if (std::max(first.unexplained, first.of_found) < may_remain)
     return {fmt::format("a likely part: {}; what remains is up to {:.3g} times the limit of rounding and digits{}",
                         how_much, first.beyond, othersText(best))};
   if (const Explanation interval = intervalAlone(scenario, torques, data); !interval.text.empty()) return interval;
   if (const std::string alone = loneInstants(torques); !alone.empty()) return {"no simple explanation: " + alone};
-  if (first.explained() >= worth_naming)  // noise is explained by nothing
+  if (first.explained() >= worth_naming && first.of_found <= worth_naming)  // noise is explained by nothing
     return {
         fmt::format("no simple explanation; the best, {}, explains only {}", first.text, percent(first.explained()))};
   return {isNoise(data.alongMotion()) ? "no pattern from one instant to the next, as of noise or too few digits"
@@ -261,7 +265,8 @@ Diagnosis diagnose(const Scenario& scenario, const ExternalTorques& torques, con
   const std::optional<Explanation> digits = fewDigits(motors, torques, asked);
   if (out.summary.empty() && digits) out = deviationTexts(motors, inEveryDigit(torques));
   if (out.summary.empty()) return out;
-  Explanation explanation = digits ? *digits : explanationOf(scenario, torques, asked);
+  const std::optional<Explanation> same = sameAnswers(motors, torques, asked);
+  Explanation explanation = same ? *same : digits ? *digits : explanationOf(scenario, torques, asked);
   out.cause = std::move(explanation.text);
   out.named = std::move(explanation.named);
   out.others = std::move(explanation.others);

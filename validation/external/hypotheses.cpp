@@ -219,8 +219,13 @@ std::string unitOf(double factor, const MotorNames& motors) {
 
 std::vector<Hypothesis> fitHypotheses(const Scenario& scenario, const TorqueResidual& data) {
   std::vector<Hypothesis> out;
-  const auto add = [&out](std::optional<Hypothesis> fitted) {
-    if (fitted && std::isfinite(fitted->unexplained)) out.push_back(*fitted);
+  Rows found = data.exact;
+  for (std::size_t k = 0; k < found.size(); ++k) found[k] += data.residual[k];
+  const double growth = data.norm() / std::max(norm(found), 1e-300);
+  const auto add = [&out, growth](std::optional<Hypothesis> fitted) {
+    if (!fitted || !std::isfinite(fitted->unexplained)) return;
+    fitted->of_found = fitted->unexplained * growth;
+    out.push_back(*fitted);
   };
   add(signsAndOrder(data));
   const std::vector<TorqueTerm> terms = torqueTerms(scenario, data.motions, data.exact);
@@ -239,6 +244,8 @@ std::vector<Hypothesis> fitHypotheses(const Scenario& scenario, const TorqueResi
   for (const auto& more : {motionCauses, rateCauses, termCauses, slidingCauses, loopCauses})
     for (Cause& cause : more(scenario)) causes.push_back(std::move(cause));
   for (const Hypothesis& fitted : fitCauses(causes, data)) add(fitted);
+  if (data.exact.size() >= 3)
+    for (const Hypothesis& fitted : fitVectors(scenario, data)) add(fitted);
   return out;
 }
 

@@ -39,6 +39,9 @@ struct TorqueResidual {
   void add(const Motion<double>& motion, const Vector6d& right, const Vector6d& found, const Vector6d& within);
   /// Only the rows along the commanded motion.
   TorqueResidual alongMotion() const;
+  /// At most `most` rows, evenly picked; half of them lie along the motion if a solver also answered separate
+  /// questions.
+  TorqueResidual picked(std::size_t most) const;
 
   double norm() const;
   /// The largest ratio of an entry of `left`, one row per instant, to its limit.
@@ -53,6 +56,7 @@ struct Hypothesis {
   double beyond = std::numeric_limits<double>::infinity();  ///< the largest remainder, in multiples of the limit
   std::optional<NamedCause> named = {};                     ///< nullopt if the contract has no name for it
   bool is_possible = true;                                  ///< whether bodies can have the fitted number
+  double of_found = 1;                                      ///< ‖residual − predicted‖ / ‖subject's torques‖
   double explained() const { return 1 - unexplained; }
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <tuple>
 #include <utility>
 
@@ -151,13 +152,24 @@ void addRotors(const Scenario& scenario, MachineCauses& out) {
                  });
 }
 
+/// The unit of a tensor that is this many times too large; null if it is none.
+const char* unitOfInertia(double factor) {
+  for (const auto& [value, unit] :
+       {std::pair(1e4, "kg cm^2"), {1e6, "kg mm^2"}, {1e7, "g cm^2"}, {1e9, "g mm^2"}, {23.730360, "lb ft^2"}})
+    if (std::abs(factor / value - 1) < 1e-6) return unit;
+  return nullptr;
+}
+
 void addPlatform(MachineCauses& out) {
   out.addFitted([](Machine& machine, double x) { machine.platform.inertia *= 1 + x; },
                 [](double x, double deviation) {
-                  return fmt::format("platform inertia tensor scaled by {}", withDeviation(1 + x, deviation));
+                  const char* unit = unitOfInertia(1 + x);
+                  return fmt::format("platform inertia tensor scaled by {}{}", withDeviation(1 + x, deviation),
+                                     unit != nullptr ? fmt::format(" ({} for kg m^2)", unit) : "");
                 },
                 [](double x, double deviation) {
-                  return NamedCause{CauseKind::scale, "inertia", "platform", "", "", 1, 1 + x, deviation};
+                  const CauseKind kind = unitOfInertia(1 + x) != nullptr ? CauseKind::units : CauseKind::scale;
+                  return NamedCause{kind, "inertia", "platform", "", "", 1, 1 + x, deviation};
                 });
   out.addFitted(
       [](Machine& machine, double x) {  // in units of the platform's mass

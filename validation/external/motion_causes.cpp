@@ -121,6 +121,17 @@ void addFrames(const Scenario& scenario, std::vector<Cause>& out) {
     add({std::string("the rate of omega alone") + words, NamedCause{CauseKind::frame, "angular_acceleration", "all"}},
         [turn](Motion<double>& motion) { motion.omega_dot = turn(motion.Q, motion.omega_dot); });
   }
+  const auto turn_back = [](Motion<double>& motion) {
+    for (Vector3d* each : {&motion.p_dot, &motion.p_ddot}) *each = (motion.Q.transpose() * *each).eval();
+  };
+  add({"velocity and acceleration of P taken in the platform's frame for such in the base's",
+       NamedCause{CauseKind::frame, "velocity", "all"}},
+      turn_back);
+  add({"all rates taken in the platform's frame for such in the base's", NamedCause{CauseKind::frame, "", "all"}},
+      [turn_back](Motion<double>& motion) {
+        turn_back(motion);
+        for (Vector3d* each : {&motion.omega, &motion.omega_dot}) *each = (motion.Q.transpose() * *each).eval();
+      });
   add({"omega and its rate with the wrong sign", NamedCause{CauseKind::sign, "angular_velocity", "all"}},
       [](Motion<double>& motion) {
         motion.omega *= -1;
@@ -133,6 +144,12 @@ void addFrames(const Scenario& scenario, std::vector<Cause>& out) {
   add({"velocity and acceleration of P taken for those of the platform's mass centre",
        NamedCause{CauseKind::reference_point, "", "platform"}},
       [rho](Motion<double>& motion) { ofMassCentre(motion, rho, -1); });
+  add({"the position of the platform's mass centre taken for that of P",
+       NamedCause{CauseKind::reference_point, "", "platform"}},
+      [rho](Motion<double>& motion) { motion.p += motion.Q * rho; });
+  add({"the position of P taken for that of the platform's mass centre",
+       NamedCause{CauseKind::reference_point, "", "platform"}},
+      [rho](Motion<double>& motion) { motion.p -= motion.Q * rho; });
   add({"the path of P taken for that of the platform's mass centre",
        NamedCause{CauseKind::reference_point, "", "platform"}},
       [rho](Motion<double>& motion) {
@@ -166,15 +183,6 @@ void addNotTurned(const Scenario& scenario, std::vector<Cause>& out) {
   const auto add = [&](const CauseName& name, const MachineChange& change) {
     out.push_back(notTurned(scenario, name, change));
   };
-  add({"the platform's inertia not turned into the base's frame", NamedCause{CauseKind::frame, "inertia", "platform"}},
-      [](ManipulatorParameters& machine, const Matrix3d& Q) {
-        machine.platform.inertia = (Q.transpose() * machine.platform.inertia * Q).eval();
-      });
-  add({"the platform's inertia turned the wrong way", NamedCause{CauseKind::frame, "inertia", "platform"}},
-      [](ManipulatorParameters& machine, const Matrix3d& Q) {
-        const Matrix3d twice = Q * Q;  // Q (Qᵀ Qᵀ I Q Q) Qᵀ = Qᵀ I Q
-        machine.platform.inertia = (twice.transpose() * machine.platform.inertia * twice).eval();
-      });
   add({"the platform's mass centre not turned into the base's frame",
        NamedCause{CauseKind::frame, "orientation", "platform"}},
       [](ManipulatorParameters& machine, const Matrix3d& Q) {

@@ -1,5 +1,8 @@
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "base/angles.h"
@@ -25,24 +28,57 @@ EulerAxes cardan(const Matrix3d& Q) {
           {std::sin(second), -std::sin(first) * std::cos(second), std::cos(first) * std::cos(second)}};
 }
 
+/// ω = E θ̇.
+struct AngleRates {
+  Matrix3d E;
+  Vector3d rate, bias;  ///< θ̇ and Ė θ̇
+
+  AngleRates(const EulerAxes& at, const Vector3d& omega) {
+    E << at.e1, at.e2, at.e3;
+    rate = E.lu().solve(omega);
+    bias = rate(0) * rate(1) * at.e1.cross(at.e2) + rate(2) * (rate(0) * at.e1 + rate(1) * at.e2).cross(at.e3);
+  }
+};
+
 /// The angles' rates, and theirs, where ω and ω̇ belong; `of_x` is the angle that stands for x, 0 or 2.
 void anglesForOmega(const EulerAxes& at, int of_x, Motion<double>& motion) {
-  Matrix3d E;
-  E << at.e1, at.e2, at.e3;
-  const Vector3d rate = E.lu().solve(motion.omega);
-  const Vector3d bias =
-      rate(0) * rate(1) * at.e1.cross(at.e2) + rate(2) * (rate(0) * at.e1 + rate(1) * at.e2).cross(at.e3);
-  const Vector3d second = E.lu().solve(motion.omega_dot - bias);
+  const AngleRates angles(at, motion.omega);
+  const Vector3d &rate = angles.rate, second = angles.E.lu().solve(motion.omega_dot - angles.bias);
   motion.omega = of_x == 0 ? rate : Vector3d(rate.reverse());
   motion.omega_dot = of_x == 0 ? second : Vector3d(second.reverse());
 }
 
+/// Turns of Q = Rz Ry Rx made in the order x, y, z, or turns of Q = Rx Ry Rz in the order z, y, x.
+Matrix3d inOtherOrder(const Matrix3d& Q, bool is_zyx) {
+  const auto turn = [](double angle, int axis) { return Eigen::AngleAxisd(angle, Vector3d::Unit(axis)); };
+  if (is_zyx)
+    return (turn(std::atan2(Q(2, 1), Q(2, 2)), 0) * turn(std::asin(-Q(2, 0)), 1) *
+            turn(std::atan2(Q(1, 0), Q(0, 0)), 2))
+        .toRotationMatrix();
+  return (turn(std::atan2(-Q(0, 1), Q(0, 0)), 2) * turn(std::asin(Q(0, 2)), 1) * turn(std::atan2(-Q(1, 2), Q(2, 2)), 0))
+      .toRotationMatrix();
+}
+
 void addAngles(const Scenario& scenario, std::vector<Cause>& out) {
-  const NamedCause named{CauseKind::frame, "angular_velocity", "all"};
-  out.push_back(readOtherwise(scenario, {"rates of roll, pitch and yaw taken for the angular velocity", named},
-                              [](Motion<double>& motion) { anglesForOmega(rollPitchYaw(motion.Q), 2, motion); }));
-  out.push_back(readOtherwise(scenario, {"rates of Cardan's angles x, y, z taken for the angular velocity", named},
-                              [](Motion<double>& motion) { anglesForOmega(cardan(motion.Q), 0, motion); }));
+  struct Angles {
+    const char* words;
+    EulerAxes (*axes)(const Matrix3d&);
+    int of_x;
+  };
+  for (const auto& [words, axes, of_x] :
+       {Angles{"roll, pitch and yaw", rollPitchYaw, 2}, {"Cardan's angles x, y, z", cardan, 0}}) {
+    const std::string angles = words;
+    const auto add = [&](const std::string& text, const char* term,
+                         const std::function<void(Motion<double>&)>& change) {
+      out.push_back(readOtherwise(scenario, {text, NamedCause{CauseKind::frame, term, "all"}}, change));
+    };
+    add("rates of " + angles + " taken for the angular velocity", "angular_velocity",
+        [axes = axes, of_x = of_x](Motion<double>& motion) { anglesForOmega(axes(motion.Q), of_x, motion); });
+    add("second rates of " + angles + " without the rate of their matrix", "angular_acceleration",
+        [axes = axes](Motion<double>& motion) { motion.omega_dot -= AngleRates(axes(motion.Q), motion.omega).bias; });
+    add(angles + " turned in the other order", "orientation",
+        [of_x = of_x](Motion<double>& motion) { motion.Q = inOtherOrder(motion.Q, of_x == 2); });
+  }
 }
 
 void addUnits(const Scenario& scenario, std::vector<Cause>& out) {

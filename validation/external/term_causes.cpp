@@ -215,6 +215,12 @@ void addTensors(Collector& out) {
   out.addChange("inertia of ", ", about the mass centre, taken for such about the first joint, or P",
                 CauseKind::reference_point, "inertia",
                 withTensor([](const BodyTerms& body) -> Matrix3d { return body.inertia - steiner(body); }));
+  for (const auto& [words, back] : {std::pair(" along its own axes", false), {" turned the wrong way", true}})
+    out.addChange("gravity of ", words, CauseKind::frame, "gravity",
+                  [back = back](const MachineTerms& machine, const BodyTerms& body) {
+                    const Matrix3d R = back ? Matrix3d(body.R.transpose()) : body.R;
+                    return Vector6d(body.gravityWrench(machine.gravity) - body.gravityWrench(R * machine.gravity));
+                  });
   const auto leftInOwnFrame = [](const Wrench& moment) {
     return [moment](const MachineTerms& machine, const BodyTerms& body) {
       const Vector3d n = moment(machine, body).head<3>();

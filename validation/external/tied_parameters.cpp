@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/angles.h"
 #include "base/scalar.h"
 #include "validation/external/cause.h"
 
@@ -22,13 +21,10 @@ void TiedParameters::disturb(ManipulatorParameters& machine, double relative) co
 
 std::string TiedParameters::text(const ManipulatorParameters& machine, double relative, double deviation) const {
   const Parameter& first = members.front();
-  if (first.turns()) {
-    return fmt::format("{} by {} deg", words,
-                       withDeviation(degrees_per_radian * relative, degrees_per_radian * deviation));
-  }
   ManipulatorParameters changed = machine, further = machine;
   disturb(changed, relative);
   disturb(further, relative + deviation);
+  const std::string unit = first.unit.empty() ? "" : " " + first.unit;
   bool same_before = true, same_change = true;
   const double before = first.get(machine), after = first.get(changed);
   for (const Parameter& member : members) {
@@ -36,9 +32,8 @@ std::string TiedParameters::text(const ManipulatorParameters& machine, double re
     same_change = same_change && isEqual(member.get(changed) - member.get(machine), after - before);
   }
   const double spread = std::abs(first.get(further) - after);
-  if (same_before)
-    return fmt::format("{} {} {} instead of {:.9g}", words, withDeviation(after, spread), first.unit, before);
-  if (same_change) return fmt::format("{} off by {} {}", words, withDeviation(after - before, spread), first.unit);
+  if (same_before) return fmt::format("{} {}{} instead of {:.9g}", words, withDeviation(after, spread), unit, before);
+  if (same_change) return fmt::format("{} off by {}{}", words, withDeviation(after - before, spread), unit);
   return fmt::format("{} off by a relative {}", words, withDeviation(relative, deviation));
 }
 
@@ -75,10 +70,6 @@ std::optional<NamedCause> TiedParameters::named(const ManipulatorParameters& mac
   }
   out.parameter = first.path;
   if (!one) out.parameter.replace(0, first.path.find('.', sizeof("manipulator.leg.") - 1), "manipulator.leg_defaults");
-  if (first.turns()) {
-    out.parameter.erase(out.parameter.rfind('.'));  // a rotation concerns the whole axis
-    return out;
-  }
   out.unit = first.unit;
   out.expected = before;
   out.found = after;
@@ -92,7 +83,8 @@ std::vector<TiedParameters> tiedParameters(const Manipulator& machine) {
     const auto found = std::find_if(list.begin(), list.end(), [&](const auto& one) { return one.words == words; });
     (found == list.end() ? list.emplace_back(TiedParameters{words, {}}) : *found).members.push_back(member);
   };
-  for (const Parameter& one : allParameters(machine)) {
+  for (const MachineNumber& number : machineNumbers(machine.parameters())) {
+    const Parameter one{number};
     const std::string &words = one.words, &link = one.body, leg = std::to_string(one.leg + 1);
     if (one.leg < 0) {
       add(out, one.body.empty() ? words : one.body + " " + words, one);

@@ -42,6 +42,10 @@ std::optional<Hypothesis> timeShift(const Scenario& scenario, const TorqueResidu
 /// effect.
 std::optional<Hypothesis> softLoops(const Scenario& scenario, const TorqueResidual& data);
 
+/// Tries every vector of the machine with all its entries wrong: gravity, mass centres, points, axes. It fits two or
+/// three numbers each, and drops those that leave more than a thousandth.
+std::vector<Hypothesis> fitVectors(const Scenario& scenario, const TorqueResidual& data);
+
 /// The efforts that a mistake adds for one motion.
 using EffortChange = std::function<Vector6d(const MachineTerms&)>;
 

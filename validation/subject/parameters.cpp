@@ -23,7 +23,7 @@ std::vector<Parameter> allParameters(const Manipulator& machine) {
   std::vector<Parameter> out;
   for (const MachineNumber& number : machineNumbers(machine.parameters())) {
     Parameter parameter{number};
-    if (parameter.turns()) {
+    if (number.quantity == Quantity::base_axis) {
       if (number.entry == 2) continue;
       parameter.path.replace(parameter.path.size() - 1, 1, number.entry == 0 ? "across" : "along");
       parameter.words = number.entry == 0 ? "base axis (turned one way)" : "base axis (turned the other way)";

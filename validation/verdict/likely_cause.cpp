@@ -1,43 +1,14 @@
 #include "validation/verdict/likely_cause.h"
 
-#include <stdexcept>
+#include <cstddef>
 
 namespace ursula {
 
 const char* name(CauseKind kind) {
-  switch (kind) {
-    case CauseKind::scale:
-      return "scale";
-    case CauseKind::sign:
-      return "sign";
-    case CauseKind::order:
-      return "order";
-    case CauseKind::units:
-      return "units";
-    case CauseKind::offset:
-      return "offset";
-    case CauseKind::delay:
-      return "delay";
-    case CauseKind::digits:
-      return "digits";
-    case CauseKind::state:
-      return "state";
-    case CauseKind::parameter:
-      return "parameter";
-    case CauseKind::reference_point:
-      return "reference_point";
-    case CauseKind::missing_term:
-      return "missing_term";
-    case CauseKind::frame:
-      return "frame";
-    case CauseKind::jacobian:
-      return "jacobian";
-    case CauseKind::closure:
-      return "closure";
-    case CauseKind::window:
-      return "window";
-  }
-  throw std::logic_error("a kind of cause without a name");
+  static constexpr const char* names[] = {
+      "scale", "sign",      "order",           "units",        "offset", "constant", "delay",   "digits",
+      "state", "parameter", "reference_point", "missing_term", "frame",  "jacobian", "closure", "window"};
+  return names[static_cast<std::size_t>(kind)];
 }
 
 }  // namespace ursula

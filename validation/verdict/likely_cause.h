@@ -7,12 +7,14 @@
 
 namespace ursula {
 
+/// In the order of their names in likely_cause.cpp.
 enum class CauseKind {
   scale,
   sign,
   order,
   units,
   offset,
+  constant,
   delay,
   digits,
   state,

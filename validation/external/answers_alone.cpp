@@ -1,4 +1,4 @@
-#include "validation/external/few_digits.h"
+#include "validation/external/answers_alone.h"
 
 #include <fmt/format.h>
 
@@ -40,11 +40,13 @@ double lastDigit(double value, int digits) {
   return value == 0 ? 0 : std::pow(10.0, std::floor(std::log10(std::abs(value))) - digits + 1);
 }
 
-/// Explains answers that a format of few digits reproduces, and that deviate by at most half of the last digit.
+/// Explains answers that a format of few digits reproduces, and that deviate by at most half of the last digit, or by
+/// less than one towards zero.
 std::optional<Explanation> rounded(const MotorNames& motors, const ExternalTorques& torques) {
   constexpr int most = 12;
   const auto offBy = [&](std::size_t k, int i, double unit) {
-    return std::abs(offAt(torques, k, i)) <= 0.5 * unit * (1 + 1e-9) + roundingAt(torques, k);
+    const double off = offAt(torques, k, i), limit = unit * (1 + 1e-9) + roundingAt(torques, k);
+    return std::abs(off) <= limit - 0.5 * unit || (off * torques.noc[k](i) <= 0 && std::abs(off) <= limit);
   };
   for (int digits = 1; digits <= most; ++digits) {
     const bool all = holdsForAll(torques, [&](std::size_t k, int i) {
@@ -85,7 +87,54 @@ std::optional<Explanation> grainy(const MotorNames& motors, const ExternalTorque
                   asked.grain, motors.unit(0), asked.grain / largest, grains));
 }
 
+/// Whether a motor's efforts are one number, where the right ones differ beyond their limits.
+bool isConstant(const ExternalTorques& torques, const AskedApart& asked, int i) {
+  const double value = torques.file.torques.front()(i);
+  double least = torques.noc.front()(i), most = least, limit = 0;
+  for (std::size_t k = 0; k < torques.file.rows(); ++k) {
+    if (torques.file.torques[k](i) != value) return false;
+    least = std::min(least, torques.noc[k](i));
+    most = std::max(most, torques.noc[k](i));
+    limit = std::max(limit, limitAt(torques, k, i));
+  }
+  const auto same = [&](const Vector6d& answer) { return answer(i) == value; };
+  return most - least > 4 * limit && std::all_of(asked.found.begin(), asked.found.end(), same);
+}
+
+/// Whether a motor is right at every instant.
+bool isRight(const ExternalTorques& torques, int i) {
+  for (std::size_t k = 0; k < torques.file.rows(); ++k)
+    if (!(std::abs(offAt(torques, k, i)) <= limitAt(torques, k, i))) return false;
+  return true;
+}
+
 }  // namespace
+
+std::optional<Explanation> sameAnswers(const MotorNames& motors, const ExternalTorques& torques,
+                                       const AskedApart& asked) {
+  std::vector<int> which;
+  std::string text;
+  for (int i = 0; i < motor_count && torques.file.rows() > 0; ++i) {
+    if (isConstant(torques, asked, i)) {
+      which.push_back(i);
+      text += fmt::format("{}{:.6g} {} of {}", text.empty() ? "" : ", ", torques.file.torques.front()(i),
+                          motors.unit(i), motors(i));
+    } else if (!isRight(torques, i)) {
+      return std::nullopt;
+    }
+  }
+  if (which.empty()) return std::nullopt;
+  const char* when = asked.terms.empty() ? "at every instant" : "whatever is asked";
+  Explanation out{fmt::format("the same answer {}: {}", when, text), NamedCause{CauseKind::constant}};
+  out.named->explained = 1;
+  if (which.size() == motor_count) out.named->body = "all";
+  if (which.size() == 1) {
+    out.named->motor = which.front() + 1;
+    out.named->found = torques.file.torques.front()(which.front());
+    out.named->unit = motors.slides[static_cast<std::size_t>(which.front())] ? "N" : "N m";
+  }
+  return out;
+}
 
 std::optional<Explanation> fewDigits(const MotorNames& motors, const ExternalTorques& torques,
                                      const AskedApart& asked) {

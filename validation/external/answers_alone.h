@@ -24,6 +24,11 @@ inline double limitAt(const ExternalTorques& torques, std::size_t row, int motor
 /// deviations.
 std::optional<Explanation> fewDigits(const MotorNames& motors, const ExternalTorques& torques, const AskedApart& asked);
 
+/// Explains motors that answer the same at every instant, and whatever they are asked, where the right efforts vary.
+/// The others must be right. Returns none otherwise.
+std::optional<Explanation> sameAnswers(const MotorNames& motors, const ExternalTorques& torques,
+                                       const AskedApart& asked);
+
 /// Removes the allowance for unprinted digits, because a solver's answers have every digit.
 ExternalTorques inEveryDigit(ExternalTorques torques);
 
