@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <utility>
 
-#include "base/dense.h"
 #include "model/machine_numbers.h"
 #include "nocsolver/errors.h"
 #include "validation/external/machine_collector.h"
@@ -13,7 +13,6 @@
 namespace ursula {
 namespace {
 
-using Rows = std::vector<Vector6d>;
 /// The three entries of one vector of the machine.
 using Entries = std::vector<MachineNumber>;
 
@@ -30,6 +29,17 @@ std::vector<Entries> vectorsOf(const ManipulatorParameters& machine) {
 void move(const Entries& entries, const Eigen::Vector3d& by, ManipulatorParameters& machine) {
   for (std::size_t k = 0; k < entries.size(); ++k)
     entries[k].set(machine, entries[k].get(machine) + by(static_cast<Eigen::Index>(k)));
+}
+
+/// The shortest solution. Ways that change nothing, such as an axis's own length, have the rounding of differences.
+Vector3d leastSolution(const Matrix3d& matrix, const Vector3d& right) {
+  constexpr double nothing = 1e-10;
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> parts(matrix);
+  Vector3d out = Vector3d::Zero();
+  for (int k = 0; k < 3; ++k)
+    if (const double value = parts.eigenvalues()(k); value > nothing * parts.eigenvalues()(2))
+      out += parts.eigenvectors().col(k) * (parts.eigenvectors().col(k).dot(right) / value);
+  return out;
 }
 
 /// Fits a change of all entries of one vector to the residual by Gauss–Newton with differences.
@@ -70,13 +80,13 @@ class VectorFit {
   }
 
   bool step() {
-    Eigen::MatrixXd slopes(left_.size(), 3);
+    Eigen::Matrix<double, Eigen::Dynamic, 3> slopes(left_.size(), 3);
     for (int k = 0; k < 3; ++k) {
       const Vector3d little = step_ * Vector3d::Unit(k);
       slopes.col(k) = (remaining(change_ - little) - remaining(change_ + little)) / (2 * step_);
     }
     if (!slopes.allFinite() || !left_.allFinite()) return false;
-    Vector3d by = leastSquaresSolution(slopes, left_);
+    Vector3d by = leastSolution(slopes.transpose() * slopes, slopes.transpose() * left_);
     for (int halvings = 0; halvings < 8; ++halvings, by /= 2) {
       const Eigen::VectorXd there = remaining(change_ + by);
       if (!(there.norm() < left_.norm())) continue;

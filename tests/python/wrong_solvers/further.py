@@ -217,3 +217,56 @@ add("UPS", "joint-circle", "platform points 1 % too far out", [P("manipulator.*p
 add("PUS", "base-sign", "base point of leg 2 mirrored by 1 cm", [P("manipulator.leg.2.base_point*")],
     params=of_leg(2, "base_point", lambda a: [a[0] - 0.01, a[1], a[2]]))
 add("mix", "kN-sliding", "kN of the motors that slide, N m of those that turn", [K("units"), K("scale"), None], post(sliding_only))
+
+# Written after the causes for those above; what is expected was again decided before any answer.
+
+
+def vector(path, by):
+    """Adds to a vector of the machine: "platform.center_of_mass", "leg.4.platform_point"."""
+    keys = path.split(".")
+
+    def go(m, d):
+        owner = m["leg"][int(keys[1]) - 1] if keys[0] == "leg" else m if len(keys) == 1 else m[keys[0]]
+        owner[keys[-1]] = [float(x) for x in np.add(owner[keys[-1]], by)]
+    return go
+
+
+def both(*changes):
+    def go(m, d):
+        for change in changes:
+            change(m, d)
+    return go
+
+
+def statics(d, s):
+    """Only the platform's weight by the Jacobian: legs without mass, nothing moves."""
+    h = Hexapod(d, no_link="legs")
+
+    def solver(m):
+        zero = np.zeros_like(np.array(m.v, float))
+        return h(type("M", (), dict(t=m.t, p=m.p, q=m.q, v=zero, w=zero, a=zero, alpha=zero)))
+    return solver
+
+
+def hashed(y, m):
+    """Small numbers that depend on the question, and on nothing else."""
+    return np.sin(1e4 * y) * np.array([1, 2, 3, 1, 2, 3])
+
+
+for machines, path, by in (("UPS", "platform.center_of_mass", [.01, -.02, .015]), ("URS RUS", "leg.4.platform_point", [.004, .003, -.002]),
+                           ("PUS", "leg.2.base_point", [.003, -.002, .004]), ("PUS URS", "leg.1.base_axis", [.03, .02, -.05]),
+                           ("RUS", "gravity", [-.4, -9.11, 9.78])):
+    add(machines, "all-of-" + path, path + " wrong in all entries", [P("manipulator." + path + "*")], params=vector(path, by))
+add("PUS", "two-axes", "axes of legs 1 and 4", None,
+    params=both(vector("leg.1.base_axis", [.03, 0, 0]), vector("leg.4.base_axis", [0, .03, .01])))
+add("UPS", "two-points", "both points of leg 3", None,
+    params=both(vector("leg.3.base_point", [.003, 0, .002]), vector("leg.3.platform_point", [0, .002, .001])))
+add("URS", "point-and-mass", "point of leg 2, mass of the platform", None,
+    params=both(vector("leg.2.platform_point", [.001, .001, .001]), platform_times("mass", 1.01)))
+add("UPS RUS", "weight-only", "the platform's weight alone", None, statics)
+add("PUS", "hashed", "small numbers by chance", None, post(hashed))
+add("RUS", "one-alive", "motor 1 is right, the others zero", [K("constant")], post(lambda y, m: y * (np.arange(6) == 0)))
+add("UPS", "half-alive", "motors 4 to 6 zero, the others 10 % too large", [K("scale"), None], post(lambda y, m: 1.1 * y * (np.arange(6) < 3)))
+add("URS", "one-digit", "one significant digit", [K("digits")],
+    post(lambda y, m: np.array([[float(f"{x:.0e}") for x in row] for row in y])))
+add("PUS", "pulling", "no pushing: forces below zero are zero", [K("window"), None], post(lambda y, m: np.maximum(y, 0.0)))
