@@ -32,13 +32,16 @@ void move(const Entries& entries, const Eigen::Vector3d& by, ManipulatorParamete
 }
 
 /// The shortest solution. Ways that change nothing, such as an axis's own length, have the rounding of differences.
-Vector3d leastSolution(const Matrix3d& matrix, const Vector3d& right) {
+Vector3d leastSolution(const Matrix3d& matrix, const Vector3d& right, int& rank) {
   constexpr double nothing = 1e-10;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> parts(matrix);
   Vector3d out = Vector3d::Zero();
+  rank = 0;
   for (int k = 0; k < 3; ++k)
-    if (const double value = parts.eigenvalues()(k); value > nothing * parts.eigenvalues()(2))
+    if (const double value = parts.eigenvalues()(k); value > nothing * parts.eigenvalues()(2)) {
       out += parts.eigenvectors().col(k) * (parts.eigenvectors().col(k).dot(right) / value);
+      ++rank;
+    }
   return out;
 }
 
@@ -53,6 +56,7 @@ class VectorFit {
   }
 
   const Vector3d& change() const { return change_; }
+  int rank() const { return rank_; }  ///< number of directions with an effect
   double unexplained() const { return left_.norm() / data_.norm(); }
 
   void improve(int steps) {
@@ -86,7 +90,7 @@ class VectorFit {
       slopes.col(k) = (remaining(change_ - little) - remaining(change_ + little)) / (2 * step_);
     }
     if (!slopes.allFinite() || !left_.allFinite()) return false;
-    Vector3d by = leastSolution(slopes.transpose() * slopes, slopes.transpose() * left_);
+    Vector3d by = leastSolution(slopes.transpose() * slopes, slopes.transpose() * left_, rank_);
     for (int halvings = 0; halvings < 8; ++halvings, by /= 2) {
       const Eigen::VectorXd there = remaining(change_ + by);
       if (!(there.norm() < left_.norm())) continue;
@@ -101,6 +105,7 @@ class VectorFit {
   const Entries& entries_;
   const TorqueResidual& data_;
   double step_ = 0;
+  int rank_ = 3;
   Vector3d change_ = Vector3d::Zero();
   Eigen::VectorXd left_;
 };
@@ -122,20 +127,21 @@ std::string vectorText(const Entries& entries, const ManipulatorParameters& mach
 }
 
 /// The straight way to the fitted change, which is at x = 1.
-void addVector(const ManipulatorParameters& machine, const Entries& entries, const Vector3d& change,
-               MachineCauses& out) {
+void addVector(const ManipulatorParameters& machine, const Entries& entries, const VectorFit& fit, MachineCauses& out) {
+  const Vector3d change = fit.change();
+  const char* but = fit.rank() < 3 ? " (but for a part without effect)" : "";
   const MachineNumber& first = entries.front();
   NamedCause named{CauseKind::parameter, "", first.leg >= 0 && first.body.empty() ? "legs" : first.body};
   named.leg = first.leg + 1;
   named.parameter = first.path.substr(0, first.path.rfind('.'));
   out.addFitted([entries, change](ManipulatorParameters& other, double x) { move(entries, x * change, other); },
-                [entries, change, machine](double x, double deviation) {
+                [entries, change, machine, but](double x, double deviation) {
                   ManipulatorParameters other = machine;
                   move(entries, x * change, other);
                   const std::string& unit = entries.front().unit;
-                  return fmt::format("{} {} +- {:.1g}{} instead of {}", ownerOf(entries.front()),
+                  return fmt::format("{} {} +- {:.1g}{}{} instead of {}", ownerOf(entries.front()),
                                      vectorText(entries, other), deviation * change.norm(),
-                                     unit.empty() ? "" : " " + unit, vectorText(entries, machine));
+                                     unit.empty() ? "" : " " + unit, but, vectorText(entries, machine));
                 },
                 [named](double, double) { return named; });
 }
@@ -147,19 +153,19 @@ std::vector<Hypothesis> fitVectors(const Scenario& scenario, const TorqueResidua
   constexpr double worth_fitting = 0.5, may_remain = 1e-3;  // three numbers explain a part of anything
   const TorqueResidual few = data.picked(few_instants);
   const ManipulatorParameters& machine = scenario.manipulator->parameters();
-  MachineCauses found(scenario);
+  std::vector<Hypothesis> out;
   for (const Entries& entries : vectorsOf(machine)) {
     VectorFit fit(scenario, entries, few);
     fit.improve(2);
     if (!(fit.unexplained() < worth_fitting)) continue;
     fit.improve(12);
-    if (fit.unexplained() < may_remain) addVector(machine, entries, fit.change(), found);
-  }
-  std::vector<Hypothesis> out;
-  for (Hypothesis& each : fitCauses(found.causes, data)) {
-    if (!(each.unexplained < may_remain)) continue;
-    each.free_numbers = each.named && each.named->parameter.find(".base_axis") != std::string::npos ? 2 : 3;
-    out.push_back(std::move(each));
+    if (!(fit.unexplained() < may_remain)) continue;
+    MachineCauses found(scenario);
+    addVector(machine, entries, fit, found);
+    for (Hypothesis& each : fitCauses(found.causes, data)) {
+      each.free_numbers = fit.rank();
+      if (each.unexplained < may_remain) out.push_back(std::move(each));
+    }
   }
   return out;
 }
