@@ -155,15 +155,18 @@ TEST(NamedCause, theSameAnswerAlwaysIsNamedAndNothingElse) {
   const auto all = [&](const Vector6d& answer) {
     return diagnosed(exact.changed([answer](std::size_t, Vector6d& tau) { tau = answer; }));
   };
-  for (const Vector6d& answer : {Vector6d(Vector6d::Zero()), Vector6d(Vector6d::Unit(5)), exact.torques[7]}) {
-    const NamedCause found = named(all(answer));
-    EXPECT_EQ(found.kind, CauseKind::constant);
-    EXPECT_EQ(found.body, "all");
+  const NamedCause zeros = named(all(Vector6d::Zero()));
+  EXPECT_EQ(zeros.kind, CauseKind::scale);
+  EXPECT_EQ(zeros.body, "all");
+  EXPECT_EQ(zeros.found, 0.0);
+  const NamedCause dead = named(diagnosed(exact.changed([](std::size_t, Vector6d& tau) { tau(3) = 0; })));
+  EXPECT_EQ(dead.kind, CauseKind::scale);
+  EXPECT_EQ(dead.motor, 4);
+  for (const Vector6d& answer : {Vector6d(Vector6d::Unit(5)), exact.torques[7]}) {
+    const Diagnosis same = all(answer);
+    EXPECT_EQ(same.cause.find("the same answer at every instant: "), 0U) << same.cause;
+    EXPECT_FALSE(same.named) << same.cause;
   }
-  const NamedCause stuck = named(diagnosed(exact.changed([](std::size_t, Vector6d& tau) { tau(3) = 12; })));
-  EXPECT_EQ(stuck.kind, CauseKind::constant);
-  EXPECT_EQ(stuck.motor, 4);
-  EXPECT_EQ(stuck.found, 12);
   const Diagnosis little =
       diagnosed(exact.changed([](std::size_t k, Vector6d& tau) { tau = Vector6d::Unit(static_cast<int>(k % 6)); }));
   EXPECT_FALSE(little.named);

@@ -125,14 +125,14 @@ std::optional<Explanation> sameAnswers(const MotorNames& motors, const ExternalT
   }
   if (which.empty()) return std::nullopt;
   const char* when = asked.terms.empty() ? "at every instant" : "whatever is asked";
-  Explanation out{fmt::format("the same answer {}: {}", when, text), NamedCause{CauseKind::constant}};
+  const Vector6d& first = torques.file.torques.front();
+  const bool zeros = std::all_of(which.begin(), which.end(), [&](int i) { return first(i) == 0; });
+  const bool all = which.size() == motor_count;
+  if (!zeros) return Explanation{fmt::format("the same answer {}: {}", when, text)};
+  Explanation out{all ? fmt::format("zero for every motor {}", when) : fmt::format("zero {}: {}", when, text),
+                  NamedCause{CauseKind::scale, "", all ? "all" : "", "", "", 1.0, 0.0}};
   out.named->explained = 1;
-  if (which.size() == motor_count) out.named->body = "all";
-  if (which.size() == 1) {
-    out.named->motor = which.front() + 1;
-    out.named->found = torques.file.torques.front()(which.front());
-    out.named->unit = motors.slides[static_cast<std::size_t>(which.front())] ? "N" : "N m";
-  }
+  if (which.size() == 1) out.named->motor = which.front() + 1;
   return out;
 }
 

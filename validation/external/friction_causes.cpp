@@ -23,9 +23,21 @@ bool anyLegHas(const Manipulator& machine, Coordinate coordinate) {
   });
 }
 
-/// Fits the coefficients of one law, `key`, on every leg that has the coordinate.
-void addMore(const char* words, const std::string& key, const char* unit, Coordinate coordinate,
-             JointFriction& (*law)(Leg&), MachineCauses& out) {
+/// Whether every leg that has the coordinate has the same friction there; then that is a number of the machine.
+bool isOneNumber(const Manipulator& machine, Coordinate coordinate, JointFriction& (*law)(Leg&)) {
+  std::vector<double> found;
+  for (Leg leg : machine.parameters().legs) {
+    const auto& has = rowOf(leg.kind).coordinates;
+    if (std::find(has.begin(), has.end(), coordinate) != has.end()) found.push_back(law(leg).on(coordinate));
+  }
+  return !found.empty() && found.front() != 0 &&
+         std::all_of(found.begin(), found.end(), [&](double each) { return each == found.front(); });
+}
+
+/// Fits the coefficients of one law, `key`, on every leg that has the coordinate, unless machine_collector.cpp does.
+void addMore(const Manipulator& machine, const char* words, const std::string& key, const char* unit,
+             Coordinate coordinate, JointFriction& (*law)(Leg&), MachineCauses& out) {
+  if (isOneNumber(machine, coordinate, law)) return;
   const std::string joint = nameOf(coordinate);
   out.addFitted(
       [coordinate, law](Machine& changed, double x) {
@@ -43,10 +55,10 @@ void addFriction(const Manipulator& machine, MachineCauses& out) {
   for (const Coordinate coordinate : {Coordinate::phi, Coordinate::psi, Coordinate::theta, Coordinate::d}) {
     if (!anyLegHas(machine, coordinate)) continue;
     addMore(
-        "viscous", "friction", slides(coordinate) ? "N s/m" : "N m s/rad", coordinate,
+        machine, "viscous", "friction", slides(coordinate) ? "N s/m" : "N m s/rad", coordinate,
         [](Leg& leg) -> JointFriction& { return leg.friction; }, out);
     addMore(
-        "Coulomb", "coulomb", slides(coordinate) ? "N" : "N m", coordinate,
+        machine, "Coulomb", "coulomb", slides(coordinate) ? "N" : "N m", coordinate,
         [](Leg& leg) -> JointFriction& { return leg.coulomb; }, out);
   }
   const NamedCause sharp{CauseKind::parameter, "friction", "legs", "manipulator.leg_defaults.coulomb.smoothing_speed"};

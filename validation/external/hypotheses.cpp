@@ -93,9 +93,10 @@ std::optional<Hypothesis> scaled(const TorqueResidual& data) {
   const double c = dot(data.residual, data.exact) / std::max(dot(data.exact, data.exact), 1e-300);
   if (std::abs(c + 2) < 1e-9) return std::nullopt;  // the sign of every leg has its own hypothesis
   const std::string unit = unitOf(1 + c, data.motors);
-  Hypothesis out =
-      hypothesis(data, fmt::format("every torque scaled by {}{}", factorText(c), unit.empty() ? "" : " (" + unit + ")"),
-                 minus(data.residual, data.exact, c), 1);
+  Hypothesis out = hypothesis(
+      data,
+      fmt::format("every torque scaled by {}{}", factorText(c), unit.empty() ? inDegrees(1 + c) : " (" + unit + ")"),
+      minus(data.residual, data.exact, c), 1);
   out.beyond /= std::max(1.0, std::abs(1 + c));  // rounding grows with the torques
   out.named = NamedCause{unit.empty() ? CauseKind::scale : CauseKind::units, "", "all", "", "", 1, 1 + c};
   return out;

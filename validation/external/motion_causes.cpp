@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -51,6 +52,13 @@ const char* rotorUnit(const Manipulator& machine) {
   return std::all_of(motors.begin(), motors.end(), [](const Motor& motor) { return motor.slides(); }) ? "kg" : "kg m^2";
 }
 
+double leastRotor(const Manipulator& machine) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Motor& motor : machine.motors())
+    least = std::min(least, machine.leg(motor.leg).rotor_inertia.on(motor.coordinate));
+  return least;
+}
+
 /// τ + J q̈: an additional inertia on every motor.
 Cause motorInertia(const Scenario& scenario) {
   const std::string unit = rotorUnit(*scenario.manipulator);
@@ -76,7 +84,9 @@ Cause motorInertia(const Scenario& scenario) {
             out.uncertainty = deviation;
             out.unit = unit;
             return out;
-          }};
+          },
+          {},
+          [least = leastRotor(*scenario.manipulator)](double x) { return x > -least; }};
 }
 
 /// Replaces twist and twist rate of P by those of the mass centre C.

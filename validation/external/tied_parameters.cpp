@@ -34,7 +34,10 @@ std::string TiedParameters::text(const ManipulatorParameters& machine, double re
   const double spread = std::abs(first.get(further) - after);
   if (same_before) return fmt::format("{} {}{} instead of {:.9g}", words, withDeviation(after, spread), unit, before);
   if (same_change) return fmt::format("{} off by {}{}", words, withDeviation(after - before, spread), unit);
-  return fmt::format("{} off by a relative {}", words, withDeviation(relative, deviation));
+  const std::string amount = withDeviation(relative, deviation);
+  if (first.entries == 1) return fmt::format("{} off by a relative {}", words, amount);
+  return fmt::format("{} off by {} of each {}", words, amount,
+                     first.group == "inertia" ? "tensor's largest moment" : "vector's length");
 }
 
 bool TiedParameters::isPossible(const ManipulatorParameters& machine, double relative) const {
@@ -44,7 +47,7 @@ bool TiedParameters::isPossible(const ManipulatorParameters& machine, double rel
   if (!is_size) return true;
   ManipulatorParameters changed = machine;
   disturb(changed, relative);
-  return first.get(changed) > 0;
+  return std::all_of(members.begin(), members.end(), [&](const Parameter& member) { return member.get(changed) > 0; });
 }
 
 std::optional<NamedCause> TiedParameters::named(const ManipulatorParameters& machine, double relative,

@@ -5,9 +5,9 @@
 namespace ursula {
 
 const char* name(CauseKind kind) {
-  static constexpr const char* names[] = {
-      "scale", "sign",      "order",           "units",        "offset", "constant", "delay",   "digits",
-      "state", "parameter", "reference_point", "missing_term", "frame",  "jacobian", "closure", "window"};
+  static constexpr const char* names[] = {"scale",        "sign",   "order",    "units",     "offset",
+                                          "delay",        "digits", "state",    "parameter", "reference_point",
+                                          "missing_term", "frame",  "jacobian", "closure",   "window"};
   return names[static_cast<std::size_t>(kind)];
 }
 

@@ -14,7 +14,6 @@ enum class CauseKind {
   order,
   units,
   offset,
-  constant,
   delay,
   digits,
   state,

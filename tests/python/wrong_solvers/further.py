@@ -175,15 +175,15 @@ def P(path):
     return K("parameter", parameter=path)
 
 
-CONSTANT = [K("constant", body="all")]
+CONSTANT = [None]  # a sentence says so; the contract has no kind for it
 # Answers that say nothing of the machine.
-add("UPS RUS", "zeros", "zero for every motor", CONSTANT + [K("scale", found=0.0)], post(lambda y, m: 0 * y))
+add("UPS RUS", "zeros", "zero for every motor", [K("scale", found=0.0)], post(lambda y, m: 0 * y))
 add("UPS PUS", "unit-six", "0, 0, 0, 0, 0, 1 whatever is asked", CONSTANT, post(lambda y, m: 0 * y + (np.arange(6) == 5)))
 add("URS", "mean", "the mean efforts of the motion, always", CONSTANT,
     lambda d, s: (lambda mean: lambda m: np.tile(mean, (len(m.t), 1)))(Hexapod(d)(s.motion(np.linspace(0, s.duration, 61))).mean(0)))
 add("PUS", "first-answer", "always the answer of the first call", CONSTANT + [K("state")], answers(first))
-add("RUS", "stuck", "motor 4 keeps its first answer", [K("constant", motor=4), K("state")], answers(stuck))
-add("UPS", "dead-motor", "motor 2 is always zero", [K("constant", motor=2), K("scale", motor=2), K("scale", leg=2)], one(2, 0.0))
+add("RUS", "stuck", "motor 4 keeps its first answer", [K("state"), None], answers(stuck))
+add("UPS", "dead-motor", "motor 2 is always zero", [K("scale", motor=2), K("scale", leg=2)], one(2, 0.0))
 add("UPS PUSF", "before", "the answer of the question before", [K("state")], answers(before))
 add("URS", "random", "random numbers", [K("state")], answers(random))
 add("UPS", "by-time", "a table over time, the state is not read", [K("state"), None], by_time)
@@ -265,7 +265,7 @@ add("URS", "point-and-mass", "point of leg 2, mass of the platform", None,
     params=both(vector("leg.2.platform_point", [.001, .001, .001]), platform_times("mass", 1.01)))
 add("UPS RUS", "weight-only", "the platform's weight alone", None, statics)
 add("PUS", "hashed", "small numbers by chance", None, post(hashed))
-add("RUS", "one-alive", "motor 1 is right, the others zero", [K("constant")], post(lambda y, m: y * (np.arange(6) == 0)))
+add("RUS", "one-alive", "motor 1 is right, the others zero", CONSTANT + [K("scale")], post(lambda y, m: y * (np.arange(6) == 0)))
 add("UPS", "half-alive", "motors 4 to 6 zero, the others 10 % too large", [K("scale"), None], post(lambda y, m: 1.1 * y * (np.arange(6) < 3)))
 add("URS", "one-digit", "one significant digit", [K("digits")],
     post(lambda y, m: np.array([[float(f"{x:.0e}") for x in row] for row in y])))
