@@ -1,6 +1,9 @@
 #include "base/text_source.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -38,6 +41,17 @@ std::string readAll(std::FILE* in, const TextBounds& bounds) {
   return text;
 }
 
+constexpr int wait_for_writer = 500;  // ms
+
+/// A pipe that nobody writes to would be waited for without end.
+void refuseLonelyPipe(int file, const TextBounds& bounds) {
+  pollfd ready = {file, POLLIN, 0};
+  char none = 0;
+  if (::poll(&ready, 1, wait_for_writer) == 0 && ::read(file, &none, 1) == 0)
+    throw TextRefusal(fmt::format("a pipe that nobody writes to, expected {}", bounds.kind));
+  ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O_NONBLOCK);
+}
+
 }  // namespace
 
 void requirePath(const std::string& path) {
@@ -49,11 +63,14 @@ std::string readText(const std::filesystem::path& file, const TextBounds& bounds
   requirePath(file.string());
   std::error_code error;
   if (std::filesystem::is_directory(file, error)) throw TextRefusal(fmt::format("a folder, expected {}", bounds.kind));
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"), &std::fclose);
+  // Without O_NONBLOCK opening a named pipe waits for its writer.
+  const int opened = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(opened < 0 ? nullptr : ::fdopen(opened, "rb"), &std::fclose);
   if (!in) {
     const bool is_missing = errno == ENOENT;
     throw TextRefusal(fmt::format("{}, expected {}", is_missing ? "no such file" : "cannot be read", bounds.kind));
   }
+  refuseLonelyPipe(opened, bounds);
   return readAll(in.get(), bounds);
 }
 

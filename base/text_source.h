@@ -23,8 +23,8 @@ struct TextBounds {
   const char* kind = "";  ///< "a scenario in TOML"
 };
 
-/// Reads a file, a pipe or a device up to the allowed size. Throws TextRefusal if it is a folder, unreadable or too
-/// long, and at its first zero byte.
+/// Reads a file, a pipe or a device up to the allowed size. Throws TextRefusal if it is a folder, unreadable, too long,
+/// or a pipe that nobody writes to within half a second, and at its first zero byte.
 std::string readText(const std::filesystem::path& file, const TextBounds& bounds);
 
 /// The same for standard input.

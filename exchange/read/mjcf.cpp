@@ -22,6 +22,11 @@ const std::set<std::string> known_of_joint = wordsOf(
     "ref springref armature damping frictionloss solreffriction solimpfriction user align "
     "actuatorfrcrange actuatorfrclimited actuatorgravcomp");
 
+const std::set<std::string> known_of_inertial =
+    wordsOf("pos quat axisangle euler xyaxes zaxis mass diaginertia fullinertia");
+const std::set<std::string> known_of_body =
+    wordsOf("name childclass mocap pos quat axisangle euler xyaxes zaxis gravcomp user sleep");
+
 /// The reference of an element's numbers.
 struct Place {
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();  ///< in the world
@@ -43,9 +48,9 @@ class MjcfReader {
     refuseParts();
     listUnknown(root_, known_in_mujoco, graph_.assumptions);
     eachChild(root_, "compiler", [this](const Element& e) { compiler_.read(e); });
-    eachChild(root_, "option", [this](const Element& e) { readOption(e); });
+    readMjcfOptions(root_, graph_);
     defaults_.read(root_);
-    eachChild(root_, "worldbody", [this](const Element& e) { readChildren(e, 0, Place(), e); });
+    eachChild(root_, "worldbody", [this](const Element& e) { readChildren(e, 0, Place()); });
     scaleMasses();
     readMjcfClosures(root_, defaults_, named_, graph_);
     readMjcfActuators(root_, defaults_, named_, graph_);
@@ -65,26 +70,6 @@ class MjcfReader {
     for (const char* name : {"tendon", "deformable", "extension"})
       if (const Element* part = root_.FirstChildElement(name); part != nullptr && part->FirstChildElement() != nullptr)
         refuse(*part->FirstChildElement(), fmt::format("of <{}>, which a scenario has no words for", name));
-  }
-
-  void readOption(const Element& option) {
-    if (const std::string gravity = attribute(option, "gravity"); !gravity.empty())
-      graph_.gravity = vectorOf(option, gravity, "gravity");
-    for (const char* name : {"density", "viscosity"})
-      if (const std::string value = attribute(option, name); !value.empty() && numberOf(option, value, name) != 0)
-        refuse(option, fmt::format("{} {}: forces of a fluid, which a scenario has no words for", name, value));
-    if (const Element* flag = option.FirstChildElement("flag")) {
-      if (attribute(*flag, "gravity") == "disable") gravity_off_ = true;
-      for (const char* name : {"equality", "constraint", "passive", "spring", "damper", "frictionloss", "actuation"})
-        if (attribute(*flag, name) == "disable")
-          refuse(*flag, fmt::format("{}=\"disable\", which switches off what the file says elsewhere; expected a file "
-                                    "without it",
-                                    name));
-    }
-    if (!gravity_off_) return;
-    graph_.assumptions.push_back({"Gravity is switched off by the file's flag; without it it would be this", "<flag>",
-                                  graph_.gravity.norm(), "m/s²"});
-    graph_.gravity.setZero();
   }
 
   Eigen::Isometry3d placeOf(const Element& element, const std::function<std::string(const char*)>& get) const {
@@ -112,8 +97,9 @@ class MjcfReader {
   }
 
   /// Reads geoms, sites and child bodies of the body with index `body`.
-  void readChildren(const Element& element, std::size_t body, const Place& place, const Element&) {
+  void readChildren(const Element& element, std::size_t body, const Place& place) {
     const Element* inertial = onlyChild(element, "inertial");
+    if (inertial != nullptr) listUnknownAttributes(*inertial, known_of_inertial, graph_.assumptions);
     const bool from_geoms = compiler_.from_geom == MjcfCompiler::FromGeom::yes ||
                             (compiler_.from_geom == MjcfCompiler::FromGeom::automatic && inertial == nullptr);
     if (body != 0 && !from_geoms && inertial != nullptr)
@@ -143,6 +129,7 @@ class MjcfReader {
       defaults_.requireClass(element, own);
       place.childclass = own;
     }
+    listUnknownAttributes(element, known_of_body, graph_.assumptions);
     const std::string given = attribute(element, "name"), compensated = attribute(element, "gravcomp");
     const std::string name = given.empty() ? fmt::format("body of line {}", element.GetLineNum()) : given;
     if (!compensated.empty() && numberOf(element, compensated, "gravcomp") != 0)
@@ -157,7 +144,7 @@ class MjcfReader {
     const std::size_t body = addFrames(element, name, parent, place);
     if (!named_.bodies.emplace(name, body).second)
       refuse(element, "a second body of that name, expected names of their own");
-    readChildren(element, body, place, element);
+    readChildren(element, body, place);
   }
 
   GraphBody emptyBody(const Element& element, const std::string& name, const Eigen::Isometry3d& frame) const {
@@ -165,6 +152,7 @@ class MjcfReader {
     out.name = name;
     out.line = element.GetLineNum();
     out.frame = frame;
+    out.center_of_mass = frame.translation();
     return out;
   }
 
@@ -278,7 +266,6 @@ class MjcfReader {
   const Element& root_;
   MjcfCompiler compiler_;
   MjcfDefaults defaults_;
-  bool gravity_off_ = false;
   MjcfNamed named_;
   ModelGraph graph_;
 };

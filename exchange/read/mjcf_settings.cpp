@@ -115,6 +115,29 @@ Matrix3d fromEuler(const Vector3d& angles, const std::string& sequence) {
 
 }  // namespace
 
+void readMjcfOptions(const Element& root, ModelGraph& graph) {
+  bool is_off = false;
+  eachChild(root, "option", [&](const Element& option) {
+    if (const std::string gravity = attribute(option, "gravity"); !gravity.empty())
+      graph.gravity = vectorOf(option, gravity, "gravity");
+    for (const char* name : {"density", "viscosity"})
+      if (const std::string value = attribute(option, name); !value.empty() && numberOf(option, value, name) != 0)
+        refuse(option, fmt::format("{} {}: forces of a fluid, which a scenario has no words for", name, value));
+    const Element* flag = option.FirstChildElement("flag");
+    if (flag == nullptr) return;
+    is_off = is_off || attribute(*flag, "gravity") == "disable";
+    for (const char* name : {"equality", "constraint", "passive", "spring", "damper", "frictionloss", "actuation"})
+      if (attribute(*flag, name) == "disable")
+        refuse(*flag, fmt::format("{}=\"disable\", which switches off what the file says elsewhere; expected a file "
+                                  "without it",
+                                  name));
+  });
+  if (!is_off) return;
+  graph.assumptions.push_back({"Gravity is switched off by the file's flag; without it it would be this", "<flag>",
+                               graph.gravity.norm(), "m/s²"});
+  graph.gravity.setZero();
+}
+
 Matrix3d mjcfOrientation(const Element& element, const MjcfCompiler& compiler,
                          const std::function<std::string(const char*)>& get) {
   const char* given = nullptr;

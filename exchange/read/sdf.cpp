@@ -18,7 +18,7 @@ using Kind = SdfFrames::Kind;
 
 const std::set<std::string> known_in_link = wordsOf(
     "pose inertial collision visual sensor gravity kinematic light frame self_collide must_be_base_link "
-    "projector audio_sink audio_source battery particle_emitter plugin");
+    "projector audio_sink audio_source battery particle_emitter plugin velocity_decay");
 const std::set<std::string> known_in_joint = wordsOf(
     "pose parent child axis axis2 thread_pitch screw_thread_pitch gearbox_ratio gearbox_reference_body "
     "sensor frame plugin");
@@ -57,6 +57,7 @@ class SdfReader {
     eachChild(top, "model", [&](const Element& e) { addModel(e, SdfFrames::world, false); });
     if (models_.empty()) refuse(top, "no <model>, expected one");
     graph_.name = attribute(*frames_[models_[0]].element, "name");
+    frames_.requireSound();
     for (const std::size_t link : links_) readLink(link);
     for (const std::size_t joint : joints_) readJoint(joint);
     if (world != nullptr) eachChild(top, "joint", [&](const Element& e) { readJoint(addJoint(e, SdfFrames::world)); });
@@ -125,11 +126,7 @@ class SdfReader {
     refuseSdfIncludes(element, graph_.assumptions);
     const std::size_t model = frames_.add(name, frameOf(element, scope, Kind::model));
     models_.push_back(model);
-    eachChild(element, "plugin", [&](const Element& e) {
-      graph_.assumptions.push_back(
-          {fmt::format("The plugin {} is left out, with the forces that it may bring", shown(attribute(e, "filename"))),
-           name, 0, "1"});
-    });
+    listPlugins(element, name, graph_.assumptions);
     const std::string is_static = childText(element, "static");
     fixed = fixed || (!is_static.empty() && truthOf(element, is_static, "<static>"));
     const std::string path = scope == SdfFrames::world ? "" : paths_[scope] + name + "::";
@@ -140,6 +137,8 @@ class SdfReader {
     eachChild(element, "frame", [&](const Element& e) { addFrame(e, model); });
     eachChild(element, "joint", [&](const Element& e) { joints_.push_back(addJoint(e, model)); });
     if (frames_[model].body == SdfFrames::none) takeFirstLink(element, model);
+    if (const std::string canonical = attribute(element, "canonical_link"); !canonical.empty())
+      frames_[model].body = frames_[frames_.find(element, model, canonical, "canonical_link")].body;
     if (!placement.empty()) place(element, model, placement);
   }
 
@@ -167,8 +166,7 @@ class SdfReader {
     const std::string name = requiredAttribute(element, "name");
     const std::size_t link = frames_.add(name, frameOf(element, model, Kind::link));
     frames_[link].body = graph_.bodies.size();
-    const std::string canonical = attribute(*frames_[model].element, "canonical_link");
-    if (frames_[model].body == SdfFrames::none || canonical == name) frames_[model].body = graph_.bodies.size();
+    if (frames_[model].body == SdfFrames::none) frames_[model].body = graph_.bodies.size();
     GraphBody body;
     body.name = path + name;
     body.line = element.GetLineNum();
@@ -186,6 +184,7 @@ class SdfReader {
     body.weightless = !gravity.empty() && !truthOf(element, gravity, "<gravity>");
     if (!kinematic.empty() && truthOf(element, kinematic, "<kinematic>"))
       refuse(element, "<kinematic>, moved from outside, which a scenario has no words for");
+    refuseSdfDecay(element);
     takeSdfInertial(element, body, graph_.assumptions);
   }
 
@@ -213,6 +212,9 @@ class SdfReader {
     if (element.FirstChildElement("drake:mimic")) refuse(element, "mimic, which a scenario has no words for");
     if (type == "fixed" || type == "ball") {
       joint.kind = type == "fixed" ? JointKind::fixed : JointKind::ball;
+      // Readers differ in whether a ball's axis rubs; what rubs is refused later.
+      if (const Element* axis = element.FirstChildElement("axis"); axis != nullptr && type == "ball")
+        takeSdfMotion(element, *axis, true, joint, graph_.assumptions);
       graph_.joints.push_back(joint);
     } else if (type == "revolute" || type == "prismatic" || type == "continuous") {
       joint.kind = type == "prismatic" ? JointKind::prismatic : JointKind::revolute;

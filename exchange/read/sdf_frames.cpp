@@ -61,6 +61,19 @@ Eigen::Isometry3d SdfFrames::inWorld(std::size_t frame) {
   return in_world_[frame];
 }
 
+void SdfFrames::requireSound() {
+  std::vector<std::size_t> state(frames_.size(), none);  // the frame from which each was met
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    static_cast<void>(inWorld(i));
+    for (std::size_t at = i; frames_[at].kind == Kind::frame && state[at] == none;) {
+      const Frame& here = frames_[at];
+      state[at] = i;
+      at = find(*here.element, here.scope, here.attached_to.empty() ? "__model__" : here.attached_to, "attached_to");
+      if (state[at] == i) refuse(*here.element, "is attached to itself, in a circle");
+    }
+  }
+}
+
 std::size_t SdfFrames::bodyOf(const Element& at, std::size_t frame) const {
   for (std::size_t step = 0; step <= frames_.size(); ++step) {
     const Frame& here = frames_[frame];

@@ -33,6 +33,8 @@ class SdfFrames {
   std::size_t find(const Element& at, std::size_t scope, const std::string& name, const char* what) const;
   bool has(std::size_t scope, const std::string& name) const { return names_[scope].count(name) != 0; }
 
+  /// Throws ImportError for a pose relative to itself, and for a frame attached to nothing or to itself, used or not.
+  void requireSound();
   /// Returns the pose in the world. Throws ImportError for a circle.
   Eigen::Isometry3d inWorld(std::size_t frame);
   /// Returns the body of a link, a frame, a joint's child or a model's first link; `none` for the world.

@@ -69,8 +69,10 @@ void requirePlain(const Element& link, const Element& inertial) {
   if (attribute(inertial, "auto") == "true")
     refuse(link, "an inertia that is left to the program (auto), expected numbers; run: gz sdf -p FILE");
   const Element* pose = inertial.FirstChildElement("pose");
-  if (pose != nullptr && !attribute(*pose, "relative_to").empty())
-    refuse(link, "relative_to in the <pose> of <inertial>, which SDF does not allow: that is always in the link");
+  for (const char* name : {"relative_to", "frame"})
+    if (pose != nullptr && !attribute(*pose, name).empty())
+      refuse(link,
+             fmt::format("{} in the <pose> of <inertial>, which SDF does not allow: that is always in the link", name));
 }
 
 }  // namespace
@@ -125,6 +127,22 @@ void takeSdfMotion(const Element& joint_element, const Element& axis, bool endle
     listUnknown(*dynamics, known_in_dynamics, assumptions);
     takeDynamics(joint_element, *dynamics, joint);
   }
+}
+
+void listPlugins(const Element& element, const std::string& of, std::vector<Assumption>& assumptions) {
+  eachChild(element, "plugin", [&](const Element& e) {
+    assumptions.push_back(
+        {fmt::format("The plugin {} is left out, with the forces that it may bring", shown(attribute(e, "filename"))),
+         of, 0, "1"});
+  });
+}
+
+void refuseSdfDecay(const Element& element, const std::string& factor) {
+  const Element* decay = onlyChild(element, "velocity_decay");
+  for (const std::string& text : {factor, decay == nullptr ? "" : childText(*decay, "linear"),
+                                  decay == nullptr ? "" : childText(*decay, "angular")})
+    if (!text.empty() && numberOf(element, text, "velocity_decay") != 0)
+      refuse(element, fmt::format("a decay of velocity of {}, which a scenario has no words for", text));
 }
 
 void refuseSdfIncludes(const Element& scope, std::vector<Assumption>& assumptions) {

@@ -15,6 +15,12 @@ void takeSdfInertial(const Element& link, GraphBody& body, std::vector<Assumptio
 void takeSdfMotion(const Element& joint_element, const Element& axis, bool endless, GraphJoint& joint,
                    std::vector<Assumption>& assumptions);
 
+/// Lists the plugins of `element`, which may bring forces.
+void listPlugins(const Element& element, const std::string& of, std::vector<Assumption>& assumptions);
+
+/// Refuses a <velocity_decay> in `element` above zero, and `factor`, which is URDF's word for it.
+void refuseSdfDecay(const Element& element, const std::string& factor = "");
+
 /// Refuses <include>, but for the usual light and floor of a world, which are listed.
 void refuseSdfIncludes(const Element& scope, std::vector<Assumption>& assumptions);
 

@@ -13,6 +13,7 @@
 #include "exchange/read/drake.h"
 #include "exchange/read/readers.h"
 #include "exchange/read/urdf_closures.h"
+#include "exchange/read/urdf_extensions.h"
 
 namespace ursula::exchange {
 namespace {
@@ -33,12 +34,9 @@ Eigen::Isometry3d originOf(const Element& element) {
   return out;
 }
 
-/// What a <gazebo> of a link or a joint may say without a change of the dynamics.
-const std::set<std::string> known_in_gazebo = wordsOf(
-    "gravity turnGravityOff kinematic static springStiffness springReference material mu1 mu2 kp kd fdir1 "
-    "maxVel minDepth maxContacts selfCollide self_collide laserRetro sensor plugin visual collision "
-    "provideFeedback implicitSpringDamper stopCfm stopErp cfmDamping fudgeFactor joint "
-    "disableFixedJointLumping preserveFixedJoint");
+const std::set<std::string> known_in_robot =
+    wordsOf("link joint loop_joint material transmission ros2_control gazebo mujoco sensor frame");
+const std::set<std::string> known_in_link = wordsOf("inertial visual collision self_collision_checking contact sensor");
 
 class UrdfReader {
  public:
@@ -48,18 +46,16 @@ class UrdfReader {
   }
 
   ModelGraph read() {
-    graph_.assumptions.push_back(
-        {"URDF has no gravity: 9.81 m/s² along −z of the root link was taken", "<robot>", 9.81, "m/s²"});
     takeLinks();
+    listUnknown(root_, known_in_robot, graph_.assumptions);
     eachChild(root_, "joint", [this](const Element& e) { takeJoint(e); });
     eachChild(root_, "drake:joint", [this](const Element& e) { takeJoint(e); });
     placeTree();
     for (const Element* element : elements_) readJoint(*element);
     readUrdfClosures(root_, file_, links_, graph_);
     readMotors();
-    readGazebo();
-    if (root_.FirstChildElement("mujoco") != nullptr)
-      graph_.assumptions.push_back({"MuJoCo's settings in the file are left out", "<mujoco>", 0, "1"});
+    readUrdfGazebo(root_, links_, graph_);
+    readUrdfMujoco(root_, link_elements_, graph_);
     return graph_;
   }
 
@@ -71,6 +67,7 @@ class UrdfReader {
       body.line = e.GetLineNum();
       if (!links_.emplace(body.name, graph_.bodies.size()).second)
         refuse(e, "a second link of that name, expected names of their own");
+      listUnknown(e, known_in_link, graph_.assumptions);
       graph_.bodies.push_back(body);
       link_elements_.push_back(&e);
     });
@@ -131,9 +128,11 @@ class UrdfReader {
 
   void readInertial(const Element& link, GraphBody& body) {
     const Element* inertial = onlyChild(link, "inertial");
+    body.center_of_mass = body.frame.translation();
     if (inertial == nullptr) return;
     const Element* mass = onlyChild(*inertial, "mass");
     const Element* inertia = onlyChild(*inertial, "inertia");
+    listUnknown(*inertial, {"origin", "mass", "inertia"}, graph_.assumptions);
     if (mass == nullptr || inertia == nullptr)
       refuse(link, fmt::format("no <{}> in <inertial>, expected one", mass == nullptr ? "mass" : "inertia"));
     body.mass = numberOf(*mass, requiredAttribute(*mass, "value"), "mass");
@@ -189,6 +188,7 @@ class UrdfReader {
                          shown(type)));
     const Element* axis = onlyChild(element, "axis");
     const std::string xyz = axis == nullptr ? "" : attribute(*axis, "xyz");
+    if (axis != nullptr) listUnknownAttributes(*axis, {"xyz"}, graph_.assumptions);
     const Vector3d given = xyz.empty() ? Vector3d::UnitX() : vectorOf(*axis, xyz, "axis");
     joint.axis = {Vector3d(at.linear() * directionOf(element, given, "axis")), Vector3d(at.linear().col(1))};
     if (joint.kind == JointKind::universal) joint.axis[0] = at.linear().col(0);
@@ -215,6 +215,7 @@ class UrdfReader {
     }
     const Element* dynamics = onlyChild(element, "dynamics");
     if (dynamics == nullptr) return;
+    listUnknownAttributes(*dynamics, {"damping", "friction"}, graph_.assumptions);
     const auto read = [&](const char* name) {
       const std::string text = attribute(*dynamics, name);
       const double value = text.empty() ? 0 : numberOf(*dynamics, text, name);
@@ -244,28 +245,12 @@ class UrdfReader {
     });
     eachChild(root_, "ros2_control", [this](const Element& e) {
       eachChild(e, "joint", [this](const Element& of) {
+        eachChild(of, "param", [&](const Element& param) {
+          if (attribute(param, "name") == "mimic" && attribute(of, "mimic") != "false")
+            refuse(of, "mimic: it follows another joint, which a scenario has no words for");
+        });
         if (of.FirstChildElement("command_interface") != nullptr) driven(of, attribute(of, "name"));
       });
-    });
-  }
-
-  /// Reads the changes of <gazebo reference="…"> to a link or a joint.
-  void readGazebo() {
-    eachChild(root_, "gazebo", [this](const Element& e) {
-      const std::string of = attribute(e, "reference"), on = childText(e, "gravity"),
-                        off = childText(e, "turnGravityOff");
-      const auto link = links_.find(of);
-      if (!of.empty()) listUnknown(e, known_in_gazebo, graph_.assumptions);
-      for (const char* word : {"static", "kinematic"})
-        if (const std::string text = childText(e, word); !text.empty() && truthOf(e, text, word))
-          refuse(e, fmt::format("<{}> holds {} where it is, expected a machine that moves", word,
-                                of.empty() ? "the model" : shown(of)));
-      if (link != links_.end() &&
-          ((!on.empty() && !truthOf(e, on, "<gravity>")) || (!off.empty() && truthOf(e, off, "<turnGravityOff>"))))
-        graph_.bodies[link->second].weightless = true;
-      const std::string spring = childText(e, "springStiffness");
-      if (!spring.empty() && numberOf(e, spring, "<springStiffness>") != 0)
-        refuse(e, fmt::format("a spring of {} in joint {}, which a scenario has no words for", spring, shown(of)));
     });
   }
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "base/csv_dialect.h"
 #include "base/nearest.h"
 #include "base/shown_text.h"
 #include "exchange/import_error.h"
@@ -47,8 +48,9 @@ void close(ModelGraph& graph, const std::vector<std::string>& pairs) {
 }
 
 /// Applies `--actuated J,…` instead of the file's motors.
-void drive(ModelGraph& graph, const std::vector<std::string>& names) {
+void drive(ModelGraph& graph, std::vector<std::string> names) {
   if (names.empty()) return;
+  for (std::string& name : names) name = trimmedCell(name);
   graph.motors = names;
   std::vector<std::string> known;
   for (GraphJoint& joint : graph.joints) {

@@ -48,6 +48,14 @@ std::array<double, motor_count> constantsOf(const LogColumns& columns, const std
   return out;
 }
 
+/// A log is read twice from its start, which no pipe can give.
+const std::filesystem::path& seekable(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
+    throw CsvError(fmt::format("{}: error: not a regular file, expected one", shownPath(file.string())));
+  return file;
+}
+
 /// Returns a value's place in a row: motion, then efforts, then load.
 std::size_t slotOf(const LogColumn& column, const LogColumns& columns) {
   const auto index = static_cast<std::size_t>(std::max(column.index, 0));
@@ -71,7 +79,7 @@ std::size_t slotOf(const LogColumn& column, const LogColumns& columns) {
 class LogReader {
  public:
   LogReader(const LogOptions& options, const Manipulator& machine)
-      : machine_(machine), file_(options.file.string()), stream_(options.file, std::ios::binary) {
+      : machine_(machine), file_(options.file.string()), stream_(seekable(options.file), std::ios::binary) {
     if (!stream_) throw CsvError(fmt::format("{}: error: cannot be read", shownPath(file_)));
     std::string head(std::size_t{1} << 16, '\0');
     stream_.read(head.data(), static_cast<std::streamsize>(head.size()));

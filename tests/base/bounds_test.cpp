@@ -2,8 +2,11 @@
 // bound.
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
+#include <fstream>
 #include <string>
+#include <thread>
 
 #include "base/csv.h"
 #include "base/nearest.h"
@@ -87,6 +90,17 @@ TEST(TextSource, endsWhereItsBoundIs) {
   EXPECT_EQ(reads("/dev/urandom", 1 << 30).substr(0, 11), "a zero byte");
   EXPECT_EQ(reads(folder.path(), 5), "a folder, expected a list");
   EXPECT_EQ(reads(std::string("a\0b", 3), 5), "a path with a zero byte, expected one without");
+}
+
+TEST(TextSource, isAPipeWithAWriter) {
+  const TemporaryFolder folder;
+  const std::filesystem::path pipe = folder.path() / "a.pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(refusal<TextRefusal>([&] { readText(pipe, {9, "a list"}); }),
+            "a pipe that nobody writes to, expected a list");
+  std::thread writer([&] { std::ofstream(pipe) << "12345\n"; });
+  EXPECT_EQ(readText(pipe, {9, "a list"}), "12345\n");
+  writer.join();
 }
 
 TEST(TextSource, isReadNoFurtherByWhoeverReads) {
