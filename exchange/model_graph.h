@@ -40,6 +40,7 @@ struct GraphJoint {
   double position = 0;  ///< coordinate at the initial pose, rad or m
   double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
   double damping = 0, friction = 0;  ///< viscous; Coulomb
+  double smoothing_speed = 0;        ///< of Coulomb friction, rad/s or m/s; 0 if the file gives none
   double rotor_inertia = 0;          ///< kg·m² or kg, added to the coordinate's own inertia
   bool driven = false;               ///< the format says that a motor drives it
   bool closure = false;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <tuple>
 
 #include "base/shown_text.h"
 
@@ -40,14 +41,14 @@ std::string plainName(const std::string& name) {
   return out.find_first_not_of('-') == std::string::npos ? "imported" : out;
 }
 
-/// "{ phi = 0.1, d = 2.0 }": the non-zero values by coordinate; "" if all are zero.
-std::string byCoordinate(const ImportedLeg& leg, const std::array<double, 3>& values) {
+/// "{ phi = 0.1, d = 2.0 }": the non-zero values by coordinate, then `more`; "" if all are zero.
+std::string byCoordinate(const ImportedLeg& leg, const std::array<double, 3>& values, const std::string& more) {
   std::string out;
   const auto coordinates = rowOf(leg.kind).coordinates;
   for (std::size_t k = 0; k < coordinates.size(); ++k)
     if (values[k] != 0)
       out += fmt::format("{}{} = {}", out.empty() ? "" : ", ", nameOf(coordinates[k]), text(values[k]));
-  return out.empty() ? "" : "{ " + out + " }";
+  return out.empty() ? "" : "{ " + out + more + " }";
 }
 
 std::string centre(const ImportedLink& link, bool carriage) {
@@ -86,9 +87,11 @@ std::string legText(const ImportedLeg& leg) {
     out += fmt::format("knee = \"{}\"  # sign of {} at the file's initial pose\n",
                        leg.knee_positive ? "positive" : "negative", row.knee);
   if (leg.free_spin) out += "spin = \"free\"\n";
-  for (const auto& [key, values] : {std::pair("friction", leg.damping), std::pair("coulomb", leg.friction),
-                                    std::pair("rotor_inertia", leg.rotor_inertia)})
-    if (const std::string table = byCoordinate(leg, values); !table.empty())
+  const std::string smoothing = leg.smoothing_speed > 0 ? ", smoothing_speed = " + text(leg.smoothing_speed) : "";
+  for (const auto& [key, values, more] :
+       {std::tuple("friction", leg.damping, std::string()), std::tuple("coulomb", leg.friction, smoothing),
+        std::tuple("rotor_inertia", leg.rotor_inertia, std::string())})
+    if (const std::string table = byCoordinate(leg, values, more); !table.empty())
       out += fmt::format("{} = {}\n", key, table);
   return out;
 }

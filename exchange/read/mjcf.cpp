@@ -53,6 +53,7 @@ class MjcfReader {
     eachChild(root_, "worldbody", [this](const Element& e) { readChildren(e, 0, Place()); });
     scaleMasses();
     readMjcfClosures(root_, defaults_, named_, graph_);
+    readSmoothing();
     readMjcfActuators(root_, defaults_, named_, graph_);
     if (const Element* keys = root_.FirstChildElement("keyframe");
         keys != nullptr && keys->FirstChildElement() != nullptr)
@@ -247,6 +248,20 @@ class MjcfReader {
     if (!(ends[0] < ends[1])) return;
     joint.lower = inUnits(ends[0]);
     joint.upper = inUnits(ends[1]);
+  }
+
+  /// Smoothing speeds of friction that `ursula export` wrote.
+  void readSmoothing() {
+    const std::string end = "_smoothing_speed";
+    eachChild(root_, "custom", [&](const Element& custom) {
+      eachChild(custom, "numeric", [&](const Element& e) {
+        const std::string name = attribute(e, "name");
+        const std::size_t at = name.size() > end.size() ? name.size() - end.size() : 0;
+        const auto found = named_.joints.find(name.substr(0, at));
+        if (found != named_.joints.end() && name.substr(at) == end)
+          graph_.joints[found->second].smoothing_speed = numberOf(e, attribute(e, "data"), "data");
+      });
+    });
   }
 
   void scaleMasses() {

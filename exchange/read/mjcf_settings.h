@@ -42,8 +42,8 @@ class MjcfDefaults {
   std::size_t inherited_ = 0;  ///< number of entries in all classes, because entries are copied down
 };
 
-/// Reads the <option>s of a model: gravity. Throws ImportError for forces of a fluid, and for flags that switch off what
-/// the file says elsewhere.
+/// Reads the <option>s of a model: gravity. Throws ImportError for forces of a fluid, and for flags that switch off
+/// what the file says elsewhere.
 void readMjcfOptions(const Element& root, ModelGraph& graph);
 
 /// Orientation by quat, axisangle, euler, xyaxes or zaxis. Throws ImportError if more than one is given.

@@ -41,6 +41,7 @@ void takeDynamics(const Element& joint_element, const Element& dynamics, GraphJo
   };
   joint.damping = read("damping");
   joint.friction = read("friction");
+  joint.smoothing_speed = smoothingOf(dynamics);
   if (const double stiffness = read("spring_stiffness"); stiffness != 0)
     refuse(joint_element, fmt::format("a spring of {}, which a scenario has no words for", stiffness));
 }
@@ -123,6 +124,8 @@ void takeSdfMotion(const Element& joint_element, const Element& axis, bool endle
                    std::vector<Assumption>& assumptions) {
   if (axis.FirstChildElement("mimic")) refuse(joint_element, "mimic, which a scenario has no words for");
   if (!endless) takeLimits(joint_element, axis, joint);
+  if (const std::string rotor = attribute(axis, "ursula:rotor_inertia"); !rotor.empty())
+    joint.rotor_inertia = numberOf(axis, rotor, "ursula:rotor_inertia");
   if (const Element* dynamics = onlyChild(axis, "dynamics")) {
     listUnknown(*dynamics, known_in_dynamics, assumptions);
     takeDynamics(joint_element, *dynamics, joint);

@@ -215,7 +215,7 @@ class UrdfReader {
     }
     const Element* dynamics = onlyChild(element, "dynamics");
     if (dynamics == nullptr) return;
-    listUnknownAttributes(*dynamics, {"damping", "friction"}, graph_.assumptions);
+    listUnknownAttributes(*dynamics, {"damping", "friction", "ursula:smoothing_speed"}, graph_.assumptions);
     const auto read = [&](const char* name) {
       const std::string text = attribute(*dynamics, name);
       const double value = text.empty() ? 0 : numberOf(*dynamics, text, name);
@@ -224,6 +224,7 @@ class UrdfReader {
     };
     joint.damping = read("damping");
     joint.friction = read("friction");
+    joint.smoothing_speed = smoothingOf(*dynamics);
   }
 
   /// Reads transmissions, and ros2_control joints that take commands.

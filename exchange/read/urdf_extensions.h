@@ -7,8 +7,8 @@
 
 namespace ursula::exchange {
 
-/// Applies the <mujoco> of a URDF as MuJoCo does: gravity, and bounds of masses and inertias. `links` are the elements of
-/// the graph's bodies. Without a gravity there it says which was taken. Throws ImportError where MuJoCo would take a
+/// Applies the <mujoco> of a URDF as MuJoCo does: gravity, and bounds of masses and inertias. `links` are the elements
+/// of the graph's bodies. Without a gravity there it says which was taken. Throws ImportError where MuJoCo would take a
 /// mass from a shape or scale all of them.
 void readUrdfMujoco(const Element& robot, const std::vector<const Element*>& links, ModelGraph& graph);
 

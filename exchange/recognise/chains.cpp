@@ -78,6 +78,25 @@ class Net {
   std::vector<std::vector<Edge>> edges_;
 };
 
+/// "; --close A:B closes a loop, …" with the links without children whose frames coincide.
+std::string offeredLoops(const ModelGraph& graph, const Groups& groups) {
+  constexpr std::size_t most = 100;
+  constexpr double apart = 1e-6;  // m
+  if (graph.format != "urdf") return "";
+  std::vector<char> has_child(graph.bodies.size(), 0);
+  for (const GraphJoint& joint : graph.joints) has_child[joint.parent] = 1;
+  std::vector<std::size_t> ends;
+  for (std::size_t i = 0; i < has_child.size() && ends.size() < most; ++i)
+    if (has_child[i] == 0) ends.push_back(i);
+  std::string offers;
+  for (const std::size_t a : ends)
+    for (const std::size_t b : ends)
+      if (a < b && groups.group_of[a] != groups.group_of[b] &&
+          (graph.bodies[a].frame.translation() - graph.bodies[b].frame.translation()).norm() < apart)
+        offers += fmt::format(" --close {}:{}", shown(graph.bodies[a].name), shown(graph.bodies[b].name));
+  return "; --close A:B closes a loop" + (offers.empty() ? "" : "; ends that coincide:" + offers);
+}
+
 std::size_t findBase(const ModelGraph& graph, const Groups& groups, const Net& net, const ImportChoices& choices) {
   if (!choices.base.empty()) return groups.named(graph, choices.base, "--base");
   for (std::size_t i = 0; i < groups.groups.size(); ++i)
@@ -106,7 +125,7 @@ std::size_t findPlatform(const ModelGraph& graph, const Groups& groups, const Ne
         fmt::format("no platform: no body but the base, {}, has three joints, expected one that three to "
                     "six legs carry; {}",
                     net.name(base),
-                    graph.format == "urdf" ? "URDF is a tree: --close A:B closes its loops" : "are its loops closed?"));
+                    graph.format == "urdf" ? "URDF is a tree" + offeredLoops(graph, groups) : "are its loops closed?"));
   throw ImportError(
       fmt::format("more than one body has three joints or more: {}; --platform BODY names the one "
                   "that the legs carry",
@@ -157,10 +176,9 @@ Chain walk(const ModelGraph& graph, const Groups& groups, const Net& net, const 
     const std::string where = fmt::format("the leg from joint {}", shown(graph.joints[first.joint].name));
     if (edge.to == ends.base) throw ImportError(where + " comes back to the base, expected the platform");
     if (on.size() == 1)
-      throw ImportError(
-          fmt::format("{} ends at body {} in the air, expected the platform, {}{}", where, net.name(edge.to),
-                      net.name(ends.platform), graph.format == "urdf" ? "; --close A:B closes a loop" : ""),
-          groups.groups[edge.to].line);
+      throw ImportError(fmt::format("{} ends at body {} in the air, expected the platform, {}{}", where,
+                                    net.name(edge.to), net.name(ends.platform), offeredLoops(graph, groups)),
+                        groups.groups[edge.to].line);
     if (on.size() > 2)
       throw ImportError(fmt::format("{} branches at body {}, which has {} joints, expected legs that join base and "
                                     "platform only",

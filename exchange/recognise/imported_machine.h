@@ -25,6 +25,7 @@ struct ImportedLeg {
   ImportedLink proximal, distal;
   bool knee_positive = true;
   bool free_spin = false;
+  double smoothing_speed = 0;  ///< of Coulomb friction, rad/s or m/s; 0 for the scenario's default
   std::array<double, 3> damping = {}, friction = {}, rotor_inertia = {};  ///< in the order of the kind's coordinates
   std::vector<std::string> motors;  ///< names of the driven joints in the file, in that order
   std::string joints;               ///< names in the file

@@ -34,7 +34,9 @@ void takeCoordinate(const GraphJoint& from, Coordinate coordinate, std::size_t k
                     "has no key for; without it, in the file and in your engine, the machine can be taken",
                     shown(from.name), from.rotor_inertia),
         from.line);
-  if (from.friction != 0)
+  if (from.friction != 0 && from.smoothing_speed > 0)
+    leg.smoothing_speed = from.smoothing_speed;
+  else if (from.friction != 0)
     assumptions.push_back({fmt::format("Coulomb friction is smoothed below 0.01 {}, of which the file says nothing",
                                        slides(coordinate) ? "m/s" : "rad/s"),
                            from.name, from.friction, slides(coordinate) ? "N" : "N·m"});

@@ -96,6 +96,7 @@ class Builder {
     joint.position = at.position;
     joint.damping = leg.friction.on(at.coordinate);
     joint.friction = leg.coulomb.on(at.coordinate);
+    joint.smoothing_speed = joint.friction != 0 ? leg.coulomb.speedOf(at.coordinate) : 0;
     joint.driven = leg.actuated[k];
     joint.rotor_inertia = leg.rotor_inertia.on(at.coordinate);
     if (rowOf(leg.kind).isTelescopic() && slides(at.coordinate)) {
@@ -103,8 +104,8 @@ class Builder {
       joint.upper = leg.distal.length + leg.proximal.length;
     }
     if (joint.friction != 0)
-      note("Coulomb friction loses its smoothing and is sharp", joint.name, leg.coulomb.speedOf(at.coordinate),
-           slides(at.coordinate) ? "m/s" : "rad/s");
+      note("Coulomb friction is sharp for other tools: only an import reads its smoothing", joint.name,
+           joint.smoothing_speed, slides(at.coordinate) ? "m/s" : "rad/s");
     out_.graph.joints.push_back(joint);
   }
 

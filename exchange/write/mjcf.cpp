@@ -45,10 +45,21 @@ class MjcfWriter {
     const Xml actuators = root.add("actuator");
     for (const GraphJoint& joint : graph_.joints)
       if (joint.driven) actuators.add("motor").with("name", joint.name).with("joint", joint.name).with("gear", "1");
+    addSmoothing(root);
     return document_.text();
   }
 
  private:
+  /// MuJoCo's schema takes no further attributes of joints.
+  void addSmoothing(const Xml& root) const {
+    const auto rubs = [](const GraphJoint& joint) { return joint.friction != 0; };
+    if (std::none_of(graph_.joints.begin(), graph_.joints.end(), rubs)) return;
+    const Xml custom = root.add("custom");
+    for (const GraphJoint& joint : graph_.joints)
+      if (rubs(joint))
+        custom.add("numeric").with("name", joint.name + "_smoothing_speed").with("data", joint.smoothing_speed);
+  }
+
   bool floats(const Limb& limb) const {
     return limb.joints.size() == 1 && graph_.joints[limb.joints.front()].kind == JointKind::ball;
   }

@@ -21,7 +21,7 @@ class SdfWriter {
 
   std::string text() {
     const Xml root = document_.root();
-    root.with("version", "1.7");
+    root.with("version", "1.7").with("xmlns:drake", "http://drake.mit.edu").with("xmlns:ursula", own_namespace);
     const Xml world = root.add("world");
     world.with("name", graph_.name).add("gravity", numberText(graph_.gravity));
     const Xml physics = world.add("physics").with("name", "small_steps").with("type", "ode");
@@ -100,7 +100,8 @@ class SdfWriter {
                                                            : "revolute";
     const Xml element = addJoint(model, nameOf(limb), type, limb.parent, last);
     for (std::size_t k = 0; k < limb.joints.size(); ++k)
-      addAxis(element.add(k == 0 ? "axis" : "axis2"), graph_.joints[limb.joints[k]]);
+      addAxis(element.add(k == 0 ? "axis" : "axis2"), graph_.joints[limb.joints[k]], limb.joints.size() == 2);
+    if (limb.joints.size() == 1 && last.rotor_inertia != 0) element.add("drake:rotor_inertia", last.rotor_inertia);
   }
 
   /// Three hinges through one point become a ball, which has no axes for friction or rotors.
@@ -108,12 +109,12 @@ class SdfWriter {
     if (joint.damping != 0 || joint.friction != 0)
       notes_.push_back({"Friction on one axis of a ball is left out", joint.name,
                         std::max(joint.damping, joint.friction), "N m s or N m"});
-    noteRotor(joint);
+    noteRotor(joint, "it is left out");
   }
 
-  void noteRotor(const GraphJoint& joint) {
+  void noteRotor(const GraphJoint& joint, const char* what) {
     if (joint.rotor_inertia != 0)
-      notes_.push_back({"SDF has no rotor inertia: it is left out", joint.name, joint.rotor_inertia,
+      notes_.push_back({fmt::format("SDF has no rotor inertia: {}", what), joint.name, joint.rotor_inertia,
                         joint.kind == JointKind::prismatic ? "kg" : "kg m2"});
   }
 
@@ -132,10 +133,13 @@ class SdfWriter {
     return element;
   }
 
-  void addAxis(const Xml& axis, const GraphJoint& joint) {
+  /// Drake's rotor belongs to a joint of one axis; of two axes only an import knows whose it is.
+  void addAxis(const Xml& axis, const GraphJoint& joint, bool is_of_two) {
+    if (is_of_two && joint.rotor_inertia != 0) axis.with("ursula:rotor_inertia", joint.rotor_inertia);
     axis.add("xyz", numberText(joint.axis[0]));
     if (joint.damping != 0 || joint.friction != 0) {
       const Xml dynamics = axis.add("dynamics");
+      if (joint.friction != 0) dynamics.with("ursula:smoothing_speed", joint.smoothing_speed);
       dynamics.add("damping", joint.damping);
       dynamics.add("friction", joint.friction);
     }
@@ -146,7 +150,7 @@ class SdfWriter {
       limit.add("upper", limited ? joint.upper - joint.position : 1e16);
       if (!joint.driven) limit.add("effort", 0.0);
     }
-    noteRotor(joint);
+    noteRotor(joint, is_of_two ? "only an import reads it" : "only Drake and an import read it");
   }
 
   const MachineModel& machine_;

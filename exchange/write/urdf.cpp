@@ -22,7 +22,8 @@ class UrdfWriter {
   explicit UrdfWriter(const MachineModel& machine) : machine_(machine), graph_(machine.graph), document_("robot") {}
 
   std::string text() {
-    root_.with("name", graph_.name).with("xmlns:drake", "http://drake.mit.edu");
+    root_.with("name", graph_.name).with("xmlns:drake", "http://drake.mit.edu").with("xmlns:ursula", own_namespace);
+    root_.add("mujoco").add("option").with("gravity", graph_.gravity);
     for (std::size_t body = 0; body < graph_.bodies.size(); ++body) addLink(body);
     for (const GraphJoint& joint : graph_.joints)
       if (!joint.closure) addJoint(joint);
@@ -93,8 +94,10 @@ class UrdfWriter {
 
   static void addCoordinate(const GraphJoint& joint, const Xml& element, const Vector3d& axis) {
     element.add("axis").with("xyz", axis);
-    if (joint.damping != 0 || joint.friction != 0)
-      element.add("dynamics").with("damping", joint.damping).with("friction", joint.friction);
+    if (joint.damping != 0 || joint.friction != 0) {
+      const Xml dynamics = element.add("dynamics").with("damping", joint.damping).with("friction", joint.friction);
+      if (joint.friction != 0) dynamics.with("ursula:smoothing_speed", joint.smoothing_speed);
+    }
     const Xml limit = element.add("limit").with("effort", joint.driven ? no_limit : 0).with("velocity", no_limit);
     if (joint.kind != JointKind::prismatic) return;
     const bool limited = std::isfinite(joint.lower) && std::isfinite(joint.upper);
@@ -159,9 +162,10 @@ class UrdfWriter {
 
 std::string urdfText(const MachineModel& machine, std::vector<Assumption>& notes) {
   const Vector3d& gravity = machine.graph.gravity;
-  notes.push_back({fmt::format("URDF has no gravity: set [{}, {}, {}] in the simulator, in the base's axes",
-                               gravity.x(), gravity.y(), gravity.z()),
-                   "manipulator.gravity", gravity.norm(), "m/s2"});
+  notes.push_back(
+      {fmt::format("URDF has no gravity: but for MuJoCo and an import, set [{}, {}, {}], in the base's axes",
+                   gravity.x(), gravity.y(), gravity.z()),
+       "manipulator.gravity", gravity.norm(), "m/s2"});
   const auto& joints = machine.graph.joints;
   const auto closures = std::count_if(joints.begin(), joints.end(), [](const GraphJoint& it) { return it.closure; });
   notes.push_back({"URDF is a tree: loops are closed by <drake:ball_constraint>; elsewhere join closing_…_1 and _2",

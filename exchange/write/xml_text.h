@@ -9,6 +9,9 @@
 
 namespace ursula::exchange {
 
+/// Attributes that only an import of this program reads. Their prefix is "ursula:".
+constexpr const char* own_namespace = "urn:ursula";
+
 /// The shortest digits that parse to the same number; a zero has no sign.
 std::string numberText(double value);
 /// Numbers separated by spaces. An entry within rounding of zero, relative to the others, becomes zero.
