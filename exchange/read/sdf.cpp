@@ -265,8 +265,9 @@ class SdfReader {
     const Vector3d given = xyz == nullptr ? Vector3d::UnitZ() : vectorOf(*xyz, textOf(*xyz), "<xyz>");
     Matrix3d frame = at.linear();
     const std::string of_model = childText(*axis, "use_parent_model_frame");
-    const bool in_model = !of_model.empty() && truthOf(*axis, of_model, "<use_parent_model_frame>");
-    if (minor_ <= 4 || (minor_ <= 6 && in_model)) frame = frames_.inWorld(scope).linear();
+    // Up to 1.4 it is the default, as libsdformat converts these files.
+    const bool in_model = of_model.empty() ? minor_ <= 4 : truthOf(*axis, of_model, "<use_parent_model_frame>");
+    if (minor_ <= 6 && in_model) frame = frames_.inWorld(scope).linear();
     const std::string expressed_in = frameNamed(xyz, "expressed_in");
     if (!expressed_in.empty())
       frame = frames_.inWorld(frames_.find(*xyz, scope, expressed_in, "expressed_in")).linear();

@@ -199,6 +199,57 @@ class Refusals(unittest.TestCase):
                 self.refused(model.format("1.7", pose, xyz), "m.sdf", ["--base"])  # not for the frame's name
         self.refused(model.format("1.6", 'frame=""', ""), "m.sdf", ["--base"])
 
+    def test_what_would_change_torques_in_urdf(self):
+        """MuJoCo's settings as MuJoCo reads them; forces and bodies that <gazebo> adds."""
+        whole = urdf()
+        shape = "<collision><geometry><sphere radius='1'/></geometry></collision>"
+        box = f'<link name="box">{shape}</link><joint name="j" type="fixed"><parent link="leg1_first"/><child link="box"/></joint>'
+        on = '<gazebo reference="leg2_{}">{}</gazebo>'
+        for more, words in (("<mujoco/><mujoco/>", ["second <mujoco>"]), ('<mujoco><compiler settotalmass="7"/></mujoco>', ["settotalmass 7"]),
+                            ('<mujoco><option viscosity="1"/></mujoco>', ["viscosity"]), (box + "<mujoco/>", ["box", "<collision>"]),
+                            ('<mujoco><compiler boundmass="4000"/></mujoco>', ["--lump"]),
+                            (on.format("j2", "<axis><dynamics><damping>1</damping></dynamics></axis>"), ["leg2_j2", "<axis>"]),
+                            (on.format("first", "<dampingFactor>0.25</dampingFactor>"), ["decay", "0.25"]),
+                            (on.format("first", "<velocity_decay><linear>0.25</linear></velocity_decay>"), ["decay", "0.25"]),
+                            ('<gazebo><link name="extra"/></gazebo>', ["extra", "<gazebo>"]),
+                            ('<ros2_control><joint name="leg2_j2"><param name="mimic">leg1_j2</param></joint></ros2_control>', ["leg2_j2", "mimic"])):
+            with self.subTest(words=words):
+                self.refused(whole.replace("</robot>", more + "</robot>"), "m.urdf", words)
+        for more in ('<mujoco><compiler discardvisual="false" angle="degree" boundmass="1e-9"/></mujoco>', box,
+                     box + '<mujoco><compiler inertiafromgeom="false"/></mujoco>', on.format("first", "<dampingFactor>0</dampingFactor>")):
+            with self.subTest(more=more):
+                done, _ = self.call(whole.replace("</robot>", more + "</robot>"), "m.urdf")
+                self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_unknown_words_of_urdf_are_listed(self):
+        whole = urdf()
+        for pattern, to, words in ((r'(<link name="leg1_first">)', r"\1<inertal/>", "<inertal>"), (r"</robot>", "<property/></robot>", "<property>"),
+                                   (r"</robot>", '<gazebo><plugin filename="libmimic.so"/></gazebo></robot>', "libmimic.so"),
+                                   (r'<dynamics damping', "<dynamics dmaping", "dmaping")):
+            done, _ = self.call(self.changed(whole, pattern, to), "m.urdf")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(words, done.stderr)
+
+    def test_ends_that_coincide_are_offered(self):
+        open_loops = urdf("close")
+        pair = re.findall(r'<link name="(\w+_end1)"', open_loops)
+        self.assertEqual(len(pair), 5)
+        self.refused(open_loops, "m.urdf", [f"--close {pair[0]}:{pair[0][:-1]}2"])
+
+    def test_sdf_as_libsdformat_refuses_it(self):
+        """Frames that nothing uses; a ball that rubs; a decay of velocity. Blanks between names are none of these."""
+        names = [f"leg{i}_j2" for i in range(1, 7)]
+        whole = sdf()
+        for pattern, to, words in ((r"</model>", '<frame name="f" attached_to="none"/></model>', ["none"]),
+                                   (r"</model>", '<frame name="f" attached_to="g"/><frame name="g" attached_to="f"/></model>', ["circle"]),
+                                   (r"<model ", '<model canonical_link="none" ', ["canonical_link", "none"]),
+                                   (r'(<joint name="\w+" type="ball">)', r"\1<axis><dynamics><damping>2</damping></dynamics></axis>", ["rubs", "2"]),
+                                   (r'(<link name="leg1_first">)', r"\1<velocity_decay><angular>2</angular></velocity_decay>", ["decay", "2"])):
+            with self.subTest(words=words):
+                self.refused(self.changed(whole, pattern, to), "m.sdf", words, "--actuated", ",".join(names))
+        done, _ = self.call(whole, "m.sdf", "--actuated", ", ".join(names))
+        self.assertEqual(done.returncode, 0, done.stderr)
+
     def test_what_is_given_twice(self):
         drives = ("--actuated", ",".join(f"leg{i}_j2" for i in range(1, 7)))
         for pattern, word in ((r"(<mass>.*?</mass>)", "mass"), (r"(<inertial>.*?</inertial>)", "inertial"), (r"(<axis>.*?</axis>)", "axis"),

@@ -92,10 +92,16 @@ TEST(ReadMjcf, whatTheCompilerChangesIsListed) {
   for (const char* what : {"boundmass", "boundinertia", "balanceinertia"}) EXPECT_EQ(assumed(plain, what).first, 0);
 }
 
-TEST(ReadUrdf, settingsOfMujocoAreListed) {
-  const std::string link = R"(<robot name="r">)", end = R"(<link name="a"/></robot>)";
-  EXPECT_EQ(assumed(read(link + "<mujoco><compiler/></mujoco>" + end, "a.urdf"), "MuJoCo").first, 1);
-  EXPECT_EQ(assumed(read(link + end, "b.urdf"), "MuJoCo").first, 0);
+TEST(ReadUrdf, gravityIsListedUnlessMujocosSettingsGiveOne) {
+  const auto graph = [](const std::string& settings) {
+    return read(R"(<robot name="r"><mujoco>)" + settings + R"(</mujoco><link name="a"/></robot>)", "gravity.urdf");
+  };
+  const ModelGraph taken = graph("<compiler/>"), given = graph(R"(<option gravity="0 0 -3"/>)");
+  EXPECT_EQ(assumed(taken, "has no gravity").first, 1);
+  EXPECT_EQ(taken.gravity, Vector3d(0, 0, -9.81));
+  EXPECT_EQ(assumed(given, "has no gravity").first, 0);
+  EXPECT_EQ(given.gravity, Vector3d(0, 0, -3));
+  EXPECT_EQ(assumed(graph("<equality/>"), "<equality>").first, 1);
 }
 
 TEST(ReadMjcf, sitesAndFramesOfNewerFiles) {

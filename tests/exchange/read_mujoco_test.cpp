@@ -128,7 +128,24 @@ constexpr const char* bounds =
     <body name="b" pos="0 0 1"><joint name="b1"/><inertial pos="0 0 0" mass="0.1" diaginertia="0.001 0.4 0.41"/></body></body>
   <body name="still" pos="1 0 0"><geom type="box" size="0.1 0.1 0.1"/></body></worldbody></mujoco>)";
 
-INSTANTIATE_TEST_SUITE_P(, ReadMujoco, testing::Values(orientations, shapes, classes, bounds));
+/// A body without numbers (MuJoCo 2.2 puts its raised mass right only if it is at its parent's origin), and letters of
+/// both cases in eulerseq.
+constexpr const char* raised =
+    R"(<mujoco><compiler angle="radian" boundmass="0.5" boundinertia="0.02" eulerseq="zXy"/><worldbody>
+  <body name="a" pos="3 2 1" euler="0.1 0.2 0.3"><joint name="a1"/><inertial pos="0 1 0" mass="1" diaginertia="1 1 1"/><body name="b"><joint name="b1"/></body></body>
+  </worldbody></mujoco>)";
+
+/// MuJoCo's settings within a URDF; bounds hold for each link before fixed ones are fused.
+constexpr const char* urdf =
+    R"(<robot name="r"><mujoco><compiler angle="degree" eulerseq="zyx" fusestatic="false" balanceinertia="true" boundmass="0.5" boundinertia="0.02"/>
+  <option gravity="1 2 -3"/></mujoco><link name="world"/>
+  <link name="a"><inertial><origin xyz="0 0 0.1" rpy="0.3 0.4 0.5"/><mass value="2"/><inertia ixx="0.1" iyy="0.12" izz="0.5" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="a1" type="continuous"><parent link="world"/><child link="a"/><origin xyz="1 2 3" rpy="0.3 0.4 0.5"/><axis xyz="0 0 1"/><dynamics damping="2" friction="3"/></joint>
+  <link name="b"/><joint name="b1" type="continuous"><parent link="a"/><child link="b"/><axis xyz="1 0 0"/></joint>
+  <link name="c"><inertial><mass value="0.1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="c1" type="prismatic"><parent link="b"/><child link="c"/><axis xyz="0 1 0"/><limit lower="-1" upper="2" effort="1" velocity="1"/></joint></robot>)";
+
+INSTANTIATE_TEST_SUITE_P(, ReadMujoco, testing::Values(orientations, shapes, classes, bounds, raised, urdf));
 
 }  // namespace
 }  // namespace ursula::exchange

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sdf/sdf.hh>
 #include <string>
+#include <tuple>
 
 #include "exchange/import.h"
 
@@ -18,13 +19,13 @@ Matrix3d of(const ignition::math::Quaterniond& q) {
   return Eigen::Quaterniond(q.W(), q.X(), q.Y(), q.Z()).toRotationMatrix();
 }
 
-class ReadSdformat : public testing::TestWithParam<const char*> {};
+/// A version, and what use_parent_model_frame says there; nothing if empty.
+class ReadSdformat : public testing::TestWithParam<std::tuple<std::string, std::string>> {};
 
 TEST_P(ReadSdformat, agrees) {
-  const std::string version = GetParam();
+  const auto& [version, says] = GetParam();
   const bool new_poses = version >= "1.7";
-  const std::string flag =
-      version == "1.5" || version == "1.6" ? "<use_parent_model_frame>1</use_parent_model_frame>" : "";
+  const std::string flag = says.empty() ? "" : "<use_parent_model_frame>" + says + "</use_parent_model_frame>";
   const std::string text =
       "<sdf version='" + version + "'><model name='m'><pose>1 2 3 0.1 0.2 0.3</pose>" +
       "<link name='a'><pose>0.1 0 0 0.5 0 0</pose></link><link name='b'><pose" + (new_poses ? " relative_to='a'" : "") +
@@ -34,7 +35,8 @@ TEST_P(ReadSdformat, agrees) {
       "0.6 "
       "0.8</xyz>" +
       flag + "<limit><lower>-1</lower><upper>2</upper></limit></axis></joint></model></sdf>";
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / ("read_sdformat_" + version + ".sdf");
+  const std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / ("read_sdformat_" + version + says + ".sdf");
   std::ofstream(file) << text;
   const ModelGraph graph = readModel(file);
   sdf::Root root;
@@ -68,7 +70,50 @@ TEST_P(ReadSdformat, agrees) {
   EXPECT_EQ(graph.joints.at(0).upper, joint.Axis(0)->Upper());
 }
 
-INSTANTIATE_TEST_SUITE_P(, ReadSdformat, testing::Values("1.4", "1.5", "1.6", "1.7", "1.8", "1.9"));
+INSTANTIATE_TEST_SUITE_P(, ReadSdformat,
+                         testing::Combine(testing::Values("1.4", "1.5", "1.6", "1.7", "1.8", "1.9"),
+                                          testing::Values("", "0", "1")));
+
+/// A nested model that is placed by a frame of its own, and a joint whose child is a frame.
+TEST(ReadSdformatFrames, agree) {
+  const std::string text =
+      "<sdf version='1.9'><world name='w'><frame name='floor'><pose>0 0 1 0.2 0 0</pose></frame><model name='m' "
+      "placement_frame='f' canonical_link='n::a'><pose relative_to='floor'>1 2 3 0.1 0.2 0.3</pose><frame name='f' "
+      "attached_to='n::g'><pose degrees='true'>0 1 0 10 20 30</pose></frame><model name='n'><pose>1 0 0 0.5 0 0</pose>"
+      "<link name='a'><pose>0 0 1 0 0.4 0</pose></link><frame name='g' attached_to='a'><pose>0.1 0.2 0 0 0 "
+      "1</pose></frame>"
+      "</model><link name='b'><pose relative_to='n::g' rotation_format='quat_xyzw'>0 0 2 0.6 0 0 0.8</pose></link>"
+      "<frame name='h' attached_to='b'><pose>0 0.3 0 1 0 0</pose></frame><joint name='j' type='revolute'><pose>0 0 0.1 "
+      "0 0.7 0"
+      "</pose><parent>n::g</parent><child>h</child><axis><xyz expressed_in='n'>0 0.6 "
+      "0.8</xyz></axis></joint></model></world></sdf>";
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "read_sdformat_frames.sdf";
+  std::ofstream(file) << text;
+  const ModelGraph graph = readModel(file);
+  sdf::Root root;
+  const sdf::Errors errors = root.LoadSdfString(text);
+  ASSERT_TRUE(errors.empty()) << errors[0].Message();
+  const sdf::Model& model = *root.WorldByIndex(0)->ModelByIndex(0);
+  const auto inWorld = [&](const sdf::SemanticPose& of_it) {
+    ignition::math::Pose3d in_model, whole;
+    EXPECT_TRUE(of_it.Resolve(in_model, "__model__").empty());
+    EXPECT_TRUE(model.SemanticPose().Resolve(whole, "world").empty());
+    return whole * in_model;
+  };
+  ASSERT_EQ(graph.bodies.size(), 3U);
+  const auto b = inWorld(model.LinkByName("b")->SemanticPose());
+  EXPECT_EQ(graph.bodies[1].name + graph.bodies[2].name, "bn::a");
+  const sdf::Joint& joint = *model.JointByName("j");
+  const auto j = inWorld(joint.SemanticPose());
+  EXPECT_LE((graph.bodies[1].frame.translation() - of(b.Pos())).norm(), 1e-14);
+  EXPECT_LE((graph.bodies[1].frame.linear() - of(b.Rot())).norm(), 1e-14);
+  EXPECT_LE((graph.joints.at(0).centre - of(j.Pos())).norm(), 1e-14);
+  ignition::math::Vector3d axis;
+  ASSERT_TRUE(joint.Axis(0)->ResolveXyz(axis).empty());
+  EXPECT_LE((graph.joints[0].axis[0] - of(j.Rot()) * of(axis)).norm(), 1e-14);
+  EXPECT_EQ(graph.joints[0].parent, 2U);
+  EXPECT_EQ(graph.joints[0].child, 1U);
+}
 
 }  // namespace
 }  // namespace ursula::exchange

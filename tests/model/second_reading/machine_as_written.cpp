@@ -100,6 +100,9 @@ Leg legOf(const LegKeys& keys) {
   leg.friction = frictionOf(keys, "friction", leg.kind);
   static_cast<JointFriction&>(leg.coulomb) = frictionOf(keys, "coulomb", leg.kind);
   leg.spins = keys("spin").value_or(std::string("held")) == "free";
+  // A free spin has no moment about its line.
+  if (leg.spins) leg.distal.inertia(2, 2) = 0;
+  if (leg.spins && leg.kind == LegKind::UPS) leg.proximal.inertia(2, 2) = 0;
   const std::array<std::string, 3> has = coordinatesOf(leg.kind);
   for (std::size_t j = 0; j < 3; ++j)
     if (leg.actuated[j])
