@@ -13,18 +13,10 @@ namespace {
 const std::set<std::string> known_in_dynamics = wordsOf("damping friction spring_reference spring_stiffness");
 const std::set<std::string> known_in_inertial = wordsOf("mass pose inertia frame fluid_added_mass density");
 
-/// Numbers of 1e16 and more, and "inf", mean no limit.
 void takeLimits(const Element& joint_element, const Element& axis, GraphJoint& joint) {
   const Element* limit = onlyChild(axis, "limit");
   if (limit == nullptr) return;
-  const auto take = [&](const char* name, double& to) {
-    const std::string text = childText(*limit, name);
-    if (text.empty() || text == "inf" || text == "-inf" || text == "+inf") return;
-    const double value = numberOf(*limit, text, name);
-    if (std::abs(value) < 1e16) to = value;
-  };
-  take("lower", joint.lower);
-  take("upper", joint.upper);
+  takeRange(*limit, childText, joint);
   if (joint.lower == joint.upper)
     refuse(joint_element, fmt::format("lower and upper limit are both {}: it cannot move; expected a joint of type "
                                       "fixed, or limits apart",
@@ -33,16 +25,9 @@ void takeLimits(const Element& joint_element, const Element& axis, GraphJoint& j
 }
 
 void takeDynamics(const Element& joint_element, const Element& dynamics, GraphJoint& joint) {
-  const auto read = [&](const char* name) {
-    const std::string text = childText(dynamics, name);
-    const double value = text.empty() ? 0 : numberOf(dynamics, text, name);
-    if (value < 0) refuse(joint_element, fmt::format("<{}> {}, expected none below zero", name, value));
-    return value;
-  };
-  joint.damping = read("damping");
-  joint.friction = read("friction");
-  joint.smoothing_speed = smoothingOf(dynamics);
-  if (const double stiffness = read("spring_stiffness"); stiffness != 0)
+  takeRubbing(joint_element, dynamics, childText, joint);
+  const std::string stiffness = childText(dynamics, "spring_stiffness");
+  if (!stiffness.empty() && numberOf(dynamics, stiffness, "spring_stiffness") != 0)
     refuse(joint_element, fmt::format("a spring of {}, which a scenario has no words for", stiffness));
 }
 
@@ -130,6 +115,25 @@ void takeSdfMotion(const Element& joint_element, const Element& axis, bool endle
     listUnknown(*dynamics, known_in_dynamics, assumptions);
     takeDynamics(joint_element, *dynamics, joint);
   }
+}
+
+void takeRange(const Element& limit, TextOfWord text, GraphJoint& joint) {
+  for (const auto& [name, to] : {std::pair("lower", &joint.lower), std::pair("upper", &joint.upper)}) {
+    const std::string word = text(limit, name);
+    if (word.empty() || word == "inf" || word == "-inf" || word == "+inf") continue;
+    const double value = numberOf(limit, word, name);
+    if (std::abs(value) < 1e16) *to = value;
+  }
+}
+
+void takeRubbing(const Element& joint_element, const Element& dynamics, TextOfWord text, GraphJoint& joint) {
+  for (const auto& [name, to] : {std::pair("damping", &joint.damping), std::pair("friction", &joint.friction)}) {
+    const std::string word = text(dynamics, name);
+    *to = word.empty() ? 0 : numberOf(dynamics, word, name);
+    if (*to < 0) refuse(joint_element, fmt::format("{} {}, expected none below zero", name, *to));
+  }
+  const std::string speed = attribute(dynamics, "ursula:smoothing_speed");
+  joint.smoothing_speed = speed.empty() ? 0 : numberOf(dynamics, speed, "ursula:smoothing_speed");
 }
 
 void listPlugins(const Element& element, const std::string& of, std::vector<Assumption>& assumptions) {

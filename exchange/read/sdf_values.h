@@ -15,6 +15,13 @@ void takeSdfInertial(const Element& link, GraphBody& body, std::vector<Assumptio
 void takeSdfMotion(const Element& joint_element, const Element& axis, bool endless, GraphJoint& joint,
                    std::vector<Assumption>& assumptions);
 
+/// A word's text: of a child in SDF (`childText`), of an attribute in URDF (`attribute`).
+using TextOfWord = std::string (*)(const Element&, const char*);
+/// Reads lower and upper. "inf" and numbers of 1e16 and more mean no limit.
+void takeRange(const Element& limit, TextOfWord text, GraphJoint& joint);
+/// Reads damping and friction. Throws ImportError for one below zero.
+void takeRubbing(const Element& joint_element, const Element& dynamics, TextOfWord text, GraphJoint& joint);
+
 /// Lists the plugins of `element`, which may bring forces.
 void listPlugins(const Element& element, const std::string& of, std::vector<Assumption>& assumptions);
 

@@ -44,11 +44,6 @@ std::vector<std::string> SmallYaml::list(const std::string& key) const {
   return found == values.end() ? std::vector<std::string>() : found->second;
 }
 
-std::string SmallYaml::word(const std::string& key) const {
-  const std::vector<std::string> all = list(key);
-  return all.empty() ? "" : all[0];
-}
-
 SmallYaml readSmallYaml(const std::string& text, const std::string& name) {
   SmallYaml out;
   std::istringstream lines(text);

@@ -11,7 +11,6 @@ struct SmallYaml {
   std::map<std::string, std::vector<std::string>> values;  ///< nested lists are flattened
 
   std::vector<std::string> list(const std::string& key) const;
-  std::string word(const std::string& key) const;
 };
 
 /// Throws ImportError for any other form.

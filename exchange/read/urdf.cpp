@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -12,6 +12,7 @@
 #include "base/shown_text.h"
 #include "exchange/read/drake.h"
 #include "exchange/read/readers.h"
+#include "exchange/read/sdf_values.h"
 #include "exchange/read/urdf_closures.h"
 #include "exchange/read/urdf_extensions.h"
 
@@ -199,14 +200,7 @@ class UrdfReader {
 
   void takeLimits(const Element& element, const std::string& type, GraphJoint& joint) {
     if (const Element* limit = onlyChild(element, "limit"); limit != nullptr && type != "continuous") {
-      const auto take = [&](const char* name, double& to) {
-        const std::string text = attribute(*limit, name);
-        if (text.empty() || text == "inf" || text == "-inf") return;
-        const double value = numberOf(*limit, text, name);
-        if (std::abs(value) < 1e16) to = value;
-      };
-      take("lower", joint.lower);
-      take("upper", joint.upper);
+      takeRange(*limit, attribute, joint);
       // URDF's default for both is zero, so a joint that cannot move is one without given limits.
       if (joint.lower == joint.upper && !attribute(*limit, "lower").empty())
         graph_.assumptions.push_back(
@@ -216,15 +210,7 @@ class UrdfReader {
     const Element* dynamics = onlyChild(element, "dynamics");
     if (dynamics == nullptr) return;
     listUnknownAttributes(*dynamics, {"damping", "friction", "ursula:smoothing_speed"}, graph_.assumptions);
-    const auto read = [&](const char* name) {
-      const std::string text = attribute(*dynamics, name);
-      const double value = text.empty() ? 0 : numberOf(*dynamics, text, name);
-      if (value < 0) refuse(element, fmt::format("{} {}, expected none below zero", name, value));
-      return value;
-    };
-    joint.damping = read("damping");
-    joint.friction = read("friction");
-    joint.smoothing_speed = smoothingOf(*dynamics);
+    takeRubbing(element, *dynamics, attribute, joint);
   }
 
   /// Reads transmissions, and ros2_control joints that take commands.

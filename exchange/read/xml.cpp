@@ -159,11 +159,6 @@ bool truthOf(const Element& at, const std::string& text, const std::string& what
   refuse(at, fmt::format("{} is '{}', expected true or false", what, shown(text)));
 }
 
-double smoothingOf(const Element& dynamics) {
-  const std::string speed = attribute(dynamics, "ursula:smoothing_speed");
-  return speed.empty() ? 0 : numberOf(dynamics, speed, "ursula:smoothing_speed");
-}
-
 double halfLastDigit(std::string_view text) {
   double largest = 0;
   for (std::size_t i = text.find_first_not_of(white); i < text.size(); i = text.find_first_not_of(white, i)) {

@@ -50,8 +50,6 @@ double numberOf(const Element& at, std::string_view text, const std::string& wha
 Vector3d vectorOf(const Element& at, std::string_view text, const std::string& what);
 /// Reads "true", "1", "false" or "0". Throws for other words.
 bool truthOf(const Element& at, const std::string& text, const std::string& what);
-/// The smoothing speed of a friction that `ursula export` wrote; 0 if there is none.
-double smoothingOf(const Element& dynamics);
 /// Half a unit of the last written digit, the largest over the numbers: "0.25 1" gives 0.5.
 double halfLastDigit(std::string_view text);
 

@@ -119,13 +119,13 @@ class Recogniser {
     const Chains chains = findChains(graph_, groups, choices_, machine_.assumptions);
     const double size = sizeOf(chains);
     Group platform = groups.groups[chains.platform];
-    const Eigen::Isometry3d B = frameOfBase(groups.groups[chains.base]), M = frameOfPlatform(platform);
+    const Eigen::Isometry3d B = frameOfBase(), M = frameOfPlatform(platform);
     std::vector<LegShape> shapes;
     for (const Chain& chain : chains.legs) shapes.push_back(shapeOf(graph_, groups, chain, size, choices_));
     requireMotors(chains, shapes);
     for (const LegShape& shape : shapes)
       machine_.legs.push_back(legOf({graph_, groups, shape, choices_, size, B, M}, platform, machine_.assumptions));
-    takePlatform(groups, platform, B, M, size);
+    takePlatform(platform, B, M);
     sayOrder();
     sayLimits(chains);
     proposeMotion(machine_, size);
@@ -133,9 +133,8 @@ class Recogniser {
   }
 
  private:
-  Eigen::Isometry3d frameOfBase(const Group& base) {
+  Eigen::Isometry3d frameOfBase() {
     machine_.base = choices_.base;
-    static_cast<void>(base);
     if (choices_.base.empty()) return Eigen::Isometry3d::Identity();
     return graph_.bodies[bodyNamed(graph_, choices_.base, "--base")].frame;
   }
@@ -177,8 +176,7 @@ class Recogniser {
 
   std::string upper() const { return graph_.format == "urdf" ? "URDF" : graph_.format == "sdf" ? "SDF" : "the file"; }
 
-  void takePlatform(const Groups& groups, const Group& platform, const Eigen::Isometry3d& B, const Eigen::Isometry3d& M,
-                    double size) {
+  void takePlatform(const Group& platform, const Eigen::Isometry3d& B, const Eigen::Isometry3d& M) {
     if (platform.weightless)
       throw ImportError(
           fmt::format("body {} has its gravity switched off, which a scenario has no key for", shown(platform.name)),
@@ -186,8 +184,6 @@ class Recogniser {
     if (!(platform.mass > 0))
       throw ImportError(fmt::format("the platform, {}, has no mass, expected one above zero", shown(platform.name)),
                         platform.line);
-    static_cast<void>(groups);
-    static_cast<void>(size);
     machine_.gravity = B.linear().transpose() * graph_.gravity;
     machine_.platform_mass = platform.mass;
     machine_.platform_center = M.inverse() * platform.center_of_mass;
