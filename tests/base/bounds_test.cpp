@@ -96,7 +96,9 @@ TEST(TextSource, isAPipeWithAWriter) {
   const TemporaryFolder folder;
   const std::filesystem::path pipe = folder.path() / "a.pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_EQ(refusal<TextRefusal>([&] { readText(pipe, {9, "a list"}); }),
+  EXPECT_EQ(refusal<TextRefusal>([&] {
+              readText(pipe, {9, "a list"});
+            }),
             "a pipe that nobody writes to, expected a list");
   std::thread writer([&] { std::ofstream(pipe) << "12345\n"; });
   EXPECT_EQ(readText(pipe, {9, "a list"}), "12345\n");

@@ -68,7 +68,8 @@ TEST(ExportGraph, NothingIsDroppedInSilence) {
   };
   EXPECT_THAT(notesOf("scenarios/load-base.toml", ModelFormat::mjcf), HasSubstr("load.force"));
   EXPECT_THAT(notesOf("scenarios/coulomb-friction.toml", ModelFormat::mjcf), HasSubstr("leg_1_phi: Coulomb"));
-  EXPECT_THAT(notesOf("scenarios/gravity-sideways.toml", ModelFormat::urdf), HasSubstr("URDF has no gravity: set ["));
+  EXPECT_THAT(notesOf("scenarios/gravity-sideways.toml", ModelFormat::urdf),
+              HasSubstr("URDF has no gravity: but for MuJoCo and an import, set ["));
   EXPECT_THAT(notesOf("apps/starting/UPS.toml", ModelFormat::sdf), HasSubstr("--actuated leg_1_d,leg_2_d"));
 }
 

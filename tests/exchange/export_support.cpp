@@ -70,10 +70,10 @@ double deviation(const SeenBodies& seen, const SeenBodies& expected) {
 
 const std::vector<std::string>& machines() {
   static const std::vector<std::string> all = {
-      "apps/starting/URS.toml",          "apps/starting/UPS.toml",         "apps/starting/RUS.toml",
-      "apps/starting/PUS.toml",          "scenarios/full-tensors.toml",    "scenarios/mixture.toml",
-      "scenarios/three-legs.toml",       "scenarios/knees-mixed.toml",     "scenarios/axis-along-z.toml",
-      "scenarios/gravity-sideways.toml", "scenarios/viscous-friction.toml"};
+      "apps/starting/URS.toml",          "apps/starting/UPS.toml",          "apps/starting/RUS.toml",
+      "apps/starting/PUS.toml",          "scenarios/full-tensors.toml",     "scenarios/mixture.toml",
+      "scenarios/three-legs.toml",       "scenarios/knees-mixed.toml",      "scenarios/axis-along-z.toml",
+      "scenarios/gravity-sideways.toml", "scenarios/viscous-friction.toml", "scenarios/free-rods.toml"};
   return all;
 }
 

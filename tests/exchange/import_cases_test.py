@@ -144,6 +144,38 @@ class Cases(import_test.Imports):
             said.add("not in that of its motors" in import_test.run(path).stderr)
         self.assertIn(True, said)  # one of the two orders at least is not that of the legs
 
+    def efforts(self, text):
+        path = Path(self.folder.name) / "efforts.toml"
+        path.write_text(text)
+        done = subprocess.run([import_test.PROGRAM, "inverse", str(path), "--samples", "9"], capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        names, *rows = (line.split(",") for line in done.stdout.splitlines())
+        return np.array([[float(x) for n, x in zip(names, row) if n.startswith("tau_")] for row in rows])
+
+    def test_an_export_comes_back(self):
+        """Rotors, free rods, gravity aside and smoothed friction, in every format; and what is carried is what makes it so."""
+        rotors = "rotor_inertia = { phi = 0.5, d = 3.0 }\ncoulomb = { phi = 4.0, d = 6.0, smoothing_speed = 0.03 }\n"
+        for name in ("free-rods", "coulomb-friction", "gravity-sideways", "three-legs"):
+            whole = (Path(__file__).parents[2] / f"scenarios/{name}.toml").read_text()
+            if name == "three-legs":
+                whole = whole.replace('actuated = ["phi", "d"]\n', 'actuated = ["phi", "d"]\n' + rotors)
+            scenario, motion = Path(self.folder.name) / "whole.toml", whole[whole.index("[trajectory]"):]
+            scenario.write_text(whole)
+            right = self.efforts(whole)
+            for form, key in (("sdf", 'ursula:smoothing_speed="'), ("mjcf", '_smoothing_speed" data="'), ("urdf", 'ursula:smoothing_speed="')):
+                with self.subTest(name=name, form=form):
+                    model = Path(self.folder.name) / f"m.{form}"
+                    model.unlink(missing_ok=True)
+                    done = subprocess.run([import_test.PROGRAM, "export", str(scenario), "--format", form, "--out", str(model)],
+                                          capture_output=True, text=True, timeout=120)
+                    driven = re.findall(r"say (--actuated) (\S+)", done.stderr)
+                    back = lambda: re.sub(r"(?s)\n\[trajectory\].*", "\n" + motion, import_test.run(model, *(driven[0] if driven else ())).stdout)
+                    self.assertLessEqual(np.abs(self.efforts(back()) - right).max(), 1e-9 * np.abs(right).max())
+                    if "coulomb" in whole:
+                        self.assertIn(key, model.read_text())
+                        model.write_text(model.read_text().replace(key, key + "9"))
+                        self.assertGreater(np.abs(self.efforts(back()) - right).max(), 1e-9 * np.abs(right).max())
+
     def test_a_base_with_a_frame_of_its_own(self):
         machine, bodies, joints, rng = made(12, ("URS", "UPS"))
         T = (np.array([0.5, -1, 2]), machines.random_rotation(rng))

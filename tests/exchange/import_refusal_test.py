@@ -207,7 +207,7 @@ class Refusals(unittest.TestCase):
         on = '<gazebo reference="leg2_{}">{}</gazebo>'
         for more, words in (("<mujoco/><mujoco/>", ["second <mujoco>"]), ('<mujoco><compiler settotalmass="7"/></mujoco>', ["settotalmass 7"]),
                             ('<mujoco><option viscosity="1"/></mujoco>', ["viscosity"]), (box + "<mujoco/>", ["box", "<collision>"]),
-                            ('<mujoco><compiler boundmass="4000"/></mujoco>', ["--lump"]),
+                            ('<mujoco><compiler boundinertia="40"/></mujoco>', ["--lump"]),
                             (on.format("j2", "<axis><dynamics><damping>1</damping></dynamics></axis>"), ["leg2_j2", "<axis>"]),
                             (on.format("first", "<dampingFactor>0.25</dampingFactor>"), ["decay", "0.25"]),
                             (on.format("first", "<velocity_decay><linear>0.25</linear></velocity_decay>"), ["decay", "0.25"]),
