@@ -22,7 +22,7 @@ void takeRange(const Element& limit, TextOfWord text, GraphJoint& joint);
 /// Reads damping and friction. Throws ImportError for one below zero.
 void takeRubbing(const Element& joint_element, const Element& dynamics, TextOfWord text, GraphJoint& joint);
 
-/// Lists the plugins of `element`, which may bring forces.
+/// Lists the plugins of `element`, which may bring forces. Throws ImportError for those that couple joints.
 void listPlugins(const Element& element, const std::string& of, std::vector<Assumption>& assumptions);
 
 /// Refuses a <velocity_decay> in `element` above zero, and `factor`, which is URDF's word for it.

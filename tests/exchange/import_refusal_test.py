@@ -211,6 +211,7 @@ class Refusals(unittest.TestCase):
                             (on.format("j2", "<axis><dynamics><damping>1</damping></dynamics></axis>"), ["leg2_j2", "<axis>"]),
                             (on.format("first", "<dampingFactor>0.25</dampingFactor>"), ["decay", "0.25"]),
                             (on.format("first", "<velocity_decay><linear>0.25</linear></velocity_decay>"), ["decay", "0.25"]),
+                            ('<gazebo><plugin filename="libmimic_joint.so"/></gazebo>', ["libmimic_joint.so", "follow"]),
                             ('<gazebo><link name="extra"/></gazebo>', ["extra", "<gazebo>"]),
                             ('<ros2_control><joint name="leg2_j2"><param name="mimic">leg1_j2</param></joint></ros2_control>', ["leg2_j2", "mimic"])):
             with self.subTest(words=words):
@@ -224,7 +225,7 @@ class Refusals(unittest.TestCase):
     def test_unknown_words_of_urdf_are_listed(self):
         whole = urdf()
         for pattern, to, words in ((r'(<link name="leg1_first">)', r"\1<inertal/>", "<inertal>"), (r"</robot>", "<property/></robot>", "<property>"),
-                                   (r"</robot>", '<gazebo><plugin filename="libmimic.so"/></gazebo></robot>', "libmimic.so"),
+                                   (r"</robot>", '<gazebo><plugin filename="libwind.so"/></gazebo></robot>', "libwind.so"),
                                    (r'<dynamics damping', "<dynamics dmaping", "dmaping")):
             done, _ = self.call(self.changed(whole, pattern, to), "m.urdf")
             self.assertEqual(done.returncode, 0, done.stderr)
