@@ -24,7 +24,7 @@ struct GraphBody {
   bool weightless = false;                                  ///< the file disables gravity for it
 };
 
-enum class JointKind { fixed, revolute, prismatic, universal, ball, cylindrical, free };
+enum class JointKind { fixed, revolute, prismatic, universal, ball, free };
 
 /// A joint between two bodies. If `closure` is set, it closes a loop of the other joints' tree.
 struct GraphJoint {
@@ -34,7 +34,7 @@ struct GraphJoint {
   std::size_t parent = 0, child = 0;            ///< indices into ModelGraph::bodies
   Vector3d centre = Vector3d::Zero();           ///< on the parent's side, in the world, m
   Vector3d centre_of_child = Vector3d::Zero();  ///< on the child's side; differs if a closure is open
-  /// Unit vectors in the world. Revolute, prismatic and cylindrical use the first, universal both (parent's first). A
+  /// Unit vectors in the world. Revolute and prismatic use the first, universal both (parent's first). A
   /// coordinate grows as the child turns about or slides along its axis.
   std::array<Vector3d, 2> axis = {Vector3d::Zero(), Vector3d::Zero()};
   double position = 0;  ///< coordinate at the initial pose, rad or m

@@ -31,7 +31,6 @@ class SdfFrames {
   std::size_t add(const std::string& name, Frame frame);
   /// Finds "a::b", "__model__", "world". Throws ImportError if there is no such frame.
   std::size_t find(const Element& at, std::size_t scope, const std::string& name, const char* what) const;
-  bool has(std::size_t scope, const std::string& name) const { return names_[scope].count(name) != 0; }
 
   /// Throws ImportError for a pose relative to itself, and for a frame attached to nothing or to itself, used or not.
   void requireSound();

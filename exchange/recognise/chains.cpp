@@ -155,9 +155,6 @@ void append(const ModelGraph& graph, std::size_t index, bool outwards, Chain& ch
     case JointKind::universal:
       add(Primitive::Kind::R, joint.axis[outwards ? 0 : 1]);
       return add(Primitive::Kind::R, joint.axis[outwards ? 1 : 0], false);
-    case JointKind::cylindrical:
-      add(Primitive::Kind::R, joint.axis[0]);
-      return add(Primitive::Kind::P, joint.axis[0], false);
     case JointKind::fixed:
     case JointKind::free:
       break;

@@ -40,7 +40,7 @@ struct ImportedPose {
 
 /// A machine that the program can validate, in B and M, with the assumptions made.
 struct ImportedMachine {
-  std::string name, base, platform, format;
+  std::string name, base, platform;
   Vector3d gravity = Vector3d::Zero();
   double platform_mass = 0;
   Vector3d platform_center = Vector3d::Zero();

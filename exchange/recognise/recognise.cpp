@@ -113,7 +113,6 @@ class Recogniser {
     drive(graph_, choices_.actuated);
     takeHinges(graph_);
     machine_.name = graph_.name;
-    machine_.format = graph_.format;
     machine_.assumptions = graph_.assumptions;
     const Groups groups(graph_);
     const Chains chains = findChains(graph_, groups, choices_, machine_.assumptions);
