@@ -9,6 +9,7 @@
 #include "studies/identify/log_columns.h"
 #include "studies/identify/platform_motion.h"
 #include "validation/subject/effort_columns.h"
+#include "validation/subject/subject.h"
 
 namespace ursula {
 
@@ -64,6 +65,24 @@ SyntheticRows syntheticRows(const Scenario& scenario, const ManipulatorParameter
       out.motion(i, k) += how.motion_noise * normal(dice);
       out.efforts(i, k) += out.effort_noise(k) * normal(dice);
     }
+  return out;
+}
+
+SyntheticRows closedFormRows(const Scenario& scenario, int count, double effort_noise, unsigned seed) {
+  const identification::MotorChain chain(*scenario.manipulator);
+  std::mt19937 dice(seed);
+  std::normal_distribution<double> normal;
+  SyntheticRows out;
+  out.motion.resize(count, motor_count);
+  out.efforts.resize(count, motor_count);
+  out.effort_noise = Eigen::VectorXd::Constant(motor_count, effort_noise);
+  for (int i = 0; i < count; ++i) {
+    out.t.push_back(scenario.trajectory->duration() * i / (count - 1));
+    const Motion<double> motion = scenario.trajectory->at(out.t.back());
+    out.motion.row(i) = chain.driven(motion).first.transpose();
+    out.efforts.row(i) = chain.efforts(motion, loadAtP(scenario.load.get(), motion)).transpose();
+    for (int k = 0; k < motor_count; ++k) out.efforts(i, k) += effort_noise * normal(dice);
+  }
   return out;
 }
 

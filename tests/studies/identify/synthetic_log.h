@@ -31,6 +31,10 @@ Motion<double> syntheticMotion(const Scenario& scenario, const SyntheticLog& how
 /// Returns coordinates and efforts of Simbody's six-ball loop of `machine` on that motion, with noise.
 SyntheticRows syntheticRows(const Scenario& scenario, const ManipulatorParameters& machine, const SyntheticLog& how);
 
+/// Returns `count` instants of the scenario's own motion and the closed form's efforts, with noise of deviation
+/// `effort_noise`, N·m or N, on these.
+SyntheticRows closedFormRows(const Scenario& scenario, int count, double effort_noise, unsigned seed);
+
 MeasuredLog logOf(const SyntheticRows& rows, const Scenario& scenario);
 
 /// Returns the log as a user's CSV file.
