@@ -31,6 +31,7 @@ const char* name(DirectionKind kind) {
       return "load_dependent_friction";
     case DirectionKind::linear:
     case DirectionKind::number:
+    case DirectionKind::numerical:
       break;
   }
   return "parameter";
@@ -109,7 +110,7 @@ void ModelledLog::refuse(const MeasuredLog& log, Eigen::Index at) const {
 }
 
 double ModelledLog::coarseDelay(double most) const {
-  const Eigen::MatrixXd measured = filtered_.efforts();
+  const Eigen::MatrixXd measured = filtered_.efforts(0);
   const Eigen::Index rows = filtered_.size(),
                      reach = std::min<Eigen::Index>(static_cast<Eigen::Index>(most / filtered_.step()), rows / 4);
   double best = std::numeric_limits<double>::infinity(), found = 0;
@@ -132,7 +133,7 @@ double ModelledLog::coarseDelay(double most) const {
 
 void ModelledLog::compare(double delay, Comparison& out) const { out.measured = filtered_.settledEfforts(delay); }
 
-Comparison ModelledLog::directions(bool with_further) const {
+Comparison ModelledLog::directions() const {
   Comparison out;
   out.segments = filtered_.settledSegments();
   out.model = filtered_.settle(efforts_);
@@ -141,52 +142,44 @@ Comparison ModelledLog::directions(bool with_further) const {
   for (Eigen::Index i = 0; i < out.t.size(); ++i)
     out.t(i) = filtered_.time(filtered_.settled()[static_cast<std::size_t>(i)]);
   out.slopes = slopes();
-  out.numerical = numericalError(out.slopes);
   addLinear(out);
   addOfLog(out);
-  if (!with_further) return out;
+  addNumerical(out);
   addSeries(out);
   addNumbers(out);
   return out;
 }
 
-/// Estimates the low pass's error from the change of efforts at a higher cut-off, over the log's longest stretch. The
-/// signal falls off beyond the cut-off, so the next octave shows about what is lost, beside noise, which is known.
-Vector6d ModelledLog::numericalError(const std::vector<Eigen::MatrixXd>& slopes) const {
-  constexpr Eigen::Index most = 3000;
+/// Adds the change of E = S − D at a higher cut-off. The signal falls off beyond the cut-off, so the next octave shows
+/// about what is lost, beside noise, which is known.
+void ModelledLog::addNumerical(Comparison& out) const {
   constexpr double chance = 1.5;  // noise may be more by chance
-  const auto longest =
-      std::max_element(filtered_.segments().begin(), filtered_.segments().end(),
-                       [](const Segment& a, const Segment& b) { return a.end - a.first < b.end - b.first; });
-  std::vector<Eigen::Index> centers;
-  for (Eigen::Index i = longest->first; i < longest->end && centers.size() < most; ++i) centers.push_back(i);
-  if (centers.empty()) return Vector6d::Zero();
-  Eigen::MatrixXd error(static_cast<Eigen::Index>(centers.size()), motor_count);
-  for (std::size_t row = 0; row < centers.size(); ++row) {
-    const MeasuredState state = filtered_.sharperState(centers[row]);
-    const auto at = static_cast<std::size_t>(centers[row]);
+  Eigen::MatrixXd change = Eigen::MatrixXd::Zero(filtered_.size(), motor_count);
+  for (Eigen::Index i = 0; i < change.rows(); ++i) {
+    const MeasuredState state = filtered_.sharperState(i);
+    const auto at = static_cast<std::size_t>(i);
     const auto motion = has_poses_ ? std::optional(motionOfPoses(state)) : chain_.follow(state, motions_[at]);
-    error.row(static_cast<Eigen::Index>(row)).setZero();
-    if (motion)
-      error.row(static_cast<Eigen::Index>(row)) =
-          chain_.efforts(*motion, loads_[at]).transpose() - efforts_.row(centers[row]);
+    if (motion) change.row(i) = chain_.efforts(*motion, loads_[at]).transpose() - efforts_.row(i);
   }
-  std::vector<Eigen::Index> inner;
-  for (Eigen::Index i = filtered_.second().half; i + filtered_.second().half < error.rows(); i += filtered_.plan().fine)
-    inner.push_back(i);
-  const Eigen::MatrixXd settled = inner.empty() ? error : Kernel::apply(filtered_.second().value, error, inner);
+  change = filtered_.settle(change - filtered_.sharperEfforts());
   const Eigen::Matrix3d passed = filtered_.sharperLines().covariance(0);
-  const Eigen::VectorXd motion = filtered_.plan().noise.motion.cwiseAbs2();
-  Vector6d noise = Vector6d::Zero();
-  for (const Eigen::MatrixXd& slope : slopes)
+  const SampleNoise& samples = filtered_.plan().noise;
+  const Eigen::VectorXd motion = samples.motion.cwiseAbs2();
+  Vector6d noise = passed(0, 0) * samples.efforts.cwiseAbs2();
+  for (const Eigen::MatrixXd& slope : out.slopes)
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b)
-        noise += passed(a, b) / static_cast<double>(slopes.size()) *
+        noise += passed(a, b) / static_cast<double>(out.slopes.size()) *
                  slope.middleCols(a * motion.size(), motion.size())
                      .cwiseProduct(slope.middleCols(b * motion.size(), motion.size())) *
                  motion;
-  const Vector6d seen = settled.colwise().squaredNorm().transpose() / static_cast<double>(settled.rows());
-  return (seen - chance * noise).cwiseMax(0).cwiseSqrt();
+  const Vector6d seen = change.colwise().squaredNorm().transpose() / static_cast<double>(change.rows());
+  out.numerical = (seen - chance * noise).cwiseMax(0).cwiseSqrt();
+  for (int k = 0; k < motor_count; ++k) {
+    Eigen::MatrixXd column = Eigen::MatrixXd::Zero(change.rows(), motor_count);
+    column.col(k) = change.col(k) * (out.numerical(k) / std::max(std::sqrt(seen(k)), 1e-300));
+    add(out, {DirectionKind::numerical, "", fmt::format("error of the low passes on motor {}", k + 1), "", k}, column);
+  }
 }
 
 void ModelledLog::add(Comparison& out, const Direction& direction, const Eigen::MatrixXd& columns) const {

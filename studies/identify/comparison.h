@@ -11,7 +11,7 @@
 
 namespace ursula::identification {
 
-enum class DirectionKind { linear, offset, delay, number, scale, encoder, elastic, backlash, load_friction };
+enum class DirectionKind { linear, offset, delay, number, scale, encoder, elastic, backlash, load_friction, numerical };
 /// Returns the kind's name in `summary.json`: "effort_scale", "encoder_offset", …
 const char* name(DirectionKind kind);
 
@@ -35,7 +35,8 @@ struct Comparison {
   Eigen::MatrixXd measured, model;  ///< N·m or N
   Eigen::MatrixXd model_rate;       ///< N·m/s or N/s
   std::vector<Segment> segments;
-  std::vector<Direction> directions;      ///< linear ones first, then six offsets, the delay, and further ones
+  std::vector<Direction> directions;      ///< linear ones first, then six offsets, the delay, six errors of the low
+                                          ///< passes, and further ones
   Vector6d numerical = Vector6d::Zero();  ///< error of the low passes, root mean square, N·m or N
   std::vector<Eigen::MatrixXd> slopes;  ///< derivatives of an instant's efforts by value, rate and acceleration of each
                                         ///< channel of the motion, 6 × 3 channels
@@ -44,7 +45,7 @@ struct Comparison {
 
   Eigen::Index offsets() const { return linear; }
   Eigen::Index delay() const { return linear + motor_count; }
-  Eigen::Index further() const { return delay() + 1; }
+  Eigen::Index further() const { return delay() + 1; }  ///< first of the errors of the low passes
 };
 
 /// The log's motion, and the efforts that a scenario's machine needs for it.
@@ -61,15 +62,15 @@ class ModelledLog {
 
   /// Sets the measured efforts for a delay of `delay` s. The directions stay, because they do not depend on it.
   void compare(double delay, Comparison& out) const;
-  /// Makes the linear directions, offsets and delay, and also the further ones on request. This is slow.
-  Comparison directions(bool with_further) const;
+  /// Makes all directions. This is slow.
+  Comparison directions() const;
 
  private:
   void placeMotions(const MeasuredLog& log);
   [[noreturn]] void refuse(const MeasuredLog& log, Eigen::Index at) const;
-  Vector6d numericalError(const std::vector<Eigen::MatrixXd>& slopes) const;
   void addLinear(Comparison& out) const;
   void addOfLog(Comparison& out) const;
+  void addNumerical(Comparison& out) const;
   void addNumbers(Comparison& out) const;
   void addSeries(Comparison& out) const;
   void add(Comparison& out, const Direction& direction, const Eigen::MatrixXd& columns) const;

@@ -8,27 +8,19 @@ namespace {
 
 /// end_share is the share of an open log that the low passes may take at each end.
 constexpr double end_share = 0.12, of_bandwidth = 4, beyond_end = 1.2, enough_of_bandwidth = 2.5, of_rate = 0.18,
-                 support = 3.6;
+                 support = 4.4;
 /// Cut-off of the low pass that shows what the motion's own takes, as a multiple of that one's.
 constexpr double sharper = 1.6, beyond = 1.7;  ///< little passes beyond this multiple of a cut-off
 /// So many instants tell noise from the fit.
 constexpr double wanted_instants = 100;
 /// Cut-off of the motion's low pass in units of the efforts': it passes all that those show.
 constexpr double apart = 2.5;
-/// A machine rests below this share of the largest rate.
-constexpr double rest_share = 0.02;
 
-/// Extends the log beyond its ends: by the next period, or by the means of the first and last rows at rest.
-Eigen::MatrixXd carriedOn(const Eigen::MatrixXd& x, Eigen::Index by, Ends ends) {
-  const Eigen::Index rows = x.rows(), mean = std::min<Eigen::Index>(5, rows);
+/// Extends a period beyond its ends by the periods before and after it.
+Eigen::MatrixXd carriedOn(const Eigen::MatrixXd& x, Eigen::Index by) {
+  const Eigen::Index rows = x.rows();
   Eigen::MatrixXd out(rows + 2 * by, x.cols());
-  out.middleRows(by, rows) = x;
-  for (Eigen::Index i = 0; i < by; ++i) {
-    out.row(i) = ends == Ends::rest ? Eigen::RowVectorXd(x.topRows(mean).colwise().mean())
-                                    : Eigen::RowVectorXd(x.row(((i - by) % rows + rows) % rows));
-    out.row(by + rows + i) = ends == Ends::rest ? Eigen::RowVectorXd(x.bottomRows(mean).colwise().mean())
-                                                : Eigen::RowVectorXd(x.row(i % rows));
-  }
+  for (Eigen::Index i = 0; i < out.rows(); ++i) out.row(i) = x.row(((i - by) % rows + rows) % rows);
   return out;
 }
 
@@ -46,35 +38,18 @@ int sharperHarmonics(const FilterPlan& plan) {
 
 }  // namespace
 
-Ends endsOf(const MeasuredLog& log, bool is_period) {
-  if (is_period) return Ends::period;
-  const Eigen::Index part = log.rows() / 50;
-  if (part < 8) return Ends::open;
-  for (Eigen::Index k = 0; k < log.motion.cols(); ++k) {
-    const Eigen::VectorXd x = log.motion.col(k);
-    const auto change = [&](Eigen::Index first) {  // difference of a part's two halves, which noise moves little
-      return std::abs(x.segment(first + part / 2, part / 2).mean() - x.segment(first, part / 2).mean());
-    };
-    double largest = 0;
-    for (Eigen::Index i = 0; i + part <= x.size(); i += part) largest = std::max(largest, change(i));
-    const double noise = 4 * whiteNoise(x) / std::sqrt(0.25 * static_cast<double>(part));
-    if (std::max(change(0), change(x.size() - part)) > std::max(rest_share * largest, noise)) return Ends::open;
-  }
-  return Ends::rest;
-}
-
-FilterPlan planFilters(const MeasuredLog& log, Ends ends, const SampleNoise& noise) {
+FilterPlan planFilters(const MeasuredLog& log, bool is_period, const SampleNoise& noise) {
   const double duration = log.step * static_cast<double>(log.rows()), most = of_rate / log.step;
   const Bandwidth bandwidth = motionBandwidth(log);
   FilterPlan out;
-  out.ends = ends;
+  out.is_period = is_period;
   out.noise = noise;
   out.bandwidth = bandwidth.most;
-  const double shortest = ends == Ends::open ? support / (end_share * duration) : 0,
+  const double shortest = is_period ? 0 : support / (end_share * duration),
                wanted = std::min(beyond_end * bandwidth.end, of_bandwidth * bandwidth.most);
   out.effort_cut = std::min(std::max({wanted, shortest, 0.5 * wanted_instants / duration}), most / apart);
   out.state_cut = apart * out.effort_cut;
-  if (ends == Ends::period) {
+  if (is_period) {
     out.series = FourierSeries(log.motion, log.step, noise.motion, bandwidth.most);
     out.state_cut = (out.series.harmonics() + 0.5) * out.series.frequency();
   }
@@ -92,11 +67,11 @@ FilteredLog::FilteredLog(const MeasuredLog& log, const FilterPlan& plan, double 
       first_(plan.state_cut, log.step),
       second_(plan.effort_cut, log.step * static_cast<double>(plan.coarse)),
       sharper_(std::min(sharper * plan.state_cut, of_rate / log.step), log.step) {
-  if (plan.ends != Ends::open) {
+  if (plan.is_period) {
     before_ = first_.half + second_.half * plan.coarse + 1 + static_cast<Eigen::Index>(std::ceil(reach / log.step));
-    log_.motion = carriedOn(log.motion, before_, plan.ends);
-    log_.efforts = carriedOn(log.efforts, before_, plan.ends);
-    if (log.load.cols() > 0) log_.load = carriedOn(log.load, before_, plan.ends);
+    log_.motion = carriedOn(log.motion, before_);
+    log_.efforts = carriedOn(log.efforts, before_);
+    if (log.load.cols() > 0) log_.load = carriedOn(log.load, before_);
     log_.missing.insert(log_.missing.begin(), static_cast<std::size_t>(before_), false);
     log_.missing.resize(static_cast<std::size_t>(log_.rows()), false);
   }
@@ -104,7 +79,7 @@ FilteredLog::FilteredLog(const MeasuredLog& log, const FilterPlan& plan, double 
   value_ = Kernel::apply(first_.value, log_.motion, centers_);
   rate_ = Kernel::apply(first_.rate, log_.motion, centers_);
   acceleration_ = Kernel::apply(first_.acceleration, log_.motion, centers_);
-  for (Eigen::Index i = 0; i < size() && plan.ends == Ends::period; ++i) {
+  for (Eigen::Index i = 0; i < size() && plan.is_period; ++i) {
     const Eigen::MatrixXd state = plan.series.at(time(i) - log.start, plan.series.harmonics());
     value_.row(i) = state.col(0).transpose();
     rate_.row(i) = state.col(1).transpose();
@@ -156,7 +131,7 @@ MeasuredState FilteredLog::state(Eigen::Index i) const {
 }
 
 MeasuredState FilteredLog::sharperState(Eigen::Index i) const {
-  if (plan_.ends == Ends::period) {
+  if (plan_.is_period) {
     const Eigen::MatrixXd state = plan_.series.at(time(i) - log_.start, sharperHarmonics(plan_));
     return {state.col(0), state.col(1), state.col(2)};
   }
@@ -166,15 +141,21 @@ MeasuredState FilteredLog::sharperState(Eigen::Index i) const {
   return {by(sharper_.value), by(sharper_.rate), by(sharper_.acceleration)};
 }
 
+Eigen::MatrixXd FilteredLog::sharperEfforts() const {
+  if (plan_.is_period) return Eigen::MatrixXd::Zero(size(), motor_count);
+  return Kernel::apply(sharper_.value, log_.efforts, centers_) - efforts(0);
+}
+
 Vector6d FilteredLog::load(Eigen::Index i) const {
   return load_.cols() > 0 ? Vector6d(load_.row(i).transpose()) : Vector6d(Vector6d::Zero());
 }
 
-Eigen::MatrixXd FilteredLog::efforts() const {
-  return Kernel::apply(Kernel(plan_.state_cut, log_.step).value, log_.efforts, centers_);
+Eigen::MatrixXd FilteredLog::efforts(double shift) const {
+  return Kernel::apply(Kernel(plan_.state_cut, log_.step, shift).value, log_.efforts, centers_);
 }
 
 Eigen::MatrixXd FilteredLog::settledEfforts(double shift) const {
+  if (!plan_.is_period) return settle(efforts(shift));
   std::vector<Eigen::Index> rows;
   for (const Eigen::Index i : settled_) rows.push_back(centers_[static_cast<std::size_t>(i)]);
   return Kernel::apply(Kernel(plan_.effort_cut, log_.step, shift).value, log_.efforts, rows);
@@ -204,6 +185,7 @@ FilteredLog::Lines FilteredLog::linesOf(double spacing, double end, const Gain& 
 }
 
 FilteredLog::Lines FilteredLog::effortLines() const {
+  if (!plan_.is_period) return motionLines();
   const Kernel efforts(plan_.effort_cut, log_.step);
   return linesOf(0.5 / memory(), beyond * plan_.effort_cut,
                  [&](double omega) { return gainOf(efforts.value, omega * log_.step); });
@@ -211,7 +193,7 @@ FilteredLog::Lines FilteredLog::effortLines() const {
 
 FilteredLog::Lines FilteredLog::motionLines() const {
   const double period = plan_.series.frequency();
-  if (plan_.ends == Ends::period)
+  if (plan_.is_period)
     return linesOf(period, plan_.state_cut, [&](double omega) { return gainOf(second_.value, omega * step()); });
   return linesOf(0.5 / memory(), beyond * plan_.state_cut, [&](double omega) {
     return gainOf(second_.value, omega * step()) * gainOf(first_.value, omega * log_.step);
@@ -220,7 +202,7 @@ FilteredLog::Lines FilteredLog::motionLines() const {
 
 FilteredLog::Lines FilteredLog::sharperLines() const {
   const double period = plan_.series.frequency();
-  if (plan_.ends == Ends::period)
+  if (plan_.is_period)
     return linesOf(period, (sharperHarmonics(plan_) + 0.5) * period, [&](double omega) {
       return omega < 2 * std::acos(-1.0) * plan_.state_cut ? 0.0 : gainOf(second_.value, omega * step());
     });

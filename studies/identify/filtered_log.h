@@ -7,12 +7,6 @@
 
 namespace ursula::identification {
 
-/// How a log continues beyond its ends.
-enum class Ends { open, rest, period };
-
-/// Returns whether a motion is a period, or else begins and ends at rest, so that rest may extend it.
-Ends endsOf(const MeasuredLog& log, bool is_period);
-
 /// The plan of two low passes. One, or a period's Fourier series, leaves the motion as it is, and gives it and its
 /// rates every `coarse` rows. The other acts alike on measured efforts, modelled efforts and every column of the
 /// regressor. It is sampled every `fine` of those rows, at which white noise is nearly uncorrelated.
@@ -20,12 +14,12 @@ struct FilterPlan {
   double bandwidth = 0;                  ///< bandwidth of the motion, Hz
   double state_cut = 0, effort_cut = 0;  ///< Hz
   Eigen::Index coarse = 1, fine = 1;
-  Ends ends = Ends::open;
+  bool is_period = false;  ///< the log is one period of a motion that repeats
   bool too_slow = false;  ///< the log's rate is too low for the motion's bandwidth
   SampleNoise noise;
   FourierSeries series;  ///< the motion of a period, instead of the first low pass
 };
-FilterPlan planFilters(const MeasuredLog& log, Ends ends, const SampleNoise& noise);
+FilterPlan planFilters(const MeasuredLog& log, bool is_period, const SampleNoise& noise);
 
 /// Consecutive instants first … end − 1 without a gap.
 struct Segment {
@@ -47,10 +41,12 @@ class FilteredLog {
   MeasuredState state(Eigen::Index i) const;
   /// Returns the same by a low pass with a higher cut-off.
   MeasuredState sharperState(Eigen::Index i) const;
+  /// Returns what this one adds to efforts at the motion's instants: nothing if the motion is a period.
+  Eigen::MatrixXd sharperEfforts() const;
   Vector6d load(Eigen::Index i) const;
   const std::vector<Segment>& segments() const { return segments_; }
-  /// Returns efforts at the motion's instants.
-  Eigen::MatrixXd efforts() const;
+  /// Returns efforts `shift` s later than the motion's instants, after a low pass like the motion's.
+  Eigen::MatrixXd efforts(double shift) const;
   /// Returns efforts `shift` s later than the settled instants.
   Eigen::MatrixXd settledEfforts(double shift) const;
   /// Applies the efforts' low pass to series at the motion's instants. Returns the rows at settled().
@@ -82,7 +78,7 @@ class FilteredLog {
   void placeCenters(double reach);
   void placeSettled();
 
-  MeasuredLog log_;  ///< extended beyond its ends unless they are open
+  MeasuredLog log_;  ///< a period is extended beyond its ends
   FilterPlan plan_;
   Kernel first_, second_, sharper_;
   Eigen::Index before_ = 0;  ///< rows added before the first

@@ -39,7 +39,7 @@ class Identification {
     describe();
     const Periods periods = averagePeriods(log_);
     out_.periods = periods.count;
-    const FilterPlan plan = planFilters(log_, endsOf(log_, periods.count > 1), sampleNoise(log_, periods));
+    const FilterPlan plan = planFilters(log_, periods.count > 1, sampleNoise(log_, periods));
     out_.bandwidth = plan.bandwidth;
     out_.state_cut = plan.state_cut;
     out_.effort_cut = plan.effort_cut;
@@ -51,7 +51,7 @@ class Identification {
     const FilteredLog filtered(log_, plan, std::abs(coarse) + 1 / plan.state_cut);
     const ModelledLog modelled(scenario_, log_, filtered);
     tell(0.3, "making the regressor");
-    Comparison comparison = modelled.directions(true);
+    Comparison comparison = modelled.directions();
     setPlausible(scenario_.manipulator->parameters(), comparison, comparison.directions);
     settleDelay(modelled, coarse, comparison);
     tell(0.8, "judging and estimating");

@@ -198,7 +198,8 @@ std::vector<Suspect> suspectsOf(const SquareRoot& model, const Comparison& compa
   }
   for (std::size_t j = static_cast<std::size_t>(comparison.linear); j < comparison.directions.size(); ++j)
     if (const Direction& direction = comparison.directions[j];
-        direction.kind != DirectionKind::number && direction.kind != DirectionKind::delay)
+        direction.kind != DirectionKind::number && direction.kind != DirectionKind::delay &&
+        direction.kind != DirectionKind::numerical)
       out.push_back({direction, model.R.col(static_cast<Eigen::Index>(j)), 0});
   return out;
 }
@@ -219,8 +220,9 @@ Judgement judge(const SquareRoot& model, const Comparison& comparison, const std
     if (isOutside(each.direction.kind)) outside.push_back(&each);
   }
   const Eigen::MatrixXd within = withinTolerances(suspects, model.R.rows());
-  Eigen::MatrixXd columns(model.R.rows(), within.cols() + 1);
-  columns << model.R.col(comparison.delay()) * delay_deviation, within;
+  Eigen::MatrixXd columns(model.R.rows(), within.cols() + 1 + motor_count);
+  columns << model.R.col(comparison.delay()) * delay_deviation, model.R.middleCols(comparison.further(), motor_count),
+      within;
   Judgement out;
 
   // No masses, inertias, friction or offsets can explain these, whatever their values.

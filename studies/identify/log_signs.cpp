@@ -64,7 +64,7 @@ void findSigns(MeasuredLog& log, const Motors& motors, std::vector<LogFinding>& 
 
 void findMistakes(const ModelledLog& modelled, const Motors& motors, std::vector<LogFinding>& findings,
                   std::vector<MeasuredCause>& causes) {
-  const Eigen::MatrixXd measured = modelled.filtered().efforts(), &model = modelled.efforts();
+  const Eigen::MatrixXd measured = modelled.filtered().efforts(0), &model = modelled.efforts();
   Eigen::Matrix<double, 6, 6> alike;
   Vector6d factors;
   for (int k = 0; k < motor_count; ++k)

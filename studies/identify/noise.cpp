@@ -9,8 +9,8 @@ namespace {
 
 /// So many instants are correlated with each other.
 constexpr Eigen::Index longest_block = 160;
-/// Least noise of efforts, as a share of them: rounding.
-constexpr double least = 1e-9;
+/// Least noise of efforts, as a share of them: rounding and the direct kinematics.
+constexpr double least = 1e-8;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ EffortNoise::EffortNoise(const FilteredLog& filtered, const Comparison& comparis
     const double later = static_cast<double>(lag) * spacing;
     const bool is_near = later < filtered.memory();
     memory_(lag) = is_near ? efforts.covariance(later)(0, 0) : 0;
-    by_motion_.push_back(is_near || plan.ends == Ends::period ? motion.covariance(later)
+    by_motion_.push_back(is_near || plan.is_period ? motion.covariance(later)
                                                               : Eigen::Matrix3d(Eigen::Matrix3d::Zero()));
   }
   const double gain = memory_(0);

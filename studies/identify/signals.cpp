@@ -10,7 +10,7 @@ namespace {
 const double pi = std::acos(-1.0);
 /// roll_off is the Gaussian window's deviation over frequency, in cut-off frequencies. window_end is where it ends over
 /// time, in deviations.
-constexpr double roll_off = 0.2, window_end = 4.5;
+constexpr double roll_off = 0.2, window_end = 5.5;
 
 /// Averages 2 `by` + 1 neighbours, of which about a third is independent. A single peak of the noise then does not
 /// count as a signal.
@@ -72,10 +72,13 @@ Kernel::Kernel(double cut, double step, double shift)
     rate(k + half) = (f1 - f * u / s2) * window;
     acceleration(k + half) = (f2 - 2 * f1 * u / s2 + f * (u * u / s2 - 1) / s2) * window;
   }
-  // A constant signal has no rate, although the window is finite.
+  // The window is finite, but a parabola has its exact value at the row, rate and acceleration.
+  const Eigen::VectorXd u = shift - step * Eigen::VectorXd::LinSpaced(2 * half + 1, -half, half).array();
   value /= value.sum();
   rate.array() -= rate.mean();
+  rate /= -rate.dot(u);
   acceleration.array() -= acceleration.mean();
+  acceleration *= 2 / acceleration.dot(u.cwiseAbs2());
 }
 
 Eigen::MatrixXd Kernel::apply(const Eigen::VectorXd& weights, const Eigen::MatrixXd& x,
