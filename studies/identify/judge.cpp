@@ -15,7 +15,7 @@ namespace {
 
 /// Risks of calling a right model wrong: by one cause among its numbers, by one outside of them, by the deviation's
 /// size.
-constexpr double risk_of_number = 0.02, risk_outside = 0.02, risk_of_squares = 0.005;
+constexpr double risk_of_number = 0.015, risk_outside = 0.015, risk_of_squares = 0.005;
 constexpr std::size_t most_causes = 6;
 /// Deviations of a normal variable that 95 % do not exceed.
 constexpr double one_sided = 1.645;

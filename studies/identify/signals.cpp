@@ -93,6 +93,8 @@ Eigen::MatrixXd Kernel::apply(const Eigen::VectorXd& weights, const Eigen::Matri
 
 double whiteNoise(const Eigen::VectorXd& signal) {
   constexpr Eigen::Index block = 64;
+  // A median of squares is below their mean. A block has 64 / 3.17 independent ones, by their autocorrelation.
+  const double median = std::pow(1 - 2 / (9 * 64 / 3.17), 3);
   std::vector<double> squares;
   for (Eigen::Index first = 0; first + 7 <= signal.size(); first += block) {
     double sum = 0;
@@ -107,7 +109,7 @@ double whiteNoise(const Eigen::VectorXd& signal) {
   if (squares.empty()) return 0;
   const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
   std::nth_element(squares.begin(), middle, squares.end());
-  return std::sqrt(*middle / 924);  // 924 is the sum of the squared binomials
+  return std::sqrt(*middle / (924 * median));  // 924 is the sum of the squared binomials
 }
 
 double quantum(const Eigen::VectorXd& signal) {

@@ -1,5 +1,6 @@
 # Logs made in Simbody, and what is found in them.
 add_executable(identify_tests
+  identify/closed_form_test.cpp
   identify/identify_test.cpp
   identify/measured_log_test.cpp
   identify/signals_test.cpp
@@ -9,6 +10,7 @@ add_executable(identify_tests
 # The evidence that docs/identify.md quotes, with what is not reached yet.
 add_executable(identify_logs EXCLUDE_FROM_ALL
   identify/open_test.cpp
+  identify/outside_test.cpp
   identify/random_logs.cpp
   identify/random_logs_test.cpp
   identify/synthetic_log.cpp

@@ -110,6 +110,26 @@ TEST_F(Identify, coordinatesThatTheMachineCannotTakeAreRefused) {
   }
 }
 
+TEST_F(Identify, logOfAnotherMachineIsWrongOrRefused) {
+  const Scenario other = readScenario(std::string(URSULA_SCENARIOS) + "/heavy-legs.toml");
+  const IdentifyResult heavier = identify(other, logOf(syntheticRows(scenario, truth, how), scenario), options);
+  EXPECT_EQ(heavier.verdict, Verdict::fail) << identifyText(heavier);
+  const Scenario hexaglide = readScenario(std::string(URSULA_SCENARIOS) + "/hexaglide.toml");
+  EXPECT_THROW(identify(scenario, logOf(closedFormRows(hexaglide, 501, 1, 1), scenario), options), CsvError);
+}
+
+/// The motors' coordinates are exchanged too, so legs are swapped as a whole.
+TEST_F(Identify, logOfSwappedLegsIsWrongOrRefused) {
+  SyntheticRows rows = syntheticRows(scenario, truth, how);
+  rows.motion.col(0).swap(rows.motion.col(3));
+  rows.efforts.col(0).swap(rows.efforts.col(3));
+  try {
+    EXPECT_EQ(identify(scenario, logOf(rows, scenario), options).verdict, Verdict::fail);
+  } catch (const CsvError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("exchanged"));
+  }
+}
+
 TEST_F(Identify, summaryAndScenarioReadBack) {
   const Scenario read = readScenario(std::string(URSULA_SCENARIOS) + "/paper-helix.toml");
   const IdentifyResult result = identify(read, logOf(syntheticRows(read, read.manipulator->parameters(), how), read));
