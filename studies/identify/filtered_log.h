@@ -15,7 +15,7 @@ struct FilterPlan {
   double state_cut = 0, effort_cut = 0;  ///< Hz
   Eigen::Index coarse = 1, fine = 1;
   bool is_period = false;  ///< the log is one period of a motion that repeats
-  bool too_slow = false;  ///< the log's rate is too low for the motion's bandwidth
+  bool too_slow = false;   ///< the log's rate is too low for the motion's bandwidth
   SampleNoise noise;
   FourierSeries series;  ///< the motion of a period, instead of the first low pass
 };

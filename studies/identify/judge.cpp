@@ -197,9 +197,9 @@ std::vector<Suspect> suspectsOf(const SquareRoot& model, const Comparison& compa
     if (legs.size() > 1 && !all.column.isZero(0)) out.push_back(all);
   }
   for (std::size_t j = static_cast<std::size_t>(comparison.linear); j < comparison.directions.size(); ++j)
-    if (const Direction& direction = comparison.directions[j];
-        direction.kind != DirectionKind::number && direction.kind != DirectionKind::delay &&
-        direction.kind != DirectionKind::numerical)
+    if (const Direction& direction = comparison.directions[j]; direction.kind != DirectionKind::number &&
+                                                               direction.kind != DirectionKind::delay &&
+                                                               direction.kind != DirectionKind::numerical)
       out.push_back({direction, model.R.col(static_cast<Eigen::Index>(j)), 0});
   return out;
 }

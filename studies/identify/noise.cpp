@@ -24,7 +24,7 @@ EffortNoise::EffortNoise(const FilteredLog& filtered, const Comparison& comparis
     const bool is_near = later < filtered.memory();
     memory_(lag) = is_near ? efforts.covariance(later)(0, 0) : 0;
     by_motion_.push_back(is_near || plan.is_period ? motion.covariance(later)
-                                                              : Eigen::Matrix3d(Eigen::Matrix3d::Zero()));
+                                                   : Eigen::Matrix3d(Eigen::Matrix3d::Zero()));
   }
   const double gain = memory_(0);
   memory_ /= gain;

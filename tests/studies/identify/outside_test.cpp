@@ -33,7 +33,8 @@ MeasuredLog logWith(const OutsideError& error, double size, const RandomLog& log
   const Eigen::ArrayXd q = exact.motion.col(2), S = exact.efforts.col(2);
   const double stroke = q.maxCoeff() - q.minCoeff(), most = S.abs().maxCoeff(), share = size / 100;
   if (error.kind == std::string("elastic_joint")) rows.motion.col(2).array() += share * stroke * S / most;
-  if (error.kind == std::string("backlash")) rows.motion.col(2).array() += 0.5 * share * stroke * (S / (0.01 * most)).tanh();
+  if (error.kind == std::string("backlash"))
+    rows.motion.col(2).array() += 0.5 * share * stroke * (S / (0.01 * most)).tanh();
   if (error.kind == std::string("load_dependent_friction")) {
     Eigen::ArrayXd rate = Eigen::ArrayXd::Zero(q.size());
     rate.segment(1, q.size() - 2) = (q.tail(q.size() - 2) - q.head(q.size() - 2)) * (0.5 * how.rate);
@@ -42,7 +43,7 @@ MeasuredLog logWith(const OutsideError& error, double size, const RandomLog& log
   return logOf(rows, log.model);
 }
 
-/// Prints the smallest size, of three for each power of ten, that is called wrong, and the causes that are then named.
+/// Prints the smallest size, of two for each power of ten, that is called wrong, and the causes that are then named.
 TEST(OutsideErrors, areToldFromNoise) {
   for (const unsigned seed : {2U, 3U, 6U})
     for (const OutsideError& error : outside_errors) {
@@ -51,7 +52,7 @@ TEST(OutsideErrors, areToldFromNoise) {
       options.tolerances = log.tolerances;
       double found = 0;
       bool named = false, outside = false;
-      for (double size = error.largest; size > error.largest * 1e-4; size /= std::cbrt(10.0)) {
+      for (double size = error.largest; size > error.largest * 2e-4; size /= std::sqrt(10.0)) {
         IdentifyResult result;
         try {
           result = identify(log.model, logWith(error, size, log), options);
