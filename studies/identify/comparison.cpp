@@ -13,6 +13,29 @@
 
 namespace ursula::identification {
 
+namespace {
+
+/// Returns variances of the efforts by noise of the motion. `passed` is the covariance of value, rate and acceleration
+/// for noise of deviation 1, `motion` the variance of each channel.
+Vector6d motionVariance(const Eigen::MatrixXd& slope, const Eigen::Matrix3d& passed, const Eigen::VectorXd& motion) {
+  Vector6d out = Vector6d::Zero();
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b)
+      out += passed(a, b) *
+             slope.middleCols(a * motion.size(), motion.size())
+                 .cwiseProduct(slope.middleCols(b * motion.size(), motion.size())) *
+             motion;
+  return out;
+}
+
+Eigen::MatrixXd rowsOf(const Eigen::MatrixXd& all, const std::vector<Eigen::Index>& rows) {
+  Eigen::MatrixXd out(static_cast<Eigen::Index>(rows.size()), all.cols());
+  for (std::size_t i = 0; i < rows.size(); ++i) out.row(static_cast<Eigen::Index>(i)) = all.row(rows[i]);
+  return out;
+}
+
+}  // namespace
+
 const char* name(DirectionKind kind) {
   switch (kind) {
     case DirectionKind::offset:
@@ -131,7 +154,9 @@ double ModelledLog::coarseDelay(double most) const {
   return found;
 }
 
-void ModelledLog::compare(double delay, Comparison& out) const { out.measured = filtered_.settledEfforts(delay); }
+void ModelledLog::compare(double delay, Comparison& out) const {
+  out.measured = rowsOf(filtered_.settledEfforts(delay), out.kept);
+}
 
 Comparison ModelledLog::directions() const {
   Comparison out;
@@ -142,11 +167,13 @@ Comparison ModelledLog::directions() const {
   for (Eigen::Index i = 0; i < out.t.size(); ++i)
     out.t(i) = filtered_.time(filtered_.settled()[static_cast<std::size_t>(i)]);
   out.slopes = slopes();
+  out.kept = steadyRows(out.slopes);
   addLinear(out);
   addOfLog(out);
   addNumerical(out);
   addSeries(out);
   addNumbers(out);
+  keepSteady(out);
   return out;
 }
 
@@ -162,24 +189,62 @@ void ModelledLog::addNumerical(Comparison& out) const {
     if (motion) change.row(i) = chain_.efforts(*motion, loads_[at]).transpose() - efforts_.row(i);
   }
   change = filtered_.settle(change - filtered_.sharperEfforts());
+  const auto kept = static_cast<double>(out.kept.size());
   const Eigen::Matrix3d passed = filtered_.sharperLines().covariance(0);
   const SampleNoise& samples = filtered_.plan().noise;
   const Eigen::VectorXd motion = samples.motion.cwiseAbs2();
   Vector6d noise = passed(0, 0) * samples.efforts.cwiseAbs2();
-  for (const Eigen::MatrixXd& slope : out.slopes)
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b)
-        noise += passed(a, b) / static_cast<double>(out.slopes.size()) *
-                 slope.middleCols(a * motion.size(), motion.size())
-                     .cwiseProduct(slope.middleCols(b * motion.size(), motion.size())) *
-                 motion;
-  const Vector6d seen = change.colwise().squaredNorm().transpose() / static_cast<double>(change.rows());
+  for (const Eigen::Index row : out.kept)
+    noise += motionVariance(out.slopes[static_cast<std::size_t>(row)], passed, motion) / kept;
+  const Vector6d seen = rowsOf(change, out.kept).colwise().squaredNorm().transpose() / kept;
   out.numerical = (seen - chance * noise).cwiseMax(0).cwiseSqrt();
   for (int k = 0; k < motor_count; ++k) {
     Eigen::MatrixXd column = Eigen::MatrixXd::Zero(change.rows(), motor_count);
     column.col(k) = change.col(k) * (out.numerical(k) / std::max(std::sqrt(seen(k)), 1e-300));
     add(out, {DirectionKind::numerical, "", fmt::format("error of the low passes on motor {}", k + 1), "", k}, column);
   }
+}
+
+/// Returns the rows at which the slopes stay about the same within the low pass, or hardly matter. Near a singular pose
+/// they do not, and the covariance of the noise is unknown.
+std::vector<Eigen::Index> ModelledLog::steadyRows(const std::vector<Eigen::MatrixXd>& slopes) const {
+  constexpr double most_change = 0.3;
+  const Eigen::Matrix3d passed = filtered_.motionLines().covariance(0);
+  const Vector6d samples = filtered_.plan().noise.efforts.cwiseAbs2() * filtered_.effortLines().covariance(0)(0, 0);
+  const Eigen::VectorXd motion = filtered_.plan().noise.motion.cwiseAbs2();
+  std::vector<Eigen::Index> all, steady;
+  for (std::size_t i = 0; i < slopes.size(); ++i) {
+    all.push_back(static_cast<Eigen::Index>(i));
+    const Vector6d here = motionVariance(slopes[i], passed, motion);
+    bool changes = false;
+    for (const std::size_t j : {i == 0 ? i : i - 1, std::min(i + 1, slopes.size() - 1)})
+      changes = changes || (motionVariance(slopes[i] - slopes[j], passed, motion).array() >
+                            most_change * most_change * here.array().max(samples.array()))
+                               .any();
+    if (!changes) steady.push_back(all.back());
+  }
+  return 2 * steady.size() < slopes.size() ? all : steady;
+}
+
+void ModelledLog::keepSteady(Comparison& out) const {
+  const auto all = static_cast<Eigen::Index>(out.slopes.size());
+  if (static_cast<Eigen::Index>(out.kept.size()) == all) return;
+  for (Eigen::MatrixXd* table : {&out.model, &out.model_rate}) *table = rowsOf(*table, out.kept);
+  for (Eigen::MatrixXd& table : out.columns) table = rowsOf(table, out.kept);
+  out.t = rowsOf(out.t, out.kept).col(0);
+  std::vector<Eigen::MatrixXd> slopes;
+  std::vector<Segment> segments;
+  std::vector<bool> starts(static_cast<std::size_t>(all), false);
+  for (const Segment& segment : out.segments) starts[static_cast<std::size_t>(segment.first)] = true;
+  for (std::size_t i = 0; i < out.kept.size(); ++i) {
+    const auto row = static_cast<std::size_t>(out.kept[i]);
+    slopes.push_back(out.slopes[row]);
+    if (i == 0 || out.kept[i - 1] + 1 != out.kept[i] || starts[row])
+      segments.push_back({static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)});
+    segments.back().end = static_cast<Eigen::Index>(i) + 1;
+  }
+  out.slopes = std::move(slopes);
+  out.segments = std::move(segments);
 }
 
 void ModelledLog::add(Comparison& out, const Direction& direction, const Eigen::MatrixXd& columns) const {

@@ -40,6 +40,7 @@ struct Comparison {
   Vector6d numerical = Vector6d::Zero();  ///< error of the low passes, root mean square, N·m or N
   std::vector<Eigen::MatrixXd> slopes;  ///< derivatives of an instant's efforts by value, rate and acceleration of each
                                         ///< channel of the motion, 6 × 3 channels
+  std::vector<Eigen::Index> kept;       ///< rows among the settled instants
   MotorTables columns;                  ///< derivatives of measured efforts by the directions
   Eigen::Index linear = 0;              ///< number of linear directions
 
@@ -75,6 +76,8 @@ class ModelledLog {
   void addSeries(Comparison& out) const;
   void add(Comparison& out, const Direction& direction, const Eigen::MatrixXd& columns) const;
   std::vector<Eigen::MatrixXd> slopes() const;
+  std::vector<Eigen::Index> steadyRows(const std::vector<Eigen::MatrixXd>& slopes) const;
+  void keepSteady(Comparison& out) const;
   Eigen::MatrixXd effortsOf(const Manipulator& machine) const;
 
   const Scenario& scenario_;

@@ -52,6 +52,7 @@ class Identification {
     const ModelledLog modelled(scenario_, log_, filtered);
     tell(0.3, "making the regressor");
     Comparison comparison = modelled.directions();
+    noteSingular(comparison, filtered);
     setPlausible(scenario_.manipulator->parameters(), comparison, comparison.directions);
     settleDelay(modelled, coarse, comparison);
     tell(0.8, "judging and estimating");
@@ -81,6 +82,15 @@ class Identification {
          fmt::format(
              "{:.4g} rows a second show motion up to {:.3g} Hz, and it goes up to {:.3g} Hz: expected a faster log",
              1 / log_.step, plan.state_cut, plan.bandwidth)});
+  }
+
+  void noteSingular(const Comparison& comparison, const FilteredLog& filtered) {
+    const std::size_t all = filtered.settled().size(), left = all - comparison.kept.size();
+    if (left > 0)
+      out_.findings.push_back({"near_singular", -1, static_cast<double>(left), "instants",
+                               fmt::format("noise of the motion changes the efforts too unsteadily at {} of {} "
+                                           "instants, as near a singular pose: they are left out",
+                                           left, all)});
   }
 
   double coarseDelay(const FilterPlan& plan, double most) {
