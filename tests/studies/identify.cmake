@@ -3,6 +3,7 @@ add_executable(identify_tests
   identify/closed_form_test.cpp
   identify/identify_test.cpp
   identify/measured_log_test.cpp
+  identify/random_logs.cpp
   identify/signals_test.cpp
   identify/synthetic_log.cpp
   identify/tolerances_test.cpp

@@ -8,6 +8,7 @@
 #include "studies/identify/excite.h"
 #include "studies/identify/identify.h"
 #include "tests/studies/identify/paper_machine_log.h"
+#include "tests/studies/identify/random_logs.h"
 
 namespace ursula {
 namespace {
@@ -31,6 +32,7 @@ TEST_F(Identify, rightModelIsWithinItsUncertainty) {
   EXPECT_EQ(result.verdict, Verdict::pass) << identifyText(result);
   EXPECT_EQ(result.periods, 2);
   EXPECT_NEAR(result.delay * how.rate, 2.3, 0.1);
+  EXPECT_FALSE(hasFinding(result, "near_singular"));
   EXPECT_GT(result.combinations.size(), 20U);
   EXPECT_LT(result.validation_fitted, 1.5);
   EXPECT_GT(result.validation_fitted, 0.5);
@@ -39,6 +41,17 @@ TEST_F(Identify, rightModelIsWithinItsUncertainty) {
     EXPECT_GT(motor.u_input, 0);
     EXPECT_LT(motor.left, 0.01 * motor.effort);
   }
+}
+
+/// This hexaglide passes a pose at which noise of 2 µm makes 40 times the usual noise of the efforts.
+TEST(IdentifyNearSingularPoses, instantsThereAreLeftOutAndRightModelPasses) {
+  const RandomLog log = randomLog(56);
+  IdentifyOptions options;
+  options.tolerances = log.tolerances;
+  const IdentifyResult result = identify(log.model, logOf(log.rows, log.model), options);
+  EXPECT_TRUE(hasFinding(result, "near_singular")) << identifyText(result);
+  EXPECT_EQ(result.verdict, Verdict::pass) << identifyText(result);
+  EXPECT_GT(result.instants, 24);
 }
 
 TEST_F(Identify, wrongMassIsNamedWithItsTolerancesAndFound) {
