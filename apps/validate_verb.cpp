@@ -141,7 +141,9 @@ int validateSuite(const std::vector<SuiteMember>& members, const ValidateOptions
   validation.time_limit = options.time_limit > 0 ? options.time_limit : suite_time_limit;
   suite.judge = [validation, &options](const Scenario& scenario) {
     if (!options.quiet) sayWork(scenario, validation.time_limit);
-    ValidationResult result = validate(scenario, validation);
+    ValidationResult result = options.solver.command.empty()
+                                  ? validate(scenario, validation)
+                                  : validateExternalSolver(scenario, options.solver, validation);
     result.provenance.emplace_back("command", commandOf(scenario, options));
     return result;
   };
@@ -158,13 +160,13 @@ int validateSuite(const std::vector<SuiteMember>& members, const ValidateOptions
 
 /// Checks that options fit together, and that options for one motion get one scenario.
 void requireSense(const ValidateOptions& options, const std::vector<SuiteMember>& members) {
-  for (const auto& [option, value] : {std::pair("--torques", options.torques), {"--solver", options.solver.command}})
-    if (members.size() > 1 && !value.empty())
-      throw UsageError(
-          fmt::format("{}: got {} scenarios, expected one, because it judges one motion", option, members.size()));
+  if (members.size() > 1 && !options.torques.empty())
+    throw UsageError(
+        fmt::format("--torques: got {} scenarios, expected one, because a file is of one motion", members.size()));
   if (!options.map.empty() && options.torques.empty())
     throw UsageError("--map: expected also --torques FILE.csv, whose columns it names");
-  if (!options.solver.command.empty() && options.scenarios.front() == "-")
+  const auto& given = options.scenarios;
+  if (!options.solver.command.empty() && std::find(given.begin(), given.end(), "-") != given.end())
     throw UsageError("--solver: got - as the scenario, expected a file, because the command gets its path");
 }
 

@@ -108,7 +108,7 @@ class Identification {
                                          "at least {} are needed: expected a longer or faster log",
                                          out_.instants, out_.duration, 1 / log_.step, fewest_instants)});
     out_.verdict = Verdict::inconclusive;
-    out_.sentence = out_.findings.back().what;
+    out_.sentence = "The log is too short to judge the model.";
     return std::move(out_);
   }
 

@@ -176,13 +176,14 @@ std::string identifyPage(const IdentifyResult& result) {
         {"Not fitted part", fmt::format("{:.3g}", result.validation_fitted),
          fmt::format("of the noise; as given {:.3g}", result.validation_given)}};
   }
-  page.sections = {{"causes", "What may be wrong", causesTable(result)},
-                   {"findings", "What the log shows", list(findings)},
-                   {"efforts", "Measured and predicted efforts", efforts + motorsTable(result)},
-                   {"spectrum", "Residual spectrum", spectrum},
-                   {"parameters", "Numbers that the motion shows", numbersTable(result.numbers, false)},
-                   {"combinations", "Combinations that it shows", numbersTable(result.combinations, true)},
-                   {"unseen", "What this motion cannot see", list(result.unseen)}};
+  page.sections = {
+      {"causes", "What may be wrong", causesTable(result)},
+      {"findings", "What the log shows", list(findings)},
+      {"efforts", "Measured and predicted efforts", result.series.names.empty() ? "" : efforts + motorsTable(result)},
+      {"spectrum", "Residual spectrum", spectrum},
+      {"parameters", "Numbers that the motion shows", numbersTable(result.numbers, false)},
+      {"combinations", "Combinations that it shows", numbersTable(result.combinations, true)},
+      {"unseen", "What this motion cannot see", list(result.unseen)}};
   page.script = report::charts_script;
   page.footer = fmt::format("<p>ursula {}. Read as: {}</p>", escaped(result.version), escaped(result.read_as));
   return report::pageHtml(page);

@@ -137,10 +137,26 @@ TEST_F(SolverRun, whatCannotBeMeantIsRefused) {
   EXPECT_THAT(refused(""), HasSubstr("expected a command"));
   EXPECT_THAT(refused("cat", "--solver-timeout 0"), HasSubstr("--solver-timeout"));
   EXPECT_EQ(ursula_("validate quick.toml --solver-timeout 3").exit_code, 2);
-  ursula_.write("other.toml", Program::shipped("proving-ground.toml"));
-  const UrsulaRun run = ursula_("validate quick.toml other.toml --out out --solver cat");
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("--solver: got 2 scenarios, expected one"));
+}
+
+TEST_F(SolverRun, aSuiteStartsItForEachScenario) {
+  std::string text = Program::shipped("paper-helix.toml") + "\n[simulation]\nsamples = 11\n";
+  const std::string name = "name = \"paper-helix\"";
+  ASSERT_NE(text.find(name), std::string::npos);
+  ursula_.write("second.toml", text.replace(text.find(name), name.size(), "name = \"second\""));
+  const auto judged = [this](const std::string& error) {
+    return ursula_(
+        "validate quick.toml second.toml --out out --solver 'echo $URSULA_SCENARIO >> asked; "
+        "exec " URSULA_EXAMPLE_SOLVER +
+        error + "'");
+  };
+  const UrsulaRun right = judged("");
+  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
+  for (const char* each : {"out/paper-helix", "out/second"})
+    EXPECT_THAT(TemporaryFolder::read(folder() / each / "summary.json"), HasSubstr("exec " URSULA_EXAMPLE_SOLVER))
+        << each;
+  EXPECT_THAT(TemporaryFolder::read(folder() / "asked"), AllOf(HasSubstr("quick.toml\n"), HasSubstr("second.toml\n")));
+  EXPECT_EQ(judged(" 1e-10").exit_code, 1);
 }
 
 TEST_F(SolverRun, theScenariosPathIsInTheEnvironment) {

@@ -93,7 +93,8 @@ TEST(ImpossibleScenario, hasFiveLegs) {
   const std::string five = good_scenario.substr(0, last) + good_scenario.substr(end);
   const MarkedText changed = marked(replaced(five, "[[manipulator.leg]]", "@[[manipulator.leg]]"));
   EXPECT_EQ(refusal<ScenarioError>([&] { parseScenario(changed.text, "a.toml"); }),
-            "a.toml:" + changed.place + ": error: manipulator.leg: 5 actuated coordinates of 5 legs in all, expected exactly 6");
+            "a.toml:" + changed.place +
+                ": error: manipulator.leg: 5 actuated coordinates of 5 legs in all, expected exactly 6");
 }
 
 TEST(ImpossibleScenario, hasSevenLegs) {
