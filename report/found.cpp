@@ -150,6 +150,8 @@ Found found(const ValidationResult& result) {
   out.replay_limit = replay == nullptr ? none : limitAtEnd(result, *replay);
   out.windows = std::max<int>(1, static_cast<int>(result.replay_windows));
   addEngines(result, out);
+  // Efforts of a file may cover a part of the motion; they are compared with the largest of all of it.
+  if (result.deviation && result.deviation->largest_effort > 0) out.agreement = result.deviation->relative();
   if (result.replay_error) out.dominant = result.replay_error->dominant;
   if (result.likely_cause) out.off = result.likely_cause->off, out.cause = result.likely_cause->cause;
   return out;
