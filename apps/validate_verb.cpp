@@ -14,7 +14,6 @@
 #include "apps/validate_output.h"
 #include "apps/verbs.h"
 #include "base/output_folder.h"
-#include "base/shell_word.h"
 #include "model/scenario.h"
 #include "model/scenario_files.h"
 #include "report/report.h"
@@ -61,25 +60,6 @@ void sayWork(const Scenario& scenario, double limit) {
       scenario.simulation.samples, scenario.trajectory->duration(), ends);
 }
 
-/// The command to do it again in the folder of the scenario and of the torques.
-std::string commandOf(const Scenario& scenario, const ValidateOptions& options) {
-  std::string out = "ursula validate " + shellWord(scenario.file.filename().string());
-  const auto add = [&out](const char* option, const std::string& value) {
-    if (!value.empty()) out += fmt::format(" {} {}", option, shellWord(value));
-  };
-  const auto number = [](double value) { return value > 0 ? fmt::format("{}", value) : std::string(); };
-  add("--torques", std::filesystem::path(options.torques).filename().string());
-  for (const std::string& pair : options.map) add("--map", pair);
-  add("--solver", options.solver.command);
-  if (options.solver.timeout != ExternalSolverOptions().timeout)
-    add("--solver-timeout", number(options.solver.timeout));
-  add("--rtol", number(options.rtol));
-  add("--atol", number(options.atol));
-  if (options.any_tolerance) out += " --any-tolerance";
-  add("--time-limit", number(options.time_limit));
-  return out;
-}
-
 /// Judges this program's solver, an external one, or the torques of a file.
 ValidationResult judge(const Scenario& scenario, const ValidateOptions& options) {
   const bool from_file = !options.torques.empty();
@@ -104,7 +84,6 @@ int validateOne(const Scenario& scenario, const ValidateOptions& options, const 
   requireResults(out, "");
   const Stopwatch watch;
   ValidationResult result = judge(scenario, options);
-  result.provenance.emplace_back("command", commandOf(scenario, options));
   addResults(result, out, "", watch.time(), Place::alone);
   out.commit();
   printResult(result, dir, options.said());
@@ -144,7 +123,6 @@ int validateSuite(const std::vector<SuiteMember>& members, const ValidateOptions
     ValidationResult result = options.solver.command.empty()
                                   ? validate(scenario, validation)
                                   : validateExternalSolver(scenario, options.solver, validation);
-    result.provenance.emplace_back("command", commandOf(scenario, options));
     return result;
   };
   std::optional<SuiteProgress> progress;

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
+#include "base/shell_word.h"
 #include "report/assets.h"
 #include "report/found.h"
 #include "report/picture.h"
@@ -29,10 +32,23 @@ std::string factsTable(const char* caption, const std::vector<std::pair<std::str
 
 constexpr const char* suite_link = "<a class=\"up\" href=\"../index.html\">← The suite</a>\n";
 
-/// The command, if the result comes from the command line.
+/// The command that repeats the run in the folder of its files; a function in C++ or Python has none.
 std::string command(const ValidationResult& result) {
-  const std::string typed = fact(result.provenance, "command");
-  return typed.empty() ? "" : fmt::format("<p>To do it again: <code>{}</code></p>", escaped(typed));
+  const auto given = [&result](const char* key) { return fact(result.provenance, key); };
+  const std::string file = given("scenario file"), subject = given("subject"), process = given("solver process");
+  const bool from_file = std::filesystem::path(subject).extension() == ".csv";
+  if (file.empty() || (result.formulation == "external" && process.empty() && !from_file)) return "";
+  std::string out = "ursula validate " + shellWord(file);
+  const auto add = [&out](const char* option, const std::string& value) {
+    if (!value.empty()) out += fmt::format(" {} {}", option, shellWord(value));
+  };
+  if (from_file) add("--torques", subject);
+  if (const std::string map = given("columns named"); !map.empty()) out += " --map " + map;
+  add("--solver", process);
+  add("--rtol", given("relative tolerance of efforts"));
+  add("--atol", given("absolute tolerance of efforts"));
+  if (!given("any tolerance").empty()) out += " --any-tolerance";
+  return fmt::format("<p>To do it again: <code>{}</code></p>", escaped(out));
 }
 
 std::string keyFiguresHtml(const ValidationResult& result) {

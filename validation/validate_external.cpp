@@ -119,6 +119,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   }
   sayEfforts(result);
   addProvenance(scenario, torques.file.filename().string(), result);
+  if (!torques.map.empty()) result.provenance.emplace_back("columns named", torques.map);
   return result;
 }
 

@@ -40,10 +40,13 @@ void addProvenance(const Scenario& scenario, const std::string& subject, Validat
                        {"samples", fmt::format("{}", scenario.simulation.samples)},
                        {"integrator", name(scenario.simulation.integrator)},
                        {"integrator's tolerance", fmt::format("{:g}", scenario.simulation.tolerance)}};
-  if (scenario.tolerance)
-    result.provenance.emplace_back(
-        "tolerance of efforts",
-        fmt::format("relative {}, absolute {}", scenario.tolerance->relative, scenario.tolerance->absolute));
+  if (!scenario.tolerance) return;
+  const auto add = [&result](const char* key, double value) {
+    if (value > 0) result.provenance.emplace_back(key, fmt::format("{}", value));
+  };
+  add("relative tolerance of efforts", scenario.tolerance->relative);
+  add("absolute tolerance of efforts", scenario.tolerance->absolute);
+  if (scenario.tolerance->any) result.provenance.emplace_back("any tolerance", "yes");
 }
 
 }  // namespace ursula

@@ -81,6 +81,7 @@ ValidationResult validateExternalSolver(const Scenario& scenario, const External
   silent.progress = nullptr;  // the answers take nearly all of the time
   ValidationResult result = validateOutside(scenario, solver, silent);
   process->finish();
+  result.provenance.emplace_back("solver process", options.command);
   return result;
 }
 

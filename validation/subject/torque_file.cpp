@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "base/csv.h"
+#include "base/shell_word.h"
 #include "validation/subject/effort_columns.h"
 
 namespace ursula {
@@ -146,6 +147,7 @@ TorqueFile parseTorqueFile(const std::string& text, const std::filesystem::path&
   const TorqueColumns columns = readTorqueColumns(text, file, map, motors);
   TorqueFile out = torquesOf(columns.table, motors);
   out.read_as = columns.read_as;
+  for (const auto& [name, column] : map) out.map += (out.map.empty() ? "" : " --map ") + shellWord(name + "=" + column);
   return out;
 }
 
