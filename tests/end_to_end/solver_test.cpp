@@ -67,6 +67,9 @@ TEST_F(SolverRun, aWrongOneFails) {
   EXPECT_EQ(run.exit_code, 1) << run.out << run.err;
   EXPECT_THAT(run.out, ContainsRegex("fail +torque.pointwise"));
   EXPECT_TRUE(std::filesystem::exists(folder() / "out/summary.json"));
+  EXPECT_THAT(TemporaryFolder::read(folder() / "out/report.html"),
+              HasSubstr("To do it again: <code>ursula validate quick.toml --solver "))
+      << "without the solver it passes";
 }
 
 TEST_F(SolverRun, whatIsNoAnswerIsRefusedWithQuestionAndAnswer) {
