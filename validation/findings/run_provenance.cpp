@@ -39,7 +39,7 @@ void addProvenance(const Scenario& scenario, const std::string& subject, Validat
                        {"duration", fmt::format("{} s", scenario.trajectory->duration())},
                        {"samples", fmt::format("{}", scenario.simulation.samples)},
                        {"integrator", name(scenario.simulation.integrator)},
-                       {"integrator's tolerance", fmt::format("{:g}", scenario.simulation.tolerance)}};
+                       {"tolerance", fmt::format("{:g}", scenario.simulation.tolerance)}};
   if (!scenario.tolerance) return;
   const auto add = [&result](const char* key, double value) {
     if (value > 0) result.provenance.emplace_back(key, fmt::format("{}", value));
