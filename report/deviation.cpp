@@ -19,8 +19,10 @@ std::string driftText(const EffortDeviation& deviation) {
   if (deviation.drift > deviation.length)
     return fmt::format("from errors of this size the open-loop motion may be lost within {:.3g} s; ",
                        deviation.duration);
-  return fmt::format("from errors of this size the open-loop motion would drift by up to {} in {:.3g} s; ",
-                     report::quantity(deviation.drift, "m", 2), deviation.duration);
+  std::string drift = report::quantity(deviation.drift, "m", 2);
+  if (const auto joint = drift.find("\u00a0"); joint != std::string::npos) drift.replace(joint, 2, " ");
+  return fmt::format("from errors of this size the open-loop motion would drift by up to {} in {:.3g} s; ", drift,
+                     deviation.duration);
 }
 
 /// Rounds up, so that the rounded value passes, too.
