@@ -152,7 +152,9 @@ Motors motorsOf(const ManipulatorParameters& machine) {
       ++count;
     }
   if (count != out.size())
-    throw InvalidParameter("manipulator.leg", fmt::format("{} actuated coordinates of {} legs in all", count, machine.legs.size()), "exactly 6");
+    throw InvalidParameter("manipulator.leg",
+                           fmt::format("{} actuated coordinates of {} legs in all", count, machine.legs.size()),
+                           "exactly 6");
   return out;
 }
 

@@ -27,10 +27,10 @@ struct TorqueFile {
   std::vector<Vector6d> torque_precision;  ///< N·m or N
   std::vector<int> lines;                  ///< line of each row, 1-based
   std::vector<std::string> ignored;        ///< unknown columns
-  std::string map;                         ///< columns that the caller named, as options follow --map: "t_s=Clock --map tau_1_N=F1"
-  std::string read_as;                     ///< how columns were interpreted; empty for a file that follows the contract
-  int digits = 0;                          ///< largest number of significant digits of a torque
-  bool all_single = false;                 ///< every torque is a single-precision number
+  std::string map;          ///< columns that the caller named, as options follow --map: "t_s=Clock --map tau_1_N=F1"
+  std::string read_as;      ///< how columns were interpreted; empty for a file that follows the contract
+  int digits = 0;           ///< largest number of significant digits of a torque
+  bool all_single = false;  ///< every torque is a single-precision number
 
   std::size_t rows() const { return t.size(); }
 };
