@@ -6,6 +6,12 @@
 namespace ursula {
 namespace {
 
+std::vector<std::string> kindNames() {
+  std::vector<std::string> out;
+  for (const LegKindRow& row : leg_kinds) out.emplace_back(row.name);
+  return out;
+}
+
 ScenarioTable manipulator() {
   return {"manipulator",
           "[manipulator]",
@@ -55,7 +61,7 @@ ScenarioTable leg() {
         "(telescopic), "
         "RUS (crank and rod), PUS (carriage and rod)",
         {},
-        {"URS", "UPS", "RUS", "PUS"}},
+        kindNames()},
        {"actuated",
         KeyType::choices,
         "",
