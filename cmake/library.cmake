@@ -17,14 +17,20 @@ set(public_include ${PROJECT_BINARY_DIR}/include)
 configure_file(include/ursula/build.h.in ${public_include}/ursula/build.h @ONLY)
 # The headers are laid out at configuration, too, because targets compiled against them depend on their names.
 set(lay_out_headers ${CMAKE_COMMAND} -D SOURCE_DIR=${PROJECT_SOURCE_DIR} -D OUTPUT=${public_include}
+  -D STAMP=${PROJECT_BINARY_DIR}/generated/public_headers
   -P ${PROJECT_SOURCE_DIR}/cmake/public_headers.cmake)
 execute_process(COMMAND ${lay_out_headers} COMMAND_ERROR_IS_FATAL ANY)
 file(GLOB_RECURSE public_headers ${public_include}/ursula/*.h)
 list(REMOVE_ITEM public_headers ${public_include}/ursula/build.h)
-add_custom_target(ursula_headers ALL
+set(headers_stamp ${PROJECT_BINARY_DIR}/generated/public_headers)
+add_custom_command(OUTPUT ${headers_stamp}
   COMMAND ${lay_out_headers}
+  COMMAND ${CMAKE_COMMAND} -E touch ${headers_stamp}
   BYPRODUCTS ${public_headers}
+  DEPENDS ${PROJECT_SOURCE_DIR}/cmake/public_headers.cmake
+  DEPFILE ${headers_stamp}.d
   COMMENT "Laying out the public headers" VERBATIM)
+add_custom_target(ursula_headers ALL DEPENDS ${headers_stamp})
 
 # The library has all objects of the static parts, and one source that sees the headers as users do. The parts are also
 # linked, for the libraries that they need.

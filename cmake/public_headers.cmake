@@ -1,6 +1,6 @@
 # Run at build time (cmake -P): lays out the installed headers. include/ursula/*.h go to OUTPUT/ursula, and what they
 # include of ours, directly or not, to OUTPUT/ursula/detail under its path in the tree. Includes are rewritten to match,
-# so that users need one include directory and our folders' names cannot clash with theirs.
+# so that users need one include directory and our folders' names cannot clash with theirs. STAMP.d gets what was read.
 cmake_policy(VERSION 3.25)
 
 # Sets `out` to the place of one of our headers below OUTPUT.
@@ -55,3 +55,7 @@ list(REMOVE_ITEM there ${written} ${OUTPUT}/ursula/build.h)
 foreach(stale IN LISTS there)
   file(REMOVE ${stale})
 endforeach()
+
+list(TRANSFORM seen PREPEND ${SOURCE_DIR}/)
+list(JOIN seen " " read)
+file(WRITE ${STAMP}.d "${STAMP}: ${SOURCE_DIR}/include/ursula ${read}\n")
