@@ -13,7 +13,7 @@ namespace ursula {
 /// removes it.
 ///
 /// A replaced file keeps its mode and, if the system permits, its owner. A symbolic link stays; its target is replaced.
-/// Of several hard links, only this name gets the new file. Devices, named pipes and open files (/dev/stdout) are
+/// Only this name of several hard links gets the new file. Devices, named pipes and open files (/dev/stdout) are
 /// written in place. Read-only files are refused.
 ///
 /// Makes missing parent folders, and removes them if nothing is committed. Throws std::filesystem::filesystem_error

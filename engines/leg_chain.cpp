@@ -18,8 +18,8 @@ Eigen::Isometry3d placed(const Matrix3d& R, const Vector3d& at) {
   return out;
 }
 
-/// Returns the angle between sides a and b of a triangle.
-double angleOpposite(double c, double a, double b) { return std::acos((a * a + b * b - c * c) / (2 * a * b)); }
+/// The angle between sides a and b of a triangle, by the cosine; Newton's steps restore the digits that it loses.
+double angleByCosine(double c, double a, double b) { return std::acos((a * a + b * b - c * c) / (2 * a * b)); }
 
 /// Puts `body` behind a joint that turns or slides.
 void passJoint(const LegChain::Joint& joint, double q, double rate, double rate_of_rate, ChainBody& body) {
@@ -59,14 +59,14 @@ Vector3d legCoordinates(const Leg& leg, int index, const Vector3d& k) {
   Vector3d out;
   switch (leg.kind) {
     case LegKind::URS:
-      out << turn, std::atan2(r, k.y()) + side * angleOpposite(s, l, q), side * angleOpposite(q, l, s);
+      out << turn, std::atan2(r, k.y()) + side * angleByCosine(s, l, q), side * angleByCosine(q, l, s);
       break;
     case LegKind::UPS:
       out << turn, std::atan2(r, k.y()), q;
       break;
     case LegKind::RUS: {
       const double c = std::sqrt(s * s - k.y() * k.y());
-      out << turn - side * angleOpposite(c, l, r), side * (pi - angleOpposite(r, l, c)), std::atan2(k.y(), c);
+      out << turn - side * angleByCosine(c, l, r), side * (pi - angleByCosine(r, l, c)), std::atan2(k.y(), c);
       break;
     }
     case LegKind::PUS: {

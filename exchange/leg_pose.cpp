@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "base/angles.h"
 
@@ -13,15 +11,6 @@ namespace {
 
 /// √eps: a smaller sine has no correct digit left.
 const double smallest_sine = std::sqrt(Eigen::NumTraits<double>::epsilon());
-
-/// The angle between sides a and b of a triangle, opposite to c. It is exact to rounding even for needles (Kahan,
-/// Miscalculating Area and Angles of a Needle-like Triangle, 2014, sect. 2).
-double angleOpposite(double c, double a, double b) {
-  if (a < b) std::swap(a, b);
-  const double slack = b >= c ? c - (a - b) : b - (a - c);
-  const double top = ((a - b) + c) * slack, bottom = (a + (b + c)) * ((a - c) + b);
-  return 2 * std::atan2(std::sqrt(std::max(top, 0.0)), std::sqrt(std::max(bottom, 0.0)));
-}
 
 Eigen::Isometry3d frameAlong(const Vector3d& x, const Vector3d& along, const Vector3d& origin) {
   Eigen::Isometry3d out = Eigen::Isometry3d::Identity();

@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 
 #include "base/angles.h"
 #include "engines/mujoco/mujoco_loop_internal.h"
@@ -22,15 +21,6 @@ constexpr std::array<KindText, leg_kind_count> kind_texts = {{
     // PUS: θ = 0 lays the rod along u, the carriage's y: a quarter turn about −x.
     {R"(<joint type="slide" axis="0 1 0"/>)", "1 -1 0 0", R"(<joint axis="0 0 -1"/><joint axis="1 0 0"/>)"},
 }};
-
-/// The angle between sides a and b of a triangle, opposite to c. It is exact to rounding even for needles (Kahan,
-/// Miscalculating Area and Angles of a Needle-like Triangle, 2014, sect. 2).
-double angleOpposite(double c, double a, double b) {
-  if (a < b) std::swap(a, b);
-  const double slack = b >= c ? c - (a - b) : b - (a - c);
-  const double top = ((a - b) + c) * slack, bottom = (a + (b + c)) * ((a - c) + b);
-  return 2 * std::atan2(std::sqrt(std::max(top, 0.0)), std::sqrt(std::max(bottom, 0.0)));
-}
 
 /// A leg's joints at a pose: AB in the frame where its model's coordinates are zero.
 class JointsAt {

@@ -128,7 +128,7 @@ void SimbodyLoop::place(const Motion<double>& motion, const JointMotion& joint_m
     loop.setLeg(i, q);
   }
   loop.setPlatformPose(motion);
-  // With wrong legs, six balls may not determine the rates; the free platform does not need them.
+  // Six balls on wrong legs may not determine the rates; the free platform does not need them.
   loop.topology == Topology::tree_through_leg_1 ? loop.setRates(motion) : loop.setFreePlatform(motion);
   for (int i = 0; i < loop.legCount(); ++i)
     for (int joint = 0; joint < 3; ++joint) {
