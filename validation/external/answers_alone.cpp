@@ -102,7 +102,7 @@ bool isConstant(const ExternalTorques& torques, const AskedApart& asked, int i) 
 }
 
 /// Whether a motor is right at every instant.
-bool isRight(const ExternalTorques& torques, int i) {
+bool isMotorRight(const ExternalTorques& torques, int i) {
   for (std::size_t k = 0; k < torques.file.rows(); ++k)
     if (!(std::abs(offAt(torques, k, i)) <= limitAt(torques, k, i))) return false;
   return true;
@@ -119,7 +119,7 @@ std::optional<Explanation> sameAnswers(const MotorNames& motors, const ExternalT
       which.push_back(i);
       text += fmt::format("{}{:.6g} {} of {}", text.empty() ? "" : ", ", torques.file.torques.front()(i),
                           motors.unit(i), motors(i));
-    } else if (!isRight(torques, i)) {
+    } else if (!isMotorRight(torques, i)) {
       return std::nullopt;
     }
   }

@@ -15,29 +15,23 @@ NamedCause moreFriction(const std::string& key, const char* unit, double x, doub
   return out;
 }
 
-bool anyLegHas(const Manipulator& machine, Coordinate coordinate) {
-  const std::vector<Leg>& legs = machine.parameters().legs;
-  return std::any_of(legs.begin(), legs.end(), [coordinate](const Leg& leg) {
-    const auto& has = rowOf(leg.kind).coordinates;
-    return std::find(has.begin(), has.end(), coordinate) != has.end();
-  });
-}
-
-/// Whether every leg that has the coordinate has the same friction there; then that is a number of the machine.
-bool isOneNumber(const Manipulator& machine, Coordinate coordinate, JointFriction& (*law)(Leg&)) {
-  std::vector<double> found;
+/// The coefficients of one law on the legs that have the coordinate.
+std::vector<double> coefficients(const Manipulator& machine, Coordinate coordinate, JointFriction& (*law)(Leg&)) {
+  std::vector<double> out;
   for (Leg leg : machine.parameters().legs) {
     const auto& has = rowOf(leg.kind).coordinates;
-    if (std::find(has.begin(), has.end(), coordinate) != has.end()) found.push_back(law(leg).on(coordinate));
+    if (std::find(has.begin(), has.end(), coordinate) != has.end()) out.push_back(law(leg).on(coordinate));
   }
-  return !found.empty() && found.front() != 0 &&
-         std::all_of(found.begin(), found.end(), [&](double each) { return each == found.front(); });
+  return out;
 }
 
-/// Fits the coefficients of one law, `key`, on every leg that has the coordinate, unless machine_collector.cpp does.
+/// Fits the coefficients of one law, `key`, on every leg that has the coordinate. If all are one number of the machine,
+/// machine_collector.cpp fits it.
 void addMore(const Manipulator& machine, const char* words, const std::string& key, const char* unit,
              Coordinate coordinate, JointFriction& (*law)(Leg&), MachineCauses& out) {
-  if (isOneNumber(machine, coordinate, law)) return;
+  const std::vector<double> given = coefficients(machine, coordinate, law);
+  const auto is_first = [&given](double each) { return each == given.front(); };
+  if (given.empty() || (given.front() != 0 && std::all_of(given.begin(), given.end(), is_first))) return;
   const std::string joint = nameOf(coordinate);
   out.addFitted(
       [coordinate, law](Machine& changed, double x) {
@@ -53,7 +47,6 @@ void addMore(const Manipulator& machine, const char* words, const std::string& k
 /// Friction that the scenario lacks.
 void addFriction(const Manipulator& machine, MachineCauses& out) {
   for (const Coordinate coordinate : {Coordinate::phi, Coordinate::psi, Coordinate::theta, Coordinate::d}) {
-    if (!anyLegHas(machine, coordinate)) continue;
     addMore(
         machine, "viscous", "friction", slides(coordinate) ? "N s/m" : "N m s/rad", coordinate,
         [](Leg& leg) -> JointFriction& { return leg.friction; }, out);

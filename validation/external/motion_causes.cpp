@@ -135,7 +135,7 @@ void addFrames(const Scenario& scenario, std::vector<Cause>& out) {
     for (Vector3d* each : {&motion.p_dot, &motion.p_ddot}) *each = (motion.Q.transpose() * *each).eval();
   };
   add({"velocity and acceleration of P taken in the platform's frame for such in the base's",
-       NamedCause{CauseKind::frame, "velocity", "all"}},
+       NamedCause{CauseKind::frame, "", "all"}},
       turn_back);
   add({"all rates taken in the platform's frame for such in the base's", NamedCause{CauseKind::frame, "", "all"}},
       [turn_back](Motion<double>& motion) {
