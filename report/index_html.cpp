@@ -102,18 +102,16 @@ std::string heads(const std::vector<std::string>& names) {
 std::string indexHtml(const std::vector<SuiteEntry>& entries) {
   const std::vector<std::string> names = columns(entries);
   const Verdict verdict = suiteVerdict(entries);
-  const std::string counts = countsOf(entries);  // "1 passed, 0 failed, …"
-  return filled(index_template,
-                {{"style", std::string(report_style)},
-                 {"verdict", name(verdict)},
-                 {"badge", verdictBadge(verdict)},
-                 {"counts", fmt::format("{} of {} scenario{}{}.", countOf(entries, "pass"), entries.size(),
-                                        entries.size() == 1 ? "" : "s", counts.substr(counts.find(' ')))},
-                 {"seconds", fmt::format("{:.1f}", secondsOf(entries))},
-                 {"run", runOf(entries)},
-                 {"heads", heads(names)},
-                 {"rows", rows(entries, names)},
-                 {"script", std::string(index_script)}});
+  const std::string whole = fmt::format(" of {} scenario{}", entries.size(), entries.size() == 1 ? "" : "s");
+  return filled(index_template, {{"style", std::string(report_style)},
+                                 {"verdict", name(verdict)},
+                                 {"badge", verdictBadge(verdict)},
+                                 {"counts", countsOf(entries, whole) + "."},
+                                 {"seconds", fmt::format("{:.1f}", secondsOf(entries))},
+                                 {"run", runOf(entries)},
+                                 {"heads", heads(names)},
+                                 {"rows", rows(entries, names)},
+                                 {"script", std::string(index_script)}});
 }
 
 }  // namespace ursula::report

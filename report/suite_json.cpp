@@ -57,10 +57,11 @@ std::size_t countOf(const std::vector<SuiteEntry>& entries, const std::string& w
                                                 [&word](const SuiteEntry& entry) { return wordOf(entry) == word; }));
 }
 
-std::string countsOf(const std::vector<SuiteEntry>& entries) {
+std::string countsOf(const std::vector<SuiteEntry>& entries, const std::string& whole) {
   const std::size_t errors = countOf(entries, "error");
-  return fmt::format("{} passed, {} failed, {} inconclusive{}", countOf(entries, "pass"), countOf(entries, "fail"),
-                     countOf(entries, "inconclusive"), errors == 0 ? "" : fmt::format(", {} in error", errors));
+  return fmt::format("{}{} passed, {} failed, {} inconclusive{}", countOf(entries, "pass"), whole,
+                     countOf(entries, "fail"), countOf(entries, "inconclusive"),
+                     errors == 0 ? "" : fmt::format(", {} in error", errors));
 }
 
 double secondsOf(const std::vector<SuiteEntry>& entries) {

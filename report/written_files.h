@@ -28,8 +28,8 @@ Verdict suiteVerdict(const std::vector<SuiteEntry>& entries);
 std::string wordOf(const SuiteEntry& entry);
 /// The number of entries with that word.
 std::size_t countOf(const std::vector<SuiteEntry>& entries, const std::string& word);
-/// "1 passed, 0 failed, 2 inconclusive, 1 in error"
-std::string countsOf(const std::vector<SuiteEntry>& entries);
+/// "1 passed, 0 failed, 2 inconclusive, 1 in error"; `whole` follows the first number, as in "1 of 4 scenarios passed".
+std::string countsOf(const std::vector<SuiteEntry>& entries, const std::string& whole = "");
 
 /// The sum of all wall times, s.
 double secondsOf(const std::vector<SuiteEntry>& entries);
