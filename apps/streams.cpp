@@ -20,7 +20,7 @@ void sayText(const std::string& text) {
 }
 
 void secureStreams() {
-  // With these, standard input still cannot be read and standard output cannot be written.
+  // Standard input still cannot be read, and standard output cannot be written.
   constexpr std::array<std::pair<int, int>, 3> streams = {
       {{STDIN_FILENO, O_WRONLY}, {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_WRONLY}}};
   for (const auto& [stream, access] : streams)

@@ -213,7 +213,8 @@ void addOtherSolvers(CLI::App& verb, ValidateOptions& options) {
                       "tau_1_N … for motors that slide");
   CLI::Option* solver = verb.add_option(
       "--solver", options.solver.command,
-      "Command to judge instead: sh starts it once. It reads the motion line by line on its standard input\n"
+      "Command to judge instead: sh starts it once for each scenario. It reads the motion line by line on its standard "
+      "input\n"
       "(t,p,q,v,w,a,alpha: 20 values, separated by commas) and answers each line with six torques or forces");
   solver->excludes(torques)->check(
       [](const std::string& command) { return command.empty() ? std::string("expected a command") : std::string(); });

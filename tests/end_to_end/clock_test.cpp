@@ -1,4 +1,4 @@
-// With a wall clock that goes back or leaps, newer files are replaced all the same, sweeps go on, and time limits hold.
+// A wall clock that goes back or leaps upsets nothing: newer files are replaced, sweeps go on, time limits hold.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

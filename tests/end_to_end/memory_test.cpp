@@ -1,4 +1,4 @@
-// With less and less memory, a run either gives its usual results, or is refused and leaves the old ones.
+// A run with less and less memory gives its usual results, or is refused and leaves the old ones.
 //
 // The limits are of the address space, because a shell can limit nothing else. Program and libraries alone take some 45
 // MB of it; below that the loader fails before the program starts.

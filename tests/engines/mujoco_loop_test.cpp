@@ -193,7 +193,7 @@ TEST(MujocoLoops, seeEveryParameterAsTheMaximalCoordinatesDo) {
   }
 }
 
-/// With the other knee it is another machine.
+/// The other knee makes another machine.
 TEST(MujocoLoops, bendEachKneeAsItIsToldTo) {
   if (!mujocoAvailable()) GTEST_SKIP() << "built without MuJoCo";
   const Scenario scenario = shipped("paper-helix");
