@@ -45,7 +45,7 @@ int engines(EnginesOptions options) {
   std::optional<OutputFolder> folder;  // made before the work, so that a folder that cannot be written is found early
   if (!options.out.empty()) folder.emplace(options.out);
   Progress progress(scenario.name);
-  options.asked.told = [&progress](double share, const std::string& engine) { progress.at(share, engine); };
+  options.asked.on_progress = [&progress](double share, const std::string& engine) { progress.at(share, engine); };
   const SideBySide found = alongMotion(scenario, [&] { return engineSideBySide(scenario, options.asked); });
   if (folder) {
     folder->write("engines.json", sideBySideJson(found));

@@ -119,7 +119,7 @@ void printRandom(const RandomOutcomes& random, std::uint64_t seed, RandomKind ki
   for (const std::string& why : random.inconclusive) fmt::print("  inconclusive: {}\n", why);
 }
 
-void proveChecks(const ProveOptions& options, const Scenario& scenario, ProveFound& found) {
+void proveChecks(const ProveOptions& options, const Scenario& scenario, ProveResult& found) {
   found.proof = alongMotion(scenario, [&] { return proveDefects(scenario, options.jobs, progress("defects")); });
   printMatrix(found.proof->outcomes);
   found.sensitivities = proveSensitivities(scenario);
@@ -133,7 +133,7 @@ int prove(const ProveOptions& options) {
   const std::filesystem::path page = std::filesystem::path(options.out) / "prove.html";
   if (!options.out.empty()) requireWritable(page);  // the rest takes minutes
   const Scenario scenario = options.scenario.empty() ? provingGround() : readScenarioOrInput(options.scenario);
-  ProveFound found;
+  ProveResult found;
   found.scenario = scenario.name;
   found.seed = options.seed;
   if (!options.only_random) proveChecks(options, scenario, found);

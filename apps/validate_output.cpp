@@ -27,25 +27,25 @@ std::string summaryOf(const SuiteEntry& entry, const std::filesystem::path& dir)
 
 }  // namespace
 
-void printResult(const ValidationResult& result, const std::filesystem::path& dir, Said said) {
-  switch (said) {
-    case Said::json:
+void printResult(const ValidationResult& result, const std::filesystem::path& dir, PrintedForm form) {
+  switch (form) {
+    case PrintedForm::json:
       return writeOutput("-", report::summaryJson(result));
-    case Said::verdict:
+    case PrintedForm::verdict:
       return writeOutput("-", report::quietText(result, coloured()));
-    case Said::table:
+    case PrintedForm::table:
       break;
   }
   writeOutput("-", report::validationText(result, coloured()) + "report: " + (dir / "report.html").string() + "\n");
 }
 
-void printSuite(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir, Said said) {
-  if (said == Said::table) return writeOutput("-", report::suiteText(entries, dir, coloured()));
-  std::string out = said == Said::json ? "[\n" : "";
+void printSuite(const std::vector<SuiteEntry>& entries, const std::filesystem::path& dir, PrintedForm form) {
+  if (form == PrintedForm::table) return writeOutput("-", report::suiteText(entries, dir, coloured()));
+  std::string out = form == PrintedForm::json ? "[\n" : "";
   for (const SuiteEntry& entry : entries)
-    out += said == Said::json ? (&entry == &entries.front() ? "" : ",\n") + summaryOf(entry, dir)
-                              : report::quietText(entry, coloured());
-  writeOutput("-", out + (said == Said::json ? "]\n" : ""));
+    out += form == PrintedForm::json ? (&entry == &entries.front() ? "" : ",\n") + summaryOf(entry, dir)
+                                     : report::quietText(entry, coloured());
+  writeOutput("-", out + (form == PrintedForm::json ? "]\n" : ""));
 }
 
 int exitCode(Verdict verdict) {

@@ -40,7 +40,7 @@ struct ValidateOptions {
   bool json = false, quiet = false, strict = false;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 
-  Said said() const { return json ? Said::json : quiet ? Said::verdict : Said::table; }
+  PrintedForm form() const { return json ? PrintedForm::json : quiet ? PrintedForm::verdict : PrintedForm::table; }
 };
 
 /// "3 min", "5 h"
@@ -86,7 +86,7 @@ int validateOne(const Scenario& scenario, const ValidateOptions& options, const 
   ValidationResult result = judge(scenario, options);
   addResults(result, out, "", watch.time(), Place::alone);
   out.commit();
-  printResult(result, dir, options.said());
+  printResult(result, dir, options.form());
   return exitCode(result.verdict);
 }
 
@@ -132,7 +132,7 @@ int validateSuite(const std::vector<SuiteMember>& members, const ValidateOptions
   };
   const std::vector<SuiteEntry> entries = runSuite(members, dir, suite);
   progress.reset();
-  printSuite(entries, dir, options.said());
+  printSuite(entries, dir, options.form());
   return exitCode(entries);
 }
 

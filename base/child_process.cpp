@@ -116,7 +116,7 @@ ChildProcess::ChildProcess(const Command& command) : leads_group_(command.is_ask
   Start start(command.is_asked ? POSIX_SPAWN_SETPGROUP : 0);
   if (command.is_asked) posix_spawn_file_actions_adddup2(&start.files, there.read, STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&start.files, back.write, STDOUT_FILENO);
-  const EndingHeld held;  // until the process that a signal must end is known
+  const DeferredSignals held;  // until the process that a signal must end is known
   pid_ = start(command.words, environmentWith(command.environment));
   if (leads_group_) ends_with_us_.emplace(endGroup, &pid_);
   if (command.is_asked) to_ = std::exchange(there.write, -1);

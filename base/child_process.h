@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/at_ending.h"
+#include "base/signal_cleanup.h"
 
 namespace ursula {
 
@@ -51,7 +51,7 @@ class ChildProcess {
   bool leads_group_ = false;
   int to_ = -1, from_ = -1;
   int status_ = 0;
-  std::optional<AtEnding> ends_with_us_;
+  std::optional<CleanupOnSignal> ends_with_us_;
 };
 
 /// Starts a program in its own session, without our streams; nobody waits for it. Throws like ChildProcess.

@@ -31,11 +31,11 @@ class Deadline {
 
   bool isSet() const { return shared_ != nullptr; }
   bool isOver() const {
-    return shared_ && !shared_->lifted && (Clock::now() >= end_ || (shared_->asked_to_end && shared_->asked_to_end()));
+    return shared_ && !shared_->removed && (Clock::now() >= end_ || (shared_->asked_to_end && shared_->asked_to_end()));
   }
   /// Removes the deadline from all copies: the remaining work is short and must be done.
-  void lift() const {
-    if (shared_) shared_->lifted = true;
+  void remove() const {
+    if (shared_) shared_->removed = true;
   }
   /// Throws OutOfTime if the time is over.
   void require() const {
@@ -48,7 +48,7 @@ class Deadline {
   static constexpr double longest = 1e9;  ///< s; a clock of nanoseconds has 64 bits
 
   struct Shared {
-    std::atomic<bool> lifted{false};
+    std::atomic<bool> removed{false};
     std::function<bool()> asked_to_end;
   };
 

@@ -16,30 +16,30 @@ FreshPaths::FreshPaths()
 void FreshPaths::makeFolder(const std::filesystem::path& folder) {
   if (folder.empty() || std::filesystem::is_directory(folder)) return;
   makeFolder(folder.parent_path());
-  const EndingHeld held;  // until the path that a signal must remove is known
+  const DeferredSignals held;  // until the path that a signal must remove is known
   if (std::filesystem::create_directory(folder)) made_.push_back(folder);
 }
 
 int FreshPaths::makeFile(const std::filesystem::path& file) {
   constexpr mode_t as_the_user_says = 0666;
-  const EndingHeld held;
+  const DeferredSignals held;
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, as_the_user_says);
   if (descriptor >= 0) made_.push_back(file);
   return descriptor;
 }
 
 void FreshPaths::add(const std::filesystem::path& path) {
-  const EndingHeld held;
+  const DeferredSignals held;
   made_.push_back(path);
 }
 
 void FreshPaths::keep() {
-  const EndingHeld held;
+  const DeferredSignals held;
   made_.clear();
 }
 
 void FreshPaths::remove() {
-  const EndingHeld held;
+  const DeferredSignals held;
   unlinkAll();
   made_.clear();
 }

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/at_ending.h"
+#include "base/signal_cleanup.h"
 
 namespace ursula {
 
@@ -31,7 +31,7 @@ class FreshPaths {
   void unlinkAll() const;
 
   std::vector<std::filesystem::path> made_;  ///< outermost first
-  AtEnding ending_;
+  CleanupOnSignal ending_;
 };
 
 /// Returns `.ursula-KIND-PROCESS-N` in `folder`. The name is short, so it never exceeds the system's limit. The process

@@ -120,7 +120,7 @@ OutputFolder::OutputFolder(fs::path folder, OlderFiles older)
 }
 
 OutputFolder::~OutputFolder() {
-  const EndingHeld held;
+  const DeferredSignals held;
   std::error_code ignored;
   if (!temporary_.empty()) fs::remove_all(temporary_, ignored);  // and what was carried over into it
   fresh_.remove();                                               // removes the lock file while it is still locked
@@ -172,7 +172,7 @@ void OutputFolder::lock() {
 bool OutputFolder::tryToLock() {
   constexpr mode_t as_the_user_says = 0666;
   fresh_.makeFolder(above_);
-  const EndingHeld held;  // until the lock file is listed for removal
+  const DeferredSignals held;  // until the lock file is listed for removal
   lock_ = ::open(lock_file_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, as_the_user_says);
   if (lock_ < 0 && errno == EACCES)  // another user's run left it: locking needs no write permission
     lock_ = ::open(lock_file_.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
@@ -245,7 +245,7 @@ void OutputFolder::write(const fs::path& name, const std::function<void(const Ta
 }
 
 void OutputFolder::commit() {
-  const EndingHeld held;  // a signal meanwhile ends the process after the results are there
+  const DeferredSignals held;  // a signal meanwhile ends the process after the results are there
   const std::lock_guard<std::mutex> lock(mutex_);
   try {
     if (isFolder(folder_)) {

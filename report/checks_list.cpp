@@ -7,9 +7,9 @@
 #include <map>
 
 #include "model/check_catalogue.h"
-#include "report/found.h"
 #include "report/quantity.h"
 #include "report/report.h"
+#include "report/result_facts.h"
 #include "report/text.h"
 
 namespace ursula::report {

@@ -6,9 +6,9 @@
 
 #include "base/shell_word.h"
 #include "report/assets.h"
-#include "report/found.h"
 #include "report/picture.h"
 #include "report/plots.h"
+#include "report/result_facts.h"
 #include "report/sections.h"
 #include "report/text.h"
 #include "validation/verdict/effort_words.h"

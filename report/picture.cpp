@@ -13,7 +13,7 @@ namespace {
 /// Tracks of a leg's points and axes, and the names of its joints.
 class LegTracks {
  public:
-  LegTracks(const Leg& leg, const std::optional<Stretch>& rail, const Vector3d& origin)
+  LegTracks(const Leg& leg, const std::optional<RailSection>& rail, const Vector3d& origin)
       : leg_(leg), origin_(origin), rail_(rail) {}
 
   void add(const LegPoints& points) {
@@ -63,7 +63,7 @@ class LegTracks {
 
   const Leg& leg_;
   Vector3d origin_;
-  std::optional<Stretch> rail_;
+  std::optional<RailSection> rail_;
   Picture::Track A_, R_, S_, B_;
   std::array<Picture::Track, 3> axes_;  ///< reversed, so that the paper's u is u
 };
@@ -91,7 +91,7 @@ std::shared_ptr<const Picture> makePicture(const Scenario& scenario, const std::
     picture->origin += leg.base_point / machine.legCount();
     picture->platform_points.push_back(leg.platform_point);
   }
-  const std::vector<std::optional<Stretch>> on = rails(scenario);
+  const std::vector<std::optional<RailSection>> on = rails(scenario);
   std::vector<LegTracks> legs;
   for (std::size_t k = 0; k < on.size(); ++k)
     legs.emplace_back(machine.leg(static_cast<int>(k)), on[k], picture->origin);

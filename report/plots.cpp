@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "model/scenario.h"
-#include "report/found.h"
 #include "report/plot_builder.h"
+#include "report/result_facts.h"
 #include "report/text.h"
 #include "validation/verdict/effort_words.h"
 

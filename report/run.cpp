@@ -11,7 +11,7 @@
 
 #include "base/csv.h"
 #include "base/sha1.h"
-#include "report/found.h"
+#include "report/result_facts.h"
 #include "report/written_files.h"
 
 namespace ursula::report {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "report/found.h"
+#include "report/result_facts.h"
 #include "report/run.h"
 
 namespace ursula::report {

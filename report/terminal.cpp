@@ -9,8 +9,8 @@
 #include "base/shown_text.h"
 #include "model/check_catalogue.h"
 #include "report/columns.h"
-#include "report/found.h"
 #include "report/quantity.h"
+#include "report/result_facts.h"
 #include "report/sections.h"
 #include "validation/verdict/effort_words.h"
 

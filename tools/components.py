@@ -16,8 +16,8 @@ VALIDATION = {
     "evidence": "subject limits samples replay",
     "checks": "verdict subject limits samples replay evidence",
     "findings": "verdict subject limits samples replay",
-    "external": "verdict subject limits samples replay evidence",
-    "": "verdict subject limits samples evidence checks findings external",  # the entry: validation/*.cpp
+    "causes": "verdict subject limits samples replay evidence",
+    "": "verdict subject limits samples evidence checks findings causes",  # the entry: validation/*.cpp
     "outside": "verdict subject ",
 }
 STUDIES = {
@@ -27,7 +27,7 @@ STUDIES = {
     "check_scenario": "subject",
     "scenario_docs": "",
     "compare": "verdict",
-    "simulate": "verdict subject external",
+    "simulate": "verdict subject causes",
     "suite": "verdict subject",
     "stream": "verdict subject findings",
     "map": "verdict subject stream",

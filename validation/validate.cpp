@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "validation/causes/asked_apart.h"
+#include "validation/causes/diagnosis.h"
 #include "validation/checks/acceptance.h"
 #include "validation/checks/every_check.h"
 #include "validation/checks/families.h"
@@ -12,8 +14,6 @@
 #include "validation/evidence/external_samples.h"
 #include "validation/evidence/reference.h"
 #include "validation/evidence/work_estimate.h"
-#include "validation/external/asked_apart.h"
-#include "validation/external/diagnosis.h"
 #include "validation/findings/attribution.h"
 #include "validation/findings/findings.h"
 #include "validation/subject/frame_change.h"

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/deadline.h"
+#include "validation/causes/diagnosis.h"
 #include "validation/checks/acceptance.h"
 #include "validation/checks/every_check.h"
 #include "validation/checks/families.h"
@@ -13,7 +14,6 @@
 #include "validation/evidence/external_replay.h"
 #include "validation/evidence/external_samples.h"
 #include "validation/evidence/timed.h"
-#include "validation/external/diagnosis.h"
 #include "validation/findings/attribution.h"
 #include "validation/findings/findings.h"
 #include "validation/subject/frame_change.h"
@@ -104,7 +104,7 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   result.checks = judgeAll(evidence);
   const ErrorBudget budget =
       attributeInTime(*evidence.scenario, evidence.samples, evidence.windows, evidence.amplification, evidence.plan);
-  deadline.lift();  // the rest is short and turns the finished part into a result
+  deadline.remove();  // the rest is short and turns the finished part into a result
   addFacts(evidence, budget, result);
   seriesInSi(natural, result);
   result.asked = std::make_shared<const Scenario>(scenario);

@@ -108,7 +108,7 @@ class LegMaker {
       A_ = joints_[0].outer;
       base_point_ = joints_[0].inner;
     } else {
-      A_ = meetingOf(joints_[0].outer, joints_[0].axis, joints_[1].inner, joints_[1].axis).at;
+      A_ = commonPerpendicular(joints_[0].outer, joints_[0].axis, joints_[1].inner, joints_[1].axis).at;
       base_point_ = A_ + joints_[0].inner - joints_[0].outer;
     }
     const double d = (B_ - A_).norm();
@@ -131,7 +131,7 @@ class LegMaker {
   }
 
   void makeUrs() {
-    A_ = meetingOf(joints_[0].outer, joints_[0].axis, joints_[1].inner, joints_[1].axis).at;
+    A_ = commonPerpendicular(joints_[0].outer, joints_[0].axis, joints_[1].inner, joints_[1].axis).at;
     base_point_ = A_ + joints_[0].inner - joints_[0].outer;
     u_ = -joints_[0].axis;
     const Vector3d x = joints_[1].axis;
@@ -192,7 +192,7 @@ class LegMaker {
       return;
     }
     const Primitive& second = joints_[before + 2];
-    const Vector3d met = meetingOf(first.outer, first.axis, second.inner, second.axis).at;
+    const Vector3d met = commonPerpendicular(first.outer, first.axis, second.inner, second.axis).at;
     inner = met + first.inner - first.outer;
     outer = met + second.outer - second.inner;
   }

@@ -217,16 +217,16 @@ class Shaper {
     return first == 0 ? finish(link(1), link(2)) : finish(link(0), link(2));
   }
 
-  Meeting meeting(std::size_t k) const {
+  CommonPerpendicular meeting(std::size_t k) const {
     const Primitive &a = tokens_[k].primitive, &b = tokens_[k + 1].primitive;
-    return meetingOf(a.outer, a.axis, b.inner, b.axis);
+    return commonPerpendicular(a.outer, a.axis, b.inner, b.axis);
   }
 
   /// How much two hinges differ from a universal joint.
   double badness(std::size_t k) const { return std::abs(std::cos(meeting(k).angle)) + meeting(k).apart / size_; }
 
   void requireUniversal(std::size_t k) {
-    const Meeting met = meeting(k);
+    const CommonPerpendicular met = meeting(k);
     const double off_square = std::abs(std::asin(std::min(1.0, std::cos(met.angle))));
     if (met.apart <= tolerance() && off_square <= choices_.tolerance) {
       const std::string hinges = fmt::format("{}, {}", graph_.joints[tokens_[k].primitive.joint].name,
@@ -256,8 +256,9 @@ class Shaper {
 
 }  // namespace
 
-Meeting meetingOf(const Vector3d& p, const Vector3d& along_p, const Vector3d& q, const Vector3d& along_q) {
-  Meeting out;
+CommonPerpendicular commonPerpendicular(const Vector3d& p, const Vector3d& along_p, const Vector3d& q,
+                                        const Vector3d& along_q) {
+  CommonPerpendicular out;
   const Vector3d across = along_p.cross(along_q), from = q - p;
   const double sine = across.norm(), cosine = along_p.dot(along_q);
   out.angle = std::atan2(sine, std::abs(cosine));

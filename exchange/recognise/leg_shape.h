@@ -38,11 +38,12 @@ LegShape shapeOf(const ModelGraph& graph, const Groups& groups, const Chain& cha
                  const ImportChoices& choices);
 
 /// The midpoint where two lines are nearest, and their distance there.
-struct Meeting {
+struct CommonPerpendicular {
   Vector3d at = Vector3d::Zero();
   double apart = 0;
   double angle = 0;  ///< angle between the lines, rad, in [0, π/2]
 };
-Meeting meetingOf(const Vector3d& p, const Vector3d& along_p, const Vector3d& q, const Vector3d& along_q);
+CommonPerpendicular commonPerpendicular(const Vector3d& p, const Vector3d& along_p, const Vector3d& q,
+                                        const Vector3d& along_q);
 
 }  // namespace ursula::exchange

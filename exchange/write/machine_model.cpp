@@ -10,18 +10,18 @@ const GraphJoint* carrierOf(const ModelGraph& graph, std::size_t body) {
   return found == graph.joints.end() ? nullptr : &*found;
 }
 
-std::vector<Limb> limbsOf(const ModelGraph& graph) {
-  std::vector<Limb> out;
+std::vector<TreeBody> treeBodiesOf(const ModelGraph& graph) {
+  std::vector<TreeBody> out;
   for (std::size_t body = 0; body < graph.bodies.size(); ++body) {
     if (graph.bodies[body].fixed || graph.bodies[body].mass == 0) continue;
-    Limb limb{body, body, {}};
+    TreeBody tree_body{body, body, {}};
     do {
-      const GraphJoint* joint = carrierOf(graph, limb.parent);
+      const GraphJoint* joint = carrierOf(graph, tree_body.parent);
       if (joint == nullptr) break;
-      limb.joints.insert(limb.joints.begin(), static_cast<std::size_t>(joint - graph.joints.data()));
-      limb.parent = joint->parent;
-    } while (!graph.bodies[limb.parent].fixed && graph.bodies[limb.parent].mass == 0);
-    out.push_back(limb);
+      tree_body.joints.insert(tree_body.joints.begin(), static_cast<std::size_t>(joint - graph.joints.data()));
+      tree_body.parent = joint->parent;
+    } while (!graph.bodies[tree_body.parent].fixed && graph.bodies[tree_body.parent].mass == 0);
+    out.push_back(tree_body);
   }
   return out;
 }

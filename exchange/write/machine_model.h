@@ -28,13 +28,13 @@ struct MachineModel {
 };
 
 /// A body with mass and the joints that carry it, from the previous body through massless ones.
-struct Limb {
+struct TreeBody {
   std::size_t parent = 0, child = 0;  ///< indices into the graph's bodies
   std::vector<std::size_t> joints;    ///< indices into its joints, starting at the parent
 };
 
 /// Limbs of the graph's tree, in the order of their children. Massless bodies count as frames.
-std::vector<Limb> limbsOf(const ModelGraph& graph);
+std::vector<TreeBody> treeBodiesOf(const ModelGraph& graph);
 
 /// Returns the joint that carries `body` in the tree; null for the base.
 const GraphJoint* carrierOf(const ModelGraph& graph, std::size_t body);

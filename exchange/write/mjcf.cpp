@@ -20,7 +20,7 @@ constexpr double impedance = 0.9999;
 class MjcfWriter {
  public:
   explicit MjcfWriter(const MachineModel& machine)
-      : machine_(machine), graph_(machine.graph), limbs_(limbsOf(graph_)), document_("mujoco") {}
+      : machine_(machine), graph_(machine.graph), tree_bodies_(treeBodiesOf(graph_)), document_("mujoco") {}
 
   std::string text() {
     const Xml root = document_.root();
@@ -52,41 +52,41 @@ class MjcfWriter {
  private:
   /// MuJoCo's schema takes no further attributes of joints.
   void addSmoothing(const Xml& root) const {
-    const auto rubs = [](const GraphJoint& joint) { return joint.friction != 0; };
-    if (std::none_of(graph_.joints.begin(), graph_.joints.end(), rubs)) return;
+    const auto has_friction = [](const GraphJoint& joint) { return joint.friction != 0; };
+    if (std::none_of(graph_.joints.begin(), graph_.joints.end(), has_friction)) return;
     const Xml custom = root.add("custom");
     for (const GraphJoint& joint : graph_.joints)
-      if (rubs(joint))
+      if (has_friction(joint))
         custom.add("numeric").with("name", joint.name + "_smoothing_speed").with("data", joint.smoothing_speed);
   }
 
-  bool floats(const Limb& limb) const {
-    return limb.joints.size() == 1 && graph_.joints[limb.joints.front()].kind == JointKind::ball;
+  bool floats(const TreeBody& tree_body) const {
+    return tree_body.joints.size() == 1 && graph_.joints[tree_body.joints.front()].kind == JointKind::ball;
   }
 
   void addChildren(const Xml& xml, std::size_t parent) {
-    for (const Limb& limb : limbs_)
-      if ((floats(limb) ? 0 : limb.parent) == parent) addBody(xml, limb, parent);
+    for (const TreeBody& tree_body : tree_bodies_)
+      if ((floats(tree_body) ? 0 : tree_body.parent) == parent) addBody(xml, tree_body, parent);
   }
 
-  void addBody(const Xml& xml, const Limb& limb, std::size_t parent) {
-    const GraphBody& body = graph_.bodies[limb.child];
+  void addBody(const Xml& xml, const TreeBody& tree_body, std::size_t parent) {
+    const GraphBody& body = graph_.bodies[tree_body.child];
     const Eigen::Isometry3d in_parent = graph_.bodies[parent].frame.inverse() * body.frame;
     const Xml element = xml.add("body");
     element.with("name", body.name)
         .with("pos", Vector3d(in_parent.translation()))
         .with("quat", quaternionText(in_parent.linear()));
-    if (floats(limb)) element.add("freejoint").with("name", body.name);
-    for (const std::size_t joint : limb.joints)
-      if (!floats(limb)) addJoint(element, graph_.joints[joint], body.frame);
-    addInertial(element.add("inertial"), limb.child);
+    if (floats(tree_body)) element.add("freejoint").with("name", body.name);
+    for (const std::size_t joint : tree_body.joints)
+      if (!floats(tree_body)) addJoint(element, graph_.joints[joint], body.frame);
+    addInertial(element.add("inertial"), tree_body.child);
     const Eigen::Isometry3d to_own = body.frame.inverse();
     for (const DrawnRod& rod : machine_.rods)
-      if (rod.body == limb.child)
+      if (rod.body == tree_body.child)
         element.add("geom")
             .with("size", rod.radius)
             .with("fromto", numberText(to_own * rod.from) + " " + numberText(to_own * rod.to));
-    addChildren(element, limb.child);
+    addChildren(element, tree_body.child);
   }
 
   static void addJoint(const Xml& xml, const GraphJoint& joint, const Eigen::Isometry3d& frame) {
@@ -142,7 +142,7 @@ class MjcfWriter {
 
   const MachineModel& machine_;
   const ModelGraph& graph_;
-  std::vector<Limb> limbs_;
+  std::vector<TreeBody> tree_bodies_;
   XmlDocument document_;
 };
 

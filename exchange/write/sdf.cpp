@@ -35,7 +35,7 @@ class SdfWriter {
                       motors, 6, "motors"});
     for (std::size_t body = 0; body < graph_.bodies.size(); ++body)
       if (!graph_.bodies[body].fixed && graph_.bodies[body].mass != 0) addLink(model, body);
-    for (const Limb& limb : limbsOf(graph_)) addLimb(model, limb);
+    for (const TreeBody& tree_body : treeBodiesOf(graph_)) addTreeBody(model, tree_body);
     for (const GraphJoint& joint : graph_.joints)
       if (joint.closure) addBall(model, joint.name, joint.parent, joint);
     return document_.text();
@@ -46,18 +46,18 @@ class SdfWriter {
   std::string motorNames() {
     constexpr const char* axes[] = {"/axis", "/axis2"};
     std::string out;
-    for (const Limb& limb : limbsOf(graph_))
-      for (std::size_t k = 0; k < limb.joints.size(); ++k)
-        if (graph_.joints[limb.joints[k]].driven)
-          out += (out.empty() ? "" : ",") + nameOf(limb) + (limb.joints.size() == 2 ? axes[k] : "");
+    for (const TreeBody& tree_body : treeBodiesOf(graph_))
+      for (std::size_t k = 0; k < tree_body.joints.size(); ++k)
+        if (graph_.joints[tree_body.joints[k]].driven)
+          out += (out.empty() ? "" : ",") + nameOf(tree_body) + (tree_body.joints.size() == 2 ? axes[k] : "");
     return out;
   }
 
   /// "leg_1_phi_psi" for leg_1_phi and leg_1_psi.
-  std::string nameOf(const Limb& limb) const {
-    std::string out = graph_.joints[limb.joints.front()].name;
-    for (std::size_t k = 1; k < limb.joints.size(); ++k) {
-      const std::string& name = graph_.joints[limb.joints[k]].name;
+  std::string nameOf(const TreeBody& tree_body) const {
+    std::string out = graph_.joints[tree_body.joints.front()].name;
+    for (std::size_t k = 1; k < tree_body.joints.size(); ++k) {
+      const std::string& name = graph_.joints[tree_body.joints[k]].name;
       out += name.substr(name.rfind('_'));
     }
     return out;
@@ -89,19 +89,19 @@ class SdfWriter {
     }
   }
 
-  void addLimb(const Xml& model, const Limb& limb) {
-    const GraphJoint& last = graph_.joints[limb.joints.back()];
-    if (last.kind == JointKind::ball || limb.joints.size() > 2) {
-      for (const std::size_t joint : limb.joints) noteBall(graph_.joints[joint]);
-      return addBall(model, nameOf(limb), limb.parent, last);
+  void addTreeBody(const Xml& model, const TreeBody& tree_body) {
+    const GraphJoint& last = graph_.joints[tree_body.joints.back()];
+    if (last.kind == JointKind::ball || tree_body.joints.size() > 2) {
+      for (const std::size_t joint : tree_body.joints) noteBall(graph_.joints[joint]);
+      return addBall(model, nameOf(tree_body), tree_body.parent, last);
     }
-    const char* type = limb.joints.size() == 2             ? "universal"
+    const char* type = tree_body.joints.size() == 2        ? "universal"
                        : last.kind == JointKind::prismatic ? "prismatic"
                                                            : "revolute";
-    const Xml element = addJoint(model, nameOf(limb), type, limb.parent, last);
-    for (std::size_t k = 0; k < limb.joints.size(); ++k)
-      addAxis(element.add(k == 0 ? "axis" : "axis2"), graph_.joints[limb.joints[k]], limb.joints.size() == 2);
-    if (limb.joints.size() == 1 && last.rotor_inertia != 0) element.add("drake:rotor_inertia", last.rotor_inertia);
+    const Xml element = addJoint(model, nameOf(tree_body), type, tree_body.parent, last);
+    for (std::size_t k = 0; k < tree_body.joints.size(); ++k)
+      addAxis(element.add(k == 0 ? "axis" : "axis2"), graph_.joints[tree_body.joints[k]], tree_body.joints.size() == 2);
+    if (tree_body.joints.size() == 1 && last.rotor_inertia != 0) element.add("drake:rotor_inertia", last.rotor_inertia);
   }
 
   /// Three hinges through one point become a ball, which has no axes for friction or rotors.

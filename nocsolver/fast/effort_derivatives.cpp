@@ -233,7 +233,7 @@ struct EffortDerivatives::Impl {
       setFixedFrame<ByNumbers>(seeded.axis[i], m.legs[i].x_hat, m.legs[i].u, m.legs[i].z_hat);
     kernel::MachineModel<ByNumbers> model = kernel::machineModel(m);
     for (std::size_t i = 0; i < static_cast<std::size_t>(m.legs_in_all); ++i) {
-      model.legs[i].rubs = model.legs[i].rubs_dry = true;
+      model.legs[i].has_friction = model.legs[i].has_coulomb = true;
       model.legs[i].principal = false;
     }
     return model;

@@ -26,15 +26,15 @@ bool areAlike(const MachineModel<double>& machine) {
 MachineShape commonShape(const MachineModel<double>& machine) {
   MachineShape out = shapeOf(machine);
   for (std::size_t i = 1; i < leg_count; ++i) {
-    out.rubs[0] = out.rubs[0] || out.rubs[i];
-    out.rubs_dry[0] = out.rubs_dry[0] || out.rubs_dry[i];
+    out.has_friction[0] = out.has_friction[0] || out.has_friction[i];
+    out.has_coulomb[0] = out.has_coulomb[0] || out.has_coulomb[i];
     out.principal[0] = out.principal[0] && out.principal[i];
     out.has_rotor[0] = out.has_rotor[0] || out.has_rotor[i];
     out.off_line[0] = out.off_line[0] || out.off_line[i];
   }
   for (std::size_t i = 1; i < leg_count; ++i) {
-    out.rubs[i] = out.rubs[0];
-    out.rubs_dry[i] = out.rubs_dry[0];
+    out.has_friction[i] = out.has_friction[0];
+    out.has_coulomb[i] = out.has_coulomb[0];
     out.principal[i] = out.principal[0];
     out.has_rotor[i] = out.has_rotor[0];
     out.off_line[i] = out.off_line[0];

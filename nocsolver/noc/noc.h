@@ -44,17 +44,17 @@ struct NocWorkspace {
 /// written to be read beside the paper; fast/ gives the same numbers without forming T.
 ///
 /// The generalised speeds are the rates q̇ of the driven coordinates, φ̇ in the paper. Immutable; threads share it, each
-/// with its own workspace. `Reading` is Corrected, or WithFormulaErrors for wrong formulas. Only functions that say so
+/// with its own workspace. `Formulas` is Corrected, or WithFormulaErrors for wrong formulas. Only functions that say so
 /// allocate.
 ///
 /// Every function throws OutOfReach, OutOfStroke or PointOnAxis for poses beyond the legs. Rates and all later
 /// quantities throw StretchedLeg. Functions that need B⁻¹ throw SingularJacobian.
-template <class S, class Reading = Corrected>
+template <class S, class Formulas = Corrected>
 class Noc {
  public:
-  explicit Noc(const Manipulator& manipulator, Reading reading = Reading{})
-      : Noc(MachineParameters<S>(manipulator), std::move(reading)) {}
-  explicit Noc(const MachineParameters<S>& machine, Reading reading = Reading{});
+  explicit Noc(const Manipulator& manipulator, Formulas formulas = Formulas{})
+      : Noc(MachineParameters<S>(manipulator), std::move(formulas)) {}
+  explicit Noc(const MachineParameters<S>& machine, Formulas formulas = Formulas{});
 
   const MachineParameters<S>& machine() const { return machine_; }
 
@@ -153,7 +153,7 @@ class Noc {
   void addJointWrench(const NocWorkspace<S>& work, int leg, int joint, const S& effort, BodyVector<S>& w) const;
 
   MachineParameters<S> machine_;
-  Reading reading_;
+  Formulas formulas_;
 };
 
 extern template class Noc<double>;

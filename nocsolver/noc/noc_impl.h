@@ -36,7 +36,7 @@ S Noc<S, R>::massOf(int body) const {
   if (body % leg_count >= machine_.legs_in_all) return S(0);
   const LegModel<S>& leg = machine_.legs[legs::at(body % leg_count)];
   if (body < leg_count) return leg.mass_1;
-  return reading_.has(FormulaError::drop_mass_distal) ? S(0) : leg.mass_2;
+  return formulas_.has(FormulaError::drop_mass_distal) ? S(0) : leg.mass_2;
 }
 
 /// Tensors about the mass centres, in B, from the displacements.
@@ -47,15 +47,15 @@ BodyTensors<S> Noc<S, R>::tensors(const NocWorkspace<S>& work) const {
   const auto turned = [](const Matrix3<S>& frame, const Matrix3<S>& I) {
     return Matrix3<S>(frame * I * frame.transpose());
   };
-  const bool links_in_B = reading_.has(FormulaError::untwisted_tensors);
+  const bool links_in_B = formulas_.has(FormulaError::untwisted_tensors);
   for (int i = 0; i < machine_.legs_in_all; ++i) {
     const LegModel<S>& leg = machine_.legs[legs::at(i)];
     const LegState<S>& at = work.legs[legs::at(i)];
     out[legs::at(i)] = links_in_B ? leg.I_1 : turned(at.R_1, leg.I_1);              // (paper, eq. 46a)
     out[legs::at(leg_count + i)] = links_in_B ? leg.I_2 : turned(at.R_2, leg.I_2);  // (paper, eq. 46b)
   }
-  if (reading_.has(FormulaError::mass_for_inertia)) return out;
-  const bool platform_in_B = reading_.has(FormulaError::untwisted_platform);
+  if (formulas_.has(FormulaError::mass_for_inertia)) return out;
+  const bool platform_in_B = formulas_.has(FormulaError::untwisted_platform);
   out.back() = platform_in_B ? machine_.I_M : turned(work.Q, machine_.I_M);  // (paper, eq. 46c)
   return out;
 }
@@ -73,8 +73,8 @@ template <class S, class R>
 Vector6<S> Noc<S, R>::W(int body, const NocWorkspace<S>& work, const Vector6<S>& x) const {
   const Vector3<S> omega = work.bodies[legs::at(body)].twist.template head<3>();
   Vector6<S> out = Vector6<S>::Zero();
-  if (reading_.has(body == legs::platform ? FormulaError::drop_gyroscopic_platform
-                                          : FormulaError::drop_gyroscopic_legs))
+  if (formulas_.has(body == legs::platform ? FormulaError::drop_gyroscopic_platform
+                                           : FormulaError::drop_gyroscopic_legs))
     return out;
   out.template head<3>() = omega.cross(Vector3<S>(x.template head<3>()));  // (paper, eq. 29)
   return out;
@@ -94,7 +94,7 @@ template <class S, class R>
 BodyVector<S> Noc<S, R>::gravityWrench() const {
   BodyVector<S> w_g = BodyVector<S>::Zero();
   for (int b = 0; b < body_count; ++b)
-    if (!reading_.has(b == legs::platform ? FormulaError::drop_gravity_platform : FormulaError::drop_gravity_legs))
+    if (!formulas_.has(b == legs::platform ? FormulaError::drop_gravity_platform : FormulaError::drop_gravity_legs))
       legs::block(w_g, b).template tail<3>() = massOf(b) * machine_.gravity;  // (paper, eq. 45)
   return w_g;
 }
@@ -124,7 +124,7 @@ void Noc<S, R>::addJointWrench(const NocWorkspace<S>& work, int i, int j, const 
 template <class S, class R>
 BodyVector<S> Noc<S, R>::dissipativeWrench(const NocWorkspace<S>& work) const {
   BodyVector<S> w_d = BodyVector<S>::Zero();
-  if (reading_.has(FormulaError::drop_friction)) return w_d;
+  if (formulas_.has(FormulaError::drop_friction)) return w_d;
   for (int i = 0; i < machine_.legs_in_all; ++i)
     for (int j = 0; j < 3; ++j) {
       const LegModel<S>& leg = machine_.legs[legs::at(i)];
@@ -141,7 +141,7 @@ template <class S, class R>
 BodyVector<S> Noc<S, R>::loadWrench(const Motion<S>& motion, const Vector6<S>& load) const {
   BodyVector<S> w_e = BodyVector<S>::Zero();
   const Vector3<S> force = load.template tail<3>();
-  if (!reading_.has(FormulaError::drop_load))
+  if (!formulas_.has(FormulaError::drop_load))
     legs::block(w_e, legs::platform) << load.template head<3>() - platformArm(motion).cross(force), force;
   return w_e;
 }
@@ -182,7 +182,7 @@ Vector6<S> Noc<S, R>::rotors() const {
     const Motor& motor = machine_.motors[legs::at(m)];
     j(m) = machine_.legs[legs::at(motor.leg)].rotor[legs::at(motor.joint)];
   }
-  if (reading_.has(FormulaError::drop_rotor)) j.setZero();
+  if (formulas_.has(FormulaError::drop_rotor)) j.setZero();
   return j;
 }
 
@@ -206,12 +206,12 @@ Vector6<S> Noc<S, R>::inverseDynamics(const Motion<S>& motion, NocWorkspace<S>& 
   setBodies(motion, work);
   twistShaping(motion, work);
   BodyVector<S> w_n = inertiaWrench(work);
-  if (reading_.has(FormulaError::drop_inertia)) w_n.setZero();
+  if (formulas_.has(FormulaError::drop_inertia)) w_n.setZero();
   const BodyVector<S> w_g = gravityWrench() + loadWrench(motion, load), w_d = dissipativeWrench(work);
   Vector6<S> tau = -work.T.transpose() * (w_n + w_g + w_d);  // (paper, eq. 37)
   if (hasRotors()) tau += rotorEfforts(work);
-  if (reading_.has(FormulaError::scaled_efforts)) tau *= S(1.001);
-  if (reading_.has(FormulaError::scaled_first_effort)) tau(0) *= S(1 + 1e-7);
+  if (formulas_.has(FormulaError::scaled_efforts)) tau *= S(1.001);
+  if (formulas_.has(FormulaError::scaled_first_effort)) tau(0) *= S(1 + 1e-7);
   return tau;
 }
 
@@ -237,10 +237,10 @@ Matrix6<S> Noc<S, R>::I(const NocWorkspace<S>& work) const {
 template <class S, class R>
 Matrix6<S> Noc<S, R>::C(const NocWorkspace<S>& work) const {
   TwistShaping<S> sum = massTimes(work.I_B, work.T_rate);
-  if (reading_.has(FormulaError::drop_T_rate)) sum.setZero();
+  if (formulas_.has(FormulaError::drop_T_rate)) sum.setZero();
   const TwistShaping<S> MT = massTimes(work.I_B, work.T);
   for (int b = 0; b < body_count; ++b)
-    for (int m = 0; m < motor_count && !reading_.has(FormulaError::drop_W); ++m)
+    for (int m = 0; m < motor_count && !formulas_.has(FormulaError::drop_W); ++m)
       legs::block(sum, b).col(m) += W(b, work, legs::block(MT, b).col(m));
   return work.T.transpose().lazyProduct(sum);  // (paper, eq. 34)
 }
@@ -257,8 +257,8 @@ Vector6<S> Noc<S, R>::directDynamics(const Motion<S>& motion, const Vector6<S>& 
   twistShapingRate(unaccelerated, work);
   Vector6<S> tau_g = work.T.transpose() * (gravityWrench() + loadWrench(motion, load));
   Vector6<S> tau_d = work.T.transpose() * dissipativeWrench(work);
-  if (reading_.has(FormulaError::drop_tau_g)) tau_g.setZero();
-  if (reading_.has(FormulaError::drop_tau_d)) tau_d.setZero();
+  if (formulas_.has(FormulaError::drop_tau_g)) tau_g.setZero();
+  if (formulas_.has(FormulaError::drop_tau_d)) tau_d.setZero();
   const Vector6<S> q_dot = rates(work).driven(machine_.motors);
   const Vector6<S> q_ddot =
       I(work).llt().solve(Vector6<S>(efforts + tau_g + tau_d - C(work) * q_dot));  // (paper, eq. 36)

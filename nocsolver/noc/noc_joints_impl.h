@@ -95,10 +95,10 @@ Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> Noc<S, R>::D(const Motion<S>& m
     const Vector3<S> R_ = leg.a + at.O_2, B = motion.p + at.Qb;
     rows.join(base, first, leg.a + at.O_1, leg, at, 0, before);
     rows.join(first, second, R_, leg, at, before, 3);
-    rows.moveAlike(second, platform, reading_.has(FormulaError::wrong_D) ? R_ : B, Matrix3<S>::Identity());
+    rows.moveAlike(second, platform, formulas_.has(FormulaError::wrong_D) ? R_ : B, Matrix3<S>::Identity());
   }
   auto D = rows.D();  // (paper, eq. 33)
-  if (reading_.has(FormulaError::lost_constraint)) D.row(2) = D.row(1);
+  if (formulas_.has(FormulaError::lost_constraint)) D.row(2) = D.row(1);
   return D;
 }
 

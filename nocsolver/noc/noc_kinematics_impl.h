@@ -13,9 +13,9 @@ inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
 }  // namespace legs
 
 template <class S, class R>
-Noc<S, R>::Noc(const MachineParameters<S>& machine, R reading) : machine_(machine), reading_(std::move(reading)) {
-  reading_.read(machine_);
-  if (!reading_.has(FormulaError::eq2)) return;
+Noc<S, R>::Noc(const MachineParameters<S>& machine, R formulas) : machine_(machine), formulas_(std::move(formulas)) {
+  formulas_.read(machine_);
+  if (!formulas_.has(FormulaError::eq2)) return;
   for (LegModel<S>& leg : machine_.legs) {  // (paper, eq. 2b) as printed: orthonormal only without tilt
     const Vector3<S> u = leg.u;
     leg.x_hat = Vector3<S>(u.y(), -u.x(), S(0));
@@ -29,18 +29,18 @@ void Noc<S, R>::place(const Motion<S>& motion, int i, LegState<S>& out) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
   out.Qb.noalias() = motion.Q * leg.b;
   out.AB = (motion.p - leg.a) + out.Qb;  // (paper, eq. 3), in an order that keeps digits far from the base's origin
-  if (reading_.has(FormulaError::eq5)) out.AB = motion.p + out.Qb + leg.a;
+  if (formulas_.has(FormulaError::eq5)) out.AB = motion.p + out.Qb + leg.a;
   legs::withLeg(leg.kind, [&](auto kind) {
-    kind.displacement(leg, i, motion.t, reading_, out);
+    kind.displacement(leg, i, motion.t, formulas_, out);
     out.R_1 << out.x_1, out.e.cross(out.x_1), out.e;          // (paper, eq. 40)
     out.R_2 << out.x_2, out.along.cross(out.x_2), out.along;  // (paper, eq. 40)
     out.arm_1 = leg.rho * out.e;
     out.arm_2 = leg.sigma * out.along;
     kind.ends(leg, out);
-    reading_.placed(leg, out);
-    kind.rows(leg, reading_, out);
+    formulas_.placed(leg, out);
+    kind.rows(leg, formulas_, out);
   });
-  reading_.mapped(leg, out);
+  formulas_.mapped(leg, out);
 }
 
 template <class S, class R>
@@ -61,9 +61,9 @@ void Noc<S, R>::inverseKinematics(const Motion<S>& motion, NocWorkspace<S>& work
     at.a_B = motion.p_ddot + motion.omega_dot.cross(at.Qb) + motion.omega.cross(across);
     legs::withLeg(leg.kind, [&](auto kind) {
       kind.requireRates(i, motion.t, at);
-      at.rate = kind.rates(leg, at, at.v_B, reading_);
-      kind.rowRates(leg, reading_, at);
-      at.acceleration = kind.accelerations(leg, at, at.rate, at.v_B, at.a_B, reading_);
+      at.rate = kind.rates(leg, at, at.v_B, formulas_);
+      kind.rowRates(leg, formulas_, at);
+      at.acceleration = kind.accelerations(leg, at, at.rate, at.v_B, at.a_B, formulas_);
     });
   }
 }
@@ -94,7 +94,7 @@ JointVariables<S> Noc<S, R>::angles(const NocWorkspace<S>& work) const {
     const LegModel<S>& leg = machine_.legs[legs::at(i)];
     const LegState<S>& at = work.legs[legs::at(i)];
     if (leg.kind != LegKind::URS) continue;
-    const S k_y = reading_.has(FormulaError::eq14b) ? S(-at.AB.dot(leg.u)) : at.AB.dot(leg.u);
+    const S k_y = formulas_.has(FormulaError::eq14b) ? S(-at.AB.dot(leg.u)) : at.AB.dot(leg.u);
     q.psi(i) = atan2(S(leg.s * at.sine[2]), S(leg.l - leg.s * at.cosine[2])) +
                atan2(S(at.AB.cross(leg.u).norm()), k_y);  // (paper, eq. 14b)
   }
@@ -139,7 +139,7 @@ Matrix6<S> Noc<S, R>::platformShaping(const NocWorkspace<S>& work) const {
 
 template <class S, class R>
 Matrix6<S> Noc<S, R>::platformShapingRate(const Motion<S>& motion, const NocWorkspace<S>& work) const {
-  if (reading_.has(FormulaError::drop_row_rates)) return Matrix6<S>::Zero();
+  if (formulas_.has(FormulaError::drop_row_rates)) return Matrix6<S>::Zero();
   Matrix6<S> B_dot;
   Vector6<S> A_dot;
   for (int m = 0; m < motor_count; ++m) {
@@ -148,7 +148,7 @@ Matrix6<S> Noc<S, R>::platformShapingRate(const Motion<S>& motion, const NocWork
     const JacobianRow<S>& row = leg.row[legs::at(motor.joint)];
     const S size = row.n.norm();
     const Vector3<S> n = row.n / size, n_dot = row.n_dot / size;  // scaling a row leaves (25) unchanged
-    const Vector3<S> Qb = reading_.has(FormulaError::eq26_b_dot) ? machine_.legs[legs::at(motor.leg)].b : leg.Qb;
+    const Vector3<S> Qb = formulas_.has(FormulaError::eq26_b_dot) ? machine_.legs[legs::at(motor.leg)].b : leg.Qb;
     const Vector3<S> Qb_dot = motion.omega.cross(Qb);
     A_dot(m) = row.A_dot / size;
     B_dot.row(m) << (Qb_dot.cross(n) + leg.Qb.cross(n_dot)).transpose(), n_dot.transpose();  // (paper, eq. 26)

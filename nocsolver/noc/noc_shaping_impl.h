@@ -32,7 +32,7 @@ LinkMotions<S> Noc<S, R>::links(int i, const LegState<S>& at, const Vector3<S>& 
                                 const Vector3<S>& acceleration) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
   LinkMotions<S> out =
-      legs::withLeg(leg.kind, [&](auto kind) { return kind.links(leg, at, rate, acceleration, reading_); });
+      legs::withLeg(leg.kind, [&](auto kind) { return kind.links(leg, at, rate, acceleration, formulas_); });
   if (leg.off_line) addOffLine(i, at, out);
   return out;
 }
@@ -43,12 +43,12 @@ template <class S, class R>
 void Noc<S, R>::addOffLine(int i, const LegState<S>& at, LinkMotions<S>& links) const {
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
   const LinkMotions<S> now = legs::withLeg(leg.kind, [&](auto kind) {
-    return kind.template links<false>(leg, at, at.rate, Vector3<S>(Vector3<S>::Zero()), reading_);
+    return kind.template links<false>(leg, at, at.rate, Vector3<S>(Vector3<S>::Zero()), formulas_);
   });
   const auto add = [this](const Vector3<S>& off, const Vector3<S>& omega_now, LinkMotion<S>& link) {
     link.c_dot += link.omega.cross(off);
     link.c_ddot += link.omega_dot.cross(off);
-    if (!reading_.has(FormulaError::drop_centrifugal)) link.c_ddot += link.omega.cross(omega_now.cross(off));
+    if (!formulas_.has(FormulaError::drop_centrifugal)) link.c_ddot += link.omega.cross(omega_now.cross(off));
   };
   add(at.R_1 * leg.off_1, now.proximal.omega, links.proximal);
   add(at.R_2 * leg.off_2, now.distal.omega, links.distal);
@@ -84,7 +84,7 @@ void Noc<S, R>::bodyMotions(const Motion<S>& motion, const NocWorkspace<S>& work
   body.R = motion.Q;
   body.twist << motion.omega, motion.p_dot + across;  // (paper, eq. 41c)
   Vector3<S> c_ddot = motion.p_ddot + motion.omega_dot.cross(arm);
-  if (!reading_.has(FormulaError::drop_platform_centripetal)) c_ddot += motion.omega.cross(across);
+  if (!formulas_.has(FormulaError::drop_platform_centripetal)) c_ddot += motion.omega.cross(across);
   body.twist_rate << motion.omega_dot, c_ddot;  // (paper, eq. 43c)
 }
 
@@ -98,8 +98,8 @@ typename Noc<S, R>::UnitTwists Noc<S, R>::unitTwists(int i, const LegState<S>& a
   legs::withLeg(leg.kind, [&](auto kind) {
     for (int j = 0; j < 3; ++j) {
       const Vector3<S> one = Vector3<S>::Unit(j), none = Vector3<S>::Zero();
-      LinkMotions<S> unit = with_rate ? kind.links(leg, at, one, none, reading_)
-                                      : kind.template links<false>(leg, at, one, none, reading_);
+      LinkMotions<S> unit = with_rate ? kind.links(leg, at, one, none, formulas_)
+                                      : kind.template links<false>(leg, at, one, none, formulas_);
       if (leg.off_line) addOffLine(i, at, unit);
       out.first.col(j) << unit.proximal.omega, unit.proximal.c_dot;
       out.second.col(j) << unit.distal.omega, unit.distal.c_dot;
@@ -117,7 +117,7 @@ typename Noc<S, R>::Rates Noc<S, R>::ratesForTwists(int i, const LegState<S>& at
   const LegModel<S>& leg = machine_.legs[legs::at(i)];
   Matrix3<S> by_v_B;
   legs::withLeg(leg.kind, [&](auto kind) {
-    for (int k = 0; k < 3; ++k) by_v_B.col(k) = kind.rates(leg, at, Vector3<S>(Vector3<S>::Unit(k)), reading_);
+    for (int k = 0; k < 3; ++k) by_v_B.col(k) = kind.rates(leg, at, Vector3<S>(Vector3<S>::Unit(k)), formulas_);
   });
   Rates v_B;
   for (int m = 0; m < motor_count; ++m) v_B.col(m) = legs::velocityOf<S>(T_P.col(m), at.Qb);
@@ -132,7 +132,7 @@ typename Noc<S, R>::Rates Noc<S, R>::columnRates(int i, const LegState<S>& at, c
   for (int j = 0; j < 3; ++j) {
     const int motor = leg.motor[legs::at(j)];
     if (motor >= 0) out.row(j) = Vector6<S>::Unit(motor).transpose();  // (paper, eq. 48)
-    if (reading_.has(motor >= 0 ? FormulaError::drop_own_column : FormulaError::drop_passive_rates))
+    if (formulas_.has(motor >= 0 ? FormulaError::drop_own_column : FormulaError::drop_passive_rates))
       out.row(j).setZero();
   }
   return out;
@@ -148,7 +148,7 @@ typename Noc<S, R>::Rates Noc<S, R>::columnAccelerations(const Motion<S>& motion
   legs::withLeg(leg.kind, [&](auto kind) {
     for (int m = 0; m < motor_count; ++m)
       out.col(m) = kind.accelerations(leg, at, Vector3<S>(rates.col(m)), legs::velocityOf<S>(work.T_P.col(m), at.Qb),
-                                      columnAcceleration(motion, work, m, at.Qb), reading_);
+                                      columnAcceleration(motion, work, m, at.Qb), formulas_);
   });
   for (int j = 0; j < 3; ++j)
     if (leg.motor[legs::at(j)] >= 0) out.row(j).setZero();
@@ -188,7 +188,7 @@ template <class S, class R>
 void Noc<S, R>::shape(const Motion<S>& motion, NocWorkspace<S>& work, bool with_rate) const {
   work.T_P = platformShaping(work);
   work.T.setZero();
-  shapePlatform(reading_.has(FormulaError::eq47) ? machine_.rho : platformArm(motion), work.T_P, work.T);  // B_C⁻¹A
+  shapePlatform(formulas_.has(FormulaError::eq47) ? machine_.rho : platformArm(motion), work.T_P, work.T);  // B_C⁻¹A
   if (with_rate) {
     work.T_P_rate = platformShapingRate(motion, work);
     work.T_rate.setZero();

@@ -114,9 +114,9 @@ std::optional<ComplexQ> rootAt(const ThreeQuadrics& quadrics, double rounding, c
 }
 
 /// Collects the roots of one chart.
-class Gathering {
+class RootCollector {
  public:
-  Gathering(const ThreeQuadrics& quadrics, double rounding) : quadrics_(quadrics), rounding_(rounding) {}
+  RootCollector(const ThreeQuadrics& quadrics, double rounding) : quadrics_(quadrics), rounding_(rounding) {}
 
   /// Adds a real eigenvector. If Newton's method finds no real root, a complex pair is near.
   void addReal(Q4<double> q) {
@@ -195,7 +195,7 @@ class Gathering {
 };
 
 Roots rootsInChart(const ThreeQuadrics& quadrics, double rounding, int index) {
-  Gathering gathering(quadrics, rounding);
+  RootCollector collector(quadrics, rounding);
   const MultiplicationMatrix multiplication = multiplicationMatrix(quadrics, index);
   Roots none;
   none.pivot = multiplication.pivot;
@@ -206,14 +206,14 @@ Roots rootsInChart(const ThreeQuadrics& quadrics, double rounding, int index) {
   for (int i = 0; i < root_count; ++i) {
     const double imaginary = solver.eigenvalues()(i).imag();
     if (imaginary == 0) {
-      gathering.addReal(V.col(i).normalized());
+      collector.addReal(V.col(i).normalized());
     } else if (i + 1 < root_count) {
       ComplexQ q = V.col(i).cast<Complex>() + Complex(0, 1) * V.col(i + 1).cast<Complex>();
-      gathering.addPair(q.normalized());
+      collector.addPair(q.normalized());
       ++i;
     }
   }
-  Roots roots = gathering.count();
+  Roots roots = collector.count();
   roots.pivot = multiplication.pivot;
   return roots;
 }

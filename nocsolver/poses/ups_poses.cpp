@@ -58,9 +58,9 @@ struct Centred {
       of_base += legs.a[i].squaredNorm() / 6;
       of_platform += legs.b[i].squaredNorm() / 6;
     }
-    const double told = std::sqrt(of_base * of_platform), least = std::sqrt(Eigen::NumTraits<double>::epsilon());
-    if (!(told >= least))
-      throw UndeterminedPose("joints too close for legs so long, product of their spreads", told, least);
+    const double spread = std::sqrt(of_base * of_platform), least = std::sqrt(Eigen::NumTraits<double>::epsilon());
+    if (!(spread >= least))
+      throw UndeterminedPose("joints too close for legs so long, product of their spreads", spread, least);
   }
 };
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/dense.h"
-#include "nocsolver/poses/ups_poses_gathering.h"
+#include "nocsolver/poses/ups_poses_collector.h"
 
 namespace ursula::ups {
 namespace {
@@ -17,14 +17,14 @@ Roots rootsInChart(const Legs& legs, const LegSection& section, int index) {
   const std::optional<EigenPairs> pairs = eigenPairs(multiply.M);
   if (!pairs) return none;
   const Eigen::MatrixXcd all = pairs->vectors.topRows<section_count>();
-  Gathering gathering(legs);
+  RootCollector collector(legs);
   for (int i = 0; i < solution_count; ++i) {
     const bool real = pairs->values(i).imag() == 0;
     const ComplexCoordinates x = multiply.map.cast<std::complex<double>>() * all.col(i);
-    gathering.addEigenvector(x.normalized(), real ? 1 : 2);
+    collector.addEigenvector(x.normalized(), real ? 1 : 2);
     if (!real) ++i;
   }
-  Roots roots = gathering.count();
+  Roots roots = collector.count();
   roots.pivot = none.pivot;
   return roots;
 }

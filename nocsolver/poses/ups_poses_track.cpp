@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "nocsolver/poses/ups_poses_gathering.h"
+#include "nocsolver/poses/ups_poses_collector.h"
 #include "nocsolver/poses/ups_poses_newton.h"
 
 // A nearby machine, perturbed by s times a fixed generic amount, has 40 solutions for all but a few s. They are
@@ -61,7 +61,7 @@ struct Way {
 };
 
 /// Perturbs the legs by up to 0.3 units.
-Way thrown(const Legs& legs, int index) {
+Way randomWay(const Legs& legs, int index) {
   std::uint64_t state = 0xd1b54a32d192ed03u * static_cast<std::uint64_t>(index + 1);
   const auto next = [&state] {
     state = state * 6364136223846793005u + 1442695040888963407u;
@@ -121,27 +121,27 @@ std::optional<ComplexPose> follow(const Way& way, ComplexPose pose, double close
   return pose;
 }
 
-void finish(const Legs& legs, const ComplexPose& end, Gathering& gathering, bool& free) {
+void finish(const Legs& legs, const ComplexPose& end, RootCollector& collector, bool& free) {
   const double h = std::abs(coordinates(end)(at_h));
   ComplexPose pose = end;
   const double near = std::pow(eps, 1.0 / 8);
-  if (h > little_h && settle(legs, pose) && (coordinates(pose) - coordinates(end)).norm() < near) {
+  if (h > little_h && polishPose(legs, pose) && (coordinates(pose) - coordinates(end)).norm() < near) {
     free = free || isFree(legs, pose);
-    gathering.addEnd(pose);
+    collector.addEnd(pose);
   } else if (h < hidden_h) {
-    gathering.addInfinite(1);
+    collector.addInfinite(1);
   }
 }
 
 Roots tracked(const Way& way, const Roots& start, double closeness) {
-  Gathering gathering(way.end);
+  RootCollector collector(way.end);
   bool free = false;
   for (const Root& root : start.list)
     for (int conjugate = 0; conjugate < (root.real ? 1 : 2); ++conjugate) {
       const ComplexPose from = conjugate ? ComplexPose{root.at.q.conjugate(), root.at.p.conjugate()} : root.at;
-      if (const auto end = follow(way, from, closeness)) finish(way.end, *end, gathering, free);
+      if (const auto end = follow(way, from, closeness)) finish(way.end, *end, collector, free);
     }
-  Roots roots = gathering.count();
+  Roots roots = collector.count();
   roots.free = free;
   return roots;
 }
@@ -152,7 +152,7 @@ Roots trackRoots(const Legs& legs) {
   Roots best;
   double closeness = 0.05;
   for (int index = 0; index < throw_count; ++index, closeness /= 4) {
-    const Way way = thrown(legs, index);
+    const Way way = randomWay(legs, index);
     const Roots start = findRoots(way.start());
     if (start.counted != solution_count) continue;
     const Roots roots = tracked(way, start, closeness);

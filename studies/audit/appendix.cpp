@@ -84,12 +84,12 @@ Formula formula(const char* equation, const char* printed, const char* unit, Sid
 Formula quintic() {
   Formula f = formula(
       "(50), (51)", "β = Σ a_k t^k with a_0 … a_5", "rad, rad/s, rad/s²",
-      [](const Witness&) {
+      [](const ReferenceState&) {
         const Helix h;
         const auto start = betaByDifferences(S(0)), end = betaByDifferences(h.t_f);
         return values(start.value, start.first, start.second, end.value, end.first, end.second);
       },
-      [](const Witness&) {
+      [](const ReferenceState&) {
         const Helix h;
         return values(h.beta_0, h.rate_0, h.acceleration_0, h.beta_f, h.rate_f, h.acceleration_f);
       });
@@ -100,12 +100,12 @@ Formula quintic() {
 Formula helixPoint() {
   return formula(
       "(49), (52)", "p; ṗ = m β̇, p̈ = m β̈ + n β̇²", "m/s, m/s²",
-      [](const Witness& at) {
+      [](const ReferenceState& at) {
         const Helix h;
         const S beta = h.beta(at.t), rate = h.rate(at.t);
         return values(V(h.m(beta) * rate), V(h.m(beta) * h.acceleration(at.t) + h.n(beta) * (rate * rate)));
       },
-      [](const Witness& at) {
+      [](const ReferenceState& at) {
         const Helix h;
         const auto d = differentiated([&](const S& dt) { return h.p(h.beta(at.t + dt)); }, S("1e-5"));
         return values(d.first, d.second);
@@ -115,11 +115,11 @@ Formula helixPoint() {
 Formula rates() {
   return formula(
       "(53)", "β̇ = Σ k a_k t^(k−1), β̈ = Σ k(k−1) a_k t^(k−2)", "rad/s, rad/s²",
-      [](const Witness& at) {
+      [](const ReferenceState& at) {
         const Helix h;
         return values(h.rate(at.t), h.acceleration(at.t));
       },
-      [](const Witness& at) {
+      [](const ReferenceState& at) {
         const auto d = betaByDifferences(at.t);
         return values(d.first, d.second);
       });
@@ -128,22 +128,22 @@ Formula rates() {
 Formula triad() {
   return formula(
       "(54), (55)", "Q = [−e_b, e_n, e_t]", "",
-      [](const Witness& at) {
+      [](const ReferenceState& at) {
         const Helix h;
         const M Q = h.Q(h.beta(at.t));
         return values(M(Q.transpose() * Q), S(Q.col(0).cross(Q.col(1)).dot(Q.col(2))));
       },
-      [](const Witness&) { return values(M(M::Identity()), S(1)); });
+      [](const ReferenceState&) { return values(M(M::Identity()), S(1)); });
 }
 
 Formula spin() {
   return formula(
       "Appendix ω", "ω = β̇ e_z, ω̇ = β̈ e_z", "rad/s, rad/s²",
-      [](const Witness& at) {
+      [](const ReferenceState& at) {
         const Helix h;
         return values(V(S(0), S(0), h.rate(at.t)), V(S(0), S(0), h.acceleration(at.t)));
       },
-      [](const Witness& at) {
+      [](const ReferenceState& at) {
         const Helix h;
         using Flat = Eigen::Matrix<S, 9, 1>;
         const auto d = differentiated(
@@ -162,15 +162,15 @@ Formula spin() {
 Formula sumsFromZero() {
   Formula f = formula(
       "(53) k = 0", "sums from k = 0: the first terms are 0·a_0 t⁻¹, 0·a_0 t⁻²", "rad/s",
-      [](const Witness&) {
+      [](const ReferenceState&) {
         const Helix h;
         S total(0);
         for (int k = 0; k <= 5; ++k) total += k * h.coefficients()[static_cast<std::size_t>(k)] * pow(S(0), k - 1);
         return values(total);
       },
-      [](const Witness&) { return values(Helix().rate_0); });
+      [](const ReferenceState&) { return values(Helix().rate_0); });
   f.holds = "sums from k = 1 and k = 2";
-  f.that_holds = [](const Witness&) { return values(Helix().rate(S(0))); };
+  f.that_holds = [](const ReferenceState&) { return values(Helix().rate(S(0))); };
   f.note = "Taken to the letter in floating point, β̇ at t = 0 is not a number.";
   f.misprint = true;
   return f;

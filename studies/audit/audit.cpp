@@ -57,20 +57,20 @@ double mismatch(const Values& a, const Values& b) {
 
 double largerOf(double a, double b) { return std::isnan(a) || a >= b ? a : b; }
 
-void measure(const Formula& formula, const std::vector<Witness>& witnesses, AuditRow& row) {
+void measure(const Formula& formula, const std::vector<ReferenceState>& states, AuditRow& row) {
   row.residual_printed = row.residual_holds = formula.truth ? 0 : nan;
-  for (const Witness& witness : witnesses) {
+  for (const ReferenceState& reference : states) {
     if (!formula.truth) break;
-    const Values truth = formula.truth(witness);
+    const Values truth = formula.truth(reference);
     row.size = std::max(row.size, mismatch(truth, Values(truth.size(), S(0))));
     row.residual_printed =
-        largerOf(row.residual_printed, formula.as_printed ? mismatch(formula.as_printed(witness), truth) : nan);
+        largerOf(row.residual_printed, formula.as_printed ? mismatch(formula.as_printed(reference), truth) : nan);
     row.residual_holds = largerOf(
-        row.residual_holds, formula.that_holds ? mismatch(formula.that_holds(witness), truth) : row.residual_printed);
+        row.residual_holds, formula.that_holds ? mismatch(formula.that_holds(reference), truth) : row.residual_printed);
   }
 }
 
-AuditRow rowOf(const Formula& formula, const Scenario& scenario, const std::vector<Witness>& witnesses) {
+AuditRow rowOf(const Formula& formula, const Scenario& scenario, const std::vector<ReferenceState>& states) {
   AuditRow row;
   row.kind = formula.misprint ? AuditRow::Kind::misprint
                               : (formula.holds.empty() ? AuditRow::Kind::holds : AuditRow::Kind::fails);
@@ -79,7 +79,7 @@ AuditRow rowOf(const Formula& formula, const Scenario& scenario, const std::vect
   row.holds = formula.holds;
   row.unit = formula.unit;
   row.note = formula.note;
-  measure(formula, witnesses, row);
+  measure(formula, states, row);
   if (formula.formula_errors.empty()) return row;
   WithFormulaErrors formula_errors;
   for (FormulaError formula_error : formula.formula_errors) formula_errors.set(formula_error);
@@ -128,16 +128,16 @@ Audit runAudit(const Scenario& scenario) {
   result.torque_samples = audit::torque_samples;
   result.replay_tolerance = audit::replay_tolerance;
   result.largest_torque = audit::largestTorque(scenario, audit::torque_samples);
-  const audit::WitnessStand stand(*scenario.manipulator, *scenario.trajectory);
-  std::vector<audit::Witness> witnesses;
+  const audit::ReferenceMechanism mechanism(*scenario.manipulator, *scenario.trajectory);
+  std::vector<audit::ReferenceState> states;
   for (int k = 1; k < 8; ++k) {  // instants within the motion, so that no rate vanishes at all of them
     result.instants.push_back(result.duration * k / 8);
-    witnesses.push_back(stand.at(Real50(result.instants.back())));
+    states.push_back(mechanism.at(Real50(result.instants.back())));
   }
   const std::vector<audit::Formula> formulas = audit::allFormulas(*scenario.manipulator);
-  for (const audit::Formula& formula : formulas) result.rows.push_back(audit::rowOf(formula, scenario, witnesses));
+  for (const audit::Formula& formula : formulas) result.rows.push_back(audit::rowOf(formula, scenario, states));
   result.together = audit::allTogether(scenario, formulas);
-  result.remarks = audit::remarks(scenario, stand, witnesses);
+  result.remarks = audit::remarks(scenario, mechanism, states);
   return result;
 }
 

@@ -17,37 +17,37 @@ Direction direction(const S& angle, const S& rate, const S& acceleration) {
   return {V(S(0), c, s), V(S(0), -s, c) * rate, V(S(0), -s, c) * acceleration - V(S(0), c, s) * (rate * rate)};
 }
 
-Direction e(const LegWitness& leg) { return direction(leg.at.psi(), leg.dot.psi(), leg.ddot.psi()); }
+Direction e(const ReferenceLeg& leg) { return direction(leg.at.psi(), leg.dot.psi(), leg.ddot.psi()); }
 
-Direction s(const LegWitness& leg) {
+Direction s(const ReferenceLeg& leg) {
   Direction s =
       direction(leg.at.psi() + leg.at.theta(), leg.dot.psi() + leg.dot.theta(), leg.ddot.psi() + leg.ddot.theta());
   return {-s.value, -s.rate, -s.acceleration};
 }
 
 /// Returns a formula for a vector of a leg, as there is one for the proximal link and one for the distal link.
-Formula legVector(const char* equation, const char* printed, const char* unit, V (*formula)(const LegWitness&),
-                  V (*truth)(const LegWitness&)) {
+Formula legVector(const char* equation, const char* printed, const char* unit, V (*formula)(const ReferenceLeg&),
+                  V (*truth)(const ReferenceLeg&)) {
   Formula f;
   f.equation = equation;
   f.printed = printed;
   f.unit = unit;
-  f.as_printed = overLegs([formula](const Witness&, const LegWitness& leg) { return values(formula(leg)); });
-  f.truth = overLegs([truth](const Witness&, const LegWitness& leg) { return values(truth(leg)); });
+  f.as_printed = overLegs([formula](const ReferenceState&, const ReferenceLeg& leg) { return values(formula(leg)); });
+  f.truth = overLegs([truth](const ReferenceState&, const ReferenceLeg& leg) { return values(truth(leg)); });
   return f;
 }
 
 std::vector<Formula> positions() {
   return {legVector(
               "(39a)", "c = a + ρ Q̂Q[e]", "m",
-              [](const LegWitness& leg) { return V(leg.a + leg.rho * (leg.Q_hat * leg.Q_i() * e(leg).value)); },
-              [](const LegWitness& leg) { return leg.at.c(); }),
+              [](const ReferenceLeg& leg) { return V(leg.a + leg.rho * (leg.Q_hat * leg.Q_i() * e(leg).value)); },
+              [](const ReferenceLeg& leg) { return leg.at.c(); }),
           legVector(
               "(39b)", "d = a + Q̂Q(l[e] + σ[s])", "m",
-              [](const LegWitness& leg) {
+              [](const ReferenceLeg& leg) {
                 return V(leg.a + leg.Q_hat * leg.Q_i() * V(leg.l * e(leg).value + leg.sigma * s(leg).value));
               },
-              [](const LegWitness& leg) { return leg.at.d(); })};
+              [](const ReferenceLeg& leg) { return leg.at.d(); })};
 }
 
 Formula linkFrames() {
@@ -59,46 +59,47 @@ Formula linkFrames() {
     G << x, axis.cross(x), axis;
     return values(M(G.transpose() * G), S(G.col(0).cross(G.col(1)).dot(G.col(2))));
   };
-  f.as_printed = overLegs([frame](const Witness&, const LegWitness& leg) {
+  f.as_printed = overLegs([frame](const ReferenceState&, const ReferenceLeg& leg) {
     const M F = leg.Q_hat * leg.Q_i();
     return frame(V(F.col(0)), V(F * e(leg).value));
   });
-  f.truth = overLegs([](const Witness&, const LegWitness&) { return values(M(M::Identity()), S(1)); });
+  f.truth = overLegs([](const ReferenceState&, const ReferenceLeg&) { return values(M(M::Identity()), S(1)); });
   f.note = "Orthonormal and right-handed.";
   return f;
 }
 
 std::vector<Formula> velocities() {
-  return {legVector(
-              "(41a)", "ċ = ρ Q̂(ΩQ[e] + Q[ė])", "m/s",
-              [](const LegWitness& leg) {
-                return V(leg.rho * (leg.Q_hat * V(leg.Omega_i() * leg.Q_i() * e(leg).value + leg.Q_i() * e(leg).rate)));
-              },
-              [](const LegWitness& leg) { return leg.dot.c(); }),
-          legVector(
-              "(41b)", "ḋ = Q̂ΩQ(l[e] + σ[s]) + Q̂Q(l[ė] + σ[ṡ])", "m/s",
-              [](const LegWitness& leg) {
-                return V(leg.Q_hat * leg.Omega_i() * leg.Q_i() * V(leg.l * e(leg).value + leg.sigma * s(leg).value) +
-                         leg.Q_hat * leg.Q_i() * V(leg.l * e(leg).rate + leg.sigma * s(leg).rate));
-              },
-              [](const LegWitness& leg) { return leg.dot.d(); }),
-          legVector(
-              "(42a)", "[ė] = [0, −sin ψ, cos ψ]ᵀ ψ̇", "1/s", [](const LegWitness& leg) { return e(leg).rate; },
-              [](const LegWitness& leg) { return leg.dot.e_i(); }),
-          legVector(
-              "(42b)", "[ṡ] = [0, sin(ψ+θ), −cos(ψ+θ)]ᵀ (ψ̇ + θ̇)", "1/s",
-              [](const LegWitness& leg) { return s(leg).rate; }, [](const LegWitness& leg) { return leg.dot.s_i(); })};
+  return {
+      legVector(
+          "(41a)", "ċ = ρ Q̂(ΩQ[e] + Q[ė])", "m/s",
+          [](const ReferenceLeg& leg) {
+            return V(leg.rho * (leg.Q_hat * V(leg.Omega_i() * leg.Q_i() * e(leg).value + leg.Q_i() * e(leg).rate)));
+          },
+          [](const ReferenceLeg& leg) { return leg.dot.c(); }),
+      legVector(
+          "(41b)", "ḋ = Q̂ΩQ(l[e] + σ[s]) + Q̂Q(l[ė] + σ[ṡ])", "m/s",
+          [](const ReferenceLeg& leg) {
+            return V(leg.Q_hat * leg.Omega_i() * leg.Q_i() * V(leg.l * e(leg).value + leg.sigma * s(leg).value) +
+                     leg.Q_hat * leg.Q_i() * V(leg.l * e(leg).rate + leg.sigma * s(leg).rate));
+          },
+          [](const ReferenceLeg& leg) { return leg.dot.d(); }),
+      legVector(
+          "(42a)", "[ė] = [0, −sin ψ, cos ψ]ᵀ ψ̇", "1/s", [](const ReferenceLeg& leg) { return e(leg).rate; },
+          [](const ReferenceLeg& leg) { return leg.dot.e_i(); }),
+      legVector(
+          "(42b)", "[ṡ] = [0, sin(ψ+θ), −cos(ψ+θ)]ᵀ (ψ̇ + θ̇)", "1/s",
+          [](const ReferenceLeg& leg) { return s(leg).rate; }, [](const ReferenceLeg& leg) { return leg.dot.s_i(); })};
 }
 
 Formula proximalAcceleration() {
   return legVector(
       "(43a)", "c̈ = ρ Q̂((Ω̇ + Ω²)Q[e] + 2ΩQ[ė] + Q[ë])", "m/s²",
-      [](const LegWitness& leg) {
+      [](const ReferenceLeg& leg) {
         const M Omega = leg.Omega_i(), Q = leg.Q_i();
         return V(leg.rho * (leg.Q_hat * V((leg.Omega_i_dot() + Omega * Omega) * Q * e(leg).value +
                                           2 * Omega * Q * e(leg).rate + Q * e(leg).acceleration)));
       },
-      [](const LegWitness& leg) { return leg.ddot.c(); });
+      [](const ReferenceLeg& leg) { return leg.ddot.c(); });
 }
 
 /// (43b) with any of its three errors.
@@ -106,7 +107,7 @@ struct ReadingOf43b {
   bool omega_dot_squared, sigma_added, last_term_twice;
 };
 
-V distalAcceleration(const LegWitness& leg, const ReadingOf43b& reading) {
+V distalAcceleration(const ReferenceLeg& leg, const ReadingOf43b& reading) {
   const M Omega = leg.Omega_i(), Omega_dot = leg.Omega_i_dot(), Q = leg.Q_i();
   const M squared = reading.omega_dot_squared ? M(Omega_dot * Omega_dot) : M(Omega * Omega);
   const V arm = leg.l * e(leg).value +
@@ -123,12 +124,12 @@ Formula distalFormula(const char* equation, const char* printed, const ReadingOf
   f.printed = printed;
   f.holds = "d̈ = Q̂((Ω̇ + Ω²)Q(l[e] + σ[s]) + 2ΩQ(l[ė] + σ[ṡ]) + Q(l[ë] + σ[s̈]))";
   f.unit = "m/s²";
-  f.as_printed =
-      overLegs([reading](const Witness&, const LegWitness& leg) { return values(distalAcceleration(leg, reading)); });
-  f.that_holds = overLegs([](const Witness&, const LegWitness& leg) {
+  f.as_printed = overLegs(
+      [reading](const ReferenceState&, const ReferenceLeg& leg) { return values(distalAcceleration(leg, reading)); });
+  f.that_holds = overLegs([](const ReferenceState&, const ReferenceLeg& leg) {
     return values(distalAcceleration(leg, {false, false, false}));
   });
-  f.truth = overLegs([](const Witness&, const LegWitness& leg) { return values(leg.ddot.d()); });
+  f.truth = overLegs([](const ReferenceState&, const ReferenceLeg& leg) { return values(leg.ddot.d()); });
   if (reading.omega_dot_squared) f.formula_errors.push_back(FormulaError::eq43b_omega_dot);
   if (reading.sigma_added) f.formula_errors.push_back(FormulaError::eq43b_sigma);
   if (reading.last_term_twice) f.formula_errors.push_back(FormulaError::eq43b_doubled);
@@ -152,13 +153,13 @@ Formula platformCenter() {
   f.equation = "(41c), (43c)";
   f.printed = "ċ = ṗ + ΩQρ, c̈ = p̈ + (Ω̇ + Ω²)Qρ";
   f.unit = "m/s, m/s²";
-  f.as_printed = [](const Witness& at) {
-    const PlatformWitness& m = at.platform;
+  f.as_printed = [](const ReferenceState& at) {
+    const ReferencePlatform& m = at.platform;
     const M Omega = crossMatrix(m.omega);
     return values(V(m.p_dot + Omega * m.Q * m.rho),
                   V(m.p_ddot + (crossMatrix(m.omega_dot) + Omega * Omega) * m.Q * m.rho));
   };
-  f.truth = [](const Witness& at) { return values(at.platform.c_dot, at.platform.c_ddot); };
+  f.truth = [](const ReferenceState& at) { return values(at.platform.c_dot, at.platform.c_ddot); };
   return f;
 }
 
@@ -167,8 +168,9 @@ Formula frameSpinRate() {
   f.equation = "(44)";
   f.printed = "ω̇ = [0, −φ̈, 0]ᵀ = vect(Ω̇)";
   f.unit = "rad/s²";
-  f.as_printed = overLegs([](const Witness&, const LegWitness& leg) { return values(V(vect(leg.Omega_i_dot()))); });
-  f.truth = overLegs([](const Witness&, const LegWitness& leg) {
+  f.as_printed =
+      overLegs([](const ReferenceState&, const ReferenceLeg& leg) { return values(V(vect(leg.Omega_i_dot()))); });
+  f.truth = overLegs([](const ReferenceState&, const ReferenceLeg& leg) {
     const LegPose &at = leg.at, &dot = leg.dot, &ddot = leg.ddot;
     return values(V(leg.Q_hat.transpose() * vect(ddot.F() * at.F().transpose() + dot.F() * dot.F().transpose())));
   });

@@ -7,18 +7,18 @@
 namespace ursula::audit {
 namespace {
 
-Values overBodies(const Witness& at, const std::function<Vector6<S>(const BodyWitness&)>& side) {
+Values overBodies(const ReferenceState& at, const std::function<Vector6<S>(const ReferenceBody&)>& side) {
   Values all;
-  for (const BodyWitness& body : at.bodies) append(all, side(body));
+  for (const ReferenceBody& body : at.bodies) append(all, side(body));
   return all;
 }
 
 /// M ṫ + W M t
-Vector6<S> inertiaWrench(const BodyWitness& body) {
+Vector6<S> inertiaWrench(const ReferenceBody& body) {
   return stack(body.I * body.omega_dot + crossMatrix(body.omega) * V(body.I * body.omega), body.mass * body.c_ddot);
 }
 
-Vector6<S> momentumRate(const BodyWitness& body) { return body.momentumRate(); }
+Vector6<S> momentumRate(const ReferenceBody& body) { return body.momentumRate(); }
 
 Formula newtonEuler() {
   Formula f;
@@ -26,8 +26,8 @@ Formula newtonEuler() {
   f.printed = "M t = −WMt + w";
   f.holds = "M ṫ = −WMt + w";
   f.unit = "N m, N";
-  f.that_holds = [](const Witness& at) { return overBodies(at, inertiaWrench); };
-  f.truth = [](const Witness& at) { return overBodies(at, momentumRate); };
+  f.that_holds = [](const ReferenceState& at) { return overBodies(at, inertiaWrench); };
+  f.truth = [](const ReferenceState& at) { return overBodies(at, momentumRate); };
   f.note = "The dot over t is missing: dimensions do not match.";
   f.misprint = true;
   return f;
@@ -41,7 +41,7 @@ Formula bodyAxes() {
   f.holds = "… in axes of ℬ, or in axes of the body with W = diag(Ω, Ω)";
   f.unit = "N";
   const auto reading = [](bool whole) {
-    return overLegs([whole](const Witness&, const LegWitness& leg) {
+    return overLegs([whole](const ReferenceState&, const ReferenceLeg& leg) {
       // m d(Gᵀċ)/dt, plus ω × m Gᵀċ with Ω in the lower block.
       const M G = leg.at.G(), G_dot = leg.dot.G();
       const V momentum = leg.m_proximal * V(G.transpose() * leg.dot.c());
@@ -52,7 +52,7 @@ Formula bodyAxes() {
   };
   f.as_printed = reading(false);
   f.that_holds = reading(true);
-  f.truth = overLegs([](const Witness&, const LegWitness& leg) {
+  f.truth = overLegs([](const ReferenceState&, const ReferenceLeg& leg) {
     return values(V(leg.m_proximal * (leg.at.G().transpose() * leg.ddot.c())));
   });
   f.note =
@@ -67,14 +67,14 @@ Formula allBodies() {
   f.printed = "d(Mt)/dt = −WMt + w^W + w^N";
   f.holds = "M ṫ = −WMt + w^W + w^N";
   f.unit = "N m, N";
-  f.as_printed = [](const Witness& at) {
-    return overBodies(at, [](const BodyWitness& body) {
+  f.as_printed = [](const ReferenceState& at) {
+    return overBodies(at, [](const ReferenceBody& body) {
       const V gyroscopic = crossMatrix(body.omega) * V(body.I * body.omega);
       return Vector6<S>(body.momentumRate() + stack(gyroscopic, V(V::Zero())));
     });
   };
-  f.that_holds = [](const Witness& at) { return overBodies(at, inertiaWrench); };
-  f.truth = [](const Witness& at) { return overBodies(at, momentumRate); };
+  f.that_holds = [](const ReferenceState& at) { return overBodies(at, inertiaWrench); };
+  f.truth = [](const ReferenceState& at) { return overBodies(at, momentumRate); };
   f.note = "In our source the dot spans Mt. Read so, in axes of ℬ, ω × Iω is counted twice.";
   f.misprint = true;
   return f;
@@ -95,13 +95,13 @@ Formula inertiaWrenches() {
   f.equation = "(38)";
   f.printed = "wⁿ = [−ω × Iω − Iω̇; −m c̈] = −Mṫ − WMt";
   f.unit = "N m, N";
-  f.as_printed = [](const Witness& at) {
-    return overBodies(at, [](const BodyWitness& body) {
+  f.as_printed = [](const ReferenceState& at) {
+    return overBodies(at, [](const ReferenceBody& body) {
       return stack(-body.omega.cross(V(body.I * body.omega)) - body.I * body.omega_dot, -body.mass * body.c_ddot);
     });
   };
-  f.truth = [](const Witness& at) {
-    return overBodies(at, [](const BodyWitness& body) { return Vector6<S>(-body.momentumRate()); });
+  f.truth = [](const ReferenceState& at) {
+    return overBodies(at, [](const ReferenceBody& body) { return Vector6<S>(-body.momentumRate()); });
   };
   return f;
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "nocsolver/legs/reading.h"
-#include "studies/audit/witness.h"
+#include "studies/audit/reference_mechanism.h"
 
 namespace ursula::audit {
 
@@ -27,15 +27,15 @@ Values values(const Parts&... parts) {
   return all;
 }
 
-using Side = std::function<Values(const Witness&)>;
-using LegSide = std::function<Values(const Witness&, const LegWitness&)>;
+using Side = std::function<Values(const ReferenceState&)>;
+using LegSide = std::function<Values(const ReferenceState&, const ReferenceLeg&)>;
 
 /// One side of an equation, collected over all legs.
 inline Side overLegs(LegSide side) {
-  return [side = std::move(side)](const Witness& witness) {
+  return [side = std::move(side)](const ReferenceState& reference) {
     Values all;
-    for (const LegWitness& leg : witness.legs) {
-      const Values one = side(witness, leg);
+    for (const ReferenceLeg& leg : reference.legs) {
+      const Values one = side(reference, leg);
       all.insert(all.end(), one.begin(), one.end());
     }
     return all;
@@ -57,10 +57,10 @@ struct Formula {
 };
 
 /// Velocity and acceleration of B as in (6), (8).
-inline V velocityOfB(const Witness& at, const LegWitness& leg) {
+inline V velocityOfB(const ReferenceState& at, const ReferenceLeg& leg) {
   return at.platform.p_dot + crossMatrix(at.platform.omega) * at.platform.Q * leg.b;
 }
-inline V accelerationOfB(const Witness& at, const LegWitness& leg) {
+inline V accelerationOfB(const ReferenceState& at, const ReferenceLeg& leg) {
   const M Omega = crossMatrix(at.platform.omega);
   return at.platform.p_ddot + (crossMatrix(at.platform.omega_dot) + Omega * Omega) * at.platform.Q * leg.b;
 }
@@ -81,7 +81,7 @@ inline Vector6<S> stack(const V& angular, const V& linear) {
 }
 
 /// The signed distance of B from the axis of φ, m.
-inline S distanceFromAxis(const LegWitness& leg) {
+inline S distanceFromAxis(const ReferenceLeg& leg) {
   return leg.s * sin(leg.at.psi() + leg.at.theta()) - leg.l * sin(leg.at.psi());
 }
 

@@ -8,10 +8,10 @@
 namespace ursula::audit {
 namespace {
 
-AuditRemark ranges(const std::vector<Witness>& witnesses) {
+AuditRemark ranges(const std::vector<ReferenceState>& states) {
   double low[2] = {10, 10}, high[2] = {-10, -10}, k_z = 1e9;
-  for (const Witness& witness : witnesses)
-    for (const LegWitness& leg : witness.legs) {
+  for (const ReferenceState& reference : states)
+    for (const ReferenceLeg& leg : reference.legs) {
       k_z = std::min(k_z, leg.Q_hat.col(2).dot(leg.at.AB()).convert_to<double>());
       for (int k = 0; k < 2; ++k) {
         const double angle = leg.at.v(k).convert_to<double>();
@@ -28,14 +28,14 @@ AuditRemark ranges(const std::vector<Witness>& witnesses) {
 }
 
 /// Finds where the printed denominator of (15a), (19a) changes its sign, so that the printed formulas divide by zero.
-AuditRemark vanishingDenominator(const Scenario& scenario, const WitnessStand& stand) {
+AuditRemark vanishingDenominator(const Scenario& scenario, const ReferenceMechanism& mechanism) {
   constexpr int grid = 300;
   std::string legs;
   for (int i = 0; i < leg_count; ++i) {
     bool positive = false, negative = false;
     for (int k = 0; k <= grid; ++k) {
       const Motion<S> motion = scenario.trajectory->at(S(scenario.trajectory->duration() * k / grid));
-      const LegPose pose = stand.legPose(i, motion.p, motion.Q);
+      const LegPose pose = mechanism.legPose(i, motion.p, motion.Q);
       (sin(S(pose.psi() + pose.theta())) > 0 ? positive : negative) = true;
     }
     if (positive && negative) legs += fmt::format("{}{}", legs.empty() ? "" : ", ", i + 1);
@@ -49,10 +49,10 @@ AuditRemark vanishingDenominator(const Scenario& scenario, const WitnessStand& s
 }
 
 /// Measures (27) and the first two rows of (13) with (−ψ, −θ) instead of (ψ, θ) on every leg.
-AuditRemark mirroredLegs(const std::vector<Witness>& witnesses) {
+AuditRemark mirroredLegs(const std::vector<ReferenceState>& states) {
   S worst(0), third(0);
-  for (const Witness& witness : witnesses)
-    for (const LegWitness& leg : witness.legs) {
+  for (const ReferenceState& reference : states)
+    for (const ReferenceLeg& leg : reference.legs) {
       const S psi = -leg.at.psi(), theta = -leg.at.theta(), q = leg.at.q();
       const V AB = leg.at.AB_i();
       const S by_27 = leg.l * leg.l + leg.s * leg.s - 2 * leg.l * leg.s * cos(theta) - q * q;
@@ -83,12 +83,12 @@ AuditRemark inertiaPoints(const Scenario& scenario) {
 
 }  // namespace
 
-std::vector<AuditRemark> remarks(const Scenario& scenario, const WitnessStand& stand,
-                                 const std::vector<Witness>& witnesses) {
+std::vector<AuditRemark> remarks(const Scenario& scenario, const ReferenceMechanism& mechanism,
+                                 const std::vector<ReferenceState>& states) {
   return {
-      ranges(witnesses),
-      vanishingDenominator(scenario, stand),
-      mirroredLegs(witnesses),
+      ranges(states),
+      vanishingDenominator(scenario, mechanism),
+      mirroredLegs(states),
       inertiaPoints(scenario),
       {"Table I",
        "a₃ has 0.9018 for its second entry, a₆ 0.9016; entries of a₄, a₅ and a₆ are lost or damaged in our source.",

@@ -20,7 +20,7 @@ constexpr double panel = 460, margin = 50, title = 40;  // px
 struct Pose {
   Vector3d P;
   std::vector<LegPoints> legs;
-  std::vector<std::optional<Stretch>> rails;
+  std::vector<std::optional<RailSection>> rails;
   std::vector<LegKind> kinds;
   bool reached;  ///< false if the legs cannot take the pose; R and S are then meaningless
 };

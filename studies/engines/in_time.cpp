@@ -19,7 +19,7 @@ class MovedLoop {
     out_.rigidity = rigidity;
   }
 
-  InTimeFound move(int steps) {
+  TimeSteppingResult move(int steps) {
     loop_->start(reference_.at(0).motion);
     loop_->read(is_);
     const double energy = is_.energy;
@@ -69,7 +69,7 @@ class MovedLoop {
   const LoopEngine& engine_;
   EngineReference& reference_;
   std::unique_ptr<SteppedLoop> loop_;
-  InTimeFound out_;
+  TimeSteppingResult out_;
   SteppedLoop::State is_;
   double work_ = 0;
   std::vector<double> seconds_;
@@ -84,14 +84,15 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-InTimeFound moveInTime(const LoopEngine& engine, const Rigidity& rigidity, EngineReference& reference, double moved) {
+TimeSteppingResult moveInTime(const LoopEngine& engine, const Rigidity& rigidity, EngineReference& reference,
+                              double moved) {
   const int steps = std::max(1, static_cast<int>(std::floor(moved / rigidity.step)));
   try {
     return MovedLoop(engine, rigidity, reference).move(steps);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& words) {  // the engine gave up before the first step
-    InTimeFound out;
+    TimeSteppingResult out;
     out.rigidity = rigidity;
     out.gave_up = words.what();
     out.gap = out.sag = out.away = out.energy = std::numeric_limits<double>::quiet_NaN();

@@ -5,7 +5,8 @@
 
 namespace ursula {
 
-InTimeFound moveInTime(const LoopEngine& engine, const Rigidity& rigidity, EngineReference& reference, double moved);
+TimeSteppingResult moveInTime(const LoopEngine& engine, const Rigidity& rigidity, EngineReference& reference,
+                              double moved);
 
 /// Reorders its copy of the values. Returns 0 for none.
 double median(std::vector<double> values);

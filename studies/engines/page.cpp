@@ -31,8 +31,8 @@ std::string table(const std::string& caption, const std::string& heads, const st
 
 std::string effortsTable(const SideBySide& found) {
   std::string rows;
-  for (const EngineFound& engine : found.engines)
-    for (const RecipeFound& each : engine.recipes)
+  for (const EngineResult& engine : found.engines)
+    for (const RecipeResult& each : engine.recipes)
       rows += fmt::format(
           "<tr><th scope=\"row\">{} {}</th><td>{}{}</td>{}{}{}{}</tr>\n", escaped(engine.kind->name),
           escaped(engine.version), escaped(inWords(each.recipe)),
@@ -56,7 +56,7 @@ std::string settingsText(const Rigidity& rigidity) {
   return out;
 }
 
-std::string inTimeRow(const EngineFound& engine, const InTimeFound& each) {
+std::string timeSteppingRow(const EngineResult& engine, const TimeSteppingResult& each) {
   const std::string stopped =
       each.gave_up.empty()
           ? ""
@@ -70,8 +70,8 @@ std::string inTimeRow(const EngineFound& engine, const InTimeFound& each) {
 
 std::string inTimeTable(const SideBySide& found) {
   std::string rows;
-  for (const EngineFound& engine : found.engines)
-    for (const InTimeFound& each : engine.in_time) rows += inTimeRow(engine, each);
+  for (const EngineResult& engine : found.engines)
+    for (const TimeSteppingResult& each : engine.in_time) rows += timeSteppingRow(engine, each);
   return rows.empty() ? ""
                       : table(fmt::format("The first {} of the motion, moved by the engine with its own closures under "
                                           "the NOC's efforts. The "
@@ -87,7 +87,7 @@ std::string inTimeTable(const SideBySide& found) {
 
 std::string sentences(const SideBySide& found) {
   std::string items;
-  for (const EngineFound& engine : found.engines) items += fmt::format("<li>{}</li>\n", escaped(sentence(engine)));
+  for (const EngineResult& engine : found.engines) items += fmt::format("<li>{}</li>\n", escaped(sentence(engine)));
   for (const LoopEngineKind* kind : found.missing)
     items += fmt::format("<li>{}</li>\n", escaped(sentenceOfMissing(*kind)));
   return "<ul>\n" + items + "</ul>\n";

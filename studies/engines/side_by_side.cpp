@@ -55,9 +55,9 @@ Scale scaleOf(const Instants& instants, const Motors& motors) {
 /// NaN counts as the largest value and stays.
 bool exceeds(double value, double other) { return !(value <= other); }
 
-RecipeFound askBy(LoopEngine& engine, Recipe recipe, const Instants& instants, const Scale& scale) {
+RecipeResult askBy(LoopEngine& engine, Recipe recipe, const Instants& instants, const Scale& scale) {
   const Motors& motors = engine.manipulator().motors();
-  RecipeFound out;
+  RecipeResult out;
   out.recipe = recipe;
   std::vector<double> seconds;
   for (const EngineReference::Here& here : instants) {
@@ -101,8 +101,8 @@ class Asking {
   const Scale& scale() const { return scale_; }
   double moved() const { return moved_; }
 
-  EngineFound ask(const LoopEngineKind& kind) {
-    EngineFound out;
+  EngineResult ask(const LoopEngineKind& kind) {
+    EngineResult out;
     out.kind = &kind;
     out.version = kind.version();
     try {
@@ -136,9 +136,9 @@ class Asking {
 
 }  // namespace
 
-const RecipeFound& EngineFound::of(Recipe recipe) const {
-  const auto found =
-      std::find_if(recipes.begin(), recipes.end(), [recipe](const RecipeFound& each) { return each.recipe == recipe; });
+const RecipeResult& EngineResult::of(Recipe recipe) const {
+  const auto found = std::find_if(recipes.begin(), recipes.end(),
+                                  [recipe](const RecipeResult& each) { return each.recipe == recipe; });
   if (found == recipes.end()) throw std::logic_error("the engine was not asked by this recipe");
   return *found;
 }
@@ -174,8 +174,8 @@ SideBySide engineSideBySide(const Scenario& scenario, const SideBySideOptions& o
   if (!all_slide) out.largest_force = asking.scale().force;
   out.moved = asking.moved();
   for (const LoopEngineKind* kind : asked) {
-    if (options.told)
-      options.told(static_cast<double>(out.engines.size()) / static_cast<double>(asked.size()), kind->name);
+    if (options.on_progress)
+      options.on_progress(static_cast<double>(out.engines.size()) / static_cast<double>(asked.size()), kind->name);
     out.engines.push_back(asking.ask(*kind));
   }
   return out;

@@ -10,7 +10,7 @@
 namespace ursula {
 
 /// Efforts by one recipe, compared with the NOC's.
-struct RecipeFound {
+struct RecipeResult {
   Recipe recipe = Recipe::exact;
   double error = 0;    ///< largest deviation divided by the motion's largest effort in that motor's unit
   double at = 0;       ///< instant of that deviation, s
@@ -20,7 +20,7 @@ struct RecipeFound {
 };
 
 /// The engine moves the closed loop under the NOC's efforts. Gap, sag and away are the largest over that time.
-struct InTimeFound {
+struct TimeSteppingResult {
   Rigidity rigidity;
   int steps = 0;        ///< steps taken
   double gap = 0;       ///< gap of the loops, m
@@ -32,15 +32,15 @@ struct InTimeFound {
   std::string gave_up;  ///< the engine's message; empty if it did not give up
 };
 
-struct EngineFound {
+struct EngineResult {
   const LoopEngineKind* kind = nullptr;
   std::string version;
-  std::string refused;               ///< reason why the engine refuses this machine
-  double gap = 0;                    ///< largest gap of the loops at the poses asked for, m
-  std::vector<RecipeFound> recipes;  ///< the exact one first
-  std::vector<InTimeFound> in_time;  ///< the default rigidity first
+  std::string refused;                      ///< reason why the engine refuses this machine
+  double gap = 0;                           ///< largest gap of the loops at the poses asked for, m
+  std::vector<RecipeResult> recipes;        ///< the exact one first
+  std::vector<TimeSteppingResult> in_time;  ///< the default rigidity first
 
-  const RecipeFound& of(Recipe recipe) const;
+  const RecipeResult& of(Recipe recipe) const;
 };
 
 struct SideBySide {
@@ -50,7 +50,7 @@ struct SideBySide {
   std::string unit;          ///< "N m", or "N" if all motors slide
   double largest_force = 0;  ///< largest force beside the largest torque, N; 0 unless there are motors of both kinds
   double moved = 0;          ///< duration of the stepped motion from its start, s
-  std::vector<EngineFound> engines;
+  std::vector<EngineResult> engines;
   std::vector<const LoopEngineKind*> missing;  ///< engines that this build lacks
 };
 
@@ -58,7 +58,7 @@ struct SideBySideOptions {
   int samples = 101;                           ///< instants at which efforts are asked for, >= 2
   double moved = 0.5;                          ///< duration of the stepped motion, s; at most the whole motion
   std::vector<const LoopEngineKind*> engines;  ///< engines to ask; empty for all in this build
-  std::function<void(double share, const std::string&)> told;  ///< progress callback; may be empty
+  std::function<void(double share, const std::string&)> on_progress;  ///< progress callback; may be empty
 };
 
 /// Asks each engine by each recipe along the motion, then lets it step the loop. Throws PoseError if the motion cannot
@@ -70,7 +70,7 @@ SideBySide engineSideBySide(const Scenario& scenario, const SideBySideOptions& o
 const LoopEngineKind* loopEngineNamed(const std::string& name);
 
 /// Says how to use the engine and how wrong its obvious call is, from the numbers found.
-std::string sentence(const EngineFound& engine);
+std::string sentence(const EngineResult& engine);
 /// Sums up all engines.
 std::string sentence(const SideBySide& found);
 std::string sentenceOfMissing(const LoopEngineKind& kind);

@@ -21,16 +21,16 @@ using report::plainNumber, report::quantity;
 /// A smaller deviation is rounding, not a mistake.
 constexpr double as_good = 1e-10;
 
-std::string called(const EngineFound& engine) {
+std::string called(const EngineResult& engine) {
   return engine.version.empty() ? engine.kind->name : fmt::format("{} {}", engine.kind->name, engine.version);
 }
 
-ordered_json jsonOf(const RecipeFound& found) {
+ordered_json jsonOf(const RecipeResult& found) {
   return {{"recipe", name(found.recipe)}, {"error", found.error},       {"at_s", found.at},
           {"motor", found.motor + 1},     {"power_error", found.power}, {"seconds", found.seconds}};
 }
 
-ordered_json jsonOf(const InTimeFound& found) {
+ordered_json jsonOf(const TimeSteppingResult& found) {
   ordered_json settings = ordered_json::object();
   for (const auto& [what, value] : found.rigidity.settings) settings[what] = value;
   return {{"rigidity", found.rigidity.name},
@@ -46,10 +46,10 @@ ordered_json jsonOf(const InTimeFound& found) {
           {"gave_up", found.gave_up.empty() ? ordered_json() : ordered_json(found.gave_up)}};
 }
 
-ordered_json jsonOf(const EngineFound& engine) {
+ordered_json jsonOf(const EngineResult& engine) {
   ordered_json efforts = ordered_json::array(), in_time = ordered_json::array();
-  for (const RecipeFound& found : engine.recipes) efforts.push_back(jsonOf(found));
-  for (const InTimeFound& found : engine.in_time) in_time.push_back(jsonOf(found));
+  for (const RecipeResult& found : engine.recipes) efforts.push_back(jsonOf(found));
+  for (const TimeSteppingResult& found : engine.in_time) in_time.push_back(jsonOf(found));
   return {{"name", engine.kind->name},
           {"version", engine.version},
           {"refused", engine.refused.empty() ? ordered_json() : ordered_json(engine.refused)},
@@ -60,12 +60,12 @@ ordered_json jsonOf(const EngineFound& engine) {
           {"in_time", in_time}};
 }
 
-std::string recipeRow(const RecipeFound& found) {
+std::string recipeRow(const RecipeResult& found) {
   return fmt::format("  {:<30} {:>10.2g} {:>10.2g} {:>10.3g}\n", inWords(found.recipe), found.error, found.power,
                      1e6 * found.seconds);
 }
 
-std::string inTimeRow(const InTimeFound& found) {
+std::string timeSteppingRow(const TimeSteppingResult& found) {
   std::string settings;
   for (const auto& [what, value] : found.rigidity.settings)
     settings += fmt::format("{}{} {:g}", settings.empty() ? "" : ", ", what, value);
@@ -92,7 +92,7 @@ std::string errorText(double error) {
   return error < 1e-6 ? plainNumber(error, 2) : plainNumber(100 * error, 3) + " %";
 }
 
-std::string sentence(const EngineFound& engine) {
+std::string sentence(const EngineResult& engine) {
   if (!engine.refused.empty()) return fmt::format("{} cannot be asked: {}.", called(engine), engine.refused);
   const LoopEngineKind& kind = *engine.kind;
   const double exact = engine.of(Recipe::exact).error, obvious = engine.of(kind.obvious).error;
@@ -109,7 +109,7 @@ std::string sentence(const SideBySide& found) {
   double exact = 0, least = std::numeric_limits<double>::infinity(), most = 0;
   int asked = 0;
   std::vector<std::string> with_users;
-  for (const EngineFound& engine : found.engines) {
+  for (const EngineResult& engine : found.engines) {
     if (!engine.refused.empty()) continue;
     exact = std::max(exact, engine.of(Recipe::exact).error);
     ++asked;
@@ -138,25 +138,25 @@ std::string sentenceOfMissing(const LoopEngineKind& kind) {
 std::string sideBySideText(const SideBySide& found) {
   std::string out = fmt::format("{}: {} instants, largest effort {}\n{}\n", found.scenario, found.instants,
                                 largestText(found), sentence(found));
-  for (const EngineFound& engine : found.engines) {
+  for (const EngineResult& engine : found.engines) {
     out += fmt::format("\n{}\n", called(engine));
     if (engine.recipes.empty()) continue;
     out += fmt::format("  {:<30} {:>10} {:>10} {:>10}\n", "efforts", "off by", "power by", "µs a pose");
-    for (const RecipeFound& each : engine.recipes) out += recipeRow(each);
+    for (const RecipeResult& each : engine.recipes) out += recipeRow(each);
     if (engine.in_time.empty()) continue;
     out += fmt::format("  {:<30} {:>10} {:>10} {:>10} {:>10} {:>10}\n", fmt::format("moved for {:.3g} s", found.moved),
                        "gap, m", "sag, m", "away, m", "energy, J", "µs a step");
-    for (const InTimeFound& each : engine.in_time) out += inTimeRow(each);
+    for (const TimeSteppingResult& each : engine.in_time) out += timeSteppingRow(each);
   }
   out += "\n";
-  for (const EngineFound& engine : found.engines) out += sentence(engine) + "\n";
+  for (const EngineResult& engine : found.engines) out += sentence(engine) + "\n";
   for (const LoopEngineKind* kind : found.missing) out += sentenceOfMissing(*kind) + "\n";
   return out;
 }
 
 std::string sideBySideJson(const SideBySide& found) {
   ordered_json engines = ordered_json::array(), missing = ordered_json::array();
-  for (const EngineFound& engine : found.engines) engines.push_back(jsonOf(engine));
+  for (const EngineResult& engine : found.engines) engines.push_back(jsonOf(engine));
   for (const LoopEngineKind* kind : found.missing)
     missing.push_back({{"name", kind->name}, {"package", kind->package}});
   const ordered_json document = {
@@ -174,12 +174,12 @@ std::string sideBySideJson(const SideBySide& found) {
 
 std::string sideBySideCsv(const SideBySide& found) {
   std::string out = "engine,version,what,error,power_error,step_s,gap_m,sag_m,away_m,energy_J,work_J,seconds\n";
-  for (const EngineFound& engine : found.engines) {
+  for (const EngineResult& engine : found.engines) {
     const std::string head = fmt::format("{},{},", engine.kind->name, engine.version);
-    for (const RecipeFound& each : engine.recipes)
+    for (const RecipeResult& each : engine.recipes)
       out += fmt::format("{}{},{},{},,{},,,,,{}\n", head, name(each.recipe), each.error, each.power, engine.gap,
                          each.seconds);
-    for (const InTimeFound& each : engine.in_time)
+    for (const TimeSteppingResult& each : engine.in_time)
       out += fmt::format("{}\"{}\",,,{},{},{},{},{},{},{}\n", head, each.rigidity.name, each.rigidity.step, each.gap,
                          each.sag, each.away, each.energy, each.work, each.seconds);
   }

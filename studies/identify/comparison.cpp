@@ -161,8 +161,8 @@ void ModelledLog::compare(double delay, Comparison& out) const {
 Comparison ModelledLog::directions() const {
   Comparison out;
   out.segments = filtered_.settledSegments();
-  out.model = filtered_.settle(efforts_);
-  out.model_rate = filtered_.settleBy(filtered_.second().rate, efforts_);
+  out.model = filtered_.lowPass(efforts_);
+  out.model_rate = filtered_.lowPassBy(filtered_.second().rate, efforts_);
   out.t.resize(out.model.rows());
   for (Eigen::Index i = 0; i < out.t.size(); ++i)
     out.t(i) = filtered_.time(filtered_.settled()[static_cast<std::size_t>(i)]);
@@ -188,7 +188,7 @@ void ModelledLog::addNumerical(Comparison& out) const {
     const auto motion = has_poses_ ? std::optional(motionOfPoses(state)) : chain_.follow(state, motions_[at]);
     if (motion) change.row(i) = chain_.efforts(*motion, loads_[at]).transpose() - efforts_.row(i);
   }
-  change = filtered_.settle(change - filtered_.sharperEfforts());
+  change = filtered_.lowPass(change - filtered_.sharperEfforts());
   const auto kept = static_cast<double>(out.kept.size());
   const Eigen::Matrix3d passed = filtered_.sharperLines().covariance(0);
   const SampleNoise& samples = filtered_.plan().noise;
@@ -271,7 +271,7 @@ void ModelledLog::addLinear(Comparison& out) const {
     const EffortDerivatives::Columns Y = derivatives.regressor(motions_[static_cast<std::size_t>(i)]);
     for (int k = 0; k < motor_count; ++k) series.row(i).segment(k * out.linear, out.linear) = Y.row(k);
   }
-  const Eigen::MatrixXd settled = filtered_.settle(series);
+  const Eigen::MatrixXd settled = filtered_.lowPass(series);
   for (int k = 0; k < motor_count; ++k)
     out.columns[static_cast<std::size_t>(k)] = settled.middleCols(k * out.linear, out.linear);
 }

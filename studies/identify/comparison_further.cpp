@@ -81,8 +81,8 @@ void ModelledLog::addSeries(Comparison& out) const {
   const auto rows = out.model.rows();
   const auto withRates = [&](const Eigen::VectorXd& series) {
     Eigen::MatrixXd error(rows, 3);
-    error << filtered_.settle(series), filtered_.settleBy(filtered_.second().rate, series),
-        filtered_.settleBy(filtered_.second().acceleration, series);
+    error << filtered_.lowPass(series), filtered_.lowPassBy(filtered_.second().rate, series),
+        filtered_.lowPassBy(filtered_.second().acceleration, series);
     return error;
   };
   const auto changedBy = [&](int motor, const Eigen::MatrixXd& error) {
@@ -105,7 +105,7 @@ void ModelledLog::addSeries(Comparison& out) const {
     add(out, {DirectionKind::scale, "", "scale of the effort" + of, "", k, 1, 0.1}, column);
     const double speed = scenario_.manipulator->leg(motor.leg).coulomb.speedOf(motor.coordinate);
     const Eigen::VectorXd rubbing = S.cwiseAbs().array() * (driven_rates_.col(k) / speed).array().tanh();
-    column.col(k) = filtered_.settle(rubbing);
+    column.col(k) = filtered_.lowPass(rubbing);
     add(out, {DirectionKind::load_friction, "", "friction by load" + of, "", k, 0, 0.1}, column);
     if (has_poses_) continue;
     Eigen::MatrixXd constant = Eigen::MatrixXd::Zero(rows, 3);

@@ -155,7 +155,7 @@ Eigen::MatrixXd FilteredLog::efforts(double shift) const {
 }
 
 Eigen::MatrixXd FilteredLog::settledEfforts(double shift) const {
-  if (!plan_.is_period) return settle(efforts(shift));
+  if (!plan_.is_period) return lowPass(efforts(shift));
   std::vector<Eigen::Index> rows;
   for (const Eigen::Index i : settled_) rows.push_back(centers_[static_cast<std::size_t>(i)]);
   return Kernel::apply(Kernel(plan_.effort_cut, log_.step, shift).value, log_.efforts, rows);
@@ -212,7 +212,7 @@ FilteredLog::Lines FilteredLog::sharperLines() const {
   });
 }
 
-Eigen::MatrixXd FilteredLog::settleBy(const Eigen::VectorXd& weights, const Eigen::MatrixXd& series) const {
+Eigen::MatrixXd FilteredLog::lowPassBy(const Eigen::VectorXd& weights, const Eigen::MatrixXd& series) const {
   return Kernel::apply(weights, series, settled_);
 }
 

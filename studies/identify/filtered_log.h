@@ -50,8 +50,8 @@ class FilteredLog {
   /// Returns efforts `shift` s later than the settled instants.
   Eigen::MatrixXd settledEfforts(double shift) const;
   /// Applies the efforts' low pass to series at the motion's instants. Returns the rows at settled().
-  Eigen::MatrixXd settle(const Eigen::MatrixXd& series) const { return settleBy(second_.value, series); }
-  Eigen::MatrixXd settleBy(const Eigen::VectorXd& weights, const Eigen::MatrixXd& series) const;
+  Eigen::MatrixXd lowPass(const Eigen::MatrixXd& series) const { return lowPassBy(second_.value, series); }
+  Eigen::MatrixXd lowPassBy(const Eigen::VectorXd& weights, const Eigen::MatrixXd& series) const;
   const std::vector<Eigen::Index>& settled() const { return settled_; }
   /// Returns the segments of the settled instants.
   const std::vector<Segment>& settledSegments() const { return settled_segments_; }

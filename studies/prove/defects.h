@@ -14,10 +14,11 @@ namespace ursula {
 /// One defect in an otherwise right validation, at one of three places. Empty members change nothing.
 struct Defect {
   std::string name;
-  std::string group;                       ///< "formula", "term", "parameter", …
-  SubjectOf subject = nullptr;             ///< the solver under test
-  InjectedFault::Seen scenario = nullptr;  ///< the changed scenario for all formulations: commanded motion, load
-  InjectedFault fault = {};                ///< a changed experiment
+  std::string group;            ///< "formula", "term", "parameter", …
+  SubjectOf subject = nullptr;  ///< the solver under test
+  InjectedFault::ScenarioChange scenario =
+      nullptr;               ///< the changed scenario for all formulations: commanded motion, load
+  InjectedFault fault = {};  ///< a changed experiment
   /// Number of formulations that must catch it. It is 1 if by its nature only one can see it. Such defects are in
   /// direct dynamics and reactions (only Simbody has them), in shared parts, or in an engine, or do not affect the
   /// motion.

@@ -36,7 +36,7 @@ Defect faulty(const std::string& name, const InjectedFault& fault) {
   return out;
 }
 
-InjectedFault::Seen another(const ChangeMachine& change) {
+InjectedFault::ScenarioChange another(const ChangeMachine& change) {
   return [change](const Scenario& s) {
     Scenario wrong = s;
     wrong.manipulator = std::make_shared<const Manipulator>(changedMachine(*s.manipulator, change));

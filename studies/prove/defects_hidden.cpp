@@ -74,10 +74,10 @@ std::vector<Defect> hiddenInAny(const Manipulator& machine) {
                                       };
                                     }),
                              hidden("wrong at speeds that only the way back has", beyondSpeeds)};
-  const bool rubs = std::any_of(machine.parameters().legs.begin(), machine.parameters().legs.end(),
-                                [](const Leg& leg) { return leg.friction.any() || leg.coulomb.any(); });
-  if (rubs)
-    out.push_back(hiddenMachine("wrong where nothing rubs", [](const Manipulator& m) {
+  const bool has_friction = std::any_of(machine.parameters().legs.begin(), machine.parameters().legs.end(),
+                                        [](const Leg& leg) { return leg.friction.any() || leg.coulomb.any(); });
+  if (has_friction)
+    out.push_back(hiddenMachine("wrong where nothing has_friction", [](const Manipulator& m) {
       const auto& legs = m.parameters().legs;
       return std::none_of(legs.begin(), legs.end(),
                           [](const Leg& leg) { return leg.friction.any() || leg.coulomb.any(); });
@@ -97,7 +97,8 @@ std::vector<Defect> hiddenDefects(const Manipulator& machine) {
                         [](const Manipulator& m) { return m.leg(0).proximal.length > 1.42; }),
           hiddenMachine("wrong where the platform is heavier than 600 kg, and lighter than 1,200",
                         [](const Manipulator& m) { return m.platform().mass > 600 && m.platform().mass < 1200; }),
-          hiddenMachine("wrong where nothing rubs", [](const Manipulator& m) { return m.leg(0).friction.theta == 0; }),
+          hiddenMachine("wrong where nothing has_friction",
+                        [](const Manipulator& m) { return m.leg(0).friction.theta == 0; }),
           hidden("wrong at speeds that only the way back has", beyondSpeeds)};
 }
 

@@ -11,11 +11,10 @@ namespace ursula {
 namespace {
 
 using Model = LegModel<double>;
-using Stance = LegState<double>;
-using ChangeState = void (*)(const Model&, Stance&);
+using ChangeState = void (*)(const Model&, LegState<double>&);
 
 /// Sets axes and points of a leg from these sines, cosines and stroke, like its kernel.
-void stand(const Model& model, Stance& leg) {
+void stand(const Model& model, LegState<double>& leg) {
   const auto planeAt = [&model](double sine, double cosine) -> std::pair<Vector3d, Vector3d> {
     return {cosine * model.x_hat + sine * model.z_hat, cosine * model.z_hat - sine * model.x_hat};
   };
@@ -57,8 +56,8 @@ void stand(const Model& model, Stance& leg) {
 }
 
 /// A row of the leg's map q̇ = k · v_B, k = n / A.
-Vector3d mapOf(const Stance& leg, std::size_t j) { return leg.row[j].n / leg.row[j].A; }
-void setMap(Stance& leg, std::size_t j, const Vector3d& k) {
+Vector3d mapOf(const LegState<double>& leg, std::size_t j) { return leg.row[j].n / leg.row[j].A; }
+void setMap(LegState<double>& leg, std::size_t j, const Vector3d& k) {
   leg.row[j].A = 1;
   leg.row[j].n = k;
 }
@@ -72,75 +71,73 @@ struct WrongLeg {
 
 const std::vector<WrongLeg>& wrongUps() {
   static const std::vector<WrongLeg> all = {
-      {"phi by atan2(k_x, k_z)", [](const Model&, Stance& leg) { leg.sine[0] *= -1; }},
-      {"psi from the plane across the axis", [](const Model&, Stance& leg) { std::swap(leg.sine[1], leg.cosine[1]); }},
-      {"psi from -u", [](const Model&, Stance& leg) { leg.cosine[1] *= -1; }},
-      {"d from the rod's inner end", [](const Model& model, Stance& leg) { leg.cosine[2] -= model.s; }},
-      {"rod's inner end at d", [](const Model&, Stance& leg) { leg.O_2 = leg.cosine[2] * leg.axis[2]; },
-       WrongLeg::place},
+      {"phi by atan2(k_x, k_z)", [](const Model&, auto& leg) { leg.sine[0] *= -1; }},
+      {"psi from the plane across the axis", [](const Model&, auto& leg) { std::swap(leg.sine[1], leg.cosine[1]); }},
+      {"psi from -u", [](const Model&, auto& leg) { leg.cosine[1] *= -1; }},
+      {"d from the rod's inner end", [](const Model& model, auto& leg) { leg.cosine[2] -= model.s; }},
+      {"rod's inner end at d", [](const Model&, auto& leg) { leg.O_2 = leg.cosine[2] * leg.axis[2]; }, WrongLeg::place},
       {"rod's mass centre does not slide along",
-       [](const Model& model, Stance& leg) { leg.arm_2 = model.sigma * leg.axis[2] - leg.O_2; }, WrongLeg::place},
-      {"cylinder slides along with its rod", [](const Model&, Stance& leg) { leg.arm_1 += leg.O_2; }, WrongLeg::place},
-      {"x of the plane reversed", [](const Model&, Stance& leg) { leg.x *= -1; }, WrongLeg::place},
-      {"rod's tensor does not turn", [](const Model&, Stance& leg) { leg.R_2.setIdentity(); }, WrongLeg::place},
+       [](const Model& model, auto& leg) { leg.arm_2 = model.sigma * leg.axis[2] - leg.O_2; }, WrongLeg::place},
+      {"cylinder slides along with its rod", [](const Model&, auto& leg) { leg.arm_1 += leg.O_2; }, WrongLeg::place},
+      {"x of the plane reversed", [](const Model&, auto& leg) { leg.x *= -1; }, WrongLeg::place},
+      {"rod's tensor does not turn", [](const Model&, auto& leg) { leg.R_2.setIdentity(); }, WrongLeg::place},
       {"phi's rate with d for its lever",
-       [](const Model&, Stance& leg) { setMap(leg, 0, mapOf(leg, 0) * (leg.sine[1])); }, WrongLeg::map},
+       [](const Model&, auto& leg) { setMap(leg, 0, mapOf(leg, 0) * (leg.sine[1])); }, WrongLeg::map},
       {"psi's rate with the stroke for d",
-       [](const Model& model, Stance& leg) {
+       [](const Model& model, auto& leg) {
          setMap(leg, 1, mapOf(leg, 1) * (leg.cosine[2] / (leg.cosine[2] - model.s)));
        },
        WrongLeg::map},
-      {"sign of d's rate", [](const Model&, Stance& leg) { setMap(leg, 2, mapOf(leg, 2) * (-1)); }, WrongLeg::map}};
+      {"sign of d's rate", [](const Model&, auto& leg) { setMap(leg, 2, mapOf(leg, 2) * (-1)); }, WrongLeg::map}};
   return all;
 }
 
 const std::vector<WrongLeg>& wrongRus() {
   static const std::vector<WrongLeg> all = {
       {"crank along the line to B",
-       [](const Model& model, Stance& leg) {
+       [](const Model& model, auto& leg) {
          const double k_x = model.x_hat.dot(leg.AB), k_z = model.z_hat.dot(leg.AB), r = std::hypot(k_x, k_z);
          leg.sine[0] = -k_x / r;
          leg.cosine[0] = k_z / r;
        }},
-      {"phi by atan2(k_x, k_z)", [](const Model&, Stance& leg) { leg.sine[0] *= -1; }},
-      {"sign of psi", [](const Model&, Stance& leg) { leg.sine[1] *= -1; }},
-      {"sign of theta", [](const Model&, Stance& leg) { leg.sine[2] *= -1; }},
-      {"theta from the axis", [](const Model&, Stance& leg) { std::swap(leg.sine[2], leg.cosine[2]); }},
-      {"rod turns about the crank's x", [](const Model&, Stance& leg) { leg.x_2 = leg.x; }, WrongLeg::place},
-      {"rod's tensor in the crank's axes", [](const Model&, Stance& leg) { leg.R_2 = leg.R_1; }, WrongLeg::place},
-      {"rod from A", [](const Model&, Stance& leg) { leg.O_2.setZero(); }, WrongLeg::place},
-      {"phi's rate without cos theta",
-       [](const Model&, Stance& leg) { setMap(leg, 0, mapOf(leg, 0) * (leg.cosine[2])); }, WrongLeg::map},
-      {"psi's rate that of phi + psi", [](const Model&, Stance& leg) { setMap(leg, 1, mapOf(leg, 1) + mapOf(leg, 0)); },
+      {"phi by atan2(k_x, k_z)", [](const Model&, auto& leg) { leg.sine[0] *= -1; }},
+      {"sign of psi", [](const Model&, auto& leg) { leg.sine[1] *= -1; }},
+      {"sign of theta", [](const Model&, auto& leg) { leg.sine[2] *= -1; }},
+      {"theta from the axis", [](const Model&, auto& leg) { std::swap(leg.sine[2], leg.cosine[2]); }},
+      {"rod turns about the crank's x", [](const Model&, auto& leg) { leg.x_2 = leg.x; }, WrongLeg::place},
+      {"rod's tensor in the crank's axes", [](const Model&, auto& leg) { leg.R_2 = leg.R_1; }, WrongLeg::place},
+      {"rod from A", [](const Model&, auto& leg) { leg.O_2.setZero(); }, WrongLeg::place},
+      {"phi's rate without cos theta", [](const Model&, auto& leg) { setMap(leg, 0, mapOf(leg, 0) * (leg.cosine[2])); },
+       WrongLeg::map},
+      {"psi's rate that of phi + psi", [](const Model&, auto& leg) { setMap(leg, 1, mapOf(leg, 1) + mapOf(leg, 0)); },
        WrongLeg::map},
       {"theta's rate without cos theta",
-       [](const Model&, Stance& leg) { setMap(leg, 2, mapOf(leg, 2) * (leg.cosine[2])); }, WrongLeg::map}};
+       [](const Model&, auto& leg) { setMap(leg, 2, mapOf(leg, 2) * (leg.cosine[2])); }, WrongLeg::map}};
   return all;
 }
 
 const std::vector<WrongLeg>& wrongPus() {
   static const std::vector<WrongLeg> all = {
-      {"d by k_y + s cos theta", [](const Model& model, Stance& leg) { leg.cosine[0] += 2 * model.s * leg.cosine[2]; }},
-      {"psi by atan2(k_x, k_z)", [](const Model&, Stance& leg) { leg.sine[1] *= -1; }},
-      {"theta from the plane across the rail",
-       [](const Model&, Stance& leg) { std::swap(leg.sine[2], leg.cosine[2]); }},
-      {"sign of cos theta", [](const Model&, Stance& leg) { leg.cosine[2] *= -1; }},
-      {"rod's tensor in the carriage's axes", [](const Model&, Stance& leg) { leg.R_2 = leg.R_1; }, WrongLeg::place},
+      {"d by k_y + s cos theta", [](const Model& model, auto& leg) { leg.cosine[0] += 2 * model.s * leg.cosine[2]; }},
+      {"psi by atan2(k_x, k_z)", [](const Model&, auto& leg) { leg.sine[1] *= -1; }},
+      {"theta from the plane across the rail", [](const Model&, auto& leg) { std::swap(leg.sine[2], leg.cosine[2]); }},
+      {"sign of cos theta", [](const Model&, auto& leg) { leg.cosine[2] *= -1; }},
+      {"rod's tensor in the carriage's axes", [](const Model&, auto& leg) { leg.R_2 = leg.R_1; }, WrongLeg::place},
       {"d's rate with the other sign of tan theta",
-       [](const Model& model, Stance& leg) { setMap(leg, 0, 2 * model.u - mapOf(leg, 0)); }, WrongLeg::map},
-      {"psi's rate without sin theta", [](const Model&, Stance& leg) { setMap(leg, 1, mapOf(leg, 1) * (leg.sine[2])); },
+       [](const Model& model, auto& leg) { setMap(leg, 0, 2 * model.u - mapOf(leg, 0)); }, WrongLeg::map},
+      {"psi's rate without sin theta", [](const Model&, auto& leg) { setMap(leg, 1, mapOf(leg, 1) * (leg.sine[2])); },
        WrongLeg::map},
       {"theta's rate without cos theta",
-       [](const Model&, Stance& leg) { setMap(leg, 2, mapOf(leg, 2) * (leg.cosine[2])); }, WrongLeg::map}};
+       [](const Model&, auto& leg) { setMap(leg, 2, mapOf(leg, 2) * (leg.cosine[2])); }, WrongLeg::map}};
   return all;
 }
 
 const std::vector<WrongLeg>& wrongUrs() {
   static const std::vector<WrongLeg> all = {
-      {"phi by atan2(k_x, k_z)", [](const Model&, Stance& leg) { leg.sine[0] *= -1; }},
-      {"psi from -u", [](const Model&, Stance& leg) { leg.cosine[1] *= -1; }},
-      {"sign of theta", [](const Model&, Stance& leg) { leg.sine[2] *= -1; }},
-      {"distal tensor in the proximal link's axes", [](const Model&, Stance& leg) { leg.R_2 = leg.R_1; },
+      {"phi by atan2(k_x, k_z)", [](const Model&, auto& leg) { leg.sine[0] *= -1; }},
+      {"psi from -u", [](const Model&, auto& leg) { leg.cosine[1] *= -1; }},
+      {"sign of theta", [](const Model&, auto& leg) { leg.sine[2] *= -1; }},
+      {"distal tensor in the proximal link's axes", [](const Model&, auto& leg) { leg.R_2 = leg.R_1; },
        WrongLeg::place}};
   return all;
 }
@@ -161,7 +158,7 @@ const std::vector<WrongLeg>& wrongLegs(LegKind kind) {
 
 WithFormulaErrors faultOf(LegKind kind, const WrongLeg& wrong) {
   WithFormulaErrors fault;
-  const auto change = [kind, wrong](const Model& model, Stance& leg) {
+  const auto change = [kind, wrong](const Model& model, LegState<double>& leg) {
     if (model.kind != kind) return;
     wrong.change(model, leg);
     if (wrong.when == WrongLeg::angles) stand(model, leg);

@@ -44,7 +44,7 @@ class FaultyTrajectory final : public ExactTrajectory {
   ChangeAt change_;
 };
 
-Defect shared(const std::string& name, const std::string& group, const InjectedFault::Seen& scenario) {
+Defect shared(const std::string& name, const std::string& group, const InjectedFault::ScenarioChange& scenario) {
   Defect out{name, group};
   out.scenario = scenario;
   out.engines = 1;

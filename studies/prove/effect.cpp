@@ -36,8 +36,8 @@ std::vector<Eigen::VectorXd> answersOf(const Subject& subject, const Motion<doub
 /// Returns the allowed difference: that of two right formulations, with some margin and at least a few units of the
 /// last place.
 Eigen::VectorXd roomBetween(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  const double room = 16 * (a - b).cwiseAbs().maxCoeff() + 64 * eps * a.cwiseAbs().maxCoeff();
-  return Eigen::VectorXd::Constant(a.size(), room);
+  const double tolerance = 16 * (a - b).cwiseAbs().maxCoeff() + 64 * eps * a.cwiseAbs().maxCoeff();
+  return Eigen::VectorXd::Constant(a.size(), tolerance);
 }
 
 }  // namespace
@@ -61,8 +61,8 @@ RightAnswers::Off RightAnswers::offIn(const Subject& subject) const {
   for (const Instant& instant : instants_) try {
       const auto answers = answersOf(subject, instant.motion);
       for (std::size_t i = 0; i < answers.size(); ++i) {
-        const auto& [right, room] = instant.answers[i];
-        if (((answers[i] - right).array().abs() <= room.array()).all()) continue;
+        const auto& [right, tolerance] = instant.answers[i];
+        if (((answers[i] - right).array().abs() <= tolerance.array()).all()) continue;
         if (i < of_dynamics) return Off::dynamics;
         out = Off::kinematics;
       }
@@ -96,7 +96,7 @@ bool sayOtherwise(const std::vector<Check>& a, const std::vector<Check>& b, doub
     const bool both_nan = std::isnan(one.value) && std::isnan(other.value);
     const bool same = both_nan || one.value == other.value;
     // Shares of limits are compared, because rounding may select another instant with another limit.
-    const double apart = Worst::share(one.value, one.limit) - Worst::share(other.value, other.limit);
+    const double apart = WorstShare::share(one.value, one.limit) - WorstShare::share(other.value, other.limit);
     return one.verdict == other.verdict && (same || std::abs(apart) <= share);
   };
   return !std::equal(a.begin(), a.end(), b.begin(), b.end(), alike);

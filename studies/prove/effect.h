@@ -23,7 +23,7 @@ class RightAnswers {
 
  private:
   struct Numbers {
-    Eigen::VectorXd right, room;
+    Eigen::VectorXd right, tolerance;
   };
   struct Instant {
     Motion<double> motion;

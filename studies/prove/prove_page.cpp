@@ -125,13 +125,14 @@ std::string thresholds(const std::vector<Sensitivity>& sensitivities) {
                     shows ? plainNumber(each.torque_change, 2) : "–");
   }
   const char* const number = "<th scope=\"col\" class=\"number\">";
-  return region("Thresholds by kind",
-                fmt::format(
-                    "<table>\n<caption>Smallest relative error of a parameter that torque.pointwise still "
-                    "catches.</caption>\n<thead><tr><th scope=\"col\">Kind</th>{0}Parameters</th>{0}Not shown</th>"
-                    "{0}Best</th>{0}Worst</th><th scope=\"col\">The worst</th>{0}Torque change caught, at most</th>"
-                    "</tr></thead>\n<tbody>\n{1}</tbody></table>",
-                    number, kinds)) +
+  return region(
+             "Thresholds by kind",
+             fmt::format(
+                 "<table>\n<caption>Smallest relative error of a parameter that torque.pointwise still "
+                 "catches.</caption>\n<thead><tr><th scope=\"col\">Kind</th>{0}Parameters</th>{0}Not shown</th>"
+                 "{0}Best</th>{0}WorstShare</th><th scope=\"col\">The worst</th>{0}Torque change caught, at most</th>"
+                 "</tr></thead>\n<tbody>\n{1}</tbody></table>",
+                 number, kinds)) +
          "<details><summary>Every parameter</summary>\n" +
          region("Thresholds by parameter",
                 fmt::format(
@@ -158,7 +159,7 @@ std::string randomTable(const RandomOutcomes& random) {
                     rows + "</tbody></table>");
 }
 
-std::string sentenceOf(const ProveFound& found) {
+std::string sentenceOf(const ProveResult& found) {
   if (!found.proof) return fmt::format("{} of {} random scenarios passed.", found.random.passed, found.random.runs);
   const DefectProof& proof = *found.proof;
   if (!proof.without_defect.empty())
@@ -174,7 +175,7 @@ std::string sentenceOf(const ProveFound& found) {
                      proof.checks.size());
 }
 
-std::vector<report::PageFigure> figuresOf(const ProveFound& found) {
+std::vector<report::PageFigure> figuresOf(const ProveResult& found) {
   std::vector<report::PageFigure> figures;
   if (found.proof) {
     const auto& outcomes = found.proof->outcomes;
@@ -184,7 +185,7 @@ std::vector<report::PageFigure> figuresOf(const ProveFound& found) {
     const auto silent =
         std::count_if(outcomes.begin(), outcomes.end(), [](const DefectOutcome& each) { return !each.shows; });
     figures = {{"Defects", std::to_string(outcomes.size()), fmt::format("{} change nothing here", silent)},
-               {"Seen by one formulation alone", std::to_string(one), "by their nature"},
+               {"ScenarioChange by one formulation alone", std::to_string(one), "by their nature"},
                {"Checks", std::to_string(found.proof->checks.size()),
                 fmt::format("{} idle", idleChecks(found.proof->checks))}};
   }
@@ -197,7 +198,7 @@ std::vector<report::PageFigure> figuresOf(const ProveFound& found) {
 
 }  // namespace
 
-bool isProved(const ProveFound& found) {
+bool isProved(const ProveResult& found) {
   if (!found.random.failed.empty()) return false;
   if (!found.proof) return true;
   const std::vector<DefectOutcome>& outcomes = found.proof->outcomes;
@@ -207,7 +208,7 @@ bool isProved(const ProveFound& found) {
   return weakDefects(outcomes) == 0 && !idle && found.proof->without_defect.empty();
 }
 
-std::string proveHtml(const ProveFound& found) {
+std::string proveHtml(const ProveResult& found) {
   report::Page page;
   page.kind = "Proof of the checks";
   page.title = found.proof ? found.scenario : "Random scenarios";

@@ -10,7 +10,7 @@
 namespace ursula {
 
 /// All results of `ursula prove`.
-struct ProveFound {
+struct ProveResult {
   std::string scenario;
   std::optional<DefectProof> proof;  ///< nullopt if only random scenarios were tried
   std::vector<Sensitivity> sensitivities;
@@ -19,9 +19,9 @@ struct ProveFound {
 };
 
 /// Whether the right solver passes, every defect is caught, every check is needed and no random scenario fails.
-bool isProved(const ProveFound& found);
+bool isProved(const ProveResult& found);
 
 /// Returns a page in the report's style: defects by checks, the need for each check, thresholds, random scenarios.
-std::string proveHtml(const ProveFound& found);
+std::string proveHtml(const ProveResult& found);
 
 }  // namespace ursula

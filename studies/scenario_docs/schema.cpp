@@ -79,7 +79,7 @@ Json schemaOf(const ScenarioKey& key) {
 
 /// Returns the alternative of a key, in degrees or another form. One of the two is required; both together are an
 /// error.
-const char* standInFor(const ScenarioTable& table, const std::string& name) {
+const char* alternativeTo(const ScenarioTable& table, const std::string& name) {
   for (const ScenarioKey& key : table.keys)
     if (key.name == name + "_deg" || (name == "orientation" && key.name == std::string("rpy_deg"))) return key.name;
   return nullptr;
@@ -95,7 +95,7 @@ Json plainSchemaOf(const ScenarioTable& table) {
   Json properties = Json::object(), required = Json::array(), all = Json::array();
   for (const ScenarioKey& key : table.keys) {
     properties[key.name] = schemaOf(key);
-    const char* other = standInFor(table, key.name);
+    const char* other = alternativeTo(table, key.name);
     if (other != nullptr) {
       const Json first = {{"required", {key.name}}}, second = {{"required", {other}}};
       all.push_back(key.isRequired() ? Json{{"oneOf", {first, second}}}

@@ -19,7 +19,7 @@ struct Block {
   std::exception_ptr refusal = {};
   std::string text = {};
 };
-using Handed = Block*;  // owned by the stream, because TBB drops items in flight after an exception
+using BlockPointer = Block*;  // owned by the stream, because TBB drops items in flight after an exception
 
 /// Blocks are created, settled and written in order; any thread computes and formats them.
 class Stream {
@@ -29,13 +29,16 @@ class Stream {
 
   void run() {
     using tbb::filter_mode;
-    const auto chain =
-        tbb::make_filter<void, Handed>(filter_mode::serial_in_order,
-                                       [this](tbb::flow_control& control) { return next(control); }) &
-        tbb::make_filter<Handed, Handed>(filter_mode::parallel, [this](Handed block) { return make(block); }) &
-        tbb::make_filter<Handed, Handed>(filter_mode::serial_in_order, [this](Handed block) { return settle(block); }) &
-        tbb::make_filter<Handed, Handed>(filter_mode::parallel, [this](Handed block) { return format(block); }) &
-        tbb::make_filter<Handed, void>(filter_mode::serial_in_order, [this](Handed block) { write(block); });
+    const auto chain = tbb::make_filter<void, BlockPointer>(
+                           filter_mode::serial_in_order, [this](tbb::flow_control& control) { return next(control); }) &
+                       tbb::make_filter<BlockPointer, BlockPointer>(
+                           filter_mode::parallel, [this](BlockPointer block) { return make(block); }) &
+                       tbb::make_filter<BlockPointer, BlockPointer>(
+                           filter_mode::serial_in_order, [this](BlockPointer block) { return settle(block); }) &
+                       tbb::make_filter<BlockPointer, BlockPointer>(
+                           filter_mode::parallel, [this](BlockPointer block) { return format(block); }) &
+                       tbb::make_filter<BlockPointer, void>(filter_mode::serial_in_order,
+                                                            [this](BlockPointer block) { write(block); });
     // TBB aborts if the system gives fewer threads than it wants.
     const int jobs = 1 + static_cast<int>(threadsThatStart(static_cast<std::size_t>(options_.jobs - 1)));
     blocks_.resize(static_cast<std::size_t>(jobs) + 2);  // additional blocks wait for their turn
@@ -46,7 +49,7 @@ class Stream {
   }
 
  private:
-  Handed next(tbb::flow_control& control) {
+  BlockPointer next(tbb::flow_control& control) {
     if (next_ == table_.blocks) {
       control.stop();
       return nullptr;
@@ -58,7 +61,7 @@ class Stream {
   }
 
   /// An exception waits for the earlier blocks, so the reported one does not depend on timing.
-  Handed make(Handed block) const {
+  BlockPointer make(BlockPointer block) const {
     try {
       block->series = table_.make(block->k);
     } catch (...) {
@@ -67,12 +70,12 @@ class Stream {
     return block;
   }
 
-  Handed settle(Handed block) const {
+  BlockPointer settle(BlockPointer block) const {
     if (!block->refusal && table_.settle) table_.settle(block->series);
     return block;
   }
 
-  Handed format(Handed block) const {
+  BlockPointer format(BlockPointer block) const {
     if (block->refusal) return block;
     if (block->k == 0) block->text = rowHeader(options_.format, block->series.names, table_.rows);
     appendRows(options_.format, block->series, block->text);
@@ -80,7 +83,7 @@ class Stream {
     return block;
   }
 
-  void write(Handed block) const {
+  void write(BlockPointer block) const {
     if (block->refusal) std::rethrow_exception(block->refusal);
     sink_(block->text);
     if (options_.written) options_.written(static_cast<double>(block->k + 1) / static_cast<double>(table_.blocks));

@@ -32,7 +32,7 @@ SweepOutput outputOf(bool validates, const std::string& name) {
 }
 
 double shareOf(const SweepRow::Value& value) {
-  return std::isnan(value.value) || std::isnan(value.limit) ? no_value : Worst::share(value.value, value.limit);
+  return std::isnan(value.value) || std::isnan(value.limit) ? no_value : WorstShare::share(value.value, value.limit);
 }
 
 }  // namespace

@@ -13,9 +13,9 @@
 #include <sstream>
 
 #include "base/csv.h"
-#include "report/found.h"
 #include "report/plots.h"
 #include "report/quantity.h"
+#include "report/result_facts.h"
 #include "report/text.h"
 #include "report/written_files.h"
 #include "tests/report/report_samples.h"

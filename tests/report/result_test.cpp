@@ -67,7 +67,7 @@ TEST(Reasons, areOfWhatWasNotJudged) {
 
 TEST(JudgedIfUseful, isInconclusiveOnlyBetweenWhatIsUsefulAndTheDerivedLimit) {
   const auto check = [](double value, double limit) {
-    Worst worst;
+    WorstShare worst;
     worst.add(value, limit, 0);
     return judgedIfUseful({"name", "m", 1e6}, worst, "basis", "why", "the cause");  // values above 1 matter
   };
@@ -89,8 +89,8 @@ TEST(JudgedIfUseful, isInconclusiveOnlyBetweenWhatIsUsefulAndTheDerivedLimit) {
   EXPECT_EQ(check(0.5, nan).verdict, Verdict::fail);
 }
 
-TEST(Worst, showsTheValueNearestToTheLesserOfLimitAndUse) {
-  Worst worst;
+TEST(WorstShare, showsTheValueNearestToTheLesserOfLimitAndUse) {
+  WorstShare worst;
   worst.add(0.5, 100, 1, 1);  // a wide limit, above the threshold of 1
   worst.add(0.2, 0.8, 2, 2);  // nearer to its own limit
   EXPECT_EQ(worst.shown(1).t, 1);

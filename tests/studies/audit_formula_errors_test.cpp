@@ -95,7 +95,7 @@ constexpr double rounding = 1e-33;
 
 TEST(AuditFormulas, asPrintedAreTheSolversFormulaErrors) {
   const Scenario scenario = paperHelix();
-  const Witness witness = WitnessStand(*scenario.manipulator, *scenario.trajectory).at(S("1.1"));
+  const ReferenceState reference = ReferenceMechanism(*scenario.manipulator, *scenario.trajectory).at(S("1.1"));
   const std::vector<Formula> all = formulas();
   for (const auto& [name, reading] : readings()) {
     const std::string& equation = name;  // C++17 lambdas cannot capture a structured binding
@@ -104,31 +104,31 @@ TEST(AuditFormulas, asPrintedAreTheSolversFormulaErrors) {
     WithFormulaErrors formula_errors;
     for (FormulaError formula_error : found->formula_errors) formula_errors.set(formula_error);
     NocWorkspace<S> work;
-    const Values printed = found->as_printed(witness);
+    const Values printed = found->as_printed(reference);
     EXPECT_LE(
         largestDifference(
-            reading(Noc<S, WithFormulaErrors>(*scenario.manipulator, formula_errors), witness.motion, work), printed),
+            reading(Noc<S, WithFormulaErrors>(*scenario.manipulator, formula_errors), reference.motion, work), printed),
         rounding)
         << equation;
     // Control: without the error the solver's result is different, and is the truth.
-    const Values right = reading(Noc<S, WithFormulaErrors>(*scenario.manipulator), witness.motion, work);
+    const Values right = reading(Noc<S, WithFormulaErrors>(*scenario.manipulator), reference.motion, work);
     EXPECT_GT(largestDifference(right, printed), 1e-6) << equation;
-    EXPECT_LE(largestDifference(right, found->truth(witness)), rounding) << equation;
+    EXPECT_LE(largestDifference(right, found->truth(reference)), rounding) << equation;
   }
 }
 
 TEST(AuditWitness, agreesWithTheSolver) {
   const Scenario scenario = paperHelix();
-  const WitnessStand stand(*scenario.manipulator, *scenario.trajectory);
+  const ReferenceMechanism mechanism(*scenario.manipulator, *scenario.trajectory);
   const Noc<S> solver(*scenario.manipulator);
   for (const char* instant : {"0.4", "1.7", "2.9"}) {
-    const Witness witness = stand.at(S(instant));
+    const ReferenceState reference = mechanism.at(S(instant));
     NocWorkspace<S> work;
     const double off =
-        (solver.inverseDynamics(witness.motion, work) - witness.torques).cwiseAbs().maxCoeff().convert_to<double>();
-    EXPECT_LE(off, rounding * witness.torques.cwiseAbs().maxCoeff().convert_to<double>());
-    EXPECT_GT(witness.torques.norm(), 1000);
-    EXPECT_LE((solver.accelerations(work).phi - witness.phi_ddot()).norm(), rounding);
+        (solver.inverseDynamics(reference.motion, work) - reference.torques).cwiseAbs().maxCoeff().convert_to<double>();
+    EXPECT_LE(off, rounding * reference.torques.cwiseAbs().maxCoeff().convert_to<double>());
+    EXPECT_GT(reference.torques.norm(), 1000);
+    EXPECT_LE((solver.accelerations(work).phi - reference.phi_ddot()).norm(), rounding);
   }
 }
 

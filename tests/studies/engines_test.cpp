@@ -48,7 +48,7 @@ TEST(Engines, exactRecipeIsRightAndTheObviousCallIsWrong) {
     ASSERT_EQ(found.engines.size(), enginesHere().size());
     ASSERT_GE(found.engines.size(), 2u);
     EXPECT_GT(found.largest_effort, 0);
-    for (const EngineFound& engine : found.engines) {
+    for (const EngineResult& engine : found.engines) {
       SCOPED_TRACE(std::string(name) + ", " + engine.kind->name);
       ASSERT_EQ(engine.refused, "");
       EXPECT_LE(engine.of(Recipe::exact).error, 1e-12);
@@ -70,7 +70,7 @@ TEST(Engines, exactRecipeIsRightAndTheObviousCallIsWrong) {
   EXPECT_EQ(kinds.size(), 4u);
 }
 
-bool movesNoRotors(const EngineFound& engine) {
+bool movesNoRotors(const EngineResult& engine) {
   const std::string name = engine.kind->name;
   return name == "DART" || name == "Bullet" || name == "ODE";
 }
@@ -78,7 +78,7 @@ bool movesNoRotors(const EngineFound& engine) {
 /// Every engine has friction and a load; the load is in the platform's frame.
 TEST(Engines, knowFrictionLoadAndRotors) {
   for (const char* name : {"ups-friction-load", "load-platform", "load-table", "viscous-friction", "three-legs"})
-    for (const EngineFound& engine : foundIn(shipped(name)).engines) {
+    for (const EngineResult& engine : foundIn(shipped(name)).engines) {
       ASSERT_EQ(engine.refused, "") << name << ", " << engine.kind->name;
       EXPECT_LE(engine.of(Recipe::exact).error, 1e-12) << name << ", " << engine.kind->name;
     }
@@ -89,10 +89,10 @@ TEST(Engines, knowFrictionLoadAndRotors) {
   rotors.manipulator = std::make_shared<Manipulator>(machine);
   const SideBySide found = foundIn(rotors);
   EXPECT_GT(std::abs(found.largest_effort / without - 1), 0.01) << "rotors weigh in";
-  for (const EngineFound& engine : found.engines) {
+  for (const EngineResult& engine : found.engines) {
     ASSERT_EQ(engine.refused, "") << engine.kind->name;
     EXPECT_LE(engine.of(Recipe::exact).error, 1e-12) << engine.kind->name;
-    for (const InTimeFound& each : engine.in_time)
+    for (const TimeSteppingResult& each : engine.in_time)
       EXPECT_EQ(each.gave_up, movesNoRotors(engine) ? engine.kind->name + std::string(" moves no rotors") : "");
   }
 }
@@ -177,17 +177,17 @@ TEST(Engines, sagIsWhereTheMotorsHoldThePlatform) {
   EXPECT_LE(largestGap(tree, *scenario.manipulator), off);
 }
 
-const InTimeFound& named(const EngineFound& engine, const std::string& rigidity) {
+const TimeSteppingResult& named(const EngineResult& engine, const std::string& rigidity) {
   const auto found = std::find_if(engine.in_time.begin(), engine.in_time.end(),
-                                  [&](const InTimeFound& each) { return each.rigidity.name == rigidity; });
+                                  [&](const TimeSteppingResult& each) { return each.rigidity.name == rigidity; });
   if (found == engine.in_time.end()) throw std::logic_error(rigidity);
   return *found;
 }
 
 TEST(Engines, looserLoopsSagFarther) {
-  for (const EngineFound& engine : foundIn(shipped("flight-simulator"), 0.2).engines) {
+  for (const EngineResult& engine : foundIn(shipped("flight-simulator"), 0.2).engines) {
     SCOPED_TRACE(engine.kind->name);
-    for (const InTimeFound& each : engine.in_time) {
+    for (const TimeSteppingResult& each : engine.in_time) {
       EXPECT_EQ(each.gave_up, "");
       EXPECT_EQ(each.steps, static_cast<int>(std::floor(0.2 / each.rigidity.step)));
       EXPECT_GT(each.gap, 0);
@@ -222,9 +222,9 @@ TEST(Engines, looserLoopsSagFarther) {
 TEST(Engines, smallMachinesAndLightLegsAreMovedOrGivenUp) {
   bool gave_up = false;
   for (const char* name : {"millimetres", "light-legs"})
-    for (const EngineFound& engine : foundIn(shipped(name), 0.1).engines) {
+    for (const EngineResult& engine : foundIn(shipped(name), 0.1).engines) {
       ASSERT_EQ(engine.refused, "") << engine.kind->name;
-      for (const InTimeFound& each : engine.in_time) {
+      for (const TimeSteppingResult& each : engine.in_time) {
         EXPECT_GT(each.gap, 0) << name << ", " << engine.kind->name << ", " << each.rigidity.name;
         if (each.gave_up.empty()) {
           EXPECT_TRUE(std::isfinite(each.sag + each.away + each.energy)) << name << ", " << engine.kind->name;
@@ -243,7 +243,7 @@ TEST(Engines, smallMachinesAndLightLegsAreMovedOrGivenUp) {
 
 TEST(Engines, sentencesSayTheNumbersFound) {
   const SideBySide found = foundIn(shipped("hexaglide"));
-  for (const EngineFound& engine : found.engines) {
+  for (const EngineResult& engine : found.engines) {
     const std::string said = sentence(engine);
     EXPECT_THAT(said, HasSubstr(engine.kind->exact_call));
     EXPECT_THAT(said, HasSubstr(report::plainNumber(engine.of(Recipe::exact).error, 2) + " of the largest effort"));
@@ -252,8 +252,8 @@ TEST(Engines, sentencesSayTheNumbersFound) {
       const double hard = engine.of(Recipe::own_inverse_hard).error;
       EXPECT_THAT(said, HasSubstr("hardest by " + report::plainNumber(100 * hard, 3) + " %"));
     }
-    EngineFound other = engine;
-    for (RecipeFound& each : other.recipes) each.error *= 2;
+    EngineResult other = engine;
+    for (RecipeResult& each : other.recipes) each.error *= 2;
     EXPECT_THAT(sentence(other), Not(testing::StrEq(said)));
     const std::string page = sideBySideHtml(found);
     EXPECT_THAT(page, HasSubstr(engine.kind->name));
@@ -265,7 +265,7 @@ TEST(Engines, sentencesSayTheNumbersFound) {
 TEST(Engines, aCallThatIsRightOnAMotionIsNotCalledWrong) {
   const SideBySide found = foundIn(shipped("hold"));
   int as_good = 0;
-  for (const EngineFound& engine : found.engines) {
+  for (const EngineResult& engine : found.engines) {
     const bool is_good = engine.of(engine.kind->obvious).error < 1e-12;
     EXPECT_EQ(sentence(engine).find("is as good") != std::string::npos, is_good) << engine.kind->name;
     as_good += is_good;

@@ -76,9 +76,9 @@ TEST(UserLimits, liftALimitThatSaysNothing) {
       notJudgeable(Reason::limit_useless, "replay.position", 1e-9, 1e-3, "m", "derived", "says nothing");
   EXPECT_EQ(judgedBy({}, {useless}).verdict, Verdict::inconclusive);
   for (const double limit : {1e-8, 1e-2}) {  // wider or not, because there was no useful limit
-    const ValidationResult lifted = judgedBy({{"replay.position", limit}}, {useless});
-    EXPECT_EQ(lifted.verdict, Verdict::pass);
-    EXPECT_EQ(lifted.limits, LimitBy::user);
+    const ValidationResult removed = judgedBy({{"replay.position", limit}}, {useless});
+    EXPECT_EQ(removed.verdict, Verdict::pass);
+    EXPECT_EQ(removed.limits, LimitBy::user);
   }
   EXPECT_EQ(judgedBy({{"replay.position", 1e-10}}, {useless}).verdict, Verdict::fail);
 }

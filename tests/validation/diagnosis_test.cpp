@@ -1,6 +1,6 @@
 // What is said of torques that are wrong: each fault is put into exact ones of the helix and must be named.
 
-#include "validation/external/diagnosis.h"
+#include "validation/causes/diagnosis.h"
 #include "model/instants.h"
 
 #include <fmt/format.h>

@@ -9,7 +9,7 @@
 #include "tests/support/motions.h"
 #include "tests/validation/external_torques.h"
 #include "tests/validation/scenario_files.h"
-#include "validation/external/diagnosis.h"
+#include "validation/causes/diagnosis.h"
 
 namespace ursula {
 namespace {

@@ -33,7 +33,7 @@ class Climb {
     const ReplayPlan plan{torques, SampledLimit(samples), position_scale_, plannedStepRate(3)};
     const std::vector<WindowedReplay> windows = replayInWindows(scenario_, plan);
     finest_ = windows.front();
-    ladder_ = climb(scenario_, torques, finest_);
+    ladder_ = replayLadder(scenario_, torques, finest_);
   }
 
   const Ladder& ladder() const { return ladder_; }
@@ -53,28 +53,29 @@ class Climb {
 };
 
 TEST(PaperHelixLadder, converges) {
-  const Climb climb;
-  const Ladder& ladder = climb.ladder();
+  const Climb replayLadder;
+  const Ladder& ladder = replayLadder.ladder();
   ASSERT_EQ(ladder.rungs.size(), 3u);
   ASSERT_EQ(ladder.observed_orders.size(), 2u);
   for (double order : ladder.observed_orders) EXPECT_NEAR(order, 8, 2);
   EXPECT_TRUE(ladder.asymptotic);
   for (const Rung& rung : ladder.rungs) EXPECT_EQ(rung.gave_up, "");
-  EXPECT_EQ(others(climb.checks(), Verdict::pass), "");
+  EXPECT_EQ(others(replayLadder.checks(), Verdict::pass), "");
   for (const char* check : {"integration.ladder", "integration.second"}) {
-    ASSERT_NE(findCheck(climb.checks(), check), nullptr);
-    EXPECT_GT(findCheck(climb.checks(), check)->value, 0) << check;
+    ASSERT_NE(findCheck(replayLadder.checks(), check), nullptr);
+    EXPECT_GT(findCheck(replayLadder.checks(), check)->value, 0) << check;
   }
 }
 
 /// The torques are right, so the replay's distance from the path is the integrator's error, except for rounding.
 TEST(PaperHelixLadder, extrapolatesTheErrorThatTheFinestReplayHas) {
-  const Climb climb;
-  const double error = climb.finest().replay.steps.back().position_error.norm();
-  EXPECT_GT(climb.ladder().extrapolated, 0);
-  EXPECT_LT(climb.ladder().extrapolated, climb.bound());
-  EXPECT_LE(error, climb.ladder().extrapolated + climb.ladder().uncertainty);
-  EXPECT_LT(climb.ladder().extrapolated, climb.ladder().rungs[2].distance / 10) << "nothing was extrapolated";
+  const Climb replayLadder;
+  const double error = replayLadder.finest().replay.steps.back().position_error.norm();
+  EXPECT_GT(replayLadder.ladder().extrapolated, 0);
+  EXPECT_LT(replayLadder.ladder().extrapolated, replayLadder.bound());
+  EXPECT_LE(error, replayLadder.ladder().extrapolated + replayLadder.ladder().uncertainty);
+  EXPECT_LT(replayLadder.ladder().extrapolated, replayLadder.ladder().rungs[2].distance / 10)
+      << "nothing was extrapolated";
 }
 
 TEST(PaperHelixLadder, climbsToFinerTolerancesInMoreSteps) {
@@ -89,8 +90,8 @@ TEST(PaperHelixLadder, climbsToFinerTolerancesInMoreSteps) {
 
 /// It runs twice, so that its own error is known, and only over the beginning, because it takes many more steps.
 TEST(PaperHelixLadder, hasAnotherIntegratorOverTheBeginning) {
-  const Climb climb;
-  const Ladder& ladder = climb.ladder();
+  const Climb replayLadder;
+  const Ladder& ladder = replayLadder.ladder();
   ASSERT_EQ(ladder.second.size(), 2u);
   for (const Rung& rung : ladder.second) {
     EXPECT_STREQ(name(rung.integrator), "rk_merson");
@@ -99,9 +100,9 @@ TEST(PaperHelixLadder, hasAnotherIntegratorOverTheBeginning) {
   EXPECT_DOUBLE_EQ(ladder.second[0].tolerance / ladder.second[1].tolerance, 10);
   EXPECT_LT(ladder.second[1].distance, ladder.second[0].distance);
   EXPECT_GT(ladder.second_difference, 0);
-  EXPECT_GE(ladder.second_end, 0.1 * climb.finest().window.end());
-  EXPECT_LT(ladder.second_end, climb.finest().window.end());
-  EXPECT_LT(findCheck(climb.checks(), "integration.second")->limit, 5e-8) << "the limit says little";
+  EXPECT_GE(ladder.second_end, 0.1 * replayLadder.finest().window.end());
+  EXPECT_LT(ladder.second_end, replayLadder.finest().window.end());
+  EXPECT_LT(findCheck(replayLadder.checks(), "integration.second")->limit, 5e-8) << "the limit says little";
 }
 
 /// The torques are right except for jumps of a millionth, at which a formula of eighth order loses its order, so there
@@ -110,11 +111,11 @@ TEST(PaperHelixLadder, hasAnotherIntegratorOverTheBeginning) {
 TEST(PaperHelixLadder, extrapolatesNothingWhereTheTorquesJump) {
   int settled = 0;
   for (const double later : {0.0, 0.007, 0.021, 0.035, 0.056}) {
-    const Climb climb([later](double t) { return 1 + (std::fmod(t + later, 0.2) < 0.1 ? 1e-6 : -1e-6); });
-    EXPECT_FALSE(climb.ladder().asymptotic) << later;
-    EXPECT_EQ(climb.ladder().extrapolated, climb.ladder().rungs[2].distance) << later;
-    EXPECT_THAT(findCheck(climb.checks(), "integration.ladder")->why, HasSubstr("not asymptotic")) << later;
-    if (verdictOf(climb.checks(), "integration.ladder") != "fail") ++settled;
+    const Climb replayLadder([later](double t) { return 1 + (std::fmod(t + later, 0.2) < 0.1 ? 1e-6 : -1e-6); });
+    EXPECT_FALSE(replayLadder.ladder().asymptotic) << later;
+    EXPECT_EQ(replayLadder.ladder().extrapolated, replayLadder.ladder().rungs[2].distance) << later;
+    EXPECT_THAT(findCheck(replayLadder.checks(), "integration.ladder")->why, HasSubstr("not asymptotic")) << later;
+    if (verdictOf(replayLadder.checks(), "integration.ladder") != "fail") ++settled;
   }
   EXPECT_GT(settled, 0);
 }
@@ -122,20 +123,20 @@ TEST(PaperHelixLadder, extrapolatesNothingWhereTheTorquesJump) {
 /// Noise differs at every instant, so the end does not converge however fine the tolerance is.
 TEST(PaperHelixLadder, failsWhereTheIntegrationDoesNotConverge) {
   const auto noise = [](double t) { return std::fmod(std::abs(std::sin(1e9 * t)) * 1e6, 1.0) - 0.5; };
-  const Climb climb([noise](double t) { return 1 + 1e-9 * noise(t); });
-  const std::vector<Check> checks = climb.checks();
+  const Climb replayLadder([noise](double t) { return 1 + 1e-9 * noise(t); });
+  const std::vector<Check> checks = replayLadder.checks();
   const Check* check = findCheck(checks, "integration.ladder");
   ASSERT_NE(check, nullptr);
   EXPECT_EQ(check->verdict, Verdict::fail) << check->value << " of " << check->limit << ", " << check->why;
-  EXPECT_FALSE(climb.ladder().asymptotic);
+  EXPECT_FALSE(replayLadder.ladder().asymptotic);
 }
 
 /// Torques one hundredth too large move the platform off its path by more than its size.
 TEST(PaperHelixLadder, saysNothingOfTorquesThatLoseTheMachine) {
-  const Climb climb([](double) { return 1.01; });
-  EXPECT_TRUE(climb.finest().replay.left_path);
-  EXPECT_GT(climb.finest().replay.accepted, 0);
-  EXPECT_EQ(overall(climb.checks()), Verdict::fail);
+  const Climb replayLadder([](double) { return 1.01; });
+  EXPECT_TRUE(replayLadder.finest().replay.left_path);
+  EXPECT_GT(replayLadder.finest().replay.accepted, 0);
+  EXPECT_EQ(overall(replayLadder.checks()), Verdict::fail);
 }
 
 TEST(WorkPrecision, moreWorkIsMorePrecise) {

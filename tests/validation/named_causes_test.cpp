@@ -9,9 +9,9 @@
 
 #include "tests/support/motions.h"
 #include "tests/validation/external_torques.h"
-#include "validation/external/asked_apart.h"
-#include "validation/external/diagnosis.h"
-#include "validation/external/explanation.h"
+#include "validation/causes/asked_apart.h"
+#include "validation/causes/diagnosis.h"
+#include "validation/causes/explanation.h"
 
 namespace ursula {
 namespace {

@@ -32,7 +32,7 @@ TEST_P(SecondLooks, measureTheInstantItself) {
   // This is as if rounding were far smaller everywhere else.
   Conditioning sharp = at_;
   sharp.levels = uniformLevels(1e-9);
-  SecondLook look(profile_);
+  RemeasuredLimits look(profile_);
   const double rounding = closer.rounding(Rounded::torque);
   EXPECT_DOUBLE_EQ(look.limit(0.5 * rounding, sharp, Rounded::torque, motion_), rounding);
   EXPECT_EQ(look.limit(1e-3 * sharp.rounding(Rounded::torque), sharp, Rounded::torque, motion_),
@@ -44,10 +44,10 @@ TEST_P(SecondLooks, areNotTakenAgainOnceAnErrorIsConfirmed) {
   const double rounding = profile_.closer(motion_).rounding(Rounded::torque);
   Conditioning sharp = at_;
   sharp.levels = uniformLevels(1e-9);
-  SecondLook look(profile_);
+  RemeasuredLimits look(profile_);
   EXPECT_LT(look.limit(3 * rounding, sharp, Rounded::torque, motion_), 3 * rounding);
   EXPECT_EQ(look.limit(0.5 * rounding, sharp, Rounded::torque, motion_), sharp.rounding(Rounded::torque));
-  SecondLook other(profile_);
+  RemeasuredLimits other(profile_);
   EXPECT_EQ(other.limit(std::nan(""), sharp, Rounded::torque, motion_), sharp.rounding(Rounded::torque));
 }
 

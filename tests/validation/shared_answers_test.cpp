@@ -17,7 +17,7 @@
 #include "validation/evidence/evidence.h"
 #include "validation/evidence/reference.h"
 #include "validation/replay/asked_torques.h"
-#include "validation/replay/lazily.h"
+#include "validation/replay/lazy.h"
 
 namespace ursula {
 namespace {
@@ -71,8 +71,8 @@ TEST(AskedTorques, nothingAskedSaysNothing) {
   EXPECT_FALSE(asked.sameFrom(zero)) << "what was added counts";
 }
 
-TEST(Lazily, makesOnceForAllThreadsAndAgainAfterAFailure) {
-  Lazily<int> value;
+TEST(Lazy, makesOnceForAllThreadsAndAgainAfterAFailure) {
+  Lazy<int> value;
   std::atomic<int> made{0};
   EXPECT_THROW(value.get([]() -> int { throw std::domain_error("not yet"); }), std::domain_error);
   std::vector<std::thread> threads;
@@ -143,7 +143,7 @@ TEST_P(Shared, theLadderIsTheOneClimbedAlone) {
   WindowedReplay window = reference_->replays().windows.front();
   ASSERT_NE(window.coarse, nullptr);
   window.coarse = nullptr;  // then no rung is known
-  const Ladder alone = climb(here(), reference_->replays().plan.torques, window);
+  const Ladder alone = replayLadder(here(), reference_->replays().plan.torques, window);
   const Ladder& shared = reference_->ladder();
   ASSERT_EQ(alone.rungs.size(), shared.rungs.size());
   for (std::size_t k = 0; k < alone.rungs.size(); ++k) {

@@ -1,6 +1,6 @@
 // Terms and loops of machines of every kind: taken together they are the NOC's efforts, and each mistake changes these.
 
-#include "validation/external/tried_causes.h"
+#include "validation/causes/tried_causes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 #include "model/scenario.h"
 #include "nocsolver/errors.h"
 #include "tests/support/motions.h"
-#include "validation/external/diagnosis.h"
+#include "validation/causes/diagnosis.h"
 #include "validation/limits/conditioning.h"
 #include "validation/subject/torque_file.h"
 

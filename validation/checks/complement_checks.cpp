@@ -13,7 +13,7 @@ std::vector<Check> judgeComplement(const std::vector<ComplementSample>& samples,
   static constexpr const char *orthogonality = "complement.orthogonality", *rank = "complement.rank";
   if (samples.empty())
     return {notMade(orthogonality, "", "no instant was compared"), notMade(rank, "", "no instant was compared")};
-  Worst worst;
+  WorstShare worst;
   int missing = 0;
   double at = samples.front().t;
   const ComplementSample* shown = &samples.front();

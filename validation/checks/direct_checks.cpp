@@ -23,8 +23,8 @@ using Compare = std::function<void(const DirectAnswer&, const Conditioning&, int
 Check judgeAnswers(const char* check, const char* what, const std::function<void(const Compare&)>& each,
                    const Subject& subject, const std::vector<PointwiseSample>& samples, const RoundingProfile& profile,
                    const Units& units) {
-  SecondLook look(profile);
-  Worst worst;
+  RemeasuredLimits look(profile);
+  WorstShare worst;
   double size = 0;
   try {
     each([&](const DirectAnswer& simbody, const Conditioning& at, int motor) {
@@ -39,7 +39,7 @@ Check judgeAnswers(const char* check, const char* what, const std::function<void
   }
   if (!worst.any) return notMade(check, "m/s^2", "no state was compared");
   const CheckedQuantity quantity{check, "m/s^2", size};
-  const Shown at = worst.shown(quantity.useful());
+  const JudgedValue at = worst.shown(quantity.useful());
   Check out = judgedIfUseful(
       quantity, worst,
       fmt::format("eps (|| T_P inv(I) || x the torque's and the platform's compliance x the forces that close the "

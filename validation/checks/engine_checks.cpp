@@ -23,8 +23,8 @@ using PairOf = std::function<Pair(const EngineSample&)>;
 
 const Vector6d* given(const std::optional<Vector6d>& torques) { return torques ? &*torques : nullptr; }
 
-Worst compareEngines(const std::vector<EngineSample>& samples, const PairOf& pairOf) {
-  Worst worst;
+WorstShare compareEngines(const std::vector<EngineSample>& samples, const PairOf& pairOf) {
+  WorstShare worst;
   for (const EngineSample& sample : samples) {
     const Pair pair = pairOf(sample);
     Eigen::Index leg = 0;
@@ -39,13 +39,13 @@ Check judgeEngine(const std::vector<EngineSample>& samples, std::size_t k, const
                   const std::vector<PointwiseSample>& conditions) {
   const EngineKind& kind = further_engines[k];
   if (samples.empty()) return notMade(kind.check, units.efforts.unit, "no instant was compared");
-  const Worst shown = compareEngines(samples, [k](const EngineSample& sample) {
+  const WorstShare shown = compareEngines(samples, [k](const EngineSample& sample) {
     return Pair{&sample.subject, given(sample.further[k]), sample.limits[k]};
   });
   double torque = 0;
   for (const EngineSample& sample : samples) torque = std::max(torque, sample.further[k]->cwiseAbs().maxCoeff());
   const CheckedQuantity quantity{kind.check, units.efforts.unit, torque};
-  const Shown at = shown.shown(quantity.useful());
+  const JudgedValue at = shown.shown(quantity.useful());
   Check check = judgedIfUseful(
       quantity, shown,
       fmt::format("eps kappa(B) kappa(legs) x || |T|' |w| || x {:g} x the spread measured in turned and rescaled "

@@ -10,7 +10,7 @@
 namespace ursula {
 
 Check judgeAgainstNoc(const ExternalTorques& torques, const Units& units) {
-  Worst worst;
+  WorstShare worst;
   CheckedQuantity quantity{"torque.against_noc", units.efforts.unit};
   for (std::size_t k = 0; k < torques.against_noc.size(); ++k) {
     const Deviation& each = torques.against_noc[k];
@@ -20,7 +20,7 @@ Check judgeAgainstNoc(const ExternalTorques& torques, const Units& units) {
   for (const PointwiseSample& sample : torques.samples)
     quantity.size = std::max(quantity.size, sample.torques_simbody.cwiseAbs().maxCoeff());
   if (!worst.any) return notMade(quantity.name, quantity.unit, "no instant was compared");
-  const Shown shown = worst.shown(quantity.useful());
+  const JudgedValue shown = worst.shown(quantity.useful());
   Check check =
       judgedIfUseful(quantity, worst, "as for torque.pointwise",
                      fmt::format("torques against this program's NOC, at {} instants; shown for t = {:.6g} s, {}",

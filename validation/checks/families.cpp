@@ -102,7 +102,7 @@ bool replayed(const Evidence& e) { return e.has.out_of_time.empty() || !e.window
 
 void lookAtReplays(Evidence& e) {
   for (std::size_t k = 0; k < e.windows.size() && e.reference != nullptr; ++k)
-    if (anyFails(judgeWindows(e, {e.windows[k]}))) lookCloser(e, k);
+    if (anyFails(judgeWindows(e, {e.windows[k]}))) refineWindow(e, k);
 }
 
 /// False if time ran out before the kernels were called.
@@ -118,7 +118,7 @@ std::vector<Check> judgeClimbed(const Evidence& e) {
 }
 
 void lookAtLadder(Evidence& e) {
-  lookCloser(e, 0);
+  refineWindow(e, 0);
   // If the torques are wrong, the cause is already known.
   const bool torques_hold = std::all_of(e.samples.begin(), e.samples.end(), [](const PointwiseSample& sample) {
     return sample.torque.error <= sample.torque.limit;

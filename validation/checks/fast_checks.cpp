@@ -42,7 +42,7 @@ Check judgeKernel(const Kernel& kernel, const FastSamples& fast, const std::vect
   const char* unit = kernel.unit == of_efforts ? units.efforts.unit : kernel.unit;
   if (!fast.refused.empty()) return notMade(kernel.check, unit, "no answer: " + fast.refused);
   if (fast.answers.empty() || fast.samples.empty()) return notMade(kernel.check, unit, "no instant was compared");
-  Worst worst;
+  WorstShare worst;
   double size = 0;
   std::string sets;
   for (std::size_t s = 0; s < fast.answers.size(); ++s) {
@@ -64,7 +64,7 @@ Check judgeKernel(const Kernel& kernel, const FastSamples& fast, const std::vect
     return where < 0 ? "" : std::string(nameOf(fast.answers[static_cast<std::size_t>(where)].set));
   };
   const CheckedQuantity quantity{kernel.check, unit, size};
-  const Shown shown = worst.shown(quantity.useful());
+  const JudgedValue shown = worst.shown(quantity.useful());
   Check check = judgedIfUseful(
       quantity, worst, "twice the rounding of the NOC: both sides round",
       fmt::format("{} by the fast kernels against the NOC, at {} instants, with {}; shown for t = {:.6g} s, {}",

@@ -35,8 +35,8 @@ Check judgeInvariance(const InvarianceSamples& sides, const std::vector<Pointwis
   const Words words = wordsOf(sides.symmetry);
   if (!sides.refused.empty()) return notMade(words.check, units.efforts.unit, "no answer: " + sides.refused);
   if (sides.found.empty()) return notMade(words.check, units.efforts.unit, "no instant was compared");
-  SecondLook look(profile);
-  Worst worst;
+  RemeasuredLimits look(profile);
+  WorstShare worst;
   double torque = 0;
   for (std::size_t k = 0; k < sides.found.size(); ++k) {
     const PointwiseSample& sample = samples[k];
@@ -47,7 +47,7 @@ Check judgeInvariance(const InvarianceSamples& sides, const std::vector<Pointwis
     torque = std::max(torque, sample.torques_simbody.cwiseAbs().maxCoeff());
   }
   const CheckedQuantity quantity{words.check, units.efforts.unit, torque};
-  const Shown at = worst.shown(quantity.useful());
+  const JudgedValue at = worst.shown(quantity.useful());
   Check check = judgedIfUseful(quantity, worst, "twice the solver's own rounding: both sides round",
                                fmt::format("{}, at {} instants; shown for t = {:.6g} s, {}", words.what, samples.size(),
                                            at.t * units.time, motorName(units, at.where)),

@@ -50,10 +50,11 @@ Check judgeConvergence(const Ladder& ladder, const WindowedReplay& finest, doubl
   for (double p : ladder.observed_orders) orders += fmt::format("{}{:.3g}", orders.empty() ? "" : ", ", p);
   const double steps = static_cast<double>(fine.steps) / static_cast<double>(std::max(coarse.steps, 1L));
   // The rungs take as many steps as each other, but the judged replay takes more, so knots do not set the steps.
-  const bool heedless =
+  const bool ignores_tolerance =
       steps <= 1 && static_cast<double>(finest.replay.accepted) > 1.5 * static_cast<double>(fine.steps);
-  const double share = heedless ? 1 / least_gain : std::max(1 / least_gain, 2 * std::pow(steps, -nominal_order / 2));
-  Worst worst;
+  const double share =
+      ignores_tolerance ? 1 / least_gain : std::max(1 / least_gain, 2 * std::pow(steps, -nominal_order / 2));
+  WorstShare worst;
   worst.add(fine.distance,
             std::max({coarse.distance * share, roundingBound(finest, position_scale, finest.window.end()),
                       harmless * useful_replay_limit * finest.window.length}),
@@ -87,7 +88,7 @@ Check judgeSecondEnd(const Ladder& ladder, const WindowedReplay& finest, double 
     if (!rung.gave_up.empty() || rung.left_path)
       return notJudgeable(Reason::unfinished, second_check, std::nan(""), std::nan(""), "m", "",
                           "Simbody's integrator did not get there: " + rung.gave_up);
-  Worst worst;
+  WorstShare worst;
   worst.add(second.distance,
             second_safety * ladder.second_difference + replayLimit(finest, position_scale, ladder.second_end),
             ladder.second_end);

@@ -55,7 +55,7 @@ Check judgeQuantity(const std::vector<PointwiseSample>& samples, Quantity quanti
   const auto nameOf = [&](int where) {
     return is_effort ? motorName(units, where) : placeName(where, quantity.of_body);
   };
-  Worst worst;
+  WorstShare worst;
   double given = 0;  // possible error from a file's missing digits, which does not make a limit useless
   for (const PointwiseSample& sample : samples) {
     if (!sample.refused.empty()) return notMade(quantity.name, quantity.unit, "no answer: " + sample.refused);
@@ -65,7 +65,7 @@ Check judgeQuantity(const std::vector<PointwiseSample>& samples, Quantity quanti
   }
   if (!worst.any) return notMade(quantity.name, quantity.unit, "no instant was compared");
   const CheckedQuantity of{quantity.name, quantity.unit, largestSize(samples, quantity), given};
-  const Shown shown = worst.shown(of.useful());
+  const JudgedValue shown = worst.shown(of.useful());
   const Conditioning& c = sampleAt(samples, shown.t).conditioning;
   const std::string basis = fmt::format("{}; there kappa(B) = {:.3g}, kappa(legs) = {:.3g}, eps = {:.3g}",
                                         basisOf(quantity, level), c.kappa_B, c.kappa_legs, eps);

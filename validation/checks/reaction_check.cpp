@@ -17,9 +17,9 @@ double largest(const LegReactions& a, double length) { return distance(a, LegRea
 
 Check judgeReactions(const std::vector<ReactionSample>& reactions, const std::vector<PointwiseSample>& samples,
                      const RoundingProfile& profile, const Units& units) {
-  SecondLook look(profile);
+  RemeasuredLimits look(profile);
   double size = 0;
-  Worst worst;
+  WorstShare worst;
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const PointwiseSample& sample = samples[k];
     const Conditioning& at = sample.conditioning;
@@ -33,7 +33,7 @@ Check judgeReactions(const std::vector<ReactionSample>& reactions, const std::ve
   }
   if (!worst.any) return notMade("reactions.pointwise", "N", "no instant was compared");
   const CheckedQuantity quantity{"reactions.pointwise", "N", size};
-  const Shown shown = worst.shown(quantity.useful());
+  const JudgedValue shown = worst.shown(quantity.useful());
   Check check = judgedIfUseful(
       quantity, worst,
       fmt::format("eps (kappa(B)^2 kappa(legs) x || |T|' |w| || / length + largest mass x the acceleration's) x "

@@ -20,8 +20,8 @@ struct Measure {
   double size = 0;  ///< size of the measured quantity
 };
 
-Worst worstOf(const std::vector<WindowedReplay>& windows, const Measure& measure) {
-  Worst worst;
+WorstShare worstOf(const std::vector<WindowedReplay>& windows, const Measure& measure) {
+  WorstShare worst;
   for (const WindowedReplay& window : windows)
     for (const ReplayStep& step : window.replay.steps)
       worst.add(measure.value(step), measure.limit(window, step), step.t);
@@ -61,10 +61,10 @@ Check judgeMeasure(const std::vector<WindowedReplay>& windows, const Measure& me
                     window.replay.stopped_at * units.time, window.replay.gave_up);
     if (!window.replay.too_long) return notMade(measure.name, measure.unit, unfinished);
   }
-  const Worst worst = worstOf(windows, measure);
+  const WorstShare worst = worstOf(windows, measure);
   if (!worst.any) return notMade(measure.name, measure.unit, "no step was compared");
   const CheckedQuantity quantity{measure.name, measure.unit, measure.size};
-  const Shown shown = worst.shown(quantity.useful());
+  const JudgedValue shown = worst.shown(quantity.useful());
   const std::string where =
       windows.size() == 1 ? "open loop over the whole motion" : fmt::format("open loop in {} windows", windows.size());
   const std::string why =

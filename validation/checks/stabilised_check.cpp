@@ -34,7 +34,7 @@ Check judgeStabilised(const StabilisedReplay& found, double largest, const Units
       "t = {:.6g} s of {} steps, {} derivative evaluations{}",
       largest > 0 ? found.torque / largest : found.torque, found.t * units.time, found.steps, found.evaluations,
       stopped);
-  Worst worst;
+  WorstShare worst;
   worst.add(found.torque, found.limit, found.t);
   Check out = judgedIfUseful({check, units.efforts.unit, largest}, worst, basis, why, cause);
   if (found.torque <= found.limit && found.too_long)

@@ -84,7 +84,8 @@ class Comparison {
     const double error = (answer.torques - expected).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(&leg);
     double limit = limit_.at(t);
     // A limit of its own is expensive, so an instant gets one only if it could decide.
-    const bool decided = worst_.beyond() && Worst::share(error, limit) <= Worst::share(worst_.value, worst_.limit);
+    const bool decided =
+        worst_.beyond() && WorstShare::share(error, limit) <= WorstShare::share(worst_.value, worst_.limit);
     if (!(error <= limit) && !decided) {
       const Conditioning here = profile_.at(motion);
       limit = look_.limit(error, here, Rounded::torque, motion);
@@ -93,7 +94,7 @@ class Comparison {
     size_ = std::max(size_, expected.cwiseAbs().maxCoeff());
   }
 
-  const Worst& worst() const { return worst_; }
+  const WorstShare& worst() const { return worst_; }
   double size() const { return size_; }  ///< of the expected torques
 
  private:
@@ -101,8 +102,8 @@ class Comparison {
   Subject other_;  ///< uses another formulation than the subject
   SampledTorqueLimit limit_;
   const RoundingProfile& profile_;
-  SecondLook look_;
-  Worst worst_;
+  RemeasuredLimits look_;
+  WorstShare worst_;
   double size_ = 0;
 };
 
@@ -122,9 +123,9 @@ void sortByTime(std::vector<Answered>& answers) {
 /// `what` says what was compared.
 Check checkOf(const Comparison& comparison, const std::string& what, double gap,
               const std::vector<PointwiseSample>& samples, const Units& units) {
-  const Worst& worst = comparison.worst();
+  const WorstShare& worst = comparison.worst();
   const CheckedQuantity quantity{check_name, units.efforts.unit, comparison.size()};
-  const Shown shown = worst.shown(quantity.useful());
+  const JudgedValue shown = worst.shown(quantity.useful());
   Check out = judgedIfUseful(
       quantity, worst, "as for torque.pointwise, at each instant",
       fmt::format("{}; shown for t = {:.6g} s, {}; a pulse longer than {:.2g} s and larger than {:.2g} {} would "

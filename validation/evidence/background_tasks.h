@@ -9,7 +9,7 @@
 
 namespace ursula {
 
-/// Runs tasks in order on its own threads. Tasks must fill something Lazily, so results do not depend on who computes
+/// Runs tasks in order on its own threads. Tasks must fill something Lazy, so results do not depend on who computes
 /// them. It drops exceptions, because a later request meets them again.
 class BackgroundTasks {
  public:

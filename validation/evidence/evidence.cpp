@@ -69,9 +69,9 @@ void runReplays(bool ladder, Evidence& evidence) {
   const bool first_is_right = replayWindows(evidence);
   if (ladder) {
     const bool climbed = first_is_right && !fault.ladder && answersAs(reference.ladder().asked, evidence);
-    evidence.ladder = climbed
-                          ? reference.ladder()
-                          : climb(scenario, evidence.plan.torques, evidence.windows.front(), rungSettings(evidence));
+    evidence.ladder =
+        climbed ? reference.ladder()
+                : replayLadder(scenario, evidence.plan.torques, evidence.windows.front(), rungSettings(evidence));
     evidence.orders = fault.lower_order ? observedOrders(scenario, true) : reference.orders();
   }
   evidence.stabilised = stabilisedReplay(fault.feedback ? fault.feedback(scenario) : scenario, *evidence.subject,
@@ -161,7 +161,7 @@ std::function<void(ReplaySettings&)> rungSettings(const Evidence& evidence) {
   };
 }
 
-void lookCloser(Evidence& evidence, std::size_t window) {
+void refineWindow(Evidence& evidence, std::size_t window) {
   evidence.windows[window].closer = evidence.reference->closer(window);
 }
 

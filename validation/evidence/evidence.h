@@ -87,6 +87,6 @@ Evidence gather(const Scenario& given, const Reference& reference, const Subject
 std::function<void(ReplaySettings&)> rungSettings(const Evidence& evidence);
 
 /// Takes a second look at the judged replay of `window`: it measures the actual errors of steps and rounding.
-void lookCloser(Evidence& evidence, std::size_t window);
+void refineWindow(Evidence& evidence, std::size_t window);
 
 }  // namespace ursula

@@ -15,12 +15,12 @@ namespace ursula {
 /// nothing. All of them see the scenario in its natural units.
 struct InjectedFault {
   /// A changed scenario for one part of the validation.
-  using Seen = std::function<Scenario(const Scenario&)>;
+  using ScenarioChange = std::function<Scenario(const Scenario&)>;
   using Settings = std::function<void(ReplaySettings&)>;
 
   FastFault fast;                                ///< in the kernels that users call
-  OfFurtherEngines<Seen> further;                ///< the machine that each further formulation uses
-  Seen feedback;                                 ///< the machine in the loop of the stabilised replay
+  OfFurtherEngines<ScenarioChange> further;      ///< the machine that each further formulation uses
+  ScenarioChange feedback;                       ///< the machine in the loop of the stabilised replay
   std::function<void(PointwiseSample&)> sample;  ///< changes the measurement at one instant
   std::function<void(Reactions&)> reactions;     ///< changes the reactions from the solver's formulation
   Settings replay;                               ///< the judged replays

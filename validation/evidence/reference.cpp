@@ -55,7 +55,7 @@ Reference::Reference(const Scenario& given, int threads, const Deadline& deadlin
 
 void Reference::stop() const {
   background_.finish();
-  deadline_.lift();
+  deadline_.remove();
 }
 
 RightReplays Reference::rightReplays() const {
@@ -131,7 +131,7 @@ const std::vector<DirectSample>& Reference::direct() const {
 }
 
 const Ladder& Reference::ladder() const {
-  return ladder_.get([this] { return climb(scenario, replays().plan.torques, replays().windows.front()); });
+  return ladder_.get([this] { return replayLadder(scenario, replays().plan.torques, replays().windows.front()); });
 }
 
 const StabilisedReplay& Reference::stabilised() const {

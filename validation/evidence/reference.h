@@ -12,7 +12,7 @@
 #include "validation/limits/amplification.h"
 #include "validation/limits/rounding_profile.h"
 #include "validation/replay/ladder.h"
-#include "validation/replay/lazily.h"
+#include "validation/replay/lazy.h"
 #include "validation/replay/stabilised_replay.h"
 #include "validation/replay/windows.h"
 #include "validation/samples/direct_samples.h"
@@ -85,15 +85,15 @@ class Reference : public PreparedScenario {
   RightReplays rightReplays() const;
 
   Deadline deadline_;
-  Lazily<RoundingAlong> rounding_;
-  Lazily<RightReplays> replays_;
-  Lazily<std::vector<double>> orders_;
-  Lazily<std::vector<SimbodyAnswer>> simbody_;
-  Lazily<std::vector<EngineTorques>> engines_;
-  Lazily<std::vector<ReactionSample>> reactions_;
-  Lazily<std::vector<DirectSample>> direct_;
-  Lazily<Ladder> ladder_;
-  Lazily<StabilisedReplay> stabilised_;
+  Lazy<RoundingAlong> rounding_;
+  Lazy<RightReplays> replays_;
+  Lazy<std::vector<double>> orders_;
+  Lazy<std::vector<SimbodyAnswer>> simbody_;
+  Lazy<std::vector<EngineTorques>> engines_;
+  Lazy<std::vector<ReactionSample>> reactions_;
+  Lazy<std::vector<DirectSample>> direct_;
+  Lazy<Ladder> ladder_;
+  Lazy<StabilisedReplay> stabilised_;
   mutable std::mutex measuring_;
   mutable std::map<std::size_t, IntegrationError> closer_;
   mutable BackgroundTasks background_;  ///< the last member: its tasks fill the others and end before them

@@ -130,9 +130,9 @@ double Amplification::decayRate() const {
 
 /// ‖Φ(t_j, t_k)‖ for every k of a window as j advances. Each Φ is propagated forward, so no propagator is inverted. If
 /// all propagators are equal, it depends on j − k alone. Frobenius norms bound the spectral ones.
-class Amplification::Carried {
+class Amplification::CarriedDeviation {
  public:
-  explicit Carried(const Amplification& of) : of_(of) {}
+  explicit CarriedDeviation(const Amplification& of) : of_(of) {}
 
   /// Advances from the end of interval j − 1 to that of j.
   void moveOn(std::size_t j) {
@@ -171,7 +171,7 @@ class Amplification::Carried {
 GrowthWindow Amplification::window(std::size_t first, const std::function<double(double)>& acceleration, double rate,
                                    double useful) const {
   GrowthWindow out;
-  Carried carried(*this);
+  CarriedDeviation carried(*this);
   std::vector<double> errors;  // acceleration errors in interval k, m/s
   const auto add = [&out](double t, double from_acceleration, double from_rate, const Matrix12& from_start) {
     out.t.push_back(t);

@@ -58,7 +58,7 @@ class Amplification {
   double decayRate() const;
 
  private:
-  class Carried;
+  class CarriedDeviation;
   std::size_t nearest(double t) const;
 
   std::vector<double> instants_;

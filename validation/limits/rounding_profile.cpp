@@ -250,8 +250,8 @@ Conditioning RoundingProfile::closer(const Motion<double>& motion, const Vector6
   return leveled(motion, &here);
 }
 
-double SecondLook::limit(double error, const Conditioning& at, Rounded quantity, const Motion<double>& motion,
-                         double factor, const Vector6d* torques) {
+double RemeasuredLimits::limit(double error, const Conditioning& at, Rounded quantity, const Motion<double>& motion,
+                               double factor, const Vector6d* torques) {
   const double first = factor * at.rounding(quantity);
   if (error <= first || confirmed_ || !std::isfinite(error)) return first;
   Conditioning closer = at;

@@ -45,9 +45,9 @@ class RoundingProfile {
 
 /// Limits that are measured again for values beyond them. Once a value stays beyond its limit, no more are measured,
 /// because the check has failed.
-class SecondLook {
+class RemeasuredLimits {
  public:
-  explicit SecondLook(const RoundingProfile& profile) : profile_(profile) {}
+  explicit RemeasuredLimits(const RoundingProfile& profile) : profile_(profile) {}
   /// `factor` × the rounding of `quantity`, for a sample with conditioning `at` and a value of `error`.
   double limit(double error, const Conditioning& at, Rounded quantity, const Motion<double>& motion, double factor = 1,
                const Vector6d* torques = nullptr);

@@ -147,8 +147,8 @@ double order(const Rung& coarse, const Rung& fine) {
 
 }  // namespace
 
-Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-             const ChangeSettings& change) {
+Ladder replayLadder(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
+                    const ChangeSettings& change) {
   Ladder ladder;
   for (double factor : {1e6, 1e4, coarser}) {
     const double tolerance = std::min(1e-4, factor * finest.replay.tolerance);

@@ -45,8 +45,8 @@ struct Ladder {
 
 /// `finest` is the judged replay of the window. Its coarser replay serves as a rung if it would be the same under
 /// `torques`. `change` alters the settings of all others.
-Ladder climb(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-             const std::function<void(ReplaySettings&)>& change = nullptr);
+Ladder replayLadder(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
+                    const std::function<void(ReplaySettings&)>& change = nullptr);
 
 /// Adds a rung at ten times the judged tolerance.
 void climbOn(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,

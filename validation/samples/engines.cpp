@@ -15,7 +15,7 @@ std::vector<EngineTorques> engineTorques(const Scenario& scenario, const std::ve
 
 std::vector<EngineSample> runEngines(const std::vector<EngineTorques>& engines,
                                      const std::vector<PointwiseSample>& samples, const RoundingProfile& profile) {
-  std::vector<SecondLook> looks(further_engine_count, SecondLook(profile));
+  std::vector<RemeasuredLimits> looks(further_engine_count, RemeasuredLimits(profile));
   std::vector<EngineSample> out;
   out.reserve(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {

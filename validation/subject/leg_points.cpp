@@ -50,9 +50,9 @@ std::vector<Range> travels(const Scenario& scenario) {
 
 }  // namespace
 
-std::vector<std::optional<Stretch>> rails(const Scenario& scenario) {
+std::vector<std::optional<RailSection>> rails(const Scenario& scenario) {
   const std::vector<Leg>& legs = scenario.manipulator->parameters().legs;
-  std::vector<std::optional<Stretch>> out(legs.size());
+  std::vector<std::optional<RailSection>> out(legs.size());
   const auto slides = [](const Leg& leg) { return rowOf(leg.kind).hasCarriage(); };
   if (std::none_of(legs.begin(), legs.end(), slides)) return out;
   std::vector<Range> travelled = travels(scenario);
@@ -61,8 +61,8 @@ std::vector<std::optional<Stretch>> rails(const Scenario& scenario) {
     travelled[i].include(0);
     const double more = legs[i].distal.length / 10;
     const Vector3d u = legs[i].base_axis.stableNormalized();
-    out[i] = Stretch{legs[i].base_point + (travelled[i].least - more) * u,
-                     legs[i].base_point + (travelled[i].most + more) * u};
+    out[i] = RailSection{legs[i].base_point + (travelled[i].least - more) * u,
+                         legs[i].base_point + (travelled[i].most + more) * u};
   }
   return out;
 }

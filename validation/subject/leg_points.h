@@ -22,12 +22,12 @@ struct LegPoints {
 std::vector<LegPoints> legPoints(const Manipulator& machine, const NocWorkspace<double>& work);
 
 /// The section of its rail that a carriage passes.
-struct Stretch {
+struct RailSection {
   Vector3d from = Vector3d::Zero(), to = Vector3d::Zero();  ///< m, in B
 };
 
 /// Returns the rails of carriages (PUS legs), a tenth of the rod's length longer than the motion needs, up to its last
 /// possible pose. Entries of other legs are empty.
-std::vector<std::optional<Stretch>> rails(const Scenario& scenario);
+std::vector<std::optional<RailSection>> rails(const Scenario& scenario);
 
 }  // namespace ursula

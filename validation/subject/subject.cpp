@@ -40,8 +40,8 @@ BodyMotion<double> inDoubles(const BodyMotion<S>& body) {
           body.twist_rate.template cast<double>()};
 }
 
-template <class S, class Reading>
-KinematicAnswer kinematicsOf(const Noc<S, Reading>& solver, const Motion<double>& motion) {
+template <class S, class Formulas>
+KinematicAnswer kinematicsOf(const Noc<S, Formulas>& solver, const Motion<double>& motion) {
   NocWorkspace<S>& work = workspace<NocWorkspace<S>>();
   const Motion<S> m = as<S>(motion);
   KinematicAnswer answer;
@@ -57,11 +57,11 @@ KinematicAnswer kinematicsOf(const Noc<S, Reading>& solver, const Motion<double>
   return answer;
 }
 
-template <class S, class Reading>
+template <class S, class Formulas>
 Subject makeSubject(const char* name, const MachineParameters<S>& machine, const std::shared_ptr<const Load>& load,
-                    const Reading& reading) {
+                    const Formulas& reading) {
   using Work = NocWorkspace<S>;
-  const auto solver = std::make_shared<const Noc<S, Reading>>(machine, reading);
+  const auto solver = std::make_shared<const Noc<S, Formulas>>(machine, reading);
   Subject subject;
   subject.name = name;
   subject.formulation = Formulation::noc;
@@ -88,7 +88,7 @@ Subject makeSubject(const char* name, const MachineParameters<S>& machine, const
     return solver->reactions(m, efforts, work);
   };
   subject.rebuilt = [name, reading](const Manipulator& other) {
-    return makeSubject<S, Reading>(name, MachineParameters<S>(other), nullptr, reading);
+    return makeSubject<S, Formulas>(name, MachineParameters<S>(other), nullptr, reading);
   };
   return subject;
 }

@@ -80,10 +80,10 @@ Check notJudgeable(Reason reason, std::string name, double value, double limit, 
           std::move(basis), std::move(why), reason, {value, 0, ""}};
 }
 
-Check judgedIfUseful(const CheckedQuantity& quantity, const Worst& worst, std::string basis, std::string why,
+Check judgedIfUseful(const CheckedQuantity& quantity, const WorstShare& worst, std::string basis, std::string why,
                      const std::string& cause) {
   const double useful = quantity.useful();
-  const Shown shown = worst.shown(useful);
+  const JudgedValue shown = worst.shown(useful);
   const std::string wide =
       std::isfinite(worst.widest_limit)
           ? fmt::format("the derived limit is at most {:.3g} of the quantity's size: {}",

@@ -12,8 +12,8 @@
 namespace ursula {
 
 struct Scenario;
-struct Shown;
-struct Worst;
+struct JudgedValue;
+struct WorstShare;
 
 /// Only checks can be `not_applicable`: they need something missing and count neither as passed nor as failed.
 enum class Verdict { pass, fail, inconclusive, not_applicable };
@@ -90,9 +90,9 @@ struct CheckedQuantity {
   double useful() const { return useful_share * size + given; }
 };
 
-/// Judges by Worst::shown: pass, fail, or inconclusive with `cause` if the value lies between the useful threshold and
-/// a wider derived limit. It notes if a limit exceeds the useful threshold.
-Check judgedIfUseful(const CheckedQuantity& quantity, const Worst& worst, std::string basis, std::string why,
+/// Judges by WorstShare::shown: pass, fail, or inconclusive with `cause` if the value lies between the useful threshold
+/// and a wider derived limit. It notes if a limit exceeds the useful threshold.
+Check judgedIfUseful(const CheckedQuantity& quantity, const WorstShare& worst, std::string basis, std::string why,
                      const std::string& cause);
 
 /// Returns fail if any failed or none was judged, else inconclusive if any was, else pass.

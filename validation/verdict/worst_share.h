@@ -10,7 +10,7 @@ namespace ursula {
 inline double larger(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 
 /// The value that a check shows out of many.
-struct Shown {
+struct JudgedValue {
   double value = 0, limit = 0, t = 0;
   int where = -1;
   bool beyond = false;     ///< beyond its derived limit: a failure
@@ -19,7 +19,7 @@ struct Shown {
 
 /// A check's summary of many instants: the value with the largest share of its limit, and the largest value. NaN
 /// exceeds any limit and stays.
-struct Worst {
+struct WorstShare {
   double value = 0, limit = 0, t = 0;
   int where = -1;    ///< leg or body, 0-based
   bool any = false;  ///< something was compared
@@ -58,7 +58,7 @@ struct Worst {
   /// Compares each value with its derived limit L and with `useful` U, above which a value matters. Beyond L it fails.
   /// Between U and L, or without L, it is undecidable. Within both it passes, and the smaller limit is shown.
   /// A failure shows the largest value if that is beyond its own limit.
-  Shown shown(double useful) const {
+  JudgedValue shown(double useful) const {
     if (!(largest <= largest_limit)) return {largest, largest_limit, largest_t, largest_where, true, false};
     if (beyond()) return {value, limit, t, where, true, false};
     if (!std::isfinite(widest_limit)) return {largest, widest_limit, widest_t, largest_where, false, true};

@@ -16,7 +16,7 @@ struct MachineShape {
   int legs = 0;
   std::array<LegKind, leg_count> kinds{};
   std::array<std::array<int, 3>, leg_count> motors{};
-  std::array<bool, leg_count> rubs{}, rubs_dry{}, principal{}, has_rotor{}, off_line{};
+  std::array<bool, leg_count> has_friction{}, has_coulomb{}, principal{}, has_rotor{}, off_line{};
 };
 
 /// Contiguous entries with the layout of Motion<double> and Vector6d. `loads` may be null.

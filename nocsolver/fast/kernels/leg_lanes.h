@@ -79,7 +79,7 @@ class LegLanes {
 
   __attribute__((flatten)) bool inverseLoads(const double* numbers, LegSums& out) const {
     const Motion<P> motion = motionOf(numbers);
-    const Carried<P> carried(motion);
+    const RigidMotion<P> carried(motion);
     BatchGuard<Isa> guard;
     MovingLegs<P> legs;
     moveLegs<P>(
@@ -104,7 +104,7 @@ class LegLanes {
     Motion<P> motion = motionOf(numbers);
     motion.omega_dot.setZero();
     motion.p_ddot.setZero();
-    const Carried<P> carried(motion);
+    const RigidMotion<P> carried(motion);
     BatchGuard<Isa> guard;
     MovingLegs<P> legs;
     moveLegs<P>(

@@ -20,7 +20,7 @@ void forEachNumber(Model& machine, const F& f) {
   all(machine.I_M);
   for (std::size_t i = 0; i < static_cast<std::size_t>(machine.legs_in_all); ++i) {
     auto& leg = machine.legs[i];
-    all(leg.lift);
+    all(leg.minus_gravity);
     all(leg.a);
     all(leg.b);
     all(leg.x_hat);
@@ -47,8 +47,8 @@ MachineShape shapeOf(const MachineModel<S>& machine) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(out.legs); ++i) {
     out.kinds[i] = machine.legs[i].kind;
     out.motors[i] = machine.legs[i].motor;
-    out.rubs[i] = machine.legs[i].rubs;
-    out.rubs_dry[i] = machine.legs[i].rubs_dry;
+    out.has_friction[i] = machine.legs[i].has_friction;
+    out.has_coulomb[i] = machine.legs[i].has_coulomb;
     out.principal[i] = machine.legs[i].principal;
     out.has_rotor[i] = machine.legs[i].has_rotor;
     out.off_line[i] = machine.legs[i].off_line;
@@ -62,8 +62,8 @@ void copyShape(const MachineShape& shape, MachineModel<S>& to) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(shape.legs); ++i) {
     to.legs[i].kind = shape.kinds[i];
     to.legs[i].motor = shape.motors[i];
-    to.legs[i].rubs = shape.rubs[i];
-    to.legs[i].rubs_dry = shape.rubs_dry[i];
+    to.legs[i].has_friction = shape.has_friction[i];
+    to.legs[i].has_coulomb = shape.has_coulomb[i];
     to.legs[i].principal = shape.principal[i];
     to.legs[i].has_rotor = shape.has_rotor[i];
     to.legs[i].off_line = shape.off_line[i];

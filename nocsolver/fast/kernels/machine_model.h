@@ -10,12 +10,12 @@ namespace ursula::kernel {
 
 template <class S>
 struct PlaneModel : LegModel<S> {
-  Vector3<S> lift;          ///< −g along F̂
-  Matrix3<S> J_1, J_2;      ///< about the links' first ends
-  S first_1, first_2;       ///< masses times the distances of their centres
-  S per_l, per_s, per_sum;  ///< 1/l, 1/s, 1/(l + s)
-  bool rubs, rubs_dry;      ///< has friction; has Coulomb friction
-  bool principal;           ///< the links' frames are principal axes
+  Vector3<S> minus_gravity;        ///< −g along F̂
+  Matrix3<S> J_1, J_2;             ///< about the links' first ends
+  S first_1, first_2;              ///< masses times the distances of their centres
+  S per_l, per_s, per_sum;         ///< 1/l, 1/s, 1/(l + s)
+  bool has_friction, has_coulomb;  ///< of any kind; of Coulomb's kind
+  bool principal;                  ///< the links' frames are principal axes
 };
 
 /// The constants of the motion.
@@ -46,7 +46,7 @@ template <class S>
 PlaneModel<S> planeModel(const LegModel<S>& leg, const Vector3<S>& gravity) {
   PlaneModel<S> out;
   static_cast<LegModel<S>&>(out) = leg;
-  out.lift = -alongAxes<S>(leg, gravity);
+  out.minus_gravity = -alongAxes<S>(leg, gravity);
   out.first_1 = leg.mass_1 * leg.rho;
   out.first_2 = leg.mass_2 * leg.sigma;
   out.J_1 = aboutEnd<S>(leg.I_1, out.first_1, leg.rho);
@@ -54,10 +54,10 @@ PlaneModel<S> planeModel(const LegModel<S>& leg, const Vector3<S>& gravity) {
   out.per_l = S(1) / leg.l;
   out.per_s = S(1) / leg.s;
   out.per_sum = S(1) / (leg.l + leg.s);
-  out.rubs_dry = out.rubs = false;
+  out.has_coulomb = out.has_friction = false;
   for (std::size_t j = 0; j < 3; ++j) {
-    out.rubs_dry = out.rubs_dry || leg.coulomb[j] != S(0);
-    out.rubs = out.rubs || out.rubs_dry || leg.viscous[j] != S(0);
+    out.has_coulomb = out.has_coulomb || leg.coulomb[j] != S(0);
+    out.has_friction = out.has_friction || out.has_coulomb || leg.viscous[j] != S(0);
   }
   out.principal = leg.I_1.isDiagonal(S(0)) && leg.I_2.isDiagonal(S(0));
   return out;

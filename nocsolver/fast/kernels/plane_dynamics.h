@@ -28,8 +28,8 @@ Vector3<S> plusCross(const Vector3<S>& a, const Vector3<S>& b, const Vector3<S>&
 
 /// Motion of points fixed to the platform: v + ω × r, a + (ω̇× + ω×ω×) r.
 template <class S>
-struct Carried {
-  explicit Carried(const Motion<S>& m) : motion(m) {
+struct RigidMotion {
+  explicit RigidMotion(const Motion<S>& m) : motion(m) {
     const Vector3<S>&w = m.omega, &e = m.omega_dot;
     const S xx = w.x() * w.x(), yy = w.y() * w.y(), zz = w.z() * w.z();
     const S xy = w.x() * w.y(), xz = w.x() * w.z(), yz = w.y() * w.z();
@@ -86,7 +86,7 @@ Vector3<S> friction(const PlaneModel<S>& model, const PlaneLeg<S>& leg) {
     const S& rate = leg.rate(static_cast<Eigen::Index>(j));
     S& force = Q(static_cast<Eigen::Index>(j));
     force = model.viscous[j] * rate;
-    if (model.rubs_dry) force += model.coulomb[j] * tanh(rate / model.speed[j]);
+    if (model.has_coulomb) force += model.coulomb[j] * tanh(rate / model.speed[j]);
   }
   return Q;
 }
@@ -125,7 +125,7 @@ void addForceAt(const Vector3<S>& arm, const Vector3<S>& f, Vector6<S>& wrench) 
 
 /// [moment about P; force], in B, that the platform's motion needs against gravity. (38), (43c), (46c)
 template <class S>
-Vector6<S> platformLoad(const MachineModel<S>& machine, const Motion<S>& motion, const Carried<S>& carried) {
+Vector6<S> platformLoad(const MachineModel<S>& machine, const Motion<S>& motion, const RigidMotion<S>& carried) {
   const Vector3<S> arm = motion.Q * machine.rho;
   const Vector3<S> omega_M = motion.Q.transpose() * motion.omega;
   const Vector3<S> n_M =
@@ -151,7 +151,7 @@ using MovingLegs = std::array<MovingLeg<S>, leg_count>;
 /// All legs pass a stage before the next begins. A processor then overlaps them, because no leg waits for another's
 /// roots and quotients. guardOf(i) creates each leg's guard.
 template <class S, class GuardOf>
-void moveLegs(const MachineModel<S>& machine, const Motion<S>& motion, const Carried<S>& carried,
+void moveLegs(const MachineModel<S>& machine, const Motion<S>& motion, const RigidMotion<S>& carried,
               const GuardOf& guardOf, MovingLegs<S>& legs) {
   const auto each = [&](const auto& stage) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(machine.legs_in_all); ++i)
@@ -169,10 +169,10 @@ void moveLegs(const MachineModel<S>& machine, const Motion<S>& motion, const Car
     setRates(kind, model, h, a, leg.plane);
   });
   each([&](auto kind, std::size_t, const PlaneModel<S>& model, MovingLeg<S>& leg) {
-    const Vector3<S> base = toPlane<S>(leg.plane, model.lift);
+    const Vector3<S> base = toPlane<S>(leg.plane, model.minus_gravity);
     leg.Q = model.principal ? linkForces<true>(kind, model, base, leg.plane)
                             : linkForces<false>(kind, model, base, leg.plane);
-    if (model.rubs) leg.Q += friction<S>(model, leg.plane);
+    if (model.has_friction) leg.Q += friction<S>(model, leg.plane);
     if (model.has_rotor || model.off_line) leg.Q += addedForces(kind, model, base, leg.plane);
   });
 }
@@ -215,7 +215,7 @@ void addLeg(const MachineModel<S>& machine, std::size_t i, const MovingLeg<S>& l
 template <class S, class GuardOf>
 Vector6<S> inverseDynamics(const MachineModel<S>& machine, const Motion<S>& motion, const Vector6<S>& load,
                            const GuardOf& guardOf, S& pivots) {
-  const Carried<S> carried(motion);
+  const RigidMotion<S> carried(motion);
   Vector6<S> wrench = platformLoad<S>(machine, motion, carried) - load, efforts, A;
   System6<S> system;
   MovingLegs<S> legs;
@@ -248,8 +248,8 @@ void addMassAt(const Vector3<S>& Qb, const Matrix3<S>& M_B, Matrix6<S>& M_P) {
 
 /// Adds the platform's part of the wrench and of M_P.
 template <class S>
-void addPlatform(const MachineModel<S>& machine, const Motion<S>& motion, const Carried<S>& carried, Vector6<S>& wrench,
-                 Matrix6<S>& M_P) {
+void addPlatform(const MachineModel<S>& machine, const Motion<S>& motion, const RigidMotion<S>& carried,
+                 Vector6<S>& wrench, Matrix6<S>& M_P) {
   wrench -= platformLoad<S>(machine, motion, carried);
   M_P.template topLeftCorner<3, 3>() += motion.Q * machine.I_M * motion.Q.transpose();
   addMassAt<S>(motion.Q * machine.rho, machine.mass * Matrix3<S>::Identity(), M_P);
@@ -289,7 +289,7 @@ void addLegMass(const MachineModel<S>& machine, std::size_t i, const MovingLeg<S
 template <class S, class GuardOf>
 Vector6<S> directDynamics(const MachineModel<S>& machine, const Motion<S>& motion, const Vector6<S>& efforts,
                           const Vector6<S>& load, const GuardOf& guardOf) {
-  const Carried<S> carried(motion);
+  const RigidMotion<S> carried(motion);
   Vector6<S> wrench = load;
   Matrix6<S> M_P = Matrix6<S>::Zero();
   addPlatform<S>(machine, motion, carried, wrench, M_P);

@@ -1,0 +1,218 @@
+#include "report/result_facts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "model/check_catalogue.h"
+#include "model/trajectories/trajectory_kinds.h"
+#include "report/quantity.h"
+#include "report/report.h"
+#include "validation/verdict/effort_words.h"
+
+namespace ursula::report {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+const Check* find(const ValidationResult& result, const std::string& name) {
+  const auto at = std::find_if(result.checks.begin(), result.checks.end(),
+                               [&name](const Check& check) { return check.name == name; });
+  return at == result.checks.end() || at->verdict == Verdict::not_applicable ? nullptr : &*at;
+}
+
+double largestOf(const TimeSeries& series, const std::string& beginning) {
+  double largest = 0;
+  for (std::size_t k = 0; k < series.names.size(); ++k)
+    if (series.names[k].rfind(beginning, 0) == 0)
+      for (const double value : series.columns[k])
+        if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+/// Simbody's two topologies count as one formulation.
+void addEngines(const ValidationResult& result, ResultFacts& facts) {
+  double worst = none;
+  for (const char* engine : {"torque.pointwise", "torque.twin", "torque.maximal", "torque.mujoco"}) {
+    const Check* check = find(result, engine);
+    if (check == nullptr || !std::isfinite(check->largest.value)) continue;
+    worst = std::isnan(worst) ? check->largest.value : std::max(worst, check->largest.value);
+    if (std::string(engine) != "torque.twin") ++facts.engines;
+  }
+  const double of_engine = largestOf(result.timeseries, "simbody_tau_");
+  const double expected = of_engine > 0 ? of_engine : largestOf(result.timeseries, "tau_");
+  facts.agreement = expected > 0 ? worst / expected : none;
+  if (result.deviation && expected > 0) facts.allowed = result.deviation->allowed / expected;
+}
+
+std::string ofWhom(const std::string& subject) {
+  if (subject.empty()) return "The efforts";
+  if (subject == "noc") return "The NOC's efforts";
+  return "The efforts of " + subject;
+}
+
+std::string capital(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
+/// Lower case for use within a sentence.
+std::string lower(std::string text) {
+  if (text.rfind("The ", 0) == 0) text[0] = 't';
+  return text;
+}
+
+std::string drives(const ResultFacts& facts) {
+  if (std::isnan(facts.replay)) return facts.subject + " hold";
+  const std::string windows = facts.windows > 1 ? fmt::format(", in {} windows", facts.windows) : "";
+  return fmt::format("{} drive Simbody's loop along {} to {} in {}{}", facts.subject, facts.motion,
+                     quantity(facts.replay, "m", 2), quantity(facts.duration, "s"), windows);
+}
+
+std::string agrees(const ResultFacts& facts) {
+  if (facts.engines < 2 || std::isnan(facts.agreement)) return "";
+  std::string share =
+      facts.agreement > 0 ? "to " + plainNumber(facts.agreement, 2) + " of the largest effort" : "to the last digit";
+  if (facts.allowed > 0) share += ", your tolerance is " + plainNumber(facts.allowed, 2);
+  return facts.engines == 2 ? "; Simbody's own inverse dynamics agree " + share
+                            : fmt::format("; {} independent formulations agree {}", inWords(facts.engines), share);
+}
+
+/// Returns ". Likely cause: platform mass 303 ± 1 kg". A share that lacks only rounding becomes "all of it"; a text
+/// without a cause is not called likely.
+std::string inPrint(std::string cause) {
+  for (const auto& [from, to] :
+       {std::pair<std::string, std::string>{" +- ", " ± "},
+        {", which explains more than 99.9999 % of the deviation", ", which explains all of it"}})
+    for (std::size_t at = cause.find(from); at != std::string::npos; at = cause.find(from, at + to.size()))
+      cause.replace(at, from.size(), to);
+  for (const char* unclaimed : {"no ", "right but "})
+    if (cause.rfind(unclaimed, 0) == 0) return ": " + cause;
+  return cause.rfind("a likely part: ", 0) == 0 ? ". A" + cause.substr(1) : ". Likely cause: " + cause;
+}
+
+std::string failed(const ValidationResult& result, const ResultFacts& facts) {
+  if (!facts.cause.empty()) return facts.subject + " are wrong" + inPrint(facts.cause) + ".";
+  const Check* worst = worstCheck(result.checks);
+  if (worst == nullptr) return "No check was made.";
+  const std::string numbers = std::isfinite(worst->value) && std::isfinite(worst->limit)
+                                  ? fmt::format("off by {}, where {} is the limit", quantity(worst->value, worst->unit),
+                                                quantity(worst->limit, worst->unit))
+                                  : worst->why;
+  if (onlyFastFails(result.checks))
+    return fmt::format("The fast kernels that users call are wrong, {} hold. {}: {} ({}).", lower(facts.subject),
+                       checkTitle(worst->name), numbers, worst->largest.where);
+  return fmt::format("{} do not hold. {}: {}.", facts.subject, checkTitle(worst->name), numbers);
+}
+
+/// The limit at the replay's end; NaN if unknown.
+double limitAtEnd(const ValidationResult& result, const Check& replay) {
+  for (const auto& [title, curve] : result.curves)
+    if (title == sources_curve)
+      if (const std::vector<double>* limit = curve.find("limit (m)"); limit != nullptr && !limit->empty())
+        return limit->back();
+  return replay.value == replay.largest.value ? replay.limit : none;
+}
+
+std::ptrdiff_t countOf(const ValidationResult& result, Verdict verdict) {
+  return std::count_if(result.checks.begin(), result.checks.end(),
+                       [verdict](const Check& check) { return check.verdict == verdict; });
+}
+
+std::string undecided(const ValidationResult& result) {
+  const Check* worst = worstCheck(result.checks);
+  const auto count = countOf(result, Verdict::inconclusive);
+  if (worst == nullptr || count == 0) return reason(result.verdict, result.checks);
+  return fmt::format("Nothing failed, but {} cannot be judged here: {}.",
+                     count == 1 ? "one check" : inWords(static_cast<int>(count)) + " checks", worst->why);
+}
+
+}  // namespace
+
+std::string fact(const std::vector<std::pair<std::string, std::string>>& facts, const std::string& key) {
+  for (const auto& [name, text] : facts)
+    if (name == key) return text;
+  return "";
+}
+
+ResultFacts factsOf(const ValidationResult& result) {
+  ResultFacts out;
+  out.subject = ofWhom(fact(result.provenance, "subject"));
+  const std::string motion = fact(result.provenance, "trajectory");
+  const TrajectoryKind* kind = trajectoryKind(motion);
+  out.motion = kind != nullptr ? kind->words : motion.empty() ? "the motion" : "the motion through " + motion;
+  const std::vector<double>* t = result.timeseries.find("t_s");
+  out.duration = t == nullptr || t->empty() ? none : t->back();
+  const Check* replay = find(result, "replay.position");
+  out.replay = replay == nullptr ? none : replay->largest.value;
+  out.replay_limit = replay == nullptr ? none : limitAtEnd(result, *replay);
+  out.windows = std::max<int>(1, static_cast<int>(result.replay_windows));
+  addEngines(result, out);
+  // Efforts of a file may cover a part of the motion; they are compared with the largest of all of it.
+  if (result.deviation && result.deviation->largest_effort > 0) out.agreement = result.deviation->relative();
+  if (result.replay_error) out.dominant = result.replay_error->dominant;
+  if (result.likely_cause) out.off = result.likely_cause->off, out.cause = result.likely_cause->cause;
+  return out;
+}
+
+namespace {
+
+std::string written(const ValidationResult& result) {
+  const ResultFacts facts = factsOf(result);
+  switch (result.verdict) {
+    case Verdict::fail:
+      return failed(result, facts);
+    case Verdict::inconclusive:
+      return undecided(result);
+    case Verdict::pass:
+    case Verdict::not_applicable:
+      break;
+  }
+  return drives(facts) + agrees(facts) + ".";
+}
+
+}  // namespace
+
+std::string sentence(const ValidationResult& result) { return inEffortWords(effortNoun(result), written(result)); }
+
+std::string detail(const ValidationResult& result) {
+  const ResultFacts facts = factsOf(result);
+  if (result.verdict == Verdict::pass) return "";
+  if (!facts.off.empty()) return capital(prettyUnit(facts.off)) + ".";
+  const Check* worst = worstCheck(result.checks);
+  const bool said = result.verdict != Verdict::fail || worst == nullptr || worst->why.empty() ||
+                    !std::isfinite(worst->value) || !std::isfinite(worst->limit);
+  return said ? "" : capital(worst->why) + ".";
+}
+
+std::vector<KeyFigure> keyFigures(const ValidationResult& result) {
+  const ResultFacts facts = factsOf(result);
+  std::vector<KeyFigure> out;
+  const auto applicable = judgedCount(result.checks);
+  out.push_back(
+      {"checks passed", fmt::format("{} of {}", countOf(result, Verdict::pass), applicable),
+       fmt::format("{} failed, {} undecided", countOf(result, Verdict::fail), countOf(result, Verdict::inconclusive))});
+  if (!std::isnan(facts.replay))
+    out.push_back({"off the path", quantity(facts.replay, "m", 2),
+                   std::isnan(facts.replay_limit) ? "" : "limit " + quantity(facts.replay_limit, "m", 2)});
+  if (!std::isnan(facts.agreement))
+    out.push_back({"largest effort deviation",
+                   facts.agreement >= 1e-6 ? percentText(facts.agreement) : plainNumber(facts.agreement, 2),
+                   "of the largest effort"});
+  const bool passed = result.verdict == Verdict::pass && facts.dominant == "unexplained";  // then nothing is missing
+  if (!facts.dominant.empty() && facts.cause.empty() && !passed)
+    out.push_back(
+        {"what limits it", facts.dominant,
+         facts.windows > 1 ? fmt::format("{} windows", facts.windows) : "largest source of the replay's error"});
+  return out;
+}
+
+std::string withoutCause(const std::string& cause, const std::string& why) {
+  const std::size_t off = why.find(". Off: ");
+  const bool has = !cause.empty() && off != std::string::npos && why.find(cause, off) != std::string::npos;
+  return has ? why.substr(0, off) : why;
+}
+
+}  // namespace ursula::report

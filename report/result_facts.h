@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "validation/verdict/result.h"
+
+namespace ursula::report {
+
+/// The curve with the sources of the replay's error.
+constexpr const char* sources_curve = "Sources of the replay's error";
+
+/// The facts of a result, from which texts are made.
+struct ResultFacts {
+  std::string subject, motion;  ///< "The NOC's efforts", "the helix"
+  double duration = 0;          ///< s; NaN without a time series
+  double replay = 0;            ///< m, the replay's largest error; NaN without a replay
+  double replay_limit = 0;      ///< m, at the replay's end; NaN if unknown
+  double agreement =
+      0;               ///< largest deviation of an effort between formulations, over the largest effort; NaN if unknown
+  double allowed = 0;  ///< relative to the largest effort, by a user's tolerance; 0 if there is none
+  int engines = 1;     ///< number of formulations that give efforts, including the subject's
+  int windows = 1;     ///< number of windows in the replay
+  std::string dominant;    ///< source of the replay's error; may be empty
+  std::string off, cause;  ///< which efforts are wrong, and why; may be empty
+};
+ResultFacts factsOf(const ValidationResult& result);
+
+/// Returns the verdict as a sentence about the results. A failure starts with its likely cause.
+std::string sentence(const ValidationResult& result);
+
+/// Returns the text below the sentence: the detailed reason for a failure or an undecided verdict; else empty.
+std::string detail(const ValidationResult& result);
+
+/// One of the few numbers that show how right a result is: what, number, remark.
+struct KeyFigure {
+  std::string what, value, remark;
+};
+std::vector<KeyFigure> keyFigures(const ValidationResult& result);
+
+/// Returns the text of a finding or of the provenance; "" if there is none.
+std::string fact(const std::vector<std::pair<std::string, std::string>>& facts, const std::string& key);
+
+/// Returns a check's details without the words on the likely cause, which appear elsewhere.
+std::string withoutCause(const std::string& cause, const std::string& why);
+
+}  // namespace ursula::report

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+
+#include "validation/causes/asked_apart.h"
+#include "validation/causes/explanation.h"
+#include "validation/evidence/external_torques.h"
+
+namespace ursula {
+
+/// These give one instant and motor's deviation, its rounding, and the limit of right efforts, N·m or N.
+inline double offAt(const ExternalTorques& torques, std::size_t row, int motor) {
+  return torques.file.torques[row](motor) - torques.noc[row](motor);
+}
+inline double roundingAt(const ExternalTorques& torques, std::size_t row) {
+  return torques.samples[row].conditioning.torqueRounding();
+}
+inline double limitAt(const ExternalTorques& torques, std::size_t row, int motor) {
+  return roundingAt(torques, row) + torques.precision[row](motor);
+}
+
+/// Explains efforts that lack only digits. These are single-precision numbers. From a solver they are also rounded
+/// answers, and answers to nearly the same question that jump by about the deviation. Returns none for larger
+/// deviations.
+std::optional<Explanation> fewDigits(const MotorNames& motors, const ExternalTorques& torques, const AskedApart& asked);
+
+/// Explains motors that answer the same at every instant, and whatever they are asked, where the right efforts vary.
+/// The others must be right. Returns none otherwise.
+std::optional<Explanation> sameAnswers(const MotorNames& motors, const ExternalTorques& torques,
+                                       const AskedApart& asked);
+
+/// Removes the allowance for unprinted digits, because a solver's answers have every digit.
+ExternalTorques inEveryDigit(ExternalTorques torques);
+
+}  // namespace ursula

@@ -1,0 +1,289 @@
+#include "validation/causes/diagnosis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "validation/causes/answers_alone.h"
+#include "validation/causes/explanation.h"
+#include "validation/causes/hypotheses.h"
+
+namespace ursula {
+namespace {
+
+/// A likely explanation of one part leaves less than this share of the residual.
+constexpr double may_remain = 0.01;
+/// An explanation leaves at most these multiples of the limits everywhere (one for the given torques, one for the
+/// cause's). The remainder must also be too small for chance.
+constexpr double may_be_beyond = 2, may_be_chance = 0.1;
+constexpr std::size_t most_named = 4;
+
+/// Where one leg's torque exceeds its limit.
+struct LegDeviation {
+  std::size_t count = 0, first = 0, last = 0, worst = 0;
+  double largest = 0;
+};
+
+LegDeviation deviationOf(const ExternalTorques& torques, int leg) {
+  LegDeviation out;
+  for (std::size_t k = 0; k < torques.file.rows(); ++k) {
+    const double error = std::abs(offAt(torques, k, leg));
+    if (error <= limitAt(torques, k, leg)) continue;
+    if (out.count++ == 0) out.first = k;
+    out.last = k;
+    if (error > out.largest) out.largest = error, out.worst = k;
+  }
+  return out;
+}
+
+std::string intervalText(const ExternalTorques& torques, std::size_t count, std::size_t first, std::size_t last) {
+  const std::vector<double>& t = torques.file.t;
+  const std::string span = first == last ? fmt::format("at t = {:.6g} s", t[first])
+                                         : fmt::format("from t = {:.6g} to {:.6g} s", t[first], t[last]);
+  return fmt::format("{}, {} of {} instants", span, count, t.size());
+}
+
+double largestTorque(const ExternalTorques& torques) {
+  double largest = 0;
+  for (const Vector6d& row : torques.noc) largest = std::max(largest, row.cwiseAbs().maxCoeff());
+  return largest;
+}
+
+std::string amountText(const LegDeviation& leg, const char* unit, double largest_torque) {
+  const std::string share =
+      largest_torque > 0 ? fmt::format(" ({:.3g} % of the largest torque)", 100 * leg.largest / largest_torque) : "";
+  return fmt::format("by up to {:.4g} {}{}", leg.largest, unit, share);
+}
+
+/// Summary and details; empty if every leg is within its limits.
+Diagnosis deviationTexts(const MotorNames& motors, const ExternalTorques& torques) {
+  const double largest_torque = largestTorque(torques);
+  std::string legs, details, right;
+  LegDeviation all;
+  int worst = 0;
+  all.first = torques.file.rows();
+  for (int i = 0; i < motor_count; ++i) {
+    const LegDeviation leg = deviationOf(torques, i);
+    std::string& names = leg.count == 0 ? right : legs;
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", i + 1);
+    if (leg.count == 0) continue;
+    details += fmt::format("{}{} {} at t = {:.6g} s, beyond its limit {}", details.empty() ? "" : "; ", motors(i),
+                           amountText(leg, motors.unit(i), largest_torque), torques.file.t[leg.worst],
+                           intervalText(torques, leg.count, leg.first, leg.last));
+    if (leg.largest > all.largest) all.largest = leg.largest, all.worst = leg.worst, worst = i;
+    all.first = std::min(all.first, leg.first);
+    all.last = std::max(all.last, leg.last);
+    all.count = std::max(all.count, leg.count);
+  }
+  if (legs.empty()) return {};
+  const std::string kind = motors.kind();
+  const std::string who = right.empty() ? "all " + kind + "s" : kind + (legs.size() == 1 ? " " : "s ") + legs;
+  return {fmt::format("{} {}, {}", who, amountText(all, motors.unit(worst), largest_torque),
+                      intervalText(torques, all.count, all.first, all.last)),
+          details + (right.empty() ? "; no " + kind + " is right" : "; within their limits: " + right), ""};
+}
+
+/// At most `most` instants, evenly picked, which suffice; then the answers to separate questions.
+TorqueResidual residualOf(const Scenario& scenario, const ExternalTorques& torques, const AskedApart& asked) {
+  constexpr std::size_t most = 1000;
+  TorqueResidual out;
+  out.motors = motorNames(*scenario.manipulator);
+  const std::size_t rows = torques.file.rows(), count = std::min(rows, most);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t k = count == 1 ? 0 : i * (rows - 1) / (count - 1);
+    out.add(scenario.trajectory->at(torques.file.t[k]), torques.noc[k], torques.file.torques[k],
+            torques.precision[k].array() + torques.samples[k].conditioning.torqueRounding());
+  }
+  out.commanded = count;
+  for (std::size_t k = 0; k < asked.motions.size(); ++k)
+    out.add(asked.motions[k], asked.expected[k], asked.found[k], Vector6d::Constant(asked.rounding[k]));
+  return out;
+}
+
+/// Whether successive residuals are uncorrelated: their correlation is within three of its deviations, and small. Few
+/// instants of a smooth deviation may be within the deviations alone.
+bool isNoise(const TorqueResidual& data) {
+  double along = 0, all = 0;
+  for (std::size_t k = 0; k + 1 < data.residual.size(); ++k) along += data.residual[k].dot(data.residual[k + 1]);
+  for (const Vector6d& row : data.residual) all += row.squaredNorm();
+  return data.residual.size() >= 16 &&
+         std::abs(along / all) <= std::min(0.3, 3 / std::sqrt(static_cast<double>(data.residual.size())));
+}
+
+std::string percent(double explained) {
+  if (explained > 1 - 1e-6) return "more than 99.9999 % of the deviation";
+  return fmt::format("{:.4f} % of the deviation", 100 * std::max(0.0, explained));
+}
+
+/// A small remainder of the deviation may still be all that was answered, where few digits make wide limits.
+bool explains(const Hypothesis& one) {
+  return one.beyond <= may_be_beyond && one.unexplained <= may_be_chance &&
+         (one.of_found <= may_be_chance || one.beyond <= 1);
+}
+
+/// Returns the best hypotheses: all that explain everything, otherwise all near the smallest remainder. Those with
+/// fewest fitted numbers come first, then the most plausible ones. Numbers that no body can have are left out beside
+/// others.
+std::vector<Hypothesis> bestOf(const std::vector<Hypothesis>& fitted) {
+  const auto least = std::min_element(fitted.begin(), fitted.end(), [](const Hypothesis& a, const Hypothesis& b) {
+    return a.unexplained < b.unexplained;
+  });
+  const bool any = std::any_of(fitted.begin(), fitted.end(), explains);
+  std::vector<Hypothesis> out;
+  for (const Hypothesis& one : fitted)
+    if (any ? explains(one) : one.unexplained <= 2 * least->unexplained + 1e-9) out.push_back(one);
+  const auto is_possible = [](const Hypothesis& one) { return one.is_possible; };
+  if (std::any_of(out.begin(), out.end(), is_possible))
+    out.erase(std::stable_partition(out.begin(), out.end(), is_possible), out.end());
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.free_numbers < b.free_numbers; });
+  while (out.back().free_numbers > std::max(1, out.front().free_numbers)) out.pop_back();
+  return out;
+}
+
+/// Whether both are one mistake in other words.
+bool isSameMistake(const Hypothesis& first, const Hypothesis& other) {
+  if (!first.named || !other.named || first.named->term.empty()) return false;
+  const NamedCause &a = *first.named, &b = *other.named;
+  return a.kind == b.kind && a.term == b.term && a.body == b.body && a.leg == b.leg && a.parameter == b.parameter;
+}
+
+std::string othersText(const std::vector<Hypothesis>& best) {
+  std::string out;
+  std::size_t count = 1;
+  for (std::size_t k = 1; k < best.size(); ++k) {
+    if (isSameMistake(best.front(), best[k])) continue;
+    if (count < most_named) out += (count == 1 ? "; as well explained by: " : "; ") + best[k].text;
+    ++count;
+  }
+  if (count > most_named) out += fmt::format("; and {} more", count - most_named);
+  return out;
+}
+
+bool isRight(const ExternalTorques& torques, std::size_t k) {
+  for (int i = 0; i < motor_count; ++i)
+    if (!(std::abs(offAt(torques, k, i)) <= limitAt(torques, k, i))) return false;
+  return true;
+}
+
+/// The instants from the first to the last deviating one.
+struct Window {
+  std::size_t off = 0, first = 0, last = 0;
+  std::size_t rows() const { return last + 1 - first; }
+};
+
+Window windowOf(const ExternalTorques& torques) {
+  Window out;
+  for (std::size_t k = 0; k < torques.file.rows(); ++k) {
+    if (isRight(torques, k)) continue;
+    if (out.off++ == 0) out.first = k;
+    out.last = k;
+  }
+  return out;
+}
+
+/// Describes at most one deviating instant in twenty, as from a falsified row; else empty.
+std::string loneInstants(const ExternalTorques& torques) {
+  const std::size_t rows = torques.file.rows();
+  const Window window = windowOf(torques);
+  if (window.off == 0 || 20 * window.off > rows) return "";
+  return fmt::format("{} of {} instants {} off, the first at t = {:.6g} s, and the others are right", window.off, rows,
+                     window.off == 1 ? "is" : "are", torques.file.t[window.first]);
+}
+
+/// Whether a solver that was asked term by term is right outside the interval, whatever it is asked. `from` and `to`
+/// are the right samples next to it, at which a motion at rest may hide a missing term.
+bool answersRightOutside(const TorqueResidual& data, double from, double to) {
+  for (std::size_t k = data.commanded; k < data.motions.size(); ++k) {
+    if (data.motions[k].t >= from && data.motions[k].t <= to) continue;
+    if (((data.residual[k].cwiseAbs() - may_be_beyond * data.limit[k]).array() > 0).any()) return false;
+  }
+  return true;
+}
+
+/// Describes torques that are wrong in one interval and right in at least a tenth of the motion; else empty. Adds the
+/// cause if those instants reveal it.
+Explanation intervalAlone(const Scenario& scenario, const ExternalTorques& torques, const TorqueResidual& data) {
+  constexpr std::size_t enough = 3, enough_to_explain = 16;
+  const Window window = windowOf(torques);
+  if (window.rows() < enough || 20 * window.off < 19 * window.rows() || 10 * window.rows() > 9 * torques.file.rows())
+    return {};
+  const double from = torques.file.t[window.first], to = torques.file.t[window.last];
+  const double before = torques.file.t[window.first == 0 ? 0 : window.first - 1];
+  const double after = torques.file.t[std::min(window.last + 1, torques.file.rows() - 1)];
+  if (!answersRightOutside(data, before, after)) return {};
+  Explanation out{fmt::format("right but from t = {:.6g} to {:.6g} s", from, to)};
+  out.named = NamedCause{CauseKind::window};
+  out.named->from_s = from;
+  out.named->to_s = to;
+  out.named->explained = 1;
+  TorqueResidual there;
+  there.motors = data.motors;
+  for (std::size_t k = 0; k < data.motions.size(); ++k) {
+    if (data.motions[k].t < from || data.motions[k].t > to) continue;
+    there.add(data.motions[k], data.exact[k], data.exact[k] + data.residual[k], data.limit[k]);
+    if (k < data.commanded) there.commanded = there.motions.size();
+  }
+  if (there.motions.size() < enough_to_explain) return out;
+  const std::vector<Hypothesis> fitted = fitHypotheses(scenario, there);
+  if (fitted.empty()) return out;
+  const Hypothesis best = bestOf(fitted).front();
+  if (explains(best)) out.text += fmt::format("; there {}, which explains {}", best.text, percent(best.explained()));
+  return out;
+}
+
+/// Share of the deviation: a cause that explains less is not mentioned.
+constexpr double worth_naming = 0.5;
+
+Explanation explanationOf(const Scenario& scenario, const ExternalTorques& torques, const AskedApart& asked) {
+  const TorqueResidual data = residualOf(scenario, torques, asked);
+  const std::vector<Hypothesis> fitted = fitHypotheses(scenario, data);
+  if (fitted.empty()) return {"no simple explanation"};
+  const std::vector<Hypothesis> best = bestOf(fitted);
+  const Hypothesis& first = best.front();
+  const std::string how_much = fmt::format("{}, which explains {}", first.text, percent(first.explained()));
+  if (explains(first)) return named(best, data, how_much + othersText(best));
+  if (std::max(first.unexplained, first.of_found) < may_remain)
+    return {fmt::format("a likely part: {}; what remains is up to {:.3g} times the limit of rounding and digits{}",
+                        how_much, first.beyond, othersText(best))};
+  if (const Explanation interval = intervalAlone(scenario, torques, data); !interval.text.empty()) return interval;
+  if (const std::string alone = loneInstants(torques); !alone.empty()) return {"no simple explanation: " + alone};
+  if (first.explained() >= worth_naming && first.of_found <= worth_naming)  // noise is explained by nothing
+    return {
+        fmt::format("no simple explanation; the best, {}, explains only {}", first.text, percent(first.explained()))};
+  return {isNoise(data.alongMotion()) ? "no pattern from one instant to the next, as of noise or too few digits"
+                                      : "no simple explanation"};
+}
+
+}  // namespace
+
+Diagnosis diagnose(const Scenario& scenario, const ExternalTorques& torques, const AskedApart& asked) {
+  const MotorNames motors = motorNames(*scenario.manipulator);
+  Diagnosis out = deviationTexts(motors, torques);
+  const std::optional<Explanation> digits = fewDigits(motors, torques, asked);
+  if (out.summary.empty() && digits) out = deviationTexts(motors, inEveryDigit(torques));
+  if (out.summary.empty()) return out;
+  const std::optional<Explanation> same = sameAnswers(motors, torques, asked);
+  Explanation explanation = same ? *same : digits ? *digits : explanationOf(scenario, torques, asked);
+  out.cause = std::move(explanation.text);
+  out.named = std::move(explanation.named);
+  out.others = std::move(explanation.others);
+  out.terms = asked.terms;
+  return out;
+}
+
+void addDiagnosis(const Diagnosis& diagnosis, ValidationResult& result) {
+  if (diagnosis.summary.empty()) return;
+  LikelyCause likely{diagnosis.deviation, diagnosis.cause, diagnosis.named, diagnosis.others, diagnosis.terms};
+  nameState(likely);
+  result.findings.emplace_back("torques that are off", diagnosis.deviation);
+  result.findings.emplace_back("likely cause", likely.cause);
+  for (Check& check : result.checks)
+    if (check.verdict == Verdict::fail)
+      check.why += fmt::format(". Off: {}. Likely cause: {}", diagnosis.summary, likely.cause);
+  result.likely_cause = std::move(likely);
+}
+
+}  // namespace ursula

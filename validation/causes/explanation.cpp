@@ -1,0 +1,80 @@
+#include "validation/causes/explanation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ursula {
+namespace {
+
+/// Whether the motion is one pose, held or repeated: too many causes can produce its six numbers.
+bool isOnePose(const TorqueResidual& data) {
+  const Motion<double>& first = data.motions.front();
+  return std::all_of(data.motions.begin(), data.motions.end(), [&](const Motion<double>& each) {
+    return each.p == first.p && each.Q == first.Q && each.p_dot == first.p_dot && each.omega == first.omega &&
+           each.p_ddot == first.p_ddot && each.omega_dot == first.omega_dot;
+  });
+}
+
+/// Gravity's size and its component are one number. A missing term or a wrong sign is also a number that is 0 or
+/// negated.
+bool sayTheSame(const NamedCause& first, const NamedCause& other) {
+  const bool one_term = first.kind == other.kind && first.term == other.term && first.leg == other.leg &&
+                        (!first.term.empty() || first.kind == CauseKind::reference_point);
+  if (one_term && other.kind != CauseKind::parameter) return true;  // for other bodies that make no difference here
+  if (other.kind != CauseKind::parameter || !other.expected || !other.found) return false;
+  const double expected = *other.expected, found = *other.found, little = 1e-3 * std::abs(expected);
+  if (first.kind == CauseKind::missing_term) return std::abs(found) <= little;
+  if (first.kind == CauseKind::sign) return std::abs(found + expected) <= little;
+  return first.kind == CauseKind::parameter &&
+         other.parameter.compare(0, first.parameter.size(), first.parameter) == 0 && !first.parameter.empty();
+}
+
+/// Does not blame the other links if their mass centres make no difference. Of a term it names no body if several would
+/// do.
+void leaveOutOtherLinks(const std::vector<Hypothesis>& best, NamedCause& named) {
+  const std::string body = named.body;
+  for (const Hypothesis& one : best) {
+    if (!one.named || !sayTheSame(named, *one.named)) continue;
+    const bool is_link = one.named->body == "proximal" || one.named->body == "distal";
+    if (named.kind == CauseKind::reference_point && body == "legs" && is_link) named.body = one.named->body;
+    if (named.kind == CauseKind::missing_term && one.named->kind == named.kind && one.named->body != body)
+      named.body.clear();
+  }
+}
+
+}  // namespace
+
+Explanation named(const std::vector<Hypothesis>& best, const TorqueResidual& data, std::string text) {
+  Explanation out{std::move(text)};
+  if (isOnePose(data)) return out;
+  const Hypothesis& first = best.front();
+  bool is_alone = first.named.has_value();
+  for (const Hypothesis& one : best) {
+    if (&one != &first && first.named && one.named && sayTheSame(*first.named, *one.named)) continue;
+    if (&one != &first && one.free_numbers <= first.free_numbers) is_alone = false;
+    if (!one.named) continue;
+    out.others.push_back(*one.named);
+    out.others.back().explained = 1 - one.unexplained * one.unexplained;
+  }
+  if (!is_alone) return out;
+  out.named = out.others.front();
+  out.others.erase(out.others.begin());
+  leaveOutOtherLinks(best, *out.named);
+  return out;
+}
+
+void nameState(LikelyCause& likely) {
+  const auto repeat = std::find_if(likely.terms.begin(), likely.terms.end(),
+                                   [](const TermError& each) { return each.term == repeat_term; });
+  if (repeat == likely.terms.end() || !(repeat->error > 1e-12)) return;
+  if (likely.named) likely.others.insert(likely.others.begin(), *likely.named);
+  likely.named = NamedCause{CauseKind::state, "", "all"};
+  likely.cause = fmt::format(
+      "the solver answers the same question otherwise when it is asked again, by {:.2g} of the efforts; else: {}",
+      repeat->error, likely.cause);
+}
+
+}  // namespace ursula

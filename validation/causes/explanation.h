@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/causes/hypotheses.h"
+#include "validation/verdict/likely_cause.h"
+
+namespace ursula {
+
+/// The words about a cause, and its name.
+struct Explanation {
+  std::string text;
+  std::optional<NamedCause> named = {};
+  std::vector<NamedCause> others = {};
+};
+
+/// All of `best` explain everything. The first is named unless another needs as few numbers, or the motion is a single
+/// pose. No cause is better than a wrong one.
+Explanation named(const std::vector<Hypothesis>& best, const TorqueResidual& data, std::string text);
+
+/// Names the state of a solver that answers the same question differently; it precedes every other cause.
+void nameState(LikelyCause& likely);
+
+}  // namespace ursula

@@ -1,0 +1,100 @@
+#include "validation/causes/machine_collector.h"
+
+#include <utility>
+
+#include "validation/causes/machine_slopes.h"
+#include "validation/causes/tied_parameters.h"
+#include "validation/subject/subject.h"
+
+namespace ursula {
+namespace {
+
+using Machine = ManipulatorParameters;
+using Rows = std::vector<Vector6d>;
+using Change = MachineCauses::Change;
+
+Rows torquesOf(const Machine& machine, const Scenario& scenario, const std::vector<Motion<double>>& motions) {
+  const Subject noc = nocSubject(Manipulator(machine), scenario.load);
+  Rows out;
+  out.reserve(motions.size());
+  for (const Motion<double>& motion : motions) out.push_back(noc.torques(motion));
+  return out;
+}
+
+/// Torques are linear in inertias. Adding a machine with round inertias allows tests of tensors that no body can have.
+/// `change` alters inertias only.
+Rows torquesOfInertias(const Scenario& scenario, const Change& change, double x,
+                       const std::vector<Motion<double>>& motions) {
+  Machine round = scenario.manipulator->parameters();
+  const auto add = [](Matrix3d& inertia) { inertia.diagonal().array() += 10 * inertia.cwiseAbs().maxCoeff(); };
+  Rows out = torquesOf(round, scenario, motions);
+  add(round.platform.inertia);
+  for (Leg& leg : round.legs) {
+    add(leg.proximal.inertia);
+    add(leg.distal.inertia);
+  }
+  const Rows without = torquesOf(round, scenario, motions);
+  change(round, x / 11);  // relative errors refer to the largest moment, which is eleven times as large
+  const Rows with = torquesOf(round, scenario, motions);
+  for (std::size_t k = 0; k < out.size(); ++k) out[k] += with[k] - without[k];
+  return out;
+}
+
+}  // namespace
+
+MachineCauses::MachineCauses(const Scenario& scenario)
+    : scenario_(scenario), slopes_(std::make_shared<MachineSlopes>(scenario)) {}
+
+void MachineCauses::addFitted(const Change& change, const Words& words, const Named& named) {
+  const Scenario& scenario = scenario_;
+  causes.push_back({true,
+                    [&scenario, change](double x, const std::vector<Motion<double>>& motions) {
+                      Machine machine = scenario.manipulator->parameters();
+                      change(machine, x);
+                      return torquesOf(machine, scenario, motions);
+                    },
+                    words});
+  causes.back().named = named;
+  causes.back().slope = [slopes = slopes_, change](const std::vector<Motion<double>>& motions) {
+    return slopes->along(change, motions);
+  };
+}
+
+void MachineCauses::addTied(const TiedParameters& tied) {
+  const Machine& machine = scenario_.manipulator->parameters();
+  const Change change = [tied](Machine& changed, double x) { tied.disturb(changed, x); };
+  addFitted(
+      change, [tied, machine](double x, double deviation) { return tied.text(machine, x, deviation); },
+      [tied, machine](double x, double deviation) { return tied.named(machine, x, deviation); });
+  causes.back().is_possible = [tied, machine](double x) { return tied.isPossible(machine, x); };
+  if (tied.members.front().group != "inertia") return;
+  const Scenario& scenario = scenario_;
+  causes.back().torques = [&scenario, change](double x, const std::vector<Motion<double>>& motions) {
+    return torquesOfInertias(scenario, change, x, motions);
+  };
+}
+
+void MachineCauses::addFixed(const CauseName& name, const std::function<void(Machine&)>& change) {
+  const Scenario& scenario = scenario_;
+  causes.push_back(fixedCause(name, [&scenario, change](const std::vector<Motion<double>>& motions) {
+    Machine machine = scenario.manipulator->parameters();
+    change(machine);
+    return torquesOf(machine, scenario, motions);
+  }));
+}
+
+void MachineCauses::addLinks(const std::string& before, const std::string& after, CauseKind kind, const char* term,
+                             const std::function<void(Link&)>& change) {
+  const std::pair<const char*, const char*> links[] = {
+      {"the proximal links", "proximal"}, {"the distal links", "distal"}, {"all links", "legs"}};
+  for (const int which : {2, 0, 1})
+    addFixed({before + links[which].first + after, NamedCause{kind, term, links[which].second}},
+             [change, which](Machine& machine) {
+               for (Leg& leg : machine.legs) {
+                 if (which != 1) change(leg.proximal);
+                 if (which != 0) change(leg.distal);
+               }
+             });
+}
+
+}  // namespace ursula

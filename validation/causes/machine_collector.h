@@ -1,0 +1,41 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "validation/causes/cause.h"
+
+namespace ursula {
+
+class MachineSlopes;
+struct TiedParameters;
+
+/// Collects causes that are another machine. The scenario must outlive them.
+class MachineCauses {
+ public:
+  using Change = std::function<void(ManipulatorParameters&, double)>;
+  using Words = std::function<std::string(double, double)>;
+  using Named = std::function<std::optional<NamedCause>(double, double)>;
+
+  explicit MachineCauses(const Scenario& scenario);
+
+  void addFitted(const Change& change, const Words& words, const Named& named);
+  void addTied(const TiedParameters& tied);
+  void addFixed(const CauseName& name, const std::function<void(ManipulatorParameters&)>& change);
+  /// Adds a change of all links, of the proximal ones and of the distal ones. `kind` and `term` name it.
+  void addLinks(const std::string& before, const std::string& after, CauseKind kind, const char* term,
+                const std::function<void(Link&)>& change);
+
+  std::vector<Cause> causes;
+
+ private:
+  const Scenario& scenario_;
+  std::shared_ptr<MachineSlopes> slopes_;
+};
+
+/// Friction that the scenario lacks, and omitted parts of its own.
+void addFrictionCauses(const Manipulator& machine, MachineCauses& out);
+
+}  // namespace ursula

@@ -1,0 +1,116 @@
+#include "validation/causes/tied_parameters.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/scalar.h"
+#include "validation/causes/cause.h"
+
+namespace ursula {
+namespace {
+
+bool isEqual(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b)); }
+
+}  // namespace
+
+void TiedParameters::disturb(ManipulatorParameters& machine, double relative) const {
+  for (const Parameter& member : members) member.disturb(machine, relative);
+}
+
+std::string TiedParameters::text(const ManipulatorParameters& machine, double relative, double deviation) const {
+  const Parameter& first = members.front();
+  ManipulatorParameters changed = machine, further = machine;
+  disturb(changed, relative);
+  disturb(further, relative + deviation);
+  const std::string unit = first.unit.empty() ? "" : " " + first.unit;
+  bool same_before = true, same_change = true;
+  const double before = first.get(machine), after = first.get(changed);
+  for (const Parameter& member : members) {
+    same_before = same_before && isEqual(member.get(machine), before);
+    same_change = same_change && isEqual(member.get(changed) - member.get(machine), after - before);
+  }
+  const double spread = std::abs(first.get(further) - after);
+  if (same_before) return fmt::format("{} {}{} instead of {:.9g}", words, withDeviation(after, spread), unit, before);
+  if (same_change) return fmt::format("{} off by {}{}", words, withDeviation(after - before, spread), unit);
+  const std::string amount = withDeviation(relative, deviation);
+  if (first.entries == 1) return fmt::format("{} off by a relative {}", words, amount);
+  return fmt::format("{} off by {} of each {}", words, amount,
+                     first.group == "inertia" ? "tensor's largest moment" : "vector's length");
+}
+
+bool TiedParameters::isPossible(const ManipulatorParameters& machine, double relative) const {
+  const Parameter& first = members.front();
+  const bool is_size =
+      first.group == "mass" || first.group == "length" || (first.group == "inertia" && first.entry < 3);
+  if (!is_size) return true;
+  ManipulatorParameters changed = machine;
+  disturb(changed, relative);
+  return std::all_of(members.begin(), members.end(), [&](const Parameter& member) { return member.get(changed) > 0; });
+}
+
+std::optional<NamedCause> TiedParameters::named(const ManipulatorParameters& machine, double relative,
+                                                double deviation) const {
+  const Parameter& first = members.front();
+  ManipulatorParameters changed = machine, further = machine;
+  disturb(changed, relative);
+  disturb(further, relative + deviation);
+  const double before = first.get(machine), after = first.get(changed);
+  if (!isPossible(machine, relative)) return std::nullopt;
+  NamedCause out{CauseKind::parameter, "", first.body.empty() && first.leg >= 0 ? "legs" : first.body};
+  const bool one = members.size() == 1;
+  const bool is_legs = std::all_of(members.begin(), members.end(), [&](const Parameter& member) {
+    return member.body == first.body && member.quantity == first.quantity && member.entry == first.entry &&
+           isEqual(member.get(machine), before) && isEqual(member.get(changed), after);
+  });
+  if (one ||
+      (std::all_of(members.begin(), members.end(), [&](const Parameter& each) { return each.leg == first.leg; })))
+    out.leg = first.leg + 1;
+  if (!one && !is_legs) {
+    if (first.leg >= 0) out.body = members.front().body == members.back().body ? first.body : "legs";
+    return out;  // several numbers with different values
+  }
+  out.parameter = first.path;
+  if (!one) out.parameter.replace(0, first.path.find('.', sizeof("manipulator.leg.") - 1), "manipulator.leg_defaults");
+  out.unit = first.unit;
+  out.expected = before;
+  out.found = after;
+  out.uncertainty = std::abs(first.get(further) - after);
+  return out;
+}
+
+std::vector<TiedParameters> tiedParameters(const Manipulator& machine) {
+  std::vector<TiedParameters> out, all_legs, all_links, of_legs, both_links;
+  const auto add = [](std::vector<TiedParameters>& list, const std::string& words, const Parameter& member) {
+    const auto found = std::find_if(list.begin(), list.end(), [&](const auto& one) { return one.words == words; });
+    (found == list.end() ? list.emplace_back(TiedParameters{words, {}}) : *found).members.push_back(member);
+  };
+  for (const MachineNumber& number : machineNumbers(machine.parameters())) {
+    const Parameter one{number};
+    const std::string &words = one.words, &link = one.body, leg = std::to_string(one.leg + 1);
+    if (one.leg < 0) {
+      add(out, one.body.empty() ? words : one.body + " " + words, one);
+      continue;
+    }
+    const bool is_link = !link.empty();
+    // For a sliding rod only the distance of its mass centre from the outer end matters; the mass centre's cause covers
+    // it.
+    if (link == "distal" && one.quantity == Quantity::length && rowOf(machine.leg(one.leg).kind).isTelescopic())
+      continue;
+    add(of_legs, fmt::format("{} of {}leg {}", words, is_link ? "the " + link + " link of " : "", leg), one);
+    add(all_legs, fmt::format("{} of {}", words, is_link ? "the " + link + " links" : "every leg"), one);
+    if (!is_link) continue;
+    add(all_links, words + " of all links", one);
+    if (one.quantity == Quantity::inertia && one.entry < 2) {
+      add(all_legs, fmt::format("inertia xx and yy of the {} links", link), one);
+      add(both_links, fmt::format("inertia xx and yy of the {} link of leg {}", link, leg), one);
+    }
+    add(both_links, fmt::format("{} of both links of leg {}", words, leg), one);
+  }
+  for (const auto* list : {&all_legs, &all_links, &of_legs, &both_links})
+    out.insert(out.end(), list->begin(), list->end());
+  return out;
+}
+
+}  // namespace ursula
