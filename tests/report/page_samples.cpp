@@ -55,9 +55,9 @@ TimeSeries comparedSample() {
   return series;
 }
 
-ProveFound proveSample(bool weak) {
+ProveResult proveSample(bool weak) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
-  ProveFound found;
+  ProveResult found;
   found.scenario = "proving-ground";
   found.seed = 7;
   DefectProof proof;

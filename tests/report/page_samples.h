@@ -15,7 +15,7 @@ TimeSeries comparedSample();
 ValidationResult longSample();
 
 /// A made-up proof, with defects that several checks catch, one catches, or none.
-ProveFound proveSample(bool weak);
+ProveResult proveSample(bool weak);
 
 /// A made-up audit with equations of the paper.
 Audit auditSample();

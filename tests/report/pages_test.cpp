@@ -120,7 +120,7 @@ TEST(ProvePage, saysWhichCheckCatchesWhatBySignsToo) {
 }
 
 TEST(ProvePage, ofADefectThatTooFewCatchFails) {
-  const ProveFound weak = test::proveSample(true);
+  const ProveResult weak = test::proveSample(true);
   EXPECT_FALSE(isProved(weak));
   const std::string html = proveHtml(weak);
   EXPECT_TRUE(has(html, "1 of 3 defects were caught on fewer formulations than they must."));
@@ -128,7 +128,7 @@ TEST(ProvePage, ofADefectThatTooFewCatchFails) {
 }
 
 TEST(ProvePage, needsNoScenarioOfTheProgramToFail) {
-  ProveFound random = test::proveSample(false);
+  ProveResult random = test::proveSample(false);
   random.proof.reset();
   EXPECT_TRUE(isProved(random));
   random.random.failed = {"seed 9: torque.pointwise"};

@@ -216,7 +216,7 @@ TEST(TimedScenario, throwsWhereTheDeadlineIsOverAndUntilItIsLifted) {
   const Scenario here = timed(scenario, over);
   EXPECT_THROW(here.trajectory->at(1.0), OutOfTime);
   EXPECT_EQ(here.trajectory->duration(), scenario.trajectory->duration());
-  copy.lift();
+  copy.remove();
   EXPECT_EQ(here.trajectory->at(1.0).p, scenario.trajectory->at(1.0).p);
   EXPECT_NO_THROW(timed(scenario, Deadline(plenty)).trajectory->at(1.0));
 }
