@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "validation/causes/asked_apart.h"
 #include "validation/causes/diagnosis.h"
@@ -106,11 +107,20 @@ void diagnoseSolver(const Scenario& scenario, const Evidence& evidence, const Su
   addDiagnosis(diagnose(here, runExternal(here, file), asked), result);
 }
 
+/// The subject, which answers only until the deadline.
+Subject inTime(Subject subject, const Deadline& deadline) {
+  subject.torques = [torques = std::move(subject.torques), deadline](const Motion<double>& motion) {
+    deadline.require();
+    return torques(motion);
+  };
+  return subject;
+}
+
 ValidationResult run(const Scenario& scenario, const Reference& reference, const Subject& given, bool right,
                      const ValidationOptions& options) {
   requireTellingTolerance(scenario);
   const bool keeps_nothing = given.formulation == Formulation::external && !given.answers;
-  const Subject subject = keeps_nothing ? recorded(given) : given;
+  const Subject subject = inTime(keeps_nothing ? recorded(given) : given, reference.deadline);
   reference.prepare(static_cast<bool>(subject.accelerations), options.ladder);
   const WorkParts work = workParts(scenario);
   double done = work.reference;
@@ -160,7 +170,7 @@ ValidationResult nothingReached(const Scenario& scenario, const Subject& subject
   result.formulation = name(subject.formulation);
   result.timeseries = validationSeries(*scenario.manipulator, {}, {});
   SubjectHas has;
-  has.out_of_time = over.words;
+  has.out_of_time = over.what();
   listEveryCheck(scenario, has, result);
   judgeByTolerance(scenario, 0, result);
   judgeByUser(scenario.acceptance, result);

@@ -13,7 +13,6 @@
 #include "validation/evidence/evidence.h"
 #include "validation/evidence/external_replay.h"
 #include "validation/evidence/external_samples.h"
-#include "validation/evidence/timed.h"
 #include "validation/findings/attribution.h"
 #include "validation/findings/findings.h"
 #include "validation/subject/frame_change.h"
@@ -85,16 +84,16 @@ ValidationResult validateExternal(const Scenario& scenario, const TorqueFile& to
   checkMotion(scenario);
   requireTellingTolerance(scenario);
   const FrameChange natural = naturalFrameChange(scenario);
-  const Scenario here = timed(natural.of(scenario), deadline);
+  const Scenario here = natural.of(scenario);
   const TorqueFile file = within(torques, scenario.trajectory->duration());
   ExternalTorques external;
   ExternalReplay replay;
   std::string out_of_time;
   try {
-    external = runExternal(here, inUnits(file, natural));
-    replay = replayExternal(here, external, natural.units);
+    external = runExternal(here, inUnits(file, natural), deadline);
+    replay = replayExternal(here, external, natural.units, deadline);
   } catch (const OutOfTime& over) {
-    out_of_time = over.words;
+    out_of_time = over.what();
   }
   Evidence evidence = gatherExternal(scenario, natural, here, external, replay);
   evidence.has.out_of_time = out_of_time;

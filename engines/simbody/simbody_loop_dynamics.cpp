@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <new>
 
+#include "base/deadline.h"
 #include "engines/simbody/simbody_loop_internal.h"
 
 namespace ursula {
@@ -24,13 +25,17 @@ BodyMotion<double> bodyMotion(const SimTK::State& state, const SimTK::MobilizedB
   return out;
 }
 
-/// Wraps the torques to note a lack of memory, because Simbody takes every exception for too long a step.
-SimbodyLoop::TorqueHistory noting(bool& memory_ran_out, const SimbodyLoop::TorqueHistory& torques) {
-  return [&memory_ran_out, &torques](double t) {
+/// Wraps the torques to note a lack of memory or time, because Simbody takes every exception for too long a step.
+SimbodyLoop::TorqueHistory noting(std::exception_ptr& lack, const SimbodyLoop::TorqueHistory& torques) {
+  const auto note = [&lack] { lack = std::current_exception(); };
+  return [note, &torques](double t) {
     try {
       return torques(t);
     } catch (const std::bad_alloc&) {
-      memory_ran_out = true;
+      note();
+      throw;
+    } catch (const OutOfTime&) {
+      note();
       throw;
     }
   };
@@ -194,8 +199,8 @@ SimbodyLoop::Counters SimbodyLoop::integrateRungeKuttaMerson(double accuracy, co
                                                              const std::vector<double>& instants,
                                                              const std::function<void(double)>& observe) {
   Impl& loop = *impl_;
-  bool memory_ran_out = false;
-  loop.applied->history = noting(memory_ran_out, torques);
+  std::exception_ptr lack;
+  loop.applied->history = noting(lack, torques);
   loop.placed_jacobian.reset();
   Counters counters;
   SimTK::RungeKuttaMersonIntegrator integrator(loop.system);
@@ -218,14 +223,14 @@ SimbodyLoop::Counters SimbodyLoop::integrateRungeKuttaMerson(double accuracy, co
       show();
     }
   } catch (const std::bad_alloc&) {
-    memory_ran_out = true;
+    lack = std::current_exception();
   } catch (const std::exception&) {
     counters.gave_up = true;  // the caller still reports the earlier part
   }
   counters.derivative_evaluations = loop.system.getNumRealizationsOfThisStage(SimTK::Stage::Acceleration) - before;
   counters.steps = integrator.getNumStepsTaken();
   loop.applied->history = nullptr;
-  if (memory_ran_out) throw std::bad_alloc();  // a lack of memory says nothing about the motion
+  if (lack) std::rethrow_exception(lack);  // it says nothing about the motion
   return counters;
 }
 

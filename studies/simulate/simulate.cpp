@@ -172,7 +172,7 @@ Simulation integrate(System system, const Scenario& scenario, const EffortHistor
   Progress progress(instants);
   const auto derivative = [&](const OdeState& at, OdeState& rate, double t) {
     ++out.evaluations;
-    if (deadline.isOver()) throw std::runtime_error(deadline.words());
+    deadline.require();
     system.derivative(t, at, torques(t), rate);
     for (double value : rate)
       if (!std::isfinite(value)) throw std::runtime_error(fmt::format("derivatives not finite at t = {} s", t));

@@ -19,7 +19,6 @@
 #include "validation/checks/families.h"
 #include "validation/evidence/background_tasks.h"
 #include "validation/evidence/reference.h"
-#include "validation/evidence/timed.h"
 #include "validation/evidence/work_estimate.h"
 #include "validation/replay/observed_order.h"
 #include "validation/validate.h"
@@ -59,18 +58,18 @@ TEST(BackgroundTasks, cutsShortWhatHasBegunWhenNobodyWillAsk) {
 
 TEST(BackgroundTasks, ofAReferenceEndsWithIt) {
   auto reference = makeReference(quick());
-  const std::shared_ptr<const Trajectory> motion = reference->scenario.trajectory;
-  EXPECT_NO_THROW(motion->at(0));
+  const Deadline deadline = reference->deadline;
+  EXPECT_NO_THROW(deadline.require());
   reference.reset();
-  EXPECT_THROW(motion->at(0), OutOfTime) << "what is under way asks for the motion, and ends";
+  EXPECT_THROW(deadline.require(), OutOfTime) << "what is under way asks, and ends";
 }
 
 TEST(TimeLimit, holdsForTheObservedOrders) {
   int asked = 0;
-  EXPECT_FALSE(observedOrders(timed(quick(), Deadline(0, [&asked] { return ++asked < 0; }))).empty());
+  EXPECT_FALSE(observedOrders(quick(), false, Deadline(0, [&asked] { return ++asked < 0; })).empty());
   EXPECT_GT(asked, 100) << "at every step";
   asked = 0;
-  EXPECT_THROW(observedOrders(timed(quick(), Deadline(0, [&asked] { return ++asked > 10; }))), OutOfTime);
+  EXPECT_THROW(observedOrders(quick(), false, Deadline(0, [&asked] { return ++asked > 10; })), OutOfTime);
 }
 
 void expectAllUnfinished(const ValidationResult& result) {
@@ -209,16 +208,46 @@ TEST(TimeLimit, holdsForTorquesOfAFile) {
   EXPECT_EQ(verdictOf(result.checks, "torque.twin"), "not_applicable") << "a file has none, however long it takes";
 }
 
-TEST(TimedScenario, throwsWhereTheDeadlineIsOverAndUntilItIsLifted) {
+/// Every experiment that may be long is asked alone, also where it turns the machine's own errors into results.
+TEST(TimeLimit, endsEachExperiment) {
   const Scenario scenario = quick();
-  EXPECT_EQ(timed(scenario, Deadline()).trajectory, scenario.trajectory) << "itself where there is none";
+  const Deadline over(none_at_all);
+  const std::vector<double> instants = {0, 1, 2};
+  const Subject noc = nocSubject(*scenario.manipulator, nullptr);
+  const SimbodyLoop::TorqueHistory torques = [&](double t) { return noc.torques(scenario.trajectory->at(t)); };
+  EXPECT_THROW(RoundingProfile(scenario, 3, over), OutOfTime);
+  EXPECT_THROW(linearised(scenario, over), OutOfTime);
+  EXPECT_THROW(simbodyAnswers(scenario, instants, over), OutOfTime);
+  EXPECT_THROW(engineTorques(scenario, instants, over), OutOfTime);
+  EXPECT_THROW(runPointwise(scenario, noc, instants, over), OutOfTime);
+  for (const Integrator integrator : {Integrator::rkf78, Integrator::rk_merson}) {
+    ReplaySettings settings;
+    settings.integrator = integrator;
+    settings.end = 0.1;
+    EXPECT_TRUE(replay(scenario, torques, settings).gave_up.empty());
+    settings.deadline = over;
+    EXPECT_THROW(replay(scenario, torques, settings), OutOfTime) << name(integrator);
+  }
+}
+
+TEST(Deadline, isOverForItsCopiesUntilItIsRemoved) {
   const Deadline over(none_at_all), copy = over;
-  const Scenario here = timed(scenario, over);
-  EXPECT_THROW(here.trajectory->at(1.0), OutOfTime);
-  EXPECT_EQ(here.trajectory->duration(), scenario.trajectory->duration());
+  EXPECT_TRUE(copy.isOver());
+  EXPECT_THROW(over.require(), OutOfTime);
   copy.remove();
-  EXPECT_EQ(here.trajectory->at(1.0).p, scenario.trajectory->at(1.0).p);
-  EXPECT_NO_THROW(timed(scenario, Deadline(plenty)).trajectory->at(1.0));
+  EXPECT_NO_THROW(over.require());
+  EXPECT_NO_THROW(Deadline().require());
+  EXPECT_NO_THROW(Deadline(plenty).require());
+}
+
+TEST(Deadline, endsAPartAloneOrWithTheWhole) {
+  const Deadline whole(plenty), part = whole.part();
+  EXPECT_FALSE(part.isOver());
+  part.end();
+  EXPECT_TRUE(part.isOver());
+  EXPECT_FALSE(whole.isOver());
+  EXPECT_TRUE(Deadline(none_at_all).part().isOver());
+  EXPECT_FALSE(Deadline().part().isOver());
 }
 
 /// A host asks the run to end after a few questions, and the run obeys at any time.

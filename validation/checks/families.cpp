@@ -123,7 +123,8 @@ void lookAtLadder(Evidence& e) {
   const bool torques_hold = std::all_of(e.samples.begin(), e.samples.end(), [](const PointwiseSample& sample) {
     return sample.torque.error <= sample.torque.limit;
   });
-  if (torques_hold) climbOn(*e.scenario, e.plan.torques, e.windows.front(), rungSettings(e), e.ladder);
+  if (torques_hold)
+    extendLadder(*e.scenario, e.plan.torques, e.windows.front(), rungSettings(e), e.plan.deadline, e.ladder);
 }
 
 std::vector<Check> judgeStabilisedReplay(const Evidence& e) {
@@ -211,7 +212,7 @@ std::vector<Check> judgeAll(Evidence& evidence) {
       work();
       return true;
     } catch (const OutOfTime& over) {
-      evidence.has.out_of_time = over.words;
+      evidence.has.out_of_time = over.what();
       return false;
     }
   };

@@ -49,7 +49,7 @@ void BackgroundTasks::work() {
     }
     try {
       task();
-    } catch (...) {  // also OutOfTime, which is no std::exception
+    } catch (...) {
       // A later request reports the error.
     }
   }

@@ -69,14 +69,14 @@ void runReplays(bool ladder, Evidence& evidence) {
   const bool first_is_right = replayWindows(evidence);
   if (ladder) {
     const bool climbed = first_is_right && !fault.ladder && answersAs(reference.ladder().asked, evidence);
-    evidence.ladder =
-        climbed ? reference.ladder()
-                : replayLadder(scenario, evidence.plan.torques, evidence.windows.front(), rungSettings(evidence));
-    evidence.orders = fault.lower_order ? observedOrders(scenario, true) : reference.orders();
+    evidence.ladder = climbed ? reference.ladder()
+                              : replayLadder(scenario, evidence.plan.torques, evidence.windows.front(),
+                                             rungSettings(evidence), reference.deadline);
+    evidence.orders = fault.lower_order ? observedOrders(scenario, true, reference.deadline) : reference.orders();
   }
-  evidence.stabilised = stabilisedReplay(fault.feedback ? fault.feedback(scenario) : scenario, *evidence.subject,
-                                         reference.replays().amplification, evidence.samples,
-                                         first_is_right && !fault.feedback ? &reference.stabilised() : nullptr);
+  evidence.stabilised = stabilisedReplay(
+      fault.feedback ? fault.feedback(scenario) : scenario, *evidence.subject, reference.replays().amplification,
+      evidence.samples, first_is_right && !fault.feedback ? &reference.stabilised() : nullptr, reference.deadline);
 }
 
 /// The shares of the work were measured with many samples.
@@ -85,8 +85,8 @@ void lookAtSamples(const Experiments& experiments, Evidence& out) {
     if (experiments.progress) experiments.progress(share);
   };
   const Reference& reference = *out.reference;
-  out.samples =
-      runPointwise(*out.scenario, *out.subject, reference.instants, reference.rounding().profile, reference.simbody());
+  out.samples = runPointwise(*out.scenario, *out.subject, reference.instants, reference.rounding().profile,
+                             reference.simbody(), reference.deadline);
   if (out.fault.sample) std::for_each(out.samples.begin(), out.samples.end(), out.fault.sample);
   if (!out.answered()) return;
   tell(0.45);
@@ -146,7 +146,7 @@ Evidence gather(const Scenario& given, const Reference& reference, const Subject
     planReplays(out);
     if (out.answered()) runReplays(experiments.ladder, out);
   } catch (const OutOfTime& over) {
-    out.has.out_of_time = over.words;
+    out.has.out_of_time = over.what();
   }
   return out;
 }

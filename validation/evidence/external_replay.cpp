@@ -18,10 +18,12 @@ namespace {
 class SplineLimit {
  public:
   /// `grid` holds equally spaced instants of the motion.
-  SplineLimit(const Scenario& scenario, const ExternalTorques& torques, std::vector<double> grid)
+  SplineLimit(const Scenario& scenario, const ExternalTorques& torques, std::vector<double> grid,
+              const Deadline& deadline)
       : t_(torques.file.t), grid_(std::move(grid)) {
-    const RoundingProfile profile(scenario, profileInstants(static_cast<int>(grid_.size())));
+    const RoundingProfile profile(scenario, profileInstants(static_cast<int>(grid_.size())), deadline);
     for (double t : grid_) {
+      deadline.require();
       conditioning_.push_back(profile.at(scenario.trajectory->at(t)));
       position_scale_ = std::max(position_scale_, conditioning_.back().position_scale);
       forces_.include(conditioning_.back());
@@ -102,10 +104,11 @@ std::string splineBasis(const SplineLimit& limit, std::size_t rows, const Units&
 
 }  // namespace
 
-ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& torques, const Units& units) {
+ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& torques, const Units& units,
+                              const Deadline& deadline) {
   const double duration = scenario.trajectory->duration();
   ExternalReplay out;
-  out.amplification = std::make_shared<const Amplification>(linearised(scenario));
+  out.amplification = std::make_shared<const Amplification>(linearised(scenario, deadline));
   out.not_replayed = missing(torques, duration, units);
   if (!out.not_replayed.empty()) {
     out.between = std::numeric_limits<double>::infinity();
@@ -113,12 +116,13 @@ ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& t
   }
 
   const Amplification& amplification = *out.amplification;
-  const auto limit = std::make_shared<const SplineLimit>(scenario, torques, amplification.instants());
+  const auto limit = std::make_shared<const SplineLimit>(scenario, torques, amplification.instants(), deadline);
   const auto spline = std::make_shared<const TorqueSpline>(torques.file.t, torques.file.torques);
   const double knot_rate = static_cast<double>(torques.file.rows()) / duration;
   ReplayPlan plan;
   plan.torques = [spline](double t) { return (*spline)(t); };
   plan.acceleration = [limit](double t) { return (*limit)(t); };
+  plan.deadline = deadline;
   plan.position_scale = limit->positionScale();
   plan.step_rate = std::max(plannedStepRate(duration), 2 * knot_rate);
   plan.tolerance = reachableTolerance(scenario, plan.step_rate);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/deadline.h"
 #include "engines/simbody/simbody_loop.h"
 #include "validation/evidence/external_samples.h"
 #include "validation/replay/windows.h"
@@ -27,6 +28,7 @@ struct ExternalReplay {
 /// Replays in windows. Their limits include rounding, integration, the interpolation error and the digits of the file.
 /// The interpolation error is that of the NOC's torques splined through the same instants. So wrong torques never widen
 /// their own limit.
-ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& torques, const Units& units = {});
+ExternalReplay replayExternal(const Scenario& scenario, const ExternalTorques& torques, const Units& units = {},
+                              const Deadline& deadline = {});
 
 }  // namespace ursula

@@ -34,7 +34,7 @@ Vector6d changeWithin(const std::function<Vector6d(double)>& noc, double t, doub
 
 }  // namespace
 
-ExternalTorques runExternal(const Scenario& scenario, const TorqueFile& file) {
+ExternalTorques runExternal(const Scenario& scenario, const TorqueFile& file, const Deadline& deadline) {
   const double duration = scenario.trajectory->duration();
   ExternalTorques out;
   out.file = within(file, duration);
@@ -46,8 +46,9 @@ ExternalTorques runExternal(const Scenario& scenario, const TorqueFile& file) {
     const auto row = std::lower_bound(out.file.t.begin(), out.file.t.end(), motion.t) - out.file.t.begin();
     return out.file.torques.at(static_cast<std::size_t>(row));
   };
-  out.samples = runPointwise(scenario, subject, out.file.t);
+  out.samples = runPointwise(scenario, subject, out.file.t, deadline);
   for (std::size_t k = 0; k < out.file.rows(); ++k) {
+    deadline.require();
     const double t = out.file.t[k];
     PointwiseSample& sample = out.samples[k];
     const Vector6d precision =

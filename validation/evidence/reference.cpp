@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "model/instants.h"
-#include "validation/evidence/timed.h"
 #include "validation/replay/observed_order.h"
 #include "validation/subject/motion_check.h"
 
@@ -18,57 +17,52 @@ FrameChange checked(const Scenario& given) {
 }  // namespace
 
 std::vector<Conditions> conditionsAt(const Scenario& scenario, const std::vector<double>& instants,
-                                     const RoundingProfile& profile) {
+                                     const RoundingProfile& profile, const Deadline& deadline) {
   std::vector<Conditions> out(instants.size());
   for (std::size_t k = 0; k < instants.size(); ++k) {
+    deadline.require();
     out[k].motion = scenario.trajectory->at(instants[k]);
     out[k].conditioning = profile.at(out[k].motion);
   }
   return out;
 }
 
-PreparedScenario::PreparedScenario(const Scenario& given, const Deadline& deadline, const Deadline& abandoned)
+PreparedScenario::PreparedScenario(const Scenario& given)
     : natural(checked(given)),
       relocated(ursula::relocated(given, natural.origin)),
-      scenario(timed(timed(natural.of(given), deadline), abandoned)),
+      scenario(natural.of(given)),
       instants(equallySpaced(scenario.trajectory->duration(), scenario.simulation.samples)) {}
 
-RoundingAlong::RoundingAlong(const PreparedScenario& of)
-    : profile(of.scenario, profileInstants(of.scenario.simulation.samples)),
-      conditions(conditionsAt(of.scenario, of.instants, profile)),
+RoundingAlong::RoundingAlong(const PreparedScenario& of, const Deadline& deadline)
+    : profile(of.scenario, profileInstants(of.scenario.simulation.samples), deadline),
+      conditions(conditionsAt(of.scenario, of.instants, profile, deadline)),
       position_scale(positionScale(conditions)),
       forces(loopForces(conditions)) {}
 
-Reference::Reference(const Scenario& given, int threads, const Deadline& deadline)
-    : Reference(given, threads, deadline, std::make_shared<std::atomic<bool>>(false)) {}
-
-Reference::Reference(const Scenario& given, int threads, const Deadline& deadline,
-                     const std::shared_ptr<std::atomic<bool>>& abandoned)
-    : PreparedScenario(given, deadline, Deadline(0, [abandoned] { return abandoned->load(); })),
-      deadline_(deadline),
+Reference::Reference(const Scenario& given, int threads, const Deadline& whole)
+    : PreparedScenario(given),
+      deadline(whole.part()),
       // The longest task comes first.
       background_(threads - 1, {[this] { orders(); }, [this] { simbody(); }, [this] { engines(); }},
-                  [abandoned] { *abandoned = true; }) {
+                  [this] { deadline.end(); }) {
   rounding();
-  if (!deadline.isSet()) replays();  // with a deadline, work without replays comes first
+  if (!whole.isSet()) replays();  // with a deadline, work without replays comes first
 }
 
 void Reference::stop() const {
   background_.finish();
-  deadline_.remove();
+  deadline.remove();
 }
 
 RightReplays Reference::rightReplays() const {
-  RightReplays out{linearised(scenario), {}, {}};
+  RightReplays out{linearised(scenario, deadline), {}, {}};
   const double duration = scenario.trajectory->duration();
   const Subject right = nocSubject(*scenario.manipulator, scenario.load);
   const auto trajectory = scenario.trajectory;
   ReplayPlan& plan = out.plan;
   plan.torques = [right, trajectory](double t) { return right.torques(trajectory->at(t)); };
-  plan.acceleration = [limit = SampledLimit(rounding().conditions), deadline = deadline_](double t) {
-    deadline.require();
-    return limit(t);
-  };
+  plan.acceleration = SampledLimit(rounding().conditions);
+  plan.deadline = deadline;
   plan.position_scale = rounding().position_scale;
   plan.step_rate = plannedStepRate(duration);
   plan.max_evaluations = enoughEvaluations(scenario, plan.step_rate);
@@ -87,7 +81,7 @@ RightReplays Reference::rightReplays() const {
 }
 
 const RoundingAlong& Reference::rounding() const {
-  return rounding_.get([this] { return RoundingAlong(*this); });
+  return rounding_.get([this] { return RoundingAlong(*this, deadline); });
 }
 
 const RightReplays& Reference::replays() const {
@@ -101,7 +95,7 @@ void Reference::prepare(bool direct_dynamics, bool ladder) const {
 }
 
 const std::vector<double>& Reference::orders() const {
-  return orders_.get([this] { return observedOrders(scenario); });
+  return orders_.get([this] { return observedOrders(scenario, false, deadline); });
 }
 
 const IntegrationError& Reference::closer(std::size_t window) const {
@@ -113,11 +107,11 @@ const IntegrationError& Reference::closer(std::size_t window) const {
 }
 
 const std::vector<SimbodyAnswer>& Reference::simbody() const {
-  return simbody_.get([this] { return simbodyAnswers(scenario, instants); });
+  return simbody_.get([this] { return simbodyAnswers(scenario, instants, deadline); });
 }
 
 const std::vector<EngineTorques>& Reference::engines() const {
-  return engines_.get([this] { return engineTorques(scenario, instants); });
+  return engines_.get([this] { return engineTorques(scenario, instants, deadline); });
 }
 
 const std::vector<ReactionSample>& Reference::reactions() const {
@@ -131,13 +125,14 @@ const std::vector<DirectSample>& Reference::direct() const {
 }
 
 const Ladder& Reference::ladder() const {
-  return ladder_.get([this] { return replayLadder(scenario, replays().plan.torques, replays().windows.front()); });
+  return ladder_.get(
+      [this] { return replayLadder(scenario, replays().plan.torques, replays().windows.front(), nullptr, deadline); });
 }
 
 const StabilisedReplay& Reference::stabilised() const {
   return stabilised_.get([this] {
     const Subject right = nocSubject(*scenario.manipulator, scenario.load);
-    return stabilisedReplay(scenario, right, replays().amplification, rounding().conditions);
+    return stabilisedReplay(scenario, right, replays().amplification, rounding().conditions, nullptr, deadline);
   });
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -37,8 +36,8 @@ struct PreparedScenario {
   Scenario scenario;             ///< in natural's units, for all experiments
   std::vector<double> instants;  ///< instants that are judged and written
 
-  /// Throws like validate(). The scenario's motion throws OutOfTime once one of the deadlines is over.
-  PreparedScenario(const Scenario& given, const Deadline& deadline, const Deadline& abandoned);
+  /// Throws like validate().
+  explicit PreparedScenario(const Scenario& given);
 };
 
 /// The rounding of the scenario's formulations at its instants.
@@ -48,7 +47,7 @@ struct RoundingAlong {
   double position_scale = 0;
   LoopForces forces;
 
-  explicit RoundingAlong(const PreparedScenario& of);
+  RoundingAlong(const PreparedScenario& of, const Deadline& deadline);
 };
 
 /// The parts of a validation that depend on the scenario alone and not on the subject. The scenario is prepared first.
@@ -57,13 +56,15 @@ struct RoundingAlong {
 class Reference : public PreparedScenario {
  public:
   /// Uses that many threads, which changes no number. Throws like validate(). After the deadline, this or a request for
-  /// a missing part throws OutOfTime.
+  /// a missing part throws OutOfTime. Its own end is a deadline for its background threads.
   explicit Reference(const Scenario& given, int threads = 1, const Deadline& deadline = {});
   Reference(const Reference&) = delete;
   Reference& operator=(const Reference&) = delete;
 
   /// Lets the background threads also make the parts for replays and, if asked, for direct dynamics and the ladder.
   void prepare(bool direct_dynamics, bool ladder) const;
+
+  const Deadline deadline;  ///< of every experiment on the scenario
 
   /// Stops the background threads and removes the deadline.
   void stop() const;
@@ -80,11 +81,8 @@ class Reference : public PreparedScenario {
   const StabilisedReplay& stabilised() const;
 
  private:
-  Reference(const Scenario& given, int threads, const Deadline& deadline,
-            const std::shared_ptr<std::atomic<bool>>& abandoned);
   RightReplays rightReplays() const;
 
-  Deadline deadline_;
   Lazy<RoundingAlong> rounding_;
   Lazy<RightReplays> replays_;
   Lazy<std::vector<double>> orders_;
@@ -100,6 +98,6 @@ class Reference : public PreparedScenario {
 };
 
 std::vector<Conditions> conditionsAt(const Scenario& scenario, const std::vector<double>& instants,
-                                     const RoundingProfile& profile);
+                                     const RoundingProfile& profile, const Deadline& deadline = {});
 
 }  // namespace ursula

@@ -55,7 +55,7 @@ double GrowthWindow::bound(double at, double rate, double initial) const {
   return std::max(boundAt(i), boundAt(i == 0 ? 0 : i - 1));
 }
 
-Amplification::Amplification(const Scenario& scenario, int intervals) {
+Amplification::Amplification(const Scenario& scenario, int intervals, const Deadline& deadline) {
   Linearisation linearisation(scenario);
   length_ = linearisation.length();
   const double h = scenario.trajectory->duration() / intervals;
@@ -70,6 +70,7 @@ Amplification::Amplification(const Scenario& scenario, int intervals) {
     rated = J;
   };
   for (int k = 0; k < intervals; ++k) {
+    deadline.require();
     const Matrix12 J1 = linearisation.at((k + 0.5) * h), J2 = linearisation.at((k + 1) * h);
     if (uniform_ && k > 0 && (J1 != first || J2 != first)) {
       uniform_ = false;

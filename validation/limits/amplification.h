@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "base/deadline.h"
 #include "model/scenario.h"
 #include "validation/subject/subject.h"
 
@@ -34,7 +35,7 @@ class Amplification {
   using Vector12 = Eigen::Matrix<double, 12, 1>;
 
   /// Linearises the direct dynamics at 2 `intervals` + 1 instants of the motion. Throws PoseError at a singular pose.
-  Amplification(const Scenario& scenario, int intervals);
+  Amplification(const Scenario& scenario, int intervals, const Deadline& deadline = {});
 
   /// The longest window from instant `first` in which the bound stays below `useful`; at least one interval. Errors are
   /// `acceleration(t)` m/s² and `rate` per second, all in the worst direction.

@@ -184,10 +184,11 @@ struct RoundingProfile::Workspace {
   std::vector<EngineFrameChange> engines;
 };
 
-RoundingProfile::RoundingProfile(const Scenario& scenario, int instants)
+RoundingProfile::RoundingProfile(const Scenario& scenario, int instants, const Deadline& deadline)
     : workspace_(std::make_unique<Workspace>(scenario)) {
   Motion<double> first_of_held;
   for (int k = 0; k < instants; ++k) {
+    deadline.require();
     const double t = instants > 1 ? scenario.trajectory->duration() * k / (instants - 1) : 0;
     Motion<double> motion = scenario.trajectory->at(t);
     if (k > 0 && areSame(motion, first_of_held))

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/deadline.h"
 #include "model/scenario.h"
 #include "validation/limits/conditioning.h"
 
@@ -17,7 +18,7 @@ namespace ursula {
 class RoundingProfile {
  public:
   /// Measures at `instants` equally spaced instants of the motion. Throws PoseError like the solver.
-  RoundingProfile(const Scenario& scenario, int instants);
+  RoundingProfile(const Scenario& scenario, int instants, const Deadline& deadline = {});
   ~RoundingProfile();
 
   /// The conditioning at an instant of the motion, with measured levels.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 
+#include "base/deadline.h"
 #include "validation/subject/same_bits.h"
 
 namespace ursula {
@@ -25,6 +26,8 @@ bool AskedTorques::sameFrom(const SimbodyLoop::TorqueHistory& torques) const {
     return !answers_.empty() && std::all_of(answers_.begin(), answers_.end(), [&torques](const Answer& answer) {
       return answer.given && sameBits(answer.torques, torques(answer.t));
     });
+  } catch (const OutOfTime&) {
+    throw;
   } catch (const std::exception&) {
     return false;  // the caller meets the same error
   }

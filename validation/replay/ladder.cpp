@@ -48,10 +48,18 @@ Rung rungOf(const ReplaySettings& settings, const Replay& run, const Replay& fin
   return rung;
 }
 
+/// `change`, which may be empty, and the deadline.
+ChangeSettings inTime(const ChangeSettings& change, const Deadline& deadline) {
+  return [change, deadline](ReplaySettings& settings) {
+    settings.deadline = deadline;
+    if (change) change(settings);
+  };
+}
+
 /// One replay beside the judged one.
 Replay replayBeside(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, ReplaySettings settings,
                     const ChangeSettings& change) {
-  if (change) change(settings);
+  change(settings);
   return replay(scenario, torques, settings);
 }
 
@@ -84,6 +92,8 @@ double contradictionBetween(const Scenario& scenario, const SimbodyLoop::TorqueH
     try {
       largest = larger(largest, loop.ownTwistRateError(asked).norm());
     } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const OutOfTime&) {
       throw;
     } catch (const std::exception&) {
       return std::numeric_limits<double>::infinity();  // Simbody has no accelerations at all
@@ -125,8 +135,8 @@ void replaySecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& to
 
 /// Covers only the first steps, at least a tenth, because it tests the integrator and not the whole replay. It covers
 /// fewer if they take too many evaluations.
-void climbSecond(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-                 const ChangeSettings& change, Ladder& ladder) {
+void replayBySecondIntegrator(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques,
+                              const WindowedReplay& finest, const ChangeSettings& change, Ladder& ladder) {
   const std::vector<ReplayStep>& steps = finest.replay.steps;
   if (steps.size() < 2) return;
   // Simbody's integrator is explicit, so stiff friction limits it to a single step of the judged replay.
@@ -148,7 +158,8 @@ double order(const Rung& coarse, const Rung& fine) {
 }  // namespace
 
 Ladder replayLadder(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-                    const ChangeSettings& change) {
+                    const ChangeSettings& change, const Deadline& deadline) {
+  const ChangeSettings timed = inTime(change, deadline);
   Ladder ladder;
   for (double factor : {1e6, 1e4, coarser}) {
     const double tolerance = std::min(1e-4, factor * finest.replay.tolerance);
@@ -158,7 +169,7 @@ Ladder replayLadder(const Scenario& scenario, const SimbodyLoop::TorqueHistory& 
     if (known)
       addRung(settings, *finest.coarse, finest.replay, ladder.rungs, ladder.asked);
     else
-      makeRung(scenario, torques, finest, tolerance, change, ladder);
+      makeRung(scenario, torques, finest, tolerance, timed, ladder);
   }
   for (std::size_t k = 0; k + 1 < ladder.rungs.size(); ++k)
     ladder.observed_orders.push_back(order(ladder.rungs[k], ladder.rungs[k + 1]));
@@ -171,14 +182,14 @@ Ladder replayLadder(const Scenario& scenario, const SimbodyLoop::TorqueHistory& 
   const double p = ladder.asymptotic ? ladder.observed_orders.back() : 0;
   ladder.extrapolated = last.distance * std::pow(ratio, -p);
   ladder.uncertainty = integration_safety * ladder.extrapolated;
-  climbSecond(scenario, torques, finest, change, ladder);
+  replayBySecondIntegrator(scenario, torques, finest, timed, ladder);
   ladder.passes_knots = allKnots(scenario).size() > most_knots;
   return ladder;
 }
 
-void climbOn(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-             const ChangeSettings& change, Ladder& ladder) {
-  makeRung(scenario, torques, finest, last_rung * finest.replay.tolerance, change, ladder);
+void extendLadder(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
+                  const ChangeSettings& change, const Deadline& deadline, Ladder& ladder) {
+  makeRung(scenario, torques, finest, last_rung * finest.replay.tolerance, inTime(change, deadline), ladder);
 }
 
 }  // namespace ursula

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/deadline.h"
 #include "model/scenario.h"
 #include "validation/replay/windowed_replay.h"
 
@@ -43,13 +44,13 @@ struct Ladder {
   AskedTorques asked;                   ///< by all its replays
 };
 
-/// `finest` is the judged replay of the window. Its coarser replay serves as a rung if it would be the same under
-/// `torques`. `change` alters the settings of all others.
+/// Throws OutOfTime. `finest` is the judged replay of the window. Its coarser replay serves as a rung if it would be
+/// the same under `torques`. `change` alters the settings of all others.
 Ladder replayLadder(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-                    const std::function<void(ReplaySettings&)>& change = nullptr);
+                    const std::function<void(ReplaySettings&)>& change = nullptr, const Deadline& deadline = {});
 
 /// Adds a rung at ten times the judged tolerance.
-void climbOn(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
-             const std::function<void(ReplaySettings&)>& change, Ladder& ladder);
+void extendLadder(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torques, const WindowedReplay& finest,
+                  const std::function<void(ReplaySettings&)>& change, const Deadline& deadline, Ladder& ladder);
 
 }  // namespace ursula

@@ -34,11 +34,11 @@ constexpr std::size_t most_stretches = 12;
 template <class Stepper>
 class LetGo {
  public:
-  explicit LetGo(const Scenario& scenario)
-      : trajectory_(*scenario.trajectory),
+  LetGo(const Scenario& scenario, const Deadline& deadline)
+      : deadline_(deadline),
         machine_(frictionless(*scenario.manipulator)),
         loop_(machine_),
-        start_(trajectory_.at(0)) {
+        start_(scenario.trajectory->at(0)) {
     // These torques give about a natural unit of acceleration in every direction; otherwise a motion from rest would
     // stay there.
     Motion<double> pushed = start_;
@@ -64,7 +64,10 @@ class LetGo {
         known->second = endOf(duration, steps);
       } catch (const std::bad_alloc&) {
         reached_.erase(known);
-        throw;  // lack of memory says nothing about the machine
+        throw;  // a lack of memory or time says nothing about the machine
+      } catch (const OutOfTime&) {
+        reached_.erase(known);
+        throw;
       } catch (const std::exception&) {
       }
     return known->second;
@@ -91,7 +94,7 @@ class LetGo {
     Stepper stepper;
     const double h = duration / steps;
     for (int k = 0; k < steps; ++k) {
-      static_cast<void>(trajectory_.at(0));  // throws if time is up
+      deadline_.require();
       stepper.do_step([this](const OdeState& at, OdeState& rate,
                              double t) { loop_.derivative(t, at.data(), torques_, rate.data()); },
                       x, k * h, h);
@@ -99,7 +102,7 @@ class LetGo {
     return x;
   }
 
-  const Trajectory& trajectory_;
+  Deadline deadline_;
   Manipulator machine_;
   SimbodyLoop loop_;
   Motion<double> start_;
@@ -126,8 +129,8 @@ bool leaveItOpen(const std::vector<double>& orders) {
 
 /// The observed order of each stretch, the longest first.
 template <class Stepper>
-std::vector<double> ordersOf(const Scenario& scenario) {
-  LetGo<Stepper> loop(scenario);
+std::vector<double> ordersOf(const Scenario& scenario, const Deadline& deadline) {
+  LetGo<Stepper> loop(scenario, deadline);
   std::vector<double> orders;
   double duration = longest_stretch * std::pow(shorter, firstStretch(loop));
   const double noise = above_noise * loop.noise(duration);  // longer stretches have more noise
@@ -154,9 +157,9 @@ bool haveSettled(const std::vector<double>& orders) {
   return *most - *least <= settled;
 }
 
-std::vector<double> observedOrders(const Scenario& scenario, bool lower) {
-  return lower ? ordersOf<odeint::runge_kutta_dopri5<OdeState>>(scenario)
-               : ordersOf<odeint::runge_kutta_fehlberg78<OdeState>>(scenario);
+std::vector<double> observedOrders(const Scenario& scenario, bool lower, const Deadline& deadline) {
+  return lower ? ordersOf<odeint::runge_kutta_dopri5<OdeState>>(scenario, deadline)
+               : ordersOf<odeint::runge_kutta_fehlberg78<OdeState>>(scenario, deadline);
 }
 
 }  // namespace ursula

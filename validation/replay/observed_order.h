@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "base/deadline.h"
 #include "model/scenario.h"
 
 namespace ursula {
@@ -10,7 +11,7 @@ namespace ursula {
 /// first. Returns none if no stretch lies between rounding and too long steps. It uses the scenario's own loop from its
 /// commanded state, but with smooth forces: no friction, no load, constant torques. `lower` uses an integrator of lower
 /// order, as a negative control.
-std::vector<double> observedOrders(const Scenario& scenario, bool lower = false);
+std::vector<double> observedOrders(const Scenario& scenario, bool lower = false, const Deadline& deadline = {});
 
 /// Allowed shortfall of the observed order, because the machine's own scales matter over short but finite steps. A
 /// lower order must also be settled over the shortest stretches, within the second value.

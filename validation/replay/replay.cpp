@@ -136,8 +136,12 @@ class Run {
     std::vector<double> instants;
     for (int k = 1; k < settings_.instants; ++k)
       instants.push_back(settings_.start + (settings_.end - settings_.start) * k / (settings_.instants - 1));
+    const SimbodyLoop::TorqueHistory timed = [this](double t) {
+      settings_.deadline.require();
+      return torques_(t);
+    };
     const SimbodyLoop::Counters counters =
-        loop_.integrateRungeKuttaMerson(settings_.tolerance, torques_, instants, [this](double t) { record(t); });
+        loop_.integrateRungeKuttaMerson(settings_.tolerance, timed, instants, [this](double t) { record(t); });
     result_.evaluations = counters.derivative_evaluations;
     result_.accepted = counters.steps;
     if (counters.gave_up) result_.gave_up = "Simbody's integrator could not keep its accuracy";
@@ -200,6 +204,7 @@ class Run {
   void derivative(const OdeState& x, OdeState& rate, double t) {
     if (++result_.evaluations > settings_.max_evaluations)
       throw TooLong(fmt::format("more than {} derivative evaluations", settings_.max_evaluations));
+    settings_.deadline.require();
     result_.stopped_at = t;
     if (!settings_.stiff || !(t == torques_at_)) torques_now_ = torques_(t);  // a Jacobian evaluates at one instant
     torques_at_ = t;
@@ -263,7 +268,9 @@ Replay replay(const Scenario& scenario, const SimbodyLoop::TorqueHistory& torque
   } catch (const TooLong& error) {
     run.giveUp(error.what(), true);
   } catch (const std::bad_alloc&) {
-    throw;  // a lack of memory says nothing about the motion
+    throw;  // a lack of memory or time says nothing about the motion
+  } catch (const OutOfTime&) {
+    throw;
   } catch (const std::exception& error) {
     run.giveUp(error.what(), false);  // the completed part is still reported
   }

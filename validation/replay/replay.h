@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/deadline.h"
 #include "engines/simbody/simbody_loop.h"
 #include "model/scenario.h"
 #include "validation/replay/asked_torques.h"
@@ -53,6 +54,7 @@ struct ReplaySettings {
   std::vector<double> stops;     ///< rkf78 only: further instants to step to
   int instants = 101;            ///< rk_merson only: number of equally spaced instants to compare at
   long max_evaluations = 20000;  ///< gives up after this number
+  Deadline deadline;             ///< OutOfTime is thrown once it is over
   bool project = false;          ///< rkf78 only: after each step the legs follow the platform, which closes the gaps
   std::function<void(const std::vector<double>&)>
       foresee;  ///< rkf78 only: receives the instants of each step's torques, s

@@ -168,7 +168,7 @@ bool stiffStep(RadauStep& radau, const RateAt& rate, Deviation& deviation, doubl
 /// Follows the deviation from the commanded state to the end of the motion, with the tolerance and the limit of
 /// `found`. `torques` are the subject's.
 void follow(Stabilised& loop, const Subject& subject, const SimbodyLoop::TorqueHistory& torques,
-            const Trajectory& trajectory, StabilisedReplay& found) {
+            const Trajectory& trajectory, const Deadline& deadline, StabilisedReplay& found) {
   const bool stiff = loop.stiff();
   RadauStep radau;
   const auto stepperOf = [](double absolute) {
@@ -190,6 +190,8 @@ void follow(Stabilised& loop, const Subject& subject, const SimbodyLoop::TorqueH
       return stepper.try_step(rate, deviation, at, h) == odeint::success;
     } catch (const std::bad_alloc&) {
       throw;  // no shorter step needs less memory
+    } catch (const OutOfTime&) {
+      throw;
     } catch (const std::exception&) {
       if (!(tried > shortest_step * end)) throw;
       h = tried / 4;
@@ -201,6 +203,7 @@ void follow(Stabilised& loop, const Subject& subject, const SimbodyLoop::TorqueH
     const double left = end - t;
     step = std::min({step, largest_step / loop.frequency(t), left});
     const bool last = step == left;
+    deadline.require();
     if (accepted(t, step)) {
       if (last) t = end;
       ++found.steps;
@@ -240,7 +243,8 @@ StabilisedReplay planned(Stabilised& loop, const std::vector<Sample>& samples) {
 
 template <class Sample>
 StabilisedReplay stabilisedReplay(const Scenario& scenario, const Subject& subject, const Amplification& amplification,
-                                  const std::vector<Sample>& samples, const StabilisedReplay* known) {
+                                  const std::vector<Sample>& samples, const StabilisedReplay* known,
+                                  const Deadline& deadline) {
   Stabilised loop(scenario, amplification, samples);
   const SimbodyLoop::TorqueHistory torques = [&](double t) { return subject.torques(scenario.trajectory->at(t)); };
   StabilisedReplay found = planned(loop, samples);
@@ -252,9 +256,11 @@ StabilisedReplay stabilisedReplay(const Scenario& scenario, const Subject& subje
     return found;
   }
   try {
-    follow(loop, subject, found.asked.of(torques), *scenario.trajectory, found);
+    follow(loop, subject, found.asked.of(torques), *scenario.trajectory, deadline, found);
   } catch (const std::bad_alloc&) {
-    throw;                                 // a lack of memory says nothing about the motion
+    throw;  // a lack of memory or time says nothing about the motion
+  } catch (const OutOfTime&) {
+    throw;
   } catch (const std::exception& error) {  // earlier results are kept
     found.stopped = error.what();
     found.gave_up = true;
@@ -264,8 +270,9 @@ StabilisedReplay stabilisedReplay(const Scenario& scenario, const Subject& subje
 }
 
 template StabilisedReplay stabilisedReplay(const Scenario&, const Subject&, const Amplification&,
-                                           const std::vector<Conditions>&, const StabilisedReplay*);
+                                           const std::vector<Conditions>&, const StabilisedReplay*, const Deadline&);
 template StabilisedReplay stabilisedReplay(const Scenario&, const Subject&, const Amplification&,
-                                           const std::vector<PointwiseSample>&, const StabilisedReplay*);
+                                           const std::vector<PointwiseSample>&, const StabilisedReplay*,
+                                           const Deadline&);
 
 }  // namespace ursula

@@ -39,6 +39,7 @@ struct StabilisedReplay {
 /// replay of the same scenario at the same instants. It replaces the subject's own if both must be bitwise equal.
 template <class Sample>
 StabilisedReplay stabilisedReplay(const Scenario& scenario, const Subject& subject, const Amplification& amplification,
-                                  const std::vector<Sample>& samples, const StabilisedReplay* known = nullptr);
+                                  const std::vector<Sample>& samples, const StabilisedReplay* known = nullptr,
+                                  const Deadline& deadline = {});
 
 }  // namespace ursula

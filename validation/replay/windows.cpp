@@ -116,8 +116,8 @@ int linearisedIntervals(double duration) {
   return static_cast<int>(std::clamp(std::ceil(40 * duration), least, most));
 }
 
-Amplification linearised(const Scenario& scenario) {
-  return Amplification(scenario, linearisedIntervals(scenario.trajectory->duration()));
+Amplification linearised(const Scenario& scenario, const Deadline& deadline) {
+  return Amplification(scenario, linearisedIntervals(scenario.trajectory->duration()), deadline);
 }
 
 std::vector<GrowthWindow> planWindows(const Amplification& amplification, const ReplayPlan& plan) {
@@ -144,6 +144,7 @@ ReplaySettings settingsOf(const Scenario& scenario, const ReplayPlan& plan, cons
   settings.start = window.start();
   settings.end = window.end();
   settings.max_evaluations = plan.max_evaluations;
+  settings.deadline = plan.deadline;
   settings.foresee = plan.foresee;
   return settings;
 }

@@ -19,13 +19,14 @@ struct ReplayPlan {
   long max_evaluations = 200000;               ///< limit of derivative evaluations in one window
   double tolerance = 1e-14;                    ///< of the integrator: reachableTolerance
   bool stiff = false;                          ///< as in ReplaySettings
+  Deadline deadline = {};                      ///< as in ReplaySettings
   std::function<void(const std::vector<double>&)> foresee = nullptr;  ///< as in ReplaySettings; may be empty
 };
 
 /// Returns 300 intervals, or 40 per second if that is more, up to 300,000.
 int linearisedIntervals(double duration);
 /// The growth of deviations along the scenario's motion, in linearisedIntervals().
-Amplification linearised(const Scenario& scenario);
+Amplification linearised(const Scenario& scenario, const Deadline& deadline = {});
 
 /// Divides the motion into windows that restart on the commanded state, each as long as its limit stays useful. If even
 /// the shortest exceeds it, the shortest is used.

@@ -2,10 +2,12 @@
 
 namespace ursula {
 
-std::vector<EngineTorques> engineTorques(const Scenario& scenario, const std::vector<double>& instants) {
+std::vector<EngineTorques> engineTorques(const Scenario& scenario, const std::vector<double>& instants,
+                                         const Deadline& deadline) {
   const OfFurtherEngines<std::unique_ptr<Engine>> engines = makeFurtherEngines(*scenario.manipulator, scenario.load);
   std::vector<EngineTorques> out(instants.size());
   for (std::size_t i = 0; i < instants.size(); ++i) {
+    deadline.require();
     const Motion<double> motion = scenario.trajectory->at(instants[i]);
     for (std::size_t k = 0; k < further_engine_count; ++k)
       if (engines[k]) out[i][k] = engines[k]->inverseDynamics(motion);

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/deadline.h"
 #include "engines/further_engines.h"
 #include "model/scenario.h"
 #include "validation/samples/pointwise.h"
@@ -22,7 +23,8 @@ struct EngineSample {
 };
 
 /// Computes the torques of all further formulations at the instants.
-std::vector<EngineTorques> engineTorques(const Scenario& scenario, const std::vector<double>& instants);
+std::vector<EngineTorques> engineTorques(const Scenario& scenario, const std::vector<double>& instants,
+                                         const Deadline& deadline = {});
 
 /// Combines the subject's torques with `engines`, which are those at the instants of `samples`.
 std::vector<EngineSample> runEngines(const std::vector<EngineTorques>& engines,

@@ -187,7 +187,7 @@ std::bitset<std::size(deviations)> beyond(const PointwiseSample& sample) {
 
 std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
                                           const std::vector<double>& instants, const RoundingProfile& profile,
-                                          const std::vector<SimbodyAnswer>& simbody) {
+                                          const std::vector<SimbodyAnswer>& simbody, const Deadline& deadline) {
   SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
   const Subject right = nocSubject(*scenario.manipulator, scenario.load);
   std::vector<PointwiseSample> samples;
@@ -195,6 +195,7 @@ std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subjec
   foresee(subject, *scenario.trajectory, instants);
   std::bitset<std::size(deviations)> confirmed;  // a second look confirmed these
   for (std::size_t k = 0; k < instants.size(); ++k) {
+    deadline.require();
     const Motion<double> motion = scenario.trajectory->at(instants[k]);
     const auto run = [&](const Conditioning& conditioning) {
       return runInstant(scenario, subject, right, conditioning, simbody[k], loop, motion);
@@ -213,9 +214,10 @@ std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subjec
 }
 
 std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
-                                          const std::vector<double>& instants) {
+                                          const std::vector<double>& instants, const Deadline& deadline) {
   return runPointwise(scenario, subject, instants,
-                      RoundingProfile(scenario, profileInstants(static_cast<int>(instants.size()))));
+                      RoundingProfile(scenario, profileInstants(static_cast<int>(instants.size())), deadline),
+                      simbodyAnswers(scenario, instants, deadline), deadline);
 }
 
 std::vector<PointwiseSample> runJointsAndTorques(const Scenario& scenario, const Subject& subject,

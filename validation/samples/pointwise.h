@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/deadline.h"
 #include "model/scenario.h"
 #include "validation/limits/rounding_profile.h"
 #include "validation/samples/simbody_answers.h"
@@ -44,13 +45,13 @@ struct PointwiseSample {
 /// scenario's; `simbody` are Simbody's answers at the instants.
 std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
                                           const std::vector<double>& instants, const RoundingProfile& profile,
-                                          const std::vector<SimbodyAnswer>& simbody);
+                                          const std::vector<SimbodyAnswer>& simbody, const Deadline& deadline = {});
 /// The same, but it asks Simbody itself.
 std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
                                           const std::vector<double>& instants, const RoundingProfile& profile);
 /// The same with its own profile.
 std::vector<PointwiseSample> runPointwise(const Scenario& scenario, const Subject& subject,
-                                          const std::vector<double>& instants);
+                                          const std::vector<double>& instants, const Deadline& deadline = {});
 
 /// Only joints and torques, with the fewest calls of Simbody: its placed loop and inverse dynamics. Limits are derived
 /// (rounding_depth), not measured.

@@ -37,12 +37,16 @@ SimbodyAnswer simbodyAnswer(SimbodyLoop& loop, const Subject& right, const Motio
   return out;
 }
 
-std::vector<SimbodyAnswer> simbodyAnswers(const Scenario& scenario, const std::vector<double>& instants) {
+std::vector<SimbodyAnswer> simbodyAnswers(const Scenario& scenario, const std::vector<double>& instants,
+                                          const Deadline& deadline) {
   SimbodyLoop loop(*scenario.manipulator, SimbodyLoop::Topology::six_balls, scenario.load);
   const Subject right = nocSubject(*scenario.manipulator, scenario.load);
   std::vector<SimbodyAnswer> out;
   out.reserve(instants.size());
-  for (double t : instants) out.push_back(simbodyAnswer(loop, right, scenario.trajectory->at(t)));
+  for (double t : instants) {
+    deadline.require();
+    out.push_back(simbodyAnswer(loop, right, scenario.trajectory->at(t)));
+  }
   return out;
 }
 

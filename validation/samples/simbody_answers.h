@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/deadline.h"
 #include "engines/simbody/simbody_loop.h"
 #include "model/scenario.h"
 #include "validation/subject/subject.h"
@@ -25,6 +26,7 @@ struct SimbodyAnswer {
 
 SimbodyAnswer simbodyAnswer(SimbodyLoop& loop, const Subject& right, const Motion<double>& motion);
 
-std::vector<SimbodyAnswer> simbodyAnswers(const Scenario& scenario, const std::vector<double>& instants);
+std::vector<SimbodyAnswer> simbodyAnswers(const Scenario& scenario, const std::vector<double>& instants,
+                                          const Deadline& deadline = {});
 
 }  // namespace ursula
