@@ -41,18 +41,16 @@ ValidationOptions within(double seconds) {
 
 constexpr double none_at_all = 1e-9, plenty = 1e8;
 
-/// Otherwise this would wait for ever.
-TEST(BackgroundTasks, cutsShortWhatHasBegunWhenNobodyWillAsk) {
-  std::atomic<bool> begun{false}, cut_short{false}, ended{false};
-  {
-    const BackgroundTasks::Task task = [&] {
-      begun = true;
-      while (!cut_short) std::this_thread::yield();
-      ended = true;
-    };
-    const BackgroundTasks background(1, {task}, [&] { cut_short = true; });
-    while (!begun) std::this_thread::yield();
-  }
+TEST(BackgroundTasks, areFinishedOnceWhatHasBegunHasEnded) {
+  std::atomic<bool> begun{false}, ended{false};
+  BackgroundTasks background;
+  background.start(1, {[&] {
+                     begun = true;
+                     std::this_thread::sleep_for(std::chrono::milliseconds(20));
+                     ended = true;
+                   }});
+  while (!begun) std::this_thread::yield();
+  background.finish();
   EXPECT_TRUE(ended);
 }
 

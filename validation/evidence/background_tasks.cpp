@@ -7,14 +7,9 @@
 
 namespace ursula {
 
-BackgroundTasks::BackgroundTasks(int threads, const std::vector<Task>& first, Task cut_short)
-    : cut_short_(std::move(cut_short)), tasks_(first.begin(), first.end()) {
+void BackgroundTasks::start(int threads, const std::vector<Task>& first) {
+  tasks_.assign(first.begin(), first.end());
   threads_ = startThreads(static_cast<std::size_t>(std::max(threads, 0)), [this] { work(); });
-}
-
-BackgroundTasks::~BackgroundTasks() {
-  if (cut_short_) cut_short_();
-  finish();
 }
 
 void BackgroundTasks::add(const Task& task) {

@@ -15,13 +15,13 @@ class BackgroundTasks {
  public:
   using Task = std::function<void()>;
 
-  /// Starts with the tasks `first`. Without threads nothing is done. `cut_short` makes running tasks end soon.
-  explicit BackgroundTasks(int threads, const std::vector<Task>& first = {}, Task cut_short = nullptr);
-  /// Cuts running tasks short, because nobody needs their results, and waits for them.
-  ~BackgroundTasks();
+  BackgroundTasks() = default;
+  ~BackgroundTasks() { finish(); }
   BackgroundTasks(const BackgroundTasks&) = delete;
   BackgroundTasks& operator=(const BackgroundTasks&) = delete;
 
+  /// Starts with the tasks `first`. Without threads nothing is done.
+  void start(int threads, const std::vector<Task>& first);
   void add(const Task& task);
   /// Waits for running tasks and drops the others.
   void finish();
@@ -29,7 +29,6 @@ class BackgroundTasks {
  private:
   void work();
 
-  Task cut_short_;
   std::mutex guard_;
   std::condition_variable changed_;
   std::deque<Task> tasks_;

@@ -40,13 +40,16 @@ RoundingAlong::RoundingAlong(const PreparedScenario& of, const Deadline& deadlin
       forces(loopForces(conditions)) {}
 
 Reference::Reference(const Scenario& given, int threads, const Deadline& whole)
-    : PreparedScenario(given),
-      deadline(whole.part()),
-      // The longest task comes first.
-      background_(threads - 1, {[this] { orders(); }, [this] { simbody(); }, [this] { engines(); }},
-                  [this] { deadline.end(); }) {
+    : PreparedScenario(given), deadline(whole.part()) {
+  background_.start(threads - 1,
+                    {[this] { orders(); }, [this] { simbody(); }, [this] { engines(); }});  // longest first
   rounding();
   if (!whole.isSet()) replays();  // with a deadline, work without replays comes first
+}
+
+Reference::~Reference() {
+  deadline.end();
+  background_.finish();
 }
 
 void Reference::stop() const {

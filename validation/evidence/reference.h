@@ -56,8 +56,10 @@ struct RoundingAlong {
 class Reference : public PreparedScenario {
  public:
   /// Uses that many threads, which changes no number. Throws like validate(). After the deadline, this or a request for
-  /// a missing part throws OutOfTime. Its own end is a deadline for its background threads.
+  /// a missing part throws OutOfTime.
   explicit Reference(const Scenario& given, int threads = 1, const Deadline& deadline = {});
+  /// Ends what is under way, because nobody needs it any more.
+  ~Reference();
   Reference(const Reference&) = delete;
   Reference& operator=(const Reference&) = delete;
 
@@ -94,7 +96,7 @@ class Reference : public PreparedScenario {
   Lazy<StabilisedReplay> stabilised_;
   mutable std::mutex measuring_;
   mutable std::map<std::size_t, IntegrationError> closer_;
-  mutable BackgroundTasks background_;  ///< the last member: its tasks fill the others and end before them
+  mutable BackgroundTasks background_;
 };
 
 std::vector<Conditions> conditionsAt(const Scenario& scenario, const std::vector<double>& instants,
