@@ -13,14 +13,11 @@
 namespace ursula {
 namespace {
 
-/// A number with its derivatives by N variables.
-template <int N>
-using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, N, 1>>;
-/// Derivatives by the state: δ, p, ω, ṗ, ω̇, p̈.
-using ByState = Dual<18>;
-/// Number of the machine's parameters that one pass differentiates by.
-constexpr int at_a_time = 16;
-using ByNumbers = Dual<at_a_time>;
+/// Number of variables that one pass differentiates by: the state δ, p, ω, ṗ, ω̇, p̈, or as many parameters of the
+/// machine. One number for both halves the time to compile.
+constexpr int at_a_time = 18;
+/// A number with its derivatives.
+using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, at_a_time, 1>>;
 
 template <class S>
 Vector3<S> constant(const Vector3d& v) {
@@ -61,29 +58,29 @@ Vector6<S> efforts(const kernel::MachineModel<S>& machine, const Motion<S>& moti
   return found;
 }
 
-void seed(int first, Vector3<ByState>& v) {
+void seed(int first, Vector3<Dual>& v) {
   for (int k = 0; k < 3; ++k) v(k).derivatives()(first + k) = 1;
 }
 
 /// A machine with its axes as given, without normalisation.
 struct WrittenMachine {
-  MachineParameters<ByNumbers> parameters;
-  std::array<Vector3<ByNumbers>, leg_count> axis;
+  MachineParameters<Dual> parameters;
+  std::array<Vector3<Dual>, leg_count> axis;
 
   explicit WrittenMachine(const Manipulator& manipulator) : parameters(manipulator) {
     for (int i = 0; i < manipulator.legCount(); ++i)
-      axis[static_cast<std::size_t>(i)] = constant<ByNumbers>(manipulator.leg(i).base_axis);
+      axis[static_cast<std::size_t>(i)] = constant<Dual>(manipulator.leg(i).base_axis);
   }
 };
 
 /// Makes `slope` the derivative by this number.
 void vary(WrittenMachine& machine, const MachineNumber& number, int slope) {
-  MachineParameters<ByNumbers>& m = machine.parameters;
+  MachineParameters<Dual>& m = machine.parameters;
   const auto i = static_cast<std::size_t>(std::max(number.leg, 0)), k = static_cast<std::size_t>(number.entry);
-  LegModel<ByNumbers>& leg = m.legs[i];
+  LegModel<Dual>& leg = m.legs[i];
   const bool proximal = number.body == "proximal";
-  const auto one = [slope](ByNumbers& place) { place.derivatives()(slope) = 1; };
-  const auto entry = [&](Matrix3<ByNumbers>& I) {
+  const auto one = [slope](Dual& place) { place.derivatives()(slope) = 1; };
+  const auto entry = [&](Matrix3<Dual>& I) {
     const auto& [row, column] = tensor_entries[k];
     one(I(row, column));
     one(I(column, row));
@@ -133,11 +130,11 @@ void vary(WrittenMachine& machine, const MachineNumber& number, int slope) {
 /// Bodies of mass 1 at P and at the links' first ends, without inertia. Their derivatives by mass, distance and inertia
 /// are the columns of the regressor.
 WrittenMachine unitBodies(WrittenMachine machine) {
-  MachineParameters<ByNumbers>& m = machine.parameters;
+  MachineParameters<Dual>& m = machine.parameters;
   m.mass = 1;
   m.rho.setZero();
   m.I_M.setZero();
-  for (LegModel<ByNumbers>& leg : m.legs) {
+  for (LegModel<Dual>& leg : m.legs) {
     leg.mass_1 = leg.mass_2 = 1;
     leg.rho = leg.sigma = 0;
     leg.off_1.setZero();
@@ -192,7 +189,7 @@ bool isLinear(const MachineNumber& number) {
 
 struct EffortDerivatives::Impl {
   explicit Impl(const Manipulator& manipulator)
-      : by_state(kernel::machineModel(MachineParameters<ByState>(manipulator))),
+      : by_state(kernel::machineModel(MachineParameters<Dual>(manipulator))),
         machine(manipulator),
         unit(unitBodies(machine)),
         numbers(machineNumbers(manipulator.parameters())),
@@ -212,13 +209,13 @@ struct EffortDerivatives::Impl {
                          const Motion<double>& motion, const Vector6d& load) {
     const int count = static_cast<int>(numbers.size());
     Columns out(6, count);
-    const Motion<ByNumbers> m = constant<ByNumbers>(motion);
-    const Vector6<ByNumbers> on_platform = load.cast<ByNumbers>();
+    const Motion<Dual> m = constant<Dual>(motion);
+    const Vector6<Dual> on_platform = load.cast<Dual>();
     for (int first = 0; first < count; first += at_a_time) {
       const int here = std::min(at_a_time, count - first);
       WrittenMachine seeded = at;
       for (int k = 0; k < here; ++k) vary(seeded, numbers[static_cast<std::size_t>(first + k)], k);
-      const Vector6<ByNumbers> found = efforts(modelOf(seeded), m, on_platform);
+      const Vector6<Dual> found = efforts(modelOf(seeded), m, on_platform);
       for (int k = 0; k < here; ++k)
         for (int row = 0; row < 6; ++row) out(row, first + k) = found(row).derivatives()(k);
     }
@@ -227,11 +224,11 @@ struct EffortDerivatives::Impl {
   }
 
   /// Enables all friction that could exist, and derives the frames from the varied axes.
-  static kernel::MachineModel<ByNumbers> modelOf(WrittenMachine& seeded) {
-    MachineParameters<ByNumbers>& m = seeded.parameters;
+  static kernel::MachineModel<Dual> modelOf(WrittenMachine& seeded) {
+    MachineParameters<Dual>& m = seeded.parameters;
     for (std::size_t i = 0; i < static_cast<std::size_t>(m.legs_in_all); ++i)
-      setFixedFrame<ByNumbers>(seeded.axis[i], m.legs[i].x_hat, m.legs[i].u, m.legs[i].z_hat);
-    kernel::MachineModel<ByNumbers> model = kernel::machineModel(m);
+      setFixedFrame<Dual>(seeded.axis[i], m.legs[i].x_hat, m.legs[i].u, m.legs[i].z_hat);
+    kernel::MachineModel<Dual> model = kernel::machineModel(m);
     for (std::size_t i = 0; i < static_cast<std::size_t>(m.legs_in_all); ++i) {
       model.legs[i].has_friction = model.legs[i].has_coulomb = true;
       model.legs[i].principal = false;
@@ -239,7 +236,7 @@ struct EffortDerivatives::Impl {
     return model;
   }
 
-  kernel::MachineModel<ByState> by_state;
+  kernel::MachineModel<Dual> by_state;
   WrittenMachine machine, unit;
   std::vector<MachineNumber> numbers, linear;
   ManipulatorParameters raw;
@@ -252,7 +249,7 @@ EffortDerivatives::EffortDerivatives(const Manipulator& manipulator)
 
 EffortsByState EffortDerivatives::byState(const Motion<double>& motion, const Vector6d& load,
                                           const EffortsByState::Block& load_by_turn) const {
-  Motion<ByState> m = constant<ByState>(motion);
+  Motion<Dual> m = constant<Dual>(motion);
   for (int k = 0; k < 3; ++k) {  // Q becomes exp([δ]×) Q
     const Vector3d q = motion.Q.col(k);
     for (int j = 0; j < 3; ++j) {
@@ -265,10 +262,10 @@ EffortsByState EffortDerivatives::byState(const Motion<double>& motion, const Ve
   seed(9, m.p_dot);
   seed(12, m.omega_dot);
   seed(15, m.p_ddot);
-  Vector6<ByState> on_platform = load.cast<ByState>();
+  Vector6<Dual> on_platform = load.cast<Dual>();
   for (int row = 0; row < 6; ++row)
     for (int j = 0; j < 3; ++j) on_platform(row).derivatives()(j) = load_by_turn(row, j);
-  const Vector6<ByState> found = efforts(impl_->by_state, m, on_platform);
+  const Vector6<Dual> found = efforts(impl_->by_state, m, on_platform);
   EffortsByState out;
   for (int row = 0; row < 6; ++row) {
     out.efforts(row) = found(row).value();
