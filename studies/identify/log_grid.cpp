@@ -1,34 +1,111 @@
 #include "studies/identify/log_grid.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/csv.h"
 #include "base/shown_text.h"
 
 namespace ursula::identification {
+namespace {
+
+constexpr std::size_t fewest_rows = 16, most_gap = 100'000, head_size = 1000;
+const double turn = 2 * std::acos(-1.0);
+
+}  // namespace
+
+void LogGrid::add(double t, std::vector<double>& row, const Place& place) {
+  if (count_ > 0 && !(t > last_t_))
+    throw CsvError(fmt::format("{}: error: t = {} s {} {} s of the row before, expected increasing instants", place(),
+                               t, t == last_t_ ? "repeats" : "comes after", last_t_));
+  last_t_ = t;
+  if (++count_ <= head_size) {
+    head_.emplace_back(t, row);
+    return;
+  }
+  if (!head_.empty()) settleHead();
+  put(t, row, place);
+}
+
+void LogGrid::settleHead() {
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < head_.size(); ++k) steps.push_back(head_[k].first - head_[k - 1].first);
+  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
+  step_ = steps[steps.size() / 2];
+  for (auto& each : head_) put(each.first, each.second, [&] { return fmt::format("t = {} s", each.first); });
+  head_.clear();
+}
+
+void LogGrid::put(double t, std::vector<double>& row, const Place& place) {
+  if (std::any_of(row.begin(), row.end(), [](double x) { return std::isnan(x); })) {
+    ++lacking_;
+    return;
+  }
+  for (const std::size_t k : turning_)
+    if (rows_ > 0) row[k] -= turn * std::round((row[k] - last_[k]) / turn);
+  if (rows_ == 0) first_t_ = t;
+  const double steps = rows_ == 0 ? 1 : (t - grid_t_) / step_;
+  const auto jump = static_cast<std::size_t>(std::clamp(std::round(steps), 1.0, 1e9));
+  if (jump > most_gap)
+    throw CsvError(fmt::format("{}: error: {:.6g} s after the row before, where rows are {:.6g} s apart", place(),
+                               t - grid_t_, step_));
+  if (jump == 1) jitter_ += (steps - 1) * (steps - 1);
+  gaps_ += jump > 1 ? 1 : 0;
+  std::vector<double> between(jump > 1 ? width_ : 0);
+  for (std::size_t i = 1; i < jump; ++i) {
+    for (std::size_t k = 0; k < width_; ++k)
+      between[k] = last_[k] + static_cast<double>(i) / static_cast<double>(jump) * (row[k] - last_[k]);
+    append(between, true);
+  }
+  append(row, false);
+  last_ = row;
+  grid_t_ = t;
+}
+
+void LogGrid::append(const std::vector<double>& row, bool missing) {
+  ++rows_;
+  missing_.push_back(missing);
+  for (std::size_t k = 0; k < width_; ++k) sum_[k] += row[k];
+  if (++in_sum_ < averaged_) return;
+  in_sum_ = 0;
+  for (double& value : sum_) data_.push_back(std::exchange(value, 0) / averaged_);
+  if (data_.size() >= most_log_rows * width_) halve();
+}
+
+void LogGrid::halve() {
+  const std::size_t pairs = data_.size() / width_ / 2;
+  for (std::size_t i = 0; i < pairs; ++i)
+    for (std::size_t k = 0; k < width_; ++k)
+      data_[i * width_ + k] = (data_[2 * i * width_ + k] + data_[(2 * i + 1) * width_ + k]) / 2;
+  data_.resize(pairs * width_);
+  averaged_ *= 2;
+}
 
 MeasuredLog LogGrid::finish(const std::string& file) {
-  if (count_ < fewest_rows)
-    throw CsvError(fmt::format("{}: error: {} rows, expected at least {}", shownPath(file), count_, fewest_rows));
-  if (rows_ == 0) settleHead();
+  if (head_.size() > 1) settleHead();
+  if (count_ - lacking_ < fewest_rows)
+    throw CsvError(fmt::format("{}: error: {} rows{}, expected at least {}", shownPath(file), count_ - lacking_,
+                               lacking_ > 0 ? " without an empty cell" : "", fewest_rows));
   MeasuredLog log;
   log.file = file;
   log.file_rows = count_;
-  log.averaged = collector_.averaged;
+  log.averaged = averaged_;
   log.file_step = (grid_t_ - first_t_) / static_cast<double>(rows_ - 1);
-  log.step = log.file_step * log.averaged;
-  log.start = first_t_ + 0.5 * (log.averaged - 1) * log.file_step;
-  const auto rows = static_cast<Eigen::Index>(collector_.rows());
+  log.step = log.file_step * averaged_;
+  log.start = first_t_ + 0.5 * (averaged_ - 1) * log.file_step;
+  const std::size_t rows = data_.size() / width_, averaged = static_cast<std::size_t>(averaged_);
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  log.motion = Eigen::Map<const Rows>(collector_.data.data(), rows, static_cast<Eigen::Index>(width_));
-  log.missing.assign(static_cast<std::size_t>(rows), false);
+  log.motion = Eigen::Map<const Rows>(data_.data(), rows, width_);
+  log.missing.assign(rows, false);
   for (std::size_t k = 0; k < missing_.size(); ++k)
-    if (missing_[k] && k / static_cast<std::size_t>(log.averaged) < log.missing.size())
-      log.missing[k / static_cast<std::size_t>(log.averaged)] = true;
-  const std::size_t filled = rows_ - count_ + lacking_;
-  if (filled > 0)
+    if (missing_[k] && k / averaged < rows) log.missing[k / averaged] = true;
+  if (const std::size_t filled = rows_ - (count_ - lacking_); filled > 0)
     log.findings.push_back(
         {"drop_outs", -1, static_cast<double>(filled), "rows",
-         fmt::format(
-             "{} of {} rows are missing, in {} gaps and {} rows with empty cells; what is near them is left out",
-             filled, rows_, gaps_, lacking_)});
+         fmt::format("{} of {} rows are missing in {} gaps, and {} have empty cells; what is near them is left out",
+                     filled, rows_, gaps_, lacking_)});
   if (const double jitter = std::sqrt(jitter_ / static_cast<double>(rows_)); jitter > 0.05)
     log.findings.push_back(
         {"jitter", -1, jitter, "steps",

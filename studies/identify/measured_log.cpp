@@ -167,12 +167,10 @@ class LogReader {
 
   /// Keeps a quaternion near the previous one, as q and −q are the same orientation.
   static void keepSign(std::vector<double>& row, std::vector<double>& before) {
-    if (!before.empty()) {
-      double product = 0;
-      for (std::size_t k = 3; k < 7; ++k) product += row[k] * before[k];
-      for (std::size_t k = 3; k < 7 && product < 0; ++k) row[k] = -row[k];
-    }
-    before = row;
+    double product = 0;
+    for (std::size_t k = 3; k < 7; ++k) product += row[k] * (before.empty() ? row[k] : before[k]);
+    for (std::size_t k = 3; k < 7 && product < 0; ++k) row[k] = -row[k];
+    if (!std::isnan(product)) before = row;
   }
 
   MeasuredLog split(MeasuredLog log, Eigen::Index motion) const {

@@ -95,6 +95,20 @@ TEST_F(MeasuredLogs, missingRowsAreFilledAndMarked) {
   EXPECT_EQ(log.findings[0].value, 1);
 }
 
+/// A value that stays where its cell is empty would be a step, and steps look like a fast motion.
+TEST_F(MeasuredLogs, rowsWithEmptyCellsAreMissingRows) {
+  std::string text = rows(own(), ",");
+  text.replace(text.find("0.070000,1.007000"), 17, "0.070000,");
+  const MeasuredLog log = read(text);
+  expectRows(log);
+  EXPECT_TRUE(log.missing[7]);
+  EXPECT_FALSE(log.missing[8]);
+  EXPECT_NEAR(log.motion(7, 0), 1.007, 1e-5);
+  ASSERT_EQ(log.findings.size(), 1U);
+  EXPECT_EQ(log.findings[0].kind, "drop_outs");
+  EXPECT_EQ(log.findings[0].value, 1);
+}
+
 TEST_F(MeasuredLogs, refusalsHaveTheirPlaceAndWhatIsMissing) {
   std::string text = own();
   text.replace(text.find("tau_3_Nm"), 8, "current3");
