@@ -28,36 +28,13 @@ Vector6d motionVariance(const Eigen::MatrixXd& slope, const Eigen::Matrix3d& pas
   return out;
 }
 
-Eigen::MatrixXd rowsOf(const Eigen::MatrixXd& all, const std::vector<Eigen::Index>& rows) {
-  Eigen::MatrixXd out(static_cast<Eigen::Index>(rows.size()), all.cols());
-  for (std::size_t i = 0; i < rows.size(); ++i) out.row(static_cast<Eigen::Index>(i)) = all.row(rows[i]);
-  return out;
-}
-
 }  // namespace
 
 const char* name(DirectionKind kind) {
-  switch (kind) {
-    case DirectionKind::offset:
-      return "effort_offset";
-    case DirectionKind::delay:
-      return "delay";
-    case DirectionKind::scale:
-      return "effort_scale";
-    case DirectionKind::encoder:
-      return "encoder_offset";
-    case DirectionKind::elastic:
-      return "elastic_joint";
-    case DirectionKind::backlash:
-      return "backlash";
-    case DirectionKind::load_friction:
-      return "load_dependent_friction";
-    case DirectionKind::linear:
-    case DirectionKind::number:
-    case DirectionKind::numerical:
-      break;
-  }
-  return "parameter";
+  static constexpr const char* names[] = {
+      "parameter",    "parameter",      "parameter",     "delay",    "effort_offset",
+      "effort_scale", "encoder_offset", "elastic_joint", "backlash", "load_dependent_friction"};
+  return names[static_cast<int>(kind)];
 }
 
 ManipulatorParameters withRotors(ManipulatorParameters machine) {
@@ -115,7 +92,7 @@ void ModelledLog::refuse(const MeasuredLog& log, Eigen::Index at) const {
   const Motors& motors = scenario_.manipulator->motors();
   MeasuredState scaled = state;
   for (int k = 0; k < motor_count && !has_poses_; ++k)
-    scaled.value(k) *= motors[static_cast<std::size_t>(k)].slides() ? 1e-3 : std::acos(-1.0) / 180;
+    scaled.value(k) *= motors[k].slides() ? 1e-3 : std::acos(-1.0) / 180;
   tryState(scaled, "; they can be reached as degrees and millimetres: --map phi_1_deg=COLUMN says so");
   for (int k = 0; k < motor_count && at == 0 && !has_poses_; ++k)
     for (int j = k + 1; j < motor_count; ++j) {
@@ -155,7 +132,7 @@ double ModelledLog::coarseDelay(double most) const {
 }
 
 void ModelledLog::compare(double delay, Comparison& out) const {
-  out.measured = rowsOf(filtered_.settledEfforts(delay), out.kept);
+  out.measured = filtered_.settledEfforts(delay)(out.kept, Eigen::all);
 }
 
 Comparison ModelledLog::directions() const {
@@ -164,8 +141,7 @@ Comparison ModelledLog::directions() const {
   out.model = filtered_.lowPass(efforts_);
   out.model_rate = filtered_.lowPassBy(filtered_.second().rate, efforts_);
   out.t.resize(out.model.rows());
-  for (Eigen::Index i = 0; i < out.t.size(); ++i)
-    out.t(i) = filtered_.time(filtered_.settled()[static_cast<std::size_t>(i)]);
+  for (Eigen::Index i = 0; i < out.t.size(); ++i) out.t(i) = filtered_.time(filtered_.settled()[i]);
   out.slopes = slopes();
   out.kept = steadyRows(out.slopes);
   addLinear(out);
@@ -183,10 +159,8 @@ void ModelledLog::addNumerical(Comparison& out) const {
   constexpr double chance = 1.5;  // noise may be more by chance
   Eigen::MatrixXd change = Eigen::MatrixXd::Zero(filtered_.size(), motor_count);
   for (Eigen::Index i = 0; i < change.rows(); ++i) {
-    const MeasuredState state = filtered_.sharperState(i);
-    const auto at = static_cast<std::size_t>(i);
-    const auto motion = has_poses_ ? std::optional(motionOfPoses(state)) : chain_.follow(state, motions_[at]);
-    if (motion) change.row(i) = chain_.efforts(*motion, loads_[at]).transpose() - efforts_.row(i);
+    if (const auto motion = motionNear(i, filtered_.sharperState(i)))
+      change.row(i) = chain_.efforts(*motion, loads_[i]).transpose() - efforts_.row(i);
   }
   change = filtered_.lowPass(change - filtered_.sharperEfforts());
   const auto kept = static_cast<double>(out.kept.size());
@@ -194,9 +168,8 @@ void ModelledLog::addNumerical(Comparison& out) const {
   const SampleNoise& samples = filtered_.plan().noise;
   const Eigen::VectorXd motion = samples.motion.cwiseAbs2();
   Vector6d noise = passed(0, 0) * samples.efforts.cwiseAbs2();
-  for (const Eigen::Index row : out.kept)
-    noise += motionVariance(out.slopes[static_cast<std::size_t>(row)], passed, motion) / kept;
-  const Vector6d seen = rowsOf(change, out.kept).colwise().squaredNorm().transpose() / kept;
+  for (const Eigen::Index row : out.kept) noise += motionVariance(out.slopes[row], passed, motion) / kept;
+  const Vector6d seen = change(out.kept, Eigen::all).eval().colwise().squaredNorm().transpose() / kept;
   out.numerical = (seen - chance * noise).cwiseMax(0).cwiseSqrt();
   for (int k = 0; k < motor_count; ++k) {
     Eigen::MatrixXd column = Eigen::MatrixXd::Zero(change.rows(), motor_count);
@@ -214,7 +187,7 @@ std::vector<Eigen::Index> ModelledLog::steadyRows(const std::vector<Eigen::Matri
   const Eigen::VectorXd motion = filtered_.plan().noise.motion.cwiseAbs2();
   std::vector<Eigen::Index> all, steady;
   for (std::size_t i = 0; i < slopes.size(); ++i) {
-    all.push_back(static_cast<Eigen::Index>(i));
+    all.push_back(i);
     const Vector6d here = motionVariance(slopes[i], passed, motion);
     bool changes = false;
     for (const std::size_t j : {i == 0 ? i : i - 1, std::min(i + 1, slopes.size() - 1)})
@@ -229,19 +202,19 @@ std::vector<Eigen::Index> ModelledLog::steadyRows(const std::vector<Eigen::Matri
 void ModelledLog::keepSteady(Comparison& out) const {
   const auto all = static_cast<Eigen::Index>(out.slopes.size());
   if (static_cast<Eigen::Index>(out.kept.size()) == all) return;
-  for (Eigen::MatrixXd* table : {&out.model, &out.model_rate}) *table = rowsOf(*table, out.kept);
-  for (Eigen::MatrixXd& table : out.columns) table = rowsOf(table, out.kept);
-  out.t = rowsOf(out.t, out.kept).col(0);
+  for (Eigen::MatrixXd* table : {&out.model, &out.model_rate}) *table = (*table)(out.kept, Eigen::all).eval();
+  for (Eigen::MatrixXd& table : out.columns) table = table(out.kept, Eigen::all).eval();
+  out.t = out.t(out.kept).eval();
   std::vector<Eigen::MatrixXd> slopes;
   std::vector<Segment> segments;
-  std::vector<bool> starts(static_cast<std::size_t>(all), false);
-  for (const Segment& segment : out.segments) starts[static_cast<std::size_t>(segment.first)] = true;
+  std::vector<bool> starts(all, false);
+  for (const Segment& segment : out.segments) starts[segment.first] = true;
   for (std::size_t i = 0; i < out.kept.size(); ++i) {
     const auto row = static_cast<std::size_t>(out.kept[i]);
     slopes.push_back(out.slopes[row]);
     if (i == 0 || out.kept[i - 1] + 1 != out.kept[i] || starts[row])
       segments.push_back({static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)});
-    segments.back().end = static_cast<Eigen::Index>(i) + 1;
+    segments.back().end = i + 1;
   }
   out.slopes = std::move(slopes);
   out.segments = std::move(segments);
@@ -250,7 +223,7 @@ void ModelledLog::keepSteady(Comparison& out) const {
 void ModelledLog::add(Comparison& out, const Direction& direction, const Eigen::MatrixXd& columns) const {
   out.directions.push_back(direction);
   for (int k = 0; k < motor_count; ++k) {
-    Eigen::MatrixXd& table = out.columns[static_cast<std::size_t>(k)];
+    Eigen::MatrixXd& table = out.columns[k];
     table.conservativeResize(columns.rows(), table.cols() + 1);
     table.rightCols<1>() = columns.col(k);
   }
@@ -262,24 +235,23 @@ void ModelledLog::addLinear(Comparison& out) const {
   const Eigen::VectorXd values = derivatives.regressorValues();
   for (Eigen::Index j = 0; j < out.linear; ++j) {
     Direction direction;
-    direction.path = direction.words = derivatives.regressorNames()[static_cast<std::size_t>(j)];
+    direction.path = direction.words = derivatives.regressorNames()[j];
     direction.nominal = values(j);
     out.directions.push_back(direction);
   }
   Eigen::MatrixXd series(filtered_.size(), motor_count * out.linear);
   for (Eigen::Index i = 0; i < series.rows(); ++i) {
-    const EffortDerivatives::Columns Y = derivatives.regressor(motions_[static_cast<std::size_t>(i)]);
+    const EffortDerivatives::Columns Y = derivatives.regressor(motions_[i]);
     for (int k = 0; k < motor_count; ++k) series.row(i).segment(k * out.linear, out.linear) = Y.row(k);
   }
   const Eigen::MatrixXd settled = filtered_.lowPass(series);
-  for (int k = 0; k < motor_count; ++k)
-    out.columns[static_cast<std::size_t>(k)] = settled.middleCols(k * out.linear, out.linear);
+  for (int k = 0; k < motor_count; ++k) out.columns[k] = settled.middleCols(k * out.linear, out.linear);
 }
 
 void ModelledLog::addOfLog(Comparison& out) const {
   const Motors& motors = scenario_.manipulator->motors();
   for (int k = 0; k < motor_count; ++k) {
-    const Motor& motor = motors[static_cast<std::size_t>(k)];
+    const Motor& motor = motors[k];
     Eigen::MatrixXd column = Eigen::MatrixXd::Zero(out.model.rows(), motor_count);
     column.col(k).setOnes();
     add(out, {DirectionKind::offset, "", fmt::format("offset of the effort of motor {}", k + 1), motor.effortUnit(), k},

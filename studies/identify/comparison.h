@@ -11,7 +11,7 @@
 
 namespace ursula::identification {
 
-enum class DirectionKind { linear, offset, delay, number, scale, encoder, elastic, backlash, load_friction, numerical };
+enum class DirectionKind { linear, number, numerical, delay, offset, scale, encoder, elastic, backlash, load_friction };
 /// Returns the kind's name in `summary.json`: "effort_scale", "encoder_offset", …
 const char* name(DirectionKind kind);
 
@@ -24,6 +24,8 @@ struct Direction {
   int motor = -1;        ///< 0-based; −1 for no motor
   double nominal = 0;    ///< the model's value
   double plausible = 1;  ///< plausible size of a difference
+
+  const std::string& name() const { return path.empty() ? words : path; }
 };
 
 /// Tables of efforts, one for each motor, with an instant in each row.
@@ -79,6 +81,10 @@ class ModelledLog {
   std::vector<Eigen::Index> steadyRows(const std::vector<Eigen::MatrixXd>& slopes) const;
   void keepSteady(Comparison& out) const;
   Eigen::MatrixXd effortsOf(const Manipulator& machine) const;
+  /// Returns the platform's motion for a state near that of instant `i`, if the machine can take it.
+  std::optional<Motion<double>> motionNear(Eigen::Index i, const MeasuredState& state) const {
+    return has_poses_ ? motionOfPoses(state) : chain_.follow(state, motions_[i]);
+  }
 
   const Scenario& scenario_;
   const FilteredLog& filtered_;

@@ -22,14 +22,12 @@ bool isNonlinear(const MachineNumber& number) {
 /// Computes efforts at the settled instants for a machine with other numbers, with the measured motion of the motors.
 Eigen::MatrixXd ModelledLog::effortsOf(const Manipulator& machine) const {
   const MotorChain chain(machine);
-  Eigen::MatrixXd out(static_cast<Eigen::Index>(filtered_.settled().size()), motor_count);
+  Eigen::MatrixXd out(filtered_.settled().size(), motor_count);
   for (Eigen::Index row = 0; row < out.rows(); ++row) {
-    const Eigen::Index i = filtered_.settled()[static_cast<std::size_t>(row)];
-    const auto at = static_cast<std::size_t>(i);
-    std::optional<Motion<double>> motion = motions_[at];
-    if (!has_poses_) motion = chain.follow(filtered_.state(i), motions_[at]);
+    const Eigen::Index i = filtered_.settled()[row];
     out.row(row) = efforts_.row(i);
-    if (motion) out.row(row) = chain.efforts(*motion, loads_[at]).transpose();
+    if (const auto motion = has_poses_ ? motions_[i] : chain.follow(filtered_.state(i), motions_[i]))
+      out.row(row) = chain.efforts(*motion, loads_[i]).transpose();
   }
   return out;
 }
@@ -40,8 +38,7 @@ void ModelledLog::addNumbers(Comparison& out) const {
   for (const MachineNumber& number : machineNumbers(nominal)) {
     if (!isNonlinear(number)) continue;
     const double size = std::max(number.size(nominal), 1e-3), value = number.get(nominal), step = relative_step * size;
-    if (number.group == "friction" && nominal.legs[static_cast<std::size_t>(number.leg)].coulomb.any() == false)
-      continue;
+    if (number.group == "friction" && nominal.legs[number.leg].coulomb.any() == false) continue;
     ManipulatorParameters changed = nominal;
     number.set(changed, value + step);
     Direction direction;
@@ -59,17 +56,15 @@ void ModelledLog::addNumbers(Comparison& out) const {
 std::vector<Eigen::MatrixXd> ModelledLog::slopes() const {
   std::vector<Eigen::MatrixXd> out;
   for (const Eigen::Index i : filtered_.settled()) {
-    const auto at = static_cast<std::size_t>(i);
-    const MeasuredState state = filtered_.state(i);
+    const MeasuredState& state = filtered_.state(i);
     const Eigen::Index channels = state.value.size();
     out.push_back(Eigen::MatrixXd::Zero(motor_count, 3 * channels));
     for (Eigen::Index k = 0; k < 3 * channels; ++k) {
       MeasuredState moved = state;
       const Eigen::Index which = k / channels;
       (which == 0 ? moved.value : which == 1 ? moved.rate : moved.acceleration)(k % channels) += relative_step;
-      const auto motion = has_poses_ ? std::optional(motionOfPoses(moved)) : chain_.follow(moved, motions_[at]);
-      if (motion)
-        out.back().col(k) = (chain_.efforts(*motion, loads_[at]) - efforts_.row(i).transpose()) / relative_step;
+      if (const auto motion = motionNear(i, moved))
+        out.back().col(k) = (chain_.efforts(*motion, loads_[i]) - efforts_.row(i).transpose()) / relative_step;
     }
   }
   return out;
@@ -88,7 +83,7 @@ void ModelledLog::addSeries(Comparison& out) const {
   const auto changedBy = [&](int motor, const Eigen::MatrixXd& error) {
     Eigen::MatrixXd change(rows, motor_count);
     for (Eigen::Index row = 0; row < rows; ++row) {
-      const Eigen::MatrixXd& slope = out.slopes[static_cast<std::size_t>(row)];
+      const Eigen::MatrixXd& slope = out.slopes[row];
       change.row(row) = (slope.col(motor) * error(row, 0) + slope.col(motor_count + motor) * error(row, 1) +
                          slope.col(2 * motor_count + motor) * error(row, 2))
                             .transpose();
@@ -96,7 +91,7 @@ void ModelledLog::addSeries(Comparison& out) const {
     return change;
   };
   for (int k = 0; k < motor_count; ++k) {
-    const Motor& motor = motors[static_cast<std::size_t>(k)];
+    const Motor& motor = motors[k];
     const std::string of = fmt::format(" of motor {}", k + 1), effort = motor.effortUnit(),
                       length = motor.slides() ? "m" : "rad";
     const Eigen::VectorXd S = efforts_.col(k);

@@ -16,7 +16,7 @@ constexpr Eigen::Index most_tested = 300;  ///< instants of the part that is not
 
 /// Returns [columns, measured − model] of motor k.
 Eigen::MatrixXd tableOf(const Comparison& comparison, int k) {
-  const Eigen::MatrixXd& columns = comparison.columns[static_cast<std::size_t>(k)];
+  const Eigen::MatrixXd& columns = comparison.columns[k];
   Eigen::MatrixXd out(columns.rows(), columns.cols() + 1);
   out << columns, comparison.measured.col(k) - comparison.model.col(k);
   return out;
@@ -39,7 +39,7 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> leastSquares(const Eigen::MatrixXd& 
 Eigen::MatrixXd interleaved(const MotorTables& tables) {
   Eigen::MatrixXd out(6 * tables[0].rows(), tables[0].cols());
   for (int k = 0; k < motor_count; ++k)
-    for (Eigen::Index i = 0; i < tables[0].rows(); ++i) out.row(6 * i + k) = tables[static_cast<std::size_t>(k)].row(i);
+    for (Eigen::Index i = 0; i < tables[0].rows(); ++i) out.row(6 * i + k) = tables[k].row(i);
   return out;
 }
 
@@ -62,7 +62,7 @@ SquareRoot squareRootOf(const Eigen::MatrixXd& rows) {
 Whitened whiten(const Comparison& comparison, EffortNoise noise) {
   const Eigen::Index fitted = comparison.further(), instants = comparison.model.rows();
   MotorTables tables;
-  for (int k = 0; k < motor_count; ++k) tables[static_cast<std::size_t>(k)] = tableOf(comparison, k);
+  for (int k = 0; k < motor_count; ++k) tables[k] = tableOf(comparison, k);
   const Eigen::MatrixXd rows = interleaved(tables);
   Whitened out;
   out.expected = noise.variances().colwise().mean().transpose().cwiseSqrt();
@@ -100,17 +100,18 @@ void setPlausible(const ManipulatorParameters& machine, const Comparison& compar
         number.quantity != Quantity::coulomb)
       continue;
     Direction& direction = directions[j];
-    const Leg& leg = machine.legs[static_cast<std::size_t>(std::max(number.leg, 0))];
-    const Link& link = number.body == "proximal" ? leg.proximal : leg.distal;
-    const double mass = number.leg < 0 ? machine.platform.mass : link.mass;
-    const double length = number.leg < 0 ? reach + machine.platform.center_of_mass.norm()
-                                         : std::max(link.length, std::abs(link.center_of_mass));
+    double mass = machine.platform.mass, length = reach + machine.platform.center_of_mass.norm();
+    if (number.leg >= 0) {
+      const Link& link = linkOf(machine, number);
+      mass = link.mass;
+      length = std::max(link.length, std::abs(link.center_of_mass));
+    }
     const double power = number.group == "mass" ? 0 : number.group == "center" ? 1 : 2;
     direction.plausible = mass * std::pow(length, power);
     if (!moment) {
       double largest = 0;
       for (const Eigen::MatrixXd& table : comparison.columns)
-        largest = std::max(largest, table.col(static_cast<Eigen::Index>(j)).cwiseAbs().maxCoeff());
+        largest = std::max(largest, table.col(j).cwiseAbs().maxCoeff());
       direction.plausible = largest > 0 ? effort / largest : 1;
     }
     direction.unit =
@@ -126,7 +127,7 @@ void setPlausible(const ManipulatorParameters& machine, const Comparison& compar
 
 BaseFit fitBase(const SquareRoot& model, const std::vector<Direction>& directions, Eigen::Index count) {
   Eigen::VectorXd plausible(count);
-  for (Eigen::Index j = 0; j < count; ++j) plausible(j) = directions[static_cast<std::size_t>(j)].plausible;
+  for (Eigen::Index j = 0; j < count; ++j) plausible(j) = directions[j].plausible;
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(model.R.leftCols(count) * plausible.asDiagonal());
   const Eigen::MatrixXd triangle = qr.matrixR().topRows(std::min(model.R.rows(), count)).triangularView<Eigen::Upper>();
   const double largest = std::abs(triangle(0, 0));
@@ -147,13 +148,13 @@ BaseFit fitBase(const SquareRoot& model, const std::vector<Direction>& direction
     out.step(of(i)) = x(i) * plausible(of(i));
     BaseParameter base;
     base.terms.emplace_back(of(i), 1);
-    base.nominal = directions[static_cast<std::size_t>(of(i))].nominal;
+    base.nominal = directions[of(i)].nominal;
     for (Eigen::Index k = 0; k < count - rank; ++k) {
       if (std::abs(ties(i, k)) < 1e-6) continue;
       const Eigen::Index j = of(rank + k);
       const double factor = ties(i, k) * plausible(of(i)) / plausible(j);
       base.terms.emplace_back(j, factor);
-      base.nominal += factor * directions[static_cast<std::size_t>(j)].nominal;
+      base.nominal += factor * directions[j].nominal;
     }
     base.value = base.nominal + x(i) * plausible(of(i));
     base.deviation = root.row(i).norm() * plausible(of(i));
@@ -172,7 +173,7 @@ CrossValidation crossValidate(const Whitened& whitened, const Comparison& compar
   rows << whitened.rows.topLeftCorner(6 * train, fitted), whitened.rows.rightCols<1>().head(6 * train),
       Eigen::MatrixXd::Zero(fitted, fitted + 1);
   for (Eigen::Index j = 0; j < fitted; ++j)  // numbers that the first part does not show stay within their size
-    rows(6 * train + j, j) = 1 / comparison.directions[static_cast<std::size_t>(j)].plausible;
+    rows(6 * train + j, j) = 1 / comparison.directions[j].plausible;
   const SquareRoot root = squareRootOf(rows);
   const auto triangle = root.R.triangularView<Eigen::Upper>();
   const Eigen::MatrixXd tested = whitened.rows.block(6 * train, 0, left, fitted);

@@ -12,48 +12,15 @@
 #include "base/csv.h"
 #include "studies/identify/estimate.h"
 #include "studies/random/dice.h"
+#include "validation/subject/scaled_jacobian.h"
 
 namespace ursula {
 namespace {
 
 using namespace identification;
-using Coefficients = Eigen::MatrixXd;  ///< six rows; columns are sines, then cosines of the harmonics
+using Coefficients = Eigen::MatrixXd;  ///< six rows as in motionAbout; columns are sines, then cosines of the harmonics
 
 constexpr double never = std::numeric_limits<double>::infinity(), relative_rank = 1e-6;
-
-/// P and a Rodrigues vector about a middle pose, as finite Fourier series. Nothing makes them begin or end at rest.
-class FourierPoses {
- public:
-  FourierPoses(const Motion<double>& middle, double period, int harmonics)
-      : p_(middle.p), q_(middle.Q), omega_(2 * std::acos(-1.0) / period), harmonics_(harmonics) {}
-
-  Motion<double> at(const Coefficients& of, double t) const {
-    Vector6d x = Vector6d::Zero(), v = x, a = x;
-    for (int k = 1; k <= harmonics_; ++k) {
-      const double w = k * omega_, s = std::sin(w * t), c = std::cos(w * t);
-      const Vector6d sine = of.col(k - 1), cosine = of.col(harmonics_ + k - 1);
-      x += sine * s + cosine * c;
-      v += w * (sine * c - cosine * s);
-      a -= w * w * (sine * s + cosine * c);
-    }
-    const auto part = [&](const Vector6d& of_vector, double scalar, const Vector3d& origin) {
-      Eigen::VectorXd out(7);
-      const Vector3d turn = of_vector.tail<3>();
-      const Eigen::Quaterniond q = q_ * Eigen::Quaterniond(scalar, turn.x(), turn.y(), turn.z());
-      out << origin + of_vector.head<3>(), q.w(), q.x(), q.y(), q.z();
-      return out;
-    };
-    Motion<double> out = motionOfPoses({part(x, 1, p_), part(v, 0, Vector3d::Zero()), part(a, 0, Vector3d::Zero())});
-    out.t = t;
-    return out;
-  }
-
- private:
-  Vector3d p_;
-  Eigen::Quaterniond q_;
-  double omega_;
-  int harmonics_;
-};
 
 /// Extreme values along a motion: the least margin, and the largest of the others.
 struct Extremes {
@@ -69,7 +36,6 @@ class ExciteSearch {
         derivatives_(Manipulator(withRotors(scenario.manipulator->parameters()))),
         middle_(scenario.trajectory->at(0.5 * scenario.trajectory->duration())),
         period_(options.period > 0 ? options.period : std::max(4.0, scenario.trajectory->duration())),
-        poses_(middle_, period_, options.harmonics),
         instants_(8 * options.harmonics) {
     setLimits();
     setPlausibleSizes();
@@ -88,7 +54,8 @@ class ExciteSearch {
         cost = found;
       }
       if (options_.progress)
-        options_.progress((i + 1.0) / options_.tries, fmt::format("condition {:.4g}", conditionOf(along(best))));
+        options_.progress((i + 1.0) / options_.tries,
+                          fmt::format("condition {:.4g}", conditionOf(along(best, instants_))));
     }
     return result(best);
   }
@@ -107,7 +74,7 @@ class ExciteSearch {
     limits_.margin = std::min(options_.margin, 0.5 * found.margin);
     if (!(limits_.speed > 0)) limits_.speed = solver_.length();  // the scenario's machine stands still
     sizes_ << Vector3d::Constant(0.2 * limits_.reach), Vector3d::Constant(0.1 * limits_.turn);
-    for (const Motion<double>& motion : motions) own_.push_back(motion);
+    own_ = motions;
   }
 
   /// Sets plausible sizes of the columns from the scenario's own efforts.
@@ -119,8 +86,7 @@ class ExciteSearch {
     for (Eigen::MatrixXd& table : sizes.columns) table = rows;
     setPlausible(scenario_.manipulator->parameters(), sizes, sizes.directions);
     plausible_.resize(rows.cols());
-    for (Eigen::Index j = 0; j < rows.cols(); ++j)
-      plausible_(j) = sizes.directions[static_cast<std::size_t>(j)].plausible;
+    for (Eigen::Index j = 0; j < rows.cols(); ++j) plausible_(j) = sizes.directions[j].plausible;
   }
 
   /// Throws PoseError if a leg cannot follow.
@@ -131,10 +97,7 @@ class ExciteSearch {
       solver_.jacobians(motion, work_);
       const Motors& motors = scenario_.manipulator->motors();
       out.speed = std::max(out.speed, solver_.rates(work_).driven(motors).cwiseAbs().maxCoeff());
-      Matrix6d B = solver_.B(work_);
-      B.leftCols<3>() /= solver_.length();
-      const Vector6d singular = B.jacobiSvd().singularValues();
-      out.kappa = std::max(out.kappa, singular(0) / singular(5));
+      out.kappa = std::max(out.kappa, conditionNumber(scaledB(solver_.B(work_), solver_.length())));
       for (int i = 0; i < scenario_.manipulator->legCount(); ++i)
         out.margin = std::min(out.margin, static_cast<double>(solver_.margins(work_, i).sine));
       out.effort = std::max(out.effort, solver_.inverseDynamics(motion, work_).cwiseAbs().maxCoeff());
@@ -144,18 +107,23 @@ class ExciteSearch {
     return out;
   }
 
-  std::vector<Motion<double>> along(const Coefficients& of, int count = 0) const {
+  /// Returns motions at `count` steps of the period and `more` beyond.
+  std::vector<Motion<double>> along(const Coefficients& of, int count, int more = 0) const {
+    Eigen::MatrixXd sines = Eigen::MatrixXd::Zero(6, options_.harmonics + 1), cosines = sines;
+    sines.rightCols(options_.harmonics) = of.leftCols(options_.harmonics);
+    cosines.rightCols(options_.harmonics) = of.rightCols(options_.harmonics);
+    const FourierSeries series(1 / period_, cosines, sines);
     std::vector<Motion<double>> out;
-    count = count > 0 ? count : instants_;
-    for (int i = 0; i < count; ++i) out.push_back(poses_.at(of, period_ * i / count));
+    for (int i = 0; i < count + more; ++i) {
+      const double t = period_ * i / count;
+      out.push_back(motionAbout(middle_, series.at(t, options_.harmonics), t));
+    }
     return out;
   }
 
   Eigen::MatrixXd regressorOf(const std::vector<Motion<double>>& motions) const {
-    Eigen::MatrixXd out(6 * static_cast<Eigen::Index>(motions.size()),
-                        static_cast<Eigen::Index>(derivatives_.regressorNames().size()));
-    for (std::size_t i = 0; i < motions.size(); ++i)
-      out.middleRows<6>(6 * static_cast<Eigen::Index>(i)) = derivatives_.regressor(motions[i]);
+    Eigen::MatrixXd out(6 * motions.size(), derivatives_.regressorNames().size());
+    for (std::size_t i = 0; i < motions.size(); ++i) out.middleRows<6>(6 * i) = derivatives_.regressor(motions[i]);
     return out;
   }
 
@@ -185,7 +153,7 @@ class ExciteSearch {
       Coefficients of = sizes_.asDiagonal() * drawn(dice);
       for (int halving = 0; halving < 12; ++halving, of *= 0.5) {
         if (!keepsLimits(of, 2 * instants_)) continue;
-        Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(regressorOf(along(of)) * plausible_.asDiagonal());
+        Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(regressorOf(along(of, instants_)) * plausible_.asDiagonal());
         qr.setThreshold(relative_rank);
         base_ = qr.colsPermutation().indices().head(qr.rank());
         return of;
@@ -198,10 +166,8 @@ class ExciteSearch {
   }
 
   Eigen::MatrixXd shownBy(const std::vector<Motion<double>>& motions) const {
-    const Eigen::MatrixXd all = regressorOf(motions) * plausible_.asDiagonal();
-    Eigen::MatrixXd out(all.rows(), base_.size());
-    for (Eigen::Index j = 0; j < base_.size(); ++j) out.col(j) = all.col(base_(j));
-    return out / std::sqrt(static_cast<double>(motions.size()));
+    return regressorOf(motions)(Eigen::all, base_) * plausible_(base_).asDiagonal() /
+           std::sqrt(static_cast<double>(motions.size()));
   }
 
   double conditionOf(const std::vector<Motion<double>>& motions) const {
@@ -218,7 +184,7 @@ class ExciteSearch {
   /// Returns minus the mean logarithm of the regressor's diagonal; infinite beyond a limit.
   double costOf(const Coefficients& of) {
     if (!keepsLimits(of, 2 * instants_)) return never;
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(shownBy(along(of)));
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(shownBy(along(of, instants_)));
     return -qr.matrixQR().diagonal().cwiseAbs().cwiseMax(1e-300).array().log().mean();
   }
 
@@ -226,18 +192,13 @@ class ExciteSearch {
     Excitation out;
     const int rows = options_.samples > 0 ? options_.samples : 20 * options_.harmonics;
     std::vector<std::vector<double>> columns(8);
-    for (int i = 0; i <= rows; ++i) {
-      const Motion<double> motion = poses_.at(of, period_ * i / rows);
-      const Eigen::Quaterniond q(motion.Q);
-      Eigen::Matrix<double, 8, 1> row;
-      row << period_ * i / rows, motion.p, q.w(), q.x(), q.y(), q.z();
-      const double side = columns[4].empty() || columns[4].back() * row(4) + columns[5].back() * row(5) +
-                                                        columns[6].back() * row(6) + columns[7].back() * row(7) >=
-                                                    0
-                              ? 1
-                              : -1;
-      row.tail<4>() *= side;
-      for (std::size_t k = 0; k < 8; ++k) columns[k].push_back(row(static_cast<Eigen::Index>(k)));
+    Eigen::Quaterniond last(middle_.Q);
+    for (const Motion<double>& motion : along(of, rows, 1)) {
+      Eigen::Quaterniond q(motion.Q);
+      if (q.dot(last) < 0) q.coeffs() *= -1;
+      last = q;
+      const double row[] = {motion.t, motion.p.x(), motion.p.y(), motion.p.z(), q.w(), q.x(), q.y(), q.z()};
+      for (std::size_t k = 0; k < 8; ++k) columns[k].push_back(row[k]);
     }
     out.csv = csvText({"t_s", "p_x_m", "p_y_m", "p_z_m", "q_w", "q_x", "q_y", "q_z"}, columns);
     const Extremes found = extremesOf(along(of, 4 * instants_));
@@ -245,7 +206,7 @@ class ExciteSearch {
     out.effort = found.effort;
     out.kappa = found.kappa;
     out.shown = base_.size();
-    out.condition = conditionOf(along(of));
+    out.condition = conditionOf(along(of, instants_));
     out.scenario_condition = conditionOf(own_);
     return out;
   }
@@ -257,7 +218,6 @@ class ExciteSearch {
   EffortDerivatives derivatives_;
   Motion<double> middle_;
   double period_;
-  FourierPoses poses_;
   int instants_;
   Extremes limits_;
   Vector6d sizes_;

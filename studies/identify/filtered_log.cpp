@@ -72,18 +72,15 @@ FilteredLog::FilteredLog(const MeasuredLog& log, const FilterPlan& plan, double 
     log_.motion = carriedOn(log.motion, before_);
     log_.efforts = carriedOn(log.efforts, before_);
     if (log.load.cols() > 0) log_.load = carriedOn(log.load, before_);
-    log_.missing.insert(log_.missing.begin(), static_cast<std::size_t>(before_), false);
-    log_.missing.resize(static_cast<std::size_t>(log_.rows()), false);
+    log_.missing.insert(log_.missing.begin(), before_, false);
+    log_.missing.resize(log_.rows(), false);
   }
   placeCenters(reach);
-  value_ = Kernel::apply(first_.value, log_.motion, centers_);
-  rate_ = Kernel::apply(first_.rate, log_.motion, centers_);
-  acceleration_ = Kernel::apply(first_.acceleration, log_.motion, centers_);
-  for (Eigen::Index i = 0; i < size() && plan.is_period; ++i) {
-    const Eigen::MatrixXd state = plan.series.at(time(i) - log.start, plan.series.harmonics());
-    value_.row(i) = state.col(0).transpose();
-    rate_.row(i) = state.col(1).transpose();
-    acceleration_.row(i) = state.col(2).transpose();
+  if (plan_.is_period) {
+    for (Eigen::Index i = 0; i < size(); ++i)
+      states_.push_back(plan_.series.at(time(i) - log_.start, plan_.series.harmonics()));
+  } else {
+    states_ = statesBy(first_, centers_);
   }
   if (log_.load.cols() > 0) load_ = Kernel::apply(first_.value, log_.load, centers_);
   placeSettled();
@@ -94,9 +91,7 @@ void FilteredLog::placeCenters(double reach) {
                      margin = first_.half + 1 + static_cast<Eigen::Index>(std::ceil(reach / log_.step));
   std::vector<Eigen::Index> lacking(static_cast<std::size_t>(rows) + 1, 0);
   for (std::size_t i = 0; i < log_.missing.size(); ++i) lacking[i + 1] = lacking[i] + (log_.missing[i] ? 1 : 0);
-  const auto whole = [&](Eigen::Index center) {
-    return lacking[static_cast<std::size_t>(center + margin)] == lacking[static_cast<std::size_t>(center - margin)];
-  };
+  const auto whole = [&](Eigen::Index center) { return lacking[center + margin] == lacking[center - margin]; };
   const Eigen::Index all = (rows - 2 * margin) / plan_.coarse;
   const Eigen::Index parts = all > most_instants ? 16 : 1, length = std::min(all, most_instants) / parts;
   for (Eigen::Index part = 0; part < parts; ++part) {
@@ -122,23 +117,21 @@ void FilteredLog::placeSettled() {
   }
 }
 
-double FilteredLog::time(Eigen::Index i) const {
-  return log_.time(static_cast<double>(centers_[static_cast<std::size_t>(i)] - before_));
-}
+double FilteredLog::time(Eigen::Index i) const { return log_.time(static_cast<double>(centers_[i] - before_)); }
 
-MeasuredState FilteredLog::state(Eigen::Index i) const {
-  return {value_.row(i).transpose(), rate_.row(i).transpose(), acceleration_.row(i).transpose()};
+std::vector<MeasuredState> FilteredLog::statesBy(const Kernel& kernel, const std::vector<Eigen::Index>& rows) const {
+  const Eigen::MatrixXd value = Kernel::apply(kernel.value, log_.motion, rows),
+                        rate = Kernel::apply(kernel.rate, log_.motion, rows),
+                        acceleration = Kernel::apply(kernel.acceleration, log_.motion, rows);
+  std::vector<MeasuredState> out;
+  for (Eigen::Index i = 0; i < value.rows(); ++i)
+    out.push_back({value.row(i).transpose(), rate.row(i).transpose(), acceleration.row(i).transpose()});
+  return out;
 }
 
 MeasuredState FilteredLog::sharperState(Eigen::Index i) const {
-  if (plan_.is_period) {
-    const Eigen::MatrixXd state = plan_.series.at(time(i) - log_.start, sharperHarmonics(plan_));
-    return {state.col(0), state.col(1), state.col(2)};
-  }
-  const auto by = [&](const Eigen::VectorXd& weights) -> Eigen::VectorXd {
-    return Kernel::apply(weights, log_.motion, {centers_[static_cast<std::size_t>(i)]}).row(0).transpose();
-  };
-  return {by(sharper_.value), by(sharper_.rate), by(sharper_.acceleration)};
+  if (plan_.is_period) return plan_.series.at(time(i) - log_.start, sharperHarmonics(plan_));
+  return statesBy(sharper_, {centers_[i]}).front();
 }
 
 Eigen::MatrixXd FilteredLog::sharperEfforts() const {
@@ -157,7 +150,7 @@ Eigen::MatrixXd FilteredLog::efforts(double shift) const {
 Eigen::MatrixXd FilteredLog::settledEfforts(double shift) const {
   if (!plan_.is_period) return lowPass(efforts(shift));
   std::vector<Eigen::Index> rows;
-  for (const Eigen::Index i : settled_) rows.push_back(centers_[static_cast<std::size_t>(i)]);
+  for (const Eigen::Index i : settled_) rows.push_back(centers_[i]);
   return Kernel::apply(Kernel(plan_.effort_cut, log_.step, shift).value, log_.efforts, rows);
 }
 

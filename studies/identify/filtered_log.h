@@ -38,7 +38,7 @@ class FilteredLog {
   Eigen::Index size() const { return static_cast<Eigen::Index>(centers_.size()); }
   double step() const { return log_.step * static_cast<double>(plan_.coarse); }
   double time(Eigen::Index i) const;
-  MeasuredState state(Eigen::Index i) const;
+  const MeasuredState& state(Eigen::Index i) const { return states_[i]; }
   /// Returns the same by a low pass with a higher cut-off.
   MeasuredState sharperState(Eigen::Index i) const;
   /// Returns what this one adds to efforts at the motion's instants: nothing if the motion is a period.
@@ -77,6 +77,7 @@ class FilteredLog {
   Lines linesOf(double spacing, double end, const Gain& gain) const;
   void placeCenters(double reach);
   void placeSettled();
+  std::vector<MeasuredState> statesBy(const Kernel& kernel, const std::vector<Eigen::Index>& rows) const;
 
   MeasuredLog log_;  ///< a period is extended beyond its ends
   FilterPlan plan_;
@@ -84,7 +85,8 @@ class FilteredLog {
   Eigen::Index before_ = 0;  ///< rows added before the first
   std::vector<Eigen::Index> centers_, settled_;
   std::vector<Segment> segments_, settled_segments_;
-  Eigen::MatrixXd value_, rate_, acceleration_, load_;
+  std::vector<MeasuredState> states_;
+  Eigen::MatrixXd load_;
 };
 
 }  // namespace ursula::identification

@@ -74,10 +74,10 @@ class ScenarioMarker {
   /// Returns the number's path in the document, written out of the defaults; empty if the document cannot have it.
   std::string held(const MachineNumber& number, const ManipulatorParameters& machine) {
     std::string path = number.path;
-    if (number.quantity == Quantity::inertia || number.quantity == Quantity::platform_inertia) makeSix(path);
+    if (number.group == "inertia") makeSix(path);
     if (hold(path)) return path;
     if (number.quantity != Quantity::center) return "";
-    const Leg& leg = machine.legs[static_cast<std::size_t>(number.leg)];
+    const Leg& leg = machine.legs[number.leg];
     path += fmt::format(".{}", number.body == "proximal" ? leg.proximalLine() : 2);
     return hold(path) ? path : "";
   }
@@ -108,8 +108,7 @@ class ScenarioMarker {
 
 /// The array of a body's tensor; empty for other numbers.
 std::string tensorOf(const MachineNumber& number) {
-  const bool entry = number.quantity == Quantity::inertia || number.quantity == Quantity::platform_inertia;
-  return entry ? number.path.substr(0, number.path.rfind('.')) : "";
+  return number.group == "inertia" ? number.path.substr(0, number.path.rfind('.')) : "";
 }
 
 bool isShown(const NumberEstimate& each) {

@@ -7,8 +7,6 @@
 
 #include "base/provenance.h"
 #include "studies/identify/judge.h"
-#include "studies/identify/log_signs.h"
-#include "studies/identify/physical.h"
 #include "studies/identify/results.h"
 #include "validation/subject/effort_columns.h"
 
@@ -138,7 +136,7 @@ class Identification {
     out_.squares = judged.squares;
     out_.squares_limit = judged.squares_limit;
     out_.threshold = judged.threshold;
-    for (const FoundCause& cause : judged.causes) out_.causes.push_back(measuredCause(cause));
+    out_.causes.insert(out_.causes.end(), judged.causes.begin(), judged.causes.end());
     setMotors(modelled, comparison);
     const CrossValidation validation = crossValidate(whitened_, comparison);
     out_.validation_given = validation.given;
@@ -166,9 +164,9 @@ class Identification {
     const double correction = std::sqrt(freedom / std::max(freedom - static_cast<double>(whitened_.rank), 1.0));
     u_val_.resize(comparison.model.rows(), motor_count);
     for (int k = 0; k < motor_count; ++k) {
-      MotorAgreement& motor = out_.motors[static_cast<std::size_t>(k)];
+      MotorAgreement& motor = out_.motors[k];
       const Eigen::VectorXd E = comparison.model.col(k) - comparison.measured.col(k);
-      motor.unit = scenario_.manipulator->motors()[static_cast<std::size_t>(k)].effortUnit();
+      motor.unit = scenario_.manipulator->motors()[k].effortUnit();
       motor.effort = rms(comparison.measured.col(k));
       motor.deviation = rms(E);
       Eigen::Index at = 0;
@@ -193,7 +191,7 @@ class Identification {
 
   void noteLeft() {
     for (int k = 0; k < motor_count; ++k) {
-      const MotorAgreement& motor = out_.motors[static_cast<std::size_t>(k)];
+      const MotorAgreement& motor = out_.motors[k];
       const double ratio = motor.expected > 0 ? motor.left / motor.expected : 0;
       if (ratio > most_left && motor.left > 1e-6 * motor.effort)
         out_.findings.push_back({"unmodelled", k, motor.left, motor.unit,

@@ -54,8 +54,8 @@ Eigen::MatrixXd withinTolerances(const std::vector<Suspect>& suspects, Eigen::In
     const bool together = each.direction.path.compare(0, 24, "manipulator.leg_defaults") == 0;
     if (each.tolerance > 0 && !together) allowed.emplace_back(each.column * each.tolerance);
   }
-  Eigen::MatrixXd out(rows, static_cast<Eigen::Index>(allowed.size()));
-  for (std::size_t j = 0; j < allowed.size(); ++j) out.col(static_cast<Eigen::Index>(j)) = allowed[j];
+  Eigen::MatrixXd out(rows, allowed.size());
+  for (std::size_t j = 0; j < allowed.size(); ++j) out.col(j) = allowed[j];
   return out;
 }
 
@@ -68,15 +68,15 @@ Eigen::MatrixXd basisOf(const Eigen::MatrixXd& x) {
   return qr.householderQ() * Eigen::MatrixXd::Identity(x.rows(), qr.rank());
 }
 
-/// Returns whether no change of masses, inertias and friction has the same effect.
-bool isOutside(DirectionKind kind) {
-  return kind == DirectionKind::elastic || kind == DirectionKind::backlash || kind == DirectionKind::load_friction ||
-         kind == DirectionKind::encoder || kind == DirectionKind::number || kind == DirectionKind::scale;
-}
-
 /// No joint has a negative compliance, backlash or friction.
 bool cannotBeNegative(DirectionKind kind) {
   return kind == DirectionKind::elastic || kind == DirectionKind::backlash || kind == DirectionKind::load_friction;
+}
+
+/// Returns whether no change of masses, inertias and friction has the same effect.
+bool isOutside(DirectionKind kind) {
+  return cannotBeNegative(kind) || kind == DirectionKind::encoder || kind == DirectionKind::number ||
+         kind == DirectionKind::scale;
 }
 
 struct Score {
@@ -110,8 +110,8 @@ double ownDeviation(const Score& score, double tolerance) {
 }
 
 Eigen::MatrixXd columnsOf(const std::vector<const Suspect*>& suspects, Eigen::Index rows) {
-  Eigen::MatrixXd out(rows, static_cast<Eigen::Index>(suspects.size()));
-  for (std::size_t j = 0; j < suspects.size(); ++j) out.col(static_cast<Eigen::Index>(j)) = suspects[j]->column;
+  Eigen::MatrixXd out(rows, suspects.size());
+  for (std::size_t j = 0; j < suspects.size(); ++j) out.col(j) = suspects[j]->column;
   return out;
 }
 
@@ -123,31 +123,53 @@ double thresholdOf(double risk, double count, Eigen::Index freedom) {
 
 /// Finds one cause after another, with the earlier ones free.
 void findCauses(const std::vector<const Suspect*>& suspects, Allowance& allowance, const Eigen::VectorXd& z,
-                double threshold, bool outside, std::vector<FoundCause>& out) {
+                double threshold, bool outside, std::vector<MeasuredCause>& out) {
   if (suspects.empty()) return;
   const Eigen::MatrixXd columns = columnsOf(suspects, z.size());
   const double all = z.dot(allowance(z).col(0));
-  for (std::size_t found = 0; found < most_causes; ++found) {
+  for (std::size_t pass = 0; pass < most_causes; ++pass) {
     std::vector<Score> scores = scoresOf(columns, allowance(columns), z);
     for (std::size_t j = 0; j < scores.size(); ++j)
       if (cannotBeNegative(suspects[j]->direction.kind) && scores[j].change < 0) scores[j] = {};
     const std::size_t best = largestOf(scores);
     const Score& score = scores[best];
     if (!(std::abs(score.score) > threshold)) return;
-    FoundCause cause{suspects[best]->direction,
-                     score.change,
-                     ownDeviation(score, suspects[best]->tolerance),
-                     suspects[best]->tolerance,
-                     score.score,
-                     score.score * score.score / std::max(all, 1e-300),
-                     {},
-                     outside};
+    const Suspect& found = *suspects[best];
+    MeasuredCause cause;
+    cause.kind = name(found.direction.kind);
+    cause.parameter = found.direction.path;
+    cause.what = found.direction.words;
+    cause.unit = found.direction.unit;
+    cause.motor = found.direction.motor + 1;
+    cause.expected = stated(found.direction.nominal);
+    cause.found = found.direction.nominal + score.change;
+    cause.uncertainty = ownDeviation(score, found.tolerance);
+    cause.tolerances = found.tolerance > 0 ? score.change / found.tolerance : 0;
+    cause.score = score.score;
+    cause.explained = std::min(1.0, score.score * score.score / std::max(all, 1e-300));
+    cause.outside = outside;
     for (std::size_t j = 0; j < scores.size(); ++j)
       if (j != best && scores[j].score * scores[j].score > score.score * score.score - alike)
-        cause.as_well.push_back(suspects[j]->direction);
+        cause.as_well.push_back(suspects[j]->direction.name());
     out.push_back(cause);
-    allowance.free(suspects[best]->column);
+    allowance.free(found.column);
   }
+}
+
+double toleranceOf(const NumberTolerances& tolerances, const std::string& path) {
+  const auto at = tolerances.find(path);
+  return at == tolerances.end() ? 0.0 : at->second;
+}
+
+/// Returns the effects of the machine's numbers, a column each, from those of the directions.
+Eigen::MatrixXd byNumbers(const Comparison& comparison, const Eigen::MatrixXd& table,
+                          const EffortDerivatives& derivatives) {
+  Eigen::MatrixXd out = table.leftCols(comparison.linear) * derivatives.regressorByParameters();
+  const std::vector<std::string>& names = derivatives.parameterNames();
+  for (std::size_t j = 0; j < comparison.directions.size(); ++j)
+    if (const Direction& direction = comparison.directions[j]; direction.kind == DirectionKind::number)
+      out.col(std::find(names.begin(), names.end(), direction.path) - names.begin()) = table.col(j);
+  return out;
 }
 
 }  // namespace
@@ -156,36 +178,19 @@ std::vector<Suspect> suspectsOf(const SquareRoot& model, const Comparison& compa
                                 const ManipulatorParameters& machine, const NumberTolerances& tolerances) {
   std::vector<Suspect> out;
   const ManipulatorParameters rotors = withRotors(machine);
-  const EffortDerivatives derivatives((Manipulator(rotors)));
-  const Eigen::MatrixXd columns = model.R.leftCols(comparison.linear) * derivatives.regressorByParameters();
-  const auto toleranceOf = [&](const std::string& path) {
-    const auto at = tolerances.find(path);
-    return at == tolerances.end() ? 0.0 : at->second;
-  };
+  const Eigen::MatrixXd columns = byNumbers(comparison, model.R, EffortDerivatives(Manipulator(rotors)));
   std::map<std::string, std::vector<std::size_t>> alike_on_legs;
   const auto numbers = machineNumbers(rotors);
-  const auto add = [&](const MachineNumber& number, const Eigen::VectorXd& column) {
-    if (column.isZero(0)) return;
-    Direction direction{number.group == "length" || number.group == "point" || number.group == "axis"
-                            ? DirectionKind::number
-                            : DirectionKind::linear,
-                        number.path,
-                        number.words,
-                        number.unit,
-                        -1,
-                        number.get(rotors),
-                        1};
+  for (std::size_t j = 0; j < numbers.size(); ++j) {
+    const MachineNumber& number = numbers[j];
+    if (columns.col(j).isZero(0)) continue;
+    const bool geometry = number.group == "length" || number.group == "point" || number.group == "axis";
+    const DirectionKind kind = geometry ? DirectionKind::number : DirectionKind::linear;
     if (number.leg >= 0)
       alike_on_legs["manipulator.leg_defaults" + number.path.substr(number.path.find('.', 16))].push_back(out.size());
-    out.push_back({direction, column, toleranceOf(number.path)});
-  };
-  for (std::size_t j = 0; j < numbers.size(); ++j) {
-    const auto further =
-        std::find_if(comparison.directions.begin(), comparison.directions.end(),
-                     [&](const Direction& d) { return d.kind == DirectionKind::number && d.path == numbers[j].path; });
-    add(numbers[j], further == comparison.directions.end()
-                        ? Eigen::VectorXd(columns.col(static_cast<Eigen::Index>(j)))
-                        : Eigen::VectorXd(model.R.col(further - comparison.directions.begin())));
+    out.push_back({{kind, number.path, number.words, number.unit, -1, number.get(rotors), 1},
+                   columns.col(j),
+                   toleranceOf(tolerances, number.path)});
   }
   for (const auto& [path, legs] : alike_on_legs) {
     Suspect all = out[legs.front()];
@@ -196,11 +201,9 @@ std::vector<Suspect> suspectsOf(const SquareRoot& model, const Comparison& compa
     }
     if (legs.size() > 1 && !all.column.isZero(0)) out.push_back(all);
   }
-  for (std::size_t j = static_cast<std::size_t>(comparison.linear); j < comparison.directions.size(); ++j)
-    if (const Direction& direction = comparison.directions[j]; direction.kind != DirectionKind::number &&
-                                                               direction.kind != DirectionKind::delay &&
-                                                               direction.kind != DirectionKind::numerical)
-      out.push_back({direction, model.R.col(static_cast<Eigen::Index>(j)), 0});
+  for (std::size_t j = comparison.linear; j < comparison.directions.size(); ++j)
+    if (const Direction& each = comparison.directions[j]; each.kind >= DirectionKind::offset)
+      out.push_back({each, model.R.col(j), 0});
   return out;
 }
 
@@ -234,14 +237,12 @@ Judgement judge(const SquareRoot& model, const Comparison& comparison, const std
              thresholdOf(risk_outside, static_cast<double>(outside.size()), noise_freedom), true, out.causes);
 
   Allowance allowance(columns);
-  for (const FoundCause& cause : out.causes)
+  for (const MeasuredCause& cause : out.causes)
     for (const Suspect& each : suspects)
-      if (each.direction.words == cause.direction.words && each.direction.path == cause.direction.path)
-        allowance.free(each.column);
-  const Eigen::MatrixXd everything = basisOf(columnsOf(all, model.R.rows()));
+      if (each.direction.words == cause.what && each.direction.path == cause.parameter) allowance.free(each.column);
+  const Eigen::MatrixXd every = columnsOf(all, model.R.rows()), everything = basisOf(every);
   out.freedom = everything.cols();
   out.threshold = thresholdOf(risk_of_number, static_cast<double>(out.freedom), noise_freedom);
-  const Eigen::MatrixXd every = columnsOf(all, model.R.rows());
   const std::vector<Score> scores = scoresOf(every, allowance(every), model.z);
   for (std::size_t j = 0; j < all.size(); ++j)
     if (const double tolerance = all[j]->tolerance; tolerance > 0 && scores[j].deviation > 0)
@@ -258,27 +259,14 @@ Judgement judge(const SquareRoot& model, const Comparison& comparison, const std
 
 Eigen::MatrixXd inputUncertainty(const Comparison& comparison, const ManipulatorParameters& machine,
                                  const NumberTolerances& tolerances) {
-  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(comparison.model.rows(), motor_count);
-  const ManipulatorParameters rotors = withRotors(machine);
-  const EffortDerivatives derivatives((Manipulator(rotors)));
-  const Eigen::MatrixXd slopes = derivatives.regressorByParameters();
-  for (std::size_t j = 0; j < derivatives.parameterNames().size(); ++j) {
-    const std::string& path = derivatives.parameterNames()[j];
-    const auto at = tolerances.find(path);
-    if (at == tolerances.end()) continue;
-    const auto further =
-        std::find_if(comparison.directions.begin(), comparison.directions.end(),
-                     [&](const Direction& d) { return d.kind == DirectionKind::number && d.path == path; });
-    for (int k = 0; k < motor_count; ++k) {
-      const Eigen::MatrixXd& table = comparison.columns[static_cast<std::size_t>(k)];
-      const Eigen::VectorXd column =
-          further == comparison.directions.end()
-              ? Eigen::VectorXd(table.leftCols(comparison.linear) * slopes.col(static_cast<Eigen::Index>(j)))
-              : Eigen::VectorXd(table.col(further - comparison.directions.begin()));
-      squares.col(k).array() += (column.array() * at->second).square();
-    }
-  }
-  return squares.cwiseSqrt();
+  const EffortDerivatives derivatives((Manipulator(withRotors(machine))));
+  Eigen::VectorXd allowed(derivatives.parameterNames().size());
+  for (Eigen::Index j = 0; j < allowed.size(); ++j)
+    allowed(j) = toleranceOf(tolerances, derivatives.parameterNames()[j]);
+  Eigen::MatrixXd out(comparison.model.rows(), motor_count);
+  for (int k = 0; k < motor_count; ++k)
+    out.col(k) = (byNumbers(comparison, comparison.columns[k], derivatives) * allowed.asDiagonal()).rowwise().norm();
+  return out;
 }
 
 }  // namespace ursula::identification

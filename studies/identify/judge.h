@@ -1,13 +1,18 @@
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "studies/identify/estimate.h"
+#include "studies/identify/identify.h"
 
 namespace ursula::identification {
+
+/// A rotor that the scenario lacks gets the smallest inertia (withRotors), so that it has a derivative.
+inline double stated(double nominal) { return std::abs(nominal) < 1e-300 ? 0 : nominal; }
 
 /// A possible difference from the model.
 struct Suspect {
@@ -16,19 +21,8 @@ struct Suspect {
   double tolerance = 0;    ///< stated tolerance; 0 for none
 };
 
-/// A suspect whose change explains the deviation better than tolerances and noise do.
-struct FoundCause {
-  Direction direction;
-  double change = 0, deviation = 0;  ///< change from the nominal value, and its standard uncertainty
-  double tolerance = 0;
-  double score = 0;                ///< change divided by what tolerances and noise allow
-  double explained = 0;            ///< share of the squared deviation, in units of what is allowed
-  std::vector<Direction> as_well;  ///< causes that cannot be told from it
-  bool outside = false;            ///< no combination of masses, inertias and friction does the same
-};
-
 struct Judgement {
-  std::vector<FoundCause> causes;
+  std::vector<MeasuredCause> causes;
   double squares = 0;        ///< squared deviation in units of tolerances and noise
   Eigen::Index freedom = 0;  ///< expected squares of a right model
   double squares_limit = 0;

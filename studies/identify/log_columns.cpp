@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <regex>
 
 #include "base/csv.h"
@@ -16,14 +15,6 @@
 
 namespace ursula::identification {
 namespace {
-
-/// The meaning of a single name. `coordinate` is set if the name is a leg's coordinate; `index` is then the leg.
-struct LogMeaning {
-  LogQuantity quantity;
-  int index;
-  double factor = 1;
-  std::optional<Coordinate> coordinate = {};
-};
 
 constexpr const char* unit_tail = R"((?:[ _]*[\[(/_ ,][ ]*(rad|deg|degrees|°|mm|m|mA|A|kN|N|kNm|Nm)?[ ]*[\])]?)?)";
 
@@ -39,7 +30,7 @@ std::optional<Coordinate> coordinateOf(const std::string& name) {
   return std::nullopt;
 }
 
-std::optional<LogMeaning> meaningOfColumn(const std::string& name) {
+std::optional<LogColumn> meaningOfColumn(const std::string& name) {
   static const std::string tail = unit_tail;
   static const std::regex of_leg("(phi|psi|theta|d)_?([0-6])" + tail);
   static const std::regex of_motor(
@@ -48,22 +39,22 @@ std::optional<LogMeaning> meaningOfColumn(const std::string& name) {
   static const std::regex vector("([pqfm])_?([wxyz])" + tail);
   std::smatch found;
   if (const auto torque = meaningOf(name))
-    return LogMeaning{torque->motor < 0 ? LogQuantity::time : LogQuantity::effort, torque->motor,
-                      std::pow(10.0, torque->power)};
+    return LogColumn{torque->motor < 0 ? LogQuantity::time : LogQuantity::effort, torque->motor,
+                     std::pow(10.0, torque->power)};
   const auto digit = [&](std::size_t group) { return found[group].str()[0] - '0'; };
   if (std::regex_match(name, found, of_leg))
-    return LogMeaning{LogQuantity::driven, digit(2), factorOf(found[3]), coordinateOf(found[1])};
-  if (std::regex_match(name, found, of_motor)) return LogMeaning{LogQuantity::driven, digit(1), factorOf(found[2])};
-  if (std::regex_match(name, found, current)) return LogMeaning{LogQuantity::current, digit(1), factorOf(found[2])};
+    return LogColumn{LogQuantity::driven, digit(2), factorOf(found[3]), 0, name, coordinateOf(found[1])};
+  if (std::regex_match(name, found, of_motor)) return LogColumn{LogQuantity::driven, digit(1), factorOf(found[2])};
+  if (std::regex_match(name, found, current)) return LogColumn{LogQuantity::current, digit(1), factorOf(found[2])};
   if (!std::regex_match(name, found, vector)) return std::nullopt;
   const char kind = found[1].str()[0];
   const int axis = static_cast<int>(std::string("xyz").find(found[2]));
-  if (kind == 'q') return LogMeaning{LogQuantity::quaternion, found[2] == "w" ? 0 : axis + 1, 1};
+  if (kind == 'q') return LogColumn{LogQuantity::quaternion, found[2] == "w" ? 0 : axis + 1, 1};
   if (axis < 0) return std::nullopt;
-  return LogMeaning{kind == 'p'   ? LogQuantity::position
-                    : kind == 'f' ? LogQuantity::force
-                                  : LogQuantity::moment,
-                    axis, factorOf(found[3])};
+  return LogColumn{kind == 'p'   ? LogQuantity::position
+                   : kind == 'f' ? LogQuantity::force
+                                 : LogQuantity::moment,
+                   axis, factorOf(found[3])};
 }
 
 /// Finds the meaning of a log's columns.
@@ -73,21 +64,25 @@ class LogFinder {
       : dialect_(dialect), file_(file), machine_(machine) {}
 
   LogColumns find(const std::vector<std::pair<std::string, std::string>>& map) {
-    std::vector<std::pair<LogMeaning, std::size_t>> all;
+    std::vector<LogColumn> all;
     std::vector<bool> mapped(dialect_.header_cells.size(), false);
-    for (const auto& [name, column] : map) all.emplace_back(target(name), place(column, mapped));
-    for (std::size_t i = 0; i < mapped.size(); ++i) {
-      if (mapped[i]) continue;
-      if (const auto meaning = meaningOfColumn(dialect_.header_cells[i])) all.emplace_back(*meaning, i);
+    for (const auto& [name, column] : map) {
+      all.push_back(target(name));
+      all.back().place = place(column, mapped);
     }
+    for (std::size_t i = 0; i < mapped.size(); ++i)
+      if (auto meaning = mapped[i] ? std::nullopt : meaningOfColumn(dialect_.header_cells[i])) {
+        meaning->place = i;
+        all.push_back(*meaning);
+      }
     const int first = countsFrom(all);
-    for (const auto& [meaning, at] : all) add(meaning, at, first);
+    for (const LogColumn& column : all) add(column, first);
     choose();
     return std::move(out_);
   }
 
  private:
-  LogMeaning target(const std::string& name) const {
+  LogColumn target(const std::string& name) const {
     if (const auto meaning = meaningOfColumn(name)) return *meaning;
     fail(fmt::format("--map: '{}' is no name of a log's column, expected one such as t_s, {}, {}, p_x_m, q_w, i_1_A",
                      shown(name), drivenName(machine_.motors()[0]), effortColumn(machine_.motors(), 0)));
@@ -104,32 +99,34 @@ class LogFinder {
   }
 
   /// Returns 0 or 1, the number of the first motor.
-  static int countsFrom(const std::vector<std::pair<LogMeaning, std::size_t>>& all) {
-    bool zero = false, six = false;
-    for (const auto& [meaning, at] : all)
-      if (meaning.quantity == LogQuantity::driven || meaning.quantity == LogQuantity::effort ||
-          meaning.quantity == LogQuantity::current) {
-        zero |= meaning.index == 0;
-        six |= meaning.index == 6;
-      }
-    return zero && !six ? 0 : 1;
+  static int countsFrom(const std::vector<LogColumn>& all) {
+    const auto has = [&](int index) {
+      return std::any_of(all.begin(), all.end(),
+                         [&](const LogColumn& each) { return counts(each) && each.index == index; });
+    };
+    return has(0) && !has(6) ? 0 : 1;
   }
 
-  void add(const LogMeaning& meaning, std::size_t at, int first) {
-    LogColumn column{meaning.quantity, meaning.index, meaning.factor, at, dialect_.header_cells[at]};
+  /// Whether its index counts motors or legs.
+  static bool counts(const LogColumn& column) {
+    return column.quantity == LogQuantity::driven || column.quantity == LogQuantity::effort ||
+           column.quantity == LogQuantity::current;
+  }
+
+  void add(LogColumn column, int first) {
+    column.name = dialect_.header_cells[column.place];
     const Motors& motors = machine_.motors();
-    if (meaning.quantity == LogQuantity::driven || meaning.quantity == LogQuantity::effort ||
-        meaning.quantity == LogQuantity::current)
-      column.index -= first;
-    if (meaning.coordinate) {  // a leg's coordinate counts only if a motor drives it
+    if (counts(column)) column.index -= first;
+    if (column.coordinate) {  // a leg's coordinate counts only if a motor drives it
       const auto motor = std::find_if(motors.begin(), motors.end(), [&](const Motor& each) {
-        return each.leg == column.index && each.coordinate == *meaning.coordinate;
+        return each.leg == column.index && each.coordinate == *column.coordinate;
       });
       if (motor == motors.end()) return;
       column.index = static_cast<int>(motor - motors.begin());
     }
-    if (meaning.quantity == LogQuantity::effort) requireUnit(column);
-    if (column.index < -1 || column.index >= motor_count) return;
+    const bool is_time = column.quantity == LogQuantity::time;
+    if (column.index >= motor_count || (column.index < 0 && !is_time)) return;
+    if (column.quantity == LogQuantity::effort) requireUnit(column);
     const auto same = [&](const LogColumn& other) {
       return other.quantity == column.quantity && other.index == column.index;
     };
@@ -143,25 +140,21 @@ class LogFinder {
     fail(fmt::format("column '{}': {}", shown(column.name), whatItTakes(machine_.motors(), column.index)));
   }
 
-  bool hasAll(LogQuantity quantity, int count) const {
-    return std::count_if(found_.begin(), found_.end(), [&](const LogColumn& c) { return c.quantity == quantity; }) ==
+  bool has(LogQuantity quantity, int count) const {
+    return std::count_if(found_.begin(), found_.end(), [&](const LogColumn& c) { return c.quantity == quantity; }) >=
            count;
-  }
-  bool hasAny(LogQuantity quantity) const {
-    return std::any_of(found_.begin(), found_.end(), [&](const LogColumn& c) { return c.quantity == quantity; });
   }
 
   /// Prefers driven coordinates to poses, and efforts to currents.
   void choose() {
-    if (!hasAll(LogQuantity::time, 1)) missing("t_s");
-    const bool poses = hasAll(LogQuantity::position, 3) && hasAll(LogQuantity::quaternion, 4);
-    out_.has_poses = poses && !hasAll(LogQuantity::driven, motor_count);
-    if (!poses)
-      requireSix(LogQuantity::driven, [this](int k) { return drivenName(machine_.motors()[std::size_t(k)]); });
-    out_.has_currents = !hasAny(LogQuantity::effort) && hasAll(LogQuantity::current, motor_count);
+    if (!has(LogQuantity::time, 1)) missing("t_s");
+    const bool poses = has(LogQuantity::position, 3) && has(LogQuantity::quaternion, 4);
+    out_.has_poses = poses && !has(LogQuantity::driven, motor_count);
+    if (!poses) requireSix(LogQuantity::driven, [this](int k) { return drivenName(machine_.motors()[k]); });
+    out_.has_currents = !has(LogQuantity::effort, 1) && has(LogQuantity::current, motor_count);
     if (!out_.has_currents)
       requireSix(LogQuantity::effort, [this](int k) { return effortColumn(machine_.motors(), k); });
-    out_.has_load = hasAll(LogQuantity::force, 3) && hasAll(LogQuantity::moment, 3);
+    out_.has_load = has(LogQuantity::force, 3) && has(LogQuantity::moment, 3);
     for (const LogColumn& column : found_)
       if (isUsed(column.quantity)) out_.columns.push_back(column);
     std::vector<std::string> words;
@@ -177,35 +170,19 @@ class LogFinder {
     if (const std::string how = dialect_.words(); !how.empty()) out_.read_as = how + "; " + out_.read_as;
   }
 
-  bool isUsed(LogQuantity quantity) const {
-    switch (quantity) {
-      case LogQuantity::time:
-        return true;
-      case LogQuantity::driven:
-        return !out_.has_poses;
-      case LogQuantity::position:
-      case LogQuantity::quaternion:
-        return out_.has_poses;
-      case LogQuantity::effort:
-        return !out_.has_currents;
-      case LogQuantity::current:
-        return out_.has_currents;
-      case LogQuantity::force:
-      case LogQuantity::moment:
-        break;
-    }
-    return out_.has_load;
+  bool isUsed(LogQuantity of) const {
+    if (of == LogQuantity::driven) return !out_.has_poses;
+    if (of == LogQuantity::position || of == LogQuantity::quaternion) return out_.has_poses;
+    if (of == LogQuantity::effort) return !out_.has_currents;
+    if (of == LogQuantity::current) return out_.has_currents;
+    return of == LogQuantity::time || out_.has_load;
   }
 
   std::string wordsOf(const LogColumn& column) const {
-    const auto of = [&](const char* what) { return fmt::format("{} of motor {}", what, column.index + 1); };
-    const std::string what = column.quantity == LogQuantity::time         ? "time"
-                             : column.quantity == LogQuantity::driven     ? of("coordinate")
-                             : column.quantity == LogQuantity::effort     ? of("effort")
-                             : column.quantity == LogQuantity::current    ? of("current")
-                             : column.quantity == LogQuantity::position   ? "position of P"
-                             : column.quantity == LogQuantity::quaternion ? "orientation"
-                                                                          : "load";
+    static constexpr const char* words[] = {"time",   "coordinate", "position of P", "orientation",
+                                            "effort", "current",    "load",          "load"};
+    std::string what = words[static_cast<int>(column.quantity)];
+    if (counts(column)) what += fmt::format(" of motor {}", column.index + 1);
     return column.factor == 1 ? fmt::format("'{}' {}", shown(column.name), what)
                               : fmt::format("'{}' {} × {:.6g}", shown(column.name), what, column.factor);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,10 +15,11 @@ enum class LogQuantity { time, driven, position, quaternion, effort, current, fo
 /// The meaning of one column of a log.
 struct LogColumn {
   LogQuantity quantity = LogQuantity::time;
-  int index = 0;          ///< 0-based motor or entry of a vector
-  double factor = 1;      ///< factor to SI units, or to A
-  std::size_t place = 0;  ///< 0-based column of the file
-  std::string name;       ///< name in the file
+  int index = 0;                              ///< 0-based motor or entry of a vector
+  double factor = 1;                          ///< factor to SI units, or to A
+  std::size_t place = 0;                      ///< 0-based column of the file
+  std::string name;                           ///< name in the file
+  std::optional<Coordinate> coordinate = {};  ///< set for a leg's coordinate in the file; `index` is then the leg
 };
 
 /// The understood columns of a log.

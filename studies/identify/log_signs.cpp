@@ -1,4 +1,4 @@
-#include "studies/identify/log_signs.h"
+#include "studies/identify/results.h"
 
 #include <fmt/format.h>
 
@@ -37,9 +37,9 @@ void add(std::vector<LogFinding>& findings, std::vector<MeasuredCause>& causes, 
 
 void findSigns(MeasuredLog& log, const Motors& motors, std::vector<LogFinding>& findings) {
   for (int k = 0; k < motor_count; ++k) {
-    const std::string unit = motors[static_cast<std::size_t>(k)].effortUnit();
+    const std::string unit = motors[k].effortUnit();
     const auto rows = saturatedRows(log.efforts.col(k));
-    for (const Eigen::Index row : rows) log.missing[static_cast<std::size_t>(row)] = true;
+    for (const Eigen::Index row : rows) log.missing[row] = true;
     if (!rows.empty())
       findings.push_back(
           {"saturation", k, static_cast<double>(rows.size()) / static_cast<double>(log.rows()), "",
@@ -55,7 +55,7 @@ void findSigns(MeasuredLog& log, const Motors& motors, std::vector<LogFinding>& 
                           fmt::format("{} comes in steps of {:.3g} {}, which is most of its noise", what, step, unit)});
   };
   for (int k = 0; k < motor_count; ++k) {
-    const Motor& motor = motors[static_cast<std::size_t>(k)];
+    const Motor& motor = motors[k];
     quantised(log.efforts.col(k), k, fmt::format("the effort of motor {}", k + 1), motor.effortUnit());
     if (!log.has_poses)
       quantised(log.motion.col(k), k, fmt::format("the coordinate of motor {}", k + 1), motor.slides() ? "m" : "rad");

@@ -56,23 +56,31 @@ const std::filesystem::path& seekable(const std::filesystem::path& file) {
   return file;
 }
 
-/// Returns a value's place in a row: motion, then efforts, then load.
+/// Returns a value's place in a row: motion, efforts, then moment and force of the load.
 std::size_t slotOf(const LogColumn& column, const LogColumns& columns) {
-  const auto index = static_cast<std::size_t>(std::max(column.index, 0));
   const std::size_t motion = columns.has_poses ? 7 : 6;
-  switch (column.quantity) {
-    case LogQuantity::quaternion:
-      return 3 + index;
-    case LogQuantity::effort:
-    case LogQuantity::current:
-      return motion + index;
-    case LogQuantity::moment:
-      return motion + 6 + index;
-    case LogQuantity::force:
-      return motion + 9 + index;
-    default:
-      return index;
-  }
+  const LogQuantity of = column.quantity;
+  return column.index + (of == LogQuantity::quaternion                             ? 3
+                         : of == LogQuantity::effort || of == LogQuantity::current ? motion
+                         : of == LogQuantity::moment                               ? motion + 6
+                         : of == LogQuantity::force                                ? motion + 9
+                                                                                   : 0);
+}
+
+std::vector<std::size_t> turningOf(const Manipulator& machine, bool has_poses) {
+  std::vector<std::size_t> out;
+  for (std::size_t k = 0; k < motor_count && !has_poses; ++k)
+    if (!machine.motors()[k].slides()) out.push_back(k);
+  return out;
+}
+
+/// Splits the grid's values into `motion` columns of motion, efforts and a load, if any.
+MeasuredLog parted(MeasuredLog log, Eigen::Index motion) {
+  log.efforts = log.motion.middleCols(motion, motor_count);
+  if (log.motion.cols() > motion + motor_count) log.load = log.motion.rightCols(6);
+  log.motion.conservativeResize(Eigen::NoChange, motion);
+  log.has_poses = motion == 7;
+  return log;
 }
 
 /// Reads a log line by line, so that large files need little memory.
@@ -91,72 +99,51 @@ class LogReader {
     if (dialect_.header_cells.empty())
       throw CsvError(fmt::format("{}: error: empty, expected a log", shownPath(file_)));
     columns_ = identification::findLogColumns(dialect_, file_, pairsOf(options.map), machine);
-    constants_ = constantsOf(columns_, options.constants);
+    const auto constants = constantsOf(columns_, options.constants);
     for (LogColumn& column : columns_.columns) {
-      if (column.quantity == LogQuantity::current) column.factor *= constants_[static_cast<std::size_t>(column.index)];
+      if (column.quantity == LogQuantity::current) column.factor *= constants[column.index];
       width_ = std::max(width_, column.place + 1);
     }
-    by_place_.assign(width_, nullptr);
-    for (const LogColumn& column : columns_.columns) by_place_[column.place] = &column;
   }
 
   MeasuredLog read() {
     const std::size_t motion = columns_.has_poses ? 7 : 6, width = motion + 6 + (columns_.has_load ? 6 : 0);
-    std::vector<std::size_t> turning;
-    for (std::size_t k = 0; k < motor_count && !columns_.has_poses; ++k)
-      if (!machine_.motors()[k].slides()) turning.push_back(k);
-    LogGrid grid(width, turning);
+    LogGrid grid(width, turningOf(machine_, columns_.has_poses));
     std::vector<double> row(width), before;
     std::string line;
     while (std::getline(stream_, line)) {
       ++line_;
+      if (!line.empty() && line.back() == '\r') line.pop_back();
       if (line_ <= dialect_.header || isPassedOver(line, dialect_)) continue;
-      if (trimmedCell(line).find_first_not_of('\r') == std::string_view::npos) continue;
       const double t = parse(line, row);
       if (columns_.has_poses) keepSign(row, before);
       grid.add(t, row, [this] { return fmt::format("{}:{}", shownPath(file_), line_); });
     }
-    return split(grid.finish(file_), static_cast<Eigen::Index>(motion));
+    MeasuredLog log = parted(grid.finish(file_), motion);
+    log.by_currents = columns_.has_currents;
+    log.read_as = columns_.read_as;
+    log.ignored = columns_.ignored;
+    return log;
   }
 
  private:
   /// Fills `row` and returns its instant.
-  double parse(std::string& line, std::vector<double>& row) {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
+  double parse(std::string& line, std::vector<double>& row) const {
     if (dialect_.decimal_comma) std::replace(line.begin(), line.end(), ',', '.');
-    std::string_view rest = line;
-    if (dialect_.separator == ' ') rest = trimmedCell(rest);
+    const std::vector<std::string_view> cells = splitCells(line, dialect_.separator);
+    if (cells.size() < width_)
+      throw CsvError(
+          fmt::format("{}:{}: error: {} cells, expected at least {}", shownPath(file_), line_, cells.size(), width_));
     double t = not_there;
-    for (std::size_t place = 0; place < width_; ++place) {
-      const auto end = dialect_.separator == ' ' ? rest.find_first_of(" \t") : rest.find(dialect_.separator);
-      if (end == std::string_view::npos && place + 1 < width_)
-        throw CsvError(
-            fmt::format("{}:{}: error: {} cells, expected at least {}", shownPath(file_), line_, place + 1, width_));
-      if (const LogColumn* column = by_place_[place]) {
-        const double value = cell(rest.substr(0, end), *column);
-        if (column->quantity == LogQuantity::time)
-          t = value;
-        else
-          row[slotOf(*column, columns_)] = value * column->factor;
-      }
-      if (end == std::string_view::npos) break;
-      rest.remove_prefix(end + 1);
-      if (dialect_.separator == ' ') rest = trimmedCell(rest);
-    }
+    for (const LogColumn& column : columns_.columns)
+      (column.quantity == LogQuantity::time ? t : row[slotOf(column, columns_)]) =
+          cell(cells[column.place], column) * column.factor;
     if (std::isnan(t))
       throw CsvError(fmt::format("{}:{}: error: no instant, expected a number", shownPath(file_), line_));
-    return t * timeFactor();
-  }
-
-  double timeFactor() const {
-    for (const LogColumn& column : columns_.columns)
-      if (column.quantity == LogQuantity::time) return column.factor;
-    return 1;
+    return t;
   }
 
   double cell(std::string_view text, const LogColumn& column) const {
-    text = trimmedCell(text);
-    if (text.size() > 1 && text.front() == '"') text = text.substr(1, text.size() - 2);
     if (text.empty() || text == "nan" || text == "NaN" || text == "NA") return not_there;
     const LeadingNumber number = leadingNumber(text);
     if (number.length != text.size() || !std::isfinite(number.value))
@@ -173,24 +160,11 @@ class LogReader {
     if (!std::isnan(product)) before = row;
   }
 
-  MeasuredLog split(MeasuredLog log, Eigen::Index motion) const {
-    log.efforts = log.motion.middleCols(motion, motor_count);
-    if (columns_.has_load) log.load = log.motion.rightCols(6);
-    log.motion.conservativeResize(Eigen::NoChange, motion);
-    log.has_poses = columns_.has_poses;
-    log.by_currents = columns_.has_currents;
-    log.read_as = columns_.read_as;
-    log.ignored = columns_.ignored;
-    return log;
-  }
-
   const Manipulator& machine_;
   std::string file_;
   std::ifstream stream_;
   CsvDialect dialect_;
   LogColumns columns_;
-  std::array<double, motor_count> constants_{};
-  std::vector<const LogColumn*> by_place_;
   std::size_t width_ = 0;
   int line_ = 0;
 };
@@ -203,23 +177,15 @@ MeasuredLog readMeasuredLog(const LogOptions& options, const Manipulator& machin
 
 MeasuredLog measuredLogOf(const std::vector<double>& t, const Eigen::MatrixXd& motion, const Eigen::MatrixXd& efforts,
                           const Manipulator& machine) {
-  const auto columns = static_cast<std::size_t>(motion.cols());
-  std::vector<std::size_t> turning;
-  for (std::size_t k = 0; k < motor_count && columns == motor_count; ++k)
-    if (!machine.motors()[k].slides()) turning.push_back(k);
-  LogGrid grid(columns + motor_count, turning);
+  const std::size_t columns = motion.cols();
+  LogGrid grid(columns + motor_count, turningOf(machine, columns == 7));
   std::vector<double> row(columns + motor_count);
   for (std::size_t i = 0; i < t.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    Eigen::Map<Eigen::VectorXd>(row.data(), motion.cols()) = motion.row(at).transpose();
-    Eigen::Map<Eigen::VectorXd>(row.data() + columns, motor_count) = efforts.row(at).transpose();
+    Eigen::Map<Eigen::VectorXd>(row.data(), motion.cols()) = motion.row(i).transpose();
+    Eigen::Map<Eigen::VectorXd>(row.data() + columns, motor_count) = efforts.row(i).transpose();
     grid.add(t[i], row, [i] { return fmt::format("row {}", i + 1); });
   }
-  MeasuredLog log = grid.finish("the log");
-  log.efforts = log.motion.rightCols(motor_count);
-  log.motion.conservativeResize(Eigen::NoChange, motion.cols());
-  log.has_poses = columns == 7;
-  return log;
+  return parted(grid.finish("the log"), motion.cols());
 }
 
 }  // namespace ursula

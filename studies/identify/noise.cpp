@@ -50,10 +50,9 @@ void EffortNoise::fill(Block& block, const Comparison& comparison, const Eigen::
   const Eigen::Index channels = motion.size();
   for (Eigen::Index i = 0; i < block.count; ++i)
     for (Eigen::Index j = i; j < block.count; ++j) {
-      const Eigen::Matrix3d& between = by_motion_[static_cast<std::size_t>(j - i)];
+      const Eigen::Matrix3d& between = by_motion_[j - i];
       if (between.isZero(0)) continue;
-      const Eigen::MatrixXd &here = comparison.slopes[static_cast<std::size_t>(block.first + i)],
-                            &there = comparison.slopes[static_cast<std::size_t>(block.first + j)];
+      const Eigen::MatrixXd &here = comparison.slopes[block.first + i], &there = comparison.slopes[block.first + j];
       Matrix6d sum = Matrix6d::Zero();
       for (int a = 0; a < 3; ++a)
         for (int b = 0; b < 3; ++b)

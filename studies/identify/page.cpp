@@ -19,16 +19,10 @@ using report::Stroke;
 
 constexpr std::size_t buckets = 400, most_rows = 60;
 
-const std::vector<double>& column(const TimeSeries& series, const std::string& name) {
-  static const std::vector<double> none;
-  const auto at = std::find(series.names.begin(), series.names.end(), name);
-  return at == series.names.end() ? none : series.columns[static_cast<std::size_t>(at - series.names.begin())];
-}
-
 /// Plots measured and predicted effort with a band of 1.96 u_val about the model.
 Plot effortPlot(const IdentifyResult& result, std::size_t k) {
   const std::string unit = result.motors[k].unit;
-  const auto of = [&](const char* what) { return column(result.series, fmt::format("{}_{}_{}", what, k + 1, unit)); };
+  const auto of = [&](const char* what) { return *result.series.find(fmt::format("{}_{}_{}", what, k + 1, unit)); };
   std::vector<double> low = of("model"), high = low;
   const std::vector<double> u = of("u_val");
   for (std::size_t i = 0; i < u.size(); ++i) {
@@ -40,7 +34,7 @@ Plot effortPlot(const IdentifyResult& result, std::size_t k) {
   plot.x_label = "t (s)";
   plot.y_label = fmt::format("effort ({})", unit);
   plot.over_time = plot.tube = true;
-  plot.x = column(result.series, "t_s");
+  plot.x = *result.series.find("t_s");
   plot.rows = plot.x.size();
   plot.lines = {{"model + 1.96 u_val", unit, 0, Stroke::limit, high},
                 {"model − 1.96 u_val", unit, 0, Stroke::limit, low},
@@ -56,12 +50,12 @@ Plot spectrumPlot(const IdentifyResult& result) {
   plot.x_label = "f (Hz)";
   plot.y_label = "density (effort²/Hz)";
   plot.log_y = true;
-  plot.x = column(result.spectra, "f_Hz");
+  plot.x = *result.spectra.find("f_Hz");
   plot.rows = plot.x.size();
   for (std::size_t k = 0; k < result.motors.size(); ++k)
     plot.lines.push_back({fmt::format("motor {}", k + 1), result.motors[k].unit + "²/Hz", static_cast<int>(k),
                           Stroke::line,
-                          column(result.spectra, fmt::format("residual_{}_{}2_Hz", k + 1, result.motors[k].unit))});
+                          *result.spectra.find(fmt::format("residual_{}_{}2_Hz", k + 1, result.motors[k].unit))});
   return plot;
 }
 

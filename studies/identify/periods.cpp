@@ -7,59 +7,55 @@
 namespace ursula::identification {
 namespace {
 
-/// Returns the mismatch of a motion and itself `lag` rows later, for every lag: 0 is equal, 1 unrelated.
-Eigen::VectorXd mismatches(const Eigen::MatrixXd& motion) {
-  const Eigen::Index rows = motion.rows();
+/// Returns the motion's channels that move, without their means, in units of their deviations.
+Eigen::MatrixXd moving(const Eigen::MatrixXd& motion) {
+  const Eigen::VectorXd variance = variances(motion);
+  std::vector<Eigen::Index> channels;
+  for (Eigen::Index k = 0; k < motion.cols(); ++k)
+    if (variance(k) > 0) channels.push_back(k);
+  const Eigen::MatrixXd x = motion(Eigen::all, channels);
+  return (x.rowwise() - x.colwise().mean()) * variance(channels).cwiseSqrt().cwiseInverse().asDiagonal();
+}
+
+/// Returns the mismatch of such channels and themselves `lag` rows later, for every lag: 0 is equal, 1 unrelated.
+Eigen::VectorXd mismatches(const Eigen::MatrixXd& channels) {
+  const Eigen::Index rows = channels.rows();
   Eigen::Index size = 16;
   while (size < 2 * rows) size *= 2;
   Eigen::FFT<double> fft;
   Eigen::VectorXd out =
       Eigen::VectorXd::Zero(rows / 2 + 2);  // with a neighbour of half the rows: two periods are enough
-  int channels = 0;
-  for (Eigen::Index k = 0; k < motion.cols(); ++k) {
-    Eigen::VectorXd x = Eigen::VectorXd::Zero(size);
-    x.head(rows) = motion.col(k).array() - motion.col(k).mean();
-    const double variance = x.squaredNorm() / static_cast<double>(rows);
-    if (variance == 0) continue;
+  for (Eigen::Index k = 0; k < channels.cols(); ++k) {
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(size), correlation(size);
+    x.head(rows) = channels.col(k);
     Eigen::VectorXcd transform(size);
     fft.fwd(transform, x);
     transform = transform.cwiseAbs2().cast<std::complex<double>>().eval();
-    Eigen::VectorXd correlation(size);
     fft.inv(correlation, transform);
     double energy = 2 * x.squaredNorm();
     for (Eigen::Index lag = 0; lag < out.size(); ++lag) {
-      out(lag) += std::max(0.0, energy - 2 * correlation(lag)) / (2 * variance * static_cast<double>(rows - lag));
+      out(lag) += std::max(0.0, energy - 2 * correlation(lag)) / (2 * static_cast<double>(rows - lag));
       energy -= x(lag) * x(lag) + x(rows - 1 - lag) * x(rows - 1 - lag);
     }
-    ++channels;
   }
-  return channels == 0 ? Eigen::VectorXd(Eigen::VectorXd::Ones(out.size())) : Eigen::VectorXd(out / channels);
+  return out / static_cast<double>(channels.cols());
 }
 
-double mismatchAt(const Eigen::MatrixXd& motion, Eigen::Index lag) {
-  double sum = 0;
-  int channels = 0;
-  for (Eigen::Index k = 0; k < motion.cols(); ++k) {
-    const double variance = (motion.col(k).array() - motion.col(k).mean()).square().mean();
-    if (variance == 0) continue;
-    const Eigen::Index rows = motion.rows() - lag;
-    sum += (motion.col(k).tail(rows) - motion.col(k).head(rows)).squaredNorm() /
-           (2 * variance * static_cast<double>(rows));
-    ++channels;
-  }
-  return sum / std::max(channels, 1);
+double mismatchAt(const Eigen::MatrixXd& channels, Eigen::Index lag) {
+  const Eigen::Index rows = channels.rows() - lag;
+  return (channels.bottomRows(rows) - channels.topRows(rows)).squaredNorm() /
+         (2.0 * static_cast<double>(rows * channels.cols()));
 }
 
 /// Returns the rows of one period; 0 if there are fewer than two periods.
 Eigen::Index periodOf(const MeasuredLog& log) {
   if (std::find(log.missing.begin(), log.missing.end(), true) != log.missing.end()) return 0;
-  const Eigen::VectorXd unlike = mismatches(log.motion);
+  const Eigen::MatrixXd channels = moving(log.motion);
+  if (channels.cols() == 0) return 0;
+  const Eigen::VectorXd unlike = mismatches(channels);
   double noise = 0;
-  for (Eigen::Index k = 0; k < log.motion.cols(); ++k) {
-    const double variance = (log.motion.col(k).array() - log.motion.col(k).mean()).square().mean();
-    if (variance > 0)
-      noise += std::pow(whiteNoise(log.motion.col(k)), 2) / variance / static_cast<double>(log.motion.cols());
-  }
+  for (Eigen::Index k = 0; k < channels.cols(); ++k)
+    noise += std::pow(whiteNoise(channels.col(k)), 2) / static_cast<double>(log.motion.cols());
   const double same = 2 * noise + 1e-6;
   bool has_left = false;
   for (Eigen::Index lag = 1; lag + 1 < unlike.size(); ++lag) {
@@ -67,7 +63,7 @@ Eigen::Index periodOf(const MeasuredLog& log) {
     if (!has_left || unlike(lag) > 10 * same || unlike(lag) > unlike(lag - 1) || unlike(lag) > unlike(lag + 1))
       continue;
     const Eigen::Index last = (log.rows() / lag - 1) * lag;  // periods drift apart if they are not whole rows
-    if (mismatchAt(log.motion, lag) <= same && mismatchAt(log.motion, last) <= same) return lag;
+    if (mismatchAt(channels, lag) <= same && mismatchAt(channels, last) <= same) return lag;
   }
   return 0;
 }
@@ -97,7 +93,7 @@ Periods averagePeriods(MeasuredLog& log) {
   log.motion = averaged(log.motion, out.rows, out.count, out.motion_noise);
   log.efforts = averaged(log.efforts, out.rows, out.count, out.effort_noise);
   if (log.load.cols() > 0) log.load = averaged(log.load, out.rows, out.count, unused);
-  log.missing.assign(static_cast<std::size_t>(out.rows), false);
+  log.missing.assign(out.rows, false);
   return out;
 }
 

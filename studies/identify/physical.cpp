@@ -1,4 +1,4 @@
-#include "studies/identify/physical.h"
+#include "studies/identify/estimate.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -11,11 +11,6 @@ namespace {
 /// The barrier's weight in halves of a squared deviation. It moves the result by far less than the noise.
 constexpr double barrier_weight = 1e-2, identified_share = 0.1;
 
-struct Wanted {
-  MachineNumber number;
-  Eigen::Index column = 0;  ///< index among the machine's numbers
-};
-
 bool isOfBodies(const MachineNumber& number) {
   return number.group == "mass" || number.group == "center" || number.group == "inertia";
 }
@@ -26,9 +21,7 @@ bool isPositive(const MachineNumber& number) {
 }
 
 const Matrix3d& inertiaOf(const ManipulatorParameters& machine, const MachineNumber& number) {
-  if (number.leg < 0) return machine.platform.inertia;
-  const Leg& leg = machine.legs[static_cast<std::size_t>(number.leg)];
-  return number.body == "proximal" ? leg.proximal.inertia : leg.distal.inertia;
+  return number.leg < 0 ? machine.platform.inertia : linkOf(machine, number).inertia;
 }
 
 /// This matrix is positive definite exactly if the moments of inertia are positive and keep the triangle inequality.
@@ -59,7 +52,7 @@ class MachineFit {
       if (number.group == "inertia" && isThin(inertiaOf(nominal_, number))) estimate.before = 0;
       if (estimate.before > 0) {
         free_.push_back(estimates_.size());
-        columns_.push_back(static_cast<Eigen::Index>(j));
+        columns_.push_back(j);
       }
       estimates_.push_back(estimate);
     }
@@ -91,13 +84,8 @@ class MachineFit {
  private:
   /// Returns the prior uncertainty, which is about the number's own size.
   double assumed(const MachineNumber& number, double plausible) const {
-    if (number.group == "center") {
-      const double mass = number.leg < 0 ? nominal_.platform.mass
-                          : number.body == "proximal"
-                              ? nominal_.legs[static_cast<std::size_t>(number.leg)].proximal.mass
-                              : nominal_.legs[static_cast<std::size_t>(number.leg)].distal.mass;
-      return plausible / mass;
-    }
+    if (number.group == "center")
+      return plausible / (number.leg < 0 ? nominal_.platform.mass : linkOf(nominal_, number).mass);
     return number.group == "inertia" ? std::max(number.size(nominal_), 0.05 * plausible)
                                      : std::max(plausible, number.get(nominal_));
   }
@@ -116,8 +104,8 @@ class MachineFit {
   std::pair<Eigen::VectorXd, Eigen::MatrixXd> momentsOf(const ManipulatorParameters& machine) const {
     const EffortDerivatives derivatives((Manipulator(machine)));
     const Eigen::MatrixXd all = derivatives.regressorByParameters();
-    Eigen::MatrixXd slopes(all.rows(), static_cast<Eigen::Index>(columns_.size()));
-    for (std::size_t j = 0; j < columns_.size(); ++j) slopes.col(static_cast<Eigen::Index>(j)) = all.col(columns_[j]);
+    Eigen::MatrixXd slopes(all.rows(), columns_.size());
+    for (std::size_t j = 0; j < columns_.size(); ++j) slopes.col(j) = all.col(columns_[j]);
     return {derivatives.regressorValues(), slopes};
   }
 
@@ -129,7 +117,6 @@ class MachineFit {
 
   double costOf(const ManipulatorParameters& machine, const Eigen::VectorXd& rest) const {
     double cost = 0;
-    std::string body;
     for (const std::size_t j : free_) {
       const NumberEstimate& each = estimates_[j];
       const double value = each.number.get(machine);
@@ -138,8 +125,7 @@ class MachineFit {
         if (!(value > 0)) return std::numeric_limits<double>::infinity();
         cost -= barrier_weight * std::log(value / each.before);
       }
-      if (each.number.quantity != Quantity::inertia && each.number.quantity != Quantity::platform_inertia) continue;
-      if (each.number.entry != 0) continue;
+      if (each.number.group != "inertia" || each.number.entry != 0) continue;
       const Eigen::LLT<Matrix3d> spread(spreadOf(inertiaOf(machine, each.number)));
       if (spread.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
       cost -= 2 * barrier_weight * Matrix3d(spread.matrixL()).diagonal().array().log().sum();
@@ -161,7 +147,7 @@ class MachineFit {
       Matrix3d unit = Matrix3d::Zero();
       const auto& [i, j] = tensor_entries[number.entry];
       unit(i, j) = unit(j, i) = 1;
-      slopes.emplace_back(static_cast<Eigen::Index>(k), inverse * spreadOf(unit));
+      slopes.emplace_back(k, inverse * spreadOf(unit));
     }
     for (const auto& [k, a] : slopes) {
       gradient(k) -= barrier_weight * a.trace();
@@ -179,8 +165,7 @@ class MachineFit {
   Eigen::MatrixXd information(const Eigen::MatrixXd& slopes) const {
     const Eigen::MatrixXd J = jacobian(slopes);
     Eigen::MatrixXd out = J.transpose() * J;
-    for (std::size_t k = 0; k < free_.size(); ++k)
-      out(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) += 1 / std::pow(estimates_[free_[k]].before, 2);
+    for (std::size_t k = 0; k < free_.size(); ++k) out(k, k) += 1 / std::pow(estimates_[free_[k]].before, 2);
     return out;
   }
 
@@ -190,16 +175,14 @@ class MachineFit {
     Eigen::VectorXd gradient = -jacobian(slopes).transpose() * leftOf(moments, rest_);
     for (std::size_t k = 0; k < free_.size(); ++k) {
       const NumberEstimate& each = estimates_[free_[k]];
-      const auto at = static_cast<Eigen::Index>(k);
+      const auto at = k;
       const double value = each.number.get(machine_);
       gradient(at) += (value - each.nominal) / std::pow(each.before, 2);
       if (isPositive(each.number)) {
         gradient(at) -= barrier_weight / value;
         hessian(at, at) += barrier_weight / (value * value);
       }
-      const bool inertia =
-          each.number.quantity == Quantity::inertia || each.number.quantity == Quantity::platform_inertia;
-      if (inertia && each.number.entry == 0) addSpread(each.number, hessian, gradient);
+      if (each.number.group == "inertia" && each.number.entry == 0) addSpread(each.number, hessian, gradient);
     }
     return -scaledSolve(hessian, gradient);
   }
@@ -215,7 +198,7 @@ class MachineFit {
     ManipulatorParameters next = machine_;
     for (std::size_t k = 0; k < free_.size(); ++k) {
       const MachineNumber& number = estimates_[free_[k]].number;
-      number.set(next, number.get(machine_) + step(static_cast<Eigen::Index>(k)));
+      number.set(next, number.get(machine_) + step(k));
     }
     return {next, rest_ + step.tail(motor_count + 1)};
   }
@@ -229,13 +212,12 @@ class MachineFit {
     }
     for (std::size_t k = 0; k < free_.size(); ++k) {
       NumberEstimate& each = estimates_[free_[k]];
-      each.deviation = std::sqrt(std::max(0.0, covariance(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k))));
-      each.identified = each.deviation < identified_share * assumed(each.number, plausibleOf(free_[k]));
+      each.deviation = std::sqrt(std::max(0.0, covariance(k, k)));
+      each.identified =
+          each.deviation < identified_share * assumed(each.number, comparison_.directions[free_[k]].plausible);
     }
     return {estimates_, machine_, rest_.head<motor_count>()};
   }
-
-  double plausibleOf(std::size_t j) const { return comparison_.directions[j].plausible; }
 
   const SquareRoot& model_;
   const Comparison& comparison_;

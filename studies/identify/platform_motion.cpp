@@ -21,7 +21,7 @@ std::optional<PlatformPose> MotorChain::pose(const Vector6d& driven, const Platf
   Vector6d way = driven - first;
   const Motors& motors = kinematics_.solver().machine().motors;
   for (int k = 0; k < motor_count; ++k)
-    if (!motors[static_cast<std::size_t>(k)].slides()) way(k) = std::remainder(way(k), 2 * std::acos(-1.0));
+    if (!motors[k].slides()) way(k) = std::remainder(way(k), 2 * std::acos(-1.0));
   for (const int steps : {8, 64}) {
     std::optional<PlatformPose> at = from;
     for (int i = 1; i <= steps && at; ++i) at = poses::track(kinematics_.solver().noc(), first + way * i / steps, *at);
@@ -68,6 +68,20 @@ Motion<double> motionOfPoses(const MeasuredState& state) {
   return out;
 }
 
+Motion<double> motionAbout(const Motion<double>& pose, const MeasuredState& off, double t) {
+  const auto part = [&](const Eigen::VectorXd& x, double scalar, const Vector3d& origin) {
+    const Eigen::Quaterniond q = Eigen::Quaterniond(pose.Q) * Eigen::Quaterniond(scalar, x(3), x(4), x(5));
+    Eigen::VectorXd out(7);
+    out << origin + x.head<3>(), q.w(), q.x(), q.y(), q.z();
+    return out;
+  };
+  const Vector3d none = Vector3d::Zero();
+  Motion<double> out =
+      motionOfPoses({part(off.value, 1, pose.p), part(off.rate, 0, none), part(off.acceleration, 0, none)});
+  out.t = t;
+  return out;
+}
+
 std::optional<Motion<double>> firstMotion(const Scenario& scenario, const MotorChain& chain,
                                           const MeasuredState& state) {
   constexpr int instants = 65, tried = 6;
@@ -82,7 +96,7 @@ std::optional<Motion<double>> firstMotion(const Scenario& scenario, const MotorC
       continue;
     }
     for (int k = 0; k < motor_count; ++k)
-      if (!motors[static_cast<std::size_t>(k)].slides()) off(k) = std::remainder(off(k), 2 * std::acos(-1.0));
+      if (!motors[k].slides()) off(k) = std::remainder(off(k), 2 * std::acos(-1.0));
     near.emplace_back(off.norm(), at);
   }
   std::sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -6,13 +6,9 @@
 
 #include "model/scenario.h"
 #include "nocsolver/poses/direct_kinematics.h"
+#include "studies/identify/signals.h"
 
 namespace ursula::identification {
-
-/// Value, rate and acceleration of a log's motion: six driven coordinates, or p and q.
-struct MeasuredState {
-  Eigen::VectorXd value, rate, acceleration;
-};
 
 /// Computes one machine's platform motion from the motors' motion, and the efforts for it.
 class MotorChain {
@@ -35,6 +31,9 @@ class MotorChain {
 
 /// Returns the motion of measured poses; q need not be of length 1.
 Motion<double> motionOfPoses(const MeasuredState& state);
+
+/// Returns the motion at `t` that is off a pose by P's displacement, m, and a Rodrigues vector in the platform's frame.
+Motion<double> motionAbout(const Motion<double>& pose, const MeasuredState& off, double t);
 
 /// Returns a motion of the scenario that is near these driven coordinates and leads to them. Returns none if no motion
 /// of the scenario leads to them.

@@ -4,27 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 
 #include "validation/subject/effort_columns.h"
 
 namespace ursula::identification {
 namespace {
 
-/// A rotor that the scenario lacks gets the smallest inertia (withRotors), so that it has a derivative.
-double stated(double nominal) { return std::abs(nominal) < 1e-300 ? 0 : nominal; }
-
 constexpr std::size_t most_terms_in_words = 4;
-
-std::vector<std::string> partsOf(const std::string& path) {
-  std::vector<std::string> out(1);
-  for (const char c : path) {
-    if (c == '.')
-      out.emplace_back();
-    else
-      out.back() += c;
-  }
-  return out;
-}
 
 std::string groupOf(const Direction& direction) {
   if (direction.kind == DirectionKind::offset) return "offset";
@@ -48,53 +35,28 @@ std::string motorColumn(const char* what, int k, const std::string& unit) {
 }  // namespace
 
 std::string wordsOf(const Direction& direction) {
-  if (direction.path.empty()) return direction.words;
-  const std::vector<std::string> parts = partsOf(direction.path);
-  const bool platform = parts[1] == "platform";
-  const std::string leg = platform ? "" : fmt::format("leg {}", parts[2]);
-  const std::string& quantity = parts[platform                                                               ? 2
-                                      : parts.size() > 4 && (parts[3] == "proximal" || parts[3] == "distal") ? 4
-                                                                                                             : 3];
-  const std::string of = platform               ? "the platform"
-                         : quantity == parts[3] ? leg
-                                                : fmt::format("{}'s {} link", leg, parts[3]);
-  static const char* const axes[] = {"x", "y", "z"};
-  static const char* const entries[] = {"xx", "yy", "zz", "xy", "xz", "yz"};
-  const bool has_entry = std::isdigit(static_cast<unsigned char>(parts.back()[0])) != 0 && parts.size() > 3;
-  const int entry = has_entry ? parts.back()[0] - '0' : 0;
-  if (quantity == "mass") return "mass of " + of;
-  if (quantity == "first_moment")
-    return fmt::format("mass × mass centre{} of {}", has_entry ? std::string(" ") + axes[entry % 3] : "", of);
-  if (quantity == "inertia_at_P") return fmt::format("inertia {} of {} about P", entries[entry % 6], of);
-  if (quantity == "inertia_at_end") return fmt::format("inertia {} of {} about its first end", entries[entry % 6], of);
-  if (quantity == "rotor_inertia") return fmt::format("rotor inertia on {} of {}", parts.back(), of);
-  if (quantity == "friction") return fmt::format("viscous friction on {} of {}", parts.back(), of);
-  if (quantity == "coulomb") return fmt::format("Coulomb friction on {} of {}", parts.back(), of);
+  static const std::regex form(R"(manipulator\.(?:platform|leg\.(\d+))(?:\.(proximal|distal))?\.(\w+)(?:\.(\w+))?)");
+  static constexpr const char *axes[] = {" x", " y", " z"}, *entries[] = {"xx", "yy", "zz", "xy", "xz", "yz"};
+  std::smatch part;
+  if (!std::regex_match(direction.path, part, form)) return direction.words;
+  const std::string leg = part[1], link = part[2], quantity = part[3], entry = part[4];
+  const std::string of = leg.empty()    ? " of the platform"
+                         : link.empty() ? " of leg " + leg
+                                        : fmt::format(" of leg {}'s {} link", leg, link);
+  const auto of_entry = [&](const char* const* names) { return entry.empty() ? "" : names[std::stoul(entry)]; };
+  if (quantity == "mass") return "mass" + of;
+  if (quantity == "first_moment") return fmt::format("mass × mass centre{}{}", of_entry(axes), of);
+  if (quantity == "inertia_at_P") return fmt::format("inertia {}{} about P", of_entry(entries), of);
+  if (quantity == "inertia_at_end") return fmt::format("inertia {}{} about its first end", of_entry(entries), of);
+  if (quantity == "rotor_inertia") return fmt::format("rotor inertia on {}{}", entry, of);
+  if (quantity == "friction") return fmt::format("viscous friction on {}{}", entry, of);
+  if (quantity == "coulomb") return fmt::format("Coulomb friction on {}{}", entry, of);
   return direction.words;
-}
-
-MeasuredCause measuredCause(const FoundCause& cause) {
-  MeasuredCause out;
-  const Direction& direction = cause.direction;
-  out.kind = name(direction.kind);
-  out.parameter = direction.path;
-  out.what = direction.words;
-  out.unit = direction.unit;
-  out.motor = direction.motor + 1;
-  out.expected = stated(direction.nominal);
-  out.found = direction.nominal + cause.change;
-  out.uncertainty = cause.deviation;
-  out.tolerances = cause.tolerance > 0 ? cause.change / cause.tolerance : 0;
-  out.score = cause.score;
-  out.explained = std::min(1.0, cause.explained);
-  out.outside = cause.outside;
-  for (const Direction& each : cause.as_well) out.as_well.push_back(each.path.empty() ? each.words : each.path);
-  return out;
 }
 
 void addCombinations(const BaseFit& fit, const Comparison& comparison, IdentifyResult& out) {
   for (const BaseParameter& base : fit.parameters) {
-    const Direction& first = comparison.directions[static_cast<std::size_t>(base.terms.front().first)];
+    const Direction& first = comparison.directions[base.terms.front().first];
     MeasuredNumber number;
     number.group = groupOf(first);
     number.unit = first.unit;
@@ -111,13 +73,13 @@ void addCombinations(const BaseFit& fit, const Comparison& comparison, IdentifyR
     number.high = number.value + fit.quantile * number.uncertainty;
     std::sort(terms.begin() + 1, terms.end(), [&](const auto& a, const auto& b) {
       const auto size = [&](const auto& term) {
-        return std::abs(term.second) * comparison.directions[static_cast<std::size_t>(term.first)].plausible;
+        return std::abs(term.second) * comparison.directions[term.first].plausible;
       };
       return size(a) > size(b);
     });
     for (std::size_t k = 0; k < terms.size(); ++k) {
-      const Direction& direction = comparison.directions[static_cast<std::size_t>(terms[k].first)];
-      number.terms.emplace_back(direction.path.empty() ? direction.words : direction.path, terms[k].second);
+      const Direction& direction = comparison.directions[terms[k].first];
+      number.terms.emplace_back(direction.name(), terms[k].second);
       if (k < most_terms_in_words)
         number.name += k == 0 ? wordsOf(direction)
                               : fmt::format(" {} {:.4g} × {}", terms[k].second < 0 ? "−" : "+",
@@ -126,8 +88,7 @@ void addCombinations(const BaseFit& fit, const Comparison& comparison, IdentifyR
     if (terms.size() > most_terms_in_words) number.name += " + …";
     out.combinations.push_back(number);
   }
-  for (const Eigen::Index j : fit.unseen)
-    out.unseen.push_back(wordsOf(comparison.directions[static_cast<std::size_t>(j)]));
+  for (const Eigen::Index j : fit.unseen) out.unseen.push_back(wordsOf(comparison.directions[j]));
 }
 
 void addNumbers(const PhysicalEstimate& estimate, double quantile, IdentifyResult& out) {
@@ -151,7 +112,7 @@ void addNumbers(const PhysicalEstimate& estimate, double quantile, IdentifyResul
 void addEfforts(const Comparison& comparison, const Eigen::MatrixXd& u_val, IdentifyResult& out) {
   addColumn(out.series, "t_s", comparison.t);
   for (int k = 0; k < motor_count; ++k) {
-    const std::string unit = out.motors[static_cast<std::size_t>(k)].unit;
+    const std::string unit = out.motors[k].unit;
     addColumn(out.series, motorColumn("tau", k, unit), comparison.measured.col(k));
     addColumn(out.series, motorColumn("model", k, unit), comparison.model.col(k));
     addColumn(out.series, motorColumn("u_val", k, unit), u_val.col(k));
@@ -161,8 +122,8 @@ void addEfforts(const Comparison& comparison, const Eigen::MatrixXd& u_val, Iden
 void addSeries(const Comparison& comparison, const BaseFit& fit, const FilteredLog& filtered, IdentifyResult& out) {
   const double step = filtered.step() * static_cast<double>(filtered.plan().fine);
   for (int k = 0; k < motor_count; ++k) {
-    const std::string unit = out.motors[static_cast<std::size_t>(k)].unit;
-    const Eigen::VectorXd change = comparison.columns[static_cast<std::size_t>(k)].leftCols(fit.step.size()) * fit.step;
+    const std::string unit = out.motors[k].unit;
+    const Eigen::VectorXd change = comparison.columns[k].leftCols(fit.step.size()) * fit.step;
     const Eigen::VectorXd fitted = comparison.model.col(k) + change;
     addColumn(out.series, motorColumn("fitted", k, unit), fitted);
     const Eigen::VectorXd spectrum = powerSpectrum(comparison.measured.col(k) - fitted, step);

@@ -2,14 +2,19 @@
 
 #include "studies/identify/identify.h"
 #include "studies/identify/judge.h"
-#include "studies/identify/physical.h"
 
 namespace ursula::identification {
+
+/// Finds saturation, and marks its rows as missing. Also finds quantisation that is coarser than the noise.
+void findSigns(MeasuredLog& log, const Motors& motors, std::vector<LogFinding>& findings);
+
+/// Finds efforts of exchanged motors, of the other sign, or in other units than the model's.
+void findMistakes(const ModelledLog& modelled, const Motors& motors, std::vector<LogFinding>& findings,
+                  std::vector<MeasuredCause>& causes);
 
 /// Returns a linear parameter in words: "mass of leg 3's distal link", "mass × mass centre x of the platform".
 std::string wordsOf(const Direction& direction);
 
-MeasuredCause measuredCause(const FoundCause& cause);
 void addCombinations(const BaseFit& fit, const Comparison& comparison, IdentifyResult& out);
 void addNumbers(const PhysicalEstimate& estimate, double quantile, IdentifyResult& out);
 /// Adds measured and modelled efforts and their uncertainty, N·m or N.

@@ -23,22 +23,30 @@ Eigen::VectorXd smoothed(const Eigen::VectorXd& x, Eigen::Index by) {
   return out;
 }
 
+Eigen::VectorXd hannWindow(Eigen::Index rows) {
+  Eigen::VectorXd out(rows);
+  for (Eigen::Index k = 0; k < rows; ++k)
+    out(k) = 0.5 - 0.5 * std::cos(2 * pi * (static_cast<double>(k) + 0.5) / static_cast<double>(rows));
+  return out;
+}
+
+/// Returns the one-sided squares of the transform.
+Eigen::VectorXd transformSquares(const Eigen::VectorXd& signal) {
+  Eigen::FFT<double> fft;
+  Eigen::VectorXcd transform(signal.size());
+  fft.fwd(transform, signal);
+  return transform.head(signal.size() / 2 + 1).cwiseAbs2();
+}
+
 /// Returns the spectrum of a whole signal, or of its first 65,536 values, under one window.
 Eigen::VectorXd wholeSpectrum(const Eigen::VectorXd& signal, double step) {
   const Eigen::Index rows = std::min<Eigen::Index>(signal.size(), 1 << 16);
   Eigen::Index size = 16;
   while (size < rows) size *= 2;
+  const Eigen::VectorXd window = hannWindow(rows);
   Eigen::VectorXd part = Eigen::VectorXd::Zero(size);
-  double squares = 0;
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    const double window = 0.5 - 0.5 * std::cos(2 * pi * (static_cast<double>(i) + 0.5) / static_cast<double>(rows));
-    part(i) = signal(i) * window;
-    squares += window * window;
-  }
-  Eigen::FFT<double> fft;
-  Eigen::VectorXcd transform(size);
-  fft.fwd(transform, part);
-  return transform.head(size / 2 + 1).cwiseAbs2() * (2 * step / squares);
+  part.head(rows) = signal.head(rows).cwiseProduct(window);
+  return transformSquares(part) * (2 * step / window.squaredNorm());
 }
 
 double windowDeviation(double cut) { return 1 / (2 * pi * roll_off * cut); }
@@ -84,10 +92,10 @@ Kernel::Kernel(double cut, double step, double shift)
 Eigen::MatrixXd Kernel::apply(const Eigen::VectorXd& weights, const Eigen::MatrixXd& x,
                               const std::vector<Eigen::Index>& centers) {
   const Eigen::Index size = weights.size();
-  Eigen::MatrixXd out(static_cast<Eigen::Index>(centers.size()), x.cols());
+  Eigen::MatrixXd out(centers.size(), x.cols());
   for (Eigen::Index column = 0; column < x.cols(); ++column)
     for (std::size_t i = 0; i < centers.size(); ++i)
-      out(static_cast<Eigen::Index>(i), column) = weights.dot(x.col(column).segment(centers[i] - size / 2, size));
+      out(i, column) = weights.dot(x.col(column).segment(centers[i] - size / 2, size));
   return out;
 }
 
@@ -110,6 +118,10 @@ double whiteNoise(const Eigen::VectorXd& signal) {
   const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
   std::nth_element(squares.begin(), middle, squares.end());
   return std::sqrt(*middle / (924 * median));  // 924 is the sum of the squared binomials
+}
+
+Eigen::VectorXd variances(const Eigen::MatrixXd& channels) {
+  return (channels.rowwise() - channels.colwise().mean()).cwiseAbs2().colwise().mean().transpose();
 }
 
 double quantum(const Eigen::VectorXd& signal) {
@@ -151,16 +163,12 @@ std::vector<Eigen::Index> saturatedRows(const Eigen::VectorXd& signal) {
 Eigen::VectorXd powerSpectrum(const Eigen::VectorXd& signal, double step, int most_size) {
   int size = 16;
   while (2 * size <= most_size && 2 * size <= signal.size()) size *= 2;
-  Eigen::FFT<double> fft;
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(size / 2 + 1), window(size);
-  for (int k = 0; k < size; ++k) window(k) = 0.5 - 0.5 * std::cos(2 * pi * (k + 0.5) / size);
+  const Eigen::VectorXd window = hannWindow(size);
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(size / 2 + 1);
   int count = 0;
   for (Eigen::Index first = 0; first + size <= signal.size(); first += size / 2, ++count) {
-    const Eigen::VectorXd part =
-        (signal.segment(first, size).array() - signal.segment(first, size).mean()) * window.array();
-    Eigen::VectorXcd transform(size);
-    fft.fwd(transform, part);
-    out += transform.head(size / 2 + 1).cwiseAbs2();
+    const Eigen::ArrayXd part = signal.segment(first, size).array();
+    out += transformSquares((part - part.mean()) * window.array());
   }
   return count == 0 ? out : Eigen::VectorXd(out * (2 * step / (count * window.squaredNorm())));
 }
@@ -168,9 +176,7 @@ Eigen::VectorXd powerSpectrum(const Eigen::VectorXd& signal, double step, int mo
 Bandwidth motionBandwidth(const MeasuredLog& log) {
   const double nyquist = 0.5 / log.step;
   Bandwidth out;
-  Eigen::VectorXd deviations(log.motion.cols());
-  for (Eigen::Index k = 0; k < log.motion.cols(); ++k)
-    deviations(k) = std::sqrt((log.motion.col(k).array() - log.motion.col(k).mean()).square().mean());
+  const Eigen::VectorXd deviations = variances(log.motion).cwiseSqrt();
   for (Eigen::Index k = 0; k < log.motion.cols(); ++k) {
     if (deviations(k) < 1e-2 * deviations.maxCoeff() || log.rows() < 64) continue;
     const Eigen::Index rows = log.rows() - 2;
@@ -228,15 +234,14 @@ FourierSeries::FourierSeries(const Eigen::MatrixXd& rows, double step, const Eig
   harmonics_ = std::min(last + 1, known());
 }
 
-Eigen::MatrixXd FourierSeries::at(double t, int harmonics) const {
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(cosines_.rows(), 3);
-  out.col(0) = cosines_.col(0);
+MeasuredState FourierSeries::at(double t, int harmonics) const {
+  MeasuredState out{cosines_.col(0), Eigen::VectorXd::Zero(cosines_.rows()), Eigen::VectorXd::Zero(cosines_.rows())};
   for (int k = 1; k <= harmonics; ++k) {
     const double w = 2 * pi * frequency_ * k, c = std::cos(w * t), s = std::sin(w * t);
     const Eigen::VectorXd value = cosines_.col(k) * c + sines_.col(k) * s;
-    out.col(0) += value;
-    out.col(1) += w * (sines_.col(k) * c - cosines_.col(k) * s);
-    out.col(2) -= w * w * value;
+    out.value += value;
+    out.rate += w * (sines_.col(k) * c - cosines_.col(k) * s);
+    out.acceleration -= w * w * value;
   }
   return out;
 }

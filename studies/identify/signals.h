@@ -7,6 +7,11 @@
 
 namespace ursula::identification {
 
+/// Value, rate and acceleration of a log's motion: six driven coordinates, or p and q.
+struct MeasuredState {
+  Eigen::VectorXd value, rate, acceleration;
+};
+
 /// A zero-phase low pass of finite length with its first two derivatives: a sinc under a Gaussian window. Value and
 /// both rates have the same smoothing. Relations between unfiltered signals therefore hold between filtered ones.
 struct Kernel {
@@ -27,6 +32,9 @@ struct Kernel {
 /// differences.
 double whiteNoise(const Eigen::VectorXd& signal);
 
+/// Returns the variance of each column.
+Eigen::VectorXd variances(const Eigen::MatrixXd& channels);
+
 /// Returns the quantisation step of a signal's values; 0 if there is none.
 double quantum(const Eigen::VectorXd& signal);
 
@@ -44,6 +52,9 @@ Bandwidth motionBandwidth(const MeasuredLog& log);
 class FourierSeries {
  public:
   FourierSeries() = default;
+  /// Coefficients of a channel in each row, of a harmonic in each column; the first cosine is the mean.
+  FourierSeries(double frequency, Eigen::MatrixXd cosines, Eigen::MatrixXd sines)
+      : frequency_(frequency), cosines_(std::move(cosines)), sines_(std::move(sines)) {}
   /// Ends with the last harmonic above white noise of this deviation for each channel, not before `least` Hz.
   FourierSeries(const Eigen::MatrixXd& rows, double step, const Eigen::VectorXd& noise, double least);
 
@@ -51,13 +62,13 @@ class FourierSeries {
   /// Returns the number of harmonics with their noise.
   int known() const { return static_cast<int>(cosines_.cols()) - 1; }
   double frequency() const { return frequency_; }
-  /// Returns value, rate and acceleration in three columns, by the first `harmonics` <= known() harmonics.
-  Eigen::MatrixXd at(double t, int harmonics) const;
+  /// Returns the sum of the first `harmonics` <= known() harmonics.
+  MeasuredState at(double t, int harmonics) const;
 
  private:
   double frequency_ = 0;  ///< Hz
   int harmonics_ = 0;
-  Eigen::MatrixXd cosines_, sines_;  ///< a harmonic in each column; the first cosine is the mean
+  Eigen::MatrixXd cosines_, sines_;
 };
 
 /// Returns the one-sided power spectral density, unit²/Hz, at k / (2 (size − 1) step) Hz. It uses half-overlapping Hann

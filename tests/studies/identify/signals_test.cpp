@@ -114,10 +114,10 @@ TEST(FourierSeries, endsWithTheLastHarmonicAboveTheNoise) {
   EXPECT_GE(series.harmonics(), 3);
   EXPECT_LE(series.harmonics(), 5);
   const double t = 0.21, w = 2 * pi;
-  const Eigen::MatrixXd found = series.at(t, series.harmonics());
-  EXPECT_NEAR(found(0, 0), std::sin(w * t) + 0.3 * std::cos(2 * w * t), 1e-4);
-  EXPECT_NEAR(found(0, 1) / w, std::cos(w * t) - 0.6 * std::sin(2 * w * t), 1e-4);
-  EXPECT_NEAR(found(1, 2) / (9 * w * w), -0.1 * std::cos(3 * w * t), 1e-4);
+  const MeasuredState found = series.at(t, series.harmonics());
+  EXPECT_NEAR(found.value(0), std::sin(w * t) + 0.3 * std::cos(2 * w * t), 1e-4);
+  EXPECT_NEAR(found.rate(0) / w, std::cos(w * t) - 0.6 * std::sin(2 * w * t), 1e-4);
+  EXPECT_NEAR(found.acceleration(1) / (9 * w * w), -0.1 * std::cos(3 * w * t), 1e-4);
 }
 
 }  // namespace

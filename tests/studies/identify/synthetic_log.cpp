@@ -1,6 +1,5 @@
 #include "tests/studies/identify/synthetic_log.h"
 
-#include <Eigen/Geometry>
 #include <cmath>
 #include <random>
 
@@ -29,16 +28,7 @@ Motion<double> syntheticMotion(const Scenario& scenario, const SyntheticLog& how
       v(i) += w * (s * std::cos(w * t) - c * std::sin(w * t));
       a(i) -= w * w * (s * std::sin(w * t) + c * std::cos(w * t));
     }
-  const auto state = [&](const Vector6d& of, double scalar, const Vector3d& origin) {
-    const Eigen::Quaterniond q = Eigen::Quaterniond(middle.Q) * Eigen::Quaterniond(scalar, of(3), of(4), of(5));
-    Eigen::VectorXd out(7);
-    out << origin + of.head<3>(), q.w(), q.x(), q.y(), q.z();
-    return out;
-  };
-  Motion<double> out = identification::motionOfPoses(
-      {state(x, 1, middle.p), state(v, 0, Vector3d::Zero()), state(a, 0, Vector3d::Zero())});
-  out.t = t;
-  return out;
+  return identification::motionAbout(middle, {x, v, a}, t);
 }
 
 SyntheticRows syntheticRows(const Scenario& scenario, const ManipulatorParameters& machine, const SyntheticLog& how) {
